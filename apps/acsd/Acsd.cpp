@@ -143,7 +143,7 @@ public:
     void Reload(const AcsdConfig& fresh)
     {
         LogChange(_config, fresh, _dependencies.logger.MakeFor("config"));
-        TakeLiveKeys(fresh, _config);
+        ApplyLiveKeys(fresh, _config);
         _core.Reload(_config);
         _mcs.SetLimits(_config.mcs);
         if (_dependencies.traceOrNull != nullptr)
@@ -342,7 +342,7 @@ Acsd::~Acsd() = default;
 
 Core::Result<std::unique_ptr<Acsd>> Acsd::Create(Dependencies dependencies, AcsdConfig config)
 {
-    assert(config.mistakes.empty());
+    assert(config.errors.empty());
     Core::Result<std::unique_ptr<Planning::SqlitePlanStore>> store = Planning::SqlitePlanStore::Open(config.storePath);
     if (!store)
     {

@@ -29,10 +29,10 @@ namespace
 constexpr const char* NAME = "acsd";
 
 constexpr const char* FOOTER =
-    "Signals: SIGTERM and SIGINT stop it once its reports are told (a second one at once), SIGHUP reads the "
-    "configuration again.\n"
-    "Exit codes: 0 after a stop, --check-config without mistakes, --help or --version; 1 when it cannot run (store, port, "
-    "trace);\n2 for a mistake of the command line or the configuration.";
+    "Signals: SIGTERM and SIGINT stop acsd after the MCS has acknowledged its reports (a second one stops it at once), "
+    "SIGHUP reloads the configuration.\n"
+    "Exit codes: 0 after a stop, --check-config without errors, --help or --version; 1 if acsd cannot run (store, port, "
+    "trace);\n2 for an error in the command line or the configuration.";
 
 struct ProgramOptions
 {
@@ -44,17 +44,17 @@ struct ProgramOptions
     bool bCheckOnly = false;
 };
 
-/// SIGHUP. A file with mistakes changes nothing.
+/// For SIGHUP. A file with errors changes nothing.
 void ReadAgain(const ProgramOptions& options, const Core::Logger& logger, Apps::SpdlogSink& sink, Acsd& acsd)
 {
     const AcsdConfig fresh = ReadAcsdConfig(options.configFile, options.overrides);
-    if (!fresh.mistakes.empty())
+    if (!fresh.errors.empty())
     {
-        for (const std::string& mistake : fresh.mistakes)
+        for (const std::string& error : fresh.errors)
         {
-            logger.Error("not taken", {{"mistake", mistake}});
+            logger.Error("configuration not reloaded", {{"error", error}});
         }
-        logger.Error("the configuration has mistakes, all stays as it was", {{"file", options.configFile}});
+        logger.Error("the configuration has errors, the previous one stays in effect", {{"file", options.configFile}});
         return;
     }
     if (!options.bLogLevelGiven)
@@ -109,10 +109,10 @@ int RunAcsd(int argc, const char* const* argv)
 {
     ProgramOptions options;
     CLI::App app{
-        "Takes ExecutionPlans from an MCS (MCS-ACS), drives robots over VDA5050 and arms over Open Stream, and reports "
-        "every state back.",
+        "Executes the ExecutionPlans of an MCS (MCS-ACS): drives robots over VDA5050, controls arms over Open Stream, and "
+        "reports every change of state to the MCS.",
         NAME};
-    app.add_option("--config", options.configFile, "TOML file; examples/site/acsd.toml explains every key")
+    app.add_option("--config", options.configFile, "configuration (TOML); examples/site/acsd.toml explains every key")
         ->required()
         ->type_name("FILE");
     app.add_option("--set", options.overrides, "override one key, for example --set mcs.url=ws://10.0.0.1:9001/acs/")
@@ -122,9 +122,9 @@ int RunAcsd(int argc, const char* const* argv)
     app.add_option(
            "--trace",
            options.traceFolder,
-           "write every message of every link into this folder (NDJSON; [trace] in the configuration bounds its size)")
+           "write every message of every link to files in this folder (NDJSON; [trace] in the configuration limits their size)")
         ->type_name("DIR");
-    app.add_flag("--check-config", options.bCheckOnly, "tell every mistake of the configuration and end");
+    app.add_flag("--check-config", options.bCheckOnly, "report every error in the configuration and exit");
     Apps::AddCommonOptions(app, options.common);
     app.footer(FOOTER);
     const std::optional<int> exitCodeOrNull = Apps::ParseCommandLineOrNull(app, argc, argv);
@@ -136,11 +136,11 @@ int RunAcsd(int argc, const char* const* argv)
     options.bLogLevelGiven = app.count("--log-level") > 0;
     AcsdConfig config = options.bCheckOnly ? CheckAcsdConfig(options.configFile, options.overrides)
                                            : ReadAcsdConfig(options.configFile, options.overrides);
-    if (!config.mistakes.empty())
+    if (!config.errors.empty())
     {
-        for (const std::string& mistake : config.mistakes)
+        for (const std::string& error : config.errors)
         {
-            fmt::print(stderr, "{}\n", mistake);
+            fmt::print(stderr, "{}\n", error);
         }
         return Apps::EXIT_BAD_COMMAND_LINE;
     }
@@ -150,7 +150,7 @@ int RunAcsd(int argc, const char* const* argv)
         {
             fmt::print(stderr, "warning: {}\n", warning);
         }
-        fmt::print("{}: no mistakes\n", options.configFile);
+        fmt::print("{}: no errors\n", options.configFile);
         return 0;
     }
     return Serve(options, std::move(config));

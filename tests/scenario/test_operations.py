@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How acsd is operated: signals, the message trace, figures. docs/guide/operate.md says what is shown here."""
+"""Operation of acsd as in docs/guide/operate.md: signals, the message trace, metrics."""
 
 import json
 import os
@@ -41,7 +41,7 @@ class Operations(ScenarioCase):
     def submit(self, stub, plan_id):
         return stub.ask("ExecutionPlan", make_carrying_plan(plan_id))
 
-    def test_sighup_takes_what_may_change_and_tells_the_rest(self):
+    def test_sighup_applies_what_may_change_and_reports_the_rest(self):
         stub = self.start_stub()
         acsd = self.line.start_acsd(stub.address, self.start_robots(), config=self.write_config())
         acsd.wait_ready()
@@ -49,19 +49,19 @@ class Operations(ScenarioCase):
 
         self.write_config(('grace = "10s"', 'grace = "9s"'), ('ack_timeout = "5s"', 'ack_timeout = "6s"'))
         acsd.send_signal(signal.SIGHUP)
-        self.wait_for_log(acsd, "taken key=comm.grace")
+        self.wait_for_log(acsd, "applied key=comm.grace")
         self.wait_for_log(acsd, "needs a restart of acsd key=mcs.ack_timeout")
 
         self.write_config(('grace = "10s"', 'grace = "soon"'), ("max_plans = 100", "max_plans = 0"))
         acsd.send_signal(signal.SIGHUP)
-        self.wait_for_log(acsd, "all stays as it was")
+        self.wait_for_log(acsd, "the previous one stays in effect")
         log = acsd.log.read_text()
         for key in ("comm.grace", "queue.max_plans"):
-            self.assertRegex(log, rf"not taken mistake=.*acsd\.toml:\d+: {key}: ")
+            self.assertRegex(log, rf"configuration not reloaded error=.*acsd\.toml:\d+: {key}: ")
         self.assertTrue(acsd.is_running())
         self.assertEqual(self.submit(stub, "P1")["result"], "Success")
 
-        # A pipe to which nobody writes must not hold acsd.
+        # A pipe without a writer must not block acsd.
         file = self.line.folder / "acsd.toml"
         file.unlink()
         os.mkfifo(file)
@@ -69,7 +69,7 @@ class Operations(ScenarioCase):
         self.wait_for_log(acsd, "it is a pipe; only regular files are read")
         self.assertEqual(self.submit(stub, "P2")["result"], "Success")
 
-    def test_a_disk_that_hangs_is_told_and_what_waits_for_it_goes_on_when_it_answers(self):
+    def test_a_hanging_disk_is_reported_and_waiting_requests_continue_afterwards(self):
         library = self.line.bin_dir / "libscenario_held_disk.so"
         if not library.exists():
             self.skipTest("not built with sanitizers")
@@ -114,7 +114,7 @@ class Operations(ScenarioCase):
             with error:
                 return error.code, json.load(error)
 
-    def test_a_store_that_is_removed_is_told_saved_and_taken_up_by_the_next_start(self):
+    def test_a_removed_store_is_reported_saved_and_restored_at_the_next_start(self):
         stub = self.start_stub()
         robots = self.start_robots()
         overrides = ("tsc.initial=paused",)
@@ -127,7 +127,7 @@ class Operations(ScenarioCase):
         self.assertEqual(self.submit(stub, "P1")["result"], "Success")
         self.wait_for_status(address, lambda status: status["plans"] and not status["obstacles"])
 
-        # Away and back: nobody writes anything, and it is noticed all the same.
+        # Away and back: this is noticed without any write.
         away = self.line.folder / "away.db"
         store.rename(away)
         self.wait_for_status(address, lambda status: [alarm["errorCode"] for alarm in status["alarms"]] == ["ACS-1005"])
@@ -139,14 +139,14 @@ class Operations(ScenarioCase):
         self.assertIn("removed or moved away", refusal["message"])
         self.assertEqual(self.post(address, "/tsc/resume")[0], 503)
         code, answer = self.post(address, "/robots/LR01/maintenance/on")
-        self.assertEqual((code, "It is not stored" in answer["message"]), (202, True))
+        self.assertEqual((code, "This is not stored" in answer["message"]), (202, True))
         away.rename(store)
         self.wait_for_status(address, lambda status: not status["obstacles"] and not status["alarms"])
         self.wait_for_log(acsd, "the store works again")
         self.assertEqual(self.submit(stub, "P3")["result"], "Success")
         self.assertEqual(self.post(address, "/tsc/pause")[0], 202)
 
-        # For good: the next start has it all, but what came after.
+        # Removed for good: the next start has everything from before.
         store.unlink()
         self.wait_for_status(address, lambda status: status["obstacles"])
         acsd.process.kill()
@@ -157,11 +157,11 @@ class Operations(ScenarioCase):
         status = self.read_status(address)
         self.assertEqual({plan["planId"] for plan in status["plans"]}, {"P1", "P3"})
         self.assertEqual({robot["robotId"] for robot in status["robots"] if robot["maintenance"]}, {"LR01"})
-        self.assertRegex(acsd.log.read_text(), r"store: schema \d+, 2 open plans taken up, no ended plans, .*in maintenance "
+        self.assertRegex(acsd.log.read_text(), r"store: schema \d+, 2 open plans resumed, no ended plans, .*in maintenance "
                          r"LR01.*; restored from the copy that was made when the database was removed")
         self.assertTrue(store.exists())
 
-    def test_a_broker_with_a_password_takes_acsd_by_its_name_and_the_password_in_its_file(self):
+    def test_acsd_logs_in_to_a_broker_with_the_password_in_its_file(self):
         stub = self.start_stub()
         passwords = self.line.folder / "passwords"
         passwords.touch(mode=0o600)
@@ -184,7 +184,7 @@ class Operations(ScenarioCase):
             self.line.forget(acsd)
 
     def test_a_plan_goes_over_mqtts_with_certificates_of_both_sides(self):
-        """With a CA of one's own; without its file the broker is refused, and the log says why."""
+        """With an own CA; without its file the broker is rejected, and the log has the reason."""
         key, certificate = self.line.folder / "broker.key", self.line.folder / "broker.pem"
         subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
                         "-keyout", key, "-out", certificate, "-days", "2", "-subj", "/CN=broker",
@@ -234,7 +234,7 @@ class Operations(ScenarioCase):
         acsd.stop()  # closes its log
         self.line.forget(acsd)
 
-        # What the MCS has acknowledged is stored as such, and not told again.
+        # Acknowledged reports are stored as such, and not sent again.
         start = stub.count()
         again = self.line.start_acsd(stub.address, {"stream": "127.0.0.1:1", "http": "127.0.0.1:1"})
         again.wait_ready()

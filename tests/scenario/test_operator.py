@@ -57,7 +57,7 @@ class Operator(ScenarioCase):
 
         return self.wait_for(get, f"a plan that waits as {start}")
 
-    def test_maintenance_and_ports_hold_a_plan_back_over_a_restart_and_let_it_go(self):
+    def test_maintenance_and_ports_block_a_plan_over_a_restart_until_cleared(self):
         self.start_line()
         self.wait_for_robot("CR01", "Idle")
         self.assertEqual(self.ask("/robots/CR01/maintenance/on", "POST"),

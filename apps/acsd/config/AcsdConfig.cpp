@@ -135,8 +135,8 @@ AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& ove
             reader.AddError(path, Core::Describe(error));
         }
     }
-    config.mistakes = reader.GetErrors();
-    std::ranges::move(otherErrors, std::back_inserter(config.mistakes));
+    config.errors = reader.GetErrors();
+    std::ranges::move(otherErrors, std::back_inserter(config.errors));
     config.values = reader.GetValues();
     return config;
 }

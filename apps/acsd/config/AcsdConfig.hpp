@@ -26,45 +26,45 @@
 namespace ACS::Acsd
 {
 
-/// The vehicle and the arm of one robot; what the engine must know of it is in EngineOptions::robots.
+/// The links to the vehicle and the arm of one robot. The engine's settings of the robot are in EngineOptions::robots.
 struct RobotLinkConfig
 {
     std::string robotID;
     std::string manufacturer;
     std::string serialNumber;
     std::string protocolVersion;        ///< "2.0.0" or "2.1.0"
-    std::optional<Apps::Url> armOrNull; ///< tcp://, Open Stream of its controller
+    std::optional<Apps::Url> armOrNull; ///< tcp://, Open Stream server of the arm's controller
     ArmOptions armOptions = {};
     JobMethods methods = {}; ///< Of the actions of its type.
 };
 
-/// acsd's configuration, checked as a whole.
+/// acsd's complete and checked configuration.
 struct AcsdConfig
 {
     McsConfig mcs;
     MqttConfig mqtt;
-    ArmOptions arm; ///< Of arms whose robot does not give its own.
+    ArmOptions arm; ///< Defaults of all arms.
     EArmRelayIndex relayIndex = EArmRelayIndex::Value;
     std::string siteFile;
     std::string storePath;
     Apps::Endpoint httpListen{"127.0.0.1", 8080};
-    std::vector<std::string> httpHosts; ///< Names by which it may be called, without port.
+    std::vector<std::string> httpHosts; ///< Accepted host names, without port.
     Apps::LocalOffset localOffset;
     std::vector<RobotLinkConfig> robots;
     std::shared_ptr<const StationTable> stations = std::make_shared<const StationTable>();
     OperationsConfig operations;
     Planning::EngineOptions engine;
-    std::optional<Planning::SiteMap> site; ///< Always there when there are no mistakes.
-    /// Each key that is given, "mcs.url", with its value as TOML: what a later reading differs in.
+    std::optional<Planning::SiteMap> site; ///< Always set if there are no errors.
+    /// Each key that is given ("mcs.url") with its value as TOML, for comparison after a reload.
     std::map<std::string, std::string> values;
-    std::vector<std::string> warnings; ///< What is not wrong, but should not be so.
-    std::vector<std::string> mistakes; ///< Each with file, line and key; empty: the rest is good.
+    std::vector<std::string> warnings; ///< Valid settings that are not advisable.
+    std::vector<std::string> errors;   ///< Errors, each with file, line and key; empty: the configuration is valid.
 };
 
-/// Reads the file, with the overrides of the command line ("table.key=value") on top, and the map that it names.
+/// Reads the file and its map. The overrides of the command line ("table.key=value") take precedence.
 [[nodiscard]] AcsdConfig ReadAcsdConfig(const std::string& fileName, const std::vector<std::string>& overrides);
 
-/// The same, and looks at the store that it names too, without making, changing or taking it: what a start would find.
+/// Likewise, and checks whether a start could open the store. Does not create, change or lock it.
 [[nodiscard]] AcsdConfig CheckAcsdConfig(const std::string& fileName, const std::vector<std::string>& overrides);
 
 } // namespace ACS::Acsd

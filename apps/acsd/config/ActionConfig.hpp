@@ -14,7 +14,8 @@
 namespace ACS::Acsd
 {
 
-/// What one table of the configuration says of how an action is done. What is absent is as the table before it says.
+/// How an action is done, according to one table of the configuration. An absent member is inherited from the more general
+/// table.
 struct MethodKeys
 {
     std::optional<std::string> vehicleAction;
@@ -26,16 +27,16 @@ struct MethodKeys
     [[nodiscard]] bool IsOfArm() const noexcept;
 };
 
-/// Reads `robot`, `timeout`, `from`, `to` and `effect`. An action of the document keeps its places and its effect.
+/// Reads `robot`, `timeout`, `from`, `to` and `effect`. Places and effect of an action of MCS-ACS are fixed.
 [[nodiscard]] Planning::ActionRule ReadActionRule(const Apps::ConfigSection& section, const std::string& name);
 
-/// Reads `vehicle_action`, `parameters`, `arm_program` and `arm_inputs`: keys of the vehicle or of the arm, never both.
+/// Reads `vehicle_action`, `parameters`, `arm_program` and `arm_inputs`. Keys of both vehicle and arm are an error.
 [[nodiscard]] MethodKeys ReadMethodKeys(
     const Apps::ConfigSection& section,
     const Planning::ActionRule& rule,
     const TemplateCheck& check);
 
-/// Replaces the keys that the other one has. One of a vehicle replaces all keys of an arm, and the other way round.
+/// Replaces the keys that `by` has. A key of a vehicle replaces all keys of an arm, and vice versa.
 void ReplaceKeys(MethodKeys& keys, const MethodKeys& by);
 
 [[nodiscard]] JobMethod MakeMethod(const MethodKeys& keys, const Planning::ActionRule& rule, std::size_t portCount);

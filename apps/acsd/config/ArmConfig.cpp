@@ -43,7 +43,8 @@ std::optional<std::size_t> ReadEchoOrNull(const ConfigSection& arm, std::optiona
     return index == NO_ECHO ? std::nullopt : std::optional(static_cast<std::size_t>(index));
 }
 
-/// A job would be reported done when it begins. Where none is given here, the table with the defaults has been checked.
+/// With the same word, a job would be reported done when it begins. If this table gives no index, the table with the
+/// defaults has been checked already.
 void RefuseSharedWords(const ConfigSection& arm, const std::vector<CounterWord>& words)
 {
     const bool bGiven = std::ranges::any_of(words, [&arm](const CounterWord& word) { return arm.HasKey(word.key); });
@@ -58,12 +59,12 @@ void RefuseSharedWords(const ConfigSection& arm, const std::vector<CounterWord>&
         });
         if (first != second)
         {
-            // Of the two the one that is given: the other may be the default.
+            // The error belongs to the key that is given; the other one may be the default.
             const bool bSecond = arm.HasKey(second->key);
             arm.AddError(
                 bSecond ? second->key : first->key,
                 fmt::format(
-                    "is {}, as {}.{} is: each counter needs a word of its own",
+                    "is {}, the same as {}.{}: each counter needs a word of its own",
                     second->index,
                     arm.GetPath(),
                     bSecond ? first->key : second->key));

@@ -6,7 +6,7 @@
 namespace ACS::Acsd
 {
 
-/// Reads the keys of `arm`, or of `robots.NAME.arm`, of which each is optional; what is not given is as in the defaults.
+/// Reads the keys of `arm` or of `robots.NAME.arm`. Each is optional; an absent key keeps its value of `defaults`.
 [[nodiscard]] ArmOptions ReadArmOptions(const Apps::ConfigSection& arm, const ArmOptions& defaults);
 
 } // namespace ACS::Acsd

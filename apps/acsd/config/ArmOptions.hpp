@@ -9,7 +9,7 @@
 namespace ACS::Acsd
 {
 
-/// How acsd works with one arm: where its programs show what they do, one array of words in its relays that MONITOR reads,
+/// How acsd works with one arm: the relays in which its programs show their progress (one array of words, read by MONITOR),
 /// and how the inputs of a program are written.
 struct ArmOptions
 {
@@ -19,12 +19,12 @@ struct ArmOptions
     std::size_t startedIndex = 0;
     std::size_t finishedIndex = 1;
     std::size_t failedIndex = 2;
-    /// The word into which a program writes the number of its job before it raises the started counter. Absent: programs
-    /// cannot echo, and any change of the counters is taken for the job's own.
+    /// The word into which a program writes the number of its job before it raises the started counter. Absent: programs do
+    /// not echo the number, and every change of the counters counts for the present job.
     std::optional<std::size_t> echoIndex = 4;
-    /// How long inputs may take to read back as they were written before they are written again.
+    /// Maximum time until the inputs read back as they were written; after it they are written again.
     std::chrono::milliseconds inputTimeout{2'000};
-    std::size_t inputRetries = 2; ///< How often they are written again before the job fails.
+    std::size_t inputRetries = 2; ///< Number of times that they are written again before the job fails.
 };
 
 } // namespace ACS::Acsd

@@ -6,7 +6,7 @@
 namespace ACS::Acsd
 {
 
-/// Reads the tables of queue, traffic and controls: everything of the engine but robots, actions and places.
+/// Reads the engine's tables of queue, traffic and controls. Robots, actions and places are read elsewhere.
 void ReadEngineConfig(const Apps::ConfigSection& root, Planning::EngineOptions& engine);
 
 } // namespace ACS::Acsd

@@ -8,7 +8,7 @@
 namespace ACS::Acsd
 {
 
-ErrorNames ReadErrorNames(const std::string& fileName, std::vector<std::string>& mistakes)
+ErrorNames ReadErrorNames(const std::string& fileName, std::vector<std::string>& errors)
 {
     const Apps::ConfigReader reader = Apps::ConfigReader::ReadFile(fileName, {});
     const Apps::ConfigSection root = reader.GetRoot();
@@ -30,7 +30,7 @@ ErrorNames ReadErrorNames(const std::string& fileName, std::vector<std::string>&
         }
         names.emplace(ownCode, std::move(name));
     }
-    std::ranges::copy(reader.GetErrors(), std::back_inserter(mistakes));
+    std::ranges::copy(reader.GetErrors(), std::back_inserter(errors));
     return names;
 }
 

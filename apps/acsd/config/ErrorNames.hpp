@@ -11,7 +11,7 @@
 namespace ACS::Acsd
 {
 
-/// What a site calls an error, and how bad it is there. What is left out stays as acsd has it.
+/// The site's own code, level and message of an error. An absent member keeps acsd's value.
 struct ErrorName
 {
     std::optional<std::string> code;
@@ -24,10 +24,10 @@ struct ErrorName
 /// By acsd's own code ("ACS-1002", "AGV-…", "ARM-…").
 using ErrorNames = std::map<std::string, ErrorName, std::less<>>;
 
-/// Reads a file of `errors.map`: a table per code with `code`, `level`, `message`. Mistakes have file and line.
-[[nodiscard]] ErrorNames ReadErrorNames(const std::string& fileName, std::vector<std::string>& mistakes);
+/// Reads a file of `errors.map`: a table per code with `code`, `level`, `message`. Errors have file and line.
+[[nodiscard]] ErrorNames ReadErrorNames(const std::string& fileName, std::vector<std::string>& errors);
 
-/// As the MCS is to see it.
+/// The alarm as it is sent to the MCS.
 [[nodiscard]] Planning::Alarm Rename(Planning::Alarm alarm, const ErrorNames& names);
 
 } // namespace ACS::Acsd

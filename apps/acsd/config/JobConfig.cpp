@@ -22,7 +22,7 @@ namespace
 
 using Apps::ConfigSection;
 
-/// The tables `actions` of a robot or a station. A type is given for robots.
+/// The tables `actions` of a robot or a station. The type is given only for robots.
 MethodTables ReadOverrides(
     const ConfigSection& owner,
     const Planning::ActionTable& actions,
@@ -134,7 +134,7 @@ void ReadJobs(const ConfigSection& root, AcsdConfig& config)
 
 void RejectActions(const ConfigSection& root, AcsdConfig& config)
 {
-    std::map<std::string, std::string> reasons; ///< Of the first robot.
+    std::map<std::string, std::string> reasons; ///< By action: why the first robot cannot do it.
     std::set<std::string> possible;
     for (std::size_t i = 0; i < config.robots.size(); ++i)
     {

@@ -7,11 +7,12 @@ namespace ACS::Acsd
 {
 
 /// Reads the table `actions` and the tables `actions` of robots and stations into EngineOptions::actions and
-/// RobotLinkConfig::methods. Stations and robots have been read.
+/// RobotLinkConfig::methods. Call after the stations and the robots have been read.
 void ReadJobs(const Apps::ConfigSection& root, AcsdConfig& config);
 
-/// What a robot cannot do is not given to it (RobotOptions::rejectedActions). An action that no robot can do is a mistake:
-/// else the first plan would show it. Only for a configuration without mistakes.
+/// Sets RobotOptions::rejectedActions: robots are not assigned actions that they cannot do. An action that no robot can do
+/// is an error of the configuration; otherwise only the first plan would reveal it. The configuration must be without
+/// errors.
 void RejectActions(const Apps::ConfigSection& root, AcsdConfig& config);
 
 } // namespace ACS::Acsd

@@ -54,7 +54,7 @@ ConfigChange CompareConfigs(
         const bool bSame = old != before.end() && fresh != after.end() && old->second == fresh->second;
         if (!bSame)
         {
-            (IsLiveKey(key) ? change.taken : change.waiting).push_back(key);
+            (IsLiveKey(key) ? change.applied : change.pending).push_back(key);
         }
     }
     return change;
@@ -63,23 +63,23 @@ ConfigChange CompareConfigs(
 void LogChange(const AcsdConfig& present, const AcsdConfig& fresh, const Core::Logger& logger)
 {
     const ConfigChange change = CompareConfigs(present.values, fresh.values);
-    for (const std::string& key : change.taken)
+    for (const std::string& key : change.applied)
     {
         const auto value = fresh.values.find(key);
         const std::string_view text = value == fresh.values.end() ? "default" : std::string_view(value->second);
-        logger.Info("taken", {{"key", key}, {"value", text}});
+        logger.Info("applied", {{"key", key}, {"value", text}});
     }
-    for (const std::string& key : change.waiting)
+    for (const std::string& key : change.pending)
     {
-        logger.Warning("changed in the file, but needs a restart of acsd", {{"key", key}});
+        logger.Warning("not applied: the change needs a restart of acsd", {{"key", key}});
     }
     if (change == ConfigChange{})
     {
-        logger.Info("read again, nothing has changed");
+        logger.Info("configuration reloaded without changes");
     }
 }
 
-void TakeLiveKeys(const AcsdConfig& fresh, AcsdConfig& present)
+void ApplyLiveKeys(const AcsdConfig& fresh, AcsdConfig& present)
 {
     present.operations.logLevel = fresh.operations.logLevel;
     present.operations.trace = fresh.operations.trace;

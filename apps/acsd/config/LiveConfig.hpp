@@ -11,27 +11,27 @@
 namespace ACS::Acsd
 {
 
-/// What a second reading of the configuration has changed, each list sorted by key.
+/// The keys that differ after a reload of the configuration, each list sorted.
 struct ConfigChange
 {
-    std::vector<std::string> taken;   ///< Holds from now on.
-    std::vector<std::string> waiting; ///< Holds from the next start on.
+    std::vector<std::string> applied; ///< Applied at once.
+    std::vector<std::string> pending; ///< In effect after the next start.
 
     bool operator==(const ConfigChange&) const = default;
 };
 
-/// Whether acsd takes this key ("log.level") while it runs; docs/reference/configuration.md marks them.
+/// Whether acsd applies a change of this key ("log.level") while it runs; docs/reference/configuration.md marks these keys.
 [[nodiscard]] bool IsLiveKey(std::string_view key);
 
-/// Both as AcsdConfig::values. A key that is given now and was not before, or the other way round, has changed.
+/// Compares two AcsdConfig::values. A key that only one of them has differs, too.
 [[nodiscard]] ConfigChange CompareConfigs(
     const std::map<std::string, std::string>& before,
     const std::map<std::string, std::string>& after);
 
-/// A line per key that differs.
+/// Logs one line for each key that differs.
 void LogChange(const AcsdConfig& present, const AcsdConfig& fresh, const Core::Logger& logger);
 
-/// What IsLiveKey names; everything else stays.
-void TakeLiveKeys(const AcsdConfig& fresh, AcsdConfig& present);
+/// Copies the values of the live keys (see IsLiveKey).
+void ApplyLiveKeys(const AcsdConfig& fresh, AcsdConfig& present);
 
 } // namespace ACS::Acsd

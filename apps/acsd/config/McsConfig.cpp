@@ -24,7 +24,8 @@ constexpr std::int64_t LARGEST_WINDOW = 1'000;
 constexpr std::int64_t SMALLEST_TEXT = 1'024;
 constexpr std::int64_t LARGEST_TEXT = 1024LL * 1024 * 1024;
 
-/// Certificates are read when the client is made; what is wrong with them is a mistake of the configuration all the same.
+/// Certificates are read when the client is created. They are checked here too, to report their errors with those of the
+/// configuration.
 void ReadTLS(const ConfigSection& mcs, const std::string& fileName, McsConfig& config)
 {
     if (!mcs.HasKey("tls"))
@@ -90,7 +91,7 @@ void ReadHeaders(const ConfigSection& mcs, McsConfig& config)
     }
 }
 
-/// The transport has one figure: a ping goes out after half of the silence that ends a connection.
+/// The transport has a single setting: a ping is sent after half of the silence that ends a connection.
 void ReadPing(const ConfigSection& mcs, McsConfig& config)
 {
     config.pingInterval = mcs.GetDuration("ping_interval", 100ms, 10min, config.pingInterval);
@@ -103,7 +104,7 @@ void ReadPing(const ConfigSection& mcs, McsConfig& config)
     {
         mcs.AddError(
             "ping_timeout",
-            "must be twice mcs.ping_interval, because a ping goes out after half of the silence that ends a connection; give "
+            "must be twice mcs.ping_interval, because a ping is sent after half of the silence that ends a connection; give "
             "one of the two");
     }
 }
@@ -128,7 +129,7 @@ void ReadSession(const ConfigSection& mcs, Protocol::SessionOptions& session)
 void ReadStyle(const ConfigSection& mcs, McsConfig& config)
 {
     MessageStyle& style = config.style;
-    // A word of the register that is empty text.
+    // One of the two allowed values is the empty text.
     const std::string unassigned = mcs.GetString("unassigned_robot_id", "null");
     style.bUnassignedRobotEmpty = unassigned.empty();
     if (!unassigned.empty() && unassigned != "null")
@@ -152,7 +153,7 @@ void ReadErrors(
     const ConfigSection& root,
     const std::string& fileName,
     ErrorNames& names,
-    std::vector<std::string>& mistakes)
+    std::vector<std::string>& errors)
 {
     const ConfigSection section = root.GetSection("errors");
     const std::optional<std::string> map = section.GetStringOrNull("map");
@@ -168,7 +169,7 @@ void ReadErrors(
             fmt::format("{} cannot be read ({}); give the path of a file with names of errors", path, text.error()));
         return;
     }
-    names = ReadErrorNames(path, mistakes);
+    names = ReadErrorNames(path, errors);
 }
 
 } // namespace
@@ -183,7 +184,7 @@ void ReadMcsConfig(
     const ConfigSection& root,
     const std::string& fileName,
     McsConfig& config,
-    std::vector<std::string>& mistakes)
+    std::vector<std::string>& errors)
 {
     const ConfigSection mcs = root.GetSection("mcs");
     config.url = mcs.GetURL("url", {EUrlScheme::Ws, EUrlScheme::Wss});
@@ -202,7 +203,7 @@ void ReadMcsConfig(
     const std::string replay = root.GetSection("outbox").GetWord("replay", {"all", "final_only", "none"}, "all");
     config.style.replay =
         replay == "all" ? EOutboxReplay::All : (replay == "none" ? EOutboxReplay::None : EOutboxReplay::FinalOnly);
-    ReadErrors(root, fileName, config.style.errors, mistakes);
+    ReadErrors(root, fileName, config.style.errors, errors);
 }
 
 } // namespace ACS::Acsd

@@ -15,28 +15,28 @@
 namespace ACS::Acsd
 {
 
-/// The table `mcs`, and what else says how acsd talks to the MCS.
+/// The table `mcs`, and all other keys of the communication with the MCS.
 struct McsConfig
 {
     Apps::Url url;
     std::string host;                   ///< Host header; empty: that of the url.
-    ProtocolBeast::TlsOptions tls{};    ///< For wss; its files are good.
-    ProtocolBeast::HttpHeaders headers; ///< Of the upgrade, besides its own.
+    ProtocolBeast::TlsOptions tls{};    ///< For wss; its files have been checked.
+    ProtocolBeast::HttpHeaders headers; ///< Additional headers of the upgrade request.
     std::chrono::milliseconds pingInterval{10'000};
-    std::size_t warnBytes = 4096; ///< Of a text that is sent; 0: never.
+    std::size_t warnBytes = 4096; ///< A longer message is logged; 0 disables.
     Protocol::SessionOptions session{};
     MessageStyle style;
 };
 
-/// Reads the tables `mcs`, `position`, `outbox`, `errors` and `ext`. Relative paths count from the folder of the file.
-/// Mistakes in files that they name are added to mistakes.
+/// Reads the tables `mcs`, `position`, `outbox`, `errors` and `ext`. Relative paths are relative to the folder of the file.
+/// Errors in the files that they name are added to the vector.
 void ReadMcsConfig(
     const Apps::ConfigSection& root,
     const std::string& fileName,
     McsConfig& config,
-    std::vector<std::string>& mistakes);
+    std::vector<std::string>& errors);
 
-/// Paths in the configuration count from its own folder.
+/// Relative paths in the configuration are relative to its own folder.
 [[nodiscard]] std::string ResolvePath(const std::string& configFile, const std::string& path);
 
 } // namespace ACS::Acsd

@@ -37,7 +37,7 @@ void WarnOfReaders(const std::string& key, const std::string& path, std::vector<
     const std::filesystem::perms permissions = std::filesystem::status(path, ignored).permissions();
     if (!ignored && (permissions & std::filesystem::perms::others_read) != std::filesystem::perms::none)
     {
-        warnings.push_back(fmt::format("{}: everybody on this machine can read {}; chmod o-r it", key, path));
+        warnings.push_back(fmt::format("{}: every user of this machine can read {}; run chmod o-r", key, path));
     }
 }
 
@@ -56,7 +56,7 @@ void ReadPassword(
     }
     if (config.username.empty())
     {
-        mqtt.AddError(key, "needs mqtt.username, as MQTT has no password without a name");
+        mqtt.AddError(key, "needs mqtt.username: MQTT has no password without a user name");
     }
     const std::string path = ResolvePath(fileName, file);
     const std::optional<std::string> text = ReadFileOrNull(mqtt, key, path);
@@ -72,7 +72,7 @@ void ReadPassword(
     WarnOfReaders("mqtt." + key, path, warnings);
 }
 
-/// The files are read at each connect; that they are there is seen at the start all the same.
+/// The files are read at each connect. They are checked here too, to report a missing one at the start.
 void ReadTLS(
     const ConfigSection& mqtt,
     const std::string& fileName,
@@ -105,7 +105,7 @@ void ReadTLS(
     {
         mqtt.AddError(
             config.tls.certFile.empty() ? "key_file" : "cert_file",
-            "needs the other one too: mqtt.cert_file and mqtt.key_file go together");
+            "needs the other one too: give both mqtt.cert_file and mqtt.key_file, or neither");
     }
     if (!config.tls.keyFile.empty())
     {

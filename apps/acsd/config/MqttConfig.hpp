@@ -11,7 +11,7 @@
 namespace ACS::Acsd
 {
 
-/// The table `mqtt`: the vehicles' broker and who acsd is there.
+/// The table `mqtt`: the broker of the vehicles, and acsd's credentials.
 struct MqttConfig
 {
     Apps::Url url;
@@ -21,14 +21,14 @@ struct MqttConfig
     VDA5050::MosquittoTLS tls;
 };
 
-/// Relative paths count from the folder of the file. What is not wrong, but should not be so, is added to warnings.
+/// Relative paths are relative to the folder of the file. Valid settings that are not advisable are added to `warnings`.
 void ReadMqttConfig(
     const Apps::ConfigSection& root,
     const std::string& fileName,
     MqttConfig& config,
     std::vector<std::string>& warnings);
 
-/// With a client id of its own each time, so that a second acsd on the broker does not push the first one out.
+/// The client id is random. With the same id the broker would disconnect one acsd when a second one connects.
 [[nodiscard]] VDA5050::MosquittoOptions MakeMqttOptions(const MqttConfig& config, Core::IRandom& random);
 
 } // namespace ACS::Acsd

@@ -9,17 +9,21 @@
 namespace ACS::Acsd
 {
 
-/// What acsd shows of itself and how patient it is, besides its links.
+/// Logging, tracing and time limits that do not belong to one link.
 struct OperationsConfig
 {
     Core::ELogLevel logLevel = Core::ELogLevel::Info;
     Apps::TraceLimits trace;
-    std::chrono::milliseconds workGrace{10'000}; ///< `comm.grace`: without broker or robots before isConnected=false.
-    std::chrono::milliseconds offlineAfter{15'000}; ///< `robot.offline_after`: of silence; see RobotHost.
-    /// `robot.load_timeout`: for a vehicle's loads to agree with the end of its action.
+    /// `comm.grace`: time without broker or robots before isConnected=false is reported.
+    std::chrono::milliseconds workGrace{10'000};
+    /// `robot.offline_after`: silence of a vehicle before it counts as offline.
+    std::chrono::milliseconds offlineAfter{15'000};
+    /// `robot.load_timeout`: maximum time for a vehicle's loads to agree with the end of its action.
     std::chrono::milliseconds loadTimeout{10'000};
-    std::chrono::milliseconds statusInterval{0};   ///< `robot.status_interval`; 0: only changes are told.
-    std::chrono::milliseconds drainTimeout{3'000}; ///< `shutdown.drain_timeout`: for reports to reach the MCS.
+    /// `robot.status_interval`; 0: only changes are reported.
+    std::chrono::milliseconds statusInterval{0};
+    /// `shutdown.drain_timeout`: maximum time for the MCS to acknowledge all reports.
+    std::chrono::milliseconds drainTimeout{3'000};
 
     bool operator==(const OperationsConfig&) const = default;
 };

@@ -17,21 +17,21 @@ std::vector<Core::Location> ReadPlaces(
     const std::string& prefix)
 {
     std::vector<Core::Location> places;
-    std::string mistakes;
+    std::string errors;
     for (const std::string& text : section.GetStringList(key))
     {
         Core::Result<std::vector<Core::Location>> range = Core::ParseLocationRange(prefix + text);
         if (!range)
         {
-            const std::string_view joint = mistakes.empty() ? "" : "; ";
-            mistakes += fmt::format("{}\"{}\": {}", joint, text, Core::Describe(range.error()));
+            const std::string_view joint = errors.empty() ? "" : "; ";
+            errors += fmt::format("{}\"{}\": {}", joint, text, Core::Describe(range.error()));
             continue;
         }
         std::ranges::move(*range, std::back_inserter(places));
     }
-    if (!mistakes.empty())
+    if (!errors.empty())
     {
-        section.AddError(key, mistakes);
+        section.AddError(key, errors);
     }
     return places;
 }

@@ -9,7 +9,7 @@
 namespace ACS::Acsd
 {
 
-/// Reads a list of ranges such as "A01.CP01.TP01-04"; before each stands the prefix ("LR01." for ports of a robot).
+/// Reads a list of ranges such as "A01.CP01.TP01-04" and prepends the prefix to each ("LR01." for ports of a robot).
 [[nodiscard]] std::vector<Core::Location> ReadPlaces(
     const Apps::ConfigSection& section,
     const std::string& key,

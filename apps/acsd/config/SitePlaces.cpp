@@ -40,7 +40,7 @@ bool IsFixed(EPlaceRule rule)
     return rule == EPlaceRule::FixedCassette || rule == EPlaceRule::FixedTray || rule == EPlaceRule::Memory;
 }
 
-/// A job with both ends on the robot, or with none, can be at any station.
+/// A job with both ends on the robot, or with no end, can be at any station.
 bool CanBeOnRobot(EPlaceRule rule)
 {
     return rule != EPlaceRule::FixedCassette && rule != EPlaceRule::FixedTray;
@@ -65,7 +65,7 @@ bool IsSegmentOnRobot(EPlaceRule rule, ESegmentKind kind)
     }
 }
 
-/// Of the places of a rule: whether there are any, and whether one has the segment.
+/// Whether there are places of a rule, and whether one of them has the segment.
 struct Search
 {
     bool bPlace = false;

@@ -26,15 +26,15 @@ class SitePlaces final
 public:
     SitePlaces(const StationTable& stations, const Planning::EngineOptions& engine);
 
-    /// Whether a place that the rule allows to robots of the type has such a segment. True also where the site lists no place
-    /// of the rule: it has no such jobs.
+    /// Whether a place that the rule allows to robots of the type has such a segment. Also true if the site lists no place
+    /// of the rule: then it has no such jobs.
     [[nodiscard]] bool HasSegment(Planning::EPlaceRule rule, Planning::ERobotType robotType, Core::ESegmentKind kind)
         const;
 
-    /// The same of a station. True also where no station is a place of MCS-ACS.
+    /// Likewise for stations. Also true if no station is a place of MCS-ACS.
     [[nodiscard]] bool HasStationSegment(Core::ESegmentKind kind) const;
 
-    /// Whether the own place of a job of the action can be at the station.
+    /// Whether a job of the action can work at the station.
     [[nodiscard]] bool HasPlaceAt(std::string_view stationID, const Planning::ActionRule& rule) const;
 };
 

@@ -71,7 +71,7 @@ bool IsOnRobot(EPlaceRule rule)
     return rule == EPlaceRule::RobotCassette || rule == EPlaceRule::RobotTray || rule == EPlaceRule::Memory;
 }
 
-/// The source says where the value comes from; empty: it is written in the input.
+/// `source` describes the origin of the value; empty: a literal value of the input.
 std::string MakeWidthText(const ArmInputTemplate& input, std::int64_t value, const std::string& source)
 {
     return fmt::format("{} cannot hold {}{}; it holds {}", input.relay.name, value, source, MakeRangeText(input.relay));

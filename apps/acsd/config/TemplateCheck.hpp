@@ -14,12 +14,12 @@
 namespace ACS::Acsd
 {
 
-/// What the templates of a configuration cannot mean, whatever the job.
+/// Finds names in the templates of a configuration that have no value in any job.
 class TemplateCheck final
 {
     const StationTable& _stations;
     SitePlaces _places;
-    std::map<Core::ESegmentKind, std::int64_t> _highest; ///< Number of each kind at this site and its robots.
+    std::map<Core::ESegmentKind, std::int64_t> _highest; ///< Highest number of each kind at this site and its robots.
     std::int64_t _highestRobotPort = 0;
     EArmRelayIndex _relayIndex;
 
@@ -29,14 +29,14 @@ public:
 
     [[nodiscard]] const SitePlaces& GetPlaces() const noexcept;
 
-    /// What the numbers of relays count.
+    /// The unit of relay numbers.
     [[nodiscard]] EArmRelayIndex GetRelayIndex() const noexcept;
 
-    /// Why the name means nothing in any job of the action: a key that no station has, or a number that no place has.
+    /// Why the name has no value in any job of the action: no station has the key, or no place has the number.
     [[nodiscard]] std::optional<std::string> FindFaultOrNull(const JobName& name, const Planning::ActionRule& rule)
         const;
 
-    /// The same of the input's name, and values that its relay cannot hold.
+    /// Likewise for the name of an input; also reports a value that the relay cannot hold.
     [[nodiscard]] std::optional<std::string> FindFaultOrNull(
         const ArmInputTemplate& input,
         const Planning::ActionRule& rule) const;

@@ -8,8 +8,8 @@
 namespace ACS::Acsd
 {
 
-/// What McsGateway needs of the session with the MCS: functions of AcsSession, carried out at once. Events that they lead to
-/// come after the call has returned.
+/// The functions of AcsSession that McsGateway calls. They are executed at once; the session's resulting events follow after
+/// the call has returned.
 class IMcsOutput
 {
 public:

@@ -53,7 +53,7 @@ std::string GetPlanID(const Protocol::AcsPayload& report)
     return planIDOrNull.value_or(std::string());
 }
 
-/// Some by name: what the MCS has asked for may be longer than what it can read.
+/// Names only some: the list that the MCS requested may be longer than its buffer.
 std::string DescribeUnknown(const std::vector<std::string_view>& planIDs)
 {
     constexpr std::size_t MAX_NAMED = 20;
@@ -66,7 +66,7 @@ std::string DescribeUnknown(const std::vector<std::string_view>& planIDs)
     return planIDs.size() > MAX_NAMED ? text + fmt::format(" and {} more", planIDs.size() - MAX_NAMED) : text;
 }
 
-/// What an MCS must hear even if it asks for the history: how plans ended, and what became of its controls.
+/// The reports that an MCS needs even if it requests the history: ends of plans and results of controls.
 bool IsReplayed(const Planning::Report& report, EOutboxReplay replay)
 {
     const auto* const planOrNull = std::get_if<Planning::PlanReport>(&report);
@@ -139,7 +139,7 @@ void McsGateway::Begin()
 
 void McsGateway::OnSessionEvent(const Protocol::SessionEvent& event)
 {
-    _output.SetSiteOffset(GetOffset()); // summer time may have begun since the last one
+    _output.SetSiteOffset(GetOffset()); // daylight saving time may have begun
     std::visit(
         Core::Overloaded{
             [&](const Protocol::Registered&) { BeginReplay(); },
@@ -309,7 +309,8 @@ void McsGateway::AnswerHistory(const Protocol::AcsRequest& request, const Protoc
     AnswerList(request, DescribeUnknown(unknown), std::move(list), &Protocol::PlanListAck::plans);
 }
 
-/// Section 12: an MCS that reads 4096 bytes loses a longer answer without a word; a shorter one says what it left out.
+/// Section 12: an MCS with a buffer of 4096 bytes silently loses a longer answer. A cut one states the number of omitted
+/// entries.
 template <typename TList, typename TEntries>
 void McsGateway::AnswerList(
     const Protocol::AcsRequest& request,
@@ -336,7 +337,7 @@ void McsGateway::AnswerList(
     {
         if constexpr (std::is_same_v<TList, Protocol::ErrorListAck>)
         {
-            std::ranges::reverse(all); // the newest are those that matter
+            std::ranges::reverse(all); // the newest plans matter most
         }
         std::size_t tooMany = count;
         count = 0;
@@ -374,7 +375,7 @@ void McsGateway::HandleAck(const Protocol::Acked& acked)
     static_cast<void>(_outbox.OnEvent(acked)); // Remove does not fail
 }
 
-/// Final (register, mcs.on_report_nack): the MCS has it and does not want it. Or it is kept for the next connection.
+/// By default the refusal is final (register, mcs.on_report_nack). With "retry" the report is kept for the next connection.
 void McsGateway::HandleRefusal(const Protocol::Acked& acked, const SentReport& sent)
 {
     ++_refusedReports.count;
@@ -386,7 +387,7 @@ void McsGateway::HandleRefusal(const Protocol::Acked& acked, const SentReport& s
         _clock.GetNow().steady,
         Core::ELogLevel::Warning,
         fmt::format("{} {}", GetText(acked.command), CutReason(acked.message)),
-        _style.bRefusedReportsRetried ? "the MCS refuses a report, it is sent again with the next registration"
+        _style.bRefusedReportsRetried ? "the MCS refuses a report, it is sent again after the next registration"
                                       : "the MCS refuses a report",
         {{"command", GetText(acked.command)},
          {"planId", sent.planID},
@@ -399,7 +400,7 @@ const RefusedReports& McsGateway::GetRefusedReports() const noexcept
     return _refusedReports;
 }
 
-/// The requests are made again: the style may have changed since.
+/// The requests are built again: the style may have changed.
 void McsGateway::BeginReplay()
 {
     _sent.clear();
@@ -427,7 +428,7 @@ void McsGateway::BeginReplay()
     if (!leftOut.empty())
     {
         _logger.Warning(
-            "reports of the outage are left out, as outbox.replay says",
+            "reports of the outage are not sent, because of outbox.replay",
             {{"count", fmt::format_int(leftOut.size()).str()}});
     }
     for (const std::uint64_t sequence : leftOut)

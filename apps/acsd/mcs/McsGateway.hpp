@@ -29,11 +29,11 @@
 namespace ACS::Acsd
 {
 
-/// Of a refusal what it is about, without what was found: refusals of which this is the same are alike.
+/// The reason of a refusal without the value that was found. Refusals with the same result count as repetitions in the log.
 [[nodiscard]] std::string CutReason(std::string_view reason);
 
 /// The MCS side of acsd: passes requests to the engine as commands, answers them, sends the engine's outbox through the
-/// session and reports acknowledgements to the engine. Pure: the session is the caller's.
+/// session and reports acknowledgements to the engine. Pure: the caller owns the session.
 class McsGateway final : private Protocol::IOutboxStore
 {
 public:
@@ -52,7 +52,7 @@ private:
         std::string planID;
     };
 
-    /// A report that this connection was given.
+    /// A report that was sent on this connection.
     struct SentReport
     {
         Core::SteadyTime sentAt;
@@ -61,7 +61,7 @@ private:
 
     const Core::IClock& _clock;
     Core::Logger _logger;
-    Apps::LogRateLimiter _log; ///< For what the MCS can make come in a flood.
+    Apps::LogRateLimiter _log; ///< For lines that the MCS can trigger.
     Apps::LocalOffset _localOffset;
     const Planning::PlanEngine& _engine;
     IMcsOutput& _output;
@@ -89,11 +89,11 @@ public:
     /// Call once, before all other functions, with the reports of the store.
     void Restore(const std::vector<Planning::OutboxEntry>& entries);
 
-    /// From the next message on. Without it messages are as the document has them.
+    /// In effect from the next message. Without a style, messages are written as MCS-ACS defines them.
     void SetStyle(MessageStyle style);
     void SetAckObserver(AckObserver observer);
 
-    /// From now on plans and controls are refused: acsd is about to stop.
+    /// Refuses plans and controls from now on, because acsd stops.
     void BeginDraining();
 
     /// Call once, before the session starts. Sets the states of TSC and robots that the session reports.

@@ -29,7 +29,7 @@ ProtocolBeast::ClientOptions MakeOptions(const AcsdConfig& config)
     return options;
 }
 
-/// Of a text in the log.
+/// Maximum length of a message in the log.
 constexpr std::size_t LOGGED_TEXT = 120;
 
 } // namespace
@@ -96,7 +96,7 @@ void McsLink::WatchWire(ProtocolBeast::EWireDirection direction, std::string_vie
     if (_warnBytes > 0 && text.size() > _warnBytes)
     {
         _logger.Warning(
-            "a message to the MCS is longer than mcs.tx_warn_bytes: an MCS with a small buffer does not get it",
+            "a message to the MCS is longer than mcs.tx_warn_bytes: an MCS with a small buffer loses it",
             {{"bytes", fmt::format_int(text.size()).str()}, {"begins", text.substr(0, LOGGED_TEXT)}});
     }
 }
@@ -194,7 +194,7 @@ void McsLink::LogEvent(const Protocol::SessionEvent& event)
                 _loggedOutage.clear();
             },
             [&](const Protocol::RegistrationRefused& refused) {
-                Warn("registration", "the MCS refuses the registration, trying again", {{"reason", refused.message}});
+                Warn("registration", "the MCS refuses the registration, retrying", {{"reason", refused.message}});
             },
             [&](const Protocol::RequestUnanswered& unanswered) {
                 ++_metrics.unanswered;
@@ -207,10 +207,10 @@ void McsLink::LogEvent(const Protocol::SessionEvent& event)
             },
             [&](const Protocol::LinkLost& lost) { LogOutage(lost); },
             [&](const Protocol::ProtocolNoted& noted) {
-                _notes.Take(noted, GetStatistics().CountOf(noted.what), _clock.GetNow().steady);
+                _notes.OnNoted(noted, GetStatistics().CountOf(noted.what), _clock.GetNow().steady);
             },
             [&](const Protocol::RequestRefused& refused) {
-                _notes.Forget();
+                _notes.Drop();
                 Warn(
                     "refused " + CutReason(refused.reason),
                     "command refused",
@@ -231,15 +231,15 @@ void McsLink::Warn(std::string_view kind, std::string_view message, std::initial
 
 void McsLink::LogOutage(const Protocol::LinkLost& lost)
 {
-    // Once per reason: every further try fails for the same one, or tells something new.
+    // Logged once per reason: further attempts mostly fail for the same one.
     if (_stopHandler || lost.reason == _loggedOutage)
     {
         return;
     }
     _loggedOutage = lost.reason;
     _logger.Warning(
-        lost.bWasRegistered ? "lost the MCS, trying again until it answers"
-                            : "cannot reach the MCS: start it or correct mcs.url; trying again until it answers",
+        lost.bWasRegistered ? "connection to the MCS lost, retrying until it answers"
+                            : "cannot reach the MCS: start it or correct mcs.url; retrying until it answers",
         {{"url", _url}, {"reason", lost.reason}});
 }
 

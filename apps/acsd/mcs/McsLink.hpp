@@ -34,18 +34,18 @@ public:
     using EventHandler = std::function<void(const Protocol::SessionEvent& event)>;
     using StopHandler = std::function<void()>;
 
-    /// Besides the statistics of the session.
+    /// In addition to the statistics of the session.
     struct Metrics
     {
         bool bConnected = false;
-        std::size_t longestSent = 0; ///< Bytes of the longest text that was sent.
+        std::size_t longestSent = 0; ///< Bytes of the longest message that was sent.
         std::uint64_t unanswered = 0;
     };
 
 private:
     const Core::IClock& _clock;
     Core::Logger _logger;
-    Apps::LogRateLimiter _log; ///< For what the MCS can make come in a flood.
+    Apps::LogRateLimiter _log; ///< For lines that the MCS can trigger.
     McsNoteLog _notes;
     RegistrationWatch _watch;
     EventHandler _handler;
@@ -53,10 +53,10 @@ private:
     std::unique_ptr<ProtocolBeast::AcsClient> _client;
     std::string _url;
     Metrics _metrics;
-    std::uint64_t _connectsBefore = 0; ///< When the last connection was lost, or could not be made.
+    std::uint64_t _connectsBefore = 0; ///< Value at the last loss of a connection or failed attempt.
     std::size_t _warnBytes = 0;
     MessageTrace* _traceOrNull = nullptr;
-    std::string _loggedOutage; ///< The reason that was told last, of the outage that goes on.
+    std::string _loggedOutage; ///< The reason that was logged last for the present outage.
 
 public:
     /// The clock must outlive the link.
@@ -65,7 +65,8 @@ public:
     McsLink& operator=(const McsLink&) = delete;
     ~McsLink() override;
 
-    /// Once, before everything else. Fails with a sentence about the URL; opens no connection. A trace outlives the link.
+    /// Call once, before everything else. Fails with a sentence about the URL; opens no connection. The trace must outlive the
+    /// link.
     [[nodiscard]] Core::Result<void> Open(
         const boost::asio::any_io_executor& executor,
         Core::IRandom& random,
@@ -74,10 +75,10 @@ public:
 
     void Start();
 
-    /// What of the configuration may change while acsd runs (see LiveConfig).
+    /// Applies the keys that may change while acsd runs (see LiveConfig).
     void SetLimits(const McsConfig& config);
 
-    /// Tells the MCS, takes leave of it, then calls back.
+    /// Reports the end to the MCS, closes the connection, then calls back.
     void StopAsync(StopHandler handler);
 
     [[nodiscard]] bool IsRegistered() const override;
@@ -95,7 +96,7 @@ public:
 
     [[nodiscard]] const Protocol::SessionStatistics& GetStatistics() const;
     [[nodiscard]] Metrics GetMetrics() const;
-    /// Up while it is registered.
+    /// Up while acsd is registered.
     [[nodiscard]] LinkStatus GetLink() const;
 
 private:

@@ -12,7 +12,7 @@ namespace ACS::Acsd
 namespace
 {
 
-/// Habits that cost nothing.
+/// Deviations that have no effect.
 bool IsHarmless(Protocol::EProtocolNote what)
 {
     switch (what)
@@ -43,7 +43,7 @@ McsNoteLog::McsNoteLog(Core::Logger logger)
 {
 }
 
-void McsNoteLog::Take(const Protocol::ProtocolNoted& noted, std::uint64_t total, Core::SteadyTime now)
+void McsNoteLog::OnNoted(const Protocol::ProtocolNoted& noted, std::uint64_t total, Core::SteadyTime now)
 {
     Flush(now);
     const bool bMayBeRefused =
@@ -58,7 +58,7 @@ void McsNoteLog::Take(const Protocol::ProtocolNoted& noted, std::uint64_t total,
     }
 }
 
-void McsNoteLog::Forget()
+void McsNoteLog::Drop()
 {
     _waiting.reset();
 }
@@ -78,7 +78,7 @@ void McsNoteLog::Write(const Waiting& note, Core::SteadyTime now)
         now,
         IsHarmless(note.noted.what) ? Core::ELogLevel::Debug : Core::ELogLevel::Warning,
         fmt::format("{} {}", what, CutReason(note.noted.detail)),
-        "the MCS departs from the protocol",
+        "the MCS deviates from the protocol",
         {{"what", what}, {"detail", note.noted.detail}, {"count", fmt::format_int(note.total).str()}});
 }
 

@@ -11,8 +11,9 @@
 namespace ACS::Acsd
 {
 
-/// The lines of how the MCS departs from the protocol, thinned by what it is about. A text that is no message may have been
-/// refused, which has a line of its own and comes next: so its note waits for what the session tells then. Pure.
+/// Logs how the MCS deviates from the protocol, rate-limited by kind. An undecodable message may also be refused, which the
+/// session reports next and which is logged on its own: the note waits for the next event and is then dropped or written.
+/// Pure.
 class McsNoteLog
 {
     struct Waiting
@@ -28,12 +29,12 @@ public:
     explicit McsNoteLog(Core::Logger logger);
 
     /// The total is of all notes of this kind.
-    void Take(const Protocol::ProtocolNoted& noted, std::uint64_t total, Core::SteadyTime now);
+    void OnNoted(const Protocol::ProtocolNoted& noted, std::uint64_t total, Core::SteadyTime now);
 
-    /// What waits was refused: it has its line.
-    void Forget();
+    /// Drops the waiting note: its message was refused, which is logged on its own.
+    void Drop();
 
-    /// What waits was not: something else has come.
+    /// Writes the waiting note: its message was not refused.
     void Flush(Core::SteadyTime now);
 
 private:

@@ -9,8 +9,8 @@
 namespace ACS::Acsd
 {
 
-/// From what the MCS asks to what the engine understands: wire types and domain types stay apart. nullopt for requests
-/// that are no command of the engine (queries).
+/// Converts a request of the MCS to a command of the engine, to keep wire types and domain types separate. nullopt for
+/// requests that are not commands of the engine (queries).
 [[nodiscard]] std::optional<Planning::PlanCommand> MakePlanCommandOrNull(
     const Protocol::AcsPayload& payload,
     const std::string& transactionID,

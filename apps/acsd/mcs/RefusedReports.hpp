@@ -9,13 +9,13 @@
 namespace ACS::Acsd
 {
 
-/// What the MCS has answered with Fail since the start.
+/// The reports that the MCS has answered with Fail since the start.
 struct RefusedReports
 {
     std::uint64_t count = 0;
-    std::string command; ///< This and the next two: of the last one. "JobReport"
-    std::string planID;  ///< Empty for what belongs to no plan.
-    std::string message; ///< The MCS's.
+    std::string command; ///< Of the last one, as are the next two: "JobReport"
+    std::string planID;  ///< Empty if it is not about a plan.
+    std::string message; ///< The reason that the MCS gave.
     std::array<std::uint64_t, Protocol::COMMAND_COUNT> byCommand{};
 };
 

@@ -19,12 +19,12 @@ void RegistrationWatch::OnSessionEvent(const Protocol::SessionEvent& event)
         Core::Overloaded{
             [this](const Protocol::Registered&) { *this = {}; },
             [&refuse](const Protocol::RegistrationRefused& refused) {
-                refuse("it refuses the registration" + (refused.message.empty() ? "" : ": " + refused.message));
+                refuse("registration refused" + (refused.message.empty() ? "" : ": " + refused.message));
             },
             [&refuse](const Protocol::ProtocolNoted& noted) {
                 if (noted.what == Protocol::EProtocolNote::RegistrationUnanswered)
                 {
-                    refuse("it does not answer the registration");
+                    refuse("registration not answered");
                 }
             },
             [this](const Protocol::LinkLost& lost) {
@@ -34,7 +34,7 @@ void RegistrationWatch::OnSessionEvent(const Protocol::SessionEvent& event)
                     _bRefused = false;
                 }
             },
-            [](const auto&) { /* says nothing about it */ }},
+            [](const auto&) { /* not about the registration */ }},
         event);
 }
 
@@ -46,7 +46,7 @@ std::string RegistrationWatch::GetObstacle(bool bConnected) const
     }
     if (bConnected)
     {
-        return "connected, not registered: mcs: it has not answered the registration yet";
+        return "connected, not registered: mcs: registration not answered yet";
     }
     return _reason.empty() ? "no connection: mcs" : "no connection: mcs: " + _reason;
 }

@@ -7,17 +7,17 @@
 namespace ACS::Acsd
 {
 
-/// Why the MCS is not there, as far as its session has told. Pure.
+/// Why acsd is not registered with the MCS, from the events of the session. Pure.
 class RegistrationWatch
 {
-    std::string _reason; ///< Empty: none is known.
+    std::string _reason; ///< Empty: unknown.
     bool _bRefused = false;
-    bool _bRefusedNow = false; ///< On this connection, whose end is nothing new.
+    bool _bRefusedNow = false; ///< On this connection: its end does not replace the reason.
 
 public:
     void OnSessionEvent(const Protocol::SessionEvent& event);
 
-    /// Of a session that is not registered, as a line of /readyz. Where the MCS refuses, this stays while it is tried again.
+    /// The line of /readyz while acsd is not registered. A refusal stays the reason during further attempts.
     [[nodiscard]] std::string GetObstacle(bool bConnected) const;
 };
 

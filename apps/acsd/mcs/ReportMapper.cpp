@@ -104,11 +104,11 @@ Protocol::RobotPosition MakePosition(const Planning::RobotPose& pose)
         pose.robotID,
         pose.x,
         pose.y,
-        degrees < FULL_CIRCLE ? degrees : 0.0, // a hair under 0 is rounded to the full circle
+        degrees < FULL_CIRCLE ? degrees : 0.0, // slightly below 0 rounds to the full circle
         std::round(pose.batteryPercent)};
 }
 
-/// Of the whole message: the session gives it a UUID as its transactionId.
+/// Size of the whole message. The session adds a UUID as its transactionId.
 std::size_t CountBytes(const Protocol::RobotPositionUpdate& update)
 {
     constexpr std::size_t UUID_LENGTH = 36;

@@ -14,9 +14,9 @@
 namespace ACS::Acsd
 {
 
-/// From what the engine tells to what the MCS is sent. The offset is that of the site's local time.
+/// Convert reports and states of the engine to messages for the MCS. The offset is that of the site's local time.
 
-/// With the report's own transactionId and time: sent again it is the same message.
+/// Has the report's own transactionId and time, so that a resent report is the same message.
 [[nodiscard]] Protocol::AcsRequest MakeReportRequest(
     const Planning::OutboxEntry& entry,
     std::chrono::minutes offset,
@@ -28,8 +28,8 @@ namespace ACS::Acsd
 
 [[nodiscard]] Protocol::TscStateUpdate MakeTscUpdate(Planning::ETscState state);
 
-/// All robots in one update; in several where it would be longer than the style allows (section 5.10), at least one robot in
-/// each. Radians become degrees from 0 to below 360, the battery a whole number.
+/// All robots in one update, or in several if it would be longer than the style allows (section 5.10), each with at least
+/// one robot. Angles are converted from radians to degrees from 0 to below 360, the battery to a whole number.
 [[nodiscard]] std::vector<Protocol::RobotPositionUpdate> MakePositionUpdates(
     const std::vector<Planning::RobotPose>& poses,
     const MessageStyle& style = {});

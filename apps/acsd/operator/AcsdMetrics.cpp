@@ -77,39 +77,39 @@ double ToNumber(TNumber number)
 AcsdMetrics::AcsdMetrics(Apps::MetricsEndpoint& metrics)
     : _metrics(metrics)
 {
-    _metrics.AddGauge(LINK_UP, "Whether the link is up: mcs is registered, mqtt is subscribed");
-    _metrics.AddGauge(MCS_CONNECTED, "Whether the WebSocket to the MCS is open");
-    _metrics.AddGauge(MCS_REGISTERED, "Whether the MCS has accepted the registration");
-    _metrics.AddCounter(MCS_LINK_LOSSES, "Connections to the MCS that ended or could not be made");
-    _metrics.AddCounter(MCS_SENT, "Requests sent to the MCS, resends included");
-    _metrics.AddCounter(MCS_RECEIVED, "Requests of the MCS, repeated ones included");
+    _metrics.AddGauge(LINK_UP, "1 when the link is up: mcs registered, mqtt subscribed");
+    _metrics.AddGauge(MCS_CONNECTED, "1 when the WebSocket to the MCS is open");
+    _metrics.AddGauge(MCS_REGISTERED, "1 when the MCS has accepted the registration");
+    _metrics.AddCounter(MCS_LINK_LOSSES, "Connections to the MCS that ended or could not be established");
+    _metrics.AddCounter(MCS_SENT, "Requests sent to the MCS, with resends");
+    _metrics.AddCounter(MCS_RECEIVED, "Requests received from the MCS, with repeated ones");
     _metrics.AddCounter(MCS_REFUSED, "Requests of the MCS that were answered with Fail");
     _metrics.AddCounter(MCS_NACKS, "Reports that the MCS answered with Fail");
-    _metrics.AddCounter(MCS_TIMEOUTS, "Reports that the MCS did not acknowledge, after all resends");
-    _metrics.AddCounter(MCS_UNMATCHED, "Acks with a foreign transactionId, or that nothing waited for");
-    _metrics.AddCounter(MCS_NOTES, "What the MCS does otherwise than the document, by kind");
-    _metrics.AddGauge(MCS_LONGEST, "Bytes of the longest message sent to the MCS");
-    _metrics.AddCounter(POSITIONS_MISSED, "Periods of RobotPositionUpdate in which none was sent, acsd being late");
+    _metrics.AddCounter(MCS_TIMEOUTS, "Reports without an Ack after all resends");
+    _metrics.AddCounter(MCS_UNMATCHED, "Acks with an unknown transactionId, or of nothing that was sent");
+    _metrics.AddCounter(MCS_NOTES, "Deviations of the MCS from the specification, by kind");
+    _metrics.AddGauge(MCS_LONGEST, "Length of the longest message sent to the MCS, in bytes");
+    _metrics.AddCounter(POSITIONS_MISSED, "Periods of RobotPositionUpdate without a message because acsd was late");
     _metrics.AddHistogram(
         MCS_ACK_WAIT,
-        "From a report to its Ack",
+        "Time from a report to its Ack",
         {0.001, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 2.5, 5, 10});
-    _metrics.AddGauge(OUTBOX_DEPTH, "Reports that the MCS has not acknowledged");
-    _metrics.AddGauge(OUTBOX_OLDEST, "Age of the oldest of them; 0: there is none");
-    _metrics.AddGauge(PLANS_ACTIVE, "Plans that are not finished");
-    _metrics.AddGauge(PLANS, "Plans that are not finished, by status");
-    _metrics.AddGauge(ALARMS, "Alarms that are set, by level");
-    _metrics.AddGauge(ROBOT_STATE, "1 for the robot's present status, 0 for all others");
+    _metrics.AddGauge(OUTBOX_DEPTH, "Reports without an Ack");
+    _metrics.AddGauge(OUTBOX_OLDEST, "Age of the oldest report without an Ack; 0 without one");
+    _metrics.AddGauge(PLANS_ACTIVE, "Unfinished plans");
+    _metrics.AddGauge(PLANS, "Unfinished plans, by status");
+    _metrics.AddGauge(ALARMS, "Active alarms, by level");
+    _metrics.AddGauge(ROBOT_STATE, "1 for the robot's present status, 0 for the others");
     _metrics.AddGauge(ROBOT_BATTERY, "Charge in percent");
-    _metrics.AddGauge(ROBOT_SEEN, "Since the vehicle said anything; absent: it never did");
+    _metrics.AddGauge(ROBOT_SEEN, "Seconds since the last message of the vehicle; absent until the first");
     _metrics.AddCounter(ROBOT_STATES, "VDA5050 states received");
-    _metrics.AddCounter(ROBOT_RESENT, "VDA5050 orders that had to be sent again");
-    _metrics.AddGauge(ARM_UP, "Whether the arm's Open Stream session stands");
-    _metrics.AddCounter(ARM_CONNECTS, "Open Stream sessions that were begun");
-    _metrics.AddCounter(ARM_MISSING, "Samples of the MONITOR that did not come");
+    _metrics.AddCounter(ROBOT_RESENT, "VDA5050 orders that were sent again");
+    _metrics.AddGauge(ARM_UP, "1 when the arm's Open Stream session is ready");
+    _metrics.AddCounter(ARM_CONNECTS, "Open Stream sessions that began");
+    _metrics.AddCounter(ARM_MISSING, "MONITOR samples that did not arrive");
     _metrics.AddHistogram(
         COMMITS,
-        "From a batch of changes to its place on the disk",
+        "Time from a batch of changes to its commit",
         {0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 5});
     _metrics.AddCounter(TRACE_LOST, "Messages that are missing in the trace");
 }
@@ -173,7 +173,7 @@ void AcsdMetrics::UpdatePlans(const Planning::PlanEngine& engine, Core::Now now)
     }
     const Planning::OutboxSummary outbox = engine.GetOutboxSummary();
     _metrics.SetGauge(OUTBOX_DEPTH, {}, ToNumber(outbox.count));
-    // The wall clock may have been set meanwhile.
+    // Negative if the wall clock was set back.
     const std::chrono::duration<double> age = now.wall - outbox.oldest.value_or(now.wall);
     _metrics.SetGauge(OUTBOX_OLDEST, {}, std::max(age.count(), 0.0));
     for (const EAlarmLevel level : {EAlarmLevel::Heavy, EAlarmLevel::Light})

@@ -40,7 +40,7 @@ void WriteMember(Json::JsonWriter& writer, std::string_view key, const std::opti
     }
 }
 
-/// Null for a robot that has not told it.
+/// Null for a robot that has not reported it.
 void WriteBattery(Json::JsonWriter& writer, const std::vector<Planning::RobotPose>& poses, const std::string& robotID)
 {
     const auto pose = std::ranges::find(poses, robotID, &Planning::RobotPose::robotID);
@@ -88,7 +88,7 @@ void WriteOutbox(Json::JsonWriter& writer, const Planning::OutboxSummary& outbox
     writer.EndObject();
 }
 
-/// "last" is null as long as there is none.
+/// "last" is null while there is none.
 void WriteRefusedReports(Json::JsonWriter& writer, const RefusedReports& refused)
 {
     writer.Key("refusedReports");
@@ -173,7 +173,7 @@ void WriteWait(Json::JsonWriter& writer, const Planning::WaitReason& wait)
 
 using WaitReasons = std::map<std::string, Planning::WaitReason, std::less<>>;
 
-/// "waits" is null for a plan that goes on.
+/// "waits" is null for a plan that makes progress.
 void WritePlan(Json::JsonWriter& writer, const Planning::PlanSummary& plan, const WaitReasons& waits)
 {
     writer.BeginObject();

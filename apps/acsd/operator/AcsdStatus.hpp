@@ -20,36 +20,36 @@ struct LinkStatus
 {
     std::string name; ///< "mcs", "mqtt"
     bool bUp = false;
-    std::string obstacle{}; ///< Why not, as a line of /readyz; empty: there is no connection.
+    std::string obstacle{}; ///< Why it is not up, as a line of /readyz; empty: there is no connection.
 };
 
 /// What /status shows besides the engine's own state.
 struct ProgramStatus
 {
     std::vector<LinkStatus> links;
-    std::vector<std::string> obstacles;            ///< Sentences: what besides the links keeps plans from being taken.
-    std::map<std::string, bool, std::less<>> arms; ///< By robotID, of robots with an arm: whether it can be commanded.
+    std::vector<std::string> obstacles;            ///< Not-ready reasons besides the links.
+    std::map<std::string, bool, std::less<>> arms; ///< By robotID, for robots with an arm: whether it can be commanded.
     RefusedReports refusedReports{};
 };
 
-/// GET /livez: the process serves.
+/// GET /livez: the process is running.
 [[nodiscard]] Apps::HttpResponse MakeLiveResponse();
 
-/// GET /readyz: 200 when every link is up and nothing else is in the way, else 503 with a line for each. Obstacles are sentences.
+/// GET /readyz: 200 if every link is up and there is no other not-ready reason, else 503 with a line for each reason.
 [[nodiscard]] Apps::HttpResponse MakeReadyResponse(
     const std::vector<LinkStatus>& links,
     const std::vector<std::string>& obstacles);
 
-/// GET /status: links, obstacles, the outbox, robots, active plans (with why those that wait do so) and alarms as JSON.
+/// GET /status: links, not-ready reasons, outbox, robots, active plans (with their wait reasons) and alarms as JSON.
 [[nodiscard]] Apps::HttpResponse MakeStatusResponse(const ProgramStatus& program, const Planning::PlanEngine& engine);
 
-/// These three. The engine must outlive the routes.
+/// Adds these three. The engine must outlive the routes.
 void AddStatusRoutes(
     Apps::HttpRoutes& routes,
     const Planning::PlanEngine& engine,
     const std::function<ProgramStatus()>& getStatus);
 
-/// Who may ask acsd for anything but its health and figures.
+/// The host names under which acsd answers requests other than those for health and metrics.
 [[nodiscard]] Apps::HttpGuard MakeHttpGuard(const AcsdConfig& config);
 
 } // namespace ACS::Acsd

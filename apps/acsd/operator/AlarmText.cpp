@@ -12,7 +12,7 @@ namespace
 {
 
 constexpr std::string_view WAITS_FOR_ANSWER = "ACS-1008";
-/// What the engine's message says where the step can be skipped: not where the job's plan is over.
+/// Is in the engine's message if the step can be skipped, which it cannot after the end of its plan.
 constexpr std::string_view SKIP_OFFERED = "skip the step";
 
 /// A segment of a path.
@@ -39,7 +39,7 @@ std::string MakeAlarmText(const Planning::Alarm& alarm)
     }
     const std::string planID = EncodeSegment(*alarm.planID);
     std::string text = fmt::format(
-        "{} To answer, send POST /plans/{}/jobs/{}/done to acsd's HTTP address, with the answer in the place of done.",
+        "{} To resolve the job, send POST /plans/{}/jobs/{}/done (or failed, or again) to acsd's HTTP address.",
         alarm.message,
         planID,
         EncodeSegment(*alarm.jobID));

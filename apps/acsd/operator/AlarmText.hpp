@@ -7,8 +7,8 @@
 namespace ACS::Acsd
 {
 
-/// The alarm's message as people read it, in the log, in /status and at the MCS: where it waits for an answer (ACS-1008), with
-/// the requests that answer it or skip the step (OperatorRoutes). The engine knows of no HTTP.
+/// The alarm's message for the log, for /status and for the MCS. For an unresolved job (ACS-1008) it names the requests that
+/// resolve the job or skip its step (OperatorRoutes), which the engine does not know.
 [[nodiscard]] std::string MakeAlarmText(const Planning::Alarm& alarm);
 
 } // namespace ACS::Acsd

@@ -28,7 +28,7 @@ using Captures = Apps::HttpRoutes::Captures;
 
 using Parameters = std::vector<std::string_view>;
 
-/// The only parameter that may come more than once.
+/// The only parameter that may be given more than once.
 constexpr std::string_view CARRIER = "carrier";
 
 constexpr unsigned HTTP_ACCEPTED = 202;
@@ -54,40 +54,40 @@ HttpResponse Refuse(unsigned status, std::string_view sentence)
     return MakeAnswer(status, "error", sentence);
 }
 
-/// What becomes of a command while nothing can be stored.
+/// How a command is handled while the store fails.
 enum class EUnstored
 {
-    Refused, ///< As the controls of the MCS are: a crash would forget it.
-    Taken    ///< It takes work away, which cannot wait for a disk; the answer says that a crash would forget it.
+    Refused, ///< It would be lost in a crash. Controls of the MCS are refused likewise.
+    Accepted ///< It only stops work, which cannot wait for a disk. The answer states that it would be lost in a crash.
 };
 
-HttpResponse HandOn(
+HttpResponse Submit(
     const OperatorAccess& access,
     Planning::PlanCommand command,
     std::string message,
     EUnstored unstored = EUnstored::Refused)
 {
-    const std::optional<std::string> obstacle = access.getStoreObstacleOrNull();
-    if (obstacle.has_value() && unstored == EUnstored::Refused)
+    const std::optional<std::string> fault = access.getStoreFaultOrNull();
+    if (fault.has_value() && unstored == EUnstored::Refused)
     {
         return Refuse(
             HTTP_UNAVAILABLE,
-            fmt::format(
-                "Nothing is done, as a crash would forget it: {}. Ask again when /readyz says ready.",
-                *obstacle));
+            fmt::format("Refused, because it would be lost in a crash: {}. Retry when /readyz answers ready.", *fault));
     }
-    if (obstacle.has_value())
+    if (fault.has_value())
     {
         message += fmt::format(
-            " It is not stored, and a crash would forget it: {}. Look at /status, and ask again after a restart.",
-            *obstacle);
+            " This is not stored and would be lost in a crash: {}. After a restart, check /status and repeat the request if "
+            "necessary.",
+            *fault);
     }
-    return access.take(std::move(command)) ? MakeAnswer(HTTP_ACCEPTED, "message", message)
-                                           : Refuse(HTTP_UNAVAILABLE, "acsd is stopping: nothing is taken any more.");
+    return access.submit(std::move(command)) ? MakeAnswer(HTTP_ACCEPTED, "message", message)
+                                             : Refuse(HTTP_UNAVAILABLE, "acsd is stopping and accepts no requests.");
 }
 
-/// What of the request nobody would read: a command that is done otherwise than it was meant is worse than one that is not.
-std::optional<std::string> FindStrayOrNull(const HttpRequest& request, const Parameters& parameters)
+/// Unknown and repeated parameters and a body. They are refused rather than ignored, because the command would do something
+/// else than intended.
+std::optional<std::string> FindUnexpectedOrNull(const HttpRequest& request, const Parameters& parameters)
 {
     std::set<std::string_view> seen;
     for (const auto& [name, value] : request.query)
@@ -95,12 +95,12 @@ std::optional<std::string> FindStrayOrNull(const HttpRequest& request, const Par
         if (std::ranges::find(parameters, name) == parameters.end())
         {
             return parameters.empty()
-                ? fmt::format("There is no parameter {}; this takes none.", name)
-                : fmt::format("There is no parameter {}; there is {}.", name, fmt::join(parameters, ", "));
+                ? fmt::format("Unknown parameter {}; this request has no parameters.", name)
+                : fmt::format("Unknown parameter {}; known: {}.", name, fmt::join(parameters, ", "));
         }
         if (!Core::JsonText::IsUtf8(value))
         {
-            return fmt::format("The parameter {} is no UTF-8, found {}.", name, Core::QuoteForError(value));
+            return fmt::format("The parameter {} is not valid UTF-8, found {}.", name, Core::QuoteForError(value));
         }
         if (!seen.insert(name).second && name != CARRIER)
         {
@@ -110,7 +110,7 @@ std::optional<std::string> FindStrayOrNull(const HttpRequest& request, const Par
     if (!request.body.empty())
     {
         return fmt::format(
-            "A body is not read, found {}; parameters stand behind the path, as in ?robot=LR01&code=ACS-1004.",
+            "Expected no body, found {}. Give parameters in the query: ?robot=LR01&code=ACS-1004",
             Core::QuoteForError(request.body));
     }
     return std::nullopt;
@@ -130,7 +130,7 @@ std::optional<Planning::RobotStatus> FindRobotOrNull(const Planning::PlanEngine&
 
 HttpResponse RefuseRobot(const std::string& robotID)
 {
-    return Refuse(HTTP_NOT_FOUND, fmt::format("There is no robot {}; /status has the robots.", robotID));
+    return Refuse(HTTP_NOT_FOUND, fmt::format("There is no robot {}; /status lists the robots.", robotID));
 }
 
 HttpResponse Maintain(
@@ -145,15 +145,15 @@ HttpResponse Maintain(
         return RefuseRobot(robotID);
     }
     std::string message = robotID + (bOn ? " is taken out of service" : " is put back into service");
-    message += bOn && robot->planID.has_value() ? fmt::format(" as soon as plan {} is over.", *robot->planID) : ".";
-    return HandOn(
+    message += bOn && robot->planID.has_value() ? fmt::format(" when plan {} has ended.", *robot->planID) : ".";
+    return Submit(
         access,
         Planning::SetMaintenance{robotID, bOn, 0},
         std::move(message),
-        bOn ? EUnstored::Taken : EUnstored::Refused);
+        bOn ? EUnstored::Accepted : EUnstored::Refused);
 }
 
-/// One parameter `carrier` for each port, in their order; an empty one: nothing.
+/// One parameter `carrier` for each port, in the order of the ports; an empty value is an empty port.
 HttpResponse SetCarriers(
     const Planning::PlanEngine& engine,
     const OperatorAccess& access,
@@ -170,11 +170,11 @@ HttpResponse SetCarriers(
     {
         command.carrierIDs.push_back(value.empty() ? std::nullopt : std::optional(value));
     }
-    if (std::optional<std::string> objection = engine.GetRejectionReasonOrNull(command))
+    if (std::optional<std::string> reason = engine.GetRejectionReasonOrNull(command))
     {
-        return Refuse(HTTP_BAD_REQUEST, *objection);
+        return Refuse(HTTP_BAD_REQUEST, *reason);
     }
-    return HandOn(access, std::move(command), fmt::format("The ports of {} are corrected.", robotID));
+    return Submit(access, std::move(command), fmt::format("The ports of {} are corrected.", robotID));
 }
 
 HttpResponse ClearAlarms(const Planning::PlanEngine& engine, const OperatorAccess& access, const HttpRequest& request)
@@ -185,19 +185,21 @@ HttpResponse ClearAlarms(const Planning::PlanEngine& engine, const OperatorAcces
     {
         return Refuse(
             HTTP_BAD_REQUEST,
-            "The parameters robot and code say which alarm: /alarms/clear?robot=LR01&code=ACS-1004");
+            "The parameters robot and code are required: /alarms/clear?robot=LR01&code=ACS-1004");
     }
     const auto isMeant = [&robotID, &errorCode](const Planning::Alarm& alarm) {
         return alarm.robotID == *robotID && alarm.errorCode == *errorCode;
     };
     if (std::ranges::none_of(engine.GetActiveAlarms(), isMeant))
     {
-        return Refuse(HTTP_NOT_FOUND, fmt::format("{} has no alarm {}; /status has the alarms.", *robotID, *errorCode));
+        return Refuse(
+            HTTP_NOT_FOUND,
+            fmt::format("{} has no alarm {}; /status lists the alarms.", *robotID, *errorCode));
     }
-    return HandOn(
+    return Submit(
         access,
         Planning::ClearAlarms{*robotID, *errorCode, request.GetQueryOrNull("plan"), request.GetQueryOrNull("job"), 0},
-        "The alarm is cleared; it comes back if its cause is still there.");
+        "The alarm is cleared. It is set again if its cause persists.");
 }
 
 HttpResponse ResolveJob(
@@ -205,17 +207,16 @@ HttpResponse ResolveJob(
     const OperatorAccess& access,
     const Planning::ResolveJob& command)
 {
-    const std::optional<std::string> objection = engine.GetRejectionReasonOrNull(command);
-    if (!objection.has_value())
+    const std::optional<std::string> reason = engine.GetRejectionReasonOrNull(command);
+    if (!reason.has_value())
     {
-        return HandOn(access, command, "The answer is taken; the alarm ACS-1008 of the job is cleared.");
+        return Submit(access, command, "The job is resolved; its alarm ACS-1008 is cleared.");
     }
     Planning::ResolveJob other = command;
-    other.answer = Planning::EJobResolution::Done;
-    const bool bHeld = !engine.GetRejectionReasonOrNull(other).has_value();
-    return bHeld
-        ? Refuse(HTTP_CONFLICT, *objection)
-        : Refuse(HTTP_NOT_FOUND, *objection + " The alarms ACS-1008 in /status name the plan and the job of each.");
+    other.resolution = Planning::EJobResolution::Done;
+    const bool bUnresolved = !engine.GetRejectionReasonOrNull(other).has_value();
+    return bUnresolved ? Refuse(HTTP_CONFLICT, *reason)
+                       : Refuse(HTTP_NOT_FOUND, *reason + " /status lists each unresolved job as an alarm ACS-1008.");
 }
 
 HttpResponse SkipStep(
@@ -231,13 +232,13 @@ HttpResponse SkipStep(
     {
         return Refuse(
             HTTP_BAD_REQUEST,
-            fmt::format("A step is named by its stepNo, a number from 1, found {}.", Core::QuoteForError(stepText)));
+            fmt::format("Expected a stepNo (a number from 1), found {}.", Core::QuoteForError(stepText)));
     }
-    if (const std::optional<std::string> objection = engine.GetRejectionReasonOrNull(command))
+    if (const std::optional<std::string> reason = engine.GetRejectionReasonOrNull(command))
     {
-        return Refuse(engine.GetPlanOrNull(planID).has_value() ? HTTP_CONFLICT : HTTP_NOT_FOUND, *objection);
+        return Refuse(engine.GetPlanOrNull(planID).has_value() ? HTTP_CONFLICT : HTTP_NOT_FOUND, *reason);
     }
-    return HandOn(access, std::move(command), fmt::format("Step {} of plan {} is skipped.", stepText, planID));
+    return Submit(access, std::move(command), fmt::format("Step {} of plan {} is skipped.", stepText, planID));
 }
 
 } // namespace
@@ -250,8 +251,8 @@ void AddOperatorRoutes(Apps::HttpRoutes& routes, const Planning::PlanEngine& eng
             pattern,
             [parameters = std::move(parameters),
              handle = std::move(handle)](const HttpRequest& request, const Captures& captures) {
-                const std::optional<std::string> stray = FindStrayOrNull(request, parameters);
-                return stray.has_value() ? Refuse(HTTP_BAD_REQUEST, *stray) : handle(request, captures);
+                const std::optional<std::string> reason = FindUnexpectedOrNull(request, parameters);
+                return reason.has_value() ? Refuse(HTTP_BAD_REQUEST, *reason) : handle(request, captures);
             });
     };
     for (const bool bOn : {true, false})
@@ -274,11 +275,11 @@ void AddOperatorRoutes(Apps::HttpRoutes& routes, const Planning::PlanEngine& eng
     {
         const std::string_view word = bPause ? "pause" : "resume";
         add(fmt::format("/tsc/{}", word), {}, [access, bPause, word](const HttpRequest&, const Captures&) {
-            return HandOn(
+            return Submit(
                 access,
                 Planning::ControlTSC{bPause, 0},
-                fmt::format("The TSC is told to {}; /status has its state.", word),
-                bPause ? EUnstored::Taken : EUnstored::Refused);
+                fmt::format("The TSC was commanded to {}; /status shows its state.", word),
+                bPause ? EUnstored::Accepted : EUnstored::Refused);
         });
     }
     add("/plans/{PLAN}/steps/{STEP}/skip", {}, [&engine, access](const HttpRequest&, const Captures& captures) {
@@ -289,11 +290,11 @@ void AddOperatorRoutes(Apps::HttpRoutes& routes, const Planning::PlanEngine& eng
           std::pair("failed", Planning::EJobResolution::Failed),
           std::pair("again", Planning::EJobResolution::Again)})
     {
-        const Planning::EJobResolution said = answer;
+        const Planning::EJobResolution resolution = answer;
         add(std::string("/plans/{PLAN}/jobs/{JOB}/") + word,
             {},
-            [&engine, access, said](const HttpRequest&, const Captures& captures) {
-                return ResolveJob(engine, access, {captures[0], captures[1], said, 0});
+            [&engine, access, resolution](const HttpRequest&, const Captures& captures) {
+                return ResolveJob(engine, access, {captures[0], captures[1], resolution, 0});
             });
     }
 }

@@ -10,20 +10,21 @@
 namespace ACS::Acsd
 {
 
-/// What the routes need of acsd.
+/// The functions of acsd that the routes call.
 struct OperatorAccess
 {
-    /// Takes what an operator asks of the engine; false where nothing is taken any more, as acsd stops.
-    std::function<bool(Planning::PlanCommand command)> take;
-    /// Why nothing can be stored at present, as the middle of a sentence.
-    std::function<std::optional<std::string>()> getStoreObstacleOrNull;
+    /// Passes a command of the operator to the engine. Returns false if acsd is stopping and accepts none.
+    std::function<bool(Planning::PlanCommand command)> submit;
+    /// Why nothing can be stored at present, as part of a sentence.
+    std::function<std::optional<std::string>()> getStoreFaultOrNull;
 };
 
-/// What an operator may ask of acsd, each by a POST. The answers are JSON: 202 with a message where the command was
-/// handed on (it may still wait for the store; /status tells what came of it), else an error in a
-/// sentence: 400 for a parameter that is missing, unknown or wrong, 404 for what is not there, 409 for what is but not so, 503 where acsd stops or nothing can be stored, as a
-/// crash would forget what was promised. What only takes work away (maintenance on, the TSC's pause) is taken then too,
-/// and the message says that it is not stored. The engine must outlive the routes.
+/// The commands of the operator, each a POST. The answers are JSON: 202 with a message if the command was accepted (it may
+/// still wait for the store; /status shows its effect), otherwise an error as a sentence. 400: a parameter is missing,
+/// unknown or wrong. 404: the robot, alarm, job or plan does not exist. 409: its state does not allow the command. 503:
+/// acsd stops, or the store fails and the command would be lost in a crash. Commands that only stop work (maintenance on,
+/// pause of the TSC) are accepted even then, and the message states that they are not stored. The engine must outlive the
+/// routes.
 void AddOperatorRoutes(Apps::HttpRoutes& routes, const Planning::PlanEngine& engine, const OperatorAccess& access);
 
 } // namespace ACS::Acsd

@@ -26,15 +26,15 @@ constexpr const char* JOB_DURATION = "acsd_job_duration_seconds";
 constexpr const char* JOB_FAILURES = "acsd_job_failures_total";
 constexpr const char* NOTES = "acsd_robot_notes_total";
 
-/// Of a robot's alarms that are set and cleared: more than a robot has at a time.
+/// Alarms of a robot that are logged before the rate limit: more than a robot has at a time.
 constexpr std::size_t FEW_ALARMS = 20;
 
-/// Of a robot's ways into one status at one place: one that works does not come back to it that often within a minute.
+/// Changes of a robot into one status at one place: a working robot does not repeat one that often within a minute.
 constexpr std::size_t FEW_STATUSES = 20;
 
 double GetSeconds(Core::WallTime from, Core::WallTime to)
 {
-    // The wall clock may have been set meanwhile.
+    // Negative if the wall clock was set back.
     return std::max(0.0, std::chrono::duration<double>(to - from).count());
 }
 
@@ -52,18 +52,18 @@ PlanLog::PlanLog(Core::Logger logger, Apps::MetricsEndpoint& metrics)
     _metrics.AddCounter(ALARMS_SET, "Alarms that were set");
     _metrics.AddHistogram(
         PLAN_WAIT,
-        "From the acceptance of a plan to its start",
+        "Time from the acceptance of a plan to its start",
         {0.1, 0.5, 1, 5, 10, 30, 60, 120, 300, 600, 1'800, 3'600});
     _metrics.AddHistogram(
         PLAN_DURATION,
-        "From the start of a plan to its end, by its last status",
+        "Time from the start of a plan to its end, by its last status",
         {5, 10, 30, 60, 120, 300, 600, 1'200, 1'800, 3'600});
     _metrics.AddHistogram(
         JOB_DURATION,
-        "From a job's command to its end, by action",
+        "Time from the command of a job to its end, by action",
         {0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600});
-    _metrics.AddCounter(JOB_FAILURES, "Jobs that failed, by action");
-    _metrics.AddCounter(NOTES, "What a robot did otherwise than it was told, and was tolerated");
+    _metrics.AddCounter(JOB_FAILURES, "Failed jobs, by action");
+    _metrics.AddCounter(NOTES, "Deviations of the robot from its commands");
 }
 
 void PlanLog::OnPlanChanged(
@@ -81,7 +81,7 @@ void PlanLog::OnPlanChanged(
     }
     if (Planning::IsFinal(progress.state))
     {
-        // Jobs whose end nobody tells of any more.
+        // Jobs of the plan whose end is not reported any more.
         std::erase_if(_jobs, [&record](const auto& job) { return job.first.first == record.plan.planID; });
         if (progress.startedAt.has_value() && progress.endedAt.has_value())
         {

@@ -14,16 +14,16 @@
 namespace ACS::Acsd
 {
 
-/// One log line and one count for each change of state.
+/// Logs and counts each change of state.
 class PlanLog final : public Planning::IPlanObserver
 {
     Core::Logger _logger;
     Apps::MetricsEndpoint& _metrics;
-    /// When the jobs that run were given to their robots, by planID and jobID.
+    /// Time at which each running job was commanded, by planID and jobID.
     std::map<std::pair<std::string, std::string>, Core::SteadyTime> _jobs;
     Apps::LogRateLimiter _notes;
-    Apps::LogRateLimiter _alarms; ///< A robot may make up as many as it likes.
-    Apps::LogRateLimiter _robots; ///< And come and go as often.
+    Apps::LogRateLimiter _alarms; ///< A robot can report any number of errors.
+    Apps::LogRateLimiter _robots; ///< A robot can change its status any number of times.
 
 public:
     /// The metrics must outlive the log.

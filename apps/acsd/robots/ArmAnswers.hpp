@@ -9,12 +9,12 @@
 namespace ACS::Acsd
 {
 
-/// What samples of a MONITOR say; nullopt where they say something else.
+/// Read samples of a MONITOR. The result is nullopt if the sample has another form.
 
-/// Of GET motor_on_state.
+/// Sample of GET motor_on_state.
 [[nodiscard]] std::optional<bool> ReadMotorOnOrNull(const Core::JsonText& sample);
 
-/// Of the answer to GET rgen what is of interest here.
+/// The members of the answer to GET rgen that acsd uses.
 struct GeneralState
 {
     bool bPlaying = false; ///< A program runs.
@@ -24,7 +24,7 @@ struct GeneralState
 
 [[nodiscard]] std::optional<GeneralState> ReadGeneralStateOrNull(const Core::JsonText& sample);
 
-/// Of GET val_s32.
+/// Sample of GET val_s32.
 [[nodiscard]] std::optional<std::vector<std::int64_t>> ReadRelayWordsOrNull(const Core::JsonText& sample);
 
 /// The err_code of a refused CONTROL, which some versions write as a string.

@@ -13,7 +13,7 @@
 namespace ACS::Acsd
 {
 
-/// What MONITOR shows for one sample in place of the counters.
+/// What a probe reads for one sample in place of the counters.
 enum class EArmProbe : std::uint8_t
 {
     Motor,
@@ -31,8 +31,8 @@ struct ArmRelayWords
 struct ArmCounted
 {
     ArmSample sample;
-    bool bFirst = false;    ///< Of the connection, or since the counters were missing.
-    bool bVerifies = false; ///< It is of the time after the CONTROL that is being verified.
+    bool bFirst = false;    ///< The first of the connection, or since the counters were missing.
+    bool bVerifies = false; ///< It is newer than the CONTROL that is being verified.
 };
 
 /// Fact: the controller's general state, while it is watched for the effect of a CONTROL.

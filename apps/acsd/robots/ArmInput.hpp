@@ -17,7 +17,7 @@ namespace ACS::Acsd
 struct ArmInput
 {
     ArmRelay relay;
-    std::int32_t value = 0; ///< CanHold says whether the relay is wide enough.
+    std::int32_t value = 0; ///< CanHold returns whether the relay is wide enough.
 
     bool operator==(const ArmInput&) const = default;
 };

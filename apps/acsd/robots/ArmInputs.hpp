@@ -12,7 +12,7 @@
 namespace ACS::Acsd
 {
 
-/// The inputs of the program that does the job. The error says which value its relay cannot hold.
+/// The inputs of the program that does the job. The error names the value that its relay cannot hold.
 [[nodiscard]] tl::expected<std::vector<ArmInput>, std::string> MakeArmInputs(
     const JobMethods& methods,
     const Planning::StartJob& job);

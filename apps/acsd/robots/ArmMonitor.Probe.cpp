@@ -21,11 +21,11 @@ using namespace std::chrono_literals;
 using Planning::AdapterActions;
 
 constexpr std::chrono::milliseconds PROBE_INTERVAL = 1s;
-/// A probe costs two samples: a MONITOR that is slow is not kept busy by them.
+/// A probe costs two samples, so a slow MONITOR is probed less often.
 constexpr int PROBE_PERIODS = 20;
-/// For the controller to show what a CONTROL has done; then its silence counts.
+/// Maximum time for the general state to show the effect of a CONTROL. After it the CONTROL counts as executed.
 constexpr std::chrono::milliseconds EFFECT_LIMIT = 2s;
-/// Effects in a row that were not shown: then this controller shows them otherwise, and is not waited for.
+/// After this number of effects in a row that were not shown, the controller is assumed not to show them at all.
 constexpr std::size_t MOST_UNSHOWN = 3;
 
 } // namespace
@@ -68,7 +68,7 @@ ArmFact ArmMonitor::OnProbeTimer(std::optional<EArmProbe> wantedOrNull, AdapterA
     }
     if (const Probe* const probeOrNull = std::get_if<Probe>(&_view))
     {
-        return AbandonProbe(probeOrNull->bTaken);
+        return AbandonProbe(probeOrNull->bAccepted);
     }
     const Counters* const countersOrNull = std::get_if<Counters>(&_view);
     const bool bFree = countersOrNull != nullptr && countersOrNull->bFresh && _controls.IsIdle();
@@ -85,7 +85,7 @@ void ArmMonitor::StartProbeTimer(AdapterActions& out) const
     out.emplace_back(Planning::StartAdapterTimer{ArmTimers::PROBE, delay});
 }
 
-/// It has the whole interval to be answered.
+/// The probe may be answered during the whole interval.
 void ArmMonitor::BeginProbe(EArmProbe probe, AdapterActions& out)
 {
     StartProbeTimer(out);
@@ -93,7 +93,7 @@ void ArmMonitor::BeginProbe(EArmProbe probe, AdapterActions& out)
     Monitor(GetProbeURL(probe), _options.period, std::nullopt);
 }
 
-/// One that was taken and not answered, or refused, is not shown by this controller.
+/// A probe that was accepted and not answered, or refused, is not supported by this controller.
 ArmFact ArmMonitor::AbandonProbe(bool bHidden)
 {
     const EArmProbe kind = std::get<Probe>(_view).kind;

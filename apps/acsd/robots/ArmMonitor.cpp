@@ -140,20 +140,20 @@ ArmFact ArmMonitor::OnSample(const Core::JsonText& json, AdapterActions& out)
             return {};
         case ELink::Counting:
         case ELink::Ready:
-            return TakeSample(json, out);
+            return HandleSample(json, out);
         case ELink::Lost:
         default:
             return {};
     }
 }
 
-/// A sample of the counters may still be on its way when another one is watched. Those of relays look like it: until the
-/// MONITOR of a range was taken, a sample can be of that one, of the range before, or of the counters.
-ArmFact ArmMonitor::TakeSample(const Core::JsonText& json, AdapterActions& out)
+/// A late sample of the counters may arrive after MONITOR has been switched. Samples of relays have the same form: until
+/// the MONITOR of a range is accepted, a sample can be of this range, of the range before, or of the counters.
+ArmFact ArmMonitor::HandleSample(const Core::JsonText& json, AdapterActions& out)
 {
     if (const Relays* const relaysOrNull = std::get_if<Relays>(&_view))
     {
-        return relaysOrNull->bTaken ? TakeRelays(json) : ArmFact();
+        return relaysOrNull->bAccepted ? HandleRelays(json) : ArmFact();
     }
     if (std::holds_alternative<Effect>(_view))
     {
@@ -162,11 +162,11 @@ ArmFact ArmMonitor::TakeSample(const Core::JsonText& json, AdapterActions& out)
             return ArmEffectShown{*stateOrNull};
         }
     }
-    ArmFact probed = TakeProbe(json);
-    return std::holds_alternative<std::monostate>(probed) ? TakeCounters(json, out) : probed;
+    ArmFact probed = HandleProbe(json);
+    return std::holds_alternative<std::monostate>(probed) ? HandleCounters(json, out) : probed;
 }
 
-ArmFact ArmMonitor::TakeProbe(const Core::JsonText& json)
+ArmFact ArmMonitor::HandleProbe(const Core::JsonText& json)
 {
     const Probe* const probeOrNull = std::get_if<Probe>(&_view);
     if (probeOrNull == nullptr)
@@ -191,7 +191,7 @@ ArmFact ArmMonitor::TakeProbe(const Core::JsonText& json)
     return ArmProbed{kind, bOn};
 }
 
-ArmFact ArmMonitor::TakeRelays(const Core::JsonText& json)
+ArmFact ArmMonitor::HandleRelays(const Core::JsonText& json)
 {
     Relays& relays = std::get<Relays>(_view);
     std::optional<std::vector<std::int64_t>> words = ReadRelayWordsOrNull(json);
@@ -206,17 +206,17 @@ ArmFact ArmMonitor::TakeRelays(const Core::JsonText& json)
         MonitorRange();
         return {};
     }
-    relays.bTaken = relays.ranges.size() == 1; // several ones are asked for again
+    relays.bAccepted = relays.ranges.size() == 1; // several ranges are requested again
     return ArmRelaysRead{std::exchange(relays.read, {})};
 }
 
-/// The next range that is to be read.
+/// Requests the next range.
 void ArmMonitor::MonitorRange()
 {
     Relays& relays = std::get<Relays>(_view);
     const ArmRelayRange& range = relays.ranges[relays.read.size()];
     Monitor(range.url, std::min(_options.period, LONGEST_READ_PERIOD), MakeRangeArgs(range.firstByte, range.words));
-    relays.bTaken = false;
+    relays.bAccepted = false;
 }
 
 void ArmMonitor::ReadRelays(std::vector<ArmRelayRange> ranges)
@@ -225,7 +225,7 @@ void ArmMonitor::ReadRelays(std::vector<ArmRelayRange> ranges)
     MonitorRange();
 }
 
-/// A single range comes again by itself.
+/// A single range is sampled again without a request.
 void ArmMonitor::RepeatRelays()
 {
     const Relays* const relaysOrNull = std::get_if<Relays>(&_view);
@@ -240,7 +240,7 @@ std::optional<ArmSample> ArmMonitor::ReadSampleOrNull(const Core::JsonText& json
     const std::optional<std::vector<std::int64_t>> words = ReadRelayWordsOrNull(json);
     if (!words.has_value() || words->size() < GetWordCount())
     {
-        return std::nullopt; // a late sample of the MONITOR before, or a controller that lacks these relays
+        return std::nullopt; // a late sample of the previous MONITOR, or the controller lacks these relays
     }
     ArmSample sample;
     sample.counters = {
@@ -254,7 +254,7 @@ std::optional<ArmSample> ArmMonitor::ReadSampleOrNull(const Core::JsonText& json
     return sample;
 }
 
-ArmFact ArmMonitor::TakeCounters(const Core::JsonText& json, AdapterActions& out)
+ArmFact ArmMonitor::HandleCounters(const Core::JsonText& json, AdapterActions& out)
 {
     const std::optional<ArmSample> sampleOrNull = ReadSampleOrNull(json);
     if (!sampleOrNull.has_value() || _bRelaysLate)
@@ -269,7 +269,7 @@ ArmFact ArmMonitor::TakeCounters(const Core::JsonText& json, AdapterActions& out
         StartProbeTimer(out);
     }
     const Verification* const verificationOrNull = std::get_if<Verification>(&_view);
-    const bool bVerifies = verificationOrNull != nullptr && verificationOrNull->bTaken;
+    const bool bVerifies = verificationOrNull != nullptr && verificationOrNull->bAccepted;
     if (bVerifies || std::holds_alternative<Counters>(_view))
     {
         _view = Counters{true};
@@ -277,24 +277,24 @@ ArmFact ArmMonitor::TakeCounters(const Core::JsonText& json, AdapterActions& out
     return ArmCounted{*sampleOrNull, bFirst, bVerifies};
 }
 
-void ArmMonitor::OnTaken(std::uint64_t requestNumber)
+void ArmMonitor::OnAccepted(std::uint64_t requestNumber)
 {
     if (requestNumber != _requestNumber)
     {
-        return; // another one has been asked for since
+        return; // another MONITOR has been requested since
     }
     _bRelaysLate = false;
     if (Verification* const verificationOrNull = std::get_if<Verification>(&_view))
     {
-        verificationOrNull->bTaken = true;
+        verificationOrNull->bAccepted = true;
     }
     else if (Probe* const probeOrNull = std::get_if<Probe>(&_view))
     {
-        probeOrNull->bTaken = true;
+        probeOrNull->bAccepted = true;
     }
     else if (Relays* const relaysOrNull = std::get_if<Relays>(&_view))
     {
-        relaysOrNull->bTaken = true;
+        relaysOrNull->bAccepted = true;
     }
 }
 
@@ -324,7 +324,7 @@ ArmFact ArmMonitor::OnRefused(const OpenStream::ClientMonitorRefused& refused, A
     const std::string_view wanted = _link == ELink::MotorOff ? MOTOR_STATE_URL : std::string_view(_options.monitorURL);
     if (_link == ELink::Lost || refused.url != wanted)
     {
-        return {}; // another one has taken its place
+        return {}; // another MONITOR has replaced it
     }
     if (_link == ELink::Ready)
     {
@@ -336,14 +336,14 @@ ArmFact ArmMonitor::OnRefused(const OpenStream::ClientMonitorRefused& refused, A
     return {};
 }
 
-/// The motor's state shows whether it is on; why it is not, only the refusal does.
+/// The motor's state shows only whether it is on. The refusal has the reason why it is not.
 void ArmMonitor::OnMotorSettled(const ArmSettlement& settlement)
 {
     const bool bRefused = settlement.outcome == OpenStream::EControlOutcome::Refused;
     _motorRefusal = bRefused ? settlement.refusal.reason : std::string();
 }
 
-bool ArmMonitor::TryTakeFault(const std::string& reason)
+bool ArmMonitor::TryHandleFault(const std::string& reason)
 {
     if (_link != ELink::MotorOff)
     {
@@ -353,7 +353,7 @@ bool ArmMonitor::TryTakeFault(const std::string& reason)
     return true;
 }
 
-/// What should have come is not here yet: it is reported, and asked for again.
+/// The expected samples have not arrived: reports that and requests them again.
 bool ArmMonitor::TryRetry(AdapterActions& out)
 {
     if (_link != ELink::MotorOff && _link != ELink::Counting)
@@ -383,7 +383,7 @@ bool ArmMonitor::TryRetry(AdapterActions& out)
                 ERROR_COUNTERS,
                 fmt::format(
                     "MONITOR of {} shows no counters of the arm's programs. Check whether the controller has these "
-                    "relays, and arm.monitor_url, arm.monitor_start and arm.counter_… of the configuration.",
+                    "relays. Check arm.monitor_url, arm.monitor_start and arm.counter_… in the configuration.",
                     _options.monitorURL));
         }
     }

@@ -21,15 +21,15 @@
 namespace ACS::Acsd
 {
 
-/// What MONITOR shows of one arm. It reads one thing at a time: the motor until it is on, then the counters, and in between
+/// Observes one arm by MONITOR, which shows one thing at a time: the motor until it is on, then the counters, and in between
 /// probes, the effect of a CONTROL, or relays that were written.
 class ArmMonitor
 {
     enum class ELink : std::uint8_t
     {
         Lost,     ///< No session.
-        MotorOff, ///< The motor is watched, which was asked to go on.
-        Counting, ///< The counters are watched, none has come yet.
+        MotorOff, ///< MONITOR shows the motor, which is being switched on.
+        Counting, ///< MONITOR shows the counters; no sample has arrived yet.
         Ready,
     };
 
@@ -41,47 +41,47 @@ class ArmMonitor
     ArmControls& _controls;
     ELink _link = ELink::Lost;
     ArmViews::ArmView _view;
-    std::uint64_t _requestNumber = 0; ///< Of the last MONITOR that was asked for, as the session counts them.
-    bool _bRelaysLate = false;        ///< Samples of relays that were read may still come in place of the counters.
-    bool _bMotorHidden = false;       ///< The controller does not show it to a probe.
-    bool _bGeneralHidden = false;     ///< Likewise its general state.
-    std::size_t _unshownEffects = 0;  ///< In a row, of CONTROLs that were not refused.
-    bool _bMonitorRefused = false;    ///< The one of the motor or the counters, last time.
-    std::string _motorRefusal;        ///< Of the last CONTROL that was to switch it on; empty: none.
-    std::optional<Planning::RobotError> _trouble; ///< What keeps the arm from its work, its session being there.
+    std::uint64_t _requestNumber = 0;             ///< Of the latest MONITOR, as counted by the session.
+    bool _bRelaysLate = false;                    ///< Late samples of relays may still arrive in place of the counters.
+    bool _bMotorHidden = false;                   ///< The controller does not show the motor to a probe.
+    bool _bGeneralHidden = false;                 ///< Likewise its general state.
+    std::size_t _unshownEffects = 0;              ///< Number in a row, of CONTROLs that were not refused.
+    bool _bMonitorRefused = false;                ///< The latest MONITOR of the motor or the counters was refused.
+    std::string _motorRefusal;                    ///< Of the latest CONTROL that switches the motor on; empty: none.
+    std::optional<Planning::RobotError> _trouble; ///< Why the arm cannot work although its session is ready.
 
 public:
     /// The outputs and the controls must outlive it.
     ArmMonitor(ArmOptions options, RobotOutputs& outputs, ArmControls& controls);
 
-    /// There is a session, or the motor was found off: the motor is asked to go on, and watched until it is.
+    /// The session is ready, or the motor was found off: switches the motor on and observes it until it is on.
     void WatchMotor(Planning::AdapterActions& out);
     void OnLost(Planning::AdapterActions& out);
     [[nodiscard]] ArmFact OnSample(const Core::JsonText& json, Planning::AdapterActions& out);
-    /// The controller has taken the MONITOR with this number.
-    void OnTaken(std::uint64_t requestNumber);
+    /// The controller has accepted the MONITOR with this number.
+    void OnAccepted(std::uint64_t requestNumber);
     [[nodiscard]] ArmFact OnRefused(const OpenStream::ClientMonitorRefused& refused, Planning::AdapterActions& out);
     void OnMotorSettled(const ArmSettlement& settlement);
-    /// A refusal that came late. Returns whether it is the motor's.
-    [[nodiscard]] bool TryTakeFault(const std::string& reason);
-    /// Returns whether the timer was the monitor's own.
+    /// A refusal that arrived late. Returns whether it is for the motor.
+    [[nodiscard]] bool TryHandleFault(const std::string& reason);
+    /// Returns whether the timer belongs to the monitor.
     [[nodiscard]] bool TryRetry(Planning::AdapterActions& out);
     void OnEffectTimer();
-    /// The time for a probe: ends one that was not answered, and begins the one that is wanted if nothing else is under way.
+    /// Ends a probe that was not answered, and begins the wanted one if nothing else is under way.
     [[nodiscard]] ArmFact OnProbeTimer(std::optional<EArmProbe> wantedOrNull, Planning::AdapterActions& out);
 
     void ReportMotorOff();
     void WatchCounters();
     void BeginProbe(EArmProbe probe, Planning::AdapterActions& out);
-    /// The counters of after the CONTROL that has just settled come with ArmCounted::bVerifies.
+    /// The next counters that are newer than the settled CONTROL arrive with ArmCounted::bVerifies.
     void VerifyCounters();
-    /// The same after the general state has shown its effect, where the controller shows it: a controller may take its time
-    /// for a CONTROL, and continue with the MONITOR meanwhile.
+    /// Likewise, but only after the general state has shown the effect, if the controller shows it: a controller may execute
+    /// a CONTROL with a delay and serve the MONITOR meanwhile.
     void VerifyEffect(Planning::AdapterActions& out);
     void EndEffect(Planning::AdapterActions& out);
-    /// One range after the other. After ArmRelaysRead they are read again, or something else is watched.
+    /// Reads one range after the other. After ArmRelaysRead the caller reads them again or observes something else.
     void ReadRelays(std::vector<ArmRelayRange> ranges);
-    /// They are still to be read.
+    /// Reads all ranges again.
     void RepeatRelays();
 
     [[nodiscard]] bool IsLost() const noexcept;
@@ -102,10 +102,10 @@ private:
     [[nodiscard]] std::size_t GetWordCount() const;
     [[nodiscard]] std::optional<ArmSample> ReadSampleOrNull(const Core::JsonText& json) const;
     void StartProbeTimer(Planning::AdapterActions& out) const;
-    [[nodiscard]] ArmFact TakeSample(const Core::JsonText& json, Planning::AdapterActions& out);
-    [[nodiscard]] ArmFact TakeProbe(const Core::JsonText& json);
-    [[nodiscard]] ArmFact TakeRelays(const Core::JsonText& json);
-    [[nodiscard]] ArmFact TakeCounters(const Core::JsonText& json, Planning::AdapterActions& out);
+    [[nodiscard]] ArmFact HandleSample(const Core::JsonText& json, Planning::AdapterActions& out);
+    [[nodiscard]] ArmFact HandleProbe(const Core::JsonText& json);
+    [[nodiscard]] ArmFact HandleRelays(const Core::JsonText& json);
+    [[nodiscard]] ArmFact HandleCounters(const Core::JsonText& json, Planning::AdapterActions& out);
     [[nodiscard]] ArmFact AbandonProbe(bool bHidden);
     [[nodiscard]] static std::string_view GetProbeURL(EArmProbe probe);
 };

@@ -57,7 +57,7 @@ void ArmProgram::Rewind()
     _controls.Rewind();
 }
 
-/// Where a program was started or stopped by others, the counter is set once, and the program is selected again.
+/// If another program was started or stopped, the program counter is set once, and the program is selected again.
 bool ArmProgram::TryRewind(const ArmRefusal& refusal)
 {
     if (!ArmProgramControls::IsRewindWanted(refusal) || std::exchange(_work.bRewound, true))
@@ -99,8 +99,8 @@ void ArmProgram::OnPauseSeen() noexcept
     _bPauseKnown = true;
 }
 
-/// Where there were pauses, a program that was found after a restart may be stopped. It is stopped and resumed, after which
-/// it is known to run.
+/// A program that was found after a restart may be stopped by an earlier pause. It is stopped and resumed, after which it is
+/// known to run.
 void ArmProgram::VerifyRecovered()
 {
     const Running* const runningOrNull = std::get_if<Running>(&_state);

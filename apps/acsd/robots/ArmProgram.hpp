@@ -23,7 +23,7 @@
 namespace ACS::Acsd
 {
 
-/// What the program of a job needs MONITOR for.
+/// A request of the program of a job to MONITOR.
 enum class EArmRequest : std::uint8_t
 {
     VerifyEffect,   ///< The general state, then the first counters after the CONTROL that has settled.
@@ -52,7 +52,7 @@ class ArmProgram
         std::string jobID;
         std::uint32_t program = 0;
         ArmInputTransfer inputs;
-        bool bRewound = false;        ///< For its selection.
+        bool bRewound = false;        ///< The program counter was set for its selection.
         bool bResumeRepeated = false; ///< Its program may run already, in which case a refused resume is no failure.
         bool bCancelled = false;      ///< Its program is reset as soon as it is known to be stopped.
     };

@@ -17,14 +17,14 @@ namespace
 
 constexpr std::uint32_t BITS_PER_BYTE = 8;
 constexpr std::uint32_t BYTE_MASK = 0xFF;
-constexpr std::uint32_t WORD_BYTES = 4; ///< Of one number of val_s32.
-/// Of m and s.
+constexpr std::uint32_t WORD_BYTES = 4; ///< Size of one number of val_s32.
+/// Size of the areas m and s.
 constexpr std::uint32_t MEMORY_BYTES = 20'000;
-/// Of r and k, and of each block or node of a fieldbus.
+/// Size of the areas r and k, and of each block or node of a fieldbus.
 constexpr std::uint32_t BLOCK_BYTES = 128;
 constexpr std::uint32_t FIELDBUS_BLOCKS = 10;
 constexpr std::uint32_t FIELDBUS_NODES = 64;
-/// A longer gap is not read along.
+/// A longer gap between relays is not read; it separates two ranges.
 constexpr std::uint32_t LONGEST_GAP = 64;
 
 constexpr std::array<std::string_view, 8> AREAS{"di", "do", "x", "y", "m", "s", "r", "k"};
@@ -65,7 +65,7 @@ struct ValueRange
     std::int64_t highest;
 };
 
-/// Bytes and words may be meant signed or unsigned.
+/// Values of bytes and words may be signed or unsigned.
 ValueRange GetValueRange(EArmRelayWidth width)
 {
     if (width == EArmRelayWidth::Bit)
@@ -100,7 +100,7 @@ bool IsFieldbus(std::string_view text)
     return indexOrNull.has_value() && *indexOrNull < (bBlock ? FIELDBUS_BLOCKS : FIELDBUS_NODES);
 }
 
-/// Of what stands between the area and the number.
+/// `text` is the part between the area and the number.
 std::optional<EArmRelayWidth> ReadWidthOrNull(std::string_view text)
 {
     constexpr std::array WIDTHS{
@@ -124,8 +124,8 @@ tl::expected<ArmRelay, std::string> ParseArmRelay(std::string_view name, EArmRel
 {
     const auto fail = [name](std::string_view why) {
         return tl::unexpected(fmt::format(
-            "{} is no relay that can be read back: {}. Give [fbN.|fnN.], one of di, do, x, y, m, s, r, k, then nothing, b, "
-            "w or l for its width, then its number, as in ml105 or fb0.do3",
+            "{} is not a relay that can be read back: {}. Give [fbN.|fnN.], one of di, do, x, y, m, s, r, k, then nothing, "
+            "b, w or l for its width, then its number, as in ml105 or fb0.do3",
             name,
             why));
     };

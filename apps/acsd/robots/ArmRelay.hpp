@@ -19,7 +19,7 @@ enum class EArmRelayWidth : std::uint8_t
     Long, ///< "l": 4 bytes.
 };
 
-/// What the number in a relay's name counts.
+/// The unit of the number in a relay's name.
 enum class EArmRelayIndex : std::uint8_t
 {
     Value, ///< Values of the relay's width: ml105 begins at byte 420.
@@ -38,16 +38,16 @@ struct ArmRelay
     bool operator==(const ArmRelay&) const = default;
 };
 
-/// Names are [fb0.|fn0.]{di,do,x,y,m,s,r,k}[b|w|l]NUMBER in lower case. The error says what is wrong with the name.
+/// Names are [fb0.|fn0.]{di,do,x,y,m,s,r,k}[b|w|l]NUMBER in lower case. The error is a sentence about the name.
 [[nodiscard]] tl::expected<ArmRelay, std::string> ParseArmRelay(std::string_view name, EArmRelayIndex index);
 
 /// The number counts values.
 [[nodiscard]] tl::expected<ArmRelay, std::string> ParseArmRelay(std::string_view name);
 
-/// Whether the relay is wide enough. An integer may be meant signed or unsigned.
+/// Whether the relay is wide enough. The value may be signed or unsigned.
 [[nodiscard]] bool CanHold(const ArmRelay& relay, std::int64_t value) noexcept;
 
-/// What it can hold, for a person: "-128 to 255".
+/// The range of its values, for a message: "-128 to 255".
 [[nodiscard]] std::string MakeRangeText(const ArmRelay& relay);
 
 /// Whether the two share a bit.
@@ -63,17 +63,16 @@ struct ArmRelayRange
     bool operator==(const ArmRelayRange&) const = default;
 };
 
-/// The ranges that show all of the relays, one for each URL and each gap that is too long to be read along.
+/// The ranges that cover all relays. A long gap between two relays of one URL separates two ranges.
 [[nodiscard]] std::vector<ArmRelayRange> MakeRelayRanges(const std::vector<ArmRelay>& relays);
 
-/// The relay's value among the words that val_s32 shows of the range, signed unless it is a bit; nullopt where the range
-/// does not show it.
+/// The relay's value in the words of the range, signed unless it is a bit; nullopt if the range does not contain the relay.
 [[nodiscard]] std::optional<std::int32_t> ReadRelayOrNull(
     const ArmRelay& relay,
     const ArmRelayRange& range,
     const std::vector<std::int64_t>& words);
 
-/// Whether the value that was read is the one that was written, which may have been meant unsigned.
+/// Whether the value that was read equals the written one, which may be unsigned.
 [[nodiscard]] bool IsSameValue(const ArmRelay& relay, std::int32_t written, std::int32_t read) noexcept;
 
 } // namespace ACS::Acsd

@@ -11,32 +11,32 @@ namespace ACS::Acsd::ArmViews
 
 struct Counters
 {
-    bool bFresh = false; ///< One has come since they were asked for.
+    bool bFresh = false; ///< A sample has arrived since they were requested.
 };
 
-/// The general state is to show the effect of a CONTROL.
+/// The general state is observed for the effect of a CONTROL.
 struct Effect
 {
 };
 
-/// A CONTROL is answered by silence, also where it got lost or takes its time. So the MONITOR of the counters is sent
-/// again: its first sample is of the time after the CONTROL.
+/// A CONTROL without an answer may be accepted, lost or delayed. So the MONITOR of the counters is sent again: its first
+/// sample is newer than the CONTROL.
 struct Verification
 {
-    bool bTaken = false; ///< By the controller: the next sample is the one.
+    bool bAccepted = false; ///< Accepted by the controller: the next sample is newer than the CONTROL.
 };
 
 struct Probe
 {
     EArmProbe kind = EArmProbe::Motor;
-    bool bTaken = false;
+    bool bAccepted = false;
 };
 
 struct Relays
 {
     std::vector<ArmRelayRange> ranges;
-    std::vector<ArmRelayWords> read; ///< One for each of the ranges that were read.
-    bool bTaken = false;             ///< The MONITOR of the present range.
+    std::vector<ArmRelayWords> read; ///< One for each range that was read.
+    bool bAccepted = false;          ///< The controller has accepted the MONITOR of the present range.
 };
 
 /// What MONITOR shows at present.

@@ -10,9 +10,9 @@
 namespace ACS::Acsd
 {
 
-/// The parameters of a vehicle's action that has none in the configuration. A pick and a drop have all that VDA5050 2.x
-/// names and a job knows, any other action has the place and the load. They are left out where the factsheet does not list
-/// them, except that a robot of several ports does not work without naming the one.
+/// The parameters of a vehicle's action that has none in the configuration. Pick and drop have all parameters of VDA5050 2.x
+/// for which the job has a value; any other action has the place and the load. Parameters that the factsheet does not list
+/// are left out; the port is mandatory for a robot with several ports.
 [[nodiscard]] std::vector<VehicleParameter> MakeDefaultParameters(
     std::string_view actionType,
     const Planning::ActionRule& rule,

@@ -9,20 +9,20 @@
 namespace ACS::Acsd
 {
 
-/// An adapter whose robot (or its base) speaks over the broker. Calls append to out, as those of IRobotAdapter.
+/// The adapter of a robot whose vehicle is connected to the broker. Calls append to `out`, like those of IRobotAdapter.
 class IMqttRobotAdapter : public Planning::IRobotAdapter
 {
 public:
     [[nodiscard]] virtual std::vector<VDA5050::MqttSubscription> GetSubscriptions() const = 0;
 
-    /// The broker is connected and the subscriptions stand.
+    /// The broker is connected and has confirmed the subscriptions.
     virtual void OnLinkUp(Core::Now now, Planning::AdapterActions& out) = 0;
     virtual void OnLinkDown(Core::Now now, Planning::AdapterActions& out) = 0;
 
-    /// Messages for other robots may come too and are ignored.
+    /// Messages of other robots are ignored.
     virtual void OnMqttMessage(const VDA5050::MqttMessage& message, Core::Now now, Planning::AdapterActions& out) = 0;
 
-    /// What the vehicle has shown, and what was counted of it.
+    /// The session with the vehicle, for its state and statistics.
     [[nodiscard]] virtual const VDA5050::MasterSession& GetSession() const noexcept = 0;
 };
 

@@ -23,7 +23,7 @@ std::optional<Core::Location> ParseOrNull(const std::optional<std::string>& text
     return location.has_value() ? std::optional(*location) : std::nullopt;
 }
 
-/// The last one, as of a tray port in a cassette port; 0 where there is none.
+/// The number of the last such segment, as for a tray port in a cassette port; 0 without one.
 std::int64_t GetSegmentNumber(const Core::Location& location, Core::ESegmentKind kind)
 {
     std::int64_t number = 0;
@@ -41,7 +41,7 @@ std::string MakePortText(const Core::Location& place)
     return place.IsMemoryPort() ? text.substr(0, text.rfind('.')) : text;
 }
 
-/// The innermost station of the table that the place is, or is inside; null where there is none.
+/// The innermost station of the table that is the place or contains it; null if there is none.
 const StationTable::value_type* FindStationOfOrNull(const StationTable& stations, const Core::Location& place)
 {
     std::string_view text = place.GetText();

@@ -15,16 +15,16 @@
 namespace ACS::Acsd
 {
 
-/// What a name of a template stands for.
+/// The value of a name in a template.
 using JobValue = std::variant<std::string, std::int64_t, double, bool>;
 
-/// The keys of one station's table, `type` among them, and `height` and `side` where they are known.
+/// The keys of one station's table. `type` is always present, `height` and `side` if they are known.
 using StationValues = std::map<std::string, JobValue, std::less<>>;
 
-/// Of every station of the map.
+/// Has every station of the map.
 using StationTable = std::map<std::string, StationValues, std::less<>>;
 
-/// What templates can name of one job.
+/// The values of one job that templates can name.
 class JobData final
 {
     std::optional<Core::Location> _from;
@@ -41,14 +41,13 @@ public:
     /// The stations must outlive it.
     JobData(const Planning::StartJob& job, const StationTable& stations, const LoadPositions& positions);
 
-    /// The innermost station that has the job's own fixed place, which may be another one than where the robot is docked;
-    /// that one where no station has the place.
+    /// The innermost station that contains the job's own fixed place. If none does, the station where the robot is docked.
     [[nodiscard]] const std::string& GetStationID() const noexcept;
 
-    /// nullopt where the job has no such thing. A number of a place is 0 where the place lacks it.
+    /// nullopt if the job has no such value. A number of a place is 0 if the place lacks the segment.
     [[nodiscard]] std::optional<JobValue> FindOrNull(const JobName& name) const;
 
-    /// The same as a whole number, 0 where there is none: the robot port is its own number.
+    /// Likewise as a whole number, 0 if there is none. The robot port gives its own number.
     [[nodiscard]] std::int64_t GetNumber(const JobName& name) const;
 
 private:

@@ -17,17 +17,17 @@ struct VehicleParameter
 {
     std::string key;
     ParameterTemplate value;
-    bool bDefault = false; ///< Not configured: left out where the factsheet does not list it.
+    bool bDefault = false; ///< Not configured: left out if the factsheet does not list it.
 };
 
-/// What an arm's program finds in a relay when it starts.
+/// A value that is written to a relay before the arm's program starts.
 struct ArmInputTemplate
 {
     ArmRelay relay;
     NumberTemplate value;
 };
 
-/// How a robot does an action: exactly one of the two.
+/// How a robot does an action: by an action of the vehicle or by a program of the arm.
 struct JobMethod
 {
     std::string vehicleAction;                     ///< VDA5050 actionType; empty: the arm does it.

@@ -19,7 +19,7 @@ namespace ACS::Acsd
 /// How one robot does the jobs of the MCS, resolved from the tables of actions, robots and stations.
 class JobMethods final
 {
-    using MethodsByStation = std::map<std::string, JobMethod, std::less<>>; ///< Empty: any other station.
+    using MethodsByStation = std::map<std::string, JobMethod, std::less<>>; ///< Empty key: any other station.
 
     std::map<std::string, MethodsByStation, std::less<>> _methods; ///< By action.
     LoadPositions _positions;
@@ -28,18 +28,19 @@ class JobMethods final
 public:
     JobMethods() = default;
 
-    /// By action, alike at every station. No station has values, and the vehicle calls its ports as the MCS does.
+    /// By action, the same at every station. Stations have no values, and the vehicle's names of its ports are those of
+    /// MCS-ACS.
     JobMethods(std::initializer_list<std::pair<std::string, JobMethod>> methods);
 
     JobMethods(LoadPositions positions, std::shared_ptr<const StationTable> stations);
 
-    /// At one station, or where its id is empty at every station that has no method of its own.
+    /// Sets the method at one station. An empty stationID means every station without a method of its own.
     void SetMethod(const std::string& action, const std::string& stationID, JobMethod method);
 
-    /// Anywhere; null where the robot has no method for the action.
+    /// The method at some station; null if the robot has none for the action.
     [[nodiscard]] const JobMethod* FindMethodOrNull(std::string_view action) const;
 
-    /// At the station of the job's own place.
+    /// The method at the station of the job's own place.
     [[nodiscard]] const JobMethod* FindMethodOrNull(std::string_view action, const JobData& data) const;
 
     /// Refers to the stations of this object.

@@ -40,7 +40,7 @@ bool HasSegments(ESubject subject)
     return subject == ESubject::From || subject == ESubject::To || subject == ESubject::Position;
 }
 
-/// The value of this word in a table of pairs.
+/// The value of the name in a table of pairs.
 template <typename TTable>
 auto FindOrNull(const TTable& table, std::string_view word) -> std::optional<decltype(table[0].second)>
 {

@@ -20,24 +20,24 @@ struct JobName
         From,
         To,
         Position, ///< The station where the robot works.
-        Place, ///< The job's own fixed place: of from and to the one that is no port of the robot, else the position.
+        Place,    ///< The job's own fixed place: from or to, whichever is not a port of the robot; else the position.
         Carrier,
-        RobotPort, ///< Of from and to the port of the robot, without the robot's name.
+        RobotPort, ///< from or to, whichever is a port of the robot, without the robot's name.
         JobNumber,
-        Station, ///< A key of the table of the place's station.
+        Station, ///< A key in the table of the place's station.
     };
 
     ESubject subject = ESubject::From;
-    std::optional<Core::ESegmentKind> segment; ///< Of From, To and Position: the number of this segment.
-    std::string key;                           ///< Of Station.
+    std::optional<Core::ESegmentKind> segment; ///< For From, To and Position: the number of this segment.
+    std::string key;                           ///< For Station.
 
     bool operator==(const JobName&) const = default;
 };
 
-/// The error is a text for a person, with the names that there are.
+/// The error is a sentence that lists the known names.
 [[nodiscard]] tl::expected<JobName, std::string> ParseJobName(std::string_view text);
 
-/// As it stands in a template: "{to.cp}".
+/// As written in a template: "{to.cp}".
 [[nodiscard]] std::string MakeNameText(const JobName& name);
 
 } // namespace ACS::Acsd

@@ -45,7 +45,7 @@ tl::expected<JobTemplate, std::string> JobTemplate::Parse(std::string_view text)
         if (character == '}' || end == std::string_view::npos)
         {
             return tl::unexpected(
-                fmt::format("the brace at character {} has no partner; write {{{{ or }}}} for a brace", at + 1));
+                fmt::format("unmatched brace at character {}; write {{{{ or }}}} for a brace", at + 1));
         }
         tl::expected<JobName, std::string> name = ParseJobName(text.substr(at + 1, end - at - 1));
         if (!name.has_value())

@@ -13,7 +13,7 @@
 namespace ACS::Acsd
 {
 
-/// A text with names of the job in it: "rack {station.type}". "{{" and "}}" are braces.
+/// A text that contains names of job values: "rack {station.type}". "{{" and "}}" are braces.
 class JobTemplate final
 {
     struct Piece
@@ -25,13 +25,13 @@ class JobTemplate final
     std::vector<Piece> _pieces;
 
 public:
-    /// The error is a text for a person.
+    /// The error is a sentence.
     [[nodiscard]] static tl::expected<JobTemplate, std::string> Parse(std::string_view text);
 
     [[nodiscard]] std::vector<JobName> GetNames() const;
 
-    /// What is exactly one name has the type of its value, anything else is a string. The error is the name that the job
-    /// does not have.
+    /// A template of exactly one name has the type of its value; any other is a string. The error is the name for which the
+    /// job has no value.
     [[nodiscard]] tl::expected<JobValue, JobName> Resolve(const JobData& data) const;
 };
 

@@ -11,12 +11,12 @@
 namespace ACS::Acsd
 {
 
-/// What the vehicle's loads are to show when a job is done.
+/// The loads that the vehicle must report when a job is done.
 class LoadCheck final
 {
     std::string _jobID;
     std::optional<std::string> _loadedPort;
-    std::string _carrierID; ///< In the loaded port; empty: any.
+    std::string _carrierID; ///< Carrier in the loaded port; empty: any.
     std::optional<std::string> _emptiedPort;
 
 public:
@@ -24,7 +24,7 @@ public:
 
     [[nodiscard]] const std::string& GetJobID() const noexcept;
 
-    /// Port, expected and shown, for a person; nullopt where the loads agree. A carrier without an id is the right one.
+    /// A sentence with port, expected and reported load; nullopt if the loads agree. A carrier without an id agrees.
     [[nodiscard]] std::optional<std::string> FindContradictionOrNull(
         const std::vector<Planning::PortLoad>& loads) const;
 };

@@ -60,7 +60,7 @@ std::optional<std::vector<Planning::PortLoad>> LoadPositions::MakePortLoadsOrNul
         const std::string* const port = FindPortOrNull(load.loadPosition);
         if (port == nullptr)
         {
-            return std::nullopt; // it may be on any port: nothing is known of them. VehicleWatch reports it
+            return std::nullopt; // it may be on any port; VehicleWatch reports it
         }
         Planning::PortLoad& shown = *std::ranges::find(loads, *port, &Planning::PortLoad::port);
         shown.bLoaded = true;

@@ -65,8 +65,8 @@ std::optional<std::size_t> FindCounterOrNull(const ArmRelay& relay, const ArmOpt
     return std::nullopt;
 }
 
-/// Why the robot cannot do the action by the method: that of a vehicle with an arm, or the other way round. The cause is in
-/// `given`, the table that was read last.
+/// Why the robot cannot do the action by the method: a method of a vehicle for a robot with an arm, or vice versa. The cause
+/// is in `given`, the table that was read last.
 std::optional<MethodFault> FindMethodFaultOrNull(
     const std::string& action,
     const JobMethod& method,
@@ -84,7 +84,7 @@ std::optional<MethodFault> FindMethodFaultOrNull(
             robot.robotID,
             FindCause(given),
             fmt::format("the arm has no program for {}", action),
-            fmt::format("give arm_program, as {} has an arm", robot.robotID)};
+            fmt::format("give arm_program, because {} has an arm", robot.robotID)};
     }
     if (!bArm && method.vehicleAction.empty())
     {
@@ -92,12 +92,12 @@ std::optional<MethodFault> FindMethodFaultOrNull(
             robot.robotID,
             FindCause(given),
             fmt::format("the vehicle has no action for {}", action),
-            fmt::format("give vehicle_action, as {} has no arm", robot.robotID)};
+            fmt::format("give vehicle_action, because {} has no arm", robot.robotID)};
     }
     return std::nullopt;
 }
 
-/// The program would lose what it shows there, or acsd would take the input for it.
+/// Otherwise the input would overwrite the counter, or acsd would read the input as the counter.
 void RefuseCounters(const MethodTable& table, const RobotLinkConfig& robot)
 {
     if (!robot.armOrNull.has_value() || !table.keys.armInputs.has_value())
@@ -112,7 +112,7 @@ void RefuseCounters(const MethodTable& table, const RobotLinkConfig& robot)
                 .AddError(
                     input.relay.name,
                     fmt::format(
-                        "is a counter of the arm of {}, bytes {} to {}; give a relay that is free",
+                        "is a counter of the arm of {}, bytes {} to {}; give an unused relay",
                         robot.robotID,
                         *counter,
                         *counter + METHOD_WORD_BYTES - 1));
@@ -120,7 +120,7 @@ void RefuseCounters(const MethodTable& table, const RobotLinkConfig& robot)
     }
 }
 
-/// Its program cannot echo a number that it does not get.
+/// Its program cannot echo a number that it does not receive.
 void WarnWithoutNumber(const MethodTable& table, const RobotLinkConfig& robot, std::vector<std::string>& warnings)
 {
     if (!table.keys.armInputs.has_value() || table.keys.armInputs->empty() || !robot.armOptions.echoIndex.has_value())
@@ -133,7 +133,7 @@ void WarnWithoutNumber(const MethodTable& table, const RobotLinkConfig& robot, s
     });
     std::string warning = fmt::format(
         "{}.arm_inputs: has no {{job_number}}, so its program cannot echo it: every change of the counters counts for the job. "
-        "Add it, or set arm.counter_echo = -1 where no program of the arm can echo",
+        "Add it, or set arm.counter_echo = -1 if no program of the arm can echo it",
         table.section.GetPath());
     if (!bNumbered && std::ranges::find(warnings, warning) == warnings.end())
     {
@@ -141,7 +141,7 @@ void WarnWithoutNumber(const MethodTable& table, const RobotLinkConfig& robot, s
     }
 }
 
-/// A table of a station is for robots that do the action in the same way: with the vehicle, or with the arm.
+/// A table of a station applies to robots that do the action in the same way: by the vehicle, or by the arm.
 bool IsSameKind(const MethodKeys& keys, const MethodKeys& by)
 {
     return (by.IsOfVehicle() && keys.IsOfVehicle()) || (by.IsOfArm() && keys.IsOfArm());

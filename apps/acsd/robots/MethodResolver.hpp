@@ -22,7 +22,7 @@ struct MethodTable
     MethodKeys keys;
 };
 
-/// By action, and of stations by station too.
+/// By action. Keys of tables of stations include the station.
 using MethodTables = std::map<std::string, MethodTable, std::less<>>;
 using StationTables = std::map<std::string, MethodTables, std::less<>>;
 
@@ -31,11 +31,11 @@ struct MethodFault
 {
     std::string robotID;
     std::string key;
-    std::string reason; ///< As the robot's adapter has it.
+    std::string reason; ///< Worded as by the robot's adapter.
     std::string remedy;
 };
 
-/// Resolves how each robot does one action, and reports tables that take it from a robot or have no effect.
+/// Resolves how each robot does one action. Reports tables that make a robot unable to do it or that have no effect.
 class MethodResolver final
 {
     const std::string& _action;
@@ -43,8 +43,8 @@ class MethodResolver final
     const MethodTable& _base;
     const StationTables& _stations;
     std::vector<std::string>& _warnings;
-    std::vector<MethodKeys> _used;               ///< Of the robots that can do it.
-    std::optional<MethodFault> _baseFaultOrNull; ///< Of the first robot without an override that cannot.
+    std::vector<MethodKeys> _used;               ///< The keys of the robots that can do it.
+    std::optional<MethodFault> _baseFaultOrNull; ///< Of the first robot without an override that cannot do it.
     bool _bOverrideFault = false;
 
 public:
@@ -56,10 +56,10 @@ public:
         const StationTables& stations,
         std::vector<std::string>& warnings);
 
-    /// The override is null where the robot has none.
+    /// The override is null if the robot has none.
     void SetMethods(const MethodTable* overrideOrNull, std::size_t portCount, RobotLinkConfig& robot);
 
-    /// Reports what is wrong for all robots together, after the last one.
+    /// Reports the errors that concern all robots. Call after the last robot.
     void Check(const SitePlaces& places) const;
 
 private:

@@ -13,7 +13,7 @@
 namespace ACS::Acsd
 {
 
-/// A whole number, as it is or by exactly one name of the job: 7, "{from.cp}".
+/// A whole number, given literally or by exactly one name of a job value: 7, "{from.cp}".
 class NumberTemplate final
 {
     std::variant<std::int64_t, JobName> _value;
@@ -21,10 +21,10 @@ class NumberTemplate final
 public:
     explicit NumberTemplate(std::int64_t number = 0);
 
-    /// The error is a text for a person.
+    /// The error is a sentence.
     [[nodiscard]] static tl::expected<NumberTemplate, std::string> Parse(std::string_view text);
 
-    /// Null for a number as it is.
+    /// Null for a literal number.
     [[nodiscard]] const JobName* GetNameOrNull() const noexcept;
 
     /// Null for a name.

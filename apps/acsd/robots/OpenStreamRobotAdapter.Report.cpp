@@ -3,7 +3,7 @@
 #include <utility>
 #include <variant>
 
-// What is reported of the robot as a whole: its base and its arm are one.
+// Reports of the robot as a whole: the engine does not distinguish its base from its arm.
 
 namespace ACS::Acsd
 {
@@ -76,7 +76,8 @@ void OpenStreamRobotAdapter::ReportState(AdapterActions& out) const
     }
 }
 
-/// With a trouble the robot is in reach, but does no work; without, an arm that shows no counters is out of reach.
+/// With an error of the arm the robot is online, but does no work. Without an error, an arm that shows no counters is
+/// offline.
 void OpenStreamRobotAdapter::ReportArm(AdapterActions& out)
 {
     const std::optional<Planning::RobotError>& trouble =
@@ -91,7 +92,7 @@ void OpenStreamRobotAdapter::ReportArm(AdapterActions& out)
     }
 }
 
-/// The robot is online when both its parts are.
+/// The robot is online if its base and its arm are.
 void OpenStreamRobotAdapter::ReportOnline(AdapterActions& out)
 {
     const bool bArmInReach = _monitor.IsReady() || (!_monitor.IsLost() && _trouble.has_value());
@@ -103,11 +104,11 @@ void OpenStreamRobotAdapter::ReportOnline(AdapterActions& out)
     out.emplace_back(RaiseEvent{Planning::LinkChanged{bOnline}});
     if (bOnline)
     {
-        ReportState(out); // the base may report its next one much later
+        ReportState(out); // the base may report its next state much later
     }
 }
 
-/// When base and arm are stopped; no longer when both continue.
+/// The robot is paused from when base and arm are stopped until both continue.
 bool OpenStreamRobotAdapter::IsPaused() const
 {
     return (_baseState.bPaused && _program.IsArmStopped()) || _program.IsResumeDue();

@@ -18,7 +18,7 @@ namespace
 using Planning::AdapterActions;
 using Planning::RaiseEvent;
 
-/// The number that the job's program echoes; 0 where it gets none, and cannot.
+/// The number that the job's program echoes; 0 if it receives none and cannot echo it.
 std::int32_t GetEchoedNumber(const Planning::StartJob& job, const ArmJob& made)
 {
     const bool bGiven =
@@ -161,7 +161,7 @@ void OpenStreamRobotAdapter::OnArmEvent(const OpenStream::ClientEvent& event, Co
             },
             [&](const OpenStream::ClientData& data) { OnData(data.line, out); },
             [&](const OpenStream::ClientControlSettled& settled) { OnSettled(settled, out); },
-            [&](const OpenStream::ClientMonitorStarted& started) { _monitor.OnTaken(started.requestNumber); },
+            [&](const OpenStream::ClientMonitorStarted& started) { _monitor.OnAccepted(started.requestNumber); },
             [&](const OpenStream::ClientMonitorRefused& refused) {
                 OnFact(_monitor.OnRefused(refused, out), out);
                 Update(out);
@@ -176,8 +176,8 @@ void OpenStreamRobotAdapter::OnArmEvent(const OpenStream::ClientEvent& event, Co
 void OpenStreamRobotAdapter::OnLost(AdapterActions& out)
 {
     _monitor.OnLost(out);
-    _trouble.reset(); // with the robot out of reach it is not reported by itself
-    ReportArm(out);   // before a job is given back, which would come again at once
+    _trouble.reset(); // the robot is reported offline instead
+    ReportArm(out);   // before a job is returned, because the engine would command it again at once
     const bool bHadJob = _program.HasJob();
     _program.OnLost(out);
     if (bHadJob && !_program.HasJob())
@@ -189,7 +189,7 @@ void OpenStreamRobotAdapter::OnLost(AdapterActions& out)
 void OpenStreamRobotAdapter::OnFault(const OpenStream::ClientControlFault& fault, AdapterActions& out)
 {
     const ArmRefusal refusal = MakeArmRefusal(fault.status, fault.body, fault.detail);
-    if (!_monitor.TryTakeFault(refusal.reason))
+    if (!_monitor.TryHandleFault(refusal.reason))
     {
         _program.OnFault(refusal, out);
         Update(out);
@@ -261,7 +261,7 @@ void OpenStreamRobotAdapter::OnCounted(const ArmCounted& counted, AdapterActions
     const ArmJobEvidence::EChange change = _evidence.Update(counted.sample);
     if (change != ArmJobEvidence::EChange::None)
     {
-        ReportState(out); // with the new progress token, before a job begins on it
+        ReportState(out); // with the new progress token, before the next job begins
     }
     if (counted.bFirst)
     {
@@ -309,7 +309,7 @@ void OpenStreamRobotAdapter::OnProbed(const ArmProbed& probed, AdapterActions& o
     {
         _monitor.ReportMotorOff();
         _monitor.WatchMotor(out);
-        ReportArm(out); // before a job is given back, which would come again at once
+        ReportArm(out); // before a job is returned, because the engine would command it again at once
         _program.OnMotorOff(out);
     }
     else if (bMotor)
@@ -325,7 +325,7 @@ void OpenStreamRobotAdapter::OnProbed(const ArmProbed& probed, AdapterActions& o
     Update(out);
 }
 
-/// MONITOR reads one thing at a time: now and then, between two samples of the counters, it is another one.
+/// MONITOR shows one thing at a time: a probe replaces the counters for one sample.
 void OpenStreamRobotAdapter::OnProbeTimer(AdapterActions& out)
 {
     const bool bWatched = IsProgramWatched();
@@ -356,14 +356,14 @@ void OpenStreamRobotAdapter::StartJob(const Planning::StartJob& job, AdapterActi
     }
     if (!_monitor.IsReady())
     {
-        // It went away while the job waited to be stored. The robot is offline for that time, so the job comes again when it
-        // is there.
+        // The connection was lost while the job waited to be stored. The engine commands the job again when the robot is
+        // online.
         out.emplace_back(RaiseEvent{Planning::JobUnknown{job.jobID}});
         return;
     }
     if (!job.progressToken.empty() && job.progressToken != _evidence.MakeProgressToken())
     {
-        // A program has run meanwhile: after a restart this one could not be told from it.
+        // Another program has run since. After a restart it could not be distinguished from the program of this job.
         out.emplace_back(RaiseEvent{MakeState()});
         out.emplace_back(RaiseEvent{Planning::JobUnknown{job.jobID}});
         return;

@@ -21,13 +21,13 @@
 namespace ACS::Acsd
 {
 
-/// Joins a control robot to the engine: its base is a VDA5050 vehicle, its arm a Hi6 controller behind Open Stream.
-/// Drives go to the base. A job is a program of the arm: CONTROL selects it, writes its inputs and starts it; it is done when
-/// a counter that the program raises in a relay has changed, as MONITOR shows it. A pause stops the program where it is and
-/// the base too; the robot is paused when both are stopped. Pure, like the adapter of the base inside it.
+/// Joins a control robot to the engine: its base is a VDA5050 vehicle, its arm a Hi6 controller with Open Stream.
+/// Drives go to the base. A job is a program of the arm: CONTROL selects it, writes its inputs and starts it. It is done when
+/// MONITOR shows that the program has raised a counter in a relay. A pause stops the program and the base; the robot is
+/// paused when both are stopped. Pure, like the adapter of the base inside it.
 ///
-/// It carries facts between its parts: ArmMonitor, what MONITOR shows; ArmProgram, the program of the present job;
-/// ArmJobEvidence, what the counters prove of it.
+/// It passes facts between ArmMonitor (what MONITOR shows), ArmProgram (the program of the present job) and ArmJobEvidence
+/// (what the counters prove of the job).
 class OpenStreamRobotAdapter final : public IMqttRobotAdapter
 {
     Vda5050RobotAdapter _base;
@@ -39,7 +39,7 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     ArmProgram _program;
     ArmJobEvidence _evidence;
     Planning::AdapterActions _baseActions;
-    std::optional<Planning::StartJob> _recovery; ///< A job of before a restart; the counters have not come yet.
+    std::optional<Planning::StartJob> _recovery; ///< A job of before a restart; the counters have not arrived yet.
 
     bool _bBaseOnline = false;
     bool _bBaseStateKnown = false;
@@ -49,8 +49,8 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     std::optional<Planning::RobotError> _trouble;
 
 public:
-    /// The outputs must outlive the adapter. Each MONITOR in them is one SetMonitor call of one session, which has no other.
-    /// An empty resolver: no action has inputs.
+    /// The outputs must outlive the adapter. The caller passes each MONITOR in them to SetMonitor of one session, which
+    /// receives no other calls of it. With an empty resolver no action has inputs.
     OpenStreamRobotAdapter(
         VDA5050::MasterOptions base,
         ArmOptions arm,
@@ -84,14 +84,13 @@ private:
     void OnProbed(const ArmProbed& probed, Planning::AdapterActions& out);
     void OnProbeTimer(Planning::AdapterActions& out);
 
-    /// What the program needs MONITOR for.
+    /// Starts what the program requests of MONITOR.
     void ServeProgram(Planning::AdapterActions& out);
     void Serve(EArmRequest request, Planning::AdapterActions& out);
-    /// After each input: the program's next step, and what has changed for the engine.
+    /// Call after each input: begins the program's next step and reports changes to the engine.
     void Update(Planning::AdapterActions& out);
-    /// Nothing is under way.
+    /// No CONTROL or probe is under way.
     [[nodiscard]] bool IsFree() const;
-    /// The counters do not stop changing for a reason of its own.
     [[nodiscard]] bool IsProgramWatched() const;
 
     void DrainBase(Planning::AdapterActions& out);

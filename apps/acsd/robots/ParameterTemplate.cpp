@@ -20,7 +20,7 @@ namespace
 using Core::JsonText;
 using VDA5050::EValueDataType;
 
-/// Whole numbers beyond it are not exact as a double.
+/// Greater whole numbers are not exact as a double.
 constexpr double LARGEST_INTEGER = 9'007'199'254'740'992.0;
 
 std::string_view GetTypeName(EValueDataType type)

@@ -33,7 +33,7 @@ class ParameterTemplate final
     ParameterTemplate() = default;
 
 public:
-    /// The error is a text for a person.
+    /// The error is a sentence.
     [[nodiscard]] static tl::expected<ParameterTemplate, std::string> Make(const toml::node& node);
 
     /// A string.
@@ -41,14 +41,14 @@ public:
 
     [[nodiscard]] std::vector<JobName> GetNames() const;
 
-    /// Of the type that the vehicle's factsheet declares; absent: as TOML has it. The error says which name the job does not
-    /// have, or which value has another type.
+    /// A value of the type that the vehicle's factsheet declares; without one, of the type in the TOML file. The error names
+    /// the name for which the job has no value, or the value of another type.
     [[nodiscard]] tl::expected<Core::JsonText, std::string> Resolve(
         const JobData& data,
         std::optional<VDA5050::EValueDataType> typeOrNull) const;
 
 private:
-    /// Appends the pieces of the value; the JSON text after the last one stays in `json`. Returns what is wrong with it.
+    /// Appends the pieces of the value; the JSON text after the last one stays in `json`. Returns an error as a sentence.
     [[nodiscard]] std::optional<std::string> AppendRecursiveOrNull(const toml::node& node, std::string& json);
     [[nodiscard]] bool IsScalar() const noexcept;
     [[nodiscard]] std::string_view GetJsonKind() const noexcept;

@@ -15,7 +15,7 @@ namespace
 
 using namespace std::chrono_literals;
 
-/// The controller's refusals come within a few milliseconds: a longer silence only delays each job.
+/// The controller refuses within a few milliseconds. A longer window only delays each job.
 constexpr std::chrono::milliseconds CONTROL_WINDOW = 100ms;
 
 VDA5050::MasterOptions MakeMasterOptions(const AcsdConfig& config, const RobotLinkConfig& robot)

@@ -15,16 +15,16 @@ namespace ACS::Acsd
 struct RobotAdapter
 {
     std::unique_ptr<IMqttRobotAdapter> adapter;  ///< Never null.
-    OpenStreamRobotAdapter* armOrNull = nullptr; ///< The same once more, where the robot has an arm.
+    OpenStreamRobotAdapter* armOrNull = nullptr; ///< The same adapter if the robot has an arm.
 };
 
-/// As the configuration wants it: a vehicle, or a vehicle with an arm. The outputs must outlive it.
+/// Makes the adapter of a vehicle, or of a vehicle with an arm. The outputs must outlive it.
 [[nodiscard]] RobotAdapter MakeRobotAdapter(
     const AcsdConfig& config,
     const RobotLinkConfig& robot,
     RobotOutputs& outputs);
 
-/// Of acsd's session with the controller of an arm.
+/// Options of acsd's session with the controller of an arm.
 [[nodiscard]] OpenStream::ClientSessionOptions MakeArmSessionOptions();
 
 } // namespace ACS::Acsd

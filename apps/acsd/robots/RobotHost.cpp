@@ -42,7 +42,7 @@ struct RobotHost::Impl
     std::unique_ptr<IMqttRobotAdapter> adapter;
     OpenStreamRobotAdapter* armAdapterOrNull = nullptr;
     std::optional<Apps::TimerSet<Planning::AdapterTimerID>> timers;
-    std::deque<Planning::AdapterAction> actions; ///< Still to be carried out.
+    std::deque<Planning::AdapterAction> actions; ///< Not executed yet.
     bool bExecuting = false;
     std::optional<ArmTrace> armTrace;
     VehicleWatch watch;
@@ -67,8 +67,8 @@ struct RobotHost::Impl
         });
     }
 
-    /// Calls the adapter and carries out what it wants. What an event leads to may call the adapter again: that call's
-    /// actions come after the rest of this one's, which may for instance cancel a timer that the new call starts.
+    /// Calls the adapter and executes its actions. An event may lead to another call of the adapter: its actions are executed
+    /// after the rest of these, which may for instance cancel a timer that the new call starts.
     template <typename TCall>
     void Call(TCall call)
     {
@@ -118,7 +118,7 @@ struct RobotHost::Impl
         const Core::Result<void> published = surroundings.mqtt.Publish(message);
         if (!published)
         {
-            // The session sends it again until the vehicle has shown it.
+            // The session sends it again until the vehicle's state shows it.
             surroundings.logger.Warning(
                 "a message to the vehicle could not be sent",
                 {{"robotId", robot.robotID}, {"topic", message.topic}, {"reason", Core::Describe(published.error())}});
@@ -179,7 +179,7 @@ Planning::RejectedActions RobotHost::FindRejectedActions(
     const RobotLinkConfig& robot,
     Planning::ERobotType type)
 {
-    RobotOutputs outputs; // stays empty: the adapter is only asked
+    RobotOutputs outputs; // stays empty
     const RobotAdapter made = MakeRobotAdapter(config, robot, outputs);
     return Planning::FindRejectedActions(*made.adapter, type, config.engine.actions);
 }

@@ -24,24 +24,24 @@
 namespace ACS::Acsd
 {
 
-/// Runs the adapter of one robot: gives it events and time, publishes and sends what it wants sent, keeps its timers,
-/// passes its events on. Decides nothing. One thread: the executor's.
+/// Runs the adapter of one robot: passes messages and timers to it, sends its messages, and passes its events to the engine.
+/// Decides nothing. Runs on one thread, the executor's.
 class RobotHost final
 {
 public:
     /// Called from within the host's calls and from its timers; may call Handle.
     using EventHandler = std::function<void(const std::string& robotID, const Planning::RobotEvent& event)>;
 
-    /// What is known of the links of this robot.
+    /// State and statistics of the robot's links.
     struct Figures
     {
-        std::optional<Core::SteadyTime> seenAt; ///< When the vehicle said anything last.
+        std::optional<Core::SteadyTime> seenAt; ///< Time of the vehicle's last message.
         VDA5050::MasterStatistics vehicle;
-        std::optional<OpenStream::ClientSessionStats> arm; ///< Once its client has been started.
+        std::optional<OpenStream::ClientSessionStats> arm; ///< Set after its client has been started.
         bool bArmReady = false;
     };
 
-    /// What a host needs from the program; everything outlives it.
+    /// All of these must outlive the host.
     struct Dependencies
     {
         boost::asio::any_io_executor executor;
@@ -64,7 +64,7 @@ public:
     RobotHost& operator=(const RobotHost&) = delete;
     ~RobotHost();
 
-    /// What its adapter will not do: the one place that knows is the adapter.
+    /// The actions that the robot's adapter rejects.
     [[nodiscard]] static Planning::RejectedActions FindRejectedActions(
         const AcsdConfig& config,
         const RobotLinkConfig& robot,
@@ -73,7 +73,7 @@ public:
     /// Subscribes and connects to the arm.
     void Start();
 
-    /// Takes leave of the arm.
+    /// Closes the session with the arm.
     void Stop();
 
     void Handle(const Planning::RobotCommand& command);

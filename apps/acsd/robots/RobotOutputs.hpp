@@ -12,7 +12,7 @@ namespace ACS::Acsd
 /// A MONITOR replaces the one before it; a CONTROL is tracked, and the adapter sends none before the last one settled.
 using ArmRequest = std::variant<OpenStream::MonitorRequest, OpenStream::ControlRequest>;
 
-/// What the adapters of one robot want sent. Filled by their calls, emptied by the host after each.
+/// Messages that the adapters of one robot send. Calls of the adapters fill it; the host empties it after each call.
 struct RobotOutputs
 {
     std::vector<VDA5050::MqttMessage> messages;

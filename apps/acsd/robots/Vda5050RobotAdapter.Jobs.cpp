@@ -41,7 +41,7 @@ void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now,
     _job.Clear();
     if (stateOrNull->orderID == job.commandID)
     {
-        // The order was believed lost, and has reached the vehicle late.
+        // The order was considered lost and has reached the vehicle late.
         ResumeJob(job, now, out);
         return;
     }

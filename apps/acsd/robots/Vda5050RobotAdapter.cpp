@@ -156,7 +156,7 @@ void Vda5050RobotAdapter::SendInstantAction(std::string_view actionType, Core::N
 {
     VDA5050::Action action;
     action.actionType = actionType;
-    // The state of an offline vehicle shows later that it did not pause. The engine has a time limit of its own for that.
+    // If an offline vehicle did not pause, its next state shows that. The engine has its own time limit for a pause.
     static_cast<void>(_session.SendInstantAction(std::move(action), now, _sessionActions));
 }
 

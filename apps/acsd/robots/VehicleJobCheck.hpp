@@ -13,7 +13,7 @@
 namespace ACS::Acsd
 {
 
-/// How a vehicle does the jobs of the MCS, by its configuration and by the factsheet that it has published.
+/// Checks by configuration and factsheet how a vehicle does the jobs of the MCS.
 class VehicleJobCheck final : public Planning::IJobCheck
 {
     JobMethods _methods;
@@ -24,10 +24,10 @@ public:
     /// With an awaited factsheet every job is rejected for now.
     VehicleJobCheck(JobMethods methods, const VDA5050::FactsheetMessage* factsheetOrNull, bool bFactsheetAwaited);
 
-    /// Whether it is by this factsheet, however often that was sent; null: by none.
+    /// Whether the check is based on an equal factsheet; null: on none.
     [[nodiscard]] bool IsFor(const VDA5050::FactsheetMessage* factsheetOrNull) const;
 
-    /// The vehicle's action for the job, by what is known of its factsheet. The error says why it has none.
+    /// The vehicle's action for the job, according to its factsheet. The error states why it has none.
     [[nodiscard]] tl::expected<VDA5050::Action, std::string> MakeAction(const Planning::StartJob& job) const;
 
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const Planning::StartJob& job) const override;

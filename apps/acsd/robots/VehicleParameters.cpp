@@ -16,7 +16,7 @@ namespace
 using VDA5050::AgvAction;
 using VDA5050::AgvActionParameter;
 
-/// The vehicle's own description of the action; null where it gives none.
+/// The factsheet's description of the action; null if it has none.
 const AgvAction* FindListedOrNull(const VDA5050::FactsheetMessage* factsheetOrNull, const std::string& actionType)
 {
     if (factsheetOrNull == nullptr)
@@ -68,7 +68,7 @@ tl::expected<std::vector<VDA5050::ActionParameter>, std::string> MakeActionParam
     }
     if (listedOrNull != nullptr && listedOrNull->actionParameters.empty())
     {
-        listedOrNull = nullptr; // says nothing of parameters
+        listedOrNull = nullptr; // the factsheet lists no parameters
     }
     const AgvAction* const rulesOrNull =
         listedOrNull == nullptr ? VDA5050::FindPredefinedActionOrNull(actionType) : listedOrNull;

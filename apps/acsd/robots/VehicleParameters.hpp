@@ -14,7 +14,7 @@ namespace ACS::Acsd
 {
 
 /// The parameters of the vehicle's action for one job, of the types that the factsheet declares. An optional one without a
-/// value of its type is left out. The error says which mandatory one has none, or what the factsheet does not list.
+/// value of its type is left out. The error names a mandatory one without a value, or one that the factsheet does not list.
 [[nodiscard]] tl::expected<std::vector<VDA5050::ActionParameter>, std::string> MakeActionParameters(
     const JobMethod& method,
     const JobData& data,

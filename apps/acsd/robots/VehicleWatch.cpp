@@ -18,7 +18,7 @@ namespace
 constexpr const char* ODDITIES = "acsd_robot_oddities_total";
 constexpr double HIGHEST_CHARGE = 100.0;
 
-/// How far an action is. Running and paused take turns, so they are alike.
+/// Progress of an action. Running and paused alternate, so they are equal.
 int GetProgress(VDA5050::EActionStatus status)
 {
     switch (status)
@@ -37,7 +37,7 @@ int GetProgress(VDA5050::EActionStatus status)
     }
 }
 
-/// States get lost, so an action may skip some; it never goes back, and its end is its end.
+/// States get lost, so an action may skip some. It never goes back and does not leave a terminal status.
 bool IsBackwards(VDA5050::EActionStatus before, VDA5050::EActionStatus after)
 {
     return GetProgress(after) < GetProgress(before) || (VDA5050::IsTerminal(before) && after != before);
@@ -83,12 +83,12 @@ void VehicleWatch::Note(std::string_view kind, std::string_view detail)
 
 void VehicleWatch::OnState(const VDA5050::StateMessage& state)
 {
-    LookAtPlace(state);
+    CheckPosition(state);
     CheckLoads(state);
     if (_shown.has_value())
     {
-        LookAtOrder(state);
-        LookAtActions(state);
+        CheckOrder(state);
+        CheckActions(state);
     }
     Shown shown{state.orderID, state.orderUpdateID, state.lastNodeSequenceID, {}};
     for (const VDA5050::ActionState& action : state.actionStates)
@@ -106,7 +106,7 @@ void VehicleWatch::OnAway()
     _shown.reset();
 }
 
-void VehicleWatch::LookAtPlace(const VDA5050::StateMessage& state)
+void VehicleWatch::CheckPosition(const VDA5050::StateMessage& state)
 {
     if (!state.lastNodeID.empty() && _site.FindNodeOrNull(state.lastNodeID) == nullptr)
     {
@@ -127,7 +127,7 @@ void VehicleWatch::LookAtPlace(const VDA5050::StateMessage& state)
     }
 }
 
-/// Of a robot whose ports the vehicle shows: with such a load acsd does not know what is on any of them.
+/// For a robot whose ports the vehicle reports. With a load at an unknown position, acsd does not know the load of any port.
 void VehicleWatch::CheckLoads(const VDA5050::StateMessage& state)
 {
     if (!state.loads.has_value() || _positions.IsEmpty())
@@ -138,14 +138,12 @@ void VehicleWatch::CheckLoads(const VDA5050::StateMessage& state)
     {
         if (_positions.FindPortOrNull(load.loadPosition) == nullptr)
         {
-            Note(
-                "unknown_load_position",
-                fmt::format("\"{}\": give the port that is meant in load_positions", load.loadPosition));
+            Note("unknown_load_position", fmt::format("\"{}\": add it to load_positions", load.loadPosition));
         }
     }
 }
 
-void VehicleWatch::LookAtOrder(const VDA5050::StateMessage& state)
+void VehicleWatch::CheckOrder(const VDA5050::StateMessage& state)
 {
     if (state.orderID.empty() || state.orderID != _shown->orderID)
     {
@@ -165,7 +163,7 @@ void VehicleWatch::LookAtOrder(const VDA5050::StateMessage& state)
     }
 }
 
-void VehicleWatch::LookAtActions(const VDA5050::StateMessage& state)
+void VehicleWatch::CheckActions(const VDA5050::StateMessage& state)
 {
     for (const VDA5050::ActionState& action : state.actionStates)
     {
@@ -185,20 +183,20 @@ void VehicleWatch::LookAtActions(const VDA5050::StateMessage& state)
 
 void VehicleWatch::OnStatistics(const VDA5050::MasterStatistics& statistics)
 {
-    const auto look =
+    const auto count =
         [this](std::uint64_t before, std::uint64_t after, std::string_view kind, std::string_view detail) {
             for (std::uint64_t i = before; i < after; ++i)
             {
                 Note(kind, detail);
             }
         };
-    look(
+    count(
         _statistics.messagesRefused,
         statistics.messagesRefused,
         "unreadable_message",
         "not VDA5050 2.x, or of another vehicle");
-    look(_statistics.statesIgnored, statistics.statesIgnored, "state_out_of_order", "older than one before it");
-    look(_statistics.retainedIgnored, statistics.retainedIgnored, "state_retained", "of unknown age");
+    count(_statistics.statesIgnored, statistics.statesIgnored, "state_out_of_order", "older than the one before");
+    count(_statistics.retainedIgnored, statistics.retainedIgnored, "state_retained", "retained, of unknown age");
     _statistics = statistics;
 }
 

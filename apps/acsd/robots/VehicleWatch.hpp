@@ -19,12 +19,12 @@
 namespace ACS::Acsd
 {
 
-/// Checks what one robot reports for contradictions; logs them, rate-limited, and counts them by kind. Decides nothing:
-/// sessions and engine tolerate them by themselves. Pure.
+/// Checks the reports of one robot for contradictions; logs them, rate-limited, and counts them by kind. Has no other effect:
+/// sessions and engine tolerate contradictions. Pure.
 class VehicleWatch final
 {
 public:
-    /// Everything outlives the watch.
+    /// All of these must outlive the watch.
     struct Dependencies
     {
         const Core::IClock& clock;
@@ -56,38 +56,38 @@ private:
     const Core::IClock& _clock;
     Apps::LogRateLimiter _log;
     Apps::MetricsEndpoint& _metrics;
-    std::map<std::string, std::uint64_t, std::less<>> _counts; ///< By kind. Kinds are constants of the code.
+    std::map<std::string, std::uint64_t, std::less<>> _counts; ///< By kind; the number of kinds is fixed.
     LoadPositions _positions;
     std::optional<Shown> _shown;
-    VDA5050::MasterStatistics _statistics; ///< As they were at the last look.
-    Range _rangeX;                         ///< Both: around the site's nodes.
+    VDA5050::MasterStatistics _statistics; ///< At the last check.
+    Range _rangeX;                         ///< Range of the site's nodes.
     Range _rangeY;
 
 public:
-    /// The site outlives the watch.
+    /// The site must outlive the watch.
     VehicleWatch(
         const Planning::SiteMap& site,
         std::string robotID,
         const Dependencies& dependencies,
         LoadPositions positions);
 
-    /// A state that the session took as new.
+    /// A state that the session accepted as new.
     void OnState(const VDA5050::StateMessage& state);
 
-    /// The vehicle's numbers may begin anew (it was away).
+    /// The vehicle was disconnected: its sequence numbers may begin again.
     void OnAway();
 
-    /// What the session threw away since the last look.
+    /// Counts the messages that the session dropped since the last check.
     void OnStatistics(const VDA5050::MasterStatistics& statistics);
 
     void OnArmEvent(const OpenStream::ClientEvent& event);
 
 private:
     [[nodiscard]] static Range FindRange(const Planning::SiteMap& site, double Planning::SiteNode::*coordinate);
-    void LookAtPlace(const VDA5050::StateMessage& state);
+    void CheckPosition(const VDA5050::StateMessage& state);
     void CheckLoads(const VDA5050::StateMessage& state);
-    void LookAtOrder(const VDA5050::StateMessage& state);
-    void LookAtActions(const VDA5050::StateMessage& state);
+    void CheckOrder(const VDA5050::StateMessage& state);
+    void CheckActions(const VDA5050::StateMessage& state);
     void Note(std::string_view kind, std::string_view detail);
 };
 

@@ -33,10 +33,10 @@ std::string MakeStoreSummary(const Planning::StoreOrigin& origin, const Planning
     std::string text = fmt::format("schema {}", origin.version);
     if (origin.foundVersion != origin.version)
     {
-        text += fmt::format(" brought forward from {}", origin.foundVersion);
+        text += fmt::format(" migrated from {}", origin.foundVersion);
     }
     text += fmt::format(
-        ", {} taken up, {}, {} not acknowledged, {}",
+        ", {} resumed, {}, {} not acknowledged, {}",
         CountOf(state.plans.size() - ended, "open plan", "open plans"),
         CountOf(ended, "ended plan", "ended plans"),
         CountOf(state.outbox.size(), "report", "reports"),
@@ -55,7 +55,7 @@ std::string MakeStoreSummary(const Planning::StoreOrigin& origin, const Planning
     }
     if (origin.bMigrated)
     {
-        text += "; migrated from the former layout, whose files are kept with .former in their names";
+        text += "; migrated from the former layout; its files are kept with .former in their names";
     }
     return text;
 }

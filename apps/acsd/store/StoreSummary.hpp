@@ -8,7 +8,7 @@
 namespace ACS::Acsd
 {
 
-/// What a start has found in its store, for the log: "schema 3, 2 open plans taken up, 120 ended plans, 1 report not
+/// The contents of the store at the start, for the log: "schema 3, 2 open plans resumed, 120 ended plans, 1 report not
 /// acknowledged, no alarms".
 [[nodiscard]] std::string MakeStoreSummary(const Planning::StoreOrigin& origin, const Planning::StoredState& state);
 

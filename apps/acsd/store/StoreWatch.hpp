@@ -12,22 +12,23 @@
 namespace ACS::Acsd
 {
 
-/// How the store does, for the log and for /readyz: whether its last write failed, and whether the present one takes so long
-/// that people should look at the disk. Pure; the timer is the caller's.
+/// The state of the store, for the log and for /readyz: whether its last write failed, and whether the present one exceeds
+/// LIMIT. Pure; the caller owns the timer.
 class StoreWatch
 {
 public:
-    /// Nothing is told to anybody before a write is over. A good disk takes milliseconds.
+    /// Maximum duration of a write, until which no report is sent and no request is answered. A healthy disk takes
+    /// milliseconds.
     static constexpr std::chrono::milliseconds LIMIT{5'000};
 
-    /// Between two looks at the file's name: so long a file that was removed can go unnoticed where nothing is written.
+    /// Interval between two checks: maximum time for which a removed file can go unnoticed if nothing is written.
     static constexpr std::chrono::milliseconds CHECK_INTERVAL{2'000};
 
 private:
     Core::Logger _logger;
-    Apps::LogRateLimiter _failures; ///< It is tried again every second.
+    Apps::LogRateLimiter _failures; ///< The write is retried every second.
     Core::SteadyTime _began;
-    std::string _fault; ///< Why the store failed last; empty: it did not.
+    std::string _fault; ///< Why the last write or check failed; empty: it did not.
     bool _bHangs = false;
 
 public:
@@ -37,13 +38,13 @@ public:
     void OnBegun(Core::SteadyTime now);
     void OnLate();
 
-    /// Returns how long it took.
+    /// Returns the duration of the write.
     Core::Duration OnStored(const Core::Result<void>& result, Core::SteadyTime now);
 
-    /// A look at the files has failed, without a write.
+    /// A check of the files has failed, without a write.
     void OnLost(const Core::Error& error, Core::SteadyTime now);
 
-    /// Why plans cannot be taken for the store's sake.
+    /// Why the store keeps acsd from accepting plans.
     [[nodiscard]] std::optional<std::string> GetFaultOrNull() const;
 };
 

@@ -38,7 +38,7 @@ StoreWorker::~StoreWorker()
     _impl->thread.join();
 }
 
-/// The work in the thread, what comes of it on the executor. The store outlives the thread's work: the destructor waits.
+/// Does the work in the thread and handles its result on the executor. The store outlives the work: the destructor waits.
 template <typename TWork, typename TAnswer>
 void StoreWorker::Do(TWork work, TAnswer answer)
 {

@@ -11,8 +11,8 @@
 namespace ACS::Acsd
 {
 
-/// A store in a thread of its own: a disk takes milliseconds, in which acsd reads what comes in. Called and answered on the
-/// executor's thread.
+/// Runs the store in its own thread, so that acsd handles inputs while the disk writes. Called and answered on the thread of
+/// the executor.
 class StoreWorker final
 {
 public:
@@ -34,13 +34,13 @@ public:
     StoreWorker(const StoreWorker&) = delete;
     StoreWorker& operator=(const StoreWorker&) = delete;
 
-    /// Waits until what was begun is on disk; no handler is called any more.
+    /// Waits for the write under way. No handler is called after it.
     ~StoreWorker();
 
-    /// One batch after the other, each answered by one call of the handler, never from within.
+    /// Batches are written one after the other. Each is answered by one call of the handler, never from within this call.
     void Append(const Planning::StoreBatch& batch);
 
-    /// Has the store look whether what it holds will be found again; nothing while the check before is not answered.
+    /// Checks whether a restart would find the stored data. Does nothing while the previous check is not answered.
     void CheckAsync();
 
 private:

@@ -236,7 +236,7 @@ private:
 
 TEST_CASE_METHOD(
     AcsdCoreFixture,
-    "That no work can be accepted is reported after the grace time, and ends with broker and robot")
+    "The inability to accept work is reported after the grace time, and ends with broker and robot")
 {
     Begin();
     Advance(_config.operations.workGrace - 1ms);

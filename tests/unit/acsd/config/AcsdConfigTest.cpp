@@ -49,10 +49,10 @@ Acsd::AcsdConfig ReadWithout(const std::set<std::string>& tables, const std::str
 
 } // namespace
 
-TEST_CASE("The example site is without mistakes, and without TLS")
+TEST_CASE("The example site is without errors, and without TLS")
 {
     const Acsd::AcsdConfig config = Read({});
-    CHECK(config.mistakes.empty());
+    CHECK(config.errors.empty());
     CHECK(config.mcs.tls == ProtocolBeast::TlsOptions());
 }
 
@@ -68,44 +68,44 @@ TEST_CASE("mcs.tls is read, its relative paths count from the folder of the conf
          "mcs.tls.certificate=" + own.certificate,
          "mcs.tls.key=" + own.key,
          "mcs.tls.server_name=mcs.example"});
-    CHECK(config.mistakes.empty());
+    CHECK(config.errors.empty());
     CHECK(config.mcs.tls == ProtocolBeast::TlsOptions{ca.certificate, own.certificate, own.key, "mcs.example"});
 
     const Acsd::AcsdConfig relative = Read({"mcs.url=wss://10.0.0.1:9001/acs/", "mcs.tls.ca=nowhere.pem"});
     CHECK(relative.mcs.tls.caFile == std::string(ACS_SITE) + "/nowhere.pem");
 }
 
-TEST_CASE("A file for TLS that is missing or does not fit is a mistake with key, path and reason")
+TEST_CASE("A file for TLS that is missing or does not fit is an error with key, path and reason")
 {
     const Testing::TemporaryFolder folder;
     Testing::CertificateMaker maker(folder.GetPath());
     const Testing::CertificateFiles ca = maker.MakeCA("ca");
     const Testing::CertificateFiles own = maker.Make(ca, {});
 
-    const auto missing = Read({"mcs.url=wss://mcs/acs/", "mcs.tls.ca=/nowhere/ca.pem"}).mistakes;
+    const auto missing = Read({"mcs.url=wss://mcs/acs/", "mcs.tls.ca=/nowhere/ca.pem"}).errors;
     REQUIRE(missing.size() == 1);
     CHECK(missing[0].find("mcs.tls.ca: expected a PEM file") != std::string::npos);
     CHECK(missing[0].find("/nowhere/ca.pem: No such file or directory") != std::string::npos);
 
-    const std::string pipe = folder.GetPath() / "pipe"; // nobody will ever write to it
+    const std::string pipe = folder.GetPath() / "pipe"; // it has no writer
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
-    const auto piped = Read({"mcs.url=wss://mcs/acs/", "mcs.tls.ca=" + pipe}).mistakes;
+    const auto piped = Read({"mcs.url=wss://mcs/acs/", "mcs.tls.ca=" + pipe}).errors;
     REQUIRE(piped.size() == 1);
     CHECK(piped[0].find(pipe + ": it is no regular file") != std::string::npos);
 
     const auto foreign =
-        Read({"mcs.url=wss://mcs/acs/", "mcs.tls.certificate=" + own.certificate, "mcs.tls.key=" + ca.key}).mistakes;
+        Read({"mcs.url=wss://mcs/acs/", "mcs.tls.certificate=" + own.certificate, "mcs.tls.key=" + ca.key}).errors;
     REQUIRE(foreign.size() == 1);
     CHECK(foreign[0].find("mcs.tls.key: ") != std::string::npos);
     CHECK(foreign[0].find("is the key of another certificate than " + own.certificate) != std::string::npos);
 }
 
-TEST_CASE("Each mistake is told once, under its key, with the line of the file or the option that it comes from")
+TEST_CASE("Each error is reported once, under its key, with the line of the file or the option that it comes from")
 {
     struct Row
     {
         std::vector<std::string> overrides;
-        std::vector<std::string> mistakes; ///< How each begins.
+        std::vector<std::string> errors; ///< How each begins.
     };
     const std::string file = std::string(ACS_SITE) + "/acsd.toml:";
     const std::vector<Row> rows{
@@ -120,13 +120,13 @@ TEST_CASE("Each mistake is told once, under its key, with the line of the file o
         {{"robots.LR01.type=CR"}, {file + "*: robots.LR01.arm: a CR needs"}},
         {{"robots.CR01.arm.http=http://127.0.0.1:2"}, {"--set: robots.CR01.arm.http: unknown key"}},
         {{"arm.counter_finished=0"},
-         {"--set: arm.counter_finished: is 0, as arm.counter_started is: each counter needs a word of its own"}},
-        {{"arm.counter_echo=2"}, {"--set: arm.counter_echo: is 2, as arm.counter_failed is"}},
+         {"--set: arm.counter_finished: is 0, the same as arm.counter_started: each counter needs a word of its own"}},
+        {{"arm.counter_echo=2"}, {"--set: arm.counter_echo: is 2, the same as arm.counter_failed"}},
         {{"robots.CR01.arm.counter_echo=2"},
-         {"--set: robots.CR01.arm.counter_echo: is 2, as robots.CR01.arm.counter_failed is"}},
-        {{"arm.counter_failed=1"}, {"--set: arm.counter_failed: is 1, as arm.counter_finished is"}},
+         {"--set: robots.CR01.arm.counter_echo: is 2, the same as robots.CR01.arm.counter_failed"}},
+        {{"arm.counter_failed=1"}, {"--set: arm.counter_failed: is 1, the same as arm.counter_finished"}},
         {{"arm.counter_started=30", "arm.counter_failed=30"},
-         {"--set: arm.counter_failed: is 30, as arm.counter_started is"}},
+         {"--set: arm.counter_failed: is 30, the same as arm.counter_started"}},
         {{R"(http.hosts=["acs.example", "acs:80"])"}, {"--set: http.hosts: expected names without port"}},
         {{R"(mcs.host="a b")"}, {"--set: mcs.host: expected HOST or HOST:PORT, found \"a b\""}},
         {{R"(robots.LR01.ports=["CP01-02", "CP02"])"}, {"--set: robots.LR01.ports: LR01.CP02 is listed twice"}},
@@ -152,41 +152,39 @@ TEST_CASE("Each mistake is told once, under its key, with the line of the file o
     for (const Row& row : rows)
     {
         INFO(row.overrides.front());
-        std::vector<std::string> mistakes = Read(row.overrides).mistakes;
-        REQUIRE(mistakes.size() == row.mistakes.size());
-        for (std::size_t i = 0; i < mistakes.size(); ++i)
+        std::vector<std::string> errors = Read(row.overrides).errors;
+        REQUIRE(errors.size() == row.errors.size());
+        for (std::size_t i = 0; i < errors.size(); ++i)
         {
-            INFO(mistakes[i]);
-            const std::string& begin = row.mistakes[i];
+            INFO(errors[i]);
+            const std::string& begin = row.errors[i];
             const std::size_t star = begin.find('*'); // any line
-            CHECK(mistakes[i].starts_with(begin.substr(0, star)));
-            CHECK(mistakes[i].find(begin.substr(star == std::string::npos ? 0 : star + 1)) != std::string::npos);
+            CHECK(errors[i].starts_with(begin.substr(0, star)));
+            CHECK(errors[i].find(begin.substr(star == std::string::npos ? 0 : star + 1)) != std::string::npos);
         }
     }
-    CHECK(
-        Read({R"(site.ports=["X", "Y"])"}).mistakes.front().find(R"(; "Y": expected a location)") != std::string::npos);
+    CHECK(Read({R"(site.ports=["X", "Y"])"}).errors.front().find(R"(; "Y": expected a location)") != std::string::npos);
 }
 
-TEST_CASE("What the map does not have is told with the line of its key")
+TEST_CASE("A name that is not on the map is reported with the line of its key")
 {
     const Acsd::AcsdConfig config = ReadWithout(
         {"robots.LR01"},
         "[robots.LR01]\ntype = \"LR\"\nmanufacturer = \"ACS\"\nserial = \"LR01\"\nvehicle_type = \"lr-base\"\n"
         "start_node = \"D-CHG01\"\nports = [\"CP01\"]\nhome = \"X99\"\n");
-    REQUIRE(config.mistakes.size() == 1);
-    const std::size_t key =
-        config.mistakes[0].find(": robots.LR01.home: expected a station of the site map, found X99");
+    REQUIRE(config.errors.size() == 1);
+    const std::size_t key = config.errors[0].find(": robots.LR01.home: expected a station of the site map, found X99");
     REQUIRE(key != std::string::npos);
-    const std::string place = config.mistakes[0].substr(0, key);
+    const std::string place = config.errors[0].substr(0, key);
     CHECK(std::stoi(place.substr(place.rfind(':') + 1)) > 200);
 }
 
-TEST_CASE("--check-config looks at the store, makes and changes nothing, and tells what is wrong with it under its key")
+TEST_CASE("--check-config checks the store, changes nothing, and reports its errors under its key")
 {
     const Testing::TemporaryFolder folder;
     const std::string path = (folder.GetPath() / "store").string();
     const auto check = [](const std::string& store) {
-        return Acsd::CheckAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", {"store.directory=" + store}).mistakes;
+        return Acsd::CheckAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", {"store.directory=" + store}).errors;
     };
     CHECK(check(path).empty());
     CHECK(std::filesystem::is_empty(folder.GetPath()));
@@ -203,39 +201,39 @@ TEST_CASE("--check-config looks at the store, makes and changes nothing, and tel
           std::tuple(std::string("/nowhere/store"), "create the directory /nowhere", "No such file or directory")})
     {
         INFO(store);
-        const std::vector<std::string> mistakes = check(store);
-        REQUIRE(mistakes.size() == 1);
-        CHECK(mistakes[0].starts_with("--set: store.directory: " + store + ": expected "));
-        CHECK(mistakes[0].find(expected) != std::string::npos);
-        CHECK(mistakes[0].find(found) != std::string::npos);
-        CHECK(Read({"store.directory=" + store}).mistakes.empty()); // a SIGHUP does not touch it, a start opens it
+        const std::vector<std::string> errors = check(store);
+        REQUIRE(errors.size() == 1);
+        CHECK(errors[0].starts_with("--set: store.directory: " + store + ": expected "));
+        CHECK(errors[0].find(expected) != std::string::npos);
+        CHECK(errors[0].find(found) != std::string::npos);
+        CHECK(Read({"store.directory=" + store}).errors.empty()); // a SIGHUP does not touch it, a start opens it
     }
 }
 
-TEST_CASE("4.1 An action that no robot can do as it stands is a mistake that says what to give")
+TEST_CASE("4.1 An action that no robot can do as configured is an error that names the missing keys")
 {
     const auto noProgram =
-        ReadWithout({"actions.Start"}, "[actions.Start]\nrobot = 'CR'\nvehicle_action = 'start'\n").mistakes;
+        ReadWithout({"actions.Start"}, "[actions.Start]\nrobot = 'CR'\nvehicle_action = 'start'\n").errors;
     REQUIRE(noProgram.size() == 1);
     CHECK(
         noProgram[0].find(
             "actions.Start.vehicle_action: no robot can do it, CR01: the arm has no program for Start; give "
             "arm_program")
         != std::string::npos);
-    const auto noArm = ReadWithout({"actions.Start"}, "[actions.Start]\nrobot = 'LR'\narm_program = 3\n").mistakes;
+    const auto noArm = ReadWithout({"actions.Start"}, "[actions.Start]\nrobot = 'LR'\narm_program = 3\n").errors;
     REQUIRE(noArm.size() == 1);
     CHECK(
         noArm[0].find("actions.Start.arm_program: no robot can do it, LR01: the vehicle has no action for Start")
         != std::string::npos);
 }
 
-TEST_CASE("4.1 What a robot's adapter does not do the engine does not give it, and says why")
+TEST_CASE("4.1 The engine does not assign a robot actions that its adapter rejects, and reports the reason")
 {
     const Acsd::AcsdConfig config = ReadWithout(
         {},
         "[robots.LR02]\ntype = 'LR'\nmanufacturer = 'ACS'\nserial = 'LR02'\nvehicle_type = 'lr-base'\n"
         "start_node = 'N001'\nports = ['CP01']\narm.url = 'tcp://127.0.0.1:1'\n");
-    REQUIRE(config.mistakes.empty());
+    REQUIRE(config.errors.empty());
     const auto find = [&config](const std::string& robotID) {
         return *std::ranges::find_if(config.engine.robots, [&robotID](const Planning::RobotOptions& robot) {
             return robot.robotID.GetText() == robotID;
@@ -250,24 +248,24 @@ TEST_CASE("4.1 What a robot's adapter does not do the engine does not give it, a
     CHECK(find("CR01").rejectedActions.empty());
 }
 
-TEST_CASE("A counter that is left out has its default, which no other may have either")
+TEST_CASE("An omitted counter has its default, which no other counter may share")
 {
-    const auto mistakes = ReadWithout({"arm"}, "[arm]\ncounter_started = 2\n").mistakes;
-    REQUIRE(mistakes.size() == 1);
-    CHECK(mistakes[0].find(": arm.counter_started: is 2, as arm.counter_failed is") != std::string::npos);
-    CHECK(ReadWithout({"arm"}, "[arm]\ncounter_started = 3\n").mistakes.empty());
+    const auto errors = ReadWithout({"arm"}, "[arm]\ncounter_started = 2\n").errors;
+    REQUIRE(errors.size() == 1);
+    CHECK(errors[0].find(": arm.counter_started: is 2, the same as arm.counter_failed") != std::string::npos);
+    CHECK(ReadWithout({"arm"}, "[arm]\ncounter_started = 3\n").errors.empty());
 }
 
-TEST_CASE("A site without actions could do no plan")
+TEST_CASE("A site without actions is an error")
 {
     std::set<std::string> all;
     for (const auto& [name, rule] : Read({}).engine.actions)
     {
         all.insert("actions." + name);
     }
-    const auto mistakes = ReadWithout(all).mistakes;
-    REQUIRE(mistakes.size() == 1);
-    CHECK(mistakes[0].find("actions: needs at least one table, such as [actions.CassetteLoad]") != std::string::npos);
+    const auto errors = ReadWithout(all).errors;
+    REQUIRE(errors.size() == 1);
+    CHECK(errors[0].find("actions: needs at least one table, such as [actions.CassetteLoad]") != std::string::npos);
 }
 
 TEST_CASE("Two robots do not share an arm: both would command one controller")
@@ -278,40 +276,40 @@ TEST_CASE("Two robots do not share an arm: both would command one controller")
                    "[robots.CR02]\ntype = 'CR'\nmanufacturer = 'ACS'\nserial = 'CR02'\nvehicle_type = 'cr-base'\n"
                    "start_node = 'N001'\nports = ['TP01-03']\narm.url = '"
                        + address + "'\n")
-            .mistakes;
+            .errors;
     };
     CHECK(add("tcp://127.0.0.1:49001").empty());
     for (const std::string address : {"tcp://127.0.0.1:49000", "tcp://127.0.0.1"}) // 49000 is the default
     {
         INFO(address);
-        const auto mistakes = add(address);
-        REQUIRE(mistakes.size() == 1);
-        CHECK(mistakes[0].find(": robots.CR02.arm.url: CR01 has the same: one arm") != std::string::npos);
+        const auto errors = add(address);
+        REQUIRE(errors.size() == 1);
+        CHECK(errors[0].find(": robots.CR02.arm.url: CR01 has the same: one arm") != std::string::npos);
     }
 }
 
-TEST_CASE("mcs.tls with a ws URL is a mistake: it would encrypt nothing")
+TEST_CASE("mcs.tls with a ws URL is an error: it would encrypt nothing")
 {
-    const auto mistakes = Read({"mcs.tls.server_name=mcs.example"}).mistakes;
-    REQUIRE(mistakes.size() == 1);
-    CHECK(mistakes[0].find("mcs.tls: is for wss:// only") != std::string::npos);
+    const auto errors = Read({"mcs.tls.server_name=mcs.example"}).errors;
+    REQUIRE(errors.size() == 1);
+    CHECK(errors[0].find("mcs.tls: is for wss:// only") != std::string::npos);
 }
 
-TEST_CASE("mcs.headers go with the upgrade; what would break it is a mistake that does not show the value")
+TEST_CASE("mcs.headers are sent with the upgrade; an invalid header is an error that does not show the value")
 {
     CHECK(Read({}).mcs.headers.empty());
     const Acsd::AcsdConfig config = Read({"mcs.headers.Authorization=Bearer secret", "mcs.headers.X-Site=A"});
-    CHECK(config.mistakes.empty());
+    CHECK(config.errors.empty());
     CHECK(config.mcs.headers == ProtocolBeast::HttpHeaders{{"Authorization", "Bearer secret"}, {"X-Site", "A"}});
 
-    const auto control = Read({R"(mcs.headers.X-Key="secret\r\nX-Other: 1")"}).mistakes;
+    const auto control = Read({R"(mcs.headers.X-Key="secret\r\nX-Other: 1")"}).errors;
     REQUIRE(control.size() == 1);
     CHECK(control[0].find("mcs.headers.X-Key: expected a value without control characters") != std::string::npos);
     CHECK(control[0].find("secret") == std::string::npos);
-    const auto own = Read({"mcs.headers.Sec-WebSocket-Key=x"}).mistakes;
+    const auto own = Read({"mcs.headers.Sec-WebSocket-Key=x"}).errors;
     REQUIRE(own.size() == 1);
     CHECK(own[0].find("mcs.headers.Sec-WebSocket-Key: expected a header that") != std::string::npos);
-    CHECK(Read({"mcs.headers.X-Number=1"}).mistakes.size() == 1);
+    CHECK(Read({"mcs.headers.X-Number=1"}).errors.size() == 1);
 }
 
 TEST_CASE("The keys of the decision register have its defaults, in the example file and where they are left out")
@@ -320,7 +318,7 @@ TEST_CASE("The keys of the decision register have its defaults, in the example f
     for (const Acsd::AcsdConfig& config :
          {Read({}), ReadWithout({"plan", "cancel", "pause", "abort", "tsc", "reports", "history", "queue", "traffic"})})
     {
-        REQUIRE(config.mistakes == std::vector<std::string>{});
+        REQUIRE(config.errors == std::vector<std::string>{});
         CHECK(config.engine.controls == defaults.controls);
         CHECK(config.engine.controls.cancelUntil == Planning::ECancelWindow::FirstArrival);
         CHECK(config.engine.controls.cancelTimeout == std::chrono::seconds(30));
@@ -372,7 +370,7 @@ TEST_CASE("The keys of the decision register are read")
          "drive.stall_timeout=90s",
          "history.keep=9",
          "outbox.max=500"});
-    REQUIRE(config.mistakes == std::vector<std::string>{});
+    REQUIRE(config.errors == std::vector<std::string>{});
     Planning::ControlOptions controls;
     controls.cancelUntil = Planning::ECancelWindow::FirstJob;
     controls.cancelTimeout = std::chrono::seconds(5);
@@ -401,7 +399,7 @@ TEST_CASE("The keys of the decision register are read")
     CHECK(Read({"cancel.until=dispatch"}).engine.controls.cancelUntil == Planning::ECancelWindow::Dispatch);
 }
 
-TEST_CASE("A removed key is a mistake that says what replaces it, whatever its value")
+TEST_CASE("A removed key is an error that names its replacement, for every value")
 {
     for (const char* override :
          {"plan.duplicate=fail",
@@ -414,16 +412,16 @@ TEST_CASE("A removed key is a mistake that says what replaces it, whatever its v
     {
         INFO(override);
         const std::string key = std::string(override).substr(0, std::string(override).find('='));
-        const std::vector<std::string> mistakes = Read({override}).mistakes;
-        REQUIRE(mistakes.size() == 1);
-        CHECK(mistakes[0].starts_with("--set: " + key + ": removed: "));
+        const std::vector<std::string> errors = Read({override}).errors;
+        REQUIRE(errors.size() == 1);
+        CHECK(errors[0].starts_with("--set: " + key + ": removed: "));
     }
-    CHECK(Read({"plan.duplicate=fail"}).mistakes[0].ends_with("; see plan.reuse_finished_id"));
+    CHECK(Read({"plan.duplicate=fail"}).errors[0].ends_with("; see plan.reuse_finished_id"));
 }
 
-TEST_CASE("A word that a key does not have is a mistake")
+TEST_CASE("An unknown value of a key is an error")
 {
-    CHECK(Read({"pause.mode=later"}).mistakes.size() == 1);
+    CHECK(Read({"pause.mode=later"}).errors.size() == 1);
 }
 
 TEST_CASE("robot.* and robots.NAME.charge are read; a charging station is no other robot's home")
@@ -434,7 +432,7 @@ TEST_CASE("robot.* and robots.NAME.charge are read; a charging station is no oth
          "robot.taken_port=load",
          "robots.LR01.charge=CHG01",
          "mcs.position_while_moving=target"});
-    REQUIRE(config.mistakes.empty());
+    REQUIRE(config.errors.empty());
     CHECK(config.engine.dispatch.batteryFloor == 15);
     CHECK(config.engine.dispatch.batteryResume == 90);
     CHECK(config.engine.dispatch.bLoadsIntoTakenPorts);
@@ -444,14 +442,14 @@ TEST_CASE("robot.* and robots.NAME.charge are read; a charging station is no oth
 
     const Acsd::AcsdConfig wrong =
         Read({"robot.battery_floor=90", "robots.LR01.charge=CHG02", "robots.CR01.charge=NOWHERE"});
-    std::string mistakes;
-    for (const std::string& mistake : wrong.mistakes)
+    std::string errors;
+    for (const std::string& error : wrong.errors)
     {
-        mistakes += mistake + "\n";
+        errors += error + "\n";
     }
-    CHECK(mistakes.find("robot.battery_floor") != std::string::npos);
-    CHECK(mistakes.find("robots.LR01.charge") != std::string::npos);
-    CHECK(mistakes.find("robots.CR01.charge") != std::string::npos);
-    CHECK(Read({"robot.battery_floor=-1"}).mistakes.size() == 1);
-    CHECK(Read({"mcs.position_while_moving=here"}).mistakes.size() == 1);
+    CHECK(errors.find("robot.battery_floor") != std::string::npos);
+    CHECK(errors.find("robots.LR01.charge") != std::string::npos);
+    CHECK(errors.find("robots.CR01.charge") != std::string::npos);
+    CHECK(Read({"robot.battery_floor=-1"}).errors.size() == 1);
+    CHECK(Read({"mcs.position_while_moving=here"}).errors.size() == 1);
 }

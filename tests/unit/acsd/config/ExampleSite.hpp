@@ -15,27 +15,27 @@ inline AcsdConfig ReadSite(const std::vector<std::string>& overrides)
     return ReadAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", overrides);
 }
 
-/// Keys on top of the example site, and how the only mistake of that begins after "--set: ".
+/// Keys that override the example site, and the begin of the only resulting error after "--set: ".
 struct ConfigErrorRow
 {
     std::vector<std::string> overrides;
-    std::string mistake;
+    std::string error;
 };
 
-/// Checks that each row has its mistake and no other.
+/// Checks that each row has its error and no other.
 inline void CheckErrors(const std::vector<ConfigErrorRow>& rows)
 {
     for (const ConfigErrorRow& row : rows)
     {
         INFO(row.overrides.front());
-        INFO(row.mistake);
-        const std::vector<std::string> mistakes = ReadSite(row.overrides).mistakes;
-        CHECK(mistakes.size() == 1);
-        if (!mistakes.empty())
+        INFO(row.error);
+        const std::vector<std::string> errors = ReadSite(row.overrides).errors;
+        CHECK(errors.size() == 1);
+        if (!errors.empty())
         {
-            INFO(mistakes.front());
-            const std::size_t at = mistakes.front().find(": ") + 2; // after "--set" or file and line
-            CHECK(mistakes.front().substr(at).starts_with(row.mistake));
+            INFO(errors.front());
+            const std::size_t at = errors.front().find(": ") + 2; // after "--set" or file and line
+            CHECK(errors.front().substr(at).starts_with(row.error));
         }
     }
 }

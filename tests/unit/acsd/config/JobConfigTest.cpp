@@ -85,23 +85,23 @@ std::string MakeAction(
 const std::string SECOND_ROBOT = "robots.LR02={type='LR', manufacturer='B', serial='LR02', vehicle_type='lr-base', "
                                  "start_node='N001', ports=['CP01-02'], ";
 
-/// The one mistake, without the place that it comes from.
+/// The one error, without the place that it comes from.
 std::string FindError(const std::vector<std::string>& overrides)
 {
-    const std::vector<std::string> mistakes = ReadJobs(overrides).mistakes;
-    if (mistakes.size() != 1)
+    const std::vector<std::string> errors = ReadJobs(overrides).errors;
+    if (errors.size() != 1)
     {
-        return std::to_string(mistakes.size()) + " mistakes";
+        return std::to_string(errors.size()) + " errors";
     }
-    return mistakes[0].substr(mistakes[0].find(": ") + 2);
+    return errors[0].substr(errors[0].find(": ") + 2);
 }
 
 } // namespace
 
-TEST_CASE("The example site tells each arm's program where to take the carrier from and where to put it")
+TEST_CASE("The example site sends each arm's program the places from which and to which it moves the carrier")
 {
     const Acsd::AcsdConfig config = ReadJobs({});
-    REQUIRE(config.mistakes == std::vector<std::string>{});
+    REQUIRE(config.errors == std::vector<std::string>{});
     CHECK(
         MakeInputs(config, MakeJob("TrayLoad", "A01.CP02", "A01.CP02.TP03", "CR01.TP02"))
         == "ml105=77 ml106=1 ml107=2 ml108=3 ml109=2");
@@ -130,7 +130,7 @@ TEST_CASE("The example site's pick and drop have the job's own place and the rob
         == R"(drop lhd="CP01" loadId="C1" loadType="cassette" stationName="A01.CP02" stationType="rack")");
 }
 
-TEST_CASE("Two makes of robot do one action in two ways, and a station in a third")
+TEST_CASE("Two makes of robot do one action in two ways, and a station has a third way")
 {
     const Acsd::AcsdConfig config = ReadJobs(
         {SECOND_ROBOT
@@ -139,7 +139,7 @@ TEST_CASE("Two makes of robot do one action in two ways, and a station in a thir
                "actions.CassetteUnload.vehicle_action='lowerCassette'}",
          R"(stations."A01.CP02".actions.CassetteLoad.parameters={belt="{station.lane}"})",
          R"(stations."A01.CP02".lane=4)"});
-    REQUIRE(config.mistakes == std::vector<std::string>{});
+    REQUIRE(config.errors == std::vector<std::string>{});
     const auto load = [](const std::string& place, const std::string& port) {
         return MakeJob("CassetteLoad", place, place, port);
     };
@@ -160,7 +160,7 @@ TEST_CASE("A robot's own arm_program keeps the inputs, and the other way round")
 {
     const Acsd::AcsdConfig config = ReadJobs(
         {"robots.CR01.actions.TrayLoad.arm_program=21", "robots.CR01.actions.TrayUnload.arm_inputs={ml120=5}"});
-    REQUIRE(config.mistakes == std::vector<std::string>{});
+    REQUIRE(config.errors == std::vector<std::string>{});
     const Acsd::JobMethods& methods = FindRobot(config, "CR01").methods;
     CHECK(methods.FindMethodOrNull("TrayLoad")->armProgram == 21);
     CHECK(methods.FindMethodOrNull("TrayLoad")->armInputs.size() == 5);
@@ -176,7 +176,7 @@ TEST_CASE("A robot's arm has keys of its own, and those of the table arm for the
          "arm.input_retries=4",
          "robots.CR01.arm.counter_echo=6",
          "robots.CR01.arm.monitor_start=800"});
-    REQUIRE(config.mistakes == std::vector<std::string>{});
+    REQUIRE(config.errors == std::vector<std::string>{});
     CHECK_FALSE(config.arm.echoIndex.has_value());
     CHECK(config.arm.firstByte == 400);
     const Acsd::ArmOptions& arm = FindRobot(config, "CR01").armOptions;
@@ -191,28 +191,28 @@ TEST_CASE("The numbers of relays count values, or bytes as in the vendor's manua
 {
     const std::string tray = "actions.TrayLoad.arm_inputs";
     const Acsd::AcsdConfig overlapping = ReadJobs({"arm.relay_index=byte"});
-    REQUIRE_FALSE(overlapping.mistakes.empty());
-    CHECK(overlapping.mistakes.front().find("ml106: shares bytes with ml105") != std::string::npos);
+    REQUIRE_FALSE(overlapping.errors.empty());
+    CHECK(overlapping.errors.front().find("ml106: shares bytes with ml105") != std::string::npos);
     const Acsd::AcsdConfig counter = ReadJobs({"arm.relay_index=byte", tray + "={ml400=1}"});
-    CHECK(std::ranges::any_of(counter.mistakes, [](const std::string& mistake) {
-        return mistake.find("ml400: is a counter of the arm of CR01") != std::string::npos;
+    CHECK(std::ranges::any_of(counter.errors, [](const std::string& error) {
+        return error.find("ml400: is a counter of the arm of CR01") != std::string::npos;
     }));
-    CHECK(ReadJobs({tray + "={ml105='{job_number}', m3360=1}"}).mistakes.size() == 1);
+    CHECK(ReadJobs({tray + "={ml105='{job_number}', m3360=1}"}).errors.size() == 1);
     for (const char* const other : {"ml120", "ml2000", "sl105"})
     {
-        CHECK(ReadJobs({tray + "={ml105='{job_number}', " + other + "=1}"}).mistakes.empty());
+        CHECK(ReadJobs({tray + "={ml105='{job_number}', " + other + "=1}"}).errors.empty());
     }
-    CHECK(ReadJobs({"arm.relay_index=word"}).mistakes.size() == 1);
-    CHECK(ReadJobs({"robots.CR01.arm.relay_index=byte"}).mistakes.size() == 1);
+    CHECK(ReadJobs({"arm.relay_index=word"}).errors.size() == 1);
+    CHECK(ReadJobs({"robots.CR01.arm.relay_index=byte"}).errors.size() == 1);
 }
 
-TEST_CASE("Inputs without the job's number are warned of where the arm's programs echo it")
+TEST_CASE("Inputs without the job's number cause a warning if the arm's programs echo it")
 {
     const std::string tray = "actions.TrayLoad.arm_inputs";
     const std::string own = "robots.CR01." + tray;
     const auto read = [](const std::vector<std::string>& overrides) {
         const Acsd::AcsdConfig config = ReadJobs(overrides);
-        CHECK(config.mistakes == std::vector<std::string>{});
+        CHECK(config.errors == std::vector<std::string>{});
         return config.warnings;
     };
     CHECK(read({}).empty());
@@ -234,7 +234,7 @@ TEST_CASE("Stations have a type, a height, a reach and keys of their own")
          R"(stations."A01.CP01".side="left")",
          R"(stations."A01.CP01".lit=true)",
          "robot.load_timeout=4s"});
-    REQUIRE(config.mistakes == std::vector<std::string>{});
+    REQUIRE(config.errors == std::vector<std::string>{});
     CHECK(config.engine.reach.at("A01.CP01") == std::vector<std::string>{"A01.CP02", "A01.CP03"});
     CHECK(config.engine.reach.size() == 1);
     CHECK(config.stations->at("A01.CP01").at("side") == Acsd::JobValue(std::string("left")));
@@ -245,13 +245,13 @@ TEST_CASE("Stations have a type, a height, a reach and keys of their own")
     CHECK(ReadJobs({}).operations.loadTimeout == std::chrono::seconds(10));
 }
 
-TEST_CASE("4.1 An action beyond the document says what its places are and what it does to the ports")
+TEST_CASE("4.1 An action that MCS-ACS does not define has keys for its places and its effect on the ports")
 {
     const auto read = [](const std::string& keys) {
         return ReadJobs({"actions.Shift={robot='CR', arm_program=30, " + keys + "}"});
     };
     const Acsd::AcsdConfig config = read("from='robot_tp', to='fixed_tp', effect='unload'");
-    REQUIRE(config.mistakes == std::vector<std::string>{});
+    REQUIRE(config.errors == std::vector<std::string>{});
     const Planning::ActionRule& rule = config.engine.actions.at("Shift");
     CHECK(rule.from == EPlaceRule::RobotTray);
     CHECK(rule.to == EPlaceRule::FixedTray);
@@ -261,31 +261,31 @@ TEST_CASE("4.1 An action beyond the document says what its places are and what i
     const Acsd::AcsdConfig plain = read("timeout='1m'");
     CHECK(plain.engine.actions.at("Shift").from == EPlaceRule::None);
     CHECK_FALSE(plain.engine.actions.at("Shift").bJobsRequired);
-    CHECK(read("from='mp', to='mp', effect='none'").mistakes.empty());
-    CHECK(read("from='robot_cp', to='fixed_cp', effect='move'").mistakes.empty());
+    CHECK(read("from='mp', to='mp', effect='none'").errors.empty());
+    CHECK(read("from='robot_cp', to='fixed_cp', effect='move'").errors.empty());
     CHECK(
         read("from='fixed_tp', to='robot_tp', effect='load'").engine.actions.at("Shift").effect == EActionEffect::Load);
 }
 
-TEST_CASE("What a configuration of jobs cannot mean is reported under its key")
+TEST_CASE("An invalid configuration of jobs is reported under its key")
 {
     struct Row
     {
         std::vector<std::string> overrides;
-        std::string mistake; ///< How it begins.
+        std::string error; ///< How it begins.
     };
     const std::string load = "actions.CassetteLoad.parameters";
     const std::string tray = "actions.TrayLoad.arm_inputs";
     const std::vector<Row> rows{
         {{load + ".a='{form}'"}, load + ".a: unknown name \"form\""},
-        {{load + ".a='{from'"}, load + ".a: the brace at character 1"},
+        {{load + ".a='{from'"}, load + ".a: unmatched brace at character 1"},
         {{load + ".a='{from.tp}'"}, load + ".a: no job of this action has {from.tp}: its from is a cassette port"},
         {{load + ".a='{station.lane}'"}, load + ".a: {station.lane}: no station has a key \"lane\""},
         {{load + ".a={b=['{station.lane}']}"}, load + ".a: {station.lane}: no station"},
         {{load + ".a=2026-01-01"}, load + ".a: expected a string, number, boolean, table or list"},
         {{load + "=7"}, load + ": expected a table"},
-        {{tray + ".ml99999=1"}, tray + ".ml99999: ml99999 is no relay that can be read back"},
-        {{tray + ".q1=1"}, tray + ".q1: q1 is no relay"},
+        {{tray + ".ml99999=1"}, tray + ".ml99999: ml99999 is not a relay that can be read back"},
+        {{tray + ".q1=1"}, tray + ".q1: q1 is not a relay"},
         {{tray + ".mb500=256"}, tray + ".mb500: mb500 cannot hold 256; it holds -128 to 255"},
         {{tray + ".m100=2"}, tray + ".m100: m100 cannot hold 2; it holds 0 to 1"},
         {{tray + ".mw300='{job_number}'"},
@@ -339,14 +339,14 @@ TEST_CASE("What a configuration of jobs cannot mean is reported under its key")
     for (const Row& row : rows)
     {
         INFO(row.overrides.front());
-        INFO(row.mistake);
-        const std::string mistake = FindError(row.overrides);
-        INFO(mistake);
-        CHECK(mistake.starts_with(row.mistake));
+        INFO(row.error);
+        const std::string error = FindError(row.overrides);
+        INFO(error);
+        CHECK(error.starts_with(row.error));
     }
 }
 
-TEST_CASE("A mistake in a template has file and line")
+TEST_CASE("An error in a template has file and line")
 {
     const Testing::TemporaryFolder folder;
     const std::string file = (folder.GetPath() / "acsd.toml").string();
@@ -359,13 +359,13 @@ TEST_CASE("A mistake in a template has file and line")
     }
     to << "arm_inputs = { ml105 = \"{x}\" }\n";
     to.close();
-    const auto mistakes = Acsd::ReadAcsdConfig(file, {"site.map=" + std::string(ACS_SITE) + "/site.lif.json"}).mistakes;
-    REQUIRE(mistakes.size() == 1);
-    CHECK(mistakes[0].starts_with(
+    const auto errors = Acsd::ReadAcsdConfig(file, {"site.map=" + std::string(ACS_SITE) + "/site.lif.json"}).errors;
+    REQUIRE(errors.size() == 1);
+    CHECK(errors[0].starts_with(
         file + ":" + std::to_string(line + 1) + R"(: actions.TrayLoad.arm_inputs.ml105: unknown name "x"; known are)"));
 }
 
 TEST_CASE("A parameter that no station has a value for is left to the vehicle's factsheet and to each plan")
 {
-    CHECK(ReadJobs({"actions.CassetteLoad.parameters.stationType='{station.side}'"}).mistakes.empty());
+    CHECK(ReadJobs({"actions.CassetteLoad.parameters.stationType='{station.side}'"}).errors.empty());
 }

@@ -18,13 +18,13 @@ namespace
 AcsdConfig ReadLive(const std::vector<std::string>& overrides)
 {
     AcsdConfig config = ReadAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", overrides);
-    REQUIRE(config.mistakes == std::vector<std::string>{});
+    REQUIRE(config.errors == std::vector<std::string>{});
     return config;
 }
 
 } // namespace
 
-TEST_CASE("A second reading says per key what holds from now on and what needs a restart")
+TEST_CASE("A reload reports per key whether it was applied or needs a restart")
 {
     const ConfigChange change = CompareConfigs(
         {{"log.level", "\"info\""}, {"comm.grace", "\"1s\""}, {"mcs.url", "\"ws://a\""}, {"store.directory", "\"a\""}},
@@ -32,11 +32,11 @@ TEST_CASE("A second reading says per key what holds from now on and what needs a
          {"mcs.url", "\"ws://b\""},
          {"store.directory", "\"a\""},
          {"queue.max_plans", "7"}});
-    CHECK(change.taken == std::vector<std::string>{"comm.grace", "log.level"});
-    CHECK(change.waiting == std::vector<std::string>{"mcs.url", "queue.max_plans"});
+    CHECK(change.applied == std::vector<std::string>{"comm.grace", "log.level"});
+    CHECK(change.pending == std::vector<std::string>{"mcs.url", "queue.max_plans"});
 }
 
-TEST_CASE("Taking a second reading changes the live keys and nothing else")
+TEST_CASE("A reload changes the live keys and nothing else")
 {
     AcsdConfig present = ReadLive({});
     const AcsdConfig before = present;
@@ -56,7 +56,7 @@ TEST_CASE("Taking a second reading changes the live keys and nothing else")
     CHECK(sink.Contains(Core::ELogLevel::Warning, "needs a restart"));
     CHECK(sink.CountLevel(Core::ELogLevel::Warning) == 2);
 
-    TakeLiveKeys(fresh, present);
+    ApplyLiveKeys(fresh, present);
     CHECK(present.operations.logLevel == Core::ELogLevel::Debug);
     CHECK(present.operations.workGrace == std::chrono::seconds(1));
     CHECK(present.operations.statusInterval == std::chrono::seconds(2));
@@ -66,13 +66,13 @@ TEST_CASE("Taking a second reading changes the live keys and nothing else")
     CHECK(present.mcs.session.ackTimeout == before.mcs.session.ackTimeout);
     CHECK(present.engine.maximumPlans == before.engine.maximumPlans);
 
-    // What was taken is no news any more; what needs a restart is told again.
+    // Applied keys are not reported again; those that need a restart are.
     const ConfigChange next = CompareConfigs(present.values, fresh.values);
-    CHECK(next.taken.empty());
-    CHECK(next.waiting == std::vector<std::string>{"mcs.ack_timeout", "queue.max_plans"});
+    CHECK(next.applied.empty());
+    CHECK(next.pending == std::vector<std::string>{"mcs.ack_timeout", "queue.max_plans"});
 }
 
-TEST_CASE("Of how messages are written the live keys are taken, and no other")
+TEST_CASE("Of the keys of the message style, only the live ones are applied")
 {
     const Testing::TemporaryFolder folder;
     const std::string names = (folder.GetPath() / "errors.toml").string();
@@ -92,7 +92,7 @@ TEST_CASE("Of how messages are written the live keys are taken, and no other")
     const AcsdConfig fresh = ReadLive(all);
     REQUIRE_FALSE(fresh.mcs.style.errors == present.mcs.style.errors);
     REQUIRE(fresh.mcs.style.bResultFailureIsFail);
-    TakeLiveKeys(fresh, present);
+    ApplyLiveKeys(fresh, present);
     CHECK((present.mcs.style == ReadLive(live).mcs.style));
     CHECK_FALSE((present.mcs.style == fresh.mcs.style));
 }

@@ -22,11 +22,11 @@ AcsdConfig ReadMCS(const std::vector<std::string>& overrides)
     return ReadAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", overrides);
 }
 
-/// The one mistake that this override makes; empty where it makes none.
+/// The only error that this override causes; empty without one.
 std::string FindError(const std::string& override)
 {
-    const std::vector<std::string> mistakes = ReadMCS({override}).mistakes;
-    return mistakes.size() == 1 ? mistakes[0] : std::string();
+    const std::vector<std::string> errors = ReadMCS({override}).errors;
+    return errors.size() == 1 ? errors[0] : std::string();
 }
 
 } // namespace
@@ -34,7 +34,7 @@ std::string FindError(const std::string& override)
 TEST_CASE("The keys about messages have the defaults of sections 9, 11 and 12")
 {
     const AcsdConfig config = ReadMCS({});
-    REQUIRE(config.mistakes == std::vector<std::string>{});
+    REQUIRE(config.errors == std::vector<std::string>{});
     CHECK(config.mcs.host.empty());
     CHECK(config.mcs.pingInterval == 10s);
     CHECK(config.mcs.session.ackTimeout == 5s);
@@ -82,7 +82,7 @@ TEST_CASE("The keys about messages are read")
          "shutdown.drain_timeout=7s",
          "trace.max_file_bytes=4096",
          "trace.max_files=2"});
-    REQUIRE(config.mistakes == std::vector<std::string>{});
+    REQUIRE(config.errors == std::vector<std::string>{});
     CHECK(config.mcs.host == "mcs.example:9001");
     CHECK(config.mcs.pingInterval == 1s);
     CHECK(config.mcs.session.ackTimeout == 1s);
@@ -109,7 +109,7 @@ TEST_CASE("The keys about messages are read")
     CHECK(ReadMCS({"outbox.replay=none"}).mcs.style.replay == EOutboxReplay::None);
 }
 
-TEST_CASE("A value that the register does not have, or that cannot work, is a mistake with its key")
+TEST_CASE("A value that the register does not have, or that cannot take effect, is an error with its key")
 {
     for (const char* override :
          {R"(mcs.host="a\nb")",
@@ -129,20 +129,20 @@ TEST_CASE("A value that the register does not have, or that cannot work, is a mi
           "errors.map=/nowhere/errors.toml"})
     {
         INFO(override);
-        const std::string mistake = FindError(override);
+        const std::string error = FindError(override);
         const std::string key = std::string(override).substr(0, std::string(override).find('='));
-        CHECK(mistake.find(key == "errors.map" ? "/nowhere/errors.toml" : key) != std::string::npos);
+        CHECK(error.find(key == "errors.map" ? "/nowhere/errors.toml" : key) != std::string::npos);
     }
     CHECK(FindError("mcs.ping_timeout=11s").find("twice mcs.ping_interval") != std::string::npos);
 }
 
-TEST_CASE("errors.map gives alarms the site's names and levels; its mistakes have their file and line")
+TEST_CASE("errors.map gives alarms the site's names and levels; its errors have their file and line")
 {
     const Testing::TemporaryFolder folder;
     const std::string path = (folder.GetPath() / "errors.toml").string();
     std::ofstream(path) << "[ACS-1002]\ncode = \"E77\"\nlevel = \"light\"\n\n[AGV-blocked]\nmessage = \"steht\"\n";
     const AcsdConfig config = ReadMCS({"errors.map=" + path});
-    REQUIRE(config.mistakes == std::vector<std::string>{});
+    REQUIRE(config.errors == std::vector<std::string>{});
 
     Planning::Alarm alarm;
     alarm.errorCode = "ACS-1002";
@@ -159,11 +159,11 @@ TEST_CASE("errors.map gives alarms the site's names and levels; its mistakes hav
     CHECK(Rename(alarm, config.mcs.style.errors) == alarm);
 
     std::ofstream(path) << "[ACS-1002]\ncode = \"\"\nlevel = \"loud\"\ncolour = 1\n";
-    const std::vector<std::string> mistakes = ReadMCS({"errors.map=" + path}).mistakes;
-    REQUIRE(mistakes.size() == 3);
-    CHECK(mistakes[0].find(path + ":2: ACS-1002.code") != std::string::npos);
-    CHECK(mistakes[1].find(path + ":3: ACS-1002.level") != std::string::npos);
-    CHECK(mistakes[2].find(path + ":4: ACS-1002.colour") != std::string::npos);
+    const std::vector<std::string> errors = ReadMCS({"errors.map=" + path}).errors;
+    REQUIRE(errors.size() == 3);
+    CHECK(errors[0].find(path + ":2: ACS-1002.code") != std::string::npos);
+    CHECK(errors[1].find(path + ":3: ACS-1002.level") != std::string::npos);
+    CHECK(errors[2].find(path + ":4: ACS-1002.colour") != std::string::npos);
 }
 
 } // namespace ACS::Acsd::Test

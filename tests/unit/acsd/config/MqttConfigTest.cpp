@@ -30,7 +30,7 @@ std::string WriteFile(const Testing::TemporaryFolder& folder, const std::string&
 
 } // namespace
 
-TEST_CASE("Without further keys the broker is plain and acsd nobody there")
+TEST_CASE("Without further keys the connection to the broker has neither TLS nor a user name")
 {
     Testing::SeededRandom random{1};
     const AcsdConfig config = ReadMQTT({});
@@ -45,12 +45,12 @@ TEST_CASE("Without further keys the broker is plain and acsd nobody there")
 }
 
 TEST_CASE(
-    "mqtt.username and the first line of mqtt.password_file are what acsd tells the broker; others should not read it")
+    "mqtt.username and the first line of mqtt.password_file are sent to the broker; a readable file causes a warning")
 {
     const Testing::TemporaryFolder folder;
     const std::string file = WriteFile(folder, "password", "s3cret word\r\nsecond line\n");
     AcsdConfig config = ReadMQTT({"mqtt.username=acs", "mqtt.password_file=" + file});
-    REQUIRE(config.mistakes.empty());
+    REQUIRE(config.errors.empty());
     CHECK(config.warnings.empty());
     Testing::SeededRandom random{1};
     const VDA5050::MosquittoOptions options = MakeMqttOptions(config.mqtt, random);
@@ -63,20 +63,20 @@ TEST_CASE(
 
     std::filesystem::permissions(file, std::filesystem::perms::others_read, std::filesystem::perm_options::add);
     config = ReadMQTT({"mqtt.username=acs", "mqtt.password_file=" + file});
-    CHECK(config.mistakes.empty());
+    CHECK(config.errors.empty());
     REQUIRE(config.warnings.size() == 1);
-    CHECK(config.warnings[0].find("mqtt.password_file: everybody on this machine can read " + file) == 0);
+    CHECK(config.warnings[0].find("mqtt.password_file: every user of this machine can read " + file) == 0);
 }
 
-TEST_CASE("A password file that is missing, empty or without a name is a mistake with its key")
+TEST_CASE("A password file that is missing, empty or without a name is an error with its key")
 {
     const Testing::TemporaryFolder folder;
     const std::string empty = WriteFile(folder, "empty", "\n");
     const std::string good = WriteFile(folder, "good", "x\n");
     const auto getError = [](const std::vector<std::string>& overrides) {
-        const std::vector<std::string> mistakes = ReadMQTT(overrides).mistakes;
-        REQUIRE(mistakes.size() == 1);
-        return mistakes[0];
+        const std::vector<std::string> errors = ReadMQTT(overrides).errors;
+        REQUIRE(errors.size() == 1);
+        return errors[0];
     };
     CHECK_THAT(
         getError({"mqtt.username=acs", "mqtt.password_file=/nowhere/password"}),
@@ -87,7 +87,7 @@ TEST_CASE("A password file that is missing, empty or without a name is a mistake
     CHECK_THAT(getError({"mqtt.password_file=" + good}), Catch::Contains("mqtt.password_file: needs mqtt.username"));
 }
 
-TEST_CASE("With mqtts the CA, the certificate and its key are files that are there; with mqtt they are a mistake")
+TEST_CASE("With mqtts the files of CA, certificate and key must exist; with mqtt they are an error")
 {
     const Testing::TemporaryFolder folder;
     Testing::CertificateMaker maker(folder.GetPath());
@@ -104,7 +104,7 @@ TEST_CASE("With mqtts the CA, the certificate and its key are files that are the
     };
     Testing::SeededRandom random{1};
     const AcsdConfig config = with("mqtts://broker:8883", 3);
-    REQUIRE(config.mistakes.empty());
+    REQUIRE(config.errors.empty());
     const VDA5050::MosquittoOptions options = MakeMqttOptions(config.mqtt, random);
     REQUIRE(options.tls.has_value());
     CHECK(options.tls->caFile == ca.certificate);
@@ -112,14 +112,14 @@ TEST_CASE("With mqtts the CA, the certificate and its key are files that are the
     CHECK(options.tls->keyFile == own.key);
     CHECK(MakeMqttOptions(with("mqtts://broker:8883", 0).mqtt, random).tls.has_value());
 
-    const auto plain = with("mqtt://broker:1883", 1).mistakes;
+    const auto plain = with("mqtt://broker:1883", 1).errors;
     REQUIRE(plain.size() == 1);
     CHECK_THAT(plain[0], Catch::Contains("mqtt.ca_file: is for mqtts:// only"));
-    const auto half = with("mqtts://broker:8883", 2).mistakes;
+    const auto half = with("mqtts://broker:8883", 2).errors;
     REQUIRE(half.size() == 1);
     CHECK_THAT(half[0], Catch::Contains("mqtt.cert_file: needs the other one too"));
     const auto wrong =
-        ReadMQTT({"mqtt.url=mqtts://broker:8883", "mqtt.ca_file=" + WriteFile(folder, "text", "no PEM\n")}).mistakes;
+        ReadMQTT({"mqtt.url=mqtts://broker:8883", "mqtt.ca_file=" + WriteFile(folder, "text", "no PEM\n")}).errors;
     REQUIRE(wrong.size() == 1);
     CHECK_THAT(wrong[0], Catch::Contains("mqtt.ca_file: "));
     const AcsdConfig relative = ReadMQTT({"mqtt.url=mqtts://broker:8883", "mqtt.ca_file=nowhere.pem"});

@@ -8,7 +8,7 @@
 namespace ACS::Acsd::Test
 {
 
-TEST_CASE("A number that no place of the action has at this site is an error, as it would be 0 in each job")
+TEST_CASE("A number that no place of the action has at this site is an error, because it would be 0 in each job")
 {
     const std::string tray = "actions.TrayLoad.arm_inputs";
     const std::string memory = "actions.MemoryPickAndPlace.arm_inputs";
@@ -26,11 +26,11 @@ TEST_CASE("A number that no place of the action has at this site is an error, as
         ReadSite({"actions.CassetteLoad.parameters.rack='{from.st}'",
                   "actions.OpenSetCover.arm_inputs.ml120='{position.st}'",
                   memory + ".ml120='{from.tp}'"})
-            .mistakes
+            .errors
         == std::vector<std::string>{});
 }
 
-TEST_CASE("A site without places of an action, or without its robots, has no jobs of it: its numbers are not judged")
+TEST_CASE("A site without places of an action, or without its robots, has no jobs of it: its numbers are not checked")
 {
     Planning::EngineOptions engine;
     const StationTable stations{{"A01.CP01", {}}, {"CHG01", {}}};

@@ -66,13 +66,13 @@ TEST_CASE("4.2 Each control command keeps its kind, plan and reason")
     expect(Protocol::ResumePlan{"P", ""}, EPlanControl::Resume);
 }
 
-TEST_CASE("4.3 A query is no command of the engine")
+TEST_CASE("4.3 A query is not a command of the engine")
 {
     CHECK_FALSE(MakePlanCommandOrNull(Protocol::RequestAcsPlans{}, "T", 1).has_value());
     CHECK_FALSE(MakePlanCommandOrNull(Protocol::RequestAcsErrorList{}, "T", 1).has_value());
 }
 
-TEST_CASE("9 A report is sent with its own transactionId and time, however often")
+TEST_CASE("9 A report is resent with the same transactionId and time")
 {
     const Core::WallTime time{1'700'000'000s};
     const Planning::OutboxEntry entry{
@@ -107,7 +107,7 @@ TEST_CASE("5.7 The outcome of each control command has its own report, with Fail
     CHECK(std::get<Protocol::ResumeResultReport>(make(Planning::EPlanControl::Resume, true)).message == "m");
 }
 
-TEST_CASE("11 What the document leaves open is written as the configuration says")
+TEST_CASE("11 Details that MCS-ACS leaves open are written as configured")
 {
     MessageStyle style;
     style.bResultFailureIsFail = true;
@@ -205,7 +205,7 @@ TEST_CASE("5.10, 12 Positions that are too long for one message are cut to as fe
     }
 }
 
-TEST_CASE("5.9 A robot's status says null for what does not apply")
+TEST_CASE("5.9 A robot's status has null for members that do not apply")
 {
     Planning::RobotStatus status;
     status.robotID = "CR01";
@@ -222,7 +222,7 @@ TEST_CASE("5.9 A robot's status says null for what does not apply")
     CHECK(update.carrierIDs == status.carrierIDs);
 }
 
-TEST_CASE("The words of the engine and of the wire are the same")
+TEST_CASE("The names of the enumerators in the engine and on the wire are the same")
 {
     const auto expectSame = [](auto domain, auto wire) {
         CHECK(GetText(domain) == GetText(wire));

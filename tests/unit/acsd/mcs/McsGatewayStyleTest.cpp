@@ -20,7 +20,7 @@ namespace ACS::Acsd::Test
 namespace
 {
 
-/// The session with the MCS, played by hand.
+/// A session with the MCS that the test controls.
 class RecordedOutput final : public IMcsOutput
 {
 public:
@@ -70,7 +70,7 @@ public:
     }
 };
 
-/// An engine that has restored these reports and alarms, and the gateway in front of it.
+/// An engine that has restored these reports and alarms, and its gateway.
 struct GatewayFixture
 {
     AcsdConfig config = ReadAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", {});
@@ -159,7 +159,7 @@ const std::vector<Planning::Report> OUTAGE{
 
 TEST_CASE_METHOD(
     GatewayFixture,
-    "outbox.replay: all of an outage is told, or what is final, or nothing; the rest is forgotten")
+    "outbox.replay: all reports of an outage are sent, or the final ones, or none; the others are dropped")
 {
     Restore(OUTAGE);
     MessageStyle style;
@@ -191,7 +191,7 @@ TEST_CASE_METHOD(
 
 TEST_CASE_METHOD(
     GatewayFixture,
-    "mcs.on_report_nack: a refused report is final, or is sent again with the next registration")
+    "mcs.on_report_nack: a refused report is dropped, or is sent again after the next registration")
 {
     Restore({OUTAGE.front()});
     const bool bRetried = GENERATE(false, true);
@@ -228,7 +228,7 @@ TEST_CASE_METHOD(GatewayFixture, "The wait for an acknowledgement is observed on
     clock.Advance(std::chrono::milliseconds(30));
     Ack("T1", Protocol::EAckResult::Success);
     Ack("T1", Protocol::EAckResult::Success); // an MCS that acknowledges twice
-    Ack("T9", Protocol::EAckResult::Success); // and what it never got
+    Ack("T9", Protocol::EAckResult::Success); // and a report that it never received
     CHECK(waits == std::vector<Core::Duration>{std::chrono::milliseconds(30)});
     CHECK(GetForgotten() == std::vector<std::uint64_t>{1});
 }
@@ -258,7 +258,7 @@ TEST_CASE_METHOD(
 
 TEST_CASE_METHOD(
     GatewayFixture,
-    "mcs.tx_max_bytes: a list that is too long is cut to fit, newest errors first, and says so")
+    "mcs.tx_max_bytes: a list that is too long is cut to fit, newest errors first, and the message states that")
 {
     Planning::StoredState state;
     for (int i = 0; i < 40; ++i)

@@ -14,7 +14,7 @@ namespace
 
 using namespace Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 
-/// The gateway with an engine and its loop, a session that takes everything, and a disk that answers when the test says so.
+/// The gateway with an engine and its host, a session that accepts everything, and a disk that answers when the test lets it.
 class GatewayTest : private Acsd::IMcsOutput
 {
 protected:
@@ -113,7 +113,7 @@ private:
 
 TEST_CASE_METHOD(
     GatewayTest,
-    "A command that is refused has a line with planId, transactionId, reason and field; of a flood a few, other reasons as well")
+    "A refused command is logged with planId, transactionId, reason and field; repetitions are rate-limited per reason")
 {
     Register();
     const auto submit = [this](const std::string& action, int number) {
@@ -151,7 +151,7 @@ TEST_CASE_METHOD(
     CHECK(_log.GetLines().back().HasField("planId", "P100"));
 }
 
-TEST_CASE_METHOD(GatewayTest, "A refusal that is not about a field of the command names none")
+TEST_CASE_METHOD(GatewayTest, "The log line of a refusal that is not about a field has no field")
 {
     Register();
     Protocol::ExecutionPlan plan;
@@ -169,9 +169,7 @@ TEST_CASE_METHOD(GatewayTest, "A refusal that is not about a field of the comman
     }));
 }
 
-TEST_CASE_METHOD(
-    GatewayTest,
-    "A registration while a report is on its way to the disk does not tell it before it is there")
+TEST_CASE_METHOD(GatewayTest, "A report that is being stored during a registration is not sent before it is stored")
 {
     BeginPlan("P1");
     REQUIRE(_host.IsStoring());
@@ -187,7 +185,7 @@ TEST_CASE_METHOD(
     CHECK(_sent.front().transactionID == _engine.GetUnacknowledged().front().transactionID);
 }
 
-TEST_CASE_METHOD(GatewayTest, "A report that comes between the registration and its event does not overtake the replay")
+TEST_CASE_METHOD(GatewayTest, "A report between the registration and its event does not overtake the replay")
 {
     BeginPlan("P1");
     _host.OnStored({});
@@ -237,7 +235,7 @@ TEST_CASE_METHOD(
     CHECK(_engine.GetUnacknowledged().front().transactionID == second);
 }
 
-TEST_CASE_METHOD(GatewayTest, "What the store held is replayed after a restart")
+TEST_CASE_METHOD(GatewayTest, "The reports in the store are replayed after a restart")
 {
     OutboxEntry entry{7, "T7", _clock.GetNow().wall, PlanReport{"P0", EPlanState::Completed, {}}};
     StoredState state;

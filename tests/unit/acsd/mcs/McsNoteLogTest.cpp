@@ -22,34 +22,32 @@ struct NoteLogFixture
 
     void Take(EProtocolNote what, const std::string& detail)
     {
-        log.Take({what, 1, detail}, ++total, now);
+        log.OnNoted({what, 1, detail}, ++total, now);
     }
 };
 
 } // namespace
 
-TEST_CASE_METHOD(
-    NoteLogFixture,
-    "A text that was refused has its line already, and takes nothing from those without an Ack")
+TEST_CASE_METHOD(NoteLogFixture, "A refused message is not logged as a note, and does not count against the rate limit")
 {
     for (std::size_t count = 0; count < 100; ++count)
     {
         Take(EProtocolNote::Undecodable, "payload.steps: expected a list, found 7");
-        log.Forget();
+        log.Drop();
     }
     CHECK(sink.GetLines().empty());
     Take(EProtocolNote::Undecodable, "expected a JSON text, found {");
     log.Flush(now);
     REQUIRE(sink.GetLines().size() == 1);
     CHECK(sink.GetLines().front().level == Core::ELogLevel::Warning);
-    CHECK(sink.GetLines().front().message == "the MCS departs from the protocol");
+    CHECK(sink.GetLines().front().message == "the MCS deviates from the protocol");
     CHECK(sink.GetLines().front().HasField("detail", "expected a JSON text, found {"));
     CHECK(sink.GetLines().front().HasField("count", "101"));
     log.Flush(now);
     CHECK(sink.GetLines().size() == 1);
 }
 
-TEST_CASE_METHOD(NoteLogFixture, "Each departure has a few lines for each of its reasons, whatever was found")
+TEST_CASE_METHOD(NoteLogFixture, "Each kind of deviation is rate-limited per reason, whatever the value")
 {
     for (int count = 0; count < 100; ++count)
     {

@@ -8,7 +8,7 @@
 namespace ACS::Acsd::Test
 {
 
-TEST_CASE("What a message to a vehicle cannot have is an error of the configuration")
+TEST_CASE("A value that a message to a vehicle cannot have is an error of the configuration")
 {
     const std::string load = "actions.CassetteLoad.parameters";
     const std::string own = "robots.LR01.actions.CassetteLoad.parameters";
@@ -34,7 +34,7 @@ TEST_CASE("What a message to a vehicle cannot have is an error of the configurat
         {{R"(stations."A01.CP01".type="\u0000")"}, R"(stations."A01.CP01".type: expected text without)"},
         {{R"(stations."A01.CP01".height=nan)"}, R"(stations."A01.CP01".height: expected a number from)"},
     });
-    CHECK(ReadSite({load + R"(={a=1.5, b="", c="two\nlines", d={e=[-0.0, 1e308]}})"}).mistakes.empty());
+    CHECK(ReadSite({load + R"(={a=1.5, b="", c="two\nlines", d={e=[-0.0, 1e308]}})"}).errors.empty());
 }
 
 } // namespace ACS::Acsd::Test

@@ -6,15 +6,14 @@
 
 using namespace ACS; // NOLINT(google-build-using-namespace): a test of several of them
 
-TEST_CASE(
-    "An MCS that refuses the registration is told as such, also between two tries, until it is not reached any more")
+TEST_CASE("A refused registration stays the not-ready reason, also between two attempts, until the MCS is unreachable")
 {
     Acsd::RegistrationWatch watch;
     CHECK(watch.GetObstacle(false) == "no connection: mcs");
     watch.OnSessionEvent(Protocol::LinkLost{"Connection refused", false});
     CHECK(watch.GetObstacle(false) == "no connection: mcs: Connection refused");
-    CHECK(watch.GetObstacle(true) == "connected, not registered: mcs: it has not answered the registration yet");
-    const std::string refused = "connected, not registered: mcs: it refuses the registration: not you";
+    CHECK(watch.GetObstacle(true) == "connected, not registered: mcs: registration not answered yet");
+    const std::string refused = "connected, not registered: mcs: registration refused: not you";
     for (int count = 0; count < 2; ++count)
     {
         watch.OnSessionEvent(Protocol::RegistrationRefused{"not you"});
@@ -27,9 +26,9 @@ TEST_CASE(
     CHECK(watch.GetObstacle(false) == "no connection: mcs: Connection refused");
     watch.OnSessionEvent(Protocol::ProtocolNoted{Protocol::EProtocolNote::RegistrationUnanswered, 1, {}});
     watch.OnSessionEvent(Protocol::LinkLost{"no answer to Registration", false});
-    CHECK(watch.GetObstacle(false) == "connected, not registered: mcs: it does not answer the registration");
+    CHECK(watch.GetObstacle(false) == "connected, not registered: mcs: registration not answered");
     watch.OnSessionEvent(Protocol::RegistrationRefused{});
-    CHECK(watch.GetObstacle(true) == "connected, not registered: mcs: it refuses the registration");
+    CHECK(watch.GetObstacle(true) == "connected, not registered: mcs: registration refused");
     watch.OnSessionEvent(Protocol::Registered{});
     CHECK(watch.GetObstacle(false) == "no connection: mcs");
 }

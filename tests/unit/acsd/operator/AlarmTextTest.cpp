@@ -7,7 +7,7 @@
 namespace ACS::Acsd::Test
 {
 
-TEST_CASE("ACS-1008 tells the request that answers it, to the MCS too; the site's own message stays as it is")
+TEST_CASE("The text of ACS-1008 has the request that resolves the job; a message of the site is sent unchanged")
 {
     Planning::Alarm alarm;
     alarm.robotID = "LR01";
@@ -18,8 +18,8 @@ TEST_CASE("ACS-1008 tells the request that answers it, to the MCS too; the site'
     const std::string text = MakeAlarmText(alarm);
     CHECK(
         text
-        == "Look. To answer, send POST /plans/P%2F1%20%C3%BC/jobs/J-1/done to acsd's HTTP address, with the answer in the "
-           "place of done.");
+        == "Look. To resolve the job, send POST /plans/P%2F1%20%C3%BC/jobs/J-1/done (or failed, or again) to acsd's HTTP "
+           "address.");
     const std::size_t begin = text.find("/plans/");
     const Core::Result<Apps::HttpRequest> target =
         Apps::ParseHttpTarget(std::string_view(text).substr(begin, text.find(' ', begin) - begin));
@@ -28,7 +28,7 @@ TEST_CASE("ACS-1008 tells the request that answers it, to the MCS too; the site'
     CHECK(MakeErrorReport(alarm, true).message == text);
 
     alarm.stepNo = 3;
-    CHECK(MakeAlarmText(alarm) == text); // its plan is over
+    CHECK(MakeAlarmText(alarm) == text); // its plan has ended
     alarm.message = "Look. Or skip the step.";
     CHECK(MakeAlarmText(alarm).ends_with(" To skip the step, send POST /plans/P%2F1%20%C3%BC/steps/3/skip."));
     alarm.message = "Look.";

@@ -15,7 +15,7 @@ using Testing::PlanWorld;
 namespace
 {
 
-/// An operator at acsd's HTTP side, without the HTTP.
+/// An operator who calls the routes directly, without HTTP.
 class Operator
 {
     Apps::HttpRoutes _routes;
@@ -23,7 +23,7 @@ class Operator
 public:
     PlanWorld world{1, true};
     bool bStopping = false;
-    std::optional<std::string> storeObstacle;
+    std::optional<std::string> storeFault;
 
     Operator()
     {
@@ -38,7 +38,7 @@ public:
                  return !bStopping;
              },
              [this] {
-                 return storeObstacle;
+                 return storeFault;
              }});
         world.Connect();
     }
@@ -67,7 +67,7 @@ bool HasText(const std::string& text, std::string_view part)
 
 } // namespace
 
-TEST_CASE("/status shows links, obstacles, what waits for the MCS since when, and which arm is there")
+TEST_CASE("/status shows links, not-ready reasons, the outbox with its oldest time, and which arms are ready")
 {
     PlanWorld world{1, true};
     world.bAcknowledges = false;
@@ -92,7 +92,7 @@ TEST_CASE("/status shows links, obstacles, what waits for the MCS since when, an
         R"("outbox":{"reports":)" + std::to_string(waiting.size()) + R"(,"oldest":")" + time + R"("})"));
 }
 
-TEST_CASE("/status shows a charge as a percentage, whatever a robot tells")
+TEST_CASE("/status shows a charge as a percentage, whatever a robot reports")
 {
     Operator user;
     Planning::StateChanged state;
@@ -107,7 +107,7 @@ TEST_CASE("/status shows a charge as a percentage, whatever a robot tells")
     }
 }
 
-TEST_CASE("Who may ask: programs by address or a name of the configuration; health and figures under any name; no page")
+TEST_CASE("Requests need an address or a configured host name, except for health and metrics; web pages are refused")
 {
     Acsd::AcsdConfig config;
     config.httpListen.host = "acs.local";
@@ -116,7 +116,7 @@ TEST_CASE("Who may ask: programs by address or a name of the configuration; heal
     const auto bServed = [&guard](const std::string& method, const std::string& path, const Apps::HttpSource& source) {
         Apps::HttpRequest request = *Apps::ParseHttpTarget(path);
         request.method = method;
-        return !guard.GetUnavailabilityOrNull(request, source).has_value();
+        return !guard.GetRejectionReasonOrNull(request, source).has_value();
     };
     for (const char* host : {"127.0.0.1:8080", "acs.local:8080", "acs.example"})
     {
@@ -131,22 +131,22 @@ TEST_CASE("Who may ask: programs by address or a name of the configuration; heal
     }
 }
 
-TEST_CASE("/readyz and /status say why a link is not there, /status what the MCS refused last")
+TEST_CASE("/readyz and /status show why a link is down, /status the report that the MCS refused last")
 {
     PlanWorld world{1, true};
     Acsd::ProgramStatus program{
-        {{"mcs", false, "connected, not registered: mcs: it refuses the registration"}, {"mqtt", false}},
+        {{"mcs", false, "connected, not registered: mcs: registration refused"}, {"mqtt", false}},
         {"acsd draining for shutdown"},
         {}};
     const std::string ready = Acsd::MakeReadyResponse(program.links, program.obstacles).body;
     CHECK(
         ready
-        == "connected, not registered: mcs: it refuses the registration\nno connection: mqtt\n"
+        == "connected, not registered: mcs: registration refused\nno connection: mqtt\n"
            "acsd draining for shutdown\n");
     std::string status = Acsd::MakeStatusResponse(program, *world.engine).body;
     CHECK(HasText(
         status,
-        R"("obstacles":["connected, not registered: mcs: it refuses the registration","acsd draining for shutdown"])"));
+        R"("obstacles":["connected, not registered: mcs: registration refused","acsd draining for shutdown"])"));
     CHECK(HasText(status, R"("refusedReports":{"count":0,"last":null})"));
     program.refusedReports = {3, "JobReport", "P1", "unknown job"};
     status = Acsd::MakeStatusResponse(program, *world.engine).body;
@@ -157,7 +157,7 @@ TEST_CASE("/readyz and /status say why a link is not there, /status what the MCS
     CHECK(HasText(Acsd::MakeStatusResponse(program, *world.engine).body, R"("planId":null,"message":"unknown job")"));
 }
 
-TEST_CASE("POST /robots/ID/maintenance/on and off; /status shows it and why a plan waits for it")
+TEST_CASE("POST /robots/ID/maintenance/on and off; /status shows it and which plan waits for it")
 {
     Operator user;
     CHECK(user.Post("/robots/LR01/maintenance/on") == "202 {\"message\":\"LR01 is taken out of service.\"}\n");
@@ -176,11 +176,11 @@ TEST_CASE("POST /robots/ID/maintenance/on and off; /status shows it and why a pl
     CHECK(user.world.GetReportsOf("P1").back() == "Plan Completed");
     CHECK(
         user.Post("/robots/LR09/maintenance/on")
-        == "404 {\"error\":\"There is no robot LR09; /status has the robots.\"}\n");
+        == "404 {\"error\":\"There is no robot LR09; /status lists the robots.\"}\n");
     CHECK(HasText(user.Post("/robots/LR01/maintenance/maybe"), "404 "));
 }
 
-TEST_CASE("POST /robots/ID/carriers corrects the ports, in their order")
+TEST_CASE("POST /robots/ID/carriers corrects the record of the ports, in their order")
 {
     Operator user;
     CHECK(
@@ -188,16 +188,16 @@ TEST_CASE("POST /robots/ID/carriers corrects the ports, in their order")
         == "202 {\"message\":\"The ports of CR01 are corrected.\"}\n");
     CHECK(HasText(user.GetStatus(), R"("carrierIds":["TRAY_01",null,"TRAY 03"])"));
     CHECK(HasText(user.Post("/robots/CR01/carriers?carrier=A"), "400 {\"error\":\"CR01 has 3 carrier ports"));
-    CHECK(HasText(user.Post("/robots/LR01/carriers?carriers=A"), "400 {\"error\":\"There is no parameter carriers"));
+    CHECK(HasText(user.Post("/robots/LR01/carriers?carriers=A"), "400 {\"error\":\"Unknown parameter carriers"));
     CHECK(HasText(user.Post("/robots/LR02/carriers?carrier=TRAY_01"), "TRAY_01 is on CR01"));
     CHECK(HasText(
         user.Post("/robots/LR01/carriers?carrier=%FF%FE"),
-        "400 {\"error\":\"The parameter carrier is no UTF-8"));
+        "400 {\"error\":\"The parameter carrier is not valid UTF-8"));
     CHECK(HasText(user.Post("/robots/LR09/carriers"), "404 "));
     CHECK(HasText(user.GetStatus(), R"("carrierIds":["TRAY_01",null,"TRAY 03"])"));
 }
 
-TEST_CASE("POST /plans/PLAN/jobs/JOB/done, failed and again answer for a job that is held, and for no other")
+TEST_CASE("POST /plans/PLAN/jobs/JOB/done, failed and again resolve an unresolved job, and no other")
 {
     Operator user;
     user.world.Submit(MakeLogisticsPlan("P1"));
@@ -213,8 +213,8 @@ TEST_CASE("POST /plans/PLAN/jobs/JOB/done, failed and again answer for a job tha
         user.GetStatus(),
         "then answer done (the plan continues with the next job), failed (the plan fails) or again (the job was not done and "
         "nothing was moved: it is repeated). Or skip the step (the plan continues with the next step, and the job has no "
-        "further report), or abort the plan from the MCS. To answer, send POST /plans/P1/jobs/P1-a4/done to acsd's HTTP address, with "
-        "the answer in the place of done. To skip the step, send POST /plans/P1/steps/1/skip."));
+        "further report), or abort the plan from the MCS. To resolve the job, send POST /plans/P1/jobs/P1-a4/done (or failed, "
+        "or again) to acsd's HTTP address. To skip the step, send POST /plans/P1/steps/1/skip."));
     CHECK(HasText(user.Post("/plans/P1/jobs/P1-b2/done"), "404 "));
     CHECK(HasText(user.Post("/plans/P2/jobs/P1-a4/again"), "404 "));
     CHECK(HasText(user.Post("/plans/P1/jobs/P1-a4/done"), "202 "));
@@ -234,13 +234,11 @@ TEST_CASE("POST /plans/PLAN/steps/NO/skip skips a step that is Pending or whose 
     CHECK(HasText(user.Post("/plans/P1/steps/1/skip"), "409 {\"error\":\"Step 1 is InProgress"));
     for (const std::string number : {"one", "1x", "%201", "99999999999"})
     {
-        CHECK(HasText(
-            user.Post("/plans/P1/steps/" + number + "/skip"),
-            "400 {\"error\":\"A step is named by its stepNo"));
+        CHECK(HasText(user.Post("/plans/P1/steps/" + number + "/skip"), "400 {\"error\":\"Expected a stepNo"));
     }
-    user.storeObstacle = "the store cannot be written";
+    user.storeFault = "the store cannot be written";
     CHECK(HasText(user.Post("/plans/P1/steps/2/skip"), "503 "));
-    user.storeObstacle.reset();
+    user.storeFault.reset();
     CHECK(user.Post("/plans/P1/steps/2/skip") == "202 {\"message\":\"Step 2 of plan P1 is skipped.\"}\n");
     user.world.Raise("LR01", Planning::JobUnresolved{"P1-a4", "it was switched off"});
     CHECK(HasText(user.Post("/plans/P1/steps/1/skip"), "202 "));
@@ -249,7 +247,7 @@ TEST_CASE("POST /plans/PLAN/steps/NO/skip skips a step that is Pending or whose 
     CHECK(HasText(user.Post("/plans/P1/steps/1/skip"), "409 {\"error\":\"Plan P1 is already Completed."));
 }
 
-TEST_CASE("What nobody would read of a command is refused by name: parameters, twice the same one, a body")
+TEST_CASE("Unknown and repeated parameters and a body are refused by name")
 {
     Operator user;
     user.world.Submit(MakeLogisticsPlan("P1"));
@@ -267,13 +265,13 @@ TEST_CASE("What nobody would read of a command is refused by name: parameters, t
           "/plans/P1/steps/2/skip"})
     {
         INFO(target);
-        CHECK(HasText(user.Post(target + "?force=1"), "400 {\"error\":\"There is no parameter force; th"));
-        CHECK(HasText(
-            user.Post(target, R"({"force":true})"),
-            R"(400 {"error":"A body is not read, found \"{\"force\":)"));
+        CHECK(HasText(user.Post(target + "?force=1"), "400 {\"error\":\"Unknown parameter force; "));
+        CHECK(
+            HasText(user.Post(target, R"({"force":true})"), R"(400 {"error":"Expected no body, found \"{\"force\":)"));
     }
-    CHECK(user.Post("/tsc/pause?now") == "400 {\"error\":\"There is no parameter now; this takes none.\"}\n");
-    CHECK(HasText(user.Post("/alarms/clear?step=1"), "there is robot, code, plan, job."));
+    CHECK(
+        user.Post("/tsc/pause?now") == "400 {\"error\":\"Unknown parameter now; this request has no parameters.\"}\n");
+    CHECK(HasText(user.Post("/alarms/clear?step=1"), "known: robot, code, plan, job."));
     CHECK(HasText(
         user.Post("/alarms/clear?robot=LR01&code=A&robot=LR02"),
         "400 {\"error\":\"The parameter robot is given twice"));
@@ -281,7 +279,7 @@ TEST_CASE("What nobody would read of a command is refused by name: parameters, t
     CHECK_FALSE(HasText(user.GetStatus(), R"("maintenance":true)"));
 }
 
-TEST_CASE("While acsd stops an operator is told that nothing is taken any more")
+TEST_CASE("While acsd stops, commands of the operator are refused")
 {
     Operator user;
     user.bStopping = true;
@@ -294,12 +292,12 @@ TEST_CASE("While acsd stops an operator is told that nothing is taken any more")
 }
 
 TEST_CASE(
-    "While nothing can be stored a command is refused, but for what takes work away, which says that it is not stored")
+    "While the store fails, commands are refused, except those that stop work, whose answer states that they are not stored")
 {
     Operator user;
     user.world.Raise("LR01", Planning::LinkChanged{false});
     user.world.Submit(MakeLogisticsPlan("P1"));
-    user.storeObstacle = "the store cannot be written";
+    user.storeFault = "the store cannot be written";
     for (const char* target :
          {"/tsc/resume",
           "/robots/LR01/maintenance/off",
@@ -309,33 +307,35 @@ TEST_CASE(
         INFO(target);
         CHECK(
             user.Post(target)
-            == "503 {\"error\":\"Nothing is done, as a crash would forget it: the store cannot be written. Ask again when "
-               "/readyz says ready.\"}\n");
+            == "503 {\"error\":\"Refused, because it would be lost in a crash: the store cannot be written. Retry when "
+               "/readyz answers ready.\"}\n");
     }
     CHECK_FALSE(HasText(user.GetStatus(), R"("carrierIds":["C_01"])"));
     CHECK(
         user.Post("/robots/LR02/maintenance/on")
-        == "202 {\"message\":\"LR02 is taken out of service. It is not stored, and a crash would forget it: the store cannot "
-           "be written. Look at /status, and ask again after a restart.\"}\n");
+        == "202 {\"message\":\"LR02 is taken out of service. This is not stored and would be lost in a crash: the store "
+           "cannot be written. After a restart, check /status and repeat the request if necessary.\"}\n");
     CHECK(HasText(user.GetStatus(), R"("maintenance":true)"));
     CHECK(HasText(
         user.Post("/tsc/pause"),
-        "202 {\"message\":\"The TSC is told to pause; /status has its state. It is not"));
+        "202 {\"message\":\"The TSC was commanded to pause; /status shows its state. This is not"));
     CHECK(user.world.engine->GetTscState() == Planning::ETscState::Paused);
-    user.storeObstacle.reset();
-    CHECK(user.Post("/tsc/resume") == "202 {\"message\":\"The TSC is told to resume; /status has its state.\"}\n");
+    user.storeFault.reset();
+    CHECK(
+        user.Post("/tsc/resume")
+        == "202 {\"message\":\"The TSC was commanded to resume; /status shows its state.\"}\n");
 }
 
-TEST_CASE("An answer for a job that is held waits for the store")
+TEST_CASE("The resolution of a job waits for the store")
 {
     Operator user;
     user.world.Submit(MakeLogisticsPlan("P1"));
     REQUIRE(Testing::TryRunUntil(user.world, "P1", "Job 1 P1-a4 InProgress"));
     user.world.Raise("LR01", Planning::JobUnresolved{"P1-a4", "it was switched off"});
-    user.storeObstacle = "the store cannot be written";
+    user.storeFault = "the store cannot be written";
     CHECK(HasText(user.Post("/plans/P1/jobs/P1-a4/done"), "503 "));
     CHECK(HasText(user.GetStatus(), R"("errorCode":"ACS-1008")"));
-    user.storeObstacle.reset();
+    user.storeFault.reset();
     CHECK(HasText(user.Post("/plans/P1/jobs/P1-a4/done"), "202 "));
 }
 

@@ -7,7 +7,7 @@
 namespace ACS::Acsd::Test
 {
 
-TEST_CASE("A robot that makes up new errors without end does not fill the log, nor hide the alarms of another one")
+TEST_CASE("A robot with ever new errors does not flood the log or hide the alarms of another one")
 {
     Testing::ManualClock clock;
     Testing::RecordingLogSink sink;
@@ -32,8 +32,7 @@ TEST_CASE("A robot that makes up new errors without end does not fill the log, n
     CHECK(metrics.Respond().body.find("acsd_alarms_set_total") != std::string::npos);
 }
 
-TEST_CASE(
-    "A robot that comes and goes without end does not fill the log, nor hide its other changes or those of another one")
+TEST_CASE("A robot that keeps connecting does not flood the log or hide its other changes or those of another one")
 {
     Testing::ManualClock clock;
     Testing::RecordingLogSink sink;
@@ -60,7 +59,7 @@ TEST_CASE(
     CHECK(sink.GetLines().back().message == "robot (480 similar lines suppressed)");
 }
 
-TEST_CASE("What a robot does otherwise again and again is noted a few times, each of its ways")
+TEST_CASE("Repeated deviations of a robot are rate-limited by kind")
 {
     Testing::ManualClock clock;
     Testing::RecordingLogSink sink;

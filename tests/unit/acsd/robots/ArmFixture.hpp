@@ -24,16 +24,16 @@ inline const std::string START = "CONTROL /project/robot/start {}";
 inline const std::string STOP = "CONTROL /project/robot/stop {}";
 inline const std::string RESET = R"(CONTROL /project/service/r_code/execute {"code":1})";
 inline const std::string RESET_TASK = "CONTROL /project/context/tasks[0]/reset {}";
-inline const std::string LOOK = "MONITOR /project/plc/m/val_s32";
+inline const std::string MONITOR_COUNTERS = "MONITOR /project/plc/m/val_s32";
 inline const std::string MOTOR_ON = "CONTROL /project/robot/motor_on {}";
-inline const std::string LOOK_AT_MOTOR = "MONITOR /project/robot/motor_on_state";
+inline const std::string MONITOR_MOTOR = "MONITOR /project/robot/motor_on_state";
 /// What the controller's general state shows.
 inline constexpr std::string_view SELECTED = R"({"is_playback":0,"cur_prog_no":11,"cur_step_no":0})";
-inline constexpr std::string_view STANDS = R"({"is_playback":0,"cur_prog_no":11,"cur_step_no":3})";
-inline constexpr std::string_view PLAYS = R"({"is_playback":1,"cur_prog_no":11,"cur_step_no":3})";
+inline constexpr std::string_view STOPPED_STATE = R"({"is_playback":0,"cur_prog_no":11,"cur_step_no":3})";
+inline constexpr std::string_view RUNNING_STATE = R"({"is_playback":1,"cur_prog_no":11,"cur_step_no":3})";
 inline constexpr std::string_view MOTOR_ON_SAMPLE = R"({"_type":"JObject","val":0})";
 inline constexpr std::string_view MOTOR_OFF_SAMPLE = R"({"_type":"JObject","val":1})";
-inline const std::string LOOK_AT_PLAYBACK = "MONITOR /project/rgen";
+inline const std::string MONITOR_PLAYBACK = "MONITOR /project/rgen";
 
 /// Of programs that cannot echo the number of their job.
 inline ArmOptions MakeArmOptions()
@@ -50,13 +50,13 @@ inline VDA5050::MasterOptions MakeBaseOptions()
     return options;
 }
 
-/// An adapter whose base is never heard of: only the arm's side is under test here.
+/// An adapter whose base reports nothing unless a test lets it: the arm is under test.
 struct ArmFixture
 {
     static constexpr Planning::AdapterTimerID RETRY_TIMER = 100;
     static constexpr Planning::AdapterTimerID START_TIMER = 101;
-    static constexpr Planning::AdapterTimerID GLANCE_TIMER = 102;
-    static constexpr Planning::AdapterTimerID LOOK_TIMER = 103;
+    static constexpr Planning::AdapterTimerID PROBE_TIMER = 102;
+    static constexpr Planning::AdapterTimerID EFFECT_TIMER = 103;
     static constexpr Planning::AdapterTimerID INPUT_TIMER = 104;
 
     Testing::ManualClock clock;
@@ -82,42 +82,42 @@ struct ArmFixture
     {
     }
 
-    void Tell(const OpenStream::ClientEvent& event)
+    void Deliver(const OpenStream::ClientEvent& event)
     {
         adapter.OnArmEvent(event, clock.GetNow(), actions);
     }
 
-    /// The controller takes the MONITOR that was asked for last, or so many before it.
+    /// The controller accepts the latest MONITOR, or one that many requests earlier.
     void AcknowledgeMonitor(std::uint64_t before = 0)
     {
         const auto waiting = std::ranges::count_if(outputs.armRequests, [](const ArmRequest& request) {
             return std::holds_alternative<OpenStream::MonitorRequest>(request);
         });
-        Tell(OpenStream::ClientMonitorStarted{monitorCount + static_cast<std::uint64_t>(waiting) - before});
+        Deliver(OpenStream::ClientMonitorStarted{monitorCount + static_cast<std::uint64_t>(waiting) - before});
     }
 
-    void TellData(std::string_view json)
+    void DeliverData(std::string_view json)
     {
         OpenStream::DataLine line;
         line.result = Core::JsonText::FromTrusted(std::string(json));
-        Tell(OpenStream::ClientData{line, clock.GetNow()});
+        Deliver(OpenStream::ClientData{line, clock.GetNow()});
     }
 
-    /// What was looked for behind a CONTROL is shown: its effect, where that is to be seen, and the counters.
-    void ShowLook(std::string_view counters = "[5,5,0]")
+    /// Shows what is observed after a CONTROL: its effect, if that is observed, and the counters.
+    void ShowVerification(std::string_view counters = "[5,5,0]")
     {
         std::vector<std::string> requests = TakeRequests();
-        if (requests == std::vector<std::string>{LOOK_AT_PLAYBACK})
+        if (requests == std::vector<std::string>{MONITOR_PLAYBACK})
         {
-            ShowEffect(lastControl == STOP ? STANDS : lastControl == SELECT ? SELECTED : PLAYS);
+            ShowEffect(lastControl == STOP ? STOPPED_STATE : lastControl == SELECT ? SELECTED : RUNNING_STATE);
             requests = TakeRequests();
         }
-        CHECK(requests == std::vector<std::string>{LOOK});
+        CHECK(requests == std::vector<std::string>{MONITOR_COUNTERS});
         AcknowledgeMonitor();
-        TellData(counters);
+        DeliverData(counters);
     }
 
-    /// The CONTROL is answered by silence, and by a look behind it.
+    /// The CONTROL is accepted, and verified by what MONITOR shows after it.
     void Accept(std::string_view counters = "[5,5,0]")
     {
         static_cast<void>(TakeRequests());
@@ -127,20 +127,20 @@ struct ArmFixture
             static_cast<void>(TakeRequests());
         }
         Settle(OpenStream::EControlOutcome::Accepted);
-        ShowLook(counters);
+        ShowVerification(counters);
     }
 
-    /// The MONITOR behind a CONTROL is taken, and shows what that has done.
+    /// The MONITOR after a CONTROL is accepted, and shows the effect.
     void ShowEffect(std::string_view state)
     {
         AcknowledgeMonitor();
-        TellData(state);
+        DeliverData(state);
     }
 
     /// A CONTROL is refused with the controller's own error code.
     void RefuseWith(int status, std::string_view body)
     {
-        Tell(OpenStream::ClientControlSettled{
+        Deliver(OpenStream::ClientControlSettled{
             0,
             OpenStream::EControlOutcome::Refused,
             status,
@@ -150,7 +150,7 @@ struct ArmFixture
 
     void Settle(OpenStream::EControlOutcome outcome, int status = 0)
     {
-        Tell(OpenStream::ClientControlSettled{0, outcome, status, std::nullopt, "detail"});
+        Deliver(OpenStream::ClientControlSettled{0, outcome, status, std::nullopt, "detail"});
     }
 
     void Command(const std::string& jobID, const std::string& action = "TrayLoad")
@@ -161,15 +161,15 @@ struct ArmFixture
         adapter.Handle(job, clock.GetNow(), actions);
     }
 
-    /// The arm is connected, and its motor not yet known; the base has told its state.
+    /// The arm is connected, the state of its motor is unknown, and the base has reported its state.
     void ConnectWithBase()
     {
         adapter.OnLinkUp(clock.GetNow(), actions);
         ShowBase(false);
-        Tell(OpenStream::ClientReady{});
+        Deliver(OpenStream::ClientReady{});
     }
 
-    /// The base's state is told, too, and with it the robot's.
+    /// The base reports its state as well, so the state of the robot is reported.
     void BringUpWithBase()
     {
         adapter.OnLinkUp(clock.GetNow(), actions);
@@ -189,18 +189,18 @@ struct ArmFixture
         adapter.OnMqttMessage({"uagv/v2/ACS/CR01/state", payload, 0, false}, clock.GetNow(), actions);
     }
 
-    /// Whether the robot is paused, as it was told last.
-    bool IsToldPaused()
+    /// Whether the robot was reported paused last.
+    bool IsReportedPaused()
     {
         const auto states = TakeEvents<Planning::StateChanged>();
         return !states.empty() && states.back().bPaused;
     }
 
-    /// What it glances at, after some time in which nothing happened.
-    std::vector<std::string> LookAround()
+    /// The requests of a probe after some time without events.
+    std::vector<std::string> TakeProbe()
     {
         static_cast<void>(TakeRequests());
-        Fire(GLANCE_TIMER);
+        Fire(PROBE_TIMER);
         return TakeRequests();
     }
 
@@ -214,10 +214,10 @@ struct ArmFixture
         OpenStream::ErrorLine error;
         error.codeText = "invalid_url";
         error.message = "no such thing";
-        Tell(OpenStream::ClientMonitorRefused{error, std::move(url)});
+        Deliver(OpenStream::ClientMonitorRefused{error, std::move(url)});
     }
 
-    /// The errors that were told last; "?" where no state was told since.
+    /// The errors that were reported last; "?" if no state was reported since.
     std::string TakeErrors()
     {
         const auto states = TakeEvents<Planning::StateChanged>();
@@ -232,7 +232,7 @@ struct ArmFixture
         return codes;
     }
 
-    /// Whether a program has to begin in time.
+    /// Whether the time limit for the begin of a program runs.
     [[nodiscard]] bool IsStartWatched() const
     {
         return std::any_of(actions.begin(), actions.end(), [](const Planning::AdapterAction& action) {
@@ -254,25 +254,25 @@ struct ArmFixture
     /// Handshake, motor on, first counters.
     void BringUp(std::string_view counters = "[5,5,0]")
     {
-        Tell(OpenStream::ClientReady{});
+        Deliver(OpenStream::ClientReady{});
         Settle(OpenStream::EControlOutcome::Accepted); // motor_on
-        TellData(R"({"_type":"JObject","val":0})");
-        TellData(counters);
+        DeliverData(R"({"_type":"JObject","val":0})");
+        DeliverData(counters);
         static_cast<void>(TakeRequests());
         actions.clear();
     }
 
-    /// After a loss, with a program that has not ended; what it asks for then is still to be taken.
+    /// After a loss, with a program that has not ended. The resulting requests are not taken yet.
     void ComeBack()
     {
-        Tell(OpenStream::ClientReady{});
+        Deliver(OpenStream::ClientReady{});
         Settle(OpenStream::EControlOutcome::Accepted); // motor_on
-        TellData(MOTOR_ON_SAMPLE);
+        DeliverData(MOTOR_ON_SAMPLE);
         static_cast<void>(TakeRequests());
-        TellData("[6,5,0]");
+        DeliverData("[6,5,0]");
     }
 
-    /// "MONITOR url" or "CONTROL url body" of what was asked for since the last call.
+    /// "MONITOR url" or "CONTROL url body" of the requests since the last call.
     std::vector<std::string> TakeRequests()
     {
         std::vector<std::string> texts;

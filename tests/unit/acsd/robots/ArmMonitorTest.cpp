@@ -39,11 +39,11 @@ struct MonitorFixture
         return texts;
     }
 
-    /// The controller takes the MONITOR that was asked for last, or so many before it.
+    /// The controller accepts the latest MONITOR, or one that many requests earlier.
     void Acknowledge(std::uint64_t before = 0)
     {
         static_cast<void>(TakeMonitors());
-        monitor.OnTaken(monitorCount - before);
+        monitor.OnAccepted(monitorCount - before);
     }
 
     ArmFact Show(std::string_view json)
@@ -236,7 +236,7 @@ TEST_CASE("Samples of one range of relays are taken neither for the next range n
     CHECK(std::holds_alternative<ArmCounted>(arm.Show("[5,5,0,11,17]")));
 }
 
-TEST_CASE("The acknowledgement of a MONITOR that another one has replaced says nothing of that one")
+TEST_CASE("The acknowledgement of a replaced MONITOR does not count for the one that replaced it")
 {
     MonitorFixture arm;
     arm.BringUp();

@@ -161,7 +161,7 @@ TEST_CASE("A number is as it is or of one name; what a place lacks is 0")
     CHECK(ResolveNumber("{from.area}", job) == 0);
 }
 
-TEST_CASE("A template that means nothing says why")
+TEST_CASE("An invalid template is reported with the reason")
 {
     for (const auto& [text, reason] : std::vector<std::pair<std::string, std::string>>{
              {"{form}", "unknown name \"form\"; known are from, to"},
@@ -170,8 +170,8 @@ TEST_CASE("A template that means nothing says why")
              {"{station.}", "unknown name"},
              {"{station}", "unknown name"},
              {"{}", "unknown name \"\""},
-             {"{from", "the brace at character 1 has no partner"},
-             {"from}", "the brace at character 5 has no partner"}})
+             {"{from", "unmatched brace at character 1"},
+             {"from}", "unmatched brace at character 5"}})
     {
         INFO(text);
         const auto parsed = JobTemplate::Parse(text);

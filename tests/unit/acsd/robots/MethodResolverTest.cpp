@@ -39,14 +39,14 @@ TEST_CASE("An override that takes an action from its robot is an error, also whe
     CheckErrors({
         {{SECOND_VEHICLE + load + ".arm_program=5}"},
          "robots.LR02.actions.CassetteLoad.arm_program: LR02 cannot do CassetteLoad with it: the vehicle has no action for "
-         "CassetteLoad; give vehicle_action, as LR02 has no arm"},
+         "CassetteLoad; give vehicle_action, because LR02 has no arm"},
         {{SECOND_VEHICLE + load + ".arm_inputs={ml120=1}}"},
          "robots.LR02.actions.CassetteLoad.arm_inputs: LR02 cannot do CassetteLoad with it"},
         {{"robots.LR01.actions.CassetteLoad={arm_program=5, arm_inputs={ml120=1}}"},
          "robots.LR01.actions.CassetteLoad.arm_program: LR01 cannot do CassetteLoad with it"},
         {{SECOND_ARM + "actions.TrayLoad.vehicle_action='pick'}"},
          "robots.CR02.actions.TrayLoad.vehicle_action: CR02 cannot do TrayLoad with it: the arm has no program for TrayLoad; "
-         "give arm_program, as CR02 has an arm"},
+         "give arm_program, because CR02 has an arm"},
         {{SECOND_ARM + "actions.TrayLoad.parameters={a=1}}"},
          "robots.CR02.actions.TrayLoad.parameters: CR02 cannot do TrayLoad with it"},
         {{"robots.CR01.actions.TrayLoad.parameters={}"},
@@ -72,25 +72,24 @@ TEST_CASE("An override's error has the file and the line of its key")
     }
     to << "[robots.CR01.actions.TrayLoad]\nvehicle_action = 'pick'\n";
     to.close();
-    const auto mistakes = ReadAcsdConfig(file, {"site.map=" + std::string(ACS_SITE) + "/site.lif.json"}).mistakes;
-    REQUIRE(mistakes.size() == 1);
-    CHECK(mistakes[0].starts_with(
+    const auto errors = ReadAcsdConfig(file, {"site.map=" + std::string(ACS_SITE) + "/site.lif.json"}).errors;
+    REQUIRE(errors.size() == 1);
+    CHECK(errors[0].starts_with(
         file + ":" + std::to_string(lines + 2)
         + ": robots.CR01.actions.TrayLoad.vehicle_action: CR01 cannot do TrayLoad with it"));
 }
 
-TEST_CASE("An action of the site that no robot can do is reported at the key that says how")
+TEST_CASE("An action of the site that no robot can do is reported at the key of its method")
 {
     CheckErrors({
         {{"actions.X={robot='LR', arm_program=5}"},
-         "actions.X.arm_program: no robot can do it, LR01: the vehicle has no action for X; give vehicle_action, as LR01 "
+         "actions.X.arm_program: no robot can do it, LR01: the vehicle has no action for X; give vehicle_action, because LR01 "
          "has no arm"},
         {{"actions.X={robot='CR', vehicle_action='x'}"}, "actions.X.vehicle_action: no robot can do it, CR01: the arm"},
         {{"actions.X={robot='CR'}"}, "actions.X: needs exactly one of vehicle_action and arm_program"},
         {{"actions.X={robot='CR', parameters={}}"}, "actions.X: needs exactly one of"},
     });
-    CHECK(
-        ReadSite({"actions.X={robot='LR', arm_program=5}", "robots.LR01.actions.X.vehicle_action=x"}).mistakes.empty());
+    CHECK(ReadSite({"actions.X={robot='LR', arm_program=5}", "robots.LR01.actions.X.vehicle_action=x"}).errors.empty());
 }
 
 TEST_CASE("A table of overrides without a key has no effect")
@@ -101,7 +100,7 @@ TEST_CASE("A table of overrides without a key has no effect")
         {{"robots.LR01.actions={}"}, "robots.LR01.actions: is empty; give a table per action"},
         {{R"(stations."A01.CP01".actions.CassetteLoad={})"}, R"(stations."A01.CP01".actions.CassetteLoad: is empty)"},
     });
-    CHECK(ReadSite({"robots.LR01.actions.CassetteLoad.parameters={}"}).mistakes.empty());
+    CHECK(ReadSite({"robots.LR01.actions.CassetteLoad.parameters={}"}).errors.empty());
 }
 
 TEST_CASE("A station's table for an action that has no job there, or that no robot does so, has no effect")
@@ -124,14 +123,14 @@ TEST_CASE("A station's table for an action that has no job there, or that no rob
                   R"(stations."A01.SET01".actions.MemoryPickAndPlace.arm_program=5)",
                   R"(stations."A01.CP01".actions.MemoryPickAndPlace.arm_program=5)", // from tray to tray of the robot
                   R"(stations."A01.CP01".actions.OpenSetCover.arm_program=5)"})
-            .mistakes
+            .errors
         == std::vector<std::string>{});
-    // The robot does it in another way than the action's own table says.
+    // The robot does it in another way than configured in the table of the action.
     CHECK(
         ReadSite({"actions.X={robot='LR', arm_program=5}",
                   "robots.LR01.actions.X.vehicle_action=x",
                   R"(stations."A01.CP01".actions.X.vehicle_action="y")"})
-            .mistakes
+            .errors
         == std::vector<std::string>{});
 }
 
@@ -149,7 +148,7 @@ TEST_CASE("An input that shares a byte with a counter is an error, whatever its 
                     "arm.monitor_start=402",
                     "arm.counter_echo=20",
                     "robots.CR01.actions.TrayLoad.arm_inputs={" + relay + "=1}"})
-            .mistakes;
+            .errors;
     };
     for (const char* const relay :
          {"mb401", "mw400", "ml398", "m3215", "mb414", "ml414", "m3312", "ml478", "mb486", "sl402"})
@@ -161,10 +160,10 @@ TEST_CASE("An input that shares a byte with a counter is an error, whatever its 
          {"mb402", "mw401", "ml399", "ml401", "m3216", "mb413", "m3311", "mw413", "mw481", "ml485"})
     {
         INFO(relay);
-        const std::vector<std::string> mistakes = read(relay);
-        REQUIRE(mistakes.size() == 1);
+        const std::vector<std::string> errors = read(relay);
+        REQUIRE(errors.size() == 1);
         CHECK(
-            mistakes.front().find(std::string("arm_inputs.") + relay + ": is a counter of the arm of CR01, bytes 4")
+            errors.front().find(std::string("arm_inputs.") + relay + ": is a counter of the arm of CR01, bytes 4")
             != std::string::npos);
     }
 }
@@ -183,9 +182,9 @@ TEST_CASE("The counters are those of each robot's own arm, and the inputs those 
         {{R"(stations."A01.CP01".actions.TrayLoad.arm_inputs={mb419=1})"},
          R"(stations."A01.CP01".actions.TrayLoad.arm_inputs.mb419: is a counter of the arm of CR01, bytes 416 to 419)"},
     });
-    CHECK(ReadSite({"robots.CR01.arm.monitor_url=/project/plc/s/val_s32", tray + "={ml100=1}"}).mistakes.empty());
+    CHECK(ReadSite({"robots.CR01.arm.monitor_url=/project/plc/s/val_s32", tray + "={ml100=1}"}).errors.empty());
     CHECK(
-        ReadSite({SECOND_ARM + "actions.TrayLoad.arm_inputs={ml100=1}}", tray + "={ml121=1}"}).mistakes
+        ReadSite({SECOND_ARM + "actions.TrayLoad.arm_inputs={ml100=1}}", tray + "={ml121=1}"}).errors
         == std::vector<std::string>{});
 }
 

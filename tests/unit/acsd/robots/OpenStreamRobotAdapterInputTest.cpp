@@ -60,7 +60,7 @@ struct ArmInputFixture : ArmFixture
         Command(MakeJob());
         CHECK(TakeRequests() == std::vector<std::string>{SELECT});
         Settle(OpenStream::EControlOutcome::Accepted);
-        ShowLook(BEFORE);
+        ShowVerification(BEFORE);
         WriteAll();
     }
 
@@ -70,7 +70,7 @@ struct ArmInputFixture : ArmFixture
         Command(MakeJob());
         static_cast<void>(TakeRequests());
         Settle(OpenStream::EControlOutcome::Accepted);
-        ShowLook(BEFORE);
+        ShowVerification(BEFORE);
     }
 
     /// All inputs are written; the first range is being read.
@@ -91,7 +91,7 @@ struct ArmInputFixture : ArmFixture
         Settle(OpenStream::EControlOutcome::Accepted);
         CHECK(TakeRequests() == std::vector<std::string>{WRITE_AREA});
         Settle(OpenStream::EControlOutcome::Accepted);
-        CHECK(TakeRequests() == std::vector<std::string>{LOOK});
+        CHECK(TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS});
         AcknowledgeMonitor();
     }
 
@@ -99,11 +99,11 @@ struct ArmInputFixture : ArmFixture
     void StartWithInputs()
     {
         WriteInputs();
-        TellData("[4711,1]");
-        ShowLook(BEFORE);
+        DeliverData("[4711,1]");
+        ShowVerification(BEFORE);
         CHECK(TakeRequests() == std::vector<std::string>{START});
         Settle(OpenStream::EControlOutcome::Accepted);
-        ShowLook(BEFORE);
+        ShowVerification(BEFORE);
     }
 
     std::string TakeFailure()
@@ -120,9 +120,9 @@ TEST_CASE("Inputs are written after the selection, read back, and only then the 
 {
     ArmInputFixture arm;
     arm.StartWithInputs();
-    arm.TellData(BEGUN);
+    arm.DeliverData(BEGUN);
     CHECK(arm.TakeEvents<Planning::JobStarted>().size() == 1);
-    arm.TellData(DONE);
+    arm.DeliverData(DONE);
     CHECK(arm.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
     CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
 }
@@ -132,13 +132,13 @@ TEST_CASE("Inputs that read back late are waited for; those of before the writin
     ArmInputFixture arm;
     arm.SelectWithInputs();
     arm.WriteAll();
-    arm.TellData("[4711,0]");
-    arm.TellData("[17,1]");
-    arm.TellData("[4711]");
-    arm.TellData(R"({"val":0})");
+    arm.DeliverData("[4711,0]");
+    arm.DeliverData("[17,1]");
+    arm.DeliverData("[4711]");
+    arm.DeliverData(R"({"val":0})");
     CHECK(arm.TakeRequests().empty());
-    arm.TellData("[4711,1]");
-    arm.ShowLook(BEFORE);
+    arm.DeliverData("[4711,1]");
+    arm.ShowVerification(BEFORE);
     CHECK(arm.TakeRequests() == std::vector<std::string>{START});
 }
 
@@ -151,11 +151,11 @@ TEST_CASE("Samples that were on their way before the inputs are read are still t
     arm.Settle(OpenStream::EControlOutcome::Accepted);
     arm.Settle(OpenStream::EControlOutcome::Accepted);
     static_cast<void>(arm.TakeRequests());
-    arm.TellData(BEFORE); // [5,5,…], before the MONITOR of the inputs was taken
+    arm.DeliverData(BEFORE); // [5,5,…], before the MONITOR of the inputs was taken
     CHECK(arm.TakeRequests().empty());
     arm.AcknowledgeMonitor();
-    arm.TellData("[5,5]");
-    arm.ShowLook(BEFORE);
+    arm.DeliverData("[5,5]");
+    arm.ShowVerification(BEFORE);
     CHECK(arm.TakeRequests() == std::vector<std::string>{START});
 }
 
@@ -170,22 +170,22 @@ TEST_CASE("Samples of the inputs that come after the counters are asked for agai
         return inputs;
     });
     arm.WriteInputs(5);
-    arm.TellData("[4711,1,1,1,1]");
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    arm.DeliverData("[4711,1,1,1,1]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS});
     for (int late = 0; late < 3; ++late)
     {
-        arm.TellData("[4711,1,1,1,1]");
+        arm.DeliverData("[4711,1,1,1,1]");
         arm.AcknowledgeMonitor(1);
     }
     CHECK(arm.TakeRequests().empty());
     CHECK(arm.TakeEvents<Planning::JobUnknown>().empty());
     arm.AcknowledgeMonitor();
-    arm.TellData(BEFORE);
+    arm.DeliverData(BEFORE);
     CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     arm.Settle(OpenStream::EControlOutcome::Accepted);
-    arm.ShowLook(BEFORE);
-    arm.TellData(BEGUN);
-    arm.TellData(DONE);
+    arm.ShowVerification(BEFORE);
+    arm.DeliverData(BEGUN);
+    arm.DeliverData(DONE);
     CHECK(arm.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
 }
 
@@ -196,23 +196,23 @@ TEST_CASE(
     arm.WriteInputs();
     for (int retry = 0; retry < 2; ++retry)
     {
-        arm.TellData("[4711,2]");
+        arm.DeliverData("[4711,2]");
         arm.Fire(ArmFixture::INPUT_TIMER);
-        CHECK(arm.TakeRequests() == std::vector<std::string>{WRITE_NUMBER, LOOK});
+        CHECK(arm.TakeRequests() == std::vector<std::string>{WRITE_NUMBER, MONITOR_COUNTERS});
         static_cast<void>(arm.TakeRequests());
         arm.Settle(OpenStream::EControlOutcome::Accepted);
         arm.Settle(OpenStream::EControlOutcome::Accepted);
-        CHECK(arm.TakeRequests() == std::vector<std::string>{WRITE_AREA, LOOK});
+        CHECK(arm.TakeRequests() == std::vector<std::string>{WRITE_AREA, MONITOR_COUNTERS});
         arm.AcknowledgeMonitor();
     }
-    arm.TellData("[4711,2]");
+    arm.DeliverData("[4711,2]");
     CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
     arm.Fire(ArmFixture::INPUT_TIMER);
     CHECK(arm.TakeFailure().find("relay ml106 was written as 1 and reads 2") != std::string::npos);
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS});
     arm.Fire(ArmFixture::INPUT_TIMER);
     CHECK(arm.TakeRequests().empty());
-    arm.TellData(BEFORE);
+    arm.DeliverData(BEFORE);
     CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
 }
 
@@ -224,8 +224,8 @@ TEST_CASE("Relays that the controller refuses or does not show fail the job; not
         arm.SelectWithInputs();
         static_cast<void>(arm.TakeRequests());
         arm.Settle(OpenStream::EControlOutcome::Refused, 400);
-        CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_MOTOR});
-        arm.TellData(MOTOR_ON_SAMPLE);
+        CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_MOTOR});
+        arm.DeliverData(MOTOR_ON_SAMPLE);
         const std::string reason = arm.TakeFailure();
         CHECK(reason.find("ml105") != std::string::npos);
         CHECK(reason.find("400") != std::string::npos);
@@ -235,7 +235,7 @@ TEST_CASE("Relays that the controller refuses or does not show fail the job; not
         arm.WriteInputs();
         arm.RefuseMonitor("/project/plc/m/val_s32");
         CHECK(arm.TakeFailure().find("/project/plc/m/val_s32") != std::string::npos);
-        CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+        CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS});
     }
     SECTION("It shows nothing")
     {
@@ -263,19 +263,19 @@ TEST_CASE("Inputs of several areas are read one after the other, and all again u
     arm.Settle(OpenStream::EControlOutcome::Accepted);
     CHECK(arm.TakeRequests() == std::vector<std::string>{READ_OUTPUTS});
     arm.AcknowledgeMonitor();
-    arm.TellData("[8]");
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
-    arm.TellData("[8]"); // of the range before
+    arm.DeliverData("[8]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS});
+    arm.DeliverData("[8]"); // of the range before
     CHECK(arm.TakeRequests().empty());
     arm.AcknowledgeMonitor();
-    arm.TellData("[6]");
+    arm.DeliverData("[6]");
     CHECK(arm.TakeRequests() == std::vector<std::string>{READ_OUTPUTS});
     arm.AcknowledgeMonitor();
-    arm.TellData("[8]");
+    arm.DeliverData("[8]");
     arm.AcknowledgeMonitor();
     static_cast<void>(arm.TakeRequests());
-    arm.TellData("[7]");
-    arm.ShowLook(BEFORE);
+    arm.DeliverData("[7]");
+    arm.ShowVerification(BEFORE);
     CHECK(arm.TakeRequests() == std::vector<std::string>{START});
 }
 
@@ -289,24 +289,24 @@ TEST_CASE("Late samples of one range of inputs are not taken for the next one, n
             {*ParseArmRelay("ml2005"), 2}};
     });
     arm.WriteInputs(4);
-    arm.TellData("[4711,0,0,0,0,1]");
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK}); // of the second range
+    arm.DeliverData("[4711,0,0,0,0,1]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS}); // of the second range
     for (int late = 0; late < 2; ++late)
     {
-        arm.TellData("[4711,0,0,0,0,1]");
+        arm.DeliverData("[4711,0,0,0,0,1]");
         arm.AcknowledgeMonitor(1);
     }
     CHECK(arm.TakeRequests().empty());
     CHECK(arm.TakeEvents<Planning::JobUnknown>().empty());
     arm.AcknowledgeMonitor();
-    arm.TellData("[4711,0,0,0,0,3]");
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK}); // of the first range again
+    arm.DeliverData("[4711,0,0,0,0,3]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS}); // of the first range again
     arm.AcknowledgeMonitor();
-    arm.TellData("[4711,0,0,0,0,1]");
+    arm.DeliverData("[4711,0,0,0,0,1]");
     static_cast<void>(arm.TakeRequests());
     arm.AcknowledgeMonitor();
-    arm.TellData("[4711,0,0,0,0,2]");
-    arm.ShowLook(BEFORE); // no range again
+    arm.DeliverData("[4711,0,0,0,0,2]");
+    arm.ShowVerification(BEFORE); // no range again
     CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     CHECK(arm.TakeEvents<Planning::JobUnknown>().empty());
 }
@@ -320,15 +320,15 @@ TEST_CASE("A program that was run after the inputs were read back is not taken f
         },
         bEcho ? ArmOptions{} : MakeArmOptions());
     arm.WriteInputs();
-    arm.TellData("[4711,1]");
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    arm.DeliverData("[4711,1]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS});
     arm.AcknowledgeMonitor();
     const std::string_view counters = GENERATE(
         std::string_view("[6,5,0,11,17]"),
         std::string_view("[6,6,0,11,17]"),
         std::string_view("[6,5,1,11,17]"),
         std::string_view("[0,0,0,0,0]"));
-    arm.TellData(counters);
+    arm.DeliverData(counters);
     CHECK(arm.TakeRequests().empty());
     CHECK(arm.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"J"}});
     CHECK(arm.TakeEvents<Planning::JobStarted>().empty());
@@ -341,23 +341,23 @@ TEST_CASE("A job that was sent again has the counters of after the program that 
 {
     ArmInputFixture arm(ResolveInputs, MakeArmOptions());
     arm.WriteInputs();
-    arm.TellData("[4711,1]");
-    arm.ShowLook("[6,6,0]");
+    arm.DeliverData("[4711,1]");
+    arm.ShowVerification("[6,6,0]");
     CHECK(arm.TakeEvents<Planning::JobUnknown>().size() == 1);
     Planning::StartJob again = ArmInputFixture::MakeJob();
     again.progressToken = "6 6 0";
     arm.Command(again);
     CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
     arm.Settle(OpenStream::EControlOutcome::Accepted);
-    arm.ShowLook("[6,6,0]");
+    arm.ShowVerification("[6,6,0]");
     arm.WriteAll();
-    arm.TellData("[4711,1]");
-    arm.ShowLook("[6,6,0]");
+    arm.DeliverData("[4711,1]");
+    arm.ShowVerification("[6,6,0]");
     CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     arm.Settle(OpenStream::EControlOutcome::Accepted);
-    arm.ShowLook("[6,6,0]");
+    arm.ShowVerification("[6,6,0]");
     CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
-    arm.TellData("[7,7,0]");
+    arm.DeliverData("[7,7,0]");
     CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
 }
 
@@ -365,19 +365,19 @@ TEST_CASE("Between the inputs and the start a pause, a cancellation and a loss a
 {
     ArmInputFixture arm;
     arm.WriteInputs();
-    arm.TellData("[4711,1]");
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    arm.DeliverData("[4711,1]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS});
     SECTION("Paused: the inputs are read again after it")
     {
         arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
         arm.AcknowledgeMonitor();
-        arm.TellData(BEFORE);
+        arm.DeliverData(BEFORE);
         CHECK(arm.TakeRequests().empty());
         arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
-        CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+        CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS});
         arm.AcknowledgeMonitor();
-        arm.TellData("[4711,1]");
-        arm.ShowLook(BEFORE);
+        arm.DeliverData("[4711,1]");
+        arm.ShowVerification(BEFORE);
         CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     }
     SECTION("Cancelled")
@@ -385,18 +385,18 @@ TEST_CASE("Between the inputs and the start a pause, a cancellation and a loss a
         arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
         CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
         arm.AcknowledgeMonitor();
-        arm.TellData(BEFORE);
+        arm.DeliverData(BEFORE);
         CHECK(arm.TakeRequests().empty());
     }
     SECTION("Lost")
     {
-        arm.Tell(OpenStream::ClientLost{});
+        arm.Deliver(OpenStream::ClientLost{});
         CHECK(arm.TakeEvents<Planning::JobUnknown>().size() == 1);
         CHECK(arm.TakeRequests().empty());
     }
     SECTION("A refusal of the selection that came late")
     {
-        arm.Tell(OpenStream::ClientControlFault{403, Core::JsonText::FromTrusted(R"({"err_code":-1245280})"), ""});
+        arm.Deliver(OpenStream::ClientControlFault{403, Core::JsonText::FromTrusted(R"({"err_code":-1245280})"), ""});
         CHECK(arm.TakeRequests() == std::vector<std::string>{REWIND});
     }
 }
@@ -428,23 +428,23 @@ TEST_CASE("A pause while inputs are written holds the start; they are read again
     ArmInputFixture arm;
     arm.WriteInputs();
     arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
-    arm.TellData("[4711,1]");
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    arm.DeliverData("[4711,1]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS});
     arm.AcknowledgeMonitor();
-    arm.TellData(BEFORE);
+    arm.DeliverData(BEFORE);
     CHECK(arm.TakeRequests().empty());
     arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS});
     arm.AcknowledgeMonitor();
     SECTION("They are as they were")
     {
-        arm.TellData("[4711,1]");
-        arm.ShowLook(BEFORE);
+        arm.DeliverData("[4711,1]");
+        arm.ShowVerification(BEFORE);
         CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     }
     SECTION("They were overwritten")
     {
-        arm.TellData("[4711,9]");
+        arm.DeliverData("[4711,9]");
         CHECK(arm.TakeRequests().empty());
         arm.Fire(ArmFixture::INPUT_TIMER);
         CHECK(arm.TakeRequests().front() == WRITE_NUMBER);
@@ -470,20 +470,20 @@ TEST_CASE("A job that is cancelled, or whose connection is lost, while its input
         CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
         if (bRead)
         {
-            CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+            CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS});
         }
         arm.Settle(OpenStream::EControlOutcome::Accepted);
     }
     SECTION("Lost")
     {
-        arm.Tell(OpenStream::ClientLost{});
+        arm.Deliver(OpenStream::ClientLost{});
         CHECK(arm.TakeEvents<Planning::JobUnknown>().size() == 1);
     }
     SECTION("A program was run at the controller")
     {
         if (!bRead)
         {
-            arm.TellData("[6,5,0,0,17]");
+            arm.DeliverData("[6,5,0,0,17]");
             CHECK(arm.TakeEvents<Planning::JobUnknown>().size() == 1);
         }
     }
@@ -497,17 +497,17 @@ TEST_CASE("Counters that change under another job's number are no evidence: afte
 {
     ArmInputFixture arm;
     arm.StartWithInputs();
-    arm.TellData("[6,5,0,11,17]");
+    arm.DeliverData("[6,5,0,11,17]");
     CHECK(arm.TakeEvents<Planning::JobStarted>().empty());
     SECTION("The words of one sample were of two moments")
     {
-        arm.TellData(BEGUN);
+        arm.DeliverData(BEGUN);
         CHECK(arm.TakeEvents<Planning::JobStarted>().size() == 1);
         CHECK(arm.TakeEvents<Planning::JobUnresolved>().empty());
     }
     SECTION("It was another program")
     {
-        arm.TellData("[6,6,0,11,17]");
+        arm.DeliverData("[6,6,0,11,17]");
         const auto uncertain = arm.TakeEvents<Planning::JobUnresolved>();
         REQUIRE(uncertain.size() == 1);
         CHECK(uncertain.front().reason.find("4711") != std::string::npos);
@@ -523,9 +523,9 @@ TEST_CASE("A job whose number is unknown, from before an update, counts any chan
     arm.Command(ArmInputFixture::MakeJob(0));
     static_cast<void>(arm.TakeRequests());
     arm.Settle(OpenStream::EControlOutcome::Accepted);
-    arm.ShowLook(BEFORE);
+    arm.ShowVerification(BEFORE);
     arm.Accept(BEFORE);
-    arm.TellData("[6,6,0,11,17]");
+    arm.DeliverData("[6,6,0,11,17]");
     CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
 }
 
@@ -534,7 +534,7 @@ TEST_CASE("A program that gets no number of its job cannot echo one: any change 
     ArmInputFixture arm([](const Planning::StartJob&) { return std::vector<ArmInput>{{*ParseArmRelay("ml105"), 3}}; });
     SECTION("Of a job that was commanded before a restart")
     {
-        arm.TellData("[6,5,0,11,17]");
+        arm.DeliverData("[6,5,0,11,17]");
         arm.adapter.Handle(Planning::RecoverJob{ArmInputFixture::MakeJob(), {}}, arm.clock.GetNow(), arm.actions);
     }
     SECTION("Of another one")
@@ -543,15 +543,15 @@ TEST_CASE("A program that gets no number of its job cannot echo one: any change 
         arm.Settle(OpenStream::EControlOutcome::Accepted);
         static_cast<void>(arm.TakeRequests());
         arm.ShowEffect(SELECTED);
-        arm.ShowLook(BEFORE);
+        arm.ShowVerification(BEFORE);
         arm.Settle(OpenStream::EControlOutcome::Accepted);
         arm.AcknowledgeMonitor();
         static_cast<void>(arm.TakeRequests());
-        arm.TellData("[3]");
-        arm.ShowLook(BEFORE);
+        arm.DeliverData("[3]");
+        arm.ShowVerification(BEFORE);
         arm.Settle(OpenStream::EControlOutcome::Accepted);
     }
-    arm.TellData("[6,6,0,11,17]");
+    arm.DeliverData("[6,6,0,11,17]");
     CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
 }
 
@@ -562,14 +562,14 @@ TEST_CASE("After a restart the echo shows whether the program that ran was this 
     SECTION("It was, and has finished")
     {
         arm.BringUp("[5,5,0,0,4711]");
-        arm.TellData(DONE);
+        arm.DeliverData(DONE);
         CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
     }
     SECTION("Another one ran")
     {
-        arm.Tell(OpenStream::ClientReady{});
-        arm.TellData(MOTOR_ON_SAMPLE);
-        arm.TellData("[6,6,0,11,17]");
+        arm.Deliver(OpenStream::ClientReady{});
+        arm.DeliverData(MOTOR_ON_SAMPLE);
+        arm.DeliverData("[6,6,0,11,17]");
         CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
         REQUIRE(arm.TakeEvents<Planning::JobUnresolved>().size() == 1);
         CHECK(arm.TakeEvents<Planning::JobUnresolved>().front().reason.find("4711") != std::string::npos);

@@ -10,7 +10,7 @@ namespace ACS::Acsd::Test
 namespace
 {
 
-/// A paused program is to go on, and that is how the controller takes it.
+/// A paused program is resumed, and the controller accepts that.
 void SettleGoingOn(ArmFixture& arm, OpenStream::EControlOutcome outcome = OpenStream::EControlOutcome::Refused)
 {
     arm.StartRunning();
@@ -21,20 +21,20 @@ void SettleGoingOn(ArmFixture& arm, OpenStream::EControlOutcome outcome = OpenSt
     arm.Settle(outcome, 403);
 }
 
-/// The program is looked at, and the counters behind it.
-void ShowLookAtProgram(ArmFixture& arm, std::string_view sample, std::string_view counters = "[6,5,0]")
+/// Shows the sample of a probe of the program, then the counters.
+void ShowProgramProbe(ArmFixture& arm, std::string_view sample, std::string_view counters = "[6,5,0]")
 {
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_PLAYBACK});
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_PLAYBACK});
     arm.AcknowledgeMonitor();
-    arm.TellData(sample);
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    arm.DeliverData(sample);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS});
     arm.AcknowledgeMonitor();
-    arm.TellData(counters);
+    arm.DeliverData(counters);
 }
 
 } // namespace
 
-TEST_CASE("6.8 A program counts as stopped when the controller shows that it stands")
+TEST_CASE("6.8 A program counts as stopped when the controller shows that it is stopped")
 {
     ArmFixture arm;
     arm.StartRunning();
@@ -43,33 +43,33 @@ TEST_CASE("6.8 A program counts as stopped when the controller shows that it sta
     arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
     REQUIRE(arm.TakeRequests() == std::vector<std::string>{STOP});
     arm.Settle(OpenStream::EControlOutcome::Accepted);
-    REQUIRE(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_PLAYBACK});
-    arm.TellData(PLAYS);
+    REQUIRE(arm.TakeRequests() == std::vector<std::string>{MONITOR_PLAYBACK});
+    arm.DeliverData(RUNNING_STATE);
     CHECK(arm.TakeRequests().empty()); // still looked for
-    CHECK_FALSE(arm.IsToldPaused());
-    arm.TellData(STANDS);
-    arm.ShowLook("[6,5,0]");
-    CHECK(arm.IsToldPaused());
+    CHECK_FALSE(arm.IsReportedPaused());
+    arm.DeliverData(STOPPED_STATE);
+    arm.ShowVerification("[6,5,0]");
+    CHECK(arm.IsReportedPaused());
 }
 
-TEST_CASE("6.7 Pause stops the arm's program where it is; the robot is paused when base and arm stand")
+TEST_CASE("6.7 Pause stops the arm's program where it is; the robot is paused when base and arm are stopped")
 {
     ArmFixture arm;
     arm.StartRunning();
     arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
     CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
     arm.ShowBase(true);
-    CHECK_FALSE(arm.IsToldPaused());
+    CHECK_FALSE(arm.IsReportedPaused());
     arm.Accept("[6,5,0]");
-    CHECK(arm.IsToldPaused());
+    CHECK(arm.IsReportedPaused());
 
     arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
     CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     arm.ShowBase(false);
-    CHECK(arm.IsToldPaused());
+    CHECK(arm.IsReportedPaused());
     arm.Accept("[6,5,0]");
-    CHECK_FALSE(arm.IsToldPaused());
-    arm.TellData("[6,6,0]");
+    CHECK_FALSE(arm.IsReportedPaused());
+    arm.DeliverData("[6,6,0]");
     CHECK(arm.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
     CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
 }
@@ -82,7 +82,7 @@ TEST_CASE("6.7 Pause without a job is the base's alone; a program that was just 
     arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
     CHECK(arm.TakeRequests().empty());
     arm.ShowBase(true);
-    CHECK(arm.IsToldPaused());
+    CHECK(arm.IsReportedPaused());
     arm.Command("J");
     CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
     arm.Accept();
@@ -102,7 +102,7 @@ TEST_CASE("6.7 A program that is just being started is stopped once it has begun
     CHECK(arm.TakeRequests().empty());
     arm.Accept();
     CHECK(arm.TakeRequests().empty());
-    arm.TellData("[6,5,0]");
+    arm.DeliverData("[6,5,0]");
     CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
 }
 
@@ -115,16 +115,16 @@ TEST_CASE("6.7 A stop that the arm refuses leaves the robot not paused, and is n
     arm.ShowBase(true);
     arm.Settle(OpenStream::EControlOutcome::Refused, 403);
     CHECK(arm.TakeRequests().empty());
-    CHECK_FALSE(arm.IsToldPaused());
+    CHECK_FALSE(arm.IsReportedPaused());
 }
 
 TEST_CASE(
-    "6.8 A program whose going on got lost is stopped, looked at and started again; that it runs already is no failure")
+    "6.8 A program whose resume got lost is stopped, probed and resumed again; if it runs already, that is not a failure")
 {
     ArmFixture arm;
     // While it was under way, or after the silence that was taken for its answer.
     SettleGoingOn(arm, GENERATE(OpenStream::EControlOutcome::Unknown, OpenStream::EControlOutcome::Accepted));
-    arm.Tell(OpenStream::ClientLost{});
+    arm.Deliver(OpenStream::ClientLost{});
     arm.ComeBack();
     CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
     SECTION("It has come to its end meanwhile: nothing is started")
@@ -133,31 +133,31 @@ TEST_CASE(
         CHECK(arm.TakeRequests().empty());
         CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
     }
-    SECTION("It stands")
+    SECTION("It is stopped")
     {
         arm.Accept("[6,5,0]");
         CHECK(arm.TakeRequests() == std::vector<std::string>{START});
         arm.Accept("[6,5,0]");
         CHECK(arm.TakeRequests().empty());
-        arm.TellData("[6,6,0]");
+        arm.DeliverData("[6,6,0]");
         CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
     }
 }
 
-TEST_CASE("6.8 A program counts as going on when the controller shows that it plays")
+TEST_CASE("6.8 A program counts as resumed when the controller shows that it runs")
 {
     ArmFixture arm;
     SettleGoingOn(arm, OpenStream::EControlOutcome::Accepted);
-    REQUIRE(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_PLAYBACK});
-    arm.TellData(STANDS);
+    REQUIRE(arm.TakeRequests() == std::vector<std::string>{MONITOR_PLAYBACK});
+    arm.DeliverData(STOPPED_STATE);
     CHECK(arm.TakeRequests().empty()); // still looked for
-    arm.TellData(PLAYS);
-    arm.ShowLook("[6,5,0]");
+    arm.DeliverData(RUNNING_STATE);
+    arm.ShowVerification("[6,5,0]");
     arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
     CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
 }
 
-TEST_CASE("6.8 A program that ended while it was being stopped is not started again, however late that is told")
+TEST_CASE("6.8 A program that ended while it was being stopped is not started again, however late its end is reported")
 {
     ArmFixture arm;
     arm.StartRunning();
@@ -165,21 +165,21 @@ TEST_CASE("6.8 A program that ended while it was being stopped is not started ag
     static_cast<void>(arm.TakeRequests());
     arm.Settle(OpenStream::EControlOutcome::Accepted);
     arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
-    arm.TellData("[6,5,0]"); // from before the stop
-    CHECK_FALSE(arm.IsToldPaused());
-    arm.ShowLook("[6,6,0]");
+    arm.DeliverData("[6,5,0]"); // from before the stop
+    CHECK_FALSE(arm.IsReportedPaused());
+    arm.ShowVerification("[6,6,0]");
     CHECK(arm.TakeRequests().empty());
     CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
 }
 
-TEST_CASE("6.8 A program whose stop got lost is stopped again, and goes on where nobody wants it paused any more")
+TEST_CASE("6.8 A program whose stop got lost is stopped again, and continues if the robot is no longer to be paused")
 {
     ArmFixture arm;
     arm.StartRunning();
     arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
     static_cast<void>(arm.TakeRequests());
     arm.Settle(OpenStream::EControlOutcome::Accepted);
-    arm.Tell(OpenStream::ClientLost{});
+    arm.Deliver(OpenStream::ClientLost{});
     const bool bResumed = GENERATE(false, true);
     if (bResumed)
     {
@@ -191,69 +191,69 @@ TEST_CASE("6.8 A program whose stop got lost is stopped again, and goes on where
     CHECK(arm.TakeRequests() == (bResumed ? std::vector<std::string>{START} : std::vector<std::string>{}));
 }
 
-TEST_CASE("6.8 A program that goes on already refuses to be started, and is watched as ever")
+TEST_CASE("6.8 A program that runs already is not resumed, and is observed as usual")
 {
     ArmFixture arm;
     SettleGoingOn(arm);
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_MOTOR});
-    arm.TellData(MOTOR_ON_SAMPLE);
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK, LOOK_AT_PLAYBACK});
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_MOTOR});
+    arm.DeliverData(MOTOR_ON_SAMPLE);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS, MONITOR_PLAYBACK});
     arm.actions.clear();
-    arm.TellData(PLAYS);
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    arm.DeliverData(RUNNING_STATE);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS});
     CHECK(arm.TakeErrors().empty());
-    arm.TellData("[6,6,0]");
+    arm.DeliverData("[6,6,0]");
     CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
     CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
 }
 
-TEST_CASE("6.8 A program that cannot go on for a motor that is off goes on when that is on")
+TEST_CASE("6.8 A program that cannot be resumed because the motor is off is resumed when the motor is on")
 {
     ArmFixture arm;
     SettleGoingOn(arm);
-    REQUIRE(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_MOTOR});
+    REQUIRE(arm.TakeRequests() == std::vector<std::string>{MONITOR_MOTOR});
     arm.actions.clear();
-    arm.TellData(MOTOR_OFF_SAMPLE);
+    arm.DeliverData(MOTOR_OFF_SAMPLE);
     CHECK(arm.TakeErrors() == "ARM-motorOff");
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_MOTOR, MOTOR_ON});
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_MOTOR, MOTOR_ON});
     arm.Settle(OpenStream::EControlOutcome::Accepted);
-    arm.TellData(MOTOR_ON_SAMPLE);
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
-    arm.TellData("[6,5,0]");
-    ShowLookAtProgram(arm, STANDS);
+    arm.DeliverData(MOTOR_ON_SAMPLE);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS});
+    arm.DeliverData("[6,5,0]");
+    ShowProgramProbe(arm, STOPPED_STATE);
     CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
     CHECK(arm.TakeErrors() == "");
 }
 
-TEST_CASE("6.8 A program that stands and is refused to go on is told, and started again until it does")
+TEST_CASE("6.8 A stopped program whose resume is refused is reported, and resumed again until it runs")
 {
     ArmFixture arm;
     SettleGoingOn(arm);
-    arm.TellData(MOTOR_ON_SAMPLE);
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_MOTOR, LOOK, LOOK_AT_PLAYBACK});
+    arm.DeliverData(MOTOR_ON_SAMPLE);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_MOTOR, MONITOR_COUNTERS, MONITOR_PLAYBACK});
     arm.actions.clear();
-    arm.TellData(STANDS);
+    arm.DeliverData(STOPPED_STATE);
     CHECK(arm.TakeErrors() == "?"); // it may have come to its end
-    arm.ShowLook("[6,5,0]");
-    CHECK(arm.IsToldPaused());
+    arm.ShowVerification("[6,5,0]");
+    CHECK(arm.IsReportedPaused());
     CHECK(arm.TakeErrors() == "ARM-programHalted");
     CHECK(arm.TakeRequests().empty());
-    SECTION("It goes on when it is asked again")
+    SECTION("It is resumed when that is requested again")
     {
-        CHECK(arm.LookAround().empty());
+        CHECK(arm.TakeProbe().empty());
         arm.Fire(ArmFixture::RETRY_TIMER);
-        ShowLookAtProgram(arm, STANDS);
+        ShowProgramProbe(arm, STOPPED_STATE);
         CHECK(arm.TakeRequests() == std::vector<std::string>{START});
-        CHECK(arm.LookAround().empty());
+        CHECK(arm.TakeProbe().empty());
         CHECK(arm.TakeErrors() == "?");
         arm.Accept("[6,5,0]");
-        CHECK_FALSE(arm.IsToldPaused());
-        CHECK(arm.LookAround() == std::vector<std::string>{LOOK_AT_PLAYBACK});
-        arm.TellData(PLAYS);
+        CHECK_FALSE(arm.IsReportedPaused());
+        CHECK(arm.TakeProbe() == std::vector<std::string>{MONITOR_PLAYBACK});
+        arm.DeliverData(RUNNING_STATE);
         CHECK(arm.TakeErrors().empty());
     }
-    SECTION("Somebody has it go on: it is not started again, and one that is paused then is stopped")
+    SECTION("It is resumed at the controller: it is not resumed again, and is stopped by the next pause")
     {
         const bool bPaused = GENERATE(false, true);
         if (bPaused)
@@ -264,44 +264,47 @@ TEST_CASE("6.8 A program that stands and is refused to go on is told, and starte
         {
             arm.Fire(ArmFixture::RETRY_TIMER);
         }
-        REQUIRE(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_PLAYBACK});
-        arm.TellData(PLAYS);
-        CHECK(arm.TakeRequests() == (bPaused ? std::vector<std::string>{LOOK, STOP} : std::vector<std::string>{LOOK}));
+        REQUIRE(arm.TakeRequests() == std::vector<std::string>{MONITOR_PLAYBACK});
+        arm.DeliverData(RUNNING_STATE);
+        CHECK(
+            arm.TakeRequests()
+            == (bPaused ? std::vector<std::string>{MONITOR_COUNTERS, STOP}
+                        : std::vector<std::string>{MONITOR_COUNTERS}));
         CHECK(arm.TakeErrors().empty());
     }
-    SECTION("It has come to its end by other hands, which the counters say behind the look")
+    SECTION("It was brought to its end at the controller, as the counters after the probe show")
     {
         arm.Fire(ArmFixture::RETRY_TIMER);
-        ShowLookAtProgram(arm, STANDS, "[6,6,0]");
+        ShowProgramProbe(arm, STOPPED_STATE, "[6,6,0]");
         CHECK(arm.TakeRequests().empty());
         CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
         CHECK(arm.TakeErrors().empty());
         arm.Fire(ArmFixture::RETRY_TIMER);
         CHECK(arm.TakeRequests().empty());
     }
-    SECTION("It is given up")
+    SECTION("It is cancelled")
     {
         arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
-        ShowLookAtProgram(arm, STANDS);
+        ShowProgramProbe(arm, STOPPED_STATE);
         CHECK(arm.TakeRequests() == std::vector<std::string>{RESET});
         arm.Settle(OpenStream::EControlOutcome::Accepted);
         CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
         CHECK(arm.TakeErrors().empty());
     }
-    SECTION("It is given up, and runs by other hands: it is not broken off")
+    SECTION("It is cancelled, and was resumed at the controller: it is not aborted")
     {
         arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
-        ShowLookAtProgram(arm, PLAYS);
+        ShowProgramProbe(arm, RUNNING_STATE);
         CHECK(arm.TakeRequests().empty());
-        arm.TellData("[6,6,0]");
+        arm.DeliverData("[6,6,0]");
         CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
     }
-    SECTION("It is paused again, and goes on after that")
+    SECTION("It is paused again, and resumed after that")
     {
         arm.ShowBase(true);
         arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
-        ShowLookAtProgram(arm, STANDS);
-        CHECK(arm.IsToldPaused());
+        ShowProgramProbe(arm, STOPPED_STATE);
+        CHECK(arm.IsReportedPaused());
         arm.Fire(ArmFixture::RETRY_TIMER);
         CHECK(arm.TakeRequests().empty());
         arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
@@ -309,49 +312,49 @@ TEST_CASE("6.8 A program that stands and is refused to go on is told, and starte
     }
     SECTION("The connection is lost meanwhile")
     {
-        arm.Tell(OpenStream::ClientLost{});
+        arm.Deliver(OpenStream::ClientLost{});
         arm.ComeBack();
-        ShowLookAtProgram(arm, STANDS);
+        ShowProgramProbe(arm, STOPPED_STATE);
         CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     }
 }
 
-TEST_CASE("D-16 A program that is refused to go on is given up only where it is seen to stand")
+TEST_CASE("D-16 A program whose resume is refused is reset only if a probe finds it stopped")
 {
     ArmFixture arm;
     SettleGoingOn(arm);
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_MOTOR});
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_MOTOR});
     arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
     CHECK(arm.TakeRequests().empty());
-    arm.TellData(MOTOR_ON_SAMPLE);
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK, LOOK_AT_PLAYBACK});
+    arm.DeliverData(MOTOR_ON_SAMPLE);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS, MONITOR_PLAYBACK});
     const bool bStands = GENERATE(false, true);
-    arm.TellData(bStands ? STANDS : PLAYS);
-    arm.ShowLook("[6,5,0]");
+    arm.DeliverData(bStands ? STOPPED_STATE : RUNNING_STATE);
+    arm.ShowVerification("[6,5,0]");
     CHECK(arm.TakeRequests() == (bStands ? std::vector<std::string>{RESET} : std::vector<std::string>{}));
 }
 
-TEST_CASE("6.8 A going on that got lost before counts as done where the controller does not show playback")
+TEST_CASE("6.8 A resume that got lost before counts as done if the controller does not show playback")
 {
     ArmFixture arm;
     SettleGoingOn(arm, OpenStream::EControlOutcome::Unknown);
-    arm.Tell(OpenStream::ClientLost{});
+    arm.Deliver(OpenStream::ClientLost{});
     arm.BringUp("[6,5,0]");
     REQUIRE(arm.lastControl == STOP);
     arm.Accept("[6,5,0]");
     REQUIRE(arm.TakeRequests() == std::vector<std::string>{START});
     arm.Settle(OpenStream::EControlOutcome::Refused, 403);
-    arm.TellData(MOTOR_ON_SAMPLE);
+    arm.DeliverData(MOTOR_ON_SAMPLE);
     arm.RefuseMonitor("/project/rgen");
     arm.actions.clear();
     arm.ShowBase(false);
-    CHECK_FALSE(arm.IsToldPaused());
+    CHECK_FALSE(arm.IsReportedPaused());
     static_cast<void>(arm.TakeRequests());
     arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
     CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
 }
 
-TEST_CASE("6.8 A program that is refused to go on fails its job where the controller shows neither motor nor playback")
+TEST_CASE("6.8 A refused resume fails the job if the controller shows neither motor nor playback")
 {
     ArmFixture arm;
     SettleGoingOn(arm);
@@ -363,8 +366,7 @@ TEST_CASE("6.8 A program that is refused to go on fails its job where the contro
     CHECK(failed.front().reason.find("403") != std::string::npos);
 }
 
-TEST_CASE(
-    "D-16 A job that is given up while it is paused resets its program and is told as failed; a running one goes on")
+TEST_CASE("D-16 A job that is cancelled while it is paused resets its program and fails; a running one continues")
 {
     ArmFixture arm;
     arm.StartRunning();
@@ -407,7 +409,7 @@ TEST_CASE("D-16 An older controller does not know r_code: its task is reset, and
         const bool bReconnect = GENERATE(false, true);
         if (bReconnect)
         {
-            arm.Tell(OpenStream::ClientLost{});
+            arm.Deliver(OpenStream::ClientLost{});
             arm.BringUp("[6,5,0]");
         }
         arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
@@ -421,7 +423,7 @@ TEST_CASE("D-16 An older controller does not know r_code: its task is reset, and
     }
 }
 
-TEST_CASE("D-16 A job that was held before its program began is given up at once")
+TEST_CASE("D-16 A job that was paused before its program began is cancelled at once")
 {
     ArmFixture arm;
     arm.BringUp();

@@ -21,11 +21,11 @@ struct ArmRecoveryFixture : ArmFixture
         recover.job.progressToken = progressToken;
         adapter.Handle(recover, clock.GetNow(), actions);
         CHECK(actions.empty());
-        Tell(OpenStream::ClientReady{});
+        Deliver(OpenStream::ClientReady{});
         Settle(OpenStream::EControlOutcome::Accepted); // motor_on
-        TellData(R"({"_type":"JObject","val":0})");
+        DeliverData(R"({"_type":"JObject","val":0})");
         static_cast<void>(TakeRequests());
-        TellData(counters);
+        DeliverData(counters);
     }
 
     void EndWait()
@@ -36,7 +36,7 @@ struct ArmRecoveryFixture : ArmFixture
 
 } // namespace
 
-TEST_CASE("After a restart the counters tell of a job that ended meanwhile, and of one that runs")
+TEST_CASE("After a restart the counters prove that a job has ended, or that it runs")
 {
     ArmRecoveryFixture done("[6,6,0]");
     CHECK(done.TakeEvents<Planning::JobStarted>().size() == 1);
@@ -47,7 +47,7 @@ TEST_CASE("After a restart the counters tell of a job that ended meanwhile, and 
     CHECK(running.TakeEvents<Planning::JobStarted>().size() == 1);
     CHECK(running.TakeEvents<Planning::JobFinished>().empty());
     running.EndWait();
-    running.TellData("[6,6,0]");
+    running.DeliverData("[6,6,0]");
     CHECK(running.TakeEvents<Planning::JobFinished>().size() == 1);
     CHECK(running.TakeRequests().empty()); // nothing was started
 }
@@ -61,7 +61,7 @@ TEST_CASE("After a restart a program whose first counter does not rise in time w
     never.EndWait();
     CHECK(never.TakeEvents<Planning::JobUnknown>().size() == 1);
     ArmRecoveryFixture late("[5,5,0]");
-    late.TellData("[6,5,0]");
+    late.DeliverData("[6,5,0]");
     late.EndWait();
     CHECK(late.TakeEvents<Planning::JobUnknown>().empty());
     CHECK(late.TakeEvents<Planning::JobStarted>().size() == 1);
@@ -76,7 +76,7 @@ TEST_CASE("After a restart counters that are all 0, have fallen or have risen to
         ArmRecoveryFixture arm(counters);
         CHECK(arm.TakeEvents<Planning::JobUnresolved>().size() == 1);
         arm.EndWait();
-        arm.TellData("[6,6,0]"); // later evidence is none
+        arm.DeliverData("[6,6,0]"); // later evidence is none
         CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
         CHECK(arm.TakeEvents<Planning::JobUnknown>().empty());
     }
@@ -87,7 +87,7 @@ TEST_CASE("After a restart counters that are all 0, have fallen or have risen to
 }
 
 TEST_CASE(
-    "After a restart a program that may have been paused is stopped, looked at and goes on; else it is left alone")
+    "After a restart a program that may have been paused is stopped, probed and resumed; any other is not touched")
 {
     ArmRecoveryFixture alone("[6,5,0]");
     CHECK(alone.TakeRequests().empty());
@@ -95,7 +95,7 @@ TEST_CASE(
     ArmRecoveryFixture arm("[6,5,0]");
     arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
     CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
-    SECTION("It stood")
+    SECTION("It was stopped")
     {
         arm.Accept("[6,5,0]");
         CHECK(arm.TakeRequests() == std::vector<std::string>{START});

@@ -21,7 +21,7 @@ TEST_CASE("A selection that is refused for the program counter is repeated once 
     {
         arm.Settle(OpenStream::EControlOutcome::Accepted);
         static_cast<void>(arm.TakeRequests());
-        arm.Tell(OpenStream::ClientControlFault{403, Core::JsonText::FromTrusted(body), "late"});
+        arm.Deliver(OpenStream::ClientControlFault{403, Core::JsonText::FromTrusted(body), "late"});
     }
     else
     {
@@ -34,14 +34,14 @@ TEST_CASE("A selection that is refused for the program counter is repeated once 
     SECTION("Then it is accepted")
     {
         arm.Settle(OpenStream::EControlOutcome::Accepted);
-        arm.ShowLook();
+        arm.ShowVerification();
         CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     }
     SECTION("It is refused again: the job fails")
     {
         arm.RefuseWith(403, body);
-        REQUIRE(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_MOTOR});
-        arm.TellData(MOTOR_ON_SAMPLE);
+        REQUIRE(arm.TakeRequests() == std::vector<std::string>{MONITOR_MOTOR});
+        arm.DeliverData(MOTOR_ON_SAMPLE);
         const auto failed = arm.TakeEvents<Planning::JobFailed>();
         REQUIRE(failed.size() == 1);
         CHECK(failed.front().reason.find("-1245280") != std::string::npos);
@@ -55,33 +55,33 @@ TEST_CASE("A selection is started when the controller shows it, however slow it 
     arm.Command("J");
     static_cast<void>(arm.TakeRequests());
     arm.Settle(OpenStream::EControlOutcome::Accepted);
-    REQUIRE(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_PLAYBACK});
+    REQUIRE(arm.TakeRequests() == std::vector<std::string>{MONITOR_PLAYBACK});
     arm.AcknowledgeMonitor();
-    arm.TellData("[5,5,0]"); // of the MONITOR before
-    arm.TellData(R"({"is_playback":0,"cur_prog_no":12,"cur_step_no":0})");
-    arm.TellData(R"({"is_playback":0,"cur_prog_no":11,"cur_step_no":7})");
+    arm.DeliverData("[5,5,0]"); // of the MONITOR before
+    arm.DeliverData(R"({"is_playback":0,"cur_prog_no":12,"cur_step_no":0})");
+    arm.DeliverData(R"({"is_playback":0,"cur_prog_no":11,"cur_step_no":7})");
     CHECK(arm.TakeRequests().empty());
     SECTION("It is shown")
     {
-        arm.TellData(SELECTED);
-        arm.ShowLook();
+        arm.DeliverData(SELECTED);
+        arm.ShowVerification();
         CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     }
     SECTION("It is not shown, nor refused")
     {
-        arm.Fire(ArmFixture::LOOK_TIMER);
-        arm.ShowLook();
+        arm.Fire(ArmFixture::EFFECT_TIMER);
+        arm.ShowVerification();
         CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     }
     SECTION("The controller does not show its general state")
     {
         arm.RefuseMonitor("/project/rgen");
-        arm.ShowLook();
+        arm.ShowVerification();
         CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     }
     SECTION("The connection is lost")
     {
-        arm.Tell(OpenStream::ClientLost{});
+        arm.Deliver(OpenStream::ClientLost{});
         CHECK(arm.TakeEvents<Planning::JobUnknown>().size() == 1);
         arm.BringUp();
         CHECK(arm.TakeRequests().empty());
@@ -97,25 +97,25 @@ TEST_CASE("A controller that never shows what it has selected is not waited for 
         arm.Command("J");
         static_cast<void>(arm.TakeRequests());
         arm.Settle(OpenStream::EControlOutcome::Accepted);
-        REQUIRE(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_PLAYBACK});
-        arm.Fire(ArmFixture::LOOK_TIMER);
-        REQUIRE(arm.TakeRequests() == std::vector<std::string>{LOOK});
-        arm.Tell(OpenStream::ClientControlFault{403, std::nullopt, "late"});
+        REQUIRE(arm.TakeRequests() == std::vector<std::string>{MONITOR_PLAYBACK});
+        arm.Fire(ArmFixture::EFFECT_TIMER);
+        REQUIRE(arm.TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS});
+        arm.Deliver(OpenStream::ClientControlFault{403, std::nullopt, "late"});
         arm.AcknowledgeMonitor();
-        arm.TellData("[5,5,0]");
+        arm.DeliverData("[5,5,0]");
     }
     arm.Command("J");
     static_cast<void>(arm.TakeRequests());
     arm.Settle(OpenStream::EControlOutcome::Accepted);
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS});
 }
 
-TEST_CASE("A selection that gave up another program is not taken for this one's failure: the job comes again")
+TEST_CASE("A selection that abandoned another program does not fail this job: it is commanded again")
 {
     ArmFixture arm;
     arm.BringUpWithBase();
     arm.Command("J");
-    arm.Accept("[5,5,1]"); // one that stood in its middle
+    arm.Accept("[5,5,1]"); // a program that was stopped in the middle
     CHECK(arm.TakeRequests().empty());
     CHECK(arm.TakeEvents<Planning::StateChanged>().back().restartEvidence.progressToken == "5 5 1");
     CHECK(arm.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"J"}});
@@ -162,11 +162,11 @@ TEST_CASE("A selection's refusal that comes with the start does not fail a job w
     arm.RefuseWith(403, R"({"err_code":-1245280})");
     CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
     CHECK(arm.IsStartWatched());
-    arm.ShowLook();
+    arm.ShowVerification();
     const bool bBegins = GENERATE(false, true);
     if (bBegins)
     {
-        arm.TellData("[6,5,0]");
+        arm.DeliverData("[6,5,0]");
     }
     arm.Fire(ArmFixture::START_TIMER);
     CHECK(arm.TakeEvents<Planning::JobFailed>().empty() == bBegins);
@@ -179,7 +179,7 @@ TEST_CASE("A program that ran after the selection and before the start is not ta
     arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
     arm.Command("J");
     arm.Accept();
-    arm.TellData("[6,6,0]");
+    arm.DeliverData("[6,6,0]");
     CHECK(arm.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"J"}});
     arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
     CHECK(arm.TakeRequests().empty());
@@ -193,7 +193,7 @@ TEST_CASE("A program that was selected before the connection broke is selected a
     arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
     arm.Command("J");
     arm.Accept();
-    arm.Tell(OpenStream::ClientLost{});
+    arm.Deliver(OpenStream::ClientLost{});
     CHECK(arm.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"J"}});
     arm.BringUp();
     arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);

@@ -9,17 +9,17 @@
 namespace ACS::Acsd::Test
 {
 
-TEST_CASE("After the handshake the motor is asked to go on, and only then the counters are watched")
+TEST_CASE("After the handshake the motor is switched on, and only then the counters are observed")
 {
     ArmFixture arm;
-    arm.Tell(OpenStream::ClientReady{});
+    arm.Deliver(OpenStream::ClientReady{});
     CHECK(
         arm.TakeRequests()
         == std::vector<std::string>{"MONITOR /project/robot/motor_on_state", "CONTROL /project/robot/motor_on {}"});
-    arm.TellData(R"({"val":2})");
-    arm.TellData(R"({"val":1})");
+    arm.DeliverData(R"({"val":2})");
+    arm.DeliverData(R"({"val":1})");
     CHECK(arm.TakeRequests().empty());
-    arm.TellData(R"({"val":0})");
+    arm.DeliverData(R"({"val":0})");
     CHECK(arm.TakeRequests() == std::vector<std::string>{"MONITOR /project/plc/m/val_s32"});
 }
 
@@ -31,14 +31,14 @@ TEST_CASE("A job selects its program, starts it, and is done when the finished c
     CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
     arm.Accept();
     CHECK(arm.TakeRequests() == std::vector<std::string>{START});
-    arm.TellData("[5,5,0]");
+    arm.DeliverData("[5,5,0]");
     CHECK(arm.TakeEvents<Planning::JobStarted>().empty());
-    arm.TellData("[6,5,0]");
-    arm.TellData("[6,5,0]");
+    arm.DeliverData("[6,5,0]");
+    arm.DeliverData("[6,5,0]");
     CHECK(arm.TakeEvents<Planning::JobStarted>() == std::vector<Planning::JobStarted>{{"J"}});
     CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
-    arm.TellData("[6,6,0]");
-    arm.TellData("[6,6,0]");
+    arm.DeliverData("[6,6,0]");
+    arm.DeliverData("[6,6,0]");
     CHECK(arm.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
     CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
 }
@@ -49,7 +49,7 @@ TEST_CASE("A counter that wraps around has changed, too")
     arm.BringUp("[2147483647,2147483647,0]");
     arm.Command("J");
     arm.Accept("[2147483647,2147483647,0]");
-    arm.TellData("[-2147483648,-2147483648,0]");
+    arm.DeliverData("[-2147483648,-2147483648,0]");
     CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
 }
 
@@ -60,9 +60,9 @@ TEST_CASE("A program that raises the failed counter fails its job")
     arm.Command("J");
     arm.Accept();
     arm.Settle(OpenStream::EControlOutcome::Accepted);
-    arm.TellData("[6,5,1]");
+    arm.DeliverData("[6,5,1]");
     REQUIRE(arm.TakeEvents<Planning::JobFailed>().size() == 1);
-    arm.TellData("[6,6,1]");
+    arm.DeliverData("[6,6,1]");
     CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
 }
 
@@ -73,7 +73,7 @@ TEST_CASE("A refused CONTROL fails the job with the controller's status")
     arm.Command("J");
     arm.Accept();
     arm.Settle(OpenStream::EControlOutcome::Refused, 403);
-    arm.TellData(R"({"val":0})"); // the motor is not the reason
+    arm.DeliverData(R"({"val":0})"); // the motor is not the reason
     const auto failed = arm.TakeEvents<Planning::JobFailed>();
     REQUIRE(failed.size() == 1);
     CHECK(failed.front().reason.find("403") != std::string::npos);
@@ -87,10 +87,10 @@ TEST_CASE("A start whose fate is not known is never sent again: the counters dec
     arm.Accept();
     static_cast<void>(arm.TakeRequests());
     arm.Settle(OpenStream::EControlOutcome::Unknown);
-    arm.Tell(OpenStream::ClientLost{});
-    arm.Tell(OpenStream::ClientReady{});
-    arm.TellData(R"({"val":0})");
-    arm.TellData("[6,6,0]");
+    arm.Deliver(OpenStream::ClientLost{});
+    arm.Deliver(OpenStream::ClientReady{});
+    arm.DeliverData(R"({"val":0})");
+    arm.DeliverData("[6,6,0]");
     CHECK(arm.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
     for (const std::string& request : arm.TakeRequests())
     {
@@ -106,11 +106,11 @@ TEST_CASE("A start that got lost with the connection fails its job when the prog
     arm.Command("J");
     arm.Accept();
     arm.Settle(OpenStream::EControlOutcome::Unknown);
-    arm.Tell(OpenStream::ClientLost{});
-    arm.Tell(OpenStream::ClientReady{});
-    arm.TellData(R"({"val":0})");
+    arm.Deliver(OpenStream::ClientLost{});
+    arm.Deliver(OpenStream::ClientReady{});
+    arm.DeliverData(R"({"val":0})");
     arm.actions.clear();
-    arm.TellData("[5,5,0]");
+    arm.DeliverData("[5,5,0]");
     REQUIRE(arm.IsStartWatched());
     SECTION("It does not begin")
     {
@@ -119,25 +119,25 @@ TEST_CASE("A start that got lost with the connection fails its job when the prog
     }
     SECTION("It has begun")
     {
-        arm.TellData("[6,5,0]");
+        arm.DeliverData("[6,5,0]");
         arm.Fire(ArmFixture::START_TIMER);
         CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
-        arm.TellData("[6,6,0]");
+        arm.DeliverData("[6,6,0]");
         CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
     }
 }
 
-TEST_CASE("Counters that begin again are the work of a restart: nobody can tell what became of the job, and it is held")
+TEST_CASE("Counters that begin again are the result of a restart: the job is unresolved")
 {
     ArmFixture arm;
     arm.BringUp();
     arm.Command("J");
     arm.Accept();
     arm.Accept("[6,5,0]");
-    arm.Tell(OpenStream::ClientLost{});
-    arm.Tell(OpenStream::ClientReady{});
-    arm.TellData(R"({"val":0})");
-    arm.TellData("[0,0,0]");
+    arm.Deliver(OpenStream::ClientLost{});
+    arm.Deliver(OpenStream::ClientReady{});
+    arm.DeliverData(R"({"val":0})");
+    arm.DeliverData("[0,0,0]");
     CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
     CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
     REQUIRE(arm.TakeEvents<Planning::JobUnresolved>().size() == 1);
@@ -150,12 +150,12 @@ TEST_CASE("A start that was answered by silence and got lost fails its job when 
     arm.BringUp();
     arm.Command("J");
     arm.Accept();
-    arm.Settle(OpenStream::EControlOutcome::Accepted); // nobody heard it
-    arm.Tell(OpenStream::ClientLost{});
-    arm.Tell(OpenStream::ClientReady{});
-    arm.TellData(R"({"val":0})");
+    arm.Settle(OpenStream::EControlOutcome::Accepted); // it did not arrive
+    arm.Deliver(OpenStream::ClientLost{});
+    arm.Deliver(OpenStream::ClientReady{});
+    arm.DeliverData(R"({"val":0})");
     arm.actions.clear();
-    arm.TellData("[5,5,0]");
+    arm.DeliverData("[5,5,0]");
     CHECK(arm.IsStartWatched());
     arm.adapter.OnTimer(101, arm.clock.GetNow(), arm.actions);
     CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
@@ -169,15 +169,15 @@ TEST_CASE("A refusal that comes after the silence fails the job whose program it
     SECTION("Of the selection: nothing is started")
     {
         arm.Settle(OpenStream::EControlOutcome::Accepted);
-        CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT, LOOK_AT_PLAYBACK});
-        arm.Tell(OpenStream::ClientControlFault{403, std::nullopt, "a task is playing"});
+        CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT, MONITOR_PLAYBACK});
+        arm.Deliver(OpenStream::ClientControlFault{403, std::nullopt, "a task is playing"});
     }
     SECTION("Of the start")
     {
         arm.Accept();
         arm.Accept();
         arm.actions.clear();
-        arm.Tell(OpenStream::ClientControlFault{403, std::nullopt, "a task is playing"});
+        arm.Deliver(OpenStream::ClientControlFault{403, std::nullopt, "a task is playing"});
         CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
         CHECK(arm.IsStartWatched());
         arm.Fire(ArmFixture::START_TIMER);
@@ -188,18 +188,18 @@ TEST_CASE("A refusal that comes after the silence fails the job whose program it
     CHECK(arm.TakeRequests().empty());
 }
 
-TEST_CASE("A refusal that comes after the silence, and a program that begins behind it: it was not this one's")
+TEST_CASE("A late refusal is not of the program that begins after it")
 {
     ArmFixture arm;
     arm.BringUp();
     arm.Command("J");
     arm.Accept();
     arm.Accept();
-    arm.Tell(OpenStream::ClientControlFault{403, std::nullopt, "late"});
-    arm.TellData("[6,5,0]");
+    arm.Deliver(OpenStream::ClientControlFault{403, std::nullopt, "late"});
+    arm.DeliverData("[6,5,0]");
     arm.Fire(ArmFixture::START_TIMER);
     CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
-    arm.TellData("[6,6,0]");
+    arm.DeliverData("[6,6,0]");
     CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
 }
 
@@ -224,13 +224,13 @@ TEST_CASE("A job that comes while the arm is away was not begun: it waits for th
         arm.BringUp();
         arm.ShowBase(false);
         arm.actions.clear();
-        arm.Tell(OpenStream::ClientLost{});
-        // Said before the job is given back: the engine does not send it again at once.
+        arm.Deliver(OpenStream::ClientLost{});
+        // Reported before the job is returned: the engine does not command it again at once.
         CHECK(arm.TakeEvents<Planning::LinkChanged>() == std::vector<Planning::LinkChanged>{{false}});
     }
     SECTION("Its motor is not on yet")
     {
-        arm.Tell(OpenStream::ClientReady{});
+        arm.Deliver(OpenStream::ClientReady{});
         static_cast<void>(arm.TakeRequests());
     }
     Planning::StartJob job;
@@ -247,13 +247,13 @@ TEST_CASE("A job that comes while the arm is away was not begun: it waits for th
     CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
 }
 
-TEST_CASE("While the base is away nothing that it told before is told again, whatever the arm shows")
+TEST_CASE("While the base is offline its earlier reports are not repeated, whatever the arm shows")
 {
     ArmFixture arm;
     arm.BringUpWithBase();
     arm.adapter.OnLinkDown(arm.clock.GetNow(), arm.actions);
     arm.actions.clear();
-    arm.TellData("[6,5,0]");
+    arm.DeliverData("[6,5,0]");
     CHECK(arm.TakeEvents<Planning::StateChanged>().empty());
     arm.adapter.OnLinkUp(arm.clock.GetNow(), arm.actions);
     CHECK(arm.TakeEvents<Planning::StateChanged>().empty());
@@ -272,7 +272,7 @@ TEST_CASE("A program that was surely not started is not the job's failure, whate
     {
         arm.Settle(OpenStream::EControlOutcome::NotSent);
     }
-    SECTION("Nobody knows whether it was selected")
+    SECTION("It is unknown whether it was selected")
     {
         arm.Settle(OpenStream::EControlOutcome::Unknown);
     }
@@ -291,9 +291,9 @@ TEST_CASE("A program that was surely not started is not the job's failure, whate
 TEST_CASE("The settling of motor_on is not taken for that of a job's CONTROL")
 {
     ArmFixture arm;
-    arm.Tell(OpenStream::ClientReady{});
-    arm.TellData(R"({"val":0})");
-    arm.TellData("[5,5,0]");
+    arm.Deliver(OpenStream::ClientReady{});
+    arm.DeliverData(R"({"val":0})");
+    arm.DeliverData("[5,5,0]");
     static_cast<void>(arm.TakeRequests());
     arm.Command("J");
     arm.Settle(OpenStream::EControlOutcome::Accepted); // motor_on, late
@@ -310,7 +310,7 @@ TEST_CASE("Answers that are no counters are passed over")
     arm.Accept();
     for (const std::string_view nonsense : {"[]", "[6]", R"(["a","b","c"])", R"({"val":0})", "null", "[6,6.5,0]"})
     {
-        arm.TellData(nonsense);
+        arm.DeliverData(nonsense);
     }
     CHECK(arm.TakeEvents<Planning::JobStarted>().empty());
     CHECK(arm.TakeEvents<Planning::JobFinished>().empty());
@@ -321,7 +321,7 @@ TEST_CASE("The counters are the progress token of the robot; a job with another 
     ArmFixture arm;
     arm.BringUpWithBase();
     CHECK(arm.TakeEvents<Planning::StateChanged>().back().restartEvidence.progressToken == "5 5 0");
-    arm.TellData("[6,6,0]"); // a program that somebody ran by hand
+    arm.DeliverData("[6,6,0]"); // a program that was run at the controller
     CHECK(arm.TakeEvents<Planning::StateChanged>().back().restartEvidence.progressToken == "6 6 0");
     Planning::StartJob job;
     job.jobID = "J";

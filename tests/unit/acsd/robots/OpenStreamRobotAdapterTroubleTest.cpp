@@ -1,6 +1,6 @@
 #include "robots/ArmFixture.hpp"
 
-// What keeps an arm from its work while its session is there: seen, told, and over when it is over.
+// Errors that keep an arm from its work while its session is ready: detected, reported, and cleared.
 
 namespace ACS::Acsd::Test
 {
@@ -8,39 +8,39 @@ namespace ACS::Acsd::Test
 namespace
 {
 
-/// One glance at the program, and the counters behind it.
+/// Shows one probe of the program, then the counters.
 void ShowPlayback(ArmFixture& arm, std::string_view sample, std::string_view counters = "[6,5,0]")
 {
-    CHECK(arm.LookAround() == std::vector<std::string>{LOOK_AT_PLAYBACK});
+    CHECK(arm.TakeProbe() == std::vector<std::string>{MONITOR_PLAYBACK});
     arm.AcknowledgeMonitor();
-    arm.TellData(sample);
-    arm.ShowLook(counters);
+    arm.DeliverData(sample);
+    arm.ShowVerification(counters);
 }
 
 } // namespace
 
-TEST_CASE("A motor that goes off between jobs is seen, told, and asked to go on before there is another job")
+TEST_CASE("A motor that goes off between jobs is detected, reported, and switched on before the next job")
 {
     ArmFixture arm;
     arm.BringUpWithBase();
     arm.actions.clear();
-    REQUIRE(arm.LookAround() == std::vector<std::string>{LOOK_AT_MOTOR});
-    arm.TellData("[5,5,0]"); // of the MONITOR before
+    REQUIRE(arm.TakeProbe() == std::vector<std::string>{MONITOR_MOTOR});
+    arm.DeliverData("[5,5,0]"); // of the MONITOR before
     CHECK(arm.TakeRequests().empty());
-    arm.TellData(MOTOR_OFF_SAMPLE);
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_MOTOR, MOTOR_ON});
+    arm.DeliverData(MOTOR_OFF_SAMPLE);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_MOTOR, MOTOR_ON});
     CHECK(arm.TakeEvents<Planning::LinkChanged>().empty());
     CHECK(arm.TakeErrors() == "ARM-motorOff");
-    SECTION("It goes on")
+    SECTION("It is on again")
     {
         arm.Settle(OpenStream::EControlOutcome::Accepted);
-        arm.TellData(MOTOR_ON_SAMPLE);
+        arm.DeliverData(MOTOR_ON_SAMPLE);
         CHECK(arm.TakeErrors() == "?");
-        arm.TellData("[5,5,0]");
+        arm.DeliverData("[5,5,0]");
         CHECK(arm.TakeEvents<Planning::LinkChanged>().empty());
         CHECK(arm.TakeErrors().empty());
     }
-    SECTION("It does not: the reason is told, and it is asked again")
+    SECTION("It stays off: the reason is reported, and it is switched on again")
     {
         arm.Settle(OpenStream::EControlOutcome::Refused, 403);
         arm.Fire(ArmFixture::RETRY_TIMER);
@@ -51,35 +51,35 @@ TEST_CASE("A motor that goes off between jobs is seen, told, and asked to go on 
     }
 }
 
-TEST_CASE("A motor that is on is glanced at for one sample, and the counters come back")
+TEST_CASE("A probe of a motor that is on takes one sample, after which the counters are shown again")
 {
     ArmFixture arm;
     arm.BringUpWithBase();
     arm.actions.clear();
-    REQUIRE(arm.LookAround() == std::vector<std::string>{LOOK_AT_MOTOR});
-    arm.TellData(MOTOR_ON_SAMPLE);
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+    REQUIRE(arm.TakeProbe() == std::vector<std::string>{MONITOR_MOTOR});
+    arm.DeliverData(MOTOR_ON_SAMPLE);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS});
     CHECK(arm.TakeErrors() == "?");
-    CHECK(arm.LookAround().empty()); // not before the counters were there
-    arm.TellData("[5,5,0]");
-    CHECK(arm.LookAround() == std::vector<std::string>{LOOK_AT_MOTOR});
+    CHECK(arm.TakeProbe().empty()); // not before the counters were there
+    arm.DeliverData("[5,5,0]");
+    CHECK(arm.TakeProbe() == std::vector<std::string>{MONITOR_MOTOR});
 }
 
-TEST_CASE("A motor that does not go on after the connection is told, with the robot in reach")
+TEST_CASE("A motor that stays off after the connection is reported, and the robot is online")
 {
     ArmFixture arm;
     arm.ConnectWithBase();
-    arm.TellData(MOTOR_OFF_SAMPLE);
+    arm.DeliverData(MOTOR_OFF_SAMPLE);
     CHECK(arm.TakeEvents<Planning::LinkChanged>().empty());
     arm.Settle(OpenStream::EControlOutcome::Refused, 403);
     arm.Fire(ArmFixture::RETRY_TIMER);
     CHECK(arm.TakeEvents<Planning::LinkChanged>() == std::vector<Planning::LinkChanged>{{true}});
     CHECK(arm.TakeErrors() == "ARM-motorOff");
-    arm.Tell(OpenStream::ClientLost{});
+    arm.Deliver(OpenStream::ClientLost{});
     CHECK(arm.TakeEvents<Planning::LinkChanged>() == std::vector<Planning::LinkChanged>{{false}});
 }
 
-TEST_CASE("A job that is refused for a motor that is off has not failed: it comes again when the motor is on")
+TEST_CASE("A job that is refused because the motor is off has not failed: it is commanded again when the motor is on")
 {
     ArmFixture arm;
     arm.BringUpWithBase();
@@ -88,13 +88,13 @@ TEST_CASE("A job that is refused for a motor that is off has not failed: it come
     arm.Accept();
     static_cast<void>(arm.TakeRequests());
     arm.Settle(OpenStream::EControlOutcome::Refused, 403);
-    CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_MOTOR});
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_MOTOR});
     SECTION("The motor is off")
     {
-        arm.TellData(MOTOR_OFF_SAMPLE);
+        arm.DeliverData(MOTOR_OFF_SAMPLE);
         CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
         CHECK(arm.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"J"}});
-        // Told before, so that the job does not come at once.
+        // Reported first, so that the job is not commanded again at once.
         const auto isUnknown = [](const Planning::AdapterAction& action) {
             const auto* const raiseOrNull = std::get_if<Planning::RaiseEvent>(&action);
             return raiseOrNull != nullptr && std::holds_alternative<Planning::JobUnknown>(raiseOrNull->event);
@@ -104,58 +104,58 @@ TEST_CASE("A job that is refused for a motor that is off has not failed: it come
     }
     SECTION("It is on")
     {
-        arm.TellData(MOTOR_ON_SAMPLE);
+        arm.DeliverData(MOTOR_ON_SAMPLE);
         CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
-        CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
+        CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS});
     }
     SECTION("The controller does not show it")
     {
         arm.RefuseMonitor("/project/robot/motor_on_state");
         CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
-        arm.ShowLook();
-        CHECK(arm.LookAround().empty());
+        arm.ShowVerification();
+        CHECK(arm.TakeProbe().empty());
     }
-    SECTION("It is given up meanwhile")
+    SECTION("It is cancelled meanwhile")
     {
         arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
         CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
-        arm.TellData(MOTOR_ON_SAMPLE);
+        arm.DeliverData(MOTOR_ON_SAMPLE);
         CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
     }
     SECTION("The connection is lost meanwhile")
     {
-        arm.Tell(OpenStream::ClientLost{});
+        arm.Deliver(OpenStream::ClientLost{});
         CHECK(arm.TakeEvents<Planning::JobUnknown>().size() == 1);
     }
 }
 
-TEST_CASE("A program that somebody has halted is told when two glances have seen it, and no longer when it goes on")
+TEST_CASE("A program that was halted at the controller is reported after two probes, until it runs again")
 {
     ArmFixture arm;
     arm.StartRunning();
     arm.actions.clear();
-    ShowPlayback(arm, PLAYS);
-    ShowPlayback(arm, STANDS);
+    ShowPlayback(arm, RUNNING_STATE);
+    ShowPlayback(arm, STOPPED_STATE);
     CHECK(arm.TakeErrors() == "?");
-    ShowPlayback(arm, STANDS);
+    ShowPlayback(arm, STOPPED_STATE);
     CHECK(arm.TakeErrors() == "ARM-programHalted");
-    SECTION("It goes on")
+    SECTION("It runs again")
     {
-        ShowPlayback(arm, PLAYS);
+        ShowPlayback(arm, RUNNING_STATE);
         CHECK(arm.TakeErrors().empty());
-        ShowPlayback(arm, STANDS);
+        ShowPlayback(arm, STOPPED_STATE);
         CHECK(arm.TakeErrors() == "?");
     }
-    SECTION("It is given up at the controller")
+    SECTION("It is abandoned at the controller")
     {
-        arm.TellData("[6,5,1]");
+        arm.DeliverData("[6,5,1]");
         CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
         CHECK(arm.TakeErrors().empty());
     }
     SECTION("It is paused")
     {
         arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
-        CHECK(arm.LookAround().empty());
+        CHECK(arm.TakeProbe().empty());
         CHECK(arm.TakeErrors().empty());
     }
 }
@@ -165,8 +165,8 @@ TEST_CASE("A program that has just come to its end was not halted")
     ArmFixture arm;
     arm.StartRunning();
     arm.actions.clear();
-    ShowPlayback(arm, STANDS);
-    ShowPlayback(arm, STANDS, "[6,6,0]");
+    ShowPlayback(arm, STOPPED_STATE);
+    ShowPlayback(arm, STOPPED_STATE, "[6,6,0]");
     CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
     for (const Planning::StateChanged& state : arm.TakeEvents<Planning::StateChanged>())
     {
@@ -176,11 +176,11 @@ TEST_CASE("A program that has just come to its end was not halted")
     arm.Accept("[6,6,0]");
     arm.Accept("[7,6,0]");
     arm.actions.clear();
-    ShowPlayback(arm, STANDS, "[7,6,0]");
+    ShowPlayback(arm, STOPPED_STATE, "[7,6,0]");
     CHECK(arm.TakeErrors() == "?");
 }
 
-TEST_CASE("A MONITOR that is refused is told, and asked for again")
+TEST_CASE("A refused MONITOR is reported, and requested again")
 {
     ArmFixture arm;
     arm.ConnectWithBase();
@@ -190,22 +190,22 @@ TEST_CASE("A MONITOR that is refused is told, and asked for again")
         CHECK(arm.TakeErrors() == "ARM-monitorRefused");
         static_cast<void>(arm.TakeRequests());
         arm.Fire(ArmFixture::RETRY_TIMER);
-        CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK_AT_MOTOR, MOTOR_ON});
+        CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_MOTOR, MOTOR_ON});
     }
     SECTION("The one of the counters")
     {
-        arm.TellData(MOTOR_ON_SAMPLE);
+        arm.DeliverData(MOTOR_ON_SAMPLE);
         arm.RefuseMonitor("/project/plc/m/val_s32");
         CHECK(arm.TakeErrors() == "ARM-monitorRefused");
         static_cast<void>(arm.TakeRequests());
         arm.Fire(ArmFixture::RETRY_TIMER);
-        CHECK(arm.TakeRequests() == std::vector<std::string>{LOOK});
-        arm.TellData("[5,5,0]");
+        CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS});
+        arm.DeliverData("[5,5,0]");
         CHECK(arm.TakeErrors().empty());
     }
     SECTION("One that another has replaced is of no interest")
     {
-        arm.TellData(MOTOR_ON_SAMPLE);
+        arm.DeliverData(MOTOR_ON_SAMPLE);
         arm.actions.clear();
         arm.RefuseMonitor("/project/robot/motor_on_state");
         CHECK(arm.TakeErrors() == "?");
@@ -221,18 +221,18 @@ TEST_CASE("The counters' MONITOR that is refused in mid-job is asked for again, 
     CHECK(arm.TakeEvents<Planning::LinkChanged>().empty());
     CHECK(arm.TakeErrors() == "ARM-monitorRefused");
     arm.Fire(ArmFixture::RETRY_TIMER);
-    arm.ShowLook("[6,6,0]");
+    arm.ShowVerification("[6,6,0]");
     CHECK(arm.TakeEvents<Planning::JobFinished>().size() == 1);
     CHECK(arm.TakeErrors().empty());
 }
 
-TEST_CASE("Relays that the controller does not have are told with what to look at")
+TEST_CASE("Relays that the controller does not have are reported with the keys to check")
 {
     ArmFixture arm;
     arm.ConnectWithBase();
-    arm.TellData(MOTOR_ON_SAMPLE);
+    arm.DeliverData(MOTOR_ON_SAMPLE);
     arm.actions.clear();
-    arm.TellData("[5]");
+    arm.DeliverData("[5]");
     CHECK(arm.TakeErrors() == "?");
     arm.Fire(ArmFixture::RETRY_TIMER);
     const auto states = arm.TakeEvents<Planning::StateChanged>();
@@ -241,23 +241,23 @@ TEST_CASE("Relays that the controller does not have are told with what to look a
     CHECK(arm.TakeErrors() == "ARM-countersMissing");
 }
 
-TEST_CASE("A controller that takes the MONITOR of a glance and shows nothing is not glanced at again")
+TEST_CASE("A controller that accepts the MONITOR of a probe and shows nothing is not probed again")
 {
     ArmFixture arm;
     arm.BringUpWithBase();
-    REQUIRE(arm.LookAround() == std::vector<std::string>{LOOK_AT_MOTOR});
+    REQUIRE(arm.TakeProbe() == std::vector<std::string>{MONITOR_MOTOR});
     SECTION("It was taken")
     {
         arm.AcknowledgeMonitor();
-        CHECK(arm.LookAround() == std::vector<std::string>{LOOK});
-        arm.TellData("[5,5,0]");
-        CHECK(arm.LookAround().empty());
+        CHECK(arm.TakeProbe() == std::vector<std::string>{MONITOR_COUNTERS});
+        arm.DeliverData("[5,5,0]");
+        CHECK(arm.TakeProbe().empty());
     }
     SECTION("It is slow")
     {
-        CHECK(arm.LookAround() == std::vector<std::string>{LOOK});
-        arm.TellData("[5,5,0]");
-        CHECK(arm.LookAround() == std::vector<std::string>{LOOK_AT_MOTOR});
+        CHECK(arm.TakeProbe() == std::vector<std::string>{MONITOR_COUNTERS});
+        arm.DeliverData("[5,5,0]");
+        CHECK(arm.TakeProbe() == std::vector<std::string>{MONITOR_MOTOR});
     }
     SECTION("A job comes in between")
     {
@@ -267,20 +267,20 @@ TEST_CASE("A controller that takes the MONITOR of a glance and shows nothing is 
     }
 }
 
-TEST_CASE("The robot's state is told with its coming into reach, as its base may tell the next one much later")
+TEST_CASE("The robot's state is reported when it comes online, because its base may report the next one much later")
 {
     ArmFixture arm;
     arm.BringUpWithBase();
-    arm.Tell(OpenStream::ClientLost{});
+    arm.Deliver(OpenStream::ClientLost{});
     arm.actions.clear();
     arm.BringUp();
     CHECK(arm.TakeErrors() == "?");
-    arm.Tell(OpenStream::ClientLost{});
-    arm.Tell(OpenStream::ClientReady{});
+    arm.Deliver(OpenStream::ClientLost{});
+    arm.Deliver(OpenStream::ClientReady{});
     arm.Settle(OpenStream::EControlOutcome::Accepted);
-    arm.TellData(MOTOR_ON_SAMPLE);
+    arm.DeliverData(MOTOR_ON_SAMPLE);
     arm.actions.clear();
-    arm.TellData("[5,5,0]");
+    arm.DeliverData("[5,5,0]");
     CHECK(arm.TakeEvents<Planning::LinkChanged>() == std::vector<Planning::LinkChanged>{{true}});
     CHECK(arm.TakeErrors().empty());
 }

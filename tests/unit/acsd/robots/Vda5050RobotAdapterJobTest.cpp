@@ -66,7 +66,7 @@ VDA5050::FactsheetMessage MakeStandardFactsheet(bool bAllMandatory = false)
 
 } // namespace
 
-TEST_CASE("A vehicle of four ports and the standard's factsheet is told the place and the port that the plan names")
+TEST_CASE("A vehicle of four ports and the standard's factsheet receives the place and the port that the plan names")
 {
     VehicleFixture vehicle(MakeMethods());
     vehicle.ComeOnline();
@@ -117,7 +117,7 @@ TEST_CASE("An action without a method makes the robot unavailable for it from th
     CHECK(vehicle.adapter.GetRejectionReasonOrNull("TrayLoad") == "the vehicle has no action for TrayLoad");
 }
 
-TEST_CASE("Each factsheet decides anew which jobs the vehicle can do")
+TEST_CASE("The latest factsheet decides which jobs the vehicle can do")
 {
     VehicleFixture vehicle(MakeMethods());
     vehicle.ComeOnline();
@@ -213,7 +213,7 @@ TEST_CASE("A job that is commanded before the factsheet has come is sent after i
     }
 }
 
-TEST_CASE("A job that the vehicle shows after a restart goes on before its factsheet has come")
+TEST_CASE("A job that the vehicle shows after a restart continues before its factsheet has arrived")
 {
     VDA5050::MasterOptions options = VehicleFixture::MakeOptions();
     options.bFactsheetRequested = true;

@@ -158,7 +158,7 @@ TEST_CASE("A job whose loads disagree with its finished action is finished as so
     CHECK(vehicle.TakeEvents<JobUnresolved>().empty());
 }
 
-TEST_CASE("A job whose loads keep disagreeing is uncertain, with port, expected and shown")
+TEST_CASE("A job whose loads keep disagreeing is unresolved, with port, expected and reported load")
 {
     const auto find = [](const std::string& action,
                          const std::string& from,

@@ -25,7 +25,7 @@ struct RecoveryFixture : VehicleFixture
             state.actionStates.push_back(action);
         }
         Command(Planning::RecoverJob{MakeJob("CassetteLoad"), {"D"}});
-        CHECK(actions.empty()); // the vehicle has not told anything
+        CHECK(actions.empty()); // the vehicle has reported nothing
         ComeOnline();
     }
 
@@ -38,7 +38,7 @@ struct RecoveryFixture : VehicleFixture
 
 } // namespace
 
-TEST_CASE("After a restart a job whose action has ended is told by its end, and nothing is sent")
+TEST_CASE("After a restart the end of a job whose action has ended is reported, and nothing is sent")
 {
     RecoveryFixture done("U1", VDA5050::EActionStatus::Finished);
     CHECK(done.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
@@ -80,7 +80,7 @@ TEST_CASE(
         REQUIRE(orders.size() == 1);
         CHECK(orders[0].orderID == "U1");
     }
-    SECTION("it came late, all the same: taken up, and not sent")
+    SECTION("it arrived late after all: resumed, and not sent")
     {
         vehicle.state.orderID = "U1";
         vehicle.state.actionStates.push_back({"U1", "pick", "", VDA5050::EActionStatus::Running, ""});
@@ -107,7 +107,7 @@ TEST_CASE("After a restart no order, an unknown order or one without its action 
     }
 }
 
-TEST_CASE("After a restart the released nodes ahead of a vehicle are told until it has given its order up")
+TEST_CASE("After a restart the released nodes ahead of a vehicle are reported until it has dropped its order")
 {
     VehicleFixture vehicle;
     vehicle.state.orderID = "old";

@@ -37,7 +37,7 @@ TEST_CASE("A charge that cannot be is taken as the nearest that can, a position 
     CHECK_FALSE(vehicle.TakeEvents<Planning::StateChanged>().back().bPoseKnown);
 }
 
-TEST_CASE("6.10.6 A state that leaves the position out after one that had it says that the vehicle knows it no longer")
+TEST_CASE("6.10.6 A state without the position after one that had it means that the vehicle has lost it")
 {
     VehicleFixture vehicle;
     VDA5050::VisualizationMessage seen;
@@ -46,7 +46,7 @@ TEST_CASE("6.10.6 A state that leaves the position out after one that had it say
     seen.agvPosition->x = 3;
     vehicle.ComeOnline();
     vehicle.Receive("visualization", seen);
-    vehicle.ShowState(); // of a vehicle that tells its position by visualization only
+    vehicle.ShowState(); // of a vehicle that reports its position by visualization only
     CHECK(vehicle.TakeEvents<Planning::StateChanged>().back().bPoseKnown);
 
     vehicle.state.agvPosition = seen.agvPosition;
@@ -57,7 +57,7 @@ TEST_CASE("6.10.6 A state that leaves the position out after one that had it say
     CHECK_FALSE(vehicle.TakeEvents<Planning::StateChanged>().back().bPoseKnown);
 }
 
-TEST_CASE("A vehicle is online once it has said so and shown a state")
+TEST_CASE("A vehicle is online after its connection message and its first state")
 {
     VehicleFixture vehicle;
     vehicle.adapter.OnLinkUp(vehicle.clock.GetNow(), vehicle.actions);
@@ -93,7 +93,7 @@ TEST_CASE("6.6 A drive is an order of base and horizon, its extension an update 
     CHECK(updates[0].nodes.back().bReleased);
 }
 
-TEST_CASE("Nodes are told once each, and the arrival when the whole route is driven")
+TEST_CASE("Each node is reported once, and the arrival when the whole route is driven")
 {
     VehicleFixture vehicle;
     vehicle.ComeOnline();
@@ -115,7 +115,7 @@ TEST_CASE("Nodes are told once each, and the arrival when the whole route is dri
     CHECK(vehicle.TakeEvents<Planning::Arrived>() == std::vector<Planning::Arrived>{{"D"}});
 }
 
-TEST_CASE("A job is an order of the node where the vehicle stands, whose action is named by the commandID")
+TEST_CASE("A job is an order of the vehicle's current node, whose action has the commandID")
 {
     VehicleFixture vehicle;
     vehicle.ComeOnline();
@@ -154,7 +154,7 @@ TEST_CASE("A failed action fails the job with the vehicle's words")
     CHECK(vehicle.TakeEvents<Planning::JobFailed>() == std::vector<Planning::JobFailed>{{"J", "station is empty"}});
 }
 
-TEST_CASE("A rejected order is told with the vehicle's reason")
+TEST_CASE("A rejected order is reported with the vehicle's reason")
 {
     VehicleFixture vehicle;
     vehicle.ComeOnline();
@@ -227,7 +227,7 @@ TEST_CASE("A job whose action ends, runs again and fails after its end is done o
     CHECK(vehicle.TakeEvents<Planning::JobFailed>().empty());
 }
 
-TEST_CASE("Ids that nobody gave the vehicle change nothing: actions, nodes behind the route, orders that are over")
+TEST_CASE("Unknown ids change nothing: actions, nodes beyond the route, orders that have ended")
 {
     VehicleFixture vehicle;
     vehicle.ComeOnline();
@@ -289,7 +289,8 @@ void SendUnseenUpdate(VehicleFixture& vehicle)
     REQUIRE(vehicle.TakeOrders().size() == 1);
 }
 
-TEST_CASE("A drive whose update is refused is given up only when the vehicle stands: until then it drives on its base")
+TEST_CASE(
+    "A drive whose update is refused is rejected only when the vehicle has stopped: until then it drives on its base")
 {
     VehicleFixture vehicle;
     SendUnseenUpdate(vehicle);
@@ -317,7 +318,7 @@ TEST_CASE("A drive whose update is refused is given up only when the vehicle sta
     CHECK(vehicle.TakeEvents<Planning::DriveCancelled>().empty());
 }
 
-TEST_CASE("When cancelling fails, the update that was withdrawn for it is sent again, and the drive goes on")
+TEST_CASE("If cancelling fails, the update that was withdrawn for it is sent again, and the drive continues")
 {
     VehicleFixture vehicle;
     SendUnseenUpdate(vehicle);
@@ -389,7 +390,7 @@ TEST_CASE("StartCharging and StopCharging are the instant actions of these names
     CHECK(vehicle.outputs.messages.back().payload.find("\"stopCharging\"") != std::string::npos);
 }
 
-TEST_CASE("6.7, D-22 A vehicle is paused when it says so and the job's action does not go on")
+TEST_CASE("6.7, D-22 A vehicle is paused when it reports that and the job's action does not run")
 {
     VehicleFixture vehicle;
     vehicle.ComeOnline();
@@ -409,7 +410,7 @@ TEST_CASE("6.7, D-22 A vehicle is paused when it says so and the job's action do
     CHECK_FALSE(vehicle.TakeEvents<Planning::StateChanged>().back().bPaused);
 }
 
-TEST_CASE("6.7 Of a vehicle whose state lacks paused, the ends of startPause and stopPause say it")
+TEST_CASE("6.7 Without the member paused, the ends of startPause and stopPause decide whether the vehicle is paused")
 {
     VehicleFixture vehicle;
     vehicle.ComeOnline();

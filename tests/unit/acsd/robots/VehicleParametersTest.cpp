@@ -230,7 +230,7 @@ TEST_CASE("A mandatory parameter of the factsheet that is not configured is an e
         == "the parameter fork of lift is mandatory and not configured");
 }
 
-TEST_CASE("Without a factsheet the standard says what a pick needs")
+TEST_CASE("Without a factsheet the standard defines what a pick needs")
 {
     const JobMethod pick{"pick", 0, Parse("stationType = '{station.side}'\nloadType = 'cassette'")};
     CHECK(Make(pick, MakeLoad()) == "the parameter stationType of pick cannot be given: the job has no {station.side}");

@@ -14,7 +14,7 @@ namespace ACS::Acsd::Test
 namespace
 {
 
-/// A robot on the example site whose words a test puts into its mouth.
+/// A robot on the example site whose reports a test writes.
 struct WatchFixture
 {
     AcsdConfig config = ReadAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", {});
@@ -72,7 +72,7 @@ struct WatchFixture
 
 } // namespace
 
-TEST_CASE_METHOD(WatchFixture, "An honest robot is not told of: states may be lost, paused and running take turns")
+TEST_CASE_METHOD(WatchFixture, "Consistent reports are not logged: states may be lost, paused and running alternate")
 {
     Show();
     using E = VDA5050::EActionStatus;
@@ -80,7 +80,7 @@ TEST_CASE_METHOD(WatchFixture, "An honest robot is not told of: states may be lo
     {
         ShowAction(status);
     }
-    state.orderID = "O2"; // a new order counts anew
+    state.orderID = "O2"; // a new order counts from 0
     state.orderUpdateID = 0;
     state.lastNodeSequenceID = 0;
     ShowAction(E::Finished);
@@ -90,7 +90,7 @@ TEST_CASE_METHOD(WatchFixture, "An honest robot is not told of: states may be lo
     CHECK(sink.GetLines().empty());
 }
 
-TEST_CASE_METHOD(WatchFixture, "A node that the map does not have is told and counted")
+TEST_CASE_METHOD(WatchFixture, "A node that the map does not have is logged and counted")
 {
     state.lastNodeID = "nowhere";
     Show();
@@ -99,7 +99,7 @@ TEST_CASE_METHOD(WatchFixture, "A node that the map does not have is told and co
     CHECK(sink.ContainsField("detail", "nowhere"));
 }
 
-TEST_CASE_METHOD(WatchFixture, "A position off the map is told, one at its rim is not, nor one that is not known")
+TEST_CASE_METHOD(WatchFixture, "A position off the map is logged; one near its border or an unknown one is not")
 {
     VDA5050::AgvPosition& at = state.agvPosition.emplace();
     at.bPositionInitialized = true;
@@ -115,7 +115,7 @@ TEST_CASE_METHOD(WatchFixture, "A position off the map is told, one at its rim i
     CHECK(CountOf("off_map") == 1);
 }
 
-TEST_CASE_METHOD(WatchFixture, "An action that goes backwards is told, before and after its end")
+TEST_CASE_METHOD(WatchFixture, "An action that goes backwards is logged, before and after its end")
 {
     using E = VDA5050::EActionStatus;
     ShowAction(E::Running);
@@ -132,7 +132,7 @@ TEST_CASE_METHOD(WatchFixture, "An action that goes backwards is told, before an
 
 TEST_CASE_METHOD(
     WatchFixture,
-    "An order whose update or node number goes backwards is told; not after the robot was away")
+    "An order whose update or node number goes backwards is logged, except after the robot was offline")
 {
     Show();
     state.orderUpdateID = 0;
@@ -146,7 +146,7 @@ TEST_CASE_METHOD(
     CHECK(CountOf("node_backwards") == 1);
 }
 
-TEST_CASE_METHOD(WatchFixture, "Two actions of one id and a battery beyond its range are told")
+TEST_CASE_METHOD(WatchFixture, "Two actions of one id and a battery beyond its range are logged")
 {
     state.actionStates = {
         {"J", "pick", "", VDA5050::EActionStatus::Waiting, ""},
@@ -157,7 +157,7 @@ TEST_CASE_METHOD(WatchFixture, "Two actions of one id and a battery beyond its r
     CHECK(CountOf("battery_range") == 1);
 }
 
-TEST_CASE_METHOD(WatchFixture, "What the session threw away is counted by kind")
+TEST_CASE_METHOD(WatchFixture, "Messages that the session dropped are counted by kind")
 {
     VDA5050::MasterStatistics statistics;
     statistics.messagesRefused = 2;
@@ -171,7 +171,7 @@ TEST_CASE_METHOD(WatchFixture, "What the session threw away is counted by kind")
     CHECK(CountOf("state_retained") == 1);
 }
 
-TEST_CASE_METHOD(WatchFixture, "An arm that answers nonsense is told by what it said")
+TEST_CASE_METHOD(WatchFixture, "Invalid answers of an arm are logged with their text")
 {
     watch.OnArmEvent(OpenStream::ClientBadLine{"no JSON"});
     OpenStream::ClientErrorReported reported;
@@ -191,7 +191,7 @@ TEST_CASE_METHOD(WatchFixture, "An arm that answers nonsense is told by what it 
 
 TEST_CASE_METHOD(
     WatchFixture,
-    "A robot that repeats its mistake does not fill the log: the first few, then one line a minute with its count")
+    "A robot that repeats its error does not fill the log: the first few, then one line a minute with its count")
 {
     state.lastNodeID = "nowhere";
     for (int i = 0; i < 250; ++i)

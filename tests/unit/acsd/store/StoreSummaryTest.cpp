@@ -19,13 +19,13 @@ PlanRecord MakeRecord(EPlanState state)
 
 } // namespace
 
-TEST_CASE("A start says what it has found in its store, in numbers")
+TEST_CASE("The summary of a start has the numbers of what the store contains")
 {
     StoredState state;
     CHECK(MakeStoreSummary({true, false, 0, 3}, state) == "new, schema 3");
     CHECK(
         MakeStoreSummary({false, false, 3, 3}, state)
-        == "schema 3, no open plans taken up, no ended plans, no reports not acknowledged, no alarms");
+        == "schema 3, no open plans resumed, no ended plans, no reports not acknowledged, no alarms");
     for (const EPlanState plan :
          {EPlanState::Pending,
           EPlanState::InProgress,
@@ -41,14 +41,14 @@ TEST_CASE("A start says what it has found in its store, in numbers")
     state.alarms.resize(1);
     CHECK(
         MakeStoreSummary({false, false, 3, 3}, state)
-        == "schema 3, 3 open plans taken up, 4 ended plans, 2 reports not acknowledged, 1 alarm");
+        == "schema 3, 3 open plans resumed, 4 ended plans, 2 reports not acknowledged, 1 alarm");
     state.robotsInMaintenance = {"CR01", "LR01"};
     state.tscState = ETscState::Paused;
     CHECK(
         MakeStoreSummary({false, true, 2, 3, true}, state)
-        == "schema 3 brought forward from 2, 3 open plans taken up, 4 ended plans, 2 reports not acknowledged, 1 alarm, in "
+        == "schema 3 migrated from 2, 3 open plans resumed, 4 ended plans, 2 reports not acknowledged, 1 alarm, in "
            "maintenance CR01 LR01, TSC Paused; restored from the copy that was made when the database was removed while it "
-           "was open; migrated from the former layout, whose files are kept with .former in their names");
+           "was open; migrated from the former layout; its files are kept with .former in their names");
 }
 
 } // namespace ACS::Acsd::Test

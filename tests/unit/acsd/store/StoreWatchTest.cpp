@@ -10,7 +10,7 @@ namespace ACS::Acsd::Test
 
 using namespace std::chrono_literals;
 
-TEST_CASE("A write that takes too long is told in the log and keeps acsd from being ready until it is over")
+TEST_CASE("A write that takes too long is logged and is a not-ready reason until it ends")
 {
     Testing::ManualClock clock;
     Testing::RecordingLogSink sink;
@@ -30,7 +30,7 @@ TEST_CASE("A write that takes too long is told in the log and keeps acsd from be
     CHECK(sink.CountLevel(Core::ELogLevel::Warning) == 1);
 }
 
-TEST_CASE("A write that fails keeps acsd from being ready until one succeeds")
+TEST_CASE("A failed write is a not-ready reason until one succeeds")
 {
     Testing::ManualClock clock;
     Testing::RecordingLogSink sink;
@@ -46,7 +46,7 @@ TEST_CASE("A write that fails keeps acsd from being ready until one succeeds")
     CHECK(sink.Contains(Core::ELogLevel::Warning, "the store works again"));
 }
 
-TEST_CASE("A store that fails each second is told a few times, then once a minute, and each new reason at once")
+TEST_CASE("A store that fails each second is logged a few times, then once a minute, and each new reason at once")
 {
     Testing::ManualClock clock;
     Testing::RecordingLogSink sink;
@@ -66,7 +66,7 @@ TEST_CASE("A store that fails each second is told a few times, then once a minut
     CHECK(sink.ContainsField("reason", "acsd.db: expected room, found disk broken"));
 }
 
-TEST_CASE("A file that is gone keeps acsd from being ready without a write, until one succeeds")
+TEST_CASE("A missing file is a not-ready reason without a write, until a write succeeds")
 {
     Testing::ManualClock clock;
     Testing::RecordingLogSink sink;

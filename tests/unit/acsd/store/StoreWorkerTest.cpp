@@ -17,7 +17,7 @@ namespace
 
 using namespace Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 
-/// A disk that waits for a word, and is told what to answer.
+/// A disk that waits until the test sets its answer.
 class SlowStore final : public IPlanStore
 {
     std::future<bool> _word;
@@ -54,7 +54,7 @@ public:
 
 } // namespace
 
-TEST_CASE("A batch is stored beside the executor, which hears of it on its own thread")
+TEST_CASE("A batch is stored in another thread, and the handler runs on the executor's thread")
 {
     const bool bWorks = GENERATE(true, false);
     boost::asio::io_context context;
@@ -73,7 +73,7 @@ TEST_CASE("A batch is stored beside the executor, which hears of it on its own t
         nullptr);
     worker.Append({{ReportRemoved{1}, ReportRemoved{2}}});
     context.poll();
-    CHECK_FALSE(answer.has_value()); // the disk waits for its word, the executor does not
+    CHECK_FALSE(answer.has_value()); // the disk waits for the test, the executor does not
     word.set_value(bWorks);
     while (!answer.has_value())
     {
@@ -84,7 +84,7 @@ TEST_CASE("A batch is stored beside the executor, which hears of it on its own t
     CHECK(written == (bWorks ? 2 : 0));
 }
 
-TEST_CASE("A worker that goes waits for what it began, and tells nobody")
+TEST_CASE("The destructor of a worker waits for the write under way and calls no handler")
 {
     boost::asio::io_context context;
     std::promise<bool> word;
@@ -104,7 +104,7 @@ TEST_CASE("A worker that goes waits for what it began, and tells nobody")
     CHECK_FALSE(bTold);
 }
 
-TEST_CASE("A check is made beside the executor, one at a time; who waits hears of it where it has failed")
+TEST_CASE("A check runs in another thread, one at a time; the handler is called if it fails")
 {
     boost::asio::io_context context;
     const auto guard = boost::asio::make_work_guard(context);
@@ -117,7 +117,7 @@ TEST_CASE("A check is made beside the executor, one at a time; who waits hears o
         [](const Core::Result<void>&) { FAIL("nothing was stored"); },
         [&](const Core::Error& error) { fault = error; });
     worker.CheckAsync();
-    worker.CheckAsync(); // the word is given once: a second one would throw
+    worker.CheckAsync(); // the answer is set once: a second check would throw
     context.poll();
     CHECK_FALSE(fault.has_value());
     word.set_value(false);

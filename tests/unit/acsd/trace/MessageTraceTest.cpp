@@ -61,7 +61,7 @@ TEST_CASE_METHOD(TraceFixture, "A trace has a line per message with both times, 
     CHECK(lines[1].find(R"("robot":"LR01","topic":"uagv/v2/ACS/LR01/state")") != std::string::npos);
 }
 
-TEST_CASE("Text that is no UTF-8 is kept byte for byte in an escaped form that says so")
+TEST_CASE("Text that is not valid UTF-8 is kept byte for byte, escaped and marked")
 {
     const std::string line = MakeTraceLine({"arm", EWireDirection::In, "CR01", {}, "\xFF{\\}\xC3\xA9\xC3"}, {});
     CHECK(line.find(R"("text":"\\xFF{\\\\}é\\xC3","escaped":true})") != std::string::npos);
@@ -69,7 +69,7 @@ TEST_CASE("Text that is no UTF-8 is kept byte for byte in an escaped form that s
     CHECK(good.find(R"("text":"{\\}é\n"})") != std::string::npos);
 }
 
-TEST_CASE_METHOD(TraceFixture, "What the queue has no room for is lost, counted, and told in the trace")
+TEST_CASE_METHOD(TraceFixture, "Messages beyond the queue are lost, counted, and noted in the trace")
 {
     {
         const auto trace = Begin(1'000);
@@ -87,7 +87,7 @@ TEST_CASE_METHOD(TraceFixture, "What the queue has no room for is lost, counted,
     CHECK(lines[2].find(R"("link":"trace","lost":1})") != std::string::npos);
 }
 
-TEST_CASE_METHOD(TraceFixture, "A full disk is told once, and the trace goes on when there is room again")
+TEST_CASE_METHOD(TraceFixture, "A full disk is logged once, and the trace continues when there is room again")
 {
     {
         const auto trace = Begin();
