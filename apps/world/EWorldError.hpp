@@ -5,19 +5,19 @@
 namespace ACS::Sim
 {
 
-/// Why simulated equipment cannot do what it is asked for, or why a world file cannot be used.
+/// Why simulated equipment cannot execute an action, or why a world file cannot be used.
 enum class EWorldError
 {
-    InvalidPlace = 1, ///< No place, or none of the kind that the event needs.
-    NoSuchPlace,      ///< The world file lists its places, and this is none of them.
+    InvalidPlace = 1, ///< Not a place, or not of the kind that the event requires.
+    NoSuchPlace,      ///< The world file lists its places, and this one is not listed.
     PlaceEmpty,
     PlaceOccupied,
-    OtherCarrier, ///< Another carrier is there than the one that is named.
+    OtherCarrier, ///< The place has another carrier than the named one.
     CoverClosed,
-    OutOfReach,    ///< The robot's base is docked elsewhere.
-    InvalidName,   ///< Of a robot, a carrier or a station.
-    LimitExceeded, ///< More carriers, memories or events than a world has.
-    JournalFailed, ///< It cannot be read or written, or does not belong to the world file.
+    OutOfReach,    ///< The robot is not docked at the station of the place.
+    InvalidName,   ///< Name of a robot, a carrier or a station.
+    LimitExceeded, ///< Too many carriers, memories or events.
+    JournalFailed, ///< The journal cannot be read or written, or does not match the world file.
 };
 
 [[nodiscard]] std::error_code make_error_code(EWorldError error) noexcept;

@@ -14,7 +14,7 @@ bool IsInside(std::string_view place, std::string_view outer)
     return place.starts_with(outer) && (place.size() == outer.size() || place[outer.size()] == '.');
 }
 
-/// Takes what is at the place and inside it out of the map.
+/// Removes the entries of the place and of all places inside it from the map and returns them.
 template <typename TValue>
 std::vector<std::pair<std::string, TValue>> TakeInside(
     std::map<std::string, TValue, std::less<>>& map,

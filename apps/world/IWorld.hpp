@@ -11,8 +11,8 @@
 namespace ACS::Sim
 {
 
-/// What the simulated equipment knows of the physical floor: which carrier is in which port, memory in which place, cover in
-/// which position. Shared by all simulators of a floor. Locations are canonical texts that name the robot ("CR01.TP01").
+/// The physical floor, shared by all simulators of a site: carriers in ports, memories in places, positions of covers. Locations
+/// are canonical texts that name the robot ("CR01.TP01").
 class IWorld
 {
 public:
@@ -21,22 +21,22 @@ public:
     IWorld& operator=(const IWorld&) = delete;
     virtual ~IWorld() = default;
 
-    /// Does it, if it is physically possible; else nothing happens, and the error says why: `from` is empty, `to` is occupied,
-    /// another carrier is there than the one that is named, the cover is closed, the place is out of the robot's reach or does
-    /// not exist.
+    /// Executes the event if it is physically possible. Otherwise nothing changes and the error states the reason: `from` is
+    /// empty, `to` is occupied, the place has another carrier than the named one, the cover is closed, the place is out of the
+    /// robot's reach or does not exist.
     [[nodiscard]] virtual Core::Result<void> Act(const WorldEvent& event) = 0;
 
-    /// What is at the place at present; nullopt: nothing.
+    /// The carrier at the place; nullopt if there is none.
     [[nodiscard]] virtual std::optional<std::string> GetCarrierOrNull(std::string_view place) = 0;
-    /// Where the carrier is at present; nullopt: nowhere on the floor.
+    /// The place of the carrier; nullopt if it is not on the floor.
     [[nodiscard]] virtual std::optional<std::string> GetPlaceOrNull(std::string_view carrierID) = 0;
     [[nodiscard]] virtual EMemory GetMemory(std::string_view place) = 0;
     [[nodiscard]] virtual bool IsCovered(std::string_view set) = 0;
 
-    /// Every event since the last call, or since this object exists, of all processes, in the order in which they happened.
+    /// All events of all processes since the last call, or since this object was created, in their order.
     [[nodiscard]] virtual std::vector<WorldEvent> TakeEvents() = 0;
 
-    /// Why the last call did not see what other processes did; nullopt: it saw everything.
+    /// Why the last call could not read the events of other processes; nullopt if it read all of them.
     [[nodiscard]] virtual std::optional<Core::Error> GetFailureOrNull() const
     {
         return std::nullopt;

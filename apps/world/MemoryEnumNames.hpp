@@ -8,7 +8,7 @@
 namespace ACS::Json
 {
 
-/// MemoryEnumNames: what a memory place holds, as world files and journals spell it.
+/// MemoryEnumNames: the values of EMemory in world files and journals.
 template <>
 struct EnumNames<Sim::EMemory>
 {

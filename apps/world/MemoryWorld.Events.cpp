@@ -14,7 +14,7 @@ namespace ACS::Sim
 namespace
 {
 
-/// The event, or the first of the errors.
+/// Returns the event, or the first error.
 Core::Result<WorldEvent> Conclude(std::initializer_list<Core::Result<void>> checks, WorldEvent event)
 {
     for (const Core::Result<void>& check : checks)
@@ -36,7 +36,7 @@ Core::Result<void> CheckCount(std::size_t count, std::size_t maximum, std::strin
     return {};
 }
 
-/// A cassette fits into cassette ports, a tray into tray ports.
+/// Checks that the ports are of the same kind: a cassette fits into cassette ports, a tray into tray ports.
 Core::Result<void> CheckFits(std::string_view from, const Place& to)
 {
     const Core::Result<Place> place = ParsePlace(from);
@@ -67,7 +67,7 @@ Core::Result<void> CheckHolds(
     return {};
 }
 
-/// A place of unknown content passes as either.
+/// Checks the content of a memory place. Unknown content is accepted as empty and as occupied.
 Core::Result<void> CheckNotHolding(const Place& place, EMemory found, EMemory excluded)
 {
     if (found != excluded)
@@ -78,7 +78,8 @@ Core::Result<void> CheckNotHolding(const Place& place, EMemory found, EMemory ex
                                       : Core::Fail(EWorldError::PlaceOccupied, place.text, "a free place", "a memory");
 }
 
-/// Where a robot can dock: a fixed place, or what is no place, such as a charger. The floor need not have it.
+/// Checks that a robot can dock there: at a fixed place, which the floor need not have, or at a station that is not a place, such
+/// as a charger.
 Core::Result<void> CheckStation(std::string_view stationID)
 {
     const Core::Result<Place> place = ParsePlace(stationID);
@@ -244,7 +245,7 @@ void MemoryWorld::Apply(const CoverMoved& moved)
 
 void MemoryWorld::Apply(const ButtonPushed& /*pushed*/)
 {
-    // Nothing of the floor that is modelled changes.
+    // A button is not part of the modelled floor.
 }
 
 void MemoryWorld::Apply(const CarrierPlaced& placed)

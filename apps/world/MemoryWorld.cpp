@@ -25,7 +25,7 @@ std::set<std::string, std::less<>> MakeStations(const std::vector<std::string>& 
     return stations;
 }
 
-/// The result with the path in front of that which it may have.
+/// Puts the path of the world file before the path of the error.
 template <typename TValue>
 Core::Result<void> AtPath(std::string path, const Core::Result<TValue>& result)
 {
@@ -52,7 +52,7 @@ Core::Result<std::unique_ptr<MemoryWorld>> MemoryWorld::Create(const WorldStart&
     {
         done = AtPath(fmt::format("places \"{}\"", *place), world->_places.Add(*place));
     }
-    // A cassette comes before the trays in it: its place is the shorter one.
+    // A cassette must be placed before the trays in it. Its place is the shorter text.
     std::vector<std::pair<std::string, std::string>> carriers;
     for (const auto& [carrierID, place] : start.carriers)
     {
@@ -162,7 +162,7 @@ Core::Result<Place> MemoryWorld::FindPlace(std::string_view text) const
     }
     if (!_places.Contains(*place))
     {
-        return Core::Fail(EWorldError::NoSuchPlace, place->text, "a place of the floor", "none of that name");
+        return Core::Fail(EWorldError::NoSuchPlace, place->text, "a place of the floor", "an unlisted place");
     }
     const std::string carrierPort = place->GetCarrierPort();
     if (!carrierPort.empty() && !_contents.GetCarrierOrNull(carrierPort).has_value())
@@ -232,7 +232,7 @@ Core::Result<void> MemoryWorld::CheckReach(std::string_view robotID, const Place
         EWorldError::OutOfReach,
         place.text,
         fmt::format("{} docked at {}", robotID, place.station),
-        bDocked ? fmt::format("it at {}", fmt::join(docked->second, ", ")) : "it at no station");
+        bDocked ? fmt::format("it docked at {}", fmt::join(docked->second, ", ")) : "it not docked");
 }
 
 Core::Result<void> MemoryWorld::CheckCover(const Place& place) const

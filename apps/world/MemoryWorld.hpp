@@ -19,14 +19,14 @@
 namespace ACS::Sim
 {
 
-/// The floor and its rules, in the memory of one process; docs/reference/world.md has the rules. Pure: no files, threads or clocks.
+/// The floor and its rules (docs/reference/world.md) in the memory of one process. Uses no files, threads or clocks.
 class MemoryWorld final : public IWorld
 {
 public:
     static constexpr std::size_t MAX_CARRIERS = 100'000;
     static constexpr std::size_t MAX_MEMORIES = 1'000'000;
     static constexpr std::size_t MAX_ROBOTS = 10'000;
-    static constexpr std::size_t MAX_STATIONS = 100; ///< Of one robot.
+    static constexpr std::size_t MAX_STATIONS = 100; ///< At which one robot is docked.
     static constexpr std::size_t MAX_EVENTS = 100'000;
 
 private:
@@ -41,7 +41,7 @@ public:
     /// An empty floor on which every place exists.
     MemoryWorld() = default;
 
-    /// The error's path is that in the world file: "carriers.TRAY_01".
+    /// The path of an error is that in the world file: "carriers.TRAY_01".
     [[nodiscard]] static Core::Result<std::unique_ptr<MemoryWorld>> Create(const WorldStart& start);
 
     [[nodiscard]] Core::Result<void> Act(const WorldEvent& event) override;
@@ -49,12 +49,12 @@ public:
     [[nodiscard]] std::optional<std::string> GetPlaceOrNull(std::string_view carrierID) override;
     [[nodiscard]] EMemory GetMemory(std::string_view place) override;
     [[nodiscard]] bool IsCovered(std::string_view set) override;
-    /// At most the last MAX_EVENTS.
+    /// Returns at most the last MAX_EVENTS events.
     [[nodiscard]] std::vector<WorldEvent> TakeEvents() override;
 
-    /// The event as it goes on record, in canonical spelling and with the carrier's name, if Act would do it; else why not.
+    /// The event as it is recorded: in canonical spelling and with the carrier's name. Errors as of Act.
     [[nodiscard]] Core::Result<WorldEvent> Check(const WorldEvent& event) const;
-    /// Whether the event would leave the floor as it is, so that it need not go on record. Only a robot that stays docked does.
+    /// Whether the event changes nothing and need not be recorded. That is the case only for a robot that stays docked.
     [[nodiscard]] bool IsRepeated(const WorldEvent& event) const;
 
 private:
@@ -74,7 +74,7 @@ private:
     void Apply(const CarrierPlaced& placed);
     void Apply(const MemoryPlaced& placed);
 
-    /// A place that exists.
+    /// Fails if there is no such place on the floor.
     [[nodiscard]] Core::Result<Place> FindPlace(std::string_view text) const;
     [[nodiscard]] Core::Result<Place> FindKind(
         std::string_view text,

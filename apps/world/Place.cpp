@@ -11,7 +11,7 @@ namespace ACS::Sim
 namespace
 {
 
-/// Stands for the robot while the rest of a robot's place is read.
+/// Replaces the robot while the rest of the place is parsed as a location.
 constexpr std::string_view STAND_IN = "A01";
 
 tl::unexpected<Core::Error> Refuse(std::string_view text)

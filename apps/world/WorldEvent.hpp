@@ -8,7 +8,7 @@
 namespace ACS::Sim
 {
 
-/// A vehicle has docked: its arm reaches the places of these stations, and no others. Empty: it has left them.
+/// A robot has docked: it reaches the places of these stations only. Empty: it has undocked.
 struct RobotDocked
 {
     std::string robotID;
@@ -22,7 +22,7 @@ struct RobotDocked
 struct CarrierMoved
 {
     std::string robotID;
-    std::string carrierID; ///< Empty in a request: whatever is at `from`. Never empty in the journal.
+    std::string carrierID; ///< Empty in a request: any carrier at `from`. Never empty in the journal.
     std::string from;
     std::string to;
 
@@ -58,8 +58,8 @@ struct ButtonPushed
     bool operator==(const ButtonPushed&) const = default;
 };
 
-/// By a person's hand, not by a robot (mcs-sim --restock): the carrier is at the place now, wherever it was before, and what
-/// was at the place is gone. An empty place takes the carrier off the floor; an empty carrier clears the place.
+/// A carrier was moved by hand, not by a robot (mcs-sim --restock): it is at the place now, and the carrier that was there is
+/// removed. An empty place removes the carrier from the floor; an empty carrier clears the place.
 struct CarrierPlaced
 {
     std::string carrierID;
@@ -75,7 +75,7 @@ enum class EMemory : std::uint8_t
     Occupied,
 };
 
-/// By a person's hand: what a memory place holds.
+/// The content of a memory place was set by hand.
 struct MemoryPlaced
 {
     std::string place;
@@ -84,7 +84,7 @@ struct MemoryPlaced
     bool operator==(const MemoryPlaced&) const = default;
 };
 
-/// One line of the journal.
+/// An event on the floor: one line of the journal.
 using WorldEvent =
     std::variant<RobotDocked, CarrierMoved, MemoryMoved, CoverMoved, ButtonPushed, CarrierPlaced, MemoryPlaced>;
 

@@ -15,7 +15,7 @@ namespace ACS::Sim
 namespace
 {
 
-/// The kinds of events, numbered as the alternatives of WorldEvent.
+/// The kinds of events, in the order of the alternatives of WorldEvent.
 enum class EWorldEvent : std::uint8_t
 {
     RobotDocked,
@@ -144,7 +144,7 @@ Core::Result<WorldEvent> DecodeAs(const Json::Value& value)
 
 using DecodeFunction = Core::Result<WorldEvent> (*)(const Json::Value&);
 
-/// By the number of the kind.
+/// Indexed by EWorldEvent.
 constexpr std::array<DecodeFunction, std::variant_size_v<WorldEvent>> DECODERS{
     DecodeAs<RobotDocked>,
     DecodeAs<CarrierMoved>,

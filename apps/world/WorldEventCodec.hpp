@@ -9,10 +9,10 @@
 namespace ACS::Sim
 {
 
-/// One line of the journal, without its end: {"event":"CarrierMoved","robot":"LR01",…}.
+/// A line of the journal without its line end: {"event":"CarrierMoved","robot":"LR01",…}.
 [[nodiscard]] std::string EncodeWorldEvent(const WorldEvent& event);
 
-/// The error has the JSON path.
+/// The path of an error is the JSON path.
 [[nodiscard]] Core::Result<WorldEvent> DecodeWorldEvent(std::string_view line);
 
 } // namespace ACS::Sim

@@ -54,7 +54,7 @@ Core::Result<std::unique_ptr<WorldFile>> WorldFile::Open(const std::string& path
         return tl::make_unexpected(journal.error());
     }
     std::unique_ptr<WorldFile> file(new WorldFile(std::move(*world), std::move(*journal)));
-    const Core::Result<void> read = file->ReadNews();
+    const Core::Result<void> read = file->ReadNewEvents();
     if (!read.has_value())
     {
         return tl::make_unexpected(read.error());
@@ -70,7 +70,7 @@ Core::Result<void> WorldFile::Act(const WorldEvent& event)
     {
         return tl::make_unexpected(lock.error());
     }
-    Core::Result<void> done = ReadNews();
+    Core::Result<void> done = ReadNewEvents();
     if (!done.has_value())
     {
         return done;
@@ -85,36 +85,36 @@ Core::Result<void> WorldFile::Act(const WorldEvent& event)
         return {};
     }
     done = _journal.Append(EncodeWorldEvent(*checked));
-    return done.has_value() ? ReadNews() : done;
+    return done.has_value() ? ReadNewEvents() : done;
 }
 
 std::optional<std::string> WorldFile::GetCarrierOrNull(std::string_view place)
 {
-    static_cast<void>(ReadNews());
+    static_cast<void>(ReadNewEvents());
     return _world->GetCarrierOrNull(place);
 }
 
 std::optional<std::string> WorldFile::GetPlaceOrNull(std::string_view carrierID)
 {
-    static_cast<void>(ReadNews());
+    static_cast<void>(ReadNewEvents());
     return _world->GetPlaceOrNull(carrierID);
 }
 
 EMemory WorldFile::GetMemory(std::string_view place)
 {
-    static_cast<void>(ReadNews());
+    static_cast<void>(ReadNewEvents());
     return _world->GetMemory(place);
 }
 
 bool WorldFile::IsCovered(std::string_view set)
 {
-    static_cast<void>(ReadNews());
+    static_cast<void>(ReadNewEvents());
     return _world->IsCovered(set);
 }
 
 std::vector<WorldEvent> WorldFile::TakeEvents()
 {
-    static_cast<void>(ReadNews());
+    static_cast<void>(ReadNewEvents());
     return _world->TakeEvents();
 }
 
@@ -123,9 +123,9 @@ std::optional<Core::Error> WorldFile::GetFailureOrNull() const
     return _failure;
 }
 
-Core::Result<void> WorldFile::ReadNews()
+Core::Result<void> WorldFile::ReadNewEvents()
 {
-    Core::Result<void> done = _journal.ReadNews([this](std::string_view line) -> Core::Result<void> {
+    Core::Result<void> done = _journal.ReadNewLines([this](std::string_view line) -> Core::Result<void> {
         const Core::Result<WorldEvent> event = DecodeWorldEvent(line);
         return event.has_value() ? _world->Act(*event) : tl::make_unexpected(event.error());
     });

@@ -13,22 +13,24 @@
 namespace ACS::Sim
 {
 
-/// The floor that the simulators of several processes share: a world file, which is only read, and beside it FILE.journal, to
-/// which each process appends what its robots do. Each call knows what all processes did before it. One thread at a time.
+/// The floor that simulators in several processes share: a world file, which is only read, and FILE.journal, to which each
+/// process appends the events of its robots. Each call first reads the new events of all processes. Called by one thread at a
+/// time.
 class WorldFile final : public IWorld
 {
     std::unique_ptr<MemoryWorld> _world;
     WorldJournal _journal;
-    std::optional<Core::Error> _failure; ///< Of the last ReadNews.
+    std::optional<Core::Error> _failure; ///< Error of the last ReadNewEvents.
 
     WorldFile(std::unique_ptr<MemoryWorld> world, WorldJournal journal);
 
 public:
-    /// The error names the file, and what is wrong where in it.
+    /// An error names the file and the path in it.
     [[nodiscard]] static Core::Result<std::unique_ptr<WorldFile>> Open(const std::string& path);
 
     [[nodiscard]] Core::Result<void> Act(const WorldEvent& event) override;
-    // Without the news where the journal cannot be read; Act and GetFailureOrNull say so.
+    // If the journal cannot be read, these functions return the state without the new events, and Act and GetFailureOrNull return
+    // the error.
     [[nodiscard]] std::optional<std::string> GetCarrierOrNull(std::string_view place) override;
     [[nodiscard]] std::optional<std::string> GetPlaceOrNull(std::string_view carrierID) override;
     [[nodiscard]] EMemory GetMemory(std::string_view place) override;
@@ -37,7 +39,7 @@ public:
     [[nodiscard]] std::optional<Core::Error> GetFailureOrNull() const override;
 
 private:
-    [[nodiscard]] Core::Result<void> ReadNews();
+    [[nodiscard]] Core::Result<void> ReadNewEvents();
 };
 
 } // namespace ACS::Sim

@@ -53,8 +53,9 @@ WorldJournal::~WorldJournal()
 
 Core::Result<WorldJournal> WorldJournal::Open(const std::string& path)
 {
-    constexpr int FLAGS = O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOCTTY | O_NONBLOCK; // a pipe is not waited for
-    WorldJournal journal(path, ::open(path.c_str(), FLAGS, FILE_MODE)); // NOLINT: the system's signature
+    constexpr int FLAGS =
+        O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOCTTY | O_NONBLOCK; // O_NONBLOCK: a FIFO must not block
+    WorldJournal journal(path, ::open(path.c_str(), FLAGS, FILE_MODE));  // NOLINT: the system's signature
     if (journal._descriptor < 0)
     {
         return journal.FailForErrno("a file that can be written");
@@ -86,13 +87,13 @@ Core::Result<WorldJournal::Lock> WorldJournal::Acquire()
                 fmt::format("its lock within {} s", LOCK_TIMEOUT.count()),
                 "another process that holds it; end that process ('lslocks' lists it)");
         }
-        ::poll(nullptr, 0, LOCK_POLL_MS); // flock has no time limit, and nothing announces its end
+        ::poll(nullptr, 0, LOCK_POLL_MS); // polled, because flock has no time limit
     }
     _bLockMissed = false;
     return Lock(_descriptor);
 }
 
-Core::Result<void> WorldJournal::ReadNews(const LineReader& read)
+Core::Result<void> WorldJournal::ReadNewLines(const LineReader& read)
 {
     const Core::Result<std::uint64_t> size = GetSize();
     if (!size.has_value())
@@ -101,7 +102,11 @@ Core::Result<void> WorldJournal::ReadNews(const LineReader& read)
     }
     if (*size < _offset)
     {
-        return Core::Fail(EWorldError::JournalFailed, _path, "a journal that grows; start again", "one that was cut");
+        return Core::Fail(
+            EWorldError::JournalFailed,
+            _path,
+            "a complete journal; restart this program",
+            "a truncated one");
     }
     if (*size == _offset)
     {
@@ -148,7 +153,7 @@ Core::Result<void> WorldJournal::ReadLines(std::string& text, const LineReader& 
                 EWorldError::JournalFailed,
                 fmt::format("{}:{}", _path, _line + 1),
                 fmt::format(
-                    "an event that can follow ({}); remove the journal to begin anew",
+                    "a valid next event ({}); remove the journal to start from the world file",
                     Core::Describe(done.error())));
         }
         _offset += end + 1 - begin;
@@ -175,7 +180,7 @@ Core::Result<void> WorldJournal::Append(std::string line) const
             EWorldError::LimitExceeded,
             _path,
             fmt::format(
-                "lines of at most {} and a journal of at most {} bytes; remove it to begin anew",
+                "lines of at most {} bytes and a journal of at most {} bytes; remove the journal to start from the world file",
                 MAX_LINE,
                 MAX_BYTES));
     }
@@ -211,7 +216,11 @@ Core::Result<std::uint64_t> WorldJournal::GetSize() const
     }
     if (status.st_nlink == 0)
     {
-        return Core::Fail(EWorldError::JournalFailed, _path, "the file to stay while it is in use", "it removed");
+        return Core::Fail(
+            EWorldError::JournalFailed,
+            _path,
+            "the journal in its place; restart this program",
+            "it removed");
     }
     return static_cast<std::uint64_t>(status.st_size);
 }

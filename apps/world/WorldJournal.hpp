@@ -13,8 +13,8 @@
 namespace ACS::Sim
 {
 
-/// A file of lines to which several processes append, each with its own object of this class. A line counts once its end is
-/// written: what a killed process left of a line is not read, and the next Append cuts it off.
+/// A file of lines to which several processes append, each with its own object of this class. A line is complete once its line
+/// end is written: an incomplete line of a killed process is not read, and the next Append truncates it.
 class WorldJournal
 {
 public:
@@ -23,16 +23,16 @@ public:
 
     /// Maximum time that Acquire waits.
     static constexpr std::chrono::seconds LOCK_TIMEOUT{2};
-    /// The same after a failure: enough for a writer that does its work.
+    /// The same after a failure; longer than a working writer needs.
     static constexpr std::chrono::milliseconds MISSED_LOCK_TIMEOUT{50};
 
-    /// The lock of all writers, held while it exists. The system lifts it when the process ends, however it ends.
+    /// The lock of all writers, held while this object exists. The system releases it even if the process crashes.
     class Lock
     {
         int _descriptor;
 
     public:
-        /// Of a descriptor that has the lock.
+        /// The descriptor must have the lock.
         explicit Lock(int descriptor);
         Lock(const Lock&) = delete;
         Lock& operator=(const Lock&) = delete;
@@ -51,9 +51,9 @@ public:
 private:
     std::string _path;
     int _descriptor = -1;
-    std::uint64_t _offset = 0; ///< Of the first line that is not read yet.
-    std::uint64_t _line = 0;   ///< Lines that are read.
-    bool _bLockMissed = false; ///< By the last Acquire.
+    std::uint64_t _offset = 0; ///< Offset of the first unread line.
+    std::uint64_t _line = 0;   ///< Number of lines read.
+    bool _bLockMissed = false; ///< The last Acquire failed.
 
     WorldJournal(std::string path, int descriptor);
 
@@ -73,17 +73,18 @@ public:
     WorldJournal& operator=(WorldJournal&&) = delete;
     ~WorldJournal();
 
-    /// Created when missing. All errors are EWorldError::JournalFailed, with path and line.
+    /// Opens the file, or creates it. All errors are EWorldError::JournalFailed, with path and line.
     [[nodiscard]] static Core::Result<WorldJournal> Open(const std::string& path);
 
-    /// Waits up to LOCK_TIMEOUT for other writers, each of which holds the lock only while it reads the news and appends a
-    /// line. After a failure the next call waits up to MISSED_LOCK_TIMEOUT, so that a caller's event loop is blocked only once.
+    /// Waits up to LOCK_TIMEOUT for other writers, which have the lock only while they read new lines and append one. After a
+    /// failure the next call waits up to MISSED_LOCK_TIMEOUT, so that the event loop of the caller is blocked only once.
     [[nodiscard]] Core::Result<Lock> Acquire();
 
-    /// Hands over the complete lines since the last call. An error of the reader ends it: that line is read again next time.
-    [[nodiscard]] Core::Result<void> ReadNews(const LineReader& read);
+    /// Passes the complete lines since the last call to the reader. Ends at an error of the reader; the next call passes that line
+    /// again.
+    [[nodiscard]] Core::Result<void> ReadNewLines(const LineReader& read);
 
-    /// With the lock held, after ReadNews. The line is not read by this.
+    /// Appends a line; ReadNewLines then passes it too. Call it with the lock, after ReadNewLines.
     [[nodiscard]] Core::Result<void> Append(std::string line) const;
 
 private:

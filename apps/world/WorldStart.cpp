@@ -29,7 +29,7 @@ tl::unexpected<Core::Error> RefuseType(std::string path, std::string expected, c
     return Core::Fail(Core::ECoreError::WrongType, std::move(path), std::move(expected), Json::ShortenForError(found));
 }
 
-/// An object whose members are words; each is handed to the reader, which returns whether it is one.
+/// Reads an object whose members are strings. The reader gets each of them and returns whether it is valid.
 template <typename TReader>
 Core::Result<void> ReadWords(
     const Json::Value& object,
@@ -123,7 +123,7 @@ constexpr std::array MEMBERS{
     Member{"memories", ReadMemories},
     Member{"places", ReadPlaces}};
 
-/// The first name that the object has more than once.
+/// The first duplicate name of the object.
 std::optional<std::string> FindRepeatedOrNull(const Json::Value& object)
 {
     std::set<std::string_view> names;
@@ -137,7 +137,7 @@ std::optional<std::string> FindRepeatedOrNull(const Json::Value& object)
     return std::nullopt;
 }
 
-/// Each member once, also in the objects of the root.
+/// Checks that no name is a duplicate, in the root and in its members.
 Core::Result<void> CheckNames(const Json::Value& root)
 {
     std::optional<std::string> repeated = FindRepeatedOrNull(root);

@@ -22,7 +22,7 @@ namespace
 constexpr double MIN_TIME_SCALE = 0.01;
 constexpr double MAX_TIME_SCALE = 1000.0;
 
-/// Assigns the value, or returns what is wrong with it.
+/// Assigns the value, or returns the error.
 template <typename TValue>
 std::string Take(Core::Result<TValue> value, TValue& target)
 {
@@ -84,8 +84,8 @@ CLI::Option& AddUrlOption(
 
 CLI::Option& AddTimeScaleOption(CLI::App& app, double& target)
 {
-    CLI::Option* const option = app.add_option("--time-scale", target, "How many times faster than real time to run");
-    // A range alone accepts what is not a number.
+    CLI::Option* const option = app.add_option("--time-scale", target, "Speed relative to real time, 0.01 to 1000");
+    // CLI::Range alone accepts text that is not a number.
     option->check([](const std::string& text) {
         double scale = 0.0;
         const bool bNumber =
@@ -127,10 +127,10 @@ CLI::Option& AddRepeatedOption(CLI::App& app, const std::string& name, TextReade
         [name, reader = std::move(reader)](const std::vector<std::string>& values) {
             for (const std::string& value : values)
             {
-                const std::string mistake = reader(value);
-                if (!mistake.empty())
+                const std::string error = reader(value);
+                if (!error.empty())
                 {
-                    throw CLI::ValidationError(name, mistake);
+                    throw CLI::ValidationError(name, error);
                 }
             }
         },

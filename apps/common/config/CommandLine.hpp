@@ -22,7 +22,7 @@ namespace ACS::Apps
 /// Exit codes that every program shares.
 constexpr int EXIT_BAD_COMMAND_LINE = 2;
 
-/// What every program understands.
+/// The options that every program has.
 struct CommonOptions
 {
     Core::ELogLevel logLevel = Core::ELogLevel::Info;
@@ -32,7 +32,7 @@ struct CommonOptions
 /// The app must have the program's name: `CLI::App app{"what it does", "vda-sim"}`. The targets must outlive parsing.
 void AddCommonOptions(CLI::App& app, CommonOptions& options);
 
-/// An option whose value is HOST:PORT. What the target holds is shown as the default.
+/// An option whose value is HOST:PORT. The value of the target is shown as the default.
 CLI::Option& AddEndpointOption(CLI::App& app, const std::string& name, Endpoint& target, const std::string& help);
 
 /// An option whose value is a URL of one of these schemes.
@@ -43,7 +43,7 @@ CLI::Option& AddUrlOption(
     const std::vector<EUrlScheme>& allowed,
     const std::string& help);
 
-/// --time-scale X: how many times faster than real time a simulator runs; from 0.01 to 1000, by default 1.
+/// --time-scale X: speed of a simulator relative to real time, 0.01 to 1000 (default: the value of the target).
 CLI::Option& AddTimeScaleOption(CLI::App& app, double& target);
 
 /// Assigns a value and returns an empty text, or returns what was expected and found.
@@ -52,14 +52,14 @@ using TextReader = std::function<std::string(const std::string& value)>;
 /// An option that may be given once. The function reads its value.
 CLI::Option& AddTextOption(CLI::App& app, const std::string& name, TextReader reader, const std::string& help);
 
-/// A file, not empty; whether it exists is not checked.
+/// An option whose value is the path of a file: not empty; its existence is not checked.
 CLI::Option& AddFileOption(CLI::App& app, const std::string& name, std::string& target, const std::string& help);
 
 /// An option that may be repeated, with one value each time; `.allow_extra_args()` on the result allows several values after
 /// one name (--plan a.json b.json). The function is called for each value, in order.
 CLI::Option& AddRepeatedOption(CLI::App& app, const std::string& name, TextReader reader, const std::string& help);
 
-/// Reads the command line. Returns nothing if the program is to continue, else its exit code: 0 after --help and --version
+/// Reads the command line. Returns nullopt if the program is to continue, else its exit code: 0 after --help and --version
 /// (on standard output), 2 after an error (one line on standard error).
 [[nodiscard]] std::optional<int> ParseCommandLineOrNull(CLI::App& app, int argc, const char* const* argv);
 

@@ -19,7 +19,7 @@ namespace
 
 constexpr std::string_view OVERRIDE = "--set";
 
-/// An unknown key that is at most this many edits from a known one is taken for a typing error.
+/// Maximum edit distance at which an unknown key is reported as a typing error of a known one.
 constexpr std::size_t MAX_SLIP = 3;
 
 bool IsBareKey(std::string_view key)
@@ -30,7 +30,7 @@ bool IsBareKey(std::string_view key)
     });
 }
 
-/// In quotes, as TOML has it.
+/// Quotes a key as TOML requires it.
 std::string QuoteKey(std::string_view key)
 {
     std::string text;
@@ -42,7 +42,7 @@ std::string QuoteKey(std::string_view key)
     return fmt::format("\"{}\"", text);
 }
 
-/// How many characters must be inserted, removed, replaced or exchanged with their neighbour to make one of the other.
+/// Edit distance: number of characters to insert, delete, replace or exchange with their neighbour.
 std::size_t CountEdits(std::string_view left, std::string_view right)
 {
     std::vector<std::size_t> beforePrevious;
@@ -84,7 +84,7 @@ std::string MakeUnknownText(const std::set<std::string>& known, const std::strin
 {
     if (known.empty())
     {
-        return "unknown key; this table takes none";
+        return "unknown key; this table has no keys";
     }
     const auto nearest =
         std::ranges::min_element(known, {}, [&key](const std::string& other) { return CountEdits(key, other); });
@@ -123,7 +123,7 @@ void ConfigDocument::Override(const std::string& text)
 {
     const std::size_t equals = text.find('=');
     const std::string key = text.substr(0, equals);
-    // A key with a line break or '#' in it would make other TOML than it seems to.
+    // A line break, '#' or '[' in the key would change the structure of the TOML text.
     std::optional<toml::table> table = equals != std::string::npos && key.find_first_of("\n\r#[") == std::string::npos
         ? ParseOverrideOrNull(key + " = ''")
         : std::nullopt;
@@ -216,16 +216,16 @@ const toml::node* ConfigDocument::FindNearestOrNull(const std::string& path) con
 
 std::vector<std::string> ConfigDocument::MakeConfigErrors() const
 {
-    std::vector<Mistake> mistakes = _mistakes;
+    std::vector<ConfigError> errors = _errors;
     if (!_bUnreadable)
     {
-        FindUnknown(mistakes);
+        FindUnknown(errors);
     }
-    std::ranges::stable_sort(mistakes, {}, [](const Mistake& mistake) {
-        return std::pair(mistake.bOverride, mistake.line);
+    std::ranges::stable_sort(errors, {}, [](const ConfigError& error) {
+        return std::pair(error.bOverride, error.line);
     });
     std::vector<std::string> texts;
-    std::ranges::transform(mistakes, std::back_inserter(texts), &Mistake::text);
+    std::ranges::transform(errors, std::back_inserter(texts), &ConfigError::text);
     return texts;
 }
 
@@ -260,10 +260,10 @@ std::string ConfigDocument::JoinPath(const std::string& path, const std::string&
 
 void ConfigDocument::AddErrorAt(const toml::source_region& source, const std::string& path, const std::string& text)
 {
-    const bool bKnown = !path.empty() && (IsInRefused(path) || !_mistaken.insert(path).second);
+    const bool bKnown = !path.empty() && (IsInRefused(path) || !_pathsWithErrors.insert(path).second);
     if (!_bUnreadable && !bKnown)
     {
-        _mistakes.push_back(MakeConfigError(source, path, text));
+        _errors.push_back(MakeConfigError(source, path, text));
     }
 }
 
@@ -273,7 +273,7 @@ toml::source_region ConfigDocument::GetSource(const toml::node* nodeOrNull) cons
     return bHasLine ? nodeOrNull->source() : toml::source_region{};
 }
 
-ConfigDocument::Mistake ConfigDocument::MakeConfigError(
+ConfigDocument::ConfigError ConfigDocument::MakeConfigError(
     const toml::source_region& source,
     const std::string& path,
     const std::string& text) const
@@ -291,7 +291,7 @@ bool ConfigDocument::IsInRefused(const std::string& path) const
     return std::ranges::any_of(_refused, [&path](const std::string& table) { return path.starts_with(table + "."); });
 }
 
-void ConfigDocument::FindUnknown(std::vector<Mistake>& out) const
+void ConfigDocument::FindUnknown(std::vector<ConfigError>& out) const
 {
     static const std::set<std::string> NONE;
     std::vector<std::pair<const toml::node*, std::string>> work{{&_root, std::string()}};

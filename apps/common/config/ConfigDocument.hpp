@@ -13,10 +13,10 @@
 namespace ACS::Apps
 {
 
-/// The tables of a configuration, the keys that the program knows, and the mistakes found. Shared by its sections.
+/// The tables of a configuration, the keys that the program knows, and the errors found. Shared by its sections.
 class ConfigDocument final
 {
-    struct Mistake
+    struct ConfigError
     {
         bool bOverride;
         std::uint32_t line;
@@ -25,9 +25,9 @@ class ConfigDocument final
 
     std::string _fileName;
     toml::table _root; ///< Each node names its source: the file or --set.
-    std::vector<Mistake> _mistakes;
-    std::set<std::string> _mistaken; ///< Paths that have a mistake.
-    std::set<std::string> _refused;  ///< Paths of tables that were refused as a whole.
+    std::vector<ConfigError> _errors;
+    std::set<std::string> _pathsWithErrors; ///< Only the first error of a path is kept.
+    std::set<std::string> _refused;         ///< Paths of tables that were refused as a whole.
     std::map<const toml::table*, std::set<std::string>> _knownKeys;
     std::set<const toml::node*> _accepted; ///< Values that may contain any key.
     bool _bUnreadable = false;
@@ -35,7 +35,7 @@ class ConfigDocument final
 public:
     ConfigDocument(std::string_view text, std::string fileName);
 
-    /// A document with one mistake and nothing else.
+    /// A document with a single error and no content.
     static std::shared_ptr<ConfigDocument> MakeUnreadable(std::string fileName, const std::string& reason);
 
     /// Applies "table.key=value". Tables are merged key by key; anything else is replaced.
@@ -49,20 +49,20 @@ public:
     /// Makes every key inside the value known.
     void AcceptAll(const toml::node& value);
 
-    /// At the line of the node; without one, at the file. Only the first mistake of a path is kept, and none inside a
-    /// refused table.
+    /// Adds an error with the line of the node, or without a line if there is no node. Ignored if the path has an error already
+    /// or is inside a refused table.
     void AddError(const toml::node* nodeOrNull, const std::string& path, const std::string& text);
 
-    /// The same for a table as a whole.
+    /// Adds an error of a table as a whole; errors inside it are ignored from then on.
     void RefuseTable(const toml::node* nodeOrNull, const std::string& path, const std::string& text);
 
     /// The node at the path, or its nearest parent that exists; nullptr if there is none. No part of the path has a dot.
     [[nodiscard]] const toml::node* FindNearestOrNull(const std::string& path) const;
 
-    /// With the unknown keys, sorted by line.
+    /// All errors, with those for unknown keys, sorted by line.
     [[nodiscard]] std::vector<std::string> MakeConfigErrors() const;
 
-    /// Every value by its path; a list is one value.
+    /// All values by their paths; a list is one value.
     [[nodiscard]] std::map<std::string, std::string> MakeValues() const;
 
     /// "mcs" and "url" make "mcs.url"; a key with other characters is quoted.
@@ -71,12 +71,12 @@ public:
 private:
     void AddErrorAt(const toml::source_region& source, const std::string& path, const std::string& text);
     [[nodiscard]] toml::source_region GetSource(const toml::node* nodeOrNull) const;
-    [[nodiscard]] Mistake MakeConfigError(
+    [[nodiscard]] ConfigError MakeConfigError(
         const toml::source_region& source,
         const std::string& path,
         const std::string& text) const;
     [[nodiscard]] bool IsInRefused(const std::string& path) const;
-    void FindUnknown(std::vector<Mistake>& out) const;
+    void FindUnknown(std::vector<ConfigError>& out) const;
     void Merge(toml::table source);
 };
 

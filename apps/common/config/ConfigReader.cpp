@@ -14,7 +14,7 @@ namespace ACS::Apps
 namespace
 {
 
-/// A program that reloads the file (SIGHUP) does nothing else meanwhile.
+/// Limited, because a program that reloads the file (SIGHUP) is blocked while it reads.
 constexpr std::size_t MAX_CONFIG_BYTES = 4U * 1024U * 1024U;
 
 } // namespace

@@ -276,7 +276,7 @@ void ConfigSection::ReportRemoved(const std::string& key, std::string_view repla
 {
     if (FindOrNull(key) != nullptr)
     {
-        static_cast<void>(FindValueOrNull(key)); // not unknown as well
+        static_cast<void>(FindValueOrNull(key)); // else it would be reported as unknown too
         AddError(key, fmt::format("removed: {}", replacement));
     }
 }

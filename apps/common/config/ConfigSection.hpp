@@ -21,9 +21,9 @@ namespace ACS::Apps
 
 class ConfigDocument;
 
-/// One table of a configuration. A getter that finds a mistake adds it to ConfigReader::GetErrors and returns the default,
-/// or an empty value if the key is required: the caller reads all keys and checks once at the end. Getters with a default
-/// read an optional key, those without one a required key. Cheap to copy.
+/// One table of a configuration. On an error a getter adds it to ConfigReader::GetErrors and returns the default, or an empty
+/// value if the key is required: the caller reads all keys and checks once at the end. Getters with a default read an
+/// optional key, those without one a required key. Cheap to copy.
 class ConfigSection final
 {
     std::shared_ptr<ConfigDocument> _document;
@@ -31,7 +31,7 @@ class ConfigSection final
     std::string _path;
 
 public:
-    /// For ConfigReader. nullptr: a table that is absent.
+    /// For ConfigReader. nullptr: the table is absent.
     ConfigSection(std::shared_ptr<ConfigDocument> document, const toml::table* tableOrNull, std::string path);
 
     [[nodiscard]] std::string GetString(const std::string& key) const;
@@ -71,14 +71,14 @@ public:
     [[nodiscard]] Url GetURL(const std::string& key, const std::vector<EUrlScheme>& allowed) const;
     [[nodiscard]] std::optional<Url> GetUrlOrNull(const std::string& key, const std::vector<EUrlScheme>& allowed) const;
 
-    /// A list of strings; empty where the key is absent.
+    /// A list of strings; empty if the key is absent.
     [[nodiscard]] std::vector<std::string> GetStringList(const std::string& key) const;
 
-    /// The value of an optional key that takes anything; nullptr if the key is absent. Every key inside it is known then.
+    /// The value of an optional key of any type; nullptr if the key is absent. Keys inside the value are not checked.
     [[nodiscard]] const toml::node* FindValueOrNull(const std::string& key) const;
 
     /// A required string that a function reads: `section.GetParsed<Location>("dock", ParseLocation)`. Its error becomes
-    /// the mistake, a value-initialised TValue the result.
+    /// the error of the key, a value-initialised TValue the result.
     template <typename TValue, typename TParse>
     [[nodiscard]] TValue GetParsed(const std::string& key, TParse parse) const
     {
@@ -98,26 +98,26 @@ public:
         return ParseOr<TValue>(key, ReadStringOrNull(key, false), parse, std::move(fallback));
     }
 
-    /// The table of that name. If it is absent, each required key that is read from it is a mistake.
+    /// The table of that name. If it is absent, each required key that is read from it is an error.
     [[nodiscard]] ConfigSection GetSection(const std::string& name) const;
 
-    /// A list of tables ([[name]]), in order; empty where it is absent.
+    /// A list of tables ([[name]]), in order; empty if it is absent.
     [[nodiscard]] std::vector<ConfigSection> GetSectionList(const std::string& name) const;
 
     /// Every key of this table, sorted: for tables whose keys are names, such as `robots`.
     [[nodiscard]] std::vector<std::string> GetNames() const;
 
-    /// Whether the key or table is given. It is a known key from then on.
+    /// Whether the key or table is given. Makes it a known key.
     [[nodiscard]] bool HasKey(const std::string& key) const;
 
-    /// Adds a mistake that only the caller can detect ("no such station in the map") at the line of that key; an empty key
-    /// means the table itself. Only the first mistake of a key is kept.
+    /// Adds an error that only the caller can detect ("no such station in the map") with the line of that key; an empty key
+    /// means the table itself. Only the first error of a key is kept.
     void AddError(const std::string& key, const std::string& text) const;
 
-    /// Adds a mistake if the key is given, because this version no longer reads it. The text says what replaces it.
+    /// Adds an error if the key is given, because this version no longer reads it. The text names the replacement.
     void ReportRemoved(const std::string& key, std::string_view replacement) const;
 
-    /// Adds a mistake of this table as a whole. Mistakes of its keys are ignored.
+    /// Adds an error of this table as a whole. Errors of its keys are ignored.
     void Refuse(const std::string& text) const;
 
     /// "robots.LR01"
@@ -138,7 +138,7 @@ private:
         const std::string& key,
         std::initializer_list<std::string_view> words,
         bool bRequired) const;
-    /// The result of the function for the node; a mistake if it has none.
+    /// The result of the function for the node; adds an error if it returns none.
     template <typename TRead>
     [[nodiscard]] auto ReadOrNull(const std::string& key, bool bRequired, std::string_view allowed, TRead readOrNull)
         const -> decltype(readOrNull(std::declval<const toml::node&>()));

@@ -18,7 +18,7 @@ struct Unit
     std::int64_t milliseconds;
 };
 
-/// The largest first.
+/// Largest unit first.
 constexpr std::array<Unit, 4> UNITS{{{"h", 3'600'000}, {"m", 60'000}, {"s", 1'000}, {"ms", 1}}};
 constexpr std::chrono::milliseconds MAX_DURATION = std::chrono::hours(24 * 366);
 

@@ -12,7 +12,7 @@ namespace ACS::Apps
 /// A whole number and its unit: "200ms", "5s", "2m" (minutes), "1h"; at most a year.
 [[nodiscard]] Core::Result<std::chrono::milliseconds> ParseDuration(std::string_view text);
 
-/// In the largest unit that shows it exactly.
+/// The duration in the largest unit that shows it exactly.
 [[nodiscard]] std::string MakeDurationText(std::chrono::milliseconds duration);
 
 } // namespace ACS::Apps

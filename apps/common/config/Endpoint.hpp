@@ -21,7 +21,7 @@ struct Endpoint
 /// "HOST:PORT"; an IPv6 address is in brackets ("[::1]:80"). Port 0 is allowed.
 [[nodiscard]] Core::Result<Endpoint> ParseEndpoint(std::string_view text);
 
-/// The same form.
+/// The endpoint as ParseEndpoint reads it.
 [[nodiscard]] std::string MakeText(const Endpoint& endpoint);
 
 } // namespace ACS::Apps

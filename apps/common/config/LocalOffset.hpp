@@ -16,7 +16,7 @@ class LocalOffset final
     std::optional<std::chrono::minutes> _fixedOrNull;
 
 public:
-    /// The zone of the system.
+    /// The time zone of the system.
     LocalOffset() = default;
     explicit LocalOffset(std::chrono::minutes fixed);
 

@@ -24,7 +24,7 @@ class Descriptor final
     int _number;
 
 public:
-    /// Without waiting: a FIFO without a writer would block the program indefinitely.
+    /// Opens without blocking: a FIFO without a writer would block the program indefinitely.
     explicit Descriptor(const std::string& path)
         : _number(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)) // NOLINT: the system's signature
     {

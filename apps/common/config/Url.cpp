@@ -47,7 +47,7 @@ std::string MakeAllowedText(const std::vector<EUrlScheme>& allowed)
     return text;
 }
 
-/// Printable, without blanks and without a fragment.
+/// Whether the text is printable, without blanks and without a fragment.
 bool IsPath(std::string_view text)
 {
     return std::all_of(text.begin(), text.end(), [](char character) {

@@ -21,7 +21,7 @@ enum class EUrlScheme : std::uint8_t
     Http,  ///< 80
 };
 
-/// A peer to connect to.
+/// The URL of a peer.
 struct Url
 {
     EUrlScheme scheme = EUrlScheme::Tcp;
@@ -34,7 +34,7 @@ struct Url
 /// SCHEME://HOST[:PORT][/PATH]; other schemes, user names and fragments are refused.
 [[nodiscard]] Core::Result<Url> ParseURL(std::string_view text, const std::vector<EUrlScheme>& allowed);
 
-/// Always with the port.
+/// The URL as text, always with the port.
 [[nodiscard]] std::string MakeText(const Url& url);
 
 /// wss and mqtts: the connection is encrypted.

@@ -21,7 +21,7 @@ namespace ACS::Apps
     return word;
 }
 
-/// Whether the word is among the words.
+/// Whether the wanted word is one of the words.
 [[nodiscard]] inline bool ContainsWord(std::string_view words, std::string_view wanted)
 {
     while (!words.empty())

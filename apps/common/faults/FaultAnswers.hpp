@@ -15,8 +15,8 @@ namespace ACS::Apps
 inline constexpr std::string_view COMMAND_DONE = "ok: ";
 inline constexpr std::string_view COMMAND_WRONG = "error: ";
 
-/// The answer to a message of a control channel: one line per command, from the function that executes it. If one of them is
-/// invalid, none is executed.
+/// The answer to a message of a control channel: one line per command, returned by the function that executes it. If a command
+/// is invalid, none is executed.
 template <typename TFault>
 [[nodiscard]] std::string AnswerCommands(
     const FaultGrammar<TFault>& grammar,
@@ -27,16 +27,16 @@ template <typename TFault>
     const Core::Result<std::vector<FaultCommand<TFault>>> commands = ParseFaultCommands(grammar, text);
     if (!commands.has_value())
     {
-        const std::string mistake = Core::Describe(commands.error());
-        logger.Warning("a command is wrong, none of the message is done", {{"reason", mistake}});
-        return std::string(COMMAND_WRONG) + mistake;
+        const std::string error = Core::Describe(commands.error());
+        logger.Warning("invalid command: no command of the message was executed", {{"reason", error}});
+        return std::string(COMMAND_WRONG) + error;
     }
     std::string answer;
     for (const FaultCommand<TFault>& command : *commands)
     {
         answer += (answer.empty() ? "" : "\n") + apply(command);
     }
-    return answer.empty() ? std::string(COMMAND_WRONG) + "there is no command in it" : answer;
+    return answer.empty() ? std::string(COMMAND_WRONG) + "the message has no command" : answer;
 }
 
 } // namespace ACS::Apps

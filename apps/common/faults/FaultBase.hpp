@@ -9,8 +9,8 @@
 namespace ACS::Apps
 {
 
-/// What every simulator's faults have in common: which one it is, and when. A program's own Fault derives from it and
-/// adds what its kinds need. Times are of the wall clock, not scaled.
+/// Base of the faults of all simulators: kind and times. The Fault of a program derives from it and adds the parameters of its
+/// kinds. Times are real time, not scaled.
 template <typename TKind>
 struct FaultBase
 {
@@ -18,12 +18,12 @@ struct FaultBase
 
     TKind kind{};
     std::string text;                     ///< As written, with single blanks; for the log.
-    bool bOnce = false;                   ///< Takes effect once and ends at once.
-    Core::Duration delay{};               ///< From the start, or from the arrival at the place, to the begin.
-    std::string place;                    ///< Not empty: begins once this was reached (FaultBoard::OnPlace).
-    std::optional<Core::Duration> lasts;  ///< Absent: until it is ended, or used up.
-    std::optional<Core::Duration> every;  ///< Period of repetition; longer than it lasts.
-    std::optional<std::uint32_t> maxUses; ///< Of kinds that are used: how often; absent: once, or while it lasts.
+    bool bOnce = false;                   ///< Takes effect once and ends immediately.
+    Core::Duration delay{};               ///< Delay of its begin, after the start or after the place was reached.
+    std::string place;                    ///< Not empty: begins when this place is reached (FaultBoard::OnPlace).
+    std::optional<Core::Duration> lasts;  ///< Duration; nullopt: until it is ended or used up.
+    std::optional<Core::Duration> every;  ///< Period of repetition, longer than `lasts`.
+    std::optional<std::uint32_t> maxUses; ///< Maximum number of uses; nullopt: once, or unlimited if `lasts` is given.
 
     bool operator==(const FaultBase&) const = default;
 };

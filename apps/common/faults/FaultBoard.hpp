@@ -25,13 +25,13 @@ struct FaultChange
     bool operator==(const FaultChange&) const = default;
 };
 
-/// The faults of one simulated machine: which wait for their time or their place, which are active, when they end. Pure.
-/// Several of one kind may be active; each ends by itself. TFault derives from FaultBase.
+/// The faults of one simulated machine: those that wait for their time or place, and the active ones with their ends. Several
+/// of a kind may be active; each ends independently. Does no I/O and reads no clock. TFault derives from FaultBase.
 template <typename TFault>
 class FaultBoard
 {
 public:
-    /// Active and waiting faults. The owner must check before it adds one.
+    /// Maximum number of active and waiting faults. The owner must check it before Add.
     static constexpr std::size_t MAX_FAULTS = 1000;
 
 private:
@@ -44,7 +44,7 @@ private:
         bool bWaitsForPlace = false;
         bool bActive = false;
         Core::SteadyTime begunAt;
-        std::optional<Core::SteadyTime> due; ///< When it begins, or while active ends.
+        std::optional<Core::SteadyTime> due; ///< Time of its begin or, while active, of its end.
         std::uint32_t uses = 0;
     };
 
@@ -56,7 +56,7 @@ public:
         return _entries.size();
     }
 
-    /// Begins at once unless it has a delay or a place.
+    /// Adds a fault; it begins immediately unless it has a delay or a place.
     void Add(TFault fault, Core::SteadyTime now, Changes& out)
     {
         assert(_entries.size() < MAX_FAULTS);
@@ -68,7 +68,7 @@ public:
             return;
         }
         entry.due = now + entry.fault.delay;
-        // The others wait for their time; checking all of them for each addition would be quadratic.
+        // Only this entry: checking all of them for each addition would be quadratic.
         if (*entry.due <= now)
         {
             Begin(entry, now, out);
@@ -79,7 +79,7 @@ public:
         }
     }
 
-    /// Ends the faults of the kind (absent: all), also those that have not begun. Returns their number.
+    /// Ends the faults of the kind (nullopt: all), also those that have not begun. Returns their number.
     std::size_t End(std::optional<Kind> kindOrNull, std::string_view reason, Changes& out)
     {
         return std::erase_if(_entries, [&](const Entry& entry) {
@@ -105,7 +105,7 @@ public:
         OnTime(now, out);
     }
 
-    /// Begins and ends what is due.
+    /// Begins and ends the faults that are due.
     void OnTime(Core::SteadyTime now, Changes& out)
     {
         for (Entry& entry : _entries)
@@ -118,7 +118,7 @@ public:
         std::erase_if(_entries, [&](Entry& entry) { return TryEnd(entry, now, out); });
     }
 
-    /// The next time at which OnTime has something to do.
+    /// The time at which OnTime is due next; nullopt if no fault waits for a time.
     [[nodiscard]] std::optional<Core::SteadyTime> GetNextTimeOrNull() const
     {
         std::optional<Core::SteadyTime> next;
@@ -132,13 +132,13 @@ public:
         return next;
     }
 
-    /// The youngest active one of the kind.
+    /// The latest active fault of the kind; null if there is none.
     [[nodiscard]] const TFault* FindOrNull(Kind kind) const
     {
         return FindOrNull(kind, [](const TFault&) { return true; });
     }
 
-    /// The youngest active one of the kind for which the predicate is true.
+    /// The latest active fault of the kind for which the predicate is true; null if there is none.
     template <typename TPredicate>
     [[nodiscard]] const TFault* FindOrNull(Kind kind, TPredicate isWanted) const
     {
@@ -148,13 +148,13 @@ public:
         return found != _entries.rend() ? &found->fault : nullptr;
     }
 
-    /// The fault took effect once; it ends if that was the last time. The fault is a result of FindOrNull.
+    /// Counts one use of the fault and ends it after the last one. The fault must be a result of FindOrNull.
     void Use(const TFault& fault, Changes& out)
     {
         const auto found = std::ranges::find(_entries, &fault, [](const Entry& entry) { return &entry.fault; });
         assert(found != _entries.end());
         ++found->uses;
-        // Without a number of uses and an end it applies to the next occasion only.
+        // Without a number of uses and a duration the fault is used once.
         const std::uint32_t whileItLasts = found->fault.lasts.has_value() ? UINT32_MAX : 1;
         if (found->uses >= found->fault.maxUses.value_or(whileItLasts))
         {
@@ -171,7 +171,7 @@ public:
         return FindOrNull(kind) != nullptr;
     }
 
-    /// Neither active nor waiting.
+    /// Whether no fault is active or waiting.
     [[nodiscard]] bool IsEmpty() const noexcept
     {
         return _entries.empty();
@@ -186,7 +186,7 @@ private:
         out.push_back({entry.fault, true, {}});
     }
 
-    /// Whether an active fault has ended for good; adds the change.
+    /// Ends the fault if it is due. True if it must be removed, false if it is not due or is repeated.
     [[nodiscard]] static bool TryEnd(Entry& entry, Core::SteadyTime now, Changes& out)
     {
         const bool bOver = entry.bActive && entry.due.has_value() && *entry.due <= now;
@@ -198,7 +198,7 @@ private:
         return (bOver || bDone) && !TryRepeat(entry);
     }
 
-    /// A repeated fault waits for its next begin.
+    /// Schedules the next begin of a repeated fault; false if the fault is not repeated.
     [[nodiscard]] static bool TryRepeat(Entry& entry)
     {
         if (!entry.fault.every.has_value())

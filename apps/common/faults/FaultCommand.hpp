@@ -24,15 +24,15 @@ enum class EFaultVerb : std::uint8_t
 template <typename TFault>
 struct FaultCommand
 {
-    std::string targets; ///< A name, or its beginning and `*`.
+    std::string targets; ///< A name, or a prefix and `*`.
     EFaultVerb verb = EFaultVerb::Begin;
-    TFault fault;                                   ///< Begin.
-    std::optional<typename TFault::Kind> kindToEnd; ///< End; absent: all of them.
+    TFault fault;                                   ///< For Begin.
+    std::optional<typename TFault::Kind> kindToEnd; ///< For End; nullopt: all kinds.
 
     bool operator==(const FaultCommand&) const = default;
 };
 
-/// The command, if nothing follows.
+/// Returns the command; an error if further words follow.
 template <typename TFault>
 [[nodiscard]] Core::Result<FaultCommand<TFault>> FinishFaultCommand(FaultCommand<TFault> command, std::string_view rest)
 {
@@ -44,7 +44,7 @@ template <typename TFault>
     return command;
 }
 
-/// "end [FAULT]", after its first word.
+/// Reads what follows "end": the optional FAULT.
 template <typename TFault>
 [[nodiscard]] Core::Result<FaultCommand<TFault>> ParseEndCommand(
     const FaultGrammar<TFault>& grammar,
@@ -65,7 +65,7 @@ template <typename TFault>
     return FinishFaultCommand(std::move(command), rest);
 }
 
-/// At most 1000 bytes of UTF-8. The error is about this one line.
+/// Reads one command of at most 1000 bytes of UTF-8. The path of an error has no line number.
 template <typename TFault>
 [[nodiscard]] Core::Result<FaultCommand<TFault>> ParseFaultCommand(
     const FaultGrammar<TFault>& grammar,
@@ -110,7 +110,7 @@ template <typename TFault>
     return command;
 }
 
-/// A whole file or message, as in ReadCommandLines.
+/// Reads the commands of a file or message (ReadCommandLines).
 template <typename TFault>
 [[nodiscard]] Core::Result<std::vector<FaultCommand<TFault>>> ParseFaultCommands(
     const FaultGrammar<TFault>& grammar,

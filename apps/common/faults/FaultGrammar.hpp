@@ -21,7 +21,7 @@ template <typename TFault>
 struct FaultParameter
 {
     std::string_view key;
-    std::string_view values; ///< For the help.
+    std::string_view values; ///< Placeholder in the help, such as "DURATION".
     /// Assigns the value to the fault. Returns what was expected if it is invalid, else an empty text.
     std::string (*read)(std::string_view text, TFault& fault) = nullptr;
 };
@@ -32,19 +32,19 @@ struct FaultRow
 {
     typename TFault::Kind kind{};
     std::string_view name;
-    std::string_view parameters; ///< Besides those of the time.
-    std::string_view effect;
-    bool bOnce = false; ///< Takes effect once and ends at once.
+    std::string_view parameters; ///< Keys that only this kind has, between blanks.
+    std::string_view effect;     ///< One sentence for the help.
+    bool bOnce = false;          ///< Takes effect once and ends immediately.
 };
 
-/// How a program's faults are written: NAME [KEY=VALUE]... The tables are the program's constants.
+/// The syntax of a program's faults: NAME [KEY=VALUE]... The tables are constants of the program.
 template <typename TFault>
 struct FaultGrammar
 {
-    std::string_view target;   ///< Precedes a command: "VEHICLE".
-    std::string_view when;     ///< The keys that every kind has: "at for".
-    std::string_view whenOnce; ///< The keys of a kind that takes effect once: "at".
-    bool bTriggers = false;    ///< Whether there is the command "trigger".
+    std::string_view target;   ///< Placeholder of the first word of a command: "VEHICLE".
+    std::string_view when;     ///< Keys of every kind: "at for".
+    std::string_view whenOnce; ///< Keys of every kind that takes effect once: "at".
+    bool bTriggers = false;    ///< Whether the command "trigger" exists.
     std::span<const FaultParameter<TFault>> parameters;
     std::span<const FaultRow<TFault>> rows;
     /// Checks the combination of the given keys; may set implied values.
@@ -55,7 +55,7 @@ struct FaultGrammar
 inline constexpr std::chrono::milliseconds SHORTEST_REPEAT{10};
 inline constexpr std::uint32_t MAX_USES = 1'000'000;
 
-// The parameters that more than one program has.
+// Parameters of more than one program.
 template <typename TFault>
 inline constexpr FaultParameter<TFault> FAULT_AT{"at", "DURATION", [](std::string_view text, TFault& fault) {
                                                      return ReadDurationValue(text, fault.delay);
@@ -98,7 +98,7 @@ template <typename TFault>
     return Core::Fail(Core::ECoreError::UnknownWord, "fault", "one of " + names, Core::QuoteForError(name));
 }
 
-/// All keys of the kind, between blanks.
+/// All keys of the kind, separated by blanks.
 template <typename TFault>
 [[nodiscard]] std::string MakeFaultKeys(const FaultGrammar<TFault>& grammar, const FaultRow<TFault>& row)
 {
@@ -106,7 +106,7 @@ template <typename TFault>
     return row.parameters.empty() ? keys : keys + " " + std::string(row.parameters);
 }
 
-/// One KEY=VALUE into the fault.
+/// Reads one KEY=VALUE into the fault.
 template <typename TFault>
 [[nodiscard]] Core::Result<void> ReadFaultParameter(
     const FaultGrammar<TFault>& grammar,
@@ -139,7 +139,7 @@ template <typename TFault>
     return {};
 }
 
-/// A repeated fault has to end before it begins again.
+/// Checks that a repeated fault ends before it begins again.
 template <typename TFault>
 [[nodiscard]] Core::Result<void> CheckRepeat(const FaultRow<TFault>& row, const TFault& fault)
 {
@@ -158,7 +158,7 @@ template <typename TFault>
     return {};
 }
 
-/// "stuck at=10s for=5s". Fails with ECoreError::UnknownWord or OutOfRange: the path is the parameter.
+/// Reads a fault such as "stuck at=10s for=5s". Fails with ECoreError::UnknownWord or OutOfRange; the path is the parameter.
 template <typename TFault>
 [[nodiscard]] Core::Result<TFault> ParseFault(const FaultGrammar<TFault>& grammar, std::string_view text)
 {
@@ -200,7 +200,7 @@ template <typename TFault>
     return fault;
 }
 
-/// A line for each kind: its name, its parameters, what it does. For --help.
+/// The text for --help: name, parameters and effect of each kind.
 template <typename TFault>
 [[nodiscard]] std::string MakeFaultHelp(const FaultGrammar<TFault>& grammar)
 {

@@ -13,9 +13,9 @@
 namespace ACS::Apps
 {
 
-/// Appends commands that begin a fault. Returns what is wrong, if anything.
+/// Appends the commands; each must begin a fault. Returns an empty text, or the error.
 template <typename TFault>
-[[nodiscard]] std::string TakeFaults(
+[[nodiscard]] std::string AppendFaults(
     const Core::Result<std::vector<FaultCommand<TFault>>>& commands,
     std::vector<FaultCommand<TFault>>& faults)
 {
@@ -29,9 +29,9 @@ template <typename TFault>
         {
             const bool bEnd = command.verb == EFaultVerb::End;
             return fmt::format(
-                "{}: at the start there is {}",
+                "{}: '{}' is not allowed at the start; give a fault",
                 command.targets,
-                bEnd ? "no fault to end" : "no action to trigger");
+                bEnd ? "end" : "trigger");
         }
     }
     faults.insert(faults.end(), commands->begin(), commands->end());
@@ -39,7 +39,7 @@ template <typename TFault>
 }
 
 template <typename TFault>
-[[nodiscard]] std::string TakeFaultFile(
+[[nodiscard]] std::string AppendFaultFile(
     const FaultGrammar<TFault>& grammar,
     const std::string& path,
     std::vector<FaultCommand<TFault>>& faults)
@@ -49,8 +49,8 @@ template <typename TFault>
     {
         return fmt::format("{} cannot be read: {}", path, text.error());
     }
-    const std::string mistake = TakeFaults(ParseFaultCommands(grammar, *text), faults);
-    return mistake.empty() ? mistake : fmt::format("{}: {}", path, mistake);
+    const std::string error = AppendFaults(ParseFaultCommands(grammar, *text), faults);
+    return error.empty() ? error : fmt::format("{}: {}", path, error);
 }
 
 /// --fault LINE and --fault-file FILE; both may be repeated. The grammar and the target must outlive parsing.
@@ -70,15 +70,15 @@ void AddFaultOptions(
             {
                 return Core::Describe(command.error());
             }
-            return TakeFaults<TFault>(std::vector{*command}, faults);
+            return AppendFaults<TFault>(std::vector{*command}, faults);
         },
         help)
         .type_name(fmt::format("'{} FAULT [KEY=VALUE]...'", grammar.target));
     AddRepeatedOption(
         app,
         "--fault-file",
-        [&grammar, &faults](const std::string& path) { return TakeFaultFile(grammar, path, faults); },
-        "a file with a fault on each line. May be repeated")
+        [&grammar, &faults](const std::string& path) { return AppendFaultFile(grammar, path, faults); },
+        "File with one fault per line. May be repeated")
         .type_name("FILE");
 }
 

@@ -15,14 +15,16 @@
 namespace ACS::Apps
 {
 
-/// Each reads the value of a KEY=VALUE. Returns an empty text, or what was expected.
+// Each function reads the value of a KEY=VALUE. It returns an empty text, or the expected value.
+
 [[nodiscard]] std::string ReadDurationValue(std::string_view text, Core::Duration& target);
-/// From 0 to the highest value, which is shown as given.
+/// 0 to max.
 [[nodiscard]] std::string ReadNumberValue(std::string_view text, double max, double& target);
+/// 1 to max.
 [[nodiscard]] std::string ReadCountValue(std::string_view text, std::uint32_t max, std::uint32_t& target);
 [[nodiscard]] std::string ReadNameValue(std::string_view text, std::string& target);
 
-/// The allowed words and their values.
+/// Allowed words and their values.
 template <typename TValue, std::size_t Count>
 using ValueEnumNames = std::array<std::pair<std::string_view, TValue>, Count>;
 
@@ -46,7 +48,7 @@ template <typename TValue, std::size_t Count>
     return "one of " + expected;
 }
 
-/// Whether the line of a command is acceptable: at most 1000 bytes of UTF-8.
+/// Checks that the line of a command has at most 1000 bytes and is valid UTF-8.
 [[nodiscard]] Core::Result<void> CheckCommandLine(std::string_view line);
 
 /// Calls the reader with each line of a file or message that has a command. Empty lines, comments after `#` and a byte order

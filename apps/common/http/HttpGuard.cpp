@@ -39,7 +39,7 @@ bool IsAddress(std::string_view host)
     return !error.failed();
 }
 
-/// The page comes from this server.
+/// Whether the page was served by this server.
 bool IsOwnOrigin(std::string_view origin, std::string_view host)
 {
     const std::size_t colon = origin.find("://");
@@ -60,7 +60,7 @@ bool HttpGuard::IsOwnName(std::string_view host) const
         || std::ranges::any_of(_options.names, [name](const std::string& own) { return IsSameText(own, name); });
 }
 
-std::optional<std::string> HttpGuard::GetUnavailabilityOrNull(const HttpRequest& request, const HttpSource& source)
+std::optional<std::string> HttpGuard::GetRejectionReasonOrNull(const HttpRequest& request, const HttpSource& source)
     const
 {
     const bool bReads = request.method == "GET" || request.method == "HEAD";
@@ -72,7 +72,7 @@ std::optional<std::string> HttpGuard::GetUnavailabilityOrNull(const HttpRequest&
     if (!source.host.empty() && !IsOwnName(source.host))
     {
         return fmt::format(
-            "not served under the name {}: ask by the address, or have the configuration allow the name",
+            "host name {} is not allowed: use the IP address, or add the name to the configuration",
             Core::QuoteForError(source.host));
     }
     if (bReads)

@@ -26,10 +26,10 @@ class HttpGuard
 public:
     struct Options
     {
-        /// Allowed names of the server, without port, besides localhost and IP addresses, which no page can spoof.
+        /// Allowed host names, without port. localhost and IP addresses are always allowed: a page cannot spoof them.
         std::vector<std::string> names;
         bool bAnyName = false;
-        /// GET and HEAD of these paths are served under any name: they contain nothing confidential.
+        /// Paths whose GET and HEAD are allowed under any name, because their content is not confidential.
         std::vector<std::string> openPaths;
     };
 
@@ -39,8 +39,8 @@ private:
 public:
     explicit HttpGuard(Options options);
 
-    /// Why the request is refused, as a sentence.
-    [[nodiscard]] std::optional<std::string> GetUnavailabilityOrNull(
+    /// Why the request is refused, for the body of the 403; nullopt if it is allowed.
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(
         const HttpRequest& request,
         const HttpSource& source) const;
 

@@ -14,7 +14,7 @@ namespace
 constexpr std::size_t ESCAPE_DIGITS = 2;
 constexpr int HEXADECIMAL = 16;
 
-/// %XX becomes its byte; in a query '+' is a blank.
+/// Decodes %XX and, in a query, '+' as a blank.
 std::optional<std::string> DecodeOrNull(std::string_view text, bool bQuery)
 {
     std::string decoded;
@@ -42,7 +42,7 @@ std::optional<std::string> DecodeOrNull(std::string_view text, bool bQuery)
     return decoded;
 }
 
-/// Of a path that begins with a slash and can be decoded.
+/// The decoded segments of a path that begins with a slash and can be decoded.
 std::vector<std::string> SplitPath(std::string_view path)
 {
     std::vector<std::string> segments;

@@ -12,17 +12,17 @@
 namespace ACS::Apps
 {
 
-/// A request as a handler sees it.
+/// A request as it is passed to a handler.
 struct HttpRequest
 {
     std::string method; ///< "GET", "POST" …
     std::string path;   ///< Percent-decoded, without the query: "/project/robot/tasks[0]".
     std::vector<std::pair<std::string, std::string>> query; ///< Decoded, in the order given; names may repeat.
     std::string body;                                       ///< At most 1 MiB.
-    /// The segments of the path, each decoded by itself: %2F does not separate.
+    /// The segments of the path, each decoded separately: %2F is not a separator.
     std::vector<std::string> segments{};
 
-    /// The value of the first query parameter of that name.
+    /// The value of the first query parameter of that name; nullopt if there is none.
     [[nodiscard]] std::optional<std::string> GetQueryOrNull(std::string_view name) const;
 };
 
@@ -31,11 +31,11 @@ struct HttpResponse
     unsigned status = 200;
     std::string contentType = "text/plain; charset=utf-8";
     std::string body;
-    Core::Duration delay{}; ///< Before the server sends it; other connections do not wait.
-    std::string allow{};    ///< Header Allow, of a 405: the methods that are served; empty: none.
+    Core::Duration delay{}; ///< Delay before it is sent; other connections are not delayed.
+    std::string allow{};    ///< Header Allow of a 405: the allowed methods; empty: no header.
 };
 
-/// Splits the target of a request line into path and query and decodes both; an invalid target is refused.
+/// Splits the target of a request line into path and query and decodes both. Fails if the target is invalid.
 [[nodiscard]] Core::Result<HttpRequest> ParseHttpTarget(std::string_view target);
 
 } // namespace ACS::Apps

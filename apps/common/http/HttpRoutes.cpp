@@ -75,9 +75,9 @@ HttpResponse HttpRoutes::Refuse(const std::string& allowedMethods) const
 {
     if (!allowedMethods.empty())
     {
-        return {HTTP_NOT_ALLOWED, PLAIN_TEXT, "served here: " + allowedMethods + "\n", {}, allowedMethods};
+        return {HTTP_NOT_ALLOWED, PLAIN_TEXT, "allowed methods: " + allowedMethods + "\n", {}, allowedMethods};
     }
-    HttpResponse response{HTTP_NOT_FOUND, PLAIN_TEXT, "there is nothing here; served are:\n"};
+    HttpResponse response{HTTP_NOT_FOUND, PLAIN_TEXT, "not found; available paths:\n"};
     for (const Route& route : _routes)
     {
         response.body += route.method + " " + route.pattern + "\n";

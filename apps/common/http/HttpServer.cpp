@@ -30,12 +30,12 @@ namespace Http = boost::beast::http;
 using Tcp = boost::asio::ip::tcp;
 using ErrorCode = boost::system::error_code;
 
-/// How long a refused peer may go on sending before the connection is cut: closing with unread bytes would make the
-/// system drop the refusal, too.
+/// Maximum time to read from a refused peer before the connection is closed. If it were closed with unread bytes, the system
+/// would drop the response too.
 constexpr std::chrono::seconds DRAIN_TIME{2};
 constexpr std::size_t DRAIN_BYTES = 16U * 1024U;
 
-/// Of bytes that were read and not parsed yet. Beast itself has no limit for what may stand behind the size of a chunk.
+/// Limit of bytes that were read but not parsed. Beast itself has no limit for the extension after the size of a chunk.
 constexpr std::size_t BUFFER_BYTES = 64U * 1024U;
 
 constexpr std::string_view CONTINUE = "HTTP/1.1 100 Continue\r\n\r\n";
@@ -48,7 +48,7 @@ HttpResponse MakeRefusal(Http::status status, std::string reason)
     return response;
 }
 
-/// The answer to what Beast could not read; nothing where the peer simply went away or was silent.
+/// The response to a request that Beast could not read; nullopt if the peer disconnected or the time limit expired.
 std::optional<HttpResponse> MakeRefusalOrNull(const ErrorCode& error, const HttpLimits& limits)
 {
     if (error == Http::error::body_limit)
@@ -80,12 +80,12 @@ struct HttpServer::Impl : std::enable_shared_from_this<Impl>
 
     Handler handler;
     Core::Logger logger;
-    LogRateLimiter refusals; ///< Anybody may send anything.
+    LogRateLimiter refusals; ///< Rate-limited, because any peer can cause these lines.
     HttpLimits limits;
     std::optional<HttpGuard> guardOrNull;
     std::shared_ptr<Net::TcpListener> listener;
     ConnectionList connections;
-    std::optional<Tcp::socket> nextOrNull; ///< Has come while all others were being answered.
+    std::optional<Tcp::socket> nextOrNull; ///< Accepted while all connections were being answered.
 
     Impl(
         const Asio::any_io_executor& executor,
@@ -107,7 +107,7 @@ struct HttpServer::Impl : std::enable_shared_from_this<Impl>
 
     Core::Result<Endpoint> Listen(const Endpoint& endpoint);
     void LogRefusal(std::string_view kind, std::string_view reason);
-    [[nodiscard]] std::optional<std::string> FindUnavailabilityOrNull(
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(
         const HttpRequest& request,
         const Http::fields& header) const;
     [[nodiscard]] std::shared_ptr<Connection> FindWaitingOrNull() const;
@@ -117,7 +117,8 @@ struct HttpServer::Impl : std::enable_shared_from_this<Impl>
     void Stop();
 };
 
-/// One peer: reads a request, answers it, reads the next. Lives in the server's list and in its pending operation.
+/// The connection of a peer: reads a request, answers it, reads the next one. Owned by the server's list and by its pending
+/// operation.
 class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connection>
 {
     std::weak_ptr<Impl> _server;
@@ -128,7 +129,7 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
     std::optional<Http::response<Http::string_body>> _responseOrNull;
     std::optional<Http::response_serializer<Http::string_body>> _serializerOrNull;
     Asio::steady_timer _delay;
-    bool _bWaiting = false; ///< For a whole request.
+    bool _bWaiting = false; ///< Waits for a complete request.
 
 public:
     ConnectionList::iterator place; ///< In the server's list.
@@ -149,7 +150,7 @@ public:
             server->connections.splice(server->connections.end(), server->connections, place);
             if (server->nextOrNull.has_value())
             {
-                // Perhaps in the place of this one, so when this call is over.
+                // Posted, because it may close this connection.
                 Asio::post(_stream.get_executor(), [weak = _server]() {
                     if (const std::shared_ptr<Impl> owner = weak.lock(); owner != nullptr)
                     {
@@ -194,7 +195,7 @@ private:
         {
             return ReadBodyAsync();
         }
-        // Who asks first whether its body is wanted would wait for the answer.
+        // The client sends the body only after this answer.
         Asio::async_write(
             _stream,
             Asio::buffer(CONTINUE),
@@ -246,12 +247,12 @@ private:
         }
         parsed->method = std::string(request.method_string());
         parsed->body = request.body();
-        if (const std::optional<std::string> objection = server->FindUnavailabilityOrNull(*parsed, request))
+        if (const std::optional<std::string> rejection = server->GetRejectionReasonOrNull(*parsed, request))
         {
-            server->LogRefusal("forbidden", *objection);
-            return WriteAsync(MakeRefusal(Http::status::forbidden, *objection), request.keep_alive(), bHead);
+            server->LogRefusal("forbidden", *rejection);
+            return WriteAsync(MakeRefusal(Http::status::forbidden, *rejection), request.keep_alive(), bHead);
         }
-        // A copy: the handler may stop and destroy the server.
+        // Copied, because the handler may stop and destroy the server.
         const Handler makeResponse = server->handler;
         const HttpResponse response = makeResponse(*parsed);
         PrepareResponse(response, request.keep_alive());
@@ -261,7 +262,7 @@ private:
         }
         _delay.expires_after(response.delay);
         _delay.async_wait([self = shared_from_this(), bKeepAlive = request.keep_alive(), bHead](const ErrorCode&) {
-            // Closed in the meantime: the write fails at once.
+            // If the connection was closed since, the write fails immediately.
             self->WritePreparedAsync(bKeepAlive, bHead);
         });
     }
@@ -320,7 +321,7 @@ private:
         }
     }
 
-    /// Reads on until the peer closes; the time that ends this is not renewed.
+    /// Reads and drops data until the peer closes or DRAIN_TIME, which is not restarted, expires.
     void DrainAsync()
     {
         _buffer.clear();
@@ -341,7 +342,7 @@ private:
         }
     }
 
-    /// Closes, and leaves the list of the server where that still lives.
+    /// Closes the connection and removes it from the list of the server, if the server still exists.
     void Leave()
     {
         Close();
@@ -372,7 +373,7 @@ void HttpServer::Impl::LogRefusal(std::string_view kind, std::string_view reason
         {{"reason", reason}});
 }
 
-std::optional<std::string> HttpServer::Impl::FindUnavailabilityOrNull(
+std::optional<std::string> HttpServer::Impl::GetRejectionReasonOrNull(
     const HttpRequest& request,
     const Http::fields& header) const
 {
@@ -381,18 +382,18 @@ std::optional<std::string> HttpServer::Impl::FindUnavailabilityOrNull(
         return std::string_view(value.data(), value.size());
     };
     return guardOrNull.has_value()
-        ? guardOrNull->GetUnavailabilityOrNull(request, {get("Host"), get("Origin"), get("Sec-Fetch-Site")})
+        ? guardOrNull->GetRejectionReasonOrNull(request, {get("Host"), get("Origin"), get("Sec-Fetch-Site")})
         : std::nullopt;
 }
 
-/// Who has waited for a whole request the longest.
+/// The connection that has waited longest for a complete request; null if none waits.
 std::shared_ptr<HttpServer::Impl::Connection> HttpServer::Impl::FindWaitingOrNull() const
 {
     const auto found = std::ranges::find_if(connections, &Connection::IsWaiting);
     return found != connections.end() ? *found : nullptr;
 }
 
-/// Peers that say nothing must not keep out those that have something to ask.
+/// Closes an idle connection if the limit is reached, so that idle peers cannot block requests of others.
 void HttpServer::Impl::OnAccepted(Tcp::socket socket)
 {
     if (connections.size() >= limits.maxConnections)

@@ -18,14 +18,14 @@
 namespace ACS::Apps
 {
 
-/// What a server accepts from one peer and from all of them.
+/// Limits for one peer and for all of them.
 struct HttpLimits
 {
     std::uint32_t maxHeaderBytes = 16U * 1024U;
     std::uint64_t maxBodyBytes = 1024U * 1024U;
     std::chrono::milliseconds timeout{30'000}; ///< For a whole request, and for an idle connection.
-    /// One more replaces the connection that has waited longest for a whole request. If all are being answered, it waits until
-    /// one is finished.
+    /// A further connection replaces the one that has waited longest for a complete request. If all connections are being
+    /// answered, it waits until one is finished.
     std::size_t maxConnections = 64;
 };
 
@@ -56,8 +56,8 @@ public:
     /// Stops.
     ~HttpServer();
 
-    /// Starts to serve. Returns the same host with the actual port. Fails if the address is not one of this machine or the
-    /// port is in use; another call may follow.
+    /// Starts to listen. Returns the same host with the actual port. Fails if the address is not one of this machine or the
+    /// port is in use; it may be called again then.
     [[nodiscard]] Core::Result<Endpoint> Listen(const Endpoint& endpoint);
 
     /// Closes the port and all connections. The handler is not called any more.

@@ -21,7 +21,7 @@ constexpr const char* EXPOSITION_TYPE = "text/plain; version=0.0.4; charset=utf-
 template <typename TMetric>
 using FamilyMap = std::unordered_map<std::string, prometheus::Family<TMetric>*>;
 
-/// The metric of that name and those labels; made at its first use.
+/// The metric of that name and those labels; created at its first use.
 template <typename TMetric>
 TMetric& GetMetric(FamilyMap<TMetric>& families, const std::string& name, const MetricsEndpoint::Labels& labels)
 {

@@ -28,20 +28,21 @@ public:
     MetricsEndpoint& operator=(const MetricsEndpoint&) = delete;
     ~MetricsEndpoint();
 
-    /// Adds the metric with its help text. Only the first call for a name counts.
+    /// Adds a metric with its help text. Further calls for the same name are ignored.
     void AddCounter(const std::string& name, const std::string& help);
     void AddGauge(const std::string& name, const std::string& help);
-    /// The bounds of its buckets, ascending; the last bucket has no bound.
+    /// bounds: upper bounds of the buckets, ascending; the last bucket has none.
     void AddHistogram(const std::string& name, const std::string& help, const std::vector<double>& bounds);
 
-    /// For metrics that were added.
+    // The metrics must have been added.
+
     void Increment(const std::string& name, const Labels& labels = {}, double delta = 1.0);
-    /// Raises a counter to the total that a library's statistics show; a smaller total changes nothing.
+    /// Raises a counter to a total that is counted elsewhere; a smaller total is ignored.
     void SetTotal(const std::string& name, const Labels& labels, double total);
     void Observe(const std::string& name, const Labels& labels, double value);
     void SetGauge(const std::string& name, const Labels& labels, double value);
 
-    /// The text exposition format.
+    /// All metrics in the Prometheus text format.
     [[nodiscard]] std::string Render() const;
 
     /// The response to GET /metrics.

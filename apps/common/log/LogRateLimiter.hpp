@@ -14,14 +14,14 @@
 namespace ACS::Apps
 {
 
-/// Limits the rate of log lines that a peer can trigger. Of each kind it writes a burst, then one line per interval with the
-/// number of lines that were suppressed since the last one. A kind that was silent for an interval gets a new burst. Pure.
+/// Limits the rate of log lines that a peer can trigger. For each kind it writes a burst, then one line per interval with the
+/// number of lines that were suppressed since the last one. A kind without lines for an interval gets a new burst.
 class LogRateLimiter final
 {
 public:
     static constexpr std::size_t BURST = 5;
     static constexpr std::chrono::seconds INTERVAL{60};
-    /// Bounds the memory that a peer can make it use: further kinds count as one.
+    /// Limits the memory that a peer can use: further kinds are counted as one.
     static constexpr std::size_t MAX_KINDS = 500;
 
 private:
@@ -40,8 +40,8 @@ private:
 public:
     explicit LogRateLimiter(Core::Logger logger, std::size_t burst = BURST);
 
-    /// Lines of one kind count together, whatever their fields. A kind is for example "refused" and the reason without its
-    /// numbers.
+    /// Lines of a kind are counted together, independently of their fields. A kind is for example "refused" and the reason
+    /// without its numbers.
     void Write(
         Core::SteadyTime now,
         Core::ELogLevel level,

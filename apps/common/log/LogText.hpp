@@ -17,7 +17,7 @@ namespace ACS::Apps
     std::string_view message,
     std::initializer_list<Core::LogField> fields);
 
-/// A control character as \xNN, any other byte as it is.
+/// Appends a control character as \xNN, any other byte unchanged.
 void AppendPrintable(std::string& out, char character);
 
 /// "debug", "info", "warning", "error"

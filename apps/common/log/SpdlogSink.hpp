@@ -23,7 +23,6 @@ public:
     SpdlogSink& operator=(const SpdlogSink&) = delete;
     ~SpdlogSink() override;
 
-    /// From now on.
     void SetLevel(Core::ELogLevel level);
 
     [[nodiscard]] bool ShouldWrite(Core::ELogLevel level) const override;

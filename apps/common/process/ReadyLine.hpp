@@ -8,7 +8,7 @@
 namespace ACS::Apps
 {
 
-/// One address on which a program serves.
+/// An address on which a program listens.
 struct ReadyAddress
 {
     std::string name;  ///< "http", "ws", "stream", "broker"; each once.
@@ -18,7 +18,7 @@ struct ReadyAddress
 /// "ready: http=127.0.0.1:8080 ws=…", without line end.
 [[nodiscard]] std::string MakeReadyLine(const std::vector<ReadyAddress>& addresses);
 
-/// Prints that line on standard output and flushes, so that a reader of the pipe gets it at once.
+/// Prints that line on standard output and flushes it for a reader of a pipe.
 void PrintReadyLine(const std::vector<ReadyAddress>& addresses);
 
 } // namespace ACS::Apps

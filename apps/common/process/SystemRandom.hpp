@@ -8,7 +8,7 @@
 namespace ACS::Apps
 {
 
-/// An engine seeded by the system's random device, so that no two programs started together draw the same numbers.
+/// A random engine seeded by the system's random device, so that programs that are started together get different numbers.
 class SystemRandom final : public Core::IRandom
 {
     std::mt19937_64 _engine;

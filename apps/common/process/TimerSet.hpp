@@ -14,9 +14,9 @@
 namespace ACS::Apps
 {
 
-/// The timers of a pure state machine or a program by a key of its own: an enum, a number, anything that is ordered. The
-/// handler may start and cancel timers and even destroy the set. It is never called for a timer that was cancelled or
-/// restarted, nor after the destruction. One thread: the executor's.
+/// Timers by a key of the caller: an enum, a number, any ordered type. The handler may start and cancel timers and destroy the
+/// set. It is not called for a timer that was cancelled or restarted, nor after the destruction. Used on the executor's
+/// thread only.
 template <typename TKey>
 class TimerSet final
 {
@@ -24,7 +24,7 @@ public:
     using Handler = std::function<void(const TKey& key)>;
 
 private:
-    /// A wait that has expired cannot be cancelled any more: the run shows whether it is still valid.
+    /// An expired wait cannot be cancelled: its handler compares the run to detect that it is obsolete.
     struct Timer
     {
         boost::asio::steady_timer timer;
@@ -55,7 +55,7 @@ public:
         CancelAll();
     }
 
-    /// Restarts a timer that is running.
+    /// Starts the timer, or restarts it if it is running.
     void Start(const TKey& key, Core::Duration delay)
     {
         _state->timers.erase(key);

@@ -22,7 +22,7 @@ constexpr std::string_view SUFFIX = ".ndjson";
 constexpr mode_t FILE_MODE = 0640; // messages may be confidential
 constexpr std::size_t FLUSH_BYTES = 256U * 1024U;
 
-/// 0: not one of ours.
+/// 0 if the file is not one of this trace.
 std::uint64_t ReadNumber(const std::string& name)
 {
     if (name.size() <= PREFIX.size() + SUFFIX.size() || !name.starts_with(PREFIX) || !name.ends_with(SUFFIX))
@@ -89,7 +89,7 @@ std::error_code TraceFiles::OpenNext(const TraceLimits& limits)
     }
     auto files = ListFiles(_path);
     const std::uint64_t number = files.empty() ? 1 : files.back().first + 1;
-    // Room is made before it is needed.
+    // Deletes the oldest files before the new one needs their space.
     for (std::size_t i = 0; i + limits.maxFiles <= files.size(); ++i)
     {
         std::error_code ignored;
@@ -156,7 +156,7 @@ std::error_code TraceFiles::Flush()
     if (error)
     {
         _lostLines = _bufferedLines;
-        // Back to the end of the last whole line.
+        // Truncates the file to the end of the last complete line.
         static_cast<void>(::ftruncate(_file, static_cast<off_t>(_written)) == 0);
         Close();
         return error;

@@ -18,8 +18,9 @@ struct TraceLimits
     bool operator==(const TraceLimits&) const = default;
 };
 
-/// The files of a trace: numbered ones in a folder, "acsd-000001.ndjson" and up, of which the oldest are deleted, or one
-/// file, which is replaced at the start. A file never ends with a partial line, even if the disk is full. One thread.
+/// The files of a trace: either numbered files in a folder ("acsd-000001.ndjson" and up), of which the oldest are deleted, or
+/// one file, which is replaced at the start. A file never ends with a partial line, even if the disk is full. Used by one
+/// thread.
 class TraceFiles final
 {
     std::string _path;
@@ -30,7 +31,6 @@ class TraceFiles final
     int _file = -1;
 
 public:
-    /// Opens nothing.
     explicit TraceFiles(std::string path);
     TraceFiles(const TraceFiles&) = delete;
     TraceFiles& operator=(const TraceFiles&) = delete;
@@ -39,12 +39,12 @@ public:
     /// Creates the folder if necessary, and a file.
     [[nodiscard]] std::error_code Open(const TraceLimits& limits);
 
-    /// Adds a line (without its end), to be written by the next Flush at the latest. After an error this line and all that
-    /// were not written yet are lost (GetLostLines), and the next call opens a file again.
+    /// Adds a line, given without its line end. It is written by the next Flush at the latest. After an error this line and all
+    /// unwritten ones are lost (GetLostLines), and the next call opens a file again.
     [[nodiscard]] std::error_code Append(std::string_view line, const TraceLimits& limits);
     [[nodiscard]] std::error_code Flush();
 
-    /// Of the last error.
+    /// Number of lines lost by the last error.
     [[nodiscard]] std::size_t GetLostLines() const noexcept;
 
 private:

@@ -14,9 +14,9 @@ namespace ACS::Apps
 namespace
 {
 
-/// Between two attempts to write after a failure.
+/// Time between two attempts to write after a failure.
 constexpr std::chrono::seconds RETRY{10};
-/// What a queued line takes besides its text.
+/// Memory of a queued line besides its text.
 constexpr std::size_t ENTRY_BYTES = 96;
 
 } // namespace
@@ -32,22 +32,22 @@ struct TraceWriter::Impl
 
     const Core::IClock& clock;
     Core::Logger logger;
-    Options options; ///< The limits: under the mutex.
+    Options options; ///< The mutex protects its limits.
 
-    std::mutex mutex; ///< Of what follows.
+    std::mutex mutex; ///< Protects the members up to the thread's own.
     std::condition_variable wake;
     std::deque<Entry> queue;
     std::size_t queuedBytes = 0;
-    std::uint64_t unqueued = 0; ///< Lost, and no entry states it yet.
+    std::uint64_t unqueued = 0; ///< Number of lost lines that no queue entry states yet.
     std::uint64_t lost = 0;
-    std::optional<std::string> failureOrNull; ///< To be logged by the caller's thread.
-    bool bRecovered = false;                  ///< Likewise.
+    std::optional<std::string> failureOrNull; ///< Error to be logged by the caller's thread.
+    bool bRecovered = false;                  ///< Recovery to be logged by the caller's thread.
     bool bClosing = false;
 
-    // The thread's own.
+    // Used by the writer's thread only.
     TraceFiles files;
     std::optional<Core::SteadyTime> failedAt;
-    std::uint64_t unwritten = 0; ///< Lost, and no line of the trace states it yet.
+    std::uint64_t unwritten = 0; ///< Number of lost lines that no line of the trace states yet.
     std::thread thread;
 
     Impl(Options writerOptions, const Core::IClock& writerClock, Core::Logger writerLogger)
@@ -96,14 +96,14 @@ struct TraceWriter::Impl
         Check(files.Flush(), now);
     }
 
-    /// The number of lost lines precedes the next line. False: the trace still cannot be written.
+    /// Writes the number of lost lines before the next line. False if the trace still cannot be written.
     [[nodiscard]] bool TryWriteLoss(Core::Now now, const TraceLimits& limits)
     {
         if (unwritten == 0)
         {
             return true;
         }
-        // By itself, so that each line lost from here on is a message or this one.
+        // Written separately: a line lost from here on is either a message or this one.
         std::error_code error = files.Flush();
         Check(error, now);
         if (error)

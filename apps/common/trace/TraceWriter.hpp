@@ -15,9 +15,8 @@
 namespace ACS::Apps
 {
 
-/// Writes the lines of a trace on a thread of its own: the caller never waits for the disk. Lines for which the queue has no
-/// room, and lines that a full disk does not accept, are lost. They are counted, also by a line in the trace. Called on one
-/// thread.
+/// Writes the lines of a trace on a thread of its own: the caller never waits for the disk. Lines are lost if the queue or the
+/// disk is full. Lost lines are counted, also by a line in the trace. Called on one thread.
 class TraceWriter final
 {
 public:
@@ -28,7 +27,7 @@ public:
 
     struct Options
     {
-        std::string path; ///< Of the folder, or of the file.
+        std::string path; ///< Path of the folder or of the file.
         TraceLimits limits;
         LossFormat makeLossLine; ///< Called on the writer's thread.
         std::size_t maxQueuedBytes = DEFAULT_QUEUE_BYTES;
@@ -45,22 +44,22 @@ public:
     TraceWriter(const TraceWriter&) = delete;
     TraceWriter& operator=(const TraceWriter&) = delete;
 
-    /// Closes.
+    /// Calls Close.
     ~TraceWriter();
 
-    /// Once, before anything else: opens the first file and starts the thread.
+    /// Opens the first file and starts the thread. Call it once, before any other function.
     [[nodiscard]] std::error_code Open();
 
-    /// A line without its end, with the time of the message.
+    /// Queues a line without its line end; now is the time of the message.
     void Write(std::string line, Core::Now now);
 
-    /// For the next file.
+    /// Takes effect with the next file.
     void SetLimits(const TraceLimits& limits);
 
-    /// Waits until everything is written. Nothing may be written after it.
+    /// Waits until all lines are written. Write must not be called after it.
     void Close();
 
-    /// Lines that are missing in the trace.
+    /// Number of lines that are missing in the trace.
     [[nodiscard]] std::uint64_t GetLost() const;
 };
 

@@ -34,7 +34,7 @@ EWorldError GetError(const Core::Result<void>& result)
 
 } // namespace
 
-TEST_CASE("A cassette takes its trays along, and their memories")
+TEST_CASE("A cassette is moved with its trays and their memories")
 {
     MemoryWorld world;
     FillFloor(world);
@@ -52,7 +52,7 @@ TEST_CASE("A cassette takes its trays along, and their memories")
     CHECK(world.GetMemory("A01.CP05.TP01.MP07") == EMemory::Occupied);
 }
 
-TEST_CASE("A name that begins with that of another place is not inside it")
+TEST_CASE("A place whose name begins with that of another place is not inside it")
 {
     MemoryWorld world;
     REQUIRE(world.Act(Sim::CarrierPlaced{"ONE", "A01.CP10"}));
@@ -64,7 +64,7 @@ TEST_CASE("A name that begins with that of another place is not inside it")
     CHECK(world.GetPlaceOrNull("TRAY") == "LR01.CP01.TP01");
 }
 
-TEST_CASE("A carrier is picked only where it is, and dropped only on a free place")
+TEST_CASE("A carrier is picked only at its place and dropped only at a free place")
 {
     MemoryWorld world;
     FillFloor(world);
@@ -86,7 +86,7 @@ TEST_CASE("A carrier is picked only where it is, and dropped only on a free plac
     CHECK(world.GetCarrierOrNull("CR01.TP2") == "TRAY_01");
 }
 
-TEST_CASE("A cassette is not put upon trays that are there without one")
+TEST_CASE("A cassette cannot be put on trays that are at the place without a cassette")
 {
     MemoryWorld world;
     FillFloor(world);
@@ -96,7 +96,7 @@ TEST_CASE("A cassette is not put upon trays that are there without one")
         == EWorldError::PlaceOccupied);
 }
 
-TEST_CASE("A robot reaches its own ports and the stations where it is docked, and nothing else")
+TEST_CASE("A robot reaches only its own ports and the stations at which it is docked")
 {
     MemoryWorld world;
     FillFloor(world);
@@ -113,7 +113,7 @@ TEST_CASE("A robot reaches its own ports and the stations where it is docked, an
     CHECK(world.Act(own).has_value());
 }
 
-TEST_CASE("A robot that stays docked is no event")
+TEST_CASE("A robot that stays docked causes no event")
 {
     MemoryWorld world;
     REQUIRE(world.Act(Sim::RobotDocked{"CR01", {}}));
@@ -125,7 +125,7 @@ TEST_CASE("A robot that stays docked is no event")
     CHECK(world.TakeEvents().size() == 1);
 }
 
-TEST_CASE("Memory places: unknown passes both ways and becomes known")
+TEST_CASE("An unknown memory place is accepted as empty and as occupied and becomes known")
 {
     MemoryWorld world;
     FillFloor(world);
@@ -146,7 +146,7 @@ TEST_CASE("Memory places: unknown passes both ways and becomes known")
     CHECK(world.GetMemory("A01.SET01.MP01") == EMemory::Empty);
 }
 
-TEST_CASE("A tray that is not there has no memory places")
+TEST_CASE("An absent tray has no memory places")
 {
     MemoryWorld world;
     FillFloor(world);
@@ -173,7 +173,7 @@ TEST_CASE("A set with a closed cover cannot be worked on")
     CHECK(GetError(world.Act(Sim::CoverMoved{"CR01", "A01.CP01", true})) == EWorldError::InvalidPlace);
 }
 
-TEST_CASE("By hand a carrier comes to a place whatever was there")
+TEST_CASE("A carrier that is placed by hand replaces the one at the place")
 {
     MemoryWorld world;
     FillFloor(world);
@@ -198,7 +198,7 @@ TEST_CASE("By hand a carrier comes to a place whatever was there")
     CHECK(world.Act(Sim::CarrierPlaced{"NOWHERE", ""}).has_value());
 }
 
-TEST_CASE("A new tray brings no memories of the one that was there")
+TEST_CASE("A new tray does not have the memories of the one before")
 {
     MemoryWorld world;
     FillFloor(world);
@@ -207,7 +207,7 @@ TEST_CASE("A new tray brings no memories of the one that was there")
     CHECK(world.GetMemory("A01.CP02.TP01.MP01") == EMemory::Unknown);
 }
 
-TEST_CASE("Events are kept in canonical spelling with the carrier's name, up to a bound")
+TEST_CASE("Events are kept in canonical spelling with the carrier's name, up to a limit")
 {
     MemoryWorld world;
     FillFloor(world);
@@ -244,7 +244,7 @@ TEST_CASE("Names are checked")
     CHECK(GetError(world.Act(Sim::RobotDocked{"CR01", stations})) == EWorldError::LimitExceeded);
 }
 
-TEST_CASE("A robot docks at fixed places and chargers, not in a port of a robot or inside a station")
+TEST_CASE("A robot docks at fixed places and chargers, not at a port of a robot or inside a station")
 {
     MemoryWorld world;
     CHECK(world.Act(Sim::RobotDocked{"CR01", {"A01.CP01", "a01.set1", "CHG01", "gate 7"}}).has_value());
@@ -257,7 +257,7 @@ TEST_CASE("A robot docks at fixed places and chargers, not in a port of a robot 
     CHECK(world.TakeEvents().empty());
 }
 
-TEST_CASE("A world has a bounded number of carriers")
+TEST_CASE("The number of carriers is limited")
 {
     MemoryWorld world;
     std::size_t done = 0;

@@ -24,7 +24,7 @@ TEST_CASE("A place has a canonical text, a kind and a station or a robot")
     CHECK(port.station.empty());
 }
 
-TEST_CASE("A place inside a cassette on a robot is a place too")
+TEST_CASE("A place inside a cassette on a robot is a valid place")
 {
     const Sim::Place tray = Sim::ParsePlace("LR01.CP01.TP2").value();
     CHECK(tray.text == "LR01.CP01.TP02");
@@ -33,7 +33,7 @@ TEST_CASE("A place inside a cassette on a robot is a place too")
     CHECK(Sim::ParsePlace("LR01.CP01.TP02.MP03").value().text == "LR01.CP01.TP02.MP03");
 }
 
-TEST_CASE("The port whose carrier has a place")
+TEST_CASE("GetCarrierPort returns the port whose carrier has the place")
 {
     CHECK(Sim::ParsePlace("CR01.TP01.MP01").value().GetCarrierPort() == "CR01.TP01");
     CHECK(Sim::ParsePlace("A01.CP01.TP01.MP01").value().GetCarrierPort() == "A01.CP01.TP01");
@@ -43,7 +43,7 @@ TEST_CASE("The port whose carrier has a place")
     CHECK(Sim::ParsePlace("CR01.TP01").value().GetCarrierPort().empty());
 }
 
-TEST_CASE("What is no place of one floor is refused")
+TEST_CASE("A text that is not a place of a floor is refused")
 {
     for (const char* text :
          {"",

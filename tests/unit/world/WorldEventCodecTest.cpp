@@ -6,7 +6,7 @@
 
 using namespace ACS; // NOLINT(google-build-using-namespace)
 
-TEST_CASE("Each event is a line that reads as the same event")
+TEST_CASE("Each event is encoded as a line and decoded as the same event")
 {
     const std::vector<std::pair<Sim::WorldEvent, const char*>> lines{
         {Sim::RobotDocked{"LR01", {"A01.CP01", "A01.CP02"}},
@@ -30,7 +30,7 @@ TEST_CASE("Each event is a line that reads as the same event")
     }
 }
 
-TEST_CASE("A line that is no event is refused")
+TEST_CASE("A line that is not an event is refused")
 {
     for (const char* line :
          {"",

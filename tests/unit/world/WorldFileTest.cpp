@@ -78,7 +78,8 @@ const Sim::CarrierMoved PICK{"LR01", "CASSETTE_01", "A01.CP01", "LR01.CP01"};
 const Sim::CarrierMoved DROP{"LR01", "CASSETTE_01", "LR01.CP01", "A01.CP01"};
 const Sim::RobotDocked DOCK{"LR01", {"A01.CP01"}};
 
-/// Moves the cassette to and fro until this robot has done so many moves; the world refuses what the other one did already.
+/// Moves the cassette back and forth until this robot has done the given number of moves; the world refuses a move that the
+/// other robot has done already.
 int ShuttleCarrier(const std::string& path, int moves)
 {
     auto world = Sim::WorldFile::Open(path);
@@ -110,7 +111,7 @@ std::size_t CountChainedMoves(const std::vector<Sim::WorldEvent>& events)
 
 } // namespace
 
-TEST_CASE("What one process does the other ones see, in order")
+TEST_CASE("A process sees the events of the other ones in their order")
 {
     const FloorFixture floor;
     const auto one = floor.Open();
@@ -132,7 +133,7 @@ TEST_CASE("What one process does the other ones see, in order")
     CHECK(one->TakeEvents().empty());
 }
 
-TEST_CASE("The journal outlives the processes")
+TEST_CASE("The journal survives the processes")
 {
     const FloorFixture floor;
     {
@@ -142,10 +143,10 @@ TEST_CASE("The journal outlives the processes")
     }
     const auto world = floor.Open();
     CHECK(world->GetPlaceOrNull("CASSETTE_01") == "LR01.CP01");
-    CHECK(world->TakeEvents().empty()); // that was before
+    CHECK(world->TakeEvents().empty()); // earlier events are not returned
 }
 
-TEST_CASE("What is refused is not written, nor what changes nothing")
+TEST_CASE("A refused event and one that changes nothing are not written")
 {
     const FloorFixture floor;
     const auto world = floor.Open();
@@ -157,7 +158,7 @@ TEST_CASE("What is refused is not written, nor what changes nothing")
     CHECK(floor.ReadJournal() == "{\"event\":\"RobotDocked\",\"robot\":\"LR01\",\"stations\":[\"A01.CP01\"]}\n");
 }
 
-TEST_CASE("Two threads with an object each move one carrier in turns")
+TEST_CASE("Two threads with an object each move one carrier alternately")
 {
     const FloorFixture floor;
     const auto world = floor.Open();
@@ -177,7 +178,7 @@ TEST_CASE("Two threads with an object each move one carrier in turns")
     CHECK(CountChainedMoves(world->TakeEvents()) == 2 * MOVES);
 }
 
-TEST_CASE("Two processes move one carrier in turns, and one of them is killed")
+TEST_CASE("Two processes move one carrier alternately, and one of them is killed")
 {
     const FloorFixture floor;
     const auto world = floor.Open();
@@ -205,7 +206,7 @@ TEST_CASE("Two processes move one carrier in turns, and one of them is killed")
     CHECK(floor.Open() != nullptr);
 }
 
-TEST_CASE("A line without its end never happened, and the next one replaces it")
+TEST_CASE("A line without its end is ignored, and the next one replaces it")
 {
     const FloorFixture floor;
     const auto before = floor.Open();
@@ -227,7 +228,7 @@ TEST_CASE("A line without its end never happened, and the next one replaces it")
     CHECK(journal.ends_with("}\n"));
 }
 
-TEST_CASE("A journal that does not follow from the world file is refused with its line")
+TEST_CASE("A journal that does not match the world file is refused with its line")
 {
     const FloorFixture floor;
     const std::string docked = R"({"event":"RobotDocked","robot":"LR01","stations":["A01.CP01"]})";
@@ -242,12 +243,12 @@ TEST_CASE("A journal that does not follow from the world file is refused with it
     CHECK_THAT(floor.OpenForError(), Catch::Contains("world.json.journal:1"));
 }
 
-TEST_CASE("A journal that is cut, removed or spoilt while it is in use is an error of Act")
+TEST_CASE("Act fails if the journal is truncated, removed or damaged while it is in use")
 {
     const FloorFixture floor;
     const auto world = floor.Open();
     REQUIRE(world->Act(DOCK));
-    SECTION("cut")
+    SECTION("truncated")
     {
         std::filesystem::resize_file(floor.GetJournalPath(), 3);
     }
@@ -255,7 +256,7 @@ TEST_CASE("A journal that is cut, removed or spoilt while it is in use is an err
     {
         std::filesystem::remove(floor.GetJournalPath());
     }
-    SECTION("spoilt")
+    SECTION("damaged")
     {
         FloorFixture::Write(floor.GetJournalPath(), "?\n", std::ios::app);
     }
@@ -265,8 +266,7 @@ TEST_CASE("A journal that is cut, removed or spoilt while it is in use is an err
     CHECK(world->GetPlaceOrNull("CASSETTE_01") == "A01.CP01");
 }
 
-TEST_CASE(
-    "A journal that another process keeps locked is an error of Act that says so, and nothing happens until it is free")
+TEST_CASE("Act fails, without effect, while another process has the lock of the journal")
 {
     const FloorFixture floor;
     const auto world = floor.Open();
@@ -292,7 +292,7 @@ TEST_CASE(
     CHECK(world->GetPlaceOrNull("CASSETTE_01") == "LR01.CP01");
 }
 
-TEST_CASE("A journal that cannot be read says so with file and line, until it can be read again")
+TEST_CASE("The failure of an unreadable journal has file and line, until it can be read again")
 {
     const FloorFixture floor;
     const auto world = floor.Open();
@@ -308,7 +308,7 @@ TEST_CASE("A journal that cannot be read says so with file and line, until it ca
     CHECK_FALSE(world->GetFailureOrNull().has_value());
 }
 
-TEST_CASE("A world file with a mistake, or none, is refused by its name")
+TEST_CASE("An invalid or missing world file is refused with its name")
 {
     const FloorFixture floor;
     FloorFixture::Write(floor.GetPath(), R"({"version":1,"carriers":{"TRAY_01":"A01"}})");

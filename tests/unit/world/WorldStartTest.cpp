@@ -21,7 +21,7 @@ Core::Result<std::unique_ptr<Sim::MemoryWorld>> Load(std::string_view text)
 
 } // namespace
 
-TEST_CASE("A world file says where carriers are, which covers are closed and what memories hold")
+TEST_CASE("A world file has the places of carriers, the closed covers and the memories")
 {
     const auto world = Load(R"({"version":1,
         "carriers":{"CASSETTE_01":"a01.cp1","TRAY_01":"A01.CP01.TP01","TRAY_02":"LR01.CP01.TP03","BOX":"LR01.CP01"},
@@ -38,12 +38,12 @@ TEST_CASE("A world file says where carriers are, which covers are closed and wha
     CHECK((*world)->TakeEvents().empty());
 }
 
-TEST_CASE("An empty floor is one too")
+TEST_CASE("An empty floor is valid")
 {
     CHECK(Load(R"({"version":1})").has_value());
 }
 
-TEST_CASE("A floor that lists its places has no others")
+TEST_CASE("A floor with listed places has no others")
 {
     const auto world = Load(R"({"version":1,"places":["A01.CP01.TP01-04","A01.SET01.MP01-02","CR01.TP01-02","A01.CP02"],
         "carriers":{"TRAY_01":"A01.CP01.TP04","CASSETTE_01":"LR07.CP09"}})");
@@ -66,50 +66,50 @@ TEST_CASE("A floor that lists its places has no others")
     CHECK_FALSE((*world)->Act(Sim::CoverMoved{"CR01", "A01.SET02", true}).has_value());
 }
 
-TEST_CASE("A mistake is refused with its place in the file")
+TEST_CASE("An error has its path in the file")
 {
-    struct Mistake
+    struct InvalidFile
     {
         const char* text;
         const char* path;
     };
-    for (const Mistake& mistake : {
-             Mistake{"", ""},
-             Mistake{"[]", ""},
-             Mistake{"{}", "version"},
-             Mistake{R"({"version":2})", "version"},
-             Mistake{R"({"version":"1"})", "version"},
-             Mistake{R"({"version":1,"carriers":{},"carriers":{}})", "carriers"},
-             Mistake{R"({"version":1,"carriers":{"TRAY_01":"A01.CP01","TRAY_01":"A01.CP02"}})", "carriers.TRAY_01"},
-             Mistake{R"({"version":1,"cariers":{}})", "\"cariers\""},
-             Mistake{R"({"version":1,"carriers":[]})", "carriers"},
-             Mistake{R"({"version":1,"carriers":{"TRAY_01":7}})", "carriers.TRAY_01"},
-             Mistake{R"({"version":1,"carriers":{"TRAY_01":"A01"}})", "carriers.TRAY_01"},
-             Mistake{R"({"version":1,"carriers":{"TRAY_01":"AMR.TP01"}})", "carriers.TRAY_01"},
-             Mistake{R"({"version":1,"carriers":{"TRAY_01":""}})", "carriers.TRAY_01"},
-             Mistake{R"({"version":1,"carriers":{"":"A01.CP01"}})", "carriers."},
-             Mistake{R"({"version":1,"carriers":{"A":"A01.CP01","B":"A01.cp1"}})", "carriers.B"},
-             Mistake{R"({"version":1,"carriers":{"A":"LR01.CP01.TP01"}})", "carriers.A"},
-             Mistake{R"({"version":1,"covers":{"A01.SET01":"shut"}})", "covers.A01.SET01"},
-             Mistake{R"({"version":1,"covers":{"A01.CP01":"closed"}})", "covers.A01.CP01"},
-             Mistake{R"({"version":1,"memories":{"A01.SET01.MP01":"full"}})", "memories.A01.SET01.MP01"},
-             Mistake{R"({"version":1,"memories":{"A01.SET01":"empty"}})", "memories.A01.SET01"},
-             Mistake{R"({"version":1,"memories":{"CR01.TP01.MP01":"empty"}})", "memories.CR01.TP01.MP01"},
-             Mistake{R"({"version":1,"places":"A01.CP01"})", "places"},
-             Mistake{R"({"version":1,"places":["A01.CP01",3]})", "places[1]"},
-             Mistake{R"({"version":1,"places":["A01.CP01.TP04-01"]})", "places \"A01.CP01.TP04-01\""},
-             Mistake{R"({"version":1,"places":["A01.CP01"],"carriers":{"A":"A01.CP02"}})", "carriers.A"},
+    for (const InvalidFile& file : {
+             InvalidFile{"", ""},
+             InvalidFile{"[]", ""},
+             InvalidFile{"{}", "version"},
+             InvalidFile{R"({"version":2})", "version"},
+             InvalidFile{R"({"version":"1"})", "version"},
+             InvalidFile{R"({"version":1,"carriers":{},"carriers":{}})", "carriers"},
+             InvalidFile{R"({"version":1,"carriers":{"TRAY_01":"A01.CP01","TRAY_01":"A01.CP02"}})", "carriers.TRAY_01"},
+             InvalidFile{R"({"version":1,"cariers":{}})", "\"cariers\""},
+             InvalidFile{R"({"version":1,"carriers":[]})", "carriers"},
+             InvalidFile{R"({"version":1,"carriers":{"TRAY_01":7}})", "carriers.TRAY_01"},
+             InvalidFile{R"({"version":1,"carriers":{"TRAY_01":"A01"}})", "carriers.TRAY_01"},
+             InvalidFile{R"({"version":1,"carriers":{"TRAY_01":"AMR.TP01"}})", "carriers.TRAY_01"},
+             InvalidFile{R"({"version":1,"carriers":{"TRAY_01":""}})", "carriers.TRAY_01"},
+             InvalidFile{R"({"version":1,"carriers":{"":"A01.CP01"}})", "carriers."},
+             InvalidFile{R"({"version":1,"carriers":{"A":"A01.CP01","B":"A01.cp1"}})", "carriers.B"},
+             InvalidFile{R"({"version":1,"carriers":{"A":"LR01.CP01.TP01"}})", "carriers.A"},
+             InvalidFile{R"({"version":1,"covers":{"A01.SET01":"shut"}})", "covers.A01.SET01"},
+             InvalidFile{R"({"version":1,"covers":{"A01.CP01":"closed"}})", "covers.A01.CP01"},
+             InvalidFile{R"({"version":1,"memories":{"A01.SET01.MP01":"full"}})", "memories.A01.SET01.MP01"},
+             InvalidFile{R"({"version":1,"memories":{"A01.SET01":"empty"}})", "memories.A01.SET01"},
+             InvalidFile{R"({"version":1,"memories":{"CR01.TP01.MP01":"empty"}})", "memories.CR01.TP01.MP01"},
+             InvalidFile{R"({"version":1,"places":"A01.CP01"})", "places"},
+             InvalidFile{R"({"version":1,"places":["A01.CP01",3]})", "places[1]"},
+             InvalidFile{R"({"version":1,"places":["A01.CP01.TP04-01"]})", "places \"A01.CP01.TP04-01\""},
+             InvalidFile{R"({"version":1,"places":["A01.CP01"],"carriers":{"A":"A01.CP02"}})", "carriers.A"},
          })
     {
-        INFO(mistake.text);
-        const auto world = Load(mistake.text);
+        INFO(file.text);
+        const auto world = Load(file.text);
         REQUIRE_FALSE(world.has_value());
-        CHECK(world.error().path == mistake.path);
+        CHECK(world.error().path == file.path);
         CHECK_FALSE(Core::Describe(world.error()).empty());
     }
 }
 
-TEST_CASE("A mistake of the syntax is reported with its line and column")
+TEST_CASE("A syntax error has its line and column")
 {
     const auto world = Load("{\n  \"version\": 1,\n  \"carriers\": {\"A\": \"A01.CP01\" \"B\"}\n}\n");
     REQUIRE_FALSE(world.has_value());

@@ -19,7 +19,7 @@ using Catch::Matchers::Contains;
 namespace
 {
 
-/// Takes what is written to a stream for as long as it lives.
+/// Captures what is written to a stream while this object exists.
 class StreamCapture final
 {
     std::ostream& _stream;
@@ -85,7 +85,7 @@ Outcome Parse(const std::vector<const char*>& arguments)
 
 } // namespace
 
-TEST_CASE("Good options are read and the program goes on")
+TEST_CASE("Valid options are read and the program continues")
 {
     const Outcome outcome = Parse(
         {"--listen",
@@ -112,7 +112,7 @@ TEST_CASE("Good options are read and the program goes on")
     REQUIRE(outcome.output.empty());
 }
 
-TEST_CASE("Without options the defaults stand")
+TEST_CASE("Without options the defaults are kept")
 {
     const Outcome outcome = Parse({});
     REQUIRE_FALSE(outcome.exitCode.has_value());
@@ -121,7 +121,7 @@ TEST_CASE("Without options the defaults stand")
     REQUIRE(outcome.timeScale == 1.0);
 }
 
-TEST_CASE("Help goes to standard output, shows the defaults, and is a success")
+TEST_CASE("Help is printed on standard output with the defaults; the exit code is 0")
 {
     const Outcome outcome = Parse({"--help"});
     REQUIRE(outcome.exitCode == 0);
@@ -131,14 +131,14 @@ TEST_CASE("Help goes to standard output, shows the defaults, and is a success")
     REQUIRE(outcome.errors.empty());
 }
 
-TEST_CASE("The version is the program's name and the project's version")
+TEST_CASE("The option --version prints the name of the program and the version of the project")
 {
     const Outcome outcome = Parse({"--version"});
     REQUIRE(outcome.exitCode == 0);
     REQUIRE(outcome.output == "some-sim " + std::string(Apps::VERSION) + "\n");
 }
 
-TEST_CASE("A bad command line is one line that names program and option, and exit code 2")
+TEST_CASE("An invalid command line prints one line with program and option; the exit code is 2")
 {
     using Row = std::pair<std::vector<const char*>, const char*>;
     const Row row = GENERATE(
@@ -164,7 +164,7 @@ TEST_CASE("A bad command line is one line that names program and option, and exi
     REQUIRE(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') == 1);
 }
 
-TEST_CASE("What escapes the body of a program becomes one line and exit code 1")
+TEST_CASE("An uncaught exception prints one line; the exit code is 1")
 {
     const StreamCapture errors(std::cerr);
     const int exitCode = Apps::RunProgram("acsd", []() -> int { throw std::runtime_error("first\nsecond"); });
@@ -172,7 +172,7 @@ TEST_CASE("What escapes the body of a program becomes one line and exit code 1")
     REQUIRE(errors.GetText() == "acsd: stopped by an unexpected error: first second\n");
 }
 
-TEST_CASE("Control characters in a mistake are escaped")
+TEST_CASE("Control characters in an error are escaped")
 {
     const StreamCapture errors(std::cerr);
     Apps::PrintError("vda-sim", std::string_view("carriers.A\0B\x1B[2J: wrong\nname", 28));

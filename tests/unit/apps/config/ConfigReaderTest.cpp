@@ -45,7 +45,7 @@ Apps::ConfigReader Read(std::string_view text, const Lines& overrides = {})
 
 } // namespace
 
-TEST_CASE("A good configuration gives its values and no mistakes")
+TEST_CASE("A valid configuration returns its values and no errors")
 {
     const auto reader = Read(GOOD);
     const auto mcs = reader.GetRoot().GetSection("mcs");
@@ -68,7 +68,7 @@ TEST_CASE("A good configuration gives its values and no mistakes")
     CHECK(reader.GetErrors().empty());
 }
 
-TEST_CASE("Absent optional keys take their defaults, also in a table that is not there")
+TEST_CASE("Absent optional keys have their defaults, also in an absent table")
 {
     const auto reader = Read("");
     const auto http = reader.GetRoot().GetSection("http");
@@ -87,7 +87,7 @@ TEST_CASE("Absent optional keys take their defaults, also in a table that is not
     CHECK(reader.GetErrors().empty());
 }
 
-TEST_CASE("All mistakes come at once, by line, each with file, line and key")
+TEST_CASE("All errors are reported, by line, each with file, line and key")
 {
     const auto reader = Read(R"(
 [mcs]
@@ -129,14 +129,14 @@ wait = '2m'
         });
 }
 
-TEST_CASE("A missing key that has a form is told with that form")
+TEST_CASE("The error of a missing key states its form")
 {
     const auto reader = Read("[mqtt]\n");
     (void)reader.GetRoot().GetSection("mqtt").GetURL("url", {Apps::EUrlScheme::Mqtt});
     CHECK(reader.GetErrors() == Lines{"acsd.toml:1: mqtt.url: missing; give a URL mqtt://HOST[:PORT]"});
 }
 
-TEST_CASE("A key that nobody asked for is a mistake, with the nearest known key")
+TEST_CASE("A key that was not read is an error, with the nearest known key")
 {
     const auto reader = Read("[mcs]\nulr = 'x'\nspeed = 1\n[robts.LR01]\ntype = 'LR'\n[[ports]]\nidd = 1\n");
     const auto mcs = reader.GetRoot().GetSection("mcs");
@@ -154,7 +154,7 @@ TEST_CASE("A key that nobody asked for is a mistake, with the nearest known key"
         });
 }
 
-TEST_CASE("An override takes a TOML value, and anything else as a string")
+TEST_CASE("An override is a TOML value or, if it is not valid TOML, a string")
 {
     const auto reader = Read(
         GOOD,
@@ -174,7 +174,7 @@ TEST_CASE("An override takes a TOML value, and anything else as a string")
     CHECK(reader.GetRoot().GetSection("store").GetString("empty", "x").empty());
 }
 
-TEST_CASE("A later override wins, and may add a table or name a quoted one")
+TEST_CASE("The last override of a key wins; an override may add a table or name a quoted one")
 {
     const auto reader = Read(
         "[robots.\"CR 01\"]\ntype = 'LR'\n",
@@ -186,7 +186,7 @@ TEST_CASE("A later override wins, and may add a table or name a quoted one")
     CHECK(reader.GetErrors().empty());
 }
 
-TEST_CASE("A mistake in an override names the option, after those of the file")
+TEST_CASE("An error in an override names the option and follows those of the file")
 {
     const auto reader = Read(
         "[mcs]\nretries = 1\nx = 1\n",
@@ -207,7 +207,7 @@ TEST_CASE("A mistake in an override names the option, after those of the file")
     CHECK_THAT(all, Contains("'=1': write table.key=value"));
 }
 
-TEST_CASE("An override that puts a value in the place of a table, or the reverse, is a mistake and no crash")
+TEST_CASE("An override that replaces a table by a value, or a value by a table, is an error")
 {
     const auto reader = Read(GOOD, {"mcs=5", "robots.LR01.type.x=1"});
     CHECK(reader.GetRoot().GetSection("mcs").GetString("url").empty());
@@ -218,7 +218,7 @@ TEST_CASE("An override that puts a value in the place of a table, or the reverse
         std::count(mistakes.begin(), mistakes.end(), "--set: robots.LR01.type: expected a string, found a table") == 1);
 }
 
-TEST_CASE("The caller's own mistake stands at the line of its key")
+TEST_CASE("An error of the caller has the line of its key")
 {
     const auto reader = Read("[robots.LR01]\nnode = 'N9'\n");
     const auto robot = reader.GetRoot().GetSection("robots").GetSection("LR01");
@@ -233,7 +233,7 @@ TEST_CASE("The caller's own mistake stands at the line of its key")
         });
 }
 
-TEST_CASE("Of a key only the first mistake is told, and none of what stands in a table that is refused")
+TEST_CASE("Only the first error of a key is reported, and none inside a refused table")
 {
     const Apps::ConfigReader reader =
         Apps::ConfigReader::ReadText("a = 7\n[b]\nx = 1\ny = 2\n[c]\nz = 3\n", "f.toml", {"c=4"});
@@ -252,7 +252,7 @@ TEST_CASE("Of a key only the first mistake is told, and none of what stands in a
             "--set: c: expected a table, found the integer 4"});
 }
 
-TEST_CASE("A mistake by its path stands at the line of the key, or of as much of the path as is given")
+TEST_CASE("An error by path has the line of the key, or of its nearest parent that exists")
 {
     const Apps::ConfigReader reader = Apps::ConfigReader::ReadText("[a]\n[a.b]\nc = 1\n", "f.toml", {"d.e=1"});
     reader.AddError("a.b.c", "1");
@@ -274,7 +274,7 @@ TEST_CASE("A mistake by its path stands at the line of the key, or of as much of
             "--set: d.e: 4"});
 }
 
-TEST_CASE("A file that is no TOML is one mistake, with its line")
+TEST_CASE("A file that is not valid TOML has a single error with its line")
 {
     const auto reader = Read("[mcs]\nurl = 'x'\nurl = \n", {"bad"});
     CHECK(reader.GetRoot().GetSection("mcs").GetString("url").empty());
@@ -282,13 +282,13 @@ TEST_CASE("A file that is no TOML is one mistake, with its line")
     CHECK_THAT(reader.GetErrors()[0], StartsWith("acsd.toml:3: not TOML: "));
 }
 
-TEST_CASE("Nesting without end is a mistake and no crash")
+TEST_CASE("Excessive nesting is an error")
 {
     const auto reader = Read("a = " + std::string(100'000, '['));
     REQUIRE(reader.GetErrors().size() == 1);
 }
 
-TEST_CASE("A file that cannot be read is one mistake that says what to give")
+TEST_CASE("A file that cannot be read has a single error with the remedy")
 {
     const auto* const name = GENERATE("/nonexistent/acsd.toml", "/");
     const auto reader = Apps::ConfigReader::ReadFile(name, {"a.b=1"});
@@ -297,7 +297,7 @@ TEST_CASE("A file that cannot be read is one mistake that says what to give")
     CHECK_THAT(reader.GetErrors()[0], StartsWith(std::string(name) + ": cannot be read ("));
 }
 
-TEST_CASE("Every given key has its path and value as text, overrides on top, to compare two readings")
+TEST_CASE("GetValues has the path and value of every given key, overrides included")
 {
     const Apps::ConfigReader reader =
         Read("a = 1\n[mcs]\nurl = \"ws://a\"\nlist = [\"x\", \"y\"]\n[[row]]\nk = true\n", {"mcs.url=ws://b"});

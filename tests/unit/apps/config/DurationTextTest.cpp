@@ -20,7 +20,7 @@ TEST_CASE("A duration is a whole number and its unit")
     REQUIRE(Apps::ParseDuration(text) == duration);
 }
 
-TEST_CASE("What is no duration is refused")
+TEST_CASE("An invalid duration is refused")
 {
     const auto* const text =
         GENERATE("", "5", "s", "5 s", "5S", "-5s", "+5s", "1.5s", "5s ", "5min", "8785h", "99999999999s", "0x5s");

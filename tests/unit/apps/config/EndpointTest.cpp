@@ -7,14 +7,14 @@
 
 namespace Apps = ACS::Apps;
 
-TEST_CASE("An endpoint is a host and a port, and port 0 asks for any")
+TEST_CASE("An endpoint is a host and a port; port 0 is allowed")
 {
     REQUIRE(Apps::ParseEndpoint("127.0.0.1:0") == Apps::Endpoint{"127.0.0.1", 0});
     REQUIRE(Apps::ParseEndpoint("mcs-1.local:65535") == Apps::Endpoint{"mcs-1.local", 65535});
     REQUIRE(Apps::ParseEndpoint("[::1]:80") == Apps::Endpoint{"::1", 80});
 }
 
-TEST_CASE("What is no endpoint is refused with the form that is one")
+TEST_CASE("An invalid endpoint is refused with the expected form")
 {
     const auto* const text = GENERATE(
         "",

@@ -22,7 +22,7 @@ TEST_CASE("A fixed offset is the same at all times")
     REQUIRE(offset->GetAt(Testing::ManualClock().GetNow().wall) == std::chrono::minutes(minutes));
 }
 
-TEST_CASE("What is no offset is refused")
+TEST_CASE("An invalid offset is refused")
 {
     const auto* const text =
         GENERATE("", "+9:00", "09:00", "+0900", "+09:60", "+14:01", "-12:01", "+-9:00", "+09:-1", "local", "+09:0x");
@@ -30,11 +30,11 @@ TEST_CASE("What is no offset is refused")
     REQUIRE_FALSE(Apps::LocalOffset::Parse(text).has_value());
 }
 
-TEST_CASE("The offset of the system follows its zone through summer time")
+TEST_CASE("The offset of the system includes daylight saving time")
 {
     const char* const zoneOrNull = std::getenv("TZ");
     const std::string zone = zoneOrNull != nullptr ? zoneOrNull : "";
-    // A rule written out: no zone database is needed.
+    // A POSIX rule, which needs no time zone database.
     setenv("TZ", "CET-1CEST,M3.5.0,M10.5.0/3", 1);
     tzset();
     Testing::ManualClock clock;

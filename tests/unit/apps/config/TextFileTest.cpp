@@ -25,7 +25,7 @@ std::string MakeFile(const TemporaryFolder& folder, const std::string& content)
 
 } // namespace
 
-TEST_CASE("A regular file is read as a whole, also by a link and with zero bytes in it")
+TEST_CASE("A regular file is read completely, also through a link and with zero bytes")
 {
     const TemporaryFolder folder;
     const std::string content = std::string(200'000, 'x') + '\0' + "end";
@@ -37,10 +37,10 @@ TEST_CASE("A regular file is read as a whole, also by a link and with zero bytes
     CHECK(Apps::ReadTextFile(MakeFile(folder, "")) == std::string());
 }
 
-TEST_CASE("What is no regular file is refused with what it is, and never waited for")
+TEST_CASE("Another file type is refused with its name, without blocking")
 {
     const TemporaryFolder folder;
-    const std::string pipe = folder.GetPath() / "pipe"; // nobody will ever write to it
+    const std::string pipe = folder.GetPath() / "pipe"; // has no writer
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
     CHECK(Apps::ReadTextFile(pipe).error() == "it is a pipe; only regular files are read");
     CHECK(Apps::ReadTextFile("/dev/zero").error() == "it is a device; only regular files are read");
@@ -58,7 +58,7 @@ TEST_CASE("What is no regular file is refused with what it is, and never waited 
     ::close(socket);
 }
 
-TEST_CASE("A file longer than the bound is refused, one as long as it is read")
+TEST_CASE("A file of the maximum size is read, a longer one is refused")
 {
     const TemporaryFolder folder;
     const std::string path = MakeFile(folder, "12345678");
@@ -66,7 +66,7 @@ TEST_CASE("A file longer than the bound is refused, one as long as it is read")
     CHECK(Apps::ReadTextFileUpTo(path, 7).error() == "it is longer than 7 bytes");
 }
 
-TEST_CASE("A configuration is a regular file of at most 4 MiB; else that is its one mistake")
+TEST_CASE("A configuration that is not a regular file of at most 4 MiB has this single error")
 {
     const TemporaryFolder folder;
     const std::string pipe = folder.GetPath() / "pipe";

@@ -19,7 +19,7 @@ const std::vector<EUrlScheme>& GetAllSchemes()
 
 } // namespace
 
-TEST_CASE("A URL without port takes that of its scheme")
+TEST_CASE("A URL without a port has the default port of its scheme")
 {
     using Row = std::pair<const char*, std::uint16_t>;
     const auto [text, port] = GENERATE(
@@ -44,7 +44,7 @@ TEST_CASE("A URL keeps its host, port and path")
     REQUIRE(Apps::ParseURL("ws://[::1]/x", GetAllSchemes())->peer == Apps::Endpoint{"::1", 80});
 }
 
-TEST_CASE("What is no URL, or not of an allowed scheme, is refused with the allowed forms")
+TEST_CASE("An invalid URL or scheme is refused with the allowed forms")
 {
     const auto* const text = GENERATE(
         "",
@@ -64,13 +64,13 @@ TEST_CASE("What is no URL, or not of an allowed scheme, is refused with the allo
     REQUIRE(url.error().expected == "a URL mqtt://HOST[:PORT] or mqtts://HOST[:PORT]");
 }
 
-TEST_CASE("The path of a URL holds no blank, no fragment and no control character")
+TEST_CASE("The path of a URL has no blank, no fragment and no control character")
 {
     const auto* const text = GENERATE("ws://mcs/a b", "ws://mcs/a#b", "ws://mcs/a\nHost: x", "ws://mcs/\x7f");
     REQUIRE_FALSE(Apps::ParseURL(text, GetAllSchemes()).has_value());
 }
 
-TEST_CASE("wss and mqtts are the secure schemes")
+TEST_CASE("wss and mqtts are secure schemes")
 {
     REQUIRE(Apps::IsSecure(EUrlScheme::Wss));
     REQUIRE(Apps::IsSecure(EUrlScheme::Mqtts));

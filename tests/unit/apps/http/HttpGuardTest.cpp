@@ -15,12 +15,12 @@ std::optional<std::string> AskOrNull(const std::string& method, const std::strin
     const Apps::HttpGuard guard({{"acs.example"}, false, {"/metrics"}});
     Apps::HttpRequest request = *Apps::ParseHttpTarget(path);
     request.method = method;
-    return guard.GetUnavailabilityOrNull(request, source);
+    return guard.GetRejectionReasonOrNull(request, source);
 }
 
 } // namespace
 
-TEST_CASE("What a program sends is served: by address, by localhost, by a name of its own, and without a Host")
+TEST_CASE("Requests of programs are allowed: by address, localhost, configured name, and without Host")
 {
     for (const char* host :
          {"127.0.0.1:8080",
@@ -40,7 +40,7 @@ TEST_CASE("What a program sends is served: by address, by localhost, by a name o
     }
 }
 
-TEST_CASE("A foreign name is refused but for what is open: a page's own name may lead here")
+TEST_CASE("A foreign host name is refused except for open paths (DNS rebinding)")
 {
     for (const char* host :
          {"evil.example:8080", "127.0.0.1.evil.example", "localhost.evil", "acs.example.evil", "[evil", ":"})
@@ -53,10 +53,10 @@ TEST_CASE("A foreign name is refused but for what is open: a page's own name may
     }
     CHECK(
         AskOrNull("GET", "/status", {"evil.example:8080", {}, {}})
-        == "not served under the name \"evil.example:8080\": ask by the address, or have the configuration allow the name");
+        == "host name \"evil.example:8080\" is not allowed: use the IP address, or add the name to the configuration");
 }
 
-TEST_CASE("A page may send commands only to where it has come from")
+TEST_CASE("A page may send commands only to its own origin")
 {
     for (const char* origin : {"http://127.0.0.1:8080", "https://127.0.0.1:8080"})
     {
@@ -80,11 +80,11 @@ TEST_CASE("A page may send commands only to where it has come from")
     }
 }
 
-TEST_CASE("Where every name is served, pages of other origins are refused all the same")
+TEST_CASE("If any host name is allowed, pages of other origins are still refused")
 {
     const Apps::HttpGuard guard({{}, true, {}});
     Apps::HttpRequest request = *Apps::ParseHttpTarget("/fault");
     request.method = "POST";
-    CHECK(guard.GetUnavailabilityOrNull(request, {"simulator:8890", {}, {}}) == std::nullopt);
-    CHECK(guard.GetUnavailabilityOrNull(request, {"simulator:8890", "http://evil.example", {}}).has_value());
+    CHECK(guard.GetRejectionReasonOrNull(request, {"simulator:8890", {}, {}}) == std::nullopt);
+    CHECK(guard.GetRejectionReasonOrNull(request, {"simulator:8890", "http://evil.example", {}}).has_value());
 }

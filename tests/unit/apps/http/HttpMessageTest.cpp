@@ -4,7 +4,7 @@
 
 namespace Apps = ACS::Apps;
 
-TEST_CASE("A path is the same with its brackets encoded or not")
+TEST_CASE("A path is the same with encoded and unencoded brackets")
 {
     const auto* const target =
         GENERATE("/project/robot/tasks[0]", "/project/robot/tasks%5B0%5D", "/project/robot/tasks%5b0%5d");
@@ -14,7 +14,7 @@ TEST_CASE("A path is the same with its brackets encoded or not")
     REQUIRE(request->query.empty());
 }
 
-TEST_CASE("Query parameters are decoded, and the first of a name counts")
+TEST_CASE("Query parameters are decoded; the first one of a name is used")
 {
     const auto request = Apps::ParseHttpTarget("/a+b?type=io&x=1%262&x=3&flag&&text=a+b%3D");
     REQUIRE(request.has_value());
@@ -26,7 +26,7 @@ TEST_CASE("Query parameters are decoded, and the first of a name counts")
     REQUIRE_FALSE(request->GetQueryOrNull("y").has_value());
 }
 
-TEST_CASE("The segments of a path are parted before they are decoded")
+TEST_CASE("The segments of a path are split before they are decoded")
 {
     const auto request = Apps::ParseHttpTarget("/plans/PLAN%2F1//done/?a/b");
     REQUIRE(request.has_value());
@@ -34,7 +34,7 @@ TEST_CASE("The segments of a path are parted before they are decoded")
     REQUIRE(Apps::ParseHttpTarget("/")->segments == std::vector<std::string>{""});
 }
 
-TEST_CASE("A target that is no encoded path is refused")
+TEST_CASE("A target that is not an encoded path is refused")
 {
     const auto* const target =
         GENERATE("", "*", "x", "?a=b", "/%", "/%5", "/%5x", "/%x5", "/%-1", "/a?b=%zz", "/a?%2=1", "%2Fa");

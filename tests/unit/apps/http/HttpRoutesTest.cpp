@@ -36,23 +36,23 @@ TEST_CASE("A route is found by method and path, and has the captured segments de
     REQUIRE(done.body == "PLAN/1|a b|");
 }
 
-TEST_CASE("A path for another method is answered with 405, which says for which")
+TEST_CASE("A path of another method is answered with 405 and the allowed methods")
 {
     const Apps::HttpRoutes routes = MakeRoutes();
     REQUIRE(Ask(routes, "POST", "/status").status == 405);
     REQUIRE(Ask(routes, "POST", "/status").allow == "GET, HEAD");
-    REQUIRE(Ask(routes, "GET", "/plans/P/jobs/J/done").body == "served here: POST\n");
+    REQUIRE(Ask(routes, "GET", "/plans/P/jobs/J/done").body == "allowed methods: POST\n");
     REQUIRE(Ask(routes, "HEAD", "/plans/P/jobs/J/done").allow == "POST");
 }
 
-TEST_CASE("HEAD is served where GET is")
+TEST_CASE("HEAD is allowed for every path with GET")
 {
     const Apps::HttpResponse response = Ask(MakeRoutes(), "HEAD", "/status");
     REQUIRE(response.status == 200);
     REQUIRE(response.allow.empty());
 }
 
-TEST_CASE("A path that is not there is answered with 404 and what is there")
+TEST_CASE("An unknown path is answered with 404 and the available paths")
 {
     const Apps::HttpRoutes routes = MakeRoutes();
     const auto* const target =

@@ -59,7 +59,7 @@ public:
             [copy](const boost::system::error_code&, std::size_t) {});
     }
 
-    /// Runs the loop until that many answers with that end have come, or time is up.
+    /// Runs the loop until this number of answers with that end has arrived, or the time limit expires.
     [[nodiscard]] bool HasReceived(const std::string& end)
     {
         return Matches([this, &end] { return _received.find(end) != std::string::npos; });
@@ -136,7 +136,7 @@ struct Fixture
         answer.body = "<answer>";
     }
 
-    /// Runs the loop until it is, or time is up.
+    /// Runs the loop until the connection is closed, or the time limit expires.
     [[nodiscard]] bool IsReached(const std::function<bool()>& isReached)
     {
         const auto deadline = std::chrono::steady_clock::now() + LIMIT;
@@ -151,7 +151,7 @@ struct Fixture
 
 } // namespace
 
-TEST_CASE("A request reaches the handler decoded, and its answer the peer")
+TEST_CASE("The handler gets the decoded request and the peer gets its response")
 {
     Fixture fixture;
     fixture.answer = {404, "application/json", "{\"no\":1}"};
@@ -169,7 +169,7 @@ TEST_CASE("A request reaches the handler decoded, and its answer the peer")
     REQUIRE(fixture.requests[0].body == "body");
 }
 
-TEST_CASE("A connection serves one request after the other, also when they come in pieces or together")
+TEST_CASE("A connection answers one request after the other, also if they arrive in pieces or together")
 {
     Fixture fixture;
     RawClient client(fixture.context, fixture.port);
@@ -183,7 +183,7 @@ TEST_CASE("A connection serves one request after the other, also when they come 
     REQUIRE(fixture.requests[2].path == "/3");
 }
 
-TEST_CASE("An answer with a delay comes later, other connections do not wait; a stop does not either")
+TEST_CASE("A delayed response delays neither other connections nor Stop")
 {
     Fixture fixture;
     fixture.answer.delay = 1h;
@@ -206,7 +206,7 @@ TEST_CASE("An answer with a delay comes later, other connections do not wait; a 
     CHECK(slow.TakeReceived().empty());
 }
 
-TEST_CASE("Who asks whether the body is wanted is told to go on, unless it is too long")
+TEST_CASE("Expect: 100-continue is answered with 100, unless the body is too long")
 {
     Fixture fixture;
     RawClient client(fixture.context, fixture.port);
@@ -221,7 +221,7 @@ TEST_CASE("Who asks whether the body is wanted is told to go on, unless it is to
     CHECK(received.find("100 Continue") == received.rfind("100 Continue"));
 }
 
-TEST_CASE("A chunk whose size has no end is refused, and not kept until it has one")
+TEST_CASE("A chunk size without end is refused and not buffered")
 {
     Fixture fixture;
     RawClient client(fixture.context, fixture.port);
@@ -230,7 +230,7 @@ TEST_CASE("A chunk whose size has no end is refused, and not kept until it has o
     CHECK(fixture.requests.empty());
 }
 
-TEST_CASE("A body in chunks is whole, and bounded as any other")
+TEST_CASE("A chunked body is complete and has the same limit as any other")
 {
     Fixture fixture;
     RawClient client(fixture.context, fixture.port);
@@ -248,7 +248,7 @@ TEST_CASE("A body in chunks is whole, and bounded as any other")
     CHECK(fixture.requests.size() == 1);
 }
 
-TEST_CASE("HEAD is answered with the header alone")
+TEST_CASE("HEAD is answered with the header only")
 {
     Fixture fixture;
     RawClient client(fixture.context, fixture.port);
@@ -259,7 +259,7 @@ TEST_CASE("HEAD is answered with the header alone")
     REQUIRE_THAT(answer, EndsWith("\r\n\r\n"));
 }
 
-TEST_CASE("The methods that are served go out in the header Allow, and only where they are told")
+TEST_CASE("The header Allow has the allowed methods, and is absent if the handler gives none")
 {
     Fixture fixture;
     fixture.answer = {405, "text/plain", "<answer>", {}, "GET, HEAD"};
@@ -273,7 +273,7 @@ TEST_CASE("The methods that are served go out in the header Allow, and only wher
     REQUIRE_THAT(client.TakeReceived(), !Contains("\nAllow:"));
 }
 
-TEST_CASE("What is no HTTP is answered with 400 and the server lives on")
+TEST_CASE("A message that is not HTTP is answered with 400 and the server continues")
 {
     const auto* const garbage = GENERATE("\x16\x03\x01\x02hello\r\n\r\n", "GET\r\n\r\n", "G\x01T / HTTP/1.1\r\n\r\n");
     Fixture fixture;
@@ -288,7 +288,7 @@ TEST_CASE("What is no HTTP is answered with 400 and the server lives on")
     REQUIRE(good.HasReceived("<answer>"));
 }
 
-TEST_CASE("A flood of bad requests is a few lines of the log")
+TEST_CASE("A flood of invalid requests causes few log lines")
 {
     Fixture fixture;
     for (std::size_t count = 0; count < 4 * Apps::LogRateLimiter::BURST; ++count)
@@ -301,7 +301,7 @@ TEST_CASE("A flood of bad requests is a few lines of the log")
     CHECK(fixture.log.Contains(Core::ELogLevel::Warning, "Refused an HTTP request"));
 }
 
-TEST_CASE("What the guard objects to is answered with 403 and told in the log; the connection lives on")
+TEST_CASE("A request that the guard refuses is answered with 403 and logged; the connection stays open")
 {
     Fixture fixture({}, Apps::HttpGuard({{}, false, {"/metrics"}}));
     RawClient client(fixture.context, fixture.port);
@@ -328,7 +328,7 @@ TEST_CASE("What the guard objects to is answered with 403 and told in the log; t
     CHECK(fixture.requests.size() == 2);
 }
 
-TEST_CASE("A target that is not decodable is answered with 400 and the connection lives on")
+TEST_CASE("A target that cannot be decoded is answered with 400 and the connection stays open")
 {
     Fixture fixture;
     RawClient client(fixture.context, fixture.port);
@@ -339,7 +339,7 @@ TEST_CASE("A target that is not decodable is answered with 400 and the connectio
     REQUIRE(client.HasReceived("<answer>"));
 }
 
-TEST_CASE("A body of 1 MiB is taken, one byte more is answered with 413")
+TEST_CASE("A body of 1 MiB is accepted, one byte more is answered with 413")
 {
     const std::size_t excess = GENERATE(0U, 1U);
     const std::size_t size = 1024U * 1024U + excess;
@@ -361,7 +361,7 @@ TEST_CASE("A header without end is answered with 431")
     REQUIRE_THAT(client.TakeReceived(), StartsWith("HTTP/1.1 431 "));
 }
 
-TEST_CASE("A silent peer is closed when its time is up")
+TEST_CASE("The connection of a silent peer is closed after the time limit")
 {
     Apps::HttpLimits limits;
     limits.timeout = 50ms;
@@ -372,7 +372,7 @@ TEST_CASE("A silent peer is closed when its time is up")
     REQUIRE(client.TakeReceived().empty());
 }
 
-TEST_CASE("A peer beyond the limit takes the place of the one that has been silent the longest")
+TEST_CASE("A peer beyond the limit replaces the one that has been silent longest")
 {
     Apps::HttpLimits limits;
     limits.maxConnections = 2;
@@ -392,7 +392,7 @@ TEST_CASE("A peer beyond the limit takes the place of the one that has been sile
     REQUIRE(idle.HasReceived("<answer>"));
 }
 
-TEST_CASE("Peers beyond the limit wait while all others are being answered, and are served one after the other")
+TEST_CASE("Peers beyond the limit wait while all others are being answered, and are then served in turn")
 {
     Apps::HttpLimits limits;
     limits.maxConnections = 1;
@@ -413,7 +413,7 @@ TEST_CASE("Peers beyond the limit wait while all others are being answered, and 
     REQUIRE(clients.front()->WasClosed());
 }
 
-TEST_CASE("A port in use is told with the address and what to do, and another port works")
+TEST_CASE("The error of a port in use has the address and the remedy; another port works")
 {
     Fixture fixture;
     Apps::HttpServer other(
@@ -428,7 +428,7 @@ TEST_CASE("A port in use is told with the address and what to do, and another po
     REQUIRE(other.Listen({LOOPBACK, 0}).has_value());
 }
 
-TEST_CASE("An address that is not this machine's is refused")
+TEST_CASE("An address of another machine is refused")
 {
     boost::asio::io_context context;
     Apps::HttpServer server(context.get_executor(), [](const Apps::HttpRequest&) { return Apps::HttpResponse{}; }, {});
@@ -437,7 +437,7 @@ TEST_CASE("An address that is not this machine's is refused")
     REQUIRE_THAT(Core::Describe(refused.error()), Contains("192.0.2.1:0"));
 }
 
-TEST_CASE("Stop closes every connection and lets the loop end")
+TEST_CASE("Stop closes every connection and the loop ends")
 {
     Fixture fixture;
     RawClient client(fixture.context, fixture.port);

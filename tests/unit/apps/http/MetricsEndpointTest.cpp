@@ -14,18 +14,18 @@ TEST_CASE("Counters and gauges appear by name and labels")
     metrics.AddGauge("acs_robots_online", "Robots that are online");
     metrics.Increment("acs_plans_total", {{"result", "completed"}});
     metrics.Increment("acs_plans_total", {{"result", "completed"}}, 2.0);
-    metrics.Increment("acs_plans_total", {{"result", "say \"no\""}});
+    metrics.Increment("acs_plans_total", {{"result", "the \"no\""}});
     metrics.SetGauge("acs_robots_online", {}, 5.0);
     metrics.SetGauge("acs_robots_online", {}, 4.0);
     const std::string text = metrics.Render();
     REQUIRE_THAT(text, Contains("# HELP acs_plans_total Plans by result\n"));
     REQUIRE_THAT(text, Contains("# TYPE acs_plans_total counter\n"));
     REQUIRE_THAT(text, Contains("acs_plans_total{result=\"completed\"} 3\n"));
-    REQUIRE_THAT(text, Contains("acs_plans_total{result=\"say \\\"no\\\"\"} 1\n"));
+    REQUIRE_THAT(text, Contains("acs_plans_total{result=\"the \\\"no\\\"\"} 1\n"));
     REQUIRE_THAT(text, Contains("acs_robots_online 4\n"));
 }
 
-TEST_CASE("A counter follows the total of a library's statistics and never falls")
+TEST_CASE("A counter is raised to a given total and never decreases")
 {
     Apps::MetricsEndpoint metrics;
     metrics.AddCounter("acs_messages_total", "Messages");
@@ -35,7 +35,7 @@ TEST_CASE("A counter follows the total of a library's statistics and never falls
     REQUIRE_THAT(metrics.Render(), Contains("acs_messages_total 9\n"));
 }
 
-TEST_CASE("A histogram counts what lies under each bound, and the sum of all")
+TEST_CASE("A histogram counts the values up to each bound and sums all values")
 {
     Apps::MetricsEndpoint metrics;
     metrics.AddHistogram("acs_wait_seconds", "A wait", {0.1, 1.0});
@@ -50,7 +50,7 @@ TEST_CASE("A histogram counts what lies under each bound, and the sum of all")
     REQUIRE_THAT(text, Contains("acs_wait_seconds_sum{kind=\"a\"} 5.55\n"));
 }
 
-TEST_CASE("The answer to a scrape says which text format it is")
+TEST_CASE("The response to a scrape names its text format")
 {
     const Apps::HttpResponse response = Apps::MetricsEndpoint().Respond();
     REQUIRE(response.status == 200);

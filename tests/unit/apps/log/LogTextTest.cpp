@@ -6,27 +6,27 @@
 namespace Apps = ACS::Apps;
 namespace Core = ACS::Core;
 
-TEST_CASE("A log line is component, message and fields")
+TEST_CASE("A log line has component, message and fields")
 {
     REQUIRE(
         Apps::MakeLogText("mcs", "Plan accepted", {{"planId", "PLAN-1"}, {"steps", "3"}})
         == "mcs: Plan accepted planId=PLAN-1 steps=3");
 }
 
-TEST_CASE("A value that would be misread is quoted")
+TEST_CASE("An ambiguous value is quoted")
 {
     REQUIRE(
-        Apps::MakeLogText("x", "m", {{"a", ""}, {"b", "two words"}, {"c", R"(say "hi" \)"}, {"d", "k=v"}})
-        == R"(x: m a="" b="two words" c="say \"hi\" \\" d="k=v")");
+        Apps::MakeLogText("x", "m", {{"a", ""}, {"b", "two words"}, {"c", R"(the "hi" \)"}, {"d", "k=v"}})
+        == R"(x: m a="" b="two words" c="the \"hi\" \\" d="k=v")");
 }
 
-TEST_CASE("What a peer sent cannot begin a line of its own")
+TEST_CASE("Text of a peer cannot start a new log line")
 {
     REQUIRE(
         Apps::MakeLogText("x", "bad\nline", {{"text", "a\r\nb\x1b[0m"}}) == R"(x: bad\nline text="a\x0d\nb\x1b[0m")");
 }
 
-TEST_CASE("A log level is one of four words")
+TEST_CASE("A log level is one of four names")
 {
     REQUIRE(Apps::ParseLogLevel("debug") == Core::ELogLevel::Debug);
     REQUIRE(Apps::ParseLogLevel("info") == Core::ELogLevel::Info);
@@ -35,7 +35,7 @@ TEST_CASE("A log level is one of four words")
     REQUIRE_FALSE(Apps::ParseLogLevel("INFO").has_value());
 }
 
-TEST_CASE("A sink writes its level and those above")
+TEST_CASE("A sink writes lines of its level and of higher ones")
 {
     const Apps::SpdlogSink sink(Core::ELogLevel::Warning);
     REQUIRE_FALSE(sink.ShouldWrite(Core::ELogLevel::Debug));

@@ -10,7 +10,7 @@
 namespace Apps = ACS::Apps;
 using namespace std::chrono_literals;
 
-TEST_CASE("Each SIGHUP calls the handler on the executor, and never ends the process")
+TEST_CASE("Each SIGHUP calls the handler on the executor and does not end the process")
 {
     boost::asio::io_context context;
     int count = 0;

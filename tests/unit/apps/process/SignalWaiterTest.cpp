@@ -27,7 +27,7 @@ int RunChildWithTwoSignals(int signalNumber)
     {
         boost::asio::io_context context;
         const Apps::SignalWaiter waiter(context.get_executor(), [signalNumber](int) {
-            // The loop hangs here: only the signal handler can end the process.
+            // The loop is blocked here: only the signal handler can end the process.
             std::raise(signalNumber);
             std::_Exit(EXIT_NOT_KILLED);
         });
@@ -42,7 +42,7 @@ int RunChildWithTwoSignals(int signalNumber)
 
 } // namespace
 
-TEST_CASE("The first signal reaches the handler once and lets the loop end")
+TEST_CASE("The first signal calls the handler once and the loop ends")
 {
     const int signalNumber = GENERATE(SIGINT, SIGTERM);
     boost::asio::io_context context;
@@ -60,7 +60,7 @@ TEST_CASE("The first signal reaches the handler once and lets the loop end")
     REQUIRE(context.stopped());
 }
 
-TEST_CASE("The second signal ends the process at once with 130 or 143")
+TEST_CASE("The second signal ends the process immediately with 130 or 143")
 {
     const int signalNumber = GENERATE(SIGINT, SIGTERM);
     const int status = RunChildWithTwoSignals(signalNumber);
@@ -68,7 +68,7 @@ TEST_CASE("The second signal ends the process at once with 130 or 143")
     REQUIRE(WEXITSTATUS(status) == 128 + signalNumber);
 }
 
-TEST_CASE("A stopped waiter keeps no loop alive and calls nobody")
+TEST_CASE("A stopped waiter does not keep the loop running and does not call its handler")
 {
     boost::asio::io_context context;
     int count = 0;

@@ -33,7 +33,7 @@ TEST_CASE("Timers fire once each, in the order of their delays")
     REQUIRE_FALSE(timers.IsRunning(7));
 }
 
-TEST_CASE("A cancelled timer does not fire, even when it had expired")
+TEST_CASE("A cancelled timer does not fire, even if it has expired")
 {
     boost::asio::io_context context;
     std::vector<std::uint64_t> fired;
@@ -50,7 +50,7 @@ TEST_CASE("A cancelled timer does not fire, even when it had expired")
     REQUIRE(fired == std::vector<std::uint64_t>{1});
 }
 
-TEST_CASE("A key may be anything that is ordered")
+TEST_CASE("A key may be of any ordered type")
 {
     boost::asio::io_context context;
     std::vector<std::string> fired;
@@ -65,7 +65,7 @@ TEST_CASE("A key may be anything that is ordered")
     REQUIRE(timers.IsRunning("LR03"));
 }
 
-TEST_CASE("A timer that is started again counts from then on")
+TEST_CASE("A restarted timer has the full delay again")
 {
     boost::asio::io_context context;
     int count = 0;
@@ -80,7 +80,7 @@ TEST_CASE("A timer that is started again counts from then on")
     REQUIRE(count == 1);
 }
 
-TEST_CASE("A handler may start its own timer again")
+TEST_CASE("A handler may restart its own timer")
 {
     boost::asio::io_context context;
     int count = 0;
@@ -97,7 +97,7 @@ TEST_CASE("A handler may start its own timer again")
     REQUIRE(count == 3);
 }
 
-TEST_CASE("After destruction, also from within the handler, nothing fires")
+TEST_CASE("After destruction, also inside the handler, no timer fires")
 {
     boost::asio::io_context context;
     int count = 0;

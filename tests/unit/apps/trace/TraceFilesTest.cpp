@@ -16,7 +16,7 @@ namespace ACS::Testing
 using Apps::TraceFiles;
 using Apps::TraceLimits;
 
-TEST_CASE("Files of a trace are bounded in size and count; the oldest go, and nobody else's")
+TEST_CASE("Files of a trace are limited in size and number; the oldest are deleted, other files are kept")
 {
     const Testing::TemporaryFolder place;
     std::ofstream(place.GetPath() / "acsd-notes.ndjson") << "mine\n";
@@ -33,7 +33,7 @@ TEST_CASE("Files of a trace are bounded in size and count; the oldest go, and no
         == std::vector<std::string>{"acsd-000002.ndjson", "acsd-000003.ndjson", "acsd-notes.ndjson"});
     CHECK(std::filesystem::file_size(place.GetPath() / "acsd-000003.ndjson") == 93);
 
-    // A restart begins a new file, and a line that is longer than a file has one of its own.
+    // A restart starts a new file, and a line that is longer than a file has a file of its own.
     TraceFiles next(place.GetPath().string());
     REQUIRE_FALSE(next.Open(limits));
     REQUIRE_FALSE(next.Append(std::string(200, 'x'), limits));
@@ -45,7 +45,7 @@ TEST_CASE("Files of a trace are bounded in size and count; the oldest go, and no
     CHECK(std::filesystem::file_size(place.GetPath() / "acsd-000004.ndjson") == 201);
 }
 
-TEST_CASE("A full disk costs whole lines, never half a one, and their number is known")
+TEST_CASE("A full disk loses complete lines, which are counted, and leaves no partial line")
 {
     const Testing::TemporaryFolder place;
     TraceFiles files(place.GetPath().string());
