@@ -39,11 +39,11 @@ std::string ActionRunner::Start(
 {
     if (_device.IsDrop(action.actionType) && _device.GetLoads().empty())
     {
-        return "there is no load on board";
+        return "no load on board";
     }
     if (action.actionType == ACTION_START_CHARGING && !bAtCharger)
     {
-        return "there is no charger here";
+        return "no charger at this node";
     }
     _running.push_back({action, GetSeconds(action.actionType), std::move(failureOrNull), false});
     return {};
@@ -105,7 +105,7 @@ std::optional<ActionOutcome> ActionRunner::StopOrNull(std::string_view actionID,
     {
         return Finish(stopped);
     }
-    const std::string reason = bEdgeEnded ? "its edge has ended before it" : "stopped";
+    const std::string reason = bEdgeEnded ? "the edge ended before the action" : "stopped";
     return ActionOutcome{stopped.action.actionID, VDA5050::EActionStatus::Failed, reason, {}};
 }
 

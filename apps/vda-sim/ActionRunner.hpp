@@ -14,19 +14,18 @@
 namespace ACS::VdaSim
 {
 
-/// How an action ended, or why it cannot begin.
+/// Result of an action.
 struct ActionOutcome
 {
     std::string actionID;
     VDA5050::EActionStatus status = VDA5050::EActionStatus::Finished;
     std::string result;
-    std::optional<VDA5050::VehicleError> error; ///< Of one that failed by a fault.
+    std::optional<VDA5050::VehicleError> error; ///< If it failed because of a fault.
 
     bool operator==(const ActionOutcome&) const = default;
 };
 
-/// Performs actions in simulated time, each in the time that its type takes: those of loads by the load handling device. Knows
-/// whether the vehicle charges.
+/// Performs actions, each for the duration of its type in simulated time; pick and drop use the load handling device.
 class ActionRunner
 {
 public:
@@ -39,7 +38,7 @@ private:
     {
         VDA5050::Action action;
         double secondsLeft = 0.0;                     ///< Infinite: until it is triggered.
-        std::optional<VDA5050::VehicleError> failure; ///< It fails at its end with this.
+        std::optional<VDA5050::VehicleError> failure; ///< Its result instead of success.
         bool bPaused = false;
     };
 
@@ -49,28 +48,28 @@ private:
     bool _bCharging = false;
 
 public:
-    /// Duration of actions of a type, where it is not as above: seconds of simulated time by actionType. That of `pick` and
-    /// `drop` applies to those that mean them at this make.
+    /// Durations that differ from those above: seconds of simulated time by actionType. Those of `pick` and `drop` apply to
+    /// the vehicle's own actionTypes for pick and drop.
     ActionRunner(std::map<std::string, double, std::less<>> seconds, LoadDevice device);
 
-    /// Begins; the empty text, or why it cannot. With a failure it ends with that instead of doing its work.
+    /// Begins the action. Returns an empty text, or why it cannot begin. With a failure the action ends with that failure.
     [[nodiscard]] std::string Start(
         const VDA5050::Action& action,
         bool bAtCharger,
         std::optional<VDA5050::VehicleError> failureOrNull = {});
-    /// What every waitForTrigger waits for; how many there were.
+    /// Ends every waitForTrigger. Returns the number of them.
     std::size_t Trigger();
-    /// False where no such action runs.
+    /// False if no such action runs.
     [[nodiscard]] bool TryPause(std::string_view actionID);
     [[nodiscard]] bool TryResume(std::string_view actionID);
-    /// Ends it before its time: by a cancel, or because its edge has come to its end, up to where an object may have been
-    /// looked for. Nothing where no such action runs.
+    /// Ends the action early: on a cancel, or at the end of its edge, where detectObject finishes and others fail. Nullopt if
+    /// no such action runs.
     [[nodiscard]] std::optional<ActionOutcome> StopOrNull(std::string_view actionID, bool bEdgeEnded);
 
-    /// Lets the time pass, and appends what ended.
+    /// Advances the simulated time and appends the actions that ended.
     void Advance(double seconds, std::vector<ActionOutcome>& out);
 
-    /// The vehicle leaves its place: contacts open.
+    /// The vehicle leaves its place: charging ends.
     void Undock();
 
     [[nodiscard]] bool IsBusy() const noexcept;

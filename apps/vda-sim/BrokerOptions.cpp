@@ -13,7 +13,7 @@ namespace ACS::VdaSim
 namespace
 {
 
-std::string TakeMqttVersion(const std::string& text, VDA5050::EMqttVersion& version)
+std::string ReadMqttVersion(const std::string& text, VDA5050::EMqttVersion& version)
 {
     if (text != "3.1.1" && text != "5")
     {
@@ -23,7 +23,7 @@ std::string TakeMqttVersion(const std::string& text, VDA5050::EMqttVersion& vers
     return {};
 }
 
-std::string TakeQosProfile(const std::string& text, VDA5050::QosTable& qos)
+std::string ReadQosProfile(const std::string& text, VDA5050::QosTable& qos)
 {
     if (text != "project" && text != "standard")
     {
@@ -33,24 +33,24 @@ std::string TakeQosProfile(const std::string& text, VDA5050::QosTable& qos)
     return {};
 }
 
-/// Told at the start, and not at each attempt to connect.
-std::string TakeFile(const std::string& path, std::string& file)
+/// Checks the file at the start, so that an unreadable one is not reported at each attempt to connect.
+std::string ReadPath(const std::string& path, std::string& file)
 {
     const tl::expected<std::string, std::string> text = Apps::ReadTextFile(path);
     if (!text.has_value())
     {
-        return fmt::format("{} cannot be read: {}", path, text.error());
+        return fmt::format("cannot read {}: {}", path, text.error());
     }
     file = path;
     return {};
 }
 
-std::string TakePassword(const std::string& path, std::string& password)
+std::string ReadPassword(const std::string& path, std::string& password)
 {
     const tl::expected<std::string, std::string> text = Apps::ReadTextFile(path);
     if (!text.has_value())
     {
-        return fmt::format("{} cannot be read: {}", path, text.error());
+        return fmt::format("cannot read {}: {}", path, text.error());
     }
     password = text->substr(0, text->find_first_of("\r\n"));
     return password.empty() ? fmt::format("{} has no password in its first line", path) : std::string();
@@ -63,15 +63,15 @@ void AddBrokerOptions(CLI::App& app, BrokerOptions& options)
     Apps::AddTextOption(
         app,
         "--mqtt",
-        [&options](const std::string& text) { return TakeMqttVersion(text, options.version); },
+        [&options](const std::string& text) { return ReadMqttVersion(text, options.version); },
         "MQTT version: 3.1.1 or 5")
         .default_str("3.1.1");
     Apps::AddTextOption(
         app,
         "--qos",
-        [&options](const std::string& text) { return TakeQosProfile(text, options.qos); },
-        "qualities of service: project (order and instantActions 2, state and connection 1, else 0) or standard "
-        "(connection 1, else 0)")
+        [&options](const std::string& text) { return ReadQosProfile(text, options.qos); },
+        "QoS profile: project (order and instantActions 2, state and connection 1, others 0) or standard (connection 1, "
+        "others 0)")
         .default_str("project");
     Apps::AddTextOption(
         app,
@@ -80,28 +80,31 @@ void AddBrokerOptions(CLI::App& app, BrokerOptions& options)
             options.username = text;
             return std::string();
         },
-        "user of the broker, for all vehicles")
+        "MQTT user name of all vehicles (default: none)")
         .type_name("NAME");
     Apps::AddTextOption(
         app,
         "--password-file",
-        [&options](const std::string& path) { return TakePassword(path, options.password); },
-        "a file whose first line is the password of --user")
+        [&options](const std::string& path) { return ReadPassword(path, options.password); },
+        "File with the password of --user in its first line")
         .type_name("FILE");
     const auto addFile = [&app](const std::string& name, std::string& file, const std::string& help) {
         Apps::AddTextOption(
             app,
             name,
-            [&file](const std::string& path) { return TakeFile(path, file); },
+            [&file](const std::string& path) { return ReadPath(path, file); },
             help)
             .type_name("FILE.pem");
     };
     addFile(
         "--tls-ca",
         options.tls.caFile,
-        "whose certificates a broker at mqtts may show; by default the system's CAs");
-    addFile("--tls-certificate", options.tls.certFile, "the vehicles' certificate, where the broker asks for one");
-    addFile("--tls-key", options.tls.keyFile, "the key of --tls-certificate, without a passphrase");
+        "CA certificates that verify a broker at mqtts (default: the system's CAs)");
+    addFile(
+        "--tls-certificate",
+        options.tls.certFile,
+        "Client certificate of the vehicles, for a broker that requires one");
+    addFile("--tls-key", options.tls.keyFile, "Private key of --tls-certificate, without a passphrase");
 }
 
 std::string CheckBrokerOptions(const BrokerOptions& options, Apps::EUrlScheme scheme)

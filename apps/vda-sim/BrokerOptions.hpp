@@ -10,7 +10,7 @@
 namespace ACS::VdaSim
 {
 
-/// How the vehicles speak to the broker, beside its address.
+/// Settings of the connections to the broker, except its address.
 struct BrokerOptions
 {
     VDA5050::EMqttVersion version = VDA5050::EMqttVersion::Version311;
@@ -23,7 +23,7 @@ struct BrokerOptions
 /// --mqtt, --qos, --user, --password-file, --tls-ca, --tls-certificate and --tls-key. The target must outlive parsing.
 void AddBrokerOptions(CLI::App& app, BrokerOptions& options);
 
-/// What does not go together, or nothing.
+/// Which options contradict each other; empty if none do.
 [[nodiscard]] std::string CheckBrokerOptions(const BrokerOptions& options, Apps::EUrlScheme scheme);
 
 } // namespace ACS::VdaSim

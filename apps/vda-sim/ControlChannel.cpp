@@ -49,14 +49,16 @@ void ControlChannel::OnLinkUp()
 
 void ControlChannel::OnLinkDown(std::error_code /*reason*/)
 {
-    // The link says so itself, and connects again.
+    // The link logs it and reconnects.
 }
 
 void ControlChannel::OnMqttMessage(const VDA5050::MqttMessage& message)
 {
     if (message.bRetained)
     {
-        _logger.Warning("a retained command is ignored: it would come again at each start", {{"topic", message.topic}});
+        _logger.Warning(
+            "a retained command is ignored: it would be executed at each start",
+            {{"topic", message.topic}});
         return;
     }
     const VDA5050::MqttMessage answer{

@@ -13,8 +13,8 @@
 namespace ACS::VdaSim
 {
 
-/// Commands over MQTT, on a connection of its own: each message on the topic is handed over, and what comes back is
-/// published on TOPIC/result. One thread: the executor's.
+/// Receives commands over MQTT, on its own connection: passes each message on the topic to the handler and publishes the
+/// answer on TOPIC/result. One thread: the executor's.
 class ControlChannel final : public VDA5050::IMqttLinkListener
 {
 public:
@@ -38,7 +38,7 @@ public:
         std::string topic,
         CommandHandler onCommand);
 
-    /// Begins to connect; the handler is called each time that commands can come.
+    /// Begins to connect; the handler is called after each subscription.
     void Start(ConnectedHandler onConnected);
 
     void StopAsync(std::function<void()> onStopped);

@@ -6,7 +6,7 @@
 namespace ACS::VdaSim
 {
 
-/// The beginning of a peer's text, as much as a log line repeats: at most 200 bytes, whole UTF-8 characters.
+/// Truncates a peer's text for a log line: at most 200 bytes, whole UTF-8 characters.
 [[nodiscard]] inline std::string_view CutForLog(std::string_view text)
 {
     constexpr std::size_t MOST = 200;

@@ -34,7 +34,7 @@ constexpr Apps::ValueEnumNames<EEmergencyStop, 3> EMERGENCY_STOPS{
     {{"AUTOACK", EEmergencyStop::AutoAcknowledge},
      {"MANUAL", EEmergencyStop::Manual},
      {"REMOTE", EEmergencyStop::Remote}}};
-/// AUTOMATIC is no fault: the end of one brings it back.
+/// AUTOMATIC is not a fault: the mode returns to it when the fault ends.
 constexpr Apps::ValueEnumNames<EOperatingMode, 4> MODES{
     {{"MANUAL", EOperatingMode::Manual},
      {"SERVICE", EOperatingMode::Service},
@@ -130,29 +130,45 @@ constexpr std::array<Apps::FaultParameter<Fault>, 19> PARAMETERS{
       }}}};
 
 constexpr std::array<Apps::FaultRow<Fault>, 12> ROWS{
-    {{EFaultKind::Drop, "drop", "will", "the connection breaks; will=no: the broker is not told, ONLINE stays"},
-     {EFaultKind::Silence, "silence", "topic", "connected, but nothing is published; with topic: nothing on that one"},
-     {EFaultKind::Stuck, "stuck", "error level", "stands at once and says nothing of why, unless error names a type"},
+    {{EFaultKind::Drop,
+      "drop",
+      "will",
+      "the connection breaks; with will=no without the last will, so that ONLINE stays"},
+     {EFaultKind::Silence,
+      "silence",
+      "topic",
+      "stays connected, but publishes nothing; with topic: nothing on that topic"},
+     {EFaultKind::Stuck,
+      "stuck",
+      "error level",
+      "stops at once without an error; with error: with an error of that type"},
      {EFaultKind::Blocked,
       "blocked",
       "swerve",
-      "an obstacle: brakes, fieldViolation; passes where a corridor has room"},
+      "an obstacle: brakes, fieldViolation=true; with swerve it passes if a corridor has room"},
      {EFaultKind::Lost, "lost", "", "loses its position: brakes, positionInitialized=false; initPosition ends it"},
-     {EFaultKind::ActionFails, "action-fails", "type id when count error level", "the next action fails"},
-     {EFaultKind::EmergencyStop, "estop", "ack", "stands hard, eStop says who has to acknowledge"},
-     {EFaultKind::Mode, "mode", "mode", "another operating mode, by default MANUAL"},
-     {EFaultKind::Battery, "battery", "charge", "sets the charge, by default to 10 %; below 15 % batteryLow", true},
+     {EFaultKind::ActionFails, "action-fails", "type id when count error level", "the next action fails at its end"},
+     {EFaultKind::EmergencyStop, "estop", "ack", "emergency stop: brakes hard, actions stop, eStop is MANUAL or ack"},
+     {EFaultKind::Mode, "mode", "mode", "changes the operating mode, by default to MANUAL"},
+     {EFaultKind::Battery,
+      "battery",
+      "charge",
+      "sets the charge once, by default to 10 %; below 15 % with batteryLow",
+      true},
      {EFaultKind::Refuse, "refuse", "count error level", "refuses the next order, by default with orderError"},
-     {EFaultKind::Loss, "loss", "percent topic direction", "messages vanish"},
-     {EFaultKind::Delay, "delay", "time jitter topic direction", "messages come late, none before another"}}};
+     {EFaultKind::Loss, "loss", "percent topic direction", "messages are lost, by default all"},
+     {EFaultKind::Delay,
+      "delay",
+      "time jitter topic direction",
+      "messages are delayed by time and up to jitter more, in their order"}}};
 
-/// Else the vehicle hears it.
+/// Otherwise the vehicle receives it.
 bool IsPublished(ETopic topic)
 {
     return topic != ETopic::Order && topic != ETopic::InstantActions;
 }
 
-/// A topic that the fault would never meet.
+/// Rejects a topic on which the fault has no effect.
 Core::Result<void> CheckTopic(const Fault& fault, ETopic topic)
 {
     const bool bPublished = IsPublished(topic);
@@ -172,13 +188,13 @@ Core::Result<void> CheckTopic(const Fault& fault, ETopic topic)
             fmt::format(
                 "{}: a vehicle {} the topic {}",
                 bPublished ? "out" : "in",
-                bPublished ? "publishes" : "hears",
+                bPublished ? "publishes" : "receives",
                 VDA5050::GetTopicName(topic)));
     }
     return {};
 }
 
-/// What together makes no fault, or one that could never show.
+/// Rejects combinations without effect.
 Core::Result<void> CheckWhole(Fault& fault, const std::set<std::string_view>& keys)
 {
     if (keys.contains("level") && fault.errorType.empty() && fault.kind != EFaultKind::Refuse)
@@ -186,7 +202,7 @@ Core::Result<void> CheckWhole(Fault& fault, const std::set<std::string_view>& ke
         return Core::Fail(
             Core::ECoreError::MissingField,
             fmt::format("{} level", GetFaultName(fault.kind)),
-            "error=ERRORTYPE, whose level it is");
+            "error=ERRORTYPE with the level");
     }
     if (fault.topic.has_value())
     {

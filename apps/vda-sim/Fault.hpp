@@ -16,7 +16,7 @@
 namespace ACS::VdaSim
 {
 
-/// What can go wrong with a virtual vehicle on command.
+/// Faults of a virtual vehicle.
 enum class EFaultKind : std::uint8_t
 {
     Drop,
@@ -33,7 +33,7 @@ enum class EFaultKind : std::uint8_t
     Delay,
 };
 
-/// Which messages a fault is about, as the vehicle sees them.
+/// Direction of the messages that a fault affects, seen from the vehicle.
 enum class EFaultDirection : std::uint8_t
 {
     In,
@@ -44,14 +44,14 @@ enum class EFaultDirection : std::uint8_t
 /// One fault with its parameters; docs/reference/vda-sim.md has the table of kinds. The place is a node.
 struct Fault : Apps::FaultBase<EFaultKind>
 {
-    // Each for the kinds that have it.
+    // Each applies to the kinds that have it.
     bool bWill = true;
     std::optional<VDA5050::ETopic> topic; ///< Absent: every topic.
     EFaultDirection direction = EFaultDirection::Both;
     double percent = 100.0;
     Core::Duration hold{};   ///< Delay: of each message.
-    Core::Duration jitter{}; ///< Delay: up to this much more.
-    double swerve = 0.0;     ///< Blocked: m that the vehicle has to leave its way to pass; 0: it cannot.
+    Core::Duration jitter{}; ///< Delay: maximum random addition.
+    double swerve = 0.0;     ///< Blocked: m beside the route that the vehicle needs to pass; 0: it cannot pass.
     std::string actionType;  ///< ActionFails: empty: any.
     std::string actionID;
     bool bAtStart = false;
@@ -68,7 +68,7 @@ using FaultBoard = Apps::FaultBoard<Fault>;
 using FaultChange = Apps::FaultChange<Fault>;
 using FaultChanges = std::vector<FaultChange>;
 
-/// How the faults of a vehicle are written.
+/// Grammar of the faults of a vehicle.
 [[nodiscard]] const Apps::FaultGrammar<Fault>& GetFaultGrammar();
 
 /// "stuck", "action-fails", …

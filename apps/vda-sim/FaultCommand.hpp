@@ -8,7 +8,7 @@ namespace ACS::VdaSim
 
 using Apps::EFaultVerb;
 
-/// Its targets are vehicles; "VEHICLES trigger" is what a waitForTrigger waits for.
+/// Its targets are vehicles; "VEHICLES trigger" ends a waitForTrigger.
 using FaultCommand = Apps::FaultCommand<Fault>;
 
 } // namespace ACS::VdaSim

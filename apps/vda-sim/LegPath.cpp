@@ -41,7 +41,7 @@ LegPath::LegPath(const std::vector<MapPoint>& points)
         }
         else if (_samples.size() > 1)
         {
-            _samples.back().point = point; // the last word is the end's: it is met exactly
+            _samples.back().point = point; // so that the path ends exactly at the last point
         }
     }
     for (std::size_t i = 1; i + 1 < _samples.size(); ++i)
@@ -60,7 +60,7 @@ LegPath LegPath::Create(const MapPoint& from, const MapPoint& to, const std::opt
     if (curveOrNull.has_value())
     {
         const std::vector<MapPoint> curve = NurbsCurve(*curveOrNull).Sample(SPACING, MAX_SAMPLES);
-        // Where the vehicle has left the beginning already, it joins the curve behind the nearest place.
+        // A vehicle that is past the beginning joins the curve after the nearest point.
         const auto nearest =
             std::ranges::min_element(curve, {}, [&from](const MapPoint& point) { return GetDistance(from, point); });
         points.insert(points.end(), std::next(nearest), curve.end());
@@ -102,7 +102,7 @@ double LegPath::GetAllowedSpeed(double way, double deceleration) const
     const Sample& next = _samples[FindSegment(way) + 1];
     const double left = std::max(next.way - way, 0.0);
     const double braked = std::sqrt(next.maxSpeed * next.maxSpeed + 2.0 * deceleration * left);
-    // Between two samples of a bend it goes on; beside a corner the way is straight.
+    // A bend continues between two of its samples; beside a corner the path is straight.
     return std::min(braked, std::max(last.bendSpeed, next.bendSpeed));
 }
 

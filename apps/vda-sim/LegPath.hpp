@@ -9,7 +9,7 @@
 namespace ACS::VdaSim
 {
 
-/// The way of one leg, measured along itself: a straight line, or the samples of a curve. Pure.
+/// Path of one leg, by distance from its beginning: a straight line, or the samples of a curve. Pure.
 class LegPath
 {
     struct Sample
@@ -24,17 +24,17 @@ class LegPath
     std::vector<Sample> _samples; ///< At least one; no two at the same place.
 
 public:
-    /// No two points at the same place are needed, and none are kept.
+    /// Drops consecutive points at the same place.
     explicit LegPath(const std::vector<MapPoint>& points);
 
-    /// From the first point to the last; along the curve where there is one.
+    /// From the first point to the last; along the curve if there is one.
     [[nodiscard]] static LegPath Create(
         const MapPoint& from,
         const MapPoint& to,
         const std::optional<VDA5050::Trajectory>& curveOrNull);
 
-    /// What GetAllowedSpeed then respects: the turn speed and the lateral acceleration in bends, but never less than the
-    /// corner speed, and the exit speed at the end, reached with the deceleration.
+    /// Computes the limits of GetAllowedSpeed: in bends from the turn speed and the lateral acceleration, but never less than
+    /// the corner speed; towards the end from the exit speed and the deceleration.
     void Plan(double turnSpeed, double lateralAcceleration, double cornerSpeed, double deceleration, double exitSpeed);
 
     /// m/s; after Plan.
@@ -42,7 +42,7 @@ public:
 
     [[nodiscard]] double GetLength() const;
     [[nodiscard]] MapPoint GetPoint(double way) const;
-    /// rad; nothing where the path has no length.
+    /// rad; nullopt if the path has no length.
     [[nodiscard]] std::optional<double> GetDirectionOrNull(double way) const;
     [[nodiscard]] std::size_t CountSamples() const;
 

@@ -16,7 +16,7 @@ constexpr std::string_view KEY_STATION = "stationName";
 constexpr std::string_view KEY_LOAD = "loadId";
 constexpr std::string_view KEY_LOAD_TYPE = "loadType";
 constexpr std::string_view KEY_POSITION = "lhd";
-constexpr std::string_view NO_STATION = "no station is named, and here is not exactly one";
+constexpr std::string_view NO_STATION = "the action names no station, and the node does not belong to exactly one";
 
 } // namespace
 
@@ -108,19 +108,19 @@ std::string LoadDevice::PickUp(const VDA5050::Action& action)
     }
     if (!load.loadID->empty() && std::ranges::find(_loads, load.loadID, &VDA5050::Load::loadID) != _loads.end())
     {
-        return "this load is on board already";
+        return "this load is already on board";
     }
-    // The place that is named, else the first free one.
+    // The named position, else the first free one.
     const auto place = std::ranges::find_if(_positions, [&](const LoadPosition& position) {
         return load.loadPosition.empty() ? IsFree(position.name) : position.name == load.loadPosition;
     });
     if (place == _positions.end())
     {
-        return load.loadPosition.empty() ? "there is no free place for a load" : "there is no such place for a load";
+        return load.loadPosition.empty() ? "no free load position" : "no such load position";
     }
     if (!IsFree(place->name))
     {
-        return "there is a load in this place already";
+        return "this load position is occupied";
     }
     if (_worldOrNull != nullptr)
     {
@@ -144,7 +144,7 @@ std::string LoadDevice::PutDown(const VDA5050::Action& action)
     {
         return unreadable;
     }
-    // The load that is named, else the one in the place that is named, else the last one.
+    // The named load, else the one in the named position, else the last one.
     const VDA5050::Load wanted = MakeLoad(action);
     auto found = std::ranges::find_if(_loads, [&wanted](const VDA5050::Load& load) {
         return !wanted.loadID->empty() ? load.loadID == wanted.loadID : load.loadPosition == wanted.loadPosition;
@@ -161,7 +161,7 @@ std::string LoadDevice::PutDown(const VDA5050::Action& action)
     {
         if (!wanted.loadPosition.empty() && found->loadPosition != wanted.loadPosition)
         {
-            return "this load is in another place on board";
+            return "this load is in another load position";
         }
         const auto place = std::ranges::find(_positions, found->loadPosition, &LoadPosition::name);
         std::string failure = Move(found->loadID.value_or(""), GetPort(*place), GetStation(action));

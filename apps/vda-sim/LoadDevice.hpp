@@ -12,9 +12,8 @@
 namespace ACS::VdaSim
 {
 
-/// The load handling device of a vehicle: what is on board, and how it comes there. Over a world it moves the carriers of that,
-/// between the stations at which the vehicle is docked and the vehicle's ports; without one every pick and drop finds what it
-/// asks for.
+/// The load handling device of a vehicle and the loads on board. With a world it moves the world's carriers between the
+/// stations at which the vehicle is docked and the vehicle's ports; without one every pick and drop finds its load.
 class LoadDevice
 {
     std::string _robotID;
@@ -32,14 +31,14 @@ public:
     [[nodiscard]] bool IsPick(std::string_view actionType) const;
     [[nodiscard]] bool IsDrop(std::string_view actionType) const;
 
-    /// The work of a pick or a drop: the empty text, or why it failed; nothing has moved then.
+    /// Performs a pick or a drop. Returns an empty text, or why it failed; nothing has moved then.
     [[nodiscard]] std::string PickUp(const VDA5050::Action& action);
     [[nodiscard]] std::string PutDown(const VDA5050::Action& action);
 
-    /// The vehicle stands at the dock of these stations; none: it has left. The error is the world's.
+    /// The vehicle is docked at these stations; empty: it has left. The error is the world's.
     [[nodiscard]] Core::Result<void> Dock(std::vector<std::string> stationIDs);
 
-    /// Sees in the world what is on board.
+    /// Reads the loads on board from the world.
     void UpdateLoads();
     [[nodiscard]] const std::vector<VDA5050::Load>& GetLoads() const noexcept;
 
@@ -48,9 +47,9 @@ private:
     [[nodiscard]] VDA5050::Load MakeLoad(const VDA5050::Action& action) const;
     [[nodiscard]] bool IsFree(std::string_view position) const;
     [[nodiscard]] std::string GetPort(const LoadPosition& position) const;
-    /// Sees in the world what is on board; why it cannot be read, or the empty text.
+    /// Reads the loads on board from the world. Returns an empty text, or why the world cannot be read.
     [[nodiscard]] std::string ReadWorld();
-    /// The station that the action names, else the only one here; empty: neither.
+    /// The station that the action names, else the only one at this node; empty if there is neither.
     [[nodiscard]] std::string GetStation(const VDA5050::Action& action) const;
     [[nodiscard]] std::string Move(std::string carrierID, std::string from, std::string to);
 };

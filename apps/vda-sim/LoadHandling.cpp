@@ -26,7 +26,7 @@ struct TypeWord
     EValueDataType type;
 };
 
-/// Those that a place or a load can be named by.
+/// Types that can express a place or a load.
 constexpr std::array TYPE_WORDS{
     TypeWord{"STRING", EValueDataType::String},
     TypeWord{"NUMBER", EValueDataType::Number},
@@ -83,7 +83,7 @@ Core::Result<bool> ReadActionType(std::string_view key, std::string_view value, 
 {
     if (!IsName(value) || (value != key && VDA5050::FindPredefinedActionOrNull(value) != nullptr))
     {
-        return Refuse(key, "an actionType that the standard does not use otherwise", value);
+        return Refuse(key, "an actionType without another meaning in the standard", value);
     }
     type = std::string(value);
     return true;
@@ -104,7 +104,7 @@ Core::Result<bool> ReadParameter(std::string_view key, std::string_view value, L
     }
     if (!IsName(form.name) && !value.empty())
     {
-        return Refuse(key, "the parameter's name at this make, or nothing where it has none", value);
+        return Refuse(key, "the vehicle's name of the parameter, or nothing if it is not supported", value);
     }
     handling.parameters.insert_or_assign(std::string(key), std::move(form));
     return true;
@@ -176,7 +176,7 @@ Core::Result<void> CheckHandling(EVehicleType type, const LoadHandling& handling
     {
         if (!names.insert(position.name).second)
         {
-            return Refuse("load", "a name of its own for each port", position.name);
+            return Refuse("load", "a different name for each port", position.name);
         }
     }
     for (const auto& [port, name] : handling.positions)
@@ -188,14 +188,14 @@ Core::Result<void> CheckHandling(EVehicleType type, const LoadHandling& handling
     }
     if (handling.pickType == handling.dropType)
     {
-        return Refuse("drop", "another actionType than that of pick", handling.dropType);
+        return Refuse("drop", "an actionType that differs from that of pick", handling.dropType);
     }
     std::set<std::string> keys;
     for (const VDA5050::AgvActionParameter& parameter : AdaptAction(GetPick(), handling).actionParameters)
     {
         if (!keys.insert(parameter.key).second)
         {
-            return Refuse(parameter.key, "a name of its own for each parameter", parameter.key);
+            return Refuse(parameter.key, "a different name for each parameter", parameter.key);
         }
     }
     return {};

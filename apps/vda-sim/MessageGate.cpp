@@ -57,7 +57,7 @@ void MessageGate::Pass(
     const auto isMine = [&](const Fault& fault) {
         return IsOn(fault, topic) && (fault.direction == EFaultDirection::Both || fault.direction == _direction);
     };
-    // A vehicle that hangs says nothing more; that it is connected was said before.
+    // The connection message was sent before the vehicle fell silent.
     const bool bSilent = _direction == EFaultDirection::Out && topic != VDA5050::ETopic::Connection
         && faults.FindOrNull(EFaultKind::Silence, isMine) != nullptr;
     const Fault* const loss = faults.FindOrNull(EFaultKind::Loss, isMine);

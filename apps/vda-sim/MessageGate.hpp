@@ -13,12 +13,11 @@
 namespace ACS::VdaSim
 {
 
-/// One direction of a vehicle's messages: lets them through, loses them or holds them back, as the faults say. None
-/// overtakes another. Pure.
+/// Applies the faults to one direction of a vehicle's messages: passes, drops or delays them. Keeps their order. Pure.
 class MessageGate
 {
 public:
-    /// What is held back at most; what comes then is lost, as where the buffers of a network are full.
+    /// Limits of the delayed messages; further ones are lost, like those that find the buffers of a network full.
     static constexpr std::size_t MAX_MESSAGES = 10'000;
     static constexpr std::size_t MAX_BYTES = 16U * 1024U * 1024U;
 
@@ -37,7 +36,7 @@ private:
 public:
     explicit MessageGate(EFaultDirection direction);
 
-    /// Appends the message to out where it goes through at once.
+    /// Appends the message to out if it is not dropped or delayed.
     void Pass(
         VDA5050::MqttMessage message,
         const FaultBoard& faults,
@@ -45,16 +44,16 @@ public:
         Core::SteadyTime now,
         std::vector<VDA5050::MqttMessage>& out);
 
-    /// Appends what was held back long enough.
+    /// Appends the messages whose delay is over.
     void Release(Core::SteadyTime now, std::vector<VDA5050::MqttMessage>& out);
 
-    /// When Release has something to do next.
+    /// When Release is next due; nullopt if nothing is delayed.
     [[nodiscard]] std::optional<Core::SteadyTime> GetNextTimeOrNull() const;
 
-    /// How many were lost for want of room since the last call.
+    /// Number of messages lost at the limits since the last call.
     [[nodiscard]] std::size_t TakeOverflow() noexcept;
 
-    /// The connection is gone, and with it what was on its way.
+    /// The connection is lost, and the delayed messages with it.
     void Clear();
 };
 

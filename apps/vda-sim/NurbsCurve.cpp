@@ -64,7 +64,7 @@ MapPoint NurbsCurve::GetPoint(double parameter) const
         }
     }
     const Weighted& result = points[_degree];
-    // Weights of nothing but zero leave no point: the last control point is as good as any.
+    // With zero weights alone the point is undefined: use the last control point.
     return result.weight > 0.0 ? MapPoint{result.x / result.weight, result.y / result.weight}
                                : MapPoint{_points.back().x, _points.back().y};
 }
@@ -98,7 +98,7 @@ std::vector<MapPoint> NurbsCurve::Sample(double spacing, std::size_t maxPoints) 
     const std::vector<double> spans = FindSpans(maxPoints - 1);
     std::vector<MapPoint> samples{GetPoint(spans.front())};
     const std::size_t limit = (maxPoints - 1) / std::max<std::size_t>(1, spans.size() - 1);
-    // A first look, coarse, at how long each span is; not where it leads straight to the next corner.
+    // Estimate the length of each span coarsely, except where it leads straight to the next corner.
     constexpr std::size_t MAX_LOOKS = 8;
     const std::size_t looks = _degree <= 1 ? 0 : std::min(limit, MAX_LOOKS);
     for (std::size_t i = 1; i < spans.size(); ++i)

@@ -32,20 +32,20 @@ class NurbsCurve
     std::vector<Weighted> _points; ///< x and y times the weight.
 
 public:
-    /// The trajectory is one that ValidateOrder found right.
+    /// The trajectory has passed ValidateOrder.
     explicit NurbsCurve(const VDA5050::Trajectory& trajectory);
 
-    /// The point at the parameter, from GetBegin to GetEnd; beyond them it is the nearest end.
+    /// The point at the parameter, which is clamped to GetBegin and GetEnd.
     [[nodiscard]] MapPoint GetPoint(double parameter) const;
     [[nodiscard]] double GetBegin() const;
     [[nodiscard]] double GetEnd() const;
 
-    /// Points along the curve, its ends among them, about `spacing` metres apart, and no more than the limit, two or more:
-    /// also of work. Its knots are among them, and a curve of degree 1 is its corners, where the limit leaves room.
+    /// Points along the curve, about `spacing` metres apart, both ends included. At most `maxPoints`, which is two or more
+    /// and bounds the work too. If the limit allows, the knots are included; a curve of degree 1 gives its corners.
     [[nodiscard]] std::vector<MapPoint> Sample(double spacing, std::size_t maxPoints) const;
 
 private:
-    /// The places of the knots, each once; so few that there are no more spans between them than the limit.
+    /// The distinct knots, reduced so that at most `maxSpans` spans are between them.
     [[nodiscard]] std::vector<double> FindSpans(std::size_t maxSpans) const;
     [[nodiscard]] std::size_t FindSpan(double parameter) const;
 };

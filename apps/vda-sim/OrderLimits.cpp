@@ -20,7 +20,7 @@ using VDA5050::OrderEdge;
 using VDA5050::OrderNode;
 using VDA5050::OrderViolation;
 
-/// The first rules that an order breaks; nobody mends one by more of them.
+/// The first rules that an order breaks; further ones do not help to correct it.
 class Findings
 {
     static constexpr std::size_t MOST = 16;
@@ -68,12 +68,12 @@ void CheckPlaces(const VDA5050::OrderMessage& order, const Planning::SiteMap& si
     for (std::size_t index = 0; index < order.nodes.size(); ++index)
     {
         const OrderNode& node = order.nodes[index];
-        // On the first one the vehicle stands, or will: it is where an order begins and an update goes on.
+        // The vehicle is on the first node, or drives to it: an order begins there and an update continues there.
         if (!node.nodePosition.has_value() && index > 0 && site.FindNodeOrNull(node.nodeID) == nullptr)
         {
             findings.Add(
                 VDA5050::ErrorTypes::NO_ROUTE_ERROR,
-                "the vehicle does not know this node, and the order does not say where it is",
+                "this node is not on the site, and the order does not contain its position",
                 {{"nodeId", node.nodeID}, {"parameter", "order.nodes.nodePosition"}});
         }
         if (node.nodePosition.has_value() && !IsInReach(site, node.nodePosition->x, node.nodePosition->y))

@@ -32,7 +32,7 @@ namespace ACS::VdaSim
 namespace
 {
 
-/// The vehicles of one process, how many are connected or gone, and what is commanded to them.
+/// The vehicles of one process, their connections and the commands to them.
 class Fleet
 {
     struct Member
@@ -69,7 +69,7 @@ public:
           _seed(options.seed.has_value() ? *options.seed : _random.GetNext()),
           _worldWatch(
               worldOrNull == nullptr ? std::nullopt : std::optional<WorldWatch>(std::in_place, *worldOrNull, _logger)),
-          _worldTimer(_context.get_executor(), [this](int /*key*/) { FollowWorld(); })
+          _worldTimer(_context.get_executor(), [this](int /*key*/) { PollWorld(); })
     {
         if (!_options->controlTopic.empty())
         {
@@ -122,9 +122,7 @@ public:
             const std::string result = Apply(command);
             if (!result.starts_with("ok: "))
             {
-                _logger.Warning(
-                    "a fault is not as it may be meant",
-                    {{"fault", command.fault.text}, {"result", result}});
+                _logger.Warning("a fault may not take effect", {{"fault", command.fault.text}, {"result", result}});
             }
         }
         for (std::size_t i = 0; i < _members.size(); ++i)
@@ -137,14 +135,14 @@ public:
         }
         if (_worldWatch.has_value())
         {
-            FollowWorld();
+            PollWorld();
         }
         _context.run();
     }
 
 private:
-    /// What other programs and people have changed on the floor shows in the states soon.
-    void FollowWorld()
+    /// Updates the states after changes of the world by other programs.
+    void PollWorld()
     {
         constexpr std::chrono::milliseconds INTERVAL{500};
         if (_worldWatch->HasChanged())
@@ -183,7 +181,7 @@ private:
         }
     }
 
-    /// The answer to a message on the control topic.
+    /// Returns the answer to a message on the control topic.
     [[nodiscard]] std::string Command(std::string_view text)
     {
         return Apps::AnswerCommands<Fault>(GetFaultGrammar(), text, _logger, [this](const FaultCommand& command) {
@@ -191,7 +189,7 @@ private:
         });
     }
 
-    /// One line that says what was done.
+    /// Returns one line with the result.
     [[nodiscard]] std::string Apply(const FaultCommand& command)
     {
         std::size_t vehicles = 0;
@@ -206,7 +204,10 @@ private:
         }
         if (vehicles == 0)
         {
-            return fmt::format("error: no vehicle is called {}; {} is one", command.targets, _members.front().name);
+            return fmt::format(
+                "error: no vehicle {}; one of the vehicles is {}",
+                command.targets,
+                _members.front().name);
         }
         if (command.verb != EFaultVerb::Begin)
         {
@@ -216,7 +217,7 @@ private:
         if (count < vehicles)
         {
             return fmt::format(
-                "error: {} of {} vehicles have {} faults already",
+                "error: {} of {} vehicles already have {} faults",
                 vehicles - count,
                 vehicles,
                 FaultBoard::MAX_FAULTS);
@@ -225,7 +226,7 @@ private:
         if (!nodeID.empty() && _site->FindNodeOrNull(nodeID) == nullptr)
         {
             return fmt::format(
-                "warning: vehicles={} {}; the site has no node {}: it begins only where an order brings it along",
+                "warning: vehicles={} {}; the site has no node {}: the fault begins only if an order contains that node",
                 vehicles,
                 command.fault.text,
                 nodeID);
@@ -233,7 +234,7 @@ private:
         return fmt::format("ok: vehicles={} {}", vehicles, command.fault.text);
     }
 
-    /// How many faults it took or ended, or actions.
+    /// Returns the number of faults begun or ended, or of actions triggered.
     [[nodiscard]] static std::size_t ApplyTo(VehicleRunner& runner, const FaultCommand& command)
     {
         switch (command.verb)
@@ -270,9 +271,9 @@ private:
     }
 };
 
-int Refuse(const std::string& mistake)
+int Refuse(const std::string& error)
 {
-    Apps::PrintError("vda-sim", mistake);
+    Apps::PrintError("vda-sim", error);
     return Apps::EXIT_BAD_COMMAND_LINE;
 }
 

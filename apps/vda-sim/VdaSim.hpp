@@ -5,7 +5,7 @@
 namespace ACS::VdaSim
 {
 
-/// Runs the vehicles until SIGINT or SIGTERM; each then says OFFLINE. Returns the exit code.
+/// Runs the vehicles until SIGINT or SIGTERM; each then publishes OFFLINE. Returns the exit code.
 [[nodiscard]] int RunVdaSim(const VdaSimOptions& options);
 
 } // namespace ACS::VdaSim

@@ -24,7 +24,7 @@ namespace ACS::VdaSim
 namespace
 {
 
-// The readers return what is wrong with a value, or nothing.
+// The readers return an empty text, or what is wrong with the value.
 
 constexpr const char* PROGRAM = "vda-sim";
 constexpr std::size_t MAX_VEHICLES = 10'000;
@@ -33,7 +33,7 @@ std::string AddVehicle(VehicleSpec spec, std::vector<VehicleSpec>& vehicles)
 {
     if (std::ranges::find(vehicles, spec.name, &VehicleSpec::name) != vehicles.end())
     {
-        return fmt::format("the vehicle {} is there twice", spec.name);
+        return fmt::format("vehicle {} is given twice", spec.name);
     }
     vehicles.push_back(std::move(spec));
     return {};
@@ -49,7 +49,7 @@ std::string Read(Core::Result<TValue> value, TStore store)
     return store(std::move(*value));
 }
 
-/// What a --count, its --prefix and its --type make.
+/// Vehicles of --count, --prefix and --type.
 struct VehicleRow
 {
     std::size_t count = 0;
@@ -64,16 +64,16 @@ std::string AddVehicles(const VehicleRow& row, std::vector<VehicleSpec>& vehicle
         VehicleSpec spec;
         spec.name = MakeVehicleName(row.prefix, number, row.count);
         spec.type = row.type;
-        std::string mistake = AddVehicle(std::move(spec), vehicles);
-        if (!mistake.empty())
+        std::string error = AddVehicle(std::move(spec), vehicles);
+        if (!error.empty())
         {
-            return mistake + "; give --count another --prefix";
+            return error + "; give --count another --prefix";
         }
     }
-    return vehicles.empty() ? "there are no vehicles: give --vehicle NAME or --count N" : "";
+    return vehicles.empty() ? "no vehicles: give --vehicle NAME or --count N" : "";
 }
 
-/// Whether vehicles perform it, and not at once, as the session does with the others.
+/// Whether it is an action that a vehicle performs; the session handles the others immediately.
 bool HasDuration(std::string_view actionType)
 {
     constexpr std::array AT_ONCE{
@@ -111,7 +111,7 @@ std::string ReadActionTime(const std::string& text, std::map<std::string, double
     if (!HasDuration(actionType))
     {
         return fmt::format(
-            "no action {} of a vehicle takes time; pick, drop or startCharging do",
+            "{} is not an action with a duration; pick, drop and startCharging are",
             Core::QuoteForError(actionType));
     }
     seconds[actionType] = std::chrono::duration<double>(*duration).count();
@@ -128,7 +128,7 @@ std::string ReadControlTopic(const std::string& text, std::string& topic)
     return {};
 }
 
-/// A fault for a vehicle that is not there would be waited for in vain.
+/// A fault for an unknown vehicle would never occur.
 std::string CheckFaults(const std::vector<FaultCommand>& faults, const std::vector<VehicleSpec>& vehicles)
 {
     for (const FaultCommand& command : faults)
@@ -139,7 +139,7 @@ std::string CheckFaults(const std::vector<FaultCommand>& faults, const std::vect
         if (!bKnown)
         {
             return fmt::format(
-                "the fault '{} {}' is for no vehicle that there is; {} is one",
+                "fault '{} {}': no such vehicle; one of the vehicles is {}",
                 command.targets,
                 command.fault.text,
                 vehicles.front().name);
@@ -151,19 +151,20 @@ std::string CheckFaults(const std::vector<FaultCommand>& faults, const std::vect
 std::string MakeFooter()
 {
     return fmt::format(
-        "Faults, on the command line, in a file (a line each, # for remarks) and on the control topic:\n"
-        "  VEHICLE FAULT [KEY=VALUE]...  begins one; VEHICLE is a name, or its beginning and *\n"
-        "      at=DURATION later, node=NODEID once this node is reached, for=DURATION so long\n"
-        "  VEHICLE end [FAULT]           ends it, or all (control topic)\n"
+        "Faults, on the command line, in a file (one per line, # begins a comment) and on the control topic:\n"
+        "  VEHICLE FAULT [KEY=VALUE]...  begins a fault; VEHICLE is a name, or the beginning of names followed by *\n"
+        "      at=DURATION: begin after this time; node=NODEID: begin on arrival at this node;\n"
+        "      for=DURATION: end after this time\n"
+        "  VEHICLE end [FAULT]           ends this fault, or all faults (control topic)\n"
         "  VEHICLE trigger               ends a waitForTrigger (control topic)\n"
         "{}"
         "Example: vda-sim ... --fault 'LR01 blocked node=N045 for=10s' --fault 'LR* loss percent=5'\n"
         "         mosquitto_pub -t vda-sim/control -m 'LR01 estop for=5s'\n"
-        "docs/reference/vda-sim.md explains each.",
+        "docs/reference/vda-sim.md describes every fault.",
         Apps::MakeFaultHelp(GetFaultGrammar()));
 }
 
-/// In a world ports are named by their robot.
+/// The world file names ports by their robot.
 std::string CheckWorld(const VdaSimOptions& options)
 {
     const auto misnamed = std::ranges::find_if(options.vehicles, [](const VehicleSpec& vehicle) {
@@ -174,11 +175,11 @@ std::string CheckWorld(const VdaSimOptions& options)
         return {};
     }
     return fmt::format(
-        "--world: expected vehicles with names of robots (LR01), found {}",
+        "--world: expected vehicle names that are robot ids (LR01), found {}",
         Core::QuoteForError(misnamed->name));
 }
 
-/// A word that is to stand as one level of a topic.
+/// Reads one level of a topic.
 std::string ReadLevel(const std::string& text, std::string& level)
 {
     if (!IsPlainLevel(text))
@@ -194,7 +195,7 @@ std::string ReadLevel(const std::string& text, std::string& level)
 std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaSimOptions& options)
 {
     CLI::App app{
-        "Virtual VDA5050 vehicles: drive orders on a site, perform their actions, report over MQTT.\n"
+        "Simulates VDA5050 vehicles: they drive orders on a site, perform actions and report over MQTT.\n"
         "Example: vda-sim --broker mqtt://127.0.0.1:1883 --site site.lif.json --vehicle LR01 --vehicle CR01,type=CR",
         PROGRAM};
     app.footer(MakeFooter());
@@ -204,18 +205,18 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
         "--broker",
         options.broker,
         {Apps::EUrlScheme::Mqtt, Apps::EUrlScheme::Mqtts},
-        "MQTT broker, mqtt://HOST:PORT or mqtts://HOST:PORT; tried again until it answers")
+        "MQTT broker, mqtt://HOST:PORT or mqtts://HOST:PORT; retried until it is reachable")
         .required();
     AddBrokerOptions(app, options.link);
-    app.add_option("--site", options.sitePath, "layout of the site, a VDMA LIF 1.0 file")
+    app.add_option("--site", options.sitePath, "Layout of the site, a VDMA LIF 1.0 file")
         ->required()
         ->type_name("FILE.lif.json");
     Apps::AddFileOption(
         app,
         "--world",
         options.worldPath,
-        "world file that the simulators share (docs/reference/world.md): loads are picked and dropped only where they are; "
-        "without it every load is where an action asks for it");
+        "World file that the simulators share (docs/reference/world.md); a pick from an empty place fails then. Without it "
+        "every pick and drop finds its load (default)");
     Apps::AddRepeatedOption(
         app,
         "--vehicle",
@@ -224,21 +225,25 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
                 return AddVehicle(std::move(spec), options.vehicles);
             });
         },
-        "a vehicle: its serialNumber; type LR (default) carries cassettes, CR is the base of an arm; node is where it "
-        "stands at first, by default the dock of the charger CHG01 for the first vehicle, CHG02 for the second and so "
-        "on, else a node of the site; protocol, where it differs from --protocol; battery is its charge at first. "
-        "How it handles loads: ports=N places CP01, CP02 ... (default 4 of an LR, 0 of a CR), load=PORT:NAME the "
-        "vehicle's name of one, pick=ACTIONTYPE and drop=ACTIONTYPE, and PARAMETER=NAME[:TYPE] for parameters of pick "
-        "and drop that this make names otherwise (nothing: it has none). May be repeated")
+        "Vehicle with this serialNumber. Keys: type=LR|CR, carries cassettes or is the base of an arm (default LR); "
+        "node=NODEID, start node (default: the dock of charger CHG01 for the first vehicle, CHG02 for the second and so "
+        "on, or a node of the site if there is no such charger); protocol=VERSION (default: --protocol); "
+        "battery=PERCENT, initial charge (default 100); ports=N, number of load positions CP01, CP02 ... (default 4 for "
+        "LR, 0 for CR); load=PORT:NAME, the vehicle's name of a port; pick=ACTIONTYPE and drop=ACTIONTYPE, actions that "
+        "pick and drop; PARAMETER=NAME[:TYPE], the vehicle's name of a parameter of pick and drop (empty: not "
+        "supported). May be repeated")
         .type_name("NAME[,KEY=VALUE]...");
-    app.add_option("--count", row.count, "so many vehicles more, named by --prefix and a number: LR01, LR02, ...")
+    app.add_option(
+           "--count",
+           row.count,
+           "Number of additional vehicles, named by --prefix and a number: LR01, LR02, ... (default: none)")
         ->check(CLI::Range(std::size_t{1}, MAX_VEHICLES))
         ->type_name("N");
     Apps::AddTextOption(
         app,
         "--prefix",
         [&row](const std::string& text) { return ReadLevel(text, row.prefix); },
-        "how the names of --count begin")
+        "Prefix of the names of --count")
         .default_str(row.prefix);
     Apps::AddTextOption(
         app,
@@ -249,19 +254,19 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
                 return std::string();
             });
         },
-        "the type of the vehicles of --count: LR or CR")
+        "Type of the vehicles of --count: LR or CR")
         .default_str("LR");
     Apps::AddTextOption(
         app,
         "--manufacturer",
         [&options](const std::string& text) { return ReadLevel(text, options.manufacturer); },
-        "manufacturer in topics and headers")
+        "Manufacturer in topics and headers")
         .default_str(options.manufacturer);
     Apps::AddTextOption(
         app,
         "--interface-name",
         [&options](const std::string& text) { return ReadLevel(text, options.interfaceName); },
-        "first level of the topics")
+        "First level of the topics")
         .default_str(options.interfaceName);
     Apps::AddTextOption(
         app,
@@ -272,39 +277,39 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
                 return std::string();
             });
         },
-        "VDA5050 version: 2.0.0 or 2.1.0")
+        "VDA5050 version of vehicles without protocol=VERSION: 2.0.0 or 2.1.0")
         .default_str("2.0.0");
     Apps::AddTimeScaleOption(app, options.timeScale);
     Apps::AddRepeatedOption(
         app,
         "--action-time",
         [&options](const std::string& text) { return ReadActionTime(text, options.actionSeconds); },
-        "how long the actions of a type take, in simulated time; else pick and drop 3 s, waitForTrigger until it is "
-        "triggered, others 1 s. May be repeated")
+        "Duration of the actions of this type, in simulated time (default: pick and drop 3s, waitForTrigger until it is "
+        "triggered, others 1s; 0s: no duration). May be repeated")
         .type_name("ACTIONTYPE=DURATION");
     app.add_flag(
         "--lenient-parameters",
         options.bLenientParameters,
-        "accept parameters of actions that the factsheet does not list, and report them (WARNING unlistedParameter in "
-        "the state, log); also numbers and booleans as text. By default orders with either are refused");
+        "Accept action parameters that the factsheet does not list, and numbers and booleans as text. Unlisted ones are "
+        "reported in the state (WARNING unlistedParameter) and in the log. By default such orders are refused");
     Apps::AddFaultOptions(
         app,
         GetFaultGrammar(),
         options.faults,
-        "what goes wrong, see below; its time counts from when the vehicle is online. May be repeated");
+        "Fault of a vehicle, see below; its times count from when the vehicle is online for the first time. May be repeated");
     CLI::Option& controlTopic = Apps::AddTextOption(
         app,
         "--control-topic",
         [&options](const std::string& text) { return ReadControlTopic(text, options.controlTopic); },
-        "where faults are taken from while the vehicles run; answers come on TOPIC/result");
+        "MQTT topic of commands that begin and end faults; results are published on TOPIC/result");
     controlTopic.default_str(options.controlTopic);
     bool bNoControl = false;
-    app.add_flag("--no-control", bNoControl, "takes no faults from the broker")->excludes(&controlTopic);
+    app.add_flag("--no-control", bNoControl, "Do not subscribe to a control topic")->excludes(&controlTopic);
     Apps::AddTextOption(
         app,
         "--seed",
         [&options](const std::string& text) { return ReadSeed(text, options.seed); },
-        "the same losses and delays each time; by default other ones, see the log")
+        "Seed of random losses and delays, which makes them reproducible (default: random; it is logged)")
         .type_name("N");
     Apps::AddCommonOptions(app, options.common);
     const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);
@@ -313,13 +318,13 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
         return exitCode;
     }
     options.controlTopic = bNoControl ? std::string() : options.controlTopic;
-    std::string mistake = CheckBrokerOptions(options.link, options.broker.scheme);
-    mistake = mistake.empty() ? AddVehicles(row, options.vehicles) : mistake;
-    mistake = mistake.empty() ? CheckWorld(options) : mistake;
-    mistake = mistake.empty() ? CheckFaults(options.faults, options.vehicles) : mistake;
-    if (!mistake.empty())
+    std::string error = CheckBrokerOptions(options.link, options.broker.scheme);
+    error = error.empty() ? AddVehicles(row, options.vehicles) : error;
+    error = error.empty() ? CheckWorld(options) : error;
+    error = error.empty() ? CheckFaults(options.faults, options.vehicles) : error;
+    if (!error.empty())
     {
-        Apps::PrintError(PROGRAM, mistake);
+        Apps::PrintError(PROGRAM, error);
         return Apps::EXIT_BAD_COMMAND_LINE;
     }
     return std::nullopt;
@@ -331,13 +336,13 @@ tl::expected<Planning::SiteMap, std::string> LoadSite(const std::string& path)
     if (!text.has_value())
     {
         return tl::make_unexpected(
-            fmt::format("the site {} cannot be read ({}); give the path of a LIF file", path, text.error()));
+            fmt::format("cannot read the site {} ({}); give the path of a LIF file", path, text.error()));
     }
     Core::Result<Planning::SiteMap> site = Planning::DecodeLIF(*text);
     if (!site.has_value())
     {
         return tl::make_unexpected(
-            fmt::format("the site {} is no valid LIF file: {}", path, Core::Describe(site.error())));
+            fmt::format("the site {} is not a valid LIF file: {}", path, Core::Describe(site.error())));
     }
     return std::move(*site);
 }

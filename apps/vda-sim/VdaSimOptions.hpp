@@ -31,22 +31,22 @@ struct VdaSimOptions
     std::string interfaceName = "uagv";
     VDA5050::EVda5050Version version = VDA5050::EVda5050Version::Version200;
     double timeScale = 1.0;
-    std::optional<std::uint64_t> seed; ///< Absent: another one each time, told on the log.
+    std::optional<std::uint64_t> seed; ///< Absent: random and logged.
     std::map<std::string, double, std::less<>> actionSeconds;
     std::vector<FaultCommand> faults; ///< Of --fault and --fault-file; all of them begin one.
     bool bLenientParameters = false;
     std::string controlTopic = "vda-sim/control"; ///< Empty: none.
 };
 
-/// Fills the options; the exit code where the program shall not go on. Reads the fault files; the site is for LoadSite.
+/// Fills the options; returns the exit code if the program is to end. Reads the fault files; LoadSite reads the site.
 [[nodiscard]] std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaSimOptions& options);
 
 /// Reads the LIF file; the error is one sentence that names it.
 [[nodiscard]] tl::expected<Planning::SiteMap, std::string> LoadSite(const std::string& path);
 
-/// Where the vehicle (the first one has index 0) stands at first: its own node, else the dock of the charger CHG01 for
-/// the first vehicle, CHG02 for the second and so on; who finds none stands on the node of the site that has its number,
-/// round and round. The error is one sentence.
+/// Start node of the vehicle (the first one has index 0): its own node, else the dock of the charger CHG01 for the first
+/// vehicle, CHG02 for the second and so on. If there is no such charger: the node of the site at that index, modulo the
+/// number of nodes. The error is one sentence.
 [[nodiscard]] tl::expected<std::string, std::string> GetStartNode(
     const VehicleSpec& vehicle,
     std::size_t index,

@@ -21,7 +21,7 @@ bool IsOfLoads(const AgvAction& action)
     return action.actionType == ACTION_PICK || action.actionType == ACTION_DROP;
 }
 
-/// All that the standard names, as it names them, but pick and drop as the make has them: not without a place for loads.
+/// The actions of the standard; pick and drop in the vehicle's form, and only if it has load positions.
 std::vector<AgvAction> MakeActions(bool bHandlesLoads, const LoadHandling& handling)
 {
     std::vector<AgvAction> actions = VDA5050::GetPredefinedActions();
@@ -40,7 +40,7 @@ std::vector<AgvAction> MakeActions(bool bHandlesLoads, const LoadHandling& handl
     return actions;
 }
 
-/// The sizes that the session holds messages against, and keeps to.
+/// The limits that the session checks messages against and keeps itself.
 VDA5050::ProtocolLimits MakeLimits(std::size_t loads)
 {
     constexpr std::uint32_t MAX_NODES = 1000;
@@ -64,7 +64,7 @@ VDA5050::ProtocolLimits MakeLimits(std::size_t loads)
     arrays.stateEdgeStates = MAX_NODES;
     arrays.stateActionStates = MAX_ACTION_STATES;
     arrays.stateErrors = MAX_ERRORS;
-    if (loads > 0) // 0 would say that there is no limit
+    if (loads > 0) // 0 would mean no limit
     {
         arrays.stateLoads = static_cast<std::uint32_t>(loads);
     }

@@ -11,7 +11,7 @@
 namespace ACS::VdaSim
 {
 
-/// What a virtual vehicle performs (VDA5050, predefined actions).
+/// Actions of a virtual vehicle (VDA5050, predefined actions).
 constexpr std::string_view ACTION_PICK = "pick";
 constexpr std::string_view ACTION_DROP = "drop";
 constexpr std::string_view ACTION_START_CHARGING = "startCharging";
@@ -22,10 +22,10 @@ constexpr std::string_view ACTION_WAIT_FOR_TRIGGER = "waitForTrigger";
 constexpr std::string_view ACTION_LOG_REPORT = "logReport";
 constexpr std::string_view ACTION_INIT_POSITION = "initPosition";
 
-/// Of every id, bytes: what the library takes as a name, and what a load may be called.
+/// Maximum length of an id in bytes, as of a name in the library.
 constexpr std::uint32_t MAX_ID_LENGTH = 1024;
 
-/// The factsheet of a vehicle of this type, as its version can say it. The header is left to the session.
+/// The factsheet of a vehicle of this type, in the form of its version. The session adds the header.
 [[nodiscard]] VDA5050::FactsheetMessage MakeFactsheet(
     EVehicleType type,
     const MotionLimits& limits,

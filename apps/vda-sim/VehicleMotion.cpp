@@ -143,7 +143,7 @@ bool VehicleMotion::TryTurn(double theta, double seconds)
     const double wanted = NormaliseAngle(theta - _pose.theta);
     const double fastest = std::min(_leg->maxTurnSpeed, _limits.maxTurnSpeed);
     double turned = std::clamp(wanted, -fastest * seconds, fastest * seconds);
-    // Any turn has to gain speed and to lose it again, but in bends, which are as soft as the way itself.
+    // A turn accelerates and brakes, except in bends, where it follows the path.
     _bFollows = _bFollows && std::abs(wanted) <= SHARPEST_BEND;
     if (!_bFollows)
     {
@@ -208,7 +208,7 @@ void VehicleMotion::Drive(double seconds)
     {
         _driven = length;
     }
-    // Back on the way before its end.
+    // Back on the route before its end.
     const double room = SWERVE_SLOPE * (length - _driven);
     const double wanted = std::clamp(_wantedOffset, -room, room);
     const double aside = SWERVE_SLOPE * way;

@@ -18,7 +18,7 @@ struct Pose
     bool operator==(const Pose&) const = default;
 };
 
-/// What the vehicle's drives can do.
+/// Limits of the vehicle's drives.
 struct MotionLimits
 {
     double acceleration = 0.6;          ///< m/s²
@@ -27,42 +27,42 @@ struct MotionLimits
     double lateralAcceleration = 0.5;   ///< m/s², in bends.
     double maxSpeed = 1.5;              ///< m/s
     double maxTurnSpeed = 1.2;          ///< rad/s
-    double turnAcceleration = 2.0;      ///< rad/s², but in bends, which it takes as they come.
+    double turnAcceleration = 2.0;      ///< rad/s², except in bends.
     double cornerSpeed = 0.3;           ///< m/s where the direction changes without a stop.
-    double turnTolerance = 0.02;        ///< rad: a vehicle that passes a node turns no less than this there.
+    double turnTolerance = 0.02;        ///< rad: smaller turns do not stop a vehicle at a node.
 };
 
-/// One way to a node.
+/// The movement to the next node.
 struct MotionLeg
 {
     LegPath path{{MapPoint{}}};
-    std::optional<double> heading;    ///< On the whole way; absent: along it.
-    double relativeHeading = 0.0;     ///< rad against the way, where heading is absent; pi: backwards.
+    std::optional<double> heading;    ///< rad, on the whole path; absent: along it.
+    double relativeHeading = 0.0;     ///< rad relative to the path if heading is absent; pi: backwards.
     double maxSpeed = 1.0;            ///< m/s
     double maxTurnSpeed = 1.2;        ///< rad/s
     double exitSpeed = 0.0;           ///< m/s at the end; 0: it stops there.
-    bool bTurnBefore = false;         ///< Turn to the heading before driving off, else on the way.
+    bool bTurnBefore = false;         ///< Turn to the heading before driving, else while driving.
     std::optional<double> finalTheta; ///< Turn to it at the end.
 };
 
-/// How hard a vehicle comes to a stand. The harder, the greater.
+/// How hard a vehicle brakes, in ascending order.
 enum class EBrake : std::uint8_t
 {
     None,
     Service,
     Emergency,
-    Block, ///< At once, as nothing on wheels can.
+    Block, ///< Stops instantly, which no real vehicle can.
 };
 
 /// [-pi, pi]
 [[nodiscard]] double NormaliseAngle(double angle);
 
-/// Moves one vehicle in simulated time: with limited acceleration, slower in bends, along one leg at a time, and to a
-/// smooth stand at its end. Pure: time comes in as seconds.
+/// Moves one vehicle in simulated time along one leg at a time, with limited acceleration, slower in bends, and with a
+/// smooth stop at the end. Pure: time is a parameter, in seconds.
 class VehicleMotion
 {
 public:
-    /// A vehicle leaves its way no steeper than this: metres aside for each metre driven.
+    /// Maximum slope when leaving the route: metres aside for each metre driven.
     static constexpr double SWERVE_SLOPE = 0.5;
 
 private:
@@ -72,29 +72,29 @@ private:
     double _speed = 0.0;
     double _turnSpeed = 0.0;
     double _driven = 0.0; ///< On this leg.
-    double _offset = 0.0; ///< m to the left of the way.
+    double _offset = 0.0; ///< m to the left of the path.
     double _wantedOffset = 0.0;
     EBrake _brake = EBrake::None;
-    bool _bAtTarget = false; ///< There, and turning to finalTheta.
-    bool _bFollows = false;  ///< Looks where it should, and from now on where the bends lead.
+    bool _bAtTarget = false; ///< Arrived, and turning to finalTheta.
+    bool _bFollows = false;  ///< Has the heading of the leg; from now on the heading follows the bends.
 
 public:
     VehicleMotion(const MotionLimits& limits, const Pose& pose);
 
-    /// Goes on from where it is, at the speed that it has; the brake stays as it is.
+    /// Begins a leg at the current pose and speed; the brake is unchanged.
     void Begin(MotionLeg leg);
     /// Changes the speed at the end of the leg under way.
     void SetExitSpeed(double exitSpeed);
-    /// Comes to a stand on the way, and drives on with EBrake::None.
+    /// Stops the vehicle on its path; EBrake::None lets it continue.
     void SetBrake(EBrake brake);
-    /// How far left of the way it drives from now on, as far as it comes back before the end; negative: right.
+    /// Distance to the left of the path from now on, limited so that the vehicle is back on it at the end; negative: right.
     void SetOffset(double offset);
-    /// Forgets the leg, and stands.
+    /// Drops the leg and stops.
     void Abandon();
-    /// Where it is after all; only while it stands, and without a leg.
+    /// Sets the pose; only while it is stationary.
     void Place(const Pose& pose);
 
-    /// Lets the time pass; true when the leg has come to its end.
+    /// Advances the simulated time; true when the leg ends.
     [[nodiscard]] bool TryFinishLeg(double seconds);
 
     [[nodiscard]] const Pose& GetPose() const noexcept;
@@ -105,7 +105,7 @@ public:
     [[nodiscard]] double GetForwardSpeed() const;
     [[nodiscard]] double GetSidewaysSpeed() const;
     [[nodiscard]] bool HasLeg() const noexcept;
-    /// Neither drives nor turns, and has nothing to do.
+    /// Neither drives nor turns nor has to.
     [[nodiscard]] bool IsStanding() const noexcept;
 
 private:

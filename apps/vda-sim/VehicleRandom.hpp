@@ -9,7 +9,7 @@
 namespace ACS::VdaSim
 {
 
-/// The chance of one vehicle: the same numbers for the same seed and name, whatever other vehicles do.
+/// Random numbers of one vehicle: the same for the same seed and name, whatever other vehicles do.
 class VehicleRandom final : public Core::IRandom
 {
     std::mt19937_64 _engine;

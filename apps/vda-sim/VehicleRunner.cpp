@@ -23,8 +23,8 @@ class VehicleRunner::Impl final : public VDA5050::IMqttLinkListener
     VirtualActions _actions;
     Apps::TimerSet<std::uint64_t> _timers;
     VDA5050::MosquittoOptions _linkOptions;
-    std::unique_ptr<VDA5050::MosquittoLink> _linkOrNull;    ///< None while a fault has cut the connection.
-    std::unique_ptr<VDA5050::MosquittoLink> _leavingOrNull; ///< One that takes leave without OFFLINE.
+    std::unique_ptr<VDA5050::MosquittoLink> _linkOrNull;    ///< Null while a fault has cut the connection.
+    std::unique_ptr<VDA5050::MosquittoLink> _leavingOrNull; ///< Disconnecting without OFFLINE.
     Handler _onConnected;
     bool _bStopping = false;
 
@@ -165,7 +165,7 @@ private:
         {
             return;
         }
-        _leavingOrNull.reset(); // else two would have one client id
+        _leavingOrNull.reset(); // else two connections would share a client id
         _linkOrNull = std::make_unique<VDA5050::MosquittoLink>(_executor, *_random, _logger, _linkOptions, *this);
         _linkOrNull->Subscribe(_vehicle.GetSubscriptions());
         _linkOrNull->SetWill(_vehicle.MakeWill(_clock->GetNow()));

@@ -15,8 +15,8 @@
 namespace ACS::VdaSim
 {
 
-/// One virtual vehicle on one MQTT connection: executes what the vehicle asks, tells it what happens.
-/// One thread: the executor's. The clock and the random source must outlive it.
+/// Runs one virtual vehicle on one MQTT connection: executes its actions and passes it messages, timers and the state of
+/// the connection. One thread: the executor's. The clock and the random source must outlive it.
 class VehicleRunner
 {
 public:
@@ -29,7 +29,7 @@ private:
     std::unique_ptr<Impl> _impl;
 
 public:
-    /// The link's will is filled in here. The random source is for the pauses between attempts to connect.
+    /// Adds the will to the link options. The random source varies the pauses between attempts to connect.
     VehicleRunner(
         const boost::asio::any_io_executor& executor,
         const Core::IClock& clock,
@@ -41,18 +41,18 @@ public:
     VehicleRunner& operator=(const VehicleRunner&) = delete;
     ~VehicleRunner();
 
-    /// Begins to connect; the handler is called each time that the vehicle is online.
+    /// Begins to connect; the handler is called each time the vehicle goes online.
     void Start(Handler onConnected);
 
-    /// False where it has too many already.
+    /// False if the vehicle has the maximum number of faults.
     [[nodiscard]] bool TryInject(const Fault& fault);
-    /// How many there were.
+    /// Returns the number of faults ended.
     std::size_t EndFaults(std::optional<EFaultKind> kindOrNull);
-    /// How many actions waited for it.
+    /// Returns the number of actions that waited for it.
     std::size_t Trigger();
     void OnWorldChanged();
 
-    /// Says OFFLINE and disconnects, then calls back, once.
+    /// Publishes OFFLINE and disconnects, then calls back once.
     void StopAsync(Handler onStopped);
 };
 

@@ -12,7 +12,7 @@ namespace ACS::VdaSim
 namespace
 {
 
-/// The error with the vehicle's name in front: "LR01: ports".
+/// Prefixes the error's path with the vehicle's name: "LR01: ports".
 tl::unexpected<Core::Error> RefuseVehicle(const std::string& name, Core::Error error)
 {
     error.path = error.path.empty() ? name : fmt::format("{}: {}", name, error.path);

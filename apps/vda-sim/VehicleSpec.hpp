@@ -17,20 +17,20 @@ struct VehicleSpec
 {
     std::string name; ///< The serialNumber.
     EVehicleType type = EVehicleType::Logistics;
-    std::optional<std::string> startNodeID;          ///< Absent: a charger of the site.
-    std::optional<VDA5050::EVda5050Version> version; ///< Absent: what --protocol says.
+    std::optional<std::string> startNodeID;          ///< Absent: as GetStartNode selects.
+    std::optional<VDA5050::EVda5050Version> version; ///< Absent: that of --protocol.
     double charge = 100.0;                           ///< %
     LoadHandling handling{};
 
     bool operator==(const VehicleSpec&) const = default;
 };
 
-/// What may stand as one level of a topic: VDA5050, section 6.3, and no character that nobody sees.
+/// Text that is valid as one level of a topic: VDA5050, section 6.3, and printable characters only.
 constexpr std::string_view PLAIN_LEVEL = "a word without blanks, /, +, # and $";
 [[nodiscard]] bool IsPlainLevel(std::string_view text);
 
-/// Fails with ECoreError::InvalidIdentifier (a name that no topic can have), UnknownWord (a key, a type or a version) or
-/// OutOfRange.
+/// Fails with ECoreError::InvalidIdentifier (a name that is not valid in a topic), UnknownWord (a key, a type or a version)
+/// or OutOfRange.
 [[nodiscard]] Core::Result<VehicleSpec> ParseVehicleSpec(std::string_view text);
 
 /// "LR" or "CR". Fails with ECoreError::UnknownWord.

@@ -17,10 +17,10 @@ namespace
 
 constexpr std::string_view CHARGER_PREFIX = "CHG";
 
-/// The nearest node of those at which a vehicle at this point stands; empty where there is none.
+/// The nearest node within the tolerance of this point; empty if there is none.
 std::string FindNodeAt(const Planning::SiteMap& site, double x, double y)
 {
-    constexpr double TOLERANCE = 0.5; // as of a first node that states no deviation
+    constexpr double TOLERANCE = 0.5; // as for a first node without an allowed deviation
     const auto getDistance = [x, y](const Planning::SiteNode& node) {
         return std::hypot(node.x - x, node.y - y);
     };
@@ -33,8 +33,8 @@ std::string FindNodeAt(const Planning::SiteMap& site, double x, double y)
 void VirtualVehicle::OnWorldChanged(Core::Now now, VirtualActions& out)
 {
     PassTime(now, out);
-    _hands.GetDevice().UpdateLoads();
-    TellLoads(now);
+    _actionRunner.GetDevice().UpdateLoads();
+    ReportLoads(now);
     Settle(now, out);
 }
 
@@ -42,7 +42,7 @@ void VirtualVehicle::Start(const VDA5050::StartAction& start, Core::Now now)
 {
     LogUnlisted(start.action.actionID, now);
     std::string refusal;
-    if (std::optional<VDA5050::VehicleError> error = TakeActionFaultOrNull(start.action, true); error.has_value())
+    if (std::optional<VDA5050::VehicleError> error = UseActionFaultOrNull(start.action, true); error.has_value())
     {
         refusal = error->errorDescription;
         AddOrderError(std::move(*error), now);
@@ -53,7 +53,7 @@ void VirtualVehicle::Start(const VDA5050::StartAction& start, Core::Now now)
     }
     if (refusal.empty())
     {
-        refusal = _hands.Start(start.action, IsAtCharger(), TakeActionFaultOrNull(start.action, false));
+        refusal = _actionRunner.Start(start.action, IsAtCharger(), UseActionFaultOrNull(start.action, false));
     }
     const bool bRuns = refusal.empty();
     SetStatus(start.action.actionID, VDA5050::EActionStatus::Running, {}, now);
@@ -63,7 +63,7 @@ void VirtualVehicle::Start(const VDA5050::StartAction& start, Core::Now now)
     }
 }
 
-/// Why it cannot be, or nothing: the vehicle is where the action says then.
+/// Sets the position of the action. Returns an empty text, or why it cannot.
 std::string VirtualVehicle::InitialisePosition(const VDA5050::Action& action, Core::Now now)
 {
     const auto getNumber = [&action](std::string_view key) {
@@ -81,17 +81,17 @@ std::string VirtualVehicle::InitialisePosition(const VDA5050::Action& action, Co
     }
     if (!IsInReach(*_site, *x, *y))
     {
-        return "this is too far from the site";
+        return "the position is too far from the site";
     }
     if (_motion.HasLeg() && !_motion.IsStanding())
     {
-        return "the vehicle drives";
+        return "the vehicle is driving";
     }
     _motion.Place({*x, *y, NormaliseAngle(*theta)});
     _nodeID = FindNodeAt(*_site, *x, *y);
     _mapID = *mapID;
     _faults.End(EFaultKind::Lost, "initPosition", _faultChanges);
-    TellCondition(now);
+    ReportCondition(now);
     return {};
 }
 
@@ -104,7 +104,7 @@ void VirtualVehicle::SetStatus(
     _logger.Debug("action", {{"actionId", CutForLog(actionID)}, {"status", VDA5050::GetStatusText(status)}});
     if (!_session.TrySetActionStatus(actionID, status, std::move(result), now, _sessionActions))
     {
-        _logger.Warning("the session does not take a status", {{"actionId", CutForLog(actionID)}});
+        _logger.Warning("the session rejected an action status", {{"actionId", CutForLog(actionID)}});
     }
 }
 
@@ -141,8 +141,8 @@ void VirtualVehicle::LogUnlisted(const std::string& actionID, Core::Now now)
 
 void VirtualVehicle::EndActions(Core::Now now, VirtualActions& out)
 {
-    TellLoads(now);
-    TellBattery(now);
+    ReportLoads(now);
+    ReportBattery(now);
     for (ActionOutcome& outcome : std::exchange(_outcomes, {}))
     {
         if (outcome.error.has_value())
@@ -163,9 +163,9 @@ void VirtualVehicle::LogFailure(const ActionOutcome& outcome, Core::Now now)
     LogWarning(now, "action failed", {{"actionId", CutForLog(outcome.actionID)}, {"reason", outcome.result}});
 }
 
-void VirtualVehicle::TellLoads(Core::Now now)
+void VirtualVehicle::ReportLoads(Core::Now now)
 {
-    const std::vector<VDA5050::Load>& loads = _hands.GetDevice().GetLoads();
+    const std::vector<VDA5050::Load>& loads = _actionRunner.GetDevice().GetLoads();
     if (_reportedLoads != loads)
     {
         _reportedLoads = loads;
@@ -189,13 +189,13 @@ void VirtualVehicle::UpdateDock(Core::Now now)
             stationIDs.push_back(station.stationID);
         }
     }
-    const Core::Result<void> docked = _hands.GetDevice().Dock(std::move(stationIDs));
+    const Core::Result<void> docked = _actionRunner.GetDevice().Dock(std::move(stationIDs));
     _bDockUnknown = !docked.has_value() && docked.error().code == Sim::EWorldError::JournalFailed;
     if (!docked.has_value())
     {
         LogWarning(
             now,
-            "the world does not know where the vehicle is docked",
+            "cannot record the docking of the vehicle in the world",
             {{"reason", Core::Describe(docked.error())}});
     }
 }

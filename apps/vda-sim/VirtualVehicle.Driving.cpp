@@ -55,11 +55,11 @@ void VirtualVehicle::Drive(const VDA5050::DriveTo& drive, Core::Now now)
     _leg = drive;
     _bStopWanted = false;
     _bAbandons = false;
-    _hands.Undock();
+    _actionRunner.Undock();
     UpdateDock(now);
     // Whether an obstacle can be passed depends on the edge.
-    TellCondition(now);
-    TellBattery(now);
+    ReportCondition(now);
+    ReportBattery(now);
 }
 
 Pose VirtualVehicle::GetNodePose(const VDA5050::OrderNode& node) const
@@ -121,7 +121,7 @@ double VirtualVehicle::GetExitSpeed(const VDA5050::DriveTo& drive, const MotionL
         return 0.0;
     }
     const bool bCorner = GetTurn(direction, nextDirection) > CORNER_ANGLE;
-    // What comes behind the next leg shows when that begins: until then the vehicle has to be able to stop at its end.
+    // The leg after the next is unknown until the next begins: the vehicle must be able to stop at the end of the next.
     const MotionLimits& limits = _options.limits;
     const double turnSpeed = std::min(GetMaxTurnSpeed(edge, limits), limits.maxTurnSpeed);
     next.Plan(turnSpeed, limits.lateralAcceleration, limits.cornerSpeed, limits.deceleration, 0.0);

@@ -17,13 +17,13 @@ namespace
 using VDA5050::EErrorLevel;
 using VDA5050::VehicleError;
 
-// The errorTypes that the standard does not name.
+// errorTypes that the standard does not define.
 constexpr std::string_view ERROR_BLOCKED = "blockedByObstacle";
 constexpr std::string_view ERROR_LOST = "localizationError";
 constexpr std::string_view ERROR_EMERGENCY_STOP = "emergencyStop";
 constexpr std::string_view ERROR_BATTERY_LOW = "batteryLow";
 
-constexpr double HALF_WIDTH = 0.4; ///< m, as the factsheet says: a corridor for the contour has this much less room.
+constexpr double HALF_WIDTH = 0.4; ///< m, as in the factsheet: a corridor for the contour has this much less room.
 
 VehicleError MakeError(std::string_view type, EErrorLevel level, std::string description)
 {
@@ -59,7 +59,7 @@ std::size_t VirtualVehicle::EndFaults(std::optional<EFaultKind> kindOrNull, Core
     const std::size_t waiting = std::erase_if(_waitingFaults, [kindOrNull](const Fault& fault) {
         return !kindOrNull.has_value() || fault.kind == *kindOrNull;
     });
-    const std::size_t ended = _faults.End(kindOrNull, "it was ended", _faultChanges);
+    const std::size_t ended = _faults.End(kindOrNull, "ended by command", _faultChanges);
     Settle(now, out);
     return waiting + ended;
 }
@@ -67,21 +67,21 @@ std::size_t VirtualVehicle::EndFaults(std::optional<EFaultKind> kindOrNull, Core
 std::size_t VirtualVehicle::Trigger(Core::Now now, VirtualActions& out)
 {
     PassTime(now, out);
-    const std::size_t count = _hands.Trigger();
+    const std::size_t count = _actionRunner.Trigger();
     Settle(now, out);
     return count;
 }
 
 void VirtualVehicle::ApplyFaults(Core::Now now, VirtualActions& out)
 {
-    // What one brings about may use up another.
+    // A fault may use up another one.
     while (!_faultChanges.empty())
     {
         for (const FaultChange& change : std::exchange(_faultChanges, {}))
         {
             ApplyFault(change, now, out);
         }
-        TellCondition(now);
+        ReportCondition(now);
         Pump(now, out);
     }
 }
@@ -100,7 +100,7 @@ void VirtualVehicle::ApplyFault(const FaultChange& change, Core::Now now, Virtua
     if (fault.kind == EFaultKind::Battery && change.bBegun)
     {
         _charge = fault.charge;
-        TellBattery(now);
+        ReportBattery(now);
     }
     if (fault.kind == EFaultKind::Drop && change.bBegun)
     {
@@ -116,10 +116,10 @@ void VirtualVehicle::ApplyFault(const FaultChange& change, Core::Now now, Virtua
     }
 }
 
-/// All that the faults change in what the vehicle says of itself, and how it stands or goes on.
-void VirtualVehicle::TellCondition(Core::Now now)
+/// Updates all that depends on the faults: the reported state and the brake.
+void VirtualVehicle::ReportCondition(Core::Now now)
 {
-    TellPosition();
+    ReportPosition();
     const Fault* const mode = _faults.FindOrNull(EFaultKind::Mode);
     _session.OnOperatingMode(mode != nullptr ? mode->mode : VDA5050::EOperatingMode::Automatic, now, _sessionActions);
     UpdateBrake(now);
@@ -149,11 +149,11 @@ void VirtualVehicle::UpdateBrake(Core::Now now)
     const Fault* const obstacle = _faults.FindOrNull(EFaultKind::Blocked);
     _motion.SetOffset(obstacle != nullptr ? GetSwerveOrNull(*obstacle).value_or(0.0) : 0.0);
     _motion.SetBrake(brake);
-    TellDriving(_motion.HasLeg() && !_motion.IsStanding(), now);
+    ReportDriving(_motion.HasLeg() && !_motion.IsStanding(), now);
 }
 
-/// Section 6.10.4 of 2.1: within the corridor of its edge a vehicle may leave the way to pass an obstacle. Metres to the
-/// left; nothing where there is no room.
+/// Section 6.10.4 of 2.1: within the corridor of its edge a vehicle may leave the route to pass an obstacle. Metres to the
+/// left; nullopt if there is no room.
 std::optional<double> VirtualVehicle::GetSwerveOrNull(const Fault& obstacle) const
 {
     if (obstacle.swerve <= 0.0 || !_leg.has_value() || !_leg->edge.corridor.has_value())
@@ -177,7 +177,7 @@ bool VirtualVehicle::IsBlocked() const
     {
         return false;
     }
-    // Whether there is room shows on an edge.
+    // Only an edge has a corridor.
     return _leg.has_value() ? !GetSwerveOrNull(*obstacle).has_value() : obstacle->swerve <= 0.0;
 }
 
@@ -186,8 +186,10 @@ std::vector<VehicleError> VirtualVehicle::MakeErrors() const
     std::vector<VehicleError> errors;
     if (IsBlocked())
     {
-        VehicleError& error = errors.emplace_back(
-            MakeError(ERROR_BLOCKED, EErrorLevel::Warning, "an obstacle is in the way; goes on when it is gone"));
+        VehicleError& error = errors.emplace_back(MakeError(
+            ERROR_BLOCKED,
+            EErrorLevel::Warning,
+            "an obstacle blocks the vehicle; it continues when the obstacle is removed"));
         if (_leg.has_value())
         {
             error.errorReferences.push_back({"edgeId", _leg->edge.edgeID});
@@ -201,7 +203,7 @@ std::vector<VehicleError> VirtualVehicle::MakeErrors() const
     }
     if (_faults.IsActive(EFaultKind::Lost))
     {
-        errors.push_back(MakeError(ERROR_LOST, EErrorLevel::Fatal, "the vehicle does not know where it is"));
+        errors.push_back(MakeError(ERROR_LOST, EErrorLevel::Fatal, "the vehicle has lost its position"));
     }
     if (_faults.IsActive(EFaultKind::EmergencyStop))
     {
@@ -210,13 +212,13 @@ std::vector<VehicleError> VirtualVehicle::MakeErrors() const
     if (_bBatteryLow)
     {
         errors.push_back(
-            MakeError(ERROR_BATTERY_LOW, EErrorLevel::Warning, fmt::format("the battery is below {} %", LOW_CHARGE)));
+            MakeError(ERROR_BATTERY_LOW, EErrorLevel::Warning, fmt::format("the charge is below {} %", LOW_CHARGE)));
     }
     std::ranges::copy(_orderErrors, std::back_inserter(errors));
     return errors;
 }
 
-/// One without a type is none: what becomes of the action says it all.
+/// Without a type no error is reported: the state of the action suffices.
 void VirtualVehicle::AddOrderError(VehicleError error, Core::Now now)
 {
     if (error.errorType.empty())
@@ -246,12 +248,12 @@ bool VirtualVehicle::TryRefuse(const VDA5050::MqttMessage& message, Core::Now no
         || identity->header.manufacturer != _options.address.manufacturer
         || identity->header.serialNumber != _options.address.serialNumber)
     {
-        return false; // the session has its own word for that
+        return false; // the session handles it
     }
     VehicleError error = MakeError(
         refusal->errorType.empty() ? VDA5050::ErrorTypes::ORDER_ERROR : refusal->errorType,
         refusal->errorLevel,
-        "this order is refused by a fault that was asked for");
+        "the order is refused by an injected fault");
     error.errorReferences = {
         {"topic", "order"},
         {"headerId", std::to_string(identity->header.headerID)},
@@ -264,8 +266,8 @@ bool VirtualVehicle::TryRefuse(const VDA5050::MqttMessage& message, Core::Now no
     return true;
 }
 
-/// With what the action is to fail.
-std::optional<VehicleError> VirtualVehicle::TakeActionFaultOrNull(const VDA5050::Action& action, bool bAtStart)
+/// Uses up a fault of the action and returns its error.
+std::optional<VehicleError> VirtualVehicle::UseActionFaultOrNull(const VDA5050::Action& action, bool bAtStart)
 {
     const Fault* const fault = _faults.FindOrNull(EFaultKind::ActionFails, [&](const Fault& candidate) {
         return candidate.bAtStart == bAtStart
@@ -279,7 +281,7 @@ std::optional<VehicleError> VirtualVehicle::TakeActionFaultOrNull(const VDA5050:
     VehicleError error = MakeError(
         fault->errorType,
         fault->errorLevel,
-        fmt::format("the {} fails by a fault that was asked for", action.actionType));
+        fmt::format("{} failed by an injected fault", action.actionType));
     error.errorReferences = {{"actionId", action.actionID}};
     _faults.Use(*fault, _faultChanges);
     return error;

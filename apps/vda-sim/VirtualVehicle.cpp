@@ -18,8 +18,8 @@ namespace
 
 using namespace std::chrono_literals;
 
-constexpr double SLICE_SECONDS = 0.02;   ///< Of simulated time: the grain of all motion.
-constexpr double MAX_TICK_SECONDS = 5.0; ///< Of real time: a vehicle that was suspended does not leap.
+constexpr double SLICE_SECONDS = 0.02;   ///< Simulated time: the step of all motion.
+constexpr double MAX_TICK_SECONDS = 5.0; ///< Real time: a process that was suspended does not skip ahead.
 constexpr double CHARGE_PER_METRE = 0.02;
 constexpr double CHARGE_PER_SECOND = 0.5;
 constexpr double MIN_CHARGE = 5.0;
@@ -36,7 +36,7 @@ VDA5050::VehicleOptions MakeSessionOptions(const VirtualVehicleOptions& options,
     session.factsheet = MakeFactsheet(options.type, options.limits, options.version, options.handling);
     session.parameterCheck = options.parameterCheck;
     session.visualizationInterval = 200ms;
-    session.bStopsBetweenNodes = false; // as a line-guided vehicle: a cancelled order ends on a node
+    session.bStopsBetweenNodes = false; // like a line-guided vehicle: a cancelled order ends on a node
     session.initialNodeID = options.startNodeID;
     session.orderCheck = [&site](const VDA5050::OrderMessage& order) {
         return FindUndrivable(order, site);
@@ -74,7 +74,7 @@ VirtualVehicle::VirtualVehicle(
       _logger(std::move(logger)),
       _session(MakeSessionOptions(_options, site)),
       _motion(_options.limits, {}),
-      _hands(
+      _actionRunner(
           _options.actionSeconds,
           LoadDevice(_options.address.serialNumber, _options.type, _options.handling, _options.worldOrNull)),
       _nodeID(_options.startNodeID),
@@ -103,16 +103,16 @@ void VirtualVehicle::OnLinkUp(Core::Now now, VirtualActions& out)
 {
     PassTime(now, out);
     UpdateDock(now);
-    _hands.GetDevice().UpdateLoads();
-    _reportedLoads = _hands.GetDevice().GetLoads();
+    _actionRunner.GetDevice().UpdateLoads();
+    _reportedLoads = _actionRunner.GetDevice().GetLoads();
     _session.OnLoads(_reportedLoads, now, _sessionActions);
     if (!_bWasOnline && !_mapID.empty())
     {
         const VDA5050::MapState map{_mapID, "1", VDA5050::EMapStatus::Enabled, {}};
         _session.OnMaps(std::vector<VDA5050::MapState>{map}, now, _sessionActions);
     }
-    TellPosition();
-    TellBattery(now);
+    ReportPosition();
+    ReportBattery(now);
     _session.OnLinkUp(now, _sessionActions);
     Pump(now, out);
     _bWasOnline = true;
@@ -203,35 +203,35 @@ void VirtualVehicle::PassTime(Core::Now now, VirtualActions& out)
     _lastTime = now.steady;
     if (!_bTicking)
     {
-        return; // it stood still, with nothing to do
+        return; // it was stationary, with nothing to do
     }
     const double passed = std::chrono::duration<double>(now.steady - last).count();
-    // Whole slices alone, so that the way does not depend on when the timers happen to fire.
-    _unlivedSeconds += std::clamp(passed, 0.0, MAX_TICK_SECONDS) * _options.timeScale;
-    while (_unlivedSeconds >= SLICE_SECONDS)
+    // Whole slices only, so that the motion does not depend on when the timers fire.
+    _pendingSeconds += std::clamp(passed, 0.0, MAX_TICK_SECONDS) * _options.timeScale;
+    while (_pendingSeconds >= SLICE_SECONDS)
     {
-        _unlivedSeconds -= SLICE_SECONDS;
-        LiveSlice(now, out);
+        _pendingSeconds -= SLICE_SECONDS;
+        AdvanceSlice(now, out);
     }
-    TellPosition();
-    TellBattery(now);
+    ReportPosition();
+    ReportBattery(now);
     Pump(now, out);
 }
 
-void VirtualVehicle::LiveSlice(Core::Now now, VirtualActions& out)
+void VirtualVehicle::AdvanceSlice(Core::Now now, VirtualActions& out)
 {
     const double drivenBefore = _motion.GetDriven();
     const bool bArrived = _motion.TryFinishLeg(SLICE_SECONDS);
     const double driven = std::max(0.0, _motion.GetDriven() - drivenBefore);
-    // Driving alone never empties it; what is below the reserve already stays there.
+    // Driving does not discharge the battery below the reserve.
     _charge = std::max(std::min(_charge, MIN_CHARGE), _charge - driven * CHARGE_PER_METRE);
-    if (_hands.IsCharging())
+    if (_actionRunner.IsCharging())
     {
         _charge = std::min(FULL_CHARGE, _charge + SLICE_SECONDS * CHARGE_PER_SECOND);
     }
     if (!_faults.IsActive(EFaultKind::EmergencyStop))
     {
-        _hands.Advance(SLICE_SECONDS, _outcomes);
+        _actionRunner.Advance(SLICE_SECONDS, _outcomes);
     }
     if (bArrived)
     {
@@ -248,7 +248,7 @@ void VirtualVehicle::LiveSlice(Core::Now now, VirtualActions& out)
     }
     if (_bDriving && _motion.IsStanding())
     {
-        TellDriving(false, now);
+        ReportDriving(false, now);
         Pump(now, out);
     }
 }
@@ -265,7 +265,7 @@ void VirtualVehicle::ReachNode(Core::Now now, VirtualActions& out)
     {
         _mapID = leg.node.nodePosition->mapID;
     }
-    TellPosition();
+    ReportPosition();
     UpdateDock(now);
     if (!_session.TryReachNode(leg.node.sequenceID, now, _sessionActions))
     {
@@ -274,7 +274,7 @@ void VirtualVehicle::ReachNode(Core::Now now, VirtualActions& out)
     Pump(now, out);
     if (!_motion.HasLeg())
     {
-        _motion.Abandon(); // it passed the node at speed, but the order has changed: nothing follows
+        _motion.Abandon(); // it passed the node without a stop, but the order has changed: no leg follows
     }
     _faults.OnPlace(_nodeID, now.steady, _faultChanges);
     ApplyFaults(now, out);
@@ -282,7 +282,7 @@ void VirtualVehicle::ReachNode(Core::Now now, VirtualActions& out)
 
 void VirtualVehicle::Pump(Core::Now now, VirtualActions& out)
 {
-    // Carrying out one may ask for others, which then are the next round.
+    // An action may add others, which the next round executes.
     while (!_sessionActions.empty())
     {
         for (VDA5050::VehicleAction& action : std::exchange(_sessionActions, {}))
@@ -311,25 +311,25 @@ void VirtualVehicle::CarryOut(VDA5050::VehicleAction& action, Core::Now now, Vir
                 UpdateBrake(now);
                 if (_motion.IsStanding())
                 {
-                    // Said although it may have been said before: the session waits for it.
+                    // Also if it was reported before: the session waits for it.
                     _session.OnDrivingChanged(false, now, _sessionActions);
                 }
             },
             [&](const VDA5050::StartAction& start) { Start(start, now); },
             [&](const VDA5050::PauseAction& pause) {
-                if (_hands.TryPause(pause.actionID))
+                if (_actionRunner.TryPause(pause.actionID))
                 {
                     SetStatus(pause.actionID, VDA5050::EActionStatus::Paused, {}, now);
                 }
             },
             [&](const VDA5050::ResumeAction& resume) {
-                if (_hands.TryResume(resume.actionID))
+                if (_actionRunner.TryResume(resume.actionID))
                 {
                     SetStatus(resume.actionID, VDA5050::EActionStatus::Running, {}, now);
                 }
             },
             [&](const VDA5050::StopAction& stop) {
-                if (auto ended = _hands.StopOrNull(stop.actionID, stop.bEdgeEnded); ended.has_value())
+                if (auto ended = _actionRunner.StopOrNull(stop.actionID, stop.bEdgeEnded); ended.has_value())
                 {
                     SetStatus(stop.actionID, ended->status, std::move(ended->result), now);
                 }
@@ -378,7 +378,7 @@ void VirtualVehicle::LogOverflow(std::size_t lost, Core::Now now)
 {
     if (lost > 0)
     {
-        LogWarning(now, "more is delayed than a network holds: messages are lost", {});
+        LogWarning(now, "too many delayed messages: further ones are lost", {});
     }
 }
 
@@ -387,7 +387,7 @@ void VirtualVehicle::LogWarning(Core::Now now, std::string_view message, std::in
     _warnings.Write(now.steady, Core::ELogLevel::Warning, message, message, fields);
 }
 
-void VirtualVehicle::TellPosition()
+void VirtualVehicle::ReportPosition()
 {
     const Pose& pose = _motion.GetPose();
     VDA5050::AgvPosition position;
@@ -404,7 +404,7 @@ void VirtualVehicle::TellPosition()
     _session.OnPosition(position, velocity, _motion.HasLeg() ? _motion.GetDriven() : 0.0);
 }
 
-void VirtualVehicle::TellDriving(bool bDriving, Core::Now now)
+void VirtualVehicle::ReportDriving(bool bDriving, Core::Now now)
 {
     if (_bDriving != bDriving)
     {
@@ -413,11 +413,11 @@ void VirtualVehicle::TellDriving(bool bDriving, Core::Now now)
     }
 }
 
-void VirtualVehicle::TellBattery(Core::Now now)
+void VirtualVehicle::ReportBattery(Core::Now now)
 {
     VDA5050::BatteryState battery;
     battery.batteryCharge = _charge;
-    battery.bCharging = _hands.IsCharging();
+    battery.bCharging = _actionRunner.IsCharging();
     battery.reach = std::floor(_charge * REACH_PER_PERCENT);
     _session.OnBattery(battery, now, _sessionActions);
     if (_bBatteryLow != (_charge < LOW_CHARGE))
@@ -430,12 +430,12 @@ void VirtualVehicle::TellBattery(Core::Now now)
 void VirtualVehicle::KeepTicking(VirtualActions& out)
 {
     const bool bMoving = _bDriving || (_motion.HasLeg() && !_motion.IsStanding());
-    if (_bTicking || !(bMoving || _hands.IsBusy() || _hands.IsCharging() || _bDockUnknown))
+    if (_bTicking || !(bMoving || _actionRunner.IsBusy() || _actionRunner.IsCharging() || _bDockUnknown))
     {
         return;
     }
     _bTicking = true;
-    // The faster the simulated time, the shorter the tick, so that a node is not noticed a second late.
+    // The faster the simulated time, the shorter the tick, so that arrivals are reported without a delay.
     const auto tick = std::chrono::duration_cast<Core::Duration>(50ms / std::clamp(_options.timeScale, 1.0, 5.0));
     out.emplace_back(StartVirtualTimer{KEY_TICK, tick});
 }

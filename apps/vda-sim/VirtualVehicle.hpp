@@ -38,8 +38,8 @@ struct CancelVirtualTimer
     std::uint64_t key = 0;
 };
 
-/// To do: end the connection, and do not open another until OpenLink. With a will: as a cable that is pulled; else by
-/// MQTT's rules, but without OFFLINE. The vehicle counts it as down already: no OnLinkDown.
+/// To do: end the connection and do not open another until OpenLink. With a will: like a cable that is pulled; else with an
+/// MQTT DISCONNECT but without OFFLINE. The vehicle regards it as down already: do not call OnLinkDown.
 struct CutLink
 {
     bool bWill = true;
@@ -50,7 +50,7 @@ struct OpenLink
 {
 };
 
-/// What a VirtualVehicle asks of its owner.
+/// What the owner of a VirtualVehicle has to do.
 using VirtualAction = std::variant<VDA5050::PublishMessage, StartVirtualTimer, CancelVirtualTimer, CutLink, OpenLink>;
 using VirtualActions = std::vector<VirtualAction>;
 
@@ -68,21 +68,21 @@ struct VirtualVehicleOptions
     LoadHandling handling{};
     VDA5050::EParameterCheck parameterCheck = VDA5050::EParameterCheck::Strict;
     Sim::IWorld* worldOrNull =
-        nullptr; ///< The floor that it works on, which outlives it; null: every load is where it is asked for.
+        nullptr; ///< The shared floor, which outlives it; null: every pick and drop finds its load.
 };
 
-/// A whole vehicle in software: a VehicleSession, the motion that carries out its legs, the actions, a battery, and
-/// what goes wrong with them. Pure: time comes in, actions are appended to out. The site and the random source must
-/// outlive it; from the site come the start position and the places of nodes that an order does not place.
+/// A simulated vehicle: a VehicleSession, the motion, the actions, the battery and the faults. Pure: time is a parameter,
+/// actions are appended to out. The site gives the start position and the positions of nodes that an order contains
+/// without one. The site and the random source must outlive it.
 class VirtualVehicle
 {
 public:
-    /// A lower charge is reported as an error; %.
+    /// %; a lower charge is reported as an error.
     static constexpr double LOW_CHARGE = 15.0;
 
 private:
     static constexpr std::uint64_t KEY_TICK = 100;  ///< Above the keys of the session's own timers.
-    static constexpr std::uint64_t KEY_EVENT = 101; ///< A fault, or a message that was held back.
+    static constexpr std::uint64_t KEY_EVENT = 101; ///< A fault or a delayed message is due.
 
     VirtualVehicleOptions _options;
     const Planning::SiteMap* _site;
@@ -91,28 +91,28 @@ private:
     VDA5050::VehicleSession _session;
     VDA5050::VehicleActions _sessionActions;
     VehicleMotion _motion;
-    ActionRunner _hands;
+    ActionRunner _actionRunner;
     std::vector<ActionOutcome> _outcomes;
     std::optional<VDA5050::DriveTo> _leg;
     std::optional<Core::SteadyTime> _lastTime;
-    std::string _nodeID; ///< Where it stands or was last.
+    std::string _nodeID; ///< Its current or last node.
     std::string _mapID;
     double _charge;               ///< %
-    double _unlivedSeconds = 0.0; ///< Simulated: less than a slice.
+    double _pendingSeconds = 0.0; ///< Simulated, not yet processed: less than a slice.
     std::vector<VDA5050::Load> _reportedLoads;
     std::string _dockNodeID;    ///< Where it was docked last; empty: nowhere.
-    bool _bDockUnknown = false; ///< The world could not be written when it docked or left: again at the next tick.
+    bool _bDockUnknown = false; ///< The docking is not recorded in the world: retry at the next tick.
     bool _bDriving = false;
     bool _bTicking = false;
     bool _bStopWanted = false; ///< By the session.
-    bool _bAbandons = false;   ///< The order is gone, and it still brakes.
+    bool _bAbandons = false;   ///< The order is cleared, and it still brakes.
 
     FaultBoard _faults;
     FaultChanges _faultChanges;
     std::vector<Fault> _waitingFaults; ///< Until it is online for the first time.
     MessageGate _incoming{EFaultDirection::In};
     MessageGate _outgoing{EFaultDirection::Out};
-    std::vector<VDA5050::VehicleError> _orderErrors; ///< Until an order is taken.
+    std::vector<VDA5050::VehicleError> _orderErrors; ///< Until an order is accepted.
     std::optional<Core::SteadyTime> _nextEvent;      ///< What the event timer runs for.
     Apps::LogRateLimiter _warnings;                  ///< Those that a peer can trigger.
     bool _bWasOnline = false;
@@ -134,15 +134,15 @@ public:
     void OnTimer(std::uint64_t key, Core::Now now, VirtualActions& out);
     /// Publishes OFFLINE, as the last message.
     void Leave(Core::Now now, VirtualActions& out);
-    /// Another robot, or a person, has changed the world: what is on board may be something else now.
+    /// Another program has changed the world: the loads on board may have changed.
     void OnWorldChanged(Core::Now now, VirtualActions& out);
 
-    /// Its delay counts from now, or from the first OnLinkUp where that is still to come.
-    /// False where it has FaultBoard::MAX_FAULTS already.
+    /// The delay of the fault counts from now, or from the first OnLinkUp if that is still to come. False if the vehicle
+    /// already has FaultBoard::MAX_FAULTS.
     [[nodiscard]] bool TryInject(const Fault& fault, Core::Now now, VirtualActions& out);
-    /// Ends the faults of the kind (absent: all), also those to come; how many there were.
+    /// Ends the faults of the kind (absent: all), those that have not begun included. Returns the number of them.
     std::size_t EndFaults(std::optional<EFaultKind> kindOrNull, Core::Now now, VirtualActions& out);
-    /// Ends every waitForTrigger that runs; how many there were.
+    /// Ends every running waitForTrigger. Returns the number of them.
     std::size_t Trigger(Core::Now now, VirtualActions& out);
 
     [[nodiscard]] VDA5050::StateMessage GetState() const;
@@ -151,32 +151,32 @@ public:
 
 private:
     void PassTime(Core::Now now, VirtualActions& out);
-    void LiveSlice(Core::Now now, VirtualActions& out);
+    void AdvanceSlice(Core::Now now, VirtualActions& out);
     void ReachNode(Core::Now now, VirtualActions& out);
     void EndActions(Core::Now now, VirtualActions& out);
-    /// Carries out what the session has asked for, and what that leads to.
+    /// Executes the session's actions, and those that result from them.
     void Pump(Core::Now now, VirtualActions& out);
     void CarryOut(VDA5050::VehicleAction& action, Core::Now now, VirtualActions& out);
-    void TellPosition();
-    void TellDriving(bool bDriving, Core::Now now);
-    void TellBattery(Core::Now now);
-    void TellLoads(Core::Now now);
-    /// Reports to the world at which stations the vehicle is docked, where that has changed.
+    void ReportPosition();
+    void ReportDriving(bool bDriving, Core::Now now);
+    void ReportBattery(Core::Now now);
+    void ReportLoads(Core::Now now);
+    /// Records in the world at which stations the vehicle is docked, if that has changed.
     void UpdateDock(Core::Now now);
     void KeepTicking(VirtualActions& out);
-    /// Ends each call from outside: what the session asks for, and the timers.
+    /// Ends each public call: executes the session's actions and sets the timers.
     void Settle(Core::Now now, VirtualActions& out);
 
     void ApplyFaults(Core::Now now, VirtualActions& out);
     void ApplyFault(const FaultChange& change, Core::Now now, VirtualActions& out);
-    void TellCondition(Core::Now now);
+    void ReportCondition(Core::Now now);
     void UpdateBrake(Core::Now now);
     [[nodiscard]] bool IsBlocked() const;
     [[nodiscard]] std::optional<double> GetSwerveOrNull(const Fault& obstacle) const;
     [[nodiscard]] std::vector<VDA5050::VehicleError> MakeErrors() const;
     void AddOrderError(VDA5050::VehicleError error, Core::Now now);
     [[nodiscard]] bool TryRefuse(const VDA5050::MqttMessage& message, Core::Now now, VirtualActions& out);
-    [[nodiscard]] std::optional<VDA5050::VehicleError> TakeActionFaultOrNull(
+    [[nodiscard]] std::optional<VDA5050::VehicleError> UseActionFaultOrNull(
         const VDA5050::Action& action,
         bool bAtStart);
     void Deliver(const VDA5050::MqttMessage& message, Core::Now now, VirtualActions& out);
@@ -203,7 +203,7 @@ private:
     [[nodiscard]] bool IsAtCharger() const;
 };
 
-/// The pose of a vehicle that stands on the node, with the heading that the site gives it there.
+/// The pose of a vehicle on the node, with the heading that the site defines there.
 [[nodiscard]] Pose GetStartPose(const Planning::SiteNode& node);
 
 } // namespace ACS::VdaSim

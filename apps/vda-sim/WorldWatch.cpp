@@ -22,11 +22,11 @@ bool WorldWatch::HasChanged()
         _failure = std::move(failure);
         if (_failure.empty())
         {
-            _logger.Info("the world can be read again");
+            _logger.Info("the world file is readable again");
         }
         else
         {
-            _logger.Error("the world cannot be read: picks and drops fail", {{"reason", _failure}});
+            _logger.Error("cannot read the world file: picks and drops fail", {{"reason", _failure}});
         }
     }
     return bChanged;

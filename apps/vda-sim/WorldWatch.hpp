@@ -8,18 +8,18 @@
 namespace ACS::VdaSim
 {
 
-/// Polls the world for what others have changed, and logs when it cannot be read any more, and when it can be read again.
+/// Polls the world for changes by other programs, and logs when it becomes unreadable and readable again.
 class WorldWatch
 {
     Sim::IWorld* _world;
     Core::Logger _logger;
-    std::string _failure; ///< As it was logged; empty: the world can be read.
+    std::string _failure; ///< As it was logged; empty: the world is readable.
 
 public:
     /// The world outlives it.
     WorldWatch(Sim::IWorld& world, Core::Logger logger);
 
-    /// Since the last call.
+    /// Whether the world has changed since the last call.
     [[nodiscard]] bool HasChanged();
 };
 

@@ -86,7 +86,7 @@ protected:
         REQUIRE(TryRunUntil(_context, isSo, PATIENCE));
     }
 
-    /// As long as the witness takes to say so many times where it is.
+    /// Runs until the witness has published this number of visualizations.
     void LetPass(std::size_t visualizations)
     {
         const std::size_t before = Count(WITNESS, "visualization");
@@ -198,7 +198,7 @@ std::vector<std::string> ListCommands()
 
 } // namespace
 
-TEST_CASE_METHOD(WaysTest, "vda-sim: the master sees every fault, whether by command line, by file or while it runs")
+TEST_CASE_METHOD(WaysTest, "vda-sim: the master sees every fault, set by command line, by file or at run time")
 {
     const EWay way = GENERATE(EWay::CommandLine, EWay::File, EWay::ControlTopic);
     CAPTURE(static_cast<int>(way));
@@ -265,7 +265,7 @@ TEST_CASE_METHOD(WaysTest, "vda-sim: the master sees every fault, whether by com
     LetPass(5);
     CHECK(GetState("DEAF").orderID.empty());
     CHECK(Count("MUTE", "state") == mutedStates);
-    // What it does not say it does all the same: it has driven off.
+    // It drives although it reports nothing.
     const VDA5050::MqttMessage* const seen = _master->listener.FindLastOrNull(GetTopic("MUTE", "visualization"));
     REQUIRE(seen != nullptr);
     const auto visualization = _codec.Decode<VDA5050::VisualizationMessage>(seen->payload);

@@ -73,7 +73,7 @@ protected:
 
 } // namespace
 
-TEST_CASE_METHOD(FaultsTest, "vda-sim: each fault comes by the control topic, shows itself in a state, and is ended")
+TEST_CASE_METHOD(FaultsTest, "vda-sim: each fault is set over the control topic, shows in a state, and is cleared")
 {
     ChildProcess program(With({"--fault", "LR01 battery charge=9"}));
     REQUIRE(program.TryWaitForText("ready: broker=", PATIENCE));
@@ -128,7 +128,7 @@ TEST_CASE_METHOD(FaultsTest, "vda-sim: each fault comes by the control topic, sh
     CHECK_THAT(program.GetText(), Catch::Contains("fault begins") && Catch::Contains("fault ended"));
 }
 
-TEST_CASE_METHOD(FaultsTest, "vda-sim: a connection that drops brings the will or nothing, and the vehicle comes back")
+TEST_CASE_METHOD(FaultsTest, "vda-sim: after a dropped connection, with or without a will, the vehicle reconnects")
 {
     ChildProcess program(With({}));
     REQUIRE(program.TryWaitForText("ready: broker=", PATIENCE));
@@ -141,7 +141,7 @@ TEST_CASE_METHOD(FaultsTest, "vda-sim: a connection that drops brings the will o
         return _master->listener.CountTopic(CONNECTION_TOPIC);
     };
     const std::size_t before = countConnections();
-    // Nothing is said when it goes; the next word is the ONLINE of its return.
+    // Without a will nothing is published at the drop; the next message is ONLINE.
     CHECK(Command("LR01 drop will=no for=300ms") == "ok: vehicles=1 drop will=no for=300ms");
     REQUIRE(TryRunUntil(
         _context,
@@ -149,7 +149,7 @@ TEST_CASE_METHOD(FaultsTest, "vda-sim: a connection that drops brings the will o
         PATIENCE));
     CHECK(countConnections() == before + 1);
     CHECK_THAT(_master->listener.FindLastOrNull(CONNECTION_TOPIC)->payload, Catch::Contains("\"ONLINE\""));
-    // The vehicle hears orders again after all that.
+    // The vehicle receives orders again.
     Send(MakeOrder(2));
     WaitFor([](const StateMessage& state) { return state.lastNodeID == "N045"; });
     CHECK(Command("LR01 drop") == "ok: vehicles=1 drop");
@@ -159,12 +159,12 @@ TEST_CASE_METHOD(FaultsTest, "vda-sim: a connection that drops brings the will o
 
 TEST_CASE_METHOD(
     FaultsTest,
-    "vda-sim: a wrong command is answered with what is wrong, and nothing of its message is done")
+    "vda-sim: a wrong command is answered with the error, and no command of its message is executed")
 {
     ChildProcess program(With({}));
     REQUIRE(program.TryWaitForText("ready: broker=", PATIENCE));
     CHECK_THAT(Command("LR01 lost\nLR01 lost for=5"), Catch::StartsWith("error: line 2, lost for: "));
-    CHECK_THAT(Command("LR02 lost"), Catch::StartsWith("error: no vehicle is called LR02; LR01 is one"));
+    CHECK_THAT(Command("LR02 lost"), Catch::StartsWith("error: no vehicle LR02; one of the vehicles is LR01"));
     CHECK_THAT(Command("   "), Catch::StartsWith("error: "));
     CHECK_THAT(Command(std::string("\0\xff\n\r;", 5)), Catch::StartsWith("error: "));
     CHECK(Command("LR01 end") == "ok: vehicles=1 ended=0");
@@ -176,11 +176,11 @@ TEST_CASE_METHOD(
         many += "LR01 stuck at=1h\n";
     }
     CHECK_THAT(Command(many), Catch::StartsWith("ok: ") && !Catch::Contains("error"));
-    CHECK(Command("LR01 lost") == "error: 1 of 1 vehicles have 1000 faults already");
+    CHECK(Command("LR01 lost") == "error: 1 of 1 vehicles already have 1000 faults");
     CHECK(Command("LR01 end") == "ok: vehicles=1 ended=1000");
 }
 
-TEST_CASE_METHOD(FaultsTest, "vda-sim: a fleet speaks each vehicle's version, and leaves with an OFFLINE from each")
+TEST_CASE_METHOD(FaultsTest, "vda-sim: each vehicle of a fleet uses its version and ends with OFFLINE")
 {
     const TemporaryFolder folder;
     const std::string file = (folder.GetPath() / "faults.txt").string();

@@ -23,7 +23,7 @@ constexpr std::chrono::seconds PATIENCE{20};
 const std::string_view STATE_TOPIC = "uagv/v2/ACS/LR01/state";
 const std::string_view CONNECTION_TOPIC = "uagv/v2/ACS/LR01/connection";
 
-/// vda-sim on this broker, ten times as fast as life.
+/// vda-sim on this broker, ten times as fast as real time.
 inline std::vector<std::string> MakeCommand(
     const std::string& broker,
     const std::string& site,
@@ -75,7 +75,7 @@ inline VDA5050::OrderMessage MakeOrder(std::size_t releasedNodes)
     return std::move(*order);
 }
 
-/// A broker, and a master that hears all that vehicles publish; every test ends with a look at whether it is valid.
+/// A broker, and a master that receives all that vehicles publish and checks it against the schemas at the end.
 class VdaSimFixture
 {
 protected:

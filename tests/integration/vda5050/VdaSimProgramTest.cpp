@@ -55,7 +55,7 @@ TEST_CASE_METHOD(VdaSimFixture, "vda-sim: online, an order with an update and an
     CHECK_THAT(late.listener.messages.front().payload, Catch::Contains("OFFLINE"));
 }
 
-TEST_CASE_METHOD(VdaSimFixture, "vda-sim: one that is killed is reported as broken by the broker")
+TEST_CASE_METHOD(VdaSimFixture, "vda-sim: the broker reports a killed vehicle as CONNECTIONBROKEN")
 {
     ChildProcess program(MakeCommand(_broker.GetURL(), ACS_SITE_FILE, "LR01"));
     REQUIRE(TryRunUntil(_context, [this]() { return _master->listener.Contains(CONNECTION_TOPIC, "ONLINE"); }));
@@ -64,7 +64,7 @@ TEST_CASE_METHOD(VdaSimFixture, "vda-sim: one that is killed is reported as brok
         TryRunUntil(_context, [this]() { return _master->listener.Contains(CONNECTION_TOPIC, "CONNECTIONBROKEN"); }));
 }
 
-TEST_CASE_METHOD(VdaSimFixture, "vda-sim: waits for its broker and says so, and comes online when it is there")
+TEST_CASE_METHOD(VdaSimFixture, "vda-sim: waits for its broker, logs that, and comes online when the broker starts")
 {
     _broker.Kill();
     ChildProcess program(MakeCommand(_broker.GetURL(), ACS_SITE_FILE, "LR01"));
@@ -76,7 +76,7 @@ TEST_CASE_METHOD(VdaSimFixture, "vda-sim: waits for its broker and says so, and 
     CHECK(program.WaitForExitOrNull(PATIENCE) == 0);
 }
 
-TEST_CASE("vda-sim: ends with 0 also while its broker is not there")
+TEST_CASE("vda-sim: ends with 0 also while its broker is unreachable")
 {
     ChildProcess program(MakeCommand("mqtt://127.0.0.1:" + std::to_string(FindFreePort()), ACS_SITE_FILE, "LR01"));
     REQUIRE(program.TryWaitForText("cannot reach the MQTT broker", PATIENCE));
@@ -85,7 +85,7 @@ TEST_CASE("vda-sim: ends with 0 also while its broker is not there")
 }
 
 #ifdef ACS_TEST_CERTIFICATES
-TEST_CASE("vda-sim: joins a broker that asks for TLS, a certificate, a user and a password, by MQTT 5")
+TEST_CASE("vda-sim: connects to a broker that requires TLS, a certificate, a user and a password, with MQTT 5")
 {
     const TemporaryFolder folder;
     CertificateMaker maker(folder.GetPath());
@@ -135,7 +135,7 @@ TEST_CASE_METHOD(VdaSimFixture, "vda-sim: with --qos standard a state comes with
     CHECK(_master->listener.FindLastOrNull(CONNECTION_TOPIC)->qos == 1);
 }
 
-TEST_CASE("vda-sim: what it cannot use is one line with the thing's name, and exit code 2")
+TEST_CASE("vda-sim: each invalid input is one line that names it, and exit code 2")
 {
     const std::string broker = "mqtt://127.0.0.1:1883";
     std::vector<std::string> unknownOption = MakeCommand(broker, ACS_SITE_FILE, "LR01");

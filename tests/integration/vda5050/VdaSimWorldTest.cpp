@@ -97,7 +97,7 @@ TEST_CASE_METHOD(VdaSimFixture, "vda-sim: moves the carriers of a world that ano
     CHECK(program.WaitForExitOrNull(PATIENCE) == 0);
 }
 
-TEST_CASE("vda-sim: a world file with a mistake is one line with its name and place, and exit code 2")
+TEST_CASE("vda-sim: an error in a world file is one line with file and position, and exit code 2")
 {
     const TemporaryFolder folder;
     const std::string path = folder.GetPath() / "world.json";

@@ -76,7 +76,7 @@ TEST_CASE("A fault is its name and its parameters, in any order, between any bla
     CHECK(MakeFault("action-fails type=pick when=start count=3").maxUses == 3U);
 }
 
-TEST_CASE("What is no fault is told with what would be one")
+TEST_CASE("An invalid fault is refused with what is expected")
 {
     for (const auto& [text, expected] : std::vector<std::pair<std::string, std::string>>{
              {"", "one of drop"},
@@ -97,7 +97,7 @@ TEST_CASE("What is no fault is told with what would be one")
              {"mode mode=AUTOMATIC", "one of MANUAL"},
              {"silence topic=order", "one of state, visualization, factsheet"},
              {"silence topic=connection", "one of state, visualization, factsheet"},
-             {"loss topic=order direction=out", "in: a vehicle hears the topic order"},
+             {"loss topic=order direction=out", "in: a vehicle receives the topic order"},
              {"delay time=1s topic=state direction=in", "out: a vehicle publishes the topic state"},
              {"stuck level=FATAL", "error=ERRORTYPE"},
              {"action-fails level=FATAL", "error=ERRORTYPE"},
@@ -134,7 +134,7 @@ TEST_CASE("A command is for the vehicles that it names, and begins, ends or trig
     }
 }
 
-TEST_CASE("A file of faults has a line for each, remarks and empty lines; a mistake names its line")
+TEST_CASE("A fault file has one fault per line, comments and empty lines; an error names its line")
 {
     const auto commands =
         Apps::ParseFaultCommands(VdaSim::GetFaultGrammar(), "# all\r\n\n  A stuck # at once\r\nB drop for=1s");
@@ -147,7 +147,8 @@ TEST_CASE("A file of faults has a line for each, remarks and empty lines; a mist
     CHECK(wrong.error().path == "line 3, stuck for");
 }
 
-TEST_CASE("A fault file may begin with a byte order mark; what is no UTF-8, too long or too much is refused")
+TEST_CASE(
+    "A fault file may begin with a byte order mark; invalid UTF-8, too long lines and too many faults are refused")
 {
     const auto marked = Apps::ParseFaultCommands(
         VdaSim::GetFaultGrammar(),
@@ -202,7 +203,7 @@ TEST_CASE("A fault begins after its delay and ends after its time")
     CHECK_FALSE(board.GetNextTimeOrNull().has_value());
 }
 
-TEST_CASE("A fault whose timer fires late lasts no longer for it, and one that is over by then is told all the same")
+TEST_CASE("A late timer does not prolong a fault, and a fault that is over by then is reported nevertheless")
 {
     FaultBoard board;
     FaultChanges changes;
@@ -214,7 +215,7 @@ TEST_CASE("A fault whose timer fires late lasts no longer for it, and one that i
     CHECK(TakeTexts(changes) == Texts{"+stuck", "+lost", "-stuck its time is over", "-lost its time is over"});
 }
 
-TEST_CASE("A fault with a node waits for it, each time anew only where it is given again")
+TEST_CASE("A fault with a node begins on the next arrival there, once per command")
 {
     FaultBoard board;
     FaultChanges changes;
@@ -231,7 +232,7 @@ TEST_CASE("A fault with a node waits for it, each time anew only where it is giv
     CHECK(board.IsEmpty());
 }
 
-TEST_CASE("Ending takes those of the kind or all, the ones to come without a word")
+TEST_CASE("Ending ends the faults of the kind or all; those that have not begun are not reported")
 {
     FaultBoard board;
     FaultChanges changes;
@@ -239,15 +240,15 @@ TEST_CASE("Ending takes those of the kind or all, the ones to come without a wor
     board.Add(MakeFault("stuck at=5s"), START, changes);
     board.Add(MakeFault("lost"), START, changes);
     changes.clear();
-    CHECK(board.End(EFaultKind::Stuck, "it was ended", changes) == 2);
-    CHECK(TakeTexts(changes) == Texts{"-stuck it was ended"});
+    CHECK(board.End(EFaultKind::Stuck, "ended by command", changes) == 2);
+    CHECK(TakeTexts(changes) == Texts{"-stuck ended by command"});
     CHECK(board.IsActive(EFaultKind::Lost));
-    CHECK(board.End(std::nullopt, "it was ended", changes) == 1);
+    CHECK(board.End(std::nullopt, "ended by command", changes) == 1);
     CHECK(board.IsEmpty());
-    CHECK(board.End(std::nullopt, "it was ended", changes) == 0);
+    CHECK(board.End(std::nullopt, "ended by command", changes) == 0);
 }
 
-TEST_CASE("Of several of one kind the youngest counts, and the one before it when it ends")
+TEST_CASE("Of several faults of one kind the latest counts, and the previous one when it ends")
 {
     FaultBoard board;
     FaultChanges changes;
@@ -258,7 +259,7 @@ TEST_CASE("Of several of one kind the youngest counts, and the one before it whe
     CHECK(board.FindOrNull(EFaultKind::Mode)->mode == VDA5050::EOperatingMode::Service);
 }
 
-TEST_CASE("What is counted ends when it is used up: once where neither a number nor a time is given")
+TEST_CASE("A counted fault ends when it is used up: after one use if neither count nor duration is given")
 {
     FaultBoard board;
     FaultChanges changes;
@@ -298,7 +299,7 @@ TEST_CASE("Without a fault every message goes through at once")
     CHECK_FALSE(gate.GetNextTimeOrNull().has_value());
 }
 
-TEST_CASE("A loss takes its part of the messages of its topic and direction, the same ones for the same seed")
+TEST_CASE("A loss drops its share of the messages of its topic and direction, the same ones for the same seed")
 {
     const auto getLost = [](std::string_view fault, EFaultDirection direction, std::string_view name) {
         FaultBoard board;
@@ -329,7 +330,7 @@ TEST_CASE("A loss takes its part of the messages of its topic and direction, the
     CHECK(getLost("loss percent=30", EFaultDirection::Out, "B") != some);
 }
 
-TEST_CASE("A delay holds messages back, and none overtakes another, not even one that is not delayed itself")
+TEST_CASE("A delay keeps the order of messages, those that are not delayed themselves included")
 {
     FaultBoard board;
     FaultChanges changes;
@@ -354,7 +355,7 @@ TEST_CASE("A delay holds messages back, and none overtakes another, not even one
     CHECK(out[3].payload == "4");
 }
 
-TEST_CASE("A jitter draws each delay anew, within its bounds")
+TEST_CASE("A jitter draws each delay separately, within its bounds")
 {
     FaultBoard board;
     FaultChanges changes;
@@ -374,7 +375,7 @@ TEST_CASE("A jitter draws each delay anew, within its bounds")
     CHECK(times.size() > 90);
 }
 
-TEST_CASE("A delay holds no more than a network would: what comes then is lost, and there is room again later")
+TEST_CASE("A delay has a limit: further messages are lost, and there is room again later")
 {
     FaultBoard board;
     FaultChanges changes;
@@ -413,7 +414,7 @@ TEST_CASE("A fault that ends as it begins leaves the others alone")
     CHECK(TakeTexts(changes) == Texts{"+lost"});
 }
 
-TEST_CASE("What a log repeats of a text from outside is short, and whole characters")
+TEST_CASE("A peer's text in the log is short and consists of whole characters")
 {
     CHECK(VdaSim::CutForLog("short") == "short");
     CHECK(VdaSim::CutForLog(std::string(300, 'x')).size() == 200);
@@ -426,7 +427,7 @@ TEST_CASE("What a log repeats of a text from outside is short, and whole charact
         == 199);
 }
 
-TEST_CASE("A silent vehicle publishes nothing but its connection, or is silent on one topic, and hears on")
+TEST_CASE("A silent vehicle publishes only its connection, or is silent on one topic, and still receives")
 {
     FaultBoard board;
     FaultChanges changes;
@@ -441,14 +442,14 @@ TEST_CASE("A silent vehicle publishes nothing but its connection, or is silent o
     REQUIRE(out.size() == 2);
     CHECK(out[0].payload == "2");
     CHECK(out[1].payload == "3");
-    board.End(std::nullopt, "it was ended", changes);
+    board.End(std::nullopt, "ended by command", changes);
     board.Add(MakeFault("silence topic=visualization"), START, changes);
     outgoing.Pass(MakeMessage("state", "4"), board, random, START, out);
     outgoing.Pass(MakeMessage("visualization", "5"), board, random, START, out);
     CHECK(out.size() == 3);
 }
 
-TEST_CASE("A connection that is lost takes what was on its way with it")
+TEST_CASE("The delayed messages are lost with the connection")
 {
     FaultBoard board;
     FaultChanges changes;

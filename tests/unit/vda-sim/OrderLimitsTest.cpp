@@ -18,7 +18,7 @@ namespace
 using namespace std::chrono_literals;
 using VDA5050::OrderMessage;
 
-/// A straight line from N0 to N1, with so many control points, bent by a curve of this degree.
+/// A straight curve from N0 to N1 of this degree with this number of control points.
 VDA5050::Trajectory MakeCurve(std::uint32_t degree, std::uint32_t points)
 {
     VDA5050::Trajectory curve;
@@ -160,7 +160,7 @@ TEST_CASE("6.6 The slowest, most bent and farthest order that is allowed is driv
     CHECK(driver.GetPose().x == Approx(0.1).margin(0.01));
 }
 
-TEST_CASE("6.6 An order with a hundred broken rules is told its first sixteen")
+TEST_CASE("6.6 Of a hundred broken rules of an order the first sixteen are reported")
 {
     VehicleDriver driver("N0");
     auto route = driver.MakeRoute("order-1", {"N0", "N1"});

@@ -42,7 +42,7 @@ TEST_CASE("A vehicle may have its own number of ports, names of them, action typ
     CHECK(VdaSim::ParseVehicleSpec("A,lhd=side,side=lhd").has_value());
 }
 
-TEST_CASE("What is no vehicle is told with what would be one")
+TEST_CASE("An invalid vehicle is refused with what is expected")
 {
     for (const std::string text :
          {"",
@@ -97,7 +97,7 @@ TEST_CASE("What is no vehicle is told with what would be one")
     }
 }
 
-TEST_CASE("A mistake in a vehicle's keys names the vehicle")
+TEST_CASE("An error in a vehicle's keys names the vehicle")
 {
     const auto describe = [](std::string_view text) {
         return Core::Describe(VdaSim::ParseVehicleSpec(text).error());
@@ -108,7 +108,7 @@ TEST_CASE("A mistake in a vehicle's keys names the vehicle")
     CHECK_THAT(describe("LR07,speed=3"), Catch::StartsWith("LR07: expected type=LR|CR"));
 }
 
-TEST_CASE("A vehicle begins at its own node, else at the charger of its number, else at some node")
+TEST_CASE("A vehicle starts at its own node, else at the charger of its number, else at a node of the site")
 {
     const Planning::SiteMap site = MakeTestSite();
     VehicleSpec vehicle;
@@ -124,7 +124,7 @@ TEST_CASE("A vehicle begins at its own node, else at the charger of its number, 
     CHECK(unknown.error() == "vehicle A: the site has no node N9");
 }
 
-TEST_CASE("A site that is no file is named")
+TEST_CASE("A site file that is missing is named")
 {
     const auto site = VdaSim::LoadSite("/nonexistent/site.lif.json");
     REQUIRE_FALSE(site.has_value());
@@ -205,7 +205,7 @@ TEST_CASE("With a world every vehicle has the name of a robot")
     CHECK_FALSE(ReadOptionsFrom({"--vehicle", "A.B"}).exitCode.has_value());
 }
 
-TEST_CASE("A world file that cannot be used is an error of --world")
+TEST_CASE("An invalid world file is an error of --world")
 {
     VdaSim::VdaSimOptions options;
     options.sitePath = ACS_SITE "/site.lif.json";
@@ -218,7 +218,7 @@ TEST_CASE("A world file that cannot be used is an error of --world")
     CHECK_THAT(errors.str(), Catch::StartsWith("vda-sim: --world: /nonexistent/world.json: expected a world file"));
 }
 
-TEST_CASE("The command line says how to speak to the broker: MQTT's version, qualities of service, user and password")
+TEST_CASE("The command line has the settings of the broker: MQTT version, QoS profile, user and password")
 {
     const TemporaryFolder folder;
     const std::string file = (folder.GetPath() / "password").string();
@@ -257,7 +257,7 @@ TEST_CASE("The command line says how to speak to the broker: MQTT's version, qua
     CHECK(VdaSim::CheckBrokerOptions(half, Apps::EUrlScheme::Mqtts).empty());
 }
 
-TEST_CASE("A command line that cannot be meant ends the program with 2")
+TEST_CASE("A contradictory command line ends the program with 2")
 {
     for (const std::vector<const char*>& arguments : std::vector<std::vector<const char*>>{
              {},

@@ -40,7 +40,7 @@ std::vector<AgvAction> ListActions()
     return MakeFactsheet(EVehicleType::Logistics).protocolFeatures.agvActions;
 }
 
-/// With what the row asks for.
+/// Adds the parameters that the row requires.
 std::vector<ActionParameter> MakeParameters(const AgvAction& row)
 {
     std::vector<ActionParameter> parameters;
@@ -67,7 +67,7 @@ std::vector<ActionParameter> MakeParameters(const AgvAction& row)
     return parameters;
 }
 
-/// A vehicle at its charger, where everything can be done at once, in half a second.
+/// A vehicle at its charger, whose actions take half a second.
 VdaSim::VirtualVehicleOptions MakeOptions()
 {
     VdaSim::VirtualVehicleOptions options = VehicleDriver::MakeOptions("DOCK");
@@ -98,7 +98,7 @@ void SendOrder(VehicleDriver& driver, const Action& action, EActionScope scope)
     driver.Send(std::move(order));
 }
 
-/// What has to be so that the action can do its work.
+/// Establishes the preconditions of the action.
 void Prepare(VehicleDriver& driver, std::string_view actionType)
 {
     if (actionType == ActionTypes::DROP)
@@ -211,7 +211,7 @@ TEST_CASE("6.8.2 Maps are downloaded, enabled and deleted, and a factsheet witho
     CHECK(driver.GetStatus("without") == EActionStatus::Failed);
 }
 
-TEST_CASE("6.8 What is looked for along an edge is found by its end; a pick that is not done by then has failed")
+TEST_CASE("6.8 detectObject on an edge finishes at the edge's end; a pick that is not done by then has failed")
 {
     for (const std::string_view type : {ActionTypes::DETECT_OBJECT, ActionTypes::PICK})
     {
@@ -230,8 +230,7 @@ TEST_CASE("6.8 What is looked for along an edge is found by its end; a pick that
     }
 }
 
-TEST_CASE(
-    "7.4 The factsheet says what a vehicle keeps to: the sizes of messages, its places for loads, its version's members")
+TEST_CASE("7.4 The factsheet lists the limits of a vehicle: message sizes, load positions, members of its version")
 {
     const VDA5050::FactsheetMessage factsheet = MakeFactsheet(EVehicleType::Logistics);
     const VDA5050::ProtocolLimits& limits = factsheet.protocolLimits;
@@ -270,7 +269,7 @@ TEST_CASE(
     CHECK_FALSE(hasCorridor(VDA5050::EVda5050Version::Version200));
 }
 
-TEST_CASE("6.8 A pick takes the place that it names, or the first free one, and fails where that cannot be")
+TEST_CASE("6.8 A pick uses the load position that it names, or the first free one, and fails if there is none")
 {
     VehicleDriver driver(MakeOptions());
     auto route = driver.MakeRoute("order-loads", {"DOCK"});
@@ -384,7 +383,7 @@ TEST_CASE("--lenient-parameters: unlisted parameters are accepted and reported, 
     CHECK(driver.GetState().errors[0].errorType == VDA5050::ErrorTypes::ORDER_ERROR);
 }
 
-TEST_CASE("An instant action is held against the factsheet likewise")
+TEST_CASE("Instant actions are checked against the factsheet, too")
 {
     for (const bool bLenient : {false, true})
     {
@@ -399,7 +398,7 @@ TEST_CASE("An instant action is held against the factsheet likewise")
     }
 }
 
-TEST_CASE("6.6 The base of an arm has no place for loads: an order that has it pick is refused")
+TEST_CASE("6.6 The base of an arm has no load positions: an order with a pick is refused")
 {
     VdaSim::VirtualVehicleOptions options = MakeOptions();
     options.type = EVehicleType::Control;

@@ -72,7 +72,7 @@ inline void AddMandatoryParameters(VDA5050::Action& action)
     }
 }
 
-/// A virtual vehicle in virtual time: its timers fire when the test lets the time pass. What it publishes is held against
+/// A virtual vehicle in virtual time: its timers fire when the test advances the time. Its messages are checked against
 /// the official schemas.
 class VehicleDriver
 {
@@ -151,13 +151,13 @@ public:
         Execute();
     }
 
-    /// Whether the vehicle wants a connection; it has one then.
+    /// Whether the vehicle requests a connection, which it then gets.
     [[nodiscard]] bool IsConnected() const noexcept
     {
         return _bConnected;
     }
 
-    /// A builder for the route along these nodes, with what the site says of its edges.
+    /// A builder for the route along these nodes, with the edges of the site.
     [[nodiscard]] VDA5050::OrderBuilder MakeRoute(const std::string& orderID, const std::vector<std::string>& nodeIDs)
     {
         std::vector<VDA5050::OrderNode> nodes;
@@ -181,7 +181,7 @@ public:
         return Take(VDA5050::OrderBuilder::Create(orderID, std::move(nodes), std::move(edges)));
     }
 
-    /// Whatever it is, on the topic order.
+    /// Sends any payload on the topic order.
     void SendRaw(const std::string& payload)
     {
         Receive(VDA5050::ETopic::Order, payload);
@@ -236,7 +236,7 @@ public:
         MoveTo(end);
     }
 
-    /// Lets at most this time pass; false where the condition did not come true.
+    /// Advances at most this time; false if the condition did not become true.
     [[nodiscard]] bool TryPassUntil(const std::function<bool()>& isTrue, std::chrono::milliseconds limit)
     {
         const Core::SteadyTime end = _clock.GetNow().steady + limit;

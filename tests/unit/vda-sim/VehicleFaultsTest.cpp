@@ -54,7 +54,7 @@ VDA5050::OrderMessage MakeOrderWith(VehicleDriver& driver, std::string_view acti
 
 } // namespace
 
-TEST_CASE("drop: the connection is cut with the will, the vehicle drives on, and comes back by itself")
+TEST_CASE("drop: the connection is cut with the will, the vehicle continues and reconnects by itself")
 {
     VehicleDriver driver("N0");
     SendRoute(driver);
@@ -78,7 +78,7 @@ TEST_CASE("drop: the connection is cut with the will, the vehicle drives on, and
     CHECK(HasLine(driver, "fault ended", "drop for=5s"));
 }
 
-TEST_CASE("drop will=no: the link is told to go without a will; two drops end with the last of them")
+TEST_CASE("drop will=no: the connection ends without a will; two drops end with the last of them")
 {
     VehicleDriver driver("N0");
     driver.Inject("drop will=no for=2s");
@@ -90,7 +90,7 @@ TEST_CASE("drop will=no: the link is told to go without a will; two drops end wi
     CHECK(driver.IsConnected());
 }
 
-TEST_CASE("refuse: an order for another vehicle uses none up")
+TEST_CASE("refuse: an order for another vehicle does not use up the fault")
 {
     VehicleDriver driver("N0");
     driver.Inject("refuse");
@@ -118,7 +118,7 @@ TEST_CASE("A vehicle takes a thousand faults, those to come among them, and no m
     CHECK(driver.TryInject("lost"));
 }
 
-TEST_CASE("The log says of a flood of bad messages the first ones, each in a short line")
+TEST_CASE("Of many bad messages the first ones are logged, each in a short line")
 {
     VehicleDriver driver("N0");
     auto route = driver.MakeRoute("order-" + std::string(900, 'x'), {"N1", "N2"});
@@ -137,7 +137,7 @@ TEST_CASE("The log says of a flood of bad messages the first ones, each in a sho
         return std::ranges::count(driver.GetLog().GetLines(), message, &RecordedLine::message);
     };
     CHECK(count("order refused") == Apps::LogRateLimiter::BURST);
-    CHECK(count("more is delayed than a network holds: messages are lost") == Apps::LogRateLimiter::BURST);
+    CHECK(count("too many delayed messages: further ones are lost") == Apps::LogRateLimiter::BURST);
     for (const RecordedLine& line : driver.GetLog().GetLines())
     {
         for (const auto& [key, value] : line.fields)
@@ -161,7 +161,7 @@ TEST_CASE("silence: nothing is published, and the vehicle works on")
     CHECK(driver.GetPublished().size() > before);
 }
 
-TEST_CASE("stuck: the vehicle stands at once, says nothing of why, and goes on when it is over")
+TEST_CASE("stuck: the vehicle stops at once without an error and continues when the fault ends")
 {
     VehicleDriver driver("N0");
     SendRoute(driver);
@@ -179,7 +179,7 @@ TEST_CASE("stuck: the vehicle stands at once, says nothing of why, and goes on w
     CHECK(driver.GetState().lastNodeID == "N2");
 }
 
-TEST_CASE("stuck error=: the vehicle says why; an order that comes meanwhile is taken and waits")
+TEST_CASE("stuck error=: the vehicle reports the error; an order that comes meanwhile is accepted and waits")
 {
     VehicleDriver driver("N0");
     driver.Inject("stuck error=driveFault level=FATAL");
@@ -197,7 +197,7 @@ TEST_CASE("stuck error=: the vehicle says why; an order that comes meanwhile is 
     CHECK(driver.GetState().errors.empty());
 }
 
-TEST_CASE("blocked: the vehicle brakes, its field is violated, and it goes on when the way is free")
+TEST_CASE("blocked: the vehicle brakes, reports fieldViolation, and continues when the fault ends")
 {
     VehicleDriver driver("N0");
     SendRoute(driver);
@@ -253,7 +253,7 @@ TEST_CASE("6.10.4 blocked swerve=: the obstacle is passed within a corridor that
     }
 }
 
-TEST_CASE("lost: the vehicle stands and says that it does not know where; orders are refused until initPosition")
+TEST_CASE("lost: the vehicle is not localized and refuses orders until initPosition")
 {
     VehicleDriver driver("N0");
     driver.Inject("lost");
@@ -283,7 +283,7 @@ TEST_CASE("lost: the vehicle stands and says that it does not know where; orders
     CHECK(driver.GetState().lastNodeID == "N2");
 }
 
-TEST_CASE("lost on the way: the vehicle brakes, and goes on when it knows its place again")
+TEST_CASE("lost while driving: the vehicle brakes, and continues when it is localized again")
 {
     VehicleDriver driver("N0");
     SendRoute(driver);
@@ -335,7 +335,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("estop: the vehicle stands hard, its actions wait, and all goes on after it")
+TEST_CASE("estop: the vehicle brakes hard, its actions wait, and everything continues after it")
 {
     VehicleDriver driver("N0");
     driver.Send(MakeOrderWith(driver, VdaSim::ACTION_PICK, "pick"));
@@ -377,7 +377,7 @@ TEST_CASE("6.10.6 mode: MANUAL clears the order and refuses others; the vehicle 
     CHECK(driver.GetState().operatingMode == EOperatingMode::Automatic);
 }
 
-TEST_CASE("6.10.6 mode SERVICE: the order is kept, and goes on after it")
+TEST_CASE("6.10.6 mode SERVICE: the order is kept and continues after it")
 {
     VehicleDriver driver("N0");
     SendRoute(driver);
@@ -419,7 +419,7 @@ TEST_CASE("Driving never empties a battery below its reserve, and leaves one tha
     CHECK(driver.GetState().batteryState.batteryCharge == Approx(5.08));
 }
 
-TEST_CASE("refuse: the next order is refused with the error that was asked for, the one after it taken")
+TEST_CASE("refuse: the next order is refused with the given error, the one after it accepted")
 {
     VehicleDriver driver("N0");
     driver.Inject("refuse error=noRouteError");
@@ -502,7 +502,7 @@ TEST_CASE("The time of a fault is that of the clock, also where the simulated ti
     CHECK(driver.GetState().bDriving);
 }
 
-TEST_CASE("A pause and a fault are two reasons to stand, and each has to end")
+TEST_CASE("A vehicle with a pause and a fault continues when both have ended")
 {
     VehicleDriver driver("N0");
     SendRoute(driver);

@@ -184,7 +184,7 @@ TEST_CASE("A straight leg is a trapezoid of speed: the acceleration, the edge's 
         fastest = std::max(fastest, last);
     });
     CHECK(fastest == Approx(1.2));
-    // 2.4 s and 1.44 m to 1.2 m/s, 1.2 s and 0.72 m to a stand, 7.84 m between them.
+    // 2.4 s and 1.44 m to 1.2 m/s, 1.2 s and 0.72 m to a stop, 7.84 m between them.
     CHECK(seconds == Approx(2.4 + 1.2 + 7.84 / 1.2).margin(0.2));
     CHECK(motion.GetPose() == VdaSim::Pose{10.0, 0.0, 0.0});
     CHECK(motion.GetSpeed() == 0.0);
@@ -249,7 +249,7 @@ TEST_CASE("Before a corner within a trajectory the vehicle brakes in time")
     CHECK(motion.GetPose().y == 5.0);
 }
 
-TEST_CASE("Each brake has its own way to stand, and the leg goes on when it is released")
+TEST_CASE("Each brake has its own stopping distance, and the leg continues when it is released")
 {
     for (const auto& [brake, way] : std::vector<std::pair<EBrake, double>>{
              {EBrake::Service, 1.2},
@@ -294,13 +294,13 @@ TEST_CASE("A turn on the spot is a trapezoid of turn speed, there and at the end
             last = turnSpeed;
         });
         CHECK(fastest == Approx(limits.maxTurnSpeed));
-        // pi rad: 0.6 s to 1.2 rad/s (0.36 rad), as long to a stand, the rest at 1.2 rad/s.
+        // pi rad: 0.6 s to 1.2 rad/s (0.36 rad), the same to a stop, the rest at 1.2 rad/s.
         CHECK(turning == Approx(1.2 + (2.0 * QUARTER - 0.72) / 1.2).margin(0.1));
         CHECK(std::abs(motion.GetPose().theta) == Approx(2.0 * QUARTER).margin(EXACT));
     }
 }
 
-TEST_CASE("A vehicle that brakes while it turns ends its turn as smoothly, and stands only then")
+TEST_CASE("A vehicle that brakes while it turns also ends its turn smoothly, and is stationary only then")
 {
     const VdaSim::MotionLimits limits;
     VehicleMotion motion(limits, {});
@@ -322,7 +322,7 @@ TEST_CASE("A vehicle that brakes while it turns ends its turn as smoothly, and s
     CHECK(motion.GetPose().theta == Approx(2.0 * QUARTER).margin(EXACT));
 }
 
-TEST_CASE("A vehicle swerves gently, as far as it was told, and is back on its way at the end")
+TEST_CASE("A vehicle swerves gently, by the given distance, and is back on its path at the end")
 {
     VehicleMotion motion({}, {});
     motion.Begin(MakeStraight(10.0));

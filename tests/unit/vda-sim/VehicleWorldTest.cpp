@@ -30,7 +30,7 @@ ActionParameter MakeParameter(std::string_view key, std::string_view value)
     return {std::string(key), Core::JsonText::FromString(value)};
 }
 
-/// A conforming pick or drop, with what is to be different.
+/// A conforming pick or drop with these changes.
 std::vector<ActionParameter> MakeParameters(std::string_view station, std::vector<ActionParameter> more = {})
 {
     std::vector<ActionParameter> parameters{
@@ -184,7 +184,7 @@ TEST_CASE("What is physically impossible fails with a reason, and nothing moves"
     WorldFixture floor;
     REQUIRE(floor.GetWorld().Act(Sim::CarrierPlaced{"CASSETTE_02", "LR01.CP02"}));
     VehicleDriver driver(floor.GetOptions());
-    CHECK(ListLoads(driver) == "CP02=CASSETTE_02 "); // what the world file has there
+    CHECK(ListLoads(driver) == "CP02=CASSETTE_02 "); // as in the world file
     struct Impossible
     {
         const char* actionType;
@@ -194,8 +194,11 @@ TEST_CASE("What is physically impossible fails with a reason, and nothing moves"
     for (const Impossible& impossible : {
              Impossible{"pick", MakeParameters("A01.CP02"), "empty place"},
              Impossible{"pick", MakeParameters("A01.CP01", {MakeParameter("loadId", "CASSETTE_07")}), "CASSETTE_07"},
-             Impossible{"pick", MakeParameters("A01.CP01", {MakeParameter("lhd", "CP02")}), "in this place already"},
-             Impossible{"pick", MakeParameters("A01.CP01", {MakeParameter("lhd", "CP05")}), "no such place"},
+             Impossible{
+                 "pick",
+                 MakeParameters("A01.CP01", {MakeParameter("lhd", "CP02")}),
+                 "load position is occupied"},
+             Impossible{"pick", MakeParameters("A01.CP01", {MakeParameter("lhd", "CP05")}), "no such load position"},
              Impossible{"pick", MakeParameters("A02.CP01"), "docked at"},
              Impossible{"pick", MakeParameters("nowhere"), "place"},
              Impossible{"pick", MakeParameters(""), "no station"},
@@ -205,7 +208,7 @@ TEST_CASE("What is physically impossible fails with a reason, and nothing moves"
              Impossible{
                  "drop",
                  MakeParameters("A01.CP02", {MakeParameter("loadId", "CASSETTE_02"), MakeParameter("lhd", "CP01")}),
-                 "another place"},
+                 "another load position"},
          })
     {
         const auto ended = floor.Perform(driver, impossible.actionType, impossible.parameters);
@@ -216,7 +219,7 @@ TEST_CASE("What is physically impossible fails with a reason, and nothing moves"
     }
 }
 
-TEST_CASE("An action that a fault lets fail moves nothing")
+TEST_CASE("An action that fails by a fault moves nothing")
 {
     WorldFixture floor;
     VehicleDriver driver(floor.GetOptions());
@@ -226,7 +229,7 @@ TEST_CASE("An action that a fault lets fail moves nothing")
     CHECK(driver.GetState().loads->empty());
 }
 
-TEST_CASE("Without a stationName the only station of the node is meant")
+TEST_CASE("Without a stationName the only station of the node is used")
 {
     WorldFixture floor;
     REQUIRE(floor.GetWorld().Act(Sim::CarrierPlaced{"CASSETTE_02", "A02.CP01"}));
@@ -319,7 +322,7 @@ TEST_CASE("A journal that cannot be read fails pick and drop with file and line,
     CHECK((*world)->GetPlaceOrNull("CASSETTE_01") == "A01.CP01");
 }
 
-TEST_CASE("The world's state is logged when it changes: it cannot be read, and it can again")
+TEST_CASE("The log has when the world becomes unreadable and when it is readable again")
 {
     const TemporaryFolder folder;
     const std::string file = folder.GetPath() / "world.json";
@@ -344,7 +347,7 @@ TEST_CASE("The world's state is logged when it changes: it cannot be read, and i
     CHECK(log.GetLines().size() == 2);
 }
 
-TEST_CASE("A docking that could not be written to the world is written later")
+TEST_CASE("A docking that could not be recorded in the world is recorded later")
 {
     WorldFixture floor;
     LockedWorld world(floor.GetWorld());
@@ -353,7 +356,7 @@ TEST_CASE("A docking that could not be written to the world is written later")
     VehicleDriver driver(floor.GetOptions());
     driver.Pass(1s);
     CHECK(floor.GetWorld().TakeEvents().empty());
-    CHECK(driver.GetLog().Contains(Core::ELogLevel::Warning, "does not know where the vehicle is docked"));
+    CHECK(driver.GetLog().Contains(Core::ELogLevel::Warning, "cannot record the docking of the vehicle"));
     world.Unlock();
     driver.Pass(1s);
     const std::vector<Sim::WorldEvent> events = floor.GetWorld().TakeEvents();
@@ -361,7 +364,7 @@ TEST_CASE("A docking that could not be written to the world is written later")
     CHECK((events[0] == Sim::WorldEvent(Sim::RobotDocked{"LR01", {"A01.CP01", "A01.CP02"}})));
 }
 
-TEST_CASE("What others put on the vehicle shows in its loads")
+TEST_CASE("Loads that another program puts on the vehicle are in its state")
 {
     WorldFixture floor;
     VehicleDriver driver(floor.GetOptions());
@@ -370,7 +373,7 @@ TEST_CASE("What others put on the vehicle shows in its loads")
     CHECK(ListLoads(driver) == "CP04=CASSETTE_05 ");
 }
 
-TEST_CASE("A make of its own: other actionTypes, parameters and names of the load positions")
+TEST_CASE("Custom load handling: other actionTypes, parameters and names of the load positions")
 {
     WorldFixture floor;
     const auto spec = VdaSim::ParseVehicleSpec(
@@ -395,7 +398,7 @@ TEST_CASE("A make of its own: other actionTypes, parameters and names of the loa
     CHECK(floor.GetWorld().GetPlaceOrNull("CASSETTE_01") == "A01.CP02");
 }
 
-TEST_CASE("The factsheet of a make of its own lists what it has")
+TEST_CASE("The factsheet lists custom load handling")
 {
     const auto spec =
         VdaSim::ParseVehicleSpec("LR02,ports=1,load=CP01:front,pick=loadCassette,stationType=,height=level:INTEGER");

@@ -106,7 +106,7 @@ TEST_CASE("6.6 An update that comes in time is driven through without a stop, sl
     CHECK(speedAtNode < 0.45);
 }
 
-TEST_CASE("6.6 A node is passed no faster than the order allows on the way behind it, nor than that can be braked on")
+TEST_CASE("6.6 The speed at a node is limited by the next edge and by the braking distance on it")
 {
     VehicleDriver driver("N0");
     const auto getSpeedAtNode = [&driver](const std::string& orderID, double secondSpeed, double secondNodeX) {
@@ -157,7 +157,7 @@ TEST_CASE("A vehicle keeps to the speed of the edge and to its own acceleration"
         end = driver.GetState().bDriving ? lastTime : end;
     });
     CHECK(fastest == Approx(1.2));
-    // 10 m: 2 s to 1.2 m/s (1.2 m), 2 s to a stand, 7.6 m at 1.2 m/s.
+    // 10 m: 2 s to 1.2 m/s (1.2 m), 2 s to a stop, 7.6 m at 1.2 m/s.
     CHECK(std::chrono::duration<double>(end - start).count() == Approx(10.33).margin(0.3));
 }
 
@@ -224,7 +224,7 @@ TEST_CASE("6.8 A pick runs at its node, standing, for its time; the load is in t
     CHECK(driver.GetState().loads->empty());
 }
 
-TEST_CASE("6.8 A drop without a load fails, and the order goes on")
+TEST_CASE("6.8 A drop without a load fails, and the order continues")
 {
     VehicleDriver driver("N0");
     auto drop = AddAction(driver, {"N0", "N1", "N2"}, 1, VdaSim::ACTION_DROP);
@@ -267,7 +267,7 @@ TEST_CASE("6.6.3 A cancelled vehicle ends on the next node, and is ready for ano
     CHECK(driver.GetState().lastNodeID == "N2");
 }
 
-TEST_CASE("6.8 A pause brings the vehicle to a smooth stand on the way, and stopPause sends it on")
+TEST_CASE("6.8 A pause stops the vehicle smoothly on its path, and stopPause lets it continue")
 {
     VehicleDriver driver("N0");
     auto route = driver.MakeRoute("order-1", {"N0", "N1"});
@@ -342,7 +342,7 @@ TEST_CASE("The time scale makes driving and handling quicker, and changes no spe
     CHECK(driver.GetStatus("work") == EActionStatus::Finished);
 }
 
-TEST_CASE("6.14 A vehicle that leaves says OFFLINE last, retained, with quality of service 1")
+TEST_CASE("6.14 A vehicle that leaves publishes OFFLINE as the last message, retained, with QoS 1")
 {
     VehicleDriver driver("N0");
     driver.Leave();
@@ -353,7 +353,7 @@ TEST_CASE("6.14 A vehicle that leaves says OFFLINE last, retained, with quality 
     CHECK_THAT(last.payload, Catch::Contains("\"OFFLINE\""));
 }
 
-TEST_CASE("A standing vehicle with nothing to do asks for no tick")
+TEST_CASE("A stationary vehicle with nothing to do requests no tick")
 {
     VehicleDriver driver("N0");
     driver.Pass(10s);
