@@ -15,7 +15,7 @@
 namespace ACS::OpenStreamSim
 {
 
-/// Until the relay is not 0.
+/// Waits until the relay is not 0.
 struct WaitStatement
 {
     RelayName relay;
@@ -25,8 +25,8 @@ struct EndStatement
 {
 };
 
-/// The program that `rl.` commands of the console put together in the base task, statement by statement, and run. While it
-/// waits, trajectories may move the arm. Times are simulated.
+/// The program that `rl.` commands of the console compose in the base task, statement by statement, and run. While it waits,
+/// trajectories may move the arm. Times are simulated.
 class ConsoleProgram
 {
     enum class EPhase : std::uint8_t
@@ -44,29 +44,29 @@ class ConsoleProgram
     EPhase _phase = EPhase::AtBeginning;
 
 public:
-    /// Appends "wait di1", "move …" or "end"; false where it is none of them or the program is full.
+    /// Appends "wait di1", "move …" or "end"; false if the text is another one or the program is full.
     [[nodiscard]] bool TryAdd(std::string_view text);
 
-    /// No statements any more.
+    /// Removes all statements.
     void Clear();
 
-    /// Begins or goes on; a move that was stopped begins anew from where the arm is.
+    /// Begins or continues; a move that was stopped begins again from the arm's position.
     void Start();
-    /// Nothing happens where it does not run.
+    /// No effect if it does not run.
     void Stop();
     /// Back to the beginning.
     void Reset();
 
-    /// Leaves the wait at which it stands; false where it stands at none.
+    /// Ends the current wait; false if the program does not wait.
     [[nodiscard]] bool TryReleaseWait();
 
-    /// What happens between the two times. The arm stops at its end.
+    /// Runs the program between the two times. The arm stops at the end of the program.
     void Advance(Core::Duration from, Core::Duration until, Arm& arm, const RelayMemory& relays);
 
     [[nodiscard]] bool IsEmpty() const noexcept;
     [[nodiscard]] bool IsRunning() const noexcept;
     [[nodiscard]] bool IsHalted() const noexcept;
-    /// Runs, and stands at a wait.
+    /// Runs and waits for a relay.
     [[nodiscard]] bool IsWaiting() const noexcept;
 };
 

@@ -73,7 +73,7 @@ std::string ReadModel(std::string_view text, std::string& target)
     if (text.empty() || text.size() > MAX_LENGTH || !bPrintable)
     {
         return fmt::format(
-            "expected a name of 1 to {} letters, digits and signs such as HA006B-01, found {}",
+            "expected a name of 1 to {} printable characters without blanks (HA006B-01), found {}",
             MAX_LENGTH,
             Core::QuoteForError(text));
     }
@@ -81,7 +81,7 @@ std::string ReadModel(std::string_view text, std::string& target)
     return {};
 }
 
-/// The last port of a row that begins there.
+/// The last of the consecutive ports, one for each controller.
 std::size_t GetLastPort(const Apps::Endpoint& first, std::size_t controllers)
 {
     return first.port + controllers - 1;
@@ -95,34 +95,34 @@ std::string CheckLastPort(std::string_view option, const Apps::Endpoint& first, 
         return {};
     }
     return fmt::format(
-        "{} controllers from {} {} on would need ports beyond {}: give fewer, a lower port, or port 0",
+        "{} controllers from {} {} need ports beyond {}: give fewer controllers, a lower port, or port 0",
         controllers,
         option,
         Apps::MakeText(first),
         LAST_PORT);
 }
 
-/// Whether there are the ports that the controllers need.
+/// Checks that the controllers have enough ports, and different ones.
 std::string CheckPorts(const FleetOptions& fleet)
 {
     const Apps::Endpoint& stream = fleet.first.stream;
     const Apps::Endpoint& http = fleet.first.http;
-    std::string mistake = CheckLastPort("--listen", stream, fleet.controllers);
-    mistake = mistake.empty() ? CheckLastPort("--http", http, fleet.controllers) : mistake;
+    std::string error = CheckLastPort("--listen", stream, fleet.controllers);
+    error = error.empty() ? CheckLastPort("--http", http, fleet.controllers) : error;
     const bool bMeet =
         stream.port <= GetLastPort(http, fleet.controllers) && http.port <= GetLastPort(stream, fleet.controllers);
-    if (mistake.empty() && stream.port != 0 && http.port != 0 && stream.host == http.host && bMeet)
+    if (error.empty() && stream.port != 0 && http.port != 0 && stream.host == http.host && bMeet)
     {
-        mistake = fmt::format(
-            "--listen {} and --http {} want the same port: give them ports that are at least {} apart",
+        error = fmt::format(
+            "--listen {} and --http {} use the same port: give them ports that are at least {} apart",
             Apps::MakeText(stream),
             Apps::MakeText(http),
             fleet.controllers);
     }
-    return mistake;
+    return error;
 }
 
-/// A fault for a controller that is not there would be waited for in vain.
+/// A fault for an unknown controller would never occur.
 std::string CheckFaults(const FleetOptions& fleet)
 {
     for (const FaultCommand& command : fleet.faults)
@@ -135,7 +135,7 @@ std::string CheckFaults(const FleetOptions& fleet)
         if (!bKnown)
         {
             return fmt::format(
-                "the fault '{} {}' is for no controller that there is: they are called 1 to {}, and * is all",
+                "fault '{} {}': no such controller; give one from 1 to {}, or * for all",
                 command.targets,
                 command.fault.text,
                 fleet.controllers);
@@ -151,14 +151,14 @@ void AddSessionOptions(CLI::App& app, HostOptions& host)
         app,
         "--sessions",
         [&host](const std::string& text) { return ReadCount(text, MAX_SESSIONS, host.sessions); },
-        "Open Stream sessions at a time of a controller. One more takes the place of the oldest one without a HANDSHAKE")
+        "Maximum number of Open Stream sessions of a controller. One more replaces the oldest session without a HANDSHAKE")
         .default_str("8")
         ->type_name("N");
     Apps::AddTextOption(
         app,
         "--handshake-timeout",
         [&host](const std::string& text) { return ReadTimeout(text, host.handshakeTimeout); },
-        "Maximum time from an Open Stream connection to its HANDSHAKE; 0s disables it")
+        "Maximum time from an Open Stream connection to its HANDSHAKE; 0s disables the limit")
         .default_str("5s")
         ->type_name("DURATION");
 }
@@ -169,14 +169,14 @@ void AddModelOptions(CLI::App& app, ControllerOptions& controller)
         app,
         "--controller-version",
         [&controller](const std::string& text) { return ReadVersion(text, controller.version); },
-        "Version of the controller, which sysver reports; from 60.30-00 on it serves r_code instead of reset and motor_off")
+        "Version of the controller, reported by sysver; from 60.30-00 on it serves r_code instead of reset and motor_off")
         .default_str(MakeText(controller.version))
         ->type_name("NN.NN-NN");
     Apps::AddTextOption(
         app,
         "--robot-model",
         [&controller](const std::string& text) { return ReadModel(text, controller.robotModel); },
-        "Model of the robot, which rgen reports")
+        "Model of the robot, reported by rgen")
         .default_str(controller.robotModel)
         ->type_name("NAME");
 }
@@ -192,7 +192,7 @@ std::string ReadRobot(std::string_view text, std::map<std::size_t, std::string>&
     if (!bNumber || !robotID.has_value() || robotID->IsAlias())
     {
         return fmt::format(
-            "expected CONTROLLER=ROBOT with a number from 1 and a robot's name (1=CR01), found {}",
+            "expected CONTROLLER=ROBOT with a number of at least 1 and a robot id (1=CR01), found {}",
             Core::QuoteForError(text));
     }
     if (!robots.emplace(controller, robotID->GetText()).second)
@@ -208,21 +208,23 @@ void AddFloorOptions(CLI::App& app, OpenStreamSimOptions& options)
         app,
         "--programs",
         options.programFile,
-        "TOML file with what each program does: the places that its relay words name, its echo, its time");
+        "TOML file of the programs: duration, echo and work with relays (docs/reference/openstream-sim.md). Without it a "
+        "program takes its time and moves nothing (default)");
     Apps::AddFileOption(
         app,
         "--world",
         options.worldFile,
-        "World file of the floor that the simulators share; with --programs");
+        "World file that the simulators share (docs/reference/world.md); needs --programs. Without it no carrier moves (default)");
     Apps::AddRepeatedOption(
         app,
         "--robot",
         [&options](const std::string& text) { return ReadRobot(text, options.fleet.robots); },
-        "Robot that carries the arm of a controller: 1=CR01. May be repeated")
+        "Robot that carries the arm of a controller (1=CR01); needed with --world and with {robot} in --programs. May be "
+        "repeated")
         .type_name("CONTROLLER=ROBOT");
 }
 
-/// The file's programs; the time and the failure that --program gives win.
+/// Adds the file's programs; the duration and the failure of --program take precedence.
 void AddPrograms(const ProgramFile& file, ControllerOptions& controller)
 {
     for (const auto& [number, spec] : file.programs)
@@ -236,7 +238,7 @@ void AddPrograms(const ProgramFile& file, ControllerOptions& controller)
     }
 }
 
-/// Whether each controller has a robot where one is needed, and each robot a controller.
+/// Checks that each controller has a robot if one is needed, and each robot one controller.
 std::string CheckRobots(const OpenStreamSimOptions& options, const ProgramFile& programs)
 {
     const std::map<std::size_t, std::string>& robots = options.fleet.robots;
@@ -250,14 +252,14 @@ std::string CheckRobots(const OpenStreamSimOptions& options, const ProgramFile& 
         if (controller > options.fleet.controllers)
         {
             return fmt::format(
-                "--robot {}={} is for no controller that there is: they are called 1 to {}",
+                "--robot {}={}: no such controller; give one from 1 to {}",
                 controller,
                 robot,
                 options.fleet.controllers);
         }
         if (!names.insert(robot).second)
         {
-            return fmt::format("--robot: robot {} has two controllers; give each a robot of its own", robot);
+            return fmt::format("--robot: robot {} has two controllers; give each controller a different robot", robot);
         }
     }
     const bool bNamed = programs.HasRobotName();
@@ -281,21 +283,20 @@ std::string CheckRobots(const OpenStreamSimOptions& options, const ProgramFile& 
 std::string MakeFooter()
 {
     return fmt::format(
-        "Faults, on the command line, in a file (a line each, # for remarks) and by POST /faults to --control:\n"
-        "  CONTROLLER FAULT [KEY=VALUE]...  begins one; CONTROLLER is 1, 2, ... or * for all\n"
-        "      at=DURATION later, program=NUMBER once this program begins, for=DURATION so long,\n"
-        "      every=DURATION again so long after it began\n"
-        "  CONTROLLER end [FAULT]           ends it, or all (--control)\n"
+        "Faults, on the command line, in a file (one per line, # begins a comment) and by POST /faults to --control:\n"
+        "  CONTROLLER FAULT [KEY=VALUE]...  begins a fault; CONTROLLER is 1, 2, ... or * for all\n"
+        "      at=DURATION: begin after this time; program=NUMBER: begin when this program begins;\n"
+        "      for=DURATION: end after this time; every=DURATION: repeat with this period\n"
+        "  CONTROLLER end [FAULT]           ends this fault, or all faults (--control)\n"
         "{}"
         "Example: openstream-sim --fault '1 hole at=5s every=2s' --control 127.0.0.1:8890\n"
         "         curl --data-binary '* estop for=5s' http://127.0.0.1:8890/faults\n"
         "\n"
-        "A program takes its time and ends: {} s unless --program says otherwise. Its own statements are: at its\n"
-        "beginning it adds 1 to the 32-bit counter in relay m at byte {} (ml{}), at its good end to the one at byte {},\n"
-        "when it fails or is given up to the one at byte {}; byte {} holds the number of the program that ended last.\n"
-        "With --programs it also copies the job number that it reads to byte {} before it counts its beginning, and at\n"
-        "its good end moves on the floor of --world what its relay words named at its beginning; a floor that does not\n"
-        "allow it makes the program fail. Read all five with GET /project/plc/m/val_s32?st={}&len=5.",
+        "A program ends after its duration ({} s without --program and --programs). It reports in 32-bit words of relay\n"
+        "m: when it begins it adds 1 at byte {} (ml{}), when it finishes at byte {}, when it fails or is abandoned at\n"
+        "byte {}; byte {} has the number of the program that ended last. With --programs it also copies its job number\n"
+        "to byte {} before it counts its beginning, and does its work on the floor of --world when it finishes; if the\n"
+        "floor does not allow the work, the program fails. GET /project/plc/m/val_s32?st={}&len=5 reads all five.",
         Apps::MakeFaultHelp(GetFaultGrammar()),
         std::chrono::duration_cast<std::chrono::seconds>(ProgramSpec{}.duration).count(),
         STARTED_BYTE,
@@ -309,9 +310,9 @@ std::string MakeFooter()
 
 } // namespace
 
-std::string TakeProgram(std::string_view text, ControllerOptions& options)
+std::string ParseProgram(std::string_view text, ControllerOptions& options)
 {
-    std::string mistake = fmt::format(
+    std::string error = fmt::format(
         "expected NUMBER=DURATION[,fail] with a number from {} to {} (11=3s), found '{}'",
         FIRST_PROGRAM,
         LAST_PROGRAM,
@@ -320,7 +321,7 @@ std::string TakeProgram(std::string_view text, ControllerOptions& options)
     const std::optional<int> number = ParseProgramNumberOrNull(text.substr(0, equals));
     if (equals == std::string_view::npos || !number.has_value())
     {
-        return mistake;
+        return error;
     }
     ProgramSpec spec;
     std::string_view rest = text.substr(equals + 1);
@@ -329,7 +330,7 @@ std::string TakeProgram(std::string_view text, ControllerOptions& options)
     const Core::Result<std::chrono::milliseconds> duration = Apps::ParseDuration(rest);
     if (!duration.has_value() || duration->count() == 0)
     {
-        return mistake;
+        return error;
     }
     spec.duration = *duration;
     if (!options.programs.emplace(*number, spec).second)
@@ -342,26 +343,26 @@ std::string TakeProgram(std::string_view text, ControllerOptions& options)
 std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, OpenStreamSimOptions& options)
 {
     CLI::App app{
-        "A Hi6 robot controller in memory: serves the Open Stream and the HTTP Open API over one simulated six-axis arm.",
+        "Simulates Hi6 robot controllers: each serves Open Stream and the HTTP Open API for a six-axis arm.",
         std::string(PROGRAM_NAME)};
     app.footer(MakeFooter());
     Apps::AddEndpointOption(
         app,
         "--listen",
         options.fleet.first.stream,
-        "Where to serve the Open Stream; port 0 takes a free one");
+        "Address of the Open Stream; port 0 selects a free one");
     Apps::AddEndpointOption(
         app,
         "--http",
         options.fleet.first.http,
-        "Where to serve the Open API; port 0 takes a free one");
+        "Address of the HTTP Open API; port 0 selects a free one");
     Apps::AddTextOption(
         app,
         "--controllers",
         [&options](const std::string& text) {
             return ReadCount(text, FleetOptions::MAX_CONTROLLERS, options.fleet.controllers);
         },
-        "So many controllers, each on the next port of --listen and of --http; on free ones where they say 0")
+        "Number of simulated controllers. Each uses the next port of --listen and of --http, or free ones if these are 0")
         .default_str("1")
         ->type_name("N");
     AddSessionOptions(app, options.fleet.first);
@@ -371,29 +372,30 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, OpenStr
     Apps::AddRepeatedOption(
         app,
         "--program",
-        [&options](const std::string& text) { return TakeProgram(text, options.fleet.first.controller); },
-        "How long a program takes, and whether it fails at its end: 11=3s or 12=500ms,fail")
+        [&options](const std::string& text) { return ParseProgram(text, options.fleet.first.controller); },
+        "Duration of a program, in simulated time, and whether it fails at its end: 11=3s or 12=500ms,fail (default 2s). May "
+        "be repeated")
         .type_name("NUMBER=DURATION[,fail]");
-    app.add_flag("--ready", options.fleet.first.controller.bMotorOn, "Begin with the motor on");
+    app.add_flag("--ready", options.fleet.first.controller.bMotorOn, "Start with the motor on (default: off)");
     app.add_flag(
         "--playing",
         options.fleet.first.controller.bWaiting,
-        "Begin with the motor on and a program in playback that waits for di1, so that trajectories are taken");
+        "Start with the motor on and a program in playback that waits for di1, so that trajectories are accepted");
     app.add_flag(
         "--realtime",
         options.bRealTime,
-        "Ask the system for a real-time priority, precise timers and locked memory; go on without what it refuses");
+        "Use a real-time priority, precise timers and locked memory; what the system refuses is logged");
     Apps::AddFaultOptions(
         app,
         GetFaultGrammar(),
         options.fleet.faults,
-        "What goes wrong, see below; its time counts from the start. May be repeated");
+        "Fault of a controller, see below; its times count from the ready line. May be repeated");
     Apps::Endpoint control;
     const CLI::Option& controlOption = Apps::AddEndpointOption(
         app,
         "--control",
         control,
-        "Where to take faults over HTTP while it runs; port 0 takes a free one. By default nowhere");
+        "Address of the HTTP interface that begins and ends faults; port 0 selects a free one (default: disabled)");
     Apps::AddCommonOptions(app, options.common);
     const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);
     if (exitCode.has_value())
@@ -405,21 +407,21 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, OpenStr
         options.fleet.control = control;
     }
     const ProgramFile programs = options.programFile.empty() ? ProgramFile() : ProgramFile::Read(options.programFile);
-    if (!programs.mistakes.empty())
+    if (!programs.errors.empty())
     {
-        for (const std::string& mistake : programs.mistakes)
+        for (const std::string& error : programs.errors)
         {
-            Apps::PrintError(PROGRAM_NAME, mistake);
+            Apps::PrintError(PROGRAM_NAME, error);
         }
         return Apps::EXIT_BAD_COMMAND_LINE;
     }
     AddPrograms(programs, options.fleet.first.controller);
-    std::string mistake = CheckPorts(options.fleet);
-    mistake = mistake.empty() ? CheckFaults(options.fleet) : mistake;
-    mistake = mistake.empty() ? CheckRobots(options, programs) : mistake;
-    if (!mistake.empty())
+    std::string error = CheckPorts(options.fleet);
+    error = error.empty() ? CheckFaults(options.fleet) : error;
+    error = error.empty() ? CheckRobots(options, programs) : error;
+    if (!error.empty())
     {
-        Apps::PrintError(PROGRAM_NAME, fmt::format("{}; try {} --help", mistake, PROGRAM_NAME));
+        Apps::PrintError(PROGRAM_NAME, fmt::format("{}; try {} --help", error, PROGRAM_NAME));
         return Apps::EXIT_BAD_COMMAND_LINE;
     }
     return std::nullopt;

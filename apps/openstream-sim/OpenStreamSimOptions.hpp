@@ -21,10 +21,10 @@ struct OpenStreamSimOptions
     Apps::CommonOptions common;
 };
 
-/// "NUMBER=DURATION" or "NUMBER=DURATION,fail" into the options. Returns an empty text, or what was expected and found.
-[[nodiscard]] std::string TakeProgram(std::string_view text, ControllerOptions& options);
+/// Reads "NUMBER=DURATION" or "NUMBER=DURATION,fail" into the options. Returns an empty text, or what was expected and found.
+[[nodiscard]] std::string ParseProgram(std::string_view text, ControllerOptions& options);
 
-/// Reads the command line. Nothing: go on; else the exit code to leave with.
+/// Reads the command line. Returns the exit code if the program is to end.
 [[nodiscard]] std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, OpenStreamSimOptions& options);
 
 } // namespace ACS::OpenStreamSim

@@ -3,8 +3,8 @@
 namespace ACS::OpenStreamSim
 {
 
-/// openstream-sim's command line and event loop. Returns the exit code: 0 after a clean end, 1 when it cannot serve, 2
-/// for a mistake on the command line.
+/// Reads the command line of openstream-sim and runs its event loop. Returns the exit code: 0 after a clean end, 1 if it
+/// cannot listen, 2 for an error in the command line or a file.
 [[nodiscard]] int RunOpenStreamSim(int argc, const char* const* argv);
 
 } // namespace ACS::OpenStreamSim

@@ -40,9 +40,9 @@ std::string_view GetSentence(EApiError error)
         case EApiError::BufferFull:
             return "the trajectory buffer is full";
         case EApiError::BufferLeft:
-            return "points of a trajectory that was stopped are in the buffer; POST joint_traject_init first";
+            return "the buffer has points of a stopped trajectory; POST joint_traject_init first";
         case EApiError::RemoteSelection:
-            return "remote mode takes a selection with ext_sel 1 only";
+            return "remote mode accepts only a selection with ext_sel 1";
         case EApiError::LocalSelection:
             return "ext_sel 1 selects in remote mode only";
         case EApiError::BadCounter:
@@ -57,7 +57,7 @@ std::string_view GetSentence(EApiError error)
         case EApiError::NotWaiting:
             return "E01554: no program waits in playback; start one that does (wait di1)";
         case EApiError::Language:
-            return "no statement of the robot language, or an axis cannot be there";
+            return "not a statement of the robot language, or an axis is out of its range";
         case EApiError::ProtectiveStop:
             return "a safeguard is open; close it first";
         case EApiError::None:

@@ -38,22 +38,22 @@ template <typename TAnswer>
 /// 200 with {"_type":"JObject"}.
 [[nodiscard]] OpenStream::ApiResponse Succeed();
 
-/// 403 with the code and a sentence, for what is not allowed now. None succeeds.
+/// 403 with the code and a sentence, for a call that is not allowed now; success for None.
 [[nodiscard]] OpenStream::ApiResponse Answer(EApiError error);
 
-/// Likewise, where an endpoint has a number of its own or a sentence that says more.
+/// 403 for endpoints with their own number or sentence.
 [[nodiscard]] OpenStream::ApiResponse Forbid(std::int32_t code, std::string sentence);
 
 /// 400
 [[nodiscard]] OpenStream::ApiResponse Refuse(const Core::Error& error);
 
-/// 400: what is wrong with which parameter or member.
+/// 400 with the parameter or member, the expected and the found value.
 [[nodiscard]] OpenStream::ApiResponse RefuseInput(std::string name, std::string expected, std::string found);
 
 /// 404
 [[nodiscard]] OpenStream::ApiResponse RefusePath(const std::string& sentence);
 
-/// A whole number of the query, or the default where it is not given.
+/// A whole number of the query, or the default if it is absent.
 [[nodiscard]] Core::Result<std::int64_t> ReadInteger(
     const OpenStream::ApiRequest& request,
     std::string_view name,
@@ -61,7 +61,7 @@ template <typename TAnswer>
     std::int64_t lowest,
     std::int64_t highest);
 
-/// The body over a message that holds the defaults.
+/// Reads the body into the message, which has the defaults.
 template <typename TMessage>
 [[nodiscard]] Core::Result<TMessage> ReadBody(const OpenStream::ApiRequest& request, TMessage message = {})
 {

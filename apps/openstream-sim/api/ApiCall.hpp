@@ -10,15 +10,15 @@ namespace ACS::OpenStreamSim
 
 class ControllerMachine;
 
-/// One call as a handler sees it.
+/// One call of an endpoint.
 struct ApiCall
 {
     const OpenStream::ApiRequest& request;
-    std::string_view argument; ///< What stood in the place of the pattern's {}.
-    std::string& room;         ///< Empty: for the answer of what is asked hundreds of times a second.
+    std::string_view argument; ///< The text at the pattern's {}.
+    std::string& room;         ///< An empty buffer for answers that are read hundreds of times a second.
 };
 
-/// Answers one call; the machine has been brought to the present.
+/// Answers one call; the machine has been advanced to the present.
 using ApiHandler = OpenStream::ApiResponse (*)(ControllerMachine& machine, const ApiCall& call);
 
 } // namespace ACS::OpenStreamSim

@@ -7,7 +7,7 @@
 #include <acs/json/JsonEncoder.hpp>
 #include <acs/json/JsonFields.hpp>
 
-// The members of the Open API's bodies and their ranges: the only place that spells them.
+// The members of the Open API's bodies and their ranges, in one place.
 
 template <>
 struct ACS::Json::JsonFields<ACS::OpenStreamSim::HealthAnswer>

@@ -30,7 +30,7 @@ struct RobotAnswer
     std::span<const double> position; ///< deg
 };
 
-/// GET …/joint_states. Views, as it is asked at the shortest period.
+/// GET …/joint_states. Views, because it is read at the shortest period.
 struct JointStatesAnswer
 {
     std::span<const double> position; ///< deg
@@ -38,7 +38,7 @@ struct JointStatesAnswer
     std::span<const double> effort;   ///< Nm
 };
 
-/// GET /project/robot/po_cur. What the asked coordinates do not have is left out.
+/// GET /project/robot/po_cur. Members that the requested coordinates do not have are omitted.
 struct PoseAnswer
 {
     int nsync = 0;
@@ -92,7 +92,7 @@ struct GeneralAnswer
     int eidLastConOut = -1;
     int eidLastStartStop = -1;
     int eidLastHistory = -1;
-    std::span<const int> inPosition; ///< By task: its mechanism stands.
+    std::span<const int> inPosition; ///< By task: its mechanism is stationary.
     std::span<const int> taskEnable;
     std::span<const int> axisCtrl;
 };
@@ -178,13 +178,13 @@ struct CoordinatesAnswer
     int ucrdNo = 0;
 };
 
-/// POST emergency_stop. The manuals' body is empty and presses; 0 releases, which is the simulator's own.
+/// POST emergency_stop. In the manuals the body is empty and presses; 0 releases, which only the simulator has.
 struct EmergencyStopCommand
 {
     int val = 1;
 };
 
-/// POST …/cur_prog_cnt; -1 leaves as it is.
+/// POST …/cur_prog_cnt; -1: unchanged.
 struct ProgramCounterCommand
 {
     int pno = -1;
@@ -213,7 +213,7 @@ struct ConsoleCommand
     std::string cmdLine;
 };
 
-/// What the robot language makes of a console command that it does not know.
+/// The answer to an unknown console command.
 struct ConsoleAnswer
 {
     int ecode = 1;

@@ -22,8 +22,8 @@ using enum OpenStream::EApiMethod;
 enum class EServed : std::uint8_t
 {
     Always,
-    BeforeRCode, ///< Then it is withdrawn: 403.
-    SinceRCode,  ///< Before, there is no such path: 404.
+    BeforeRCode, ///< Later versions answer 403.
+    SinceRCode,  ///< Earlier versions answer 404.
 };
 
 struct ApiRoute

@@ -9,11 +9,11 @@
 namespace ACS::OpenStreamSim
 {
 
-/// Whether the path is of this pattern, in which {} stands for any text without a slash, once at most; the argument is a
-/// view of the path.
+/// Whether the path matches this pattern, in which one {} stands for any text without a slash; the argument is a view of
+/// the path.
 [[nodiscard]] bool MatchesPattern(std::string_view path, std::string_view pattern, std::string_view& argumentOut);
 
-/// Finds the handler in the table of all endpoints and calls it; 404 where there is none. The path is in its plain form:
+/// Finds the handler in the table of all endpoints and calls it; 404 if there is none. The path is in its plain form:
 /// brackets not encoded, /project/robot not shortened. The room is ApiCall's.
 [[nodiscard]] OpenStream::ApiResponse Route(
     ControllerMachine& machine,

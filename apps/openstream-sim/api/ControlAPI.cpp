@@ -19,7 +19,7 @@ constexpr std::int64_t LAST_BLOCK = 9;
 constexpr std::size_t TASKS = 8;
 constexpr auto LONG_BYTES = static_cast<std::int64_t>(sizeof(std::int32_t));
 
-/// The value of that type and number in a block, where it is of one of the area that the path serves.
+/// The relay of that type and number in a block, if the path serves its area.
 Core::Result<RelayName> MakeName(std::string_view type, RelayBlock block, std::size_t number)
 {
     const std::optional<RelayType> parsed = ParseRelayTypeOrNull(type);
@@ -28,7 +28,7 @@ Core::Result<RelayName> MakeName(std::string_view type, RelayBlock block, std::s
         return Core::Fail(
             Core::ECoreError::UnknownWord,
             "type",
-            "the area of the path, alone or with b, w, l or f behind it (dib, dof)",
+            "the area of the path, optionally followed by b, w, l or f (dib, dof)",
             Core::QuoteForError(type));
     }
     const RelayName name{block, parsed->width, number};
@@ -91,7 +91,7 @@ bool IsTask(std::string_view argument)
 
 ApiResponse RefuseTask()
 {
-    return RefusePath("there are the tasks 0 to 7");
+    return RefusePath("no such task; there are tasks 0 to 7");
 }
 
 } // namespace
@@ -159,7 +159,8 @@ ApiResponse GetRelayWords(ControllerMachine& machine, const ApiCall& call)
     const std::optional<RelayBlock> block = ParseRelayBlockOrNull(call.argument);
     if (!block.has_value())
     {
-        return RefusePath("there are di, do, x, y, m, s, r and k, alone or after fb0_ to fb9_ or fn0_ to fn63_");
+        return RefusePath(
+            "no such block; there are di, do, x, y, m, s, r and k, alone or after fb0_ to fb9_ or fn0_ to fn63_");
     }
     const Core::Result<std::int64_t> first = ReadInteger(call.request, "st", 0, 0, BLOCK_BYTES - LONG_BYTES);
     if (!first.has_value())
@@ -280,7 +281,7 @@ ApiResponse SetProgramCounter(ControllerMachine& machine, const ApiCall& call)
     {
         return Answer(error);
     }
-    // A simulated program has no lines to go to: it always begins at its beginning.
+    // A simulated program has no lines: it always starts at its beginning.
     return Succeed(ProgramCounterAnswer{});
 }
 
@@ -295,7 +296,7 @@ ApiResponse SetPcIndex(ControllerMachine& machine, const ApiCall& call)
     {
         return Refuse(command.error());
     }
-    // The other tasks have no program of their own.
+    // Only task 0 has a program.
     return Answer(call.argument == "0" ? machine.SetCursor() : EApiError::None);
 }
 

@@ -5,7 +5,7 @@
 namespace ACS::OpenStreamSim
 {
 
-/// The err_code of a refusal. What the manuals leave open has a small negative number of the simulator's own.
+/// The err_code of a refusal. "Own" marks numbers of the simulator, for refusals without a number in the manuals.
 enum class EApiError : std::int32_t
 {
     None = 0,
@@ -16,7 +16,7 @@ enum class EApiError : std::int32_t
     BufferFull = -8,           ///< 403: more points than the trajectory buffer has room for.
     BufferLeft = -101,         ///< 403: points of a stopped trajectory are still in the buffer. Own.
     RemoteSelection = -102,    ///< 403: ext_sel 0, which remote mode forbids. Own.
-    Withdrawn = -103,          ///< 403: an endpoint that this version of the controller does not serve any more. Own.
+    Withdrawn = -103,          ///< 403: an endpoint that this version of the controller no longer serves. Own.
     NotInWait = -104,          ///< 403: release_wait while no program waits. Own.
     AxisTooFast = -159,        ///< 403: likewise, after alarm E159. Own.
     NotWaiting = -1554,        ///< 403: no program waits in playback (alarm E01554). Own.
@@ -24,7 +24,7 @@ enum class EApiError : std::int32_t
     TaskPlaying = -38501,      ///< 403
     LocalSelection = -1114208, ///< 403: ext_sel 1 outside of remote mode.
     BadCounter = -1245280,     ///< 403: no such program counter, or it was not set after a start or stop.
-    Language = -1376272,       ///< 403: no statement of the robot language.
+    Language = -1376272,       ///< 403: not a statement of the robot language.
     MotorOff = -1442071,       ///< 403
     Playing = -1442080,        ///< 403: an automatic program runs.
     ProtectiveStop = -5,       ///< 403: the safeguard is open. Own.

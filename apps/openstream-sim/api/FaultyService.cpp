@@ -19,7 +19,7 @@ void FaultyService::Call(const OpenStream::ApiRequest& request, Core::Now now, O
     const bool bStream = _side == EFaultSide::Stream;
     const bool bSample = bStream && request.method == OpenStream::EApiMethod::Get;
     std::optional<OpenStream::ApiResponse> refusal =
-        bStream && !bSample ? _faults.TakeRefusalOrNull() : std::optional<OpenStream::ApiResponse>();
+        bStream && !bSample ? _faults.UseRefusalOrNull() : std::optional<OpenStream::ApiResponse>();
     if (refusal.has_value())
     {
         response = std::move(*refusal);

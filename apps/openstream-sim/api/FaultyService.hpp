@@ -7,7 +7,7 @@
 namespace ACS::OpenStreamSim
 {
 
-/// The controller as one of its sides sees it: with the faults that are active. Pure. Both outlive it.
+/// The controller with its active faults, for one of its interfaces. Pure. Both outlive it.
 class FaultyService final : public OpenStream::IOpenApiService
 {
     VirtualController& _controller;

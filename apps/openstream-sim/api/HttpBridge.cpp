@@ -19,7 +19,7 @@ constexpr std::array METHODS{Get, Post, Put, Delete};
 
 std::optional<OpenStream::EApiMethod> ParseMethodOrNull(std::string_view text)
 {
-    // The server leaves the body of the answer out.
+    // The server omits the body of the answer.
     if (text == "HEAD")
     {
         return Get;
@@ -34,7 +34,7 @@ std::optional<OpenStream::EApiMethod> ParseMethodOrNull(std::string_view text)
     return std::nullopt;
 }
 
-/// The path as the Open API has it, where percent signs are not decoded: one that came encoded must not be decoded twice.
+/// The path with its percent signs encoded again: the Open API does not decode them, and the server has.
 std::string MakePath(std::string_view decoded)
 {
     std::string path;
@@ -45,7 +45,7 @@ std::string MakePath(std::string_view decoded)
     return path;
 }
 
-/// The body as JSON; nothing with a GET.
+/// The body as JSON; nullopt for a GET.
 Core::Result<std::optional<Core::JsonText>> ReadJSON(const Apps::HttpRequest& request, OpenStream::EApiMethod method)
 {
     if (method == Get)

@@ -101,7 +101,7 @@ ApiResponse GetApiVersion(ControllerMachine& /*machine*/, const ApiCall& /*call*
 
 ApiResponse GetSystemVersions(ControllerMachine& machine, const ApiCall& /*call*/)
 {
-    // Clients read the version of "com" as a number and want at least 60.
+    // Clients read the version of "com" as a number and require at least 60.
     const std::string version = MakeText(machine.GetVersion());
     VersionsAnswer answer;
     for (const char* name : {"com", "tp"})
@@ -306,7 +306,7 @@ ApiResponse GetTool(ControllerMachine& machine, const ApiCall& call)
     const auto& tools = machine.GetSettings().tools;
     if (error != std::errc{} || end != last || number >= tools.size() || !tools[number].has_value())
     {
-        return RefusePath("there is no such tool");
+        return RefusePath("no such tool");
     }
     return Succeed(*tools[number], "Tool");
 }

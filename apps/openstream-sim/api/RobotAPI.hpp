@@ -3,7 +3,7 @@
 #include "api/ApiCall.hpp"
 #include "controller/ControllerMachine.hpp"
 
-/// The endpoints below /project/robot and what tells about the controller as a whole.
+/// The endpoints below /project/robot and those about the controller as a whole.
 namespace ACS::OpenStreamSim::RobotAPI
 {
 

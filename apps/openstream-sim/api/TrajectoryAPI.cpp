@@ -47,7 +47,7 @@ ApiResponse InsertPoint(ControllerMachine& machine, const ApiCall& call)
     {
         return RefuseInput(
             "time_from_start",
-            fmt::format("more than {} s, which the point before has", machine.GetTrajectory().GetNewestTime()),
+            fmt::format("more than {} s, the time of the previous point", machine.GetTrajectory().GetNewestTime()),
             fmt::to_string(point->timeFromStart));
     }
     return Answer(error);
@@ -56,20 +56,20 @@ ApiResponse InsertPoint(ControllerMachine& machine, const ApiCall& call)
 ApiResponse InsertPoints(ControllerMachine& machine, const ApiCall& call)
 {
     TimedPoints points;
-    TrajectoryError mistake = ReadTrajectory(call.request.body, points);
-    if (mistake.notNow == EApiError::BadInput)
+    TrajectoryError error = ReadTrajectory(call.request.body, points);
+    if (error.notNow == EApiError::BadInput)
     {
-        return RefuseInput("body", "an object with joint_names and points", std::move(mistake.sentence));
+        return RefuseInput("body", "an object with joint_names and points", std::move(error.sentence));
     }
-    if (mistake.code == ETrajectoryError::None)
+    if (error.code == ETrajectoryError::None)
     {
-        mistake = machine.InsertPoints(points);
+        error = machine.InsertPoints(points);
     }
-    if (mistake.code != ETrajectoryError::None)
+    if (error.code != ETrajectoryError::None)
     {
-        return Forbid(static_cast<std::int32_t>(mistake.code), std::move(mistake.sentence));
+        return Forbid(static_cast<std::int32_t>(error.code), std::move(error.sentence));
     }
-    return Answer(mistake.notNow);
+    return Answer(error.notNow);
 }
 
 ApiResponse GetFree(ControllerMachine& machine, const ApiCall& call)

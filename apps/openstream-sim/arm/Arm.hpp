@@ -10,20 +10,20 @@
 namespace ACS::OpenStreamSim
 {
 
-/// How far the running program is, as the arm's motion depends on it.
+/// Progress of the program, which determines the arm's motion.
 struct ProgramProgress
 {
     Core::Duration elapsed{};
     bool bRunning = false;
 };
 
-/// The arm and what moves it: a program, a single move, or a trajectory; each takes over where the one before has left it.
-/// Times are simulated. Whoever gives a program up calls EndProgram before anything else moves the arm.
+/// The arm and what moves it: a program, a single move or a trajectory; each begins at the arm's position. Times are
+/// simulated. Call EndProgram when a program is abandoned, before another motion begins.
 class Arm
 {
     enum class EDriver : std::uint8_t
     {
-        Program, ///< Or nothing.
+        Program, ///< Or at rest.
         Move,
         Trajectory,
     };
@@ -37,24 +37,24 @@ public:
     void BeginProgram(Core::Duration duration, Core::Duration now);
     void EndProgram(Core::Duration elapsed);
 
-    /// To the target in so many seconds, or as fast as the axes can.
+    /// Moves to the target in this time, or as fast as the axes can if that takes longer.
     void BeginMove(const JointVector& target, double seconds, Core::Duration now);
     [[nodiscard]] bool IsMoving(Core::Duration now) const;
     [[nodiscard]] Core::Duration GetMoveEnd() const noexcept;
 
-    /// The trajectory takes the arm over, with an empty buffer.
+    /// Lets the trajectory move the arm, with an empty buffer.
     void BeginTrajectory(Core::Duration now);
-    /// The arm stands where it is if a trajectory had it, and the buffer is empty.
+    /// Stops the arm if a trajectory moves it, and empties the buffer.
     void ClearTrajectory(Core::Duration now);
-    /// What there is of it when something else, or nothing, has the arm: what a stop left in the buffer.
+    /// When no trajectory moves the arm it may still have points: those that a stop left in the buffer.
     [[nodiscard]] TrajectoryFollower& GetTrajectory() noexcept;
     [[nodiscard]] const TrajectoryFollower& GetTrajectory() const noexcept;
     [[nodiscard]] bool IsFollowing() const noexcept;
 
-    /// False where a trajectory would have been too fast for an axis, which stopped the arm.
+    /// False if a trajectory was too fast for an axis, which stopped the arm.
     [[nodiscard]] bool TryAdvance(Core::Duration now);
 
-    /// A move or a trajectory ends where the arm is; a program is not touched.
+    /// Ends a move or a trajectory at the arm's position; a program is not affected.
     void Stop(Core::Duration now);
 
     [[nodiscard]] JointStates GetStates(Core::Duration now, const ProgramProgress& progress) const;

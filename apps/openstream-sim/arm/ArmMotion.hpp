@@ -13,28 +13,28 @@ struct JointStates
     JointVector effort{};   ///< Nm
 };
 
-/// Of an arm that stands there: gravity's on the axes that lift.
+/// Effort of a stationary arm: gravity on the axes that lift.
 [[nodiscard]] JointVector ComputeEffort(const JointVector& position);
 
-/// What the arm does while a program runs: it swings, begins and ends at rest, and ends at home, or as far on its way there
-/// as the axes' speed lets it come. Always the same for the same program; continuous whatever was before.
+/// Motion of the arm while a program runs: it swings, begins and ends at rest, and ends at home, or as near to home as the
+/// axes' speed allows. It is the same each time a program runs, and begins at the arm's position.
 class ArmMotion
 {
     JointVector _from = HOME;
     JointVector _toHome{}; ///< deg
-    double _seconds = 0.0; ///< Of the whole motion; 0 where it rests.
+    double _seconds = 0.0; ///< Of the whole motion; 0 at rest.
 
 public:
-    /// Rests there.
+    /// Puts the arm at rest at this position.
     void Place(const JointVector& position);
 
-    /// From where it rests.
+    /// Begins at the position of rest.
     void Begin(Core::Duration duration);
 
-    /// The motion ends or is given up so long after its beginning: the arm stays where it is.
+    /// The motion ends or is abandoned at this time after its beginning: the arm stays there.
     void End(Core::Duration elapsed);
 
-    /// So long after the beginning. The velocity is that of a motion that goes on; a halted arm has none.
+    /// The states at this time after the beginning; the velocity is 0 if the arm is halted.
     [[nodiscard]] JointStates GetStates(Core::Duration elapsed, bool bMoving) const;
 };
 

@@ -10,18 +10,18 @@ inline constexpr std::size_t AXES = 6;
 
 using JointVector = std::array<double, AXES>;
 
-/// Where the arm stands when nothing has moved it, in degrees.
+/// Initial position of the arm, in degrees.
 inline constexpr JointVector HOME{0.0, 90.0, 0.0, 0.0, 0.0, 0.0};
 
-/// What an axis can do.
+/// Limits of one axis.
 struct AxisLimits
 {
     double lowest;  ///< deg
     double highest; ///< deg
-    double speed;   ///< deg/s, simulated; that fast in either direction.
+    double speed;   ///< deg/s, simulated; in either direction.
 };
 
-/// Of the simulated arm: the only place for its limits.
+/// Limits of the simulated arm.
 inline constexpr std::array<AxisLimits, AXES> AXIS_LIMITS{{
     {-180.0, 180.0, 200.0},
     {-60.0, 180.0, 180.0},
@@ -31,7 +31,7 @@ inline constexpr std::array<AxisLimits, AXES> AXIS_LIMITS{{
     {-720.0, 720.0, 550.0},
 }};
 
-/// The first axis (from 0) that could not be there; AXES where all can.
+/// The first axis (from 0) that is out of its range; AXES if none is.
 [[nodiscard]] constexpr std::size_t FindAxisOutside(const JointVector& position)
 {
     for (std::size_t axis = 0; axis < AXES; ++axis)

@@ -16,7 +16,7 @@ struct FlangePose
     double rz = 0.0; ///< deg
 };
 
-/// Of an upright six-axis arm with links of plausible lengths: at HOME the upper arm stands, the forearm is level.
+/// Pose of a six-axis arm with links of plausible lengths: at HOME the upper arm is upright and the forearm is level.
 [[nodiscard]] FlangePose ComputeFlangePose(const JointVector& position);
 
 } // namespace ACS::OpenStreamSim

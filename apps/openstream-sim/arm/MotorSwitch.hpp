@@ -7,15 +7,15 @@
 namespace ACS::OpenStreamSim
 {
 
-/// As motor_on_state tells it, in the numbers of the newer manuals.
+/// Values of motor_on_state, as in the newer manuals.
 enum class EMotorState : std::uint8_t
 {
     On = 0,
     Off = 1,
-    Busy = 2, ///< Going on.
+    Busy = 2, ///< Switching on.
 };
 
-/// The motors' power. Times are simulated, since the controller's start.
+/// The power of the motors. Times are simulated, since the controller's start.
 class MotorSwitch
 {
     Core::Duration _delay;
@@ -23,7 +23,7 @@ class MotorSwitch
     EMotorState _state = EMotorState::Off;
 
 public:
-    /// The delay: from the command to motor on.
+    /// The delay is the time from the command to motor on.
     MotorSwitch(Core::Duration delay, bool bOn);
 
     void SwitchOn(Core::Duration now);

@@ -25,7 +25,7 @@ constexpr std::array<std::pair<std::string_view, EMoveSpeed>, 3> UNITS{{
     {"mm/sec", EMoveSpeed::Millimetres},
 }};
 constexpr double PERCENT = 100.0;
-constexpr double SLOWEST = 0.001; ///< % or mm/sec: no move takes longer than a clock can tell.
+constexpr double SLOWEST = 0.001; ///< % or mm/sec: bounds the duration of a move.
 constexpr double FASTEST_MILLIMETRES = 10'000.0;
 constexpr double LONGEST_SECONDS = 3'600.0;
 constexpr double LAST_ACCURACY = 7.0;
@@ -38,7 +38,7 @@ std::string_view Trim(std::string_view text)
                                            : text.substr(first, text.find_last_not_of(BLANKS) - first + 1);
 }
 
-/// The number at the beginning, and what stands behind it.
+/// The number at the beginning and the text after it.
 std::optional<double> TakeNumberOrNull(std::string_view& text)
 {
     double number = 0.0;
@@ -79,7 +79,7 @@ bool IsWholeUpTo(std::string_view text, double highest)
     return number.has_value() && text.empty() && *number >= 0.0 && *number <= highest && std::trunc(*number) == *number;
 }
 
-/// What stands between `move` and the position.
+/// The text between `move` and the position.
 bool TryParseHead(std::string_view text, MoveStatement& move)
 {
     bool bFirst = true;

@@ -9,10 +9,10 @@
 namespace ACS::OpenStreamSim
 {
 
-/// What the `spd` of a move counts.
+/// Unit of the `spd` of a move.
 enum class EMoveSpeed : std::uint8_t
 {
-    Seconds,     ///< sec: how long it takes.
+    Seconds,     ///< sec: its duration.
     Percent,     ///< %: of the axes' speed.
     Millimetres, ///< mm/sec, of the flange.
 };
@@ -27,11 +27,11 @@ struct MoveStatement
     bool operator==(const MoveStatement&) const = default;
 };
 
-/// "move SP,spd=1sec,accu=0,tool=1 [0 90 0 0 0 0]": P, L, C, SP, SL or SC; spd in sec, % or mm/sec; accu 0 to 7 and tool 0 to
-/// 31 at will; six angles with blanks or commas between. Nothing where it is none, or where an axis cannot be there.
+/// "move SP,spd=1sec,accu=0,tool=1 [0 90 0 0 0 0]": P, L, C, SP, SL or SC; spd in sec, % or mm/sec; optionally accu 0 to 7
+/// and tool 0 to 31; six angles separated by blanks or commas. Nullopt if invalid or if an axis is out of its range.
 [[nodiscard]] std::optional<MoveStatement> ParseMoveOrNull(std::string_view text);
 
-/// How long it takes from there, in seconds, as far as the axes let it.
+/// The duration of the move from this position, in seconds, within the limits of the axes.
 [[nodiscard]] double ComputeMoveSeconds(const MoveStatement& move, const JointVector& from);
 
 } // namespace ACS::OpenStreamSim

@@ -7,7 +7,7 @@
 namespace ACS::OpenStreamSim
 {
 
-/// All axes from one position to another in the same time, smoothly, and none faster than it can. Times are simulated.
+/// Moves all axes smoothly from one position to another in the same time, within their limits. Times are simulated.
 class PointMotion
 {
     JointVector _from = HOME;
@@ -16,7 +16,7 @@ class PointMotion
     double _seconds = 0.0;
 
 public:
-    /// In so many seconds, or in the shortest time that the axes allow where that is longer.
+    /// Takes this time, or the shortest time that the axes allow if that is longer.
     void Begin(const JointVector& from, const JointVector& to, double seconds, Core::Duration now);
 
     [[nodiscard]] Core::Duration GetEnd() const noexcept;

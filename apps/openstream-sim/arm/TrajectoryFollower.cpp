@@ -117,7 +117,7 @@ void TrajectoryFollower::Append(
     }
     if (_phase == EPhase::Resting)
     {
-        _phase = EPhase::Gathering;
+        _phase = EPhase::Buffering;
         _startAt = now + lookAhead;
     }
     if (_buffered >= lookAhead)
@@ -128,9 +128,9 @@ void TrajectoryFollower::Append(
 
 bool TrajectoryFollower::TryAdvance(Core::Duration now)
 {
-    while (_phase == EPhase::Gathering || _phase == EPhase::Moving)
+    while (_phase == EPhase::Buffering || _phase == EPhase::Moving)
     {
-        if (_phase == EPhase::Gathering)
+        if (_phase == EPhase::Buffering)
         {
             if (now < _startAt)
             {
@@ -157,7 +157,7 @@ bool TrajectoryFollower::TryAdvance(Core::Duration now)
         }
         else if (!CanReachFront())
         {
-            // The line that would be too fast has not begun: the arm is where the lines before have brought it.
+            // The line that is too fast has not begun: the arm is at the end of the previous lines.
             _phase = EPhase::Stopped;
             _command = _position;
             return false;
@@ -183,7 +183,7 @@ void TrajectoryFollower::Finish(Core::Duration now)
 
 JointStates TrajectoryFollower::GetStates(Core::Duration now) const
 {
-    // The arm's speed is what it lacks, over the lag's time; along a line that has a solution in closed form.
+    // The arm's speed is its distance from the command divided by the lag; along a line this has a closed-form solution.
     const double lag = GetLagSeconds();
     const double seconds = Seconds(now - _since).count();
     const double decay = std::exp(-seconds / lag);
@@ -232,7 +232,7 @@ bool TrajectoryFollower::IsBlocked() const noexcept
 
 bool TrajectoryFollower::IsActive(Core::Duration now) const
 {
-    if (_phase == EPhase::Gathering || _phase == EPhase::Moving)
+    if (_phase == EPhase::Buffering || _phase == EPhase::Moving)
     {
         return true;
     }

@@ -11,47 +11,46 @@
 namespace ACS::OpenStreamSim
 {
 
-/// Points that the trajectory buffer holds.
+/// Capacity of the trajectory buffer, in points.
 inline constexpr std::size_t TRAJECTORY_CAPACITY = 2048;
 
-/// Where the arm is to be so long after the point before.
+/// A target and the time from the previous point to it.
 struct TrajectoryPoint
 {
     JointVector position{};    ///< deg
     Core::Duration duration{}; ///< Simulated, above 0.
 };
 
-/// How joint_traject_init wants the arm to follow.
+/// Agility of joint_traject_init: how closely the arm follows.
 struct TrajectoryAgility
 {
     bool bOn = false;
-    double frequency =
-        20.0; ///< Hz, 0 to 500. The arm follows as fast as a filter of this bandwidth; 0 as without agility.
+    double frequency = 20.0; ///< Hz, 0 to 500. The arm follows like a filter of this bandwidth; 0: as without agility.
 
     bool operator==(const TrajectoryAgility&) const = default;
 };
 
-/// The trajectory buffer and the arm that follows it: the commanded position goes from point to point in straight lines of
-/// the axes, each in its time, and the arm behind it with a lag of first order. When the buffer is empty it holds the last
-/// point. Where the arm is at a time does not depend on how often it was asked. Pure; times are simulated.
+/// The trajectory buffer and the arm that follows it. The commanded position moves from point to point in straight lines of
+/// the axes, each in its time; the arm follows with a first-order lag. When the buffer is empty it stays at the last point.
+/// The arm's position at a time does not depend on how often Advance is called. Pure; times are simulated.
 class TrajectoryFollower
 {
     enum class EPhase : std::uint8_t
     {
-        Resting,   ///< Holds, or has never moved.
-        Gathering, ///< Holds until there are enough points.
+        Resting,   ///< Stays at the last point, or has never moved.
+        Buffering, ///< Waits for enough points.
         Moving,
-        Stopped, ///< Stands; the points of what was stopped are still there.
+        Stopped, ///< Is stopped; the remaining points are in the buffer.
     };
 
     Core::BoundedQueue<TrajectoryPoint> _points{TRAJECTORY_CAPACITY};
     TrajectoryAgility _agility;
     EPhase _phase = EPhase::Resting;
-    JointVector _command = HOME;  ///< Where the present line begins.
+    JointVector _command = HOME;  ///< Beginning of the current line.
     JointVector _position = HOME; ///< Of the arm, at _since.
     Core::Duration _since{};
-    Core::Duration _startAt{};    ///< While gathering: at the latest.
-    Core::Duration _buffered{};   ///< What the points take together.
+    Core::Duration _startAt{};    ///< While buffering: the latest start.
+    Core::Duration _buffered{};   ///< Total duration of the points.
     Core::Duration _cleanUntil{}; ///< With agility.
     double _newestTime = 0.0;     ///< time_from_start of the newest point, s.
 
@@ -60,34 +59,34 @@ public:
     void Begin(const JointVector& position, Core::Duration now);
     void SetAgility(const TrajectoryAgility& agility);
 
-    /// There must be room. The motion starts when the points take as long as the look-ahead, or when the first of them has
-    /// waited so long.
+    /// There must be room. The motion starts when the buffered points last for the look-ahead time, or when the first of
+    /// them has waited for that time.
     void Append(const TrajectoryPoint& point, double timeFromStart, Core::Duration lookAhead, Core::Duration now);
 
-    /// False where an axis would have to go faster than it can: the arm stopped there, the points are still there.
+    /// False if a line is too fast for an axis: the arm has stopped, and the points are still in the buffer.
     [[nodiscard]] bool TryAdvance(Core::Duration now);
 
-    /// The arm stands where it is; the points stay until Begin.
+    /// The arm stops at its position; the points stay until Begin.
     void Stop(Core::Duration now);
 
-    /// The points are dropped; the arm settles where it was to be now.
+    /// Drops the points; the arm settles at the current command.
     void Finish(Core::Duration now);
 
     /// Position and velocity; no effort.
     [[nodiscard]] JointStates GetStates(Core::Duration now) const;
 
-    /// Where it is to be, or will hold.
+    /// The commanded position, or the one at which the arm stays.
     [[nodiscard]] const JointVector& GetHeld() const noexcept;
 
     [[nodiscard]] const TrajectoryAgility& GetAgility() const noexcept;
     [[nodiscard]] std::size_t GetFree() const noexcept;
     [[nodiscard]] double GetNewestTime() const noexcept;
 
-    /// Nothing waits and nothing moves: the next point begins a trajectory.
+    /// No points wait and the arm does not move: the next point begins a trajectory.
     [[nodiscard]] bool IsResting() const noexcept;
-    /// Points of a stopped trajectory are in the way.
+    /// The buffer has points of a stopped trajectory.
     [[nodiscard]] bool IsBlocked() const noexcept;
-    /// Moves, is about to, has not settled yet, or, with agility, cleans up.
+    /// Moves, is about to, has not settled, or, with agility, cleans up.
     [[nodiscard]] bool IsActive(Core::Duration now) const;
 
 private:

@@ -59,7 +59,7 @@ bool IsListOfJoints(const Value& names)
     return true;
 }
 
-/// 0 for point_1; nothing where the name is none of so many points.
+/// 0 for point_1; nullopt if the name is not one of `count` points.
 std::optional<std::size_t> ParsePointIndexOrNull(std::string_view name, std::size_t count)
 {
     if (!name.starts_with(POINT_PREFIX))
@@ -74,7 +74,7 @@ std::optional<std::size_t> ParsePointIndexOrNull(std::string_view name, std::siz
     return bNumber ? std::optional(number - 1) : std::nullopt;
 }
 
-/// Radians into degrees; false where one is no number or its axis cannot be there.
+/// Converts radians into degrees; false if one is not a number or out of the axis's range.
 bool TryReadPositions(const Value& positions, JointVector& positionOut)
 {
     if (!positions.IsArray() || positions.Size() != AXES)
@@ -151,14 +151,16 @@ TrajectoryError ReadPoints(const Value& object, TimedPoints& pointsOut)
     for (std::size_t index = 0; index < count; ++index)
     {
         const std::string name = fmt::format("points.{}{}", POINT_PREFIX, index + 1);
-        TrajectoryError mistake = ReadPoint(*ordered[index], name, points[index]);
-        if (mistake.code != ETrajectoryError::None)
+        TrajectoryError error = ReadPoint(*ordered[index], name, points[index]);
+        if (error.code != ETrajectoryError::None)
         {
-            return mistake;
+            return error;
         }
         if (index > 0 && points[index].time <= points[index - 1].time)
         {
-            return Fail(ETrajectoryError::BadTime, name + ".time_from_start: expected more than the point before has");
+            return Fail(
+                ETrajectoryError::BadTime,
+                name + ".time_from_start: expected more than that of the previous point");
         }
     }
     pointsOut = std::move(points);

@@ -16,7 +16,7 @@ namespace ACS::OpenStreamSim
 struct StreamedPoint
 {
     double interval = 0.0;       ///< s
-    double timeFromStart = -1.0; ///< s; negative: an interval after the point before.
+    double timeFromStart = -1.0; ///< s; negative: an interval after the previous point.
     double lookAheadTime = 0.0;  ///< s
     std::vector<double> point;   ///< deg, one for each axis.
 };
@@ -30,7 +30,7 @@ struct TimedPoint
 
 using TimedPoints = std::vector<TimedPoint>;
 
-/// Why joint_traject_insert_points refuses, by the numbers of its manual.
+/// Errors of joint_traject_insert_points, as numbered in the manual.
 enum class ETrajectoryError : std::int32_t
 {
     None = 0,
@@ -48,19 +48,19 @@ enum class ETrajectoryError : std::int32_t
     BadTime = -13,
 };
 
-/// What is wrong with a trajectory; or, where it is none of the manual's mistakes, why none is taken now.
+/// Why a trajectory is refused: an error of the manual, or why none is accepted now.
 struct TrajectoryError
 {
     ETrajectoryError code = ETrajectoryError::None;
     EApiError notNow = EApiError::None;
-    std::string sentence; ///< Of the mistake.
+    std::string sentence; ///< Describes the error.
 };
 
-/// A point's time at most, in s: twelve days.
+/// Maximum time of a point, in s: twelve days.
 inline constexpr double LONGEST_TRAJECTORY = 1'000'000.0;
 
-/// Reads the body of joint_traject_insert_points. The points come out in the order of their numbers, in degrees, their
-/// times rising; nothing where there is a mistake. Whether they fit to where the arm is, is the machine's to say.
+/// Reads the body of joint_traject_insert_points. The points are in the order of their numbers, in degrees, with increasing
+/// times; empty on an error. The machine checks them against the arm's position.
 [[nodiscard]] TrajectoryError ReadTrajectory(const std::optional<Core::JsonText>& bodyOrNull, TimedPoints& pointsOut);
 
 } // namespace ACS::OpenStreamSim

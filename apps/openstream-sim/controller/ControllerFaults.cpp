@@ -38,24 +38,24 @@ bool ControllerFaults::TryAdd(const Fault& fault, Core::Now now)
 std::size_t ControllerFaults::End(std::optional<EFaultKind> kindOrNull, Core::Now now)
 {
     AdvanceAll(now);
-    const std::size_t count = _board.End(kindOrNull, "it was ended", _changes);
+    const std::size_t count = _board.End(kindOrNull, "ended by command", _changes);
     Finish();
     if (kindOrNull.value_or(EFaultKind::Mode) == EFaultKind::Mode)
     {
-        _silentUntil = now.steady; // whoever ends it wants the stream back
+        _silentUntil = now.steady; // the silence after a turn of the mode switch ends too
     }
     return count;
 }
 
 void ControllerFaults::Advance(Core::Now now)
 {
-    // One after the other, each at its time: a stop that is over by now has halted the program all the same.
+    // One after the other, each at its time: a stop that is over by now has halted the program nevertheless.
     for (auto next = _board.GetNextTimeOrNull(); next.has_value() && *next <= now.steady;
          next = _board.GetNextTimeOrNull())
     {
         const Core::Duration late = now.steady - std::max(*next, _now.steady);
         _now = Core::Now{now.steady - late, now.wall - std::chrono::duration_cast<Core::WallTime::duration>(late)};
-        static_cast<void>(_controller.GetMachine(_now)); // A program that has ended by then is not met any more.
+        static_cast<void>(_controller.GetMachine(_now)); // A program that has ended by then is not affected.
         _board.OnTime(_now.steady, _changes);
         ApplyChanges();
     }
@@ -159,7 +159,7 @@ void ControllerFaults::TurnModeSwitch(const Fault& fault)
     }
 }
 
-/// Within a call of the controller: a program begins, or is at its good end.
+/// Called within a call of the controller, when a program begins or is about to finish.
 bool ControllerFaults::ShouldFail(int number, bool bAtStart)
 {
     if (bAtStart)
@@ -179,7 +179,7 @@ bool ControllerFaults::ShouldFail(int number, bool bAtStart)
     return true;
 }
 
-/// Within a call of the controller: a client writes a relay.
+/// Called within a call of the controller, when a client writes a relay.
 bool ControllerFaults::ShouldStoreWrongValue()
 {
     const Fault* const fault = _board.FindOrNull(EFaultKind::WrongValue);
@@ -197,14 +197,14 @@ bool ControllerFaults::IsSilent() const
     return _board.IsActive(EFaultKind::Silence) || _board.IsActive(EFaultKind::Hole) || _now.steady < _silentUntil;
 }
 
-std::optional<OpenStream::ApiResponse> ControllerFaults::TakeRefusalOrNull()
+std::optional<OpenStream::ApiResponse> ControllerFaults::UseRefusalOrNull()
 {
     const Fault* const fault = _board.FindOrNull(EFaultKind::Refuse);
     if (fault == nullptr)
     {
         return std::nullopt;
     }
-    OpenStream::ApiResponse response = Succeed(ErrorAnswer{fault->code, "refused by a fault that was asked for"});
+    OpenStream::ApiResponse response = Succeed(ErrorAnswer{fault->code, "refused by an injected fault"});
     response.status = fault->status;
     _board.Use(*fault, _changes);
     Finish();

@@ -13,9 +13,9 @@
 namespace ACS::OpenStreamSim
 {
 
-/// The faults of one controller: which are active, and what they do to it and to its answers. Pure: the time comes with
-/// each call, and what was due since the last one happens first, at its own time. Begin and end of each are logged. Asks the
-/// host for the time of what comes next, of the faults and of the controller itself.
+/// The faults of one controller and their effect on it and on its answers. Pure: time is a parameter, and what was due since
+/// the last call happens first, at its own time. Logs begin and end of each fault. Asks the host for a timer for the next
+/// event of the faults and of the controller.
 class ControllerFaults final
 {
     VirtualController& _controller;
@@ -28,30 +28,30 @@ class ControllerFaults final
     Core::Now _now;
 
 public:
-    /// Both outlive it, and the controller must not be asked any more when it is gone.
+    /// Both outlive it; the controller must not be called after its destruction.
     ControllerFaults(VirtualController& controller, IFaultHost& host, Core::Logger logger, Core::Now now);
     ControllerFaults(const ControllerFaults&) = delete;
     ControllerFaults& operator=(const ControllerFaults&) = delete;
     ~ControllerFaults() = default;
 
-    /// False where there are too many already.
+    /// False if the controller has the maximum number of faults.
     [[nodiscard]] bool TryAdd(const Fault& fault, Core::Now now);
 
-    /// Ends those of the kind (absent: all), also those that have not begun; how many.
+    /// Ends the faults of the kind (absent: all), those that have not begun included. Returns the number of them.
     std::size_t End(std::optional<EFaultKind> kindOrNull, Core::Now now);
 
     void Advance(Core::Now now);
 
-    /// The host was asked to wake it: what faults and controller have to do by now.
+    /// The timer of the host has expired.
     void OnTimer(Core::Now now);
 
-    /// After each call of the controller: what comes next may have changed.
+    /// Call after each call of the controller, which may have changed the next event.
     void ScheduleWakeUp();
 
-    /// What the service that stands before the controller does with a call, after Advance.
+    /// Whether the data lines of the stream are suppressed; after Advance.
     [[nodiscard]] bool IsSilent() const;
-    /// Uses a refusal up.
-    [[nodiscard]] std::optional<OpenStream::ApiResponse> TakeRefusalOrNull();
+    /// The answer of a refusal, which is used up; nullopt: execute the call.
+    [[nodiscard]] std::optional<OpenStream::ApiResponse> UseRefusalOrNull();
     [[nodiscard]] Core::Duration GetDelay(EFaultSide side) const;
 
 private:

@@ -84,7 +84,7 @@ Core::Result<void> ControllerFleet::Start()
         const std::string answer = Apply(command);
         if (!answer.starts_with(Apps::COMMAND_DONE))
         {
-            _logger.Warning("a fault was not taken", {{"fault", command.fault.text}, {"reason", answer}});
+            _logger.Warning("fault rejected", {{"fault", command.fault.text}, {"reason", answer}});
         }
     }
     return {};
@@ -102,7 +102,7 @@ void ControllerFleet::Stop()
 std::vector<Apps::ReadyAddress> ControllerFleet::GetAddresses() const
 {
     std::vector<Apps::ReadyAddress> addresses;
-    std::string number; // The first one's words are those of a controller that is alone: what reads them goes on to.
+    std::string number; // None for the first controller: its names do not depend on the number of controllers.
     for (const std::unique_ptr<ControllerHost>& host : _hosts)
     {
         addresses.push_back({"stream" + number, host->GetStreamEndpoint()});
@@ -122,7 +122,7 @@ Apps::HttpResponse ControllerFleet::Handle(const Apps::HttpRequest& request)
     if (request.path != CONTROL_PATH)
     {
         response.status = NOT_FOUND;
-        response.body = fmt::format("error: there is only POST {}\n", CONTROL_PATH);
+        response.body = fmt::format("error: no such path; POST the commands to {}\n", CONTROL_PATH);
     }
     else if (request.method != "POST")
     {
@@ -159,7 +159,7 @@ std::string ControllerFleet::Apply(const FaultCommand& command)
     if (controllers == 0)
     {
         return fmt::format(
-            "{}no controller is called {}; there are 1 to {}, and *",
+            "{}no controller {}; give one from 1 to {}, or * for all",
             Apps::COMMAND_WRONG,
             command.targets,
             _hosts.size());
@@ -171,7 +171,7 @@ std::string ControllerFleet::Apply(const FaultCommand& command)
     if (count < controllers)
     {
         return fmt::format(
-            "{}{} of {} controllers have {} faults already",
+            "{}{} of {} controllers already have {} faults",
             Apps::COMMAND_WRONG,
             controllers - count,
             controllers,

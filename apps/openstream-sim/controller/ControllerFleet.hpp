@@ -26,15 +26,15 @@ struct FleetOptions
 {
     static constexpr std::size_t MAX_CONTROLLERS = 500;
 
-    HostOptions first; ///< The next ones have the next ports; where its port is 0, each takes a free one.
+    HostOptions first;                         ///< The others use the next ports, or free ones if its port is 0.
     std::map<std::size_t, std::string> robots; ///< By the number of their controller, from 1.
     std::size_t controllers = 1;               ///< 1 to MAX_CONTROLLERS; the ports must not go beyond 65535.
-    std::vector<FaultCommand> faults;          ///< Each begins one; their times count from Start.
-    std::optional<Apps::Endpoint> control;     ///< Where commands are taken over HTTP; port 0 takes a free one.
+    std::vector<FaultCommand> faults;          ///< Their times count from Start.
+    std::optional<Apps::Endpoint> control;     ///< Address of the HTTP commands; port 0 selects a free one.
 };
 
-/// The controllers of one process, called 1, 2 and so on, and what is commanded to them. Runs on the executor's one
-/// thread; the clock must outlive it.
+/// The controllers of one process, numbered from 1, and the commands to them. Runs on the executor's one thread; the clock
+/// must outlive it.
 class ControllerFleet final
 {
     Core::Logger _logger;
@@ -52,24 +52,24 @@ public:
     ControllerFleet& operator=(const ControllerFleet&) = delete;
     ~ControllerFleet() = default;
 
-    /// Opens all ports, or none, and adds the faults. The error names the address that could not be had.
+    /// Opens all ports, or none, and adds the faults. The error names the address that is not available.
     [[nodiscard]] Core::Result<void> Start();
 
     /// Closes all ports and connections.
     void Stop();
 
-    /// stream and http of the first one, stream2 and http2 of the second and so on, in the end control, with the ports
-    /// that were got.
+    /// stream and http of the first controller, stream2 and http2 of the second and so on, then control, with the actual
+    /// ports.
     [[nodiscard]] std::vector<Apps::ReadyAddress> GetAddresses() const;
 
-    /// Does what the commands of a message say, all or none; the answer has a line for each. Every mistake is one line
-    /// that begins with "error: ".
+    /// Executes the commands of a message, all or none; the answer has a line for each. An error is one line that begins with
+    /// "error: ".
     [[nodiscard]] std::string Command(std::string_view text);
 
 private:
     [[nodiscard]] Apps::HttpResponse Handle(const Apps::HttpRequest& request);
     [[nodiscard]] std::string Apply(const FaultCommand& command);
-    /// How many faults it took or ended.
+    /// Returns the number of faults begun or ended.
     [[nodiscard]] static std::size_t ApplyTo(ControllerHost& host, const FaultCommand& command);
 };
 

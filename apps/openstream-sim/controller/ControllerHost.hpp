@@ -23,12 +23,12 @@ namespace ACS::OpenStreamSim
 
 struct HostOptions
 {
-    /// Behind what its log lines begin with ("stream 2"); empty for a controller that is alone.
+    /// Follows the component in its log lines ("stream 2"); empty for a single controller.
     std::string label;
-    Apps::Endpoint stream{"127.0.0.1", 49'000};        ///< Port 0 takes a free one.
+    Apps::Endpoint stream{"127.0.0.1", 49'000};        ///< Port 0 selects a free one.
     Apps::Endpoint http{"127.0.0.1", 8888};            ///< Likewise.
-    std::size_t sessions = 8;                          ///< Of the Open Stream at a time.
-    std::chrono::milliseconds handshakeTimeout{5'000}; ///< Of an Open Stream connection; 0: none.
+    std::size_t sessions = 8;                          ///< Maximum of Open Stream sessions.
+    std::chrono::milliseconds handshakeTimeout{5'000}; ///< Of an Open Stream connection; 0: no limit.
     ControllerOptions controller;
 };
 
@@ -39,7 +39,7 @@ class ControllerHost final : private IFaultHost
     Core::IClock& _clock;
     HostOptions _options;
     VirtualController _controller;
-    Apps::TimerSet<int> _timers; ///< One: for what comes next of the faults and the controller.
+    Apps::TimerSet<int> _timers; ///< One: for the next event of the faults and the controller.
     ControllerFaults _faults;
     FaultyService _streamService;
     FaultyService _httpService;
@@ -56,19 +56,19 @@ public:
     ControllerHost& operator=(const ControllerHost&) = delete;
     ~ControllerHost() override = default;
 
-    /// Opens both ports. The error names the address that could not be had.
+    /// Opens both ports. The error names the address that is not available.
     [[nodiscard]] Core::Result<void> Start();
 
     /// Closes both ports and all connections.
     void Stop();
 
-    /// False where there are too many already.
+    /// False if the controller has the maximum number of faults.
     [[nodiscard]] bool TryAddFault(const Fault& fault);
 
-    /// Ends those of the kind (absent: all), also those that have not begun; how many.
+    /// Ends the faults of the kind (absent: all), those that have not begun included. Returns the number of them.
     std::size_t EndFaults(std::optional<EFaultKind> kindOrNull);
 
-    /// With the ports that were got, after Start.
+    /// With the actual ports, after Start.
     [[nodiscard]] const Apps::Endpoint& GetStreamEndpoint() const noexcept;
     [[nodiscard]] const Apps::Endpoint& GetHttpEndpoint() const noexcept;
 

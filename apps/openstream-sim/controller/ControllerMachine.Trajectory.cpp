@@ -16,7 +16,7 @@ namespace
 
 using Seconds = std::chrono::duration<double>;
 
-/// How far the first point of a trajectory may be from where the arm stands, in deg.
+/// Maximum distance of the first point of a trajectory from the arm's position, in deg.
 constexpr double START_TOLERANCE = 0.5;
 
 Core::Duration ToDuration(double seconds)
@@ -117,19 +117,21 @@ TrajectoryError ControllerMachine::InsertPoints(const TimedPoints& points)
     {
         return Fail(
             ETrajectoryError::BufferExceeded,
-            fmt::format("points: expected at most {}, which are free in the buffer", trajectory.GetFree()));
+            fmt::format("points: expected at most {}, the free space of the buffer", trajectory.GetFree()));
     }
     const bool bResting = trajectory.IsResting();
     if (bResting && points.front().time != 0.0)
     {
-        return Fail(ETrajectoryError::BadTime, "points.point_1.time_from_start: expected 0 where the arm stands");
+        return Fail(
+            ETrajectoryError::BadTime,
+            "points.point_1.time_from_start: expected 0 while the arm is stationary");
     }
     if (bResting && !IsNear(points.front().position, trajectory.GetHeld()))
     {
-        return Fail(ETrajectoryError::BadPositions, "points.point_1.positions: expected where the arm stands");
+        return Fail(ETrajectoryError::BadPositions, "points.point_1.positions: expected the position of the arm");
     }
     double before = bResting ? 0.0 : trajectory.GetNewestTime();
-    // A standing arm is at its first point already.
+    // A stationary arm is already at the first point.
     const auto fresh = std::span(points).subspan(bResting ? 1 : 0);
     double earlier = before;
     for (const TimedPoint& point : fresh)

@@ -63,7 +63,7 @@ std::optional<Core::SteadyTime> ControllerMachine::GetNextTimeOrNull() const
     {
         return std::nullopt;
     }
-    // Rounded up: at that time the program is over.
+    // Rounded up, so that the program has ended at that time.
     return _startedAt + std::chrono::ceil<Core::Duration>(FloatingDuration(*end) / _timeScale);
 }
 
@@ -126,7 +126,7 @@ void ControllerMachine::FinishWork(ProgramEvent& event)
     {
         event.kind = EProgramEvent::Failed;
         _logger.Warning(
-            "program cannot do its work",
+            "program could not do its work",
             {{"program", fmt::to_string(event.number)}, {"reason", Core::Describe(done.error())}});
     }
 }
@@ -137,7 +137,7 @@ void ControllerMachine::Count(std::size_t byte)
     _relays.WriteU32(PROGRAM_BLOCK, byte, counter + 1);
 }
 
-void ControllerMachine::GiveProgramUp()
+void ControllerMachine::AbandonProgram()
 {
     const Core::Duration elapsed = _runner.GetElapsed(_now);
     _runner.Reset(_events);
@@ -209,7 +209,7 @@ EApiError ControllerMachine::StartProgram()
     }
     _bCursorMoved = true;
     _runner.Start(_now, _events);
-    const bool bBegins = !_events.empty(); // Else it goes on after a stop.
+    const bool bBegins = !_events.empty(); // Else it continues after a stop.
     HandleEvents({});
     if (bBegins && _shouldFail && _shouldFail(_runner.GetSelected(), true))
     {
@@ -234,7 +234,7 @@ EApiError ControllerMachine::ExecuteMove(std::string_view statement)
     {
         return EApiError::Language;
     }
-    GiveProgramUp();
+    AbandonProgram();
     const JointVector from = _arm.GetStates(_now, GetProgress()).position;
     _arm.BeginMove(move->target, ComputeMoveSeconds(*move, from), _now);
     return EApiError::None;
@@ -255,7 +255,7 @@ EApiError ControllerMachine::StartConsole()
     {
         return EApiError::NoProgram;
     }
-    GiveProgramUp();
+    AbandonProgram();
     _bCursorMoved = true;
     _logger.Info("console program started");
     _console.Start();
@@ -343,7 +343,7 @@ void ControllerMachine::HaltProgram()
 void ControllerMachine::ResetTasks()
 {
     HaltProgram();
-    GiveProgramUp();
+    AbandonProgram();
     _console.Reset();
 }
 

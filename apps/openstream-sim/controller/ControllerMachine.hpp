@@ -26,27 +26,27 @@ namespace ACS::OpenStreamSim
 
 inline constexpr std::size_t TOOLS = 32;
 
-/// Where a program tells what became of it: 32-bit words in relay block m, at these bytes.
+/// Where programs report their progress: 32-bit words in relay block m, at these bytes.
 inline constexpr RelayBlock PROGRAM_BLOCK{ERelayBus::None, 0, ERelayArea::M};
 inline constexpr std::size_t STARTED_BYTE = 400;  ///< Counts programs that began.
-inline constexpr std::size_t FINISHED_BYTE = 404; ///< Counts programs that ended well.
-inline constexpr std::size_t FAILED_BYTE = 408;   ///< Counts programs that gave up.
+inline constexpr std::size_t FINISHED_BYTE = 404; ///< Counts programs that finished.
+inline constexpr std::size_t FAILED_BYTE = 408;   ///< Counts programs that failed or were abandoned.
 inline constexpr std::size_t LAST_BYTE = 412;     ///< The number of the program that ended last.
-inline constexpr std::size_t ECHO_BYTE = 416;     ///< The job number that the program read where it began.
+inline constexpr std::size_t ECHO_BYTE = 416;     ///< The job number that the program read when it began.
 
-/// What the controller warns of, by the number that rgen shows.
+/// Alarms of the controller, with their numbers in rgen.
 enum class EAlarm : std::int32_t
 {
     None = -1,
-    AxisTooFast = 159,    ///< E159: an axis would have had to go faster than it can.
+    AxisTooFast = 159,    ///< E159: a trajectory was too fast for an axis.
     NotExecutable = 1554, ///< E01554: a trajectory's point came while no program waited in playback.
 };
-/// Asked when a program has begun, and when it is at its good end: whether it fails there.
+/// Decides whether a program fails: called when it has begun and when it is about to finish.
 using ProgramJudge = std::function<bool(int number, bool bAtStart)>;
-/// Asked when a client writes a relay: whether another value is stored.
+/// Decides whether a wrong value is stored: called when a client writes a relay.
 using RelayJudge = std::function<bool()>;
 
-/// What an operator or a client has set and what nothing but the answers depends on.
+/// Settings of operators and clients that affect only the answers.
 struct ControllerSettings
 {
     std::array<std::optional<Tool>, TOOLS> tools;
@@ -57,8 +57,8 @@ struct ControllerSettings
     bool bTrajectoryLog = false;
 };
 
-/// The simulated controller behind the endpoints: motor, base task, relays, arm. Advance brings it to the present; the
-/// other methods act at that time. Pure: the time is the caller's.
+/// The simulated controller: motor, base task, relays, arm. Advance brings it to the present; the other methods act at that
+/// time. Pure: time is a parameter.
 class ControllerMachine
 {
     Core::Logger _logger;
@@ -88,59 +88,59 @@ public:
 
     void Advance(Core::Now now);
 
-    /// When it next does something that others notice although no client asks: the running program ends. Advance then.
+    /// The end of the running program, which has effects without a call of a client: Advance then.
     [[nodiscard]] std::optional<Core::SteadyTime> GetNextTimeOrNull() const;
 
-    /// Each of these returns None where it was done.
+    /// Each of these returns None on success.
     [[nodiscard]] EApiError SwitchMotorOn();
     [[nodiscard]] EApiError StartProgram();
     [[nodiscard]] EApiError SelectProgram(int number);
 
-    /// Whether a selection may come at all: external ones (ext_sel 1) in remote mode, others outside of it, and none while
-    /// a program plays.
+    /// Whether a selection is allowed: external ones (ext_sel 1) in remote mode, others outside of it, and none while a
+    /// program plays.
     [[nodiscard]] EApiError CheckSelection(bool bExternal) const;
     /// set_cur_pc_idx of task 0: a selection may follow.
     [[nodiscard]] EApiError SetCursor();
-    /// The console's program leaves the wait at which it stands.
+    /// Ends the current wait of the console's program.
     [[nodiscard]] EApiError ReleaseWait();
 
-    /// The base task's single move; the program must not run. Gives up a program that was stopped in its middle.
+    /// Executes a single move in the base task; the program must not run. Abandons a program that was stopped before its end.
     [[nodiscard]] EApiError ExecuteMove(std::string_view statement);
-    /// Runs what AddStatement has put together.
+    /// Runs the statements of AddStatement.
     [[nodiscard]] EApiError StartConsole();
-    /// Language where it is no statement that the simulator knows.
+    /// Returns Language if the simulator does not know the statement.
     [[nodiscard]] EApiError AddStatement(std::string_view statement);
     void ClearConsole();
-    /// The console's program ends, and its statements are forgotten. A selected program is not touched.
+    /// Ends the console's program and removes its statements. A selected program is not affected.
     void ExitConsole();
 
-    /// joint_traject_init: the arm stops where it is, the buffer is empty, the alarm forgotten.
+    /// joint_traject_init: stops the arm, empties the buffer and clears the alarm.
     [[nodiscard]] EApiError InitTrajectory(const TrajectoryAgility& agility);
-    /// joint_traject_insert_point; BadInput where its time is not after that of the point before.
+    /// joint_traject_insert_point; BadInput if its time is not after that of the previous point.
     [[nodiscard]] EApiError InsertPoint(const StreamedPoint& point);
     /// joint_traject_insert_points, all or nothing.
     [[nodiscard]] TrajectoryError InsertPoints(const TimedPoints& points);
-    /// joint_traject_off: the rest of the points is dropped.
+    /// joint_traject_off: drops the remaining points.
     [[nodiscard]] EApiError FinishTrajectory();
-    /// STOP control: nothing is left in the buffer, the arm stands. A program runs on.
+    /// STOP control: empties the buffer and stops the arm. A program continues.
     void StopTrajectory();
 
     void SwitchMotorOff();
     void StopProgram();
     void ResetTasks();
-    /// No program is selected any more. None may play.
+    /// Clears the selection of a program. None may play.
     void ClearSelection();
 
-    /// By the operator's hand. Both stop the program; pressing the emergency stop takes the motor's power too.
+    /// Actions of the operator. Both stop the program; pressing the emergency stop also switches the motor off.
     void PressEmergencyStop(bool bPressed);
     void TurnModeSwitch(bool bRemote);
 
-    /// The safeguard opens, which stops the program and takes the motor's power, or closes.
+    /// The safeguard opens, which stops the program and switches the motor off, or closes.
     void HoldProtectiveStop(bool bHeld);
 
-    /// Who lets programs fail; at first nobody.
+    /// Initially no program fails.
     void SetProgramJudge(ProgramJudge shouldFail);
-    /// Who lets wrong values be stored; at first no one.
+    /// Initially no wrong value is stored.
     void SetRelayJudge(RelayJudge storesWrongValue);
 
     /// set_relay_value; the name must lie inside its block.
@@ -161,23 +161,23 @@ public:
     [[nodiscard]] const TrajectoryFollower& GetTrajectory() const noexcept;
     /// A trajectory moves the arm, is about to, or is being cleaned up.
     [[nodiscard]] bool IsTrajectoryActive() const;
-    /// A trajectory's point would be taken.
+    /// A trajectory's point would be accepted.
     [[nodiscard]] bool IsTrajectoryReady() const;
 
     /// 0 at the program's beginning, else 1 to 10 in step with its time.
     [[nodiscard]] int GetStep() const noexcept;
 
-    /// Velocities as a client sees them: degrees in a real second.
+    /// Velocities in degrees per second of real time.
     [[nodiscard]] JointStates GetJointStates() const;
 
 private:
     void HandleEvents(Core::Duration elapsed);
     void BeginWork();
-    /// Makes a good end a failed one where the program cannot do its work.
+    /// Makes the program fail if it cannot do its work.
     void FinishWork(ProgramEvent& event);
     void Count(std::size_t byte);
     void HaltProgram();
-    void GiveProgramUp();
+    void AbandonProgram();
     void RaiseAlarm(EAlarm alarm);
     [[nodiscard]] ProgramProgress GetProgress() const;
     [[nodiscard]] EApiError CheckMotion() const;

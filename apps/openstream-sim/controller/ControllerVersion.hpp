@@ -18,7 +18,7 @@ struct ControllerVersion
     auto operator<=>(const ControllerVersion&) const = default; // NOLINT(modernize-use-nullptr)
 };
 
-/// The first version that serves r_code, and no motor_off and no reset of tasks any more.
+/// The first version that serves r_code and no longer motor_off and the reset of tasks.
 inline constexpr ControllerVersion FIRST_WITH_R_CODE{60, 30, 0};
 
 [[nodiscard]] std::optional<ControllerVersion> ParseControllerVersionOrNull(std::string_view text);

@@ -42,7 +42,7 @@ std::string ReadInteger(std::string_view text, TInteger lowest, TInteger highest
     return {};
 }
 
-/// An HTTP connection keeps its place until its answer has left, whether or not somebody still waits for it.
+/// Limited because an HTTP connection is kept until its answer has been sent, even if the client no longer waits.
 std::string ReadSlowness(std::string_view text, Fault& fault)
 {
     const std::string expected = Apps::ReadDurationValue(text, fault.time);
@@ -93,19 +93,25 @@ constexpr std::array<Apps::FaultParameter<Fault>, 11> PARAMETERS{
       }}}};
 
 constexpr std::array<Apps::FaultRow<Fault>, 11> ROWS{
-    {{EFaultKind::Silence, "silence", "", "connected and answering commands, but no data line leaves"},
-     {EFaultKind::Hole, "hole", "", "the same, for 100 ms unless for says otherwise"},
+    {{EFaultKind::Silence, "silence", "", "stays connected and answers commands, but sends no data lines"},
+     {EFaultKind::Hole, "hole", "", "the same for 100 ms, or for the time of for"},
      {EFaultKind::Drop, "drop", "", "closes each Open Stream connection without a line", true},
-     {EFaultKind::Slow, "slow", "time side", "each answer of the Open API comes later, by default 500 ms"},
-     {EFaultKind::Refuse, "refuse", "count status code", "the next CONTROL is refused, by default with 403 and -1554"},
-     {EFaultKind::Mode, "mode", "silence", "the mode switch is turned out of remote; the stream may fall silent at it"},
+     {EFaultKind::Slow, "slow", "time side", "delays each answer of the Open API, by default by 500 ms"},
+     {EFaultKind::Refuse, "refuse", "count status code", "refuses the next CONTROL, by default with 403 and -1554"},
+     {EFaultKind::Mode,
+      "mode",
+      "silence",
+      "the mode switch leaves remote; with silence the stream is silent at each turn"},
      {EFaultKind::EmergencyStop, "estop", "", "the emergency stop is pressed"},
-     {EFaultKind::ProtectiveStop, "protective-stop", "", "a safeguard is open: the motor is off and stays so"},
+     {EFaultKind::ProtectiveStop,
+      "protective-stop",
+      "",
+      "a safeguard is open: the motor is off and cannot be switched on"},
      {EFaultKind::MotorOff, "motor-off", "", "the operator switches the motor off", true},
-     {EFaultKind::ProgramFails, "program-fails", "when count", "the next program fails at its end, or where it begins"},
+     {EFaultKind::ProgramFails, "program-fails", "when count", "the next program fails at its end, or when it begins"},
      {EFaultKind::WrongValue, "wrong-value", "count", "the next relay that a client writes gets another value"}}};
 
-/// What goes without saying, and what could never show.
+/// Sets the defaults of a kind.
 Core::Result<void> CheckWhole(Fault& fault, const std::set<std::string_view>& keys)
 {
     if (fault.kind == EFaultKind::Hole && !fault.lasts.has_value())

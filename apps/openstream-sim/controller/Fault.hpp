@@ -13,7 +13,7 @@
 namespace ACS::OpenStreamSim
 {
 
-/// What can go wrong with a simulated controller on command.
+/// Faults of a simulated controller.
 enum class EFaultKind : std::uint8_t
 {
     Silence,
@@ -29,7 +29,7 @@ enum class EFaultKind : std::uint8_t
     WrongValue,
 };
 
-/// Which side of the controller a fault is about.
+/// The interface of the controller that a fault affects.
 enum class EFaultSide : std::uint8_t
 {
     Stream,
@@ -37,10 +37,11 @@ enum class EFaultSide : std::uint8_t
     Both,
 };
 
-/// One fault with its parameters; the README has the table of kinds. The place is the number of a program that begins.
+/// One fault with its parameters; docs/reference/openstream-sim.md has the table of kinds. The place is the number of a
+/// program that begins.
 struct Fault : Apps::FaultBase<EFaultKind>
 {
-    // Each for the kinds that have it.
+    // Each applies to the kinds that have it.
     Core::Duration time{};    ///< Slow: of each answer.
     Core::Duration silence{}; ///< Mode: of the stream, at each turn of the switch.
     EFaultSide side = EFaultSide::Both;
@@ -56,7 +57,7 @@ using FaultChange = Apps::FaultChange<Fault>;
 using FaultChanges = std::vector<FaultChange>;
 using FaultCommand = Apps::FaultCommand<Fault>;
 
-/// How the faults of a controller are written.
+/// Grammar of the faults of a controller.
 [[nodiscard]] const Apps::FaultGrammar<Fault>& GetFaultGrammar();
 
 } // namespace ACS::OpenStreamSim

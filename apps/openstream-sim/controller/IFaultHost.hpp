@@ -7,7 +7,7 @@
 namespace ACS::OpenStreamSim
 {
 
-/// What the faults of a controller need of who runs it.
+/// What the faults of a controller need from its owner.
 class IFaultHost
 {
 public:
@@ -19,7 +19,7 @@ public:
     /// Close every Open Stream connection without a line.
     virtual void DropSessions() = 0;
 
-    /// Call ControllerFaults::OnTimer then; nothing: no more. Replaces what was asked for before.
+    /// Call ControllerFaults::OnTimer at this time; nullopt: cancel. Replaces the previous time.
     virtual void WakeAt(std::optional<Core::SteadyTime> timeOrNull) = 0;
 };
 

@@ -15,7 +15,7 @@ namespace
 constexpr std::string_view SHORT_PREFIX = "/robot/";
 constexpr std::string_view PROJECT = "/project";
 
-/// A new string: replacing in the old one makes g++ 12 see, when it optimises, copies that cannot happen (-Wrestrict).
+/// Builds a new string: replacing in place makes an optimising g++ 12 warn of copies that cannot happen (-Wrestrict).
 std::string ReplaceAll(std::string_view text, std::string_view part, char replacement)
 {
     std::string result;

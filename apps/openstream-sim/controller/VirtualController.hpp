@@ -9,8 +9,8 @@
 namespace ACS::OpenStreamSim
 {
 
-/// A Hi6 controller with its six-axis arm that exists in memory only: the Open API over a ControllerMachine, for Open
-/// Stream and HTTP alike. Pure: the time comes with each call, and what was due since the last one happens first.
+/// A simulated Hi6 controller with its six-axis arm: the Open API over a ControllerMachine, for Open Stream and HTTP. Pure:
+/// time is a parameter, and what was due since the last call happens first.
 class VirtualController final : public OpenStream::IOpenApiService
 {
     ControllerMachine _machine;
@@ -20,16 +20,16 @@ public:
 
     void Call(const OpenStream::ApiRequest& request, Core::Now now, OpenStream::ApiResponse& response) override;
 
-    /// A trajectory ends where the arm is, and its buffer is empty; a program runs on.
+    /// Ends a trajectory at the arm's position and empties its buffer; a program continues.
     void StopControl(Core::Now now) override;
 
-    /// By the operator's hand: out of remote mode, which stops the program, or into it.
+    /// Action of the operator: leaves remote mode, which stops the program, or returns to it.
     void TurnModeSwitch(bool bRemote, Core::Now now);
 
-    /// When it has something to do by itself; GetMachine then. Nullopt: nothing before the next call.
+    /// The next event without a call: GetMachine then. Nullopt if there is none.
     [[nodiscard]] std::optional<Core::SteadyTime> GetNextTimeOrNull() const;
 
-    /// For what happens to the machine itself; brought to the present.
+    /// The machine, advanced to the present, for direct changes.
     [[nodiscard]] ControllerMachine& GetMachine(Core::Now now);
 };
 

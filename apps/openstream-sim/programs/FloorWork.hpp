@@ -12,22 +12,22 @@
 namespace ACS::OpenStreamSim
 {
 
-/// What the programs of one arm do on the simulated floor. The relay words name the places where a program starts; the work
-/// is done at its good end, so that a program that is given up has moved nothing.
+/// The work of one arm's programs on the simulated floor. The relays are read when a program begins; the work is done when
+/// it finishes, so that an abandoned program has moved nothing.
 class FloorWork
 {
     Sim::IWorld* _world;
     std::string _robotID;
-    Core::Result<std::optional<Sim::WorldEvent>> _planned; ///< By the program that started last.
+    Core::Result<std::optional<Sim::WorldEvent>> _planned; ///< Of the program that began last.
 
 public:
-    /// Without a floor, places are read and nothing moves. It must outlive this object.
+    /// Without a floor the places are evaluated and nothing moves. It must outlive this object.
     FloorWork(Sim::IWorld* worldOrNull, std::string robotID);
 
-    /// A program starts.
+    /// A program begins.
     void Plan(const ProgramWork& work, const RelayMemory& relays);
 
-    /// It is at its good end. The error says why the arm could not do its work; nothing has moved then.
+    /// The program finishes. The error states why the arm could not do its work; nothing has moved then.
     [[nodiscard]] Core::Result<void> Finish();
 };
 

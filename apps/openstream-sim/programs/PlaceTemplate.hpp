@@ -37,17 +37,17 @@ class PlaceTemplate
     std::vector<Part> _parts;
 
 public:
-    /// Fails with InvalidLocation where no numbers make a place of it, and with UnknownWord for a tag that is no relay word.
+    /// Fails with InvalidLocation if no numbers give a place, and with UnknownWord for a tag that is not a whole-number relay.
     [[nodiscard]] static Core::Result<PlaceTemplate> Parse(std::string_view text);
 
-    /// The place with the numbers that the relays have now, each with at least two digits. Fails with OutOfRange where one of
-    /// them is below 1 or above 9999: the template does not apply then.
+    /// The place with the current numbers of the relays, each with at least two digits. Fails with OutOfRange if one of them
+    /// is below 1 or above 9999: the template does not apply then.
     [[nodiscard]] Core::Result<std::string> Fill(const RelayMemory& relays, std::string_view robotID) const;
 
     [[nodiscard]] const std::string& GetText() const noexcept;
     [[nodiscard]] Core::ESegmentKind GetKind() const;
     [[nodiscard]] bool HasRobotName() const;
-    /// Without relays it is the same place always, and always applies.
+    /// Without relays the place is constant, and the template always applies.
     [[nodiscard]] bool HasRelays() const;
 
     bool operator==(const PlaceTemplate&) const = default;

@@ -40,7 +40,7 @@ std::optional<int> ParseNumberOrNull(const std::string& text)
     return bWhole && number >= FIRST_PROGRAM && number <= LAST_PROGRAM ? std::optional(number) : std::nullopt;
 }
 
-/// Whether the relay shares a byte with the words in which programs report what became of them.
+/// Whether the relay shares a byte with the words in which programs report their progress.
 bool IsOutcome(const RelayName& relay)
 {
     const std::size_t first = GetFirstByte(relay);
@@ -48,7 +48,7 @@ bool IsOutcome(const RelayName& relay)
     return relay.block == PROGRAM_BLOCK && first < ECHO_BYTE + GetBytes(ERelayWidth::Long) && end > STARTED_BYTE;
 }
 
-/// The places of one key: which kinds it takes, and how a mistake names them.
+/// The kinds of places that a key accepts, and their text in errors.
 struct PlaceKey
 {
     const char* key;
@@ -75,7 +75,7 @@ PlaceKey MakeButtonKey()
 class ProgramReader
 {
     Apps::ConfigSection _section;
-    std::string _echoText; ///< As it is in the file; empty where it is not given.
+    std::string _echoText; ///< As in the file; empty if absent.
 
 public:
     ProgramReader(Apps::ConfigSection section, std::string echoText)
@@ -127,7 +127,7 @@ private:
             _section.AddError(
                 key.key,
                 fmt::format(
-                    "expected {} at the end: it always applies, and the places after it never do",
+                    "expected {} at the end: it always applies, so the places after it never do",
                     Core::QuoteForError(last->GetText())));
         }
         if (bGiven && texts.empty())
@@ -248,8 +248,8 @@ ProgramFile ReadPrograms(const Apps::ConfigReader& reader)
             *number,
             ProgramReader(section, echo == values.end() ? std::string() : echo->second).Read());
     }
-    file.mistakes = reader.GetErrors();
-    if (!file.mistakes.empty())
+    file.errors = reader.GetErrors();
+    if (!file.errors.empty())
     {
         file.programs.clear();
     }

@@ -10,11 +10,11 @@
 namespace ACS::OpenStreamSim
 {
 
-/// A file with what the programs of a controller do (--programs).
+/// The file of --programs, which describes the programs of a controller.
 struct ProgramFile
 {
-    std::map<int, ProgramSpec> programs; ///< Without mistakes only.
-    std::vector<std::string> mistakes;   ///< "FILE:LINE: 11.from: what is wrong and what is allowed"
+    std::map<int, ProgramSpec> programs; ///< Valid only without errors.
+    std::vector<std::string> errors;     ///< "FILE:LINE: 11.from: what is wrong and what is allowed"
 
     [[nodiscard]] static ProgramFile Read(const std::string& fileName);
     [[nodiscard]] static ProgramFile ReadText(std::string_view text, const std::string& fileName);

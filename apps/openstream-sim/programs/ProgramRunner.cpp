@@ -12,7 +12,7 @@ ProgramRunner::ProgramRunner(std::map<int, ProgramSpec> programs, ProgramSpec ot
 {
 }
 
-void ProgramRunner::GiveUp(ProgramEvents& out)
+void ProgramRunner::Abandon(ProgramEvents& out)
 {
     if (_phase != EPhase::AtBeginning)
     {
@@ -25,7 +25,7 @@ void ProgramRunner::GiveUp(ProgramEvents& out)
 void ProgramRunner::Select(int number, ProgramEvents& out)
 {
     assert(_phase != EPhase::Running);
-    GiveUp(out);
+    Abandon(out);
     _selected = number;
     const auto found = _programs.find(number);
     _spec = found == _programs.end() ? _otherPrograms : found->second;
@@ -53,7 +53,7 @@ void ProgramRunner::Stop(Core::Duration now)
 
 void ProgramRunner::Reset(ProgramEvents& out)
 {
-    GiveUp(out);
+    Abandon(out);
 }
 
 void ProgramRunner::Advance(Core::Duration now, ProgramEvents& out)

@@ -13,9 +13,9 @@ namespace ACS::OpenStreamSim
 
 enum class EProgramEvent : std::uint8_t
 {
-    Started,  ///< From its beginning; not when it goes on after a stop.
-    Finished, ///< At its end, well.
-    Failed,   ///< At its end, or given up in the middle: by a reset, or because another one was selected.
+    Started,  ///< At its beginning; not when it continues after a stop.
+    Finished, ///< At its end, successfully.
+    Failed,   ///< At its end, or abandoned before: by a reset or the selection of another program.
 };
 
 struct ProgramEvent
@@ -28,15 +28,15 @@ struct ProgramEvent
 
 using ProgramEvents = std::vector<ProgramEvent>;
 
-/// The base task: one program is selected; it runs for its time, may be stopped and go on, and ends. Then it stands at
-/// its beginning again. Times are simulated, since the controller's start. The events of a call are appended to `out`.
+/// The base task: one program is selected, runs for its duration, may be stopped and continued, and ends. Then it is at its
+/// beginning again. Times are simulated, since the controller's start. The events of a call are appended to `out`.
 class ProgramRunner
 {
     enum class EPhase : std::uint8_t
     {
         AtBeginning,
         Running,
-        Halted, ///< In the middle.
+        Halted, ///< Before its end.
     };
 
     std::map<int, ProgramSpec> _programs;
@@ -44,19 +44,19 @@ class ProgramRunner
     EPhase _phase = EPhase::AtBeginning;
     int _selected = 0;
     ProgramSpec _spec;
-    Core::Duration _elapsed{}; ///< Of the program's own time, until _resumedAt.
+    Core::Duration _elapsed{}; ///< Time that the program has run until _resumedAt.
     Core::Duration _resumedAt{};
 
 public:
     ProgramRunner(std::map<int, ProgramSpec> programs, ProgramSpec otherPrograms);
 
-    /// At its beginning; must not run.
+    /// Selects a program at its beginning; none may run.
     void Select(int number, ProgramEvents& out);
 
-    /// Starts or goes on; one must be selected and must not run.
+    /// Starts or continues the selected program; one must be selected and must not run.
     void Start(Core::Duration now, ProgramEvents& out);
 
-    /// Nothing happens where none runs.
+    /// No effect if no program runs.
     void Stop(Core::Duration now);
 
     /// Back to the beginning.
@@ -67,20 +67,20 @@ public:
     [[nodiscard]] bool IsRunning() const noexcept;
     [[nodiscard]] bool IsAtBeginning() const noexcept;
 
-    /// 0 where none is selected.
+    /// 0 if none is selected.
     [[nodiscard]] int GetSelected() const noexcept;
     /// Of the selected program.
     [[nodiscard]] const ProgramSpec& GetSpec() const noexcept;
 
-    /// When the running program ends; nullopt: none runs.
+    /// End of the running program; nullopt if none runs.
     [[nodiscard]] std::optional<Core::Duration> GetEndOrNull() const noexcept;
 
-    /// How long the selected program has run, stops left out.
+    /// Time that the selected program has run, without stops.
     [[nodiscard]] Core::Duration GetElapsed(Core::Duration now) const noexcept;
     [[nodiscard]] Core::Duration GetDuration() const noexcept;
 
 private:
-    void GiveUp(ProgramEvents& out);
+    void Abandon(ProgramEvents& out);
 };
 
 } // namespace ACS::OpenStreamSim

@@ -14,10 +14,10 @@ namespace ACS::OpenStreamSim
 inline constexpr int FIRST_PROGRAM = 1;
 inline constexpr int LAST_PROGRAM = 9999;
 
-/// Of several templates the first that applies names the place.
+/// The first template that applies gives the place.
 using PlaceTemplates = std::vector<PlaceTemplate>;
 
-/// The arm moves a carrier, or a memory where the places are memory places.
+/// The arm moves a carrier, or a memory if the places are memory places.
 struct TransferWork
 {
     PlaceTemplates from;
@@ -43,15 +43,15 @@ struct ButtonWork
     bool operator==(const ButtonWork&) const = default;
 };
 
-/// What a program does on the floor; nothing that the simulator knows, for most.
+/// The work of a program on the floor; most programs have none.
 using ProgramWork = std::variant<std::monostate, TransferWork, CoverWork, ButtonWork>;
 
-/// What a program of the controller does, as far as the simulator knows: it takes its time, works and ends, well or not.
+/// What the simulator knows of a program: its duration, its work and whether it fails.
 struct ProgramSpec
 {
     std::chrono::milliseconds duration{2'000}; ///< Simulated.
-    bool bFails = false;                       ///< Gives up at its end.
-    std::optional<RelayName> echo{};           ///< The word that it echoes before it counts its start.
+    bool bFails = false;                       ///< Fails at its end.
+    std::optional<RelayName> echo{};           ///< The word that it echoes before it counts its beginning.
     ProgramWork work{};
 
     bool operator==(const ProgramSpec&) const = default;

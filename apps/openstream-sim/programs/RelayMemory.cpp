@@ -76,7 +76,7 @@ double RelayMemory::Read(const RelayName& name) const
             return static_cast<double>(static_cast<std::int16_t>(bits));
         case ERelayWidth::Float:
         {
-            // Bits written through another width may spell an infinity or no number: JSON has neither.
+            // Bits written through another width may be an infinity or a NaN, which JSON does not have.
             const auto value = std::bit_cast<float>(bits);
             return std::isfinite(value) ? static_cast<double>(value) : 0.0;
         }

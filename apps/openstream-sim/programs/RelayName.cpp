@@ -14,7 +14,7 @@ namespace
 constexpr std::size_t FIELDBUS_BLOCKS = 10;
 constexpr std::size_t FIELDBUS_NODES = 64;
 
-/// The longer names first: "si3" is no relay of area s.
+/// The longer names first: "si3" is not a relay of area s.
 constexpr std::array AREAS{
     std::pair{std::string_view("di"), ERelayArea::Di},
     std::pair{std::string_view("do"), ERelayArea::Do},
@@ -54,7 +54,7 @@ std::optional<std::size_t> ParseNumberOrNull(std::string_view text)
     return number;
 }
 
-/// Takes "fb0." or "fn12_" off the front of the text; false where it begins so and is no such prefix.
+/// Removes the prefix "fb0." or "fn12_" from the text; false if there is an invalid one.
 bool TryTakeBus(char separator, std::string_view& text, RelayBlock& block)
 {
     if (!text.starts_with("fb") && !text.starts_with("fn"))

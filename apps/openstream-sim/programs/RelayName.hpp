@@ -9,7 +9,7 @@
 namespace ACS::OpenStreamSim
 {
 
-/// Bytes of every block of relays.
+/// Size of every block of relays.
 inline constexpr std::size_t RELAY_BYTES = 4096;
 inline constexpr std::size_t BITS_PER_BYTE = 8;
 
@@ -58,7 +58,7 @@ struct RelayBlock
     }
 };
 
-/// An area and how wide its values are: "m", "dob", "dil".
+/// An area and the width of its values: "m", "dob", "dil".
 struct RelayType
 {
     ERelayArea area = ERelayArea::M;
@@ -103,10 +103,10 @@ struct RelayName
 /// "m", "dob", "sil".
 [[nodiscard]] std::optional<RelayType> ParseRelayTypeOrNull(std::string_view text);
 
-/// "m", "fb0_di": a block as it stands in the path of val_s32; not si and so.
+/// "m", "fb0_di": a block as in the path of val_s32; not si and so.
 [[nodiscard]] std::optional<RelayBlock> ParseRelayBlockOrNull(std::string_view text);
 
-/// "ml100", "fb0.di23", also in upper case. Nothing where it is no name or lies outside its block.
+/// "ml100", "fb0.di23", also in upper case. Nullopt if invalid or outside its block.
 [[nodiscard]] std::optional<RelayName> ParseRelayNameOrNull(std::string_view anyCase);
 
 } // namespace ACS::OpenStreamSim

@@ -16,31 +16,31 @@ namespace
 constexpr const char* MOVE_PATH = "/project/context/tasks[0]/execute_move";
 constexpr const char* JOINTS = "/project/robot/joint_states?jno_start=1&jno_n=1";
 
-int Command(ControllerFixture& harness, const std::string& line)
+int Command(ControllerFixture& fixture, const std::string& line)
 {
-    return harness.Post("/console/execute_cmd", R"({"cmd_line":")" + line + R"("})");
+    return fixture.Post("/console/execute_cmd", R"({"cmd_line":")" + line + R"("})");
 }
 
-bool IsKnown(ControllerFixture& harness, const std::string& line)
+bool IsKnown(ControllerFixture& fixture, const std::string& line)
 {
-    const auto answer = harness.Call(EApiMethod::Post, "/console/execute_cmd", R"({"cmd_line":")" + line + R"("})");
+    const auto answer = fixture.Call(EApiMethod::Post, "/console/execute_cmd", R"({"cmd_line":")" + line + R"("})");
     REQUIRE(answer.status == 200);
     return answer.body->GetText() == R"({"_type":"JObject"})";
 }
 
-std::string ExecuteMove(ControllerFixture& harness, const std::string& statement)
+std::string ExecuteMove(ControllerFixture& fixture, const std::string& statement)
 {
-    return harness.PostForCode(MOVE_PATH, R"({"stmt":")" + statement + R"("})");
+    return fixture.PostForCode(MOVE_PATH, R"({"stmt":")" + statement + R"("})");
 }
 
-bool IsPlaying(ControllerFixture& harness)
+bool IsPlaying(ControllerFixture& fixture)
 {
-    return harness.Contains("/project/rgen", R"("is_playback":1)");
+    return fixture.Contains("/project/rgen", R"("is_playback":1)");
 }
 
-bool IsAt(ControllerFixture& harness, const std::string& angle)
+bool IsAt(ControllerFixture& fixture, const std::string& angle)
 {
-    return harness.Contains(JOINTS, "\"position\":[" + angle + "]");
+    return fixture.Contains(JOINTS, "\"position\":[" + angle + "]");
 }
 
 } // namespace
@@ -57,9 +57,9 @@ TEST_CASE("A execute_move: the statement is read with blanks or commas, any inte
     REQUIRE(ParseMoveOrNull("move C,spd=500mm/sec,accu=4,tool=0  [10, 90, 0, 0, 0, 0]") == millimetres);
 }
 
-TEST_CASE("A execute_move: what is no statement of the robot language is -1376272, and nothing moves")
+TEST_CASE("A execute_move: an invalid statement is refused with -1376272, and nothing moves")
 {
-    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
+    ControllerFixture fixture(ControllerFixture::MakeReadyOptions());
     for (const char* statement :
          {"",
           "move",
@@ -101,189 +101,190 @@ TEST_CASE("A execute_move: what is no statement of the robot language is -137627
     {
         INFO(statement);
         CHECK_FALSE(ParseMoveOrNull(statement).has_value());
-        CHECK(ExecuteMove(harness, statement) == "403 -1376272");
+        CHECK(ExecuteMove(fixture, statement) == "403 -1376272");
     }
-    REQUIRE(harness.PostForCode(MOVE_PATH, "{}") == "400 -1");
-    REQUIRE(ExecuteMove(harness, std::string(1'001, 'm')) == "400 -1");
-    harness.clock.Advance(1s);
-    REQUIRE(IsAt(harness, "0"));
+    REQUIRE(fixture.PostForCode(MOVE_PATH, "{}") == "400 -1");
+    REQUIRE(ExecuteMove(fixture, std::string(1'001, 'm')) == "400 -1");
+    fixture.clock.Advance(1s);
+    REQUIRE(IsAt(fixture, "0"));
 }
 
-TEST_CASE("A execute_move: the arm is there after its time and stands, in between it moves; stop ends it where it is")
+TEST_CASE(
+    "A execute_move: the arm moves for the given time and is then stationary at the target; stop ends the move at once")
 {
-    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
-    REQUIRE(ExecuteMove(harness, "move P,spd=2sec,accu=0,tool=0 [40,90,0,0,0,0]") == "200");
-    REQUIRE(IsAt(harness, "0"));
-    REQUIRE_FALSE(IsPlaying(harness));
-    harness.clock.Advance(1s);
-    REQUIRE(IsAt(harness, "20"));
-    REQUIRE(harness.Contains(JOINTS, R"("velocity":[30])")); // half as fast again as the mean
-    harness.clock.Advance(1s);
-    REQUIRE(IsAt(harness, "40"));
-    REQUIRE(harness.Contains(JOINTS, R"("velocity":[0])"));
-    REQUIRE(ExecuteMove(harness, "move P,spd=2sec [0,90,0,0,0,0]") == "200");
-    harness.clock.Advance(1s);
-    REQUIRE(harness.Post("/project/robot/stop") == 200);
-    harness.clock.Advance(1s);
-    REQUIRE(IsAt(harness, "20"));
-    REQUIRE(ExecuteMove(harness, "move P,spd=2sec [20,90,0,0,0,0]") == "200"); // no way to go
-    harness.clock.Advance(2s);
-    REQUIRE(IsAt(harness, "20"));
+    ControllerFixture fixture(ControllerFixture::MakeReadyOptions());
+    REQUIRE(ExecuteMove(fixture, "move P,spd=2sec,accu=0,tool=0 [40,90,0,0,0,0]") == "200");
+    REQUIRE(IsAt(fixture, "0"));
+    REQUIRE_FALSE(IsPlaying(fixture));
+    fixture.clock.Advance(1s);
+    REQUIRE(IsAt(fixture, "20"));
+    REQUIRE(fixture.Contains(JOINTS, R"("velocity":[30])")); // half as fast again as the mean
+    fixture.clock.Advance(1s);
+    REQUIRE(IsAt(fixture, "40"));
+    REQUIRE(fixture.Contains(JOINTS, R"("velocity":[0])"));
+    REQUIRE(ExecuteMove(fixture, "move P,spd=2sec [0,90,0,0,0,0]") == "200");
+    fixture.clock.Advance(1s);
+    REQUIRE(fixture.Post("/project/robot/stop") == 200);
+    fixture.clock.Advance(1s);
+    REQUIRE(IsAt(fixture, "20"));
+    REQUIRE(ExecuteMove(fixture, "move P,spd=2sec [20,90,0,0,0,0]") == "200"); // no way to go
+    fixture.clock.Advance(2s);
+    REQUIRE(IsAt(fixture, "20"));
 }
 
-TEST_CASE("A execute_move: no axis goes faster than it can; % counts of that, mm/sec of the flange's way")
+TEST_CASE("A execute_move: no axis exceeds its speed; % is relative to that speed, mm/sec applies to the flange")
 {
-    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
-    REQUIRE(ExecuteMove(harness, "move P,spd=0.001sec [100,90,0,0,0,0]") == "200");
-    harness.clock.Advance(375ms);
-    REQUIRE(IsAt(harness, "50"));
-    REQUIRE(harness.Contains(JOINTS, R"("velocity":[200])"));
-    harness.clock.Advance(375ms);
-    REQUIRE(IsAt(harness, "100"));
-    REQUIRE(ExecuteMove(harness, "move P,spd=50% [0,90,0,0,0,0]") == "200");
-    harness.clock.Advance(750ms);
-    REQUIRE(IsAt(harness, "50"));
-    REQUIRE(harness.Contains(JOINTS, R"("velocity":[-100])"));
-    harness.clock.Advance(750ms);
+    ControllerFixture fixture(ControllerFixture::MakeReadyOptions());
+    REQUIRE(ExecuteMove(fixture, "move P,spd=0.001sec [100,90,0,0,0,0]") == "200");
+    fixture.clock.Advance(375ms);
+    REQUIRE(IsAt(fixture, "50"));
+    REQUIRE(fixture.Contains(JOINTS, R"("velocity":[200])"));
+    fixture.clock.Advance(375ms);
+    REQUIRE(IsAt(fixture, "100"));
+    REQUIRE(ExecuteMove(fixture, "move P,spd=50% [0,90,0,0,0,0]") == "200");
+    fixture.clock.Advance(750ms);
+    REQUIRE(IsAt(fixture, "50"));
+    REQUIRE(fixture.Contains(JOINTS, R"("velocity":[-100])"));
+    fixture.clock.Advance(750ms);
     // 60 deg at a reach of 1070 mm: 1070 mm straight
-    REQUIRE(ExecuteMove(harness, "move P,spd=535mm/sec [60,90,0,0,0,0]") == "200");
-    harness.clock.Advance(1s);
-    REQUIRE(harness.Contains(JOINTS, R"("position":[30)"));
-    harness.clock.Advance(999ms);
-    REQUIRE_FALSE(IsAt(harness, "60"));
-    harness.clock.Advance(2ms);
-    REQUIRE(IsAt(harness, "60"));
+    REQUIRE(ExecuteMove(fixture, "move P,spd=535mm/sec [60,90,0,0,0,0]") == "200");
+    fixture.clock.Advance(1s);
+    REQUIRE(fixture.Contains(JOINTS, R"("position":[30)"));
+    fixture.clock.Advance(999ms);
+    REQUIRE_FALSE(IsAt(fixture, "60"));
+    fixture.clock.Advance(2ms);
+    REQUIRE(IsAt(fixture, "60"));
 }
 
-TEST_CASE("A execute_move: a program that was stopped in its middle is given up, and the next one starts from there")
+TEST_CASE("A execute_move: a program that was stopped before its end is abandoned, and the next one starts from there")
 {
-    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
-    REQUIRE(harness.Select(11) == 200);
-    REQUIRE(harness.Start() == 200);
-    harness.clock.Advance(1s);
-    REQUIRE(harness.Post("/project/robot/stop") == 200);
-    REQUIRE(ExecuteMove(harness, "move P,spd=1sec [40,90,0,0,0,0]") == "200");
-    REQUIRE(harness.GetCounters() == "[1,0,1,11]");
-    REQUIRE(harness.PostForCode("/project/robot/start") == "403 -1442080"); // moves
-    harness.clock.Advance(1s);
-    REQUIRE(IsAt(harness, "40"));
-    REQUIRE(harness.Start() == 200);
-    REQUIRE(IsAt(harness, "40"));
-    harness.clock.Advance(2s);
-    REQUIRE(harness.GetCounters() == "[2,1,1,11]");
+    ControllerFixture fixture(ControllerFixture::MakeReadyOptions());
+    REQUIRE(fixture.Select(11) == 200);
+    REQUIRE(fixture.Start() == 200);
+    fixture.clock.Advance(1s);
+    REQUIRE(fixture.Post("/project/robot/stop") == 200);
+    REQUIRE(ExecuteMove(fixture, "move P,spd=1sec [40,90,0,0,0,0]") == "200");
+    REQUIRE(fixture.GetCounters() == "[1,0,1,11]");
+    REQUIRE(fixture.PostForCode("/project/robot/start") == "403 -1442080"); // moves
+    fixture.clock.Advance(1s);
+    REQUIRE(IsAt(fixture, "40"));
+    REQUIRE(fixture.Start() == 200);
+    REQUIRE(IsAt(fixture, "40"));
+    fixture.clock.Advance(2s);
+    REQUIRE(fixture.GetCounters() == "[2,1,1,11]");
 }
 
 TEST_CASE("A execute_cmd: moves and waits run one after the other, exactly in time, and end")
 {
-    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
-    REQUIRE(Command(harness, "rl.i move P,spd=1sec,accu=4,tool=0 [10, 90, 0, 0, 0, 0]") == 200);
-    REQUIRE(Command(harness, "rl.i wait ml10") == 200);
-    REQUIRE(Command(harness, "rl.i move P,spd=1sec,accu=4,tool=0 [-10, 90, 0, 0, 0, 0]") == 200);
-    REQUIRE(Command(harness, "rl.i move P,spd=1sec,accu=4,tool=0 [0, 90, 0, 0, 0, 0]") == 200);
-    REQUIRE(Command(harness, "rl.i end") == 200);
-    REQUIRE(Command(harness, "rl.i move P,spd=1sec [99, 90, 0, 0, 0, 0]") == 200); // behind the end
-    REQUIRE_FALSE(IsPlaying(harness));
-    REQUIRE(Command(harness, "rl.start") == 200);
-    REQUIRE(IsPlaying(harness));
-    harness.clock.Advance(500ms);
-    REQUIRE(IsAt(harness, "5"));
-    harness.clock.Advance(9'500ms);
-    REQUIRE(IsAt(harness, "10"));
-    REQUIRE(harness.Contains("/project/robot/trajectory/joint_traject_ready", R"("ready":true)"));
-    REQUIRE(harness.Post("/project/plc/set_relay_value", R"({"name":"ml10","value":7})") == 200);
-    harness.clock.Advance(1'500ms); // in one step
-    REQUIRE(IsAt(harness, "-5"));
-    REQUIRE(harness.Contains("/project/robot/trajectory/joint_traject_ready", R"("ready":false)"));
-    harness.clock.Advance(499ms);
-    REQUIRE(IsPlaying(harness));
-    harness.clock.Advance(1ms);
-    REQUIRE_FALSE(IsPlaying(harness));
-    REQUIRE(IsAt(harness, "0"));
-    REQUIRE(harness.GetCounters() == "[0,0,0,0]"); // it has none of its own
+    ControllerFixture fixture(ControllerFixture::MakeReadyOptions());
+    REQUIRE(Command(fixture, "rl.i move P,spd=1sec,accu=4,tool=0 [10, 90, 0, 0, 0, 0]") == 200);
+    REQUIRE(Command(fixture, "rl.i wait ml10") == 200);
+    REQUIRE(Command(fixture, "rl.i move P,spd=1sec,accu=4,tool=0 [-10, 90, 0, 0, 0, 0]") == 200);
+    REQUIRE(Command(fixture, "rl.i move P,spd=1sec,accu=4,tool=0 [0, 90, 0, 0, 0, 0]") == 200);
+    REQUIRE(Command(fixture, "rl.i end") == 200);
+    REQUIRE(Command(fixture, "rl.i move P,spd=1sec [99, 90, 0, 0, 0, 0]") == 200); // behind the end
+    REQUIRE_FALSE(IsPlaying(fixture));
+    REQUIRE(Command(fixture, "rl.start") == 200);
+    REQUIRE(IsPlaying(fixture));
+    fixture.clock.Advance(500ms);
+    REQUIRE(IsAt(fixture, "5"));
+    fixture.clock.Advance(9'500ms);
+    REQUIRE(IsAt(fixture, "10"));
+    REQUIRE(fixture.Contains("/project/robot/trajectory/joint_traject_ready", R"("ready":true)"));
+    REQUIRE(fixture.Post("/project/plc/set_relay_value", R"({"name":"ml10","value":7})") == 200);
+    fixture.clock.Advance(1'500ms); // in one step
+    REQUIRE(IsAt(fixture, "-5"));
+    REQUIRE(fixture.Contains("/project/robot/trajectory/joint_traject_ready", R"("ready":false)"));
+    fixture.clock.Advance(499ms);
+    REQUIRE(IsPlaying(fixture));
+    fixture.clock.Advance(1ms);
+    REQUIRE_FALSE(IsPlaying(fixture));
+    REQUIRE(IsAt(fixture, "0"));
+    REQUIRE(fixture.GetCounters() == "[0,0,0,0]"); // it has none of its own
 }
 
-TEST_CASE("A execute_cmd: rl.stop halts a move, start goes on with it, rl.reinit forgets the statements")
+TEST_CASE("A execute_cmd: rl.stop halts a move, start resumes it, rl.reinit removes the statements")
 {
-    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
-    REQUIRE(Command(harness, "rl.i move P,spd=2sec [40, 90, 0, 0, 0, 0]") == 200);
-    REQUIRE(Command(harness, "rl.start") == 200);
-    harness.clock.Advance(1s);
-    REQUIRE(Command(harness, "rl.stop") == 200);
-    REQUIRE_FALSE(IsPlaying(harness));
-    harness.clock.Advance(1s);
-    REQUIRE(IsAt(harness, "20"));
-    REQUIRE(harness.Start() == 200);
-    harness.clock.Advance(2s);
-    REQUIRE(IsAt(harness, "40"));
-    REQUIRE(harness.Start() == 200); // no program is selected: the console's, from its beginning
-    REQUIRE(IsPlaying(harness));
-    REQUIRE(Command(harness, "rl.reinit") == 200);
-    REQUIRE_FALSE(IsPlaying(harness));
-    REQUIRE(harness.PostForCode("/console/execute_cmd", R"({"cmd_line":"rl.start"})") == "403 -3");
-    REQUIRE(harness.PostForCode("/project/robot/start") == "403 -3");
+    ControllerFixture fixture(ControllerFixture::MakeReadyOptions());
+    REQUIRE(Command(fixture, "rl.i move P,spd=2sec [40, 90, 0, 0, 0, 0]") == 200);
+    REQUIRE(Command(fixture, "rl.start") == 200);
+    fixture.clock.Advance(1s);
+    REQUIRE(Command(fixture, "rl.stop") == 200);
+    REQUIRE_FALSE(IsPlaying(fixture));
+    fixture.clock.Advance(1s);
+    REQUIRE(IsAt(fixture, "20"));
+    REQUIRE(fixture.Start() == 200);
+    fixture.clock.Advance(2s);
+    REQUIRE(IsAt(fixture, "40"));
+    REQUIRE(fixture.Start() == 200); // no program is selected: the console's, from its beginning
+    REQUIRE(IsPlaying(fixture));
+    REQUIRE(Command(fixture, "rl.reinit") == 200);
+    REQUIRE_FALSE(IsPlaying(fixture));
+    REQUIRE(fixture.PostForCode("/console/execute_cmd", R"({"cmd_line":"rl.start"})") == "403 -3");
+    REQUIRE(fixture.PostForCode("/project/robot/start") == "403 -3");
 }
 
-TEST_CASE("A execute_cmd: a selected program takes the place of the console's, which takes that of a halted one")
+TEST_CASE("A execute_cmd: a selected program replaces the console's, which replaces a halted one")
 {
-    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
-    REQUIRE(Command(harness, "rl.i wait di1") == 200);
-    REQUIRE(Command(harness, "rl.start") == 200);
+    ControllerFixture fixture(ControllerFixture::MakeReadyOptions());
+    REQUIRE(Command(fixture, "rl.i wait di1") == 200);
+    REQUIRE(Command(fixture, "rl.start") == 200);
     REQUIRE(
-        harness.PostForCode("/project/context/tasks[0]/cur_prog_cnt", R"({"pno":11,"ext_sel":1})") == "403 -1442080");
-    REQUIRE(Command(harness, "rl.stop") == 200);
-    REQUIRE(harness.Select(11) == 200);
-    REQUIRE(harness.Start() == 200);
-    REQUIRE(harness.GetCounters() == "[1,0,0,0]");
-    harness.clock.Advance(1s);
-    REQUIRE(Command(harness, "rl.stop") == 200);
-    REQUIRE(Command(harness, "rl.start") == 200);
-    REQUIRE(harness.GetCounters() == "[1,0,1,11]");
-    REQUIRE(harness.Contains("/project/robot/trajectory/joint_traject_ready", R"("ready":true)"));
-    REQUIRE(harness.Reset() == 200);
-    REQUIRE_FALSE(IsPlaying(harness));
-    REQUIRE(harness.Start() == 200); // the selected one again
-    REQUIRE(harness.GetCounters() == "[2,0,1,11]");
+        fixture.PostForCode("/project/context/tasks[0]/cur_prog_cnt", R"({"pno":11,"ext_sel":1})") == "403 -1442080");
+    REQUIRE(Command(fixture, "rl.stop") == 200);
+    REQUIRE(fixture.Select(11) == 200);
+    REQUIRE(fixture.Start() == 200);
+    REQUIRE(fixture.GetCounters() == "[1,0,0,0]");
+    fixture.clock.Advance(1s);
+    REQUIRE(Command(fixture, "rl.stop") == 200);
+    REQUIRE(Command(fixture, "rl.start") == 200);
+    REQUIRE(fixture.GetCounters() == "[1,0,1,11]");
+    REQUIRE(fixture.Contains("/project/robot/trajectory/joint_traject_ready", R"("ready":true)"));
+    REQUIRE(fixture.Reset() == 200);
+    REQUIRE_FALSE(IsPlaying(fixture));
+    REQUIRE(fixture.Start() == 200); // the selected one again
+    REQUIRE(fixture.GetCounters() == "[2,0,1,11]");
 }
 
-TEST_CASE("D-7 execute_cmd: rl.exit ends the console's program and forgets it; a selected program is not touched")
+TEST_CASE("D-7 execute_cmd: rl.exit ends and removes the console's program; a selected program is not affected")
 {
-    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
-    REQUIRE(Command(harness, "rl.i move P,spd=2sec [40, 90, 0, 0, 0, 0]") == 200);
-    REQUIRE(Command(harness, "rl.start") == 200);
-    harness.clock.Advance(1s);
-    REQUIRE(Command(harness, "rl.exit") == 200);
-    REQUIRE_FALSE(IsPlaying(harness));
-    harness.clock.Advance(1s);
-    REQUIRE(IsAt(harness, "20"));
-    REQUIRE(harness.PostForCode("/console/execute_cmd", R"({"cmd_line":"rl.start"})") == "403 -3");
-    REQUIRE(harness.Select(11) == 200);
-    REQUIRE(harness.Start() == 200);
-    REQUIRE(Command(harness, "rl.exit") == 200);
-    REQUIRE(IsPlaying(harness));
-    REQUIRE(harness.GetCounters() == "[1,0,0,0]");
+    ControllerFixture fixture(ControllerFixture::MakeReadyOptions());
+    REQUIRE(Command(fixture, "rl.i move P,spd=2sec [40, 90, 0, 0, 0, 0]") == 200);
+    REQUIRE(Command(fixture, "rl.start") == 200);
+    fixture.clock.Advance(1s);
+    REQUIRE(Command(fixture, "rl.exit") == 200);
+    REQUIRE_FALSE(IsPlaying(fixture));
+    fixture.clock.Advance(1s);
+    REQUIRE(IsAt(fixture, "20"));
+    REQUIRE(fixture.PostForCode("/console/execute_cmd", R"({"cmd_line":"rl.start"})") == "403 -3");
+    REQUIRE(fixture.Select(11) == 200);
+    REQUIRE(fixture.Start() == 200);
+    REQUIRE(Command(fixture, "rl.exit") == 200);
+    REQUIRE(IsPlaying(fixture));
+    REQUIRE(fixture.GetCounters() == "[1,0,0,0]");
 }
 
-TEST_CASE("D-6 release_wait: the program leaves the wait at which it stands; refused where none waits")
+TEST_CASE("D-6 release_wait: ends the wait of the program; refused if no program waits")
 {
     constexpr const char* RELEASE = "/project/context/tasks[0]/release_wait";
-    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
-    REQUIRE(harness.PostForCode(RELEASE) == "403 -104");
-    REQUIRE(Command(harness, "rl.i wait di1") == 200);
-    REQUIRE(Command(harness, "rl.i wait di2") == 200);
-    REQUIRE(harness.PostForCode(RELEASE) == "403 -104"); // it does not run
-    REQUIRE(Command(harness, "rl.start") == 200);
-    REQUIRE(harness.Post(RELEASE) == 200);
-    REQUIRE(IsPlaying(harness));
-    REQUIRE(harness.Post(RELEASE) == 200);
-    REQUIRE_FALSE(IsPlaying(harness));
-    REQUIRE(harness.Select(11) == 200);
-    REQUIRE(harness.Start() == 200);
-    REQUIRE(harness.PostForCode(RELEASE) == "403 -104");
+    ControllerFixture fixture(ControllerFixture::MakeReadyOptions());
+    REQUIRE(fixture.PostForCode(RELEASE) == "403 -104");
+    REQUIRE(Command(fixture, "rl.i wait di1") == 200);
+    REQUIRE(Command(fixture, "rl.i wait di2") == 200);
+    REQUIRE(fixture.PostForCode(RELEASE) == "403 -104"); // it does not run
+    REQUIRE(Command(fixture, "rl.start") == 200);
+    REQUIRE(fixture.Post(RELEASE) == 200);
+    REQUIRE(IsPlaying(fixture));
+    REQUIRE(fixture.Post(RELEASE) == 200);
+    REQUIRE_FALSE(IsPlaying(fixture));
+    REQUIRE(fixture.Select(11) == 200);
+    REQUIRE(fixture.Start() == 200);
+    REQUIRE(fixture.PostForCode(RELEASE) == "403 -104");
 }
 
-TEST_CASE("A execute_cmd: what is no command, or no statement, is answered with ecode 1 and changes nothing")
+TEST_CASE("A execute_cmd: an invalid command or statement is answered with ecode 1 and changes nothing")
 {
-    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
+    ControllerFixture fixture(ControllerFixture::MakeReadyOptions());
     for (const char* line :
          {"",
           "rl",
@@ -301,25 +302,25 @@ TEST_CASE("A execute_cmd: what is no command, or no statement, is answered with 
           "reboot"})
     {
         INFO(line);
-        CHECK_FALSE(IsKnown(harness, line));
+        CHECK_FALSE(IsKnown(fixture, line));
     }
-    REQUIRE(harness.PostForCode("/console/execute_cmd", R"({"cmd_line":"rl.start"})") == "403 -3");
-    REQUIRE(IsKnown(harness, "rl.i wait fb3.dob7"));
-    REQUIRE(IsKnown(harness, "rl.start"));
-    REQUIRE_FALSE(IsKnown(harness, "rl.i end")); // it runs
-    REQUIRE(harness.PostForCode("/console/execute_cmd", "{}") == "400 -1");
-    REQUIRE(Command(harness, std::string(1'001, 'r')) == 400);
+    REQUIRE(fixture.PostForCode("/console/execute_cmd", R"({"cmd_line":"rl.start"})") == "403 -3");
+    REQUIRE(IsKnown(fixture, "rl.i wait fb3.dob7"));
+    REQUIRE(IsKnown(fixture, "rl.start"));
+    REQUIRE_FALSE(IsKnown(fixture, "rl.i end")); // it runs
+    REQUIRE(fixture.PostForCode("/console/execute_cmd", "{}") == "400 -1");
+    REQUIRE(Command(fixture, std::string(1'001, 'r')) == 400);
 }
 
 TEST_CASE("A execute_cmd: a program has room for 1000 statements")
 {
-    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
+    ControllerFixture fixture(ControllerFixture::MakeReadyOptions());
     for (int count = 0; count < 1'000; ++count)
     {
-        REQUIRE(IsKnown(harness, "rl.i wait di1"));
+        REQUIRE(IsKnown(fixture, "rl.i wait di1"));
     }
-    REQUIRE_FALSE(IsKnown(harness, "rl.i wait di1"));
-    REQUIRE(harness.Post("/project/plc/set_relay_value", R"({"name":"di1","value":1})") == 200);
-    REQUIRE(IsKnown(harness, "rl.start"));
-    REQUIRE_FALSE(IsPlaying(harness)); // through all of them at once
+    REQUIRE_FALSE(IsKnown(fixture, "rl.i wait di1"));
+    REQUIRE(fixture.Post("/project/plc/set_relay_value", R"({"name":"di1","value":1})") == 200);
+    REQUIRE(IsKnown(fixture, "rl.start"));
+    REQUIRE_FALSE(IsPlaying(fixture)); // through all of them at once
 }

@@ -19,7 +19,7 @@ namespace
 
 constexpr const char* PROGRAMS = ACS_SITE "/programs.toml";
 
-/// What standard error has of a command line that is refused.
+/// The text on standard error for a command line that is refused.
 std::string ReadRefusal(std::vector<const char*> arguments)
 {
     OpenStreamSimOptions options;
@@ -110,7 +110,7 @@ TEST_CASE("Every option reaches its place")
     REQUIRE(options.worldFile == "floor.json");
     const std::map<int, ProgramSpec>& programs = options.fleet.first.controller.programs;
     REQUIRE(programs.size() == 6);
-    REQUIRE(programs.at(11).duration == 3s); // --program wins
+    REQUIRE(programs.at(11).duration == 3s); // --program takes precedence
     REQUIRE(std::holds_alternative<TransferWork>(programs.at(11).work));
     REQUIRE(programs.at(11).echo.has_value());
     REQUIRE(programs.at(12).duration == 500ms);
@@ -140,14 +140,14 @@ TEST_CASE("A program is NUMBER=DURATION or NUMBER=DURATION,fail, once a number")
           " 11=3s"})
     {
         INFO(text);
-        REQUIRE_FALSE(TakeProgram(text, options).empty());
+        REQUIRE_FALSE(ParseProgram(text, options).empty());
     }
     REQUIRE(options.programs.empty());
-    REQUIRE(TakeProgram("9999=1h", options).empty());
-    REQUIRE(TakeProgram("9999=2s", options) == "program 9999 is given twice");
+    REQUIRE(ParseProgram("9999=1h", options).empty());
+    REQUIRE(ParseProgram("9999=2s", options) == "program 9999 is given twice");
 }
 
-TEST_CASE("A mistake on the command line is exit code 2")
+TEST_CASE("An error in the command line is exit code 2")
 {
     for (const std::vector<const char*>& arguments : std::vector<std::vector<const char*>>{
              {"--listen", "here"},

@@ -10,58 +10,58 @@ using ACS::Testing::ControllerFixture;
 namespace
 {
 
-HttpResponse Send(ControllerFixture& harness, const HttpRequest& request)
+HttpResponse Send(ControllerFixture& fixture, const HttpRequest& request)
 {
-    return ACS::OpenStreamSim::AnswerHTTP(request, harness.controller, harness.clock.GetNow());
+    return ACS::OpenStreamSim::AnswerHTTP(request, fixture.controller, fixture.clock.GetNow());
 }
 
 } // namespace
 
 TEST_CASE("HTTP and Open Stream see the same controller")
 {
-    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
+    ControllerFixture fixture(ControllerFixture::MakeReadyOptions());
     REQUIRE(
-        Send(harness, {"POST", "/project/context/tasks[0]/cur_prog_cnt", {}, R"({ "pno" : 11, "ext_sel" : 1 })"}).status
+        Send(fixture, {"POST", "/project/context/tasks[0]/cur_prog_cnt", {}, R"({ "pno" : 11, "ext_sel" : 1 })"}).status
         == 200);
-    REQUIRE(Send(harness, {"POST", "/robot/start", {}, ""}).status == 200); // an empty body counts as {}
-    REQUIRE(harness.GetCounters() == "[1,0,0,0]");
-    const HttpResponse words = Send(harness, {"GET", "/project/plc/m/val_s32", {{"st", "400"}, {"len", "1"}}, ""});
+    REQUIRE(Send(fixture, {"POST", "/robot/start", {}, ""}).status == 200); // an empty body counts as {}
+    REQUIRE(fixture.GetCounters() == "[1,0,0,0]");
+    const HttpResponse words = Send(fixture, {"GET", "/project/plc/m/val_s32", {{"st", "400"}, {"len", "1"}}, ""});
     REQUIRE(words.status == 200);
     REQUIRE(words.contentType == "application/json; charset=utf-8");
     REQUIRE(words.body == "[1]");
-    const HttpResponse refusal = Send(harness, {"POST", "/project/robot/start", {}, "{}"});
+    const HttpResponse refusal = Send(fixture, {"POST", "/project/robot/start", {}, "{}"});
     REQUIRE(refusal.status == 403);
     REQUIRE(refusal.body.find(R"("err_code":-1442080)") != std::string::npos);
-    REQUIRE(Send(harness, {"PUT", "/project/control/op_cnd", {}, R"({"plc_mode":1})"}).status == 200);
+    REQUIRE(Send(fixture, {"PUT", "/project/control/op_cnd", {}, R"({"plc_mode":1})"}).status == 200);
 }
 
-TEST_CASE("A body that is no JSON object or array is refused, a method that the Open API has not is not found")
+TEST_CASE("A body that is not a JSON object or array is refused, a method that the Open API lacks is not found")
 {
-    ControllerFixture harness;
+    ControllerFixture fixture;
     for (const char* body : {"{", "7", "\"x\"", "null", "{} {}", R"({"val":1,"val":2})", "\xFF"})
     {
         INFO(body);
-        const HttpResponse response = Send(harness, {"POST", "/project/robot/tool_no", {}, body});
+        const HttpResponse response = Send(fixture, {"POST", "/project/robot/tool_no", {}, body});
         REQUIRE(response.status == 400);
         REQUIRE(response.body.find(R"("err_code":-1)") != std::string::npos);
     }
-    REQUIRE(Send(harness, {"HEAD", "/project/robot", {}, ""}).status == 200);
-    REQUIRE(Send(harness, {"HEAD", "/project/nothing", {}, ""}).status == 404);
-    REQUIRE(Send(harness, {"PATCH", "/project/robot", {}, "{}"}).status == 404);
-    REQUIRE(Send(harness, {"DELETE", "/project/robot", {}, ""}).status == 404);
-    REQUIRE(harness.Contains("/project/robot", R"("tool_no":0)"));
+    REQUIRE(Send(fixture, {"HEAD", "/project/robot", {}, ""}).status == 200);
+    REQUIRE(Send(fixture, {"HEAD", "/project/nothing", {}, ""}).status == 404);
+    REQUIRE(Send(fixture, {"PATCH", "/project/robot", {}, "{}"}).status == 404);
+    REQUIRE(Send(fixture, {"DELETE", "/project/robot", {}, ""}).status == 404);
+    REQUIRE(fixture.Contains("/project/robot", R"("tool_no":0)"));
 }
 
-TEST_CASE("A path is decoded once: what came as %255B is no bracket, and a NUL or another byte is no end of it")
+TEST_CASE("A path is decoded once: %255B is not a bracket, and a NUL or another byte does not end the path")
 {
-    ControllerFixture harness;
+    ControllerFixture fixture;
     const std::string body = R"({"pno":11,"ext_sel":1})";
-    REQUIRE(Send(harness, {"POST", "/project/context/tasks%5B0%5D/cur_prog_cnt", {}, body}).status == 404);
-    REQUIRE(Send(harness, {"POST", "/project/context/tasks[0]/cur_prog_cnt", {}, body}).status == 200);
+    REQUIRE(Send(fixture, {"POST", "/project/context/tasks%5B0%5D/cur_prog_cnt", {}, body}).status == 404);
+    REQUIRE(Send(fixture, {"POST", "/project/context/tasks[0]/cur_prog_cnt", {}, body}).status == 200);
     for (const std::string& end :
          {std::string(1, '\0'), std::string("\xFF"), std::string("%"), std::string("/"), std::string("/..")})
     {
-        const HttpResponse response = Send(harness, {"GET", "/project/robot" + end, {}, ""});
+        const HttpResponse response = Send(fixture, {"GET", "/project/robot" + end, {}, ""});
         REQUIRE(response.status == 404);
         REQUIRE(ACS::Core::JsonText::IsUtf8(response.body));
     }

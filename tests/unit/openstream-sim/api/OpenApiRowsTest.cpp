@@ -212,8 +212,8 @@ void CheckCalls(const std::vector<Call>& calls, const ControllerOptions& options
 {
     for (const Call& call : calls)
     {
-        ControllerFixture harness(options);
-        const ApiResponse response = harness.Call(call.method, call.url, call.body);
+        ControllerFixture fixture(options);
+        const ApiResponse response = fixture.Call(call.method, call.url, call.body);
         INFO(call.url << ' ' << call.body);
         REQUIRE(response.body.has_value());
         INFO(response.body->GetText());
@@ -237,15 +237,15 @@ TEST_CASE("A Each refusal that a row of section A names has its status and its c
 {
     for (const Refusal& refusal : REFUSALS)
     {
-        ControllerFixture harness;
+        ControllerFixture fixture;
         for (const auto& [url, body] : refusal.before)
         {
-            REQUIRE(harness.Post(url, body) == 200);
-            harness.clock.Advance(url == ON ? 1s : 0s);
+            REQUIRE(fixture.Post(url, body) == 200);
+            fixture.clock.Advance(url == ON ? 1s : 0s);
         }
-        harness.controller.TurnModeSwitch(refusal.bRemote, harness.clock.GetNow());
+        fixture.controller.TurnModeSwitch(refusal.bRemote, fixture.clock.GetNow());
         INFO(refusal.url << ' ' << refusal.body);
-        const ApiResponse response = harness.Call(refusal.method, refusal.url, refusal.body);
+        const ApiResponse response = fixture.Call(refusal.method, refusal.url, refusal.body);
         REQUIRE(response.body.has_value());
         const std::string text = response.body->GetText();
         INFO(text);
@@ -262,13 +262,13 @@ TEST_CASE("A Bodies of any kind are answered by every endpoint, and a refusal ha
     std::vector<Call> calls = CALLS;
     calls.insert(calls.end(), IDLE_CALLS.begin(), IDLE_CALLS.end());
     calls.push_back({Post, START, "{}", ""});
-    ControllerFixture harness(MakePlayingOptions());
+    ControllerFixture fixture(MakePlayingOptions());
     for (const Call& call : calls)
     {
         for (const char* body : BAD_BODIES)
         {
             INFO(call.url << ' ' << body);
-            const ApiResponse response = harness.Call(call.method, call.url, body);
+            const ApiResponse response = fixture.Call(call.method, call.url, body);
             REQUIRE(response.body.has_value());
             const bool bAnswered = response.status == 200 || response.status == 400 || response.status == 403;
             CHECK(bAnswered);
@@ -281,7 +281,7 @@ TEST_CASE("A Bodies of any kind are answered by every endpoint, and a refusal ha
 
 TEST_CASE("A A query of any kind is a 400 with the parameter's name, or has no effect")
 {
-    ControllerFixture harness;
+    ControllerFixture fixture;
     for (const char* value :
          {"", "x", "-", "1e3", "0x1", "99999999999999999999", "-99999999999999999999", "1.5", "NaN", "[]"})
     {
@@ -301,7 +301,7 @@ TEST_CASE("A A query of any kind is a 400 with the parameter's name, or has no e
         {
             const std::string url = std::string(front) + value;
             INFO(url);
-            const ApiResponse response = harness.Call(Get, url);
+            const ApiResponse response = fixture.Call(Get, url);
             CHECK(response.status == 400);
             const std::string name = url.substr(url.find('?') + 1, url.find('=') - url.find('?') - 1);
             CHECK(

@@ -178,8 +178,8 @@ TEST_CASE("A Every endpoint answers a fresh controller's client with the documen
 {
     for (const Row& row : ROWS)
     {
-        ControllerFixture harness;
-        const ApiResponse response = harness.Call(row.method, row.url, row.body);
+        ControllerFixture fixture;
+        const ApiResponse response = fixture.Call(row.method, row.url, row.body);
         INFO(row.url << ' ' << row.body);
         REQUIRE(response.body.has_value());
         INFO(response.body->GetText());
@@ -190,65 +190,65 @@ TEST_CASE("A Every endpoint answers a fresh controller's client with the documen
 
 TEST_CASE("A What is set is what is read")
 {
-    ControllerFixture harness;
+    ControllerFixture fixture;
     REQUIRE(
-        harness.Call(EApiMethod::Put, "/project/control/op_cnd", R"({"playback_spd_rate":40,"plc_mode":2})").status
+        fixture.Call(EApiMethod::Put, "/project/control/op_cnd", R"({"playback_spd_rate":40,"plc_mode":2})").status
         == 200);
-    REQUIRE(harness.Contains("/project/control/op_cnd", R"("playback_mode":1)"));
-    REQUIRE(harness.Contains("/project/control/op_cnd", R"("playback_spd_rate":40)"));
-    REQUIRE(harness.Contains("/project/control/op_cnd", R"("plc_mode":2)"));
-    REQUIRE(harness.Post("/project/control/op_cnd", R"({"intp_base":1,"robot_lock":1})") == 200);
-    REQUIRE(harness.Contains("/project/rgen", R"("auto_spd":40)"));
-    REQUIRE(harness.Contains("/project/rgen", R"("base_intp":1,"plc_mode":2,"task_no":0,"axis_lock":1)"));
-    REQUIRE(harness.Contains("/project/rgen", R"("cur_mech_axis_info":63)"));
+    REQUIRE(fixture.Contains("/project/control/op_cnd", R"("playback_mode":1)"));
+    REQUIRE(fixture.Contains("/project/control/op_cnd", R"("playback_spd_rate":40)"));
+    REQUIRE(fixture.Contains("/project/control/op_cnd", R"("plc_mode":2)"));
+    REQUIRE(fixture.Post("/project/control/op_cnd", R"({"intp_base":1,"robot_lock":1})") == 200);
+    REQUIRE(fixture.Contains("/project/rgen", R"("auto_spd":40)"));
+    REQUIRE(fixture.Contains("/project/rgen", R"("base_intp":1,"plc_mode":2,"task_no":0,"axis_lock":1)"));
+    REQUIRE(fixture.Contains("/project/rgen", R"("cur_mech_axis_info":63)"));
 
-    REQUIRE(harness.Post("/project/robot/tool_no", R"({"val":1})") == 200);
-    REQUIRE(harness.Contains("/project/robot", R"("tool_no":1)"));
-    REQUIRE(harness.Contains("/project/rgen", R"("tool_no":1)"));
-    REQUIRE(harness.Contains("/project/robot/cur_tool_data", R"("mass":4.5)"));
+    REQUIRE(fixture.Post("/project/robot/tool_no", R"({"val":1})") == 200);
+    REQUIRE(fixture.Contains("/project/robot", R"("tool_no":1)"));
+    REQUIRE(fixture.Contains("/project/rgen", R"("tool_no":1)"));
+    REQUIRE(fixture.Contains("/project/robot/cur_tool_data", R"("mass":4.5)"));
 
-    REQUIRE(harness.Post("/project/robot/crd_sys", R"({"val":3})") == 200);
-    REQUIRE(harness.Post("/project/robot/crd_sys", R"({"val":-1})") == 200); // the next one is axis again
-    REQUIRE(harness.Contains("/project/robot/po_cur?crd=-1", R"("crd":"joint")"));
-    REQUIRE(harness.Contains("/project/rgen", R"("cur_crd":0)"));
-    REQUIRE(harness.Post("/project/robot/crd_sys", R"({"val":2})") == 200);
-    REQUIRE(harness.Contains("/project/rgen", R"("cur_crd":2)"));
+    REQUIRE(fixture.Post("/project/robot/crd_sys", R"({"val":3})") == 200);
+    REQUIRE(fixture.Post("/project/robot/crd_sys", R"({"val":-1})") == 200); // the next one is axis again
+    REQUIRE(fixture.Contains("/project/robot/po_cur?crd=-1", R"("crd":"joint")"));
+    REQUIRE(fixture.Contains("/project/rgen", R"("cur_crd":0)"));
+    REQUIRE(fixture.Post("/project/robot/crd_sys", R"({"val":2})") == 200);
+    REQUIRE(fixture.Contains("/project/rgen", R"("cur_crd":2)"));
 
     REQUIRE(
-        harness.Post("/project/control/ios/dio/do_val", R"({"type":"dob","blk_no":2,"sig_no":3,"val":-99})") == 200);
-    REQUIRE(harness.Contains("/project/control/ios/dio/do_val?type=dob&blk_no=2&sig_no=3", R"("val":-99})"));
-    REQUIRE(harness.Contains("/project/control/ios/dio/do_val?type=do&blk_no=2&sig_no=24", R"("val":1})"));
-    REQUIRE(harness.Get("/project/plc/fb2_do/val_s32?st=3&len=1") == "[157]");
-    REQUIRE(harness.Contains("/project/control/ios/dio/do_val?type=dob&blk_no=1&sig_no=3", R"("val":0})"));
+        fixture.Post("/project/control/ios/dio/do_val", R"({"type":"dob","blk_no":2,"sig_no":3,"val":-99})") == 200);
+    REQUIRE(fixture.Contains("/project/control/ios/dio/do_val?type=dob&blk_no=2&sig_no=3", R"("val":-99})"));
+    REQUIRE(fixture.Contains("/project/control/ios/dio/do_val?type=do&blk_no=2&sig_no=24", R"("val":1})"));
+    REQUIRE(fixture.Get("/project/plc/fb2_do/val_s32?st=3&len=1") == "[157]");
+    REQUIRE(fixture.Contains("/project/control/ios/dio/do_val?type=dob&blk_no=1&sig_no=3", R"("val":0})"));
 
-    REQUIRE(harness.Post("/project/control/ios/dio/do_val", R"({"type":"dof","sig_no":5,"val":1.5})") == 200);
-    REQUIRE(harness.Contains("/project/control/ios/dio/do_val?type=dof&sig_no=5", R"("val":1.5})"));
+    REQUIRE(fixture.Post("/project/control/ios/dio/do_val", R"({"type":"dof","sig_no":5,"val":1.5})") == 200);
+    REQUIRE(fixture.Contains("/project/control/ios/dio/do_val?type=dof&sig_no=5", R"("val":1.5})"));
 
-    REQUIRE(harness.Post("/project/plc/set_relay_value", R"({"name":"ml100","value":-2})") == 200);
-    REQUIRE(harness.GetCounters() == "[-2,0,0,0]");
+    REQUIRE(fixture.Post("/project/plc/set_relay_value", R"({"name":"ml100","value":-2})") == 200);
+    REQUIRE(fixture.GetCounters() == "[-2,0,0,0]");
 }
 
-TEST_CASE("7.41 7.42 joint_states and po_cur move while a program runs, and stand where it was stopped")
+TEST_CASE("7.41 7.42 joint_states and po_cur change while a program runs, and stay the same when it is stopped")
 {
     using namespace std::chrono_literals;
-    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
-    const std::string home = harness.Get("/project/robot/joint_states");
-    const std::string homePose = harness.Get("/project/robot/po_cur");
-    REQUIRE(harness.Select(11) == 200);
-    REQUIRE(harness.Start() == 200);
-    REQUIRE(harness.Get("/project/robot/joint_states") == home);
-    harness.clock.Advance(300ms);
-    const std::string moved = harness.Get("/project/robot/joint_states");
+    ControllerFixture fixture(ControllerFixture::MakeReadyOptions());
+    const std::string home = fixture.Get("/project/robot/joint_states");
+    const std::string homePose = fixture.Get("/project/robot/po_cur");
+    REQUIRE(fixture.Select(11) == 200);
+    REQUIRE(fixture.Start() == 200);
+    REQUIRE(fixture.Get("/project/robot/joint_states") == home);
+    fixture.clock.Advance(300ms);
+    const std::string moved = fixture.Get("/project/robot/joint_states");
     REQUIRE(moved != home);
-    REQUIRE(harness.Get("/project/robot/po_cur") != homePose);
-    REQUIRE(harness.Post("/project/robot/stop") == 200);
-    const std::string halted = harness.Get("/project/robot/joint_states");
+    REQUIRE(fixture.Get("/project/robot/po_cur") != homePose);
+    REQUIRE(fixture.Post("/project/robot/stop") == 200);
+    const std::string halted = fixture.Get("/project/robot/joint_states");
     REQUIRE(halted.find(R"("velocity":[0,0,0,0,0,0])") != std::string::npos);
-    harness.clock.Advance(1s);
-    REQUIRE(harness.Get("/project/robot/joint_states") == halted);
-    REQUIRE(harness.Start() == 200);
-    REQUIRE(harness.Get("/project/robot/joint_states") == moved);
-    harness.clock.Advance(1'700ms);
-    REQUIRE(harness.GetCounters() == "[1,1,0,11]");
-    REQUIRE(harness.Contains("/project/robot/joint_states", R"("velocity":[0,0,0,0,0,0])"));
+    fixture.clock.Advance(1s);
+    REQUIRE(fixture.Get("/project/robot/joint_states") == halted);
+    REQUIRE(fixture.Start() == 200);
+    REQUIRE(fixture.Get("/project/robot/joint_states") == moved);
+    fixture.clock.Advance(1'700ms);
+    REQUIRE(fixture.GetCounters() == "[1,1,0,11]");
+    REQUIRE(fixture.Contains("/project/robot/joint_states", R"("velocity":[0,0,0,0,0,0])"));
 }

@@ -23,7 +23,7 @@ PROGRAM = None
 
 class ReadmeClient(unittest.TestCase):
     def start_for_ready(self, *arguments):
-        """A simulator on free ports; what its ready line says. The process is self.process."""
+        """Starts a simulator on free ports; returns the addresses of its ready line. The process is self.process."""
         process = subprocess.Popen([PROGRAM, "--listen", "127.0.0.1:0", "--http", "127.0.0.1:0", "--log-level", "error",
                                     *arguments], stdout=subprocess.PIPE, text=True)
         self.process = process
@@ -116,7 +116,7 @@ class ReadmeClient(unittest.TestCase):
                          (200, "ok: controllers=2 ended=1\nok: controllers=1 estop\n"))
         self.assertEqual((is_pressed("http"), is_pressed("http2")), (1, 0))
         for text, part in (("* end\n2 explode", "line 2, fault: expected one of silence"), ("", "no command"),
-                           ("3 estop", "no controller is called 3; there are 1 to 2"), ("\xff", "error: ")):
+                           ("3 estop", "no controller 3; give one from 1 to 2"), ("\xff", "error: ")):
             with self.subTest(text):
                 status, answer = self.post(control, text)
                 self.assertEqual(status, 400)

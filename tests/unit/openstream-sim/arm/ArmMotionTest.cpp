@@ -54,7 +54,7 @@ TEST_CASE("A motion begins and ends at home and at rest, and its velocity is its
     }
 }
 
-TEST_CASE("A motion that was given up leaves the arm where it is; the next one brings it home without a jump")
+TEST_CASE("An abandoned motion leaves the arm at its position; the next one moves it home without a jump")
 {
     ArmMotion motion;
     motion.Begin(2s);

@@ -19,7 +19,7 @@ JointVector MakePosition(double first)
     return position;
 }
 
-/// So many points, each a step further on axis 1, each 2 ms.
+/// Appends `count` points of 2 ms, each a step further on axis 1.
 void AppendRamp(TrajectoryFollower& follower, int count, double step, Duration lookAhead, Duration now)
 {
     const double from = follower.GetHeld()[0];
@@ -32,7 +32,7 @@ void AppendRamp(TrajectoryFollower& follower, int count, double step, Duration l
 
 } // namespace
 
-TEST_CASE("C.2 The motion starts when the points take as long as the look-ahead, one point an interval")
+TEST_CASE("C.2 The motion starts when the points last for the look-ahead time, one point per interval")
 {
     TrajectoryFollower follower;
     AppendRamp(follower, 19, 0.1, 40ms, 0ms);
@@ -51,7 +51,7 @@ TEST_CASE("C.2 The motion starts when the points take as long as the look-ahead,
     REQUIRE(follower.IsResting());
 }
 
-TEST_CASE("C.2 Fewer points than the look-ahead start when the first of them has waited so long")
+TEST_CASE("C.2 Fewer points start when the first of them has waited for the look-ahead time")
 {
     TrajectoryFollower follower;
     AppendRamp(follower, 2, 0.1, 40ms, 5ms);
@@ -63,7 +63,7 @@ TEST_CASE("C.2 Fewer points than the look-ahead start when the first of them has
     REQUIRE(follower.GetStates(49ms).position[0] > 0.0);
 }
 
-TEST_CASE("C.2 When the buffer has run empty, the next points gather anew")
+TEST_CASE("C.2 After the buffer has run empty, the next points are buffered again")
 {
     TrajectoryFollower follower;
     AppendRamp(follower, 20, 0.1, 40ms, 0ms);
@@ -133,7 +133,7 @@ TEST_CASE("C.3 A line that is too fast for an axis stops the arm where it is; th
     REQUIRE(stopped.velocity == JointVector{});
     REQUIRE(stopped.position[0] > 0.0);
     REQUIRE(stopped.position[0] < 20.0);
-    REQUIRE(follower.TryAdvance(10s)); // told once
+    REQUIRE(follower.TryAdvance(10s)); // reported once
     REQUIRE(follower.GetStates(10s).position == stopped.position);
     REQUIRE(follower.GetFree() == 2046);
     follower.Begin(stopped.position, 10s);
@@ -162,7 +162,7 @@ TEST_CASE("C.3 The limit holds from the first point on, for each axis, in both d
     }
 }
 
-TEST_CASE("C.4 A stopped trajectory stands at once; one that is finished settles where it was to be")
+TEST_CASE("C.4 A stopped trajectory stops the arm at once; a finished one lets it settle at the current command")
 {
     TrajectoryFollower stopped;
     AppendRamp(stopped, 100, 0.2, 0ms, 0ms);
@@ -185,7 +185,7 @@ TEST_CASE("C.4 A stopped trajectory stands at once; one that is finished settles
     REQUIRE_FALSE(finished.IsActive(1h));
 }
 
-TEST_CASE("A agility: the arm follows as fast as the bandwidth says, and is cleaned up for half a second")
+TEST_CASE("A agility: the arm follows as fast as the bandwidth allows, and is cleaned up for half a second")
 {
     TrajectoryFollower plain;
     TrajectoryFollower agile;
@@ -210,7 +210,7 @@ TEST_CASE("C.2 The buffer has room for 2048 points")
     AppendRamp(follower, 2048, 0.0, 10s, 0ms);
     REQUIRE(follower.GetFree() == 0);
     REQUIRE(follower.TryAdvance(3ms));
-    REQUIRE(follower.GetFree() == 0); // gathering: 4.096 s of 10 s are there
+    REQUIRE(follower.GetFree() == 0); // buffering: 4.096 s of 10 s are there
     REQUIRE(follower.TryAdvance(10s + 2ms));
     REQUIRE(follower.GetFree() == 1);
 }

@@ -21,47 +21,47 @@ constexpr const char* OFF = R"({"_type":"JObject","val":1})";
 
 TEST_CASE("9 Without a fault both sides are the controller's own")
 {
-    FaultFixture harness;
-    CHECK(harness.Sample(MOTOR) == ON);
-    CHECK(harness.response.delay == 0s);
-    CHECK(harness.GetOverHTTP(MOTOR) == ON);
-    CHECK(harness.Control("/project/robot/tool_no", R"({"val":1})") == 200);
-    CHECK(harness.ContainsInRobot(R"("tool_no":1)"));
-    CHECK(harness.GetChanges().empty());
-    CHECK_FALSE(harness.wakeAt.has_value());
+    FaultFixture fixture;
+    CHECK(fixture.Sample(MOTOR) == ON);
+    CHECK(fixture.response.delay == 0s);
+    CHECK(fixture.GetOverHTTP(MOTOR) == ON);
+    CHECK(fixture.Control("/project/robot/tool_no", R"({"val":1})") == 200);
+    CHECK(fixture.ContainsInRobot(R"("tool_no":1)"));
+    CHECK(fixture.GetChanges().empty());
+    CHECK_FALSE(fixture.wakeAt.has_value());
 }
 
-TEST_CASE("9 In a silence the MONITOR gets no line; CONTROL and HTTP are served, and the arm goes on")
+TEST_CASE("9 In a silence the MONITOR gets no line; CONTROL and HTTP are served, and the arm continues")
 {
-    FaultFixture harness;
-    harness.Begin("silence at=1s for=2s");
-    harness.Pass(999ms);
-    CHECK(harness.Sample(MOTOR) == ON);
-    harness.Pass(1ms);
-    CHECK(harness.Sample(MOTOR).empty());
-    CHECK(harness.Control("/project/robot/emergency_stop") == 200);
-    CHECK(harness.GetOverHTTP(MOTOR) == OFF);
-    harness.Pass(1999ms);
-    CHECK(harness.Sample(MOTOR).empty());
-    harness.Pass(1ms);
-    CHECK(harness.Sample(MOTOR) == OFF);
-    CHECK(harness.GetChanges() == Texts{"+silence at=1s for=2s", "-silence at=1s for=2s its time is over"});
-    harness.Begin("silence");
-    harness.Pass(1h);
-    CHECK(harness.Sample(MOTOR).empty());
-    CHECK(harness.End(EFaultKind::Silence) == 1);
-    CHECK(harness.Sample(MOTOR) == OFF);
+    FaultFixture fixture;
+    fixture.Begin("silence at=1s for=2s");
+    fixture.Pass(999ms);
+    CHECK(fixture.Sample(MOTOR) == ON);
+    fixture.Pass(1ms);
+    CHECK(fixture.Sample(MOTOR).empty());
+    CHECK(fixture.Control("/project/robot/emergency_stop") == 200);
+    CHECK(fixture.GetOverHTTP(MOTOR) == OFF);
+    fixture.Pass(1999ms);
+    CHECK(fixture.Sample(MOTOR).empty());
+    fixture.Pass(1ms);
+    CHECK(fixture.Sample(MOTOR) == OFF);
+    CHECK(fixture.GetChanges() == Texts{"+silence at=1s for=2s", "-silence at=1s for=2s its time is over"});
+    fixture.Begin("silence");
+    fixture.Pass(1h);
+    CHECK(fixture.Sample(MOTOR).empty());
+    CHECK(fixture.End(EFaultKind::Silence) == 1);
+    CHECK(fixture.Sample(MOTOR) == OFF);
 }
 
-TEST_CASE("9 A hole is a silence of 100 ms, and comes again where that is asked for")
+TEST_CASE("9 A hole is a silence of 100 ms, and is repeated if requested")
 {
-    FaultFixture harness;
-    harness.Begin("hole every=1s");
+    FaultFixture fixture;
+    fixture.Begin("hole every=1s");
     std::string pattern;
     for (int i = 0; i < 42; ++i)
     {
-        pattern += harness.Sample(MOTOR).empty() ? '-' : 'x';
-        harness.Pass(50ms);
+        pattern += fixture.Sample(MOTOR).empty() ? '-' : 'x';
+        fixture.Pass(50ms);
     }
     const std::string second = "--" + std::string(18, 'x');
     CHECK(pattern == second + second + "--");
@@ -69,262 +69,262 @@ TEST_CASE("9 A hole is a silence of 100 ms, and comes again where that is asked 
 
 TEST_CASE("9 A call by call controller sees the same as one whose timers fire, every fault at its own time")
 {
-    FaultFixture harness;
-    harness.Begin("estop at=1s for=1s");
-    REQUIRE(harness.StartProgram(11) == 200);
-    harness.clock.Advance(10s);                  // no timer fired
-    CHECK(harness.GetCounters() == "[1,0,0,0]"); // halted after 1 s of 2
-    CHECK(harness.GetOverHTTP(MOTOR) == OFF);
-    CHECK(harness.GetChanges() == Texts{"+estop at=1s for=1s", "-estop at=1s for=1s its time is over"});
-    CHECK(harness.GetOverHTTP("/project/robot/emergency_stop") == R"({"_type":"JObject","val":0})");
+    FaultFixture fixture;
+    fixture.Begin("estop at=1s for=1s");
+    REQUIRE(fixture.StartProgram(11) == 200);
+    fixture.clock.Advance(10s);                  // no timer fired
+    CHECK(fixture.GetCounters() == "[1,0,0,0]"); // halted after 1 s of 2
+    CHECK(fixture.GetOverHTTP(MOTOR) == OFF);
+    CHECK(fixture.GetChanges() == Texts{"+estop at=1s for=1s", "-estop at=1s for=1s its time is over"});
+    CHECK(fixture.GetOverHTTP("/project/robot/emergency_stop") == R"({"_type":"JObject","val":0})");
 }
 
-TEST_CASE("9 A program that has ended is not met by a fault that begins later")
+TEST_CASE("9 A fault does not affect a program that ended before it begins")
 {
-    FaultFixture harness;
-    REQUIRE(harness.StartProgram(11) == 200);
-    harness.clock.Advance(3s);
-    harness.Begin("program-fails");
-    CHECK(harness.GetCounters() == "[1,1,0,11]");
-    REQUIRE(harness.StartProgram(11) == 200);
-    harness.Begin("program-fails at=3s");
-    harness.End();
-    harness.Begin("program-fails at=3s");
-    harness.clock.Advance(10s);
-    CHECK(harness.GetCounters() == "[2,2,0,11]");
+    FaultFixture fixture;
+    REQUIRE(fixture.StartProgram(11) == 200);
+    fixture.clock.Advance(3s);
+    fixture.Begin("program-fails");
+    CHECK(fixture.GetCounters() == "[1,1,0,11]");
+    REQUIRE(fixture.StartProgram(11) == 200);
+    fixture.Begin("program-fails at=3s");
+    fixture.End();
+    fixture.Begin("program-fails at=3s");
+    fixture.clock.Advance(10s);
+    CHECK(fixture.GetCounters() == "[2,2,0,11]");
 }
 
-TEST_CASE("9 A slow service answers later on the side that is meant, and does what it is asked for")
+TEST_CASE("9 A slow service answers later on the given side, and executes the call")
 {
-    FaultFixture harness;
-    harness.Begin("slow time=300ms for=1s");
-    CHECK(harness.Sample(MOTOR) == ON);
-    CHECK(harness.response.delay == 300ms);
-    CHECK(harness.Control("/project/robot/emergency_stop") == 200);
-    CHECK(harness.response.delay == 300ms);
-    CHECK(harness.GetOverHTTP(MOTOR) == OFF);
-    CHECK(harness.response.delay == 300ms);
-    harness.Begin("slow time=1s side=http");
-    CHECK(harness.PostOverHTTP("/nothing") == 404);
-    CHECK(harness.response.delay == 1s);
-    CHECK(harness.Sample(MOTOR) == OFF);
-    CHECK(harness.response.delay == 300ms);
-    harness.Pass(1s);
-    CHECK(harness.Sample(MOTOR) == OFF);
-    CHECK(harness.response.delay == 0s);
-    CHECK(harness.GetOverHTTP(MOTOR) == OFF);
-    CHECK(harness.response.delay == 1s);
+    FaultFixture fixture;
+    fixture.Begin("slow time=300ms for=1s");
+    CHECK(fixture.Sample(MOTOR) == ON);
+    CHECK(fixture.response.delay == 300ms);
+    CHECK(fixture.Control("/project/robot/emergency_stop") == 200);
+    CHECK(fixture.response.delay == 300ms);
+    CHECK(fixture.GetOverHTTP(MOTOR) == OFF);
+    CHECK(fixture.response.delay == 300ms);
+    fixture.Begin("slow time=1s side=http");
+    CHECK(fixture.PostOverHTTP("/nothing") == 404);
+    CHECK(fixture.response.delay == 1s);
+    CHECK(fixture.Sample(MOTOR) == OFF);
+    CHECK(fixture.response.delay == 300ms);
+    fixture.Pass(1s);
+    CHECK(fixture.Sample(MOTOR) == OFF);
+    CHECK(fixture.response.delay == 0s);
+    CHECK(fixture.GetOverHTTP(MOTOR) == OFF);
+    CHECK(fixture.response.delay == 1s);
 }
 
-TEST_CASE("9 A drop closes what is connected, once, and again where that is asked for")
+TEST_CASE("9 A drop closes the connections once, and is repeated if requested")
 {
-    FaultFixture harness;
-    harness.Begin("drop at=1s");
-    CHECK(harness.drops == 0);
-    harness.Pass(1s);
-    CHECK(harness.drops == 1);
-    CHECK_FALSE(harness.wakeAt.has_value());
-    harness.Begin("drop every=500ms");
-    harness.Pass(1s);
-    CHECK(harness.drops == 4);
+    FaultFixture fixture;
+    fixture.Begin("drop at=1s");
+    CHECK(fixture.drops == 0);
+    fixture.Pass(1s);
+    CHECK(fixture.drops == 1);
+    CHECK_FALSE(fixture.wakeAt.has_value());
+    fixture.Begin("drop every=500ms");
+    fixture.Pass(1s);
+    CHECK(fixture.drops == 4);
 }
 
-TEST_CASE("9 A burst of refusals takes the next CONTROLs, of one time or in a time, and executes none of them")
+TEST_CASE("9 A burst of refusals refuses the next CONTROLs, a number of them or for a time, and executes none")
 {
-    FaultFixture harness;
+    FaultFixture fixture;
     const std::string tool = R"({"val":3})";
-    harness.Begin("refuse count=2");
+    fixture.Begin("refuse count=2");
     for (int i = 0; i < 2; ++i)
     {
-        CHECK(harness.Control("/project/robot/tool_no", tool) == 403);
-        CHECK_THAT(harness.response.body->GetText(), Catch::Contains(R"("err_code":-1554)"));
-        CHECK(harness.ContainsInRobot(R"("tool_no":0)"));
+        CHECK(fixture.Control("/project/robot/tool_no", tool) == 403);
+        CHECK_THAT(fixture.response.body->GetText(), Catch::Contains(R"("err_code":-1554)"));
+        CHECK(fixture.ContainsInRobot(R"("tool_no":0)"));
     }
-    CHECK(harness.Sample(MOTOR) == ON);                                           // the MONITOR is none
-    CHECK(harness.PostOverHTTP("/project/robot/tool_no", R"({"val":2})") == 200); // nor is HTTP
-    CHECK(harness.Control("/project/robot/tool_no", tool) == 200);
-    CHECK(harness.GetChanges() == Texts{"+refuse count=2", "-refuse count=2 it is used up"});
-    harness.Begin("refuse status=500 code=-9");
-    CHECK(harness.Control("/project/robot/stop") == 500);
-    CHECK_THAT(harness.response.body->GetText(), Catch::Contains(R"("err_code":-9)"));
-    CHECK(harness.Control("/project/robot/stop") == 200);
-    harness.Begin("refuse for=1s");
+    CHECK(fixture.Sample(MOTOR) == ON);                                           // the MONITOR is none
+    CHECK(fixture.PostOverHTTP("/project/robot/tool_no", R"({"val":2})") == 200); // nor is HTTP
+    CHECK(fixture.Control("/project/robot/tool_no", tool) == 200);
+    CHECK(fixture.GetChanges() == Texts{"+refuse count=2", "-refuse count=2 it is used up"});
+    fixture.Begin("refuse status=500 code=-9");
+    CHECK(fixture.Control("/project/robot/stop") == 500);
+    CHECK_THAT(fixture.response.body->GetText(), Catch::Contains(R"("err_code":-9)"));
+    CHECK(fixture.Control("/project/robot/stop") == 200);
+    fixture.Begin("refuse for=1s");
     for (int i = 0; i < 20; ++i)
     {
-        CHECK(harness.Control("/project/robot/stop") == 403);
-        harness.Pass(50ms);
+        CHECK(fixture.Control("/project/robot/stop") == 403);
+        fixture.Pass(50ms);
     }
-    CHECK(harness.Control("/project/robot/stop") == 200);
+    CHECK(fixture.Control("/project/robot/stop") == 200);
 }
 
-TEST_CASE("9 Out of remote mode the program halts and CONTROLs are refused; the stream may fall silent at each turn")
+TEST_CASE("9 Outside of remote mode the program halts and CONTROLs are refused; the stream may be silent at each turn")
 {
-    FaultFixture harness;
-    REQUIRE(harness.StartProgram(11) == 200);
-    harness.Begin("mode for=5s silence=2s");
-    CHECK(harness.ContainsInRobot(R"("is_remote_mode":0)"));
-    CHECK(harness.ContainsInRobot(R"("is_playback":0)"));
-    CHECK(harness.Control("/project/robot/start") == 403);
-    CHECK_THAT(harness.response.body->GetText(), Catch::Contains("-38500"));
+    FaultFixture fixture;
+    REQUIRE(fixture.StartProgram(11) == 200);
+    fixture.Begin("mode for=5s silence=2s");
+    CHECK(fixture.ContainsInRobot(R"("is_remote_mode":0)"));
+    CHECK(fixture.ContainsInRobot(R"("is_playback":0)"));
+    CHECK(fixture.Control("/project/robot/start") == 403);
+    CHECK_THAT(fixture.response.body->GetText(), Catch::Contains("-38500"));
     std::string pattern;
     for (int i = 0; i < 16; ++i)
     {
-        pattern += harness.Sample(MOTOR).empty() ? '-' : 'x';
-        harness.Pass(500ms);
+        pattern += fixture.Sample(MOTOR).empty() ? '-' : 'x';
+        fixture.Pass(500ms);
     }
     CHECK(pattern == "----xxxxxx----xx");
-    CHECK(harness.ContainsInRobot(R"("is_remote_mode":1)"));
-    harness.Begin("mode");
-    CHECK(harness.Sample(MOTOR) == ON);
-    harness.Begin("mode for=1s silence=2s"); // the switch is there already: it is not turned
-    CHECK(harness.Sample(MOTOR) == ON);
-    harness.Pass(2s);
-    CHECK(harness.Sample(MOTOR) == ON);
-    CHECK(harness.ContainsInRobot(R"("is_remote_mode":0)")); // the other one lasts
-    CHECK(harness.End(EFaultKind::Mode) == 1);
-    CHECK(harness.ContainsInRobot(R"("is_remote_mode":1)"));
+    CHECK(fixture.ContainsInRobot(R"("is_remote_mode":1)"));
+    fixture.Begin("mode");
+    CHECK(fixture.Sample(MOTOR) == ON);
+    fixture.Begin("mode for=1s silence=2s"); // the switch is there already: it is not turned
+    CHECK(fixture.Sample(MOTOR) == ON);
+    fixture.Pass(2s);
+    CHECK(fixture.Sample(MOTOR) == ON);
+    CHECK(fixture.ContainsInRobot(R"("is_remote_mode":0)")); // the other one lasts
+    CHECK(fixture.End(EFaultKind::Mode) == 1);
+    CHECK(fixture.ContainsInRobot(R"("is_remote_mode":1)"));
 }
 
-TEST_CASE("9 Who ends the turned mode switch by hand has the stream back at once")
+TEST_CASE("9 Ending the fault of the mode switch ends the silence of the stream at once")
 {
     const std::optional<EFaultKind> kindOrNull = GENERATE(std::optional<EFaultKind>(EFaultKind::Mode), std::nullopt);
-    FaultFixture harness;
-    harness.Begin("mode silence=1h");
-    CHECK(harness.Sample(MOTOR).empty());
-    CHECK(harness.End(kindOrNull) == 1);
-    CHECK_FALSE(harness.Sample(MOTOR).empty());
+    FaultFixture fixture;
+    fixture.Begin("mode silence=1h");
+    CHECK(fixture.Sample(MOTOR).empty());
+    CHECK(fixture.End(kindOrNull) == 1);
+    CHECK_FALSE(fixture.Sample(MOTOR).empty());
 }
 
-TEST_CASE("9 The emergency stop takes the motor until it is released; then motor and program go on by command")
+TEST_CASE("9 The emergency stop keeps the motor off until it is released; then commands start motor and program")
 {
-    FaultFixture harness;
-    REQUIRE(harness.StartProgram(11) == 200);
-    harness.Pass(1s);
-    harness.Begin("estop for=5s");
-    CHECK(harness.GetOverHTTP("/project/robot/emergency_stop") == R"({"_type":"JObject","val":1})");
-    CHECK(harness.Sample(MOTOR) == OFF);
-    CHECK(harness.Control("/project/robot/motor_on") == 403);
-    harness.Pass(5s);
-    CHECK(harness.GetOverHTTP("/project/robot/emergency_stop") == R"({"_type":"JObject","val":0})");
-    CHECK(harness.Sample(MOTOR) == OFF);
-    CHECK(harness.Control("/project/robot/motor_on") == 200);
-    harness.Pass(1s);
-    CHECK(harness.Control("/project/robot/start") == 200);
-    harness.Pass(1s);
-    CHECK(harness.GetCounters() == "[1,1,0,11]");
+    FaultFixture fixture;
+    REQUIRE(fixture.StartProgram(11) == 200);
+    fixture.Pass(1s);
+    fixture.Begin("estop for=5s");
+    CHECK(fixture.GetOverHTTP("/project/robot/emergency_stop") == R"({"_type":"JObject","val":1})");
+    CHECK(fixture.Sample(MOTOR) == OFF);
+    CHECK(fixture.Control("/project/robot/motor_on") == 403);
+    fixture.Pass(5s);
+    CHECK(fixture.GetOverHTTP("/project/robot/emergency_stop") == R"({"_type":"JObject","val":0})");
+    CHECK(fixture.Sample(MOTOR) == OFF);
+    CHECK(fixture.Control("/project/robot/motor_on") == 200);
+    fixture.Pass(1s);
+    CHECK(fixture.Control("/project/robot/start") == 200);
+    fixture.Pass(1s);
+    CHECK(fixture.GetCounters() == "[1,1,0,11]");
 }
 
 TEST_CASE("9 A protective stop does likewise, without the emergency stop")
 {
-    FaultFixture harness;
-    REQUIRE(harness.StartProgram(11) == 200);
-    harness.Pass(1s);
-    harness.Begin("protective-stop for=5s");
-    CHECK(harness.GetOverHTTP("/project/robot/emergency_stop") == R"({"_type":"JObject","val":0})");
-    CHECK(harness.Sample(MOTOR) == OFF);
-    CHECK(harness.Control("/project/robot/motor_on") == 403);
-    CHECK_THAT(harness.response.body->GetText(), Catch::Contains(R"("err_code":-5,"err_msg":"a safeguard is open)"));
-    CHECK(harness.ContainsInRobot(R"("is_playback":0)"));
-    harness.Pass(5s);
-    CHECK(harness.Control("/project/robot/motor_on") == 200);
-    harness.Pass(1s);
-    CHECK(harness.Control("/project/robot/start") == 200);
-    harness.Pass(1s);
-    CHECK(harness.GetCounters() == "[1,1,0,11]");
+    FaultFixture fixture;
+    REQUIRE(fixture.StartProgram(11) == 200);
+    fixture.Pass(1s);
+    fixture.Begin("protective-stop for=5s");
+    CHECK(fixture.GetOverHTTP("/project/robot/emergency_stop") == R"({"_type":"JObject","val":0})");
+    CHECK(fixture.Sample(MOTOR) == OFF);
+    CHECK(fixture.Control("/project/robot/motor_on") == 403);
+    CHECK_THAT(fixture.response.body->GetText(), Catch::Contains(R"("err_code":-5,"err_msg":"a safeguard is open)"));
+    CHECK(fixture.ContainsInRobot(R"("is_playback":0)"));
+    fixture.Pass(5s);
+    CHECK(fixture.Control("/project/robot/motor_on") == 200);
+    fixture.Pass(1s);
+    CHECK(fixture.Control("/project/robot/start") == 200);
+    fixture.Pass(1s);
+    CHECK(fixture.GetCounters() == "[1,1,0,11]");
 }
 
 TEST_CASE("9 The motor that the operator switches off can be switched on again at once")
 {
-    FaultFixture harness;
-    REQUIRE(harness.StartProgram(11) == 200);
-    harness.Begin("motor-off at=1s");
-    harness.Pass(1s);
-    CHECK(harness.Sample(MOTOR) == OFF);
-    CHECK(harness.ContainsInRobot(R"("is_playback":0)"));
-    CHECK(harness.Control("/project/robot/motor_on") == 200);
+    FaultFixture fixture;
+    REQUIRE(fixture.StartProgram(11) == 200);
+    fixture.Begin("motor-off at=1s");
+    fixture.Pass(1s);
+    CHECK(fixture.Sample(MOTOR) == OFF);
+    CHECK(fixture.ContainsInRobot(R"("is_playback":0)"));
+    CHECK(fixture.Control("/project/robot/motor_on") == 200);
 }
 
-TEST_CASE("9 The next program fails at its end, or where it begins, and the one behind it does not")
+TEST_CASE("9 The next program fails at its end, or when it begins, and the one after it does not")
 {
-    FaultFixture harness;
-    harness.Begin("program-fails");
-    REQUIRE(harness.StartProgram(11) == 200);
-    CHECK(harness.GetCounters() == "[1,0,0,0]");
-    harness.Pass(2s);
-    CHECK(harness.GetCounters() == "[1,0,1,11]");
-    REQUIRE(harness.StartProgram(12) == 200);
-    harness.Pass(2s);
-    CHECK(harness.GetCounters() == "[2,1,1,12]");
-    harness.Begin("program-fails when=start");
-    REQUIRE(harness.StartProgram(13) == 200);
-    CHECK(harness.GetCounters() == "[3,1,2,13]");
-    CHECK(harness.ContainsInRobot(R"("is_playback":0)"));
-    CHECK(harness.GetChanges().size() == 4);
-    // One that goes on after a stop does not begin.
-    REQUIRE(harness.StartProgram(14) == 200);
-    harness.Pass(1s);
-    REQUIRE(harness.PostOverHTTP("/project/robot/stop") == 200);
-    harness.Begin("program-fails when=start");
-    REQUIRE(harness.PostOverHTTP("/project/robot/start") == 200);
-    harness.Pass(1s);
-    CHECK(harness.GetCounters() == "[4,2,2,14]");
+    FaultFixture fixture;
+    fixture.Begin("program-fails");
+    REQUIRE(fixture.StartProgram(11) == 200);
+    CHECK(fixture.GetCounters() == "[1,0,0,0]");
+    fixture.Pass(2s);
+    CHECK(fixture.GetCounters() == "[1,0,1,11]");
+    REQUIRE(fixture.StartProgram(12) == 200);
+    fixture.Pass(2s);
+    CHECK(fixture.GetCounters() == "[2,1,1,12]");
+    fixture.Begin("program-fails when=start");
+    REQUIRE(fixture.StartProgram(13) == 200);
+    CHECK(fixture.GetCounters() == "[3,1,2,13]");
+    CHECK(fixture.ContainsInRobot(R"("is_playback":0)"));
+    CHECK(fixture.GetChanges().size() == 4);
+    // One that continues after a stop does not begin.
+    REQUIRE(fixture.StartProgram(14) == 200);
+    fixture.Pass(1s);
+    REQUIRE(fixture.PostOverHTTP("/project/robot/stop") == 200);
+    fixture.Begin("program-fails when=start");
+    REQUIRE(fixture.PostOverHTTP("/project/robot/start") == 200);
+    fixture.Pass(1s);
+    CHECK(fixture.GetCounters() == "[4,2,2,14]");
 }
 
 TEST_CASE("9 The next relay that is written gets another value, and those after it their own")
 {
-    FaultFixture harness;
-    const auto write = [&harness](const std::string& name, int value) {
+    FaultFixture fixture;
+    const auto write = [&fixture](const std::string& name, int value) {
         const std::string body = R"({"name":")" + name + R"(","value":)" + std::to_string(value) + "}";
-        REQUIRE(harness.Control("/project/plc/set_relay_value", body) == 200);
+        REQUIRE(fixture.Control("/project/plc/set_relay_value", body) == 200);
     };
-    harness.Begin("wrong-value count=3");
-    CHECK(harness.Control("/project/plc/set_relay_value", R"({"name":"m1","value":7})") == 400); // not used up by that
+    fixture.Begin("wrong-value count=3");
+    CHECK(fixture.Control("/project/plc/set_relay_value", R"({"name":"m1","value":7})") == 400); // not used up by that
     write("ml105", 4711);
     write("ml106", 0);
     write("m3424", 1); // the first bit of ml107
     write("ml108", 5);
-    CHECK(harness.GetOverHTTP("/project/plc/m/val_s32?st=420&len=4") == "[4710,1,0,5]");
-    CHECK(harness.GetChanges() == Texts{"+wrong-value count=3", "-wrong-value count=3 it is used up"});
+    CHECK(fixture.GetOverHTTP("/project/plc/m/val_s32?st=420&len=4") == "[4710,1,0,5]");
+    CHECK(fixture.GetChanges() == Texts{"+wrong-value count=3", "-wrong-value count=3 it is used up"});
 }
 
 TEST_CASE("9 A fault with a program waits until that one begins")
 {
-    FaultFixture harness;
-    harness.Begin("program-fails program=12");
-    harness.Begin("estop program=13 at=500ms for=1s");
-    REQUIRE(harness.StartProgram(11) == 200);
-    harness.Pass(2s);
-    CHECK(harness.GetCounters() == "[1,1,0,11]");
-    REQUIRE(harness.StartProgram(12) == 200);
-    harness.Pass(2s);
-    CHECK(harness.GetCounters() == "[2,1,1,12]");
-    REQUIRE(harness.StartProgram(13) == 200);
-    harness.Pass(499ms);
-    CHECK(harness.Sample(MOTOR) == ON);
-    harness.Pass(1ms);
-    CHECK(harness.Sample(MOTOR) == OFF);
-    harness.Begin("motor-off program=14");
-    harness.Pass(1s);
-    REQUIRE(harness.PostOverHTTP("/project/robot/motor_on") == 200);
-    harness.Pass(1s);
-    REQUIRE(harness.StartProgram(14) == 200); // it began, and was stopped at once
-    CHECK(harness.Sample(MOTOR) == OFF);
-    CHECK(harness.ContainsInRobot(R"("is_playback":0)"));
+    FaultFixture fixture;
+    fixture.Begin("program-fails program=12");
+    fixture.Begin("estop program=13 at=500ms for=1s");
+    REQUIRE(fixture.StartProgram(11) == 200);
+    fixture.Pass(2s);
+    CHECK(fixture.GetCounters() == "[1,1,0,11]");
+    REQUIRE(fixture.StartProgram(12) == 200);
+    fixture.Pass(2s);
+    CHECK(fixture.GetCounters() == "[2,1,1,12]");
+    REQUIRE(fixture.StartProgram(13) == 200);
+    fixture.Pass(499ms);
+    CHECK(fixture.Sample(MOTOR) == ON);
+    fixture.Pass(1ms);
+    CHECK(fixture.Sample(MOTOR) == OFF);
+    fixture.Begin("motor-off program=14");
+    fixture.Pass(1s);
+    REQUIRE(fixture.PostOverHTTP("/project/robot/motor_on") == 200);
+    fixture.Pass(1s);
+    REQUIRE(fixture.StartProgram(14) == 200); // it began, and was stopped at once
+    CHECK(fixture.Sample(MOTOR) == OFF);
+    CHECK(fixture.ContainsInRobot(R"("is_playback":0)"));
 }
 
-TEST_CASE("9 One fault too many is refused; ending all takes those to come, too")
+TEST_CASE("9 One fault too many is refused; ending all faults includes those to come")
 {
-    FaultFixture harness;
+    FaultFixture fixture;
     const auto fault = Apps::ParseFault(OpenStreamSim::GetFaultGrammar(), "silence at=1h");
     for (std::size_t i = 0; i < OpenStreamSim::FaultBoard::MAX_FAULTS; ++i)
     {
-        REQUIRE(harness.TryBegin(*fault));
+        REQUIRE(fixture.TryBegin(*fault));
     }
-    CHECK_FALSE(harness.TryBegin(*fault));
-    CHECK(harness.wakeAt.has_value());
-    CHECK(harness.End() == OpenStreamSim::FaultBoard::MAX_FAULTS);
-    CHECK_FALSE(harness.wakeAt.has_value());
-    CHECK(harness.GetChanges().empty());
+    CHECK_FALSE(fixture.TryBegin(*fault));
+    CHECK(fixture.wakeAt.has_value());
+    CHECK(fixture.End() == OpenStreamSim::FaultBoard::MAX_FAULTS);
+    CHECK_FALSE(fixture.wakeAt.has_value());
+    CHECK(fixture.GetChanges().empty());
 }
 
 } // namespace ACS::Testing

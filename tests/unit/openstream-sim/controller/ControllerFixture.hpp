@@ -13,7 +13,7 @@
 namespace ACS::Testing
 {
 
-/// A VirtualController on time that the test moves by hand.
+/// A VirtualController on a clock that the test advances.
 class ControllerFixture final
 {
     RecordingLogSink _log;
@@ -77,14 +77,14 @@ public:
             + (key == std::string::npos ? "" : " " + text.substr(begin, text.find(',', begin) - begin));
     }
 
-    /// As the manual has it in remote mode: the cursor is set first, in case that a program was started or stopped.
+    /// As in the manual for remote mode: sets the cursor first, in case a program was started or stopped.
     int Select(int program)
     {
         Post("/project/context/tasks[0]/set_cur_pc_idx", R"({"idx":1})");
         return Post("/project/context/tasks[0]/cur_prog_cnt", R"({"ext_sel":1,"pno":)" + std::to_string(program) + "}");
     }
 
-    /// A reset as the controllers before 60.30 have it too.
+    /// A reset that controllers before 60.30 also have.
     int Reset()
     {
         return Post("/project/service/r_code/execute", R"({"code":1})");

@@ -19,24 +19,24 @@ namespace
 constexpr int CALLS = 1000;
 constexpr int FIRST_CALLS = 20;
 
-/// How many blocks the calls take from the heap, 2 ms apart, after the first few, in which the text reaches its size: the
-/// numbers of an arm that moves are longer than those of one that stands.
-std::uint64_t CountBlocks(Testing::ControllerFixture& harness, std::string_view url)
+/// Heap allocations of the calls, 2 ms apart, without the first few, in which the text reaches its size: the
+/// numbers of a moving arm are longer than those of a stationary one.
+std::uint64_t CountBlocks(Testing::ControllerFixture& fixture, std::string_view url)
 {
     OpenStream::ApiRequest request;
     OpenStream::SplitURL(url, request);
     OpenStream::ApiResponse response;
     for (int count = 0; count < FIRST_CALLS; ++count)
     {
-        harness.clock.Advance(2ms);
-        harness.controller.Call(request, harness.clock.GetNow(), response);
+        fixture.clock.Advance(2ms);
+        fixture.controller.Call(request, fixture.clock.GetNow(), response);
     }
     CHECK(response.status == 200);
     const std::uint64_t before = HeapProbe::GetBlockCount();
     for (int count = 0; count < CALLS; ++count)
     {
-        harness.clock.Advance(2ms);
-        harness.controller.Call(request, harness.clock.GetNow(), response);
+        fixture.clock.Advance(2ms);
+        fixture.controller.Call(request, fixture.clock.GetNow(), response);
     }
     CHECK(response.body.has_value());
     return HeapProbe::GetBlockCount() - before;
@@ -57,8 +57,8 @@ TEST_CASE("What is read at the shortest period takes nothing from the heap")
     for (const std::string_view url : URLS)
     {
         INFO(url);
-        Testing::ControllerFixture harness;
-        CHECK(CountBlocks(harness, url) == 0);
+        Testing::ControllerFixture fixture;
+        CHECK(CountBlocks(fixture, url) == 0);
     }
 }
 
@@ -75,42 +75,42 @@ TEST_CASE("C.2 Nor does it while the arm follows a trajectory, whose buffer grow
         INFO(url);
         OpenStreamSim::ControllerOptions options;
         options.bWaiting = true;
-        Testing::ControllerFixture harness(options);
+        Testing::ControllerFixture fixture(options);
         for (int number = 1; number <= CALLS; ++number)
         {
             const std::string body = BEGINNING + std::to_string(0.01 * number) + ",90,0,0,0,0]}";
-            REQUIRE(harness.Post("/project/robot/trajectory/joint_traject_insert_point", body) == 200);
+            REQUIRE(fixture.Post("/project/robot/trajectory/joint_traject_insert_point", body) == 200);
         }
-        harness.clock.Advance(60s);
-        CHECK(CountBlocks(harness, url) == 0);
-        CHECK(harness.Contains("/project/robot/trajectory/joint_traject_buf_avail", R"("val":2048)"));
+        fixture.clock.Advance(60s);
+        CHECK(CountBlocks(fixture, url) == 0);
+        CHECK(fixture.Contains("/project/robot/trajectory/joint_traject_buf_avail", R"("val":2048)"));
     }
-    Testing::ControllerFixture harness(Testing::ControllerFixture::MakeReadyOptions());
+    Testing::ControllerFixture fixture(Testing::ControllerFixture::MakeReadyOptions());
     const std::string move = R"({"stmt":"move P,spd=2sec [40,90,0,0,0,0]"})";
-    REQUIRE(harness.Post("/project/context/tasks[0]/execute_move", move) == 200);
-    CHECK(CountBlocks(harness, URLS[0]) == 0);
-    CHECK(harness.Contains("/project/robot/joint_states?jno_n=1", R"("position":[40])"));
+    REQUIRE(fixture.Post("/project/context/tasks[0]/execute_move", move) == 200);
+    CHECK(CountBlocks(fixture, URLS[0]) == 0);
+    CHECK(fixture.Contains("/project/robot/joint_states?jno_n=1", R"("position":[40])"));
 }
 
 TEST_CASE("A MONITOR's tick takes nothing from the heap with faults about, nor in a silence")
 {
-    Testing::FaultFixture harness;
-    harness.Begin("slow time=1s side=http");
-    harness.Begin("refuse count=3");
-    harness.Begin("estop at=1h");
+    Testing::FaultFixture fixture;
+    fixture.Begin("slow time=1s side=http");
+    fixture.Begin("refuse count=3");
+    fixture.Begin("estop at=1h");
     for (const std::string_view silence : {"silence at=1h", "silence"})
     {
         INFO(silence);
-        harness.Begin(silence);
+        fixture.Begin(silence);
         OpenStream::ApiRequest request;
         OpenStream::SplitURL("/project/robot/joint_states", request);
         OpenStream::ApiResponse response;
-        harness.CallStream(request, response); // the text reaches its size
+        fixture.CallStream(request, response); // the text reaches its size
         const std::uint64_t before = HeapProbe::GetBlockCount();
         for (int count = 0; count < CALLS; ++count)
         {
-            harness.clock.Advance(2ms);
-            harness.CallStream(request, response);
+            fixture.clock.Advance(2ms);
+            fixture.CallStream(request, response);
         }
         CHECK(HeapProbe::GetBlockCount() == before);
         CHECK(response.bNoSample == (silence == "silence"));

@@ -42,7 +42,7 @@ public:
     {
     }
 
-    /// Begins to send so many, evenly from one angle to another, 2 ms apart.
+    /// Begins to send this number of points, evenly from one angle to another, 2 ms apart.
     void Start(double from, double to, int count)
     {
         _timer.expires_after(2ms);
@@ -222,7 +222,7 @@ TEST_CASE("A program moves its carrier after its client has disconnected: the jo
     }));
 }
 
-TEST_CASE("7.28 A MONITOR of an unknown path goes on and tells 404 with every sample")
+TEST_CASE("7.28 A MONITOR of an unknown path continues and reports 404 with every sample")
 {
     Fixture fixture;
     fixture.Monitor("/project/nothing", "{}");

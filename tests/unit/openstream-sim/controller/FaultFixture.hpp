@@ -18,7 +18,7 @@
 namespace ACS::Testing
 {
 
-/// A controller with faults, and both of its sides, on time that the test moves by hand.
+/// A controller with faults and both of its interfaces, on a clock that the test advances.
 class FaultFixture final : public OpenStreamSim::IFaultHost
 {
     RecordingLogSink _log;
@@ -87,7 +87,7 @@ public:
         return _faults->End(kindOrNull, clock.GetNow());
     }
 
-    /// Moves the time, and does what is due at its own time, as the timer of a host does.
+    /// Advances the time and fires each timer when it is due, as a host does.
     void Pass(std::chrono::milliseconds span)
     {
         const Core::SteadyTime end = clock.GetNow().steady + span;
@@ -100,7 +100,7 @@ public:
         clock.Advance(std::chrono::duration_cast<std::chrono::milliseconds>(end - clock.GetNow().steady));
     }
 
-    /// What a MONITOR gets of a tick; nothing where no line leaves.
+    /// The sample that a MONITOR gets at a tick; empty if no line is sent.
     std::string Sample(std::string_view url)
     {
         Call(*_stream, OpenStream::EApiMethod::Get, url, {});

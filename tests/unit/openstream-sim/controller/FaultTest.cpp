@@ -44,7 +44,7 @@ std::string TakeSigns(FaultChanges& changes)
 
 } // namespace
 
-TEST_CASE("9 A fault of a controller is its name and its parameters; some go without saying")
+TEST_CASE("9 A fault of a controller is its name and its parameters; some have defaults")
 {
     CHECK(MakeFault("silence at=200ms for=5s").delay == 200ms);
     CHECK(MakeFault("silence at=200ms for=5s").lasts == Core::Duration(5s));
@@ -73,7 +73,7 @@ TEST_CASE("9 A fault of a controller is its name and its parameters; some go wit
     CHECK(MakeFault("  slow\ttime=1s ").text == "slow time=1s");
 }
 
-TEST_CASE("9 What is no fault of a controller is told with what would be one")
+TEST_CASE("9 An invalid fault of a controller is refused with what is expected")
 {
     for (const auto& [text, expected] : std::vector<std::pair<std::string, std::string>>{
              {"", "one of silence, hole, drop"},
@@ -127,7 +127,7 @@ TEST_CASE("9 The help of a controller's faults has a line for every one, and not
     CHECK(nothing.error().expected == "CONTROLLER FAULT [KEY=VALUE]... or CONTROLLER end [FAULT]");
 }
 
-TEST_CASE("A fault that comes again keeps to its period, however late its timer is")
+TEST_CASE("A repeated fault keeps its period, however late its timer is")
 {
     FaultBoard board;
     FaultChanges changes;
@@ -144,11 +144,11 @@ TEST_CASE("A fault that comes again keeps to its period, however late its timer 
     CHECK(board.GetNextTimeOrNull() == START + 3100ms);
     board.OnTime(START + 3100ms, changes);
     CHECK(board.GetNextTimeOrNull() == START + 5s);
-    CHECK(board.End(EFaultKind::Hole, "it was ended", changes) == 1);
+    CHECK(board.End(EFaultKind::Hole, "ended by command", changes) == 1);
     CHECK(board.IsEmpty());
 }
 
-TEST_CASE("What is done once comes again where that is asked for, and what is used up is whole the next time")
+TEST_CASE("A fault without a duration is repeated if requested, and a used-up fault is complete the next time")
 {
     FaultBoard board;
     FaultChanges changes;
@@ -159,7 +159,7 @@ TEST_CASE("What is done once comes again where that is asked for, and what is us
     board.OnTime(START + 1s, changes);
     CHECK(TakeSigns(changes) == "+");
     CHECK(board.GetNextTimeOrNull() == START + 2s);
-    board.End(std::nullopt, "it was ended", changes);
+    board.End(std::nullopt, "ended by command", changes);
     CHECK(changes.empty()); // it is to come, not active
 
     board.Add(MakeFault("refuse count=2 for=1s every=5s"), START, changes);

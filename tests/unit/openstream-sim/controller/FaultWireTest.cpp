@@ -40,7 +40,7 @@ void SwitchOn(HostFixture& fixture)
 
 } // namespace
 
-TEST_CASE("9 Over a socket: in a silence the data grows old and nothing else is said, CONTROL is served")
+TEST_CASE("9 Over a socket: in a silence the data becomes stale and nothing else is reported, CONTROL is served")
 {
     HostFixture fixture(MakeAlert());
     SwitchOn(fixture);
@@ -57,7 +57,7 @@ TEST_CASE("9 Over a socket: in a silence the data grows old and nothing else is 
     CHECK(fixture.client->GetQuality().missing >= 9U); // of 10 ms
 }
 
-TEST_CASE("9 Over a socket: a client that gives a silent stream up finds the controller there, but no data yet")
+TEST_CASE("9 Over a socket: a client that abandons a silent stream reaches the controller, but gets no data yet")
 {
     OpenStream::ClientSessionOptions options = MakeAlert();
     options.lostAfter = 300ms;
@@ -67,7 +67,7 @@ TEST_CASE("9 Over a socket: a client that gives a silent stream up finds the con
     fixture.Begin("silence");
     REQUIRE(fixture.TryAwaitCount<ClientReady>(2));
     CHECK(fixture.GetLast<ClientLost>().reason == EClientLossReason::DataSilent);
-    REQUIRE(fixture.TryAwaitCount<ClientLost>(2)); // the new MONITOR is taken and silent, too
+    REQUIRE(fixture.TryAwaitCount<ClientLost>(2)); // the new MONITOR is accepted and silent, too
     const std::size_t before = fixture.Count<OpenStream::ClientData>();
     REQUIRE(fixture.host->EndFaults(std::nullopt) == 1);
     REQUIRE(fixture.TryAwaitCount<OpenStream::ClientData>(before + 3));
@@ -120,7 +120,7 @@ TEST_CASE("9 Over a socket: a CONTROL that a slow controller works on is unknown
     CHECK(fixture.GetLast<ClientControlSettled>().outcome == EControlOutcome::Unknown);
 }
 
-TEST_CASE("9 7.27 Over a socket: a slow service skips ticks and says so in svc_dur_ms; HTTP answers late as well")
+TEST_CASE("9 7.27 Over a socket: a slow service skips ticks and shows that in svc_dur_ms; HTTP answers late as well")
 {
     HostFixture fixture;
     fixture.Begin("slow time=50ms");
@@ -165,7 +165,7 @@ TEST_CASE("9 Over a socket: motor off, emergency and protective stop and the mod
     REQUIRE(fixture.TryAwaitSample(ON));
 }
 
-TEST_CASE("9 Over a socket: the start of a program that fails where it begins is not confirmed by its sample")
+TEST_CASE("9 Over a socket: the start of a program that fails when it begins is not confirmed by its sample")
 {
     HostFixture fixture;
     SwitchOn(fixture);

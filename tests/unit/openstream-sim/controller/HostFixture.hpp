@@ -27,7 +27,7 @@ namespace ACS::Testing
 
 inline constexpr std::chrono::seconds LIMIT{10};
 
-/// A controller on free ports, ten times as fast as real unless told otherwise, and an Open Stream client of it.
+/// A controller on free ports, ten times as fast as real time by default, and an Open Stream client of it.
 class HostFixture final
 {
     Apps::SystemClock _clock;
@@ -99,7 +99,7 @@ public:
         client->SetMonitor(OpenStream::MonitorRequest{url, period, Core::JsonText::FromTrusted(args), {}});
     }
 
-    /// The text of the newest sample; empty where none has come.
+    /// The text of the newest sample; empty if there is none.
     [[nodiscard]] std::string GetSample() const
     {
         std::string sample;
@@ -154,7 +154,7 @@ public:
         return TryRunUntil([this, &text]() { return GetSample() == text; });
     }
 
-    /// What became of the CONTROL.
+    /// Result of the CONTROL.
     [[nodiscard]] OpenStream::ClientControlSettled Control(const char* url, const char* body)
     {
         const std::uint64_t token = client->SendControl(

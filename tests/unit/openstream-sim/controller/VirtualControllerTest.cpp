@@ -27,214 +27,214 @@ ControllerOptions MakeOldOptions()
     return options;
 }
 
-bool IsMotor(ControllerFixture& harness, int state)
+bool IsMotor(ControllerFixture& fixture, int state)
 {
-    return harness.Contains(MOTOR_STATE, "\"val\":" + std::to_string(state) + "}");
+    return fixture.Contains(MOTOR_STATE, "\"val\":" + std::to_string(state) + "}");
 }
 
 } // namespace
 
-TEST_CASE("A 7.44 The motor is off (1) at the start, goes on (2) for a simulated second, then is on (0)")
+TEST_CASE("A 7.44 The motor is off (1) at the start, switches on (2) for a simulated second, then is on (0)")
 {
-    ControllerFixture harness(MakeOldOptions());
-    REQUIRE(IsMotor(harness, 1));
-    REQUIRE(harness.Post(MOTOR_ON) == 200);
-    REQUIRE(IsMotor(harness, 2));
-    harness.clock.Advance(999ms);
-    REQUIRE(harness.Post(MOTOR_ON) == 200); // does not begin anew
-    REQUIRE(IsMotor(harness, 2));
-    harness.clock.Advance(1ms);
-    REQUIRE(IsMotor(harness, 0));
-    REQUIRE(harness.Post(MOTOR_ON) == 200);
-    REQUIRE(IsMotor(harness, 0));
-    REQUIRE(harness.Post("/project/robot/motor_off") == 200);
-    REQUIRE(IsMotor(harness, 1));
+    ControllerFixture fixture(MakeOldOptions());
+    REQUIRE(IsMotor(fixture, 1));
+    REQUIRE(fixture.Post(MOTOR_ON) == 200);
+    REQUIRE(IsMotor(fixture, 2));
+    fixture.clock.Advance(999ms);
+    REQUIRE(fixture.Post(MOTOR_ON) == 200); // does not start again
+    REQUIRE(IsMotor(fixture, 2));
+    fixture.clock.Advance(1ms);
+    REQUIRE(IsMotor(fixture, 0));
+    REQUIRE(fixture.Post(MOTOR_ON) == 200);
+    REQUIRE(IsMotor(fixture, 0));
+    REQUIRE(fixture.Post("/project/robot/motor_off") == 200);
+    REQUIRE(IsMotor(fixture, 1));
 }
 
 TEST_CASE("A With --ready the motor is on at once")
 {
-    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
-    REQUIRE(IsMotor(harness, 0));
+    ControllerFixture fixture(ControllerFixture::MakeReadyOptions());
+    REQUIRE(IsMotor(fixture, 0));
 }
 
-TEST_CASE("C The gates of start stand in the order remote mode, motor, running program, selected program")
+TEST_CASE("C start requires, checked in this order: remote mode, motor on, no running program, a selected program")
 {
-    ControllerFixture harness;
-    harness.controller.TurnModeSwitch(false, harness.clock.GetNow());
-    REQUIRE(harness.PostForCode("/project/robot/start") == "403 -38500");
-    REQUIRE(harness.PostForCode(MOTOR_ON) == "403 -38500");
-    harness.controller.TurnModeSwitch(true, harness.clock.GetNow());
-    REQUIRE(harness.PostForCode("/project/robot/start") == "403 -1442071");
-    REQUIRE(harness.Post(MOTOR_ON) == 200);
-    REQUIRE(harness.PostForCode("/project/robot/start") == "403 -1442071"); // still busy
-    harness.clock.Advance(1s);
-    REQUIRE(harness.PostForCode("/project/robot/start") == "403 -3");
-    REQUIRE(harness.Select(11) == 200);
-    REQUIRE(harness.PostForCode("/project/robot/start") == "200");
-    REQUIRE(harness.PostForCode("/project/robot/start") == "403 -1442080");
-    REQUIRE(harness.GetCounters() == "[1,0,0,0]"); // no refusal counted
+    ControllerFixture fixture;
+    fixture.controller.TurnModeSwitch(false, fixture.clock.GetNow());
+    REQUIRE(fixture.PostForCode("/project/robot/start") == "403 -38500");
+    REQUIRE(fixture.PostForCode(MOTOR_ON) == "403 -38500");
+    fixture.controller.TurnModeSwitch(true, fixture.clock.GetNow());
+    REQUIRE(fixture.PostForCode("/project/robot/start") == "403 -1442071");
+    REQUIRE(fixture.Post(MOTOR_ON) == 200);
+    REQUIRE(fixture.PostForCode("/project/robot/start") == "403 -1442071"); // still busy
+    fixture.clock.Advance(1s);
+    REQUIRE(fixture.PostForCode("/project/robot/start") == "403 -3");
+    REQUIRE(fixture.Select(11) == 200);
+    REQUIRE(fixture.PostForCode("/project/robot/start") == "200");
+    REQUIRE(fixture.PostForCode("/project/robot/start") == "403 -1442080");
+    REQUIRE(fixture.GetCounters() == "[1,0,0,0]"); // no refusal counted
 }
 
-TEST_CASE("A program tells its beginning and its good end in the relays, in this order")
+TEST_CASE("A program counts its beginning and its successful end in the relays, in this order")
 {
-    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
-    REQUIRE(harness.Select(4711) == 200);
-    REQUIRE(harness.GetCounters() == "[0,0,0,0]");
-    REQUIRE(harness.Start() == 200);
-    REQUIRE(harness.GetCounters() == "[1,0,0,0]");
-    REQUIRE(harness.Contains("/project/rgen", R"("is_playback":1)"));
-    REQUIRE(harness.Contains("/project/rgen", R"("cur_prog_no":4711)"));
-    harness.clock.Advance(1'999ms);
-    REQUIRE(harness.GetCounters() == "[1,0,0,0]");
-    harness.clock.Advance(1ms);
-    REQUIRE(harness.GetCounters() == "[1,1,0,4711]");
-    REQUIRE(harness.Contains("/project/rgen", R"("is_playback":0)"));
-    REQUIRE(harness.Start() == 200); // the same program, from its beginning again
-    harness.clock.Advance(2s);
-    REQUIRE(harness.GetCounters() == "[2,2,0,4711]");
+    ControllerFixture fixture(ControllerFixture::MakeReadyOptions());
+    REQUIRE(fixture.Select(4711) == 200);
+    REQUIRE(fixture.GetCounters() == "[0,0,0,0]");
+    REQUIRE(fixture.Start() == 200);
+    REQUIRE(fixture.GetCounters() == "[1,0,0,0]");
+    REQUIRE(fixture.Contains("/project/rgen", R"("is_playback":1)"));
+    REQUIRE(fixture.Contains("/project/rgen", R"("cur_prog_no":4711)"));
+    fixture.clock.Advance(1'999ms);
+    REQUIRE(fixture.GetCounters() == "[1,0,0,0]");
+    fixture.clock.Advance(1ms);
+    REQUIRE(fixture.GetCounters() == "[1,1,0,4711]");
+    REQUIRE(fixture.Contains("/project/rgen", R"("is_playback":0)"));
+    REQUIRE(fixture.Start() == 200); // the same program, from its beginning again
+    fixture.clock.Advance(2s);
+    REQUIRE(fixture.GetCounters() == "[2,2,0,4711]");
 }
 
-TEST_CASE("A program that is set to fail takes its time and tells the failed end")
+TEST_CASE("A program that is set to fail runs for its duration and counts the failed end")
 {
     ControllerOptions options = ControllerFixture::MakeReadyOptions();
     options.programs.emplace(11, ProgramSpec{3s, false});
     options.programs.emplace(12, ProgramSpec{500ms, true});
-    ControllerFixture harness(options);
-    REQUIRE(harness.Select(12) == 200);
-    REQUIRE(harness.Start() == 200);
-    harness.clock.Advance(499ms);
-    REQUIRE(harness.GetCounters() == "[1,0,0,0]");
-    harness.clock.Advance(1ms);
-    REQUIRE(harness.GetCounters() == "[1,0,1,12]");
-    REQUIRE(harness.Select(11) == 200);
-    REQUIRE(harness.Start() == 200);
-    harness.clock.Advance(2'999ms);
-    REQUIRE(harness.GetCounters() == "[2,0,1,12]");
-    harness.clock.Advance(1ms);
-    REQUIRE(harness.GetCounters() == "[2,1,1,11]");
+    ControllerFixture fixture(options);
+    REQUIRE(fixture.Select(12) == 200);
+    REQUIRE(fixture.Start() == 200);
+    fixture.clock.Advance(499ms);
+    REQUIRE(fixture.GetCounters() == "[1,0,0,0]");
+    fixture.clock.Advance(1ms);
+    REQUIRE(fixture.GetCounters() == "[1,0,1,12]");
+    REQUIRE(fixture.Select(11) == 200);
+    REQUIRE(fixture.Start() == 200);
+    fixture.clock.Advance(2'999ms);
+    REQUIRE(fixture.GetCounters() == "[2,0,1,12]");
+    fixture.clock.Advance(1ms);
+    REQUIRE(fixture.GetCounters() == "[2,1,1,11]");
 }
 
 TEST_CASE("The time scale holds for the motor and for programs")
 {
     ControllerOptions options;
     options.timeScale = 10.0;
-    ControllerFixture harness(options);
-    REQUIRE(harness.Post(MOTOR_ON) == 200);
-    harness.clock.Advance(99ms);
-    REQUIRE(IsMotor(harness, 2));
-    harness.clock.Advance(1ms);
-    REQUIRE(IsMotor(harness, 0));
-    REQUIRE(harness.Select(11) == 200);
-    REQUIRE(harness.Start() == 200);
-    harness.clock.Advance(199ms);
-    REQUIRE(harness.GetCounters() == "[1,0,0,0]");
-    harness.clock.Advance(1ms);
-    REQUIRE(harness.GetCounters() == "[1,1,0,11]");
+    ControllerFixture fixture(options);
+    REQUIRE(fixture.Post(MOTOR_ON) == 200);
+    fixture.clock.Advance(99ms);
+    REQUIRE(IsMotor(fixture, 2));
+    fixture.clock.Advance(1ms);
+    REQUIRE(IsMotor(fixture, 0));
+    REQUIRE(fixture.Select(11) == 200);
+    REQUIRE(fixture.Start() == 200);
+    fixture.clock.Advance(199ms);
+    REQUIRE(fixture.GetCounters() == "[1,0,0,0]");
+    fixture.clock.Advance(1ms);
+    REQUIRE(fixture.GetCounters() == "[1,1,0,11]");
 }
 
-TEST_CASE("A stopped program goes on at the next start and needs its rest of the time, counted once")
+TEST_CASE("A stopped program continues at the next start for the rest of its duration, counted once")
 {
-    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
-    REQUIRE(harness.Post(STOP) == 200); // nothing to stop
-    REQUIRE(harness.Select(11) == 200);
-    REQUIRE(harness.Start() == 200);
-    harness.clock.Advance(1'500ms);
-    REQUIRE(harness.Post(STOP) == 200);
-    REQUIRE(harness.Contains(ROBOT, R"("is_playback":0)"));
-    harness.clock.Advance(1h);
-    REQUIRE(harness.GetCounters() == "[1,0,0,0]");
-    REQUIRE(harness.Start() == 200);
-    harness.clock.Advance(499ms);
-    REQUIRE(harness.GetCounters() == "[1,0,0,0]");
-    harness.clock.Advance(1ms);
-    REQUIRE(harness.GetCounters() == "[1,1,0,11]");
+    ControllerFixture fixture(ControllerFixture::MakeReadyOptions());
+    REQUIRE(fixture.Post(STOP) == 200); // nothing to stop
+    REQUIRE(fixture.Select(11) == 200);
+    REQUIRE(fixture.Start() == 200);
+    fixture.clock.Advance(1'500ms);
+    REQUIRE(fixture.Post(STOP) == 200);
+    REQUIRE(fixture.Contains(ROBOT, R"("is_playback":0)"));
+    fixture.clock.Advance(1h);
+    REQUIRE(fixture.GetCounters() == "[1,0,0,0]");
+    REQUIRE(fixture.Start() == 200);
+    fixture.clock.Advance(499ms);
+    REQUIRE(fixture.GetCounters() == "[1,0,0,0]");
+    fixture.clock.Advance(1ms);
+    REQUIRE(fixture.GetCounters() == "[1,1,0,11]");
 }
 
-TEST_CASE("A program is given up, and counted as failed, by a reset and by another selection in its middle")
+TEST_CASE("A program is abandoned, and counted as failed, by a reset and by another selection before its end")
 {
-    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
-    REQUIRE(harness.Select(11) == 200);
-    REQUIRE(harness.Reset() == 200);
-    REQUIRE(harness.GetCounters() == "[0,0,0,0]"); // it had not begun
-    REQUIRE(harness.Start() == 200);
-    harness.clock.Advance(1s);
-    REQUIRE(harness.Reset() == 200);
-    REQUIRE(harness.GetCounters() == "[1,0,1,11]");
-    REQUIRE(harness.Contains(ROBOT, R"("is_playback":0)"));
-    harness.clock.Advance(10s);
-    REQUIRE(harness.GetCounters() == "[1,0,1,11]");
+    ControllerFixture fixture(ControllerFixture::MakeReadyOptions());
+    REQUIRE(fixture.Select(11) == 200);
+    REQUIRE(fixture.Reset() == 200);
+    REQUIRE(fixture.GetCounters() == "[0,0,0,0]"); // it had not begun
+    REQUIRE(fixture.Start() == 200);
+    fixture.clock.Advance(1s);
+    REQUIRE(fixture.Reset() == 200);
+    REQUIRE(fixture.GetCounters() == "[1,0,1,11]");
+    REQUIRE(fixture.Contains(ROBOT, R"("is_playback":0)"));
+    fixture.clock.Advance(10s);
+    REQUIRE(fixture.GetCounters() == "[1,0,1,11]");
 
-    REQUIRE(harness.Start() == 200);
-    harness.clock.Advance(1s);
-    REQUIRE(harness.PostForCode(SELECT, R"({"pno":12,"ext_sel":1})") == "403 -1442080");
-    REQUIRE(harness.Post(STOP) == 200);
-    REQUIRE(harness.Post(SELECT, R"({"pno":-1,"sno":-1,"fno":-1,"ext_sel":1})") == 200);
-    REQUIRE(harness.GetCounters() == "[2,0,1,11]");
-    REQUIRE(harness.Select(12) == 200);
-    REQUIRE(harness.GetCounters() == "[2,0,2,11]");
-    REQUIRE(harness.Contains(ROBOT, R"("cur_prog_no":12)"));
+    REQUIRE(fixture.Start() == 200);
+    fixture.clock.Advance(1s);
+    REQUIRE(fixture.PostForCode(SELECT, R"({"pno":12,"ext_sel":1})") == "403 -1442080");
+    REQUIRE(fixture.Post(STOP) == 200);
+    REQUIRE(fixture.Post(SELECT, R"({"pno":-1,"sno":-1,"fno":-1,"ext_sel":1})") == 200);
+    REQUIRE(fixture.GetCounters() == "[2,0,1,11]");
+    REQUIRE(fixture.Select(12) == 200);
+    REQUIRE(fixture.GetCounters() == "[2,0,2,11]");
+    REQUIRE(fixture.Contains(ROBOT, R"("cur_prog_no":12)"));
 }
 
-TEST_CASE("The emergency stop takes the motor's power, halts the program and stays until it is released")
+TEST_CASE("The emergency stop switches the motor off, halts the program and lasts until it is released")
 {
     constexpr const char* BUTTON = "/project/robot/emergency_stop";
-    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
-    REQUIRE(harness.Get(BUTTON) == R"({"_type":"JObject","val":0})");
-    REQUIRE(harness.Select(11) == 200);
-    REQUIRE(harness.Start() == 200);
-    harness.clock.Advance(1s);
-    REQUIRE(harness.Post(BUTTON) == 200);
-    REQUIRE(harness.Get(BUTTON) == R"({"_type":"JObject","val":1})");
-    REQUIRE(IsMotor(harness, 1));
-    REQUIRE(harness.Contains(ROBOT, R"("is_playback":0)"));
-    REQUIRE(harness.PostForCode(MOTOR_ON) == "403 -4");
-    REQUIRE(harness.Post(BUTTON, R"({"val":0})") == 200);
-    REQUIRE(IsMotor(harness, 1));
-    REQUIRE(harness.Post(MOTOR_ON) == 200);
-    harness.clock.Advance(1s);
-    REQUIRE(harness.Start() == 200);
-    harness.clock.Advance(1s);
-    REQUIRE(harness.GetCounters() == "[1,1,0,11]");
+    ControllerFixture fixture(ControllerFixture::MakeReadyOptions());
+    REQUIRE(fixture.Get(BUTTON) == R"({"_type":"JObject","val":0})");
+    REQUIRE(fixture.Select(11) == 200);
+    REQUIRE(fixture.Start() == 200);
+    fixture.clock.Advance(1s);
+    REQUIRE(fixture.Post(BUTTON) == 200);
+    REQUIRE(fixture.Get(BUTTON) == R"({"_type":"JObject","val":1})");
+    REQUIRE(IsMotor(fixture, 1));
+    REQUIRE(fixture.Contains(ROBOT, R"("is_playback":0)"));
+    REQUIRE(fixture.PostForCode(MOTOR_ON) == "403 -4");
+    REQUIRE(fixture.Post(BUTTON, R"({"val":0})") == 200);
+    REQUIRE(IsMotor(fixture, 1));
+    REQUIRE(fixture.Post(MOTOR_ON) == 200);
+    fixture.clock.Advance(1s);
+    REQUIRE(fixture.Start() == 200);
+    fixture.clock.Advance(1s);
+    REQUIRE(fixture.GetCounters() == "[1,1,0,11]");
 }
 
-TEST_CASE("D-1 Remote mode takes selections with ext_sel 1 only, manual mode those with 0; absent is 0")
+TEST_CASE("D-1 Remote mode accepts only selections with ext_sel 1, manual mode those with 0; absent is 0")
 {
-    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
-    REQUIRE(harness.PostForCode(SELECT, R"({"pno":11})") == "403 -102");
-    REQUIRE(harness.PostForCode(SELECT, R"({"pno":11,"ext_sel":0})") == "403 -102");
-    REQUIRE(harness.PostForCode(SELECT, R"({"pno":-1,"ext_sel":0})") == "403 -102");
-    REQUIRE(harness.PostForCode(SELECT, R"({"pno":11,"ext_sel":2})") == "400 -1");
-    REQUIRE(harness.Contains(ROBOT, R"("cur_prog_no":0)"));
-    REQUIRE(harness.Post(SELECT, R"({"pno":11,"ext_sel":1})") == 200);
-    harness.controller.TurnModeSwitch(false, harness.clock.GetNow());
-    REQUIRE(harness.PostForCode(SELECT, R"({"pno":12,"ext_sel":1})") == "403 -1114208");
-    REQUIRE(harness.Contains(ROBOT, R"("cur_prog_no":11)"));
-    REQUIRE(harness.Post(SELECT, R"({"pno":12})") == 200);
-    REQUIRE(harness.Contains(ROBOT, R"("cur_prog_no":12)"));
+    ControllerFixture fixture(ControllerFixture::MakeReadyOptions());
+    REQUIRE(fixture.PostForCode(SELECT, R"({"pno":11})") == "403 -102");
+    REQUIRE(fixture.PostForCode(SELECT, R"({"pno":11,"ext_sel":0})") == "403 -102");
+    REQUIRE(fixture.PostForCode(SELECT, R"({"pno":-1,"ext_sel":0})") == "403 -102");
+    REQUIRE(fixture.PostForCode(SELECT, R"({"pno":11,"ext_sel":2})") == "400 -1");
+    REQUIRE(fixture.Contains(ROBOT, R"("cur_prog_no":0)"));
+    REQUIRE(fixture.Post(SELECT, R"({"pno":11,"ext_sel":1})") == 200);
+    fixture.controller.TurnModeSwitch(false, fixture.clock.GetNow());
+    REQUIRE(fixture.PostForCode(SELECT, R"({"pno":12,"ext_sel":1})") == "403 -1114208");
+    REQUIRE(fixture.Contains(ROBOT, R"("cur_prog_no":11)"));
+    REQUIRE(fixture.Post(SELECT, R"({"pno":12})") == 200);
+    REQUIRE(fixture.Contains(ROBOT, R"("cur_prog_no":12)"));
 }
 
 TEST_CASE("D-2 After a start or stop a selection is refused until the cursor is set")
 {
     const std::string program = R"({"pno":11,"ext_sel":1})";
-    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
+    ControllerFixture fixture(ControllerFixture::MakeReadyOptions());
     REQUIRE(
-        harness.PostForCode("/project/context/tasks[0]/cur_prog_cnt", R"({"sno":1,"ext_sel":1})") == "403 -1245280");
-    REQUIRE(harness.Post(SELECT, program) == 200);
-    REQUIRE(harness.Post(SELECT, program) == 200);
-    REQUIRE(harness.Start() == 200);
-    REQUIRE(harness.PostForCode(SET_CURSOR, R"({"idx":1})") == "403 -38501");
-    harness.clock.Advance(2s);
-    REQUIRE(harness.PostForCode(SELECT, program) == "403 -1245280");
-    REQUIRE(harness.Post("/project/context/tasks[1]/set_cur_pc_idx", R"({"idx":1})") == 200); // another task's
-    REQUIRE(harness.Reset() == 200);
-    REQUIRE(harness.PostForCode(SELECT, program) == "403 -1245280");
-    REQUIRE(harness.Post(SET_CURSOR, R"({"idx":1})") == 200);
-    REQUIRE(harness.Post(SELECT, program) == 200);
-    REQUIRE(harness.Post(STOP) == 200);
-    REQUIRE(harness.PostForCode(SELECT, program) == "403 -1245280");
-    REQUIRE(harness.Post(SET_CURSOR, R"({"idx":0})") == 200);
-    REQUIRE(harness.Post(SELECT, program) == 200);
-    REQUIRE(harness.GetCounters() == "[1,1,0,11]");
+        fixture.PostForCode("/project/context/tasks[0]/cur_prog_cnt", R"({"sno":1,"ext_sel":1})") == "403 -1245280");
+    REQUIRE(fixture.Post(SELECT, program) == 200);
+    REQUIRE(fixture.Post(SELECT, program) == 200);
+    REQUIRE(fixture.Start() == 200);
+    REQUIRE(fixture.PostForCode(SET_CURSOR, R"({"idx":1})") == "403 -38501");
+    fixture.clock.Advance(2s);
+    REQUIRE(fixture.PostForCode(SELECT, program) == "403 -1245280");
+    REQUIRE(fixture.Post("/project/context/tasks[1]/set_cur_pc_idx", R"({"idx":1})") == 200); // another task's
+    REQUIRE(fixture.Reset() == 200);
+    REQUIRE(fixture.PostForCode(SELECT, program) == "403 -1245280");
+    REQUIRE(fixture.Post(SET_CURSOR, R"({"idx":1})") == 200);
+    REQUIRE(fixture.Post(SELECT, program) == 200);
+    REQUIRE(fixture.Post(STOP) == 200);
+    REQUIRE(fixture.PostForCode(SELECT, program) == "403 -1245280");
+    REQUIRE(fixture.Post(SET_CURSOR, R"({"idx":0})") == 200);
+    REQUIRE(fixture.Post(SELECT, program) == 200);
+    REQUIRE(fixture.GetCounters() == "[1,1,0,11]");
 }
 
 TEST_CASE("D-3 D-4 Before 60.30 reset and motor_off are served and r_code is not; since then it is the reverse")
@@ -243,49 +243,49 @@ TEST_CASE("D-3 D-4 Before 60.30 reset and motor_off are served and r_code is not
     const bool bOld = GENERATE(true, false);
     options.version =
         bOld ? ACS::OpenStreamSim::ControllerVersion{60, 29, 99} : ACS::OpenStreamSim::ControllerVersion{60, 30, 0};
-    ControllerFixture harness(options);
-    REQUIRE(harness.Contains("/versions/sysver", bOld ? R"("ver":"60.29-99")" : R"("ver":"60.30-00")"));
-    REQUIRE(harness.Select(11) == 200);
+    ControllerFixture fixture(options);
+    REQUIRE(fixture.Contains("/versions/sysver", bOld ? R"("ver":"60.29-99")" : R"("ver":"60.30-00")"));
+    REQUIRE(fixture.Select(11) == 200);
     for (const char* path :
          {"/project/context/tasks/reset", "/project/context/tasks[0]/reset", "/project/robot/motor_off"})
     {
         INFO(path);
-        REQUIRE(harness.PostForCode(path) == (bOld ? "200" : "403 -103"));
+        REQUIRE(fixture.PostForCode(path) == (bOld ? "200" : "403 -103"));
     }
-    REQUIRE(IsMotor(harness, bOld ? 1 : 0));
-    REQUIRE(harness.PostForCode(R_CODE, R"({"code":1})") == (bOld ? "404 -2" : "200"));
+    REQUIRE(IsMotor(fixture, bOld ? 1 : 0));
+    REQUIRE(fixture.PostForCode(R_CODE, R"({"code":1})") == (bOld ? "404 -2" : "200"));
 }
 
-TEST_CASE("D-3 Before 60.30 the reset of task 0 gives the program up, that of another task does not")
+TEST_CASE("D-3 Before 60.30 the reset of task 0 abandons the program, that of another task does not")
 {
     ControllerOptions options = MakeOldOptions();
     options.bMotorOn = true;
-    ControllerFixture harness(options);
-    REQUIRE(harness.Select(11) == 200);
-    REQUIRE(harness.Start() == 200);
-    REQUIRE(harness.Post("/project/context/tasks[3]/reset") == 200);
-    REQUIRE(harness.Contains(ROBOT, R"("is_playback":1)"));
-    REQUIRE(harness.Post("/project/context/tasks[0]/reset") == 200);
-    REQUIRE(harness.GetCounters() == "[1,0,1,11]");
+    ControllerFixture fixture(options);
+    REQUIRE(fixture.Select(11) == 200);
+    REQUIRE(fixture.Start() == 200);
+    REQUIRE(fixture.Post("/project/context/tasks[3]/reset") == 200);
+    REQUIRE(fixture.Contains(ROBOT, R"("is_playback":1)"));
+    REQUIRE(fixture.Post("/project/context/tasks[0]/reset") == 200);
+    REQUIRE(fixture.GetCounters() == "[1,0,1,11]");
 }
 
 TEST_CASE("D-3 r_code 1 resets the tasks and keeps the selection, 0 clears it too; others are refused")
 {
-    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
-    REQUIRE(harness.Select(11) == 200);
-    REQUIRE(harness.Start() == 200);
+    ControllerFixture fixture(ControllerFixture::MakeReadyOptions());
+    REQUIRE(fixture.Select(11) == 200);
+    REQUIRE(fixture.Start() == 200);
     REQUIRE(
-        harness.Call(ACS::OpenStream::EApiMethod::Post, R_CODE, R"({"code":1})").body->GetText()
+        fixture.Call(ACS::OpenStream::EApiMethod::Post, R_CODE, R"({"code":1})").body->GetText()
         == R"({"_type":"JObject","code":1})");
-    REQUIRE(harness.GetCounters() == "[1,0,1,11]");
-    REQUIRE(harness.Contains(ROBOT, R"("cur_prog_no":11)"));
-    REQUIRE(harness.Start() == 200);
-    REQUIRE(harness.Post(R_CODE, R"({"code":0})") == 200);
-    REQUIRE(harness.GetCounters() == "[2,0,2,11]");
-    REQUIRE(harness.Contains(ROBOT, R"("cur_prog_no":0)"));
-    REQUIRE(harness.PostForCode("/project/robot/start") == "403 -3");
-    REQUIRE(harness.PostForCode(R_CODE, R"({"code":2})") == "400 -1");
-    REQUIRE(harness.PostForCode(R_CODE, "{}") == "400 -1");
+    REQUIRE(fixture.GetCounters() == "[1,0,1,11]");
+    REQUIRE(fixture.Contains(ROBOT, R"("cur_prog_no":11)"));
+    REQUIRE(fixture.Start() == 200);
+    REQUIRE(fixture.Post(R_CODE, R"({"code":0})") == 200);
+    REQUIRE(fixture.GetCounters() == "[2,0,2,11]");
+    REQUIRE(fixture.Contains(ROBOT, R"("cur_prog_no":0)"));
+    REQUIRE(fixture.PostForCode("/project/robot/start") == "403 -3");
+    REQUIRE(fixture.PostForCode(R_CODE, R"({"code":2})") == "400 -1");
+    REQUIRE(fixture.PostForCode(R_CODE, "{}") == "400 -1");
 }
 
 TEST_CASE("D-5 rgen shows the model that is set and the state of the job")
@@ -293,66 +293,66 @@ TEST_CASE("D-5 rgen shows the model that is set and the state of the job")
     ControllerOptions options;
     REQUIRE(ControllerFixture(options).Contains("/project/rgen", R"("robot_model":"HA006B-01")"));
     options.robotModel = "HS220-02";
-    ControllerFixture harness(options);
-    REQUIRE(harness.Contains("/project/rgen", R"("robot_model":"HS220-02")"));
-    REQUIRE(harness.Contains("/project/rgen", R"("job_state":0,"job_sub_state":0)"));
+    ControllerFixture fixture(options);
+    REQUIRE(fixture.Contains("/project/rgen", R"("robot_model":"HS220-02")"));
+    REQUIRE(fixture.Contains("/project/rgen", R"("job_state":0,"job_sub_state":0)"));
 }
 
 TEST_CASE("D-9 What clients in the field send is accepted: true as playback mode, bits with any value, upper case")
 {
-    ControllerFixture harness;
-    const auto answer = harness.Call(
+    ControllerFixture fixture;
+    const auto answer = fixture.Call(
         ACS::OpenStream::EApiMethod::Put,
         "/project/control/op_cnd",
         R"({"playback_mode":true,"playback_spd_rate":30})");
     REQUIRE(answer.status == 200);
     REQUIRE(answer.body->GetText() == R"({"_text":""})");
-    REQUIRE(harness.Contains("/project/control/op_cnd", R"("playback_mode":1,)"));
-    REQUIRE(harness.Post("/project/control/op_cnd", R"({"playback_mode":false})") == 400);
-    REQUIRE(harness.Post("/project/plc/set_relay_value", R"({"name":"FB3.DOF12","value":"2.5"})") == 200);
-    REQUIRE(harness.Contains("/project/control/ios/dio/do_val?type=dof&blk_no=3&sig_no=12", R"("val":2.5})"));
-    REQUIRE(harness.Post("/project/control/ios/dio/do_val", R"({"type":"do","blk_no":2,"sig_no":3,"val":-99})") == 200);
-    REQUIRE(harness.Contains("/project/control/ios/dio/do_val?type=do&blk_no=2&sig_no=3", R"("val":1})"));
-    REQUIRE(harness.Get("/project/plc/fb2_do/val_s32?len=1") == "[8]");
+    REQUIRE(fixture.Contains("/project/control/op_cnd", R"("playback_mode":1,)"));
+    REQUIRE(fixture.Post("/project/control/op_cnd", R"({"playback_mode":false})") == 400);
+    REQUIRE(fixture.Post("/project/plc/set_relay_value", R"({"name":"FB3.DOF12","value":"2.5"})") == 200);
+    REQUIRE(fixture.Contains("/project/control/ios/dio/do_val?type=dof&blk_no=3&sig_no=12", R"("val":2.5})"));
+    REQUIRE(fixture.Post("/project/control/ios/dio/do_val", R"({"type":"do","blk_no":2,"sig_no":3,"val":-99})") == 200);
+    REQUIRE(fixture.Contains("/project/control/ios/dio/do_val?type=do&blk_no=2&sig_no=3", R"("val":1})"));
+    REQUIRE(fixture.Get("/project/plc/fb2_do/val_s32?len=1") == "[8]");
 }
 
 TEST_CASE("Motor off and manual mode halt the program")
 {
     ControllerOptions options = MakeOldOptions();
     options.bMotorOn = true;
-    ControllerFixture harness(options);
-    REQUIRE(harness.Select(11) == 200);
-    REQUIRE(harness.Start() == 200);
-    harness.controller.TurnModeSwitch(false, harness.clock.GetNow());
-    REQUIRE(harness.Contains("/project/rgen", R"("is_playback":0,"is_remote_mode":0)"));
-    harness.controller.TurnModeSwitch(true, harness.clock.GetNow());
-    REQUIRE(harness.Start() == 200);
-    REQUIRE(harness.Contains("/project/rgen", R"("is_playback":1,"is_remote_mode":1)"));
-    REQUIRE(harness.Post("/project/robot/motor_off") == 200);
-    harness.clock.Advance(1h);
-    REQUIRE(harness.GetCounters() == "[1,0,0,0]");
+    ControllerFixture fixture(options);
+    REQUIRE(fixture.Select(11) == 200);
+    REQUIRE(fixture.Start() == 200);
+    fixture.controller.TurnModeSwitch(false, fixture.clock.GetNow());
+    REQUIRE(fixture.Contains("/project/rgen", R"("is_playback":0,"is_remote_mode":0)"));
+    fixture.controller.TurnModeSwitch(true, fixture.clock.GetNow());
+    REQUIRE(fixture.Start() == 200);
+    REQUIRE(fixture.Contains("/project/rgen", R"("is_playback":1,"is_remote_mode":1)"));
+    REQUIRE(fixture.Post("/project/robot/motor_off") == 200);
+    fixture.clock.Advance(1h);
+    REQUIRE(fixture.GetCounters() == "[1,0,0,0]");
 }
 
-TEST_CASE("A program runs on when a client sends STOP control: there is no trajectory to release")
+TEST_CASE("A program continues when a client sends STOP control: there is no trajectory to release")
 {
-    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
-    REQUIRE(harness.Select(11) == 200);
-    REQUIRE(harness.Start() == 200);
-    harness.clock.Advance(1s);
-    harness.controller.StopControl(harness.clock.GetNow());
-    harness.clock.Advance(1s);
-    REQUIRE(harness.GetCounters() == "[1,1,0,11]");
+    ControllerFixture fixture(ControllerFixture::MakeReadyOptions());
+    REQUIRE(fixture.Select(11) == 200);
+    REQUIRE(fixture.Start() == 200);
+    fixture.clock.Advance(1s);
+    fixture.controller.StopControl(fixture.clock.GetNow());
+    fixture.clock.Advance(1s);
+    REQUIRE(fixture.GetCounters() == "[1,1,0,11]");
 }
 
 TEST_CASE("The program's step moves with its time")
 {
-    ControllerFixture harness(ControllerFixture::MakeReadyOptions());
-    REQUIRE(harness.Select(11) == 200);
-    REQUIRE(harness.Contains("/project/rgen", R"("cur_step_no":0)"));
-    REQUIRE(harness.Start() == 200);
-    REQUIRE(harness.Contains("/project/rgen", R"("cur_step_no":1,)"));
-    harness.clock.Advance(1s);
-    REQUIRE(harness.Contains("/project/rgen", R"("cur_step_no":5,)"));
-    harness.clock.Advance(999ms);
-    REQUIRE(harness.Contains("/project/rgen", R"("cur_step_no":9,)"));
+    ControllerFixture fixture(ControllerFixture::MakeReadyOptions());
+    REQUIRE(fixture.Select(11) == 200);
+    REQUIRE(fixture.Contains("/project/rgen", R"("cur_step_no":0)"));
+    REQUIRE(fixture.Start() == 200);
+    REQUIRE(fixture.Contains("/project/rgen", R"("cur_step_no":1,)"));
+    fixture.clock.Advance(1s);
+    REQUIRE(fixture.Contains("/project/rgen", R"("cur_step_no":5,)"));
+    fixture.clock.Advance(999ms);
+    REQUIRE(fixture.Contains("/project/rgen", R"("cur_step_no":9,)"));
 }

@@ -25,7 +25,7 @@ namespace
 /// The arm of CR01 with these programs, ready, on the floor.
 ControllerOptions MakeArmOptions(IWorld& world, const ProgramFile& file)
 {
-    REQUIRE(file.mistakes.empty());
+    REQUIRE(file.errors.empty());
     ControllerOptions options = ControllerFixture::MakeReadyOptions();
     options.programs = file.programs;
     options.robotID = "CR01";
@@ -38,10 +38,10 @@ class FloorFixture
 {
 public:
     MemoryWorld world;
-    ControllerFixture harness;
+    ControllerFixture arm;
 
     FloorFixture()
-        : harness(MakeArmOptions(world, ProgramFile::Read(ACS_SITE "/programs.toml")))
+        : arm(MakeArmOptions(world, ProgramFile::Read(ACS_SITE "/programs.toml")))
     {
         Do(RobotDocked{"CR01", {"A01.CP01", "A01.SET01"}});
         Do(CarrierPlaced{"TRAY_01", "A01.CP01.TP01"});
@@ -59,14 +59,14 @@ public:
         {
             const std::string body =
                 R"({"name":"ml)" + std::to_string(word) + R"(","value":)" + std::to_string(number) + "}";
-            REQUIRE(harness.Post("/project/plc/set_relay_value", body) == 200);
+            REQUIRE(arm.Post("/project/plc/set_relay_value", body) == 200);
         }
     }
 
     void Start(int program)
     {
-        REQUIRE(harness.Select(program) == 200);
-        REQUIRE(harness.Start() == 200);
+        REQUIRE(arm.Select(program) == 200);
+        REQUIRE(arm.Start() == 200);
     }
 
     /// The counters after the program with these words, and with the echo.
@@ -74,24 +74,24 @@ public:
     {
         Write(words);
         Start(program);
-        harness.clock.Advance(2s);
-        return harness.Get("/project/plc/m/val_s32?st=400&len=5");
+        arm.clock.Advance(2s);
+        return arm.Get("/project/plc/m/val_s32?st=400&len=5");
     }
 };
 
 } // namespace
 
-TEST_CASE("A tray is moved at the good end of the program, from and to the places that its words name")
+TEST_CASE("A tray is moved when the program finishes, from and to the places in its relays")
 {
     FloorFixture fixture;
     fixture.Write({{105, 4711}, {106, 1}, {107, 1}, {108, 1}, {109, 2}});
     fixture.Start(11);
-    REQUIRE(fixture.harness.Get("/project/plc/m/val_s32?st=400&len=5") == "[1,0,0,0,4711]");
-    fixture.harness.clock.Advance(1'999ms);
-    REQUIRE(fixture.harness.GetCounters() == "[1,0,0,0]");
+    REQUIRE(fixture.arm.Get("/project/plc/m/val_s32?st=400&len=5") == "[1,0,0,0,4711]");
+    fixture.arm.clock.Advance(1'999ms);
+    REQUIRE(fixture.arm.GetCounters() == "[1,0,0,0]");
     REQUIRE(fixture.world.TakeEvents().empty());
-    fixture.harness.clock.Advance(1ms);
-    REQUIRE(fixture.harness.GetCounters() == "[1,1,0,11]");
+    fixture.arm.clock.Advance(1ms);
+    REQUIRE(fixture.arm.GetCounters() == "[1,1,0,11]");
     REQUIRE(
         fixture.world.TakeEvents()
         == std::vector<WorldEvent>{CarrierMoved{"CR01", "TRAY_01", "A01.CP01.TP01", "CR01.TP02"}});
@@ -99,21 +99,21 @@ TEST_CASE("A tray is moved at the good end of the program, from and to the place
     REQUIRE(fixture.world.GetPlaceOrNull("TRAY_01") == "A01.CP01.TP03");
 }
 
-TEST_CASE("The words count as they are where the program starts, not where it ends or goes on")
+TEST_CASE("The relays are read when the program begins, not when it ends or continues")
 {
     FloorFixture fixture;
     fixture.Write({{105, 1}, {106, 1}, {107, 1}, {108, 1}, {109, 2}});
     fixture.Start(11);
-    fixture.harness.clock.Advance(1s);
-    REQUIRE(fixture.harness.Post("/project/robot/stop") == 200);
+    fixture.arm.clock.Advance(1s);
+    REQUIRE(fixture.arm.Post("/project/robot/stop") == 200);
     fixture.Write({{105, 2}, {108, 4}, {109, 3}});
-    REQUIRE(fixture.harness.Start() == 200);
-    fixture.harness.clock.Advance(1s);
-    REQUIRE(fixture.harness.Get("/project/plc/m/val_s32?st=400&len=5") == "[1,1,0,11,1]");
+    REQUIRE(fixture.arm.Start() == 200);
+    fixture.arm.clock.Advance(1s);
+    REQUIRE(fixture.arm.Get("/project/plc/m/val_s32?st=400&len=5") == "[1,1,0,11,1]");
     REQUIRE(fixture.world.GetPlaceOrNull("TRAY_01") == "CR01.TP02");
 }
 
-TEST_CASE("A program fails where its places do not allow its work, and nothing moves")
+TEST_CASE("A program fails if its places do not allow its work, and nothing moves")
 {
     FloorFixture fixture;
     SECTION("the place to take from is empty")
@@ -142,24 +142,24 @@ TEST_CASE("A program fails where its places do not allow its work, and nothing m
     REQUIRE(fixture.world.GetPlaceOrNull("TRAY_01") == "A01.CP01.TP01");
 }
 
-TEST_CASE("A program that is given up, or that a fault lets fail, moves nothing")
+TEST_CASE("A program that is abandoned, or that fails by a fault, moves nothing")
 {
     FloorFixture fixture;
     fixture.Write({{105, 1}, {106, 1}, {107, 1}, {108, 1}, {109, 2}});
     fixture.Start(11);
-    fixture.harness.clock.Advance(1s);
-    REQUIRE(fixture.harness.Reset() == 200);
-    REQUIRE(fixture.harness.GetCounters() == "[1,0,1,11]");
-    fixture.harness.controller.GetMachine(fixture.harness.clock.GetNow()).SetProgramJudge([](int, bool bAtStart) {
+    fixture.arm.clock.Advance(1s);
+    REQUIRE(fixture.arm.Reset() == 200);
+    REQUIRE(fixture.arm.GetCounters() == "[1,0,1,11]");
+    fixture.arm.controller.GetMachine(fixture.arm.clock.GetNow()).SetProgramJudge([](int, bool bAtStart) {
         return !bAtStart;
     });
     fixture.Start(11);
-    fixture.harness.clock.Advance(2s);
-    REQUIRE(fixture.harness.GetCounters() == "[2,0,2,11]");
+    fixture.arm.clock.Advance(2s);
+    REQUIRE(fixture.arm.GetCounters() == "[2,0,2,11]");
     REQUIRE(fixture.world.TakeEvents().empty());
 }
 
-TEST_CASE("Memories are moved both ways, as the first template without a zero says")
+TEST_CASE("Memories are moved both ways, by the first template without a zero")
 {
     FloorFixture fixture;
     fixture.Do(CarrierPlaced{"TRAY_02", "CR01.TP01"});
@@ -201,12 +201,12 @@ TEST_CASE("An echo is an unsigned word of 32 bits")
 {
     FloorFixture fixture;
     fixture.Write({{106, 1}, {107, 1}, {108, 1}, {109, 1}});
-    REQUIRE(fixture.harness.Post("/project/plc/set_relay_value", R"({"name":"ml105","value":2147483647})") == 200);
+    REQUIRE(fixture.arm.Post("/project/plc/set_relay_value", R"({"name":"ml105","value":2147483647})") == 200);
     fixture.Start(11);
-    REQUIRE(fixture.harness.Get("/project/plc/m/val_s32?st=416&len=1") == "[2147483647]");
+    REQUIRE(fixture.arm.Get("/project/plc/m/val_s32?st=416&len=1") == "[2147483647]");
 }
 
-TEST_CASE("A program fails where the journal of the floor cannot be read, and the log has file and line")
+TEST_CASE("A program fails if the journal of the floor is unreadable, and the log has file and line")
 {
     const ACS::Testing::TemporaryFolder folder;
     const std::string file = folder.GetPath() / "world.json";
@@ -214,14 +214,14 @@ TEST_CASE("A program fails where the journal of the floor cannot be read, and th
     const auto world = WorldFile::Open(file);
     REQUIRE(world.has_value());
     std::ofstream(file + ".journal", std::ios::app) << "no JSON\n";
-    ControllerFixture harness(
+    ControllerFixture arm(
         MakeArmOptions(**world, ProgramFile::ReadText("[11]\nfrom = [\"CR01.TP01\"]\nto = [\"CR01.TP02\"]", "p.toml")));
-    REQUIRE(harness.Select(11) == 200);
-    REQUIRE(harness.Start() == 200);
-    harness.clock.Advance(2s);
-    REQUIRE(harness.GetCounters() == "[1,0,1,11]");
-    const auto& lines = harness.GetLog().GetLines();
-    const auto reason = std::ranges::find(lines, "program cannot do its work", &ACS::Testing::RecordedLine::message);
+    REQUIRE(arm.Select(11) == 200);
+    REQUIRE(arm.Start() == 200);
+    arm.clock.Advance(2s);
+    REQUIRE(arm.GetCounters() == "[1,0,1,11]");
+    const auto& lines = arm.GetLog().GetLines();
+    const auto reason = std::ranges::find(lines, "program could not do its work", &ACS::Testing::RecordedLine::message);
     REQUIRE(reason != lines.end());
     REQUIRE_THAT(reason->fields.at(1).second, Catch::StartsWith(file + ".journal:1: "));
 }
@@ -236,42 +236,42 @@ TEST_CASE("A program ends in its time though no client asks")
         world,
         ProgramFile::ReadText("[11]\nduration = \"10s\"\nfrom = [\"CR01.TP01\"]\nto = [\"CR01.TP02\"]", "p.toml"));
     options.timeScale = 2.5;
-    FaultFixture harness(options);
-    REQUIRE_FALSE(harness.wakeAt.has_value());
-    REQUIRE(harness.StartProgram(11) == 200);
+    FaultFixture arm(options);
+    REQUIRE_FALSE(arm.wakeAt.has_value());
+    REQUIRE(arm.StartProgram(11) == 200);
     SECTION("it runs through")
     {
-        harness.Pass(3'999ms);
+        arm.Pass(3'999ms);
         REQUIRE(world.TakeEvents().empty());
-        harness.Pass(1ms);
+        arm.Pass(1ms);
         REQUIRE(world.TakeEvents() == std::vector{move});
-        REQUIRE_FALSE(harness.wakeAt.has_value());
-        REQUIRE(harness.GetCounters() == "[1,1,0,11]");
+        REQUIRE_FALSE(arm.wakeAt.has_value());
+        REQUIRE(arm.GetCounters() == "[1,1,0,11]");
     }
-    SECTION("it is stopped and goes on")
+    SECTION("it is stopped and continued")
     {
-        harness.Pass(1s);
-        REQUIRE(harness.PostOverHTTP("/project/robot/stop") == 200);
-        REQUIRE_FALSE(harness.wakeAt.has_value());
-        harness.Pass(10s);
-        REQUIRE(harness.PostOverHTTP("/project/robot/start") == 200);
-        harness.Pass(2'999ms);
+        arm.Pass(1s);
+        REQUIRE(arm.PostOverHTTP("/project/robot/stop") == 200);
+        REQUIRE_FALSE(arm.wakeAt.has_value());
+        arm.Pass(10s);
+        REQUIRE(arm.PostOverHTTP("/project/robot/start") == 200);
+        arm.Pass(2'999ms);
         REQUIRE(world.TakeEvents().empty());
-        harness.Pass(1ms);
+        arm.Pass(1ms);
         REQUIRE(world.TakeEvents() == std::vector{move});
     }
     SECTION("a fault begins and ends meanwhile")
     {
-        harness.Begin("silence at=1s for=1s");
-        harness.Pass(4s);
+        arm.Begin("silence at=1s for=1s");
+        arm.Pass(4s);
         REQUIRE(world.TakeEvents() == std::vector{move});
-        REQUIRE(harness.GetChanges().size() == 2);
+        REQUIRE(arm.GetChanges().size() == 2);
     }
     SECTION("a fault halts it")
     {
-        harness.Begin("estop at=1s");
-        harness.Pass(1h);
+        arm.Begin("estop at=1s");
+        arm.Pass(1h);
         REQUIRE(world.TakeEvents().empty());
-        REQUIRE_FALSE(harness.wakeAt.has_value());
+        REQUIRE_FALSE(arm.wakeAt.has_value());
     }
 }

@@ -38,7 +38,7 @@ TEST_CASE("A template is filled with the numbers of its relays, each with at lea
     REQUIRE(Parse("A01.SET02").Fill(relays, "CR01") == "A01.SET02");
 }
 
-TEST_CASE("A template with a number that no place has does not apply, and the error names the word")
+TEST_CASE("A template with a number that no place has does not apply, and the error names the relay")
 {
     RelayMemory relays;
     Write(relays, "ml106", 1);
@@ -63,7 +63,7 @@ TEST_CASE("A template knows the kind of its places and whether they need the rob
     REQUIRE_FALSE(Parse("A{ml1}.SET{ml2}").HasRobotName());
 }
 
-TEST_CASE("What is no place, or has a tag that is no relay with a whole number, is refused")
+TEST_CASE("An invalid place, or one with a tag that is not a whole-number relay, is refused")
 {
     for (const char* text :
          {"",

@@ -16,7 +16,7 @@ Texts FindErrors(const std::string& text)
 {
     const ProgramFile file = ProgramFile::ReadText(text, "p.toml");
     REQUIRE(file.programs.empty());
-    return file.mistakes;
+    return file.errors;
 }
 
 } // namespace
@@ -40,7 +40,7 @@ echo = false
 button = ["A{ml106}.SET{ml107}"]
 )",
         "p.toml");
-    REQUIRE(file.mistakes.empty());
+    REQUIRE(file.errors.empty());
     REQUIRE(file.programs.size() == 4);
     const ProgramSpec& load = file.programs.at(11);
     REQUIRE(load.duration == 3s);
@@ -61,7 +61,7 @@ button = ["A{ml106}.SET{ml107}"]
     REQUIRE_FALSE(ProgramFile::ReadText("[1]\nbutton = [\"A01.SET01\"]", "p.toml").HasRobotName());
 }
 
-TEST_CASE("Each mistake of the file is reported with file, line and key")
+TEST_CASE("Each error of the file is reported with file, line and key")
 {
     REQUIRE(
         FindErrors("[11]\nfrom = [\"A{q1}.CP01\"]\nto = [\"{robot}.CP01\"]")
@@ -87,7 +87,7 @@ TEST_CASE("Each mistake of the file is reported with file, line and key")
     REQUIRE(
         FindErrors("[11]\nbutton = [\"A{ml1}.SET01\", \"A01.SET01\", \"A01.SET{ml1}\"]")
         == Texts{
-            "p.toml:2: 11.button: expected \"A01.SET01\" at the end: it always applies, and the places after it never do"});
+            "p.toml:2: 11.button: expected \"A01.SET01\" at the end: it always applies, so the places after it never do"});
     for (const char* text :
          {"[0]",
           "[11]\necho = \"ml104\"",
@@ -116,9 +116,9 @@ TEST_CASE("Each mistake of the file is reported with file, line and key")
           "[11"})
     {
         INFO(text);
-        const Texts mistakes = FindErrors(text);
-        REQUIRE(mistakes.size() == 1);
-        REQUIRE(mistakes.front().starts_with("p.toml:"));
+        const Texts errors = FindErrors(text);
+        REQUIRE(errors.size() == 1);
+        REQUIRE(errors.front().starts_with("p.toml:"));
     }
 }
 
@@ -127,13 +127,13 @@ TEST_CASE("Relays beside the words that programs write can be echoed")
     for (const char* echo : {"ml99", "mb399", "mb420", "ml105", "m3199", "sl100", "fb0.dil100"})
     {
         INFO(echo);
-        REQUIRE(ProgramFile::ReadText(std::string("[11]\necho = \"") + echo + "\"", "p.toml").mistakes.empty());
+        REQUIRE(ProgramFile::ReadText(std::string("[11]\necho = \"") + echo + "\"", "p.toml").errors.empty());
     }
 }
 
-TEST_CASE("A file that is not there is one mistake with its name")
+TEST_CASE("A missing file is one error with its name")
 {
     const ProgramFile file = ProgramFile::Read("/nowhere/programs.toml");
-    REQUIRE(file.mistakes.size() == 1);
-    REQUIRE(file.mistakes.front().find("/nowhere/programs.toml") != std::string::npos);
+    REQUIRE(file.errors.size() == 1);
+    REQUIRE(file.errors.front().find("/nowhere/programs.toml") != std::string::npos);
 }

@@ -96,7 +96,7 @@ TEST_CASE("Values are little-endian, signed, and leave their neighbours alone")
     REQUIRE(memory.Read(Name("fb0.dil100")) == 0.0);
 }
 
-TEST_CASE("Bits that are no finite number read as the float 0, whoever wrote them")
+TEST_CASE("Bits that are not a finite number read as the float 0")
 {
     RelayMemory memory;
     for (const double bits : {double{0x7F800000}, double{0xFF800000}, double{0x7FC00000}})
