@@ -58,7 +58,7 @@ std::string MakeName(const CodecRow& row, std::string_view contender)
     return fmt::format("{}/{}", row.name, contender);
 }
 
-/// Prints as usual and keeps the fastest repetition of each, the one that was disturbed least.
+/// Prints as usual and keeps the fastest repetition of each, which was disturbed least.
 class TableReporter final : public benchmark::ConsoleReporter
 {
     const std::vector<CodecRow>& _rows;
@@ -117,7 +117,7 @@ private:
         };
         if (find(typed) == 0.0 || find(bare) == 0.0 || find(other) == 0.0)
         {
-            return; // A filter has left it out.
+            return; // A filter has excluded it.
         }
         const double ratio = find(typed) / find(bare);
         fmt::print(
@@ -138,7 +138,7 @@ private:
 
 int RunCodecTable(int argumentCount, char** arguments, const std::vector<CodecRow>& rows)
 {
-    // Defaults that a command line replaces: the contenders in turns, so that a busy moment hits all alike.
+    // Defaults that a command line replaces: the codecs alternate, so that a disturbance affects all of them.
     std::vector<std::string> defaults{
         "--benchmark_repetitions=5",
         "--benchmark_enable_random_interleaving=true",

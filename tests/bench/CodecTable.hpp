@@ -9,8 +9,8 @@
 namespace ACS::Bench
 {
 
-/// A message of a table that sets a typed codec beside RapidJSON's bare document and nlohmann-json with conversion, in one
-/// run on the same bytes: text is the message in the compact form in which it crosses the wire.
+/// A message of a table that compares a typed codec with RapidJSON's bare document and nlohmann-json with conversion,
+/// in one run on the same bytes: text is the message in the compact form in which it is sent.
 struct CodecRow
 {
     using Body = std::function<void(benchmark::State&)>;
@@ -23,7 +23,7 @@ struct CodecRow
     Body nlohmannEncode;
 };
 
-/// Measures the rows, by the options of Google Benchmark, and prints the table with what a typed codec is held to: decode
+/// Measures the rows, by the options of Google Benchmark, and prints the table with the bounds of a typed codec: decode
 /// at most 1.5 times the parse, encode at most the serialisation. Returns the program's exit code.
 [[nodiscard]] int RunCodecTable(int argumentCount, char** arguments, const std::vector<CodecRow>& rows);
 

@@ -15,7 +15,7 @@ using ACS::OpenStream::ApiResponse;
 using ACS::OpenStream::LineFramer;
 using ACS::OpenStream::OpenStreamCodec;
 
-/// What joint_states of a six-axis arm looks like.
+/// Like joint_states of a six-axis arm.
 ApiResponse MakeJointStates()
 {
     return ApiResponse{

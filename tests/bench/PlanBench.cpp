@@ -46,7 +46,7 @@ std::string MakeRobotID(int robot)
     return fmt::format("LR{:03}", robot);
 }
 
-/// A ring of docks for each robot, whose every command is obeyed at once.
+/// A ring of docks for each robot, which executes every command at once.
 SiteMap MakeRings(int robots)
 {
     std::vector<SiteNode> nodes;
@@ -88,7 +88,7 @@ EngineOptions MakeOptions(int robots, bool bHomes)
     return options;
 }
 
-/// In the ring of this robot.
+/// A dock in the ring of this robot.
 Plan MakePlan(std::uint64_t number, int robot)
 {
     const std::string from = fmt::format("A{:02}.CP05", robot);
@@ -101,7 +101,7 @@ Plan MakePlan(std::uint64_t number, int robot)
          {2, "CassetteUnload", to, {"C"}, {{"J2", "AMR.CP01", to}}}}};
 }
 
-/// A fleet that answers in the order in which it was commanded, and an MCS that acknowledges each report.
+/// A fleet that answers in the order of the commands, and an MCS that acknowledges each report.
 class BenchFleet
 {
     struct ObeyedDrive
@@ -140,7 +140,7 @@ public:
         Answer();
     }
 
-    /// Until nobody has anything to say any more; the number of the robots' events.
+    /// Runs until no event is left; returns the number of the robots' events.
     std::int64_t Run()
     {
         _engine.OnTimer({EEngineTimer::Dispatch, {}}, {}, _actions);
@@ -204,7 +204,7 @@ private:
         }
     }
 
-    /// Drives as far as it may.
+    /// Drives to the end of the base.
     void Pass(const std::string& robotID, std::size_t releasedCount)
     {
         ObeyedDrive& obeyed = _drives.at(robotID);
@@ -220,8 +220,8 @@ private:
     }
 };
 
-/// Events of robots per second, with the engine in memory: a plan for each robot from submission to completion. What an
-/// event costs should not depend on how many robots there are.
+/// Events of robots per second, with the engine in memory: a plan for each robot from submission to completion. The
+/// cost of an event should not depend on the number of robots.
 void BenchEngineEvents(benchmark::State& state)
 {
     const auto robots = static_cast<int>(state.range(0));
@@ -256,7 +256,7 @@ BENCHMARK(BenchEngineEvents)
     ->Args({10, 1})
     ->Args({100, 1});
 
-/// A way over a grid of 2,000 nodes: so many columns across.
+/// A route over a grid of 2,000 nodes; the argument is the number of columns that it crosses.
 void BenchRoute(benchmark::State& state)
 {
     constexpr int COLUMNS = 50;
@@ -306,7 +306,7 @@ void BenchRoute(benchmark::State& state)
 BENCHMARK(BenchRoute)->ArgName("columns")->Arg(0)->Arg(25)->Arg(49);
 
 #ifdef ACS_BENCH_SQLITE
-/// One accepted plan on disk: what stands between a plan and its Ack.
+/// One accepted plan on disk: the time between a plan and its Ack.
 void BenchStoreCommit(benchmark::State& state)
 {
     const std::filesystem::path directory = std::filesystem::temp_directory_path() / "acs-plan-bench";

@@ -20,7 +20,7 @@ namespace
 using Protocol::AcsCodec;
 using Protocol::AcsRequest;
 
-/// A message of the table, in the compact form in which it crosses the wire.
+/// A message of the table, in the compact form in which it is sent.
 struct Sample
 {
     std::string name;

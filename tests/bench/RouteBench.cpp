@@ -21,7 +21,7 @@ constexpr std::size_t COLUMNS = 50;
 constexpr std::size_t ROWS = 40;
 constexpr std::size_t NODES = COLUMNS * ROWS;
 
-/// 2,000 nodes: rows one-way in turn, columns both ways.
+/// 2,000 nodes: rows alternately one-way, columns two-way.
 SiteMap MakeLargeSite()
 {
     std::vector<SiteNode> nodes;
@@ -54,13 +54,13 @@ SiteMap MakeLargeSite()
     return *SiteMap::Create(std::move(nodes), std::move(edges), {});
 }
 
-/// Ends of the next way, all over the site: each target comes again after 2,000 ways.
+/// Ends of the next route, all over the site: each target is repeated after 2,000 routes.
 std::pair<std::size_t, std::size_t> GetEnds(std::size_t number)
 {
     return {number * 1'237 % NODES, number * 733 % NODES};
 }
 
-/// To a target that is not known any more.
+/// To a target that is not cached any more.
 void BenchRouteToNewTarget(benchmark::State& state)
 {
     const SiteMap site = MakeLargeSite();
@@ -135,7 +135,7 @@ public:
     {
     }
 
-    /// The only way out of Boost's search.
+    /// Ends Boost's search, which has no other way to stop.
     void examine_vertex(Vertex vertex, const Graph& /*graph*/)
         const // NOLINT(readability-identifier-naming): Boost's name
     {
@@ -146,7 +146,8 @@ public:
     }
 };
 
-/// Boost.Graph's A* on the same graph and the same ways: what BenchRouteToNewTarget is to be compared with. It makes no route of it.
+/// Boost.Graph's A* on the same graph for the same routes: the reference for BenchRouteToNewTarget. It composes no
+/// route.
 void BenchRouteBoost(benchmark::State& state)
 {
     const SiteMap site = MakeLargeSite();
@@ -181,7 +182,8 @@ void BenchRouteBoost(benchmark::State& state)
 }
 BENCHMARK(BenchRouteBoost);
 
-/// Events per second of a fleet of so many vehicles, all with work, in virtual time: what one costs is to stay the same.
+/// Events per second of a fleet, all with work, in virtual time; the argument is the number of vehicles. The cost of an
+/// event should not depend on it.
 void BenchFleetEvents(benchmark::State& state)
 {
     std::size_t events = 0;

@@ -128,7 +128,7 @@ StateMessage MakeState(std::size_t nodeCount)
     return state;
 }
 
-/// A row whose message all codecs read alike.
+/// A row whose message all codecs decode alike.
 template <typename TMessage>
 CodecRow MakeRow(std::string name, const TMessage& message)
 {

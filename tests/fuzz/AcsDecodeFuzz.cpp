@@ -6,7 +6,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     using namespace ACS; // NOLINT(google-build-using-namespace)
-    // One codec for all inputs, as in a session: what a text leaves behind must not show in the next one.
+    // One codec for all inputs, as in a session: a text must have no effect on the next one.
     static Protocol::AcsCodec codec;
     const Protocol::DecodeOutcome first = codec.Decode(Fuzz::AsText(data, size));
     if (first.message)

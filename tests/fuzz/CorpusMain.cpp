@@ -7,8 +7,8 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
-/// Feeds every file of the given folders to a fuzz target, without libFuzzer: what was found once stays tested, with
-/// either compiler. A rule that does not hold ends the program.
+/// Feeds every file of the given folders to a fuzz target, without libFuzzer: earlier findings stay tested, with
+/// either compiler. A rule that is violated ends the program.
 int main(int argumentCount, char** arguments)
 {
     std::size_t count = 0;

@@ -8,13 +8,13 @@
 namespace ACS::Fuzz
 {
 
-/// The bytes that libFuzzer offers, as text.
+/// The bytes of libFuzzer as text.
 [[nodiscard]] inline std::string_view AsText(const std::uint8_t* data, std::size_t size)
 {
     return {reinterpret_cast<const char*>(data), size}; // NOLINT(cppcoreguidelines-pro-type-reinterpret-cast)
 }
 
-/// Ends the run as a finding where a rule does not hold, in release builds too.
+/// Ends the run as a finding if the rule is violated, in release builds too.
 inline void Require(bool bHolds, std::string_view rule)
 {
     if (!bHolds)

@@ -5,7 +5,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 {
     using namespace ACS; // NOLINT(google-build-using-namespace)
     const Core::Result<Core::Location> first = Core::Location::Parse(Fuzz::AsText(data, size));
-    Fuzz::Require(Core::Location::IsLocation(Fuzz::AsText(data, size)) == first.has_value(), "both say the same");
+    Fuzz::Require(
+        Core::Location::IsLocation(Fuzz::AsText(data, size)) == first.has_value(),
+        "IsLocation and Parse agree");
     if (first)
     {
         const Core::Result<Core::Location> second = Core::Location::Parse(first->GetText());

@@ -35,17 +35,17 @@ void CheckLine(OpenStream::OpenStreamCodec& codec, std::string_view line)
     }
 }
 
-/// What a framer makes of a stream.
+/// The result of a framer for a stream.
 struct Framing
 {
     std::vector<std::string> lines;
     bool bOverflown = false;
-    bool bPartial = false; ///< Means nothing after an overflow.
+    bool bPartial = false; ///< Has no meaning after an overflow.
 
     bool operator==(const Framing&) const = default;
 };
 
-/// The rule, told once more for a stream that is there as a whole.
+/// The same rule for a complete stream.
 Framing SplitWhole(std::string_view stream, std::size_t bound)
 {
     Framing framing;
@@ -75,7 +75,7 @@ Framing SplitWhole(std::string_view stream, std::size_t bound)
     return framing;
 }
 
-/// Pieces of any length, each copied so that a use after its time is seen; now and then lines are left for later.
+/// Pieces of any length, each copied so that a later use of it is detected; sometimes lines are left for later.
 Framing SplitInPieces(std::string_view stream, std::size_t bound, std::uint32_t seed)
 {
     std::minstd_rand random(seed);
@@ -106,13 +106,13 @@ Framing SplitInPieces(std::string_view stream, std::size_t bound, std::uint32_t 
     take(std::numeric_limits<std::uint32_t>::max());
     framing.bOverflown = framer.HasOverflown();
     framing.bPartial = !framing.bOverflown && framer.HasPartialLine();
-    Fuzz::Require(!framer.TakeLineOrNull().has_value(), "there is nothing behind the end");
+    Fuzz::Require(!framer.TakeLineOrNull().has_value(), "no line follows the end");
     return framing;
 }
 
 } // namespace
 
-/// The first byte says into which pieces the stream is cut and, besides the real one, how long a line may be.
+/// The first byte chooses the pieces of the stream and, besides the real one, the maximum length of a line.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     if (size == 0)
@@ -124,7 +124,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     {
         Fuzz::Require(
             SplitInPieces(stream, bound, 1U + data[0]) == SplitWhole(stream, bound),
-            "a stream in pieces makes the lines of the whole");
+            "a stream in pieces has the same lines as the whole");
     }
     OpenStream::OpenStreamCodec codec;
     for (const std::string& line : SplitWhole(stream, OpenStream::LONGEST_LINE).lines)

@@ -16,7 +16,7 @@ namespace
 
 constexpr std::chrono::milliseconds CLOSE_TIME{1'000};
 
-/// What comes of itself, and not in answer to a line.
+/// Messages that are not the answer to a line.
 bool IsUnasked(EOpenStreamErrorCode code)
 {
     return code == EOpenStreamErrorCode::SessionTimeout || code == EOpenStreamErrorCode::MonitorInternalError
@@ -35,10 +35,10 @@ ServerPeer::ServerPeer(const ServerSessionOptions& options)
 void ServerPeer::Execute()
 {
     std::size_t index = 0;
-    while (index < _actions.size()) // grows underway
+    while (index < _actions.size()) // grows in the loop
     {
         const ServerAction action = _actions[index];
-        Require(!_bClosed, "nothing is asked for behind the close");
+        Require(!_bClosed, "no action follows the close");
         std::visit([this](const auto& content) { Do(content); }, action);
         ++index;
     }
@@ -48,8 +48,8 @@ void ServerPeer::Execute()
 void ServerPeer::Do(const ServerSend& action)
 {
     Require(!_bSending, "one send is in flight at a time");
-    Require(!_bShutDown, "nothing is sent behind the shutdown");
-    Require(action.text.ends_with('\n'), "what is sent ends with a whole line");
+    Require(!_bShutDown, "nothing is sent after the shutdown");
+    Require(action.text.ends_with('\n'), "a send ends with a complete line");
     _bSending = true;
     std::string_view rest = action.text;
     while (!rest.empty())
@@ -63,7 +63,7 @@ void ServerPeer::Do(const ServerSend& action)
 void ServerPeer::CheckLine(std::string_view text)
 {
     const Core::Result<OpenStreamLine> line = _codec.DecodeLine(text);
-    Require(line.has_value(), "every line can be read");
+    Require(line.has_value(), "every line can be decoded");
     std::visit(
         Core::Overloaded{
             [this](const HandshakeAck& /*ack*/) { CheckAnswer("handshake_ack"); },
@@ -73,7 +73,7 @@ void ServerPeer::CheckLine(std::string_view text)
                 _bStreaming = true;
             },
             [this](const DataLine& data) {
-                Require(_bStreaming, "no data comes before a monitor_ack or behind a stop_ack");
+                Require(_bStreaming, "no data is sent before a monitor_ack or after a stop_ack");
                 Require(data.ts > _lastTs, "ts rises");
                 _lastTs = data.ts;
             },
@@ -96,7 +96,7 @@ void ServerPeer::CheckAnswer(const std::string& kind)
 {
     while (true)
     {
-        Require(!_expected.empty(), "nothing is answered that was not asked");
+        Require(!_expected.empty(), "every answer has a request");
         const ExpectedAnswer next = std::move(_expected.front());
         _expected.pop_front();
         if (std::ranges::find(next.kinds, kind) != next.kinds.end())
@@ -134,13 +134,13 @@ void ServerPeer::Do(const ServerCancelTimer& action)
 
 void ServerPeer::Do(const ServerPauseReading& /*action*/)
 {
-    Require(!_bPaused, "a pause is asked for once");
+    Require(!_bPaused, "a pause is requested once");
     _bPaused = true;
 }
 
 void ServerPeer::Do(const ServerResumeReading& /*action*/)
 {
-    Require(_bPaused, "only a pause is ended");
+    Require(_bPaused, "reading is resumed only after a pause");
     _bPaused = false;
 }
 
@@ -151,7 +151,7 @@ void ServerPeer::Do(const ServerContinue& /*action*/)
 
 void ServerPeer::Do(const ServerShutdownSend& /*action*/)
 {
-    Require(!_bSending && !_bShutDown, "the shutdown comes once, when everything has left");
+    Require(!_bSending && !_bShutDown, "the shutdown is requested once, after the last send");
     _bShutDown = true;
 }
 
@@ -160,7 +160,7 @@ void ServerPeer::Do(const ServerClose& /*action*/)
     _bClosed = true;
     for (const auto& deadline : _deadlines)
     {
-        Require(!deadline.has_value(), "no timer outlives the close");
+        Require(!deadline.has_value(), "no timer runs after the close");
     }
 }
 
@@ -263,10 +263,10 @@ void ServerPeer::End()
     }
     if (!_bClosed && _session.GetState() < EServerState::Closing)
     {
-        Require(!_bPaused, "a session that has done everything reads on");
+        Require(!_bPaused, "a session without open work reads again");
         Require(
             std::ranges::all_of(_expected, &ExpectedAnswer::bMaySucceedSilently),
-            "every line has its answer in the end");
+            "every line is answered in the end");
     }
     ClosePeer();
     CompleteSend();

@@ -16,16 +16,16 @@
 namespace ACS::Fuzz
 {
 
-/// What a line that was sent may be answered with; none of them, where it is silent on success.
+/// The answers that a line may have; none of them where it is silent on success.
 struct ExpectedAnswer
 {
     std::vector<std::string> kinds; ///< The type of a line, or the code of an error.
     bool bMaySucceedSilently = false;
 };
 
-/// The connection, the service and the clock of a ServerSession. Holds it to: one send in flight, whole lines, answers in
+/// The connection, the service and the clock of a ServerSession. Checks: one send in flight, complete lines, answers in
 /// the order of the commands and none lost, no data after a stop_ack, one CONTROL at the service, one close and nothing
-/// behind it.
+/// after it.
 class ServerPeer
 {
     Core::Now _now{Core::SteadyTime{}, {}};
@@ -38,7 +38,7 @@ class ServerPeer
     std::uint64_t _controlAsked = 0;   ///< The one of them that is a CONTROL.
     double _lastTs = -1.0;
     bool _bSending = false;
-    bool _bStreaming = false; ///< A monitor_ack came and no stop_ack behind it.
+    bool _bStreaming = false; ///< A monitor_ack was sent, and no stop_ack after it.
     bool _bPaused = false;
     bool _bContinue = false;
     bool _bShutDown = false;
@@ -48,7 +48,7 @@ class ServerPeer
 public:
     explicit ServerPeer(const OpenStream::ServerSessionOptions& options);
 
-    /// The expectations are those of the lines that end in these bytes. Nothing while the session does not read.
+    /// Expects the answers to the lines that end in these bytes. Does nothing while the session does not read.
     void Send(std::string_view bytes, const std::vector<ExpectedAnswer>& expected);
     void CompleteSend();
     void Answer(std::uint32_t choice, const OpenStream::ApiResponse& response);
@@ -57,7 +57,8 @@ public:
     void ClosePeer();
     void BreakSocket();
 
-    /// Everything that waits is let go; then nothing may be owed, and a peer that closes is closed within a second.
+    /// Completes everything that waits. Then no answer may be missing, and a peer that closes is closed within a
+    /// second.
     void End();
 
     [[nodiscard]] bool IsReading() const;

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-/// The controller's side of the Open Stream between a client who sends anything at any time, in any pieces, a socket and a
-/// service that take their time, and a clock: the rules are in ServerPeer.
+/// The controller's side of the Open Stream between a client that sends anything at any time, in any pieces, a slow
+/// socket, a slow service and a clock: the rules are in ServerPeer.
 
 namespace
 {
@@ -21,7 +21,7 @@ struct ClientLine
     std::string_view text;
     std::vector<std::string> answers;
     bool bMaySucceedSilently = false;
-    bool bCommand = true; ///< Which may be answered with handshake_required as well.
+    bool bCommand = true; ///< May be answered with handshake_required as well.
 };
 
 const std::vector<ClientLine>& GetClientLines()
@@ -56,7 +56,7 @@ const std::vector<ClientLine>& GetClientLines()
     return LINES;
 }
 
-/// Lines in a row; the last one may come in two pieces, with time between them.
+/// Several lines; the last one may arrive in two pieces, with time between them.
 void SendLines(Fuzz::ServerPeer& peer, Fuzz::Choices& choices)
 {
     const std::vector<ClientLine>& lines = GetClientLines();
@@ -87,7 +87,7 @@ void SendLines(Fuzz::ServerPeer& peer, Fuzz::Choices& choices)
             peer.Send(std::string_view(bytes).substr(cut), {});
             return;
         }
-        peer.BreakSocket(); // what was announced cannot be sent any more
+        peer.BreakSocket(); // the pending send fails
         return;
     }
     peer.Send(bytes, expected);

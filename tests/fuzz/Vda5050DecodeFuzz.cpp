@@ -10,7 +10,7 @@ namespace
 
 using namespace ACS; // NOLINT(google-build-using-namespace)
 
-/// What a message is in one version: written, read and written again.
+/// A message in one version: encoded, decoded and encoded again.
 template <typename TMessage>
 void CheckVersion(VDA5050::Vda5050Codec& codec, const TMessage& message, VDA5050::EVda5050Version version)
 {
@@ -42,7 +42,7 @@ void CheckMessage(VDA5050::Vda5050Codec& codec, std::string_view payload)
             identity.has_value() && identity->orderID == message->orderID
                 && identity->orderUpdateID == message->orderUpdateID
                 && identity->header.headerID == message->header.headerID,
-            "an order that can be read says which it is");
+            "DecodeIdentity returns the ids of every order that can be decoded");
     }
 }
 
@@ -50,7 +50,7 @@ void CheckMessage(VDA5050::Vda5050Codec& codec, std::string_view payload)
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-    // One codec for all inputs, as in a session: what a text leaves behind must not show in the next one.
+    // One codec for all inputs, as in a session: a text must have no effect on the next one.
     static VDA5050::Vda5050Codec codec;
     const std::string_view payload = Fuzz::AsText(data, size);
     CheckMessage<VDA5050::OrderMessage>(codec, payload);

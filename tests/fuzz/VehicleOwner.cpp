@@ -23,7 +23,7 @@ constexpr int MAXIMUM_STEPS = 400; ///< To the end of the longest order that the
 
 constexpr std::uint32_t UNLIMITED = std::numeric_limits<std::uint32_t>::max();
 
-/// What a sensor says, and what it says when it is broken.
+/// A measured value; sometimes that of a broken sensor.
 double Measure(Choices& choices)
 {
     const std::uint32_t value = choices.Take(8);
@@ -86,7 +86,7 @@ void VehicleOwner::SetStatus(Choices& choices)
         actionID = std::next(_running.begin(), choices.Take(static_cast<std::uint32_t>(_running.size())))->first;
     }
     const bool bTaken = _session.TrySetActionStatus(actionID, status, "result", _now, _out);
-    Require(!bTaken || _running.contains(actionID), "only what was started has a status by the owner");
+    Require(!bTaken || _running.contains(actionID), "the owner sets the status of started actions only");
     if (bTaken && IsTerminal(status))
     {
         _running.erase(actionID);
@@ -103,7 +103,7 @@ void VehicleOwner::Happen(Choices& choices)
             ReachNode();
             return;
         case 1:
-            ReachUnasked(choices);
+            ReachWithoutCommand(choices);
             break;
         case 2:
             _session.OnDrivingChanged(choices.Take(2) == 0, _now, _out);
@@ -159,8 +159,8 @@ void VehicleOwner::Happen(Choices& choices)
     Obey();
 }
 
-/// The next node, without having been told to drive there, or any.
-void VehicleOwner::ReachUnasked(Choices& choices)
+/// Reaches the next node or any other without a command to drive there.
+void VehicleOwner::ReachWithoutCommand(Choices& choices)
 {
     const std::vector<NodeState> nodes = _session.GetState().nodeStates;
     const std::uint32_t any = choices.Take(16);
@@ -225,23 +225,23 @@ void VehicleOwner::WatchStart(const StartAction& start)
 
 void VehicleOwner::WatchDrive(const DriveTo& drive) const
 {
-    Require(!IsBlocked(), "nobody drives beside SOFT or HARD");
-    Require(drive.node.bReleased && drive.edge.bReleased, "nobody drives into the horizon");
-    Require(_bOrderRuns, "nobody drives without an order");
-    Require(drive.edge.sequenceID != _outsideEdge, "nobody drives outside of a corridor");
+    Require(!IsBlocked(), "no drive while a SOFT or HARD action runs");
+    Require(drive.node.bReleased && drive.edge.bReleased, "no drive into the horizon");
+    Require(_bOrderRuns, "no drive without an order");
+    Require(drive.edge.sequenceID != _outsideEdge, "no drive outside of a corridor");
 }
 
 std::uint32_t VehicleOwner::ReadHeaderID(const MqttMessage& message)
 {
-    // A state is most of what is sent: read wholly, and once.
+    // Most of what is sent is states, so a state is decoded once, completely.
     if (message.topic.ends_with("/state"))
     {
         const Core::Result<StateMessage> state = _codec.Decode<StateMessage>(message.payload);
-        Require(state.has_value(), "a state can be read");
+        Require(state.has_value(), "a state can be decoded");
         return state->header.headerID;
     }
     const Core::Result<MessageIdentity> identity = _codec.DecodeIdentity(message.payload);
-    Require(identity.has_value(), "what is published can be read");
+    Require(identity.has_value(), "a published message can be decoded");
     return identity->header.headerID;
 }
 
@@ -249,7 +249,7 @@ void VehicleOwner::WatchPublished(const MqttMessage& message)
 {
     const std::uint32_t headerID = ReadHeaderID(message);
     const auto [known, bFirst] = _headerIDs.try_emplace(message.topic, headerID);
-    Require(bFirst || headerID == known->second + 1, "headerId counts by one on each topic");
+    Require(bFirst || headerID == known->second + 1, "headerId rises by one on each topic");
     known->second = headerID;
 }
 
@@ -257,7 +257,7 @@ void VehicleOwner::WatchTaken(const OrderTaken& taken)
 {
     if (taken.bUpdate)
     {
-        Require(taken.orderID == _orderID, "an update belongs to the order that is held");
+        Require(taken.orderID == _orderID, "an update belongs to the present order");
     }
     else
     {
@@ -310,7 +310,7 @@ void VehicleOwner::WatchRoute(const StateMessage& state)
     std::uint32_t last = state.lastNodeSequenceID;
     for (const NodeState& node : state.nodeStates)
     {
-        Require(node.sequenceID > last, "the nodes that are left follow each other");
+        Require(node.sequenceID > last, "the remaining nodes have rising sequence ids");
         last = node.sequenceID;
     }
     Require(state.edgeStates.size() <= state.nodeStates.size(), "no edge without its node");
@@ -322,13 +322,13 @@ void VehicleOwner::WatchRoute(const StateMessage& state)
     }
     if (_bOrderRuns)
     {
-        Require(state.orderID == _orderID, "the order that was taken is the one that is shown");
+        Require(state.orderID == _orderID, "the accepted order is the one in the state");
         Require(state.lastNodeSequenceID >= _lastSequenceID, "lastNodeSequenceId rises");
         _lastSequenceID = state.lastNodeSequenceID;
     }
     else
     {
-        Require(state.nodeStates.empty() && state.edgeStates.empty(), "nothing is left of an order that is over");
+        Require(state.nodeStates.empty() && state.edgeStates.empty(), "an order that has ended has no remaining nodes");
     }
 }
 
@@ -341,15 +341,15 @@ void VehicleOwner::WatchActions(const StateMessage& state)
         const auto known = _statuses.find(action.actionID);
         const bool bLeft =
             known != _statuses.end() && IsTerminal(known->second) && action.actionStatus != known->second;
-        Require(!bLeft, "FINISHED and FAILED are never left");
+        Require(!bLeft, "FINISHED and FAILED are final");
     }
     for (const auto& [actionID, status] : _statuses)
     {
         const bool bShown = !IsTerminal(status) || statuses.contains(actionID);
-        Require(bShown || _limits.stateActionStates.has_value(), "what has ended is shown until a new order");
+        Require(bShown || _limits.stateActionStates.has_value(), "an ended action is listed until a new order");
     }
     _statuses = std::move(statuses);
-    // What the session has failed by itself the owner has stopped.
+    // The owner has stopped the actions that the session has failed.
     std::erase_if(_running, [this](const auto& entry) {
         const auto known = _statuses.find(entry.first);
         return known == _statuses.end() || IsTerminal(known->second);
@@ -366,7 +366,7 @@ void VehicleOwner::WatchBounds(const StateMessage& state) const
     const bool bLoads = std::ranges::all_of(state.loads.value_or(std::vector<Load>()), [](const Load& load) {
         return std::isfinite(load.weight.value_or(0.0));
     });
-    Require(bPosition && bBattery && bLoads, "what is published is a number");
+    Require(bPosition && bBattery && bLoads, "a published value is a number");
 }
 
 void VehicleOwner::WatchState()
@@ -375,10 +375,10 @@ void VehicleOwner::WatchState()
     WatchRoute(state);
     WatchActions(state);
     WatchBounds(state);
-    Require(_session.IsOrderRunning() == _bOrderRuns, "the owner is told when an order begins and ends");
+    Require(_session.IsOrderRunning() == _bOrderRuns, "the owner is notified when an order begins and ends");
 }
 
-/// Until there is nothing to do: reaches nodes and finishes actions.
+/// Reaches nodes and finishes actions until nothing is left.
 void VehicleOwner::Finish()
 {
     for (int step = 0; step < MAXIMUM_STEPS; ++step)
@@ -401,7 +401,7 @@ void VehicleOwner::Finish()
             return;
         }
     }
-    Require(false, "a vehicle that is left alone comes to an end");
+    Require(false, "a vehicle without new input ends its order");
 }
 
 void VehicleOwner::End()

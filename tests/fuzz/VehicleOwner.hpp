@@ -15,17 +15,17 @@
 namespace ACS::Fuzz
 {
 
-/// The owner of a VehicleSession who obeys it, and who watches that it keeps its rules: never two orders, sequence ids
-/// that rise, actions by their blocking types, no status that leaves its end, nothing published that cannot be read.
+/// The owner of a VehicleSession: obeys it, and checks its rules: never two orders, rising sequence ids,
+/// actions by their blocking types, final statuses, published messages that can be decoded.
 class VehicleOwner
 {
     struct Running
     {
         VDA5050::StartAction start;
-        bool bTold = false; ///< Has been reported as running.
+        bool bReported = false; ///< Has been reported as running.
     };
 
-    VDA5050::MaximumArrayLengths _limits; ///< Of what it publishes.
+    VDA5050::MaximumArrayLengths _limits; ///< Limits of what it publishes.
     VDA5050::VehicleSession _session;
     VDA5050::Vda5050Codec _codec;
     Core::Now _now;
@@ -34,7 +34,7 @@ class VehicleOwner
     std::map<std::string, VDA5050::EActionStatus> _statuses;
     std::map<std::string, std::uint32_t> _headerIDs;
     std::optional<VDA5050::DriveTo> _leg;
-    std::optional<std::uint32_t> _outsideEdge; ///< Whose corridor it has left.
+    std::optional<std::uint32_t> _outsideEdge; ///< The edge whose corridor it has left.
     std::string _orderID;
     std::uint32_t _lastSequenceID = 0;
     bool _bOrderRuns = false;
@@ -48,11 +48,11 @@ public:
     void PassTime(std::uint32_t milliseconds);
     void Receive(VDA5050::ETopic topic, std::string_view payload, bool bRetained);
     void SendInstant(std::string_view actionType, const std::string& actionID);
-    /// One of the things that can happen to a vehicle by itself.
+    /// An event of the vehicle itself.
     void Happen(Choices& choices);
     void ReachNode();
     void SetStatus(Choices& choices);
-    /// Ends what can be ended, as a vehicle does that is left alone; then cancels what is left, and all must be over.
+    /// Finishes the order as a vehicle without new input does, then cancels the rest; all must have ended then.
     void End();
 
 private:
@@ -68,7 +68,7 @@ private:
     void WatchActions(const VDA5050::StateMessage& state);
     void WatchBounds(const VDA5050::StateMessage& state) const;
     [[nodiscard]] bool IsBlocked() const;
-    void ReachUnasked(Choices& choices);
+    void ReachWithoutCommand(Choices& choices);
     void LeaveCorridor(bool bOutside);
     void Sense(Choices& choices);
     void Finish();

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-/// A vehicle between a master who sends anything at any time and a body that obeys: the rules are in VehicleOwner.
+/// A vehicle between a master that sends anything at any time and an owner that obeys: the rules are in VehicleOwner.
 
 namespace
 {
@@ -75,7 +75,7 @@ OrderNode MakeNode(std::uint32_t sequenceID, bool bReleased, Fuzz::Choices& choi
     return node;
 }
 
-/// What a way can have beside its ends, right and wrong.
+/// The optional members of an edge, valid and invalid.
 void AddGeometry(OrderEdge& edge, Fuzz::Choices& choices)
 {
     switch (choices.Take(8))
@@ -99,13 +99,13 @@ void AddGeometry(OrderEdge& edge, Fuzz::Choices& choices)
     }
 }
 
-/// Mostly the next one.
+/// Usually the next one.
 std::uint32_t StepSequence(std::uint32_t sequenceID, Fuzz::Choices& choices)
 {
     return sequenceID + (choices.Take(16) == 1 ? choices.Take(6) : 2);
 }
 
-/// Where a right update would begin.
+/// Where a valid update would begin.
 std::pair<std::string, std::uint32_t> GetDecisionPoint(const StateMessage& state)
 {
     std::pair<std::string, std::uint32_t> point{state.lastNodeID, state.lastNodeSequenceID};
@@ -157,7 +157,7 @@ OrderMessage MakeOrder(const StateMessage& state, Fuzz::Choices& choices)
     return order;
 }
 
-/// Some texts have a wrong byte, some come retained.
+/// Some texts have a wrong byte, some are retained.
 void Send(Fuzz::VehicleOwner& owner, ETopic topic, std::string payload, Fuzz::Choices& choices)
 {
     if (choices.Take(8) == 0 && !payload.empty())

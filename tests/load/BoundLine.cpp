@@ -10,7 +10,7 @@ void PrintBound(std::string_view what, std::string_view measured, bool bKept, st
     fmt::print("{:<46}{:<52}{} {}\n", what, measured, bKept ? "within" : "BEYOND", bound);
 }
 
-void PrintFigure(std::string_view what, std::string_view measured)
+void PrintValue(std::string_view what, std::string_view measured)
 {
     fmt::print("{:<46}{}\n", what, measured);
 }

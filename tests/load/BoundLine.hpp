@@ -5,10 +5,10 @@
 namespace ACS::Load
 {
 
-/// A line of a load program's report: what was measured, and whether it kept its bound.
+/// Prints a line of a load program's report: the measured value and whether it is within its bound.
 void PrintBound(std::string_view what, std::string_view measured, bool bKept, std::string_view bound);
 
-/// One that is bound by nothing.
-void PrintFigure(std::string_view what, std::string_view measured);
+/// Prints a value without a bound.
+void PrintValue(std::string_view what, std::string_view measured);
 
 } // namespace ACS::Load

@@ -3,17 +3,17 @@
 #include <cstdint>
 #include <sys/types.h>
 
-/// What the system says of a process of ours, this one included.
+/// Resource usage of a process, as reported by the system.
 namespace ACS::Load::ProcessProbe
 {
 
-/// Seconds of a core that it has used so far.
+/// CPU time used so far, in seconds.
 [[nodiscard]] double GetCpuSeconds(pid_t process);
 
-/// KiB of memory that it holds now.
+/// Resident memory in KiB.
 [[nodiscard]] std::int64_t GetResidentKiB(pid_t process);
 
-/// Keeps it, and the threads that it starts from now on, on one core; nothing where there is no core of that number.
+/// Pins the process, and the threads that it starts from now on, to one core; no effect if there is no such core.
 void KeepOnCore(pid_t process, std::size_t core);
 
 } // namespace ACS::Load::ProcessProbe

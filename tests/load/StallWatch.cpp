@@ -14,7 +14,7 @@ namespace
 
 constexpr std::chrono::milliseconds SLEEP{1};
 
-/// Best effort: where the system forbids it, the sleeper watches whichever processor it is on.
+/// Best effort: if the system forbids it, the thread watches the processor on which it happens to run.
 void BindToProcessor(std::thread& thread, std::size_t processor)
 {
     cpu_set_t set{};

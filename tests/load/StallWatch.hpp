@@ -13,12 +13,12 @@
 namespace ACS::Load
 {
 
-/// Notices when the machine stands still: one thread bound to each processor, which does nothing but sleep for a
-/// millisecond, and remembers when it woke late. What it saw is the machine's doing and no program's.
+/// Detects stalls of the machine: one thread pinned to each processor sleeps for a millisecond in a loop and records when
+/// it woke late. Such a delay is caused by the machine, not by a program.
 class StallWatch
 {
 public:
-    /// From when the sleeper should have woken to when it did.
+    /// From the time at which the thread should have woken to the time at which it did.
     struct Stall
     {
         Core::SteadyTime begin;
@@ -26,26 +26,26 @@ public:
     };
 
 private:
-    /// Each with a lock of its own: who is kept waiting while it holds it must not make the others late.
+    /// Each has its own lock, so that one that is delayed while it holds the lock does not delay the others.
     struct Sleeper
     {
         std::mutex mutex;
         std::condition_variable stopping;
         bool bStopping = false;
-        std::deque<Stall> stalls; ///< Never moved in memory, which would leave holes of its size.
+        std::deque<Stall> stalls; ///< A deque does not move its elements in memory, which would fragment the heap.
         std::thread thread;
     };
 
     std::vector<std::unique_ptr<Sleeper>> _sleepers;
 
 public:
-    /// Remembers what was later than this.
+    /// Records delays longer than this.
     explicit StallWatch(std::chrono::milliseconds late = std::chrono::milliseconds(1));
     StallWatch(const StallWatch&) = delete;
     StallWatch& operator=(const StallWatch&) = delete;
     ~StallWatch();
 
-    /// Ends the watch. What all processors saw, in the order of its beginning.
+    /// Ends the watch. Returns the stalls of all processors, in the order of their beginning.
     [[nodiscard]] std::vector<Stall> Stop();
 
 private:

@@ -3,15 +3,15 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-// Loaded into acsd by LD_PRELOAD: a disk that answers nothing as long as the pipe is there that ACS_HELD_DISK names, and
-// nobody writes into it.
+// Loaded into acsd by LD_PRELOAD: a disk that hangs while the pipe named by ACS_HELD_DISK exists and has no writer.
 
 namespace
 {
 
 int CallWhenFree(const char* name, int file)
 {
-    const char* const path = std::getenv("ACS_HELD_DISK"); // NOLINT(concurrency-mt-unsafe): nobody changes it
+    const char* const path =
+        std::getenv("ACS_HELD_DISK"); // NOLINT(concurrency-mt-unsafe): the environment never changes
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): the system's interface
     const int gate = path == nullptr ? -1 : open(path, O_RDONLY | O_CLOEXEC); // waits for the writer
     if (gate >= 0)

@@ -1,12 +1,12 @@
-"""TCP proxies that a test can cut, between acsd and the MCS, the broker or an arm. On the way to the MCS each WebSocket
-message from acsd is shown before it is passed on, on the way to an arm each line."""
+"""TCP proxies that a test can cut, between acsd and the MCS, the broker or an arm. A callback gets each WebSocket message
+from acsd to the MCS, or each line to an arm, before it is forwarded."""
 
 import socket
 import threading
 
 
 class FrameReader:
-    """Collects the text messages out of a client's byte stream: HTTP upgrade first, then masked frames (RFC 6455)."""
+    """Extracts the text messages from a client's byte stream: HTTP upgrade first, then masked frames (RFC 6455)."""
 
     def __init__(self):
         self._buffer = b""
@@ -45,7 +45,7 @@ class FrameReader:
 
 
 class LinkProxy:
-    """on_message(text) is called on the proxy's thread before the bytes that hold it go on; without it nothing is read."""
+    """on_message(text) is called on the proxy's thread before the text is forwarded; without it nothing is parsed."""
 
     def __init__(self, target_port, on_message=None):
         self._target_port = target_port
@@ -100,7 +100,7 @@ class LinkProxy:
         source.close()  # the other direction closes the other end
 
     def cut(self):
-        """Breaks all connections without a close handshake, and refuses new ones until mend()."""
+        """Resets all connections without a close handshake, and rejects new ones until mend()."""
         with self._lock:
             self._cut = True
             ends, self._sockets = self._sockets, set()
@@ -120,8 +120,8 @@ class LinkProxy:
 
 
 class LineProxy(LinkProxy):
-    """on_message(line) is called before the line is passed on. False: neither it nor anything after it is, and the connection
-    ends."""
+    """on_message(line) is called before the line is forwarded. False: the line and everything after it are dropped, and the
+    connection ends."""
 
     def _pump(self, source, sink, reader):
         if reader is None:

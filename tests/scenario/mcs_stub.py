@@ -1,5 +1,5 @@
-"""An MCS of bare sockets, for what mcs-sim does not do: it refuses the upgrade, sends fragments and half frames, resets
-the connection, and stops reading. It acknowledges what the ACS reports, and keeps every message with the time it came."""
+"""An MCS on plain sockets, for what mcs-sim does not do: it rejects the upgrade, sends fragments and half frames, resets
+the connection, and stops reading. It acknowledges the reports of the ACS and records every message."""
 
 import base64
 import ctypes
@@ -49,7 +49,7 @@ class McsStub:
     def __init__(self, receive_buffer=None):
         self._listener = socket.socket()
         self._listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        if receive_buffer is not None:  # before listen(): it bounds the window that is offered
+        if receive_buffer is not None:  # before listen(): it limits the offered window
             self._listener.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, receive_buffer)
         self._listener.bind(("127.0.0.1", 0))
         self._listener.listen()
@@ -62,7 +62,7 @@ class McsStub:
         self._upgrades_to_refuse = 0
         self.upgrades_refused = 0
         self.unacknowledged = ()  # commands that get no Ack
-        self._withheld_from = None  # the command with which to begin to withhold
+        self._withheld_from = None  # Acks are withheld from the next message of this command on
         self._withholding = False
         threading.Thread(target=self._accept, daemon=True).start()
 
@@ -72,7 +72,7 @@ class McsStub:
         if self._socket is not None:
             self._socket.close()
 
-    # What the ACS said.
+    # The messages of the ACS.
 
     def count(self):
         with self._changed:
@@ -83,7 +83,7 @@ class McsStub:
             return self._messages[start:stop]
 
     def wait_for(self, command, matches=lambda message: True, start=0, timeout=WAIT_SECONDS):
-        """The first message of the command, from the number `start` on, that matches; and its number."""
+        """Returns the first matching message of the command from the index `start` on, preceded by its index."""
         deadline = time.monotonic() + timeout
         with self._changed:
             index = start
@@ -102,10 +102,10 @@ class McsStub:
             if not self._changed.wait_for(lambda: self.upgrades_refused >= count, timeout):
                 raise AssertionError(f"{self.upgrades_refused} of {count} upgrades came")
 
-    # What the MCS does.
+    # The actions of the MCS.
 
     def send_text(self, text, fragments=1):
-        """One message; several fragments have a PING between them, as they may."""
+        """Sends one message. There is a PING between fragments, as RFC 6455 allows."""
         data = text.encode()
         size = -(-len(data) // fragments)
         parts = [data[begin:begin + size] for begin in range(0, len(data), size)]
@@ -115,27 +115,27 @@ class McsStub:
             self._socket.sendall(make_frame(CONTINUATION if number else TEXT, part, number == len(parts) - 1))
 
     def send_request(self, command, payload, fragments=1, envelope=None):
-        """The transactionId. `envelope` has members that replace the usual ones."""
+        """Returns the transactionId. `envelope` has members that replace the usual ones."""
         request = {"command": command, "transactionId": str(uuid.uuid4()), "timestamp": make_timestamp(),
                    "payload": payload} | (envelope or {})
         self.send_text(json.dumps(request), fragments)
         return request["transactionId"]
 
     def ask(self, command, payload):
-        """The body of the Ack."""
+        """Returns the body of the Ack."""
         start = self.count()
         transaction = self.send_request(command, payload)
         return self.wait_for(command + "Ack", lambda ack: ack.body.get("transactionId") == transaction, start)[1].body
 
     def withhold_acks_from(self, command):
-        """The next message of the command, and all after it up to the next Registration, get no Ack. The reader decides it
-        with the message in hand: a test that sets `unacknowledged` when it has seen a message cannot know whether the
-        messages that come meanwhile get theirs."""
+        """The next message of the command, and all after it up to the next Registration, get no Ack. The reader thread decides
+        this for each message: with `unacknowledged` a test cannot know whether messages that arrive meanwhile still get
+        their Acks."""
         with self._changed:
             self._withheld_from = command
 
     def wait_until_acks_are_read(self):
-        """The ACS reads in order: with its answer to a request, it has read every Ack that was sent before."""
+        """The ACS reads in order: when it answers a request it has read every Ack that was sent before."""
         self.ask("RequestAcsPlans", {})
 
     def refuse_upgrades(self, count):
@@ -145,16 +145,16 @@ class McsStub:
         self._socket.sendall(make_frame(CLOSE, struct.pack("!H", code)))
 
     def reset_link(self):
-        """RST in the middle of a frame: its head announces more than comes."""
+        """RST in the middle of a frame: its head announces more than is sent."""
         self._socket.sendall(make_frame(TEXT, b" " * 1000)[:100])
-        # close() would wait for the reader, which holds the socket too: connect() to nobody resets it at once (Linux).
-        nobody = struct.pack("=H14x", socket.AF_UNSPEC)
-        ctypes.CDLL(None).connect(self._socket.fileno(), nobody, len(nobody))
+        # close() would wait for the reader thread, which uses the socket too. connect() to AF_UNSPEC resets it at once (Linux).
+        unspecified = struct.pack("=H14x", socket.AF_UNSPEC)
+        ctypes.CDLL(None).connect(self._socket.fileno(), unspecified, len(unspecified))
 
     def stop_reading(self):
         self._reading.clear()
 
-    def go_on_reading(self):
+    def resume_reading(self):
         self._reading.set()
 
     # The reader.
@@ -223,7 +223,7 @@ class McsStub:
             length, = struct.unpack("!Q", self._read(stream, 8))
         mask = self._read(stream, 4)
         data = self._read(stream, length)
-        # SPEC section 1: one unfragmented TEXT frame a message.
+        # SPEC section 1: one unfragmented TEXT frame for each message.
         assert first & FINAL and second & MASKED, "a fragment, or a frame that is not masked"
         return first & 0x0F, bytes(byte ^ mask[i % 4] for i, byte in enumerate(data))
 
@@ -232,7 +232,7 @@ class McsStub:
         with self._changed:
             self._messages.append(message)
             self._changed.notify_all()
-            # Under the lock: whoever has seen the message finds its Ack sent.
+            # Under the lock: when a test sees the message its Ack is sent.
             if self._is_acknowledged(message.command):
                 ack = {"command": message.command + "Ack", "transactionId": message.body["transactionId"],
                        "timestamp": make_timestamp(), "result": "Success", "message": "", "payload": {}}

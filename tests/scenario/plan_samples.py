@@ -16,7 +16,7 @@ def make_carrying_plan(plan_id):
 
 
 def make_memory_plan(plan_id, jobs):
-    """CR: so many memories from its trays into a set. The trays must be on record (make_tray_memory_plan)."""
+    """CR: `jobs` memories from its trays into a set. The trays must be on record (make_tray_memory_plan)."""
     return {
         "planId": plan_id, "lotId": "LOT",
         "steps": [{"stepNo": 1, "action": "MemoryPickAndPlace", "position": "A01.SET01", "jobs": [
@@ -27,7 +27,7 @@ def make_memory_plan(plan_id, jobs):
 
 
 def make_tray_memory_plan(plan_id, jobs):
-    """The same, behind a step that loads the three trays."""
+    """The same, after a step that loads the three trays."""
     plan = make_memory_plan(plan_id, jobs)
     plan["steps"][0]["stepNo"] = 2
     plan["steps"].insert(0, {

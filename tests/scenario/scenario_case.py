@@ -1,4 +1,4 @@
-"""What the tests with real processes share."""
+"""Shared code of the tests with real processes."""
 
 import argparse
 import json

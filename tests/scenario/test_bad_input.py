@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a user meets when something is not there or wrong: one clear line, the right exit code, nothing left running."""
+"""Behaviour on missing or wrong input: one clear line, the right exit code, nothing left running."""
 
 import os
 import socket
@@ -22,7 +22,7 @@ class BadInput(ScenarioCase):
         for word in words:
             self.assertIn(word, lines[0])
 
-    def test_an_unknown_option_is_refused_by_every_program(self):
+    def test_every_program_rejects_an_unknown_option(self):
         needed = {
             "acsd": ["--config", SITE / "acsd.toml"],
             "vda-sim": ["--broker", "mqtt://127.0.0.1:1", "--site", SITE / "site.lif.json", "--vehicle", "LR01"],
@@ -58,7 +58,7 @@ class BadInput(ScenarioCase):
                     self.assertNotEqual(result.returncode, 0)
                     self.assertIn(address, result.stderr)
 
-    def test_a_site_file_that_is_no_lif_is_refused(self):
+    def test_a_site_file_that_is_not_a_lif_is_rejected(self):
         site = self.line.folder / "wrong.lif.json"
         site.write_text('{"layouts": 3}')
         result = self.run_program("vda-sim", "--broker", "mqtt://127.0.0.1:1", "--site", site, "--vehicle", "LR01")
@@ -68,7 +68,7 @@ class BadInput(ScenarioCase):
         self.assertEqual(result.returncode, 2)
         self.assertIn("wrong.lif.json", result.stderr)
 
-    def test_every_mistake_of_a_configuration_is_told_at_once(self):
+    def test_every_error_of_a_configuration_is_reported_at_once(self):
         config = self.line.folder / "acsd.toml"
         text = (SITE / "acsd.toml").read_text()
         text = text.replace('url = "ws://127.0.0.1:9001/acs/"', 'url = "http://127.0.0.1:9001/"')
@@ -86,10 +86,10 @@ class BadInput(ScenarioCase):
         sets = [part for override in overrides for part in ("--set", override)]
         return self.run_program("acsd", "--config", SITE / "acsd.toml", "--check-config", *sets)
 
-    def test_a_folder_a_device_a_pipe_and_an_endless_file_are_no_files(self):
+    def test_a_folder_a_device_a_pipe_and_an_endless_file_are_rejected(self):
         broker = ["--broker", "mqtt://127.0.0.1:1", "--vehicle", "LR01"]
         pipe, endless = self.line.folder / "pipe", self.line.folder / "endless"
-        os.mkfifo(pipe)  # nobody will ever write to it
+        os.mkfifo(pipe)  # never gets a writer
         with endless.open("wb") as file:
             file.truncate(1 << 40)
         for path, reason in ((self.line.folder, "Is a directory"), ("/dev/zero", "it is a device"),
@@ -105,7 +105,7 @@ class BadInput(ScenarioCase):
         self.assert_refused(self.check_config("store.directory="), 2, "store.directory", "empty")
         self.assert_refused(self.check_config("store.path=acsd.db"), 2, "store.path", "renamed to store.directory")
 
-    def test_a_store_is_one_acsd_s_at_a_time(self):
+    def test_a_store_is_locked_by_one_acsd(self):
         arguments = ["--config", SITE / "acsd.toml", "--set", "mcs.url=ws://127.0.0.1:1/acs/", "--set",
                      "mqtt.url=mqtt://127.0.0.1:1", "--set", "http.listen=127.0.0.1:0", "--set",
                      f"store.directory={self.line.folder / 'store'}"]
@@ -117,7 +117,7 @@ class BadInput(ScenarioCase):
         second = self.line.start("acsd", *arguments)
         self.assertIn("http", second.wait_ready())
 
-    def test_the_example_configuration_is_good(self):
+    def test_the_example_configuration_is_valid(self):
         result = self.run_program("acsd", "--config", SITE / "acsd.toml", "--check-config")
         self.assertEqual(result.returncode, 0, result.stderr)
 
@@ -132,7 +132,7 @@ class BadInput(ScenarioCase):
         self.line.forget(acsd)
         self.assertEqual(acsd.stop(), 0)
         warnings = [line for line in acsd.tail(1000) if " warning " in line]
-        self.assertEqual(len(warnings), len(missing), "an outage is told once, not at every try")
+        self.assertEqual(len(warnings), len(missing), "an outage is logged once, not at every attempt")
 
     def wait_for_log(self, program, *sentences):
         deadline = time.monotonic() + FINISH_SECONDS
@@ -141,7 +141,7 @@ class BadInput(ScenarioCase):
             with self.assertRaises(subprocess.TimeoutExpired, msg="it ended"):
                 program.process.wait(0.05)
 
-    def test_a_plan_for_a_location_that_the_site_lacks_is_refused_with_a_reason(self):
+    def test_a_plan_for_an_unknown_location_is_rejected_with_a_reason(self):
         def change(plan):
             plan["steps"][0]["position"] = "A09.CP01"
             plan["steps"][0]["jobs"][0]["from"] = "A09.CP01"

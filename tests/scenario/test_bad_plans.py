@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""MCS-ACS 4.1, 10 and 13: every plan that acsd refuses, with the field and the reason that it names, and every oddity
-that it takes, over a real socket. The TSC is paused, so that what was accepted stands in the queue and nowhere else."""
+"""MCS-ACS 4.1, 10 and 13: every plan that acsd rejects, with the field and the reason that it names, and every oddity
+that it accepts, over a real socket. The TSC is paused, so that accepted plans stay in the queue."""
 
 import copy
 import json
@@ -28,7 +28,7 @@ def make_tray_plan(plan_id="P"):
 
 
 def change(plan, path, value):
-    """A copy whose member at the path ("steps.0.jobs") has another value, or is gone."""
+    """A copy whose member at the path ("steps.0.jobs") is replaced or removed."""
     plan = copy.deepcopy(plan)
     *parents, last = [int(part) if part.isdigit() else part for part in path.split(".")]
     target = plan
@@ -42,7 +42,7 @@ def change(plan, path, value):
 
 
 def make_refusals():
-    """(what is wrong, payload, words of the message: the field first)."""
+    """(the error, payload, words of the message: the field first)."""
     carrying, trays, memory = make_carrying_plan("P"), make_tray_plan(), make_memory_plan("P", 2)
     rows = [(f"payload {json.dumps(payload)}", payload, ["payload"]) for payload in (None, [], "plan", 7, True)]
     rows += [
@@ -116,7 +116,7 @@ def make_refusals():
 
 
 def make_oddities():
-    """(what is odd, payload): 4.1 "not refused", the tolerance of section 2, the grammar of section 10, D-rows."""
+    """(the oddity, payload): 4.1 "not refused", the tolerance of section 2, the grammar of section 10, D-rows."""
     carrying, trays, cover = make_carrying_plan("P"), make_tray_plan(), make_set_plan()
     rows = [("nothing", carrying), ("nothing of the other robot", trays)]
     for action in ("OpenSetCover", "CloseSetCover", "Start"):
@@ -125,7 +125,7 @@ def make_oddities():
             ("absent", ABSENT), ("null", None), ("empty", []), ("without places", [{"jobId": "J"}]),
             ("with null and empty places", [{"jobId": "J", "from": None, "to": ""}]),
             ("with places", [{"jobId": "J", "from": "A01.CP01", "to": "AMR.CP01"}]),
-            ("with places that are none", [{"jobId": "J", "from": "left", "to": "right"}]))]
+            ("with invalid places", [{"jobId": "J", "from": "left", "to": "right"}]))]
     lower = json.loads(json.dumps(carrying).replace("A01.CP0", "a01.cp").replace("AMR.CP01", "amr.cp1"))
     rows += [
         ("carrierIds absent", change(carrying, "steps.0.carrierIds", ABSENT)),
@@ -144,7 +144,7 @@ def make_oddities():
         ("stepNo a numeric text", change(carrying, "steps.0.stepNo", "1")),
         ("an unknown member", change(carrying, "color", "green")),
         ("D-12: a jobId that is no UUID", change(carrying, "steps.0.jobs.0.jobId", "a4184b0d-bc13-4eb2-b9e2-2ab3a150a1c12")),
-        ("a planId as long as can be", change(carrying, "planId", "P" * LONGEST_ID)),
+        ("the longest planId", change(carrying, "planId", "P" * LONGEST_ID)),
         ("an action in lower case", change(carrying, "steps.0.action", "cassetteload")),
         ("R17: locations in lower case and without padding", lower),
         ("13.4: alias and id of one robot", change(carrying, "steps.0.jobs.0.to", "LR01.CP01")),
@@ -160,7 +160,7 @@ def make_oddities():
 
 class BadPlans(ScenarioCase):
     def start_acsd(self, *overrides):
-        """A stub whose ACS is registered and begins no plan; no robot is needed for that."""
+        """A stub whose ACS is registered and begins no plan; this needs no robot."""
         stub = McsStub()
         self.addCleanup(stub.close)
         self.line.broker_port = 1
@@ -172,7 +172,7 @@ class BadPlans(ScenarioCase):
     def list_plans(self, stub):
         return [plan["planId"] for plan in stub.ask("RequestAcsPlans", {})["payload"]["plans"]]
 
-    def test_what_is_wrong_with_a_plan_is_refused_by_field_and_reason(self):
+    def test_an_invalid_plan_is_rejected_with_field_and_reason(self):
         stub = self.start_acsd("tsc.initial=paused")
         for name, payload, words in make_refusals():
             with self.subTest(name):
@@ -188,7 +188,7 @@ class BadPlans(ScenarioCase):
         self.assertEqual(self.list_plans(stub), [], "nothing is queued")
         self.assertEqual([message.command for message in stub.get() if message.command.endswith("Report")], [])
 
-    def test_what_is_only_odd_about_a_plan_is_no_reason_to_refuse_it(self):
+    def test_a_plan_with_oddities_is_accepted(self):
         stub = self.start_acsd("tsc.initial=paused")
         accepted = []
         for number, (name, payload) in enumerate(make_oddities()):
@@ -200,8 +200,8 @@ class BadPlans(ScenarioCase):
                 accepted.append(plan_id)
         self.assertEqual(sorted(self.list_plans(stub)), sorted(accepted))
 
-    def test_an_odd_envelope_is_no_reason_to_refuse_a_plan(self):
-        """Section 2 and 13.1: what is read is what was meant."""
+    def test_a_plan_with_an_odd_envelope_is_accepted(self):
+        """Section 2 and 13.1: the request is decoded as intended."""
         stub = self.start_acsd("tsc.initial=paused")
         rows = {
             "13.1: result and message null": {"result": None, "message": None},
@@ -230,7 +230,7 @@ class BadPlans(ScenarioCase):
                 ack = stub.wait_for("ExecutionPlanAck", start=start)[1].body
                 self.assertEqual((ack["transactionId"], ack["result"]), (name, "Success"), ack)
 
-    def test_what_is_no_json_is_passed_over_and_the_connection_goes_on(self):
+    def test_what_is_no_json_is_ignored_and_the_connection_continues(self):
         """Section 2 and D-11: nothing to acknowledge, and no second registration."""
         stub = self.start_acsd("tsc.initial=paused")
         good = json.dumps({"command": "RequestAcsPlans", "transactionId": "T", "timestamp": "", "payload": {}})
@@ -242,11 +242,11 @@ class BadPlans(ScenarioCase):
                 stub.send_text(text)
         self.assertEqual(stub.ask("RequestAcsPlans", {})["result"], "Success")
         acks = [message.body for message in stub.get(start) if message.command.endswith("Ack")]
-        # The one whose command is there twice still tells what it wants, and cannot be done.
+        # The one with a duplicate command is answered, but not executed.
         self.assertEqual([ack["result"] for ack in acks if ack["result"] == "Success"], ["Success"], acks)
         self.assertEqual([m for m in stub.get(start) if m.command == "Registration"], [])
 
-    def test_r4_a_known_plan_and_one_more_than_the_queue_holds_are_refused(self):
+    def test_r4_a_known_plan_and_one_beyond_the_queue_are_rejected(self):
         stub = self.start_acsd("tsc.initial=paused", "queue.max_plans=2")
         first = make_carrying_plan("P1")
         for plan in (first, make_carrying_plan("P2")):
@@ -270,7 +270,7 @@ class BadPlans(ScenarioCase):
         self.assertEqual(self.list_plans(stub), ["P"])
         self.assertEqual(stub.ask("ExecutionPlan", make_carrying_plan("P"))["result"], "Fail")
 
-    def test_a_plan_that_comes_while_acsd_stops_is_refused(self):
+    def test_a_plan_during_the_stop_of_acsd_is_rejected(self):
         stub = self.start_acsd("tsc.initial=paused")
         stub.unacknowledged = ("AcsCommStateUpdate",)
         self.line.forget(self.acsd)

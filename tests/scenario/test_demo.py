@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The demo itself: it ends as it says, and leaves nothing behind, however it is ended."""
+"""The demo: it ends as documented, and leaves no process or file, however it is ended."""
 
 import os
 import pathlib
@@ -20,7 +20,7 @@ LATEST_INTERRUPTION = 6.0
 
 
 def find_processes(mark):
-    """All processes that inherited the mark: the demo and everything that it started."""
+    """All processes with the inherited mark: the demo and its children."""
     wanted = f"{MARK}={mark}".encode()
     found = []
     for entry in pathlib.Path("/proc").iterdir():
@@ -65,7 +65,7 @@ class Demo(unittest.TestCase):
         self.assert_nothing_left()
 
     def run_in_shell(self, redirections):
-        """The demo behind redirections that only a shell can make."""
+        """The demo with redirections that only a shell can make."""
         return subprocess.run(
             ["bash", "-c", f'exec python3 "$1" --bin "$2" --time-scale 20 {redirections}', "bash",
              REPOSITORY / "scripts" / "demo.py", ScenarioCase.bin_dir],
@@ -73,7 +73,7 @@ class Demo(unittest.TestCase):
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
             timeout=FINISH_SECONDS, check=False)
 
-    def test_an_output_that_nobody_reads_ends_the_demo_with_one_sentence(self):
+    def test_an_unread_output_ends_the_demo_with_one_line(self):
         for redirections in (">/dev/full", "> >(head -n 1 >/dev/null)"):
             with self.subTest(redirections):
                 demo = self.run_in_shell(redirections)
@@ -82,7 +82,7 @@ class Demo(unittest.TestCase):
                 self.assertIn("demo: the output cannot be written", demo.stderr)
                 self.assert_nothing_left()
 
-    def test_closed_streams_are_no_failure(self):
+    def test_closed_streams_are_not_a_failure(self):
         demo = self.run_in_shell("<&- >&-")
         self.assertEqual((demo.returncode, demo.stderr), (0, ""))
         self.assert_nothing_left()
@@ -123,7 +123,7 @@ class Demo(unittest.TestCase):
                 self.assertNotIn("Traceback", output)
                 self.assert_nothing_left()
 
-    def test_a_program_that_dies_is_told_with_the_end_of_its_log(self):
+    def test_a_program_that_dies_is_reported_with_the_end_of_its_log(self):
         demo = self.start("--time-scale", "1")
         for line in demo.stdout:
             if "registered" in line.lower() or "InProgress" in line:

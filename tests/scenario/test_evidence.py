@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """docs/protocols/mcs-acs.md, "Conformance": a row for each sequence, rule, decision and vector of the specification, and in
-each row things that exist. With ACS_SPEC_DIR the list of rows is held against the specification itself."""
+each row evidence that exists. With ACS_SPEC_DIR the list of rows is compared with the specification itself."""
 
 import os
 import pathlib
@@ -19,26 +19,26 @@ EXPECTED = [*[f"6 {name}" for name in SEQUENCES], *[f"R{number}" for number in r
 
 
 def read_rows(text):
-    """(row's name, the things that it names), in the order of the table."""
+    """(row's name, its evidence), in the order of the table."""
     lines = text.split(TITLE, 1)[1].split("\n## ", 1)[0].splitlines()
     cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith("| ")]
     return [(row[0], re.findall(r"`([^`]+)`", row[2])) for row in cells if row[0]]
 
 
 class Evidence:
-    """What there is in the tree that a row can name."""
+    """The evidence in the tree that a row can name."""
 
     def __init__(self):
         self._sources = {path.name: path.read_text() for folder in ("unit", "integration")
                          for path in (TESTS / folder).rglob("*.cpp")}
         self._scripts = {path.name: path.read_text() for path in (TESTS / "scenario").glob("*.py")}
 
-    def find_mistake_or_none(self, name):
+    def find_error_or_none(self, name):
         if "::" in name:
             file, function = name.split("::")
             found = re.search(rf"^    def {function}\(", self._scripts.get(file, ""), re.MULTILINE)
         elif name.startswith("wire_rules.py: "):
-            # The rule's sentence, and the row of its test.
+            # The rule's message, and the row of its test.
             rule = re.escape(name.split(": ")[1])
             found = re.search(rf'_note\(f?"[^":]*\b{rule}\b', self._scripts["wire_rules.py"]) \
                 and re.search(rf'"{rule}"', self._scripts["test_wire_rules.py"])
@@ -49,17 +49,17 @@ class Evidence:
             found = re.fullmatch(r"[a-z0-9-]+", name) and (SCENARIOS / f"{name}.json").is_file()
         return None if found else f"there is no {name}"
 
-    def find_mistakes(self, text):
+    def find_errors(self, text):
         rows = read_rows(text)
         names = [name for name, _ in rows]
-        mistakes = [f"{name} is missing" for name in EXPECTED if name not in names]
-        mistakes += [f"{name} is there {names.count(name)} times" for name in set(names) if names.count(name) > 1]
-        mistakes += [f"{name} is no row of the specification" for name in names if name not in EXPECTED]
+        errors = [f"{name} is missing" for name in EXPECTED if name not in names]
+        errors += [f"{name} is there {names.count(name)} times" for name in set(names) if names.count(name) > 1]
+        errors += [f"{name} is no row of the specification" for name in names if name not in EXPECTED]
         for name, things in rows:
-            mistakes += [] if things else [f"{name} names nothing"]
-            found = [self.find_mistake_or_none(thing) for thing in things]
-            mistakes += [f"{name}: {mistake}" for mistake in found if mistake is not None]
-        return mistakes
+            errors += [] if things else [f"{name} names nothing"]
+            found = [self.find_error_or_none(thing) for thing in things]
+            errors += [f"{name}: {error}" for error in found if error is not None]
+        return errors
 
 
 class Table(unittest.TestCase):
@@ -68,7 +68,7 @@ class Table(unittest.TestCase):
         self.text = (REPOSITORY / "docs" / "protocols" / "mcs-acs.md").read_text()
 
     def test_each_row_is_there_and_names_what_exists(self):
-        self.assertEqual(self.evidence.find_mistakes(self.text), [])
+        self.assertEqual(self.evidence.find_errors(self.text), [])
 
     def test_a_row_that_is_missing_or_names_nothing_that_exists_is_found(self):
         row = next(line for line in self.text.splitlines() if line.startswith("| R12 |"))
@@ -82,9 +82,9 @@ class Table(unittest.TestCase):
             "R99 is no row of the specification": row + "\n" + row.replace("R12", "R99"),
             "R12 is there 2 times": row + "\n" + row,
         }
-        for mistake, text in rows.items():
-            with self.subTest(mistake):
-                self.assertEqual(self.evidence.find_mistakes(self.text.replace(row, text)), [mistake])
+        for error, text in rows.items():
+            with self.subTest(error):
+                self.assertEqual(self.evidence.find_errors(self.text.replace(row, text)), [error])
 
     def test_the_rows_are_those_of_the_specification(self):
         if "ACS_SPEC_DIR" not in os.environ:

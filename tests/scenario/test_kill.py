@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Whatever is killed at whatever moment: no plan that was acknowledged is lost, each has exactly one final report, reports
-come in causal order, and no job is done twice. Judged from mcs-sim's trace, from what the vehicles say to the broker and
-from the counters of the arm's controller; where acsd is killed before a program starts, from the floor of the simulators too.
+"""Whatever is killed at any moment: no acknowledged plan is lost, each has exactly one final report, reports come in causal
+order, and no job is done twice. Checked with mcs-sim's trace, the states that the vehicles publish and the counters of the
+arm's controller; when acsd is killed before a program starts, also with the floor of the simulators.
 
---kills N   how often something is killed in each test (5)
---seed N    of the moments; printed on failure
+--kills N   number of kills in each test (5)
+--seed N    seed of the moments; printed on failure
 --long      kills the broker, the vehicles, their link and that to the MCS as well, each a tenth as often
 """
 
@@ -37,7 +37,7 @@ SETTINGS = argparse.Namespace(kills=5, seed=1, long=False)
 
 
 def make_expected(plan):
-    """The reports of a plan that is completed, in their order."""
+    """The reports of a completed plan, in order."""
     reports = [("PlanReport", "InProgress")]
     for step in plan["steps"]:
         number = step["stepNo"]
@@ -50,7 +50,7 @@ def make_expected(plan):
 
 
 class Trace:
-    """What mcs-sim has sent and received, read as it grows."""
+    """The trace of mcs-sim, read while it grows."""
 
     def __init__(self, path):
         self._path = path
@@ -181,7 +181,7 @@ class Kill(ScenarioCase):
         self.start_acsd()
 
     def start_spy(self):
-        """Hears the vehicles' states: which actions were done."""
+        """Records the done actions from the vehicles' states."""
         binary = shutil.which("mosquitto_sub")
         self.assertIsNotNone(binary, "mosquitto_sub is missing; run scripts/setup")
         self.done_actions = {}
@@ -198,7 +198,7 @@ class Kill(ScenarioCase):
                         on_output=read)
 
     def start_acsd(self):
-        # A vehicle that is killed forgets what it carries, and nobody is there who tells acsd.
+        # A killed vehicle loses its load, and no operator reports that to acsd.
         self.acsd = self.line.start_acsd(self.mcs_address, self.arm, "robot.taken_port=load")
         self.http = self.acsd.wait_ready()["http"]
 
@@ -237,14 +237,14 @@ class Kill(ScenarioCase):
             self.trace.update()
 
     def play(self, strike, kills):
-        """Kills so often, with work all the time; then lets everything come to its end."""
+        """Strikes `kills` times under permanent work, then waits until every plan has ended."""
         self.supply_for(2.0)
         for _ in range(kills):
             self.supply_for(self.random.uniform(0.05, 2.5))
             strike()
         self.supply_for(1.0)
         self.wait_until(lambda: len(self.trace.plans) == self.asked and self.trace.count_open() == 0,
-                        "every plan ends when nothing is killed any more")
+                        "every plan ends after the last kill")
         self.mcs.process.stdin.write(b"quit\n")
         self.exit_code = self.mcs.wait(FINISH_SECONDS)
         self.trace.update()
@@ -266,16 +266,16 @@ class Kill(ScenarioCase):
             kind = "LR" if plan["steps"][0]["action"].startswith("Cassette") else "CR"
             done[kind] += sum(report[0] == "JobReport" and report[-1] == "Completed" for report in reports)
             begun[kind] += sum(report[0] == "JobReport" and report[-1] == "Instructed" for report in reports)
-        self.assertGreaterEqual(len(self.done_actions), done["LR"], "no job is told that was not done")
+        self.assertGreaterEqual(len(self.done_actions), done["LR"], "no job is reported that was not done")
         self.assertLessEqual(len(self.done_actions), begun["LR"], "no job is done twice")
-        self.assertGreaterEqual(self.read_counter("ml101") - 1, done["CR"], "no job is told that was not done")
+        self.assertGreaterEqual(self.read_counter("ml101") - 1, done["CR"], "no job is reported that was not done")
         self.assertLessEqual(self.read_counter("ml100") - 1, begun["CR"], "no job is begun twice")
         print(f"{len(trace.plans)} plans, {begun['LR']} jobs of the vehicle, {begun['CR']} of the arm ...", end=" ",
               file=sys.stderr)
         if all_completed:
             self.assertEqual({trace.get_final(plan_id)[0] for plan_id in trace.plans}, {"Completed"})
             self.assertEqual([alarm for alarm in trace.alarms if alarm["errorCode"] == "ACS-1008"], [],
-                             "the robots could tell what became of each job")
+                             "the robots report the outcome of each job")
             self.assertEqual(self.exit_code, 0)
 
     def read_counter(self, name):
@@ -290,7 +290,7 @@ class Kill(ScenarioCase):
         self.judge()
 
     def test_acsd_is_killed_between_the_inputs_and_the_start_of_a_program(self):
-        """Whatever inputs it leaves in the relays: each job is done once, and moves what its plan demands."""
+        """Whatever inputs are left in the relays: each job is done once, and moves what its plan demands."""
         self.line.share_world()
         self.plan_files = PLANS[1:]
 
@@ -392,7 +392,7 @@ class Kill(ScenarioCase):
         self.judge()
 
     def test_the_vehicles_are_killed(self):
-        """They forget their orders: what was under way fails, once, and everything else goes on."""
+        """They lose their orders: what was under way fails once, and everything else continues."""
         self.skip_unless_long()
         self.start_line()
 

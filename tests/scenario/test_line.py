@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The whole line with real processes: what must hold when a link is cut, and in which order things reach the disk."""
+"""The whole line with real processes: lost links, and the order of writes to the disk."""
 
 import json
 import sqlite3
@@ -55,7 +55,7 @@ class WholeLine(ScenarioCase):
         self.assert_last_line(again, "1 plans completed, 0 failed")
 
     def test_a_plan_goes_over_wss(self):
-        """With a certificate of its own CA; the same certificate without that CA is refused with a sentence."""
+        """With a certificate of its own CA; the same certificate without that CA is rejected with the reason."""
         key, certificate = self.line.folder / "mcs.key", self.line.folder / "mcs.pem"
         subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
                         "-keyout", key, "-out", certificate, "-days", "2", "-subj", "/CN=mcs",
@@ -82,7 +82,7 @@ class WholeLine(ScenarioCase):
                 pass
         self.assertIn(text, program.log.read_text())
 
-    def test_a_cut_of_three_seconds_in_mid_plan_costs_nothing(self):
+    def test_a_lost_link_of_three_seconds_in_mid_plan_loses_nothing(self):
         reports = []
         cut_once = threading.Event()
         proxies = []

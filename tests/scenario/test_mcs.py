@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""mcs-sim as a tool: every ready scenario passes against acsd, a scenario that must fail does, and the trace has it all."""
+"""mcs-sim as a tool: every ready scenario passes against acsd, a scenario that must fail fails, and the trace is complete."""
 
 import dataclasses
 import json
@@ -28,7 +28,7 @@ class Batch:
     vehicles: tuple = ("LR01,type=LR", "CR01,type=CR")
 
 
-# All are played at the same time. What leaves the ACS other than it was stands at the end.
+# All are played at the same time. Scenarios that change the state of the ACS come last.
 BATCHES = [
     Batch(["lr-plan", "robot-status", "abort-while-driving", "cancel-before-arrival", "cancel-after-arrival",
            "cancel-waiting", "abort-waiting", "control-finished-plan", "pinned-robot", "priority", "location-spelling"]),
@@ -53,7 +53,7 @@ BATCHES = [
 # These the ACS of the examples plays too, and its operator types what it is asked for.
 SMALL_ACS = ["pause-resume", "pause-refused", "abort-paused", "tsc-paused"]
 TYPED = {"pause the TSC": b"pause\n", "resume the TSC": b"auto\n"}
-# Somebody has to do something beside: a test each.
+# These need an action from outside: a test each.
 ATTENDED = ["comm-loss", "error-set-cleared", "tsc-paused"]
 
 
@@ -101,7 +101,7 @@ class Scenarios(ScenarioCase):
         self.assertEqual(rows, sorted(path.stem for path in SCENARIOS.glob("*.json")))
 
     def test_the_ready_scenarios_pass(self):
-        """And whatever is played, every message is what the document says (wire_rules.py)."""
+        """Every message of every scenario also keeps the rules of the document (wire_rules.py)."""
         plays = []
         for batch in BATCHES:
             line = self.start_line()
@@ -146,9 +146,10 @@ class Scenarios(ScenarioCase):
     def test_scenario_comm_loss(self):
         mcs = self.line.start("mcs-sim", "--listen", "127.0.0.1:0", "--scenario", SCENARIOS / "comm-loss.json",
                               on_output=self.answer({
-                                  "take from the ACS what it cannot work without":
+                                  "make the ACS unable to work":
                                       lambda: self.stop_program(self.line.broker),
-                                  "give it back": lambda: self.line.start_broker(self.line.broker_port)}))
+                                  "make the ACS able to work again":
+                                      lambda: self.line.start_broker(self.line.broker_port)}))
         arm_addresses = self.start_robots()
         self.line.start_acsd(mcs.wait_ready()["ws"], arm_addresses).wait_ready()
         self.assertEqual(mcs.wait(FINISH_SECONDS), 0, mcs.log.read_text())
@@ -164,7 +165,7 @@ class Scenarios(ScenarioCase):
             vehicle.wait_ready()
         mcs = self.line.start("mcs-sim", "--listen", "127.0.0.1:0", "--scenario", SCENARIOS / "error-set-cleared.json",
                               on_output=self.answer({
-                                  "let an error come up": lambda: self.kill_program(logistics),
+                                  "raise an error": lambda: self.kill_program(logistics),
                                   "clear the error": lambda: self.line.start_vehicles(TIME_SCALE, ("LR01,type=LR",))}))
         self.line.start_acsd(mcs.wait_ready()["ws"], arm.wait_ready()).wait_ready()
         self.assertEqual(mcs.wait(FINISH_SECONDS), 0, mcs.log.read_text())
@@ -234,7 +235,7 @@ class Scenarios(ScenarioCase):
         path.write_text(json.dumps({"name": "test", "steps": steps}))
         return path
 
-    def test_an_expectation_that_does_not_hold_makes_the_run_fail_and_is_told(self):
+    def test_an_unmet_expectation_fails_the_run_and_is_reported(self):
         path = self.write_scenario(
             {"send": "ExecutionPlan", "file": str(PLANS[0]), "as": "A"},
             {"expect": "ExecutionPlanAck", "result": "Success"},
@@ -267,7 +268,7 @@ class Scenarios(ScenarioCase):
                         "-subj", "/CN=localhost", "-keyout", key, "-out", certificate], check=True, capture_output=True)
         return certificate, key
 
-    def test_a_file_for_tls_that_is_wrong_is_refused_by_its_option(self):
+    def test_an_invalid_tls_file_is_rejected_with_its_option(self):
         certificate, key = self.make_certificate("one")
         _, foreign = self.make_certificate("two")
         junk = self.line.folder / "junk.pem"
@@ -290,17 +291,17 @@ class Scenarios(ScenarioCase):
                     self.assertEqual(len(result.stderr.splitlines()), 1, result.stderr)
                     self.assertIn(f"{option}: expected ", result.stderr)
 
-    def test_the_ready_line_says_whether_it_is_wss(self):
+    def test_the_ready_line_states_whether_it_is_wss(self):
         certificate, key = self.make_certificate("one")
         mcs = self.line.start("mcs-sim", "--listen", "127.0.0.1:0", "--plan", PLANS[0], "--tls-certificate", certificate,
                               "--tls-key", key)
         self.assertEqual(list(mcs.wait_ready()), ["wss"])
 
-    def test_a_trace_that_could_not_be_written_makes_the_run_fail(self):
+    def test_a_trace_that_cannot_be_written_fails_the_run(self):
         _, code = self.play("--scenario", SCENARIOS / "sync-config.json", "--trace", "/dev/full")
         self.assertEqual(code, 1)
 
-    def test_a_scenario_that_is_none_is_refused_with_its_place(self):
+    def test_an_invalid_scenario_is_rejected_with_its_place(self):
         path = self.write_scenario({"wait": "1s"}, {"cancel": "A"})
         result = subprocess.run([self.bin_dir / "mcs-sim", "--scenario", path], capture_output=True, text=True,
                                 timeout=20, check=False)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the network and a foreign MCS do to acsd: MCS-ACS test vectors 9 to 12 over sockets that the test holds itself."""
+"""Faults of the network and of a foreign MCS: MCS-ACS test vectors 9 to 12 over the test's own sockets."""
 
 import datetime
 import os
@@ -24,8 +24,8 @@ def get_resident_bytes(pid):
         return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
 
-def get_told_time(message):
-    """When acsd wrote it, in seconds."""
+def get_sent_time(message):
+    """The timestamp of acsd, in seconds."""
     return datetime.datetime.fromisoformat(message.body["timestamp"]).timestamp()
 
 
@@ -66,7 +66,7 @@ class Network(ScenarioCase):
         robots = [message.payload["robotId"] for message in messages if message.command == "RobotStatusUpdate"]
         self.assertEqual(robots[:2], ["CR01", "LR01"])
 
-    def test_13_10_a_link_that_is_closed_refused_or_reset_costs_nothing(self):
+    def test_13_10_a_closed_rejected_or_reset_link_loses_nothing(self):
         """Close 1008, 403 on the upgrade, RST in the middle of a frame: registration, replay, snapshot, and the plan
         has each of its reports once."""
 
@@ -99,7 +99,7 @@ class Network(ScenarioCase):
                 self.assert_reported_once(stub.get(start), plan)
 
     def assert_reported_once(self, messages, plan):
-        """By transaction: what came again under its own transactionId is the same report."""
+        """By transactionId: a repeated report has the same transactionId."""
         reports = {message.body["transactionId"]: (message.command, *[
             message.payload.get(name) for name in ("stepNo", "jobId", "status")]) for message in messages
             if message.command in ("PlanReport", "StepReport", "JobReport")}
@@ -113,7 +113,7 @@ class Network(ScenarioCase):
         expected.append(("PlanReport", None, None, "Completed"))
         self.assertEqual(list(reports.values()), expected)
 
-    def test_13_11_a_long_plan_in_fragments_is_accepted_and_worked(self):
+    def test_13_11_a_long_plan_in_fragments_is_accepted_and_executed(self):
         stub = self.start_stub()
         self.start_acsd(stub)
         self.wait_for_idle(stub, "CR01")
@@ -141,10 +141,10 @@ class Network(ScenarioCase):
         grown = get_resident_bytes(acsd.process.pid) - before
         self.assertLess(grown, MEMORY_MARGIN)
         resumed = time.time()
-        stub.go_on_reading()
-        fresh, _ = stub.wait_for("RobotPositionUpdate", lambda message: get_told_time(message) > resumed, blocked)
-        # What the two systems' buffers had taken comes late; of the rest of the time nothing was kept. acsd's own times
-        # tell what was sent when, however slow this machine is.
+        stub.resume_reading()
+        fresh, _ = stub.wait_for("RobotPositionUpdate", lambda message: get_sent_time(message) > resumed, blocked)
+        # Only what was in the socket buffers arrives late; nothing else was queued. The timestamps of acsd show when each
+        # was sent, however slow this machine is.
         late = [message for message in stub.get(blocked, fresh) if message.command == "RobotPositionUpdate"]
         self.assertLess(len(late), BLOCKED_SECONDS / POSITION_SECONDS / 2)
         self.wait_for_positions(stub, fresh, 20)
@@ -158,9 +158,9 @@ class Network(ScenarioCase):
             start += 1
 
     def assert_no_burst(self, messages):
-        """Never more than one per period, by acsd's own times: a slow machine makes them fewer, and its unit tests and
-        acsd_robots_load see that they are not."""
-        times = [get_told_time(message) for message in messages if message.command == "RobotPositionUpdate"]
+        """At most one per period, by the timestamps of acsd. On a slow machine there are fewer; unit tests and
+        acsd_robots_load check the lower limit."""
+        times = [get_sent_time(message) for message in messages if message.command == "RobotPositionUpdate"]
         self.assertEqual(times, sorted(times))
         self.assertLessEqual(len(times), (times[-1] - times[0]) / POSITION_SECONDS + 3)
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Vehicles of several makes and of several ports: each is told in its own words what to take from where onto which port."""
+"""Vehicles of several makes and with several ports: each gets its jobs with its own names of actions, places and ports."""
 
 import json
 import unittest

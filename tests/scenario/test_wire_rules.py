@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Each rule of wire_rules.py finds what breaks it, and nothing else."""
+"""Each rule of wire_rules.py finds its violation, and nothing else."""
 
 import copy
 import unittest
@@ -38,7 +38,7 @@ class Rules(unittest.TestCase):
     def assert_rule(self, rule, violations):
         self.assertTrue(any(rule in text.split(":")[0] for text in violations), (rule, violations))
 
-    def test_what_is_right_is_no_violation(self):
+    def test_a_valid_trace_has_no_violation(self):
         history = ENTRY | {"status": "Completed", "stepNo": 0, "jobId": None, "currentAction": None, "endTime": STAMP}
         lines = START + [line("out", request("RequestAcsPlans", {}, transactionId="T")), *[line("in", message) for message in (
             request("RobotStatusUpdate", STATUS),
@@ -47,7 +47,7 @@ class Rules(unittest.TestCase):
             ack("CancelPlanAck", {"planId": "P"}, result="Fail", message="unknown"))]]
         self.assertEqual(WireRules("+09:00").judge(lines), [])
 
-    def test_each_rule_finds_what_breaks_it(self):
+    def test_each_rule_finds_its_violation(self):
         status = lambda **members: request("RobotStatusUpdate", STATUS | members)  # noqa: E731
         plans = lambda name="RequestAcsPlansAck", **members: ack(name, {"plans": [ENTRY | members]})  # noqa: E731
         errors = lambda **members: ack("RequestAcsErrorListAck", {"errors": [ERROR | members]})  # noqa: E731
@@ -77,7 +77,7 @@ class Rules(unittest.TestCase):
             with self.subTest(rule=rule, message=message):
                 self.assert_rule(rule, judge(message))
 
-    def test_what_spans_messages_is_found(self):
+    def test_a_violation_over_several_messages_is_found(self):
         plan = request("PlanReport", {"planId": "P", "status": "Completed", "message": ""})
         changed = copy.deepcopy(plan) | {"timestamp": "2025-07-02T21:00:05.123+09:00"}
         self.assertEqual(judge(plan, plan), [])

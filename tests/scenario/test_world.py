@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""The right carrier at the right place: what the simulated robots have moved, against what the plans demand and what acsd
-reports."""
+"""The right carrier at the right place: compares the moves of the simulated robots with the plans and the reports of acsd."""
 
 import json
 import re

@@ -1,5 +1,5 @@
-"""What must hold for every message of an ACS, whatever is being played: MCS-ACS 1.4.1 judged from mcs-sim's trace, apart
-from mcs-sim's own judgement. Numbers are those of the rules (R), of the decision register (D) and of the sections."""
+"""Rules for every message of an ACS in any scenario: checks mcs-sim's trace against MCS-ACS 1.4.1, independently of mcs-sim.
+Numbers are those of the rules (R), of the decision register (D) and of the sections."""
 
 import datetime
 import json
@@ -191,7 +191,7 @@ class WireRules:
                 self._note("R14: an Ack of a position", message)
 
     def _judge_period(self, lines):
-        """R14, by the time at which they came; the median does not mind a busy machine."""
+        """R14, by the time of arrival; the median tolerates a busy machine."""
         times = {}
         for line in lines:
             if line["direction"] == "in" and isinstance(line["message"], dict) \

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks the example site, its configuration and the example plans; exit code 1 and a line per mistake.
+"""Checks the example site, its configuration and the example plans; exit code 1 and a line per error.
 
     check_site.py            everything but the schema
     check_site.py --schema   the layout against the official LIF schema of $ACS_SPEC_DIR; exit code 77 (skipped) where
@@ -39,27 +39,27 @@ def check_schema_only(lif):
 
 
 def check_all_else(lif):
-    mistakes = [mistake for check in checks.LAYOUT_CHECKS for mistake in check(lif)]
+    errors = [error for check in checks.LAYOUT_CHECKS for error in check(lif)]
     config = checks.read_toml(SITE / "acsd.toml")
-    mistakes += checks.check_config(config, lif)
-    mistakes += checks.check_key_table(config, (SITE / "acsd.toml").read_text(encoding="utf-8"),
+    errors += checks.check_config(config, lif)
+    errors += checks.check_key_table(config, (SITE / "acsd.toml").read_text(encoding="utf-8"),
                                        KEYS.read_text(encoding="utf-8"))
     plans = sorted(PLANS.glob("*.json"))
     if not plans:
-        mistakes.append("there are no example plans")
+        errors.append("there are no example plans")
     for path in plans:
-        mistakes += [f"{path.name}: {mistake}" for mistake in checks.check_plan(checks.read_json(path), config)]
+        errors += [f"{path.name}: {error}" for error in checks.check_plan(checks.read_json(path), config)]
     if subprocess.run([sys.executable, ROOT / "scripts/make_site.py", "--check"], check=False).returncode != 0:
-        mistakes.append("the layout or its picture is not what scripts/make_site.py writes")
-    return mistakes
+        errors.append("the layout or its picture is not what scripts/make_site.py writes")
+    return errors
 
 
 def main():
     lif = checks.read_json(SITE / "site.lif.json")
-    code, mistakes = check_schema_only(lif) if sys.argv[1:] == ["--schema"] else (0, check_all_else(lif))
-    for mistake in mistakes:
-        print(mistake, file=sys.stderr)
-    return 1 if mistakes else code
+    code, errors = check_schema_only(lif) if sys.argv[1:] == ["--schema"] else (0, check_all_else(lif))
+    for error in errors:
+        print(error, file=sys.stderr)
+    return 1 if errors else code
 
 
 if __name__ == "__main__":

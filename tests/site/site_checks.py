@@ -1,7 +1,7 @@
 """The rules that the example site, its configuration and the example plans keep.
 
-Every check takes the data and returns a list of sentences, one for each mistake; an empty list means that all is well.
-The lists of places are written out here and not taken from the generator: they are the reference map.
+Every check takes the data and returns a list of sentences, one for each error.
+The lists of places are written out here and not imported from the generator: they are the reference map.
 """
 
 import collections
@@ -13,7 +13,7 @@ import re
 import tomllib
 
 VEHICLE_TYPES = ("lr-base", "cr-base")
-CLEARANCE = 0.9  # metres between a node and whatever is not its own; a vehicle is 0.8 m wide
+CLEARANCE = 0.9  # metres between a node and a foreign node or edge; a vehicle is 0.8 m wide
 FLOOR = (40.0, 20.0)
 TOLERANCE = 1e-6
 
@@ -34,7 +34,7 @@ ALL_STATIONS = STATIONS_OF_TYPE["lr-base"] | STATIONS_OF_TYPE["cr-base"]
 
 
 class Layout:
-    """The one layout of a LIF file, with the look-ups that the checks share."""
+    """The one layout of a LIF file, with the look-ups shared by the checks."""
 
     def __init__(self, lif):
         self.layout = lif["layouts"][0]
@@ -109,83 +109,83 @@ def check_schema(lif, schema):
 
 
 def check_shape(lif):
-    """What the other checks rest on; the schema says more where it is at hand."""
-    mistakes = []
+    """The preconditions of the other checks. The schema checks more, if it is available."""
+    errors = []
     if lif.get("metaInformation", {}).get("lifVersion") != "1.0.0":
-        mistakes.append("metaInformation.lifVersion is not 1.0.0")
+        errors.append("metaInformation.lifVersion is not 1.0.0")
     if len(lif.get("layouts", [])) != 1:
-        return mistakes + ["there is not exactly one layout"]
+        return errors + ["there is not exactly one layout"]
     layout = Layout(lif)
     maps = {node.get("mapId") for node in layout.layout["nodes"]}
     if len(maps) != 1 or None in maps:
-        mistakes.append(f"not one mapId on every node: {maps}")
+        errors.append(f"not one mapId on every node: {maps}")
     for edge in layout.edges:
         if any("trajectory" in entry for entry in edge["vehicleTypeEdgeProperties"]):
-            mistakes.append(f"edge {edge['edgeId']} has a trajectory: edges are straight")
-    return mistakes
+            errors.append(f"edge {edge['edgeId']} has a trajectory: edges are straight")
+    return errors
 
 
 def check_ids(lif):
     layout = lif["layouts"][0]
-    mistakes = []
+    errors = []
     for what, key in (("nodes", "nodeId"), ("edges", "edgeId"), ("stations", "stationId")):
-        mistakes += [f"{key} {value} is given twice" for value in find_duplicates(entry[key] for entry in layout[what])]
+        errors += [f"{key} {value} is given twice" for value in find_duplicates(entry[key] for entry in layout[what])]
     for edge in layout["edges"]:
         if edge["edgeId"] != f"{edge['startNodeId']}-{edge['endNodeId']}":
-            mistakes.append(f"edge {edge['edgeId']} is not named after its ends")
-    return mistakes
+            errors.append(f"edge {edge['edgeId']} is not named after its ends")
+    return errors
 
 
 def check_references(lif):
     layout = Layout(lif)
-    mistakes = [f"edge {edge['edgeId']} begins or ends at an unknown node" for edge in layout.edges
+    errors = [f"edge {edge['edgeId']} begins or ends at an unknown node" for edge in layout.edges
                 if not layout.is_known(edge)]
     for station_id, station in layout.stations.items():
         if station["interactionNodeIds"] != [f"D-{station_id}"] or f"D-{station_id}" not in layout.nodes:
-            mistakes.append(f"station {station_id} has not exactly its own dock node")
-    return mistakes
+            errors.append(f"station {station_id} has not exactly its own dock node")
+    return errors
 
 
 def check_stations(lif):
     layout = Layout(lif)
-    mistakes = [f"station {station_id} is missing" for station_id in sorted(ALL_STATIONS - layout.stations.keys())]
-    mistakes += [f"station {station_id} is no place of the map"
+    errors = [f"station {station_id} is missing" for station_id in sorted(ALL_STATIONS - layout.stations.keys())]
+    errors += [f"station {station_id} is not a place of the map"
                  for station_id in sorted(layout.stations.keys() - ALL_STATIONS)]
     for node_id, station_id in layout.docks.items():
         expected = {kind for kind, stations in STATIONS_OF_TYPE.items() if station_id in stations}
         if node_id in layout.nodes and types_of(layout.nodes[node_id]["vehicleTypeNodeProperties"]) != expected:
-            mistakes.append(f"dock {node_id} is not for {sorted(expected)}")
-    return mistakes
+            errors.append(f"dock {node_id} is not for {sorted(expected)}")
+    return errors
 
 
 def check_numbering(lif):
     """Top row first, each row from left to right."""
     layout = Layout(lif)
-    mistakes = []
+    errors = []
     rows = [STOCKER_PORTS, AREA_PORTS[:6], AREA_PORTS[6:], SETS[:6], SETS[6:12], SETS[12:18], SETS[18:]]
     rows = [[layout.point(f"D-{place}") for place in row if f"D-{place}" in layout.nodes] for row in rows]
     for row in rows:
         if any(left[0] >= right[0] or left[1] != right[1] for left, right in zip(row, row[1:])):
-            mistakes.append(f"the row that begins at {row[0]} is not numbered from left to right")
+            errors.append(f"the row that begins at {row[0]} is not numbered from left to right")
     for upper, lower in ((rows[3], rows[4]), (rows[5], rows[6])):
         if min(point[1] for point in upper) <= max(point[1] for point in lower):
-            mistakes.append("the sets' upper row is not above the lower one")
-    return mistakes
+            errors.append("the sets' upper row is not above the lower one")
+    return errors
 
 
 def check_extents(lif):
     layout = Layout(lif)
-    mistakes = []
+    errors = []
     places = {node_id: layout.point(node_id) for node_id in layout.nodes}
     places |= {station_id: (station["stationPosition"]["x"], station["stationPosition"]["y"])
                for station_id, station in layout.stations.items()}
     for name, (x, y) in places.items():
         if not (1.0 <= x <= FLOOR[0] - 1.0 and 1.0 <= y <= FLOOR[1] - 1.0):
-            mistakes.append(f"{name} at ({x}, {y}) is off the floor")
+            errors.append(f"{name} at ({x}, {y}) is off the floor")
     width, height = (max(values) - min(values) for values in zip(*places.values()))
     if width < 0.75 * FLOOR[0] or height < 0.6 * FLOOR[1]:
-        mistakes.append(f"the site covers {width} m x {height} m only: are these metres?")
-    return mistakes
+        errors.append(f"the site covers {width} m x {height} m only: are these metres?")
+    return errors
 
 
 # -------------------------------------------------------------------------------------------------- distances
@@ -218,42 +218,42 @@ def is_crossing(first, second):
 
 def check_clearance(lif):
     layout = Layout(lif)
-    mistakes = []
+    errors = []
     for first, second in itertools.combinations(layout.nodes, 2):
         distance = math.dist(layout.point(first), layout.point(second))
         if distance < CLEARANCE - TOLERANCE:
-            mistakes.append(f"nodes {first} and {second} are {distance:.3f} m apart")
+            errors.append(f"nodes {first} and {second} are {distance:.3f} m apart")
     for edge in layout.known_edges():
         ends = (edge["startNodeId"], edge["endNodeId"])
         segment = [layout.point(end) for end in ends]
         for node_id in layout.nodes:
             distance = distance_to_segment(layout.point(node_id), *segment)
             if node_id not in ends and distance < CLEARANCE - TOLERANCE:
-                mistakes.append(f"edge {edge['edgeId']} passes node {node_id} at {distance:.3f} m")
-    return mistakes
+                errors.append(f"edge {edge['edgeId']} passes node {node_id} at {distance:.3f} m")
+    return errors
 
 
 def check_lengths(lif):
     layout = Layout(lif)
-    mistakes = []
+    errors = []
     for edges, least, most in ((layout.lane_edges(), 1.0, 3.0), (layout.spur_edges(), CLEARANCE, 1.5)):
         for edge in edges:
             length = layout.length(edge)
             if not least - TOLERANCE <= length <= most + TOLERANCE:
-                mistakes.append(f"edge {edge['edgeId']} is {length:.3f} m long, not {least} to {most} m")
-    return mistakes
+                errors.append(f"edge {edge['edgeId']} is {length:.3f} m long, not {least} to {most} m")
+    return errors
 
 
 def check_crossings(lif):
     layout = Layout(lif)
-    mistakes = []
+    errors = []
     for first, second in itertools.combinations(layout.known_edges(), 2):
         ends = [(edge["startNodeId"], edge["endNodeId"]) for edge in (first, second)]
         if set(ends[0]) & set(ends[1]):
-            continue  # check_clearance sees one that runs along the other
+            continue  # check_clearance finds an edge that runs along another one
         if is_crossing(*[[layout.point(end) for end in pair] for pair in ends]):
-            mistakes.append(f"edges {first['edgeId']} and {second['edgeId']} cross without a common node")
-    return mistakes
+            errors.append(f"edges {first['edgeId']} and {second['edgeId']} cross without a common node")
+    return errors
 
 
 # ---------------------------------------------------------------------------------------------------- traffic
@@ -264,13 +264,13 @@ def check_lanes(lif):
     layout = Layout(lif)
     edges = layout.lane_edges()
     pairs = {(edge["startNodeId"], edge["endNodeId"]) for edge in edges}
-    mistakes = [f"the lane between {start} and {end} runs both ways" for start, end in pairs
+    errors = [f"the lane between {start} and {end} runs both ways" for start, end in pairs
                 if start < end and (end, start) in pairs]
     successors = collections.defaultdict(list)
     for start, end in sorted(pairs):
         successors[start].append(end)
     if not any(len(ends) > 1 for ends in successors.values()):
-        mistakes.append("no lane branches off: there is no choice of routes")
+        errors.append("no lane branches off: there is no choice of routes")
     # Clockwise around the middle of the floor, seen from an edge of the outermost lanes, is a negative turn.
     points = {end: layout.point(end) for pair in pairs for end in pair}
     low = [min(point[axis] for point in points.values()) for axis in (0, 1)]
@@ -279,54 +279,54 @@ def check_lanes(lif):
     borders = [(axis, limit[axis]) for axis in (0, 1) for limit in (low, high)]
     outer = [(start, end) for start, end in sorted(pairs)
              if any(points[start][axis] == points[end][axis] == value for axis, value in borders)]
-    mistakes += [f"lane edge {start}-{end} of the loop runs clockwise" for start, end in outer
+    errors += [f"lane edge {start}-{end} of the loop runs clockwise" for start, end in outer
                  if turn(centre, points[start], points[end]) < 0]
     around = sum(math.dist(points[start], points[end]) for start, end in outer)
     if abs(around - 2 * (high[0] - low[0] + high[1] - low[1])) > TOLERANCE:
-        mistakes.append("the loop around the floor is not closed")
-    return mistakes
+        errors.append("the loop around the floor is not closed")
+    return errors
 
 
 def check_spurs(lif):
     """A dock has one way in and one way out, from and to a lane node that no other dock uses."""
     layout = Layout(lif)
-    mistakes = []
+    errors = []
     lane_nodes = []
     for dock in layout.docks:
         sources = [edge["startNodeId"] for edge in layout.known_edges() if edge["endNodeId"] == dock]
         targets = [edge["endNodeId"] for edge in layout.known_edges() if edge["startNodeId"] == dock]
         if len(sources) != 1 or sources != targets or sources[0] in layout.docks:
-            mistakes.append(f"dock {dock} has not one lane node for in and out: {sources}, {targets}")
+            errors.append(f"dock {dock} has not one lane node for in and out: {sources}, {targets}")
         else:
             lane_nodes += sources
-    return mistakes + [f"lane node {node_id} serves two docks" for node_id in find_duplicates(lane_nodes)]
+    return errors + [f"lane node {node_id} serves two docks" for node_id in find_duplicates(lane_nodes)]
 
 
 def check_edge_properties(lif):
     layout = Layout(lif)
-    mistakes = []
+    errors = []
     for edge in layout.known_edges():
         ends = [types_of(layout.nodes[edge[key]]["vehicleTypeNodeProperties"]) for key in ("startNodeId", "endNodeId")]
         leaves = edge["startNodeId"] in layout.docks
         is_spur = leaves or edge["endNodeId"] in layout.docks
         if types_of(edge["vehicleTypeEdgeProperties"]) != ends[0] & ends[1]:
-            mistakes.append(f"edge {edge['edgeId']} is not for the vehicle types of both its ends")
+            errors.append(f"edge {edge['edgeId']} is not for the vehicle types of both its ends")
         for entry in edge["vehicleTypeEdgeProperties"]:
             speed = entry.get("maxSpeed", 0.0)
             if not (0.3 <= speed <= 0.5 if is_spur else 1.0 <= speed <= 1.5):
-                mistakes.append(f"edge {edge['edgeId']} allows {speed} m/s")
+                errors.append(f"edge {edge['edgeId']} allows {speed} m/s")
             orientation = (entry.get("orientationType"), entry.get("vehicleOrientation"))
             if orientation != ("TANGENTIAL", 180.0 if leaves else 0.0):
-                mistakes.append(f"edge {edge['edgeId']} has orientation {orientation}")
+                errors.append(f"edge {edge['edgeId']} has orientation {orientation}")
             if not isinstance(entry.get("rotationAllowed"), bool):
-                mistakes.append(f"edge {edge['edgeId']} does not say whether rotation is allowed")
-    return mistakes
+                errors.append(f"edge {edge['edgeId']} has no rotationAllowed")
+    return errors
 
 
 def check_headings(lif):
-    """A docked vehicle looks where it came in to; the angle is in radians, -pi to pi."""
+    """A docked vehicle keeps the heading in which it entered; the angle is in radians, -pi to pi."""
     layout = Layout(lif)
-    mistakes = []
+    errors = []
     entry_heading = {edge["endNodeId"]: layout.heading(edge) for edge in layout.spur_edges()
                      if edge["endNodeId"] in layout.docks}
     for node_id, node in layout.nodes.items():
@@ -334,12 +334,12 @@ def check_headings(lif):
             theta = entry.get("theta")
             if theta is None:
                 if node_id in layout.docks:
-                    mistakes.append(f"dock {node_id} has no theta")
+                    errors.append(f"dock {node_id} has no theta")
             elif abs(theta) > math.pi:
-                mistakes.append(f"theta {theta} of node {node_id} is not in radians")
+                errors.append(f"theta {theta} of node {node_id} is not in radians")
             elif node_id in entry_heading and not is_same_angle(theta, entry_heading[node_id]):
-                mistakes.append(f"theta {theta} of dock {node_id} is not the heading of the edge that leads to it")
-    return mistakes
+                errors.append(f"theta {theta} of dock {node_id} is not the heading of the edge that leads to it")
+    return errors
 
 
 def reachable_from(layout, start, vehicle_type):
@@ -361,16 +361,16 @@ def reachable_from(layout, start, vehicle_type):
 
 def check_reachability(lif):
     layout = Layout(lif)
-    mistakes = []
+    errors = []
     for vehicle_type in VEHICLE_TYPES:
         own = STATIONS_OF_TYPE[vehicle_type]
         for station_id in sorted(own & layout.stations.keys()):
             reached = reachable_from(layout, f"D-{station_id}", vehicle_type)
             if own - reached:
-                mistakes.append(f"{vehicle_type} finds no way from {station_id} to {sorted(own - reached)}")
+                errors.append(f"{vehicle_type} finds no way from {station_id} to {sorted(own - reached)}")
             if reached - own:
-                mistakes.append(f"{vehicle_type} may drive from {station_id} to {sorted(reached - own)}")
-    return mistakes
+                errors.append(f"{vehicle_type} may drive from {station_id} to {sorted(reached - own)}")
+    return errors
 
 
 LAYOUT_CHECKS = (
@@ -383,7 +383,7 @@ LAYOUT_CHECKS = (
 
 
 def expand(text):
-    """"A01.CP01.TP01-04" is TP01 to TP04 of A01.CP01; a range stands in the last segment only. None: no such text."""
+    """"A01.CP01.TP01-04" is TP01 to TP04 of A01.CP01; only the last segment can be a range. None: not a place."""
     match = re.fullmatch(r"((?:[A-Z]+\d{2,}\.)*[A-Z]+)(\d{2,})(?:-(\d{2,}))?", text)
     if match is None:
         return None
@@ -391,14 +391,14 @@ def expand(text):
     return [f"{match[1]}{i:02}" for i in range(first, last + 1)] or None
 
 
-def expand_all(texts, where, mistakes):
+def expand_all(texts, where, errors):
     places = []
     for text in texts:
         expanded = expand(text)
         if expanded is None:
-            mistakes.append(f"{where}: {text} is no place and no range of places")
+            errors.append(f"{where}: {text} is neither a place nor a range of places")
         places += expanded or []
-    mistakes += [f"{where}: {place} is given twice" for place in find_duplicates(places)]
+    errors += [f"{where}: {place} is given twice" for place in find_duplicates(places)]
     return places
 
 
@@ -409,29 +409,29 @@ def expected_ports():
 
 def check_config(config, lif):
     layout = Layout(lif)
-    mistakes = []
-    if set(expand_all(config["site"]["ports"], "site.ports", mistakes)) != expected_ports():
-        mistakes.append("site.ports is not the reference map's")
+    errors = []
+    if set(expand_all(config["site"]["ports"], "site.ports", errors)) != expected_ports():
+        errors.append("site.ports is not the reference map's")
     for name, robot in config["robots"].items():
         where = f"robots.{name}"
         own = STATIONS_OF_TYPE.get(robot["vehicle_type"], set())
         if robot["start_node"] not in layout.nodes or robot["start_node"] != f"D-{robot['home']}":
-            mistakes.append(f"{where}.start_node is not the dock of its home")
+            errors.append(f"{where}.start_node is not the dock of its home")
         if robot["home"] not in own:
-            mistakes.append(f"{where}.home is no station of {robot['vehicle_type']}")
-        ports = expand_all(robot["ports"], f"{where}.ports", mistakes)
-        for child in expand_all(robot.get("child_ports", []), f"{where}.child_ports", mistakes):
+            errors.append(f"{where}.home is no station of {robot['vehicle_type']}")
+        ports = expand_all(robot["ports"], f"{where}.ports", errors)
+        for child in expand_all(robot.get("child_ports", []), f"{where}.child_ports", errors):
             if child.rpartition(".")[0] not in ports:
-                mistakes.append(f"{where}.child_ports: {child} is in no port of the robot")
+                errors.append(f"{where}.child_ports: {child} is in no port of the robot")
     for name, action in config["actions"].items():
         if ("vehicle_action" in action) == ("arm_program" in action):
-            mistakes.append(f"actions.{name} has not one of vehicle_action and arm_program")
+            errors.append(f"actions.{name} has not one of vehicle_action and arm_program")
         if not any(robot["type"] == action["robot"] for robot in config["robots"].values()):
-            mistakes.append(f"actions.{name}: no robot is a {action['robot']}")
+            errors.append(f"actions.{name}: no robot is a {action['robot']}")
         if "arm_program" in action and not any("arm" in robot for robot in config["robots"].values()
                                                if robot["type"] == action["robot"]):
-            mistakes.append(f"actions.{name}: no {action['robot']} has an arm")
-    return mistakes
+            errors.append(f"actions.{name}: no {action['robot']} has an arm")
+    return errors
 
 
 # Tables whose keys are names of the site: each counts as one key.
@@ -474,23 +474,23 @@ def check_key_table(config, text, document):
 
 def check_plan(plan, config):
     """Every place of the plan exists, and the action is one of the configuration's."""
-    mistakes = []
+    errors = []
     robots = config["robots"].values()
-    places = ALL_STATIONS | set(expand_all(config["site"]["ports"], "site.ports", mistakes))
+    places = ALL_STATIONS | set(expand_all(config["site"]["ports"], "site.ports", errors))
     own_places = set(expand_all([text for robot in robots for text in robot["ports"] + robot.get("child_ports", [])],
-                                "robots", mistakes))
+                                "robots", errors))
     places |= {f"AMR.{place}" for place in own_places}
     jobs = [job for step in plan["steps"] for job in step["jobs"]]
-    mistakes += [f"jobId {job_id} is given twice" for job_id in find_duplicates(job["jobId"] for job in jobs)]
+    errors += [f"jobId {job_id} is given twice" for job_id in find_duplicates(job["jobId"] for job in jobs)]
     if [step["stepNo"] for step in plan["steps"]] != list(range(1, len(plan["steps"]) + 1)):
-        mistakes.append("the steps are not numbered from 1")
+        errors.append("the steps are not numbered from 1")
     for step in plan["steps"]:
         if step["action"] not in config["actions"]:
-            mistakes.append(f"no action {step['action']} is configured")
+            errors.append(f"no action {step['action']} is configured")
         if step["position"] not in ALL_STATIONS:
-            mistakes.append(f"no station {step['position']}")
-        mistakes += [f"no place {job[key]}" for job in step["jobs"] for key in ("from", "to") if job[key] not in places]
-    return mistakes
+            errors.append(f"no station {step['position']}")
+        errors += [f"no place {job[key]}" for job in step["jobs"] for key in ("from", "to") if job[key] not in places]
+    return errors
 
 
 def read_json(path):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Plants one mistake at a time in a copy of the example site and demands that the check made for it complains."""
+"""Plants one error at a time in a copy of the example site and expects its check to report it."""
 
 import copy
 import importlib.util
@@ -24,7 +24,7 @@ def find(entries, key, value):
 
 
 class Site:
-    """A copy to spoil, with its parts at hand."""
+    """A copy of the example site to plant an error in."""
 
     def __init__(self):
         self.lif = copy.deepcopy(LIF)
@@ -64,10 +64,10 @@ class Site:
 class LayoutChecks(unittest.TestCase):
     def complain(self, check, spoil, words):
         site = Site()
-        self.assertEqual(check(site.lif), [], "the check must be content with the true site")
+        self.assertEqual(check(site.lif), [], "the check must accept the unchanged site")
         spoil(site)
-        mistakes = check(site.lif)
-        self.assertTrue(any(words in mistake for mistake in mistakes), f"'{words}' not in {mistakes[:5]}")
+        errors = check(site.lif)
+        self.assertTrue(any(words in error for error in errors), f"'{words}' not in {errors[:5]}")
 
     def test_true_site_is_clean(self):
         for check in checks.LAYOUT_CHECKS:
@@ -93,7 +93,7 @@ class LayoutChecks(unittest.TestCase):
 
     def test_stations(self):
         self.complain(checks.check_stations, lambda site: site.stations.pop(7), "is missing")
-        self.complain(checks.check_stations, lambda site: site.stations[7].update(stationId="A03.CP01"), "no place")
+        self.complain(checks.check_stations, lambda site: site.stations[7].update(stationId="A03.CP01"), "not a place")
         self.complain(checks.check_stations, lambda site: site.dock("A01.SET03")["vehicleTypeNodeProperties"].append(
             {"vehicleTypeId": "lr-base"}), "A01.SET03 is not for")
 
@@ -201,7 +201,7 @@ class LayoutChecks(unittest.TestCase):
     def test_reachability(self):
         self.complain(checks.check_reachability, lambda site: site.edges.remove(site.edge_from("A01.CP03")),
                       "no way from A01.CP03")
-        # One vehicle type alone is kept from one edge, which no other way goes round.
+        # One vehicle type alone is excluded from an edge that no other route avoids.
         self.complain(checks.check_reachability,
                       lambda site: find(site.edges, "startNodeId", "N052")["vehicleTypeEdgeProperties"].pop(),
                       "cr-base finds no way")
@@ -235,13 +235,13 @@ class ConfigurationChecks(unittest.TestCase):
         config = copy.deepcopy(CONFIG)
         self.assertEqual(checks.check_config(config, LIF), [])
         spoil(config)
-        mistakes = checks.check_config(config, LIF)
-        self.assertTrue(any(words in mistake for mistake in mistakes), f"'{words}' not in {mistakes[:5]}")
+        errors = checks.check_config(config, LIF)
+        self.assertTrue(any(words in error for error in errors), f"'{words}' not in {errors[:5]}")
 
     def test_ports(self):
         self.complain(lambda config: config["site"]["ports"].pop(), "reference map")
-        self.complain(lambda config: config["site"]["ports"].append("A01.CP01-06.TP01-04"), "no range")
-        self.complain(lambda config: config["site"]["ports"].append("A01.CP01.TP04-01"), "no range")
+        self.complain(lambda config: config["site"]["ports"].append("A01.CP01-06.TP01-04"), "nor a range")
+        self.complain(lambda config: config["site"]["ports"].append("A01.CP01.TP04-01"), "nor a range")
         self.complain(lambda config: config["site"]["ports"].append("A01.CP01.TP04-05"), "twice")
 
     def test_robots(self):
@@ -270,8 +270,8 @@ class PlanChecks(unittest.TestCase):
         plan = checks.read_json(check_site.PLANS / "cr-tray.json")
         self.assertEqual(checks.check_plan(plan, CONFIG), [])
         spoil(plan["steps"])
-        mistakes = checks.check_plan(plan, CONFIG)
-        self.assertTrue(any(words in mistake for mistake in mistakes), f"'{words}' not in {mistakes}")
+        errors = checks.check_plan(plan, CONFIG)
+        self.assertTrue(any(words in error for error in errors), f"'{words}' not in {errors}")
 
     def test_plans(self):
         self.complain(lambda steps: steps[0]["jobs"][0].update({"from": "A01.CP01.TP05"}), "A01.CP01.TP05")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Shows that the lint rules work: the good samples pass the compiler, clang-tidy, the house rules and clang-format
-without a word, and each marked line of the bad samples is reported. clang-tidy 14 ignores a misspelt option without
-a word, so a rule without such a line may not be there at all."""
+without output, and each marked line of the bad samples is reported. clang-tidy 14 silently ignores a misspelt option:
+a rule without such a line may not be active at all."""
 
 import argparse
 import glob
@@ -46,7 +46,7 @@ def find_hits(output, path):
 def check_good(path, compiler, flags):
     code, _, output = run(compiler, "-std=c++20", "-O2", *flags, "-Werror", "-c", "-o", os.devnull, path)
     if code != 0:
-        yield f"{path}: {compiler} refuses the good sample:\n{output}"
+        yield f"{path}: {compiler} rejects the good sample:\n{output}"
     output = tidy(path)
     if output.strip():
         yield f"{path}: clang-tidy reports the good sample:\n{output}"
@@ -58,11 +58,11 @@ def check_good(path, compiler, flags):
 def check_format(path, expect_clean):
     code, _, output = run("clang-format-14", "--style=file", "--dry-run", "-Werror", path)
     if (code == 0) != expect_clean:
-        yield f"{path}: clang-format {'refuses the good' if expect_clean else 'accepts the bad'} sample\n{output}"
+        yield f"{path}: clang-format {'rejects the good' if expect_clean else 'accepts the bad'} sample\n{output}"
 
 
 def tidy_in_bundle(path):
-    """As scripts/lint looks at it: included by a file of its making."""
+    """As in scripts/lint: included by a generated file."""
     with tempfile.TemporaryDirectory() as folder:
         bundle = os.path.join(folder, "bundle.cpp")
         with open(bundle, "w", encoding="utf-8") as file:
@@ -109,7 +109,7 @@ def check_bad_query(path):
     for line in sorted(expected - hits):
         yield f"{path}:{line}: the house rules must report this line"
     for line in sorted(hits - expected):
-        yield f"{path}:{line}: the house rules report a line that is right"
+        yield f"{path}:{line}: the house rules report a valid line"
     if not expected:
         yield f"{path}: holds no expectation"
 
@@ -131,9 +131,9 @@ def main():
         jobs = [pool.submit(lambda path: list(check_good(path, arguments.compiler, flags)), path) for path in good]
         jobs += [pool.submit(lambda path: list(check_format(path, True)), path) for path in good + headers]
         jobs.append(pool.submit(lambda: list(check_format(os.path.join(bad, "Unformatted.cpp"), False))))
-        for look in (tidy, tidy_in_bundle):
+        for report in (tidy, tidy_in_bundle):
             path = os.path.join(bad, "Bad.cpp")
-            jobs.append(pool.submit(lambda look=look, path=path: list(check_bad_tidy(path, look(path)))))
+            jobs.append(pool.submit(lambda report=report, path=path: list(check_bad_tidy(path, report(path)))))
         jobs.append(pool.submit(lambda: list(check_bad_warnings(os.path.join(bad, "BadWarnings.cpp"), arguments.compiler,
                                                                 flags))))
         jobs.append(pool.submit(lambda: list(check_bad_query(os.path.join(bad, "BadHouse.cpp")))))

@@ -17,7 +17,7 @@ inline std::string MakeElement(const char* prefix, std::size_t number)
     return prefix + std::string(number < 10 ? "0" : "") + std::to_string(number);
 }
 
-/// A plan as large as they come: a control robot carries 75 samples from its three trays into sets of 25.
+/// A plan of the maximum size: a control robot carries 75 samples from its three trays into sets of 25.
 inline Protocol::AcsRequest MakeLargePlan()
 {
     Protocol::ExecutionPlan plan{"PLAN-20250702-075", "LOT-20250702-12", 10, {}};
@@ -41,7 +41,7 @@ inline Protocol::AcsRequest MakeLargePlan()
         std::move(plan)};
 }
 
-/// Where fifty robots are, to the millimetre and the tenth of a degree.
+/// The positions of fifty robots, to the millimetre and the tenth of a degree.
 inline Protocol::AcsRequest MakeFiftyPositions()
 {
     Protocol::RobotPositionUpdate update;

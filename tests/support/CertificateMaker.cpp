@@ -44,7 +44,7 @@ using File = std::unique_ptr<BIO, Release>;
 
 constexpr unsigned RSA_BITS = 2048;
 
-/// A test cannot go on without its certificates.
+/// A test cannot continue without its certificates.
 void Need(bool bDone, const std::string& what)
 {
     if (!bDone)
@@ -82,7 +82,7 @@ Certificate MakeBlank(EVP_PKEY* keyOrNull, const std::string& name, int serial, 
     Certificate certificate(X509_new());
     Need(certificate != nullptr, "certificate");
     X509* const handle = certificate.get();
-    const auto* const text = reinterpret_cast<const unsigned char*>(name.c_str()); // OpenSSL wants it so
+    const auto* const text = reinterpret_cast<const unsigned char*>(name.c_str()); // the type of OpenSSL
     const auto from = std::chrono::seconds(wish.validFrom).count();
     const auto to = std::chrono::seconds(wish.validTo).count();
     const bool bDone = X509_set_version(handle, X509_VERSION_3) == 1
@@ -111,7 +111,7 @@ CertificateFiles Write(
 {
     CertificateFiles files{path.string() + ".pem", path.string() + ".key"};
     Need(PEM_write_bio_X509(Open(files.certificate, "w").get(), certificateOrNull) == 1, files.certificate);
-    const auto* const secret = reinterpret_cast<const unsigned char*>(passphrase.data()); // OpenSSL wants it so
+    const auto* const secret = reinterpret_cast<const unsigned char*>(passphrase.data()); // the type of OpenSSL
     const bool bWritten = PEM_write_bio_PrivateKey(
                               Open(files.key, "w").get(),
                               keyOrNull,

@@ -14,17 +14,17 @@ struct CertificateFiles
     std::string key;
 };
 
-/// What a certificate is to say.
+/// The content of a certificate.
 struct CertificateRequest
 {
-    std::string alternativeName = "DNS:localhost,IP:127.0.0.1"; ///< As OpenSSL's configuration writes it.
-    std::chrono::hours validFrom{-24};                          ///< From now.
+    std::string alternativeName = "DNS:localhost,IP:127.0.0.1"; ///< In the format of OpenSSL's configuration.
+    std::chrono::hours validFrom{-24};                          ///< Relative to now.
     std::chrono::hours validTo{24};
     bool bRSA = false;
     std::string passphrase; ///< Of the key file; empty: none.
 };
 
-/// Makes certificates at test time, into a folder that it is given: none is kept in the repository, none grows old.
+/// Makes certificates during a test in the given folder: none is kept in the repository, none expires.
 class CertificateMaker
 {
     std::filesystem::path _folder;
@@ -37,7 +37,7 @@ public:
     [[nodiscard]] CertificateFiles Make(const CertificateFiles& ca, const CertificateRequest& wish);
     [[nodiscard]] CertificateFiles MakeSelfSigned(const CertificateRequest& wish);
 
-    /// A file with this text; its path.
+    /// Writes a file with this text and returns its path.
     [[nodiscard]] std::string WriteFile(const std::string& name, const std::string& text) const;
 };
 

@@ -21,8 +21,8 @@
 namespace ACS::Testing
 {
 
-/// A program under test or beside it. Its output and errors come through one pipe. Killed with the object, and by the
-/// kernel should the test itself die.
+/// A program that a test runs. Its output and errors come through one pipe. It is killed with the object, and by the
+/// kernel if the test itself ends.
 class ChildProcess
 {
     using Clock = std::chrono::steady_clock;
@@ -36,7 +36,7 @@ class ChildProcess
     std::optional<int> _exitCode;
 
 public:
-    /// The first argument is the program: a path, or a name to look for in PATH.
+    /// The first argument is the program: a path, or a name that is searched in PATH.
     explicit ChildProcess(std::vector<std::string> arguments)
     {
         std::vector<char*> pointers;
@@ -79,7 +79,7 @@ public:
         close(_output);
     }
 
-    /// Reads what it prints until the part has appeared; false where it ended, or the time did.
+    /// Reads its output until the text has appeared; false if the program has ended or the time has passed.
     [[nodiscard]] bool TryWaitForText(std::string_view part, std::chrono::milliseconds timeout)
     {
         const Clock::time_point deadline = Clock::now() + timeout;
@@ -93,7 +93,7 @@ public:
         return true;
     }
 
-    /// Reads to the end of its output, and returns its exit code; 128 and the signal where one ended it; nothing where
+    /// Reads to the end of its output, and returns its exit code, or 128 plus the signal that ended it; nullopt if
     /// it still runs after the time.
     std::optional<int> WaitForExitOrNull(std::chrono::milliseconds timeout)
     {
@@ -105,7 +105,7 @@ public:
         while (IsReadyBefore(_output, deadline) && TryRead())
         {
         }
-        // By number: the header of glibc 2.36 declares the function for C only.
+        // The number, because the header of glibc 2.36 declares the function for C only.
         const int handle = static_cast<int>(syscall(SYS_pidfd_open, _processID, 0));
         const bool bEnded = handle >= 0 && IsReadyBefore(handle, deadline);
         close(handle);
@@ -130,7 +130,7 @@ public:
         return _processID;
     }
 
-    /// All that it printed so far, as far as it was read.
+    /// All output that was read so far.
     [[nodiscard]] const std::string& GetText() const noexcept
     {
         return _text;

@@ -7,7 +7,7 @@
 namespace ACS::Testing
 {
 
-/// While it lives no file of this process grows beyond that number of bytes, as on a full disk.
+/// During its lifetime no file of this process grows beyond this number of bytes, as on a full disk.
 class FullDisk
 {
     rlimit _before{};

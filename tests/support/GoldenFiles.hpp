@@ -11,7 +11,7 @@
 namespace ACS::Testing
 {
 
-/// A golden file: one line, without its line end. Throws where there is none, or no line end.
+/// A golden file: one line, without its line end. Throws if the file or the line end is missing.
 inline std::string ReadGolden(const std::filesystem::path& folder, const std::string& name)
 {
     std::ifstream file(folder / name, std::ios::binary);
@@ -34,7 +34,7 @@ inline std::set<std::string> ListGolden(const std::filesystem::path& folder)
     return names;
 }
 
-/// The same text with every member left out that is null.
+/// The same text without the members that are null.
 inline std::string DropNullMembers(const std::string& text)
 {
     static const std::regex NULL_MEMBER(R"RE("[A-Za-z0-9.]+":null,?)RE");

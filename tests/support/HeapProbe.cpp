@@ -7,7 +7,7 @@
 // The linker's --wrap gives these two names to each of malloc, calloc, realloc, aligned_alloc and free.
 // NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming,cppcoreguidelines-no-malloc)
 // NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables)
-/// Whoever asks for one looks whether it is there.
+/// The caller checks for null.
 using Block = void*;
 
 extern "C"
@@ -61,7 +61,7 @@ extern "C"
         return Count(__real_realloc(blockOrNull, size));
     }
 
-    /// What Asio takes its handlers' memory with.
+    /// The allocator that Asio uses for its handlers.
     Block __wrap_aligned_alloc(std::size_t alignment, std::size_t size)
     {
         return Count(__real_aligned_alloc(alignment, size));

@@ -7,7 +7,7 @@
 namespace ACS::Testing
 {
 
-/// Time that a test moves by hand. Starts at 2025-07-02T12:00:00Z.
+/// A clock that a test sets. Starts at 2025-07-02T12:00:00Z.
 class ManualClock final : public Core::IClock
 {
     static constexpr std::chrono::seconds START_WALL{1'751'457'600};
@@ -27,7 +27,7 @@ public:
         _now.wall += span;
     }
 
-    /// The wall clock alone, as an operator or NTP does it.
+    /// Changes the wall clock alone, as an operator or NTP does.
     void JumpWall(std::chrono::milliseconds span)
     {
         _now.wall += span;

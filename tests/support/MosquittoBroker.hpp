@@ -19,7 +19,7 @@
 namespace ACS::Testing
 {
 
-/// A port of 127.0.0.1 on which nobody listens at the moment.
+/// A port of 127.0.0.1 that no program uses at the moment.
 inline std::uint16_t FindFreePort()
 {
     const int probe = socket(AF_INET, SOCK_STREAM, 0);
@@ -27,7 +27,7 @@ inline std::uint16_t FindFreePort()
     address.sin_family = AF_INET;
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     socklen_t length = sizeof(address);
-    auto* const generic = reinterpret_cast<sockaddr*>(&address); // the socket interface wants it so
+    auto* const generic = reinterpret_cast<sockaddr*>(&address); // the type of the socket interface
     const bool bFound = bind(probe, generic, length) == 0 && getsockname(probe, generic, &length) == 0;
     close(probe);
     if (!bFound)
@@ -37,7 +37,7 @@ inline std::uint16_t FindFreePort()
     return ntohs(address.sin_port);
 }
 
-/// Debian's real mosquitto on a free port of 127.0.0.1, with a configuration and a folder of its own. Ends with the
+/// The mosquitto of Debian on a free port of 127.0.0.1, with its own configuration and folder. Ends with the
 /// object.
 class MosquittoBroker
 {
@@ -56,7 +56,7 @@ public:
     {
         for (int i = 0; i < MAX_ATTEMPTS && _process == nullptr; ++i)
         {
-            _port = FindFreePort(); // which another program may take before mosquitto does
+            _port = FindFreePort(); // another program may use the port before mosquitto does
             TryStart();
         }
         if (_process == nullptr)
@@ -89,13 +89,13 @@ public:
         return _process->GetProcessID();
     }
 
-    /// As a power cut does it: nothing is said to the clients, nothing kept.
+    /// Like a power loss: clients get no message, nothing is stored.
     void Kill()
     {
         _process.reset();
     }
 
-    /// On the same port, after Kill.
+    /// Starts it on the same port, after Kill.
     void Restart()
     {
         TryStart();
@@ -112,7 +112,7 @@ private:
         std::ofstream file(configuration);
         if (getuid() == 0)
         {
-            file << "user root\n"; // else it changes to its own user, who cannot read this folder
+            file << "user root\n"; // otherwise it changes to its own user, who cannot read this folder
         }
         file << "listener " << _port << " 127.0.0.1\npersistence false\nlog_dest stderr\nlog_type error\n"
              << "log_type information\n"

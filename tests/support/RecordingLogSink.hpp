@@ -29,7 +29,7 @@ struct RecordedLine
     }
 };
 
-/// Remembers every line, of all levels.
+/// Keeps every line, of all levels.
 class RecordingLogSink final : public Core::ILogSink
 {
     std::vector<RecordedLine> _lines;
@@ -59,7 +59,7 @@ public:
         return _lines;
     }
 
-    /// Whether a line of this level has the part in its message.
+    /// Whether a line of this level has the text in its message.
     [[nodiscard]] bool Contains(Core::ELogLevel level, std::string_view part) const
     {
         return std::ranges::any_of(_lines, [level, part](const RecordedLine& line) {

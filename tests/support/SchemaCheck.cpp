@@ -34,7 +34,7 @@ using VDA5050::EVda5050Version;
 constexpr unsigned FLAGS =
     rapidjson::kParseIterativeFlag | rapidjson::kParseValidateEncodingFlag | rapidjson::kParseFullPrecisionFlag;
 
-/// Keywords that the validator follows, that are checked here ("format"), or that say nothing about a payload.
+/// Keywords that the validator supports, that are checked here ("format"), or that do not restrict a payload.
 constexpr std::array<std::string_view, 17> KNOWN_KEYWORDS{
     "$ref",
     "$schema",
@@ -66,8 +66,8 @@ std::filesystem::path GetSchemaFolder()
     return folder == nullptr ? std::filesystem::path() : std::filesystem::path(folder) / "vda5050" / "schemas";
 }
 
-/// Closes every object that names its members; one without names ("data", "localizationParameters") is free by intent.
-/// The one format that is checked is the timestamp of the header, which CheckHeader looks at.
+/// Closes every object that names its members; one without names ("data", "localizationParameters") is free
+/// intentionally. The only format that is checked is the timestamp of the header, in CheckHeader.
 void CloseObjects(rapidjson::Document& schema)
 {
     struct Place
@@ -83,7 +83,7 @@ void CloseObjects(rapidjson::Document& schema)
         rapidjson::Value& node = *place.schema;
         if (!node.IsObject())
         {
-            throw std::runtime_error("a schema that is no object: " + std::string(place.name));
+            throw std::runtime_error("a schema that is not an object: " + std::string(place.name));
         }
         if (node.HasMember("properties") && !node.HasMember("additionalProperties"))
         {
@@ -95,7 +95,7 @@ void CloseObjects(rapidjson::Document& schema)
             if (std::ranges::find(KNOWN_KEYWORDS, keyword) == KNOWN_KEYWORDS.end()
                 || (keyword == "format" && (place.name != "timestamp" || GetText(member.value) != "date-time")))
             {
-                throw std::runtime_error("a schema asks for what is not checked: " + std::string(keyword));
+                throw std::runtime_error("a schema has a keyword that is not checked: " + std::string(keyword));
             }
             rapidjson::Value& inner = node[member.name];
             if (keyword == "items")
@@ -113,7 +113,7 @@ void CloseObjects(rapidjson::Document& schema)
     }
 }
 
-/// A schema as it was read, and as the validator follows it.
+/// A schema as it was read, and the schema for the validator.
 struct Schema
 {
     rapidjson::Document text;
@@ -192,7 +192,7 @@ Place EnterProperty(const Place& place, const rapidjson::Value& name, const rapi
     return inner;
 }
 
-/// A name that stands twice in one object: JSON parsers differ in which of the two they take.
+/// A name that an object has twice: JSON parsers differ in which of the two they use.
 std::optional<std::string> FindDoubleNameOrNull(const rapidjson::Value& root)
 {
     std::vector<const rapidjson::Value*> open{&root};
@@ -214,7 +214,7 @@ std::optional<std::string> FindDoubleNameOrNull(const rapidjson::Value& root)
             {
                 if (!names.insert(GetText(member.name)).second)
                 {
-                    return "the name " + std::string(GetText(member.name)) + " stands twice";
+                    return "the name " + std::string(GetText(member.name)) + " is repeated";
                 }
                 open.push_back(&member.value);
             }
@@ -239,7 +239,7 @@ std::optional<std::string> FindHeaderFaultOrNull(const rapidjson::Value& message
         const bool bZone = text.ends_with('Z') || text.find_first_of("+-", text.find('T')) != std::string_view::npos;
         if (!Core::ParseTimestamp(text).has_value() || !bZone)
         {
-            return "#/timestamp is no date-time: " + std::string(text);
+            return "#/timestamp is not a date-time: " + std::string(text);
         }
     }
     const auto said = message.FindMember("version");
@@ -264,7 +264,7 @@ std::optional<std::string> FindSchemaFaultOrNull(EVda5050Version version, ETopic
     message.Parse<FLAGS>(payload.data(), payload.size());
     if (message.HasParseError())
     {
-        return "no JSON at byte " + std::to_string(message.GetErrorOffset()) + ": "
+        return "invalid JSON at byte " + std::to_string(message.GetErrorOffset()) + ": "
             + rapidjson::GetParseError_En(message.GetParseError());
     }
     rapidjson::SchemaValidator validator(*GetSchema(version, topic).compiled);

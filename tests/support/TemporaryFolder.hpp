@@ -9,7 +9,7 @@
 namespace ACS::Testing
 {
 
-/// A folder of its own that goes with the object, with all that is in it.
+/// A folder that is removed with the object, with all its files.
 class TemporaryFolder
 {
     std::filesystem::path _path;

@@ -21,14 +21,14 @@ using namespace ACS::OpenStreamAsio; // NOLINT(google-build-using-namespace)
 using namespace ACS::Testing;        // NOLINT(google-build-using-namespace)
 using namespace std::chrono_literals;
 
-/// The client over a real socket, with a controller that does what no good one does.
+/// The client over a real socket, with a controller that violates the protocol.
 
 namespace
 {
 
 using Tcp = boost::asio::ip::tcp;
 
-/// Answers the HANDSHAKE of each connection, and reads nothing more.
+/// Answers the HANDSHAKE of each connection, then stops reading.
 class DeafController
 {
 public:
@@ -65,7 +65,7 @@ public:
         boost::asio::write(*_socket, boost::asio::buffer(text));
     }
 
-    /// What ends the connection before the present one, once all of it has been read.
+    /// The error that ended the former connection, after all its data was read.
     [[nodiscard]] boost::system::error_code ReadFormer()
     {
         std::string ignored;
@@ -152,7 +152,7 @@ TEST_CASE("3 A controller that does not read loses the connection before old str
     REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientReady>() == 2; }));
     REQUIRE(controller.connections == 2);
     REQUIRE(controller.firstLine.find("HANDSHAKE") != std::string::npos);
-    // What the client's system still had is gone: it does not come as soon as somebody reads.
+    // The data in the client's socket buffer is discarded: it is not delivered later.
     REQUIRE(controller.ReadFormer() == boost::asio::error::connection_reset);
 }
 

@@ -11,7 +11,7 @@
 namespace ACS::Testing
 {
 
-/// Counts what it is asked, and answers as slowly as is asked of it.
+/// Counts its calls, and answers after a configurable time.
 class CountingService final : public OpenStream::IOpenApiService
 {
 public:
@@ -19,7 +19,7 @@ public:
     int controls = 0;
     int stops = 0;
     std::chrono::milliseconds duration{0}; ///< Of a call: how slow the service is.
-    std::chrono::milliseconds delay{0};    ///< Of an answer, without keeping the server.
+    std::chrono::milliseconds delay{0};    ///< Of an answer, without blocking the server.
 
     void Call(const OpenStream::ApiRequest& request, Core::Now /*now*/, OpenStream::ApiResponse& response) override
     {
@@ -38,7 +38,7 @@ public:
         response.delay = delay;
     }
 
-    /// Keeps the server's thread.
+    /// Blocks the server's thread.
     void Work() const
     {
         const auto end = std::chrono::steady_clock::now() + duration;
@@ -47,7 +47,7 @@ public:
         }
     }
 
-    /// "/big" is 16 KiB, "/path…" says its own path, any other counts.
+    /// "/big" is 16 KiB, "/path…" is answered with its path, any other with a count.
     [[nodiscard]] Core::JsonText MakeSample(const std::string& path) const
     {
         if (path == "/big")

@@ -17,7 +17,7 @@ const MonitorRequest MONITOR{"/project/rgen", 20ms, {}, {}}; // NOLINT(cert-err5
 
 } // namespace
 
-TEST_CASE("3 Handshake, a MONITOR at 20 ms delivers, a good CONTROL is accepted, a refused one tells why")
+TEST_CASE("3 Handshake, a MONITOR at 20 ms delivers, a valid CONTROL is accepted, a rejected one gives the reason")
 {
     TcpFixture fixture;
     const auto server = fixture.StartServer();
@@ -61,7 +61,7 @@ TEST_CASE("3 Handshake, a MONITOR at 20 ms delivers, a good CONTROL is accepted,
     REQUIRE(stats.errorLines == 0);
 }
 
-TEST_CASE("8 A server that comes back finds the client again, with its MONITOR")
+TEST_CASE("8 The client reconnects to a restarted server and renews its MONITOR")
 {
     TcpFixture fixture;
     auto server = fixture.StartServer();
@@ -81,7 +81,7 @@ TEST_CASE("8 A server that comes back finds the client again, with its MONITOR")
     REQUIRE(fixture.Count<ClientMonitorStarted>() == 2);
 }
 
-TEST_CASE("8 A server that is stopped and started again at once accepts as before, and warns of nothing")
+TEST_CASE("8 A server that is stopped and started again at once accepts connections and logs no warning")
 {
     TcpFixture fixture;
     const auto server = fixture.StartServer();
@@ -95,7 +95,7 @@ TEST_CASE("8 A server that is stopped and started again at once accepts as befor
     REQUIRE_FALSE(fixture.log.Contains(ACS::Core::ELogLevel::Warning, ""));
 }
 
-TEST_CASE("8 A server that is started twice keeps its port and serves on")
+TEST_CASE("8 A second start keeps the port of a server, which still accepts clients")
 {
     TcpFixture fixture;
     const auto server = fixture.StartServer();
@@ -107,7 +107,7 @@ TEST_CASE("8 A server that is started twice keeps its port and serves on")
     REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientReady>() == 1; }));
 }
 
-TEST_CASE("8 Sessions that are dropped without a line come back")
+TEST_CASE("8 Sessions that are dropped without a line reconnect")
 {
     TcpFixture fixture;
     const auto server = fixture.StartServer();
@@ -133,7 +133,7 @@ TEST_CASE("1 7.33 7.34 Half lines, CRLF and garbage over a real socket")
     REQUIRE(peer.GetReceived().find('\xFF') == std::string::npos);
 }
 
-TEST_CASE("7.20 An overlong line gets its error and the close, other sessions do not notice")
+TEST_CASE("7.20 A line that is too long is answered with an error and a close; other sessions continue")
 {
     TcpFixture fixture;
     const auto server = fixture.StartServer();
@@ -156,7 +156,7 @@ TEST_CASE("7.20 An overlong line gets its error and the close, other sessions do
     REQUIRE(fixture.Count<ClientLost>() == 0);
 }
 
-TEST_CASE("7.39 Half-close: the answers come, then the server closes")
+TEST_CASE("7.39 Half-close: the answers are sent, then the server closes")
 {
     TcpFixture fixture;
     const auto server = fixture.StartServer();
@@ -170,7 +170,7 @@ TEST_CASE("7.39 Half-close: the answers come, then the server closes")
     REQUIRE(fixture.service.controls == 1);
 }
 
-TEST_CASE("7.12 The session too many is rejected with a line, and its place is free again later")
+TEST_CASE("7.12 A session beyond the limit is rejected with a line, and its place is free again later")
 {
     TcpFixture fixture;
     OpenStreamServerOptions options = TcpFixture::MakeOptions();
@@ -226,7 +226,7 @@ TEST_CASE("D-10 Many silent connections at once do not keep a client out")
     REQUIRE(server->GetSessionCount() <= 16);
 }
 
-TEST_CASE("D-10 A client that has shaken hands never gives its place to another one")
+TEST_CASE("D-10 A client after its HANDSHAKE is never dropped for another one")
 {
     TcpFixture fixture;
     OpenStreamServerOptions options = TcpFixture::MakeOptions();
@@ -258,7 +258,7 @@ TEST_CASE("D-10 A connection without a HANDSHAKE is closed at its deadline")
     REQUIRE(silent.TryAwaitClose());
 }
 
-TEST_CASE("1 A port in use is a sentence that names the address and what to do")
+TEST_CASE("1 The error about a port in use names the address and the remedy")
 {
     TcpFixture fixture;
     const auto server = fixture.StartServer();
@@ -273,7 +273,7 @@ TEST_CASE("1 A port in use is a sentence that names the address and what to do")
     REQUIRE(second->GetPort() == 0);
 }
 
-TEST_CASE("8 Destroying both ends in mid stream leaves no handler behind")
+TEST_CASE("8 Destroying both ends in mid stream leaves no handler")
 {
     TcpFixture fixture;
     auto server = fixture.StartServer();

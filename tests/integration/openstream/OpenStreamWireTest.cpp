@@ -34,7 +34,7 @@ std::string MakeControlLine(const std::string& members = R"("url":"/good")")
     return R"({"cmd":"CONTROL","payload":{"method":"POST",)" + members + "}}\n";
 }
 
-/// Every line can be read and every data line's ts is beyond the one before.
+/// Every line can be decoded, and ts increases from one data line to the next.
 void CheckLines(const RawPeer& peer)
 {
     OpenStreamCodec codec;
@@ -80,7 +80,7 @@ TEST_CASE("1 A command in single bytes and a hundred commands in one write are t
     CheckLines(peer);
 }
 
-TEST_CASE("1 7.1 7.2 7.33 7.34 7.35 7.36 7.37 7.38 Bad lines cost one error each, the session and others go on")
+TEST_CASE("1 7.1 7.2 7.33 7.34 7.35 7.36 7.37 7.38 Each bad line is answered with one error; all sessions continue")
 {
     struct Row
     {
@@ -118,7 +118,7 @@ TEST_CASE("1 7.1 7.2 7.33 7.34 7.35 7.36 7.37 7.38 Bad lines cost one error each
         INFO(row.rule << " " << row.line.substr(0, 200));
         errors += row.code.empty() ? 0U : 1U;
         const std::size_t lines = peer.GetLines().size();
-        peer.Send(row.line + std::string(SHAKE)); // acknowledged behind the error
+        peer.Send(row.line + std::string(SHAKE)); // acknowledged after the error
         REQUIRE(peer.TryAwaitCount("handshake_ack", static_cast<std::size_t>(&row - rows.data()) + 2));
         const std::vector<std::string> received = peer.GetLines();
         REQUIRE(received.size() == lines + (row.code.empty() ? 1U : 2U));
@@ -153,7 +153,7 @@ TEST_CASE("7.39 Half a line and then FIN: no answer, a close, and nothing execut
     REQUIRE(fixture.TryRunUntil([&]() { return server->GetSessionCount() == 0; }));
 }
 
-TEST_CASE("7.26 A reader with a small buffer gets whole lines, every answer, and no backlog; others do not notice")
+TEST_CASE("7.26 A reader with a small buffer gets whole lines, every answer, and no backlog; other sessions continue")
 {
     TcpFixture fixture;
     const auto server = fixture.StartServer();
@@ -180,7 +180,7 @@ TEST_CASE("7.26 A reader with a small buffer gets whole lines, every answer, and
     CheckLines(other);
 }
 
-TEST_CASE("7.24 A stream that nobody reads ends the session, and only that one")
+TEST_CASE("7.24 A stream that is not read ends its session and no other")
 {
     TcpFixture fixture;
     OpenStreamServerOptions options = TcpFixture::MakeOptions();
@@ -198,7 +198,7 @@ TEST_CASE("7.24 A stream that nobody reads ends the session, and only that one")
     CHECK(other.CountLines("\"error\"") == 0);
 }
 
-TEST_CASE("7.27 An answer with a delay comes that much later, and keeps neither other sessions nor the server")
+TEST_CASE("7.27 A delayed answer delays neither other sessions nor the server")
 {
     TcpFixture fixture;
     const auto server = fixture.StartServer();
@@ -226,7 +226,7 @@ TEST_CASE("7.27 An answer with a delay comes that much later, and keeps neither 
     CHECK(slow.CountLines("control_err") == 0); // its answer is still to come, and its connection is closed before that
 }
 
-TEST_CASE("7.27 A service slower than the period: ticks are skipped and counted, none is made up for")
+TEST_CASE("7.27 With a service slower than the period ticks are skipped and counted, and not sent later")
 {
     TcpFixture fixture;
     fixture.service.duration = 11ms;
@@ -273,7 +273,7 @@ TEST_CASE(
     CheckLines(peer);
 }
 
-TEST_CASE("7.20 A burst of short commands is no overflow: the server reads on when it has worked them off")
+TEST_CASE("7.20 A burst of short commands is no overflow: the server reads the rest after executing them")
 {
     TcpFixture fixture;
     const auto server = fixture.StartServer();

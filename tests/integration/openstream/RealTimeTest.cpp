@@ -23,7 +23,7 @@ struct Outcome
     int slack = 0;
 };
 
-/// On a thread of its own, which is not tuned any more afterwards.
+/// On a separate thread, so that the test thread is not tuned.
 Outcome Tune(const RealTimeOptions& options)
 {
     Outcome outcome;
@@ -39,14 +39,14 @@ Outcome Tune(const RealTimeOptions& options)
 
 } // namespace
 
-TEST_CASE("Without a wish nothing is tuned and nothing refused")
+TEST_CASE("Without options nothing is tuned and no error is returned")
 {
     const Outcome plain = Tune({});
     CHECK(plain.refusals.empty());
     CHECK(plain.policy == SCHED_OTHER);
 }
 
-TEST_CASE("The timer slack is that of the calling thread; one that is none is refused with a sentence")
+TEST_CASE("The timer slack of the calling thread is set; an invalid one is an error")
 {
     RealTimeOptions options;
     options.timerSlack = std::chrono::microseconds(7);
@@ -62,7 +62,7 @@ TEST_CASE("The timer slack is that of the calling thread; one that is none is re
     CHECK(refused.slack == Tune({}).slack);
 }
 
-TEST_CASE("A priority is granted, or refused with a sentence and the scheduling as it was")
+TEST_CASE("A priority is set, or an error is returned and the scheduling is unchanged")
 {
     RealTimeOptions options;
     options.priority = 3;
@@ -85,7 +85,7 @@ TEST_CASE("A priority is granted, or refused with a sentence and the scheduling 
     CHECK(refused.policy == SCHED_OTHER);
 }
 
-TEST_CASE("Memory is locked, or a sentence says what would allow it")
+TEST_CASE("Memory is locked, or the error names what would allow it")
 {
     RealTimeOptions options;
     options.bLockMemory = true;
@@ -94,7 +94,7 @@ TEST_CASE("Memory is locked, or a sentence says what would allow it")
     munlockall();
 }
 
-TEST_CASE("All wishes at once give a sentence for each that is refused, and no more")
+TEST_CASE("Each of several options that fails returns one error")
 {
     RealTimeOptions options = RealTimeOptions::MakeAll();
     CHECK(options.priority > 0);

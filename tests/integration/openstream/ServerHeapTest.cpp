@@ -28,7 +28,7 @@ constexpr int WARM_UP = 100;
 constexpr int MEASURED = 400;
 constexpr std::chrono::seconds LIMIT{30};
 
-/// Counts, from within its calls, what all of the program takes between two samples; then ends the run.
+/// Counts in its calls the allocations of the whole program between two samples, then ends the run.
 class MeasuringService final : public IOpenApiService
 {
     boost::asio::io_context& _context;
@@ -69,7 +69,7 @@ public:
 
 } // namespace
 
-TEST_CASE("8 A tick of the MONITOR takes nothing from the heap in the whole server, from the timer to the socket")
+TEST_CASE("8 A tick of the MONITOR allocates nothing in the whole server, from the timer to the socket")
 {
     boost::asio::io_context context(1);
     ACS::Testing::SteadySystemClock clock;
@@ -86,8 +86,8 @@ TEST_CASE("8 A tick of the MONITOR takes nothing from the heap in the whole serv
         "{\"cmd\":\"HANDSHAKE\",\"payload\":{\"major\":1}}\n"
         "{\"cmd\":\"MONITOR\",\"payload\":{\"url\":\"/a\",\"method\":\"GET\",\"period_ms\":2}}\n";
     boost::asio::write(peer, boost::asio::buffer(COMMANDS));
-    // One run: Asio keeps the memory of its handlers from one to the next as long as it lasts. What the socket holds until
-    // somebody reads it is enough for all lines.
+    // A single run, because Asio reuses the memory of its handlers only within one. The socket buffer has room for all
+    // lines.
     context.run_for(LIMIT);
     REQUIRE(service.bDone);
     CHECK(service.taken == 0);

@@ -21,7 +21,7 @@ namespace ACS::Testing
 
 inline constexpr std::chrono::seconds LIMIT{10};
 
-/// A server on a free port, and what the tests need around it.
+/// A server on a free port, its loop and its service.
 class TcpFixture
 {
 public:

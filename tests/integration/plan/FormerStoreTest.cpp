@@ -35,7 +35,7 @@ void MakeFormerStore(const StoreFolder& folder, const std::string& file)
     std::ofstream(file + ".lock").close();
 }
 
-/// What a program of the former layout leaves that is killed: that CR01 is in maintenance is in the log only.
+/// The files of a program of the former layout that was killed: that CR01 is in maintenance is in the log only.
 void MakeKilledFormerStore(const StoreFolder& folder, const std::string& file)
 {
     const std::string running = folder.GetStore("running.db");
@@ -59,7 +59,7 @@ const std::vector<std::string>& GetMigratedNames()
 
 } // namespace
 
-TEST_CASE("Store: a store of the former layout becomes a directory, and its files are kept beside it")
+TEST_CASE("Store: a store of the former layout becomes a directory, and its files are kept next to it")
 {
     const StoreFolder folder;
     const std::string path = folder.GetStore("acsd.db");

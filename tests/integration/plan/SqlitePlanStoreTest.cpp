@@ -37,7 +37,7 @@ OutboxEntry MakeEntry(std::uint64_t sequence, const std::string& planID)
         PlanReport{planID, EPlanState::InProgress, ""}};
 }
 
-/// What version 1 wrote, with one row of each kind.
+/// The database of version 1, with one row of each kind.
 constexpr const char* FIRST_SCHEMA =
     "CREATE TABLE plans (sequence INTEGER PRIMARY KEY, plan_id TEXT NOT NULL UNIQUE, accepted_at INTEGER NOT NULL,"
     "  plan TEXT NOT NULL, state TEXT NOT NULL, progress TEXT NOT NULL);"
@@ -65,7 +65,7 @@ const Alarm& GetAlarm()
     return ALARM;
 }
 
-/// Something of every kind, in four batches.
+/// Changes of every kind, in four batches.
 std::vector<StoreBatch> MakeBatches()
 {
     PlanProgressed progressed{"P1", MakeRecord(1, "P1").progress};
@@ -102,7 +102,7 @@ std::vector<StoreBatch> MakeBatches()
 
 } // namespace
 
-TEST_CASE("Store: what was appended is there after the file was closed and opened, as the store in memory has it")
+TEST_CASE("Store: a file that is closed and opened again has the content of the store in memory")
 {
     const StoreFolder folder;
     MemoryPlanStore memory;
@@ -135,7 +135,7 @@ TEST_CASE("Store: an empty file becomes a store with a schema version, in a writ
     CHECK(database.execAndGet("PRAGMA journal_mode").getString() == "wal");
 }
 
-TEST_CASE("Store: a planID whose plan was removed can be stored again, in the same batch too")
+TEST_CASE("Store: a planID whose plan was removed can be stored again, also in the same batch")
 {
     const StoreFolder folder;
     const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetStore());
@@ -145,7 +145,7 @@ TEST_CASE("Store: a planID whose plan was removed can be stored again, in the sa
     CHECK(store->Load()->plans.front().sequence == 2);
 }
 
-TEST_CASE("Store: databases of the first and second schema are migrated, and nothing of them is lost")
+TEST_CASE("Store: databases of the first and second schema are migrated without loss")
 {
     for (const int version : {1, 2})
     {
@@ -182,7 +182,7 @@ TEST_CASE("Store: databases of the first and second schema are migrated, and not
     }
 }
 
-TEST_CASE("Store: a batch that fails in the middle leaves nothing, and the store still works")
+TEST_CASE("Store: a batch that fails in the middle leaves no change, and the store still works")
 {
     const StoreFolder folder;
     const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetStore());
@@ -252,7 +252,7 @@ TEST_CASE("Store: damage, another program's file and a newer version are disting
     }
 }
 
-TEST_CASE("Store: a directory is one program's at a time, and free again when that one has closed it")
+TEST_CASE("Store: a directory is used by one program at a time, and is free again when that one has closed it")
 {
     const StoreFolder folder;
     {
@@ -270,7 +270,7 @@ TEST_CASE("Store: a directory is one program's at a time, and free again when th
     CHECK(OpenStore(folder.GetStore())->Load()->plans.size() == 1);
 }
 
-TEST_CASE("Store: a parent directory that is missing is a failure that names the store directory")
+TEST_CASE("Store: a missing parent directory is an error that names the store directory")
 {
     const Core::Result<std::unique_ptr<SqlitePlanStore>> store = SqlitePlanStore::Open("/nonexistent/store");
     REQUIRE_FALSE(store.has_value());

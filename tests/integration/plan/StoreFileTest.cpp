@@ -40,7 +40,7 @@ std::string DescribeOpening(const Core::Result<T>& result)
     return Core::Describe(result.error());
 }
 
-/// While it lives the system takes no file that is longer.
+/// During its lifetime the system accepts no longer file.
 class TightDisk
 {
     rlimit _before{};
@@ -68,7 +68,7 @@ private:
 
 } // namespace
 
-TEST_CASE("Store: a database that is removed while it is open is noticed, copied, and restored by the next start")
+TEST_CASE("Store: a database that is removed while it is open is detected, copied, and restored by the next start")
 {
     const StoreFolder folder;
     const std::string directory = folder.GetStore();
@@ -119,7 +119,7 @@ TEST_CASE("Store: a database that is put back is used again, and the copy is del
 }
 
 TEST_CASE(
-    "Store: another database in the place of the open one is never written, and the next start asks for a decision")
+    "Store: another database in the place of the open one is never written, and the next start requires a decision")
 {
     const StoreFolder folder;
     const std::string directory = folder.GetStore();
@@ -143,7 +143,7 @@ TEST_CASE(
     CHECK(LoadRobots(*OpenStore(other)) == std::vector<std::string>{"CR01"});
 }
 
-TEST_CASE("Store: a write-ahead log that is removed is noticed, and its changes are merged into the database")
+TEST_CASE("Store: a write-ahead log that is removed is detected, and its changes are merged into the database")
 {
     const StoreFolder folder;
     const std::string directory = folder.GetStore();
@@ -247,7 +247,7 @@ TEST_CASE("Store: each failure to open names the path, the reason and the remedy
         {"damaged", "an undamaged plan store; move it away", "file is not a database", "/acsd.db"},
         {"foreign", "a plan store; give another path", "a database of another program", "/acsd.db"},
         {"new", "start the newer program that wrote it", "version 99", "/acsd.db"}};
-    if (::geteuid() != 0) // who may do everything
+    if (::geteuid() != 0) // who has all permissions
     {
         rows.push_back({"locked/store", "correct the owner or the mode of", "Permission denied"});
         rows.push_back({"locked", "correct its owner or its mode", "Permission denied"});
@@ -325,7 +325,7 @@ TEST_CASE("Store: a file that lacks its tables, or has an impossible version, is
 {
     struct Row
     {
-        bool bStore; ///< It was one.
+        bool bStore; ///< The database is that of a store.
         const char* statement;
         const char* found;
     };

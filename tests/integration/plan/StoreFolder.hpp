@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-// What the tests of a store's files share.
+// Shared by the tests of a store's files.
 
 namespace ACS::Planning::Test
 {
 
-/// Of the schema.
+/// The version of the schema.
 inline constexpr int NEWEST = 4;
 
 class StoreFolder : public Testing::TemporaryFolder

@@ -26,7 +26,7 @@ std::string ReadBytes(const std::string& file)
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// What a program leaves that is killed while it has the store open.
+/// The files of a program that is killed while it has the store open.
 void CopyAsKilled(const std::string& directory, const std::string& copy)
 {
     MakeDirectory(copy);
@@ -36,7 +36,7 @@ void CopyAsKilled(const std::string& directory, const std::string& copy)
     }
 }
 
-/// More pages than SQLite leaves in a log, in a few transactions.
+/// A few transactions with more pages than SQLite keeps in a log.
 void WriteMuch(SqlitePlanStore& store)
 {
     constexpr int TRANSACTIONS = 80;
@@ -288,7 +288,7 @@ TEST_CASE("Store: a store that was not closed and is refused is left unchanged, 
     const auto refused = SqlitePlanStore::Open(copy);
     REQUIRE_FALSE(refused.has_value());
     CHECK(refused.error().code == EPlanningError::StoreTooNew);
-    CHECK((ReadBytes(GetDatabase(copy)) == before)); // too long to be shown
+    CHECK((ReadBytes(GetDatabase(copy)) == before)); // double brackets: a failure does not print both
     CHECK((ReadBytes(GetLog(copy)) == log));
 }
 

@@ -13,7 +13,7 @@
 namespace ACS::Testing
 {
 
-/// A client of ours against MCS's by hand, one for each connection.
+/// The client of the SDK against raw MCSs, one for each connection.
 class ClientWireFixture : public WebSocketFixture
 {
 public:

@@ -32,7 +32,7 @@ inline Protocol::CodecOptions MakeCodecOptions()
     return options;
 }
 
-/// An MCS by hand, on one connection: keeps what comes, and acknowledges it if it is to.
+/// A raw MCS on one connection: records what it receives, and acknowledges it on demand.
 class RawMCS
 {
     RawPeer& _peer;
@@ -42,7 +42,7 @@ public:
     std::vector<Protocol::AcsRequest> requests;
     std::vector<Protocol::AcsAck> acks;
     std::vector<RawFrame> closes;
-    /// Whether the request is to be acknowledged; may do to the connection what it likes.
+    /// Returns whether to acknowledge the request; may also act on the connection.
     std::function<bool(const Protocol::AcsRequest& request)> onRequest;
 
     explicit RawMCS(RawPeer& peer)

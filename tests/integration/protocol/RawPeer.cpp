@@ -39,7 +39,7 @@ std::string MakeAccept(const std::string& key)
 {
     const std::string text = key + "258EAFA5-E914-47DA-95CA-C5AB0DC85B11";
     std::array<unsigned char, SHA_DIGEST_LENGTH> digest{};
-    SHA1(reinterpret_cast<const unsigned char*>(text.data()), text.size(), digest.data()); // OpenSSL wants it so
+    SHA1(reinterpret_cast<const unsigned char*>(text.data()), text.size(), digest.data()); // required by OpenSSL
     std::array<unsigned char, 64> encoded{};
     const int size = EVP_EncodeBlock(encoded.data(), digest.data(), static_cast<int>(digest.size()));
     return {encoded.begin(), encoded.begin() + size};

@@ -36,10 +36,10 @@ struct RawFrame
 /// The bytes of a frame; with the mask (of zeros) that a client must put on it.
 [[nodiscard]] std::string MakeFrame(const RawFrame& frame, bool bMasked);
 
-/// Only the beginning of a frame that announces so many bytes.
+/// Only the head of a frame that announces `size` bytes.
 [[nodiscard]] std::string MakeFrameHead(const RawFrame& frame, std::uint64_t size, bool bMasked);
 
-/// One end of a TCP connection that does by hand, and wrongly, what a WebSocket library would do rightly.
+/// One end of a TCP connection that writes WebSocket frames itself, so that tests can send wrong ones.
 class RawPeer : public std::enable_shared_from_this<RawPeer>
 {
     using Tcp = boost::asio::ip::tcp;
@@ -60,7 +60,7 @@ public:
     /// To a port of 127.0.0.1.
     [[nodiscard]] static std::shared_ptr<RawPeer> Connect(boost::asio::io_context& io, std::uint16_t port);
 
-    /// From now on; nothing is read before.
+    /// Starts reading.
     void ReadAsync();
     void StopReading();
     void Write(std::string_view bytes);
@@ -68,7 +68,7 @@ public:
     /// As a client: asks for the WebSocket.
     void WriteUpgrade();
 
-    /// As a server: says yes to the request that has come; false where it has not come whole yet.
+    /// As a server: accepts the upgrade request; false while it is incomplete.
     [[nodiscard]] bool TryUpgrade();
 
     /// RST instead of FIN.

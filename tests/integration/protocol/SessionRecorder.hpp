@@ -11,7 +11,7 @@
 namespace ACS::Testing
 {
 
-/// Keeps the events and does what a test wants on each.
+/// Records the events and calls a function of the test for each.
 class SessionRecorder final : public ProtocolBeast::ISessionHandler
 {
 public:
@@ -41,7 +41,7 @@ public:
         return found;
     }
 
-    /// Why the first link that was lost was lost; empty where none was.
+    /// Why the first link was lost; empty without a loss.
     [[nodiscard]] std::string GetFirstLoss() const
     {
         const auto losses = GetAll<Protocol::LinkLost>();

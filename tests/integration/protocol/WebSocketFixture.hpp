@@ -21,7 +21,7 @@
 namespace ACS::Testing
 {
 
-/// Bounds a wait for what must come; nothing depends on how long it takes.
+/// Upper limit of each wait; no test depends on the duration.
 inline constexpr std::chrono::seconds PATIENCE{10};
 
 /// A server, a client and the loop that runs them.
@@ -98,7 +98,7 @@ public:
         });
     }
 
-    /// Runs the loop until the condition holds; false where it never does.
+    /// Runs the loop until the condition holds; false at the time limit.
     [[nodiscard]] bool WasReached(const std::function<bool()>& condition)
     {
         const auto deadline = std::chrono::steady_clock::now() + PATIENCE;

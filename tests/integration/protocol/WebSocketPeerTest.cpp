@@ -15,7 +15,7 @@
 #include <variant>
 #include <vector>
 
-// Peers that no library would make: what a client or server of ours does when the other side is odd, slow or gone.
+// Peers that no library provides: how client and server handle one that is faulty, slow or gone.
 
 using namespace ACS; // NOLINT(google-build-using-namespace)
 using namespace std::chrono_literals;
@@ -31,7 +31,7 @@ using Testing::RawFrame;
 using Testing::RawMCS;
 using Testing::RawPeer;
 using Testing::RawServer;
-using Rig = Testing::WebSocketFixture;
+using Fixture = Testing::WebSocketFixture;
 
 namespace
 {
@@ -40,8 +40,8 @@ constexpr std::uint64_t HUGE_FRAME = 100'000'000;
 constexpr std::string_view REGISTRATION =
     R"({"command":"Registration","transactionId":"t-1","timestamp":"2025-07-02T21:00:00.123+09:00","payload":{}})";
 
-/// A server of ours against a client by hand that is registered.
-class ServerWireFixture : public Rig
+/// The server of the SDK against a raw client that has registered.
+class ServerWireFixture : public Fixture
 {
 public:
     std::shared_ptr<RawPeer> peer;
@@ -78,7 +78,7 @@ public:
         return mcsEvents.GetFirstLoss();
     }
 
-    /// The code of the close frame that comes; 0 where none does.
+    /// The code of the received close frame; 0 without one.
     [[nodiscard]] unsigned WaitForCloseCode()
     {
         std::optional<RawFrame> frame;
@@ -120,7 +120,7 @@ TEST_CASE("13.11 A plan of 75 jobs in three fragments, text or binary, is one re
 
     RawMCS& mcs = *rig.connections.at(0);
     mcs.Send(text.substr(0, third), kind, false);
-    mcs.GetPeer().Write(MakeFrame({EFrame::Ping, "between", true}, false)); // control frames may stand between
+    mcs.GetPeer().Write(MakeFrame({EFrame::Ping, "between", true}, false)); // control frames may be between
     mcs.Send(text.substr(third, third), EFrame::Continuation, false);
     mcs.Send(text.substr(2 * third), EFrame::Continuation, true);
     REQUIRE(rig.WasReached([&rig] { return !rig.acsEvents.GetAll<Protocol::RequestReceived>().empty(); }));
@@ -131,7 +131,7 @@ TEST_CASE("13.11 A plan of 75 jobs in three fragments, text or binary, is one re
     CHECK(mcs.acks[0].transactionID == "p-1");
 }
 
-TEST_CASE("1 A server takes text and binary, whole and in fragments, and a PONG that nobody asked for")
+TEST_CASE("1 A server takes text and binary, whole and in fragments, and an unsolicited PONG")
 {
     ServerWireFixture rig;
     rig.Listen();
@@ -145,7 +145,7 @@ TEST_CASE("1 A server takes text and binary, whole and in fragments, and a PONG 
     CHECK(rig.mcsEvents.GetAll<Protocol::RequestReceived>()[0].request == MakeReport("r-1"));
 }
 
-TEST_CASE("1 Garbage in frames is counted and the connection goes on")
+TEST_CASE("1 Garbage in frames is counted and the connection continues")
 {
     ServerWireFixture rig;
     rig.RegisterRaw();
@@ -159,7 +159,7 @@ TEST_CASE("1 Garbage in frames is counted and the connection goes on")
     CHECK(rig.server->IsRegistered());
 }
 
-TEST_CASE("1 A frame that announces 100 MB is answered with 1009 before a byte of it has come, by either side")
+TEST_CASE("1 Either side answers a frame that announces 100 MB with 1009 before its payload arrives")
 {
     const long before = GetPeakKilobytes();
     SECTION("server")
@@ -214,7 +214,7 @@ TEST_CASE("12.1 By option only the last frame of a fragmented message is read; a
     CHECK(rig.server->GetStatistics().CountOf(Protocol::EProtocolNote::Undecodable) == 1);
 }
 
-TEST_CASE("1 A half-open peer that answers no ping is dropped, by either side")
+TEST_CASE("1 Either side drops a half-open peer that answers no ping")
 {
     SECTION("server")
     {
@@ -236,7 +236,7 @@ TEST_CASE("1 A half-open peer that answers no ping is dropped, by either side")
     }
 }
 
-TEST_CASE("1 A peer that says nothing does not hold a connection for longer than the handshake may take")
+TEST_CASE("1 A silent peer keeps a connection no longer than the limit of the handshake")
 {
     SECTION("server")
     {
@@ -247,12 +247,12 @@ TEST_CASE("1 A peer that says nothing does not hold a connection for longer than
         rig.peer = RawPeer::Connect(rig.io, rig.serverOptions.port);
         rig.peer->ReadAsync();
         REQUIRE(rig.WasReached([&rig] { return rig.peer->HasEnded(); }));
-        rig.Connect(); // for whom there is room again
+        rig.Connect(); // there is room again
         CHECK(rig.WasRegistered());
     }
     SECTION("client")
     {
-        Rig rig;
+        Fixture rig;
         const RawServer silent(rig.io);
         rig.clientOptions.link.handshakeTimeout = 20ms;
         rig.ConnectTo(silent.GetURL());
@@ -261,7 +261,7 @@ TEST_CASE("1 A peer that says nothing does not hold a connection for longer than
     }
 }
 
-TEST_CASE("1 Extra headers and another Host stand in the upgrade; what would break the request is refused")
+TEST_CASE("1 The upgrade has extra headers and the configured Host; a header that would break the request is rejected")
 {
     ClientWireFixture rig;
     rig.clientOptions.host = "127.0.0.1:9001";
@@ -293,11 +293,10 @@ TEST_CASE("1 Extra headers and another Host stand in the upgrade; what would bre
     CHECK_FALSE(rig.TryMakeClient(rig.acsEvents).has_value());
 }
 
-TEST_CASE(
-    "13.10 After RST in mid frame, 403 and 1008 the client connects again, registers, replays and tells its state")
+TEST_CASE("13.10 After RST in mid frame, 403 and 1008 the client reconnects, registers, replays and reports its state")
 {
     ClientWireFixture rig;
-    // What a connection does with the first report: each kind of loss in turn, then nothing bad any more.
+    // What a connection does at the first report: each kind of loss in turn, then none.
     rig.onConnection = [](std::size_t index, RawMCS& mcs) {
         if (index == 1)
         {
@@ -361,7 +360,7 @@ TEST_CASE(
     CHECK(rig.connections[0]->requests[1] == MakeReport("a"));
 }
 
-TEST_CASE("1 A client that is cut off with RST in mid frame is forgotten, and the next one is served")
+TEST_CASE("1 A client that ends with RST in mid frame is dropped, and the next one is served")
 {
     ServerWireFixture rig;
     rig.RegisterRaw();
@@ -373,7 +372,7 @@ TEST_CASE("1 A client that is cut off with RST in mid frame is forgotten, and th
     CHECK(rig.WasRegistered());
 }
 
-TEST_CASE("1 Where more waits to be written than the limit the link is dropped and made anew")
+TEST_CASE("1 A link with more bytes to write than the limit is dropped and connected again")
 {
     ClientWireFixture rig;
     rig.raw.SetReceiveBuffer(16'384);

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-// When positions go out, and when they are left out.
+// When positions are sent, and when they are dropped.
 
 using namespace ACS; // NOLINT(google-build-using-namespace)
 using namespace std::chrono_literals;
@@ -16,7 +16,7 @@ using Testing::ClientWireFixture;
 using Testing::MakeReport;
 using Testing::RawMCS;
 
-TEST_CASE("13.12 While the socket is blocked positions are left out, and none of them follows when it flows again")
+TEST_CASE("13.12 Positions are dropped while the socket is blocked, and not sent later")
 {
     constexpr std::size_t POSITIONS = 50;
     constexpr std::size_t WINDOW = 12;
@@ -27,7 +27,7 @@ TEST_CASE("13.12 While the socket is blocked positions are left out, and none of
     rig.RegisterWithRaw();
     RawMCS& mcs = *rig.connections.at(0);
 
-    // 12 MB that nobody reads are more than the system takes.
+    // More than the socket buffers hold.
     mcs.GetPeer().StopReading();
     for (std::size_t i = 0; i < WINDOW; ++i)
     {
@@ -56,10 +56,10 @@ TEST_CASE("13.12 While the socket is blocked positions are left out, and none of
     CHECK(rig.acsEvents.GetAll<Protocol::LinkLost>().empty());
 }
 
-TEST_CASE("R14 A position goes out together with the reports of the same moment")
+TEST_CASE("R14 A position is written together with the reports of the same moment")
 {
     constexpr std::size_t ROUNDS = 50;
-    constexpr std::size_t REPORTS = 8; // With other bytes than the position has: more than two of it.
+    constexpr std::size_t REPORTS = 8; // Larger than two positions.
     ClientWireFixture rig;
     rig.RegisterWithRaw();
     RawMCS& mcs = *rig.connections.at(0);
@@ -78,7 +78,7 @@ TEST_CASE("R14 A position goes out together with the reports of the same moment"
     CHECK(mcs.Count(EAcsCommand::RobotPositionUpdate) == ROUNDS);
 }
 
-TEST_CASE("5.10 The parts of a position update that was cut go out together, behind the reports of the same moment")
+TEST_CASE("5.10 The parts of a split position update are written together, after the reports of the same moment")
 {
     constexpr std::size_t ROUNDS = 20;
     constexpr std::size_t PARTS = 6;
@@ -105,7 +105,7 @@ TEST_CASE("5.10 The parts of a position update that was cut go out together, beh
     CHECK(mcs.Count(EAcsCommand::RobotPositionUpdate) == PARTS * ROUNDS);
 }
 
-TEST_CASE("13.12 Positions alone do not pile up in the system either, while the other side takes nothing")
+TEST_CASE("13.12 Positions alone do not fill the socket buffer while the other side reads nothing")
 {
     constexpr std::size_t POSITIONS = 1'000;
     ClientWireFixture rig;
@@ -126,7 +126,7 @@ TEST_CASE("13.12 Positions alone do not pile up in the system either, while the 
     mcs.GetPeer().ReadAsync();
     REQUIRE(rig.client->TrySendDurable(MakeReport("end")));
     REQUIRE(rig.WasReached([&mcs] { return mcs.Count(EAcsCommand::PlanReport) == 1; }));
-    // What had gone before the other side's own buffer was full, and nothing of the rest.
+    // What was sent before the receive buffer was full, and nothing after that.
     CHECK(mcs.Count(EAcsCommand::RobotPositionUpdate) < POSITIONS / 2);
     CHECK(rig.acsEvents.GetAll<Protocol::LinkLost>().empty());
 }

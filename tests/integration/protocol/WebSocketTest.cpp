@@ -37,7 +37,7 @@ public:
         }
     }
 
-    /// What a client gets that speaks no WebSocket.
+    /// The answer to a client that does not use WebSocket.
     [[nodiscard]] std::string TalkRaw(const std::string& text)
     {
         const auto peer = Testing::RawPeer::Connect(io, serverOptions.port);
@@ -50,7 +50,7 @@ public:
 
 } // namespace
 
-TEST_CASE("6 Over a real socket, ws and wss: register, plan, Ack, reports, goodbye")
+TEST_CASE("6 Over a real socket, ws and wss: register, plan, Ack, reports, isConnected=false")
 {
     LinkWireFixture rig(GENERATE(false, true));
     rig.RegisterBoth();
@@ -87,7 +87,7 @@ TEST_CASE("6 Over a real socket, ws and wss: register, plan, Ack, reports, goodb
     CHECK(reports.back().request.payload == Protocol::AcsPayload(Protocol::AcsCommStateUpdate{false}));
 }
 
-TEST_CASE("1 After a cut, ws and wss, the client registers again and what was not acknowledged is fed again")
+TEST_CASE("1 After a lost link, ws and wss, the client registers again and unacknowledged reports are sent again")
 {
     LinkWireFixture rig(GENERATE(false, true));
     rig.RegisterBoth();
@@ -106,7 +106,7 @@ TEST_CASE("1 After a cut, ws and wss, the client registers again and what was no
     CHECK(rig.server->GetStatistics().registrations == 2);
 }
 
-TEST_CASE("1 A server that goes and comes back on its port is found again")
+TEST_CASE("1 The client reconnects to a server that restarts on its port")
 {
     LinkWireFixture rig;
     rig.RegisterBoth();
@@ -117,7 +117,7 @@ TEST_CASE("1 A server that goes and comes back on its port is found again")
     REQUIRE(rig.WasReached([&rig] { return rig.acsEvents.GetAll<Protocol::Registered>().size() == 2; }));
 }
 
-TEST_CASE("12.3 A close with 1008 is followed by another attempt")
+TEST_CASE("12.3 After a close with 1008 the client tries again")
 {
     LinkWireFixture rig;
     rig.RegisterBoth();
@@ -126,7 +126,7 @@ TEST_CASE("12.3 A close with 1008 is followed by another attempt")
     CHECK(rig.acsEvents.GetAll<Protocol::LinkLost>().at(0).reason.find("1008: not today") != std::string::npos);
 }
 
-TEST_CASE("1 A close reason that is too long for its frame is cut between characters")
+TEST_CASE("1 A close reason that is too long for its frame is truncated between characters")
 {
     LinkWireFixture rig;
     rig.RegisterBoth();
@@ -141,7 +141,7 @@ TEST_CASE("1 A close reason that is too long for its frame is cut between charac
     CHECK(rig.acsEvents.GetFirstLoss().find("1008: " + reason.substr(0, 122)) == std::string::npos);
 }
 
-TEST_CASE("12.3 A second client is refused with 403 where the option says so, and goes on trying")
+TEST_CASE("12.3 By option a second client is rejected with 403, and keeps trying")
 {
     LinkWireFixture rig;
     rig.serverOptions.session.bSecondRefused = true;
@@ -156,7 +156,7 @@ TEST_CASE("12.3 A second client is refused with 403 where the option says so, an
     REQUIRE(rig.WasReached([&other] { return other->IsRegistered(); }));
 }
 
-TEST_CASE("1 A wrong path is answered with 404, plain HTTP politely, garbage without harm")
+TEST_CASE("1 A wrong path is answered with 404, plain HTTP with 426, garbage with 400")
 {
     LinkWireFixture rig;
     rig.Listen();
@@ -174,7 +174,7 @@ TEST_CASE("1 A wrong path is answered with 404, plain HTTP politely, garbage wit
     REQUIRE(rig.WasReached([&rig] { return rig.client->IsRegistered(); }));
 }
 
-TEST_CASE("1 Garbage inside a WebSocket is counted and the connection goes on")
+TEST_CASE("1 Garbage inside a WebSocket is counted and the connection continues")
 {
     LinkWireFixture rig;
     rig.RegisterBoth();
@@ -185,7 +185,7 @@ TEST_CASE("1 Garbage inside a WebSocket is counted and the connection goes on")
     CHECK(rig.server->IsRegistered());
 }
 
-TEST_CASE("A port in use and a bad address are refused with a sentence that names them")
+TEST_CASE("The error about a port in use or a bad address names it")
 {
     LinkWireFixture rig;
     rig.Listen();
@@ -197,7 +197,7 @@ TEST_CASE("A port in use and a bad address are refused with a sentence that name
     CHECK(sentence.find("Address already in use") != std::string::npos);
 }
 
-TEST_CASE("An MCS listens on a name, too")
+TEST_CASE("An MCS can listen on a host name")
 {
     LinkWireFixture rig;
     rig.serverOptions.address = "localhost";
@@ -205,7 +205,7 @@ TEST_CASE("An MCS listens on a name, too")
     CHECK(rig.server->GetPort() != 0);
 }
 
-TEST_CASE("A URL that is none is refused with a sentence")
+TEST_CASE("An invalid URL is rejected with the reason")
 {
     LinkWireFixture rig;
     for (const std::string url :
@@ -246,7 +246,7 @@ TEST_CASE("After destruction, ws and wss, no handler is called and nothing is le
     CHECK(rig.mcsEvents.events.size() == mcsCount);
 }
 
-TEST_CASE("An observer sees every text of both directions before the session judges it")
+TEST_CASE("An observer gets every text of both directions before the session handles it")
 {
     LinkWireFixture rig;
     std::vector<std::string> seen;

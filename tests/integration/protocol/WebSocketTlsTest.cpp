@@ -25,7 +25,7 @@ using Testing::RawServer;
 namespace
 {
 
-/// A CA that both sides know, one that nobody knows, and a server with a good certificate.
+/// A CA that both sides trust, one that neither trusts, and a server with a valid certificate.
 class TLSFixture : public Testing::WebSocketFixture
 {
     Testing::TemporaryFolder _folder;
@@ -54,7 +54,7 @@ public:
         clientOptions.tls.keyFile = files.key;
     }
 
-    /// Why the client does not come in. Two tries: the second is no better.
+    /// Why the client is rejected. Two attempts: the second one fails too.
     [[nodiscard]] std::string ConnectInVain(const std::string& host = "localhost")
     {
         Listen();
@@ -67,7 +67,7 @@ public:
         return losses[0].reason;
     }
 
-    /// Whether the server has logged why it did not let somebody in.
+    /// Whether the server has logged this reason for rejecting a client.
     [[nodiscard]] bool WasLogged(const std::string& reason)
     {
         return WasReached([this, &reason] { return sink.ContainsField("reason", reason); });
@@ -98,20 +98,20 @@ CertificateRequest MakeCertificateRequest(
     bool bRSA = false,
     const std::string& passphrase = {})
 {
-    CertificateRequest wish;
-    wish.alternativeName = name;
-    wish.bRSA = bRSA;
-    wish.passphrase = passphrase;
-    return wish;
+    CertificateRequest request;
+    request.alternativeName = name;
+    request.bRSA = bRSA;
+    request.passphrase = passphrase;
+    return request;
 }
 
-/// A certificate that is good from so many hours from now for a day.
+/// A certificate that is valid for a day, beginning `from` after now.
 CertificateRequest MakeCertificateRequest(std::chrono::hours from)
 {
-    CertificateRequest wish;
-    wish.validFrom = from;
-    wish.validTo = from + 24h;
-    return wish;
+    CertificateRequest request;
+    request.validFrom = from;
+    request.validTo = from + 24h;
+    return request;
 }
 
 bool Contains(const std::string& text, const std::string& part)
@@ -119,7 +119,7 @@ bool Contains(const std::string& text, const std::string& part)
     return text.find(part) != std::string::npos;
 }
 
-/// The first message of a client that knows nothing newer than TLS 1.1.
+/// The first message of a client that supports TLS 1.1 at most.
 std::string MakeOldHello()
 {
     const std::unique_ptr<SSL_CTX, decltype(&SSL_CTX_free)> context(SSL_CTX_new(TLS_client_method()), &SSL_CTX_free);
@@ -136,7 +136,7 @@ std::string MakeOldHello()
 
 } // namespace
 
-TEST_CASE("1 wss: a server is taken by its name, its address or the name that it should have")
+TEST_CASE("1 wss: a server is accepted by its name, its address or the configured name")
 {
     TLSFixture rig;
     std::string host = "localhost";
@@ -188,7 +188,7 @@ TEST_CASE("1 wss without a CA file trusts the CAs of the system and no other")
     }
 }
 
-TEST_CASE("1 wss: each wrong server is refused with a sentence that says what is wrong with it")
+TEST_CASE("1 wss: each wrong server is rejected with the reason")
 {
     TLSFixture rig;
     const std::string start = "the TLS handshake failed: the server's certificate ";
@@ -228,7 +228,7 @@ TEST_CASE("1 wss: each wrong server is refused with a sentence that says what is
     CHECK(rig.ConnectInVain(host) == start + wanted);
 }
 
-TEST_CASE("1 wss: a server with a client CA takes only those who show its certificate, and both sides say why")
+TEST_CASE("1 wss: a server with a client CA accepts only clients with its certificate, and both sides log the reason")
 {
     TLSFixture rig;
     rig.serverOptions.tls->caFile = rig.ca.certificate;
@@ -259,7 +259,7 @@ TEST_CASE("1 wss: a server with a client CA takes only those who show its certif
     }
 }
 
-TEST_CASE("1 wss against ws, and ws against wss, fail with a sentence")
+TEST_CASE("1 wss against ws, and ws against wss, fail with a clear error")
 {
     TLSFixture rig;
     SECTION("client wss, server ws")
@@ -282,7 +282,7 @@ TEST_CASE("1 wss against ws, and ws against wss, fail with a sentence")
     }
 }
 
-TEST_CASE("1 wss: garbage, plain HTTP and old TLS do a server no harm")
+TEST_CASE("1 wss: a server survives garbage, plain HTTP and old TLS")
 {
     TLSFixture rig;
     rig.serverOptions.maximumClients = 1;
@@ -299,7 +299,7 @@ TEST_CASE("1 wss: garbage, plain HTTP and old TLS do a server no harm")
     CHECK(rig.WasRegistered());
 }
 
-TEST_CASE("1 wss: TLS before 1.2 is refused")
+TEST_CASE("1 wss: TLS before 1.2 is rejected")
 {
     TLSFixture rig;
     rig.Listen();
@@ -312,7 +312,7 @@ TEST_CASE("1 wss: TLS before 1.2 is refused")
     CHECK(rig.WasLogged("the TLS handshake failed: the other side speaks only versions of TLS before 1.2"));
 }
 
-TEST_CASE("1 wss: a peer that says nothing does not hold a connection for longer than the handshake may take")
+TEST_CASE("1 wss: a silent peer keeps a connection no longer than the limit of the handshake")
 {
     TLSFixture rig;
     SECTION("server")
@@ -335,12 +335,12 @@ TEST_CASE("1 wss: a peer that says nothing does not hold a connection for longer
         rig.ConnectTo(silent.GetURL("wss", "localhost"));
         REQUIRE(rig.WasLost(2));
         CHECK(rig.acsEvents.GetFirstLoss() == "the TLS handshake failed: the other side did not answer in time");
-        // The name that is wanted is asked for, so that a server of many names can choose its certificate.
+        // The client requests the name, so that a server with several names can choose its certificate.
         CHECK(Contains(silent.GetPeer(0).GetReceived(), "localhost"));
     }
 }
 
-TEST_CASE("1 wss: files that cannot be used are an error of Create, with path and reason")
+TEST_CASE("1 wss: Create reports unusable files with path and reason")
 {
     TLSFixture rig;
     const CertificateFiles good = rig.maker.Make(rig.ca, {});
@@ -388,7 +388,7 @@ TEST_CASE("1 wss: files that cannot be used are an error of Create, with path an
     CHECK(rig.RefuseServer({{}, good.certificate, {}, {}}).find("tls.key: ") == 0);
 }
 
-TEST_CASE("Options for TLS with a ws URL are refused: nobody who gives them wants to talk in the open")
+TEST_CASE("TLS options with a ws URL are rejected: the link would not be encrypted")
 {
     TLSFixture rig;
     rig.clientOptions.url = "ws://localhost/acs/";

@@ -27,7 +27,7 @@ enum class EPacket : std::uint8_t
     Suback = 9,
 };
 
-/// Stands between clients and a broker, knows where one packet ends and the next begins, and cuts the connection at one.
+/// A proxy between clients and a broker that cuts the connection at a chosen MQTT packet.
 class CuttingProxy
 {
 public:

@@ -22,7 +22,7 @@ using VDA5050::Test::MakeNodes;
 
 constexpr std::size_t FEWEST_MESSAGES = 4; ///< Of order-1 over five nodes and order-2; more where it drives slowly.
 
-/// examples/e10_fleet_master as a process of its own, that is killed; a vehicle in this one, that lives on.
+/// examples/e10_fleet_master in a process that is killed, and a vehicle in this process.
 class FleetMasterTest
 {
 protected:
@@ -38,7 +38,7 @@ protected:
         Tick();
     }
 
-    /// The master speaks through a pipe, which the loop does not know: so it comes by to look.
+    /// The loop does not watch the pipe of the master: the output is polled.
     void Tick()
     {
         _tick.expires_after(10ms);
@@ -127,7 +127,7 @@ protected:
         return {std::istreambuf_iterator<char>(journal), {}};
     }
 
-    /// Each message that was ever written down.
+    /// Each message in the journal.
     [[nodiscard]] std::size_t CountReleases() const
     {
         std::size_t count = 0;
@@ -155,7 +155,7 @@ protected:
 
 } // namespace
 
-TEST_CASE_METHOD(FleetMasterTest, "13 A fleet master that nobody kills drives its orders to their end")
+TEST_CASE_METHOD(FleetMasterTest, "13 A fleet master that is not killed completes its orders")
 {
     WriteCommands(MakeCommands());
     StartMaster();
@@ -177,7 +177,7 @@ TEST_CASE_METHOD(FleetMasterTest, "13 A fleet master that nobody kills drives it
 
 TEST_CASE_METHOD(
     FleetMasterTest,
-    "13 A master killed by SIGKILL after any of its messages loses nothing, does nothing twice")
+    "13 A master killed by SIGKILL after any of its messages loses nothing and repeats nothing")
 {
     const auto messages = static_cast<std::size_t>(GENERATE(range(1, 6)));
     CAPTURE(messages);
@@ -198,7 +198,7 @@ TEST_CASE_METHOD(
 
 TEST_CASE_METHOD(
     FleetMasterTest,
-    "13 A master killed by SIGKILL at each step of its vehicle goes on where the vehicle is")
+    "13 A master killed by SIGKILL at each step of its vehicle continues where the vehicle is")
 {
     const std::vector<std::function<bool()>> moments{
         [this]() { return _vehicle->Count<OrderTaken>() >= 1; },
@@ -215,7 +215,7 @@ TEST_CASE_METHOD(
     WriteCommands(MakeCommands());
     StartMaster();
     REQUIRE(WasPrinted("taken: order-2"));
-    KillMaster(); // with two orders in its journal, and no vehicle in sight
+    KillMaster(); // with two orders in its journal, and no vehicle
     StartVehicle();
     _vehicle->LetReach(LinkedVehicle::EVERYWHERE);
     WriteCommands({});
@@ -232,7 +232,7 @@ TEST_CASE_METHOD(
     CheckDoneOnce();
 }
 
-TEST_CASE_METHOD(FleetMasterTest, "5.4 A master killed in the middle of a cancel ends it when it is back")
+TEST_CASE_METHOD(FleetMasterTest, "5.4 A master killed during a cancel completes it after its restart")
 {
     const bool bBeforeCancel = GENERATE(true, false);
     WriteCommands({MakeCommands().front()});
@@ -244,7 +244,7 @@ TEST_CASE_METHOD(FleetMasterTest, "5.4 A master killed in the middle of a cancel
     WriteCommands({"cancel ACS/LR01"});
     if (bBeforeCancel)
     {
-        _broker.Kill(); // so the command is written down and nothing more
+        _broker.Kill(); // so the command is journalled and nothing is sent
     }
     StartMaster();
     if (bBeforeCancel)
@@ -260,7 +260,8 @@ TEST_CASE_METHOD(FleetMasterTest, "5.4 A master killed in the middle of a cancel
     }
     WriteCommands({});
     StartMaster();
-    REQUIRE(WasPrinted("all orders have ended")); // by the first one, where it heard of the cancel before it died
+    // Printed by the first master if it received the end of the cancel before it was killed.
+    REQUIRE(WasPrinted("all orders have ended"));
     const std::string journal = ReadJournal();
     const std::size_t ended = journal.find("\nended ACS/LR01 order-1\n");
     REQUIRE(ended != std::string::npos);
@@ -272,7 +273,7 @@ TEST_CASE_METHOD(FleetMasterTest, "5.4 A master killed in the middle of a cancel
 
 TEST_CASE_METHOD(
     FleetMasterTest,
-    "13 An order that the vehicle lost while its master was dead is told, and not done again")
+    "13 An order that the vehicle lost while its master was down is reported as lost and not sent again")
 {
     WriteCommands(MakeCommands());
     StartMaster();
@@ -290,7 +291,7 @@ TEST_CASE_METHOD(
     CHECK_THAT(_master->GetText(), Catch::Contains("known: order-1 for ACS/LR01"));
 }
 
-TEST_CASE_METHOD(FleetMasterTest, "13 A line that a kill tore off is as if it had never been written")
+TEST_CASE_METHOD(FleetMasterTest, "13 A line that a kill has truncated is ignored")
 {
     const std::vector<std::string> commands = MakeCommands();
     std::ofstream(GetJournal()) << commands[0] << '\n' << commands[1].substr(0, 50);
@@ -303,7 +304,7 @@ TEST_CASE_METHOD(FleetMasterTest, "13 A line that a kill tore off is as if it ha
     CHECK_THAT(_master->GetText(), Catch::Contains("taken: order-2"));
 }
 
-TEST_CASE_METHOD(FleetMasterTest, "13 A last command without its line end is one, from a pipe as from a file")
+TEST_CASE_METHOD(FleetMasterTest, "13 A last command without a line end is executed, from a pipe and from a file")
 {
     const bool bPipe = GENERATE(false, true);
     StartVehicle();

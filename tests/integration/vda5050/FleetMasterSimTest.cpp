@@ -10,7 +10,7 @@ namespace ACS::Testing
 namespace
 {
 
-/// Master control and vehicle, each a process of its own that can be killed.
+/// Master control and vehicle, each in a process that can be killed.
 class FleetMasterSimTest : public VdaSimFixture
 {
 protected:
@@ -55,7 +55,7 @@ protected:
 
 TEST_CASE_METHOD(
     FleetMasterSimTest,
-    "6 A vehicle killed by SIGKILL in mid order is told by its will, and has lost the order")
+    "6 A vehicle killed by SIGKILL in mid order is reported by its will, and has lost the order")
 {
     ChildProcess vehicle = MakeVehicle();
     ChildProcess master = MakeMaster();
@@ -71,7 +71,7 @@ TEST_CASE_METHOD(
 
 TEST_CASE_METHOD(
     FleetMasterSimTest,
-    "13 A master killed by SIGKILL while vda-sim drives takes its order up and ends it")
+    "13 A master killed by SIGKILL while vda-sim drives resumes its order and completes it")
 {
     ChildProcess vehicle = MakeVehicle();
     {

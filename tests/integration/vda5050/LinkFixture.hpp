@@ -20,7 +20,7 @@
 namespace ACS::Testing
 {
 
-/// Runs the loop until the condition holds; false where the time was over first.
+/// Runs the loop until the condition holds; false at the time limit.
 inline bool TryRunUntil(
     boost::asio::io_context& context,
     const std::function<bool()>& isTrue,
@@ -38,7 +38,7 @@ inline bool TryRunUntil(
     return true;
 }
 
-/// A link to a broker of the test, with short pauses between attempts.
+/// A link to the test's broker, with short delays between attempts.
 struct TestLink
 {
     RecordingLogSink log;

@@ -19,7 +19,7 @@
 namespace ACS::Testing
 {
 
-/// A MasterFleet on a link: does what its sessions ask for, and remembers what they tell.
+/// A MasterFleet on a link: performs the actions of its sessions and records their events.
 class LinkedFleet final : VDA5050::IMqttLinkListener
 {
     using Timers = SessionTimers<VDA5050::EMasterTimer>;
@@ -32,7 +32,7 @@ class LinkedFleet final : VDA5050::IMqttLinkListener
 
 public:
     VDA5050::MasterFleet fleet;
-    VDA5050::FleetActions told;
+    VDA5050::FleetActions events;
 
     LinkedFleet(boost::asio::io_context& context, VDA5050::MosquittoOptions link, VDA5050::FleetOptions options)
         : _context(context),
@@ -53,13 +53,13 @@ public:
         return sent;
     }
 
-    template <typename TTold>
+    template <typename TEvent>
     [[nodiscard]] std::size_t Count(std::size_t vehicle) const
     {
         std::size_t count = 0;
-        for (const VDA5050::FleetAction& action : told)
+        for (const VDA5050::FleetAction& action : events)
         {
-            const bool bCounts = action.vehicle == vehicle && std::holds_alternative<TTold>(action.action);
+            const bool bCounts = action.vehicle == vehicle && std::holds_alternative<TEvent>(action.action);
             count += bCounts ? 1U : 0U;
         }
         return count;
@@ -70,7 +70,7 @@ private:
     {
         for (const auto& [vehicle, action] : actions)
         {
-            told.push_back({vehicle, action});
+            events.push_back({vehicle, action});
             auto& timers = _timers.try_emplace(vehicle, nullptr).first->second;
             timers = timers == nullptr ? std::make_unique<Timers>(_context) : std::move(timers);
             if (const auto* publish = std::get_if<VDA5050::PublishMessage>(&action))

@@ -22,7 +22,7 @@
 namespace ACS::Testing
 {
 
-/// A MasterSession on a link: does what it asks for, remembers what it tells, and holds what it publishes against the
+/// A MasterSession on a link: performs its actions, records its events, and checks what it publishes against the
 /// schemas.
 class LinkedMaster final : VDA5050::IMqttLinkListener
 {
@@ -33,7 +33,7 @@ class LinkedMaster final : VDA5050::IMqttLinkListener
 
 public:
     VDA5050::MasterSession session;
-    VDA5050::MasterActions told;
+    VDA5050::MasterActions events;
 
     LinkedMaster(boost::asio::io_context& context, VDA5050::MosquittoOptions link, VDA5050::MasterOptions options)
         : _timers(context),
@@ -44,7 +44,7 @@ public:
         _link.Start();
     }
 
-    /// Calls a function of the session that appends actions, and does them.
+    /// Calls a function of the session and performs the actions that it appends.
     template <typename TCall>
     auto Do(const TCall& call)
     {
@@ -83,17 +83,17 @@ public:
             [&action](auto& master, Core::Now now, auto& out) { return master.SendInstantAction(action, now, out); });
     }
 
-    template <typename TTold>
+    template <typename TEvent>
     [[nodiscard]] std::size_t Count() const
     {
-        return VDA5050::Test::Pick<TTold>(told).size();
+        return VDA5050::Test::Pick<TEvent>(events).size();
     }
 
-    /// The last status that was told of an action.
+    /// The last reported status of an action.
     [[nodiscard]] std::optional<VDA5050::EActionStatus> GetStatusOrNull(const std::string& actionID) const
     {
         std::optional<VDA5050::EActionStatus> status;
-        for (const auto& change : VDA5050::Test::Pick<VDA5050::ActionChanged>(told))
+        for (const auto& change : VDA5050::Test::Pick<VDA5050::ActionChanged>(events))
         {
             status = change.actionID == actionID ? std::optional(change.status) : status;
         }
@@ -103,7 +103,7 @@ public:
     [[nodiscard]] std::vector<std::uint32_t> ListReached() const
     {
         std::vector<std::uint32_t> reached;
-        for (const auto& node : VDA5050::Test::Pick<VDA5050::NodeReached>(told))
+        for (const auto& node : VDA5050::Test::Pick<VDA5050::NodeReached>(events))
         {
             reached.push_back(node.sequenceID);
         }
@@ -115,7 +115,7 @@ private:
     {
         for (const VDA5050::MasterAction& action : actions)
         {
-            told.push_back(action);
+            events.push_back(action);
             if (const auto* publish = std::get_if<VDA5050::PublishMessage>(&action))
             {
                 CheckValid(publish->message.topic, publish->message.payload);

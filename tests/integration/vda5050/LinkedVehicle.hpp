@@ -49,7 +49,7 @@ private:
 public:
     ///< No test's order goes that far.
 
-    VDA5050::VehicleActions told;
+    VDA5050::VehicleActions events;
 
     LinkedVehicle(
         boost::asio::io_context& context,
@@ -79,7 +79,7 @@ public:
         return options;
     }
 
-    /// It goes no further than to this node.
+    /// It stops at this node.
     void LetReach(std::uint32_t sequenceID)
     {
         _mayReach = sequenceID;
@@ -91,15 +91,15 @@ public:
         return _session;
     }
 
-    template <typename TTold>
+    template <typename TEvent>
     [[nodiscard]] std::size_t Count() const
     {
-        return VDA5050::Test::Pick<TTold>(told).size();
+        return VDA5050::Test::Pick<TEvent>(events).size();
     }
 
     [[nodiscard]] std::size_t CountStarts(const std::string& actionID) const
     {
-        const auto starts = VDA5050::Test::Pick<VDA5050::StartAction>(told);
+        const auto starts = VDA5050::Test::Pick<VDA5050::StartAction>(events);
         return static_cast<std::size_t>(std::ranges::count_if(starts, [&actionID](const VDA5050::StartAction& start) {
             return start.action.actionID == actionID;
         }));
@@ -177,7 +177,7 @@ private:
     {
         for (const VDA5050::VehicleAction& action : actions)
         {
-            told.push_back(action);
+            events.push_back(action);
             ExecuteOne(action);
         }
     }

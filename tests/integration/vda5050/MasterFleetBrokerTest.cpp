@@ -16,7 +16,7 @@ using VDA5050::Test::MakeAction;
 using VDA5050::Test::MakeEdges;
 using VDA5050::Test::MakeNodes;
 
-/// A fleet of vehicles and their one master on a real broker, and a stranger who writes to it what he likes.
+/// A fleet of vehicles and their master on a real broker, and a further client that publishes anything.
 class FleetTest
 {
 protected:
@@ -73,7 +73,7 @@ protected:
         return *number;
     }
 
-    /// What the stranger retains stands on the broker when this returns.
+    /// When this returns the broker has retained the message.
     void Retain(const std::string& topic, const std::string& payload)
     {
         const std::size_t before = _stranger->listener.CountTopic(topic);
@@ -81,7 +81,7 @@ protected:
         REQUIRE(WasReached([&]() { return _stranger->listener.CountTopic(topic) > before; }));
     }
 
-    void Say(ETopic topic, const std::string& payload)
+    void Publish(ETopic topic, const std::string& payload)
     {
         REQUIRE(_stranger->link.Publish({BuildTopic(MakeName("LR1"), topic), payload, 1, false}).has_value());
     }
@@ -99,7 +99,7 @@ protected:
         return *OrderBuilder::Create("order-of-" + actionID, nodes, MakeEdges(2))->MakeOrder(3);
     }
 
-    /// Gives the vehicle an order and sees it to its end.
+    /// Sends the vehicle an order and waits for its end.
     void Drive(const std::set<std::string>& serialNumbers)
     {
         for (const std::string& serialNumber : serialNumbers)
@@ -122,17 +122,17 @@ protected:
 
 TEST_CASE_METHOD(
     FleetTest,
-    "6 Over a broker a fleet is discovered, one is lost, one comes later, and each drives its order")
+    "6 Over a broker a fleet is discovered, one vehicle is lost, one comes later, and each drives its order")
 {
     AddVehicle("LR1", EVda5050Version::Version200);
     AddVehicle("LR2", EVda5050Version::Version210);
     AddVehicle("LR3", EVda5050Version::Version200);
-    const auto said = [this](const std::string& serialNumber) {
+    const auto isPublished = [this](const std::string& serialNumber) {
         return _stranger->listener.Contains(BuildTopic(MakeName(serialNumber), ETopic::Connection), "ONLINE");
     };
-    REQUIRE(WasReached([&]() { return said("LR1") && said("LR2") && said("LR3"); }));
+    REQUIRE(WasReached([&]() { return isPublished("LR1") && isPublished("LR2") && isPublished("LR3"); }));
     Retain("uagv/v2/ACS/LR7/connection", MakeConnection("9.1.0", "LR7"));
-    Retain("uagv/v2/OTHER/LR8/connection", MakeConnection("2.0.0", "LR8")); // whose header says ACS
+    Retain("uagv/v2/OTHER/LR8/connection", MakeConnection("2.0.0", "LR8")); // its header has the manufacturer ACS
     Retain("uagv/v2/ACS/LR9/connection", "ONLINE");
     StartFleet();
     REQUIRE(WasReached([this]() { return IsReady("LR1") && IsReady("LR2") && IsReady("LR3"); }));
@@ -152,7 +152,7 @@ TEST_CASE_METHOD(
     CHECK(_fleet->fleet.GetStatistics().messagesRefused == 0);
 }
 
-TEST_CASE_METHOD(FleetTest, "6 A broker that restarts costs a fleet nothing: each vehicle is found again and drives")
+TEST_CASE_METHOD(FleetTest, "6 After a restart of the broker each vehicle of a fleet is found again and drives")
 {
     AddVehicle("LR1", EVda5050Version::Version200);
     AddVehicle("LR2", EVda5050Version::Version210);
@@ -166,9 +166,7 @@ TEST_CASE_METHOD(FleetTest, "6 A broker that restarts costs a fleet nothing: eac
     CHECK(_fleet->Count<VehicleBroken>(GetNumber("LR1")) == 0);
 }
 
-TEST_CASE_METHOD(
-    FleetTest,
-    "13 Over a broker each bad message is counted and told, and the vehicle behind it still drives")
+TEST_CASE_METHOD(FleetTest, "13 Over a broker each bad message is counted and reported, and its vehicle still drives")
 {
     AddVehicle("LR1", EVda5050Version::Version200);
     StartFleet();
@@ -206,15 +204,15 @@ TEST_CASE_METHOD(
     {
         for (const std::string& payload : bad)
         {
-            Say(topic, payload);
+            Publish(topic, payload);
             // 3.5: the schemas of visualization demand no member, not even the header's.
             const bool bEnough = topic == ETopic::Visualization && (payload == "{}" || payload == withoutID);
             refused += bEnough ? 0U : 1U;
         }
     }
-    Say(ETopic::State, good); // a good message of another topic
-    Say(ETopic::Connection, with(R"("ONLINE")", R"("ASLEEP")"));
-    Say(ETopic::Connection, with(R"("ONLINE")", "null"));
+    Publish(ETopic::State, good); // a valid message of another topic
+    Publish(ETopic::Connection, with(R"("ONLINE")", R"("ASLEEP")"));
+    Publish(ETopic::Connection, with(R"("ONLINE")", "null"));
     refused += 3;
     REQUIRE(WasReached([&]() { return _fleet->fleet.GetStatistics().messagesRefused >= refused; }));
     CHECK(_fleet->fleet.GetStatistics().messagesRefused == refused);
@@ -223,9 +221,7 @@ TEST_CASE_METHOD(
     Drive({"LR1"});
 }
 
-TEST_CASE_METHOD(
-    FleetTest,
-    "12 (20) What somebody retained on order topics is driven by no vehicle, and in no master's way")
+TEST_CASE_METHOD(FleetTest, "12 (20) Retained messages on order topics are ignored by vehicles and disturb no master")
 {
     OrderMessage old = MakeOrder("ghost");
     old.header.version = "2.0.0";

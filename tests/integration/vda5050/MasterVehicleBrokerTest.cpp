@@ -109,7 +109,7 @@ TEST_CASE_METHOD(BrokerTest, "13 Over a broker an order and its update are drive
     CHECK(master->Count<MessageRefused>() == 0);
 }
 
-TEST_CASE_METHOD(BrokerTest, "5.4 Over a broker an order is cancelled on its way, and another is taken after it")
+TEST_CASE_METHOD(BrokerTest, "5.4 Over a broker an order is cancelled on its way, and another one is accepted after it")
 {
     const auto vehicle = MakeVehicle();
     const auto master = MakeMaster();
@@ -120,7 +120,7 @@ TEST_CASE_METHOD(BrokerTest, "5.4 Over a broker an order is cancelled on its way
     CHECK(vehicle->Count<OrderCleared>() == 1);
     REQUIRE(WasReached([&]() { return master->GetStatusOrNull("a3") == EActionStatus::Failed; }));
 
-    // From where it stands: the temporary first node of 5.4.
+    // From its position: the temporary first node of 5.4.
     vehicle->LetReach(LinkedVehicle::EVERYWHERE);
     std::vector<OrderNode> nodes = MakeNodes(3);
     nodes.erase(nodes.begin());
@@ -130,7 +130,7 @@ TEST_CASE_METHOD(BrokerTest, "5.4 Over a broker an order is cancelled on its way
     CHECK(vehicle->Count<OrderTaken>() == 2);
 }
 
-TEST_CASE_METHOD(BrokerTest, "5.3 Over a broker a vehicle is paused and goes on")
+TEST_CASE_METHOD(BrokerTest, "5.3 Over a broker a vehicle is paused and continues")
 {
     const auto vehicle = MakeVehicle();
     const auto master = MakeMaster();
@@ -181,7 +181,9 @@ TEST_CASE_METHOD(BrokerTest, "5.7 Over a broker a map is downloaded, enabled and
     CHECK(vehicle->Count<StartAction>() == 5);
 }
 
-TEST_CASE_METHOD(BrokerTest, "13 A broker that restarts in the middle of an order costs no node and runs nothing twice")
+TEST_CASE_METHOD(
+    BrokerTest,
+    "13 After a restart of the broker during an order no node is missed and nothing runs twice")
 {
     _qos = QosTable(GENERATE(EQosProfile::Project, EQosProfile::Standard));
     const auto vehicle = MakeVehicle();
@@ -208,7 +210,7 @@ TEST_CASE_METHOD(BrokerTest, "13 A broker that restarts in the middle of an orde
 
 TEST_CASE_METHOD(
     BrokerTest,
-    "6 A vehicle that is killed is told by its will, and one that comes back empty has lost its order")
+    "6 A killed vehicle is reported by its will, and one that restarts without its order has lost it")
 {
     auto vehicle = MakeVehicle();
     const auto master = MakeMaster();
@@ -220,12 +222,10 @@ TEST_CASE_METHOD(
     const auto reborn = MakeVehicle();
     REQUIRE(WasReached([&]() { return master->Count<OrderLost>() == 1; }));
     CHECK(master->session.CanTakeOrder());
-    CHECK(reborn->Count<OrderTaken>() == 0); // nothing of before was sent again
+    CHECK(reborn->Count<OrderTaken>() == 0); // no earlier message was sent again
 }
 
-TEST_CASE_METHOD(
-    BrokerTest,
-    "13 A master that is killed and comes back takes its order up again, and nothing is done twice")
+TEST_CASE_METHOD(BrokerTest, "13 A master that is killed and restarted resumes its order, and nothing is done twice")
 {
     const auto vehicle = MakeVehicle();
     auto master = MakeMaster();

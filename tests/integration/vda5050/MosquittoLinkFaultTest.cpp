@@ -23,11 +23,11 @@ std::ptrdiff_t CountDescriptors()
 
 } // namespace
 
-TEST_CASE("2 A broker that never answers a subscription is left and tried again, as one that never answers at all")
+TEST_CASE("2 A link reconnects to a broker that never answers a subscription or never answers at all")
 {
     boost::asio::io_context context;
     RawBroker broker(context);
-    auto options = MakeOptions(broker.GetPort(), "patient");
+    auto options = MakeOptions(broker.GetPort(), "waiting");
     options.connectTimeout = 50ms;
     TestLink link(context, options);
     link.link.Subscribe({{"topic", 1}});
@@ -46,7 +46,7 @@ TEST_CASE("2 A broker that never answers a subscription is left and tried again,
         200ms)); // the time to connect is over and no longer counted
 }
 
-TEST_CASE("2 What comes before the subscriptions are answered is kept up to a bound, and what is dropped is told")
+TEST_CASE("2 Messages before the answer to the subscriptions are kept up to a limit; dropped ones are reported")
 {
     boost::asio::io_context context;
     RawBroker broker(context);
@@ -72,7 +72,7 @@ TEST_CASE("2 What comes before the subscriptions are answered is kept up to a bo
     CHECK(std::ranges::any_of(lines, [](const RecordedLine& line) { return line.HasField("dropped", "30"); }));
 }
 
-TEST_CASE("2 What comes before the subscriptions are answered is bounded in bytes too")
+TEST_CASE("2 Messages before the answer to the subscriptions are limited in bytes too")
 {
     boost::asio::io_context context;
     RawBroker broker(context);
@@ -94,7 +94,7 @@ TEST_CASE("2 What comes before the subscriptions are answered is bounded in byte
     CHECK(std::ranges::any_of(lines, [](const RecordedLine& line) { return line.HasField("dropped", "3"); }));
 }
 
-TEST_CASE("2 A payload that is longer than allowed is dropped and told, and what comes after it is heard")
+TEST_CASE("2 A payload that is longer than allowed is dropped and reported; later messages are delivered")
 {
     boost::asio::io_context context;
     RawBroker broker(context);
@@ -117,8 +117,7 @@ TEST_CASE("2 A payload that is longer than allowed is dropped and told, and what
     CHECK(std::ranges::any_of(lines, [](const RecordedLine& line) { return line.HasField("bytes", "21"); }));
 }
 
-TEST_CASE(
-    "2 A subscription that the broker refuses brings no link up; it is told once, with its filter, and tried again")
+TEST_CASE("2 A link with a refused subscription does not come up; the filter is logged once and tried again")
 {
     boost::asio::io_context context;
     RawBroker broker(context);
@@ -136,20 +135,20 @@ TEST_CASE(
     CHECK(std::ranges::any_of(lines, [](const RecordedLine& line) {
         return line.message.find("uagv/v2/+/+/state") != std::string::npos;
     }));
-    // It takes leave, so that a vehicle's will is not sent again and again.
+    // It disconnects properly, so that a vehicle's will is not published at each attempt.
     const std::string disconnect("\xE0\x00", 2);
     CHECK(TryRunUntil(context, [&]() { return broker.received.find(disconnect) != std::string::npos; }));
     code = "\x01";
     REQUIRE(TryRunUntil(context, [&]() { return link.listener.ups == 1; }));
 
-    code = "\x80"; // a later one is told and no more
+    code = "\x80"; // a later one is only logged
     link.link.Subscribe({{"later", 0}});
     REQUIRE(TryRunUntil(context, [&]() { return link.log.CountLevel(Core::ELogLevel::Error) == 1; }));
     CHECK(std::ranges::any_of(lines, [](const RecordedLine& line) { return line.HasField("filter", "later"); }));
     CHECK(link.link.IsConnected());
 }
 
-TEST_CASE("2 A filter that is none brings no link up, and is told")
+TEST_CASE("2 A link with an invalid filter does not come up, and the filter is logged")
 {
     boost::asio::io_context context;
     RawBroker broker(context);
@@ -161,7 +160,7 @@ TEST_CASE("2 A filter that is none brings no link up, and is told")
     CHECK(link.log.CountLevel(Core::ELogLevel::Warning) == 1);
 }
 
-TEST_CASE("2 Each StopAsync calls back once: while the first one waits, and when all is over")
+TEST_CASE("2 Each StopAsync calls back once, also while another one waits and after the stop")
 {
     boost::asio::io_context context;
     RawBroker broker(context);
@@ -182,7 +181,7 @@ TEST_CASE("2 Each StopAsync calls back once: while the first one waits, and when
     CHECK(called == std::vector{1, 2, 3});
 }
 
-TEST_CASE("2 A link that stops takes leave only when the broker has acknowledged all, so that no will is sent")
+TEST_CASE("2 A link that stops disconnects only when the broker has acknowledged all, so that no will is sent")
 {
     boost::asio::io_context context;
     RawBroker broker(context);
@@ -210,7 +209,7 @@ TEST_CASE("2 A link that stops takes leave only when the broker has acknowledged
     CHECK(TryRunUntil(context, [&]() { return hasReceived(disconnect) && bStopped; }));
 }
 
-TEST_CASE("A descriptor that the executor does not take is closed again")
+TEST_CASE("A descriptor that the executor does not accept is closed")
 {
     boost::asio::io_context context;
     boost::asio::posix::stream_descriptor stream(context);

@@ -19,7 +19,7 @@ class LinkTest
 {
 protected:
     boost::asio::io_context _context;
-    /// Without a bound of its own: what it drops for a slow receiver is no matter of the link.
+    /// A broker without a limit of its own, so that it drops nothing for a slow receiver.
     MosquittoBroker _broker{"allow_anonymous true\nmax_queued_messages 0\n"};
     EMqttVersion _version = EMqttVersion::Version311;
 
@@ -64,7 +64,7 @@ TEST_CASE_METHOD(LinkTest, "6.2 A message arrives with its quality of service, i
     CHECK(receiver->listener.messages.back().payload.empty());
 }
 
-TEST_CASE_METHOD(LinkTest, "6.5 A retained message meets who subscribes later, marked as retained, after OnLinkUp")
+TEST_CASE_METHOD(LinkTest, "6.5 A retained message reaches a later subscriber, marked as retained, after OnLinkUp")
 {
     _version = GENERATE(EMqttVersion::Version311, EMqttVersion::Version5);
     const auto sender = MakeConnected("sender", "");
@@ -84,7 +84,7 @@ TEST_CASE_METHOD(LinkTest, "6.5 A retained message meets who subscribes later, m
     CHECK(late.listener.messages.front() == MqttMessage{"uagv/v2/ACS/LR01/connection", "ONLINE", 1, true});
 }
 
-TEST_CASE_METHOD(LinkTest, "6.14 The broker publishes the will of a link that vanishes, not of one that takes leave")
+TEST_CASE_METHOD(LinkTest, "6.14 The broker publishes the will of a link that vanishes, not of one that disconnects")
 {
     _version = GENERATE(EMqttVersion::Version311, EMqttVersion::Version5);
     const auto watcher = MakeConnected("watcher", "last/#");
@@ -109,7 +109,7 @@ TEST_CASE_METHOD(LinkTest, "6.14 The broker publishes the will of a link that va
     CHECK(watcher->listener.messages[1].payload == "CONNECTIONBROKEN");
 }
 
-TEST_CASE_METHOD(LinkTest, "6.2 After an outage of the broker the link connects and subscribes again by itself")
+TEST_CASE_METHOD(LinkTest, "6.2 After an outage of the broker the link reconnects and subscribes again automatically")
 {
     _version = GENERATE(EMqttVersion::Version311, EMqttVersion::Version5);
     const auto link = MakeConnected("survivor", "topic");
@@ -127,7 +127,7 @@ TEST_CASE_METHOD(LinkTest, "6.2 After an outage of the broker the link connects 
     CHECK(link->log.CountLevel(Core::ELogLevel::Warning) == 1);
 }
 
-TEST_CASE_METHOD(LinkTest, "A broker that is not there is named once, with what to do, and found when it comes")
+TEST_CASE_METHOD(LinkTest, "An unreachable broker is logged once, with the remedy, and connected when it starts")
 {
     _broker.Kill();
     TestLink link(_context, MakeOptions(_broker.GetPort(), "early"));
@@ -145,9 +145,7 @@ TEST_CASE_METHOD(LinkTest, "A broker that is not there is named once, with what 
     REQUIRE(TryRunUntil(_context, [&]() { return link.listener.ups == 1; }));
 }
 
-TEST_CASE_METHOD(
-    LinkTest,
-    "2 A persistent session is kept by the broker with what came for it meanwhile, a clean one is not")
+TEST_CASE_METHOD(LinkTest, "2 The broker keeps a persistent session and its messages, but not a clean one")
 {
     _version = GENERATE(EMqttVersion::Version311, EMqttVersion::Version5);
     const bool bCleanSession = GENERATE(false, true);
@@ -175,7 +173,7 @@ TEST_CASE_METHOD(
     CHECK(sleeper->listener.Contains("topic", "meanwhile") == !bCleanSession);
 }
 
-TEST_CASE("A broker that refuses the password is told apart from one that is not there")
+TEST_CASE("A broker that rejects the password is distinguished from one that is unreachable")
 {
     boost::asio::io_context context;
     const MosquittoBroker broker("allow_anonymous false\n");
@@ -203,7 +201,7 @@ TEST_CASE_METHOD(LinkTest, "Stopping a link that has no connection ends at once"
     CHECK(_context.stopped()); // nothing is left that would keep a program running
 }
 
-TEST_CASE_METHOD(LinkTest, "A link may be destroyed by what it tells")
+TEST_CASE_METHOD(LinkTest, "A link may be destroyed in a callback of its listener")
 {
     const auto sender = MakeConnected("sender", "");
     REQUIRE(sender->link.Publish({"first", "", 1, true}).has_value());
@@ -231,7 +229,7 @@ TEST_CASE_METHOD(LinkTest, "A link may be destroyed by what it tells")
         100ms));
 }
 
-TEST_CASE_METHOD(LinkTest, "6.2 A link holds an idle connection through the broker's keep-alive", "[.long]")
+TEST_CASE_METHOD(LinkTest, "6.2 A link keeps an idle connection beyond the broker's keep-alive", "[.long]")
 {
     auto options = MakeOptions(_broker.GetPort(), "idle");
     options.keepAlive = 5s;
@@ -244,7 +242,7 @@ TEST_CASE_METHOD(LinkTest, "6.2 A link holds an idle connection through the brok
     CHECK(link.link.IsConnected());
 }
 
-TEST_CASE_METHOD(LinkTest, "Messages of QoS 0 that have left make room, and do not hold up the leave")
+TEST_CASE_METHOD(LinkTest, "Sent messages of QoS 0 free their room and do not delay the disconnect")
 {
     const auto receiver = MakeConnected("receiver", "load");
     VDA5050::MosquittoOptions options = MakeOptions(_broker.GetPort(), "sender");

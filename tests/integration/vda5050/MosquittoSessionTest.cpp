@@ -51,7 +51,7 @@ const std::vector<std::string> EACH_ONCE{"1", "2", "3", "4"};
 
 } // namespace
 
-TEST_CASE_METHOD(SessionTest, "2 What comes with QoS 2 comes once, wherever its handing over is cut")
+TEST_CASE_METHOD(SessionTest, "2 A QoS 2 message is delivered once, wherever the connection is cut")
 {
     const EMqttVersion version = GENERATE(EMqttVersion::Version311, EMqttVersion::Version5);
     const EPacket packet = GENERATE(EPacket::Publish, EPacket::Pubrec, EPacket::Pubrel, EPacket::Pubcomp);
@@ -84,7 +84,7 @@ TEST_CASE_METHOD(SessionTest, "2 What comes with QoS 2 comes once, wherever its 
         50ms));
 }
 
-TEST_CASE_METHOD(SessionTest, "2 What goes with QoS 2 goes once, wherever its handing over is cut")
+TEST_CASE_METHOD(SessionTest, "2 A QoS 2 message is published once, wherever the connection is cut")
 {
     const EMqttVersion version = GENERATE(EMqttVersion::Version311, EMqttVersion::Version5);
     const EPacket packet = GENERATE(EPacket::Publish, EPacket::Pubrec, EPacket::Pubrel, EPacket::Pubcomp);
@@ -106,16 +106,14 @@ TEST_CASE_METHOD(SessionTest, "2 What goes with QoS 2 goes once, wherever its ha
     CHECK(ListPayloads(*receiver) == EACH_ONCE);
 }
 
-TEST_CASE_METHOD(
-    SessionTest,
-    "2 A client that holds a second copy of a message is left as soon as nothing is under way")
+TEST_CASE_METHOD(SessionTest, "2 A link with a second copy of a message starts a new session when nothing is in flight")
 {
     const EMqttVersion version = GENERATE(EMqttVersion::Version311, EMqttVersion::Version5);
     const auto receiver = MakeConnected(_proxy.GetPort(), "receiver", version);
     const auto sender = MakeConnected(_broker.GetPort(), "sender", version);
     _proxy.cutOrNull = CuttingProxy::Cut{EPacket::Pubrec, true, false}; // so the broker sends it again
     REQUIRE(sender->link.Publish({"to/receiver", "1", 2, false}).has_value());
-    // The renewal may come before the subscriptions of the connection after the cut stand, which then is not told at all.
+    // The renewal may come before the connection after the cut has its subscriptions, so without OnLinkUp.
     const auto& lines = receiver->log.GetLines();
     const auto isRenewed = [&]() {
         const auto renewal =
@@ -148,7 +146,7 @@ TEST_CASE_METHOD(
     const auto probe = MakeConnected(_broker.GetPort(), "probe", version);
     const auto sender = MakeConnected(_broker.GetPort(), "sender", version);
     REQUIRE(sender->link.Publish({"to/receiver", "kept", 1, false}).has_value());
-    REQUIRE(sender->link.Publish({"to/probe", "behind it", 1, false}).has_value());
+    REQUIRE(sender->link.Publish({"to/probe", "after it", 1, false}).has_value());
     REQUIRE(TryRunUntil(_context, [&]() { return !probe->listener.messages.empty(); }));
 
     const std::size_t connections = _proxy.connections;
@@ -160,7 +158,7 @@ TEST_CASE_METHOD(
     CHECK(ListPayloads(*receiver) == std::vector<std::string>{"kept", "new"});
 }
 
-TEST_CASE_METHOD(SessionTest, "2 A broker that has forgotten the session is not told of its messages")
+TEST_CASE_METHOD(SessionTest, "2 The messages of a session that the broker has lost are not sent again")
 {
     const EMqttVersion version = GENERATE(EMqttVersion::Version311, EMqttVersion::Version5);
     const auto receiver = MakeConnected(_broker.GetPort(), "receiver", version);
@@ -178,7 +176,7 @@ TEST_CASE_METHOD(SessionTest, "2 A broker that has forgotten the session is not 
 
 TEST_CASE_METHOD(
     SessionTest,
-    "2 Two clients with one id are told once what is wrong, and take turns without more words")
+    "2 Two clients with one id log the conflict once, and replace each other without further lines")
 {
     const EMqttVersion version = GENERATE(EMqttVersion::Version311, EMqttVersion::Version5);
     const bool bCleanSession = GENERATE(true, false);
@@ -205,7 +203,7 @@ TEST_CASE_METHOD(
     }
 }
 
-TEST_CASE("2 Of libmosquitto's log only the line about a message that came is read")
+TEST_CASE("2 Of libmosquitto's log only the line about a received message is evaluated")
 {
     using VDA5050::ReadPublishLineOrNull;
     const auto publish =

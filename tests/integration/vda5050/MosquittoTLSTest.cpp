@@ -23,9 +23,9 @@ protected:
     CertificateFiles _ca = _maker.MakeCA("ca");
     boost::asio::io_context _context;
 
-    [[nodiscard]] std::string MakeSettings(const CertificateRequest& wish, const std::string& more = {})
+    [[nodiscard]] std::string MakeSettings(const CertificateRequest& request, const std::string& more = {})
     {
-        const CertificateFiles files = _maker.Make(_ca, wish);
+        const CertificateFiles files = _maker.Make(_ca, request);
         return "allow_anonymous true\ncafile " + _ca.certificate + "\ncertfile " + files.certificate + "\nkeyfile "
             + files.key + "\n" + more;
     }
@@ -49,7 +49,7 @@ protected:
 
     [[nodiscard]] bool CanConnect(const std::unique_ptr<TestLink>& link)
     {
-        // Either is an event: a link that cannot connect says so at the first attempt.
+        // A link that cannot connect logs it at the first attempt.
         CHECK(TryRunUntil(_context, [&]() { return link->listener.ups == 1 || !link->log.GetLines().empty(); }));
         return link->listener.ups == 1;
     }
@@ -82,9 +82,9 @@ TEST_CASE_METHOD(TlsTest, "2 Over TLS thousands of messages arrive complete and 
 
 TEST_CASE_METHOD(
     TlsTest,
-    "2 A broker whose certificate does not stand up is not talked to, and the log says where to look")
+    "2 No connection is made to a broker with an invalid certificate, and the log names what to check")
 {
-    CertificateRequest wish;
+    CertificateRequest request;
     std::optional<MosquittoTLS> tls = MosquittoTLS{_ca.certificate, {}, {}};
     SECTION("by another authority")
     {
@@ -92,20 +92,20 @@ TEST_CASE_METHOD(
     }
     SECTION("for another host")
     {
-        wish.alternativeName = "DNS:elsewhere.test";
+        request.alternativeName = "DNS:elsewhere.test";
     }
-    SECTION("outlived")
+    SECTION("expired")
     {
-        wish.validFrom = -48h;
-        wish.validTo = -1h;
+        request.validFrom = -48h;
+        request.validTo = -1h;
     }
-    const MosquittoBroker broker(MakeSettings(wish));
+    const MosquittoBroker broker(MakeSettings(request));
     const auto link = MakeLink(broker, tls);
     CHECK_FALSE(CanConnect(link));
     CHECK_THAT(link->log.GetLines().front().message, Catch::Contains("check the certificates"));
 }
 
-TEST_CASE_METHOD(TlsTest, "2 A broker that wants a client certificate takes one of its authority only")
+TEST_CASE_METHOD(TlsTest, "2 A broker that requires a client certificate accepts only one of its authority")
 {
     const MosquittoBroker broker(MakeSettings({}, "require_certificate true\n"));
     const CertificateFiles own = _maker.Make(_ca, {});
@@ -117,7 +117,7 @@ TEST_CASE_METHOD(TlsTest, "2 A broker that wants a client certificate takes one 
     CHECK_FALSE(CanConnect(MakeLink(broker, std::nullopt, "plain")));
 }
 
-TEST_CASE("2 User and password, with either version of MQTT; a wrong password is named")
+TEST_CASE("2 User and password work with either version of MQTT; a wrong password is reported")
 {
     const EMqttVersion version = GENERATE(EMqttVersion::Version311, EMqttVersion::Version5);
     const TemporaryFolder folder;

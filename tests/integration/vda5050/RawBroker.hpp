@@ -17,7 +17,7 @@
 namespace ACS::Testing
 {
 
-/// A peer that takes every MQTT 3.1.1 client and says what the test wants to its packets: nothing, unless it is told to.
+/// A peer that accepts every MQTT 3.1.1 client. It answers a packet only if the test has set an answer.
 class RawBroker
 {
 public:

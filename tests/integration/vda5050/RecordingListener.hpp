@@ -12,7 +12,7 @@
 namespace ACS::Testing
 {
 
-/// Remembers what a link tells.
+/// Records the callbacks of a link.
 class RecordingListener final : public VDA5050::IMqttLinkListener
 {
 public:

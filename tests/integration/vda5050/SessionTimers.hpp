@@ -14,7 +14,7 @@
 namespace ACS::Testing
 {
 
-/// The system's clocks: real sockets know no other time.
+/// The system's clocks: real sockets have no virtual time.
 [[nodiscard]] inline Core::Now ReadClock()
 {
     return Core::Now{std::chrono::steady_clock::now(), std::chrono::system_clock::now()};

@@ -18,7 +18,7 @@ constexpr std::chrono::seconds PATIENCE{20};
 
 } // namespace
 
-TEST_CASE("The vehicle example: an order with an action, one that is cancelled, a refused one, and its farewell")
+TEST_CASE("The vehicle example: an order with an action, a cancelled one, a rejected one, and the end")
 {
     boost::asio::io_context context;
     const MosquittoBroker broker;

@@ -7,8 +7,8 @@
 namespace ACS::Load
 {
 
-/// The least that puts a text on a disk for good: a table of one column, a transaction for each text, WAL and FULL. Throws
-/// what SQLite throws.
+/// The cheapest durable write of a text: a table of one column, a transaction for each text, WAL and FULL. Throws
+/// the exceptions of SQLite.
 class BareCommit
 {
     struct Impl;

@@ -86,7 +86,7 @@ std::size_t PlanKeeper::CountRunning() const noexcept
     return _running.size();
 }
 
-void PlanKeeper::CountAnew()
+void PlanKeeper::ResetCounts()
 {
     KeeperCount count;
     count.errors = _count.errors;
@@ -112,10 +112,10 @@ void PlanKeeper::OnSessionEvent(const Protocol::SessionEvent& event)
             [this](const Protocol::RequestReceived& received) {
                 if (received.bDuplicate)
                 {
-                    CountError("a report came twice");
+                    CountError("a report was repeated");
                     return;
                 }
-                TakeRequest(received.request);
+                OnRequest(received.request);
             },
             [this](const Protocol::AckReceived& received) {
                 if (received.ack.result != Protocol::EAckResult::Success)
@@ -123,7 +123,7 @@ void PlanKeeper::OnSessionEvent(const Protocol::SessionEvent& event)
                     CountError("a plan was refused: " + received.ack.message);
                 }
             },
-            [this](const Protocol::RequestUnanswered&) { CountError("a plan has no Ack"); },
+            [this](const Protocol::RequestUnanswered&) { CountError("a plan was not acknowledged"); },
             [this](const Protocol::LinkLost& lost) { CountError("the connection was lost: " + lost.reason); },
             [this](const Protocol::ProtocolNoted& noted) { CountError(GetText(noted.what)); },
             [](const auto& /*of the other side, or of no interest*/) {
@@ -131,11 +131,11 @@ void PlanKeeper::OnSessionEvent(const Protocol::SessionEvent& event)
         event);
 }
 
-void PlanKeeper::TakeRequest(const Protocol::AcsRequest& request)
+void PlanKeeper::OnRequest(const Protocol::AcsRequest& request)
 {
     std::visit(
         Core::Overloaded{
-            [this](const Protocol::RobotPositionUpdate& update) { TakePositions(update); },
+            [this](const Protocol::RobotPositionUpdate& update) { OnPositions(update); },
             [this](const Protocol::RobotStatusUpdate& status) {
                 ++_count.statuses;
                 if (status.robotStatus == Protocol::ERobotStatus::Idle)
@@ -143,11 +143,11 @@ void PlanKeeper::TakeRequest(const Protocol::AcsRequest& request)
                     _idle.insert(status.robotID);
                 }
             },
-            [this](const Protocol::PlanReport& report) { TakePlanReport(report); },
+            [this](const Protocol::PlanReport& report) { OnPlanReport(report); },
             [this](const Protocol::StepReport&) { ++_count.reports; },
             [this](const Protocol::JobReport&) { ++_count.reports; },
             [this](const Protocol::ErrorReport& error) {
-                if (error.bSet && IsEveryoneIdle()) // before, robots are told as lost until they are found
+                if (error.bSet && IsEveryoneIdle()) // until then robots are reported as lost
                 {
                     CountError(error.errorCode + ": " + error.message);
                 }
@@ -157,7 +157,7 @@ void PlanKeeper::TakeRequest(const Protocol::AcsRequest& request)
         request.payload);
 }
 
-void PlanKeeper::TakePlanReport(const Protocol::PlanReport& report)
+void PlanKeeper::OnPlanReport(const Protocol::PlanReport& report)
 {
     ++_count.reports;
     if (report.status == Protocol::EPlanStatus::InProgress)
@@ -175,7 +175,7 @@ void PlanKeeper::TakePlanReport(const Protocol::PlanReport& report)
     SendPlan(GetCell(report.planID));
 }
 
-void PlanKeeper::TakePositions(const Protocol::RobotPositionUpdate& update)
+void PlanKeeper::OnPositions(const Protocol::RobotPositionUpdate& update)
 {
     if (!IsEveryoneIdle())
     {
@@ -193,7 +193,7 @@ void PlanKeeper::SendPlan(std::size_t cell)
 {
     if (!_server->TrySend(_server->MakeRequest(MakeTransport(cell, ++_plans))))
     {
-        CountError("a plan could not be sent");
+        CountError("cannot send a plan");
     }
 }
 

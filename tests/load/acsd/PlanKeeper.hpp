@@ -18,7 +18,7 @@
 namespace ACS::Load
 {
 
-/// What acsd told, and what went wrong.
+/// Counts of the reports of acsd and of errors.
 struct KeeperCount
 {
     std::uint64_t reports = 0;  ///< Of plans, steps and jobs.
@@ -29,7 +29,7 @@ struct KeeperCount
     std::string firstError;
 };
 
-/// An MCS that keeps a plan running in every cell of a CellSite: when one is done, the next is sent.
+/// An MCS that keeps a plan running in every cell of a CellSite: when one ends, it sends the next.
 class PlanKeeper final : private ProtocolBeast::ISessionHandler
 {
     Apps::SystemClock _clock;
@@ -37,33 +37,33 @@ class PlanKeeper final : private ProtocolBeast::ISessionHandler
     std::unique_ptr<ProtocolBeast::McsServer> _server;
     std::size_t _robots;
     std::uint64_t _plans = 0;
-    std::set<std::string> _idle;    ///< Robots that were told as such, before the first plan.
+    std::set<std::string> _idle;    ///< Robots reported as idle before the first plan.
     std::set<std::string> _running; ///< Plans.
     KeeperCount _count;
     TickLog _positions;
 
 public:
-    /// Throws std::runtime_error where it cannot listen.
+    /// Throws std::runtime_error if it cannot listen.
     PlanKeeper(boost::asio::io_context& context, std::size_t robots);
 
     [[nodiscard]] std::uint16_t GetPort() const;
 
     /// Whether every robot waits for work.
     [[nodiscard]] bool IsEveryoneIdle() const noexcept;
-    /// One for each cell.
+    /// Sends one plan for each cell.
     void SendFirstPlans();
     [[nodiscard]] std::size_t CountRunning() const noexcept;
 
-    /// Forgets what was counted so far, but for what went wrong.
-    void CountAnew();
+    /// Resets the counts except the errors.
+    void ResetCounts();
     [[nodiscard]] const KeeperCount& GetCount() const noexcept;
     [[nodiscard]] const TickLog& GetPositions() const noexcept;
 
 private:
     void OnSessionEvent(const Protocol::SessionEvent& event) override;
-    void TakeRequest(const Protocol::AcsRequest& request);
-    void TakePlanReport(const Protocol::PlanReport& report);
-    void TakePositions(const Protocol::RobotPositionUpdate& update);
+    void OnRequest(const Protocol::AcsRequest& request);
+    void OnPlanReport(const Protocol::PlanReport& report);
+    void OnPositions(const Protocol::RobotPositionUpdate& update);
     void SendPlan(std::size_t cell);
     void CountError(std::string_view what);
 };

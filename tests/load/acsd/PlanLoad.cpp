@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-// What stands between an ExecutionPlan and its Ack, beside the least that a disk needs; and what a burst saves.
+// The time from an ExecutionPlan to its Ack, compared with a plain commit, and the gain of a burst.
 
 namespace ACS::Load
 {
@@ -32,9 +32,9 @@ namespace
 using Milliseconds = std::chrono::duration<double, std::milli>;
 using Seconds = std::chrono::duration<double>;
 
-constexpr double ACK_BOUND = 3.0;     ///< p99, times the bare commit's.
-constexpr double STORE_BOUND = 15.0;  ///< Plans per second in one commit, times one commit for each.
-constexpr double BURST_BOUND = 3.0;   ///< Plans per second from end to end, in a burst, times one after the other.
+constexpr double ACK_BOUND = 3.0;     ///< p99, relative to that of the bare commit.
+constexpr double STORE_BOUND = 15.0;  ///< Plans per second in one commit, relative to one commit each.
+constexpr double BURST_BOUND = 3.0;   ///< Plans per second from end to end in a burst, relative to one after the other.
 constexpr std::size_t TOGETHER = 100; ///< Plans of one commit, in the store alone.
 
 struct Options
@@ -42,7 +42,7 @@ struct Options
     std::size_t plans = 500;
 };
 
-struct Figures
+struct Metrics
 {
     std::vector<double> acks; ///< ms, sorted.
     std::vector<double> bare;
@@ -63,18 +63,18 @@ Seconds Time(const std::function<void()>& work)
     return std::chrono::steady_clock::now() - begin;
 }
 
-/// One plan in acsd, one bare commit of its bytes, in turns, so that both meet the same disk.
-void MeasureAcks(PlanSender& sender, BareCommit& bare, std::size_t plans, Figures& figures)
+/// Alternates a plan in acsd and a bare commit of its bytes, so that both have the same disk.
+void MeasureAcks(PlanSender& sender, BareCommit& bare, std::size_t plans, Metrics& metrics)
 {
     for (std::size_t i = 0; i < plans; ++i)
     {
-        figures.acks.push_back(Milliseconds(sender.Send(1)).count());
+        metrics.acks.push_back(Milliseconds(sender.Send(1)).count());
         std::string text;
         Protocol::AcsCodec::EncodeRequest({"transaction", {}, MakePlan(i)}, text);
-        figures.bare.push_back(Milliseconds(Time([&]() { bare.Commit(text); })).count());
+        metrics.bare.push_back(Milliseconds(Time([&]() { bare.Commit(text); })).count());
     }
-    std::ranges::sort(figures.acks);
-    std::ranges::sort(figures.bare);
+    std::ranges::sort(metrics.acks);
+    std::ranges::sort(metrics.bare);
 }
 
 Planning::PlanAdded MakeAdded(std::uint64_t sequence)
@@ -93,7 +93,7 @@ Planning::PlanAdded MakeAdded(std::uint64_t sequence)
     return added;
 }
 
-/// Plans per second with so many in a commit.
+/// Plans per second with this number of plans in a commit.
 double MeasureStore(Planning::IPlanStore& store, std::uint64_t& sequence, std::size_t plans, std::size_t together)
 {
     const Seconds time = Time([&]() {
@@ -113,38 +113,38 @@ double MeasureStore(Planning::IPlanStore& store, std::uint64_t& sequence, std::s
     return static_cast<double>(plans) / time.count();
 }
 
-void PrintFigures(const Options& options, const Figures& figures)
+void PrintMetrics(const Options& options, const Metrics& metrics)
 {
-    const double ackP99 = GetQuantile(figures.acks, 0.99);
-    const double bareP99 = GetQuantile(figures.bare, 0.99);
-    const double each = 1000.0 * static_cast<double>(figures.acks.size())
-        / std::accumulate(figures.acks.begin(), figures.acks.end(), 0.0);
+    const double ackP99 = GetQuantile(metrics.acks, 0.99);
+    const double bareP99 = GetQuantile(metrics.bare, 0.99);
+    const double each = 1000.0 * static_cast<double>(metrics.acks.size())
+        / std::accumulate(metrics.acks.begin(), metrics.acks.end(), 0.0);
     fmt::print("acsd, {} plans\n", options.plans);
-    PrintFigure(
+    PrintValue(
         "a bare commit of a plan's bytes",
-        fmt::format("p50 {:.3f} ms, p99 {:.3f} ms", GetQuantile(figures.bare, 0.5), bareP99));
+        fmt::format("p50 {:.3f} ms, p99 {:.3f} ms", GetQuantile(metrics.bare, 0.5), bareP99));
     PrintBound(
         "ExecutionPlan to Ack",
         fmt::format(
             "p50 {:.3f} ms, p99 {:.3f} ms: {:.2f} times",
-            GetQuantile(figures.acks, 0.5),
+            GetQuantile(metrics.acks, 0.5),
             ackP99,
             ackP99 / bareP99),
         ackP99 <= ACK_BOUND * bareP99,
         fmt::format("{} times the bare commit's p99", ACK_BOUND));
     PrintBound(
         "plans accepted in a burst",
-        fmt::format("{:.0f} a second: {:.1f} times {:.0f}", figures.burst, figures.burst / each, each),
-        figures.burst >= BURST_BOUND * each,
+        fmt::format("{:.0f} a second: {:.1f} times {:.0f}", metrics.burst, metrics.burst / each, each),
+        metrics.burst >= BURST_BOUND * each,
         fmt::format("{} times one after the other, or more", BURST_BOUND));
     PrintBound(
         fmt::format("the store, {} plans a commit", TOGETHER),
         fmt::format(
             "{:.0f} a second: {:.1f} times {:.0f}",
-            figures.storeTogether,
-            figures.storeTogether / figures.storeEach,
-            figures.storeEach),
-        figures.storeTogether >= STORE_BOUND * figures.storeEach,
+            metrics.storeTogether,
+            metrics.storeTogether / metrics.storeEach,
+            metrics.storeEach),
+        metrics.storeTogether >= STORE_BOUND * metrics.storeEach,
         fmt::format("{} times a commit each, or more", STORE_BOUND));
 }
 
@@ -162,7 +162,7 @@ int Run(const Options& options)
         "--set",
         fmt::format("mcs.url=ws://127.0.0.1:{}/acs/", sender.GetPort()),
         "--set",
-        "mqtt.url=mqtt://127.0.0.1:1", // nobody: plans are taken, and wait
+        "mqtt.url=mqtt://127.0.0.1:1", // no broker: plans are accepted and wait
         "--set",
         fmt::format("store.directory={}", (folder.GetPath() / "acsd").string()),
         "--set",
@@ -171,23 +171,23 @@ int Run(const Options& options)
         fmt::format("queue.max_plans={}", 2 * options.plans)});
     if (!acsd.TryWaitForText("ready:", std::chrono::seconds(30)))
     {
-        throw std::runtime_error("acsd does not start: " + acsd.GetText());
+        throw std::runtime_error("acsd did not start: " + acsd.GetText());
     }
     sender.WaitForACS();
 
-    Figures figures;
+    Metrics metrics;
     BareCommit bare((folder.GetPath() / "bare.db").string());
-    MeasureAcks(sender, bare, options.plans, figures);
-    figures.burst = static_cast<double>(options.plans) / Seconds(sender.Send(options.plans)).count();
+    MeasureAcks(sender, bare, options.plans, metrics);
+    metrics.burst = static_cast<double>(options.plans) / Seconds(sender.Send(options.plans)).count();
     const auto store = Planning::SqlitePlanStore::Open((folder.GetPath() / "store").string());
     if (!store)
     {
         throw std::runtime_error(Core::Describe(store.error()));
     }
     std::uint64_t sequence = 0;
-    figures.storeEach = MeasureStore(**store, sequence, options.plans, 1);
-    figures.storeTogether = MeasureStore(**store, sequence, 10 * TOGETHER, TOGETHER);
-    PrintFigures(options, figures);
+    metrics.storeEach = MeasureStore(**store, sequence, options.plans, 1);
+    metrics.storeTogether = MeasureStore(**store, sequence, 10 * TOGETHER, TOGETHER);
+    PrintMetrics(options, metrics);
     if (sender.GetAccepted() != 2 * options.plans)
     {
         fmt::print("{} of {} plans accepted: {}\n", sender.GetAccepted(), 2 * options.plans, sender.GetFirstRefusal());
@@ -206,10 +206,10 @@ int main(int argc, char** argv)
     return Apps::RunProgram("acsd_load", [argc, argv]() {
         Load::Options options;
         CLI::App app{
-            "measures what acsd needs to take a plan, beside a bare commit of its bytes on the same disk; fails where a "
+            "Measures the time of acsd to accept a plan, compared with a bare commit of its bytes on the same disk; fails if a "
             "plan is refused",
             "acsd_load"};
-        app.add_option("--plans", options.plans, "how many are sent one after the other, and as many again at once")
+        app.add_option("--plans", options.plans, "Number of plans sent one after the other, and again in a burst")
             ->check(CLI::Range(1, 100'000))
             ->capture_default_str();
         const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);

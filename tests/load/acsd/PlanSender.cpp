@@ -13,7 +13,7 @@ namespace ACS::Load
 namespace
 {
 
-constexpr std::chrono::seconds PATIENCE{60};
+constexpr std::chrono::seconds TIME_LIMIT{60};
 
 } // namespace
 
@@ -41,7 +41,7 @@ PlanSender::PlanSender(boost::asio::io_context& context)
     : _context(context)
 {
     ProtocolBeast::ServerOptions options;
-    options.session.ackTimeout = PATIENCE;
+    options.session.ackTimeout = TIME_LIMIT;
     auto server =
         ProtocolBeast::McsServer::Create(context.get_executor(), _clock, _random, Core::Logger(), options, *this);
     if (!server)
@@ -58,7 +58,7 @@ std::uint16_t PlanSender::GetPort() const
 
 void PlanSender::WaitForACS()
 {
-    RunUntil([this]() { return _server->IsRegistered(); }, "acsd has not registered");
+    RunUntil([this]() { return _server->IsRegistered(); }, "acsd did not register");
 }
 
 Core::Duration PlanSender::Send(std::size_t plans)
@@ -69,10 +69,10 @@ Core::Duration PlanSender::Send(std::size_t plans)
         ++_sent;
         if (!_server->TrySend(_server->MakeRequest(MakePlan(_sent))))
         {
-            throw std::runtime_error("a plan could not be sent");
+            throw std::runtime_error("cannot send a plan");
         }
     }
-    RunUntil([this]() { return _accepted + _refused == _sent; }, "not every plan has its Ack");
+    RunUntil([this]() { return _accepted + _refused == _sent; }, "not every plan was acknowledged");
     return std::chrono::steady_clock::now() - begin;
 }
 
@@ -105,12 +105,12 @@ void PlanSender::OnSessionEvent(const Protocol::SessionEvent& event)
 
 void PlanSender::RunUntil(const std::function<bool()>& isTrue, std::string_view what)
 {
-    const Core::SteadyTime end = std::chrono::steady_clock::now() + PATIENCE;
+    const Core::SteadyTime end = std::chrono::steady_clock::now() + TIME_LIMIT;
     while (!isTrue())
     {
         if (_context.run_one_until(end) == 0)
         {
-            throw std::runtime_error(fmt::format("{} after {} s", what, PATIENCE.count()));
+            throw std::runtime_error(fmt::format("{} after {} s", what, TIME_LIMIT.count()));
         }
     }
 }

@@ -21,7 +21,7 @@ namespace ACS::Load
 /// The example site's transport of a cassette.
 [[nodiscard]] Protocol::ExecutionPlan MakePlan(std::size_t number);
 
-/// An MCS that sends plans and counts their Acks. Throws std::runtime_error with a sentence where it waits in vain.
+/// An MCS that sends plans and counts their Acks. Throws std::runtime_error when a time limit is over.
 class PlanSender final : private ProtocolBeast::ISessionHandler
 {
     boost::asio::io_context& _context;
@@ -39,11 +39,11 @@ public:
     [[nodiscard]] std::uint16_t GetPort() const;
     void WaitForACS();
 
-    /// So many at once; returns when each has its Ack.
+    /// Sends this number of plans at once; returns when each is acknowledged.
     [[nodiscard]] Core::Duration Send(std::size_t plans);
 
     [[nodiscard]] std::size_t GetAccepted() const noexcept;
-    /// Empty where none was refused.
+    /// Empty if none was refused.
     [[nodiscard]] const std::string& GetFirstRefusal() const noexcept;
 
 private:

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-// acsd with a fleet at work: a broker, vehicles and an MCS as in a plant, all on this machine.
+// acsd with a working fleet: a broker, vehicles and an MCS as in a plant, all on this machine.
 
 namespace ACS::Load
 {
@@ -26,7 +26,7 @@ constexpr double MOST_CPU = 25.0; ///< % of a core.
 constexpr double MOST_MIB = 100.0;
 constexpr double PERIOD = 200.0; ///< ms
 constexpr double TOLERANCE = 0.02;
-constexpr double FLAT = 1.5; ///< Cost of a robot among the most, times that among the fewest.
+constexpr double FLAT = 1.5; ///< Cost of a robot among the most, relative to that among the fewest.
 constexpr std::size_t MOST_ROBOTS = 1000;
 
 struct Options
@@ -36,29 +36,29 @@ struct Options
     bool bCountsOnly = false;
 };
 
-double GetCostOfRobot(const RobotsFigures& figures)
+double GetCostOfRobot(const RobotsMetrics& metrics)
 {
-    return figures.acsdCpu / static_cast<double>(figures.robots);
+    return metrics.acsdCpu / static_cast<double>(metrics.robots);
 }
 
-/// Prints it, and returns whether it was kept.
+/// Prints the value; returns whether it is within its bound.
 bool IsBoundKept(const std::string& what, const std::string& measured, bool bKept, const std::string& bound)
 {
     PrintBound(what, measured, bKept, bound);
     return bKept;
 }
 
-bool IsEveryBoundKept(const RobotsFigures& figures)
+bool IsEveryBoundKept(const RobotsMetrics& metrics)
 {
     constexpr double KIB = 1024.0;
-    const double perSecond = 1.0 / figures.seconds;
-    const TickFigures& positions = figures.positions;
-    const double resident = static_cast<double>(figures.residentKiB) / KIB;
-    fmt::print("\nacsd, {} robots with a plan each, measured for {:.0f} s\n", figures.robots, figures.seconds);
+    const double perSecond = 1.0 / metrics.seconds;
+    const TickMetrics& positions = metrics.positions;
+    const double resident = static_cast<double>(metrics.residentKiB) / KIB;
+    fmt::print("\nacsd, {} robots with a plan each, measured for {:.0f} s\n", metrics.robots, metrics.seconds);
     bool bKept = IsBoundKept(
         "CPU of acsd",
-        fmt::format("{:.2f} % of a core, {:.3f} % a robot", figures.acsdCpu, GetCostOfRobot(figures)),
-        figures.acsdCpu < MOST_CPU,
+        fmt::format("{:.2f} % of a core, {:.3f} % a robot", metrics.acsdCpu, GetCostOfRobot(metrics)),
+        metrics.acsdCpu < MOST_CPU,
         fmt::format("{} %", MOST_CPU));
     bKept = IsBoundKept(
                 "memory of acsd",
@@ -66,7 +66,7 @@ bool IsEveryBoundKept(const RobotsFigures& figures)
                 resident < MOST_MIB,
                 fmt::format("{} MiB", MOST_MIB))
         && bKept;
-    // Where the machine had a part in every interval, their mean still shows the schedule.
+    // If the machine stalled in every interval, their mean still shows the schedule.
     const double mean = positions.count > 0 ? positions.mean : positions.meanOfAll;
     bKept = IsBoundKept(
                 "RobotPositionUpdate, mean interval",
@@ -75,36 +75,36 @@ bool IsEveryBoundKept(const RobotsFigures& figures)
                 fmt::format("{} ms, {} % more or less", PERIOD, 100.0 * TOLERANCE))
         && bKept;
     bKept = IsBoundKept(
-                "RobotPositionUpdates left out",
+                "RobotPositionUpdates omitted",
                 fmt::format("{} of {}", positions.left, positions.count),
                 positions.left == 0,
                 "none")
         && bKept;
-    PrintFigure(
-        "intervals in which the machine stood still",
+    PrintValue(
+        "intervals with a stall of the machine",
         fmt::format("{}; mean of all {:.2f} ms", positions.ofMachine, positions.meanOfAll));
-    PrintFigure(
+    PrintValue(
         "reports and robot states a second",
         fmt::format(
             "{:.1f} and {:.1f}",
-            static_cast<double>(figures.count.reports) * perSecond,
-            static_cast<double>(figures.count.statuses) * perSecond));
-    PrintFigure("plans", fmt::format("{} run at the end, {} were completed", figures.running, figures.count.completed));
-    PrintFigure(
+            static_cast<double>(metrics.count.reports) * perSecond,
+            static_cast<double>(metrics.count.statuses) * perSecond));
+    PrintValue("plans", fmt::format("{} run at the end, {} were completed", metrics.running, metrics.count.completed));
+    PrintValue(
         "CPU of vda-sim, mosquitto and the MCS",
-        fmt::format("{:.1f}, {:.1f} and {:.1f} %", figures.simulatorCpu, figures.brokerCpu, figures.ownCpu));
+        fmt::format("{:.1f}, {:.1f} and {:.1f} %", metrics.simulatorCpu, metrics.brokerCpu, metrics.ownCpu));
     return bKept;
 }
 
-/// What may never be, however busy the machine is.
-bool WasEverythingWell(const RobotsFigures& figures)
+/// Conditions that hold however busy the machine is.
+bool WasEverythingWell(const RobotsMetrics& metrics)
 {
-    const KeeperCount& count = figures.count;
+    const KeeperCount& count = metrics.count;
     const bool bWell = count.errors == 0 && count.positions > 0;
     if (!bWell)
     {
         fmt::print(
-            "NOT WELL: {} errors, {} reports, {} position updates; {}\n",
+            "FAILED: {} errors, {} reports, {} position updates; {}\n",
             count.errors,
             count.reports,
             count.positions,
@@ -113,16 +113,16 @@ bool WasEverythingWell(const RobotsFigures& figures)
     return bWell;
 }
 
-bool IsCurveKept(const std::vector<RobotsFigures>& rows)
+bool IsCurveKept(const std::vector<RobotsMetrics>& rows)
 {
     std::string curve;
-    for (const RobotsFigures& row : rows)
+    for (const RobotsMetrics& row : rows)
     {
         curve += fmt::format("{}{}: {:.3f} %", curve.empty() ? "" : ", ", row.robots, GetCostOfRobot(row));
     }
     const double ratio = GetCostOfRobot(rows.back()) / GetCostOfRobot(rows.front());
     fmt::print("\n");
-    PrintFigure("CPU of acsd for one robot, among", curve);
+    PrintValue("CPU of acsd for one robot, among", curve);
     return IsBoundKept(
         fmt::format("one among {} by one among {}", rows.back().robots, rows.front().robots),
         fmt::format("{:.2f} times", ratio),
@@ -134,17 +134,17 @@ int Run(Options options)
 {
     constexpr int INTERRUPTED = 130;
     std::ranges::sort(options.robots);
-    std::vector<RobotsFigures> rows;
+    std::vector<RobotsMetrics> rows;
     bool bWell = true;
     bool bKept = true;
     for (const std::size_t robots : options.robots)
     {
-        const std::optional<RobotsFigures> figures = MeasureRobotsOrNull(robots, std::chrono::seconds(options.seconds));
-        if (!figures.has_value())
+        const std::optional<RobotsMetrics> metrics = MeasureRobotsOrNull(robots, std::chrono::seconds(options.seconds));
+        if (!metrics.has_value())
         {
             return INTERRUPTED;
         }
-        rows.push_back(*figures);
+        rows.push_back(*metrics);
         bKept = IsEveryBoundKept(rows.back()) && bKept;
         bWell = WasEverythingWell(rows.back()) && bWell;
         std::fflush(stdout);
@@ -163,17 +163,20 @@ int main(int argc, char** argv)
     return Apps::RunProgram("acsd_robots_load", [argc, argv]() {
         Load::Options options;
         CLI::App app{
-            "measures acsd with a fleet of vda-sim at work and an MCS that keeps a plan running for each robot, on a broker of "
-            "their own; fails where a plan or a report does, and where a bound is not kept",
+            "Measures acsd with a working fleet of vda-sim and an MCS that keeps a plan running for each robot, on its own broker; "
+            "fails if a plan or a report fails, or a value is out of its bound",
             "acsd_robots_load"};
-        app.add_option("--robots", options.robots, "how many, a row each, for example 10,100")
+        app.add_option("--robots", options.robots, "Numbers of robots, a row each, for example 10,100")
             ->delimiter(',')
             ->check(CLI::Range(std::size_t{1}, Load::MOST_ROBOTS))
             ->capture_default_str();
-        app.add_option("--seconds", options.seconds, "how long each row is measured")
+        app.add_option("--seconds", options.seconds, "Measuring time of each row in seconds")
             ->check(CLI::Range(1, 100'000))
             ->capture_default_str();
-        app.add_flag("--counts-only", options.bCountsOnly, "bounds are shown, but do not make it fail");
+        app.add_flag(
+            "--counts-only",
+            options.bCountsOnly,
+            "Show the bounds, but do not fail if a value is out of them");
         const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);
         return exitCode.has_value() ? *exitCode : Load::Run(options);
     });

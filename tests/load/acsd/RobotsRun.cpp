@@ -30,7 +30,7 @@ namespace
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t LEAST_CELLS = 100;
-constexpr std::chrono::seconds PATIENCE{60};
+constexpr std::chrono::seconds TIME_LIMIT{60};
 constexpr std::chrono::seconds STOP_TIMEOUT{10};
 constexpr std::chrono::seconds WARM_UP{2}; ///< With all plans running.
 constexpr std::chrono::milliseconds POSITION_PERIOD{200};
@@ -88,7 +88,7 @@ ports = ["CP01"]
     return text;
 }
 
-/// Everything that runs, for as long as it lives.
+/// Everything that runs, until its destruction.
 class RobotsRun
 {
     std::size_t _robots;
@@ -123,9 +123,9 @@ public:
         WriteFile("cells.lif.json", CellSite::WriteLIF(std::max(robots, LEAST_CELLS)));
         WriteFile("acsd.toml", MakeConfig(robots, _keeper.GetPort(), _broker.GetURL()));
         _acsd.emplace(std::vector<std::string>{ACS_ACSD, "--config", GetPath("acsd.toml"), "--log-level", "error"});
-        if (!_acsd->TryWaitForText("ready:", PATIENCE))
+        if (!_acsd->TryWaitForText("ready:", TIME_LIMIT))
         {
-            throw std::runtime_error("acsd does not start: " + _acsd->GetText());
+            throw std::runtime_error("acsd did not start: " + _acsd->GetText());
         }
         StartSimulator();
     }
@@ -135,7 +135,7 @@ public:
 
     ~RobotsRun()
     {
-        // acsd first, which would tell the loss of all vehicles otherwise.
+        // acsd first: otherwise it would report the loss of all vehicles.
         for (std::optional<Testing::ChildProcess>* child : {&_acsd, &_simulator})
         {
             if (child->has_value())
@@ -146,16 +146,16 @@ public:
         }
     }
 
-    [[nodiscard]] std::optional<RobotsFigures> MeasureOrNull(std::chrono::seconds howLong)
+    [[nodiscard]] std::optional<RobotsMetrics> MeasureOrNull(std::chrono::seconds howLong)
     {
-        RunUntil([this]() { return _keeper.IsEveryoneIdle(); }, "not every robot is there");
+        RunUntil([this]() { return _keeper.IsEveryoneIdle(); }, "not every robot is online");
         if (!_bEnding)
         {
             _keeper.SendFirstPlans();
         }
-        RunUntil([this]() { return _keeper.CountRunning() == _robots; }, "not every plan runs");
+        RunUntil([this]() { return _keeper.CountRunning() == _robots; }, "not every plan is running");
         _context.run_for(WARM_UP);
-        _keeper.CountAnew();
+        _keeper.ResetCounts();
         StallWatch watch(STALL);
         const CpuSeconds before = Probe();
         const Clock::time_point begin = Clock::now();
@@ -166,18 +166,18 @@ public:
             return std::nullopt;
         }
 
-        RobotsFigures figures;
-        figures.robots = _robots;
-        figures.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-        figures.acsdCpu = (after.acsd - before.acsd) / figures.seconds * ONE_CORE;
-        figures.simulatorCpu = (after.simulator - before.simulator) / figures.seconds * ONE_CORE;
-        figures.brokerCpu = (after.broker - before.broker) / figures.seconds * ONE_CORE;
-        figures.ownCpu = (after.own - before.own) / figures.seconds * ONE_CORE;
-        figures.residentKiB = ProcessProbe::GetResidentKiB(_acsd->GetProcessID());
-        figures.running = _keeper.CountRunning();
-        figures.positions = _keeper.GetPositions().Evaluate(POSITION_PERIOD, watch.Stop());
-        figures.count = _keeper.GetCount();
-        return figures;
+        RobotsMetrics metrics;
+        metrics.robots = _robots;
+        metrics.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+        metrics.acsdCpu = (after.acsd - before.acsd) / metrics.seconds * ONE_CORE;
+        metrics.simulatorCpu = (after.simulator - before.simulator) / metrics.seconds * ONE_CORE;
+        metrics.brokerCpu = (after.broker - before.broker) / metrics.seconds * ONE_CORE;
+        metrics.ownCpu = (after.own - before.own) / metrics.seconds * ONE_CORE;
+        metrics.residentKiB = ProcessProbe::GetResidentKiB(_acsd->GetProcessID());
+        metrics.running = _keeper.CountRunning();
+        metrics.positions = _keeper.GetPositions().Evaluate(POSITION_PERIOD, watch.Stop());
+        metrics.count = _keeper.GetCount();
+        return metrics;
     }
 
 private:
@@ -225,10 +225,10 @@ private:
             ProcessProbe::GetCpuSeconds(getpid())};
     }
 
-    /// Or until a signal comes.
+    /// Also returns when a signal comes.
     void RunUntil(const std::function<bool()>& isTrue, std::string_view what)
     {
-        const Clock::time_point deadline = Clock::now() + PATIENCE;
+        const Clock::time_point deadline = Clock::now() + TIME_LIMIT;
         while (!_bEnding && !isTrue())
         {
             if (_context.run_one_until(deadline) == 0 && !_bEnding)
@@ -236,7 +236,7 @@ private:
                 throw std::runtime_error(fmt::format(
                     "{} after {} s {}\n{}{}",
                     what,
-                    PATIENCE.count(),
+                    TIME_LIMIT.count(),
                     _keeper.GetCount().firstError,
                     _acsd->GetText(),
                     _simulator->GetText()));
@@ -247,7 +247,7 @@ private:
 
 } // namespace
 
-std::optional<RobotsFigures> MeasureRobotsOrNull(std::size_t robots, std::chrono::seconds howLong)
+std::optional<RobotsMetrics> MeasureRobotsOrNull(std::size_t robots, std::chrono::seconds howLong)
 {
     return RobotsRun(robots).MeasureOrNull(howLong);
 }

@@ -11,8 +11,8 @@
 namespace ACS::Load
 {
 
-/// What acsd needed for so many robots, each with a plan.
-struct RobotsFigures
+/// Resource usage of acsd with this number of robots, each with a plan.
+struct RobotsMetrics
 {
     std::size_t robots = 0;
     double seconds = 0.0;
@@ -22,13 +22,13 @@ struct RobotsFigures
     double ownCpu = 0.0;
     std::int64_t residentKiB = 0; ///< Of acsd.
     std::size_t running = 0;      ///< Plans, at the end.
-    TickFigures positions;
+    TickMetrics positions;
     KeeperCount count;
 };
 
-/// Starts a broker, vda-sim, acsd and, in this program, an MCS; measures when a plan runs for each robot; ends them all. The
-/// site has room for so many robots, or for 100. nullopt where SIGINT or SIGTERM asked for the end. Throws
-/// std::runtime_error with a sentence where something does not come about.
-[[nodiscard]] std::optional<RobotsFigures> MeasureRobotsOrNull(std::size_t robots, std::chrono::seconds howLong);
+/// Starts a broker, vda-sim, acsd and, in this program, an MCS; measures while a plan runs for each robot; ends them all. The
+/// site has room for this number of robots, at least for 100. Nullopt on SIGINT or SIGTERM. Throws std::runtime_error with
+/// a sentence if a condition is not reached in time.
+[[nodiscard]] std::optional<RobotsMetrics> MeasureRobotsOrNull(std::size_t robots, std::chrono::seconds howLong);
 
 } // namespace ACS::Load

@@ -10,7 +10,7 @@ namespace
 
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
-/// Whether the machine stood still in between, or in the period before: the interval after a late tick is short.
+/// Whether the machine stalled in the interval or in the period before it: the interval after a late tick is short.
 bool WasStalled(
     const std::vector<StallWatch::Stall>& stalls,
     Core::SteadyTime begin,
@@ -34,9 +34,9 @@ void TickLog::Clear()
     _ticks.clear();
 }
 
-TickFigures TickLog::Evaluate(std::chrono::milliseconds period, const std::vector<StallWatch::Stall>& stalls) const
+TickMetrics TickLog::Evaluate(std::chrono::milliseconds period, const std::vector<StallWatch::Stall>& stalls) const
 {
-    TickFigures figures;
+    TickMetrics metrics;
     Core::Duration sum{};
     Core::Duration longest{};
     for (std::size_t i = 1; i < _ticks.size(); ++i)
@@ -44,22 +44,22 @@ TickFigures TickLog::Evaluate(std::chrono::milliseconds period, const std::vecto
         const Core::Duration interval = _ticks[i] - _ticks[i - 1];
         if (WasStalled(stalls, _ticks[i - 1], _ticks[i], period))
         {
-            ++figures.ofMachine;
+            ++metrics.ofMachine;
             continue;
         }
-        ++figures.count;
+        ++metrics.count;
         sum += interval;
         longest = std::max(longest, interval);
-        figures.left += 2 * interval > 3 * period ? 1U : 0U;
+        metrics.left += 2 * interval > 3 * period ? 1U : 0U;
     }
-    figures.mean = figures.count == 0 ? 0.0 : Milliseconds(sum).count() / static_cast<double>(figures.count);
-    figures.longest = Milliseconds(longest).count();
+    metrics.mean = metrics.count == 0 ? 0.0 : Milliseconds(sum).count() / static_cast<double>(metrics.count);
+    metrics.longest = Milliseconds(longest).count();
     if (_ticks.size() > 1)
     {
-        figures.meanOfAll =
+        metrics.meanOfAll =
             Milliseconds(_ticks.back() - _ticks.front()).count() / static_cast<double>(_ticks.size() - 1);
     }
-    return figures;
+    return metrics;
 }
 
 } // namespace ACS::Load

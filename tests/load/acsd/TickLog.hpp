@@ -10,18 +10,18 @@
 namespace ACS::Load
 {
 
-/// What the intervals of a periodic message were, those apart that the machine had a part in. Times in ms.
-struct TickFigures
+/// Intervals of a periodic message; those with a stall of the machine are counted separately. Times in ms.
+struct TickMetrics
 {
     std::size_t count = 0;
     double mean = 0.0;
     double longest = 0.0;
-    std::size_t left = 0;      ///< Intervals of more than one and a half periods: a message was left out.
-    std::size_t ofMachine = 0; ///< While the machine stood still, or right after: in none of the above.
-    double meanOfAll = 0.0;    ///< Those of the machine, too.
+    std::size_t left = 0;      ///< Intervals of more than one and a half periods: a message is missing.
+    std::size_t ofMachine = 0; ///< With or right after a stall of the machine: not included above.
+    double meanOfAll = 0.0;    ///< Those with a stall included.
 };
 
-/// When a periodic message came: a few thousand times, kept one by one.
+/// Arrival times of a periodic message: a few thousand, stored individually.
 class TickLog
 {
     std::vector<Core::SteadyTime> _ticks;
@@ -31,7 +31,7 @@ public:
     void Clear();
 
     /// The stalls in the order of their beginning.
-    [[nodiscard]] TickFigures Evaluate(std::chrono::milliseconds period, const std::vector<StallWatch::Stall>& stalls)
+    [[nodiscard]] TickMetrics Evaluate(std::chrono::milliseconds period, const std::vector<StallWatch::Stall>& stalls)
         const;
 };
 

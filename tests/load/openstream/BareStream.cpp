@@ -151,13 +151,13 @@ private:
 
 } // namespace
 
-void RunBareTurn(std::chrono::milliseconds duration, StreamFigures& figures)
+void RunBareTurn(std::chrono::milliseconds duration, StreamMetrics& metrics)
 {
     ContextThread server;
     boost::asio::io_context context(1);
     std::optional<BareSender> sender;
     server.Call([&]() { sender.emplace(server.GetContext()); });
-    BareReader reader(context, sender->GetEndpoint(), figures.frames);
+    BareReader reader(context, sender->GetEndpoint(), metrics.frames);
     context.run_for(BARE_WARM_UP);
 
     const Core::Duration serverBefore = server.GetProcessorTime();
@@ -165,9 +165,9 @@ void RunBareTurn(std::chrono::milliseconds duration, StreamFigures& figures)
     reader.bRecording = true;
     context.run_for(duration);
     reader.bRecording = false;
-    figures.elapsed += duration;
-    figures.serverTime += server.GetProcessorTime() - serverBefore;
-    figures.clientTime += GetOwnProcessorTime() - clientBefore;
+    metrics.elapsed += duration;
+    metrics.serverTime += server.GetProcessorTime() - serverBefore;
+    metrics.clientTime += GetOwnProcessorTime() - clientBefore;
 
     server.Call([&]() { sender->Stop(); });
     const Core::SteadyTime end = std::chrono::steady_clock::now() + LAST_LINES;
@@ -178,11 +178,11 @@ void RunBareTurn(std::chrono::milliseconds duration, StreamFigures& figures)
         context.run_for(PERIOD);
     }
     while (reader.received < sent && std::chrono::steady_clock::now() < end);
-    figures.framesSent += sent;
-    figures.framesReceived += reader.received;
-    figures.framesAtPeriod += reader.received;
-    figures.ticksSkipped += sender->skipped;
-    figures.periods += static_cast<std::int64_t>(sent + sender->skipped);
+    metrics.framesSent += sent;
+    metrics.framesReceived += reader.received;
+    metrics.framesAtPeriod += reader.received;
+    metrics.ticksSkipped += sender->skipped;
+    metrics.periods += static_cast<std::int64_t>(sent + sender->skipped);
     server.Stop();
 }
 

@@ -7,8 +7,8 @@
 namespace ACS::Load
 {
 
-/// The least that two programs need: a timer loop writes a line at each period, over the loopback, to a reader that notes
-/// when it came.
-void RunBareTurn(std::chrono::milliseconds duration, StreamFigures& figures);
+/// The minimum for two programs: a timer loop writes a line in each period over the loopback to a reader that records its
+/// arrival.
+void RunBareTurn(std::chrono::milliseconds duration, StreamMetrics& metrics);
 
 } // namespace ACS::Load

@@ -11,7 +11,7 @@
 namespace ACS::Load
 {
 
-/// An io_context that runs in a thread of its own until the end, and the processor time that it has taken.
+/// An io_context that runs in its own thread until the end, and the CPU time of that thread.
 class ContextThread
 {
     boost::asio::io_context _context{1};
@@ -26,10 +26,10 @@ public:
 
     [[nodiscard]] boost::asio::io_context& GetContext() noexcept;
 
-    /// No handler runs any more. What they refer to may be destroyed then, before the context is.
+    /// Afterwards no handler runs, and what they refer to may be destroyed before the context.
     void Stop();
 
-    /// Calls the function there, and returns when it has returned.
+    /// Calls the function in the thread and waits for its return.
     void Call(const std::function<void()>& function);
 
     [[nodiscard]] Core::Duration GetProcessorTime();

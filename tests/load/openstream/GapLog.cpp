@@ -12,14 +12,14 @@ namespace
 
 constexpr std::chrono::nanoseconds BUCKET{100};
 constexpr std::size_t BUCKETS = 5'000;
-constexpr std::chrono::seconds LONGEST_STALL{1}; ///< Longer ones do not happen to a machine that is in use.
+constexpr std::chrono::seconds LONGEST_STALL{1}; ///< Longer stalls do not occur on a machine in use.
 
 double ToMilliseconds(Core::Duration duration)
 {
     return std::chrono::duration<double, std::milli>(duration).count();
 }
 
-/// Whether the machine stood still in between, or just before, so that the gap makes up for the one that did not.
+/// Whether the machine stalled in the gap or just before it, so that this gap compensates for the previous one.
 bool WasStalled(
     const std::vector<StallWatch::Stall>& stalls,
     Core::SteadyTime begin,
@@ -37,7 +37,7 @@ bool WasStalled(
     return false;
 }
 
-/// Of what lies in buckets, and of the ordered list behind them.
+/// Quantile of the values in the buckets and of the ordered list after them.
 double GetPercentile(
     const std::vector<std::uint64_t>& buckets,
     std::uint64_t inBuckets,
@@ -86,9 +86,9 @@ std::uint64_t GapLog::GetListBytes() const noexcept
     return _farOff.size() * sizeof(Gap);
 }
 
-GapFigures GapLog::Evaluate(const std::vector<StallWatch::Stall>& stalls) const
+GapMetrics GapLog::Evaluate(const std::vector<StallWatch::Stall>& stalls) const
 {
-    GapFigures figures;
+    GapMetrics metrics;
     std::vector<double> farOff;
     Core::Duration sum = _sum;
     Core::Duration largest = _largest;
@@ -96,27 +96,27 @@ GapFigures GapLog::Evaluate(const std::vector<StallWatch::Stall>& stalls) const
     {
         if (WasStalled(stalls, gap.begin, gap.end, _period))
         {
-            ++figures.ofMachine;
+            ++metrics.ofMachine;
             continue;
         }
         const Core::Duration length = gap.end - gap.begin;
         sum += length;
         largest = std::max(largest, length);
         farOff.push_back(std::abs(ToMilliseconds(length - _period)));
-        figures.beyondTwo += length > 2 * _period ? 1U : 0U;
+        metrics.beyondTwo += length > 2 * _period ? 1U : 0U;
     }
     std::ranges::sort(farOff);
-    figures.count = _count + farOff.size();
-    if (figures.count == 0)
+    metrics.count = _count + farOff.size();
+    if (metrics.count == 0)
     {
-        return figures;
+        return metrics;
     }
-    figures.mean = ToMilliseconds(sum) / static_cast<double>(figures.count);
-    figures.p50 = GetPercentile(_deviations, _count, farOff, 0.5);
-    figures.p99 = GetPercentile(_deviations, _count, farOff, 0.99);
-    figures.p999 = GetPercentile(_deviations, _count, farOff, 0.999);
-    figures.largest = ToMilliseconds(largest);
-    return figures;
+    metrics.mean = ToMilliseconds(sum) / static_cast<double>(metrics.count);
+    metrics.p50 = GetPercentile(_deviations, _count, farOff, 0.5);
+    metrics.p99 = GetPercentile(_deviations, _count, farOff, 0.99);
+    metrics.p999 = GetPercentile(_deviations, _count, farOff, 0.999);
+    metrics.largest = ToMilliseconds(largest);
+    return metrics;
 }
 
 } // namespace ACS::Load

@@ -11,8 +11,8 @@
 namespace ACS::Load
 {
 
-/// What the gaps between the arrivals of a periodic thing were, those apart that the machine had a part in. Times in ms.
-struct GapFigures
+/// Gaps between the arrivals of a periodic line; those with a stall of the machine are counted separately. Times in ms.
+struct GapMetrics
 {
     std::uint64_t count = 0;
     double mean = 0.0; ///< Of the gaps; the next three are of |gap - period|.
@@ -21,11 +21,10 @@ struct GapFigures
     double p999 = 0.0;
     double largest = 0.0;
     std::uint64_t beyondTwo = 0; ///< Gaps of more than two periods.
-    std::uint64_t ofMachine =
-        0; ///< Gaps, of any length, while the machine stood still or right after: in none of the above.
+    std::uint64_t ofMachine = 0; ///< Gaps of any length with or right after a stall of the machine: not included above.
 };
 
-/// Collects the gaps of any number of connections in a fixed room, as long as few of them are far off the period.
+/// Collects the gaps of any number of connections in fixed memory, if few of them are far off the period.
 class GapLog
 {
     struct Gap
@@ -35,8 +34,8 @@ class GapLog
     };
 
     Core::Duration _period;
-    std::vector<std::uint64_t> _deviations; ///< How many gaps missed the period by so many buckets.
-    /// By more than what the buckets hold: one by one. Never moved in memory, which would leave holes of their size.
+    std::vector<std::uint64_t> _deviations; ///< Number of gaps by their distance from the period, in buckets.
+    /// Gaps beyond the buckets, stored individually. Never moved in memory, which would fragment the heap.
     std::deque<Gap> _farOff;
     std::uint64_t _count = 0; ///< Of those in buckets, as the next two.
     Core::Duration _sum{};
@@ -47,11 +46,11 @@ public:
 
     void Note(Core::SteadyTime previous, Core::SteadyTime arrival);
 
-    /// Bytes of the gaps that are kept one by one: they grow with a busy machine, and are no business of what is measured.
+    /// Bytes of the gaps that are stored individually: they grow on a busy machine and are excluded from the measurement.
     [[nodiscard]] std::uint64_t GetListBytes() const noexcept;
 
     /// The stalls in the order of their beginning.
-    [[nodiscard]] GapFigures Evaluate(const std::vector<StallWatch::Stall>& stalls) const;
+    [[nodiscard]] GapMetrics Evaluate(const std::vector<StallWatch::Stall>& stalls) const;
 };
 
 } // namespace ACS::Load

@@ -32,9 +32,9 @@ namespace
 using namespace OpenStream; // NOLINT(google-build-using-namespace)
 
 constexpr std::chrono::milliseconds WARM_UP{200};
-constexpr std::chrono::seconds STANDSTILL{30}; ///< Nothing at all moves for so long: given up.
-constexpr std::chrono::minutes PATIENCE{5};    ///< Of both ends, for whatever a busy machine delays.
-constexpr std::uint64_t CONTROLS_AHEAD = 64;   ///< Of each connection, sent and not served yet: beyond, none is sent.
+constexpr std::chrono::seconds STANDSTILL{30}; ///< The run is abandoned after this time without progress.
+constexpr std::chrono::minutes TIME_LIMIT{5};  ///< Time limit of both ends, for delays of a busy machine.
+constexpr std::uint64_t CONTROLS_AHEAD = 64;   ///< Maximum number of CONTROLs of a connection that are not served yet.
 constexpr const char* URL = "/project/robot/joints/joint_states";
 
 /// Data lines of 200 bytes; a CONTROL is counted.
@@ -65,11 +65,11 @@ public:
     }
 };
 
-/// A client with its MONITOR, and what it notes.
+/// A client with its MONITOR and its measurements.
 class LoadClient
 {
     boost::asio::io_context& _context;
-    StreamFigures& _figures;
+    StreamMetrics& _metrics;
     std::optional<Core::SteadyTime> _last;
     double _lastTs = 0.0;
     std::unique_ptr<OpenStreamAsio::OpenStreamClient> _client;
@@ -84,15 +84,15 @@ public:
         Core::IClock& clock,
         Core::IRandom& random,
         std::uint16_t port,
-        StreamFigures& figures)
+        StreamMetrics& metrics)
         : _context(context),
-          _figures(figures)
+          _metrics(metrics)
     {
         OpenStreamAsio::OpenStreamClientOptions options;
         options.port = port;
-        options.session.connectTimeout = PATIENCE;
-        options.session.answerTimeout = PATIENCE;
-        options.session.lostAfter = PATIENCE;
+        options.session.connectTimeout = TIME_LIMIT;
+        options.session.answerTimeout = TIME_LIMIT;
+        options.session.lostAfter = TIME_LIMIT;
         _client = std::make_unique<OpenStreamAsio::OpenStreamClient>(
             context.get_executor(),
             clock,
@@ -109,7 +109,7 @@ public:
         static_cast<void>(_client->SendControl(request, EControlTracking::Streamed));
     }
 
-    /// The stream goes on at its longest period, so that what has been sent is not passed over as after a STOP.
+    /// Continues the stream at its longest period, so that sent lines are not skipped, as after a STOP.
     void SlowDown()
     {
         _client->SetMonitor(MonitorRequest{URL, MAXIMUM_PERIOD, {}, {}});
@@ -118,10 +118,10 @@ public:
 private:
     void NoteRefusal(std::string text)
     {
-        ++_figures.linesRefused;
-        if (_figures.firstRefusal.empty())
+        ++_metrics.linesRefused;
+        if (_metrics.firstRefusal.empty())
         {
-            _figures.firstRefusal = std::move(text);
+            _metrics.firstRefusal = std::move(text);
         }
     }
 
@@ -131,10 +131,10 @@ private:
         {
             ++received;
             _lastTs = data->line.ts;
-            const Core::SteadyTime arrival = data->receivedAt.steady; // as the bare reader takes it
+            const Core::SteadyTime arrival = data->receivedAt.steady; // as in the bare reader
             if (bRecording && _last.has_value())
             {
-                _figures.frames.Note(*_last, arrival);
+                _metrics.frames.Note(*_last, arrival);
             }
             _last = bRecording ? std::optional(arrival) : std::nullopt;
             return;
@@ -149,13 +149,13 @@ private:
         }
         else if (std::holds_alternative<ClientMonitorStarted>(event) && ++starts == 2)
         {
-            // No line of the old MONITOR comes behind its successor's ack.
-            _figures.framesAtPeriod += received;
-            _figures.periods += static_cast<std::int64_t>(std::floor(_lastTs / static_cast<double>(PERIOD.count())));
+            // No line of the old MONITOR comes after the ack of its successor.
+            _metrics.framesAtPeriod += received;
+            _metrics.periods += static_cast<std::int64_t>(std::floor(_lastTs / static_cast<double>(PERIOD.count())));
         }
         if (const auto* lost = std::get_if<ClientLost>(&event))
         {
-            _figures.failure = "a connection was lost: " + lost->detail;
+            _metrics.failure = "a connection was lost: " + lost->detail;
             _context.stop();
         }
     }
@@ -171,13 +171,13 @@ std::uint64_t CountReceived(const std::vector<std::unique_ptr<LoadClient>>& clie
         [](const auto& client) { return client->received; });
 }
 
-/// One point for each client at each period, unless too many have not been served yet: all that waits in the sockets would
-/// have to be served before the clients' next command. Destroyed after the last handler has run.
+/// Sends one point for each client in each period, unless too many are not served yet: the server would have to serve all
+/// that wait in the sockets before the clients' next command. Destroyed after the last handler has run.
 class ControlLoop
 {
     std::vector<std::unique_ptr<LoadClient>>& _clients;
     const LoadService& _service;
-    StreamFigures& _figures;
+    StreamMetrics& _metrics;
     std::uint64_t _sent = 0;
     boost::asio::steady_timer _timer;
     Core::SteadyTime _next = std::chrono::steady_clock::now();
@@ -195,10 +195,10 @@ public:
         boost::asio::io_context& context,
         std::vector<std::unique_ptr<LoadClient>>& clients,
         const LoadService& service,
-        StreamFigures& figures)
+        StreamMetrics& metrics)
         : _clients(clients),
           _service(service),
-          _figures(figures),
+          _metrics(metrics),
           _timer(context)
     {
         WaitAsync();
@@ -229,13 +229,13 @@ private:
         const Core::SteadyTime now = std::chrono::steady_clock::now();
         if (_last.has_value())
         {
-            _figures.controls.Note(*_last, now);
+            _metrics.controls.Note(*_last, now);
         }
         _last = now;
-        _next = std::max(_next, now - PERIOD); // what was missed is not made up for
+        _next = std::max(_next, now - PERIOD); // missed periods are skipped
         if (_sent - _service.controls.load(std::memory_order_relaxed) > CONTROLS_AHEAD * _clients.size())
         {
-            _figures.controlsHeldBack += _clients.size();
+            _metrics.controlsHeldBack += _clients.size();
             return;
         }
         for (const std::unique_ptr<LoadClient>& client : _clients)
@@ -243,11 +243,11 @@ private:
             client->SendControl(_point);
         }
         _sent += _clients.size();
-        _figures.controlsSent += _clients.size();
+        _metrics.controlsSent += _clients.size();
     }
 };
 
-/// Of this program; 0 where the system does not tell.
+/// Of this program; 0 if the system does not report it.
 std::uint64_t ReadResidentBytes()
 {
     std::ifstream file("/proc/self/statm");
@@ -257,11 +257,11 @@ std::uint64_t ReadResidentBytes()
     return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// One turn of a kind of traffic, from the server's start to the last line.
+/// One run of a kind of traffic, from the server's start to the last line.
 class ServedTurn
 {
     const StreamKind& _kind;
-    StreamFigures& _figures;
+    StreamMetrics& _metrics;
     Apps::SystemClock _clock;
     Apps::SystemRandom _random;
     LoadService _service;
@@ -272,9 +272,9 @@ class ServedTurn
     std::optional<ControlLoop> _controls;
 
 public:
-    ServedTurn(const StreamKind& kind, StreamFigures& figures)
+    ServedTurn(const StreamKind& kind, StreamMetrics& metrics)
         : _kind(kind),
-          _figures(figures)
+          _metrics(metrics)
     {
     }
 
@@ -299,7 +299,7 @@ public:
         }
         if (_kind.bControls)
         {
-            _controls.emplace(_context, _clients, _service, _figures);
+            _controls.emplace(_context, _clients, _service, _metrics);
         }
         _context.run_for(WARM_UP);
         Measure(duration);
@@ -307,7 +307,7 @@ public:
     }
 
 private:
-    /// Runs for as long as anything moves. False where nothing does any more, or a connection was lost; the failure is noted.
+    /// Runs while there is progress. False if there is none, or a connection was lost; the failure is recorded.
     bool TryRunUntil(const std::function<bool()>& isReached, const char* what)
     {
         std::uint64_t moved = GetProgress();
@@ -315,7 +315,7 @@ private:
         while (!isReached())
         {
             _context.run_for(PERIOD);
-            if (!_figures.failure.empty())
+            if (!_metrics.failure.empty())
             {
                 return false;
             }
@@ -327,7 +327,7 @@ private:
             }
             else if (now > end)
             {
-                _figures.failure = fmt::format("{}: nothing moved for {} s", what, STANDSTILL.count());
+                _metrics.failure = fmt::format("{}: no progress for {} s", what, STANDSTILL.count());
                 return false;
             }
         }
@@ -356,8 +356,8 @@ private:
             OpenStreamAsio::OpenStreamServerOptions options;
             options.port = 0;
             options.maximumSessions = _kind.connections;
-            options.session.handshakeTimeout = PATIENCE;
-            options.session.streamingTimeout = PATIENCE;
+            options.session.handshakeTimeout = TIME_LIMIT;
+            options.session.streamingTimeout = TIME_LIMIT;
             _stream = std::make_unique<OpenStreamAsio::OpenStreamServer>(
                 _server.GetContext().get_executor(),
                 _clock,
@@ -368,7 +368,7 @@ private:
         });
         if (!started.has_value())
         {
-            _figures.failure = Core::Describe(started.error());
+            _metrics.failure = Core::Describe(started.error());
         }
         return started.has_value();
     }
@@ -377,7 +377,7 @@ private:
     {
         for (std::size_t index = 0; index < _kind.connections; ++index)
         {
-            _clients.push_back(std::make_unique<LoadClient>(_context, _clock, _random, _stream->GetPort(), _figures));
+            _clients.push_back(std::make_unique<LoadClient>(_context, _clock, _random, _stream->GetPort(), _metrics));
         }
     }
 
@@ -386,13 +386,13 @@ private:
         const Core::Duration serverBefore = _server.GetProcessorTime();
         const Core::Duration clientBefore = GetOwnProcessorTime();
         std::ranges::for_each(_clients, [](const auto& client) { client->bRecording = true; });
-        _figures.residentBefore = ReadResidentBytes();
+        _metrics.residentBefore = ReadResidentBytes();
         _context.run_for(duration);
-        const std::uint64_t lists = _figures.frames.GetListBytes() + _figures.controls.GetListBytes();
-        _figures.residentAfter = ReadResidentBytes() - lists;
-        _figures.elapsed += duration;
-        _figures.serverTime += _server.GetProcessorTime() - serverBefore;
-        _figures.clientTime += GetOwnProcessorTime() - clientBefore;
+        const std::uint64_t lists = _metrics.frames.GetListBytes() + _metrics.controls.GetListBytes();
+        _metrics.residentAfter = ReadResidentBytes() - lists;
+        _metrics.elapsed += duration;
+        _metrics.serverTime += _server.GetProcessorTime() - serverBefore;
+        _metrics.clientTime += GetOwnProcessorTime() - clientBefore;
     }
 
     /// Ends the traffic and waits for the last line.
@@ -415,26 +415,26 @@ private:
             _server.Call([this, &stats]() { stats = _stream->GetStats(); });
             return stats.dataLines == CountReceived(_clients);
         };
-        // The tick that was due when the MONITOR changed still comes.
+        // The tick that was due when the MONITOR changed is still sent.
         _context.run_for(2 * PERIOD);
         if (!TryRunUntil(hasAllArrived, "not every line arrived"))
         {
             return false;
         }
-        _figures.framesSent += stats.dataLines;
-        _figures.framesReplaced += stats.replacedLines;
-        _figures.ticksSkipped += stats.skippedTicks;
-        _figures.framesReceived += CountReceived(_clients);
-        _figures.controlsServed += _service.controls.load();
+        _metrics.framesSent += stats.dataLines;
+        _metrics.framesReplaced += stats.replacedLines;
+        _metrics.ticksSkipped += stats.skippedTicks;
+        _metrics.framesReceived += CountReceived(_clients);
+        _metrics.controlsServed += _service.controls.load();
         return true;
     }
 };
 
 } // namespace
 
-bool TryRunServedTurn(const StreamKind& kind, std::chrono::milliseconds duration, StreamFigures& figures)
+bool TryRunServedTurn(const StreamKind& kind, std::chrono::milliseconds duration, StreamMetrics& metrics)
 {
-    return ServedTurn(kind, figures).TryRun(duration);
+    return ServedTurn(kind, metrics).TryRun(duration);
 }
 
 } // namespace ACS::Load

@@ -7,8 +7,8 @@
 namespace ACS::Load
 {
 
-/// Our server in one thread, our clients in another. False where they do not come together or lose each other: the figures
-/// say why.
-[[nodiscard]] bool TryRunServedTurn(const StreamKind& kind, std::chrono::milliseconds duration, StreamFigures& figures);
+/// Runs the server in one thread and the clients in another. False if they do not connect or a connection is lost: the
+/// metrics have the reason.
+[[nodiscard]] bool TryRunServedTurn(const StreamKind& kind, std::chrono::milliseconds duration, StreamMetrics& metrics);
 
 } // namespace ACS::Load

@@ -22,8 +22,8 @@ struct StreamKind
     bool bControls = false; ///< Each connection sends a CONTROL at each period as well.
 };
 
-/// What came of it, over all its turns.
-struct StreamFigures
+/// Results of all its runs.
+struct StreamMetrics
 {
     GapLog frames{PERIOD};
     GapLog controls{PERIOD};      ///< From one CONTROL given to the client to the next.
@@ -33,17 +33,17 @@ struct StreamFigures
     std::uint64_t ticksSkipped = 0;
     std::uint64_t controlsSent = 0;
     std::uint64_t controlsServed = 0;
-    std::uint64_t controlsHeldBack = 0; ///< Not sent, as too many before them had not been served.
-    std::uint64_t linesRefused = 0;     ///< error and control_err lines: there is nothing to refuse.
+    std::uint64_t controlsHeldBack = 0; ///< Not sent because too many were not served yet.
+    std::uint64_t linesRefused = 0;     ///< error and control_err lines: none is expected.
     std::string firstRefusal;
-    std::string failure;              ///< Why a turn was given up; empty where none was.
+    std::string failure;              ///< Why a run was abandoned; empty if none was.
     std::uint64_t framesAtPeriod = 0; ///< Of those received: until the clients asked for a longer period at the end.
-    std::int64_t periods = 0;         ///< That went by until the last frame, by the server's clock.
-    Core::Duration elapsed{};         ///< Measured, of what went into the gaps.
+    std::int64_t periods = 0;         ///< Elapsed until the last frame, by the server's clock.
+    Core::Duration elapsed{};         ///< Time during which the gaps were measured.
     Core::Duration serverTime{};      ///< Processor time within it.
     Core::Duration clientTime{};
-    std::uint64_t residentBefore = 0; ///< Bytes of both ends together, at the beginning and the end of the last turn.
-    std::uint64_t residentAfter = 0;  ///< Without the lists of the measurement itself.
+    std::uint64_t residentBefore = 0; ///< Bytes of both ends together, at the beginning and the end of the last run.
+    std::uint64_t residentAfter = 0;  ///< Without the lists of the measurement.
 };
 
 } // namespace ACS::Load

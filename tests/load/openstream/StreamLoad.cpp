@@ -24,9 +24,9 @@ namespace
 using Seconds = std::chrono::duration<double>;
 
 constexpr double MEAN_BOUND = 0.001;  ///< Of the period.
-constexpr double MONITOR_BOUND = 1.2; ///< Times the bare loop's, p50 and p99 of |gap - period|.
+constexpr double MONITOR_BOUND = 1.2; ///< p50 and p99 of |gap - period|, relative to the bare loop.
 constexpr double CONTROL_BOUND = 1.5;
-constexpr double RESOLUTION = 0.001; ///< ms: a difference that the figures cannot show.
+constexpr double RESOLUTION = 0.001; ///< ms: smaller differences are not measurable.
 constexpr std::chrono::seconds LONGEST_TURN{5};
 constexpr std::size_t SOAK_SESSIONS = 8;
 constexpr std::uint64_t MOST_GROWTH = 16U * 1024U * 1024U; ///< Bytes, in a soak.
@@ -43,7 +43,7 @@ struct Options
 struct Row
 {
     StreamKind kind;
-    StreamFigures figures;
+    StreamMetrics metrics;
 };
 
 double GetCoreShare(Core::Duration used, Core::Duration elapsed)
@@ -70,7 +70,7 @@ void PrintHeader()
         "client");
 }
 
-std::string DescribeGaps(const GapFigures& gaps)
+std::string DescribeGaps(const GapMetrics& gaps)
 {
     return fmt::format(
         "{:>8.4f} {:>7.4f} {:>7.4f} {:>7.4f} {:>8.2f} {:>6} {:>8}",
@@ -85,25 +85,25 @@ std::string DescribeGaps(const GapFigures& gaps)
 
 void PrintRow(const Row& row, const std::vector<StallWatch::Stall>& stalls)
 {
-    const StreamFigures& figures = row.figures;
+    const StreamMetrics& metrics = row.metrics;
     fmt::print(
         "{:<30}{:>9} {:>8} {:>5}  {} {:>6.1f}% {:>6.1f}%\n",
         row.kind.name,
-        figures.framesReceived,
-        figures.ticksSkipped,
-        figures.framesSent - figures.framesReceived,
-        DescribeGaps(figures.frames.Evaluate(stalls)),
-        GetCoreShare(figures.serverTime, figures.elapsed),
-        GetCoreShare(figures.clientTime, figures.elapsed));
+        metrics.framesReceived,
+        metrics.ticksSkipped,
+        metrics.framesSent - metrics.framesReceived,
+        DescribeGaps(metrics.frames.Evaluate(stalls)),
+        GetCoreShare(metrics.serverTime, metrics.elapsed),
+        GetCoreShare(metrics.clientTime, metrics.elapsed));
     if (row.kind.bControls)
     {
         fmt::print(
             "{:<30}{:>9} {:>8} {:>5}  {}\n",
             "  its CONTROLs",
-            figures.controlsServed,
-            figures.controlsHeldBack,
-            figures.controlsSent - figures.controlsServed,
-            DescribeGaps(figures.controls.Evaluate(stalls)));
+            metrics.controlsServed,
+            metrics.controlsHeldBack,
+            metrics.controlsSent - metrics.controlsServed,
+            DescribeGaps(metrics.controls.Evaluate(stalls)));
     }
 }
 
@@ -113,9 +113,9 @@ void PrintMost(const std::string& what, double value, double bound, const char* 
 }
 
 /// Ratios to the bare loop of the same run.
-void PrintBounds(const Row& row, const GapFigures& bare, const std::vector<StallWatch::Stall>& stalls)
+void PrintBounds(const Row& row, const GapMetrics& bare, const std::vector<StallWatch::Stall>& stalls)
 {
-    const GapFigures gaps = row.figures.frames.Evaluate(stalls);
+    const GapMetrics gaps = row.metrics.frames.Evaluate(stalls);
     const double bound = row.kind.bControls ? CONTROL_BOUND : MONITOR_BOUND;
     const auto compare = [](double ours, double theirs) {
         return std::max(ours, RESOLUTION) / std::max(theirs, RESOLUTION);
@@ -130,40 +130,40 @@ void PrintBounds(const Row& row, const GapFigures& bare, const std::vector<Stall
     PrintMost(row.kind.name + ": p99 of the bare loop's", compare(gaps.p99, bare.p99), bound, "x");
 }
 
-/// What may never be, however busy the machine is: true where all is well.
+/// Conditions that hold however busy the machine is; true if they do.
 bool WasEverythingAccountedFor(const Row& row)
 {
-    const StreamFigures& figures = row.figures;
-    const auto seen = static_cast<std::int64_t>(figures.framesAtPeriod + figures.framesReplaced + figures.ticksSkipped);
-    const bool bWell = figures.framesSent == figures.framesReceived && figures.periods == seen
-        && figures.controlsSent == figures.controlsServed && figures.linesRefused == 0;
+    const StreamMetrics& metrics = row.metrics;
+    const auto seen = static_cast<std::int64_t>(metrics.framesAtPeriod + metrics.framesReplaced + metrics.ticksSkipped);
+    const bool bWell = metrics.framesSent == metrics.framesReceived && metrics.periods == seen
+        && metrics.controlsSent == metrics.controlsServed && metrics.linesRefused == 0;
     if (!bWell)
     {
         fmt::print(
             "{}: NOT ACCOUNTED FOR: {} frames sent, {} received; {} periods, {} with a frame, replaced or skipped; {} CONTROLs "
             "sent, {} served; {} lines refused {}\n",
             row.kind.name,
-            figures.framesSent,
-            figures.framesReceived,
-            figures.periods,
+            metrics.framesSent,
+            metrics.framesReceived,
+            metrics.periods,
             seen,
-            figures.controlsSent,
-            figures.controlsServed,
-            figures.linesRefused,
-            figures.firstRefusal);
+            metrics.controlsSent,
+            metrics.controlsServed,
+            metrics.linesRefused,
+            metrics.firstRefusal);
     }
     return bWell;
 }
 
-/// Both ends and the allocator have taken what they need soon after the beginning.
-bool WasMemoryKept(const StreamFigures& figures, const std::vector<StallWatch::Stall>& stalls)
+/// Both ends and the allocator have allocated what they need soon after the beginning.
+bool WasMemoryKept(const StreamMetrics& metrics, const std::vector<StallWatch::Stall>& stalls)
 {
     const std::uint64_t after =
-        figures.residentAfter - std::min(figures.residentAfter, stalls.size() * sizeof(StallWatch::Stall));
-    const bool bKept = after <= figures.residentBefore + MOST_GROWTH;
+        metrics.residentAfter - std::min(metrics.residentAfter, stalls.size() * sizeof(StallWatch::Stall));
+    const bool bKept = after <= metrics.residentBefore + MOST_GROWTH;
     PrintBound(
         "resident memory without the run's own lists",
-        fmt::format("{} KiB at the beginning, {} KiB at the end", figures.residentBefore / 1024U, after / 1024U),
+        fmt::format("{} KiB at the beginning, {} KiB at the end", metrics.residentBefore / 1024U, after / 1024U),
         bKept,
         fmt::format("{} KiB of growth", MOST_GROWTH / 1024U));
     return bKept;
@@ -182,7 +182,7 @@ std::vector<Row> MakeRows(const Options& options)
         Row{StreamKind{fmt::format("{} x MONITOR and CONTROL", options.sessions), options.sessions, false, true}, {}}};
 }
 
-/// The kinds in turns, so that all meet the same machine. False where a turn was given up.
+/// Runs the kinds in turns, so that all have the same machine. False if a run was abandoned.
 bool TryMeasure(const Options& options, std::vector<Row>& rows)
 {
     const std::chrono::milliseconds total = std::chrono::seconds(options.seconds);
@@ -200,11 +200,11 @@ bool TryMeasure(const Options& options, std::vector<Row>& rows)
                 row.kind.name);
             if (row.kind.bBare)
             {
-                RunBareTurn(turn, row.figures);
+                RunBareTurn(turn, row.metrics);
             }
-            else if (!TryRunServedTurn(row.kind, turn, row.figures))
+            else if (!TryRunServedTurn(row.kind, turn, row.metrics))
             {
-                fmt::print(stderr, "\r{:<70}\ropenstream_load: {}: {}\n", "", row.kind.name, row.figures.failure);
+                fmt::print(stderr, "\r{:<70}\ropenstream_load: {}: {}\n", "", row.kind.name, row.metrics.failure);
                 return false;
             }
         }
@@ -236,20 +236,20 @@ int Run(const Options& options)
     fmt::print("\n");
     if (options.bSoak)
     {
-        bWell = WasMemoryKept(rows.front().figures, stalls);
+        bWell = WasMemoryKept(rows.front().metrics, stalls);
     }
     else
     {
-        const GapFigures bare = rows.front().figures.frames.Evaluate(stalls);
+        const GapMetrics bare = rows.front().metrics.frames.Evaluate(stalls);
         PrintBounds(rows[1], bare, stalls);
         PrintBounds(rows[2], bare, stalls);
         PrintMost(
             rows[3].kind.name + ": server, of a core",
-            GetCoreShare(rows[3].figures.serverTime, rows[3].figures.elapsed),
+            GetCoreShare(rows[3].metrics.serverTime, rows[3].metrics.elapsed),
             100.0,
             "%");
     }
-    fmt::print("the machine stood still {} times by its own doing\n", stalls.size());
+    fmt::print("the machine stalled {} times by itself\n", stalls.size());
     for (const Row& row : rows)
     {
         bWell = WasEverythingAccountedFor(row) && bWell;
@@ -267,24 +267,24 @@ int main(int argc, char** argv)
     return Apps::RunProgram("openstream_load", [argc, argv]() {
         Load::Options options;
         CLI::App app{
-            "measures the Open Stream at 2 ms beside a bare timer loop; fails where a frame is lost",
+            "Measures the Open Stream at 2 ms compared with a bare timer loop; fails if a frame is lost",
             "openstream_load"};
-        app.add_option("--seconds", options.seconds, "how long each kind of traffic runs, in all")
+        app.add_option("--seconds", options.seconds, "Total time of each kind of traffic in seconds")
             ->check(CLI::Range(1, 100'000))
             ->capture_default_str();
         CLI::Option* const sessions =
-            app.add_option("--sessions", options.sessions, "how many at once make the crowd of the last row")
+            app.add_option("--sessions", options.sessions, "Number of sessions at a time in the last row")
                 ->check(CLI::Range(std::size_t{1}, Load::MOST_SESSIONS))
                 ->capture_default_str();
         app.add_flag(
                "--soak",
                options.bSoak,
-               "8 sessions with MONITOR and CONTROL on one connection each, without a turn in between")
+               "Run only 8 sessions with MONITOR and CONTROL on one connection each, without a pause")
             ->excludes(sessions);
         app.add_flag(
             "--realtime",
             options.bRealTime,
-            "asks the system for a real-time priority, precise timers and locked memory, for the bare loop as well");
+            "Use a real-time priority, precise timers and locked memory, for the bare loop as well");
         const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);
         return exitCode.has_value() ? *exitCode : Load::Run(options);
     });

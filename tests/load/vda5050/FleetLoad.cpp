@@ -23,7 +23,7 @@
 #include <unistd.h>
 #include <vector>
 
-// A whole fleet: vda-sim on one core, a master control on the other, a real mosquitto wherever there is room.
+// A whole fleet: vda-sim on one core, a master control on the other, a real mosquitto on either.
 
 namespace ACS::Load
 {
@@ -40,7 +40,7 @@ constexpr seconds START_TIMEOUT{60};
 constexpr seconds STOP_TIMEOUT{10};
 constexpr seconds LONGEST_WARM_UP{10}; ///< While all drive.
 
-// What the fleet is to keep.
+// Bounds of the fleet.
 constexpr double STATES_PER_SECOND = 1.0;
 constexpr double VISUALIZATIONS_PER_SECOND = 5.0;
 constexpr double TOLERANCE = 0.05;
@@ -56,7 +56,7 @@ struct Rate
     std::uint64_t missing = 0;
 };
 
-struct FleetFigures
+struct FleetMetrics
 {
     std::size_t vehicles = 0;
     double seconds = 0.0;
@@ -89,7 +89,7 @@ Rate MakeRate(const std::vector<VehicleCount>& counts, const TopicCount VehicleC
     return rate;
 }
 
-/// A broker, a simulator and a master of their own, for as long as it lives.
+/// A broker, a simulator and a master, until its destruction.
 class FleetRun
 {
     Testing::MosquittoBroker _broker{"allow_anonymous true\nmax_queued_messages 0\n"};
@@ -132,11 +132,11 @@ public:
         std::ignore = _simulator->WaitForExitOrNull(STOP_TIMEOUT);
     }
 
-    [[nodiscard]] FleetFigures Measure(seconds howLong)
+    [[nodiscard]] FleetMetrics Measure(seconds howLong)
     {
         RunUntil([this]() { return _master.CountDriving() == _vehicles; });
         _context.run_for(std::min(howLong, LONGEST_WARM_UP));
-        _master.CountAnew();
+        _master.ResetCounts();
         const pid_t simulator = _simulator->GetProcessID();
         const double simulatorBefore = ProcessProbe::GetCpuSeconds(simulator);
         const double masterBefore = ProcessProbe::GetCpuSeconds(getpid());
@@ -145,18 +145,18 @@ public:
         _context.run_for(howLong);
         const double measured = duration<double>(Clock::now() - begin).count();
 
-        FleetFigures figures;
-        figures.vehicles = _vehicles;
-        figures.seconds = measured;
-        figures.simulatorCpu = (ProcessProbe::GetCpuSeconds(simulator) - simulatorBefore) / measured * ONE_CORE;
-        figures.masterCpu = (ProcessProbe::GetCpuSeconds(getpid()) - masterBefore) / measured * ONE_CORE;
-        figures.brokerCpu = (ProcessProbe::GetCpuSeconds(_broker.GetProcessID()) - brokerBefore) / measured * ONE_CORE;
-        figures.residentKiB = ProcessProbe::GetResidentKiB(simulator);
-        figures.states = MakeRate(_master.GetCounts(), &VehicleCount::states, measured);
-        figures.visualizations = MakeRate(_master.GetCounts(), &VehicleCount::visualizations, measured);
-        figures.driving = _master.CountDriving();
-        figures.master = _master.GetTotal();
-        return figures;
+        FleetMetrics metrics;
+        metrics.vehicles = _vehicles;
+        metrics.seconds = measured;
+        metrics.simulatorCpu = (ProcessProbe::GetCpuSeconds(simulator) - simulatorBefore) / measured * ONE_CORE;
+        metrics.masterCpu = (ProcessProbe::GetCpuSeconds(getpid()) - masterBefore) / measured * ONE_CORE;
+        metrics.brokerCpu = (ProcessProbe::GetCpuSeconds(_broker.GetProcessID()) - brokerBefore) / measured * ONE_CORE;
+        metrics.residentKiB = ProcessProbe::GetResidentKiB(simulator);
+        metrics.states = MakeRate(_master.GetCounts(), &VehicleCount::states, measured);
+        metrics.visualizations = MakeRate(_master.GetCounts(), &VehicleCount::visualizations, measured);
+        metrics.driving = _master.CountDriving();
+        metrics.master = _master.GetTotal();
+        return metrics;
     }
 
 private:
@@ -168,7 +168,7 @@ private:
             if (Clock::now() > deadline)
             {
                 throw std::runtime_error(fmt::format(
-                    "{} of {} vehicles drive after {} s; {}; vda-sim says: {}",
+                    "{} of {} vehicles drive after {} s; {}; output of vda-sim: {}",
                     _master.CountDriving(),
                     _vehicles,
                     START_TIMEOUT.count(),
@@ -190,12 +190,12 @@ std::string Describe(const Rate& rate)
         rate.longestPause);
 }
 
-void PrintTable(const FleetFigures& fleet, const FleetFigures& single)
+void PrintTable(const FleetMetrics& fleet, const FleetMetrics& single)
 {
     const double perVehicle = static_cast<double>(fleet.residentKiB - single.residentKiB)
         / static_cast<double>(std::max<std::size_t>(fleet.vehicles - single.vehicles, 1));
     fmt::print("\nvda-sim, {} vehicles driving, measured for {:.0f} s\n", fleet.vehicles, fleet.seconds);
-    // A vehicle that passes nodes says so: states may come more often than each second.
+    // A vehicle also sends a state at each node: states may come more often than each second.
     PrintBound(
         "state, a vehicle's per s",
         Describe(fleet.states),
@@ -224,15 +224,15 @@ void PrintTable(const FleetFigures& fleet, const FleetFigures& single)
         fmt::format("{:.1f} % of a core", fleet.masterCpu),
         fleet.masterCpu < ONE_CORE,
         "one core");
-    PrintFigure("CPU of mosquitto", fmt::format("{:.1f} % of a core", fleet.brokerCpu));
+    PrintValue("CPU of mosquitto", fmt::format("{:.1f} % of a core", fleet.brokerCpu));
     PrintBound(
-        "vehicles that the master follows",
+        "vehicles driven by the master",
         fmt::format("{}; {} nodes reached", fleet.driving, fleet.master.nodesReached),
         fleet.driving * 100 >= fleet.vehicles * 95,
         "95 %: some have ended an order");
-    PrintFigure("orders and updates sent", fmt::format("{} and {}", fleet.master.ordersSent, fleet.master.updatesSent));
+    PrintValue("orders and updates sent", fmt::format("{} and {}", fleet.master.ordersSent, fleet.master.updatesSent));
     PrintBound(
-        "errors that the master saw",
+        "errors seen by the master",
         fmt::format("{} {}", fleet.master.errors, fleet.master.firstError),
         fleet.master.errors == 0,
         "none");
@@ -246,10 +246,10 @@ struct Options
 
 int Run(const Options& options)
 {
-    const FleetFigures single = FleetRun(1).Measure(seconds(1));
-    const FleetFigures fleet = FleetRun(options.vehicles).Measure(seconds(options.seconds));
+    const FleetMetrics single = FleetRun(1).Measure(seconds(1));
+    const FleetMetrics fleet = FleetRun(options.vehicles).Measure(seconds(options.seconds));
     PrintTable(fleet, single);
-    // What may never be, however busy the machine is.
+    // Conditions that hold however busy the machine is.
     const bool bWell = fleet.states.missing + fleet.visualizations.missing == 0 && fleet.master.errors == 0;
     return bWell ? 0 : 1;
 }
@@ -263,13 +263,13 @@ int main(int argc, char** argv)
     return Apps::RunProgram("fleet_load", [argc, argv]() {
         Load::Options options;
         CLI::App app{
-            "measures a fleet of vda-sim that drives, and a master control that follows it, on a broker of their own; "
-            "fails where a message is lost or refused",
+            "Measures a driving fleet of vda-sim and its master control on their own broker; "
+            "fails if a message is lost or refused",
             "fleet_load"};
-        app.add_option("--vehicles", options.vehicles, "how many drive")
+        app.add_option("--vehicles", options.vehicles, "Number of driving vehicles")
             ->check(CLI::Range(1, 5000))
             ->capture_default_str();
-        app.add_option("--seconds", options.seconds, "how long they are measured")
+        app.add_option("--seconds", options.seconds, "Measuring time in seconds")
             ->check(CLI::Range(1, 100'000))
             ->capture_default_str();
         const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);

@@ -17,8 +17,8 @@ namespace
 
 constexpr std::size_t ORDER_EDGES = 60;
 constexpr std::size_t BASE_NODES = 10;  ///< Of the first message of an order.
-constexpr std::size_t RELEASE_AT = 4;   ///< So few released nodes ahead, and
-constexpr std::size_t RELEASE_MORE = 8; ///< so many are released.
+constexpr std::size_t RELEASE_AT = 4;   ///< When this number of released nodes is ahead,
+constexpr std::size_t RELEASE_MORE = 8; ///< this number of nodes is released.
 constexpr std::uint64_t TIMERS = 16;    ///< A vehicle has fewer.
 
 VDA5050::FleetOptions MakeFleetOptions()
@@ -36,7 +36,7 @@ VDA5050::MosquittoOptions MakeLinkOptions(std::uint16_t port)
     return options;
 }
 
-/// Without a parser, so that the measure weighs little beside what it measures.
+/// Without a parser, so that the measurement costs little compared with what it measures.
 std::optional<std::uint32_t> FindHeaderIDOrNull(std::string_view payload)
 {
     constexpr std::string_view KEY = "\"headerId\":";
@@ -118,7 +118,7 @@ void FleetMaster::OnMqttMessage(const VDA5050::MqttMessage& message)
     Execute();
 }
 
-void FleetMaster::CountAnew()
+void FleetMaster::ResetCounts()
 {
     for (VehicleCount& count : _counts)
     {
@@ -178,7 +178,7 @@ void FleetMaster::Handle(std::size_t vehicle, const VDA5050::MasterAction& actio
             [this, vehicle](const VDA5050::PublishMessage& publish) {
                 if (!_link.Publish(publish.message).has_value())
                 {
-                    CountError(vehicle, "a message could not be sent");
+                    CountError(vehicle, "cannot send a message");
                 }
             },
             [this, getKey](const VDA5050::StartMasterTimer& start) { _timers.Start(getKey(start.timer), start.delay); },
@@ -199,7 +199,7 @@ void FleetMaster::Handle(std::size_t vehicle, const VDA5050::MasterAction& actio
             },
             [this, vehicle](const VDA5050::OrderLost& lost) { CountError(vehicle, "order lost: " + lost.reason); },
             [this, vehicle](const VDA5050::VehicleSilent&) { CountError(vehicle, "silent"); },
-            [this, vehicle](const VDA5050::VehicleBroken&) { CountError(vehicle, "its connection broke"); },
+            [this, vehicle](const VDA5050::VehicleBroken&) { CountError(vehicle, "its connection broke down"); },
             [this, vehicle](const VDA5050::MessageRefused& refused) {
                 CountError(vehicle, "message refused: " + Core::Describe(refused.error));
             },
@@ -209,7 +209,7 @@ void FleetMaster::Handle(std::size_t vehicle, const VDA5050::MasterAction& actio
                     CountError(vehicle, "error " + changed.error.errorType);
                 }
             },
-            [](const auto& /*told*/) {
+            [](const auto& /*other*/) {
             }},
         action);
 }
@@ -218,7 +218,7 @@ void FleetMaster::SendNextOrder(std::size_t vehicle)
 {
     VDA5050::MasterSession& session = _fleet.GetSession(vehicle);
     Job& job = _jobs[vehicle];
-    // The first orders differ in length, so that the next ones do not fall due all at once.
+    // The first orders differ in length, so that the next ones are not due all at once.
     const std::size_t edges = job.orders == 0 ? ORDER_EDGES - vehicle % (ORDER_EDGES / 2) : ORDER_EDGES;
     job.route = RingSite::MakeRoute(
         fmt::format("order-{}-{}", vehicle, ++job.orders),
@@ -229,7 +229,7 @@ void FleetMaster::SendNextOrder(std::size_t vehicle)
     const auto order = job.route->MakeOrder(BASE_NODES);
     if (!order.has_value() || !session.SendOrder(*order, _clock.GetNow(), actions).has_value())
     {
-        CountError(vehicle, "an order could not be sent");
+        CountError(vehicle, "cannot send an order");
     }
     ++_total.ordersSent;
     VDA5050::AppendActions(vehicle, actions, _actions);
@@ -249,7 +249,7 @@ void FleetMaster::ReleaseMore(std::size_t vehicle)
     if (!update.has_value()
         || !_fleet.GetSession(vehicle).SendOrderUpdate(*update, _clock.GetNow(), actions).has_value())
     {
-        CountError(vehicle, "an update could not be sent");
+        CountError(vehicle, "cannot send an update");
     }
     ++_total.updatesSent;
     VDA5050::AppendActions(vehicle, actions, _actions);

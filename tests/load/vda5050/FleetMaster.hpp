@@ -19,11 +19,11 @@
 namespace ACS::Load
 {
 
-/// What one vehicle published on a topic.
+/// Messages of one vehicle on a topic.
 struct TopicCount
 {
     std::uint64_t messages = 0;
-    std::uint64_t missing = 0; ///< By the gaps in their header ids.
+    std::uint64_t missing = 0; ///< By the gaps in their headerIds.
     std::optional<std::uint32_t> lastHeaderID;
     std::optional<Core::SteadyTime> lastTime;
     Core::Duration longestPause{};
@@ -35,7 +35,7 @@ struct VehicleCount
     TopicCount visualizations;
 };
 
-/// What the master side has done, and what went wrong.
+/// Counts of the master's messages and errors.
 struct MasterCount
 {
     std::uint64_t ordersSent = 0;
@@ -45,8 +45,8 @@ struct MasterCount
     std::string firstError;
 };
 
-/// Master control of a fleet on the ring: discovers the vehicles, and gives each a long order whose base grows as the
-/// vehicle drives, and then the next.
+/// Master control of a fleet on the ring: discovers the vehicles and sends each a long order, whose base it extends while the
+/// vehicle drives, then the next order.
 class FleetMaster final : public VDA5050::IMqttLinkListener
 {
     /// The order of one vehicle.
@@ -74,11 +74,11 @@ public:
     void OnLinkDown(std::error_code reason) override;
     void OnMqttMessage(const VDA5050::MqttMessage& message) override;
 
-    /// Forgets what was counted so far.
-    void CountAnew();
+    /// Resets the counts.
+    void ResetCounts();
     [[nodiscard]] const std::vector<VehicleCount>& GetCounts() const noexcept;
     [[nodiscard]] const MasterCount& GetTotal() const noexcept;
-    /// Vehicles that drive by their last state, and whose order is active.
+    /// Vehicles that drive according to their last state and have an active order.
     [[nodiscard]] std::size_t CountDriving() const;
 
 private:

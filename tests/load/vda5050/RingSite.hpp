@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-/// A ring of nodes some metres apart, wide enough to be driven round without a brake: as long a way as one likes.
+/// A ring of nodes some metres apart, wide enough to drive around without braking: a route of any length.
 namespace ACS::Load::RingSite
 {
 
@@ -18,7 +18,7 @@ inline constexpr double METRES_PER_SECOND = 1.2;
 
 [[nodiscard]] std::size_t GetNodeIndex(const std::string& nodeID);
 
-/// Round the ring from this node on.
+/// The route around the ring from this node.
 [[nodiscard]] VDA5050::OrderBuilder MakeRoute(std::string orderID, std::size_t firstNode, std::size_t edges);
 
 } // namespace ACS::Load::RingSite

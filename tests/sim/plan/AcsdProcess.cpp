@@ -32,7 +32,7 @@ Acsd::AcsdConfig MakeConfig(const Scenario& scenario)
 Protocol::SessionOptions MakeSessionOptions()
 {
     Protocol::SessionOptions options;
-    options.positionInterval = 0ms; // nothing depends on positions, and they would be nine of ten messages
+    options.positionInterval = 0ms; // no rule depends on positions, and they would be nine of ten messages
     return options;
 }
 
@@ -56,7 +56,7 @@ AcsdProcess::AcsdProcess(const Dependencies& around, CrashHandler onCrash, Commi
       _session(MakeSessionOptions(), _around.ownRandom),
       _timers(_around.timeline),
       _sessionTimers(_around.timeline),
-      _mutator(_around.mutation, _around.dice, _around.ownRandom)
+      _mutator(_around.mutation, _around.chance, _around.ownRandom)
 {
 }
 
@@ -70,7 +70,7 @@ AcsdProcess::~AcsdProcess()
 
 void AcsdProcess::Begin()
 {
-    _around.trace.Tell("acsd: start {}", _around.number);
+    _around.trace.Add("acsd: start {}", _around.number);
     for (const auto& [robotID, robot] : _around.robots)
     {
         _hands.emplace(
@@ -94,13 +94,13 @@ void AcsdProcess::Crash(std::string_view where)
     {
         return;
     }
-    _around.trace.Tell("acsd: crash {}", where);
+    _around.trace.Add("acsd: crash {}", where);
     _timers.CancelAll();
     _sessionTimers.CancelAll();
     _core.Close();
-    if (_writing.has_value() && _around.dice.IsHit(500))
+    if (_writing.has_value() && _around.chance.IsHit(500))
     {
-        _around.trace.Tell("acsd: the batch being written is stored");
+        _around.trace.Add("acsd: the batch being written is stored");
         static_cast<void>(TryCommit(*_writing));
     }
     _onCrash();
@@ -114,7 +114,7 @@ void AcsdProcess::EndCrashes()
 void AcsdProcess::CrashByChance(std::size_t permyriad, std::string_view where)
 {
     constexpr std::size_t ALL = 10'000;
-    if (_bCrashing && !_bDead && _around.dice.GetBelow(ALL) < permyriad)
+    if (_bCrashing && !_bDead && _around.chance.GetBelow(ALL) < permyriad)
     {
         Crash(where);
     }
@@ -138,8 +138,8 @@ void AcsdProcess::Store(const Planning::StoreBatch& batch)
     }
     CrashByChance(20, "before a write");
     _writing = batch;
-    const bool bSlow = _around.scenario.Has(EFault::Disk) && _around.dice.IsHit(30);
-    const Core::Duration time = _around.dice.GetBetween(1ms, bSlow ? 3s : 6ms);
+    const bool bSlow = _around.scenario.Has(EFault::Disk) && _around.chance.IsHit(30);
+    const Core::Duration time = _around.chance.GetBetween(1ms, bSlow ? 3s : 6ms);
     const bool bEarly = _mutator.Is(EMutation::StoreConfirmsEarly);
     _timers.Post(bEarly ? time + 300ms : time, [this, bEarly] {
         if (!bEarly)
@@ -153,7 +153,7 @@ void AcsdProcess::Store(const Planning::StoreBatch& batch)
     });
     if (bEarly)
     {
-        // The batch before this one must not be lost by another reason.
+        // Otherwise the batch before this one would be lost for another reason.
         _timers.Post(0ms, [this] { _core.OnStored({}); });
     }
 }
@@ -161,7 +161,7 @@ void AcsdProcess::Store(const Planning::StoreBatch& batch)
 bool AcsdProcess::TryCommit(const Planning::StoreBatch& batch)
 {
     const bool bStored = _around.store.Commit(_mutator.OnWrite(batch)).has_value();
-    _around.trace.Tell("disk: {} changes {}", batch.changes.size(), bStored ? "stored" : "refused");
+    _around.trace.Add("disk: {} changes {}", batch.changes.size(), bStored ? "stored" : "refused");
     if (bStored)
     {
         _onCommit();
@@ -177,10 +177,10 @@ void AcsdProcess::Commit()
     {
         return;
     }
-    const bool bTold = bStored || _mutator.Is(EMutation::StoreHidesFailure);
+    const bool bConfirmed = bStored || _mutator.Is(EMutation::StoreHidesFailure);
     _core.OnStored(
-        bTold ? Core::Result<void>()
-              : Core::Fail(Planning::EPlanningError::StoreFailed, "acsd.db", "room", "disk full"));
+        bConfirmed ? Core::Result<void>()
+                   : Core::Fail(Planning::EPlanningError::StoreFailed, "acsd.db", "room", "disk full"));
 }
 
 void AcsdProcess::OnAction(const Planning::EngineAction& action, const Acsd::AcsdCore::ActionHandler& execute)
@@ -202,7 +202,7 @@ void AcsdProcess::OnAction(const Planning::EngineAction& action, const Acsd::Acs
 
 void AcsdProcess::OnReport(const Planning::SendReport& report, const Acsd::AcsdCore::ActionHandler& execute)
 {
-    _around.trace.Tell("acsd: report {}: {}", report.entry.sequence, Describe(report.entry.report));
+    _around.trace.Add("acsd: report {}: {}", report.entry.sequence, Describe(report.entry.report));
     const Mutator::ReportOutcome outcome = _mutator.OnReport(report.entry);
     for (const Planning::OutboxEntry& published : outcome.reported)
     {
@@ -216,7 +216,7 @@ void AcsdProcess::OnReport(const Planning::SendReport& report, const Acsd::AcsdC
 
 void AcsdProcess::CheckStore()
 {
-    // A simulated disk loses no file.
+    // A simulated disk never loses its file.
 }
 
 void AcsdProcess::StartTimer(const Acsd::AcsdTimer& timer, Core::Duration delay)
@@ -241,7 +241,7 @@ void AcsdProcess::CancelTimers()
 
 void AcsdProcess::CloseLinks()
 {
-    // It only crashes: the links are lost with it.
+    // It only crashes: the links end with it.
 }
 
 void AcsdProcess::OnStopped()
@@ -259,7 +259,7 @@ void AcsdProcess::ObserveAckWait(Core::Duration /*wait*/)
 
 void AcsdProcess::CommandRobot(const Planning::CommandRobot& command)
 {
-    _around.trace.Tell("acsd: {} {}", command.robotID, Describe(command.command));
+    _around.trace.Add("acsd: {} {}", command.robotID, Describe(command.command));
     const auto found = _hands.find(command.robotID);
     assert(found != _hands.end());
     IRobotConnection& hand = *found->second;
@@ -268,7 +268,7 @@ void AcsdProcess::CommandRobot(const Planning::CommandRobot& command)
     {
         if (const auto* jobOrNull = std::get_if<Planning::StartJob>(&sent); jobOrNull != nullptr)
         {
-            _around.witness.NoteCommand(*jobOrNull);
+            _around.workChecker.NoteCommand(*jobOrNull);
         }
         hand.Handle(sent);
     }
@@ -276,7 +276,7 @@ void AcsdProcess::CommandRobot(const Planning::CommandRobot& command)
     {
         if (const auto* jobOrNull = std::get_if<Planning::StartJob>(&sent); jobOrNull != nullptr)
         {
-            _around.witness.NoteCommand(*jobOrNull);
+            _around.workChecker.NoteCommand(*jobOrNull);
         }
         _timers.Post(5s, [&hand, sent] { hand.Handle(sent); });
     }
@@ -292,7 +292,7 @@ void AcsdProcess::OnRobotEvent(const std::string& robotID, const Planning::Robot
     {
         return;
     }
-    _around.trace.Tell("acsd receives: {} {}", robotID, Describe(event));
+    _around.trace.Add("acsd receives: {} {}", robotID, Describe(event));
     for (const Planning::RobotEvent& heard : _mutator.OnEvent(robotID, event))
     {
         _core.OnRobotEvent(robotID, heard);
@@ -349,7 +349,7 @@ void AcsdProcess::Act(const Protocol::SessionAction& action)
             [this](const Protocol::Deliver& deliver) {
                 // AcsClient posts events: other work of the same thread may come between.
                 const Core::SteadyTime now = _around.timeline.GetNow().steady;
-                _lastDelivery = std::max(_lastDelivery, now + _around.dice.GetBetween(0ms, 3ms));
+                _lastDelivery = std::max(_lastDelivery, now + _around.chance.GetBetween(0ms, 3ms));
                 _sessionTimers.Post(_lastDelivery - now, [this, event = deliver.event] { OnSessionEvent(event); });
             }},
         action);

@@ -27,8 +27,8 @@
 namespace ACS::Simulation
 {
 
-/// acsd from one start to its crash: AcsdCore with the simulated disk, network and radios in place of the system's. What goes
-/// into the core and comes out of it passes the mutator.
+/// acsd from one start to its crash: AcsdCore with a simulated disk, network and radios. All inputs and outputs of the
+/// core pass the mutator.
 class AcsdProcess final : private Acsd::IAcsdOutput, private Acsd::IMcsOutput, private ITextPeer
 {
 public:
@@ -37,20 +37,20 @@ public:
     {
         Timeline& timeline;
         Trace& trace;
-        ChanceModel& dice;      ///< For latencies and crashes.
+        ChanceModel& chance;    ///< For latencies and crashes.
         ChanceModel& ownRandom; ///< acsd's source of ids.
         CrashableStore& store;
         TextNetwork& network;
         std::map<std::string, std::unique_ptr<ISimulatedRobot>>& robots;
-        WorkChecker& witness;
+        WorkChecker& workChecker;
         const Scenario& scenario;
         EMutation mutation = EMutation::None;
-        std::uint64_t number = 0; ///< Of this start.
+        std::uint64_t number = 0; ///< The number of this start.
     };
 
-    /// Called once, at its end, from within whatever it was doing: it does nothing any more.
+    /// Called once at the crash, possibly from within a call of this class. Afterwards it does nothing.
     using CrashHandler = std::function<void()>;
-    /// Called after each batch that reached the disk.
+    /// Called after each batch that is on the disk.
     using CommitHandler = std::function<void()>;
 
 private:
@@ -58,7 +58,7 @@ private:
     CrashHandler _onCrash;
     CommitHandler _onCommit;
     bool _bDead = false;
-    bool _bCrashing; ///< By chance; ends with the faults.
+    bool _bCrashing; ///< Crashes at random; ends with the faults.
 
     Acsd::AcsdCore _core;
     Protocol::AcsSession _session;
@@ -70,7 +70,7 @@ private:
     bool _bActing = false;
     std::optional<Protocol::ConnectionID> _connection;
     Core::SteadyTime _lastDelivery{};
-    std::optional<Planning::StoreBatch> _writing; ///< On its way to the disk.
+    std::optional<Planning::StoreBatch> _writing; ///< Being written to the disk.
     Mutator _mutator;
 
 public:
@@ -79,12 +79,12 @@ public:
     AcsdProcess& operator=(const AcsdProcess&) = delete;
     ~AcsdProcess() override;
 
-    /// Reads the disk and begins.
+    /// Reads the disk and starts.
     void Begin();
 
-    /// It ends at this moment, whatever it is doing.
+    /// Ends it at this moment, whatever it is doing.
     void Crash(std::string_view where);
-    /// No crashes by chance from now on.
+    /// No random crashes from now on.
     void EndCrashes();
 
     void PushCommand(Planning::PlanCommand command);

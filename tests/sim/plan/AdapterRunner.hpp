@@ -13,8 +13,8 @@
 namespace ACS::Simulation
 {
 
-/// Runs the adapter of one robot as RobotHost does: gives it time, keeps its timers, passes its events on, and carries out
-/// what it wants one after the other, also where that leads back to it.
+/// Runs the adapter of one robot as RobotHost does: gives it time, keeps its timers, passes its events on, and carries
+/// out its actions in order, also those that are added in the meantime.
 class AdapterRunner final
 {
     Timeline& _timeline;
@@ -33,7 +33,7 @@ public:
         ISimulatedRobot::EventHandler handler,
         std::function<void()> afterwards);
 
-    /// The call is one of the adapter's functions, which is given the time and takes what it wants.
+    /// Calls a function of the adapter with the time, and carries out the requested actions.
     template <typename TCall>
     void Run(TCall call)
     {

@@ -40,7 +40,7 @@ ArmClient::~ArmClient()
     }
 }
 
-/// What the event handler asks for from within joins the batch, as in OpenStreamClient.
+/// Requests of the event handler join the batch, as in OpenStreamClient.
 template <typename TCall>
 void ArmClient::Call(TCall call)
 {
@@ -50,7 +50,7 @@ void ArmClient::Call(TCall call)
         return;
     }
     std::size_t index = 0;
-    while (index < _actions.size()) // grows underway
+    while (index < _actions.size()) // grows in the loop
     {
         const OpenStream::ClientAction action = std::move(_actions[index]);
         std::visit([this](const auto& content) { this->Do(content); }, action);
@@ -62,7 +62,7 @@ void ArmClient::Call(TCall call)
 
 void ArmClient::Do(const OpenStream::ClientEvent& event)
 {
-    Tell(event);
+    TraceEvent(event);
     Mutate(event);
     _handler(event);
 }
@@ -80,29 +80,31 @@ void ArmClient::Mutate(const OpenStream::ClientEvent& event)
     }
 }
 
-/// Samples only where they have changed.
-void ArmClient::Tell(const OpenStream::ClientEvent& event)
+/// Only the samples that have changed.
+void ArmClient::TraceEvent(const OpenStream::ClientEvent& event)
 {
     std::visit(
         Core::Overloaded{
-            [this](const OpenStream::ClientReady&) { _controller.Tell("session with the arm"); },
-            [this](const OpenStream::ClientMonitorStarted&) { _controller.Tell("MONITOR begins"); },
+            [this](const OpenStream::ClientReady&) { _controller.AddToTrace("session with the arm"); },
+            [this](const OpenStream::ClientMonitorStarted&) { _controller.AddToTrace("MONITOR begins"); },
             [this](const OpenStream::ClientData& data) {
                 const std::string text(data.line.result.has_value() ? data.line.result->GetText() : std::string());
                 if (std::exchange(_toldSample, text) != text)
                 {
-                    _controller.Tell("sample " + text);
+                    _controller.AddToTrace("sample " + text);
                 }
             },
             [this](const OpenStream::ClientControlSettled& settled) {
                 static constexpr std::array OUTCOMES{"accepted", "refused", "unknown", "not sent", "unconfirmed"};
                 const std::string outcome = OUTCOMES.at(static_cast<std::size_t>(settled.outcome));
-                _controller.Tell("CONTROL " + outcome + " " + settled.detail);
+                _controller.AddToTrace("CONTROL " + outcome + " " + settled.detail);
             },
-            [this](const OpenStream::ClientControlFault& fault) { _controller.Tell("CONTROL fault " + fault.detail); },
-            [this](const OpenStream::ClientLost& lost) { _controller.Tell("arm lost: " + lost.detail); },
+            [this](const OpenStream::ClientControlFault& fault) {
+                _controller.AddToTrace("CONTROL fault " + fault.detail);
+            },
+            [this](const OpenStream::ClientLost& lost) { _controller.AddToTrace("arm lost: " + lost.detail); },
             [this](const auto&) {
-                _controller.Tell("another event of the session");
+                _controller.AddToTrace("another event of the session");
             }},
         event);
 }
@@ -122,7 +124,7 @@ void ArmClient::Do(const OpenStream::ClientSend& action)
         _controller.NoteStartSent(*_connection, _commandID);
     }
     _controller.GetNetwork().Send(*_connection, ETextEnd::Client, text);
-    _session.OnSendCompleted(_timeline.GetNow(), _actions); // the system takes as much as is sent here
+    _session.OnSendCompleted(_timeline.GetNow(), _actions); // the simulated network always accepts everything
 }
 
 void ArmClient::Do(const OpenStream::ClientClose& /*action*/)

@@ -31,8 +31,8 @@ private:
     bool _bOpened = false;
     bool _bExecuting = false;
     std::string _toldSample;
-    bool _bStartSent = false; ///< Since the session began, or before it.
-    std::string _commandID;   ///< Of the job that the adapter was given last.
+    bool _bStartSent = false; ///< In this session or before it.
+    std::string _commandID;   ///< Of the job that the adapter was commanded last.
 
 public:
     ArmClient(
@@ -42,20 +42,20 @@ public:
         EventHandler handler);
     ArmClient(const ArmClient&) = delete;
     ArmClient& operator=(const ArmClient&) = delete;
-    /// As when acsd dies: nobody takes leave.
+    /// A crash of acsd: no connection is closed properly.
     ~ArmClient() override;
 
     void Start();
     void Send(const Acsd::ArmRequest& request);
 
-    /// Before the adapter is given it: whatever starts a program from now on does so for this job.
+    /// Called before the adapter has the job: every program that is started from now on is for this job.
     void NoteCommand(const Planning::RobotCommand& command);
 
 private:
     template <typename TCall>
     void Call(TCall call);
-    void Tell(const OpenStream::ClientEvent& event);
-    /// The built-in defect.
+    void TraceEvent(const OpenStream::ClientEvent& event);
+    /// The defect that is built in.
     void Mutate(const OpenStream::ClientEvent& event);
     void Do(const OpenStream::ClientEvent& event);
     void Do(const OpenStream::ClientConnect& action);

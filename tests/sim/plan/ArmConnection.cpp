@@ -18,7 +18,7 @@ ArmConnection::ArmConnection(Timeline& timeline, TextNetwork& network, Protocol:
 {
 }
 
-/// Carries out the batch. What it leads to at once (the answer of the service) joins the batch.
+/// Carries out the batch. Its immediate consequences (the answer of the service) join it.
 template <typename TCall>
 void ArmConnection::Call(TCall call)
 {
@@ -38,7 +38,7 @@ void ArmConnection::Call(TCall call)
 void ArmConnection::Do(const OpenStream::ServerSend& action)
 {
     _network.Send(_id, ETextEnd::Server, std::string(action.text));
-    _session.OnSendCompleted(_timeline.GetNow(), _actions); // the system takes as much as is sent here
+    _session.OnSendCompleted(_timeline.GetNow(), _actions); // the simulated network always accepts everything
 }
 
 void ArmConnection::Do(const OpenStream::ServerCall& action)
@@ -83,7 +83,7 @@ void ArmConnection::Do(const OpenStream::ServerCancelTimer& action)
 
 void ArmConnection::Do(const OpenStream::ServerPauseReading& /*action*/)
 {
-    // Nothing waits before the session here: what is sent comes text by text.
+    // No text waits before the session: the network delivers text by text.
 }
 
 void ArmConnection::Do(const OpenStream::ServerResumeReading& /*action*/)

@@ -18,7 +18,7 @@ namespace ACS::Simulation
 class ArmConnection final
 {
 public:
-    /// What it needs of its controller.
+    /// What it needs from its controller.
     struct Handlers
     {
         std::function<void(const OpenStream::ApiRequest& request, OpenStream::ApiResponse& response)> call;
@@ -27,7 +27,7 @@ public:
     };
 
 private:
-    /// What an answer of the service is to. Of each kind one is waited for at a time.
+    /// Which request the service answers. At most one of each kind is pending.
     enum class EAnswer : std::uint8_t
     {
         Sample,
@@ -62,7 +62,7 @@ public:
     void Start();
     void OnText(const std::string& text);
     void OnPeerClosed();
-    /// Without a line; the handler is not called.
+    /// Closes without a message; the handler is not called.
     void Drop();
     [[nodiscard]] bool IsEnded() const noexcept;
 

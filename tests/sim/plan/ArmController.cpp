@@ -19,8 +19,8 @@ namespace
 constexpr std::string_view START_PATH = "/project/robot/start";
 constexpr std::string_view STOP_PATH = "/project/robot/stop";
 constexpr OpenStreamSim::RelayBlock COUNTER_BLOCK{OpenStreamSim::ERelayBus::None, 0, OpenStreamSim::ERelayArea::M};
-constexpr std::chrono::milliseconds LOOK_INTERVAL = 200ms;
-/// Nothing that was sent is on its way for so long.
+constexpr std::chrono::milliseconds POLL_INTERVAL = 200ms;
+/// No message is in transit for longer.
 constexpr std::chrono::seconds LONGEST_WAY = 10s;
 
 OpenStreamSim::PlaceTemplates MakeTemplates(const std::vector<std::string>& texts)
@@ -69,13 +69,13 @@ ArmController::ArmController(
     bool bFaulty,
     std::function<bool()> isDriving)
     : _around(around),
-      _dice(seeds.controller),
+      _chance(seeds.controller),
       _clientRandom({seeds.network.seed, seeds.network.part + 50}),
       _network(around.timeline, around.trace, seeds.network, std::nullopt),
       _robotID(std::move(robotID)),
       _bFaulty(bFaulty),
       _isDriving(std::move(isDriving)),
-      _habits(around.timeline)
+      _behaviours(around.timeline)
 {
     _network.Listen(*this);
     SwitchOn();
@@ -83,20 +83,20 @@ ArmController::ArmController(
 
 ArmController::~ArmController() = default;
 
-/// With nothing in its memory.
+/// With an empty memory.
 void ArmController::SwitchOn()
 {
     OpenStreamSim::ControllerOptions options;
     for (const auto& [action, program] : GetArmPrograms())
     {
         OpenStreamSim::ProgramSpec spec;
-        spec.duration = std::chrono::milliseconds(_dice.GetBetween(500, _dice.IsHit(200) ? 20'000 : 5'000));
+        spec.duration = std::chrono::milliseconds(_chance.GetBetween(500, _chance.IsHit(200) ? 20'000 : 5'000));
         spec.echo = OpenStreamSim::ParseRelayNameOrNull(program.inputs.front().first);
         spec.work = MakeWork(program);
         options.programs[static_cast<int>(program.program)] = spec;
     }
     options.robotID = _robotID;
-    options.world = &_around.witness.GetFloor();
+    options.world = &_around.workChecker.GetFloor();
     OpenStreamSim::IFaultHost& host = *this;
     _machine = std::make_unique<Machine>(options, host, _around.timeline.GetNow());
     _seen = {};
@@ -125,9 +125,9 @@ void ArmController::NoteStartSent(Protocol::ConnectionID connection, const std::
     _lastStartAt = _around.timeline.GetNow().steady;
 }
 
-void ArmController::Tell(const std::string& text) const
+void ArmController::AddToTrace(const std::string& text) const
 {
-    _around.trace.Tell("acsd receives: {} {}", _robotID, text);
+    _around.trace.Add("acsd receives: {} {}", _robotID, text);
 }
 
 std::string ArmController::TakeStart(Protocol::ConnectionID connection)
@@ -156,31 +156,31 @@ ArmController::Counters ArmController::ReadCounters()
         relays.ReadS32(COUNTER_BLOCK, OpenStreamSim::FAILED_BYTE)};
 }
 
-/// What the counters show since the last look; a program that has begun since has done so for this command.
-void ArmController::Look(const std::string& startedFor)
+/// Reads the counters. A program that has begun since the last call has begun for this command.
+void ArmController::Poll(const std::string& startedFor)
 {
     const Counters before = std::exchange(_seen, ReadCounters());
     if (_seen.started != before.started)
     {
         _running = startedFor;
         _bHaltedByFault = false;
-        const Planning::StartJob* const jobOrNull = _around.witness.FindCommandOrNull(_running);
+        const Planning::StartJob* const jobOrNull = _around.workChecker.FindCommandOrNull(_running);
         if (jobOrNull == nullptr)
         {
             _around.trace.Violate("the arm of {} starts a program without a job", _robotID);
             return;
         }
         CheckProgram(*jobOrNull);
-        _around.witness.OnJobBegun(_robotID, *jobOrNull);
+        _around.workChecker.OnJobBegun(_robotID, *jobOrNull);
     }
-    const Planning::StartJob* const jobOrNull = _around.witness.FindCommandOrNull(_running);
+    const Planning::StartJob* const jobOrNull = _around.workChecker.FindCommandOrNull(_running);
     if (_seen.finished != before.finished && jobOrNull != nullptr)
     {
-        _around.witness.OnJobFinished(_robotID, *jobOrNull);
+        _around.workChecker.OnJobFinished(_robotID, *jobOrNull);
     }
     if (_seen.failed != before.failed)
     {
-        _around.trace.Tell("{} aborts its program", _robotID);
+        _around.trace.Add("{} aborts its program", _robotID);
     }
     if (_seen.finished != before.finished || _seen.failed != before.failed)
     {
@@ -199,7 +199,7 @@ void ArmController::WatchProgram()
     {
         _around.trace.Violate("{} drives while its arm executes a job", _robotID);
     }
-    _habits.Start(EBehaviour::Look, LOOK_INTERVAL, [this] { Look({}); });
+    _behaviours.Start(EBehaviour::Poll, POLL_INTERVAL, [this] { Poll({}); });
 }
 
 void ArmController::CheckProgram(const Planning::StartJob& job)
@@ -223,28 +223,28 @@ void ArmController::Call(
     const bool bControl = request.method != OpenStream::EApiMethod::Get;
     const bool bStart = bControl && request.path == START_PATH;
     const std::string commandID = bStart ? TakeStart(connection) : std::string();
-    Look({});
-    if (bControl && _bFaulty && _dice.IsHit(15))
+    Poll({});
+    if (bControl && _bFaulty && _chance.IsHit(15))
     {
         Inject(MakeFault(OpenStreamSim::EFaultKind::Refuse));
     }
-    if (bStart && _bFaulty && _dice.IsHit(30))
+    if (bStart && _bFaulty && _chance.IsHit(30))
     {
         OpenStreamSim::Fault failure = MakeFault(OpenStreamSim::EFaultKind::ProgramFails);
-        failure.bAtStart = _dice.IsHit(300);
+        failure.bAtStart = _chance.IsHit(300);
         Inject(failure);
     }
     _machine->service.Call(request, _around.timeline.GetNow(), response);
-    if (bControl && _bFaulty && _dice.IsHit(80))
+    if (bControl && _bFaulty && _chance.IsHit(80))
     {
-        response.delay += _dice.GetBetween(300ms, 1'500ms); // beyond what is taken for consent
+        response.delay += _chance.GetBetween(300ms, 1'500ms); // longer than acsd waits for the answer
     }
     if (bControl)
     {
-        _around.trace.Tell("{} answers {}: {}", _robotID, request.path, response.status);
+        _around.trace.Add("{} answers {}: {}", _robotID, request.path, response.status);
         _bStopAsked = request.path == STOP_PATH || (_bStopAsked && !(bStart && response.IsSuccess()));
     }
-    Look(commandID);
+    Poll(commandID);
 }
 
 void ArmController::Inject(const OpenStreamSim::Fault& fault)
@@ -258,17 +258,17 @@ void ArmController::DropSessions()
     {
         connection->Drop();
     }
-    _habits.Post(0ms, [this] {
+    _behaviours.Post(0ms, [this] {
         std::erase_if(_connections, [](const auto& entry) { return entry.second->IsEnded(); });
     });
 }
 
 void ArmController::WakeAt(std::optional<Core::SteadyTime> timeOrNull)
 {
-    _habits.Cancel(EBehaviour::Wake);
+    _behaviours.Cancel(EBehaviour::Wake);
     if (timeOrNull.has_value())
     {
-        _habits.Start(EBehaviour::Wake, *timeOrNull - _around.timeline.GetNow().steady, [this] {
+        _behaviours.Start(EBehaviour::Wake, *timeOrNull - _around.timeline.GetNow().steady, [this] {
             _machine->faults.Advance(_around.timeline.GetNow());
         });
     }
@@ -282,7 +282,7 @@ void ArmController::OnOpened(Protocol::ConnectionID connection)
         },
         [this] { _machine->service.StopControl(_around.timeline.GetNow()); },
         [this, connection] {
-            _habits.Post(0ms, [this, connection] { _connections.erase(connection); });
+            _behaviours.Post(0ms, [this, connection] { _connections.erase(connection); });
         }};
     const auto [made, bNew] = _connections.emplace(
         connection,
@@ -292,25 +292,25 @@ void ArmController::OnOpened(Protocol::ConnectionID connection)
 
 void ArmController::OnText(Protocol::ConnectionID connection, const std::string& text)
 {
-    // A start above all: of it nobody may say that it has come to nothing, nor send it again.
+    // The outcome of a START is unknown: it is neither failed nor sent again.
     const bool bControl = text.find("\"CONTROL\"") != std::string::npos;
     const std::size_t chance = text.find(START_PATH) != std::string::npos ? 150 : 50;
-    const bool bCut = bControl && _around.bBadRadio && !_bCalm && _dice.IsHit(chance);
+    const bool bCut = bControl && _around.bBadRadio && !_bCalm && _chance.IsHit(chance);
     if (bCut)
     {
         _network.Cut();
     }
-    if (bCut && _dice.IsHit(500))
+    if (bCut && _chance.IsHit(500))
     {
-        if (text.find(START_PATH) != std::string::npos && _dice.IsHit(300))
+        if (text.find(START_PATH) != std::string::npos && _chance.IsHit(300))
         {
             RunByHand();
         }
-        return; // it got lost; else the answer to it does
+        return; // lost; otherwise its answer continues
     }
     if (const auto found = _connections.find(connection); found != _connections.end())
     {
-        _around.trace.Tell("acsd -> arm of {} {}", _robotID, std::string_view(text).substr(0, text.find('\n')));
+        _around.trace.Add("acsd -> arm of {} {}", _robotID, std::string_view(text).substr(0, text.find('\n')));
         found->second->OnText(text);
     }
 }
@@ -326,7 +326,7 @@ void ArmController::OnClosed(Protocol::ConnectionID connection, const std::strin
 void ArmController::SetReachable(bool bReachable)
 {
     _bReachable = bReachable;
-    _network.SetSlow(_dice.IsHit(300) && !_bCalm);
+    _network.SetSlow(_chance.IsHit(300) && !_bCalm);
     UpdateNetwork();
 }
 
@@ -350,11 +350,11 @@ void ArmController::Disturb()
         EFaultKind::EmergencyStop,
         EFaultKind::ProtectiveStop,
         EFaultKind::MotorOff};
-    OpenStreamSim::Fault fault = MakeFault(KINDS.at(_dice.GetBelow(KINDS.size())));
-    fault.time = _dice.GetBetween(50ms, 1'500ms);
-    fault.silence = fault.kind == EFaultKind::Mode ? _dice.GetBetween(0ms, 3s) : Core::Duration::zero();
-    _around.trace.Tell("the arm of {} has a fault: {}", _robotID, static_cast<int>(fault.kind));
-    Look({});
+    OpenStreamSim::Fault fault = MakeFault(KINDS.at(_chance.GetBelow(KINDS.size())));
+    fault.time = _chance.GetBetween(50ms, 1'500ms);
+    fault.silence = fault.kind == EFaultKind::Mode ? _chance.GetBetween(0ms, 3s) : Core::Duration::zero();
+    _around.trace.Add("the arm of {} has a fault: {}", _robotID, static_cast<int>(fault.kind));
+    Poll({});
     const bool bPlayed = GetMachine().IsPlaying();
     Inject(fault);
     _bHaltedByFault = _bHaltedByFault || (bPlayed && !GetMachine().IsPlaying());
@@ -362,42 +362,42 @@ void ArmController::Disturb()
 
 void ArmController::Recover()
 {
-    _around.trace.Tell("the arm of {} has recovered", _robotID);
+    _around.trace.Add("the arm of {} has recovered", _robotID);
     static_cast<void>(_machine->faults.End(std::nullopt, _around.timeline.GetNow()));
     SetRight();
 }
 
-/// Somebody at its panel: the motor goes on, and a program that the fault has halted goes on or is given up.
+/// At the panel the motor is switched on, and a halted program is continued or aborted.
 void ArmController::SetRight()
 {
     static_cast<void>(GetMachine().SwitchMotorOn());
-    _habits.Start(EBehaviour::Hand, 1500ms, [this] {
-        Look({});
+    _behaviours.Start(EBehaviour::Hand, 1500ms, [this] {
+        Poll({});
         OpenStreamSim::ControllerMachine& machine = GetMachine();
         if (!std::exchange(_bHaltedByFault, false) || _running.empty() || _bStopAsked || machine.IsPlaying())
         {
             return;
         }
-        const bool bGoesOn = _dice.IsHit(700);
-        _around.trace.Tell("the program of {} is {} by hand", _robotID, bGoesOn ? "continued" : "aborted");
+        const bool bGoesOn = _chance.IsHit(700);
+        _around.trace.Add("the program of {} is {} by hand", _robotID, bGoesOn ? "continued" : "aborted");
         if (!bGoesOn || machine.StartProgram() != OpenStreamSim::EApiError::None)
         {
             machine.ResetTasks();
         }
-        Look({});
+        Poll({});
     });
 }
 
-/// Somebody at its panel runs a program of the site's own, which moves nothing and has a number of its own.
+/// At the panel a program of the site is run, which moves nothing and has its own number.
 void ArmController::RunByHand()
 {
     constexpr std::uint32_t OWN_NUMBER = 0;
-    Look({});
+    Poll({});
     if (GetMachine().IsPlaying() || !_running.empty())
     {
         return;
     }
-    _around.trace.Tell("the arm of {} runs a program by hand", _robotID);
+    _around.trace.Add("the arm of {} runs a program by hand", _robotID);
     OpenStreamSim::RelayMemory& relays = GetMachine().GetRelays();
     relays.WriteU32(COUNTER_BLOCK, OpenStreamSim::ECHO_BYTE, OWN_NUMBER);
     relays.WriteU32(COUNTER_BLOCK, OpenStreamSim::STARTED_BYTE, static_cast<std::uint32_t>(_seen.started) + 1U);
@@ -407,15 +407,15 @@ void ArmController::RunByHand()
 
 void ArmController::Restart()
 {
-    Look({});
-    const bool bForgets = _dice.IsHit(500);
-    _around.trace.Tell("the arm of {} loses its power{}", _robotID, bForgets ? " and its memory" : "");
+    Poll({});
+    const bool bForgets = _chance.IsHit(500);
+    _around.trace.Add("the arm of {} loses its power{}", _robotID, bForgets ? " and its memory" : "");
     _bPowered = false;
     DropSessions();
     UpdateNetwork();
     if (bForgets)
     {
-        _habits.Cancel(EBehaviour::Wake);
+        _behaviours.Cancel(EBehaviour::Wake);
         SwitchOn();
     }
     else
@@ -423,7 +423,7 @@ void ArmController::Restart()
         _bHaltedByFault = _bHaltedByFault || GetMachine().IsPlaying();
         GetMachine().SwitchMotorOff();
     }
-    _habits.Start(EBehaviour::Power, _dice.GetBetween(1s, 8s), [this] {
+    _behaviours.Start(EBehaviour::Power, _chance.GetBetween(1s, 8s), [this] {
         _bPowered = true;
         UpdateNetwork();
         SetRight();
@@ -446,7 +446,7 @@ bool ArmController::IsPlaying()
 
 bool ArmController::IsWorkUnderWay()
 {
-    Look({});
+    Poll({});
     const bool bMayCome = _around.timeline.GetNow().steady - _lastStartAt < LONGEST_WAY;
     return GetMachine().IsPlaying() || _bHaltedByFault || bMayCome;
 }

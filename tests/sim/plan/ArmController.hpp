@@ -23,19 +23,19 @@
 namespace ACS::Simulation
 {
 
-/// The controller of an arm: that of openstream-sim, with its sessions, behind a network of its own. What it really does is
-/// seen from outside, by its counters. Each start of a program is known by the job for which acsd sent it.
+/// The controller of an arm: that of openstream-sim with its sessions and its own network. The checks use its counters.
+/// Each start of a program is identified by the job for which acsd sent it.
 class ArmController final : private ITextPeer, private OpenStreamSim::IFaultHost
 {
 public:
-    /// What it lives in; everything outlives it.
+    /// What it needs from outside; everything outlives it.
     struct Dependencies
     {
         Timeline& timeline;
         Trace& trace;
-        WorkChecker& witness;
+        WorkChecker& workChecker;
         EMutation mutation;
-        bool bBadRadio; ///< Connections break when there is something to lose.
+        bool bBadRadio; ///< Connections break when a message can be lost.
     };
 
     struct Seeds
@@ -45,7 +45,7 @@ public:
     };
 
 private:
-    /// What goes when its memory does.
+    /// What is lost with the memory.
     struct Machine
     {
         OpenStreamSim::VirtualController controller;
@@ -64,14 +64,14 @@ private:
 
     enum class EBehaviour : std::uint8_t
     {
-        Wake, ///< For the faults.
-        Look, ///< While a program runs.
+        Wake, ///< Of faults.
+        Poll, ///< Polls a running program.
         Power,
         Hand,
     };
 
     Dependencies _around;
-    ChanceModel _dice;
+    ChanceModel _chance;
     ChanceModel _clientRandom;
     TextNetwork _network;
     std::string _robotID;
@@ -79,11 +79,11 @@ private:
     std::function<bool()> _isDriving;
     std::unique_ptr<Machine> _machine;
     std::map<Protocol::ConnectionID, std::unique_ptr<ArmConnection>> _connections;
-    TimerBank<EBehaviour> _habits;
-    std::map<Protocol::ConnectionID, std::deque<std::string>> _starts; ///< CommandIDs of those that were sent.
-    Core::SteadyTime _lastStartAt{};                                   ///< Sent.
+    TimerBank<EBehaviour> _behaviours;
+    std::map<Protocol::ConnectionID, std::deque<std::string>> _starts; ///< CommandIDs, by connection.
+    Core::SteadyTime _lastStartAt{};                                   ///< When the last one was sent.
     Counters _seen;
-    std::string _running; ///< The command of the program that runs, or was stopped; else empty.
+    std::string _running; ///< The command of the program that runs or was stopped; empty: none.
     bool _bStopAsked = false;
     bool _bHaltedByFault = false;
     bool _bReachable = true;
@@ -91,7 +91,7 @@ private:
     bool _bCalm = false;
 
 public:
-    /// IsDriving tells whether the base of the arm moves.
+    /// IsDriving returns whether the base of the arm moves.
     ArmController(
         const Dependencies& around,
         const Seeds& seeds,
@@ -103,28 +103,28 @@ public:
     ~ArmController() override;
 
     [[nodiscard]] TextNetwork& GetNetwork() noexcept;
-    /// Of acsd's sessions with it.
+    /// For the sessions of acsd.
     [[nodiscard]] Core::IRandom& GetClientRandom() noexcept;
 
-    /// Whether acsd's client of it is to have this defect.
+    /// Whether acsd's client has this defect.
     [[nodiscard]] bool Is(EMutation mutation) const noexcept;
 
-    /// Acsd sends the start of a program on this connection, for this command.
+    /// acsd sends the start of a program on this connection, for this command.
     void NoteStartSent(Protocol::ConnectionID connection, const std::string& commandID);
 
-    /// What acsd hears of it, for the trace.
-    void Tell(const std::string& text) const;
+    /// Adds what acsd receives to the trace.
+    void AddToTrace(const std::string& text) const;
 
     void SetReachable(bool bReachable);
-    /// Its operator or its clients have trouble with it, until it recovers.
+    /// Begins a random fault of the controller or its clients, until it recovers.
     void Disturb();
     void Recover();
-    /// It loses its power for a while, and its memory with it or not.
+    /// A power loss for a while, with or without the memory.
     void Restart();
     void Calm();
 
     [[nodiscard]] bool IsPlaying();
-    /// A program runs or was halted by a fault, or its start may be on its way: nobody can say yet what becomes of it.
+    /// A program runs or was halted by a fault, or its start may be in transit: its outcome is still open.
     [[nodiscard]] bool IsWorkUnderWay();
 
 private:
@@ -132,7 +132,7 @@ private:
     void UpdateNetwork();
     [[nodiscard]] OpenStreamSim::ControllerMachine& GetMachine();
     [[nodiscard]] Counters ReadCounters();
-    void Look(const std::string& startedFor);
+    void Poll(const std::string& startedFor);
     void WatchProgram();
     void Call(
         Protocol::ConnectionID connection,

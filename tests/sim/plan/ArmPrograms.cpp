@@ -36,7 +36,7 @@ const std::map<std::string, ArmProgramTexts>& GetArmPrograms()
            {"ml106", "{to.area}"},
            {"ml107", "{to.cp}"},
            {"ml108", "{to.tp}"},
-           {"ml900", "{robot_port}"}}, // a second range to read back
+           {"ml900", "{robot_port}"}}, // a second range that is read back
           {"{robot}.TP{ml900}"},
           {"A{ml106}.CP{ml107}.TP{ml108}"},
           {}}},

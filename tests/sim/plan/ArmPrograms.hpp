@@ -10,17 +10,17 @@
 namespace ACS::Simulation
 {
 
-/// How often acsd has an arm's counters told. Less often than in a real site: a world has hours of them.
+/// The interval at which acsd reads the counters. Longer than on a real site, because a run lasts hours.
 inline constexpr std::chrono::milliseconds ARM_PERIOD{100};
 
-/// One program of an arm: the words that acsd writes before it, and what it does with them. As those of the example site.
+/// One program of an arm: the words that acsd writes before it, and what it does with them. As on the example site.
 struct ArmProgramTexts
 {
     std::uint32_t program = 0;
     std::vector<std::pair<std::string, std::string>> inputs; ///< Relay and template.
     std::vector<std::string> from;
     std::vector<std::string> to;
-    std::string openedSet; ///< Empty: it moves something `from` a place `to` another.
+    std::string openedSet; ///< Empty: it moves something from `from` to `to`.
 };
 
 /// By action.

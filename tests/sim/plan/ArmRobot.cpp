@@ -16,10 +16,10 @@ ArmRobot::ArmRobot(
     : _timeline(around.timeline),
       _broker(around.broker),
       _robot(around.robot),
-      _dice(seeds.trouble),
+      _chance(seeds.trouble),
       _base(around, seeds.base, robotID, nodeID, bFaulty),
       _arm(
-          {around.timeline, around.trace, around.witness, around.mutation, around.bBadRadio},
+          {around.timeline, around.trace, around.workChecker, around.mutation, around.bBadRadio},
           seeds.arm,
           robotID,
           bFaulty,
@@ -32,11 +32,11 @@ std::unique_ptr<IRobotConnection> ArmRobot::MakeConnection(std::uint64_t /*numbe
     return std::make_unique<VehicleConnection>(_timeline, _broker, _robot, std::move(handler), &_arm);
 }
 
-/// Mostly both parts have one radio.
+/// Usually the base and the arm share a radio.
 void ArmRobot::SetReachable(bool bReachable)
 {
     _bReachable = bReachable;
-    const std::size_t part = bReachable ? 0 : _dice.GetBelow(4);
+    const std::size_t part = bReachable ? 0 : _chance.GetBelow(4);
     _base.SetReachable(bReachable || part == 1);
     _arm.SetReachable(bReachable || part == 2);
 }
@@ -48,7 +48,7 @@ bool ArmRobot::IsReachable() const
 
 void ArmRobot::Disturb()
 {
-    if (_dice.IsHit(600))
+    if (_chance.IsHit(600))
     {
         _bArmDisturbed = true;
         _arm.Disturb();
@@ -78,7 +78,7 @@ bool ArmRobot::IsDisturbed() const
 
 void ArmRobot::Forget()
 {
-    if (_dice.IsHit(600))
+    if (_chance.IsHit(600))
     {
         _arm.Restart();
     }

@@ -11,7 +11,7 @@
 namespace ACS::Simulation
 {
 
-/// A control robot: a VDA5050 vehicle with an arm behind Open Stream.
+/// A control robot: a VDA5050 vehicle with an arm over Open Stream.
 class ArmRobot final : public ISimulatedRobot
 {
 public:
@@ -19,16 +19,16 @@ public:
     {
         ChanceSeed base;
         ArmController::Seeds arm;
-        ChanceSeed trouble; ///< Of which part has it.
+        ChanceSeed trouble; ///< Decides which component has the fault.
     };
 
 private:
     Timeline& _timeline;
     MqttBroker& _broker;
     const Planning::RobotOptions& _robot;
-    ChanceModel _dice;
+    ChanceModel _chance;
     VehicleRobot _base;
-    mutable ArmController _arm; ///< Whoever looks brings it to the present.
+    mutable ArmController _arm; ///< Mutable: a query brings it to the present time.
     bool _bReachable = true;
     bool _bArmDisturbed = false;
 

@@ -12,14 +12,15 @@
 namespace ACS::Simulation
 {
 
-/// A seed and which part of its world.
+/// A seed and the component of the run that it is for.
 struct ChanceSeed
 {
     std::uint64_t seed = 0;
     std::uint64_t part = 0;
 };
 
-/// Chance for one part of a world: each part has its own, so that taking one kind of fault away leaves the rest alike.
+/// Random numbers of one component of a run. Each component has its own: leaving out a kind of fault does not change
+/// the others.
 class ChanceModel final : public Core::IRandom
 {
     Testing::SeededRandom _random;

@@ -8,7 +8,7 @@
 namespace ACS::Simulation
 {
 
-/// A defect that is built in around the engine, to see that the simulation finds it.
+/// A defect that is built in around the engine, to check that the simulation finds it.
 enum class EMutation : std::uint8_t
 {
     None,
@@ -28,7 +28,7 @@ enum class EMutation : std::uint8_t
     JobStartedTwice,
     JobFinishedEarly,
     NodePassedEarly,
-    StandsTooEarly,
+    StationaryTooEarly,
     ResumeSwallowed,
     RefusalAcked,
     TimerForgotten,
@@ -45,14 +45,14 @@ struct MutationText
 {
     std::string_view name;
     std::string_view meaning;
-    bool bOfArms = false; ///< Looked for in worlds with arms, of which there are few else.
+    bool bOfArms = false; ///< Found only with arms, which most runs do not have.
 };
 
 inline constexpr std::size_t MUTATION_COUNT = 28;
 
 /// By EMutation.
 inline constexpr std::array<MutationText, MUTATION_COUNT> MUTATION_TEXTS{{
-    {"none", "nothing is broken"},
+    {"none", "no defect"},
     {"store-confirms-early", "the store confirms a write before it is done"},
     {"store-hides-failure", "the store confirms a write that failed"},
     {"outbox-forgets", "reports of plans are not stored"},
@@ -70,7 +70,7 @@ inline constexpr std::array<MutationText, MUTATION_COUNT> MUTATION_TEXTS{{
     {"job-finished-early", "a job counts as done when it begins"},
     {"node-passed-early", "a robot counts as past a node before it is"},
     {"stands-too-early",
-     "a robot whose drive is cancelled, or of an engine that is gone, counts as stationary before it is"},
+     "a robot counts as stationary too early after the cancel of a drive, also of a drive from before a restart"},
     {"resume-swallowed", "the command to resume does not reach the robot"},
     {"refused-plan-acked", "a plan that was refused is acknowledged as accepted"},
     {"timer-forgotten", "now and then a timer of the engine does not fire"},

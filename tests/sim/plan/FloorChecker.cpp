@@ -24,7 +24,7 @@ bool IsOfRobot(const std::string& robotID, std::string_view place)
     return place.starts_with(robotID + ".");
 }
 
-/// Empty: people, or a robot that moves nothing.
+/// Empty: the operator, or a robot that moves nothing.
 std::string GetMover(const Sim::WorldEvent& event)
 {
     return std::visit(
@@ -54,7 +54,7 @@ std::optional<Sim::WorldEvent> MakeMoveOrNull(const std::string& robotID, const 
     }
     if (!from.empty() && !to.empty())
     {
-        return Sim::CarrierMoved{robotID, {}, from, to}; // whatever it finds there
+        return Sim::CarrierMoved{robotID, {}, from, to}; // with any carrier that is there
     }
     return std::nullopt;
 }
@@ -120,7 +120,7 @@ bool FloorChecker::IsMoved(const JobKey& key) const
     return bPretended || _moved.contains(key);
 }
 
-void FloorChecker::TakeCarriersOff(const std::vector<std::string>& ports)
+void FloorChecker::RemoveCarriers(const std::vector<std::string>& ports)
 {
     for (const std::string& port : ports)
     {
@@ -128,7 +128,7 @@ void FloorChecker::TakeCarriersOff(const std::vector<std::string>& ports)
     }
 }
 
-/// As the plan has it, whatever the robot was commanded.
+/// From the plan, independent of the command to the robot.
 std::optional<Sim::WorldEvent> FloorChecker::MakeDemandedOrNull(const std::string& robotID, const JobKey& key) const
 {
     const auto found = _demands.find(key);
@@ -150,7 +150,7 @@ std::optional<Sim::WorldEvent> FloorChecker::MakeDemandedOrNull(const std::strin
     return demanded;
 }
 
-/// The carrier comes once: a second load of it finds what the first one has left.
+/// The carrier is placed once: a second load finds what the first one has left.
 void FloorChecker::Prepare(const Sim::CarrierMoved& demanded, const std::string& planID)
 {
     if (IsOfRobot(demanded.robotID, demanded.from))
@@ -165,7 +165,7 @@ void FloorChecker::Prepare(const Sim::CarrierMoved& demanded, const std::string&
     const std::optional<std::string> left = _world.GetCarrierOrNull(demanded.to);
     if (left.has_value() && _carriers.at(*left) != planID)
     {
-        _trace.Tell("{} is removed from {}: its plan is finished", *left, demanded.to);
+        _trace.Add("{} is removed from {}: its plan is finished", *left, demanded.to);
         ActByHand(Sim::CarrierPlaced{{}, demanded.to});
     }
 }
@@ -181,12 +181,12 @@ void FloorChecker::ActByHand(const Sim::WorldEvent& event)
     Report(event, _world.Act(event));
 }
 
-/// Written out only where it is read: there are many.
+/// Built only for a violation, because there are many.
 void FloorChecker::Report(const Sim::WorldEvent& event, const Core::Result<void>& done) const
 {
     if (_trace.IsPrinting())
     {
-        _trace.Tell(
+        _trace.Add(
             "floor: {} {}",
             Sim::EncodeWorldEvent(event),
             done.has_value() ? "done" : "refused: " + Core::Describe(done.error()));

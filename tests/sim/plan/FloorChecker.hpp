@@ -21,16 +21,16 @@ namespace ACS::Simulation
 /// A job by its names in the plan: planID, stepNo and jobID, which is empty in a step without jobs.
 using JobKey = std::tuple<std::string, std::int32_t, std::string>;
 
-/// Which moves the robots of a world make on the floor. The others they only pretend.
+/// Which moves the robots of a run make on the floor. They only simulate the others.
 enum class EHandling : std::uint8_t
 {
     Carriers,
     Everything,
 };
 
-/// The floor on which the simulated robots act. Each move is compared with what the plan demands of the job that the robot
-/// does. People bring the carrier or memory of a job when a robot begins the job, and clear the target, by what the plan
-/// demands and not by what the robot was commanded.
+/// The floor of the simulated robots. Compares each move with the plan's job that the robot does. When a robot begins a
+/// job, places its carrier or memory and clears the target, as the plan specifies and independent of the robot's
+/// command.
 class FloorChecker final : public Sim::IWorld
 {
     struct Demand
@@ -47,26 +47,26 @@ class FloorChecker final : public Sim::IWorld
     EHandling _handling;
     Sim::MemoryWorld _world;
     std::map<JobKey, Demand> _demands;
-    std::map<std::string, JobKey> _current;       ///< By robot: the job that it does.
+    std::map<std::string, JobKey> _current;       ///< The job that each robot does, by robot.
     std::map<JobKey, std::size_t> _moved;         ///< How often the robots have made the move of the job.
-    std::map<std::string, std::string> _carriers; ///< PlanIDs, by carriers that were brought.
+    std::map<std::string, std::string> _carriers; ///< PlanIDs, by carriers that were placed.
 
 public:
     FloorChecker(Trace& trace, const Planning::SiteMap& site, EHandling handling);
 
     void NotePlan(const Protocol::ExecutionPlan& plan);
 
-    /// A robot that does not report it itself stands on the node, and reaches the station there; an empty nodeID: it drives.
+    /// Sets the node of a robot that does not report it itself, where it reaches the station; empty nodeID: it drives.
     void OnPlaced(const std::string& robotID, std::string_view nodeID);
     void OnJobBegun(const std::string& robotID, const JobKey& key);
     void OnJobEnded(const std::string& robotID);
 
-    /// Whether the carrier or memory of the job was brought to its `to`, or its cover moved. True of a job for which the robots
-    /// of this world move nothing.
+    /// Whether the carrier or memory of the job was brought to its `to`, or its cover moved. True of a job for which
+    /// the robots of this world move nothing.
     [[nodiscard]] bool IsMoved(const JobKey& key) const;
 
-    /// By the operator.
-    void TakeCarriersOff(const std::vector<std::string>& ports);
+    /// Removed by the operator.
+    void RemoveCarriers(const std::vector<std::string>& ports);
 
     [[nodiscard]] Core::Result<void> Act(const Sim::WorldEvent& event) override;
     [[nodiscard]] std::optional<std::string> GetCarrierOrNull(std::string_view place) override;
@@ -85,7 +85,7 @@ private:
     void Report(const Sim::WorldEvent& event, const Core::Result<void>& done) const;
 };
 
-/// What a robot does that is commanded so; nullopt where the action moves nothing.
+/// The move of a robot with this command; nullopt: the action moves nothing.
 [[nodiscard]] std::optional<Sim::WorldEvent> MakeMoveOrNull(const std::string& robotID, const Planning::StartJob& job);
 
 } // namespace ACS::Simulation

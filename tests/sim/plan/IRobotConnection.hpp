@@ -5,7 +5,7 @@
 namespace ACS::Simulation
 {
 
-/// One robot's adapter in an acsd that lives, with what runs it. It goes when acsd does.
+/// One robot's adapter in a running acsd, with what runs it. It ends with acsd.
 class IRobotConnection
 {
 public:

@@ -11,7 +11,7 @@
 namespace ACS::Simulation
 {
 
-/// A robot with a truth of its own, which lives on while acsd is down, and the way on which acsd reaches it.
+/// A robot with its own state, which continues while acsd is down, and its connection to acsd.
 class ISimulatedRobot
 {
 public:
@@ -22,7 +22,7 @@ public:
     ISimulatedRobot& operator=(const ISimulatedRobot&) = delete;
     virtual ~ISimulatedRobot() = default;
 
-    /// The adapter of a new acsd, whose number is higher than those before.
+    /// The adapter of a new acsd. The number is higher than those before.
     [[nodiscard]] virtual std::unique_ptr<IRobotConnection> MakeConnection(
         std::uint64_t number,
         EventHandler handler) = 0;
@@ -31,24 +31,24 @@ public:
     virtual void SetReachable(bool bReachable) = 0;
     [[nodiscard]] virtual bool IsReachable() const = 0;
 
-    /// Somebody presses its emergency stop, takes it in hand, or it has an error, until it recovers.
+    /// Begins a random emergency stop, manual mode or error, until it recovers.
     virtual void Disturb() = 0;
     virtual void Recover() = 0;
     [[nodiscard]] virtual bool IsDisturbed() const = 0;
-    /// It is switched off and on, where it stands on a node: what it was doing is given up, and it remembers nothing.
+    /// Switches it off and on if it is on a node: it drops its drive and job and loses its memory.
     virtual void Forget() = 0;
 
-    /// People have put something on it or taken something off.
+    /// The operator has placed or removed a load.
     virtual void OnFloorChanged() = 0;
 
-    /// It refuses nothing, and no job fails, from now on.
+    /// From now on it rejects nothing, and no job fails.
     virtual void Calm() = 0;
 
-    /// The last one that it was on.
+    /// The last node that it was on.
     [[nodiscard]] virtual std::string GetNodeID() const = 0;
     /// Without a drive and a job, and not paused.
     [[nodiscard]] virtual bool IsAtRest() const = 0;
-    /// A job runs on without acsd, or its start may still come: whoever looks waits until he can say what became of it.
+    /// A job runs without acsd, or its start may be in transit: the operator waits until its outcome is known.
     [[nodiscard]] virtual bool IsWorkUnderWay() const = 0;
 };
 

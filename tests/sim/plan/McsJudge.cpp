@@ -12,7 +12,7 @@ namespace ACS::Simulation
 namespace
 {
 
-// The words of the wire and of the engine stand in the same order (ReportMapper.cpp rests on it too).
+// The enums of the protocol and of the engine have the same order (ReportMapper.cpp relies on it too).
 Planning::EPlanState MakeState(Protocol::EPlanStatus status)
 {
     return static_cast<Planning::EPlanState>(status);
@@ -77,10 +77,10 @@ std::optional<Planning::EPlanControl> GetControlOrNull(Protocol::EAcsCommand com
     return std::nullopt;
 }
 
-McsJudge::McsJudge(Trace& trace, const CrashableStore& store, const WorkChecker& witness)
+McsJudge::McsJudge(Trace& trace, const CrashableStore& store, const WorkChecker& workChecker)
     : _trace(trace),
       _store(store),
-      _witness(witness)
+      _workChecker(workChecker)
 {
 }
 
@@ -114,7 +114,7 @@ void McsJudge::NotePlanAck(const Protocol::AcsAck& ack)
     }
     PlanView& plan = found->second;
     const bool bAccepted = ack.result == Protocol::EAckResult::Success;
-    // It is known already: the Ack of an earlier attempt was lost.
+    // It is already known: the Ack of an earlier attempt was lost.
     const bool bKnown = !bAccepted && plan.sent > 1 && ack.message.find("Duplicated Plan") != std::string::npos;
     if (bAccepted && !plan.bGood)
     {
@@ -138,14 +138,14 @@ void McsJudge::NoteControlSent(
 {
     ControlView& view = _controls[{planID, control}];
     view.sent.insert(transactionID);
-    // Of a plan that nobody knows acsd remembers no requests over a crash.
+    // acsd does not keep requests about unknown plans over a crash.
     const auto plan = _plans.find(planID);
     view.bUnknown = view.bUnknown || plan == _plans.end() || plan->second.knowledge != EKnowledge::Accepted;
 }
 
 void McsJudge::NoteControlAck(Planning::EPlanControl control, const std::string& planID, const Protocol::AcsAck& ack)
 {
-    // What the disk refuses nobody can promise.
+    // A request that the disk refuses cannot be promised.
     const bool bUnstored =
         ack.result == Protocol::EAckResult::Fail && ack.message.find("cannot be stored") != std::string::npos;
     if (bUnstored)
@@ -197,35 +197,35 @@ void McsJudge::OnRequest(const Protocol::AcsRequest& request)
     {
         _lastSequence = *sequence;
     }
-    TakeFirst(request.payload);
+    HandleFirst(request.payload);
 }
 
-void McsJudge::TakeFirst(const Protocol::AcsPayload& payload)
+void McsJudge::HandleFirst(const Protocol::AcsPayload& payload)
 {
     std::visit(
         Core::Overloaded{
-            [this](const Protocol::PlanReport& report) { TakePlanReport(report); },
-            [this](const Protocol::StepReport& report) { TakeStepReport(report); },
-            [this](const Protocol::JobReport& report) { TakeJobReport(report); },
-            [this](const Protocol::ErrorReport& report) { TakeAlarm(report); },
+            [this](const Protocol::PlanReport& report) { OnPlanReport(report); },
+            [this](const Protocol::StepReport& report) { OnStepReport(report); },
+            [this](const Protocol::JobReport& report) { OnJobReport(report); },
+            [this](const Protocol::ErrorReport& report) { OnAlarm(report); },
             [this](const Protocol::CancelResultReport& report) {
-                TakeResult(Planning::EPlanControl::Cancel, report.planID, report.result);
+                OnResult(Planning::EPlanControl::Cancel, report.planID, report.result);
             },
             [this](const Protocol::AbortResultReport& report) {
-                TakeResult(Planning::EPlanControl::Abort, report.planID, report.result);
+                OnResult(Planning::EPlanControl::Abort, report.planID, report.result);
             },
             [this](const Protocol::PauseResultReport& report) {
-                TakeResult(Planning::EPlanControl::Pause, report.planID, report.result);
+                OnResult(Planning::EPlanControl::Pause, report.planID, report.result);
             },
             [this](const Protocol::ResumeResultReport& report) {
-                TakeResult(Planning::EPlanControl::Resume, report.planID, report.result);
+                OnResult(Planning::EPlanControl::Resume, report.planID, report.result);
             },
             [](const auto&) {
             }},
         payload);
 }
 
-/// The plan, where it may be reported at all.
+/// The plan, if it may be reported.
 McsJudge::PlanView* McsJudge::FindReportedOrNull(const std::string& planID, std::string_view what)
 {
     const auto found = _plans.find(planID);
@@ -239,12 +239,12 @@ McsJudge::PlanView* McsJudge::FindReportedOrNull(const std::string& planID, std:
         _trace.Violate("{} for plan {}, which is already {}", what, planID, GetText(found->second.status));
         return nullptr;
     }
-    // Who reports a plan has taken it, whatever has become of the Ack.
+    // A reported plan was accepted, whatever has become of the Ack.
     found->second.knowledge = EKnowledge::Accepted;
     return &found->second;
 }
 
-void McsJudge::TakePlanReport(const Protocol::PlanReport& report)
+void McsJudge::OnPlanReport(const Protocol::PlanReport& report)
 {
     PlanView* const planOrNull = FindReportedOrNull(report.planID, "a PlanReport");
     if (planOrNull == nullptr)
@@ -276,7 +276,7 @@ void McsJudge::CheckCompleted(const std::string& planID, const PlanView& plan)
         {
             _trace.Violate("plan {} is Completed, but its step {} is {}", planID, stepNo, GetText(step.status));
         }
-        const WorkChecker::JobTruth truth = _witness.GetTruth(planID, stepNo, {});
+        const WorkChecker::JobTruth truth = _workChecker.GetTruth(planID, stepNo, {});
         if (step.jobs.empty() && (truth.finished == 0 || !truth.bMoved))
         {
             _trace.Violate("plan {} is Completed, but no robot executed its step {}", planID, stepNo);
@@ -284,7 +284,7 @@ void McsJudge::CheckCompleted(const std::string& planID, const PlanView& plan)
     }
 }
 
-void McsJudge::TakeStepReport(const Protocol::StepReport& report)
+void McsJudge::OnStepReport(const Protocol::StepReport& report)
 {
     PlanView* const planOrNull = FindReportedOrNull(report.planID, "a StepReport");
     const auto found =
@@ -322,7 +322,7 @@ void McsJudge::TakeStepReport(const Protocol::StepReport& report)
     }
 }
 
-void McsJudge::TakeJobReport(const Protocol::JobReport& report)
+void McsJudge::OnJobReport(const Protocol::JobReport& report)
 {
     PlanView* const planOrNull = FindReportedOrNull(report.planID, "a JobReport");
     if (planOrNull == nullptr)
@@ -351,7 +351,7 @@ void McsJudge::TakeJobReport(const Protocol::JobReport& report)
     {
         _trace.Violate("job {} of plan {} is reported while its step is not InProgress", report.jobID, report.planID);
     }
-    const WorkChecker::JobTruth truth = _witness.GetTruth(report.planID, report.stepNo, report.jobID);
+    const WorkChecker::JobTruth truth = _workChecker.GetTruth(report.planID, report.stepNo, report.jobID);
     const bool bNeedsEnd = report.status == Protocol::EJobStatus::Completed;
     const bool bNeedsBegin = bNeedsEnd || report.status == Protocol::EJobStatus::InProgress;
     if ((bNeedsEnd && truth.finished == 0) || (bNeedsBegin && truth.begun == 0))
@@ -371,7 +371,7 @@ void McsJudge::TakeJobReport(const Protocol::JobReport& report)
     }
 }
 
-void McsJudge::TakeResult(Planning::EPlanControl control, const std::string& planID, Protocol::EReportResult result)
+void McsJudge::OnResult(Planning::EPlanControl control, const std::string& planID, Protocol::EReportResult result)
 {
     const auto plan = _plans.find(planID);
     const bool bFits = plan != _plans.end() && IsDone(control, plan->second.status);
@@ -396,7 +396,7 @@ void McsJudge::TakeResult(Planning::EPlanControl control, const std::string& pla
     }
 }
 
-void McsJudge::TakeAlarm(const Protocol::ErrorReport& report)
+void McsJudge::OnAlarm(const Protocol::ErrorReport& report)
 {
     const auto found = std::ranges::find_if(_alarms, [&report](const Protocol::ErrorReport& known) {
         return IsSameAlarm(known, report);

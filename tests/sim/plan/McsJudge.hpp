@@ -18,13 +18,13 @@
 namespace ACS::Simulation
 {
 
-/// Holds what the MCS sees against the rules: each plan and control that was acknowledged, each report in its order.
+/// Checks what the MCS receives against the rules: acknowledged plans and controls, and the order of the reports.
 class McsJudge final
 {
 public:
     enum class EKnowledge : std::uint8_t
     {
-        Unknown, ///< Sent, and no Ack has come.
+        Unknown, ///< Sent, without an Ack so far.
         Accepted,
         Refused,
     };
@@ -50,13 +50,13 @@ private:
         std::set<std::string> sent; ///< TransactionIDs: a repetition has no result of its own.
         std::size_t acknowledged = 0;
         std::size_t results = 0;
-        bool bDone = false;    ///< One of them says so.
-        bool bUnknown = false; ///< Sent about a plan that was perhaps not known.
+        bool bDone = false;    ///< One of them reports success.
+        bool bUnknown = false; ///< Sent when the plan was perhaps unknown to acsd.
     };
 
     Trace& _trace;
     const CrashableStore& _store;
-    const WorkChecker& _witness;
+    const WorkChecker& _workChecker;
     std::map<std::string, PlanView> _plans;
     std::map<std::pair<std::string, Planning::EPlanControl>, ControlView> _controls;
     std::map<std::string, Protocol::AcsPayload> _seen;
@@ -66,19 +66,19 @@ private:
     std::vector<Protocol::ErrorReport> _alarms;
 
 public:
-    McsJudge(Trace& trace, const CrashableStore& store, const WorkChecker& witness);
+    McsJudge(Trace& trace, const CrashableStore& store, const WorkChecker& workChecker);
 
-    /// A plan that will be sent; a good one is one that can be done.
+    /// The plan will be sent; a good one can be done.
     void NotePlan(const Protocol::ExecutionPlan& plan, bool bGood);
     void NotePlanSent(const std::string& planID);
     void NotePlanAck(const Protocol::AcsAck& ack);
     void NoteControlSent(Planning::EPlanControl control, const std::string& planID, const std::string& transactionID);
     void NoteControlAck(Planning::EPlanControl control, const std::string& planID, const Protocol::AcsAck& ack);
 
-    /// Whatever acsd sends.
+    /// Every message of acsd.
     void OnRequest(const Protocol::AcsRequest& request);
 
-    /// That the disk still holds every plan that was acknowledged, and the end of each until the MCS has it.
+    /// Checks that the disk has every acknowledged plan, and its end until the MCS has it.
     void CheckKept();
 
     [[nodiscard]] EKnowledge GetKnowledge(const std::string& planID) const;
@@ -87,21 +87,21 @@ public:
     [[nodiscard]] const std::optional<Protocol::ETscState>& GetTscStateOrNull() const noexcept;
     [[nodiscard]] const std::vector<Protocol::ErrorReport>& GetAlarms() const noexcept;
 
-    /// What is still owed to the MCS, in words; empty where nothing is.
+    /// What the MCS still waits for, as text; empty: nothing.
     [[nodiscard]] std::string DescribeOwed() const;
 
 private:
-    void TakePlanReport(const Protocol::PlanReport& report);
-    void TakeStepReport(const Protocol::StepReport& report);
-    void TakeJobReport(const Protocol::JobReport& report);
-    void TakeResult(Planning::EPlanControl control, const std::string& planID, Protocol::EReportResult result);
-    void TakeAlarm(const Protocol::ErrorReport& report);
-    void TakeFirst(const Protocol::AcsPayload& payload);
+    void OnPlanReport(const Protocol::PlanReport& report);
+    void OnStepReport(const Protocol::StepReport& report);
+    void OnJobReport(const Protocol::JobReport& report);
+    void OnResult(Planning::EPlanControl control, const std::string& planID, Protocol::EReportResult result);
+    void OnAlarm(const Protocol::ErrorReport& report);
+    void HandleFirst(const Protocol::AcsPayload& payload);
     [[nodiscard]] PlanView* FindReportedOrNull(const std::string& planID, std::string_view what);
     void CheckCompleted(const std::string& planID, const PlanView& plan);
 };
 
-/// Which control the command asks for, or the result tells of; nullopt for others.
+/// The control of the command or of the result; nullopt: another message.
 [[nodiscard]] std::optional<Planning::EPlanControl> GetControlOrNull(Protocol::EAcsCommand command);
 
 } // namespace ACS::Simulation

@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 namespace
 {
 
-constexpr std::uint64_t DICE_PART = 201;
+constexpr std::uint64_t SCENARIO_PART = 201;
 constexpr std::uint64_t ID_DICE_PART = 202;
 
 Protocol::AcsPayload MakeControl(Planning::EPlanControl control, const std::string& planID)
@@ -24,18 +24,18 @@ Protocol::AcsPayload MakeControl(Planning::EPlanControl control, const std::stri
     switch (control)
     {
         case EPlanControl::Cancel:
-            return Protocol::CancelPlan{planID, "as the seed says"};
+            return Protocol::CancelPlan{planID, "requested by the simulation"};
         case EPlanControl::Abort:
-            return Protocol::AbortPlan{planID, "as the seed says"};
+            return Protocol::AbortPlan{planID, "requested by the simulation"};
         case EPlanControl::Pause:
-            return Protocol::PausePlan{planID, "as the seed says"};
+            return Protocol::PausePlan{planID, "requested by the simulation"};
         case EPlanControl::Resume:
         default:
             return Protocol::ResumePlan{planID, {}};
     }
 }
 
-/// Of what may change under the loop or the call.
+/// A copy of what may change during the loop or the call.
 template <typename TValue>
 TValue MakeCopy(const TValue& value)
 {
@@ -68,15 +68,15 @@ McsSide::McsSide(
     Trace& trace,
     TextNetwork& network,
     McsJudge& judge,
-    WorkChecker& witness,
+    WorkChecker& workChecker,
     const Scenario& scenario)
     : _timeline(timeline),
       _trace(trace),
       _network(network),
       _judge(judge),
-      _witness(witness),
+      _workChecker(workChecker),
       _scenario(scenario),
-      _dice({scenario.seed, DICE_PART}),
+      _chance({scenario.seed, SCENARIO_PART}),
       _idChance({scenario.seed, ID_DICE_PART}),
       _session(
           Protocol::McsSessionOptions{},
@@ -89,7 +89,7 @@ McsSide::McsSide(
           }),
       _sessionTimers(timeline),
       _delays(timeline),
-      _habits(timeline)
+      _behaviours(timeline)
 {
     _network.Listen(*this);
 }
@@ -99,26 +99,26 @@ void McsSide::Begin()
     SendPlan();
     if (_scenario.Has(EFault::Controls))
     {
-        _habits.Start(EBehaviour::SendControl, _dice.GetBetween(0s, 20s), [this] { SendRandomControl(); });
+        _behaviours.Start(EBehaviour::SendControl, _chance.GetBetween(0s, 20s), [this] { SendRandomControl(); });
     }
     if (_scenario.Has(EFault::Mcs))
     {
-        _habits.Start(EBehaviour::Misbehave, _dice.GetBetween(0s, 40s), [this] { Misbehave(); });
+        _behaviours.Start(EBehaviour::Misbehave, _chance.GetBetween(0s, 40s), [this] { Misbehave(); });
     }
-    _habits.Start(EBehaviour::Ask, _dice.GetBetween(10s, 90s), [this] { Ask(); });
+    _behaviours.Start(EBehaviour::Ask, _chance.GetBetween(10s, 90s), [this] { Ask(); });
 }
 
 void McsSide::BeginSettling()
 {
     _bSettling = true;
     _session.EndFaults();
-    _habits.CancelAll();
+    _behaviours.CancelAll();
     while (_planIDs.size() < _scenario.planCount)
     {
         SendPlan();
     }
-    _habits.Cancel(EBehaviour::SendPlan);
-    // What got no Ack for so long that acsd gave it up is sent again over the next connection only (section 9).
+    _behaviours.Cancel(EBehaviour::SendPlan);
+    // A report without an Ack is sent again only on the next connection (section 9).
     Run([this](Core::Now /*now*/, auto& out) { _session.Drop(Protocol::CLOSE_NORMAL, "once more", out); });
     Settle();
 }
@@ -187,15 +187,15 @@ void McsSide::Take(const Protocol::SessionEvent& event)
     std::visit(
         Core::Overloaded{
             [this](const Protocol::Registered&) {
-                _trace.Tell("MCS: registered");
+                _trace.Add("MCS: registered");
                 for (const auto& [transactionID, request] : MakeCopy(_unanswered))
                 {
                     Send(request);
                 }
             },
             [this](const Protocol::RequestReceived& received) { _judge.OnRequest(received.request); },
-            [this](const Protocol::AckReceived& received) { TakeAck(received.ack); },
-            [this](const Protocol::RequestUnanswered& unanswered) { TakeUnanswered(unanswered.transactionID); },
+            [this](const Protocol::AckReceived& received) { OnAck(received.ack); },
+            [this](const Protocol::RequestUnanswered& unanswered) { OnUnanswered(unanswered.transactionID); },
             [](const auto&) {
             }},
         event);
@@ -219,7 +219,7 @@ void McsSide::Send(const Protocol::AcsRequest& request)
     }
 }
 
-void McsSide::TakeAck(const Protocol::AcsAck& ack)
+void McsSide::OnAck(const Protocol::AcsAck& ack)
 {
     const auto control = GetControlOrNull(ack.command);
     if (ack.command == Protocol::EAcsCommand::ExecutionPlan)
@@ -233,7 +233,7 @@ void McsSide::TakeAck(const Protocol::AcsAck& ack)
     _unanswered.erase(ack.transactionID);
 }
 
-void McsSide::TakeUnanswered(const std::string& transactionID)
+void McsSide::OnUnanswered(const std::string& transactionID)
 {
     const auto found = _unanswered.find(transactionID);
     if (found == _unanswered.end())
@@ -241,12 +241,12 @@ void McsSide::TakeUnanswered(const std::string& transactionID)
         return;
     }
     const bool bPlan = std::holds_alternative<Protocol::ExecutionPlan>(found->second.payload);
-    if (!bPlan && !_bSettling && _dice.IsHit(400))
+    if (!bPlan && !_bSettling && _chance.IsHit(400))
     {
-        _unanswered.erase(found); // nobody asks again
+        _unanswered.erase(found); // not requested any more
         return;
     }
-    _habits.Post(_dice.GetBetween(0s, 5s), [this, transactionID] {
+    _behaviours.Post(_chance.GetBetween(0s, 5s), [this, transactionID] {
         if (const auto again = _unanswered.find(transactionID); again != _unanswered.end())
         {
             Send(MakeCopy(again->second));
@@ -257,18 +257,20 @@ void McsSide::TakeUnanswered(const std::string& transactionID)
 void McsSide::SendPlan()
 {
     const std::string planID = fmt::format("P{:02}", _planIDs.size() + 1);
-    const bool bGood = !_scenario.Has(EFault::BadPlans) || !_dice.IsHit(250);
+    const bool bGood = !_scenario.Has(EFault::BadPlans) || !_chance.IsHit(250);
     Protocol::ExecutionPlan plan =
-        bGood ? MakeGoodPlan(_scenario, _dice, planID) : MakeBadPlan(_scenario, _dice, planID);
+        bGood ? MakeGoodPlan(_scenario, _chance, planID) : MakeBadPlan(_scenario, _chance, planID);
     _planIDs.push_back(planID);
-    _witness.NotePlan(plan);
+    _workChecker.NotePlan(plan);
     _judge.NotePlan(plan, bGood);
     const Protocol::AcsRequest request = _session.MakeRequest(std::move(plan), _timeline.GetNow());
     _unanswered.emplace(request.transactionID, request);
     Send(request);
     if (_planIDs.size() < _scenario.planCount)
     {
-        _habits.Start(EBehaviour::SendPlan, _dice.GetBetween(0s, _dice.IsHit(400) ? 1s : 30s), [this] { SendPlan(); });
+        _behaviours.Start(EBehaviour::SendPlan, _chance.GetBetween(0s, _chance.IsHit(400) ? 1s : 30s), [this] {
+            SendPlan();
+        });
     }
 }
 
@@ -281,11 +283,11 @@ void McsSide::SendControl(Planning::EPlanControl control, const std::string& pla
 
 void McsSide::SendRandomControl()
 {
-    // Mostly about the latest plans: the others are over.
+    // Mostly of the latest plans, because the others have ended.
     const std::size_t latest = std::min<std::size_t>(_planIDs.size(), 3);
     const std::size_t index =
-        _dice.IsHit(800) ? _planIDs.size() - 1 - _dice.GetBelow(latest) : _dice.GetBelow(_planIDs.size());
-    const std::string planID = _dice.IsHit(30) ? "NOBODY" : _planIDs[index];
+        _chance.IsHit(800) ? _planIDs.size() - 1 - _chance.GetBelow(latest) : _chance.GetBelow(_planIDs.size());
+    const std::string planID = _chance.IsHit(30) ? "UNKNOWN" : _planIDs[index];
     const std::vector<Planning::EPlanControl> controls{
         Planning::EPlanControl::Pause,
         Planning::EPlanControl::Pause,
@@ -293,11 +295,11 @@ void McsSide::SendRandomControl()
         Planning::EPlanControl::Resume,
         Planning::EPlanControl::Cancel,
         Planning::EPlanControl::Abort};
-    for (std::size_t count = _dice.GetBetween(1, _dice.IsHit(200) ? 3 : 1); count > 0; --count)
+    for (std::size_t count = _chance.GetBetween(1, _chance.IsHit(200) ? 3 : 1); count > 0; --count)
     {
-        SendControl(_dice.Pick(controls), planID);
+        SendControl(_chance.Pick(controls), planID);
     }
-    _habits.Start(EBehaviour::SendControl, _dice.GetBetween(0s, _dice.IsHit(300) ? 2s : 30s), [this] {
+    _behaviours.Start(EBehaviour::SendControl, _chance.GetBetween(0s, _chance.IsHit(300) ? 2s : 30s), [this] {
         SendRandomControl();
     });
 }
@@ -309,7 +311,7 @@ void McsSide::Ask()
         _unanswered.emplace(request.transactionID, request);
         Send(request);
     };
-    if (_dice.IsHit(500))
+    if (_chance.IsHit(500))
     {
         ask(Protocol::RequestAcsPlans{});
     }
@@ -317,45 +319,45 @@ void McsSide::Ask()
     {
         ask(Protocol::RequestAcsPlanHistory{_planIDs});
     }
-    _habits.Start(EBehaviour::Ask, _dice.GetBetween(10s, 90s), [this] { Ask(); });
+    _behaviours.Start(EBehaviour::Ask, _chance.GetBetween(10s, 90s), [this] { Ask(); });
 }
 
 void McsSide::Misbehave()
 {
     const Core::Now now = _timeline.GetNow();
-    const auto span = std::chrono::milliseconds(_dice.GetBetween(500, 20'000));
+    const auto span = std::chrono::milliseconds(_chance.GetBetween(500, 20'000));
     const std::vector<std::optional<Protocol::EAcsCommand>> commands{
         std::nullopt,
         std::nullopt,
         Protocol::EAcsCommand::PlanReport,
         Protocol::EAcsCommand::JobReport,
         Protocol::EAcsCommand::Registration};
-    switch (_dice.GetBelow(4))
+    switch (_chance.GetBelow(4))
     {
         case 0:
-            _trace.Tell("MCS: Acks are late for {} ms", span.count());
+            _trace.Add("MCS: Acks are late for {} ms", span.count());
             _session.HoldAcks(
-                {_dice.Pick(commands), std::chrono::milliseconds(_dice.GetBetween(100, 12'000)), span},
+                {_chance.Pick(commands), std::chrono::milliseconds(_chance.GetBetween(100, 12'000)), span},
                 now);
             break;
         case 1:
-            _trace.Tell("MCS: no Acks for {} ms", span.count());
-            _session.HoldAcks({_dice.Pick(commands), std::nullopt, span}, now);
+            _trace.Add("MCS: no Acks for {} ms", span.count());
+            _session.HoldAcks({_chance.Pick(commands), std::nullopt, span}, now);
             break;
         case 2:
-            _session.RefuseRegistrations(_dice.GetBetween(1, 3), "not now");
+            _session.RefuseRegistrations(_chance.GetBetween(1, 3), "not now");
             [[fallthrough]];
         default:
-            _trace.Tell("MCS: drops the connection");
+            _trace.Add("MCS: drops the connection");
             Run([this](Core::Now /*now*/, auto& out) {
-                _session.Drop(Protocol::CLOSE_NORMAL, "as the seed says", out);
+                _session.Drop(Protocol::CLOSE_NORMAL, "requested by the simulation", out);
             });
             break;
     }
-    _habits.Start(EBehaviour::Misbehave, _dice.GetBetween(1s, 60s), [this] { Misbehave(); });
+    _behaviours.Start(EBehaviour::Misbehave, _chance.GetBetween(1s, 60s), [this] { Misbehave(); });
 }
 
-/// What is paused is resumed, again and again, until it is not.
+/// Resumes every paused plan, repeatedly until it is not paused.
 void McsSide::Settle()
 {
     for (const auto& [transactionID, request] : MakeCopy(_unanswered))
@@ -366,7 +368,7 @@ void McsSide::Settle()
     {
         SendControl(Planning::EPlanControl::Resume, planID);
     }
-    _habits.Start(EBehaviour::Settle, 60s, [this] { Settle(); });
+    _behaviours.Start(EBehaviour::Settle, 60s, [this] { Settle(); });
 }
 
 } // namespace ACS::Simulation

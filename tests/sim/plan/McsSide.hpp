@@ -18,8 +18,8 @@
 namespace ACS::Simulation
 {
 
-/// The MCS and the people behind it: sends plans, controls and questions at any moment, repeats what got no Ack, holds its
-/// own Acks back. All that it sees goes to the judge.
+/// The MCS and its operators: sends plans, controls and queries at any moment, repeats requests without an Ack, delays
+/// its own Acks. Passes all that it receives to the judge.
 class McsSide final : public ITextPeer
 {
     enum class EBehaviour : std::uint8_t
@@ -41,17 +41,17 @@ class McsSide final : public ITextPeer
     Trace& _trace;
     TextNetwork& _network;
     McsJudge& _judge;
-    WorkChecker& _witness;
+    WorkChecker& _workChecker;
     const Scenario& _scenario;
-    ChanceModel _dice;
+    ChanceModel _chance;
     ChanceModel _idChance;
     McsSim::SimulatedMcsSession _session;
     TimerBank<Protocol::ESessionTimer> _sessionTimers;
-    TimerBank<EDelay> _delays; ///< Not ended with the habits.
-    TimerBank<EBehaviour> _habits;
+    TimerBank<EDelay> _delays; ///< Not ended with the faults.
+    TimerBank<EBehaviour> _behaviours;
     std::deque<Protocol::SessionAction> _actions;
     bool _bActing = false;
-    std::vector<std::string> _planIDs;                       ///< Of all that were sent.
+    std::vector<std::string> _planIDs;                       ///< Of all plans that were sent.
     std::map<std::string, Protocol::AcsRequest> _unanswered; ///< By transactionID: to be sent, or sent without an Ack.
     bool _bSettling = false;
 
@@ -61,15 +61,15 @@ public:
         Trace& trace,
         TextNetwork& network,
         McsJudge& judge,
-        WorkChecker& witness,
+        WorkChecker& workChecker,
         const Scenario& scenario);
 
     void Begin();
 
-    /// No new plans and faults from now on: what is open is brought to its end, what is paused is resumed.
+    /// No new plans and faults from now on: what is open is completed, what is paused is resumed.
     void BeginSettling();
 
-    /// Whether nothing waits to be sent, or for an Ack.
+    /// Whether no message waits to be sent or for an Ack.
     [[nodiscard]] bool IsSettled() const;
 
     void OnOpened(Protocol::ConnectionID connection) override;
@@ -81,8 +81,8 @@ private:
     void Run(TCall call);
     void Act(const Protocol::SessionAction& action);
     void Take(const Protocol::SessionEvent& event);
-    void TakeAck(const Protocol::AcsAck& ack);
-    void TakeUnanswered(const std::string& transactionID);
+    void OnAck(const Protocol::AcsAck& ack);
+    void OnUnanswered(const std::string& transactionID);
     void Send(const Protocol::AcsRequest& request);
     void SendPlan();
     void SendControl(Planning::EPlanControl control, const std::string& planID);

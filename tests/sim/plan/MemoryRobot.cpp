@@ -13,20 +13,20 @@ using namespace std::chrono_literals;
 MemoryRobot::MemoryRobot(
     Timeline& timeline,
     Trace& trace,
-    WorkChecker& witness,
+    WorkChecker& workChecker,
     const ChanceSeed& seed,
     std::string robotID,
     std::string nodeID)
     : _trace(trace),
-      _witness(witness),
-      _dice(seed),
+      _workChecker(workChecker),
+      _chance(seed),
       _timers(timeline),
       _robotID(std::move(robotID))
 {
-    _nature.bStopsOnEdges = _dice.IsHit(400);
-    _nature.bFinishesJobs = _dice.IsHit(300);
-    _nature.bIgnoresJobCancel = _dice.IsHit(300);
-    _nature.slowness = _dice.GetBetween(1, 3);
+    _nature.bStopsOnEdges = _chance.IsHit(400);
+    _nature.bFinishesJobs = _chance.IsHit(300);
+    _nature.bIgnoresJobCancel = _chance.IsHit(300);
+    _nature.slowness = _chance.GetBetween(1, 3);
     _snapshot.state.batteryPercent = 80;
     _snapshot.state.lastNodeID = std::move(nodeID);
     ShowPlace();
@@ -59,18 +59,18 @@ void MemoryRobot::BeginDrive(const Planning::Drive& drive)
     const auto [view, bNew] = _snapshot.drives.try_emplace(drive.driveID);
     if (!bNew)
     {
-        return; // told again
+        return; // a repetition
     }
     view->second.releasedCount = drive.releasedCount;
     view->second.nodeID = GetNodeID();
     const bool bRefused = _drive.has_value() || _job.has_value() || drive.route.nodes.front().nodeID != GetNodeID();
-    if (bRefused || _dice.IsHit(rejectChance))
+    if (bRefused || _chance.IsHit(rejectChance))
     {
-        _trace.Tell("{} rejects a drive to {}", _robotID, drive.route.nodes.back().nodeID);
+        _trace.Add("{} rejects a drive to {}", _robotID, drive.route.nodes.back().nodeID);
         view->second.state = EDriveState::Rejected;
         return;
     }
-    _trace.Tell("{} accepts a drive to {}", _robotID, drive.route.nodes.back().nodeID);
+    _trace.Add("{} accepts a drive to {}", _robotID, drive.route.nodes.back().nodeID);
     view->second.passedCount = 1;
     _snapshot.lastCommandID = drive.driveID;
     _drive = drive;
@@ -95,7 +95,7 @@ void MemoryRobot::CancelDrive(const Planning::CancelDrive& cancel)
     const auto [view, bNew] = _snapshot.drives.try_emplace(cancel.driveID);
     if (bNew)
     {
-        // It never came, and will not be begun any more.
+        // It was never received, and will not begin any more.
         view->second.state = EDriveState::Cancelled;
         view->second.nodeID = GetNodeID();
         return;
@@ -110,7 +110,7 @@ void MemoryRobot::CancelDrive(const Planning::CancelDrive& cancel)
     }
 }
 
-/// To the next node, where it is released.
+/// Drives to the next node if it is released.
 void MemoryRobot::GoOn()
 {
     if (!_drive.has_value() || _bMoving || _bPauseAsked || _bStopped || _bStopping
@@ -120,7 +120,7 @@ void MemoryRobot::GoOn()
     }
     _bMoving = true;
     ShowPlace();
-    _timers.Start(ETimer::Move, _dice.GetBetween(300ms, 1'500ms) * _nature.slowness, [this] { OnMoveTimer(); });
+    _timers.Start(ETimer::Move, _chance.GetBetween(300ms, 1'500ms) * _nature.slowness, [this] { OnMoveTimer(); });
 }
 
 void MemoryRobot::OnMoveTimer()
@@ -137,7 +137,7 @@ void MemoryRobot::OnMoveTimer()
     _snapshot.state.lastNodeID = node.nodeID;
     _snapshot.state.x = node.x;
     _snapshot.state.y = node.y;
-    _snapshot.state.bPoseKnown = true; // From the first node on that it was told where it lies.
+    _snapshot.state.bPoseKnown = true; // From its first drive on, which has the pose of the node.
     _snapshot.drives[_drive->driveID].passedCount = _index + 1;
     ShowPlace();
     if (_index + 1 == _drive->route.nodes.size())
@@ -167,7 +167,7 @@ void MemoryRobot::BeginJob(const Planning::StartJob& job)
     const auto [view, bNew] = _snapshot.jobs.try_emplace(job.commandID);
     if (!bNew)
     {
-        return; // told again
+        return; // a repetition
     }
     view->second.jobID = job.jobID;
     if (_drive.has_value() || _job.has_value())
@@ -179,7 +179,7 @@ void MemoryRobot::BeginJob(const Planning::StartJob& job)
     _snapshot.lastCommandID = job.commandID;
     _job = job;
     _snapshot.activeCommandID = job.commandID;
-    _timers.Start(ETimer::Job, _dice.GetBetween(10ms, 1s), [this] { OnJobTimer(); });
+    _timers.Start(ETimer::Job, _chance.GetBetween(10ms, 1s), [this] { OnJobTimer(); });
 }
 
 void MemoryRobot::OnJobTimer()
@@ -195,10 +195,10 @@ void MemoryRobot::OnJobTimer()
     if (!bRuns)
     {
         view.state = EJobState::Running;
-        _witness.OnJobBegun(_robotID, *_job);
-        _timers.Start(ETimer::Job, _dice.GetBetween(200ms, 4s) * _nature.slowness, [this] { OnJobTimer(); });
+        _workChecker.OnJobBegun(_robotID, *_job);
+        _timers.Start(ETimer::Job, _chance.GetBetween(200ms, 4s) * _nature.slowness, [this] { OnJobTimer(); });
     }
-    else if (_dice.IsHit(failChance))
+    else if (_chance.IsHit(failChance))
     {
         EndJob(EJobState::Failed, "the gripper is empty");
     }
@@ -209,17 +209,17 @@ void MemoryRobot::OnJobTimer()
     Show();
 }
 
-/// It does what it was commanded, whatever the plan demands.
+/// Does what was commanded, independent of the plan.
 void MemoryRobot::FinishJob()
 {
     const std::optional<Sim::WorldEvent> move = MakeMoveOrNull(_robotID, *_job);
-    const Core::Result<void> done = move.has_value() ? _witness.GetFloor().Act(*move) : Core::Result<void>();
+    const Core::Result<void> done = move.has_value() ? _workChecker.GetFloor().Act(*move) : Core::Result<void>();
     if (!done.has_value())
     {
         EndJob(EJobState::Failed, Core::Describe(done.error()));
         return;
     }
-    _witness.OnJobFinished(_robotID, *_job);
+    _workChecker.OnJobFinished(_robotID, *_job);
     EndJob(EJobState::Finished, {});
 }
 
@@ -239,7 +239,7 @@ void MemoryRobot::CancelJob(const std::string& commandID)
     const auto [view, bNew] = _snapshot.jobs.try_emplace(commandID);
     if (bNew)
     {
-        // It never came, and will not be begun any more.
+        // It was never received, and will not begin any more.
         view->second.state = EJobState::Failed;
         view->second.reason = "cancelled before it arrived";
         return;
@@ -278,23 +278,23 @@ void MemoryRobot::Unhalt()
     }
     if (!IsHalted() && std::exchange(_bMoveHalted, false))
     {
-        _timers.Start(ETimer::Move, _dice.GetBetween(100ms, 1s), [this] { OnMoveTimer(); });
+        _timers.Start(ETimer::Move, _chance.GetBetween(100ms, 1s), [this] { OnMoveTimer(); });
     }
     if (!_bPauseAsked && std::exchange(_bJobHalted, false))
     {
-        _timers.Start(ETimer::Job, _dice.GetBetween(100ms, 1s), [this] { OnJobTimer(); });
+        _timers.Start(ETimer::Job, _chance.GetBetween(100ms, 1s), [this] { OnJobTimer(); });
     }
     GoOn();
 }
 
-/// It is switched off and on: what it was doing is given up, and it remembers nothing.
+/// Switches it off and on: it drops its drive and job and loses its memory.
 void MemoryRobot::Forget()
 {
     if (_bMoving)
     {
-        return; // between two nodes it would have to be carried to one
+        return; // not between two nodes: it would have to be carried to one
     }
-    _trace.Tell("{} loses its memory", _robotID);
+    _trace.Add("{} loses its memory", _robotID);
     _timers.CancelAll();
     _drive.reset();
     _job.reset();
@@ -311,7 +311,7 @@ void MemoryRobot::Forget()
 void MemoryRobot::Disturb()
 {
     _bStopped = true;
-    switch (_dice.GetBelow(3))
+    switch (_chance.GetBelow(3))
     {
         case 0:
             _snapshot.state.bSafetyStop = true;
@@ -323,7 +323,7 @@ void MemoryRobot::Disturb()
             _snapshot.state.errors = {{"AGV-lost", Planning::EAlarmLevel::Heavy, "lost its way"}};
             break;
     }
-    _trace.Tell("{} has a fault", _robotID);
+    _trace.Add("{} has a fault", _robotID);
     Show();
 }
 
@@ -333,7 +333,7 @@ void MemoryRobot::Recover()
     _snapshot.state.bSafetyStop = false;
     _snapshot.state.bAutomatic = true;
     _snapshot.state.errors.clear();
-    _trace.Tell("{} has recovered", _robotID);
+    _trace.Add("{} has recovered", _robotID);
     Unhalt();
     Show();
 }
@@ -345,8 +345,8 @@ void MemoryRobot::ShowPlace()
     {
         nodeIDs.push_back(_drive->route.nodes[_index + 1].nodeID);
     }
-    _witness.OnPlaced(_robotID, std::move(nodeIDs));
-    _witness.GetFloor().OnPlaced(_robotID, _bMoving ? std::string() : GetNodeID());
+    _workChecker.OnPlaced(_robotID, std::move(nodeIDs));
+    _workChecker.GetFloor().OnPlaced(_robotID, _bMoving ? std::string() : GetNodeID());
 }
 
 void MemoryRobot::Show()

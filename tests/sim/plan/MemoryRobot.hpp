@@ -13,8 +13,8 @@
 namespace ACS::Simulation
 {
 
-/// A robot in memory, which lives on when acsd crashes: drives along released nodes, does jobs, stands still where it must,
-/// and remembers what it was told.
+/// A robot in memory, which continues when acsd crashes: drives along released nodes, does jobs, pauses and stops, and
+/// remembers its commands.
 class MemoryRobot final
 {
 public:
@@ -27,18 +27,18 @@ private:
         Job,
     };
 
-    /// How this one is.
+    /// The behaviour of this one.
     struct Nature
     {
         bool bStopsOnEdges = false;     ///< A pause stops it between two nodes.
         bool bFinishesJobs = false;     ///< A job that runs is not paused.
-        bool bIgnoresJobCancel = false; ///< As an arm, whose program is never broken off.
+        bool bIgnoresJobCancel = false; ///< An arm cannot interrupt its program.
         std::size_t slowness = 1;
     };
 
     Trace& _trace;
-    WorkChecker& _witness;
-    ChanceModel _dice;
+    WorkChecker& _workChecker;
+    ChanceModel _chance;
     TimerBank<ETimer> _timers;
     std::string _robotID;
     Nature _nature;
@@ -46,33 +46,33 @@ private:
     Listener _listener;
 
     std::optional<Planning::Drive> _drive;
-    std::size_t _index = 0;    ///< Of the node in the route.
+    std::size_t _index = 0;    ///< Index of the node in the route.
     bool _bMoving = false;     ///< Between this node and the next one.
-    bool _bMoveHalted = false; ///< The move's timer stands still.
+    bool _bMoveHalted = false; ///< The timer of the move is stopped.
     bool _bStopping = false;
     std::optional<Planning::StartJob> _job;
     bool _bJobHalted = false;
     bool _bPauseAsked = false;
-    bool _bStopped = false; ///< For safety, by hand or for an error: neither drives nor works.
+    bool _bStopped = false; ///< Safety stop, manual mode or error: neither drives nor works.
 
 public:
-    /// Permille.
+    /// Per mille.
     std::size_t rejectChance = 0;
     std::size_t failChance = 0;
 
     MemoryRobot(
         Timeline& timeline,
         Trace& trace,
-        WorkChecker& witness,
+        WorkChecker& workChecker,
         const ChanceSeed& seed,
         std::string robotID,
         std::string nodeID);
 
-    /// Hears of every change.
+    /// Notified of every change.
     void SetListener(Listener listener);
     void Receive(const RobotMessage& message);
 
-    /// Somebody presses its emergency stop, takes it in hand, or it has an error, for a while.
+    /// Begins a random emergency stop, manual mode or error for a while.
     void Disturb();
     void Forget();
     void Recover();

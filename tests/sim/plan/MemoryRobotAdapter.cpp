@@ -16,7 +16,7 @@ namespace
 
 constexpr Planning::AdapterTimerID RESEND_TIMER = 1;
 constexpr Core::Duration RESEND_INTERVAL = 2s;
-/// Room for the numbers of one adapter.
+/// The range of numbers of one adapter.
 constexpr unsigned NUMBER_BITS = 32;
 
 void Raise(Planning::RobotEvent event, Planning::AdapterActions& out)
@@ -38,7 +38,7 @@ void MemoryRobotAdapter::Handle(const Planning::RobotCommand& command, Core::Now
         Core::Overloaded{
             [this](const Planning::Drive& drive) {
                 _driveID = drive.driveID;
-                _told = 0;
+                _reportedCount = 0;
                 _bDriveShown = false;
                 _route.clear();
                 for (const Planning::RouteNode& node : drive.route.nodes)
@@ -61,7 +61,7 @@ void MemoryRobotAdapter::Handle(const Planning::RobotCommand& command, Core::Now
                 if (_bOnline)
                 {
                     Recover(out);
-                    FollowJob(out);
+                    UpdateJob(out);
                 }
             },
             [this](const Planning::CancelJob& cancel) {
@@ -76,7 +76,7 @@ void MemoryRobotAdapter::Handle(const Planning::RobotCommand& command, Core::Now
             [this](const Planning::Resume&) {
                 Send(PauseRequest{++_number, false});
             },
-            [](const Planning::StartCharging&) {}, // its battery lasts
+            [](const Planning::StartCharging&) {}, // its battery is always full
             [](const Planning::StopCharging&) {
             }},
         command);
@@ -134,7 +134,7 @@ void MemoryRobotAdapter::OnSnapshot(const RobotSnapshot& snapshot, Planning::Ada
 {
     if (!_bLinkUp || snapshot.greeting != _greeting)
     {
-        return; // said before it had heard of this link
+        return; // sent before the robot knew this link
     }
     _snapshot = snapshot;
     Confirm();
@@ -146,10 +146,10 @@ void MemoryRobotAdapter::OnSnapshot(const RobotSnapshot& snapshot, Planning::Ada
         }
         Raise(Planning::LinkChanged{true}, out);
     }
-    FollowDrive(out);
+    UpdateDrive(out);
     Recover(out);
-    FollowJob(out);
-    TellState(out);
+    UpdateJob(out);
+    PublishState(out);
 }
 
 void MemoryRobotAdapter::Confirm()
@@ -188,7 +188,7 @@ bool MemoryRobotAdapter::IsConfirmed(const RobotMessage& message) const
         message);
 }
 
-void MemoryRobotAdapter::FollowDrive(Planning::AdapterActions& out)
+void MemoryRobotAdapter::UpdateDrive(Planning::AdapterActions& out)
 {
     const auto found = _snapshot->drives.find(_driveID);
     if (_driveID.empty() || found == _snapshot->drives.end())
@@ -201,9 +201,9 @@ void MemoryRobotAdapter::FollowDrive(Planning::AdapterActions& out)
     }
     _bDriveShown = true;
     const DriveView& view = found->second;
-    for (; _told < view.passedCount; ++_told)
+    for (; _reportedCount < view.passedCount; ++_reportedCount)
     {
-        Raise(Planning::NodePassed{_driveID, _route[_told]}, out);
+        Raise(Planning::NodePassed{_driveID, _route[_reportedCount]}, out);
     }
     switch (view.state)
     {
@@ -222,7 +222,7 @@ void MemoryRobotAdapter::FollowDrive(Planning::AdapterActions& out)
     }
 }
 
-/// What the robot has heard before the greeting of this adapter it shows; what is not there never comes any more.
+/// The robot shows all commands from before the greeting of this adapter; one that it does not show was lost.
 void MemoryRobotAdapter::Recover(Planning::AdapterActions& out)
 {
     if (!_recovery.has_value())
@@ -246,7 +246,7 @@ void MemoryRobotAdapter::Recover(Planning::AdapterActions& out)
     }
 }
 
-void MemoryRobotAdapter::FollowJob(Planning::AdapterActions& out)
+void MemoryRobotAdapter::UpdateJob(Planning::AdapterActions& out)
 {
     const auto found = _job.has_value() ? _snapshot->jobs.find(_job->commandID) : _snapshot->jobs.end();
     if (found == _snapshot->jobs.end())
@@ -286,7 +286,7 @@ void MemoryRobotAdapter::FollowJob(Planning::AdapterActions& out)
     }
 }
 
-void MemoryRobotAdapter::TellState(Planning::AdapterActions& out)
+void MemoryRobotAdapter::PublishState(Planning::AdapterActions& out)
 {
     Planning::StateChanged state = _snapshot->state;
     const std::string& driveID = _snapshot->activeDriveID;

@@ -20,21 +20,21 @@ public:
 
 private:
     Sender _send;
-    std::uint64_t _number; ///< Grows over restarts too.
+    std::uint64_t _number; ///< Higher than that of earlier adapters, over restarts too.
     std::uint64_t _greeting = 0;
     bool _bLinkUp = false;
     bool _bOnline = false;
     std::vector<RobotMessage> _unconfirmed;
     std::optional<RobotSnapshot> _snapshot;
     std::string _driveID;
-    std::vector<std::string> _route; ///< Of the drive.
-    std::size_t _told = 0;           ///< Nodes of it.
-    bool _bDriveShown = false;       ///< The robot had it.
+    std::vector<std::string> _route; ///< The route of the drive.
+    std::size_t _reportedCount = 0;  ///< Number of its nodes that were reported.
+    bool _bDriveShown = false;       ///< The robot has received it.
     std::optional<Planning::StartJob> _job;
-    std::optional<Planning::RecoverJob> _recovery; ///< Asked for, and the robot has not told yet.
+    std::optional<Planning::RecoverJob> _recovery; ///< Requested, and not answered by the robot yet.
     bool _bJobStarted = false;
-    bool _bJobShown = false;     ///< The robot had it.
-    std::string _foreignDriveID; ///< Of one that was given before a restart and is being cancelled.
+    bool _bJobShown = false;     ///< The robot has received it.
+    std::string _foreignDriveID; ///< A drive from before a restart that is being cancelled.
 
 public:
     /// The number is higher than that of every adapter before this one.
@@ -53,9 +53,9 @@ private:
     void Confirm();
     [[nodiscard]] bool IsConfirmed(const RobotMessage& message) const;
     void Recover(Planning::AdapterActions& out);
-    void FollowDrive(Planning::AdapterActions& out);
-    void FollowJob(Planning::AdapterActions& out);
-    void TellState(Planning::AdapterActions& out);
+    void UpdateDrive(Planning::AdapterActions& out);
+    void UpdateJob(Planning::AdapterActions& out);
+    void PublishState(Planning::AdapterActions& out);
 };
 
 } // namespace ACS::Simulation

@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 namespace
 {
 
-/// Filters of sessions are whole topics.
+/// Subscriptions have no wildcards.
 const VDA5050::MqttSubscription* FindSubscriptionOrNull(
     const std::vector<VDA5050::MqttSubscription>& subscriptions,
     const std::string& topic)
@@ -26,7 +26,7 @@ const VDA5050::MqttSubscription* FindSubscriptionOrNull(
 MqttBroker::MqttBroker(Timeline& timeline, Trace& trace, const ChanceSeed& seed, bool bFaulty)
     : _timeline(timeline),
       _trace(trace),
-      _dice(seed),
+      _chance(seed),
       _bFaulty(bFaulty)
 {
 }
@@ -52,7 +52,7 @@ void MqttBroker::SetWill(ClientID id, const VDA5050::MqttWill& will)
 
 Core::Duration MqttBroker::GetLatency()
 {
-    return _dice.GetBetween(0ms, _bFaulty && _dice.IsHit(30) ? 1s : 8ms);
+    return _chance.GetBetween(0ms, _bFaulty && _chance.IsHit(30) ? 1s : 8ms);
 }
 
 void MqttBroker::Post(Way& way, Timeline::Task task)
@@ -65,10 +65,10 @@ void MqttBroker::Post(Way& way, Timeline::Task task)
     }));
 }
 
-/// From some message on.
+/// Drops the messages from a random one on.
 void MqttBroker::Lose(Way& way)
 {
-    for (std::size_t lost = _dice.GetBetween(0, way.underWay.size()); lost > 0; --lost)
+    for (std::size_t lost = _chance.GetBetween(0, way.underWay.size()); lost > 0; --lost)
     {
         _timeline.Withdraw(way.underWay.back());
         way.underWay.pop_back();
@@ -78,7 +78,7 @@ void MqttBroker::Lose(Way& way)
 void MqttBroker::ConnectSoon(ClientID id)
 {
     Client& client = _clients.at(id);
-    _timeline.Post(_dice.GetBetween(1ms, _dice.IsHit(200) ? 5s : 300ms), [this, id, epoch = ++client.epoch] {
+    _timeline.Post(_chance.GetBetween(1ms, _chance.IsHit(200) ? 5s : 300ms), [this, id, epoch = ++client.epoch] {
         const auto found = _clients.find(id);
         if (found != _clients.end() && found->second.epoch == epoch)
         {
@@ -94,14 +94,14 @@ void MqttBroker::Connect(ClientID id)
     {
         return;
     }
-    PublishWill(id); // a connection that the broker did not know to be broken ends with the new one
+    PublishWill(id); // the new connection ends one that the broker did not know to be broken
     client.bUp = true;
     client.will = client.nextWill;
     Post(client.toClient, [this, id] {
         Client& up = _clients.at(id);
         if (up.listener != nullptr && up.bUp)
         {
-            up.bTold = true;
+            up.bKnownUp = true;
             up.listener->OnLinkUp();
         }
     });
@@ -121,8 +121,8 @@ void MqttBroker::Publish(ClientID id, const VDA5050::MqttMessage& message)
     {
         return;
     }
-    const bool bLost = _bFaulty && message.qos == 0 && _dice.IsHit(10);
-    const bool bTwice = _bFaulty && message.qos == 1 && _dice.IsHit(10);
+    const bool bLost = _bFaulty && message.qos == 0 && _chance.IsHit(10);
+    const bool bTwice = _bFaulty && message.qos == 1 && _chance.IsHit(10);
     for (int copies = bLost ? 0 : (bTwice ? 2 : 1); copies > 0; --copies)
     {
         Post(client.toBroker, [this, message] { Distribute(message); });
@@ -145,13 +145,13 @@ void MqttBroker::Distribute(const VDA5050::MqttMessage& message)
         }
         VDA5050::MqttMessage copy = message;
         copy.qos = std::min(copy.qos, wishOrNull->qos);
-        copy.bRetained = false; // it is told as it comes
-        const bool bTwice = _bFaulty && copy.qos == 1 && _dice.IsHit(10);
+        copy.bRetained = false; // not set on messages to existing subscriptions
+        const bool bTwice = _bFaulty && copy.qos == 1 && _chance.IsHit(10);
         if (bTwice)
         {
             Deliver(id, copy);
         }
-        if (!_bFaulty || copy.qos > 0 || !_dice.IsHit(10))
+        if (!_bFaulty || copy.qos > 0 || !_chance.IsHit(10))
         {
             Deliver(id, std::move(copy));
         }
@@ -162,7 +162,7 @@ void MqttBroker::Deliver(ClientID id, VDA5050::MqttMessage message)
 {
     Post(_clients.at(id).toClient, [this, id, message = std::move(message)] {
         Client& client = _clients.at(id);
-        if (client.listener != nullptr && client.bTold)
+        if (client.listener != nullptr && client.bKnownUp)
         {
             client.listener->OnMqttMessage(message);
         }
@@ -178,7 +178,7 @@ void MqttBroker::PublishWill(ClientID id)
     }
 }
 
-/// Each end hears of it in its own time.
+/// Each end detects it at its own time.
 void MqttBroker::Break(ClientID id)
 {
     Client& client = _clients.at(id);
@@ -188,7 +188,7 @@ void MqttBroker::Break(ClientID id)
     }
     Lose(client.toBroker);
     Lose(client.toClient);
-    if (!client.bTold)
+    if (!client.bKnownUp)
     {
         for (const Timeline::Ticket& ticket : std::exchange(client.toClient.underWay, {}))
         {
@@ -196,7 +196,7 @@ void MqttBroker::Break(ClientID id)
         }
     }
     const Epoch epoch = ++client.epoch;
-    _timeline.Post(_dice.GetBetween(1ms, 20s), [this, id, epoch] {
+    _timeline.Post(_chance.GetBetween(1ms, 20s), [this, id, epoch] {
         const auto found = _clients.find(id);
         if (found != _clients.end() && !found->second.bUp && found->second.epoch >= epoch)
         {
@@ -207,7 +207,7 @@ void MqttBroker::Break(ClientID id)
     {
         return;
     }
-    _timeline.Post(_dice.GetBetween(1ms, _dice.IsHit(200) ? 10s : 500ms), [this, id, epoch] {
+    _timeline.Post(_chance.GetBetween(1ms, _chance.IsHit(200) ? 10s : 500ms), [this, id, epoch] {
         Client& down = _clients.at(id);
         if (down.epoch != epoch || down.listener == nullptr)
         {
@@ -217,7 +217,7 @@ void MqttBroker::Break(ClientID id)
         {
             _timeline.Withdraw(ticket);
         }
-        if (std::exchange(down.bTold, false))
+        if (std::exchange(down.bKnownUp, false))
         {
             down.listener->OnLinkDown(std::make_error_code(std::errc::connection_reset));
         }
@@ -232,7 +232,7 @@ void MqttBroker::Abandon(ClientID id)
 {
     Client& client = _clients.at(id);
     client.listener = nullptr;
-    client.bTold = false;
+    client.bKnownUp = false;
     Break(id);
 }
 
@@ -247,9 +247,9 @@ void MqttBroker::SetReachable(ClientID id, bool bReachable)
     {
         Break(id);
     }
-    else if (!client.bUp && !client.bTold)
+    else if (!client.bUp && !client.bKnownUp)
     {
-        ConnectSoon(id); // else when it has heard that the old connection is gone
+        ConnectSoon(id); // otherwise when it has detected the end of the old connection
     }
 }
 
@@ -265,15 +265,15 @@ void MqttBroker::Cut(ClientID id)
 
 void MqttBroker::Restart()
 {
-    _trace.Tell("the broker is restarted");
-    if (_dice.IsHit(500))
+    _trace.Add("the broker is restarted");
+    if (_chance.IsHit(500))
     {
         _retained.clear();
     }
     for (auto& [id, client] : _clients)
     {
         Break(id);
-        client.will.reset(); // it ended before them
+        client.will.reset(); // the client ended before its connections
     }
 }
 

@@ -15,10 +15,10 @@
 namespace ACS::Simulation
 {
 
-/// A broker and the network around it, as sessions see them: retained messages, wills, subscriptions by topic; within a
-/// connection the order is kept. A connection that breaks loses what is under way from some message on, in each direction;
-/// the client hears of it in its own time and connects again, the broker publishes the will in its own. At quality 0
-/// messages get lost now and then, at quality 1 they come twice.
+/// A broker and its network as sessions see them: retained messages, wills, subscriptions by topic. A connection keeps
+/// the order until it breaks. Then it loses in each direction the messages in transit from some message on; the client
+/// detects that at its own time and connects again, the broker publishes the will at its own time. At QoS 0 messages
+/// are lost sometimes, at QoS 1 repeated.
 class MqttBroker final
 {
 public:
@@ -27,7 +27,7 @@ public:
 private:
     using Epoch = std::uint64_t;
 
-    struct Way ///< To one end.
+    struct Way ///< One direction.
     {
         Core::SteadyTime lastArrival{};
         std::deque<Timeline::Ticket> underWay;
@@ -37,19 +37,19 @@ private:
     {
         VDA5050::IMqttLinkListener* listener = nullptr;
         std::vector<VDA5050::MqttSubscription> subscriptions;
-        std::optional<VDA5050::MqttWill> will;     ///< Of the connection that it has, or that the broker believes in.
-        std::optional<VDA5050::MqttWill> nextWill; ///< Of the next one.
+        std::optional<VDA5050::MqttWill> will;     ///< Of the connection that the broker knows.
+        std::optional<VDA5050::MqttWill> nextWill; ///< Of the next connection.
         Way toBroker;
         Way toClient;
-        Epoch epoch = 0; ///< Of its connections.
+        Epoch epoch = 0; ///< Number of its connection.
         bool bUp = false;
-        bool bTold = false; ///< That it is up.
+        bool bKnownUp = false; ///< The client knows that it is connected.
         bool bReachable = true;
     };
 
     Timeline& _timeline;
     Trace& _trace;
-    ChanceModel _dice;
+    ChanceModel _chance;
     std::map<ClientID, Client> _clients;
     std::map<std::string, VDA5050::MqttMessage> _retained;
     ClientID _lastClient = 0;
@@ -58,24 +58,24 @@ private:
 public:
     MqttBroker(Timeline& timeline, Trace& trace, const ChanceSeed& seed, bool bFaulty);
 
-    /// Connects, and again whenever it can, until Abandon. The listener outlives that.
+    /// Connects, and reconnects, until Abandon. The listener outlives that.
     [[nodiscard]] ClientID Open(
         VDA5050::IMqttLinkListener& listener,
         std::vector<VDA5050::MqttSubscription> subscriptions,
         std::optional<VDA5050::MqttWill> willOrNull);
     void SetWill(ClientID id, const VDA5050::MqttWill& will);
-    /// Lost where there is no connection.
+    /// Dropped without a connection.
     void Publish(ClientID id, const VDA5050::MqttMessage& message);
-    /// The client has died; the broker finds out.
+    /// The client has crashed; the broker detects it later.
     void Abandon(ClientID id);
 
     void SetReachable(ClientID id, bool bReachable);
     [[nodiscard]] bool IsReachable(ClientID id) const;
-    /// The connection breaks, and is made again.
+    /// Breaks the connection, which is then made again.
     void Cut(ClientID id);
-    /// The broker ends and begins, with its retained messages or without.
+    /// Restarts the broker, with or without its retained messages.
     void Restart();
-    /// Nothing gets lost or comes twice from now on.
+    /// From now on nothing is lost or repeated.
     void Calm();
 
 private:

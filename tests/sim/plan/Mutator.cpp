@@ -48,9 +48,9 @@ bool IsResult(const Protocol::AcsPayload& payload)
 
 } // namespace
 
-Mutator::Mutator(EMutation mutation, ChanceModel& dice, Core::IRandom& random)
+Mutator::Mutator(EMutation mutation, ChanceModel& chance, Core::IRandom& random)
     : _mutation(mutation),
-      _dice(dice),
+      _chance(chance),
       _random(random)
 {
 }
@@ -99,7 +99,7 @@ Mutator::ReportOutcome Mutator::OnReport(const Planning::OutboxEntry& entry)
     ReportOutcome outcome{{entry}, false};
     const bool bResult = std::holds_alternative<Planning::ControlResultReport>(entry.report);
     const bool bFinal = IsFinalReport(entry.report);
-    const bool bSwallowed = (Is(EMutation::PlanReportSwallowed) && bFinal && _dice.IsHit(300))
+    const bool bSwallowed = (Is(EMutation::PlanReportSwallowed) && bFinal && _chance.IsHit(300))
         || (Is(EMutation::ResultSwallowed) && bResult);
     if (bSwallowed)
     {
@@ -112,7 +112,7 @@ Mutator::ReportOutcome Mutator::OnReport(const Planning::OutboxEntry& entry)
     }
     if (Is(EMutation::ReportsSwapped))
     {
-        if (!_heldBack.has_value() && _dice.IsHit(100))
+        if (!_heldBack.has_value() && _chance.IsHit(100))
         {
             _heldBack = entry;
             return {{}, false};
@@ -132,7 +132,7 @@ std::optional<Protocol::AcsRequest> Mutator::OnSent(const Protocol::AcsRequest& 
     const bool bFinal = planOrNull != nullptr && planOrNull->status >= Protocol::EPlanStatus::Completed;
     const bool bTwice =
         (Is(EMutation::FinalReportTwice) && bFinal) || (Is(EMutation::ResultTwice) && IsResult(request.payload));
-    const bool bInvented = Is(EMutation::ReportNotStored) && _dice.IsHit(50);
+    const bool bInvented = Is(EMutation::ReportNotStored) && _chance.IsHit(50);
     if (!bTwice && !bInvented)
     {
         return std::nullopt;
@@ -152,14 +152,14 @@ Mutator::CommandOutcome Mutator::OnCommand(const Planning::CommandRobot& command
     if (const auto* driveOrNull = std::get_if<Planning::Drive>(&command.command); driveOrNull != nullptr)
     {
         _drives[command.robotID] = *driveOrNull;
-        _standing.erase(command.robotID);
+        _stationary.erase(command.robotID);
     }
     if (Is(EMutation::ResumeSwallowed) && std::holds_alternative<Planning::Resume>(command.command))
     {
         outcome.sent.clear();
     }
     const auto* const jobOrNull = std::get_if<Planning::StartJob>(&command.command);
-    if (Is(EMutation::JobStartedTwice) && jobOrNull != nullptr && _dice.IsHit(200))
+    if (Is(EMutation::JobStartedTwice) && jobOrNull != nullptr && _chance.IsHit(200))
     {
         Planning::StartJob again = *jobOrNull;
         again.commandID = Core::MakeUUID(_random);
@@ -182,15 +182,15 @@ Mutator::CommandOutcome Mutator::OnCommand(const Planning::CommandRobot& command
         outcome.sent = {std::move(again)};
     }
     const auto* const cancelOrNull = std::get_if<Planning::CancelDrive>(&command.command);
-    if (Is(EMutation::StandsTooEarly) && cancelOrNull != nullptr)
+    if (Is(EMutation::StationaryTooEarly) && cancelOrNull != nullptr)
     {
         outcome.raised.emplace_back(Planning::DriveCancelled{cancelOrNull->driveID, {}});
-        _standing.insert(command.robotID);
+        _stationary.insert(command.robotID);
     }
     return outcome;
 }
 
-/// To other places than the engine has chosen.
+/// Replaces the places that the engine has chosen.
 Planning::StartJob Mutator::Misdirect(const std::string& robotID, Planning::StartJob job)
 {
     const auto latest = _latestJobs.try_emplace({robotID, job.action}, job).first;
@@ -217,8 +217,8 @@ std::vector<Planning::RobotEvent> Mutator::OnEvent(const std::string& robotID, c
 {
     std::vector<Planning::RobotEvent> events{event};
     auto* const stateOrNull = std::get_if<Planning::StateChanged>(&events.front());
-    if (Is(EMutation::StandsTooEarly) && stateOrNull != nullptr
-        && (stateOrNull->bOccupied || _standing.contains(robotID)))
+    if (Is(EMutation::StationaryTooEarly) && stateOrNull != nullptr
+        && (stateOrNull->bOccupied || _stationary.contains(robotID)))
     {
         stateOrNull->bDriving = false;
         stateOrNull->bOccupied = false;
@@ -245,7 +245,7 @@ std::vector<Planning::RobotEvent> Mutator::OnEvent(const std::string& robotID, c
 
 bool Mutator::ShouldForgetTimer() const
 {
-    return Is(EMutation::TimerForgotten) && _dice.IsHit(700);
+    return Is(EMutation::TimerForgotten) && _chance.IsHit(700);
 }
 
 } // namespace ACS::Simulation

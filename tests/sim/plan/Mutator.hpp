@@ -18,15 +18,15 @@
 namespace ACS::Simulation
 {
 
-/// Breaks what goes into AcsdCore and comes out of it, in one way at a time. Without a mutation everything passes as
-/// it is, and no chance is drawn.
+/// Changes the inputs and outputs of AcsdCore in one way at a time. Without a mutation everything passes
+/// unchanged, and no random number is drawn.
 class Mutator final
 {
 public:
     struct ReportOutcome
     {
         std::vector<Planning::OutboxEntry> reported;
-        bool bAcknowledged = false; ///< To the engine, by nobody.
+        bool bAcknowledged = false; ///< To the engine, without an Ack of the MCS.
     };
 
     struct CommandOutcome
@@ -38,23 +38,23 @@ public:
 
 private:
     EMutation _mutation;
-    ChanceModel& _dice;
+    ChanceModel& _chance;
     Core::IRandom& _random;
     std::optional<Planning::OutboxEntry> _heldBack;
     std::map<std::string, Planning::Drive> _drives;                                ///< The latest of each robot.
     std::set<std::string> _denied;                                                 ///< CommandIDs.
     std::map<std::pair<std::string, std::string>, Planning::StartJob> _latestJobs; ///< By robot and action.
-    std::set<std::string> _standing; ///< Robots that count as standing until their next drive.
+    std::set<std::string> _stationary; ///< Robots that count as stationary until their next drive.
 
 public:
-    Mutator(EMutation mutation, ChanceModel& dice, Core::IRandom& random);
+    Mutator(EMutation mutation, ChanceModel& chance, Core::IRandom& random);
 
     [[nodiscard]] bool Is(EMutation mutation) const noexcept;
     [[nodiscard]] Planning::StoredState OnRestore(Planning::StoredState state) const;
     [[nodiscard]] Planning::StoreBatch OnWrite(Planning::StoreBatch batch) const;
     [[nodiscard]] Planning::ReplyCommand OnReply(Planning::ReplyCommand reply) const;
     [[nodiscard]] ReportOutcome OnReport(const Planning::OutboxEntry& entry);
-    /// A further request to be sent after this one.
+    /// A further request to send after this one.
     [[nodiscard]] std::optional<Protocol::AcsRequest> OnSent(const Protocol::AcsRequest& request);
     [[nodiscard]] CommandOutcome OnCommand(const Planning::CommandRobot& command);
     [[nodiscard]] std::vector<Planning::RobotEvent> OnEvent(

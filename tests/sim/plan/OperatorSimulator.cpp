@@ -11,8 +11,8 @@ using namespace std::chrono_literals;
 namespace
 {
 
-/// One a second: by then whatever a disk that works was given is on it, also what had waited for it.
-constexpr std::size_t LOOKS_UNTIL_STORED = 15;
+/// Once a second: by then a working disk has stored all that it was given, also what was delayed.
+constexpr std::size_t POLLS_UNTIL_STORED = 15;
 
 } // namespace
 
@@ -24,23 +24,23 @@ OperatorSimulator::OperatorSimulator(
     const CrashableStore& store,
     ProcessSource getProcessOrNull)
     : _trace(trace),
-      _dice(seed),
+      _chance(seed),
       _robots(robots),
       _store(store),
       _getProcessOrNull(std::move(getProcessOrNull)),
-      _habits(timeline)
+      _behaviours(timeline)
 {
 }
 
 void OperatorSimulator::Begin()
 {
-    _habits.Start(EBehaviour::Turn, _dice.GetBetween(1s, 60s), [this] { Turn(); });
-    _habits.Start(EBehaviour::Look, 1s, [this] { Look(); });
+    _behaviours.Start(EBehaviour::Turn, _chance.GetBetween(1s, 60s), [this] { Turn(); });
+    _behaviours.Start(EBehaviour::Poll, 1s, [this] { Poll(); });
 }
 
 void OperatorSimulator::End()
 {
-    _habits.CancelAll();
+    _behaviours.CancelAll();
 }
 
 void OperatorSimulator::OnStart()
@@ -48,56 +48,56 @@ void OperatorSimulator::OnStart()
     _resting.clear();
     for (auto& [robotID, service] : _services)
     {
-        if (std::exchange(service.looks, 0) >= LOOKS_UNTIL_STORED)
+        if (std::exchange(service.polls, 0) >= POLLS_UNTIL_STORED)
         {
             _expected[robotID] = service.bInMaintenance;
         }
     }
 }
 
-/// Of one that is out of reach he does not say that it is out of service: acsd takes it for one that was carried away.
+/// Not for a disconnected robot: acsd would assume that it was carried away.
 void OperatorSimulator::Turn()
 {
     AcsdProcess* const processOrNull = _getProcessOrNull();
     if (processOrNull != nullptr)
     {
-        const auto chosen = std::next(_robots.begin(), static_cast<std::ptrdiff_t>(_dice.GetBelow(_robots.size())));
+        const auto chosen = std::next(_robots.begin(), static_cast<std::ptrdiff_t>(_chance.GetBelow(_robots.size())));
         for (const Planning::RobotStatus& robot : processOrNull->GetEngine().GetRobotStatuses())
         {
             const bool bSeen = robot.status != Planning::ERobotStatus::Disconnected;
             if (robot.robotID == chosen->first && (robot.bInMaintenance || bSeen))
             {
-                _trace.Tell("operator: {} is {} service", robot.robotID, robot.bInMaintenance ? "in" : "out of");
+                _trace.Add("operator: {} is {} service", robot.robotID, robot.bInMaintenance ? "in" : "out of");
                 processOrNull->PushCommand(Planning::SetMaintenance{robot.robotID, !robot.bInMaintenance, 0});
                 _expected.erase(robot.robotID);
-                _services[robot.robotID].looks = 0;
+                _services[robot.robotID].polls = 0;
             }
         }
     }
-    _habits.Start(EBehaviour::Turn, _dice.GetBetween(1s, 40s), [this] { Turn(); });
+    _behaviours.Start(EBehaviour::Turn, _chance.GetBetween(1s, 40s), [this] { Turn(); });
 }
 
-void OperatorSimulator::Look()
+void OperatorSimulator::Poll()
 {
     AcsdProcess* const processOrNull = _getProcessOrNull();
     const std::vector<Planning::RobotStatus> statuses =
         processOrNull == nullptr ? std::vector<Planning::RobotStatus>() : processOrNull->GetEngine().GetRobotStatuses();
     for (const Planning::RobotStatus& robot : statuses)
     {
-        LookAtRest(robot);
-        LookAtService(robot);
+        CheckResting(robot);
+        CheckService(robot);
     }
-    _habits.Start(EBehaviour::Look, 1s, [this] { Look(); });
+    _behaviours.Start(EBehaviour::Poll, 1s, [this] { Poll(); });
 }
 
-void OperatorSimulator::LookAtRest(const Planning::RobotStatus& robot)
+void OperatorSimulator::CheckResting(const Planning::RobotStatus& robot)
 {
     const ISimulatedRobot& truth = *_robots.at(robot.robotID);
     const auto resting = _resting.find(robot.robotID);
-    // Else a drive may still be on its way to it.
+    // Otherwise a drive may still be in transit to it.
     const bool bStands = robot.status == Planning::ERobotStatus::Stopped && truth.IsAtRest();
     if (!robot.bInMaintenance || truth.IsDisturbed())
-    { // somebody who has it in hand may carry it elsewhere
+    { // in manual mode it may be driven elsewhere
         _resting.erase(robot.robotID);
     }
     else if (resting == _resting.end() && !robot.planID.has_value() && bStands)
@@ -114,7 +114,7 @@ void OperatorSimulator::LookAtRest(const Planning::RobotStatus& robot)
     }
 }
 
-void OperatorSimulator::LookAtService(const Planning::RobotStatus& robot)
+void OperatorSimulator::CheckService(const Planning::RobotStatus& robot)
 {
     const auto expected = _expected.find(robot.robotID);
     if (expected != _expected.end() && expected->second != robot.bInMaintenance)
@@ -130,10 +130,10 @@ void OperatorSimulator::LookAtService(const Planning::RobotStatus& robot)
     }
     Service& service = _services[robot.robotID];
     const bool bSame = service.bInMaintenance == robot.bInMaintenance && !_store.bFails;
-    service = {robot.bInMaintenance, bSame ? service.looks + 1 : 0};
+    service = {robot.bInMaintenance, bSame ? service.polls + 1 : 0};
 }
 
-void OperatorSimulator::GiveBack() const
+void OperatorSimulator::PutAllIntoService() const
 {
     AcsdProcess* const processOrNull = _getProcessOrNull();
     const std::vector<Planning::RobotStatus> statuses =

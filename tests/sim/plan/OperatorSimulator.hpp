@@ -14,36 +14,36 @@
 namespace ACS::Simulation
 {
 
-/// The operator who takes robots out of service and gives them back; and who sees that one that stands out of service is
-/// left alone.
+/// The operator who takes robots out of service and puts them back, and checks that acsd leaves a robot alone that
+/// is stationary and out of service.
 class OperatorSimulator final
 {
 public:
     using Robots = std::map<std::string, std::unique_ptr<ISimulatedRobot>>;
-    /// The acsd that runs, or null.
+    /// The running acsd, or null.
     using ProcessSource = std::function<AcsdProcess*()>;
 
 private:
     enum class EBehaviour : std::uint8_t
     {
         Turn,
-        Look,
+        Poll,
     };
     struct Service
     {
         bool bInMaintenance = false;
-        std::size_t looks = 0; ///< Since it was last another one, or the disk failed.
+        std::size_t polls = 0; ///< Since the last change or disk failure.
     };
 
     Trace& _trace;
-    ChanceModel _dice;
+    ChanceModel _chance;
     const Robots& _robots;
     const CrashableStore& _store;
     ProcessSource _getProcessOrNull;
-    TimerBank<EBehaviour> _habits;
+    TimerBank<EBehaviour> _behaviours;
 
-    std::map<std::string, std::string> _resting; ///< NodeIDs of those that stand out of service.
-    std::map<std::string, Service> _services;    ///< As acsd shows them.
+    std::map<std::string, std::string> _resting; ///< NodeIDs of those that are stationary and out of service.
+    std::map<std::string, Service> _services;    ///< As acsd reports them.
     std::map<std::string, bool> _expected;       ///< After a start: whether it is in maintenance.
 
 public:
@@ -57,16 +57,16 @@ public:
 
     void Begin();
     void End();
-    /// Acsd was started. A plan whose end it had not written down is its robot's again; maintenance is as it was.
+    /// acsd was started. A robot has its plan again if the end was not stored; maintenance is as before.
     void OnStart();
-    /// Until all are in service.
-    void GiveBack() const;
+    /// Puts all robots back into service.
+    void PutAllIntoService() const;
 
 private:
     void Turn();
-    void Look();
-    void LookAtRest(const Planning::RobotStatus& robot);
-    void LookAtService(const Planning::RobotStatus& robot);
+    void Poll();
+    void CheckResting(const Planning::RobotStatus& robot);
+    void CheckService(const Planning::RobotStatus& robot);
 };
 
 } // namespace ACS::Simulation

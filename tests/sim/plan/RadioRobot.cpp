@@ -10,13 +10,13 @@ namespace ACS::Simulation
 RadioRobot::RadioRobot(
     Timeline& timeline,
     Trace& trace,
-    WorkChecker& witness,
+    WorkChecker& workChecker,
     const Seeds& seeds,
     const std::string& robotID,
     const std::string& nodeID,
     bool bFaulty)
     : _timeline(timeline),
-      _robot(timeline, trace, witness, seeds.robot, robotID, nodeID),
+      _robot(timeline, trace, workChecker, seeds.robot, robotID, nodeID),
       _radio(timeline, _robot, seeds.radio)
 {
     constexpr std::size_t REJECT_CHANCE = 40;
@@ -82,7 +82,7 @@ bool RadioRobot::IsAtRest() const
     return !truth.state.bPaused && truth.activeDriveID.empty() && truth.activeCommandID.empty();
 }
 
-/// Who looks sees what it has done.
+/// A query brings it to the present time.
 bool RadioRobot::IsWorkUnderWay() const
 {
     return false;

@@ -11,7 +11,7 @@
 namespace ACS::Simulation
 {
 
-/// A robot in memory behind a radio.
+/// A robot in memory with a radio.
 class RadioRobot final : public ISimulatedRobot
 {
 public:
@@ -30,7 +30,7 @@ public:
     RadioRobot(
         Timeline& timeline,
         Trace& trace,
-        WorkChecker& witness,
+        WorkChecker& workChecker,
         const Seeds& seeds,
         const std::string& robotID,
         const std::string& nodeID,

@@ -13,7 +13,7 @@
 namespace ACS::Simulation
 {
 
-/// A new adapter greets: every snapshot after it says that it has heard of it.
+/// The greeting of a new adapter: every later snapshot shows that the robot has received it.
 struct Greeting
 {
     std::uint64_t number = 0;
@@ -21,17 +21,17 @@ struct Greeting
 
 struct PauseRequest
 {
-    std::uint64_t number = 0; ///< The highest counts.
+    std::uint64_t number = 0; ///< The highest is the valid one.
     bool bPause = false;
 };
 
-/// Names the command, as several jobs may have one jobID.
+/// Names the command, because several jobs may have one jobID.
 struct JobCancellation
 {
     std::string commandID;
 };
 
-/// From an adapter to its robot. May be sent again: a robot takes each drive, each job and each wish once.
+/// From an adapter to its robot. May be sent again: a robot executes each drive, job and request once.
 using RobotMessage = std::variant<
     Greeting,
     Planning::Drive,
@@ -52,9 +52,9 @@ enum class EDriveState : std::uint8_t
 struct DriveView
 {
     EDriveState state = EDriveState::Driving;
-    std::size_t passedCount = 0; ///< Nodes of the route, the first included.
+    std::size_t passedCount = 0; ///< Nodes of the route, including the first.
     std::size_t releasedCount = 0;
-    std::string nodeID; ///< Where it ended.
+    std::string nodeID; ///< Where the drive ended.
 };
 
 enum class EJobState : std::uint8_t
@@ -72,17 +72,17 @@ struct JobView
     std::string reason;
 };
 
-/// All that a robot says of itself, on every change.
+/// The complete state of a robot, sent on every change.
 struct RobotSnapshot
 {
     std::uint64_t greeting = 0;
     std::uint64_t pauseRequest = 0;
     Planning::StateChanged state;
     std::string activeDriveID;               ///< Empty: none.
-    std::vector<std::string> aheadNodeIDs;   ///< On which it may still drive.
+    std::vector<std::string> aheadNodeIDs;   ///< Nodes that it may still drive to.
     std::string activeCommandID;             ///< Of a job that waits or runs; empty: none.
-    std::string lastCommandID;               ///< Of the drive or job that it was given last; empty: none, or forgotten.
-    std::map<std::string, DriveView> drives; ///< Every one that it was given, by driveID.
+    std::string lastCommandID;               ///< Of the latest drive or job; empty: none, or forgotten.
+    std::map<std::string, DriveView> drives; ///< All drives that were commanded, by driveID.
     std::map<std::string, JobView> jobs;     ///< Likewise, by commandID.
 };
 

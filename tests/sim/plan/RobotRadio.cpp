@@ -11,7 +11,7 @@ using namespace std::chrono_literals;
 RobotRadio::RobotRadio(Timeline& timeline, MemoryRobot& robot, const ChanceSeed& seed)
     : _timeline(timeline),
       _robot(robot),
-      _dice(seed)
+      _chance(seed)
 {
     _robot.SetListener([this](const RobotSnapshot& snapshot) {
         if (_bUp && _listenerOrNull != nullptr)
@@ -29,7 +29,7 @@ RobotRadio::RobotRadio(Timeline& timeline, MemoryRobot& robot, const ChanceSeed&
 void RobotRadio::Post(Way& way, Timeline::Task task)
 {
     const Core::SteadyTime now = _timeline.GetNow().steady;
-    way.lastArrival = std::max(way.lastArrival, now + _dice.GetBetween(0ms, _dice.IsHit(100) ? 800ms : 10ms));
+    way.lastArrival = std::max(way.lastArrival, now + _chance.GetBetween(0ms, _chance.IsHit(100) ? 800ms : 10ms));
     way.underWay.push_back(_timeline.Post(way.lastArrival - now, [&way, task = std::move(task)] {
         way.underWay.pop_front();
         task();
@@ -38,7 +38,7 @@ void RobotRadio::Post(Way& way, Timeline::Task task)
 
 void RobotRadio::Lose(Way& way)
 {
-    for (std::size_t lost = _dice.GetBetween(0, way.underWay.size()); lost > 0; --lost)
+    for (std::size_t lost = _chance.GetBetween(0, way.underWay.size()); lost > 0; --lost)
     {
         _timeline.Withdraw(way.underWay.back());
         way.underWay.pop_back();
@@ -49,7 +49,7 @@ void RobotRadio::Attach(IRadioListener& listener)
 {
     _listenerOrNull = &listener;
     _bListenerUp = false;
-    TellLink(_dice.GetBetween(1ms, 300ms));
+    NotifyLink(_chance.GetBetween(1ms, 300ms));
 }
 
 void RobotRadio::Detach()
@@ -82,11 +82,11 @@ void RobotRadio::SetUp(bool bUp)
         Lose(_toRobot);
         Lose(_toListener);
     }
-    TellLink(_dice.GetBetween(1ms, 3s));
+    NotifyLink(_chance.GetBetween(1ms, 3s));
 }
 
-/// In its own time; an outage that is over by then is told all the same, as messages were lost.
-void RobotRadio::TellLink(Core::Duration delay)
+/// At its own time. An outage that is over by then is reported all the same, because messages were lost.
+void RobotRadio::NotifyLink(Core::Duration delay)
 {
     _timeline.Post(delay, [this, epoch = ++_epoch] {
         if (epoch != _epoch || _listenerOrNull == nullptr)

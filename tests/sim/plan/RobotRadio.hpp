@@ -10,7 +10,7 @@
 namespace ACS::Simulation
 {
 
-/// What hears a robot over its radio.
+/// Receives from a robot over its radio.
 class IRadioListener
 {
 public:
@@ -24,11 +24,11 @@ public:
     virtual void OnSnapshot(const RobotSnapshot& snapshot) = 0;
 };
 
-/// Carries messages between a robot and the acsd of the moment: in order and late; while it is down nothing passes, and
-/// what was under way is lost from some message on.
+/// Carries messages between a robot and the running acsd, in order and delayed. Without a connection no message passes,
+/// and messages in transit are lost from some message on.
 class RobotRadio final
 {
-    /// To one end.
+    /// One direction.
     struct Way
     {
         Core::SteadyTime lastArrival{};
@@ -37,19 +37,19 @@ class RobotRadio final
 
     Timeline& _timeline;
     MemoryRobot& _robot;
-    ChanceModel _dice;
+    ChanceModel _chance;
     IRadioListener* _listenerOrNull = nullptr;
     Way _toRobot;
     Way _toListener;
     bool _bUp = true;
-    bool _bListenerUp = false; ///< What the listener was told.
+    bool _bListenerUp = false; ///< The state that the listener knows.
     std::uint64_t _epoch = 0;
 
 public:
     RobotRadio(Timeline& timeline, MemoryRobot& robot, const ChanceSeed& seed);
 
     void Attach(IRadioListener& listener);
-    /// It has died.
+    /// acsd has crashed.
     void Detach();
     void Send(const RobotMessage& message);
     void SetUp(bool bUp);
@@ -58,7 +58,7 @@ public:
 private:
     void Post(Way& way, Timeline::Task task);
     void Lose(Way& way);
-    void TellLink(Core::Duration delay);
+    void NotifyLink(Core::Duration delay);
 };
 
 } // namespace ACS::Simulation

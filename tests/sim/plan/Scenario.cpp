@@ -14,8 +14,8 @@ using namespace std::chrono_literals;
 namespace
 {
 
-constexpr std::uint64_t DICE_PART = 1;
-constexpr std::uint64_t ARM_PART = 2;     ///< Whether a world has arms: apart, so that the others stay what they were.
+constexpr std::uint64_t SCENARIO_PART = 1;
+constexpr std::uint64_t ARM_PART = 2;     ///< Whether a run has arms: separate from the other random numbers.
 constexpr std::uint64_t SERVICE_PART = 3; ///< Maintenance and batteries, likewise.
 constexpr double SPACING = 2.0;
 
@@ -52,7 +52,7 @@ public:
         AddWay(to, from);
     }
 
-    /// A station beside a lane node.
+    /// A station next to a lane node.
     void AddDock(const std::string& stationID, const std::string& lane, double x, double y)
     {
         const std::string nodeID = "D-" + stationID;
@@ -80,7 +80,7 @@ const std::vector<std::string>& GetStationIDs()
     return STATIONS;
 }
 
-/// A one-way ring: two lanes of six nodes, joined at their ends, with a dock outside of each.
+/// A one-way ring: two lanes of six nodes, joined at their ends, with a dock on the outer side of each node.
 void DrawRing(Scenario& scenario)
 {
     SiteDraft draft(scenario);
@@ -124,7 +124,8 @@ void DrawLine(Scenario& scenario)
     }
 }
 
-/// Four rows of four: rows in both directions, outer columns one-way; docks left and right of the rows and above and below.
+/// Four rows of four: rows in both directions, outer columns one-way; docks left and right of the rows and above and
+/// below.
 void DrawGrid(Scenario& scenario)
 {
     constexpr std::size_t SIDE = 4;
@@ -191,13 +192,13 @@ Planning::RobotOptions MakeRobot(const std::string& robotID, Planning::ERobotTyp
     return robot;
 }
 
-void ChooseOptions(Scenario& scenario, ChanceModel& dice)
+void ChooseOptions(Scenario& scenario, ChanceModel& chance)
 {
     using Planning::ERobotType;
     Planning::EngineOptions& options = scenario.options;
     options.robots.push_back(MakeRobot("LR01", ERobotType::LR, "CHG01"));
     options.robots.push_back(MakeRobot("CR01", ERobotType::CR, "CHG02"));
-    const std::size_t more = dice.GetBelow(3);
+    const std::size_t more = chance.GetBelow(3);
     if (more > 0)
     {
         options.robots.push_back(MakeRobot("LR02", ERobotType::LR, "CHG03"));
@@ -214,36 +215,36 @@ void ChooseOptions(Scenario& scenario, ChanceModel& dice)
     {
         std::ranges::move(*Core::ParseLocationRange(set + ".MP01-08"), std::back_inserter(options.places));
     }
-    // Shorter, too, than some robots are out of reach.
-    options.restartWait = std::chrono::seconds(dice.GetBetween(0, 60));
-    options.baseLength = dice.GetBetween(1, 4);
-    options.bInitialPendingReported = dice.IsHit(200);
-    options.bLowerPriorityFirst = dice.IsHit(200);
-    options.controls.cancelUntil = static_cast<Planning::ECancelWindow>(dice.GetBelow(3));
-    options.controls.bPausesAfterJob = dice.IsHit(250);
-    options.controls.bAbortStopsJob = dice.IsHit(250);
-    options.controls.bAbortFinishesPausedJob = dice.IsHit(250);
-    options.controls.bJobFailureFailsAbort = !dice.IsHit(250);
-    options.controls.bAbortReportsStep = dice.IsHit(250);
-    if (dice.IsHit(200))
+    // Also shorter than some robots are disconnected.
+    options.restartWait = std::chrono::seconds(chance.GetBetween(0, 60));
+    options.baseLength = chance.GetBetween(1, 4);
+    options.bInitialPendingReported = chance.IsHit(200);
+    options.bLowerPriorityFirst = chance.IsHit(200);
+    options.controls.cancelUntil = static_cast<Planning::ECancelWindow>(chance.GetBelow(3));
+    options.controls.bPausesAfterJob = chance.IsHit(250);
+    options.controls.bAbortStopsJob = chance.IsHit(250);
+    options.controls.bAbortFinishesPausedJob = chance.IsHit(250);
+    options.controls.bJobFailureFailsAbort = !chance.IsHit(250);
+    options.controls.bAbortReportsStep = chance.IsHit(250);
+    if (chance.IsHit(200))
     {
         for (auto& [name, rule] : options.actions)
         {
-            rule.timeout = std::chrono::milliseconds(dice.GetBetween(4'000, 20'000));
+            rule.timeout = std::chrono::milliseconds(chance.GetBetween(4'000, 20'000));
         }
     }
 }
 
 void ChooseService(Scenario& scenario)
 {
-    ChanceModel dice({scenario.seed, SERVICE_PART});
-    scenario.bMaintenance = dice.IsHit(200) && scenario.Has(EFault::Controls);
-    scenario.bBatteries = dice.IsHit(300) && scenario.HasVehicles();
+    ChanceModel chance({scenario.seed, SERVICE_PART});
+    scenario.bMaintenance = chance.IsHit(200) && scenario.Has(EFault::Controls);
+    scenario.bBatteries = chance.IsHit(300) && scenario.HasVehicles();
     if (!scenario.bBatteries)
     {
         return;
     }
-    // A few runs later whoever left its charger is there again, for half a minute.
+    // A robot that leaves its charger is back some runs later, for half a minute.
     scenario.options.dispatch.batteryFloor = 20;
     scenario.options.dispatch.batteryResume = 35;
     for (Planning::RobotOptions& robot : scenario.options.robots)
@@ -262,13 +263,17 @@ Protocol::PlanStep MakeStep(std::int32_t stepNo, std::string action, std::string
 }
 
 /// One or two transports of a cassette.
-void AddTransports(Protocol::ExecutionPlan& plan, const Scenario& scenario, ChanceModel& dice, const std::string& port)
+void AddTransports(
+    Protocol::ExecutionPlan& plan,
+    const Scenario& scenario,
+    ChanceModel& chance,
+    const std::string& port)
 {
     std::int32_t stepNo = 0;
-    for (std::size_t count = dice.GetBetween(1, 2); count > 0; --count)
+    for (std::size_t count = chance.GetBetween(1, 2); count > 0; --count)
     {
-        const std::string from = dice.Pick(scenario.cassettePlaces);
-        const std::string to = dice.Pick(scenario.cassettePlaces);
+        const std::string from = chance.Pick(scenario.cassettePlaces);
+        const std::string to = chance.Pick(scenario.cassettePlaces);
         const std::string carrier = fmt::format("{}-C{}", plan.planID, count);
         ++stepNo;
         Protocol::PlanStep load = MakeStep(stepNo, "CassetteLoad", from);
@@ -283,12 +288,12 @@ void AddTransports(Protocol::ExecutionPlan& plan, const Scenario& scenario, Chan
     }
 }
 
-/// Trays are fetched, samples moved at a set, trays brought back.
-void AddTrayWork(Protocol::ExecutionPlan& plan, const Scenario& scenario, ChanceModel& dice, const std::string& robot)
+/// Trays are loaded, samples moved at a set, trays unloaded.
+void AddTrayWork(Protocol::ExecutionPlan& plan, const Scenario& scenario, ChanceModel& chance, const std::string& robot)
 {
-    const std::string place = dice.Pick(scenario.trayPlaces);
-    const std::string set = dice.Pick(scenario.sets);
-    const std::size_t trays = dice.GetBetween(1, 3);
+    const std::string place = chance.Pick(scenario.trayPlaces);
+    const std::string set = chance.Pick(scenario.sets);
+    const std::size_t trays = chance.GetBetween(1, 3);
     std::int32_t stepNo = 1;
     Protocol::PlanStep load = MakeStep(stepNo, "TrayLoad", place);
     Protocol::PlanStep work = MakeStep(stepNo + 2, "MemoryPickAndPlace", set);
@@ -305,7 +310,7 @@ void AddTrayWork(Protocol::ExecutionPlan& plan, const Scenario& scenario, Chance
         unload.jobs.push_back({fmt::format("{}-c{}", plan.planID, tray), port, fixed});
     }
     plan.steps.push_back(std::move(load));
-    if (dice.IsHit(500))
+    if (chance.IsHit(500))
     {
         plan.steps.push_back(MakeStep(stepNo + 1, "OpenSetCover", set));
     }
@@ -336,13 +341,13 @@ Planning::SiteMap Scenario::MakeSite() const
 
 Scenario MakeScenario(std::uint64_t seed, const FaultSet& without, std::optional<ERobotKind> robotsOrNull)
 {
-    ChanceModel dice({seed, DICE_PART});
+    ChanceModel chance({seed, SCENARIO_PART});
     Scenario scenario;
     scenario.seed = seed;
     scenario.cassettePlaces = {"A01.CP01", "A01.CP02", "A02.CP03", "A02.CP04"};
     scenario.trayPlaces = {"A01.CP01", "A01.CP02", "A01.CP03"};
     scenario.sets = {"A01.SET01", "A01.SET02", "A01.SET03"};
-    const std::size_t site = dice.GetBelow(3);
+    const std::size_t site = chance.GetBelow(3);
     if (site == 0)
     {
         scenario.siteName = "ring";
@@ -358,17 +363,17 @@ Scenario MakeScenario(std::uint64_t seed, const FaultSet& without, std::optional
         scenario.siteName = "grid";
         DrawGrid(scenario);
     }
-    ChooseOptions(scenario, dice);
-    scenario.planCount = dice.GetBetween(3, 8);
-    scenario.faultsEnd = std::chrono::seconds(dice.GetBetween(60, 240));
-    // Some worlds have all of it, most have a part, so that each fault is also seen without others that hide what it does.
-    const bool bAll = dice.IsHit(250);
+    ChooseOptions(scenario, chance);
+    scenario.planCount = chance.GetBetween(3, 8);
+    scenario.faultsEnd = std::chrono::seconds(chance.GetBetween(60, 240));
+    // Some runs have all faults, most have some, so that each fault also occurs without others that hide its effect.
+    const bool bAll = chance.IsHit(250);
     for (std::size_t fault = 0; fault < FAULT_COUNT; ++fault)
     {
-        const bool bChosen = dice.IsHit(500);
+        const bool bChosen = chance.IsHit(500);
         scenario.faults.set(fault, (bAll || bChosen) && !without.test(fault));
     }
-    const bool bVehicles = dice.IsHit(70);
+    const bool bVehicles = chance.IsHit(70);
     const bool bArms = !bVehicles && ChanceModel({seed, ARM_PART}).IsHit(40);
     const ERobotKind kind = bArms ? ERobotKind::Arms : ERobotKind::Memory;
     scenario.robots = robotsOrNull.value_or(bVehicles ? ERobotKind::Vda5050 : kind);
@@ -376,16 +381,16 @@ Scenario MakeScenario(std::uint64_t seed, const FaultSet& without, std::optional
     return scenario;
 }
 
-Protocol::ExecutionPlan MakeGoodPlan(const Scenario& scenario, ChanceModel& dice, const std::string& planID)
+Protocol::ExecutionPlan MakeGoodPlan(const Scenario& scenario, ChanceModel& chance, const std::string& planID)
 {
     Protocol::ExecutionPlan plan;
     plan.planID = planID;
     plan.lotID = "LOT-" + planID;
-    if (dice.IsHit(700))
+    if (chance.IsHit(700))
     {
-        plan.priority = static_cast<std::int32_t>(dice.GetBelow(4));
+        plan.priority = static_cast<std::int32_t>(chance.GetBelow(4));
     }
-    const bool bLogistics = dice.IsHit(500);
+    const bool bLogistics = chance.IsHit(500);
     std::vector<std::string> robots{"AMR", "AMR", "AMR"};
     for (const Planning::RobotOptions& robot : scenario.options.robots)
     {
@@ -394,23 +399,23 @@ Protocol::ExecutionPlan MakeGoodPlan(const Scenario& scenario, ChanceModel& dice
             robots.push_back(robot.robotID.GetText());
         }
     }
-    const std::string robot = dice.Pick(robots);
+    const std::string robot = chance.Pick(robots);
     if (bLogistics)
     {
-        AddTransports(plan, scenario, dice, robot + ".CP01");
+        AddTransports(plan, scenario, chance, robot + ".CP01");
     }
     else
     {
-        AddTrayWork(plan, scenario, dice, robot);
+        AddTrayWork(plan, scenario, chance, robot);
     }
     return plan;
 }
 
-Protocol::ExecutionPlan MakeBadPlan(const Scenario& scenario, ChanceModel& dice, const std::string& planID)
+Protocol::ExecutionPlan MakeBadPlan(const Scenario& scenario, ChanceModel& chance, const std::string& planID)
 {
-    Protocol::ExecutionPlan plan = MakeGoodPlan(scenario, dice, planID);
-    Protocol::PlanStep& step = plan.steps[dice.GetBelow(plan.steps.size())];
-    switch (dice.GetBelow(6))
+    Protocol::ExecutionPlan plan = MakeGoodPlan(scenario, chance, planID);
+    Protocol::PlanStep& step = plan.steps[chance.GetBelow(plan.steps.size())];
+    switch (chance.GetBelow(6))
     {
         case 0:
             step.action = "Levitate";

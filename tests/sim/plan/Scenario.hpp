@@ -20,7 +20,7 @@ namespace ACS::Simulation
 
 using FaultSet = std::bitset<FAULT_COUNT>;
 
-/// What all robots of a world are.
+/// The kind of all robots of a run.
 enum class ERobotKind : std::uint8_t
 {
     Memory,  ///< RadioRobot
@@ -31,14 +31,14 @@ enum class ERobotKind : std::uint8_t
 /// "memory", "vda5050" or "arms".
 [[nodiscard]] std::string_view GetText(ERobotKind kind);
 
-/// What one seed makes of a world: the floor, the robots, the options, how long and how badly things go wrong.
+/// What one seed makes of a run: the floor, the robots, the options, the faults and their duration.
 struct Scenario
 {
     std::uint64_t seed = 0;
     FaultSet faults; ///< By EFault.
     ERobotKind robots = ERobotKind::Memory;
-    bool bMaintenance = false; ///< An operator takes robots out of service and gives them back.
-    bool bBatteries = false;   ///< Vehicles have to charge; those in memory never do.
+    bool bMaintenance = false; ///< An operator takes robots out of service and puts them back.
+    bool bBatteries = false;   ///< Vehicles have to charge; robots in memory never have to.
     std::string siteName;
     std::vector<Planning::SiteNode> nodes;
     std::vector<Planning::SiteEdge> edges;
@@ -55,17 +55,17 @@ struct Scenario
         return faults.test(static_cast<std::size_t>(fault));
     }
 
-    /// Whether its robots, or their bases, are VDA5050 vehicles.
+    /// Whether its robots or their bases are VDA5050 vehicles.
     [[nodiscard]] bool HasVehicles() const
     {
         return robots != ERobotKind::Memory;
     }
 
-    /// Cannot fail: what is made here is without mistakes.
+    /// Cannot fail: the generated map is valid.
     [[nodiscard]] Planning::SiteMap MakeSite() const;
 };
 
-/// Always the same of the same seed.
+/// The same for the same seed.
 [[nodiscard]] Scenario MakeScenario(
     std::uint64_t seed,
     const FaultSet& without,
@@ -74,13 +74,13 @@ struct Scenario
 /// A plan that a robot of the scenario can do.
 [[nodiscard]] Protocol::ExecutionPlan MakeGoodPlan(
     const Scenario& scenario,
-    ChanceModel& dice,
+    ChanceModel& chance,
     const std::string& planID);
 
-/// A plan that must be refused, each time for another of the reasons.
+/// A plan that must be refused, each time for another reason.
 [[nodiscard]] Protocol::ExecutionPlan MakeBadPlan(
     const Scenario& scenario,
-    ChanceModel& dice,
+    ChanceModel& chance,
     const std::string& planID);
 
 } // namespace ACS::Simulation

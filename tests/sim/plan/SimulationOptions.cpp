@@ -15,7 +15,7 @@ namespace ACS::Simulation
 namespace
 {
 
-std::string TakeFault(std::string_view text, FaultSet& faults)
+std::string ParseFault(std::string_view text, FaultSet& faults)
 {
     const auto* const found = std::ranges::find(FAULT_NAMES, text);
     if (found == FAULT_NAMES.end())
@@ -26,7 +26,7 @@ std::string TakeFault(std::string_view text, FaultSet& faults)
     return {};
 }
 
-std::string TakeMutation(std::string_view text, EMutation& mutation)
+std::string ParseMutation(std::string_view text, EMutation& mutation)
 {
     const auto* const found = std::ranges::find(MUTATION_TEXTS, text, &MutationText::name);
     if (found == MUTATION_TEXTS.end())
@@ -37,7 +37,7 @@ std::string TakeMutation(std::string_view text, EMutation& mutation)
     return {};
 }
 
-std::string TakeRobots(std::string_view text, std::optional<ERobotKind>& robots)
+std::string ParseRobots(std::string_view text, std::optional<ERobotKind>& robots)
 {
     for (const ERobotKind kind : {ERobotKind::Memory, ERobotKind::Vda5050, ERobotKind::Arms})
     {
@@ -59,30 +59,30 @@ std::optional<int> ReadOptionsOrNull(int argc, const char* const* argv, Simulati
         "checks after every event that nothing is lost, executed twice, reported wrongly or never finished.\n"
         "See docs/design/simulation.md.",
         "plan_simulation"};
-    app.add_option("--seeds", options.seeds, "number of worlds, each from its own seed")->capture_default_str();
+    app.add_option("--seeds", options.seeds, "number of runs, each from its own seed")->capture_default_str();
     app.add_option("--first", options.first, "the first seed")->capture_default_str();
     app.add_option("--seed", options.seedOrNull, "only this seed");
-    app.add_flag("--trace", options.bTrace, "print everything that happens; with --seed");
-    app.add_flag("--keep-going", options.bKeepsGoing, "do not stop at the first seed that fails; report all");
-    app.add_option("--workers", options.workers, "number of threads, each running its own worlds")
+    app.add_flag("--trace", options.bTrace, "print a trace of all events; with --seed");
+    app.add_flag("--keep-going", options.bKeepsGoing, "continue after a seed that fails, and report all of them");
+    app.add_option("--workers", options.workers, "number of threads, each with its own runs")
         ->capture_default_str()
         ->check(CLI::Range(1, 64));
     Apps::AddRepeatedOption(
         app,
         "--without",
-        [&options](const std::string& text) { return TakeFault(text, options.without); },
+        [&options](const std::string& text) { return ParseFault(text, options.without); },
         fmt::format("leave out one kind of fault: {}", fmt::join(FAULT_NAMES, ", ")));
     Apps::AddTextOption(
         app,
         "--mutation",
-        [&options](const std::string& text) { return TakeMutation(text, options.mutation); },
-        "break one thing around the engine; a seed that fails must be found");
+        [&options](const std::string& text) { return ParseMutation(text, options.mutation); },
+        "build in one defect around the engine; a seed that fails must be found");
     Apps::AddTextOption(
         app,
         "--robots",
-        [&options](const std::string& text) { return TakeRobots(text, options.robots); },
+        [&options](const std::string& text) { return ParseRobots(text, options.robots); },
         "kind of all robots: memory, vda5050 or arms (vehicles, CRs with arms); default: from the seed");
-    app.add_flag("--mutations", options.bAllMutations, "run every mutation, each in at most --seeds worlds");
+    app.add_flag("--mutations", options.bAllMutations, "check that every mutation is found within --seeds runs");
     app.add_flag("--list-mutations", options.bListMutations, "list the mutations with their meaning");
     return Apps::ParseCommandLineOrNull(app, argc, argv);
 }

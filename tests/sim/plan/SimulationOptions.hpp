@@ -10,7 +10,7 @@
 namespace ACS::Simulation
 {
 
-/// What the command line asks for.
+/// The options of the command line.
 struct SimulationOptions
 {
     std::uint64_t first = 1;
@@ -19,14 +19,14 @@ struct SimulationOptions
     bool bTrace = false;
     std::size_t workers = 2;
     FaultSet without;
-    std::optional<ERobotKind> robots; ///< Absent: as each seed says.
+    std::optional<ERobotKind> robots; ///< Absent: from the seed.
     EMutation mutation = EMutation::None;
     bool bAllMutations = false;
     bool bListMutations = false;
     bool bKeepsGoing = false;
 };
 
-/// Nothing where the program is to end: with the exit code.
+/// The error is the exit code with which the program ends.
 [[nodiscard]] std::optional<int> ReadOptionsOrNull(int argc, const char* const* argv, SimulationOptions& options);
 
 } // namespace ACS::Simulation

@@ -52,7 +52,7 @@ int SimulationRunner::Run() const
     const auto start = std::chrono::steady_clock::now();
     const Tally tally = RunWorlds(_options.mutation, isatty(STDOUT_FILENO) != 0);
     fmt::print(
-        "{} worlds, {:.1f} simulated hours, {} starts of acsd, {:.1f} s\n",
+        "{} runs, {:.1f} simulated hours, {} starts of acsd, {:.1f} s\n",
         tally.worlds,
         tally.simulatedHours,
         tally.starts,
@@ -136,7 +136,7 @@ SimulationRunner::Tally SimulationRunner::RunWorlds(EMutation mutation, bool bPr
             }
             if (bProgress)
             {
-                fmt::print("\r{} of {} worlds", tally.worlds, _options.seeds);
+                fmt::print("\r{} of {} runs", tally.worlds, _options.seeds);
                 std::fflush(stdout);
             }
         }
@@ -164,7 +164,7 @@ int SimulationRunner::RunMutations() const
     if (intact.failureOrNull.has_value())
     {
         fmt::print("without a mutation seed {}: {}\n", intact.failureOrNull->seed, intact.failureOrNull->violation);
-        return 1; // what fails by itself shows nothing
+        return 1; // a seed that fails without the mutation proves nothing
     }
     std::size_t missed = 0;
     for (std::size_t index = 1; index < MUTATION_COUNT; ++index)

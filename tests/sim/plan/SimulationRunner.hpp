@@ -10,7 +10,7 @@
 namespace ACS::Simulation
 {
 
-/// Runs worlds side by side and tells of them.
+/// Runs seeds in parallel and reports on them.
 class SimulationRunner final
 {
     struct Failure
@@ -32,13 +32,13 @@ class SimulationRunner final
 public:
     explicit SimulationRunner(const SimulationOptions& options);
 
-    /// The exit code: 0 where all is as it should be.
+    /// The exit code: 0 if no rule was violated.
     [[nodiscard]] int Run() const;
 
 private:
-    /// Stops at the first that fails.
+    /// Stops at the first failure.
     [[nodiscard]] Tally RunWorlds(EMutation mutation, bool bProgress) const;
-    /// As was asked for; else nullopt, and what the mutation needs.
+    /// The kind that was requested; otherwise what the mutation needs, or nullopt.
     [[nodiscard]] std::optional<ERobotKind> GetRobotsOrNull(EMutation mutation) const;
     [[nodiscard]] int RunSeed(std::uint64_t seed) const;
     [[nodiscard]] int RunMutations() const;

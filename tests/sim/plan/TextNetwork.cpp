@@ -27,7 +27,7 @@ ETextEnd GetOther(ETextEnd end)
 TextNetwork::TextNetwork(Timeline& timeline, Trace& trace, const ChanceSeed& seed, std::optional<TextNames> namesOrNull)
     : _timeline(timeline),
       _trace(trace),
-      _dice(seed),
+      _chance(seed),
       _namesOrNull(std::move(namesOrNull))
 {
 }
@@ -39,11 +39,11 @@ void TextNetwork::Listen(ITextPeer& server)
 
 Core::Duration TextNetwork::GetLatency()
 {
-    if (_bSlow && _dice.IsHit(100))
+    if (_bSlow && _chance.IsHit(100))
     {
-        return _dice.GetBetween(1s, 8s);
+        return _chance.GetBetween(1s, 8s);
     }
-    return _dice.GetBetween(0ms, _dice.IsHit(200) ? 60ms : 4ms);
+    return _chance.GetBetween(0ms, _chance.IsHit(200) ? 60ms : 4ms);
 }
 
 Protocol::ConnectionID TextNetwork::Connect(ITextPeer& client)
@@ -56,13 +56,13 @@ Protocol::ConnectionID TextNetwork::Connect(ITextPeer& client)
     {
         connection.ways[GetIndex(ETextEnd::Server)].peerOrNull = nullptr;
         connection.bBroken = true;
-        TellClosed(id, ETextEnd::Client, _dice.GetBetween(1ms, 3s), "cannot connect");
+        NotifyClosed(id, ETextEnd::Client, _chance.GetBetween(1ms, 3s), "cannot connect");
         return id;
     }
     for (const ETextEnd end : {ETextEnd::Server, ETextEnd::Client})
     {
         Way& way = connection.ways[GetIndex(end)];
-        way.lastArrival = _timeline.GetNow().steady + _dice.GetBetween(1ms, 20ms);
+        way.lastArrival = _timeline.GetNow().steady + _chance.GetBetween(1ms, 20ms);
         way.underWay.push_back(_timeline.Post(way.lastArrival - _timeline.GetNow().steady, [this, id, end] {
             const auto found = _connections.find(id);
             if (found == _connections.end())
@@ -104,7 +104,7 @@ void TextNetwork::Send(Protocol::ConnectionID id, ETextEnd from, const std::stri
             {
                 const bool bToServer = end == ETextEnd::Server;
                 const std::string& sender = bToServer ? _namesOrNull->client : _namesOrNull->server;
-                _trace.Tell("{} -> {} {}", sender, bToServer ? _namesOrNull->server : _namesOrNull->client, text);
+                _trace.Add("{} -> {} {}", sender, bToServer ? _namesOrNull->server : _namesOrNull->client, text);
             }
             arriving.peerOrNull->OnText(id, text);
         }
@@ -122,10 +122,10 @@ void TextNetwork::Close(Protocol::ConnectionID id, ETextEnd from, const std::str
     const Core::Duration wait = found->second.ways[GetIndex(other)].lastArrival - _timeline.GetNow().steady;
     if (!found->second.bBroken)
     {
-        TellClosed(id, other, std::max(wait, Core::Duration::zero()) + _dice.GetBetween(0ms, 5ms), reason);
+        NotifyClosed(id, other, std::max(wait, Core::Duration::zero()) + _chance.GetBetween(0ms, 5ms), reason);
     }
     found->second.bBroken = true;
-    TellClosed(id, from, std::max(wait, Core::Duration::zero()) + _dice.GetBetween(1ms, 50ms), reason);
+    NotifyClosed(id, from, std::max(wait, Core::Duration::zero()) + _chance.GetBetween(1ms, 50ms), reason);
 }
 
 void TextNetwork::Abandon(Protocol::ConnectionID id, ETextEnd end)
@@ -139,7 +139,11 @@ void TextNetwork::Abandon(Protocol::ConnectionID id, ETextEnd end)
     if (!std::exchange(found->second.bBroken, true))
     {
         Lose(found->second.ways[GetIndex(GetOther(end))]);
-        TellClosed(id, GetOther(end), _dice.GetBetween(1ms, _dice.IsHit(200) ? 20s : 100ms), "the other end is gone");
+        NotifyClosed(
+            id,
+            GetOther(end),
+            _chance.GetBetween(1ms, _chance.IsHit(200) ? 20s : 100ms),
+            "the other end is gone");
     }
 }
 
@@ -151,19 +155,19 @@ void TextNetwork::Cut()
         {
             continue;
         }
-        _trace.Tell("connection {} is cut", id);
+        _trace.Add("connection {} is cut", id);
         for (const ETextEnd end : {ETextEnd::Client, ETextEnd::Server})
         {
             Lose(connection.ways[GetIndex(end)]);
-            TellClosed(id, end, _dice.GetBetween(1ms, _dice.IsHit(300) ? 20s : 200ms), "the connection was lost");
+            NotifyClosed(id, end, _chance.GetBetween(1ms, _chance.IsHit(300) ? 20s : 200ms), "the connection was lost");
         }
     }
 }
 
-/// From some text on.
+/// Drops the texts from a random one on.
 void TextNetwork::Lose(Way& way)
 {
-    std::size_t lost = _dice.GetBetween(0, way.underWay.size());
+    std::size_t lost = _chance.GetBetween(0, way.underWay.size());
     for (; lost > 0; --lost)
     {
         _timeline.Withdraw(way.underWay.back());
@@ -171,9 +175,9 @@ void TextNetwork::Lose(Way& way)
     }
 }
 
-void TextNetwork::TellClosed(Protocol::ConnectionID id, ETextEnd end, Core::Duration delay, const std::string& reason)
+void TextNetwork::NotifyClosed(Protocol::ConnectionID id, ETextEnd end, Core::Duration delay, const std::string& reason)
 {
-    // Behind what still arrives.
+    // After the texts that still arrive.
     const Way& way = _connections.at(id).ways[GetIndex(end)];
     const Core::Duration rest = way.lastArrival - _timeline.GetNow().steady;
     _timeline.Post(std::max(delay, way.underWay.empty() ? delay : rest), [this, id, end, reason] {
@@ -191,7 +195,7 @@ void TextNetwork::TellClosed(Protocol::ConnectionID id, ETextEnd end, Core::Dura
     });
 }
 
-/// Once neither end has it any more.
+/// Removes it once both ends have left it.
 void TextNetwork::Forget(Protocol::ConnectionID id)
 {
     const auto found = _connections.find(id);

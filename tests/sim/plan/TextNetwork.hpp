@@ -37,21 +37,21 @@ enum class ETextEnd : std::uint8_t
     Server,
 };
 
-/// What the two ends are called in the trace.
+/// The names of the two ends in the trace.
 struct TextNames
 {
     std::string client;
     std::string server;
 };
 
-/// Connections (WebSockets, TCP) between one server and clients that come and go. Within a connection the order is kept and nothing is lost;
-/// a connection that breaks loses what is under way from some text on, in each direction, and each end hears of it in its
-/// own time.
+/// Connections (WebSockets, TCP) between one server and several clients. A connection keeps the order and loses nothing
+/// until it breaks. Then it loses in each direction the texts in transit from some text on, and each end detects that
+/// at its own time.
 class TextNetwork final
 {
-    struct Way ///< To one end.
+    struct Way ///< One direction.
     {
-        ITextPeer* peerOrNull = nullptr; ///< Null once it has heard of the end, or has died.
+        ITextPeer* peerOrNull = nullptr; ///< Null after it was notified of the end, or has crashed.
         Core::SteadyTime lastArrival{};
         std::deque<Timeline::Ticket> underWay;
     };
@@ -64,7 +64,7 @@ class TextNetwork final
 
     Timeline& _timeline;
     Trace& _trace;
-    ChanceModel _dice;
+    ChanceModel _chance;
     std::optional<TextNames> _namesOrNull;
     ITextPeer* _serverOrNull = nullptr;
     std::map<Protocol::ConnectionID, Connection> _connections;
@@ -76,28 +76,28 @@ public:
     /// Without names the texts are not traced.
     TextNetwork(Timeline& timeline, Trace& trace, const ChanceSeed& seed, std::optional<TextNames> namesOrNull);
 
-    /// Before any client.
+    /// Called before any client connects.
     void Listen(ITextPeer& server);
 
     /// OnOpened or OnClosed follows.
     Protocol::ConnectionID Connect(ITextPeer& client);
     void Send(Protocol::ConnectionID id, ETextEnd from, const std::string& text);
-    /// After what was sent before.
+    /// Closes after what was sent before.
     void Close(Protocol::ConnectionID id, ETextEnd from, const std::string& reason);
-    /// The end has died: it is not called any more, and the other one hears of it.
+    /// The end has crashed: it is not called any more, and the other one is notified.
     void Abandon(Protocol::ConnectionID id, ETextEnd end);
 
     /// Breaks every connection.
     void Cut();
     /// Whether connecting is possible.
     void SetReachable(bool bReachable);
-    /// Texts take seconds now and then.
+    /// Texts take seconds sometimes.
     void SetSlow(bool bSlow);
 
 private:
     [[nodiscard]] Core::Duration GetLatency();
     void Lose(Way& way);
-    void TellClosed(Protocol::ConnectionID id, ETextEnd end, Core::Duration delay, const std::string& reason);
+    void NotifyClosed(Protocol::ConnectionID id, ETextEnd end, Core::Duration delay, const std::string& reason);
     void Forget(Protocol::ConnectionID id);
 };
 

@@ -11,13 +11,13 @@
 namespace ACS::Simulation
 {
 
-/// The time of a simulated world and everything that is still to happen in it, in one order: by time, then by when it was
-/// posted. Starts at 2025-07-02T12:00:00Z.
+/// The time of a run and all its future events in one order: by time, then by the order
+/// in which they were posted. Starts at 2025-07-02T12:00:00Z.
 class Timeline final : public Core::IClock
 {
 public:
     using Task = std::function<void()>;
-    /// Names a task that waits.
+    /// Identifies a waiting task.
     using Ticket = std::pair<Core::SteadyTime, std::uint64_t>;
 
 private:
@@ -31,16 +31,16 @@ private:
 public:
     [[nodiscard]] Core::Now GetNow() const override;
 
-    /// Never from within this call, even where there is no delay.
+    /// Never runs within this call, also without a delay.
     Ticket Post(Core::Duration delay, Task task);
 
-    /// A ticket that is spent is ignored.
+    /// A used ticket is ignored.
     void Withdraw(const Ticket& ticket);
 
-    /// The next task, at its time. False where none is left.
+    /// Runs the next task, at its time. False: none is left.
     [[nodiscard]] bool TryStep();
 
-    /// Since the start of the world.
+    /// Since the start of the run.
     [[nodiscard]] Core::Duration GetAge() const;
 };
 

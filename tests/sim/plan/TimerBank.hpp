@@ -10,7 +10,7 @@
 namespace ACS::Simulation
 {
 
-/// The timers and posted tasks of one owner: they end with it.
+/// The timers and posted tasks of one owner, which end with it.
 template <typename TKey>
 class TimerBank final
 {
@@ -58,7 +58,7 @@ public:
 
     void Post(Core::Duration delay, Timeline::Task task)
     {
-        // The task finds its own ticket where it was put.
+        // The task reads its own ticket from there.
         auto place = std::make_shared<Timeline::Ticket>();
         *place = _timeline.Post(delay, [this, place, task = std::move(task)] {
             _posted.erase(*place);

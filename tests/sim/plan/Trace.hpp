@@ -11,7 +11,7 @@
 namespace ACS::Simulation
 {
 
-/// What happens in a world, line by line where somebody looks, and the rules that were broken.
+/// The events of a run, line by line if requested, and the rules that were violated.
 class Trace final
 {
     const Timeline& _timeline;
@@ -26,7 +26,7 @@ public:
     }
 
     template <typename... TValues>
-    void Tell(fmt::format_string<TValues...> text, TValues&&... values) const
+    void Add(fmt::format_string<TValues...> text, TValues&&... values) const
     {
         if (_bPrinting)
         {

@@ -74,7 +74,7 @@ std::string Describe(const Planning::RobotEvent& event)
     return std::visit(
         Core::Overloaded{
             [](const Planning::LinkChanged& typed) {
-                return std::string(typed.bOnline ? "is in reach" : "is out of reach");
+                return std::string(typed.bOnline ? "is connected" : "is disconnected");
             },
             [](const Planning::StateChanged& typed) {
                 return fmt::format(
@@ -84,7 +84,7 @@ std::string Describe(const Planning::RobotEvent& event)
                     typed.bPaused ? " paused" : "",
                     typed.bOccupied ? " occupied" : "",
                     typed.bSafetyStop ? " safety stop" : "",
-                    typed.bAutomatic ? "" : " by hand");
+                    typed.bAutomatic ? "" : " manual mode");
             },
             [](const Planning::NodePassed& typed) { return fmt::format("passed {}", typed.nodeID); },
             [](const Planning::Arrived&) { return std::string("arrived"); },
@@ -97,9 +97,9 @@ std::string Describe(const Planning::RobotEvent& event)
             },
             [](const Planning::JobUnknown& typed) { return fmt::format("job {} is unknown", typed.jobID); },
             [](const Planning::JobUnresolved& typed) {
-                return fmt::format("job {} is uncertain: {}", typed.jobID, typed.reason);
+                return fmt::format("outcome of job {} unknown: {}", typed.jobID, typed.reason);
             },
-            [](const Planning::JobCheckChanged&) { return std::string("checks jobs anew"); },
+            [](const Planning::JobCheckChanged&) { return std::string("checks jobs again"); },
             [](const auto&) {
                 return std::string("other event");
             }},

@@ -9,7 +9,7 @@
 namespace ACS::Simulation
 {
 
-/// One short line each, for the trace.
+/// One line for the trace.
 [[nodiscard]] std::string Describe(const Planning::Report& report);
 [[nodiscard]] std::string Describe(const Planning::RobotCommand& command);
 [[nodiscard]] std::string Describe(const Planning::RobotEvent& event);

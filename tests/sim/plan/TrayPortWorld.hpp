@@ -10,7 +10,7 @@
 namespace ACS::Simulation
 {
 
-/// The floor for a vehicle that carries trays by itself: what is a cassette port to it (LoadPosition::port) is a tray port on
+/// The floor for a vehicle that carries trays itself: its cassette port (LoadPosition::port) is a tray port on
 /// the floor.
 class TrayPortWorld final : public Sim::IWorld
 {

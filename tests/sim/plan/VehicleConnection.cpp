@@ -20,7 +20,7 @@ Acsd::VehicleParameter MakeParameter(std::string key, std::string_view text)
     return {std::move(key), *Acsd::ParameterTemplate::Make(text)};
 }
 
-/// A pick or drop with all that the factsheet of the standard demands.
+/// A pick or drop with all parameters that the standard's factsheet requires.
 Acsd::JobMethod MakeHandling(std::string vehicleAction, std::string_view loadType, Planning::EActionEffect effect)
 {
     return {
@@ -45,8 +45,8 @@ Acsd::JobMethod MakeArmMethod(const ArmProgramTexts& program, Planning::EActionE
     return method;
 }
 
-/// Every vehicle of the world takes and brings loads itself, unless it has an arm; what is done at a set is a position that
-/// it takes there. The base of an arm shows no loads.
+/// A vehicle without an arm loads and unloads by itself, and its
+/// actions at a set are finePositioning. The base of an arm shows no loads.
 Acsd::JobMethods MakeMethods(const Planning::RobotOptions& robot, bool bArm)
 {
     using Planning::EActionEffect;
@@ -78,7 +78,7 @@ Acsd::RobotLinkConfig MakeLink(const Planning::RobotOptions& robot, const ArmCon
     {
         return link;
     }
-    link.armOrNull.emplace(); // its addresses are the network's business
+    link.armOrNull.emplace(); // the network has its addresses
     link.armOptions.period = ARM_PERIOD;
     if (controllerOrNull->Is(EMutation::EchoIgnored))
     {
@@ -119,7 +119,7 @@ VehicleConnection::~VehicleConnection()
     _broker.Abandon(_client);
 }
 
-/// What the adapter has put out.
+/// The outputs of the adapter.
 void VehicleConnection::SendAll()
 {
     for (const VDA5050::MqttMessage& message : std::exchange(_outputs.messages, {}))

@@ -14,7 +14,7 @@
 namespace ACS::Simulation
 {
 
-/// Runs acsd's own adapter of a VDA5050 vehicle, with an arm or without, as RobotHost does: over the world's broker, and
+/// Runs acsd's adapter of a VDA5050 vehicle, with an arm or without, as RobotHost does: over the simulated broker, and
 /// over the network of the arm's controller.
 class VehicleConnection final : public IRobotConnection, private VDA5050::IMqttLinkListener
 {
@@ -30,7 +30,7 @@ private:
     std::unique_ptr<ArmClient> _armOrNull;
 
 public:
-    /// The controller is that of its arm, where it has one.
+    /// The controller of its arm; null: without one.
     VehicleConnection(
         Timeline& timeline,
         MqttBroker& broker,

@@ -17,9 +17,9 @@ using namespace std::chrono_literals;
 namespace
 {
 
-/// Metres from a node at which a robot still stands on it, for acsd too.
+/// Metres from a node within which a robot is on it, also for acsd.
 constexpr double NODE_RADIUS = 0.5;
-/// Metres that it may move unseen.
+/// Metres that it may move without an update of the pose.
 constexpr double GRAIN = 0.02;
 
 VDA5050::VehicleAddress MakeAddress(const std::string& robotID)
@@ -34,9 +34,9 @@ double GetDistance(const VdaSim::Pose& pose, const Planning::SiteNode& node)
 
 double ChooseCharge(const ChanceSeed& seed, bool bBatteries)
 {
-    constexpr std::uint64_t BATTERY_PARTS = 10'000; // behind all others
-    ChanceModel dice({seed.seed, BATTERY_PARTS + seed.part});
-    return bBatteries ? static_cast<double>(dice.GetBetween(15, 26)) : 100.0;
+    constexpr std::uint64_t BATTERY_PARTS = 10'000; // after all others
+    ChanceModel chance({seed.seed, BATTERY_PARTS + seed.part});
+    return bBatteries ? static_cast<double>(chance.GetBetween(15, 26)) : 100.0;
 }
 
 VdaSim::Fault MakeFault(VdaSim::EFaultKind kind)
@@ -56,11 +56,11 @@ VehicleRobot::VehicleRobot(
     const std::string& nodeID,
     bool bFaulty)
     : _around(around),
-      _dice(seed),
+      _chance(seed),
       _robotID(std::move(robotID)),
       _bFaulty(bFaulty),
       _charge(ChooseCharge(seed, around.bBatteries)),
-      _trayPorts(around.witness.GetFloor(), _robotID),
+      _trayPorts(around.workChecker.GetFloor(), _robotID),
       _timers(around.timeline)
 {
     SwitchOn(nodeID);
@@ -79,16 +79,16 @@ void VehicleRobot::SwitchOn(const std::string& nodeID)
     options.startNodeID = nodeID;
     options.charge = _charge;
     Equip(options);
-    _vehicle = std::make_unique<VdaSim::VirtualVehicle>(std::move(options), _around.site, _dice, Core::Logger());
+    _vehicle = std::make_unique<VdaSim::VirtualVehicle>(std::move(options), _around.site, _chance, Core::Logger());
     _client = _around.broker.Open(*this, _vehicle->GetSubscriptions(), _vehicle->MakeWill(_around.timeline.GetNow()));
     _around.broker.SetReachable(*_client, _bReachable);
 }
 
-/// With what carries its loads.
+/// With its load handling device.
 void VehicleRobot::Equip(VdaSim::VirtualVehicleOptions& options)
 {
     const bool bTrays = _around.robot.type == Planning::ERobotType::CR;
-    options.worldOrNull = &_around.witness.GetFloor();
+    options.worldOrNull = &_around.workChecker.GetFloor();
     options.handling.ports = _around.robot.ports.size();
     if (bTrays && _around.bArms)
     {
@@ -109,7 +109,7 @@ template <typename TCall>
 void VehicleRobot::Call(TCall call)
 {
     call(_around.timeline.GetNow(), _actions);
-    const bool bNews = !_actions.empty(); // whatever begins or ends is told, or a timer starts
+    const bool bNews = !_actions.empty(); // everything that begins or ends is published, or starts a timer
     for (const VdaSim::VirtualAction& action : std::exchange(_actions, {}))
     {
         Execute(action);
@@ -126,10 +126,10 @@ void VehicleRobot::OnFloorChanged()
     Call([this](Core::Now now, auto& out) { _vehicle->OnWorldChanged(now, out); });
 }
 
-/// What people have changed for its job; not from within a call of it.
+/// Passes on what the operator has changed for its job; not from within a call of the vehicle.
 void VehicleRobot::SeeFloor()
 {
-    constexpr std::uint64_t FLOOR_KEY = 1'001; // no timer of the vehicle's own
+    constexpr std::uint64_t FLOOR_KEY = 1'001; // not a timer of the vehicle
     _timers.Start(FLOOR_KEY, 0ms, [this] { OnFloorChanged(); });
 }
 
@@ -166,19 +166,19 @@ void VehicleRobot::OnMqttMessage(const VDA5050::MqttMessage& message)
 {
     const Core::Result<VDA5050::ParsedTopic> topic = VDA5050::ParseTopic(message.topic);
     const bool bOrder = topic.has_value() && topic->topic == VDA5050::ETopic::Order;
-    _around.trace.Tell("{} receives {} {}", _robotID, message.topic, message.payload);
-    if (bOrder && _bFaulty && _dice.IsHit(15))
+    _around.trace.Add("{} receives {} {}", _robotID, message.topic, message.payload);
+    if (bOrder && _bFaulty && _chance.IsHit(15))
     {
         VdaSim::Fault refusal = MakeFault(VdaSim::EFaultKind::Refuse);
         refusal.lasts = 100ms;
         Inject(std::move(refusal));
     }
-    if (bOrder && _bFaulty && _dice.IsHit(15))
+    if (bOrder && _bFaulty && _chance.IsHit(15))
     {
         VdaSim::Fault failure = MakeFault(VdaSim::EFaultKind::ActionFails);
-        failure.bAtStart = _dice.IsHit(300);
+        failure.bAtStart = _chance.IsHit(300);
         failure.maxUses = 1;
-        failure.actionType = _dice.IsHit(500) ? "pick" : "drop";
+        failure.actionType = _chance.IsHit(500) ? "pick" : "drop";
         Inject(std::move(failure));
     }
     Call([this, &message](Core::Now now, auto& out) { _vehicle->OnMessage(message, now, out); });
@@ -189,7 +189,7 @@ void VehicleRobot::Inject(VdaSim::Fault fault)
     Call([this, &fault](Core::Now now, auto& out) { static_cast<void>(_vehicle->TryInject(fault, now, out)); });
 }
 
-/// One node, or both ends of the edge that it is on: by where it is, whatever it says.
+/// One node, or both ends of its edge: by its pose, not by its reports.
 std::vector<std::string> VehicleRobot::FindPlace() const
 {
     const VdaSim::Pose& pose = _vehicle->GetPose();
@@ -223,7 +223,7 @@ void VehicleRobot::ShowPlace()
     if (place != _place)
     {
         _place = place;
-        _around.witness.OnPlaced(_robotID, std::move(place));
+        _around.workChecker.OnPlaced(_robotID, std::move(place));
     }
 }
 
@@ -232,7 +232,7 @@ void VehicleRobot::ShowJobs()
     const VDA5050::StateMessage state = _vehicle->GetState();
     for (const VDA5050::ActionState& action : state.actionStates)
     {
-        const Planning::StartJob* const jobOrNull = _around.witness.FindCommandOrNull(action.actionID);
+        const Planning::StartJob* const jobOrNull = _around.workChecker.FindCommandOrNull(action.actionID);
         if (jobOrNull == nullptr)
         {
             continue; // an instant action
@@ -249,12 +249,12 @@ void VehicleRobot::ShowJobs()
         }
         if (bBegun && !bWasBegun)
         {
-            _around.witness.OnJobBegun(_robotID, *jobOrNull);
+            _around.workChecker.OnJobBegun(_robotID, *jobOrNull);
             SeeFloor();
         }
         if (action.actionStatus == VDA5050::EActionStatus::Finished)
         {
-            _around.witness.OnJobFinished(_robotID, *jobOrNull);
+            _around.workChecker.OnJobFinished(_robotID, *jobOrNull);
         }
     }
 }
@@ -284,7 +284,7 @@ void VehicleRobot::Disturb()
 {
     _bDisturbed = true;
     VdaSim::Fault fault;
-    switch (_dice.GetBelow(3))
+    switch (_chance.GetBelow(3))
     {
         case 0:
             fault = MakeFault(VdaSim::EFaultKind::EmergencyStop);
@@ -299,14 +299,14 @@ void VehicleRobot::Disturb()
             fault.errorLevel = VDA5050::EErrorLevel::Fatal;
             break;
     }
-    _around.trace.Tell("{} has a fault: {}", _robotID, fault.text);
+    _around.trace.Add("{} has a fault: {}", _robotID, fault.text);
     Inject(std::move(fault));
 }
 
 void VehicleRobot::Recover()
 {
     _bDisturbed = false;
-    _around.trace.Tell("{} has recovered", _robotID);
+    _around.trace.Add("{} has recovered", _robotID);
     Call([this](Core::Now now, auto& out) {
         for (const VdaSim::EFaultKind kind :
              {VdaSim::EFaultKind::EmergencyStop, VdaSim::EFaultKind::Mode, VdaSim::EFaultKind::Stuck})
@@ -321,7 +321,7 @@ void VehicleRobot::Recover()
     }
 }
 
-/// Whoever took it in hand drives it to one end of the edge on which its order was lost, and tells it where it is.
+/// In manual mode the operator drives it to one end of the edge on which its order was lost, and sets its position.
 void VehicleRobot::PutOnNode()
 {
     const VDA5050::StateMessage state = _vehicle->GetState();
@@ -331,12 +331,12 @@ void VehicleRobot::PutOnNode()
     }
     if (state.bDriving)
     {
-        constexpr std::uint64_t HAND_KEY = 1'000; // no timer of the vehicle's own
+        constexpr std::uint64_t HAND_KEY = 1'000; // not a timer of the vehicle
         _timers.Start(HAND_KEY, 1s, [this] { PutOnNode(); });
         return;
     }
-    const Planning::SiteNode& node = *_around.site.FindNodeOrNull(_dice.Pick(_place));
-    _around.trace.Tell("{} is put on {}", _robotID, node.nodeID);
+    const Planning::SiteNode& node = *_around.site.FindNodeOrNull(_chance.Pick(_place));
+    _around.trace.Add("{} is put on {}", _robotID, node.nodeID);
     const std::string text = fmt::format(
         R"({{"headerId":{},"timestamp":"2025-07-02T12:00:00.000Z","version":"2.0.0","manufacturer":"ACS",)"
         R"("serialNumber":"{}","actions":[{{"actionType":"initPosition","actionId":"hand-{}","blockingType":"HARD",)"
@@ -362,9 +362,9 @@ void VehicleRobot::Forget()
 {
     if (_place.size() > 1 || _vehicle->GetState().bDriving)
     {
-        return; // between two nodes it would have to be carried to one
+        return; // not between two nodes: it would have to be carried to one
     }
-    _around.trace.Tell("{} loses its memory", _robotID);
+    _around.trace.Add("{} loses its memory", _robotID);
     _charge = _vehicle->GetState().batteryState.batteryCharge;
     _timers.CancelAll();
     _actions.clear();
@@ -399,7 +399,7 @@ bool VehicleRobot::IsAtRest() const
     return !state.bDriving && !state.bPaused.value_or(false) && state.nodeStates.empty() && !bActs;
 }
 
-/// Who looks sees what it has done.
+/// A query brings it to the present time.
 bool VehicleRobot::IsWorkUnderWay() const
 {
     return false;

@@ -22,42 +22,42 @@
 namespace ACS::Simulation
 {
 
-/// The virtual vehicle of vda-sim on the world's broker. What it really does is seen from outside: where it is, and what
-/// became of its actions.
+/// The virtual vehicle of vda-sim on the simulated broker. The checks use its pose and the state of its
+/// actions.
 class VehicleRobot final : public ISimulatedRobot, private VDA5050::IMqttLinkListener
 {
 public:
-    /// What it lives in; everything outlives it.
+    /// What it needs from outside; everything outlives it.
     struct Dependencies
     {
         Timeline& timeline;
         Trace& trace;
-        WorkChecker& witness;
+        WorkChecker& workChecker;
         MqttBroker& broker;
         const Planning::SiteMap& site;
-        bool bBatteries; ///< It is little more than empty at first; else full.
+        bool bBatteries; ///< It starts with a battery that is nearly empty; otherwise full.
         EMutation mutation;
-        bool bBadRadio; ///< Of the scenario.
+        bool bBadRadio; ///< As in the scenario.
         const Planning::RobotOptions& robot;
-        bool bArms; ///< Control robots have one; else the vehicle handles trays by itself.
+        bool bArms; ///< Control robots have one; otherwise the vehicle handles trays itself.
     };
 
 private:
     Dependencies _around;
-    ChanceModel _dice;
+    ChanceModel _chance;
     std::string _robotID;
     bool _bFaulty;
-    double _charge;           ///< Percent, when it is switched on.
+    double _charge;           ///< Percent, at its start.
     TrayPortWorld _trayPorts; ///< The floor of a vehicle that carries trays.
     std::unique_ptr<VdaSim::VirtualVehicle> _vehicle;
     VdaSim::VirtualActions _actions;
     TimerBank<std::uint64_t> _timers;
     std::optional<MqttBroker::ClientID> _client;
-    std::vector<std::string> _place;                       ///< As the witness was told.
-    VdaSim::Pose _shownPose;                               ///< Then, or a bit later.
+    std::vector<std::string> _place;                       ///< As reported to the WorkChecker.
+    VdaSim::Pose _shownPose;                               ///< At that time or shortly after.
     std::map<std::string, VDA5050::EActionStatus> _status; ///< Of its jobs, by commandID.
     bool _bDisturbed = false;
-    bool _bLed = false; ///< By hand: its order is lost.
+    bool _bLed = false; ///< In manual mode: its order is lost.
     std::uint32_t _handCount = 1000;
     bool _bReachable = true;
 

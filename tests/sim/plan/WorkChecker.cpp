@@ -57,13 +57,13 @@ void WorkChecker::OnPlaced(const std::string& robotID, std::vector<std::string> 
             }
         }
     }
-    _trace.Tell("{} is at {}", robotID, fmt::join(nodeIDs, " > "));
+    _trace.Add("{} is at {}", robotID, fmt::join(nodeIDs, " > "));
     _places[robotID] = std::move(nodeIDs);
 }
 
 void WorkChecker::OnJobBegun(const std::string& robotID, const Planning::StartJob& job)
 {
-    _trace.Tell("{} begins job {} of {} step {}", robotID, job.jobID, job.planID, job.stepNo);
+    _trace.Add("{} begins job {} of {} step {}", robotID, job.jobID, job.planID, job.stepNo);
     const JobKey key = MakeKey(job.planID, job.stepNo, job.jobID);
     if (++_jobs[key].begun > 1)
     {
@@ -74,7 +74,7 @@ void WorkChecker::OnJobBegun(const std::string& robotID, const Planning::StartJo
 
 void WorkChecker::OnJobFinished(const std::string& robotID, const Planning::StartJob& job)
 {
-    _trace.Tell("{} has done job {} of {}", robotID, job.jobID, job.planID);
+    _trace.Add("{} has done job {} of {}", robotID, job.jobID, job.planID);
     ++_jobs[MakeKey(job.planID, job.stepNo, job.jobID)].finished;
     _floor.OnJobEnded(robotID);
 }

@@ -17,7 +17,7 @@
 namespace ACS::Simulation
 {
 
-/// The robots' own truth: where they are and which jobs they have really done. Nothing that acsd believes enters here.
+/// The real state of the robots: their positions and the jobs that they have done, independent of acsd.
 class WorkChecker final
 {
 public:
@@ -25,14 +25,14 @@ public:
     {
         std::size_t begun = 0;
         std::size_t finished = 0;
-        bool bMoved = false; ///< What it moves is where the plan demanded, or was brought on from there.
+        bool bMoved = false; ///< What it moves is where the plan requires it, or was moved on from there.
     };
 
 private:
     Trace& _trace;
     std::map<JobKey, JobTruth> _jobs;
     std::map<std::string, std::vector<std::string>> _places;
-    std::set<std::pair<std::string, std::string>> _named; ///< planID and jobID of what the MCS has called a job.
+    std::set<std::pair<std::string, std::string>> _named; ///< planID and jobID of the jobs that the MCS has named.
 
     std::map<std::string, Planning::StartJob> _commands;
     FloorChecker _floor;
@@ -40,25 +40,25 @@ private:
 public:
     WorkChecker(Trace& trace, const Planning::SiteMap& site, EHandling handling);
 
-    /// The MCS is about to send the plan.
+    /// The MCS will send the plan.
     void NotePlan(const Protocol::ExecutionPlan& plan);
 
-    /// Under this commandID acsd has sent the job: a robot that knows no more than that can be understood.
+    /// acsd has sent the job under this commandID: identifies the job for a robot that knows only the commandID.
     void NoteCommand(const Planning::StartJob& job);
     [[nodiscard]] const Planning::StartJob* FindCommandOrNull(const std::string& commandID) const;
 
-    /// The robot takes these nodes: one, or both ends of the edge on which it is.
+    /// The robot occupies these nodes: one, or both ends of its edge.
     void OnPlaced(const std::string& robotID, std::vector<std::string> nodeIDs);
     void OnJobBegun(const std::string& robotID, const Planning::StartJob& job);
     void OnJobFinished(const std::string& robotID, const Planning::StartJob& job);
 
     [[nodiscard]] FloorChecker& GetFloor() noexcept;
 
-    /// Of a step without jobs the jobID does not matter.
+    /// The jobID of a step without jobs is ignored.
     [[nodiscard]] JobTruth GetTruth(const std::string& planID, std::int32_t stepNo, const std::string& jobID) const;
 
 private:
-    /// A step without jobs has one that the engine makes up: its jobID says nothing.
+    /// The engine makes up the job of a step without jobs, and its jobID has no meaning.
     [[nodiscard]] JobKey MakeKey(const std::string& planID, std::int32_t stepNo, const std::string& jobID) const;
 };
 

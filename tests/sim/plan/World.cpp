@@ -16,18 +16,18 @@ using namespace std::chrono_literals;
 namespace
 {
 
-/// Once nothing goes wrong any more, everything must have come to its end within this time.
+/// All work must be finished within this time after the last fault.
 constexpr std::chrono::hours SETTLING_LIMIT{2};
 constexpr std::chrono::seconds WATCH_INTERVAL{1};
 
-/// Which stream of the seed's random numbers somebody has.
+/// The streams of the seed's random numbers.
 constexpr std::uint64_t NETWORK_PART = 101;
 constexpr std::uint64_t PROCESS_PART = 301;
 constexpr std::uint64_t OWN_RANDOM_PART = 302;
-constexpr std::uint64_t WEATHER_PART = 303;
+constexpr std::uint64_t FAULT_PART = 303;
 constexpr std::uint64_t ROBOT_PART = 304;
 constexpr std::uint64_t BROKER_PART = 305;
-constexpr std::uint64_t CARETAKER_PART = 306;
+constexpr std::uint64_t OPERATOR_PART = 306;
 constexpr std::uint64_t FIRST_ROBOT_PART = 400;
 constexpr std::uint64_t FIRST_RADIO_PART = 500;
 constexpr std::uint64_t FIRST_ARM_PART = 600;
@@ -45,28 +45,26 @@ World::World(Scenario scenario, EMutation mutation, bool bPrinting)
     : _scenario(std::move(scenario)),
       _mutation(mutation),
       _trace(_timeline, bPrinting),
-      _dice({_scenario.seed, PROCESS_PART}),
+      _chance({_scenario.seed, PROCESS_PART}),
       _ownRandom({_scenario.seed, OWN_RANDOM_PART}),
-      _weather({_scenario.seed, WEATHER_PART}),
+      _faultChance({_scenario.seed, FAULT_PART}),
       _robotChance({_scenario.seed, ROBOT_PART}),
       _site(_scenario.MakeSite()),
-      _witness(_trace, _site, GetHandling(_scenario.robots)),
-      _judge(_trace, _store, _witness),
+      _workChecker(_trace, _site, GetHandling(_scenario.robots)),
+      _judge(_trace, _store, _workChecker),
       _network(_timeline, _trace, {_scenario.seed, NETWORK_PART}, TextNames{"acsd", "MCS"}),
-      _mcs(_timeline, _trace, _network, _judge, _witness, _scenario),
+      _mcs(_timeline, _trace, _network, _judge, _workChecker, _scenario),
       _broker(_timeline, _trace, {_scenario.seed, BROKER_PART}, _scenario.Has(EFault::Radio)),
-      _habits(_timeline),
+      _behaviours(_timeline),
       _robotBehaviours(_timeline),
       _radioBehaviours(_timeline),
-      _caretaker(_timeline, _trace, {_scenario.seed, CARETAKER_PART}, _robots, _store, [this] {
-          return _process.get();
-      })
+      _operator(_timeline, _trace, {_scenario.seed, OPERATOR_PART}, _robots, _store, [this] { return _process.get(); })
 {
 }
 
 std::vector<std::string> World::Run()
 {
-    _trace.Tell(
+    _trace.Add(
         "seed {}: {}, {} robots, {} plans",
         _scenario.seed,
         _scenario.siteName,
@@ -105,7 +103,7 @@ void World::AddRobots()
         const VehicleRobot::Dependencies around{
             _timeline,
             _trace,
-            _witness,
+            _workChecker,
             _broker,
             _site,
             _scenario.bBatteries,
@@ -130,7 +128,7 @@ void World::AddRobots()
             const RadioRobot::Seeds seeds{seed, radioSeed};
             _robots.emplace(
                 robotID,
-                std::make_unique<RadioRobot>(_timeline, _trace, _witness, seeds, robotID, nodeID, bFaulty));
+                std::make_unique<RadioRobot>(_timeline, _trace, _workChecker, seeds, robotID, nodeID, bFaulty));
         }
         ++number;
     }
@@ -139,17 +137,17 @@ void World::AddRobots()
 void World::StartAcsd()
 {
     ++_starts;
-    _caretaker.OnStart();
+    _operator.OnStart();
     BringIntoReach();
     const AcsdProcess::Dependencies around{
         _timeline,
         _trace,
-        _dice,
+        _chance,
         _ownRandom,
         _store,
         _network,
         _robots,
-        _witness,
+        _workChecker,
         _scenario,
         _mutation,
         _starts};
@@ -165,7 +163,7 @@ void World::StartAcsd()
     _judge.CheckKept();
 }
 
-/// Robots that drove on while the disk failed: nobody can know where they are before they tell it.
+/// The position of a robot that drove while the disk failed is unknown until it reports.
 void World::BringIntoReach()
 {
     constexpr std::chrono::seconds UNTIL_TOLD = 40s;
@@ -178,47 +176,47 @@ void World::BringIntoReach()
         {
             continue;
         }
-        _trace.Tell("{} is kept in reach: its position is not stored", robotID);
+        _trace.Add("{} is made reachable: its position is not stored", robotID);
         robot->SetReachable(true);
         _radioBehaviours.Start(robotID, UNTIL_TOLD, [this, robotID = robotID] { TurnRadio(robotID); });
     }
 }
 
-/// It is still on the stack: it goes when that is empty.
+/// It is still on the stack: it is destroyed when the stack is empty.
 void World::OnCrash()
 {
-    _habits.Post(0ms, [this] { _process.reset(); });
-    _habits.Start(EBehaviour::Restart, _weather.GetBetween(1ms, _weather.IsHit(300) ? 30s : 2s), [this] {
+    _behaviours.Post(0ms, [this] { _process.reset(); });
+    _behaviours.Start(EBehaviour::Restart, _faultChance.GetBetween(1ms, _faultChance.IsHit(300) ? 30s : 2s), [this] {
         StartAcsd();
     });
 }
 
 void World::BeginFaults()
 {
-    _habits.Start(EBehaviour::EndFaults, _scenario.faultsEnd, [this] { EndFaults(); });
+    _behaviours.Start(EBehaviour::EndFaults, _scenario.faultsEnd, [this] { EndFaults(); });
     if (_scenario.Has(EFault::Disk))
     {
-        _habits.Start(EBehaviour::Disk, _weather.GetBetween(1s, 60s), [this] { TurnDisk(); });
+        _behaviours.Start(EBehaviour::Disk, _faultChance.GetBetween(1s, 60s), [this] { TurnDisk(); });
     }
     if (_scenario.Has(EFault::Link))
     {
-        _habits.Start(EBehaviour::Link, _weather.GetBetween(0s, 20s), [this] { TurnLink(); });
+        _behaviours.Start(EBehaviour::Link, _faultChance.GetBetween(0s, 20s), [this] { TurnLink(); });
     }
     if (_scenario.Has(EFault::Controls))
     {
-        _habits.Start(EBehaviour::Operator, _weather.GetBetween(5s, 90s), [this] { Operate(); });
+        _behaviours.Start(EBehaviour::Operator, _faultChance.GetBetween(5s, 90s), [this] { Operate(); });
     }
     if (_scenario.bMaintenance)
     {
-        _caretaker.Begin();
+        _operator.Begin();
     }
     if (_scenario.Has(EFault::Crashes))
     {
-        _habits.Start(EBehaviour::Crash, _weather.GetBetween(1s, 120s), [this] { CrashSometime(); });
+        _behaviours.Start(EBehaviour::Crash, _faultChance.GetBetween(1s, 120s), [this] { CrashSometime(); });
     }
     if (_scenario.Has(EFault::Radio) && _scenario.HasVehicles())
     {
-        _habits.Start(EBehaviour::Broker, _weather.GetBetween(10s, 200s), [this] { TurnBroker(); });
+        _behaviours.Start(EBehaviour::Broker, _faultChance.GetBetween(10s, 200s), [this] { TurnBroker(); });
     }
     for (const auto& [robotID, robot] : _robots)
     {
@@ -235,17 +233,17 @@ void World::BeginFaults()
 
 void World::EndFaults()
 {
-    _trace.Tell("no more faults from now on");
+    _trace.Add("no more faults from now on");
     _bSettling = true;
     _deadline = _timeline.GetNow().steady + SETTLING_LIMIT;
-    for (const EBehaviour habit :
+    for (const EBehaviour behaviour :
          {EBehaviour::Disk, EBehaviour::Link, EBehaviour::Operator, EBehaviour::Crash, EBehaviour::Broker})
     {
-        _habits.Cancel(habit);
+        _behaviours.Cancel(behaviour);
     }
     _robotBehaviours.CancelAll();
     _radioBehaviours.CancelAll();
-    _caretaker.End();
+    _operator.End();
     _store.bFails = false;
     _broker.Calm();
     _network.SetReachable(true);
@@ -270,23 +268,23 @@ void World::EndFaults()
 void World::TurnDisk()
 {
     _store.bFails = !_store.bFails;
-    _trace.Tell("disk {}", _store.bFails ? "fails" : "works");
-    _habits.Start(
+    _trace.Add("disk {}", _store.bFails ? "fails" : "works");
+    _behaviours.Start(
         EBehaviour::Disk,
-        _store.bFails ? _weather.GetBetween(100ms, 15s) : _weather.GetBetween(1s, 60s),
+        _store.bFails ? _faultChance.GetBetween(100ms, 15s) : _faultChance.GetBetween(1s, 60s),
         [this] { TurnDisk(); });
 }
 
 void World::TurnLink()
 {
-    const std::size_t kind = _weather.GetBelow(4);
+    const std::size_t kind = _faultChance.GetBelow(4);
     _network.SetSlow(kind == 1);
     _network.SetReachable(kind != 2);
     if (kind != 1)
     {
         _network.Cut();
     }
-    _habits.Start(EBehaviour::Link, _weather.GetBetween(100ms, 30s), [this] { TurnLink(); });
+    _behaviours.Start(EBehaviour::Link, _faultChance.GetBetween(100ms, 30s), [this] { TurnLink(); });
 }
 
 /// The operator switches the TSC.
@@ -295,11 +293,11 @@ void World::Operate()
     if (_process != nullptr)
     {
         const bool bPause = _process->GetEngine().GetTscState() == Planning::ETscState::Auto;
-        _trace.Tell("operator: TSC {}", bPause ? "pause" : "resume");
+        _trace.Add("operator: TSC {}", bPause ? "pause" : "resume");
         _process->PushCommand(Planning::ControlTSC{bPause, 0});
     }
     ResolveJobs();
-    _habits.Start(EBehaviour::Operator, _weather.GetBetween(1s, 60s), [this] { Operate(); });
+    _behaviours.Start(EBehaviour::Operator, _faultChance.GetBetween(1s, 60s), [this] { Operate(); });
 }
 
 void World::CrashSometime()
@@ -308,13 +306,13 @@ void World::CrashSometime()
     {
         _process->Crash("at a random time");
     }
-    _habits.Start(EBehaviour::Crash, _weather.GetBetween(1s, 120s), [this] { CrashSometime(); });
+    _behaviours.Start(EBehaviour::Crash, _faultChance.GetBetween(1s, 120s), [this] { CrashSometime(); });
 }
 
 void World::TurnBroker()
 {
     _broker.Restart();
-    _habits.Start(EBehaviour::Broker, _weather.GetBetween(10s, 200s), [this] { TurnBroker(); });
+    _behaviours.Start(EBehaviour::Broker, _faultChance.GetBetween(10s, 200s), [this] { TurnBroker(); });
 }
 
 void World::TurnRobot(const std::string& robotID)
@@ -341,13 +339,13 @@ void World::TurnRadio(const std::string& robotID)
 {
     ISimulatedRobot& robot = *_robots.at(robotID);
     robot.SetReachable(!robot.IsReachable());
-    _trace.Tell("{} is {} reach", robotID, robot.IsReachable() ? "in" : "out of");
+    _trace.Add("{} is {}", robotID, robot.IsReachable() ? "reachable" : "unreachable");
     const Core::Duration span =
         robot.IsReachable() ? _robotChance.GetBetween(1s, 90s) : _robotChance.GetBetween(10ms, 30s);
     _radioBehaviours.Start(robotID, span, [this, robotID] { TurnRadio(robotID); });
 }
 
-/// The operator looks at each job that is held, and says what he sees.
+/// The operator checks each unresolved job and resolves it.
 void World::ResolveJobs()
 {
     const std::vector<Planning::Alarm> alarms =
@@ -359,17 +357,17 @@ void World::ResolveJobs()
             continue;
         }
         const std::string jobID = alarm.jobID.value_or(std::string());
-        const WorkChecker::JobTruth truth = _witness.GetTruth(*alarm.planID, alarm.stepNo.value_or(0), jobID);
-        const Planning::EJobResolution other = truth.begun == 0 && _weather.IsHit(700)
+        const WorkChecker::JobTruth truth = _workChecker.GetTruth(*alarm.planID, alarm.stepNo.value_or(0), jobID);
+        const Planning::EJobResolution other = truth.begun == 0 && _faultChance.IsHit(700)
             ? Planning::EJobResolution::Again
             : Planning::EJobResolution::Failed;
         const Planning::EJobResolution answer = truth.finished > 0 ? Planning::EJobResolution::Done : other;
-        _trace.Tell("operator: job {} of {} {}", jobID, *alarm.planID, GetText(answer));
+        _trace.Add("operator: job {} of {} {}", jobID, *alarm.planID, GetText(answer));
         _process->PushCommand(Planning::ResolveJob{*alarm.planID, jobID, answer, 0});
     }
 }
 
-/// Whether all is over; too late, what is not.
+/// Whether all work is finished; after the time limit, what is not.
 void World::Watch()
 {
     ResolveJobs();
@@ -377,8 +375,8 @@ void World::Watch()
     {
         _process->PushCommand(Planning::ControlTSC{false, 0});
     }
-    _caretaker.GiveBack();
-    TakeCarriersOff();
+    _operator.PutAllIntoService();
+    RemoveCarriers();
     const std::string unrest = DescribeUnrest();
     if (unrest.empty())
     {
@@ -390,11 +388,11 @@ void World::Watch()
         _trace.Violate("not finished in time after the last fault: {}", unrest);
         return;
     }
-    _habits.Start(EBehaviour::Watch, WATCH_INTERVAL, [this] { Watch(); });
+    _behaviours.Start(EBehaviour::Watch, WATCH_INTERVAL, [this] { Watch(); });
 }
 
-/// A plan that was given up may have left its carrier on a robot, whom others wait for: the operator takes it off.
-void World::TakeCarriersOff()
+/// An aborted plan may have left its carrier on a robot, and other robots wait for it: the operator removes it.
+void World::RemoveCarriers()
 {
     if (_process == nullptr)
     {
@@ -411,9 +409,9 @@ void World::TakeCarriersOff()
         const bool bStill = body.IsAtRest() && !body.IsWorkUnderWay();
         if (bAnyWaits && bStill && !robot.planID.has_value() && robot.carrierIDs != empty)
         {
-            _trace.Tell("operator: removes the carriers from {}", robot.robotID);
+            _trace.Add("operator: removes the carriers from {}", robot.robotID);
             _process->PushCommand(Planning::SetCarriers{robot.robotID, empty, 0});
-            _witness.GetFloor().TakeCarriersOff(GetPorts(robot.robotID));
+            _workChecker.GetFloor().RemoveCarriers(GetPorts(robot.robotID));
             _robots.at(robot.robotID)->OnFloorChanged();
         }
     }

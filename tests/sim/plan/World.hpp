@@ -24,7 +24,7 @@
 namespace ACS::Simulation
 {
 
-/// One seed's world, from its first plan until everything has come to its end.
+/// The run of one seed, from its first plan until all work is finished.
 class World final
 {
     enum class EBehaviour : std::uint8_t
@@ -43,23 +43,23 @@ class World final
     EMutation _mutation;
     Timeline _timeline;
     Trace _trace;
-    ChanceModel _dice;        ///< Of acsd's surroundings.
-    ChanceModel _ownRandom;   ///< Of acsd's ids.
-    ChanceModel _weather;     ///< Of what breaks from outside.
-    ChanceModel _robotChance; ///< Of what happens to robots.
+    ChanceModel _chance;      ///< For what surrounds acsd.
+    ChanceModel _ownRandom;   ///< For acsd's ids.
+    ChanceModel _faultChance; ///< For faults from outside.
+    ChanceModel _robotChance; ///< For events of robots.
     CrashableStore _store;
     Planning::SiteMap _site;
-    WorkChecker _witness;
+    WorkChecker _workChecker;
     McsJudge _judge;
     TextNetwork _network;
     McsSide _mcs;
     MqttBroker _broker;
     std::map<std::string, std::unique_ptr<ISimulatedRobot>> _robots;
-    TimerBank<EBehaviour> _habits;
+    TimerBank<EBehaviour> _behaviours;
     TimerBank<std::string> _robotBehaviours;
     TimerBank<std::string> _radioBehaviours;
     std::unique_ptr<AcsdProcess> _process;
-    OperatorSimulator _caretaker;
+    OperatorSimulator _operator;
     std::uint64_t _starts = 0;
     Core::SteadyTime _deadline{};
     bool _bSettling = false;
@@ -68,7 +68,7 @@ class World final
 public:
     World(Scenario scenario, EMutation mutation, bool bPrinting);
 
-    /// The rules that were broken, the first one first; empty where none was.
+    /// The rules that were violated in their order; empty: none.
     [[nodiscard]] std::vector<std::string> Run();
 
     [[nodiscard]] std::size_t GetStarts() const noexcept;
@@ -90,7 +90,7 @@ private:
     void TurnRadio(const std::string& robotID);
     void ResolveJobs();
     void Watch();
-    void TakeCarriersOff();
+    void RemoveCarriers();
     [[nodiscard]] std::vector<std::string> GetPorts(std::string_view robotID) const;
     [[nodiscard]] std::string DescribeUnrest() const;
 };

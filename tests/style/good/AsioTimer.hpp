@@ -10,7 +10,7 @@
 namespace ACS::Sample
 {
 
-/// Ten lines of Asio, compiled optimised with every warning: a flag that Asio cannot stand shows here first.
+/// Ten lines of Asio, optimised and with every warning: a flag that Asio does not compile with fails here first.
 class AsioTimer final
 {
 public:

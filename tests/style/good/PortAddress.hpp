@@ -27,7 +27,7 @@ enum class EPortStateFlags : std::uint8_t
     Locked = 1U << 1U,
 };
 
-/// A small struct may stand beside the class that uses it.
+/// A small struct may be declared beside the class that uses it.
 struct PortSegment
 {
     EPortKind kind = EPortKind::Cassette;

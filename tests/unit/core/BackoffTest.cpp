@@ -16,7 +16,7 @@ using std::chrono::milliseconds;
 namespace
 {
 
-/// Always the largest number: the strongest jitter there is.
+/// Always the largest number: the maximum jitter.
 class LargestRandom final : public ACS::Core::IRandom
 {
 public:
@@ -36,7 +36,7 @@ std::vector<milliseconds> TakeDelays(Backoff& backoff, std::size_t count)
 
 } // namespace
 
-TEST_CASE("1 Waits between attempts to connect double from half a second to ten seconds")
+TEST_CASE("1 Delays between connection attempts double from 0.5 s to 10 s")
 {
     BackoffOptions options;
     options.jitter = 0.0;
@@ -56,7 +56,7 @@ TEST_CASE("1 Waits between attempts to connect double from half a second to ten 
     CHECK(TakeDelays(backoff, 1).front() == milliseconds(500));
 }
 
-TEST_CASE("1 Jitter shortens a wait by no more than its part and never lengthens it")
+TEST_CASE("1 Jitter shortens a delay by at most its fraction and never lengthens it")
 {
     BackoffOptions options;
     options.factor = 1.0;
@@ -71,14 +71,14 @@ TEST_CASE("1 Jitter shortens a wait by no more than its part and never lengthens
     CHECK(*longest >= milliseconds(495));
 }
 
-TEST_CASE("1 A wait is never zero, even with full jitter")
+TEST_CASE("1 A delay is never zero, even with full jitter")
 {
     LargestRandom random;
     Backoff backoff(BackoffOptions{milliseconds(1), milliseconds(10), 2.0, 1.0});
     CHECK(backoff.GetNextDelay(random) == milliseconds(1));
 }
 
-TEST_CASE("1 Options that make no sense are pulled to the nearest that do")
+TEST_CASE("1 Invalid options are replaced by the nearest valid ones")
 {
     constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
     Backoff shrinking(BackoffOptions{milliseconds(-5), milliseconds(-10), 0.1, -1.0});

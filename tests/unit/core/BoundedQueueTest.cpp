@@ -7,7 +7,7 @@
 
 using ACS::Core::BoundedQueue;
 
-TEST_CASE("A bounded queue gives its elements back in their order")
+TEST_CASE("A bounded queue returns its elements in their order")
 {
     BoundedQueue<std::string> queue(3);
     CHECK(queue.IsEmpty());
@@ -41,14 +41,14 @@ TEST_CASE("A full bounded queue refuses an element and leaves it with the caller
     CHECK(queue.TryPush(std::move(second)));
 }
 
-TEST_CASE("A bounded queue without capacity takes nothing")
+TEST_CASE("A bounded queue without capacity accepts no element")
 {
     BoundedQueue<int> queue(0);
     CHECK(queue.IsFull());
     CHECK_FALSE(queue.TryPush(1));
 }
 
-TEST_CASE("Elements that are out of date can be taken out of the middle of a bounded queue")
+TEST_CASE("Outdated elements can be removed from the middle of a bounded queue")
 {
     BoundedQueue<int> queue(4);
     for (const int value : {1, 2, 3, 4})

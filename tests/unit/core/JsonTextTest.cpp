@@ -28,7 +28,7 @@ TEST_CASE("A JSON text is null until it is given a value")
     CHECK_FALSE(json.GetBooleanOrNull().has_value());
 }
 
-TEST_CASE("A JSON string escapes what JSON cannot hold and gives it back")
+TEST_CASE("A JSON string is escaped and can be read again")
 {
     using namespace std::string_literals;
     const std::string text = "quote \" backslash \\ line\n tab\t nul\0 \xED\x95\x9C \xF0\x9F\xA4\x96"s;
@@ -40,7 +40,7 @@ TEST_CASE("A JSON string escapes what JSON cannot hold and gives it back")
     CHECK(JsonText::FromString("").GetStringOrNull() == "");
 }
 
-TEST_CASE("What is no UTF-8 becomes the replacement character in a JSON string")
+TEST_CASE("Bytes that are not valid UTF-8 become the replacement character in a JSON string")
 {
     CHECK(JsonText::FromString("a\xFFz").GetText() == "\"a\xEF\xBF\xBDz\"");
     CHECK(JsonText::FromString("\xED\x95").GetText() == "\"\xEF\xBF\xBD\xEF\xBF\xBD\"");
@@ -54,7 +54,7 @@ TEST_CASE("Every escape of a JSON string is read")
     CHECK(ReadStringOrNull(R"("\u0000")") == std::string(1, '\0'));
 }
 
-TEST_CASE("Half a surrogate pair becomes the replacement character and eats nothing behind it")
+TEST_CASE("Half a surrogate pair becomes the replacement character and does not swallow the text after it")
 {
     CHECK(ReadStringOrNull(R"("\uD83E")") == "\xEF\xBF\xBD");
     CHECK(ReadStringOrNull(R"("\uDD16x")") == "\xEF\xBF\xBDx");
@@ -68,7 +68,7 @@ TEST_CASE("Half a surrogate pair becomes the replacement character and eats noth
            "A");
 }
 
-TEST_CASE("Text that was wrongly trusted is no string rather than a read behind its end")
+TEST_CASE("Invalid text that was passed as trusted is not a string, and is not read beyond its end")
 {
     for (const std::string_view text :
          {R"(")", R"("abc)", R"(abc")", R"("\")", R"("a"b")", R"("\u12")", R"("\u12x4")", R"("\x")", ""})
@@ -92,14 +92,14 @@ TEST_CASE("A JSON number keeps its value exactly")
     CHECK_FALSE(JsonText::FromTrusted("\"1\"").GetNumberOrNull().has_value());
 }
 
-TEST_CASE("A JSON boolean is true or false and nothing else")
+TEST_CASE("Only true and false are JSON booleans")
 {
     CHECK(JsonText::FromBoolean(true).GetBooleanOrNull() == true);
     CHECK(JsonText::FromBoolean(false).GetBooleanOrNull() == false);
     CHECK_FALSE(JsonText::FromInteger(1).GetBooleanOrNull().has_value());
 }
 
-TEST_CASE("A JSON text gives its text away, and is null then")
+TEST_CASE("A JSON text is null after its text was moved out")
 {
     JsonText text = JsonText::FromTrusted(R"({"a":1})");
     CHECK(text.TakeText() == R"({"a":1})");

@@ -40,7 +40,7 @@ LocationMap MakeMap()
 
 } // namespace
 
-TEST_CASE("10 A map is the ranges that it was made of, each place once")
+TEST_CASE("10 A map has each place of its ranges once")
 {
     LocationMap map = MakeMap();
     CHECK(map.GetCount() == 6 + 6 + 4 + 12 + 32 + 32 + 1 + 1 + 32 + 1 + 3 + 25);
@@ -54,7 +54,7 @@ TEST_CASE("10 A map is the ranges that it was made of, each place once")
     CHECK(map.GetCount() == count);
 }
 
-TEST_CASE("10 A line of a map that is no range is named")
+TEST_CASE("10 A line of a map that is not a range is named in the error")
 {
     const std::vector<std::string> ranges{"A01.CP01-06", "A01.CP06-01"};
     const Result<LocationMap> map = LocationMap::Create(ranges);
@@ -82,7 +82,7 @@ TEST_CASE("10 AMR and the robot's own name are ports of the robot that executes 
     CHECK_FALSE(map.Resolve(MakeKey("AMR.TP01"), robotID).has_value());
 }
 
-TEST_CASE("10 A set without its area is that of the position's area, else the only one of the site, else refused")
+TEST_CASE("10 A set without area belongs to the position's area, else to the only one of the site, else it is refused")
 {
     const LocationMap map = MakeMap();
     const RobotID robotID = RobotID::Parse("CR01").value();
@@ -105,7 +105,7 @@ TEST_CASE("10 A set without its area is that of the position's area, else the on
     CHECK_FALSE(map.CompleteSetOrNull(MakeKey("A01.SET01")).has_value());
 }
 
-TEST_CASE("10 A fixed place is itself where the site has it")
+TEST_CASE("10 A fixed place of the site is resolved to itself")
 {
     const LocationMap map = MakeMap();
     const RobotID robotID = RobotID::Parse("CR01").value();

@@ -130,7 +130,7 @@ TEST_CASE("10 Every robot port of the document, and those of named robots, are l
     }
 }
 
-TEST_CASE("10 An element id of a port alone is no location")
+TEST_CASE("10 The element id of a port alone is not a location")
 {
     for (const std::string_view text : {"CP01", "CP02", "TP01", "TP15", "MP01", "MP25", "T01", "AMR", "LR01"})
     {
@@ -138,7 +138,7 @@ TEST_CASE("10 An element id of a port alone is no location")
     }
 }
 
-TEST_CASE("10 A location's number 00 is invalid")
+TEST_CASE("10 The number 00 in a location is invalid")
 {
     for (const std::string_view text :
          {"A00", "ST00", "A01.CP00", "A01.SET0", "A01.CP01.TP000", "AMR.CP00", "A00.CP01"})
@@ -147,7 +147,7 @@ TEST_CASE("10 A location's number 00 is invalid")
     }
 }
 
-TEST_CASE("10 Segments follow each other as the grammar says")
+TEST_CASE("10 Segments follow each other as defined by the grammar")
 {
     for (const std::string_view text :
          {"A01.ST01",     "A01.TP01",      "A01.MP01",       "A01.A02",       "ST01.SET01",
@@ -160,7 +160,7 @@ TEST_CASE("10 Segments follow each other as the grammar says")
     }
 }
 
-TEST_CASE("10 Other text is no location")
+TEST_CASE("10 Other text is not a location")
 {
     for (const std::string_view text :
          {"",
@@ -187,7 +187,7 @@ TEST_CASE("10 Other text is no location")
     CheckRefused(std::string_view("A01\0.CP01", 9));
 }
 
-TEST_CASE("10 Lower case and missing or spare padding are accepted and marked")
+TEST_CASE("10 Lower case and missing or superfluous zeros are accepted and marked")
 {
     struct Spelling
     {
@@ -249,7 +249,7 @@ TEST_CASE("10 Locations compare, sort and hash by their canonical text")
     CHECK(places.size() == 2);
 }
 
-TEST_CASE("10 A location has at most 64 characters, also once it is normalised")
+TEST_CASE("10 A location has at most 64 characters, also after it is normalised")
 {
     const std::string robot(Location::MAX_LENGTH - 5, 'r');
     CHECK(Location::Parse(robot + ".CP01").has_value());
@@ -262,7 +262,7 @@ TEST_CASE("10 A location has at most 64 characters, also once it is normalised")
     CheckRefused(shorter + ".TP01.MP001");
 }
 
-TEST_CASE("10 A NUL in front of an element is no part of its name")
+TEST_CASE("10 A NUL before an element is refused")
 {
     const std::string nul(1, '\0');
     for (const std::string& text : {nul + "A01", nul + nul + "A01.CP01", "A01." + nul + "CP01", nul + "ST01"})
@@ -272,7 +272,7 @@ TEST_CASE("10 A NUL in front of an element is no part of its name")
     }
 }
 
-TEST_CASE("10 The alias becomes the robot that executes the plan, and keeps the sender's spelling")
+TEST_CASE("10 The alias becomes the robot that executes the plan, and the spelling of the sender is kept")
 {
     const RobotID robotID = RobotID::Parse("LR01").value();
     const Location resolved = Make("amr.cp1").WithRobot(robotID).value();
@@ -286,7 +286,7 @@ TEST_CASE("10 The alias becomes the robot that executes the plan, and keeps the 
     CHECK(Make("A01.CP01").WithRobot(robotID).value() == Make("A01.CP01"));
 }
 
-TEST_CASE("10 A robot's name too long for its ports is refused")
+TEST_CASE("10 A robot's name that is too long for its ports is refused")
 {
     const RobotID longID = RobotID::Parse(std::string(RobotID::MAX_LENGTH, 'r')).value();
     const Result<Location> location = Make("AMR.CP01").WithRobot(longID);
@@ -294,7 +294,7 @@ TEST_CASE("10 A robot's name too long for its ports is refused")
     CHECK(location.error().code == ECoreError::InvalidLocation);
 }
 
-TEST_CASE("10 The short form of a set gets its area from another location")
+TEST_CASE("10 The short form of a set takes its area from another location")
 {
     const Location resolved = Make("SET02.MP15").WithAreaOf(Make("A01.CP03"));
     CHECK(resolved.GetText() == "A01.SET02.MP15");
@@ -310,7 +310,7 @@ TEST_CASE("10 The short form of a set gets its area from another location")
     CHECK_FALSE(Make("SET02").GetAreaNumberOrNull().has_value());
 }
 
-TEST_CASE("10 A range names every location from its first to its last number")
+TEST_CASE("10 A range is every location from its first to its last number")
 {
     const auto expand = [](std::string_view text) {
         std::vector<std::string> texts;
@@ -334,7 +334,7 @@ TEST_CASE("10 A range names every location from its first to its last number")
     CHECK(expand("A01.SET01.MP99-100").back() == "A01.SET01.MP100");
 }
 
-TEST_CASE("10 A range that is empty, backwards, too long or of another form is refused")
+TEST_CASE("10 A range that is empty, descending, too long or of another form is refused")
 {
     for (const std::string_view text :
          {"",

@@ -11,7 +11,7 @@ using ACS::Testing::RecordingLogSink;
 namespace
 {
 
-/// Wants warnings and errors only, and counts what it gets.
+/// Accepts warnings and errors only, and counts them.
 class QuietSink final : public ILogSink
 {
     int _count = 0;
@@ -56,19 +56,19 @@ TEST_CASE("A log line carries level, component, message and fields")
     CHECK(sink.CountLevel(ELogLevel::Warning) == 1);
 }
 
-TEST_CASE("A sink gets no lines that it does not want")
+TEST_CASE("A sink receives only the levels that it accepts")
 {
     QuietSink sink;
     const Logger logger(sink, "mcs");
     logger.Debug("quiet");
     logger.Info("quiet");
     CHECK(sink.GetCount() == 0);
-    logger.Warning("heard");
-    logger.Error("heard");
+    logger.Warning("accepted");
+    logger.Error("accepted");
     CHECK(sink.GetCount() == 2);
 }
 
 TEST_CASE("A logger without a sink discards its lines")
 {
-    CHECK_NOTHROW(Logger().Error("nobody hears this"));
+    CHECK_NOTHROW(Logger().Error("discarded"));
 }

@@ -8,7 +8,7 @@ using ACS::Core::Fail;
 using ACS::Core::QuoteForError;
 using ACS::Core::Result;
 
-TEST_CASE("An error says where it is, what was expected and what was found")
+TEST_CASE("The text of an error has its place, what was expected and what was found")
 {
     const Error whole{ECoreError::OutOfRange, "payload.steps[0].seq", "an integer from 1 to 100", "0"};
     CHECK(Describe(whole) == "payload.steps[0].seq: expected an integer from 1 to 100, found 0");
@@ -20,7 +20,7 @@ TEST_CASE("An error says where it is, what was expected and what was found")
     CHECK(Describe(withoutPath) == "expected a location");
 }
 
-TEST_CASE("A failed result compares with its enumerator")
+TEST_CASE("A failed result is equal to its enumerator")
 {
     const Result<int> result = Fail(ECoreError::MissingField, "command");
     REQUIRE_FALSE(result.has_value());
@@ -29,7 +29,7 @@ TEST_CASE("A failed result compares with its enumerator")
     CHECK(result.error().path == "command");
 }
 
-TEST_CASE("Every core error has a sentence of its own")
+TEST_CASE("Every core error has its own message")
 {
     constexpr int LAST = static_cast<int>(ECoreError::UnhandledEnum);
     const std::error_category& category = make_error_code(ECoreError::InvalidJSON).category();
@@ -42,7 +42,7 @@ TEST_CASE("Every core error has a sentence of its own")
     CHECK(category.message(LAST + 1) == "unknown error");
 }
 
-TEST_CASE("Text from outside is shown short and printable")
+TEST_CASE("Text from outside is shortened and made printable")
 {
     CHECK(QuoteForError("A01.CP1") == "\"A01.CP1\"");
     CHECK(QuoteForError("a\n\x7f\xff") == "\"a???\"");

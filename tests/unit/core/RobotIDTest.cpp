@@ -33,7 +33,7 @@ TEST_CASE("10 A robot's name is 1 to 64 letters, digits, underscores and hyphens
     }
 }
 
-TEST_CASE("10 A robot's name does not read as an element of a location")
+TEST_CASE("10 A robot's name cannot be read as an element of a location")
 {
     for (const std::string_view text :
          {"A01", "a1", "A00", "A12345", "ST01", "st1", "SET12", "T01", "CP01", "TP15", "mp25"})
@@ -48,7 +48,7 @@ TEST_CASE("10 A robot's name does not read as an element of a location")
     }
 }
 
-TEST_CASE("10 AMR is the alias of whichever robot executes the plan")
+TEST_CASE("10 AMR is the alias of the robot that executes the plan")
 {
     CHECK(RobotID::Parse("AMR").value().IsAlias());
     CHECK_FALSE(RobotID::Parse("AMR01").value().IsAlias());

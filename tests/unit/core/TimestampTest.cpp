@@ -27,7 +27,7 @@ WallTime GetNoon()
 struct Accepted
 {
     std::string_view text;
-    nanoseconds behindNoon; ///< Behind 2025-07-02T12:00:00Z.
+    nanoseconds behindNoon; ///< After 2025-07-02T12:00:00Z.
     minutes offset;
 };
 
@@ -60,7 +60,7 @@ TEST_CASE("2 A timestamp is accepted with any fraction and any form of offset")
     }
 }
 
-TEST_CASE("2 A timestamp out of range or of another shape is refused")
+TEST_CASE("2 A timestamp out of range or of another form is refused")
 {
     for (const std::string_view text :
          {"",
@@ -100,7 +100,7 @@ TEST_CASE("2 A timestamp out of range or of another shape is refused")
     }
 }
 
-TEST_CASE("2 Leap days are dates")
+TEST_CASE("2 Leap days are valid dates")
 {
     CHECK(FormatUTC(ParseTimestamp("2024-02-29T00:00:00Z").value().time) == "2024-02-29T00:00:00.000Z");
     CHECK(FormatUTC(ParseTimestamp("2000-02-29T00:00:00Z").value().time) == "2000-02-29T00:00:00.000Z");
@@ -115,7 +115,7 @@ TEST_CASE("2 The first and the last year do not overflow")
     CHECK(FormatUTC(ParseTimestamp("2261-12-31T23:59:59.999-23:59").value().time) == "2262-01-01T23:58:59.999Z");
 }
 
-TEST_CASE("2 MCS-ACS gets local time with offset and milliseconds")
+TEST_CASE("2 Timestamps of MCS-ACS have local time with offset and milliseconds")
 {
     CHECK(FormatLocal(GetNoon() + milliseconds(123), minutes(540)) == "2025-07-02T21:00:00.123+09:00");
     CHECK(FormatLocal(GetNoon(), minutes(0)) == "2025-07-02T12:00:00.000+00:00");
@@ -123,14 +123,14 @@ TEST_CASE("2 MCS-ACS gets local time with offset and milliseconds")
     CHECK(FormatLocal(GetNoon() + hours(12), minutes(540)) == "2025-07-03T09:00:00.000+09:00");
 }
 
-TEST_CASE("VDA5050 6.1 Robots get UTC with milliseconds")
+TEST_CASE("VDA5050 6.1 Timestamps of VDA5050 have UTC with milliseconds")
 {
     CHECK(FormatUTC(GetNoon() + milliseconds(123)) == "2025-07-02T12:00:00.123Z");
     CHECK(FormatUTC(GetNoon() + nanoseconds(999'999)) == "2025-07-02T12:00:00.000Z");
     CHECK(FormatUTC(WallTime() - nanoseconds(1)) == "1969-12-31T23:59:59.999Z");
 }
 
-TEST_CASE("2 What we print reads back as the same moment")
+TEST_CASE("2 A formatted timestamp is parsed to the same time")
 {
     for (const minutes offset : {minutes(540), minutes(-570), minutes(0), minutes(1'439), minutes(-1'439)})
     {

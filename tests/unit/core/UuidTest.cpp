@@ -11,7 +11,7 @@ using ACS::Testing::SeededRandom;
 namespace
 {
 
-/// Every bit the same: shows which bits are fixed.
+/// All bits are equal: shows which bits are fixed.
 class ConstantRandom final : public ACS::Core::IRandom
 {
     std::uint64_t _value;
@@ -30,7 +30,7 @@ public:
 
 } // namespace
 
-TEST_CASE("D-12 A UUID that we make is canonical, lower case and of version 4")
+TEST_CASE("D-12 A generated UUID is canonical, lower case and of version 4")
 {
     ConstantRandom zeros(0);
     ConstantRandom ones(~std::uint64_t{0});
@@ -45,7 +45,7 @@ TEST_CASE("D-12 A UUID that we make is canonical, lower case and of version 4")
     }
 }
 
-TEST_CASE("D-12 UUIDs differ from each other and depend on the random source alone")
+TEST_CASE("D-12 UUIDs differ from each other and depend only on the random source")
 {
     SeededRandom random(7);
     SeededRandom twin(7);

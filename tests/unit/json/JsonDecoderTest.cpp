@@ -41,7 +41,7 @@ Outcome Decode(std::string_view text, const DecodeOptions& options = {}, const P
     return outcome;
 }
 
-/// The smallest good message, with one member replaced or added.
+/// The smallest valid message, with one member replaced or added.
 std::string MakeMinimal(std::string_view member)
 {
     return fmt::format(R"({{"headerId":1,"version":"v","planId":"P","colour":"Red","on":false,{}}})", member);
@@ -69,7 +69,7 @@ TEST_CASE("A described message is decoded, and encoded to the same bytes")
     CHECK(Encode(outcome.message) == FULL);
 }
 
-TEST_CASE("Members come in any order")
+TEST_CASE("Members are accepted in any order")
 {
     const Outcome outcome = Decode(R"({"on":true,"x":2,"colour":"Red","planId":"P","version":"v","headerId":1})");
     REQUIRE(outcome.bGood);
@@ -86,7 +86,7 @@ TEST_CASE("An optional member is left out when it has no value, a nullable one i
            R"("value":null,"on":false})");
 }
 
-TEST_CASE("What is tolerated is counted")
+TEST_CASE("Tolerated deviations are counted")
 {
     DecodeOptions options;
     options.bNumericStringsAccepted = true;
@@ -99,7 +99,7 @@ TEST_CASE("What is tolerated is counted")
     CHECK(outcome.notes == DecodeNotes{1, 1, 1, 2});
 }
 
-TEST_CASE("An error names the path, what was expected and what came")
+TEST_CASE("An error has the path, what was expected and what was found")
 {
     struct Row
     {
@@ -136,7 +136,7 @@ TEST_CASE("An error names the path, what was expected and what came")
     }
 }
 
-TEST_CASE("A member named twice is refused, known or not, at any depth")
+TEST_CASE("A repeated member is refused, known or not, at any depth")
 {
     for (const std::string& text :
          {std::string(R"({"headerId":1,"headerId":1})"),
@@ -150,7 +150,7 @@ TEST_CASE("A member named twice is refused, known or not, at any depth")
     }
 }
 
-TEST_CASE("Many unknown members are checked for repeats too")
+TEST_CASE("Repeated members are found among many unknown ones")
 {
     std::string members = R"("x":1)";
     for (int i = 0; i < 100; ++i)
@@ -172,14 +172,14 @@ TEST_CASE("Unknown members can be refused")
     CHECK(outcome.error.path == "more");
 }
 
-TEST_CASE("Words are matched exactly where the options say so")
+TEST_CASE("Enum texts are matched exactly if the options require it")
 {
     DecodeOptions options;
     options.bWordsInAnyCase = false;
     CHECK_FALSE(Decode(R"({"colour":"red"})", options).bGood);
 }
 
-TEST_CASE("Strings and arrays that no field bounds are bounded by the options")
+TEST_CASE("Strings and arrays without a limit of their field have the limit of the options")
 {
     DecodeOptions options;
     options.maximumString = 4;

@@ -93,13 +93,13 @@ std::string Write(const T& message, DialectFlags dialect)
 
 } // namespace
 
-TEST_CASE("A field is read by its other name, required or optional")
+TEST_CASE("A required or optional field is read by its other name")
 {
     CHECK(ReadOrNull(R"({"nom":"x","Speed":2})") == Dialects{"x", 2.0, {}, {}, 0.0, {}});
     CHECK(ReadOrNull(R"({"name":"x","speed":2})") == Dialects{"x", 2.0, {}, {}, 0.0, {}});
 }
 
-TEST_CASE("A field under both of its names is a repeated member, under none a missing one")
+TEST_CASE("A field under both of its names is a repeated member, a required one under neither is missing")
 {
     CHECK_FALSE(ReadOrNull(R"({"name":"x","nom":"y"})").has_value());
     CHECK_FALSE(ReadOrNull(R"({"nom":"x","name":"y"})").has_value());
@@ -115,7 +115,7 @@ TEST_CASE("A field is written under its own name, and only in its dialects")
     CHECK(ReadOrNull(R"({"name":"x","added":1.5})") == Dialects{"x", {}, 1.5, {}, 0.0, {}});
 }
 
-TEST_CASE("A number is written within narrower bounds than it is read in, and whole where a dialect wants it whole")
+TEST_CASE("A number is written within narrower bounds than it is read, and as an integer in a dialect that requires it")
 {
     const std::optional<Dialects> read = ReadOrNull(R"({"name":"x","angle":3.1,"charge":97.5})");
     REQUIRE(read.has_value());
@@ -128,21 +128,21 @@ TEST_CASE("A number is written within narrower bounds than it is read in, and wh
     CHECK_FALSE(ReadOrNull(R"({"name":"x","angle":3.3})").has_value());
 }
 
-TEST_CASE("The bounds of an array of numbers are those of each")
+TEST_CASE("The bounds of an array of numbers apply to each of them")
 {
     CHECK(ReadOrNull(R"({"name":"x","knots":[0,0.5,1]})")->knots == std::vector{0.0, 0.5, 1.0});
     CHECK_FALSE(ReadOrNull(R"({"name":"x","knots":[0,1.5]})").has_value());
     CHECK_FALSE(ReadOrNull(R"({"name":"x","knots":[-0.5,1]})").has_value());
 }
 
-TEST_CASE("A free value of another kind than a strict reader takes is read and left out")
+TEST_CASE("A free value of a kind that strict readers refuse is read and not written")
 {
     const std::string strict = R"({"value":1.5,"object":{"a":1},"text":"b"})";
     CHECK(Write(*ReadOrNull<Free>(strict), OLD) == strict);
     CHECK(Write(*ReadOrNull<Free>(R"({"value":"","object":[],"text":{}})"), OLD) == R"({"value":""})");
 }
 
-TEST_CASE("A free value that is required is anything but null")
+TEST_CASE("A required free value is anything but null")
 {
     CHECK(ReadOrNull<Free>(R"({"value":{"a":[null]}})")->value.GetText() == R"({"a":[null]})");
     CHECK_FALSE(ReadOrNull<Free>(R"({"value":null})").has_value());

@@ -30,7 +30,7 @@ void CheckFailsAt(std::size_t byte, std::string_view text)
 
 } // namespace
 
-TEST_CASE("A mistake in a text of several lines is found by line and column")
+TEST_CASE("An error in a text of several lines has line and column")
 {
     JsonDocument document;
     const auto missing = document.Parse("\xEF\xBB\xBF{\n  \"a\": 1\n  \"b\": 2\n}", {});
@@ -56,7 +56,7 @@ TEST_CASE("Five megabytes of opening brackets are refused without a crash")
     CHECK(GetParseError(std::string(5U * 1024U * 1024U, '['), limits) == Core::ECoreError::InvalidJSON);
 }
 
-TEST_CASE("Nesting is allowed up to the limit and no further")
+TEST_CASE("Nesting is accepted up to the limit")
 {
     const ParseLimits limits{1024, 3};
     CHECK_FALSE(GetParseError("[[[1]]]", limits));
@@ -107,7 +107,7 @@ TEST_CASE("A number of any length and exponent is read exactly, as zero, or refu
     }
 }
 
-TEST_CASE("Half a surrogate pair is refused, in a value and in a name, and a whole one is read")
+TEST_CASE("Half a surrogate pair is refused, in a value and in a name, and a complete pair is read")
 {
     for (const std::string_view text :
          {R"("\ud83d")", R"("\uddDD")", R"("\ude00\ud83d")", R"("x\uDFFFy")", R"({"\udc00":1})", R"(["\ud83d\u0041"])"})
@@ -123,7 +123,7 @@ TEST_CASE("Half a surrogate pair is refused, in a value and in a name, and a who
     }
 }
 
-TEST_CASE("What is no JSON is refused")
+TEST_CASE("Text that is not JSON is refused")
 {
     using namespace std::string_view_literals;
     for (const std::string_view text :
@@ -148,7 +148,7 @@ TEST_CASE("What is no JSON is refused")
     }
 }
 
-TEST_CASE("What needs a look is found in a string at each place, however long the string is")
+TEST_CASE("A character that must be checked is found at each place of a string of any length")
 {
     using namespace std::string_view_literals;
     struct Piece
@@ -192,7 +192,7 @@ TEST_CASE("What needs a look is found in a string at each place, however long th
     }
 }
 
-TEST_CASE("A document outlives the text that it was parsed from, short or long")
+TEST_CASE("A document does not depend on the lifetime of the text that it was parsed from")
 {
     for (const std::size_t length : {std::size_t{3}, std::size_t{100}, std::size_t{100'000}})
     {
@@ -211,7 +211,7 @@ TEST_CASE("White space and a byte order mark around the text are accepted")
     CHECK_FALSE(GetParseError("\xEF\xBB\xBF {\"a\": 1} \r\n"));
 }
 
-TEST_CASE("A document is parsed again and again in the same buffers")
+TEST_CASE("A document can be parsed repeatedly in the same buffers")
 {
     JsonDocument document;
     for (int i = 0; i < 1000; ++i)

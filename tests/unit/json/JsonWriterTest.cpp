@@ -23,9 +23,9 @@ std::string WriteOne(std::string_view value)
 
 } // namespace
 
-TEST_CASE("A string of any length and content is escaped byte for byte alike")
+TEST_CASE("A string of any length and content is escaped in the same way")
 {
-    // Each position in and around a block of eight, so that no way through the scan stays untried.
+    // Each position in and around a block of eight, so that all branches of the scan are tested.
     for (std::size_t length = 0; length < 20; ++length)
     {
         const std::string plain(length, 'x');
@@ -49,7 +49,7 @@ TEST_CASE("A string of any length and content is escaped byte for byte alike")
     }
 }
 
-TEST_CASE("A number's text is the shortest that reads as the same number, whichever way it was written")
+TEST_CASE("A number is written as the shortest text that reads as the same number")
 {
     const auto write = [](double value) {
         std::string text;
@@ -65,7 +65,7 @@ TEST_CASE("A number's text is the shortest that reads as the same number, whiche
     CHECK(write(1e300) == "1e+300");
     CHECK(write(0.0005) == "0.0005");
     CHECK(write(1.0 / 3.0) == "0.3333333333333333");
-    // Every neighbour of many thousandths is another number and must stay one.
+    // The neighbours of thousandths are other numbers and must stay distinct.
     for (int step = -20'000; step <= 20'000; step += 7)
     {
         const double value = step / 1000.0;
@@ -77,7 +77,7 @@ TEST_CASE("A number's text is the shortest that reads as the same number, whiche
     }
 }
 
-TEST_CASE("A string in two parts is one string, and a plain one is what the full one would be")
+TEST_CASE("A string in two pieces is one string, and a plain string is written as an escaped one would be")
 {
     std::string text;
     JsonWriter writer(text);
@@ -90,7 +90,7 @@ TEST_CASE("A string in two parts is one string, and a plain one is what the full
     CHECK(text == R"(["Plan\"Ack\n","","b","Auto"])");
 }
 
-TEST_CASE("Objects and arrays are separated by commas where they belong")
+TEST_CASE("Objects and arrays have commas between their elements")
 {
     std::string text;
     JsonWriter writer(text);
@@ -120,7 +120,7 @@ TEST_CASE("Control characters, quotes and backslashes are escaped, UTF-8 is kept
     CHECK(WriteOne("\xED\x8F\xAC \xF0\x9F\xA4\x96") == "\"\xED\x8F\xAC \xF0\x9F\xA4\x96\"");
 }
 
-TEST_CASE("What is no UTF-8 is written as the replacement character")
+TEST_CASE("Bytes that are not valid UTF-8 are written as the replacement character")
 {
     CHECK(WriteOne("a\xFFz") == "\"a\xEF\xBF\xBDz\"");
     CHECK(WriteOne("\xC3") == "\"\xEF\xBF\xBD\"");

@@ -90,7 +90,7 @@ TEST_CASE("A certificate and its key make it wss, a client CA asks for certifica
     CHECK(*outcome.options.tls == ACS::ProtocolBeast::TlsOptions{"ca.pem", "a.pem", "a.key", {}});
 }
 
-TEST_CASE("A bad command line is told in one line, with exit code 2")
+TEST_CASE("An invalid command line is reported in one line, with exit code 2")
 {
     using Arguments = std::vector<const char*>;
     const auto arguments = GENERATE(

@@ -42,12 +42,13 @@ namespace
 
 constexpr std::chrono::seconds LONGEST{20};
 
-/// A small ACS: accepts every plan and reports it as done at once, but for what a test wants otherwise.
+/// A small ACS: accepts every plan and reports it as completed at once, except as set by a test.
 class TinyACS final : private ACS::ProtocolBeast::ISessionHandler
 {
 public:
-    std::optional<std::string> refusal;    ///< Refuses every plan for this reason.
-    std::optional<std::size_t> cutAfter;   ///< Leaves after so many plans without answering the last, and returns.
+    std::optional<std::string> refusal; ///< Refuses every plan for this reason.
+    std::optional<std::size_t>
+        cutAfter; ///< Disconnects after this number of plans without answering the last, and returns.
     std::vector<AcsPayload> moreReports;   ///< After the reports of a plan.
     std::vector<std::string> transactions; ///< Of the plans that came, in order.
 
@@ -110,12 +111,12 @@ private:
                     ACS::Protocol::EAcsCommand::CancelPlan,
                     received->request.transactionID,
                     EAckResult::Success,
-                    "looking into it",
+                    "in progress",
                     ACS::Protocol::PlanAck{cancelOrNull->planID});
                 Queue(ACS::Protocol::CancelResultReport{
                     cancelOrNull->planID,
                     ACS::Protocol::EReportResult::Failed,
-                    "it is over"});
+                    "the plan has ended"});
                 SendNext();
             }
         }
@@ -127,7 +128,7 @@ private:
         transactions.push_back(request.transactionID);
         if (cutAfter == transactions.size())
         {
-            // Not at once: this is called by the client that goes.
+            // Later: this is called by the client that is destroyed.
             boost::asio::post(_context, [this] {
                 _client.reset();
                 Connect();
@@ -147,7 +148,7 @@ private:
         }
     }
 
-    /// The steps of a sample plan stand in no order.
+    /// The steps of a sample plan are not in order.
     void ReportAll(const ACS::Protocol::ExecutionPlan& plan)
     {
         const std::string& planID = plan.planID;
@@ -194,7 +195,7 @@ private:
 };
 
 /// The simulator with some sample plans, and an ACS at its other end.
-struct Bench
+struct McsSimulatorFixture
 {
     boost::asio::io_context context{1};
     ACS::Apps::SystemClock clock;
@@ -206,7 +207,10 @@ struct Bench
     std::unique_ptr<McsSimulator> simulator;
     std::unique_ptr<TinyACS> acs;
 
-    explicit Bench(std::size_t plans, bool bLive = false, const ACS::McsSim::SimulatorOptions& options = {})
+    explicit McsSimulatorFixture(
+        std::size_t plans,
+        bool bLive = false,
+        const ACS::McsSim::SimulatorOptions& options = {})
     {
         std::vector<PlannedPlan> planned;
         for (std::size_t i = 1; i <= plans; ++i)
@@ -232,7 +236,7 @@ struct Bench
         acs = std::make_unique<TinyACS>(context, clock, "ws://" + MakeText(endpoint) + "/acs/");
     }
 
-    /// Until the simulator is done, or too much time has passed. Its output.
+    /// Runs until the simulator ends or the time limit is over. Returns its output.
     std::string Run()
     {
         acs->Connect();
@@ -257,13 +261,13 @@ std::string GetLastLine(const std::string& text)
 
 TEST_CASE("Plans go to the ACS, its reports come back, and all end completed")
 {
-    Bench bench(3);
-    bench.simulator->Release();
-    const std::string output = bench.Run();
+    McsSimulatorFixture fixture(3);
+    fixture.simulator->Release();
+    const std::string output = fixture.Run();
     INFO(output);
-    CHECK(bench.exitCode == 0);
+    CHECK(fixture.exitCode == 0);
     CHECK(GetLastLine(output) == "3 plans completed, 0 failed");
-    CHECK(bench.acs->transactions == std::vector<std::string>{"T1", "T2", "T3"});
+    CHECK(fixture.acs->transactions == std::vector<std::string>{"T1", "T2", "T3"});
     CHECK(Contains(output, " ACS registered\n"));
     CHECK(Contains(output, " P2 JobReport step 2 job 2/2 Completed (LR01)\n"));
     CHECK(Contains(output, " JobReport                          27           27            0            0\n"));
@@ -271,76 +275,76 @@ TEST_CASE("Plans go to the ACS, its reports come back, and all end completed")
 
 TEST_CASE("Nothing is sent before the plans are released")
 {
-    Bench bench(1);
-    bench.acs->Connect();
-    while (!Contains(bench.out.str(), "ACS registered"))
+    McsSimulatorFixture fixture(1);
+    fixture.acs->Connect();
+    while (!Contains(fixture.out.str(), "ACS registered"))
     {
-        REQUIRE(bench.context.run_one_for(LONGEST) > 0);
+        REQUIRE(fixture.context.run_one_for(LONGEST) > 0);
     }
-    CHECK_FALSE(Contains(bench.out.str(), "P1"));
-    bench.simulator->Release();
-    bench.context.run_for(LONGEST);
-    CHECK(bench.exitCode == 0);
+    CHECK_FALSE(Contains(fixture.out.str(), "P1"));
+    fixture.simulator->Release();
+    fixture.context.run_for(LONGEST);
+    CHECK(fixture.exitCode == 0);
 }
 
-TEST_CASE("6.4 A refused plan makes the run fail, and the reason is told")
+TEST_CASE("6.4 A refused plan makes the run fail, and the reason is shown")
 {
-    Bench bench(1);
-    bench.acs->refusal = "no such place as A09.CP01";
-    bench.simulator->Release();
-    const std::string output = bench.Run();
-    CHECK(bench.exitCode == 1);
+    McsSimulatorFixture fixture(1);
+    fixture.acs->refusal = "no such place as A09.CP01";
+    fixture.simulator->Release();
+    const std::string output = fixture.Run();
+    CHECK(fixture.exitCode == 1);
     CHECK(GetLastLine(output) == "0 plans completed, 1 failed");
     CHECK(Contains(output, " P1 refused: no such place as A09.CP01\n"));
 }
 
 TEST_CASE("6.4 A planId that the ACS knows already is refused with what to do about it")
 {
-    Bench bench(1);
-    bench.acs->refusal = "Duplicated Plan";
-    bench.simulator->Release();
-    const std::string output = bench.Run();
+    McsSimulatorFixture fixture(1);
+    fixture.acs->refusal = "Duplicated Plan";
+    fixture.simulator->Release();
+    const std::string output = fixture.Run();
     INFO(output);
     CHECK(Contains(output, "\n The ACS knows a planId already: with --fresh-ids plans go under new ids.\n"));
 }
 
 TEST_CASE("A plan that was not acknowledged before the link was lost is sent again, with its transactionId")
 {
-    Bench bench(2);
-    bench.acs->cutAfter = 1;
-    bench.simulator->Release();
-    const std::string output = bench.Run();
+    McsSimulatorFixture fixture(2);
+    fixture.acs->cutAfter = 1;
+    fixture.simulator->Release();
+    const std::string output = fixture.Run();
     INFO(output);
-    CHECK(bench.exitCode == 0);
+    CHECK(fixture.exitCode == 0);
     CHECK(GetLastLine(output) == "2 plans completed, 0 failed");
-    REQUIRE(bench.acs->transactions.size() >= 3);
-    CHECK(bench.acs->transactions.front() == "T1");
+    REQUIRE(fixture.acs->transactions.size() >= 3);
+    CHECK(fixture.acs->transactions.front() == "T1");
     CHECK(Contains(output, " P1 ExecutionPlan sent again\n"));
     CHECK(Contains(output, " reconnects              1\n"));
 }
 
 TEST_CASE("A report after the final one makes the run fail, though the plan was completed")
 {
-    Bench bench(1);
-    bench.acs->moreReports = {MakePlanReport("P1", EPlanStatus::InProgress)};
-    bench.simulator->Release();
-    const std::string output = bench.Run();
-    CHECK(bench.exitCode == 1);
+    McsSimulatorFixture fixture(1);
+    fixture.acs->moreReports = {MakePlanReport("P1", EPlanStatus::InProgress)};
+    fixture.simulator->Release();
+    const std::string output = fixture.Run();
+    CHECK(fixture.exitCode == 1);
     CHECK(GetLastLine(output) == "1 plans completed, 0 failed");
     CHECK(Contains(output, " violation: P1 PlanReport after it was completed\n"));
 }
 
-TEST_CASE("R1, R2 What an ACS may not send makes the run fail, and is told of")
+TEST_CASE("R1, R2 A message that an ACS may not send makes the run fail, and is reported")
 {
     ACS::McsSim::SimulatorOptions options;
     options.bConsole = true;
-    Bench bench(0, false, options);
-    bench.simulator->Release();
+    McsSimulatorFixture fixture(0, false, options);
+    fixture.simulator->Release();
     const std::string strayAck = R"({"command":"CancelPlanAck","transactionId":"T4",)"
                                  R"("timestamp":"2025-07-02T21:00:00.123+09:00","result":"Success","message":"",)"
                                  R"("payload":{"planId":"P1"}})";
     ACS::Testing::RawPeer peer(
-        bench.context,
+        fixture.context,
         {ACS::Testing::MakeText("TscStateUpdate", "T0", R"({"state":"Auto"})"),
          ACS::Testing::MakeText("Registration", "T1", "{}"),
          "no JSON",
@@ -348,16 +352,16 @@ TEST_CASE("R1, R2 What an ACS may not send makes the run fail, and is told of")
          ACS::Testing::MakeText("ResumePlan", "T3", R"({"planId":"P1"})"),
          strayAck,
          ACS::Testing::MakeText("TscStateUpdate", "T5", R"({"state":"auto","mood":"fine"})")});
-    peer.ConnectAsync(bench.endpoint.port);
-    while (!Contains(bench.out.str(), "ACS TscStateUpdate Auto"))
+    peer.ConnectAsync(fixture.endpoint.port);
+    while (!Contains(fixture.out.str(), "ACS TscStateUpdate Auto"))
     {
-        REQUIRE(bench.context.run_one_for(LONGEST) > 0);
+        REQUIRE(fixture.context.run_one_for(LONGEST) > 0);
     }
-    bench.simulator->Execute("quit");
-    bench.context.run_for(LONGEST);
-    const std::string output = bench.out.str();
+    fixture.simulator->Execute("quit");
+    fixture.context.run_for(LONGEST);
+    const std::string output = fixture.out.str();
     INFO(output);
-    CHECK(bench.exitCode == 1);
+    CHECK(fixture.exitCode == 1);
     CHECK(Contains(output, " VIOLATION ACS message before the registration: TscStateUpdate\n"));
     CHECK(Contains(output, " VIOLATION ACS unreadable message: expected JSON"));
     CHECK(Contains(output, " VIOLATION ACS unreadable message: payload.status: expected "));
@@ -372,21 +376,21 @@ TEST_CASE("R1, R2 What an ACS may not send makes the run fail, and is told of")
 
 TEST_CASE("An interruption before the end prints the table and fails")
 {
-    Bench bench(1);
-    bench.simulator->Release();
-    bench.simulator->Interrupt();
-    bench.context.run_for(LONGEST);
-    CHECK(bench.exitCode == 1);
-    CHECK(Contains(bench.out.str(), "1 unfinished"));
-    CHECK(GetLastLine(bench.out.str()) == "0 plans completed, 0 failed");
+    McsSimulatorFixture fixture(1);
+    fixture.simulator->Release();
+    fixture.simulator->Interrupt();
+    fixture.context.run_for(LONGEST);
+    CHECK(fixture.exitCode == 1);
+    CHECK(Contains(fixture.out.str(), "1 unfinished"));
+    CHECK(GetLastLine(fixture.out.str()) == "0 plans completed, 0 failed");
 }
 
-TEST_CASE("The live view is drawn in place, and the table stands below it")
+TEST_CASE("The live view is drawn in place, with the table below it")
 {
-    Bench bench(1, true);
-    bench.simulator->Release();
-    const std::string output = bench.Run();
-    CHECK(bench.exitCode == 0);
+    McsSimulatorFixture fixture(1, true);
+    fixture.simulator->Release();
+    const std::string output = fixture.Run();
+    CHECK(fixture.exitCode == 0);
     CHECK(Contains(output, "\x1b[?25l\r\x1b["));
     CHECK_FALSE(Contains(output, "JobReport step"));
     CHECK(output.rfind("\x1b[?25h") > output.rfind("\x1b[?25l"));
@@ -395,7 +399,7 @@ TEST_CASE("The live view is drawn in place, and the table stands below it")
 
 TEST_CASE("A port in use is named")
 {
-    Bench first(1);
+    McsSimulatorFixture first(1);
     ACS::McsSim::SimulatorOptions options;
     options.listen = first.endpoint;
     McsSimulator second(
@@ -413,7 +417,7 @@ TEST_CASE("A port in use is named")
     CHECK(Contains(Describe(refused.error()), MakeText(first.endpoint)));
 }
 
-TEST_CASE("A scenario sends its plan, sees what the ACS does, and its verdicts stand in the table")
+TEST_CASE("A scenario sends its plan and checks what the ACS does; its verdicts are in the table")
 {
     const std::string wanted = GENERATE("Success", "Fail");
     ACS::McsSim::SimulatorOptions options;
@@ -425,12 +429,12 @@ TEST_CASE("A scenario sends its plan, sees what the ACS does, and its verdicts s
         [](const std::string& /*path*/) { return tl::expected<PlannedPlan, std::string>(MakeSamplePlan("P", "T")); });
     REQUIRE(scenario.has_value());
     options.scenarios = {*scenario};
-    Bench bench(0, false, options);
-    bench.simulator->Release();
-    const std::string output = bench.Run();
+    McsSimulatorFixture fixture(0, false, options);
+    fixture.simulator->Release();
+    const std::string output = fixture.Run();
     INFO(output);
     const bool bHeld = wanted == "Success";
-    CHECK(bench.exitCode == (bHeld ? 0 : 1));
+    CHECK(fixture.exitCode == (bHeld ? 0 : 1));
     CHECK(Contains(output, bHeld ? " scenario test: passed\n" : " scenario test: FAILED\n"));
     CHECK(
         GetLastLine(output)
@@ -450,9 +454,9 @@ TEST_CASE("A scenario sends the plan again that it names, not the last one")
         });
     REQUIRE(scenario.has_value());
     options.scenarios = {*scenario};
-    Bench bench(0, false, options);
-    bench.simulator->Release();
-    const std::string output = bench.Run();
+    McsSimulatorFixture fixture(0, false, options);
+    fixture.simulator->Release();
+    const std::string output = fixture.Run();
     INFO(output);
     CHECK(Contains(output, " PA ExecutionPlan sent again\n"));
     CHECK_FALSE(Contains(output, " PB ExecutionPlan sent again\n"));
@@ -464,11 +468,11 @@ TEST_CASE("With a world plans that share a place wait for each other, and report
     ACS::McsSim::SimulatorOptions options;
     options.worldOrNull = &world;
     options.stocking = ACS::McsSim::EStocking::Restock;
-    Bench bench(2, false, options);
-    bench.simulator->Release();
-    const std::string output = bench.Run();
+    McsSimulatorFixture fixture(2, false, options);
+    fixture.simulator->Release();
+    const std::string output = fixture.Run();
     INFO(output);
-    CHECK(bench.exitCode == 1);
+    CHECK(fixture.exitCode == 1);
     CHECK(output.find("P2 ExecutionPlan sent") > output.find("P1 PlanReport Completed"));
     CHECK(world.GetPlaceOrNull("C1") == "A01.CP01");
     CHECK(Contains(
@@ -485,51 +489,51 @@ TEST_CASE("A connection that is not the registered ACS fulfils no expectation")
         [](const std::string& /*path*/) { return tl::expected<PlannedPlan, std::string>(PlannedPlan()); });
     REQUIRE(scenario.has_value());
     options.scenarios = {*scenario};
-    Bench bench(0, false, options);
-    bench.simulator->Release();
+    McsSimulatorFixture fixture(0, false, options);
+    fixture.simulator->Release();
     ACS::Testing::RawPeer peer(
-        bench.context,
+        fixture.context,
         {ACS::Testing::MakeText(
             "ErrorReport",
             "T1",
             R"({"robotId":"LR01","state":true,"errorCode":"E","level":"heavy","message":""})")});
-    peer.ConnectAsync(bench.endpoint.port);
-    const std::string output = bench.Run();
+    peer.ConnectAsync(fixture.endpoint.port);
+    const std::string output = fixture.Run();
     INFO(output);
-    CHECK(bench.exitCode == 1);
+    CHECK(fixture.exitCode == 1);
     CHECK(Contains(output, " message before the registration: ErrorReport\n"));
     CHECK(Contains(output, "no ErrorReport came within 300ms"));
 }
 
-TEST_CASE("The console sends what it is told, lists plans and ends the run")
+TEST_CASE("The console executes its commands: sends, lists plans and ends the run")
 {
     ACS::McsSim::SimulatorOptions options;
     options.bConsole = true;
-    Bench bench(1, false, options);
-    bench.simulator->Release();
-    bench.acs->Connect();
-    while (!Contains(bench.out.str(), "P1 PlanReport Completed"))
+    McsSimulatorFixture fixture(1, false, options);
+    fixture.simulator->Release();
+    fixture.acs->Connect();
+    while (!Contains(fixture.out.str(), "P1 PlanReport Completed"))
     {
-        REQUIRE(bench.context.run_one_for(LONGEST) > 0);
+        REQUIRE(fixture.context.run_one_for(LONGEST) > 0);
     }
-    CHECK_FALSE(bench.exitCode.has_value());
-    bench.simulator->Execute("list");
-    bench.simulator->Execute("cancel P1");
-    while (!Contains(bench.out.str(), "CancelResultReport"))
+    CHECK_FALSE(fixture.exitCode.has_value());
+    fixture.simulator->Execute("list");
+    fixture.simulator->Execute("cancel P1");
+    while (!Contains(fixture.out.str(), "CancelResultReport"))
     {
-        REQUIRE(bench.context.run_one_for(LONGEST) > 0);
+        REQUIRE(fixture.context.run_one_for(LONGEST) > 0);
     }
-    bench.simulator->Execute("plan nowhere.json");
-    bench.simulator->Execute("dance");
-    bench.simulator->Execute("quit");
-    bench.context.run_for(LONGEST);
-    const std::string output = bench.out.str();
+    fixture.simulator->Execute("plan nowhere.json");
+    fixture.simulator->Execute("dance");
+    fixture.simulator->Execute("quit");
+    fixture.context.run_for(LONGEST);
+    const std::string output = fixture.out.str();
     INFO(output);
-    CHECK(bench.exitCode == 0);
+    CHECK(fixture.exitCode == 0);
     CHECK(Contains(output, " P1 Completed (LR01)\n"));
     CHECK(Contains(output, " CancelPlan sent\n"));
-    CHECK(Contains(output, " P1 CancelPlanAck Success: looking into it\n"));
-    CHECK(Contains(output, " P1 CancelResultReport Failed: it is over\n"));
+    CHECK(Contains(output, " P1 CancelPlanAck Success: in progress\n"));
+    CHECK(Contains(output, " P1 CancelResultReport Failed: the plan has ended\n"));
     CHECK(Contains(output, "\n CancelPlan                          1            1            –\n"));
     CHECK(Contains(output, " the plan file nowhere.json cannot be read: No such file or directory\n"));
     CHECK(Contains(output, " there is no 'dance': try help\n"));

@@ -7,7 +7,7 @@
 using namespace ACS::OpenStream; // NOLINT(google-build-using-namespace)
 using ACS::Core::JsonText;
 
-TEST_CASE("7.29 A url is an opaque path and a query, into which args go and win")
+TEST_CASE("7.29 A url is an opaque path and a query; args are added to the query and override it")
 {
     ApiRequest request;
     SplitURL("/project/context/tasks[0]/x%20y?jno_n=3&flag&&empty=", request);
@@ -24,9 +24,9 @@ TEST_CASE("7.29 A url is an opaque path and a query, into which args go and win"
     REQUIRE(request.query.size() == 5);
 }
 
-TEST_CASE("7.29 As many args as a line holds replace all parameters of their names")
+TEST_CASE("7.29 The args of the longest line replace all parameters of their names")
 {
-    // Work that grows with their square would keep the server, and with it every session, for minutes.
+    // Quadratic work would block the server, and every session, for minutes.
     constexpr std::size_t COUNT = 60'000;
     std::string args = "{";
     for (std::size_t i = 0; i < COUNT; ++i)
@@ -51,7 +51,7 @@ TEST_CASE("7.29 BuildUrl encodes what a query cannot carry")
     REQUIRE(BuildURL(request) == "/project/robot/po_cur?crd=-1&text=a%20b%26c%3D%C3%A9");
 }
 
-TEST_CASE("7.29 Blanks, control characters and relative urls are refused, the rest is opaque")
+TEST_CASE("7.29 Blanks, control characters and relative urls are rejected; the rest is opaque")
 {
     for (const char* good : {"/", "/a/../b", "/a#b?c=%zz", "/tasks[0]"})
     {
@@ -75,7 +75,7 @@ TEST_CASE("7.17 Every 2xx is a success")
     }
 }
 
-TEST_CASE("8 The room of an answer is used again for the next one")
+TEST_CASE("8 The memory of an answer is reused for the next one")
 {
     ApiResponse response{403, JsonText::FromTrusted(std::string(1000, '7'))};
     const char* const place = response.body->GetText().data();

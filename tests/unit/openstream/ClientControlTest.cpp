@@ -46,11 +46,11 @@ void MakeStreaming(ClientFixture& client)
 
 } // namespace
 
-TEST_CASE("3 A CONTROL is accepted when nothing refuses it and a sample confirms it")
+TEST_CASE("3 A CONTROL is accepted when it is not rejected and a sample confirms it")
 {
     ClientFixture client;
     MakeStreaming(client);
-    client.Receive(MakeSample(10, "moved")); // before it was sent: says nothing
+    client.Receive(MakeSample(10, "moved")); // sent before the CONTROL: no confirmation
     const std::uint64_t token = client.Call(MakeConfirmedCall("/a", 1'000ms));
     client.Receive(MakeSample(20, "still"));
     client.Pass(500ms);
@@ -95,7 +95,7 @@ TEST_CASE("3 A CONTROL is accepted when nothing refuses it and a sample confirms
     }
 }
 
-TEST_CASE("3 A confirmation within the window waits for its end, as a refusal may still come")
+TEST_CASE("3 A confirmation within the window counts at its end, because a rejection may still come")
 {
     ClientFixture client;
     MakeStreaming(client);
@@ -123,7 +123,7 @@ TEST_CASE("3 A confirmation within the window waits for its end, as a refusal ma
     CHECK(settled.at(0).outcome == EControlOutcome::Unconfirmed);
 }
 
-TEST_CASE("3 A CONTROL that waits for its turn is given up in its time, and never sent")
+TEST_CASE("3 A waiting CONTROL expires at its time limit and is never sent")
 {
     ClientSessionOptions options;
     options.controlTimeout = 700ms;
@@ -142,7 +142,7 @@ TEST_CASE("3 A CONTROL that waits for its turn is given up in its time, and neve
     REQUIRE(settled.size() == 1);
     CHECK(settled.at(0).token == last);
     CHECK(settled.at(0).outcome == EControlOutcome::NotSent);
-    client.Pass(500ms); // the second has left meanwhile
+    client.Pass(500ms); // the second was sent meanwhile
     settled = client.Take<ClientControlSettled>();
     REQUIRE(settled.size() == 2);
     CHECK(settled.at(0).outcome == EControlOutcome::Accepted);
@@ -155,7 +155,7 @@ TEST_CASE("3 A CONTROL that waits for its turn is given up in its time, and neve
     CHECK(client.CountLines("third") + client.CountLines("shorter") == 0);
 }
 
-TEST_CASE("3 A CONTROL that the socket does not take costs the connection, so that it cannot leave later")
+TEST_CASE("3 A CONTROL that the socket does not send ends the connection, so that it cannot be sent later")
 {
     ClientFixture client;
     MakeReady(client);
@@ -167,26 +167,26 @@ TEST_CASE("3 A CONTROL that the socket does not take costs the connection, so th
     const auto settled = client.Take<ClientControlSettled>();
     REQUIRE(settled.size() == 1);
     CHECK(settled.at(0).token == token);
-    CHECK(settled.at(0).outcome == EControlOutcome::Unknown); // some of its bytes may have left
+    CHECK(settled.at(0).outcome == EControlOutcome::Unknown); // some of its bytes may have been sent
     REQUIRE(client.Take<ClientLost>().size() == 1);
     CHECK(client.closes == 1);
 }
 
-TEST_CASE("3 A streamed CONTROL that the socket does not take costs the connection, so that it cannot leave later")
+TEST_CASE("3 A streamed CONTROL that the socket does not send ends the connection, so that it cannot be sent later")
 {
     ClientFixture client;
     MakeReady(client);
     client.bSocketTakes = false;
     client.Control("/a", EControlTracking::Streamed);
     client.Pass(1'000ms);
-    client.Control("/b", EControlTracking::Streamed); // waits until the first one has left
+    client.Control("/b", EControlTracking::Streamed); // waits until the first one is sent
     SECTION("5 s after it was given")
     {
         client.Pass(3'999ms);
         CHECK(client.Take<ClientLost>().empty());
         client.Pass(1ms);
     }
-    SECTION("or when the next one's time is up, where it left meanwhile")
+    SECTION("or at the time limit of the next one, when the first has been sent")
     {
         client.Pass(3'000ms);
         client.CompleteSend();
@@ -195,7 +195,7 @@ TEST_CASE("3 A streamed CONTROL that the socket does not take costs the connecti
         CHECK(client.Take<ClientLost>().empty());
         client.Pass(1ms);
     }
-    SECTION("or in its own time")
+    SECTION("or at its own time limit")
     {
         ControlCall call = MakeCall("/c");
         call.tracking = EControlTracking::Streamed;
@@ -210,7 +210,7 @@ TEST_CASE("3 A streamed CONTROL that the socket does not take costs the connecti
     REQUIRE(lost.size() == 1);
     CHECK(lost.at(0).reason == EClientLossReason::SendTimeout);
     CHECK(client.closes == 1);
-    // The next connection begins with nothing of it, and with the whole time.
+    // The next connection begins without it, and with the full time limit.
     client.lines.clear();
     client.Pass(lost.at(0).retryIn);
     client.ConnectAndShake();
@@ -223,7 +223,7 @@ TEST_CASE("3 A streamed CONTROL that the socket does not take costs the connecti
     CHECK(client.CountLines("CONTROL") == 1);
 }
 
-TEST_CASE("3 Streamed CONTROLs that leave in time cost nothing, however many there are")
+TEST_CASE("3 Streamed CONTROLs that are sent in time never end the connection")
 {
     ClientFixture client;
     MakeReady(client);
@@ -241,7 +241,7 @@ TEST_CASE("3 Streamed CONTROLs that leave in time cost nothing, however many the
     CHECK(client.CountLines("CONTROL") == 40);
 }
 
-TEST_CASE("3 STOP control has its time to leave as well, a session that ends does not come back for it")
+TEST_CASE("3 STOP control has a time limit too; a session that ends does not reconnect for it")
 {
     ClientFixture client;
     MakeReady(client);
@@ -267,7 +267,7 @@ TEST_CASE("3 STOP control has its time to leave as well, a session that ends doe
     }
 }
 
-TEST_CASE("3 Without a time limit a CONTROL waits for ever")
+TEST_CASE("3 Without a time limit a CONTROL waits indefinitely")
 {
     ClientSessionOptions options;
     options.controlTimeout = 0ms;
@@ -321,7 +321,7 @@ TEST_CASE("11 Without sample events only the newest sample is kept")
     CHECK(client.session.GetStats().dataLines == 2);
 }
 
-TEST_CASE("11 Quality begins anew with each MONITOR, the counts of the session do not")
+TEST_CASE("11 Quality restarts with each MONITOR, the counts of the session do not")
 {
     ClientFixture client;
     MakeStreaming(client);

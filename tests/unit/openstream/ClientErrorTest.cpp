@@ -13,8 +13,8 @@ using namespace std::chrono_literals;
 namespace
 {
 
-/// What a code leads to while a MONITOR, a CONTROL or nothing is in flight: M, C refuse it, F is a ClientControlFault,
-/// R is reported, S means stopped, L costs the session, - leads to no event.
+/// The effect of a code while a MONITOR, a CONTROL or nothing is in flight: M, C reject it, F is a ClientControlFault,
+/// R is reported, S means stopped, L ends the session, - leads to no event.
 struct CodeRow
 {
     const char* code;
@@ -162,7 +162,7 @@ TEST_CASE("4 Each code while nothing is in flight")
     }
 }
 
-TEST_CASE("4 Each code in answer to the HANDSHAKE: another connection is made")
+TEST_CASE("4 Each code in answer to the HANDSHAKE leads to a reconnect")
 {
     for (const CodeRow& row : CODES)
     {
@@ -180,7 +180,7 @@ TEST_CASE("4 Each code in answer to the HANDSHAKE: another connection is made")
     }
 }
 
-TEST_CASE("4 7.19 Each code in answer to STOP monitor or STOP session ends what it asked for, one way or the other")
+TEST_CASE("4 7.19 Each code in answer to STOP monitor or STOP session ends the stream or the session")
 {
     for (const CodeRow& row : CODES)
     {
@@ -201,7 +201,7 @@ TEST_CASE("4 7.19 Each code in answer to STOP monitor or STOP session ends what 
     }
 }
 
-TEST_CASE("7.5 ts is whatever clock the server has: only steps forward count, and only of this stream")
+TEST_CASE("7.5 ts is of any clock of the server: only its increase within one stream counts")
 {
     ClientFixture client;
     client.SetMonitor(10ms);

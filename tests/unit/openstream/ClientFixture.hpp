@@ -63,7 +63,7 @@ public:
         Execute();
     }
 
-    /// What a socket does later that does not take at once.
+    /// Completes a send of a socket that is blocked.
     void CompleteSend()
     {
         session.OnSendCompleted(GetNow(), actions);

@@ -10,7 +10,7 @@ using namespace ACS::OpenStream; // NOLINT(google-build-using-namespace)
 using namespace ACS::Testing;    // NOLINT(google-build-using-namespace)
 using namespace std::chrono_literals;
 
-TEST_CASE("3 The client shakes hands first and sets up the MONITOR that it was given")
+TEST_CASE("3 The client sends HANDSHAKE first, then the configured MONITOR")
 {
     ClientFixture client;
     client.SetMonitor(1ms);
@@ -30,7 +30,7 @@ TEST_CASE("3 The client shakes hands first and sets up the MONITOR that it was g
     REQUIRE(client.Take<ClientData>().at(0).line.result->GetText() == R"({"a":1})");
 }
 
-TEST_CASE("8 The MONITOR is set up again after every reconnect, and the waits grow until a handshake")
+TEST_CASE("8 The MONITOR is sent again after every reconnect, and the delays grow until a handshake")
 {
     ClientFixture client;
     client.SetMonitor(20ms);
@@ -53,7 +53,7 @@ TEST_CASE("8 The MONITOR is set up again after every reconnect, and the waits gr
     REQUIRE(client.session.GetStats().connects == 2);
 }
 
-TEST_CASE("3 Silence for the window means that the CONTROL worked; the next one waits for that")
+TEST_CASE("3 A CONTROL without an error within the window has succeeded; the next one waits for that")
 {
     ClientFixture client;
     MakeReady(client);
@@ -75,7 +75,7 @@ TEST_CASE("3 Silence for the window means that the CONTROL worked; the next one 
     REQUIRE(refused.at(0).body->GetText() == R"({"err_code":-38500})");
 }
 
-TEST_CASE("7.15 7.16 An error line about the request refuses the CONTROL in flight too")
+TEST_CASE("7.15 7.16 An error line about the request also rejects the CONTROL in flight")
 {
     for (const char* code : {"invalid_method", "method_not_allowed", "invalid_url", "control_busy", "invalid_value"})
     {
@@ -87,7 +87,7 @@ TEST_CASE("7.15 7.16 An error line about the request refuses the CONTROL in flig
     }
 }
 
-TEST_CASE("3 The window begins when the CONTROL has left")
+TEST_CASE("3 The window begins when the CONTROL is sent")
 {
     ClientFixture client;
     MakeReady(client);
@@ -101,7 +101,7 @@ TEST_CASE("3 The window begins when the CONTROL has left")
     REQUIRE(client.Take<ClientControlSettled>().at(0).outcome == EControlOutcome::Accepted);
 }
 
-TEST_CASE("3 A lost connection leaves the CONTROL in flight unknown, and those that wait surely unsent")
+TEST_CASE("3 After a lost connection the CONTROL in flight is unknown, and the waiting ones are unsent")
 {
     ClientFixture client;
     MakeReady(client);
@@ -119,7 +119,7 @@ TEST_CASE("3 A lost connection leaves the CONTROL in flight unknown, and those t
     REQUIRE(client.CountLines("CONTROL") == 1);
 }
 
-TEST_CASE("3 Streamed CONTROLs do not wait, their refusals are faults")
+TEST_CASE("3 Streamed CONTROLs do not wait; their rejections are reported as faults")
 {
     ClientFixture client;
     MakeReady(client);
@@ -131,7 +131,7 @@ TEST_CASE("3 Streamed CONTROLs do not wait, their refusals are faults")
     REQUIRE(client.Take<ClientControlSettled>().empty());
 }
 
-TEST_CASE("3 STOP control goes at once: the CONTROL in flight is unknown, the waiting one unsent")
+TEST_CASE("3 STOP control is sent at once: the CONTROL in flight is unknown, the waiting one unsent")
 {
     ClientFixture client;
     MakeReady(client);
@@ -162,7 +162,7 @@ TEST_CASE("7.7 monitor_already_active means stop and retry")
     REQUIRE(client.CountLines("\"MONITOR\"") <= 3);
 }
 
-TEST_CASE("3 A refused MONITOR is reported and not repeated until it is set anew")
+TEST_CASE("3 A rejected MONITOR is reported and not repeated until it is set again")
 {
     ClientFixture client;
     MakeReady(client);
@@ -177,7 +177,7 @@ TEST_CASE("3 A refused MONITOR is reported and not repeated until it is set anew
     REQUIRE(client.CountLines("\"MONITOR\"") == 2);
 }
 
-TEST_CASE("3 The acknowledgement of a MONITOR has the number of the call that asked for it")
+TEST_CASE("3 The acknowledgement of a MONITOR has the number of its call")
 {
     ClientFixture client;
     MakeReady(client);
@@ -215,7 +215,7 @@ TEST_CASE("7.22 Data after the stream was stopped is tolerated and not reported"
     REQUIRE(client.Take<ClientLost>().empty());
 }
 
-TEST_CASE("9 Data overdue is reported once as stale, and in the end the connection is made anew")
+TEST_CASE("9 Overdue data is reported as stale once, and at the limit the client reconnects")
 {
     ClientFixture client;
     MakeReady(client);
@@ -255,7 +255,7 @@ TEST_CASE("11 What ts skipped is counted as missing")
     REQUIRE(client.session.GetStats().missingLines == 4);
 }
 
-TEST_CASE("4 Only the codes that end a session cost the connection")
+TEST_CASE("4 Only the codes that end a session end the connection")
 {
     for (const char* code : {"session_timeout", "stop_failed", "handshake_rejected", "rx_buf_overflow"})
     {
@@ -274,7 +274,7 @@ TEST_CASE("4 Only the codes that end a session cost the connection")
     }
 }
 
-TEST_CASE("3 A refused or unanswered HANDSHAKE is tried again on a new connection")
+TEST_CASE("3 A rejected or unanswered HANDSHAKE is sent again on a new connection")
 {
     ClientFixture client;
     client.Start();
@@ -294,7 +294,7 @@ TEST_CASE("3 A refused or unanswered HANDSHAKE is tried again on a new connectio
     REQUIRE(client.connects == 2);
 }
 
-TEST_CASE("1 Half lines, CRLF and garbage from the server cost nothing but themselves")
+TEST_CASE("1 Half lines, CRLF and garbage from the server have no other effect")
 {
     ClientFixture client;
     MakeReady(client);
@@ -307,7 +307,7 @@ TEST_CASE("1 Half lines, CRLF and garbage from the server cost nothing but thems
     REQUIRE(client.session.GetState() == EClientState::Ready);
 }
 
-TEST_CASE("7.20 A line beyond the bound costs the connection")
+TEST_CASE("7.20 A line beyond the limit ends the connection")
 {
     ClientSessionOptions options;
     options.longestLine = 200;
@@ -317,7 +317,7 @@ TEST_CASE("7.20 A line beyond the bound costs the connection")
     REQUIRE(client.Take<ClientLost>().at(0).reason == EClientLossReason::LineTooLong);
 }
 
-TEST_CASE("7.21 Stop says STOP session, waits for its ack and ends; without an answer it ends as well")
+TEST_CASE("7.21 Stop sends STOP session and waits for its ack; without an answer it ends too")
 {
     ClientFixture client;
     MakeReady(client);
@@ -345,7 +345,7 @@ TEST_CASE("7.21 Stop says STOP session, waits for its ack and ends; without an a
     REQUIRE(client.connects == 1);
 }
 
-TEST_CASE("8 Connecting takes its time limit and is tried for ever")
+TEST_CASE("8 A connect has a time limit and is retried indefinitely")
 {
     ClientFixture client;
     client.Start();

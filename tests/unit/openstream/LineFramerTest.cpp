@@ -25,7 +25,7 @@ std::vector<std::string> TakeLines(LineFramer& framer, std::string_view bytes)
 
 } // namespace
 
-TEST_CASE("1 A receive is no line: every split gives the same lines")
+TEST_CASE("1 Every split of the received bytes gives the same lines")
 {
     const std::string text = "{\"a\":1}\n\r\n  \n{\"b\":2}\r\n{\"c\":3}\n";
     const std::vector<std::string> expected{"{\"a\":1}", "{\"b\":2}", "{\"c\":3}"};
@@ -49,7 +49,7 @@ TEST_CASE("1 A receive is no line: every split gives the same lines")
     }
 }
 
-TEST_CASE("1 A line that lies whole in the input is not copied")
+TEST_CASE("1 A line that is complete in the input is not copied")
 {
     LineFramer framer(64);
     const std::string text = "first\nsecond\n";
@@ -58,7 +58,7 @@ TEST_CASE("1 A line that lies whole in the input is not copied")
     REQUIRE(framer.TakeLineOrNull()->data() == text.data() + 6);
 }
 
-TEST_CASE("7.20 A line of the bound passes, one byte more is an overflow and ends the stream")
+TEST_CASE("7.20 A line of the maximum length is accepted; one byte more is an overflow and ends the stream")
 {
     LineFramer framer(8);
     REQUIRE(TakeLines(framer, "12345678\n").size() == 1);
@@ -69,7 +69,7 @@ TEST_CASE("7.20 A line of the bound passes, one byte more is an overflow and end
     REQUIRE(TakeLines(framer, "abc\n").size() == 1);
 }
 
-TEST_CASE("7.20 A line without end is an overflow as soon as it is too long, in however many pieces")
+TEST_CASE("7.20 A line without end is an overflow as soon as it is too long, in any number of pieces")
 {
     LineFramer framer(8);
     REQUIRE(TakeLines(framer, "1234").empty());
@@ -82,7 +82,7 @@ TEST_CASE("7.20 A line without end is an overflow as soon as it is too long, in 
     REQUIRE_FALSE(framer.HasPartialLine());
 }
 
-TEST_CASE("7.20 Lines that nobody took yet are kept in order and are no overflow")
+TEST_CASE("7.20 Unread lines are kept in order and are no overflow")
 {
     LineFramer framer(8);
     framer.Feed("one\ntwo\nthree\nfo");

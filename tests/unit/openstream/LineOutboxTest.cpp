@@ -6,7 +6,7 @@
 
 using ACS::OpenStream::LineOutbox;
 
-TEST_CASE("7.26 A data line that has not left gives way to the newer one, one in flight does not")
+TEST_CASE("7.26 A data line that is not yet sent is replaced by a newer one, one in flight is not")
 {
     LineOutbox outbox(100);
     bool bReplaced = false;
@@ -22,7 +22,7 @@ TEST_CASE("7.26 A data line that has not left gives way to the newer one, one in
     REQUIRE(outbox.TakeForSend() == "d3\n");
 }
 
-TEST_CASE("7.22 What is appended behind a sealed data line leaves behind it")
+TEST_CASE("7.22 Lines appended after a sealed data line are sent after it")
 {
     LineOutbox outbox(100);
     bool bReplaced = false;
@@ -35,7 +35,7 @@ TEST_CASE("7.22 What is appended behind a sealed data line leaves behind it")
     REQUIRE(outbox.CompleteSend() == 2);
 }
 
-TEST_CASE("8 Lines are bounded, and a mark tells when they have left")
+TEST_CASE("8 Lines are limited, and a mark reports when they are sent")
 {
     LineOutbox outbox(4);
     outbox.GetLines() += "one\n";

@@ -52,7 +52,7 @@ std::chrono::milliseconds DecodePeriod(const std::string& number)
 
 } // namespace
 
-TEST_CASE("4 Every code has its text, finds back to itself, and has a status")
+TEST_CASE("4 Every code has a text that maps back to it, and a status")
 {
     for (int number = 1; number <= static_cast<int>(ECode::Unknown); ++number)
     {
@@ -68,7 +68,7 @@ TEST_CASE("4 Every code has its text, finds back to itself, and has a status")
     REQUIRE(GetErrorScope(ECode::HandshakeRejected) == EErrorScope::Fatal);
 }
 
-TEST_CASE("4 Each thing that is wrong with a request has its own code")
+TEST_CASE("4 Each error of a request has its own code")
 {
     const std::string longURL = R"("url":"/)" + std::string(LONGEST_URL, 'a') + "\"";
     const std::string url = R"("url":"/a",)";
@@ -143,7 +143,7 @@ TEST_CASE("7.2 A whole number passes in any spelling")
     REQUIRE(DecodePeriod("1e1") == std::chrono::milliseconds(10));
 }
 
-TEST_CASE("7.37 Numbers beyond 64 bits are compared as what they are")
+TEST_CASE("7.37 Numbers beyond 64 bits are compared by their value")
 {
     REQUIRE(DecodePeriod("18446744073709551616") == MAXIMUM_PERIOD);
     REQUIRE(DecodePeriod("18446744073709551615") == MAXIMUM_PERIOD);
@@ -151,7 +151,7 @@ TEST_CASE("7.37 Numbers beyond 64 bits are compared as what they are")
     REQUIRE(DecodePeriod("1e300") == MAXIMUM_PERIOD);
 }
 
-TEST_CASE("7.9 An id that is too long to be repeated in each line is none")
+TEST_CASE("7.9 An id that is too long to be repeated in each line is ignored")
 {
     const auto decodeID = [](std::size_t letters) {
         OpenStreamCodec codec;
@@ -164,7 +164,7 @@ TEST_CASE("7.9 An id that is too long to be repeated in each line is none")
     REQUIRE_FALSE(decodeID(LONGEST_ID - 1).has_value());
 }
 
-TEST_CASE("2 Unknown members are ignored, and the vendor's clients are understood byte for byte")
+TEST_CASE("2 Unknown members are ignored, and the lines of the vendor's clients are decoded")
 {
     OpenStreamCodec codec;
     const auto shake = codec.DecodeRequest(R"({"cmd":"HANDSHAKE","payload":{"major":1,"minor":0,"patch":0}})");
@@ -180,7 +180,7 @@ TEST_CASE("2 Unknown members are ignored, and the vendor's clients are understoo
     REQUIRE(std::get<ControlRequest>(control.value()).body->GetText() == "[1]");
 }
 
-TEST_CASE("3 A request reads back as it was written")
+TEST_CASE("3 An encoded request decodes to the same request")
 {
     const std::vector<OpenStreamRequest> requests{
         HandshakeRequest{},
@@ -198,7 +198,7 @@ TEST_CASE("3 A request reads back as it was written")
     REQUIRE(Encode(HandshakeRequest{}) == "{\"cmd\":\"HANDSHAKE\",\"payload\":{\"major\":1}}\n");
 }
 
-TEST_CASE("2 A line of the server reads back as it was written")
+TEST_CASE("2 An encoded line of the server decodes to the same line")
 {
     const std::vector<OpenStreamLine> lines{
         HandshakeAck{true, "1.0.0"},
@@ -217,7 +217,7 @@ TEST_CASE("2 A line of the server reads back as it was written")
     REQUIRE(Encode(ControlError{400, {}}) == "{\"type\":\"control_err\",\"status\":400}\n");
 }
 
-TEST_CASE("7.3 The client takes data under both names, the server writes one")
+TEST_CASE("7.3 The client accepts data under both names, the server writes one")
 {
     OpenStreamCodec codec;
     const auto line = codec.DecodeLine(R"({"type":"monitor_data","ts":1,"svc_dur_ms":0,"result":{}})");
@@ -227,7 +227,7 @@ TEST_CASE("7.3 The client takes data under both names, the server writes one")
     REQUIRE(text == "{\"type\":\"data\",\"ts\":2,\"svc_dur_ms\":0.5,\"result\":{}}\n");
 }
 
-TEST_CASE("7.4 The result is wrapped, status takes its place where there is no body, and tells of a failure")
+TEST_CASE("7.4 The result is wrapped; without a body status takes its place and reports a failure")
 {
     std::string text;
     OpenStreamCodec::EncodeData(2, 0, ApiResponse{204, {}}, std::nullopt, text);
@@ -238,7 +238,7 @@ TEST_CASE("7.4 The result is wrapped, status takes its place where there is no b
            "{\"type\":\"data\",\"ts\":4,\"svc_dur_ms\":0,\"result\":1,\"status\":404,\"id\":\"m\"}\n");
 }
 
-TEST_CASE("1 A service's pretty-printed JSON tears no line")
+TEST_CASE("1 Pretty-printed JSON of a service is written in one line")
 {
     OpenStreamCodec codec;
     std::string text;
@@ -247,7 +247,7 @@ TEST_CASE("1 A service's pretty-printed JSON tears no line")
     REQUIRE(std::get<DataLine>(codec.DecodeLine(text).value()).result->GetText() == R"({"a":1})");
 }
 
-TEST_CASE("7.45 The error member routes first, but not in a control_err")
+TEST_CASE("7.45 The error member decides the type of a line, except in a control_err")
 {
     OpenStreamCodec codec;
     const auto error = codec.DecodeLine(R"({"type":"data","error":"session_timeout","message":"m"})");
@@ -259,7 +259,7 @@ TEST_CASE("7.45 The error member routes first, but not in a control_err")
     REQUIRE(std::get<ErrorLine>(unknown.value()).codeText == "brand_new");
 }
 
-TEST_CASE("2 What is no line of a server is refused, whatever it is")
+TEST_CASE("2 A text that is not a line of a server is rejected")
 {
     OpenStreamCodec codec;
     for (const char* line :

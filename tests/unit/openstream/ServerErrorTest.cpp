@@ -37,7 +37,7 @@ std::string MakeNested(std::size_t depth)
     return MakeControlWith(R"("url":"/a","method":"POST","body":)" + std::string(inner, '[') + std::string(inner, ']'));
 }
 
-/// One error with this code and no other line; the stream and the session go on.
+/// One error with this code and no other line; the stream and the session continue.
 void CheckGoesOn(const BadLine& bad)
 {
     INFO(bad.rule << " " << bad.line.substr(0, 200));
@@ -58,7 +58,7 @@ void CheckGoesOn(const BadLine& bad)
 
 } // namespace
 
-TEST_CASE("4 Each code of a line that is wrong: one error line, and the stream goes on")
+TEST_CASE("4 Each error of a line is answered with one error line, and the stream continues")
 {
     const std::string url = R"("url":"/a",)";
     const std::string get = url + R"("method":"GET",)";
@@ -87,7 +87,7 @@ TEST_CASE("4 Each code of a line that is wrong: one error line, and the stream g
     }
 }
 
-TEST_CASE("4 Each code of a HANDSHAKE that is wrong: one error line, and another HANDSHAKE is taken")
+TEST_CASE("4 Each error of a HANDSHAKE is answered with one error line, and another HANDSHAKE is accepted")
 {
     const std::vector<BadLine> lines{
         {"4 missing_major", "missing_major", R"({"cmd":"HANDSHAKE","payload":{}})"},
@@ -112,8 +112,7 @@ TEST_CASE("4 Each code of a HANDSHAKE that is wrong: one error line, and another
     }
 }
 
-TEST_CASE(
-    "7.2 7.8 7.23 7.29 7.30 7.31 7.32 7.34 7.35 7.36 7.37 7.38 Each bad line costs one error line and nothing else")
+TEST_CASE("7.2 7.8 7.23 7.29 7.30 7.31 7.32 7.34 7.35 7.36 7.37 7.38 Each bad line is answered with one error line")
 {
     const std::string url = R"("url":"/a",)";
     const std::string get = url + R"("method":"GET",)";
@@ -151,7 +150,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("7.30 7.32 7.38 What is just inside a bound is taken")
+TEST_CASE("7.30 7.32 7.38 A value at a limit is accepted")
 {
     ServerFixture server;
     server.Receive(HANDSHAKE);
@@ -169,7 +168,7 @@ TEST_CASE("7.30 7.32 7.38 What is just inside a bound is taken")
     CHECK(server.Count("error") == 0);
 }
 
-TEST_CASE("7.1 7.37 A period that no integer holds is clamped like every other")
+TEST_CASE("7.1 7.37 A period beyond every integer type is clamped like any other")
 {
     ServerFixture server;
     server.Receive(HANDSHAKE);
@@ -190,7 +189,7 @@ TEST_CASE("7.1 7.37 A period that no integer holds is clamped like every other")
     CHECK(server.Count("\"data\"") == 1);
 }
 
-TEST_CASE("7.12 Sessions are independent: what one of them gets wrong, the other does not notice")
+TEST_CASE("7.12 Sessions are independent: an error in one does not affect the other")
 {
     ServerFixture first;
     ServerFixture second;
@@ -202,7 +201,7 @@ TEST_CASE("7.12 Sessions are independent: what one of them gets wrong, the other
     CHECK(first.Count("\"data\"") == 2);
 }
 
-TEST_CASE("7.4 A body that ends with a line end tears no line and swallows no comma")
+TEST_CASE("7.4 A body that ends with a line end breaks no line and loses no comma")
 {
     ServerFixture server;
     server.answer = ApiResponse{404, ACS::Core::JsonText::FromTrusted("{\n  \"a\": 1\n}\n")};

@@ -14,7 +14,7 @@
 namespace ACS::Testing
 {
 
-/// A ServerSession in virtual time: fires its timers, takes what it sends, answers for the service.
+/// A ServerSession in virtual time: fires its timers, records what it sends, answers for the service.
 class ServerFixture
 {
 public:
@@ -76,7 +76,7 @@ public:
         Execute();
     }
 
-    /// Lets what waits in the socket leave.
+    /// Completes the pending sends of the socket.
     void Drain()
     {
         bSocketTakes = true;
@@ -97,7 +97,7 @@ public:
         }
     }
 
-    /// Time passes and nobody looks at the timers until its end: a stall of the machine.
+    /// Time passes without a timer being fired before its end: a stall of the machine.
     void Stall(std::chrono::milliseconds span)
     {
         clock.Advance(span);

@@ -14,7 +14,7 @@ TEST_CASE("3 HANDSHAKE with the same major version is acknowledged")
     REQUIRE(server.session.GetState() == EServerState::Ready);
 }
 
-TEST_CASE("4 Another major version is a mismatch and leaves the session as it was")
+TEST_CASE("4 Another major version is a mismatch and does not change the session")
 {
     ServerFixture server;
     server.Receive("{\"cmd\":\"HANDSHAKE\",\"payload\":{\"major\":2}}\n");
@@ -51,7 +51,7 @@ TEST_CASE("7.11 HANDSHAKE is busy while a MONITOR is active or a CONTROL in flig
     REQUIRE(server.Count("handshake_ack") == 2);
 }
 
-TEST_CASE("7.13 Before the HANDSHAKE nothing is executed and the connection stays")
+TEST_CASE("7.13 Before the HANDSHAKE nothing is executed, and the connection stays open")
 {
     ServerFixture server;
     server.Receive(MakeMonitorLine(2));
@@ -64,7 +64,7 @@ TEST_CASE("7.13 Before the HANDSHAKE nothing is executed and the connection stay
     REQUIRE_FALSE(server.closed.has_value());
 }
 
-TEST_CASE("7.14 The gate goes before the fields, the command before the gate")
+TEST_CASE("7.14 The command is checked first, then the HANDSHAKE, then the fields")
 {
     ServerFixture server;
     server.Receive("{\"cmd\":\"MONITOR\",\"payload\":7}\n");
@@ -76,7 +76,7 @@ TEST_CASE("7.14 The gate goes before the fields, the command before the gate")
     REQUIRE(server.Count("invalid_payload") == 1);
 }
 
-TEST_CASE("7.15 A CONTROL that the service refuses is a control_err, one that is no request an error")
+TEST_CASE("7.15 A CONTROL that the service rejects is a control_err, an invalid one an error")
 {
     ServerFixture server;
     server.Receive(HANDSHAKE);
@@ -91,7 +91,7 @@ TEST_CASE("7.15 A CONTROL that the service refuses is a control_err, one that is
     REQUIRE(server.calls.size() == 1);
 }
 
-TEST_CASE("7.17 7.18 Every 2xx is silent, a refusal without body has no body")
+TEST_CASE("7.17 7.18 Every 2xx is silent; a rejection without a body has no body")
 {
     ServerFixture server;
     server.Receive(HANDSHAKE);
@@ -104,7 +104,7 @@ TEST_CASE("7.17 7.18 Every 2xx is silent, a refusal without body has no body")
     REQUIRE(server.TakeLines() == std::vector<std::string>{R"({"type":"control_err","status":404})"});
 }
 
-TEST_CASE("3 A CONTROL without body carries an empty object to the service, args go into the query")
+TEST_CASE("3 A CONTROL without a body is an empty object for the service; args are added to the query")
 {
     ServerFixture server;
     server.Receive(HANDSHAKE);
@@ -133,7 +133,7 @@ TEST_CASE("8 CONTROLs reach the service one after another, in their order")
     REQUIRE(server.calls[2].path == "/c");
 }
 
-TEST_CASE("8 A full queue of CONTROLs stops reading; control_busy only where the service blocks")
+TEST_CASE("8 A full queue of CONTROLs stops reading; control_busy is sent only when the service blocks")
 {
     ServerSessionOptions options;
     options.maximumControls = 2;
@@ -158,7 +158,7 @@ TEST_CASE("8 A full queue of CONTROLs stops reading; control_busy only where the
     REQUIRE(server.Count("control_busy") == 1);
 }
 
-TEST_CASE("8 CONTROLs that wait are bounded in bytes as in number")
+TEST_CASE("8 Waiting CONTROLs are limited in bytes and in number")
 {
     ServerSessionOptions options;
     options.maximumControlBytes = 3'000;
@@ -185,7 +185,7 @@ TEST_CASE("8 CONTROLs that wait are bounded in bytes as in number")
     REQUIRE_FALSE(server.bReadingPaused);
 }
 
-TEST_CASE("8 STOP control makes room again: a queue that fills up later waits before it refuses")
+TEST_CASE("8 STOP control frees the queue: when it fills again it waits before it rejects")
 {
     ServerSessionOptions options;
     options.maximumControls = 2;
@@ -202,7 +202,7 @@ TEST_CASE("8 STOP control makes room again: a queue that fills up later waits be
     REQUIRE(server.bReadingPaused);
 }
 
-TEST_CASE("7.19 STOP of what is not there is nothing_to_stop, STOP session is always acknowledged")
+TEST_CASE("7.19 STOP without anything to stop is nothing_to_stop; STOP session is always acknowledged")
 {
     ServerFixture server;
     server.Receive(HANDSHAKE);
@@ -230,7 +230,7 @@ TEST_CASE("3 STOP control drops the CONTROLs that wait")
     REQUIRE(server.stopControls == 1);
 }
 
-TEST_CASE("7.21 STOP session: ack, nothing but handshake_required after it, shutdown, close after a second at most")
+TEST_CASE("7.21 STOP session: ack, only handshake_required after it, shutdown, close within a second")
 {
     ServerFixture server;
     server.Receive(HANDSHAKE);
@@ -256,7 +256,7 @@ TEST_CASE("7.21 The client's own close ends the wait after STOP session")
     REQUIRE(server.closed == EServerCloseReason::StopSession);
 }
 
-TEST_CASE("7.23 7.8 STOP without target and MONITOR with stop are refused, session and stream go on")
+TEST_CASE("7.23 7.8 STOP without target and MONITOR with stop are rejected; session and stream continue")
 {
     ServerFixture server;
     server.Receive(HANDSHAKE);
@@ -269,7 +269,7 @@ TEST_CASE("7.23 7.8 STOP without target and MONITOR with stop are refused, sessi
     REQUIRE(server.Count("\"data\"") == 2);
 }
 
-TEST_CASE("7.20 A line beyond the bound gets one rx_buf_overflow, then the session is closed")
+TEST_CASE("7.20 A line beyond the limit is answered with one rx_buf_overflow, then the session is closed")
 {
     ServerSessionOptions options;
     options.longestLine = 100;
@@ -284,7 +284,7 @@ TEST_CASE("7.20 A line beyond the bound gets one rx_buf_overflow, then the sessi
     REQUIRE(server.closed == EServerCloseReason::LineTooLong);
 }
 
-TEST_CASE("7.33 7.34 7.35 Empty lines are skipped, each broken one has one error that does not echo it")
+TEST_CASE("7.33 7.34 7.35 Empty lines are skipped; each broken one is answered with one error without its text")
 {
     ServerFixture server;
     server.Receive("\r\n\n  \n");
@@ -300,7 +300,7 @@ TEST_CASE("7.33 7.34 7.35 Empty lines are skipped, each broken one has one error
     REQUIRE(server.session.GetState() == EServerState::Ready);
 }
 
-TEST_CASE("7.39 Half-close: whole lines are worked on, half a line is dropped, then the close")
+TEST_CASE("7.39 Half-close: complete lines are executed, half a line is dropped, then the session closes")
 {
     ServerFixture server;
     server.Receive(HANDSHAKE);
@@ -313,7 +313,7 @@ TEST_CASE("7.39 Half-close: whole lines are worked on, half a line is dropped, t
     REQUIRE(server.closed == EServerCloseReason::PeerClosed);
 }
 
-TEST_CASE("7.39 Half-close with a CONTROL in flight waits for its answer, a second at most")
+TEST_CASE("7.39 Half-close with a CONTROL in flight waits for its answer, at most one second")
 {
     ServerFixture server;
     server.Receive(HANDSHAKE);
@@ -335,7 +335,7 @@ TEST_CASE("7.39 Half-close with a CONTROL in flight waits for its answer, a seco
     }
 }
 
-TEST_CASE("7.12 4 A session too many is told so and closed")
+TEST_CASE("7.12 4 A session beyond the limit gets an error and is closed")
 {
     ServerFixture server;
     server.Reject();
@@ -387,7 +387,7 @@ TEST_CASE("D-10 7.25 Without a deadline for the HANDSHAKE the 180 s run before i
     REQUIRE(server.closed == EServerCloseReason::IdleTimeout);
 }
 
-TEST_CASE("7.25 A good command begins the 180 s anew")
+TEST_CASE("7.25 A valid command restarts the 180 s")
 {
     ServerFixture server;
     server.Receive(HANDSHAKE);
@@ -399,7 +399,7 @@ TEST_CASE("7.25 A good command begins the 180 s anew")
     REQUIRE(server.Count("session_timeout") == 1);
 }
 
-TEST_CASE("8 Acks and errors that nobody reads are bounded")
+TEST_CASE("8 Unread acks and errors are limited")
 {
     ServerSessionOptions options;
     options.maximumOutput = 1'000;

@@ -67,7 +67,7 @@ TEST_CASE("7.7 A second MONITOR replaces the first: no line of the old one after
     REQUIRE(server.Count("\"result\":2") == 2);
 }
 
-TEST_CASE("7.6 A client that sends MONITOR again and again starves no stream")
+TEST_CASE("7.6 A client that repeats MONITOR does not starve its stream")
 {
     ServerFixture server;
     Stream(server, 4);
@@ -79,7 +79,7 @@ TEST_CASE("7.6 A client that sends MONITOR again and again starves no stream")
     REQUIRE(server.Count("\"data\"") == 10);
 }
 
-TEST_CASE("7.9 A number or a string as id comes back in the data lines, nothing else does")
+TEST_CASE("7.9 Only a number or a string as id is repeated in the data lines")
 {
     ServerFixture server;
     server.Receive(HANDSHAKE);
@@ -107,7 +107,7 @@ TEST_CASE("7.22 No data after the stop_ack, and every line before it")
     REQUIRE(server.session.GetState() == EServerState::Ready);
 }
 
-TEST_CASE("7.24 A stream that nobody reads ends after 5 s; a silent client that reads lives for ever")
+TEST_CASE("7.24 A stream that is not read ends after 5 s; a silent client that reads stays connected")
 {
     ServerFixture server;
     Stream(server, 2).Pass(600s);
@@ -123,7 +123,7 @@ TEST_CASE("7.24 A stream that nobody reads ends after 5 s; a silent client that 
     REQUIRE(server.closed == EServerCloseReason::StreamingTimeout);
 }
 
-TEST_CASE("7.24 Repeating the MONITOR is no reading of it; the longest period is no interruption")
+TEST_CASE("7.24 Repeating the MONITOR does not count as reading; the longest period is no interruption")
 {
     ServerFixture server;
     Stream(server, 30'000).Pass(100s);
@@ -137,7 +137,7 @@ TEST_CASE("7.24 Repeating the MONITOR is no reading of it; the longest period is
     REQUIRE(server.session.GetState() >= EServerState::Closing);
 }
 
-TEST_CASE("7.26 A slow reader gets the newest sample, whole, and every ack")
+TEST_CASE("7.26 A slow reader gets the newest sample complete, and every ack")
 {
     ServerFixture server;
     Stream(server, 2);
@@ -155,7 +155,7 @@ TEST_CASE("7.26 A slow reader gets the newest sample, whole, and every ack")
     REQUIRE(stats.skippedTicks == 0);
 }
 
-TEST_CASE("7.27 After an overrun the phase is kept, nothing is made up for, and what was skipped is counted")
+TEST_CASE("7.27 After an overrun the phase is kept, and skipped ticks are counted and not sent later")
 {
     ServerFixture server;
     Stream(server, 10).Pass(20ms);
@@ -178,7 +178,7 @@ TEST_CASE("7.27 A service slower than the period skips ticks, one call at a time
     REQUIRE(server.Count("\"svc_dur_ms\":25") == 1);
 }
 
-TEST_CASE("9 A service without a sample sends no line; what is skipped is counted, the phase and ts stay")
+TEST_CASE("9 Without a sample of the service no line is sent; skipped ticks are counted, phase and ts are kept")
 {
     ServerFixture server;
     Stream(server, 10).Pass(20ms);
@@ -201,7 +201,7 @@ TEST_CASE("7.24 A service without a sample for longer than the limit of interrup
     REQUIRE(server.Count("session_timeout") == 1);
 }
 
-TEST_CASE("7.17 A CONTROL does not care for samples")
+TEST_CASE("7.17 A CONTROL is answered without a sample too")
 {
     ServerFixture server;
     server.answer.bNoSample = true;
@@ -212,7 +212,7 @@ TEST_CASE("7.17 A CONTROL does not care for samples")
     REQUIRE(server.Count("control_err") == 1);
 }
 
-TEST_CASE("7.28 A url that the service does not have gives data with its status, not an error a tick")
+TEST_CASE("7.28 An unknown url gives data with its status, not an error for each tick")
 {
     ServerFixture server;
     server.answer = ApiResponse{404, {}};
@@ -222,7 +222,7 @@ TEST_CASE("7.28 A url that the service does not have gives data with its status,
     REQUIRE(server.Count("\"error\"") == 0);
 }
 
-TEST_CASE("4 A service that fails is one monitor_internal_error an episode, and the stream goes on")
+TEST_CASE("4 A service that fails gives one monitor_internal_error for each episode, and the stream continues")
 {
     ServerFixture server;
     server.answer = ApiResponse{500, {}};
@@ -236,7 +236,7 @@ TEST_CASE("4 A service that fails is one monitor_internal_error an episode, and 
     REQUIRE(server.Count("\"result\":1") == 1);
 }
 
-TEST_CASE("4 7.24 A service that hangs is an internal error after its time, and in the end a timeout")
+TEST_CASE("4 7.24 A service that hangs gives an internal error at its time limit, and a timeout later")
 {
     ServerFixture server;
     server.bServiceAnswers = false;
@@ -257,7 +257,7 @@ TEST_CASE("7.7 The answer to a replaced MONITOR is not sent")
     REQUIRE(server.Count("\"data\"") == 0);
 }
 
-TEST_CASE("8 A flood of commands gives a due tick its turn after 64 lines")
+TEST_CASE("8 In a flood of commands a due tick is handled after 64 lines")
 {
     ServerFixture server;
     Stream(server, 2);

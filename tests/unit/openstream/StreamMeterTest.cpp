@@ -66,7 +66,7 @@ TEST_CASE("11 Mean, largest gap and percentiles, of the controller and of the ar
     CHECK(quality.byArrival.largest == 101.0);
 }
 
-TEST_CASE("11 A percentile is never below what it stands for, over nine orders of magnitude")
+TEST_CASE("11 A percentile is never below the true one, over nine orders of magnitude")
 {
     double gap = 0.001;
     for (int step = 0; step < 65; ++step)
@@ -89,7 +89,7 @@ TEST_CASE("11 A percentile is never below what it stands for, over nine orders o
     CHECK(histogram.GetStatistics().largest == 1e30);
 }
 
-TEST_CASE("7.46 A frame that is missing among a hundred thousand shows in the figures")
+TEST_CASE("7.46 One missing frame among a hundred thousand shows in the quality")
 {
     Feed feed;
     feed.meter.Begin(2ms);
@@ -102,7 +102,7 @@ TEST_CASE("7.46 A frame that is missing among a hundred thousand shows in the fi
     CHECK(feed.meter.GetQuality().missing == 1);
 }
 
-TEST_CASE("11 The share of samples in time slides over the last hundred periods")
+TEST_CASE("11 The share of samples in time is of the last hundred periods")
 {
     Feed feed;
     feed.meter.Begin(10ms);
@@ -116,7 +116,7 @@ TEST_CASE("11 The share of samples in time slides over the last hundred periods"
     CHECK(feed.meter.GetQuality().inTime == 1.0);
     feed.Add(10.0, 16ms);
     CHECK(feed.meter.GetQuality().inTime == Approx(0.99));
-    feed.Add(40.0, 40ms); // three are missing, the one behind them is there
+    feed.Add(40.0, 40ms); // three are missing, the next one is there
     CHECK(feed.meter.GetQuality().inTime == Approx(0.96));
     for (int count = 0; count < 100; ++count)
     {
@@ -145,7 +145,7 @@ TEST_CASE("11 A joint moves no further from one point to the next than its limit
     CHECK(Limit(limiter, {-100.0, 20.0, 0.0}) == std::vector<double>{-100.0, 20.0, 0.0});
 }
 
-TEST_CASE("11 What is no number moves no joint, and a first point without a position passes")
+TEST_CASE("11 A value that is not a number moves no joint, and a first point without a position is accepted")
 {
     constexpr double NO_NUMBER = std::numeric_limits<double>::quiet_NaN();
     JointStepLimiter limiter({1.0, 1.0});

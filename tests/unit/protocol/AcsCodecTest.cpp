@@ -133,7 +133,7 @@ TEST_CASE("6.2-6.21 Every example decodes, and encodes to the same JSON")
     }
 }
 
-TEST_CASE("6.10, 6.14, D-2, D-3 The document's odd spellings are read, noted, and not sent")
+TEST_CASE("6.10, 6.14, D-2, D-3 The document's deviating spellings are accepted, counted, and not sent")
 {
     AcsCodec codec;
     for (const std::string& name : GetOddFixtures())
@@ -308,7 +308,7 @@ TEST_CASE("D-5 The old name of RequestAcsPlans is an alias, answered under the o
     CHECK_FALSE(FailOrDecode(strict, MakeRequestText("RequestAcsStatus", "{}")).command.has_value());
 }
 
-TEST_CASE("6.15 What does not apply to an error is left out; 6.16 to a status it is null")
+TEST_CASE("6.15 A member that does not apply is left out of an error; 6.16 in a status it is null")
 {
     AcsCodec codec;
     std::string encoded;
@@ -319,7 +319,7 @@ TEST_CASE("6.15 What does not apply to an error is left out; 6.16 to a status it
     CHECK(encoded.find(R"("planId":null,"stepNo":null,"jobId":null)") != std::string::npos);
 }
 
-TEST_CASE("R3 What cannot be decoded says where and why, and keeps what could be read of the envelope")
+TEST_CASE("R3 A decoding error names the place and the reason, and keeps what was decoded of the envelope")
 {
     struct Case
     {
@@ -357,7 +357,7 @@ TEST_CASE("R3 What cannot be decoded says where and why, and keeps what could be
     CHECK(named.planID == "P");
 }
 
-TEST_CASE("2 Text that is no message has no command to answer")
+TEST_CASE("2 Text that is not a message has no command to answer")
 {
     AcsCodec codec;
     const std::string deep(5U * 1024U * 1024U, '[');
@@ -377,7 +377,7 @@ TEST_CASE("2 Text that is no message has no command to answer")
     }
 }
 
-TEST_CASE("2 An unknown command keeps its name; one without a transactionId is refused")
+TEST_CASE("2 An unknown command keeps its name; a command without a transactionId is rejected")
 {
     AcsCodec codec;
     const DecodeFailure unknown = FailOrDecode(codec, MakeRequestText("Dance", "{}"));
@@ -390,7 +390,7 @@ TEST_CASE("2 An unknown command keeps its name; one without a transactionId is r
     CHECK(nameless.error.path == "transactionId");
 }
 
-TEST_CASE("2 Commands and words in another case, unknown members, a byte order mark: read and counted")
+TEST_CASE("2 Commands and values in another case, unknown members and a byte order mark are accepted and counted")
 {
     AcsCodec codec;
     const DecodeOutcome outcome =
@@ -416,7 +416,7 @@ TEST_CASE("6.9 SyncConfig carries any object")
     CHECK(encoded == text);
 }
 
-TEST_CASE("3 A struck out job status is refused")
+TEST_CASE("3 A deleted job status is rejected")
 {
     AcsCodec codec;
     const std::string payload =
@@ -451,7 +451,7 @@ TEST_CASE("2 A plan's times are read like any time: without offset as the site's
     }
 }
 
-TEST_CASE("2 What could not be decoded still tells its ids and its time")
+TEST_CASE("2 The ids and the time of an undecodable message are returned")
 {
     AcsCodec codec;
     const DecodeFailure failure = FailOrDecode(
@@ -467,7 +467,7 @@ TEST_CASE("2 What could not be decoded still tells its ids and its time")
     CHECK(failure.timestamp->offset == std::chrono::hours(9));
 }
 
-TEST_CASE("2 A member of the envelope that is named twice is refused, and the rest can still be answered")
+TEST_CASE("2 A duplicate member of the envelope is an error, and the message can still be answered")
 {
     AcsCodec codec;
     for (const std::string text :
@@ -483,7 +483,7 @@ TEST_CASE("2 A member of the envelope that is named twice is refused, and the re
     }
 }
 
-TEST_CASE("2 The payload of an Ack that should be empty is counted, and refused where it names a member twice")
+TEST_CASE("2 A non-empty payload of an Ack without members is counted, and rejected with a duplicate member")
 {
     AcsCodec codec;
     const auto decode = [&codec](const std::string& payload) {
@@ -499,7 +499,7 @@ TEST_CASE("2 The payload of an Ack that should be empty is counted, and refused 
     CHECK_FALSE(decode(R"({"planId":"P","planId":"Q"})").message.has_value());
 }
 
-TEST_CASE("2 Identifiers in lists have the bounds of identifiers")
+TEST_CASE("2 Identifiers in lists have the limits of identifiers")
 {
     AcsCodec codec;
     const auto decode = [&codec](const std::string& planIDs) {
@@ -515,7 +515,7 @@ TEST_CASE("2 Identifiers in lists have the bounds of identifiers")
     }
 }
 
-TEST_CASE("D-11 Comments and spare commas are refused, and read by option only")
+TEST_CASE("D-11 Comments and trailing commas are rejected, unless an option accepts them")
 {
     const std::string text = R"({"command":"CancelPlan",// stops it
         "transactionId":"t","timestamp":"2025-07-02T21:00:00.123+09:00","payload":{"planId":"P","reason":"r",},})";

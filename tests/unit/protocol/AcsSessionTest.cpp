@@ -1,4 +1,4 @@
-#include "AcsSessionBench.hpp"
+#include "AcsSessionFixture.hpp"
 #include "Catch.hpp"
 #include "Fixture.hpp"
 
@@ -13,7 +13,7 @@ using Protocol::EAckResult;
 using Protocol::EAcsCommand;
 using Protocol::EProtocolNote;
 using Protocol::ESessionTimer;
-using Bench = Testing::AcsSessionBench;
+using Fixture = Testing::AcsSessionFixture;
 using Testing::MakeAckText;
 using Testing::MakeOptions;
 using Testing::MakeRequestText;
@@ -23,54 +23,54 @@ using Notes = std::vector<EProtocolNote>;
 
 TEST_CASE("1, 5 Registration is the first message, and nothing follows before its Ack")
 {
-    Bench bench;
-    bench.session.Start(bench.clock.GetNow(), bench.probe.out);
-    CHECK(bench.probe.GetAll<Protocol::Connect>().size() == 1);
+    Fixture bench;
+    bench.session.Start(bench.clock.GetNow(), bench.recorder.out);
+    CHECK(bench.recorder.GetAll<Protocol::Connect>().size() == 1);
     CHECK_FALSE(bench.TrySend("a"));
-    bench.probe.Clear();
-    bench.session.OnConnected(bench.clock.GetNow(), bench.probe.out);
-    CHECK(bench.probe.GetCommands() == Strings{"Registration"});
-    CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Registration) == 5s);
+    bench.recorder.Clear();
+    bench.session.OnConnected(bench.clock.GetNow(), bench.recorder.out);
+    CHECK(bench.recorder.GetCommands() == Strings{"Registration"});
+    CHECK(bench.recorder.GetDelayOrNull(ESessionTimer::Registration) == 5s);
 
-    bench.probe.Clear();
+    bench.recorder.Clear();
     CHECK_FALSE(bench.TrySend("a"));
-    bench.session.SendStatus(Protocol::TscStateUpdate{}, bench.clock.GetNow(), bench.probe.out);
-    bench.session.SendPosition({}, bench.clock.GetNow(), bench.probe.out);
-    bench.session.ReplayDone(bench.clock.GetNow(), bench.probe.out);
-    CHECK(bench.probe.out.empty());
+    bench.session.SendStatus(Protocol::TscStateUpdate{}, bench.clock.GetNow(), bench.recorder.out);
+    bench.session.SendPosition({}, bench.clock.GetNow(), bench.recorder.out);
+    bench.session.ReplayDone(bench.clock.GetNow(), bench.recorder.out);
+    CHECK(bench.recorder.out.empty());
     bench.Text(MakeRequestText("RequestAcsPlans", "{}"));
-    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
-    CHECK(bench.probe.GetNotes() == Notes{EProtocolNote::BeforeRegistered});
+    CHECK(bench.recorder.GetAll<Protocol::SendText>().empty());
+    CHECK(bench.recorder.GetNotes() == Notes{EProtocolNote::BeforeRegistered});
     CHECK_FALSE(bench.session.IsRegistered());
 }
 
 TEST_CASE("6.2, D-4 The document's own RegistrationAck has another transactionId and counts")
 {
-    Bench bench;
-    bench.session.Start(bench.clock.GetNow(), bench.probe.out);
-    bench.session.OnConnected(bench.clock.GetNow(), bench.probe.out);
+    Fixture bench;
+    bench.session.Start(bench.clock.GetNow(), bench.recorder.out);
+    bench.session.OnConnected(bench.clock.GetNow(), bench.recorder.out);
     bench.Text(Testing::ReadFixture("RegistrationAck"));
     CHECK(bench.session.IsRegistered());
-    CHECK(bench.probe.GetNotes() == Notes{EProtocolNote::AckMismatched});
+    CHECK(bench.recorder.GetNotes() == Notes{EProtocolNote::AckMismatched});
 }
 
 TEST_CASE("6 After registration: replay, TSC state, comm state, each robot, then positions")
 {
     Protocol::SessionOptions options;
-    Bench bench(options);
+    Fixture bench(options);
     const Core::Now now = bench.clock.GetNow();
-    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Idle), now, bench.probe.out);
-    bench.session.SendStatus(MakeStatus("CR01", Protocol::ERobotStatus::Idle), now, bench.probe.out);
-    bench.session.SendStatus(Protocol::AcsCommStateUpdate{true}, now, bench.probe.out);
-    bench.session.SendStatus(Protocol::TscStateUpdate{}, now, bench.probe.out);
+    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Idle), now, bench.recorder.out);
+    bench.session.SendStatus(MakeStatus("CR01", Protocol::ERobotStatus::Idle), now, bench.recorder.out);
+    bench.session.SendStatus(Protocol::AcsCommStateUpdate{true}, now, bench.recorder.out);
+    bench.session.SendStatus(Protocol::TscStateUpdate{}, now, bench.recorder.out);
     bench.StartAndRegister();
-    CHECK(bench.probe.GetCommands().empty());
-    bench.probe.Clear();
+    CHECK(bench.recorder.GetCommands().empty());
+    bench.recorder.Clear();
     REQUIRE(bench.TrySend("a"));
     REQUIRE(bench.TrySend("b"));
-    bench.session.ReplayDone(now, bench.probe.out);
+    bench.session.ReplayDone(now, bench.recorder.out);
     CHECK(
-        bench.probe.GetCommands()
+        bench.recorder.GetCommands()
         == Strings{
             "PlanReport",
             "PlanReport",
@@ -78,119 +78,119 @@ TEST_CASE("6 After registration: replay, TSC state, comm state, each robot, then
             "AcsCommStateUpdate",
             "RobotStatusUpdate",
             "RobotStatusUpdate"});
-    CHECK(std::holds_alternative<Protocol::PositionDue>(std::get<Protocol::Deliver>(bench.probe.out.back()).event));
+    CHECK(std::holds_alternative<Protocol::PositionDue>(std::get<Protocol::Deliver>(bench.recorder.out.back()).event));
 }
 
 TEST_CASE("6 While the replay fills the window, positions wait for the states as these wait for room")
 {
     Protocol::SessionOptions options;
     options.window = 2;
-    Bench bench(options);
+    Fixture bench(options);
     const Core::Now now = bench.clock.GetNow();
-    bench.session.SendStatus(Protocol::TscStateUpdate{}, now, bench.probe.out);
-    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Idle), now, bench.probe.out);
+    bench.session.SendStatus(Protocol::TscStateUpdate{}, now, bench.recorder.out);
+    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Idle), now, bench.recorder.out);
     bench.StartAndRegister();
     REQUIRE(bench.TrySend("a"));
     REQUIRE(bench.TrySend("b"));
-    bench.probe.Clear();
-    bench.session.ReplayDone(now, bench.probe.out);
-    bench.session.SendPosition({}, now, bench.probe.out);
-    CHECK(bench.probe.GetCommands().empty());
-    CHECK(bench.probe.GetEvents<Protocol::PositionDue>().empty());
+    bench.recorder.Clear();
+    bench.session.ReplayDone(now, bench.recorder.out);
+    bench.session.SendPosition({}, now, bench.recorder.out);
+    CHECK(bench.recorder.GetCommands().empty());
+    CHECK(bench.recorder.GetEvents<Protocol::PositionDue>().empty());
 
     bench.Text(MakeAckText("PlanReport", "a"));
-    CHECK(bench.probe.GetCommands() == Strings{"TscStateUpdate"});
-    CHECK(bench.probe.GetEvents<Protocol::PositionDue>().empty());
+    CHECK(bench.recorder.GetCommands() == Strings{"TscStateUpdate"});
+    CHECK(bench.recorder.GetEvents<Protocol::PositionDue>().empty());
 
     bench.Text(MakeAckText("PlanReport", "b"));
-    CHECK(bench.probe.GetCommands() == Strings{"RobotStatusUpdate"});
-    CHECK(bench.probe.GetEvents<Protocol::PositionDue>().size() == 1);
-    CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Position) == 200ms);
+    CHECK(bench.recorder.GetCommands() == Strings{"RobotStatusUpdate"});
+    CHECK(bench.recorder.GetEvents<Protocol::PositionDue>().size() == 1);
+    CHECK(bench.recorder.GetDelayOrNull(ESessionTimer::Position) == 200ms);
 }
 
 TEST_CASE("9 A durable request keeps the caller's transactionId and timestamp on every connection")
 {
-    Bench bench;
+    Fixture bench;
     bench.StartAndReplay();
     REQUIRE(bench.TrySend("a"));
-    const std::string first = bench.probe.GetAll<Protocol::SendText>().at(0).text;
+    const std::string first = bench.recorder.GetAll<Protocol::SendText>().at(0).text;
     bench.Closed();
-    CHECK(bench.probe.GetEvents<Protocol::LinkLost>().at(0).bWasRegistered);
+    CHECK(bench.recorder.GetEvents<Protocol::LinkLost>().at(0).bWasRegistered);
     bench.Timer(ESessionTimer::Reconnect, 10s);
-    CHECK(bench.probe.GetAll<Protocol::Connect>().size() == 1);
+    CHECK(bench.recorder.GetAll<Protocol::Connect>().size() == 1);
     bench.Register();
-    bench.probe.Clear();
+    bench.recorder.Clear();
     REQUIRE(bench.TrySend("a"));
-    CHECK(bench.probe.GetAll<Protocol::SendText>().at(0).text == first);
+    CHECK(bench.recorder.GetAll<Protocol::SendText>().at(0).text == first);
     bench.Text(MakeAckText("PlanReport", "a"));
     CHECK(
-        bench.probe.GetEvents<Protocol::Acked>()
+        bench.recorder.GetEvents<Protocol::Acked>()
         == std::vector<Protocol::Acked>{{EAcsCommand::PlanReport, "a", EAckResult::Success, ""}});
 }
 
-TEST_CASE("9 Without an Ack the same text is sent again three times, then given up")
+TEST_CASE("9 Without an Ack the same text is sent again three times, then the request expires")
 {
-    Bench bench;
+    Fixture bench;
     bench.StartAndReplay();
     REQUIRE(bench.TrySend("a"));
-    const std::string first = bench.probe.GetAll<Protocol::SendText>().at(0).text;
-    CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Ack) == 5s);
+    const std::string first = bench.recorder.GetAll<Protocol::SendText>().at(0).text;
+    CHECK(bench.recorder.GetDelayOrNull(ESessionTimer::Ack) == 5s);
     for (int round = 0; round < 3; ++round)
     {
         bench.Timer(ESessionTimer::Ack, 5s);
-        REQUIRE(bench.probe.GetAll<Protocol::SendText>().size() == 1);
-        CHECK(bench.probe.GetAll<Protocol::SendText>()[0].text == first);
+        REQUIRE(bench.recorder.GetAll<Protocol::SendText>().size() == 1);
+        CHECK(bench.recorder.GetAll<Protocol::SendText>()[0].text == first);
     }
     bench.Timer(ESessionTimer::Ack, 5s);
-    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
-    CHECK(bench.probe.GetEvents<Protocol::RequestUnanswered>().at(0).transactionID == "a");
-    CHECK(bench.probe.GetAll<Protocol::Close>().empty());
+    CHECK(bench.recorder.GetAll<Protocol::SendText>().empty());
+    CHECK(bench.recorder.GetEvents<Protocol::RequestUnanswered>().at(0).transactionID == "a");
+    CHECK(bench.recorder.GetAll<Protocol::Close>().empty());
 
     SECTION("an Ack that comes too late still counts, once")
     {
         bench.Text(MakeAckText("PlanReport", "a"));
-        CHECK(bench.probe.GetEvents<Protocol::Acked>().size() == 1);
+        CHECK(bench.recorder.GetEvents<Protocol::Acked>().size() == 1);
         bench.Text(MakeAckText("PlanReport", "a"));
-        CHECK(bench.probe.GetEvents<Protocol::Acked>().empty());
+        CHECK(bench.recorder.GetEvents<Protocol::Acked>().empty());
     }
 }
 
-TEST_CASE("9 Five given up in a row drop the link, which is made anew")
+TEST_CASE("9 Five expired requests in a row drop the link, and the session reconnects")
 {
     Protocol::SessionOptions options = MakeOptions();
     options.ackRetries = 0;
-    Bench bench(options);
+    Fixture bench(options);
     bench.StartAndReplay();
     for (const std::string transactionID : {"a", "b", "c", "d"})
     {
         REQUIRE(bench.TrySend(transactionID));
     }
     bench.Timer(ESessionTimer::Ack, 5s);
-    CHECK(bench.probe.GetAll<Protocol::Close>().empty());
+    CHECK(bench.recorder.GetAll<Protocol::Close>().empty());
     SECTION("an Ack in between starts the count again")
     {
         REQUIRE(bench.TrySend("e"));
         bench.Text(MakeAckText("PlanReport", "e"));
         REQUIRE(bench.TrySend("f"));
         bench.Timer(ESessionTimer::Ack, 5s);
-        CHECK(bench.probe.GetAll<Protocol::Close>().empty());
+        CHECK(bench.recorder.GetAll<Protocol::Close>().empty());
     }
     SECTION("the fifth closes")
     {
         REQUIRE(bench.TrySend("e"));
         bench.Timer(ESessionTimer::Ack, 5s);
-        CHECK(bench.probe.GetAll<Protocol::Close>().size() == 1);
+        CHECK(bench.recorder.GetAll<Protocol::Close>().size() == 1);
         CHECK_FALSE(bench.session.IsRegistered());
         CHECK_FALSE(bench.TrySend("g"));
         bench.Closed();
-        CHECK(bench.probe.GetEvents<Protocol::LinkLost>().at(0).bWasRegistered);
-        CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Reconnect).has_value());
+        CHECK(bench.recorder.GetEvents<Protocol::LinkLost>().at(0).bWasRegistered);
+        CHECK(bench.recorder.GetDelayOrNull(ESessionTimer::Reconnect).has_value());
     }
 }
 
-TEST_CASE("9 Sixteen messages wait for their Ack at most, and room is announced once")
+TEST_CASE("9 At most sixteen messages wait for their Ack, and free room is reported once")
 {
-    Bench bench;
+    Fixture bench;
     bench.StartAndReplay();
     for (int index = 0; index < 16; ++index)
     {
@@ -198,119 +198,125 @@ TEST_CASE("9 Sixteen messages wait for their Ack at most, and room is announced 
         REQUIRE(bench.TrySend(std::to_string(index)));
     }
     CHECK(bench.TrySend("3")); // in flight already: taken, not sent twice
-    CHECK(bench.probe.GetRequests().size() == 16);
+    CHECK(bench.recorder.GetRequests().size() == 16);
     CHECK_FALSE(bench.TrySend("x"));
     bench.Text(MakeAckText("PlanReport", "7"));
-    CHECK(bench.probe.GetEvents<Protocol::WindowOpened>().size() == 1);
+    CHECK(bench.recorder.GetEvents<Protocol::WindowOpened>().size() == 1);
     bench.Text(MakeAckText("PlanReport", "8"));
-    CHECK(bench.probe.GetEvents<Protocol::WindowOpened>().empty());
+    CHECK(bench.recorder.GetEvents<Protocol::WindowOpened>().empty());
     CHECK(bench.TrySend("x"));
 }
 
-TEST_CASE("9 Statuses are coalesced to the latest per robot where there is no room")
+TEST_CASE("9 Statuses are coalesced to the latest per robot when there is no room")
 {
     Protocol::SessionOptions options = MakeOptions();
     options.window = 1;
-    Bench bench(options);
+    Fixture bench(options);
     bench.StartAndReplay();
     REQUIRE(bench.TrySend("a"));
-    bench.probe.Clear();
+    bench.recorder.Clear();
     const Core::Now now = bench.clock.GetNow();
-    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Moving), now, bench.probe.out);
-    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Arrival), now, bench.probe.out);
-    CHECK(bench.probe.out.empty());
+    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Moving), now, bench.recorder.out);
+    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Arrival), now, bench.recorder.out);
+    CHECK(bench.recorder.out.empty());
     bench.Text(MakeAckText("PlanReport", "a"));
-    const std::vector<AcsRequest> requests = bench.probe.GetRequests();
+    const std::vector<AcsRequest> requests = bench.recorder.GetRequests();
     REQUIRE(requests.size() == 1);
     CHECK(std::get<Protocol::RobotStatusUpdate>(requests[0].payload).robotStatus == Protocol::ERobotStatus::Arrival);
 }
 
-TEST_CASE("9 A status that a newer one has overtaken is not sent again")
+TEST_CASE("9 A status that a newer one has replaced is not sent again")
 {
-    Bench bench;
+    Fixture bench;
     bench.StartAndReplay();
     const Core::Now now = bench.clock.GetNow();
-    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Moving), now, bench.probe.out);
-    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Arrival), now, bench.probe.out);
-    CHECK(bench.probe.GetRequests().size() == 2);
+    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Moving), now, bench.recorder.out);
+    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Arrival), now, bench.recorder.out);
+    CHECK(bench.recorder.GetRequests().size() == 2);
     bench.Timer(ESessionTimer::Ack, 5s);
-    const std::vector<AcsRequest> requests = bench.probe.GetRequests();
+    const std::vector<AcsRequest> requests = bench.recorder.GetRequests();
     REQUIRE(requests.size() == 1);
     CHECK(std::get<Protocol::RobotStatusUpdate>(requests[0].payload).robotStatus == Protocol::ERobotStatus::Arrival);
 }
 
 TEST_CASE("9 Every connection begins with the present status of every robot")
 {
-    Bench bench;
+    Fixture bench;
     bench.StartAndReplay();
-    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Idle), bench.clock.GetNow(), bench.probe.out);
+    bench.session.SendStatus(
+        MakeStatus("LR01", Protocol::ERobotStatus::Idle),
+        bench.clock.GetNow(),
+        bench.recorder.out);
     bench.AckAllRequests();
     bench.Closed();
-    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Error), bench.clock.GetNow(), bench.probe.out);
+    bench.session.SendStatus(
+        MakeStatus("LR01", Protocol::ERobotStatus::Error),
+        bench.clock.GetNow(),
+        bench.recorder.out);
     bench.Timer(ESessionTimer::Reconnect, 10s);
     bench.Register();
-    bench.probe.Clear();
-    bench.session.ReplayDone(bench.clock.GetNow(), bench.probe.out);
-    const std::vector<AcsRequest> requests = bench.probe.GetRequests();
+    bench.recorder.Clear();
+    bench.session.ReplayDone(bench.clock.GetNow(), bench.recorder.out);
+    const std::vector<AcsRequest> requests = bench.recorder.GetRequests();
     REQUIRE(requests.size() == 1);
     CHECK(std::get<Protocol::RobotStatusUpdate>(requests[0].payload).robotStatus == Protocol::ERobotStatus::Error);
 }
 
-TEST_CASE("D-4 The second Ack of a message that was sent twice is not taken for that of another one")
+TEST_CASE("D-4 The second Ack of a message that was sent twice does not acknowledge another one")
 {
-    Bench bench;
+    Fixture bench;
     bench.StartAndReplay();
     REQUIRE(bench.TrySend("a"));
     bench.Timer(ESessionTimer::Ack, 5s);
     REQUIRE(bench.TrySend("b"));
     bench.Text(MakeAckText("PlanReport", "a"));
-    CHECK(bench.probe.GetEvents<Protocol::Acked>().at(0).transactionID == "a");
+    CHECK(bench.recorder.GetEvents<Protocol::Acked>().at(0).transactionID == "a");
     bench.Text(MakeAckText("PlanReport", "a"));
-    CHECK(bench.probe.GetEvents<Protocol::Acked>().empty());
+    CHECK(bench.recorder.GetEvents<Protocol::Acked>().empty());
     bench.Text(MakeAckText("PlanReport", "b"));
-    CHECK(bench.probe.GetEvents<Protocol::Acked>().at(0).transactionID == "b");
+    CHECK(bench.recorder.GetEvents<Protocol::Acked>().at(0).transactionID == "b");
 }
 
-TEST_CASE("D-4 With mcs.ack_match id an Ack with a foreign transactionId answers nothing, registration included")
+TEST_CASE("D-4 With mcs.ack_match id an Ack with a foreign transactionId is ignored, also for the registration")
 {
     Protocol::SessionOptions options;
     options.bAcksMatchedByCommand = false;
-    Bench bench(options);
-    bench.session.Start(bench.clock.GetNow(), bench.probe.out);
-    bench.session.OnConnected(bench.clock.GetNow(), bench.probe.out);
+    Fixture bench(options);
+    bench.session.Start(bench.clock.GetNow(), bench.recorder.out);
+    bench.session.OnConnected(bench.clock.GetNow(), bench.recorder.out);
     bench.Text(Testing::ReadFixture("RegistrationAck"));
     CHECK_FALSE(bench.session.IsRegistered());
-    CHECK(bench.probe.GetNotes() == Notes{EProtocolNote::AckUnexpected});
+    CHECK(bench.recorder.GetNotes() == Notes{EProtocolNote::AckUnexpected});
 
-    Bench other(options);
+    Fixture other(options);
     other.StartAndReplay();
     REQUIRE(other.TrySend("a"));
     other.Text(MakeAckText("PlanReport", "foreign"));
-    CHECK(other.probe.GetEvents<Protocol::Acked>().empty());
+    CHECK(other.recorder.GetEvents<Protocol::Acked>().empty());
     CHECK(other.session.GetStatistics().CountOf(EProtocolNote::AckUnexpected) == 1);
     other.Text(MakeAckText("PlanReport", "a"));
-    CHECK(other.probe.GetEvents<Protocol::Acked>().at(0).transactionID == "a");
+    CHECK(other.recorder.GetEvents<Protocol::Acked>().at(0).transactionID == "a");
 }
 
 TEST_CASE("9 An Ack with Fail is final")
 {
-    Bench bench;
+    Fixture bench;
     bench.StartAndReplay();
     REQUIRE(bench.TrySend("a"));
     bench.Text(MakeAckText("PlanReport", "a", "Fail"));
-    CHECK(bench.probe.GetEvents<Protocol::Acked>().at(0).result == EAckResult::Fail);
+    CHECK(bench.recorder.GetEvents<Protocol::Acked>().at(0).result == EAckResult::Fail);
     bench.Timer(ESessionTimer::Ack, 5s);
-    CHECK(bench.probe.out.empty());
+    CHECK(bench.recorder.out.empty());
 }
 
 TEST_CASE("R1, R2 Every request is answered with its own transactionId")
 {
-    Bench bench;
+    Fixture bench;
     bench.StartAndReplay();
     bench.Text(MakeRequestText("CancelPlan", R"({"planId":"P","reason":"r"})", "t-9"));
-    REQUIRE(bench.probe.GetEvents<Protocol::RequestReceived>().size() == 1);
-    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
-    bench.probe.Clear();
+    REQUIRE(bench.recorder.GetEvents<Protocol::RequestReceived>().size() == 1);
+    CHECK(bench.recorder.GetAll<Protocol::SendText>().empty());
+    bench.recorder.Clear();
     bench.session.Answer(
         EAcsCommand::CancelPlan,
         "t-9",
@@ -318,15 +324,15 @@ TEST_CASE("R1, R2 Every request is answered with its own transactionId")
         "",
         Protocol::PlanAck{"P"},
         bench.clock.GetNow(),
-        bench.probe.out);
-    const std::vector<Protocol::AcsAck> acks = bench.probe.GetAcks();
+        bench.recorder.out);
+    const std::vector<Protocol::AcsAck> acks = bench.recorder.GetAcks();
     REQUIRE(acks.size() == 1);
     CHECK(acks[0].transactionID == "t-9");
     CHECK(acks[0].command == EAcsCommand::CancelPlan);
     CHECK(acks[0].payload == Protocol::AckPayload(Protocol::PlanAck{"P"}));
 }
 
-TEST_CASE("R1, R3 What is undefined is answered with Fail and a reason, and not delivered")
+TEST_CASE("R1, R3 An undefined request is answered with Fail and a reason, and not delivered")
 {
     struct Case
     {
@@ -347,11 +353,11 @@ TEST_CASE("R1, R3 What is undefined is answered with Fail and a reason, and not 
     for (const Case& bad : cases)
     {
         INFO(bad.text);
-        Bench bench;
+        Fixture bench;
         bench.StartAndReplay();
         bench.Text(bad.text);
-        CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().empty());
-        const auto sent = bench.probe.GetAll<Protocol::SendText>();
+        CHECK(bench.recorder.GetEvents<Protocol::RequestReceived>().empty());
+        const auto sent = bench.recorder.GetAll<Protocol::SendText>();
         REQUIRE(sent.size() == 1);
         INFO(sent[0].text);
         CHECK(sent[0].text.find("\"command\":\"" + bad.command + "\",\"transactionId\":\"t-1\"") != std::string::npos);
@@ -360,72 +366,72 @@ TEST_CASE("R1, R3 What is undefined is answered with Fail and a reason, and not 
     }
 }
 
-TEST_CASE("R1 What cannot be answered is counted, and the connection goes on")
+TEST_CASE("R1 A text that cannot be answered is counted, and the connection continues")
 {
-    Bench bench;
+    Fixture bench;
     bench.StartAndReplay();
     for (const std::string text : {"not JSON", "[]", "{}", R"({"command":"DanceAck"})"})
     {
         bench.Text(text);
-        CHECK(bench.probe.out.size() == 1);
-        CHECK(bench.probe.GetNotes() == Notes{EProtocolNote::Undecodable});
+        CHECK(bench.recorder.out.size() == 1);
+        CHECK(bench.recorder.GetNotes() == Notes{EProtocolNote::Undecodable});
     }
     bench.Text(MakeRequestText("RobotPositionUpdate", R"({"robots":[]})"));
-    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
+    CHECK(bench.recorder.GetAll<Protocol::SendText>().empty());
     CHECK(bench.session.IsRegistered());
 }
 
-TEST_CASE("D-23 Another request under a known transactionId is refused: the answer to the first is none to it")
+TEST_CASE("D-23 Another request with a known transactionId is rejected, not answered like the first one")
 {
-    Bench bench;
+    Fixture bench;
     bench.StartAndReplay();
     const std::string plan = Testing::ReadFixture("ExecutionPlanLR");
     bench.Text(plan);
     bench.AnswerPlan();
-    const std::string first = bench.probe.GetAll<Protocol::SendText>().back().text;
+    const std::string first = bench.recorder.GetAll<Protocol::SendText>().back().text;
 
     std::string other = plan;
     other.replace(other.find("PLAN-20250702-001"), std::string("PLAN-20250702-001").size(), "PLAN-20250702-002");
     bench.Text(other);
-    CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().empty());
-    const auto refused = bench.probe.GetEvents<Protocol::RequestRefused>();
+    CHECK(bench.recorder.GetEvents<Protocol::RequestReceived>().empty());
+    const auto refused = bench.recorder.GetEvents<Protocol::RequestRefused>();
     REQUIRE(refused.size() == 1);
     CHECK(refused.front().planID == "PLAN-20250702-002");
     CHECK(refused.front().path == "transactionId");
-    const std::string ack = bench.probe.GetAll<Protocol::SendText>().at(0).text;
+    const std::string ack = bench.recorder.GetAll<Protocol::SendText>().at(0).text;
     CHECK(ack.find(R"("result":"Fail")") != std::string::npos);
     CHECK(ack.find("PLAN-20250702-002") != std::string::npos);
 
-    std::string later = plan; // the same one, said again
+    std::string later = plan; // the same request, sent again
     const std::size_t time = later.find("\"timestamp\"");
     later.replace(later.find("2025", time), 4, "2026");
     bench.Text(later);
-    CHECK(bench.probe.GetAll<Protocol::SendText>().at(0).text == first);
+    CHECK(bench.recorder.GetAll<Protocol::SendText>().at(0).text == first);
 }
 
-TEST_CASE("13.5 A request that comes again is answered by the same text and executed once")
+TEST_CASE("13.5 A repeated request is answered with the same text and executed once")
 {
-    Bench bench;
+    Fixture bench;
     bench.StartAndReplay();
     const std::string plan = Testing::ReadFixture("ExecutionPlanLR");
     bench.Text(plan);
-    REQUIRE(bench.probe.GetEvents<Protocol::RequestReceived>().size() == 1);
+    REQUIRE(bench.recorder.GetEvents<Protocol::RequestReceived>().size() == 1);
     bench.Text(plan);
-    CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().empty());
-    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
-    CHECK(bench.probe.GetNotes() == Notes{EProtocolNote::DuplicateRequest});
+    CHECK(bench.recorder.GetEvents<Protocol::RequestReceived>().empty());
+    CHECK(bench.recorder.GetAll<Protocol::SendText>().empty());
+    CHECK(bench.recorder.GetNotes() == Notes{EProtocolNote::DuplicateRequest});
 
-    bench.probe.Clear();
+    bench.recorder.Clear();
     bench.AnswerPlan();
-    const std::string first = bench.probe.GetAll<Protocol::SendText>().at(0).text;
-    bench.probe.Clear();
+    const std::string first = bench.recorder.GetAll<Protocol::SendText>().at(0).text;
+    bench.recorder.Clear();
     bench.AnswerPlan();
-    CHECK(bench.probe.out.empty());
+    CHECK(bench.recorder.out.empty());
 
     bench.clock.Advance(9min);
     bench.Text(plan);
-    CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().empty());
-    CHECK(bench.probe.GetAll<Protocol::SendText>().at(0).text == first);
+    CHECK(bench.recorder.GetEvents<Protocol::RequestReceived>().empty());
+    CHECK(bench.recorder.GetAll<Protocol::SendText>().at(0).text == first);
 
     SECTION("also on the next connection, where the first answer may have been lost")
     {
@@ -433,22 +439,22 @@ TEST_CASE("13.5 A request that comes again is answered by the same text and exec
         bench.Timer(ESessionTimer::Reconnect, 10s);
         bench.Register();
         bench.Text(plan);
-        CHECK(bench.probe.GetAll<Protocol::SendText>().at(0).text == first);
+        CHECK(bench.recorder.GetAll<Protocol::SendText>().at(0).text == first);
     }
-    SECTION("but not for ever")
+    SECTION("but not indefinitely")
     {
         bench.clock.Advance(2min);
         bench.Text(plan);
-        CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().size() == 1);
+        CHECK(bench.recorder.GetEvents<Protocol::RequestReceived>().size() == 1);
     }
 }
 
 TEST_CASE("D-5 RequestAcsStatus is answered under its own name")
 {
-    Bench bench;
+    Fixture bench;
     bench.StartAndReplay();
     bench.Text(MakeRequestText("RequestAcsStatus", "{}"));
-    bench.probe.Clear();
+    bench.recorder.Clear();
     bench.session.Answer(
         EAcsCommand::RequestAcsPlans,
         "t-1",
@@ -456,63 +462,63 @@ TEST_CASE("D-5 RequestAcsStatus is answered under its own name")
         "",
         Protocol::PlanListAck{},
         bench.clock.GetNow(),
-        bench.probe.out);
+        bench.recorder.out);
     CHECK(
-        bench.probe.GetAll<Protocol::SendText>().at(0).text.find(R"("command":"RequestAcsStatusAck")")
+        bench.recorder.GetAll<Protocol::SendText>().at(0).text.find(R"("command":"RequestAcsStatusAck")")
         != std::string::npos);
 }
 
-TEST_CASE("1 Reconnects for ever, ever slower up to ten seconds, at once again after a success")
+TEST_CASE("1 Reconnects indefinitely, at growing intervals up to ten seconds, at once after a success")
 {
-    Bench bench;
-    bench.session.Start(bench.clock.GetNow(), bench.probe.out);
+    Fixture bench;
+    bench.session.Start(bench.clock.GetNow(), bench.recorder.out);
     std::chrono::milliseconds last{0};
     for (int attempt = 0; attempt < 20; ++attempt)
     {
         bench.Closed();
-        CHECK_FALSE(bench.probe.GetEvents<Protocol::LinkLost>().at(0).bWasRegistered);
-        last = bench.probe.GetDelayOrNull(ESessionTimer::Reconnect).value_or(0ms);
+        CHECK_FALSE(bench.recorder.GetEvents<Protocol::LinkLost>().at(0).bWasRegistered);
+        last = bench.recorder.GetDelayOrNull(ESessionTimer::Reconnect).value_or(0ms);
         CHECK(last > 0ms);
         CHECK(last <= 10s);
         bench.Timer(ESessionTimer::Reconnect, last);
-        REQUIRE(bench.probe.GetAll<Protocol::Connect>().size() == 1);
+        REQUIRE(bench.recorder.GetAll<Protocol::Connect>().size() == 1);
     }
     CHECK(last >= 5s);
     bench.Register();
     bench.Closed();
-    CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Reconnect).value_or(1h) <= 500ms);
+    CHECK(bench.recorder.GetDelayOrNull(ESessionTimer::Reconnect).value_or(1h) <= 500ms);
 }
 
-TEST_CASE("1 A refused or unanswered registration is tried again")
+TEST_CASE("1 A rejected or unanswered registration is tried again")
 {
-    Bench bench;
-    bench.session.Start(bench.clock.GetNow(), bench.probe.out);
-    bench.session.OnConnected(bench.clock.GetNow(), bench.probe.out);
+    Fixture bench;
+    bench.session.Start(bench.clock.GetNow(), bench.recorder.out);
+    bench.session.OnConnected(bench.clock.GetNow(), bench.recorder.out);
     SECTION("refused")
     {
         bench.Text(MakeAckText("Registration", "any", "Fail"));
-        CHECK(bench.probe.GetEvents<Protocol::RegistrationRefused>().size() == 1);
+        CHECK(bench.recorder.GetEvents<Protocol::RegistrationRefused>().size() == 1);
     }
     SECTION("unanswered")
     {
         bench.Timer(ESessionTimer::Registration, 5s);
-        CHECK(bench.probe.GetNotes() == Notes{EProtocolNote::RegistrationUnanswered});
+        CHECK(bench.recorder.GetNotes() == Notes{EProtocolNote::RegistrationUnanswered});
     }
-    CHECK(bench.probe.GetAll<Protocol::Close>().size() == 1);
+    CHECK(bench.recorder.GetAll<Protocol::Close>().size() == 1);
     bench.Closed();
-    CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Reconnect).has_value());
+    CHECK(bench.recorder.GetDelayOrNull(ESessionTimer::Reconnect).has_value());
 }
 
-TEST_CASE("1 Stop says goodbye, waits for the Ack a while, and closes with 1000")
+TEST_CASE("1 Stop sends isConnected=false, waits a limited time for the Ack, and closes with 1000")
 {
-    Bench bench;
+    Fixture bench;
     bench.StartAndReplay();
-    bench.probe.Clear();
-    bench.session.Stop(bench.clock.GetNow(), bench.probe.out);
-    const std::vector<AcsRequest> requests = bench.probe.GetRequests();
+    bench.recorder.Clear();
+    bench.session.Stop(bench.clock.GetNow(), bench.recorder.out);
+    const std::vector<AcsRequest> requests = bench.recorder.GetRequests();
     REQUIRE(requests.size() == 1);
     CHECK(requests[0].payload == Protocol::AcsPayload(Protocol::AcsCommStateUpdate{false}));
-    CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Shutdown) == 2s);
+    CHECK(bench.recorder.GetDelayOrNull(ESessionTimer::Shutdown) == 2s);
     CHECK_FALSE(bench.TrySend("a"));
     SECTION("acknowledged")
     {
@@ -522,90 +528,90 @@ TEST_CASE("1 Stop says goodbye, waits for the Ack a while, and closes with 1000"
     {
         bench.Timer(ESessionTimer::Shutdown, 2s);
     }
-    REQUIRE(bench.probe.GetAll<Protocol::Close>().size() == 1);
-    CHECK(bench.probe.GetAll<Protocol::Close>()[0].code == 1000);
+    REQUIRE(bench.recorder.GetAll<Protocol::Close>().size() == 1);
+    CHECK(bench.recorder.GetAll<Protocol::Close>()[0].code == 1000);
     bench.Closed();
-    CHECK(bench.probe.GetEvents<Protocol::Stopped>().size() == 1);
-    CHECK_FALSE(bench.probe.GetDelayOrNull(ESessionTimer::Reconnect).has_value());
+    CHECK(bench.recorder.GetEvents<Protocol::Stopped>().size() == 1);
+    CHECK_FALSE(bench.recorder.GetDelayOrNull(ESessionTimer::Reconnect).has_value());
     bench.Timer(ESessionTimer::Reconnect, 10s);
-    CHECK(bench.probe.out.empty());
+    CHECK(bench.recorder.out.empty());
 }
 
-TEST_CASE("6.21 After the goodbye an older isConnected=true is not sent again")
+TEST_CASE("6.21 After isConnected=false an older isConnected=true is not sent again")
 {
-    Bench bench;
+    Fixture bench;
     bench.StartAndReplay();
-    bench.session.SendStatus(Protocol::AcsCommStateUpdate{true}, bench.clock.GetNow(), bench.probe.out);
+    bench.session.SendStatus(Protocol::AcsCommStateUpdate{true}, bench.clock.GetNow(), bench.recorder.out);
     bench.clock.Advance(4s);
-    bench.session.Stop(bench.clock.GetNow(), bench.probe.out);
+    bench.session.Stop(bench.clock.GetNow(), bench.recorder.out);
     bench.Timer(ESessionTimer::Ack, 1s);
-    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
+    CHECK(bench.recorder.GetAll<Protocol::SendText>().empty());
 }
 
 TEST_CASE("1 Stop between two attempts ends at once, and Start begins again")
 {
-    Bench bench;
-    bench.session.Start(bench.clock.GetNow(), bench.probe.out);
+    Fixture bench;
+    bench.session.Start(bench.clock.GetNow(), bench.recorder.out);
     bench.Closed();
-    bench.probe.Clear();
-    bench.session.Stop(bench.clock.GetNow(), bench.probe.out);
-    CHECK(bench.probe.GetEvents<Protocol::Stopped>().size() == 1);
-    CHECK(bench.probe.GetAll<Protocol::CancelTimer>().size() == 1);
+    bench.recorder.Clear();
+    bench.session.Stop(bench.clock.GetNow(), bench.recorder.out);
+    CHECK(bench.recorder.GetEvents<Protocol::Stopped>().size() == 1);
+    CHECK(bench.recorder.GetAll<Protocol::CancelTimer>().size() == 1);
     bench.StartAndRegister();
 }
 
-TEST_CASE("R14 Positions come due every 200 ms without drift, are never kept and expect no Ack")
+TEST_CASE("R14 Positions are due every 200 ms without drift, are never queued and expect no Ack")
 {
     Protocol::SessionOptions options;
-    Bench bench(options);
+    Fixture bench(options);
     bench.StartAndReplay();
-    CHECK(bench.probe.GetEvents<Protocol::PositionDue>().size() == 1);
-    CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Position) == 200ms);
+    CHECK(bench.recorder.GetEvents<Protocol::PositionDue>().size() == 1);
+    CHECK(bench.recorder.GetDelayOrNull(ESessionTimer::Position) == 200ms);
     bench.Timer(ESessionTimer::Position, 230ms);
-    CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Position) == 170ms);
+    CHECK(bench.recorder.GetDelayOrNull(ESessionTimer::Position) == 170ms);
     bench.Timer(ESessionTimer::Position, 1000ms); // at 1230: the ticks at 400 to 1200 are one
     CHECK(bench.session.GetStatistics().positionTicksMissed == 4);
-    CHECK(bench.probe.GetEvents<Protocol::PositionDue>().size() == 1);
-    CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Position) == 170ms);
+    CHECK(bench.recorder.GetEvents<Protocol::PositionDue>().size() == 1);
+    CHECK(bench.recorder.GetDelayOrNull(ESessionTimer::Position) == 170ms);
 
-    bench.probe.Clear();
-    bench.session.SendPosition({{{"LR01", 1.5, 2.0, 90.0, 75.0}}}, bench.clock.GetNow(), bench.probe.out);
-    REQUIRE(bench.probe.out.size() == 1);
-    CHECK(bench.probe.GetAll<Protocol::SendText>().at(0).bDroppable);
+    bench.recorder.Clear();
+    bench.session.SendPosition({{{"LR01", 1.5, 2.0, 90.0, 75.0}}}, bench.clock.GetNow(), bench.recorder.out);
+    REQUIRE(bench.recorder.out.size() == 1);
+    CHECK(bench.recorder.GetAll<Protocol::SendText>().at(0).bDroppable);
     CHECK(bench.session.GetRoom() == 16);
     bench.Closed();
-    CHECK(bench.probe.GetAll<Protocol::CancelTimer>().size() == 1);
-    bench.probe.Clear();
-    bench.session.SendPosition({}, bench.clock.GetNow(), bench.probe.out);
-    CHECK(bench.probe.out.empty());
+    CHECK(bench.recorder.GetAll<Protocol::CancelTimer>().size() == 1);
+    bench.recorder.Clear();
+    bench.session.SendPosition({}, bench.clock.GetNow(), bench.recorder.out);
+    CHECK(bench.recorder.out.empty());
 }
 
 TEST_CASE("R15 The TSC state is sent once after connecting, then on change")
 {
-    Bench bench;
-    bench.session.SendStatus(Protocol::TscStateUpdate{}, bench.clock.GetNow(), bench.probe.out);
+    Fixture bench;
+    bench.session.SendStatus(Protocol::TscStateUpdate{}, bench.clock.GetNow(), bench.recorder.out);
     bench.StartAndReplay();
-    CHECK(bench.probe.GetCommands() == Strings{"TscStateUpdate"});
+    CHECK(bench.recorder.GetCommands() == Strings{"TscStateUpdate"});
     bench.AckAllRequests();
-    bench.probe.Clear();
-    bench.session.ReplayDone(bench.clock.GetNow(), bench.probe.out);
-    CHECK(bench.probe.out.empty());
+    bench.recorder.Clear();
+    bench.session.ReplayDone(bench.clock.GetNow(), bench.recorder.out);
+    CHECK(bench.recorder.out.empty());
     bench.session.SendStatus(
         Protocol::TscStateUpdate{Protocol::ETscState::Pausing},
         bench.clock.GetNow(),
-        bench.probe.out);
-    CHECK(bench.probe.GetCommands() == Strings{"TscStateUpdate"});
+        bench.recorder.out);
+    CHECK(bench.recorder.GetCommands() == Strings{"TscStateUpdate"});
 }
 
 TEST_CASE("9 A jump of the wall clock changes no deadline")
 {
-    Bench bench;
+    Fixture bench;
     bench.StartAndReplay();
     REQUIRE(bench.TrySend("a"));
     bench.clock.JumpWall(-3h);
     bench.Timer(ESessionTimer::Ack, 4999ms);
-    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
-    CHECK(bench.probe.GetDelayOrNull(ESessionTimer::Ack) == 1ms);
+    CHECK(bench.recorder.GetAll<Protocol::SendText>().empty());
+    CHECK(bench.recorder.GetDelayOrNull(ESessionTimer::Ack) == 1ms);
     bench.Timer(ESessionTimer::Ack, 1ms);
-    CHECK(bench.probe.GetAll<Protocol::SendText>().size() == 1);
+    CHECK(bench.recorder.GetAll<Protocol::SendText>().size() == 1);
 }

@@ -1,9 +1,9 @@
-#include "AcsSessionBench.hpp"
+#include "AcsSessionFixture.hpp"
+#include "ActionRecorder.hpp"
 #include "Catch.hpp"
 #include "Fixture.hpp"
 #include "ManualClock.hpp"
 #include "SeededRandom.hpp"
-#include "SessionProbe.hpp"
 #include <acs/protocol/McsSession.hpp>
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-// What a peer may send that is no message. Each entry: an Ack with Fail and a reason where one is possible, a counted
-// note where not; nothing is delivered, and the session goes on.
+// Invalid texts of a peer. Each is answered with Fail and a reason or, if it cannot be answered, counted as a note.
+// Nothing is delivered, and the session continues.
 
 using namespace ACS; // NOLINT(google-build-using-namespace)
 using Protocol::EAckResult;
@@ -23,7 +23,7 @@ using Testing::MakeRequestText;
 namespace
 {
 
-/// What comes in, and what the refusal has to say; empty: it cannot be answered, only counted.
+/// A text, and what its rejection must contain; empty: the text cannot be answered, only counted.
 struct BadInput
 {
     std::string name;
@@ -42,7 +42,7 @@ std::string MakeStepText(const std::string& members)
     return MakePlanText(R"("steps":[{"stepNo":1,"action":"TrayLoad",)" + members + "}]");
 }
 
-/// What reads alike on both sides; `command` is one that the side understands, with `payload`.
+/// Texts for both sides; `command` is one that the side knows, with `payload`.
 std::vector<BadInput> ListCommon(const std::string& command, const std::string& payload)
 {
     const std::string head = R"({"command":")" + command + R"(","transactionId":"t-1",)";
@@ -98,7 +98,7 @@ std::vector<BadInput> ListCommon(const std::string& command, const std::string& 
     };
 }
 
-/// What an MCS may get wrong.
+/// Errors of an MCS.
 std::vector<BadInput> ListForACS()
 {
     const std::string control = R"("position":"A01.CP01","jobs":[{"jobId":"J",)";
@@ -191,7 +191,7 @@ std::vector<BadInput> ListForACS()
     };
 }
 
-/// What an ACS may get wrong.
+/// Errors of an ACS.
 std::vector<BadInput> ListForMCS()
 {
     const auto status = [](const std::string& type, const std::string& word) {
@@ -201,24 +201,24 @@ std::vector<BadInput> ListForMCS()
     };
     return {
         {"a request", MakeRequestText("RequestAcsPlans", "{}"), "unsupported command", EProtocolNote::UnknownCommand},
-        {"a plan status that is none",
+        {"an unknown plan status",
          MakeRequestText("PlanReport", R"({"planId":"P","status":"Canceled"})"),
          "payload.status: expected one of Pending"},
-        {"a step status that is none",
+        {"an unknown step status",
          MakeRequestText("StepReport", R"({"planId":"P","robotId":"R","stepNo":1,"status":"Instructed"})"),
          "payload.status: expected one of Pending"},
-        {"a job status that was struck out",
+        {"a deleted job status",
          MakeRequestText("JobReport", R"({"planId":"P","robotId":"R","stepNo":1,"jobId":"J","status":"Retrying"})"),
          "payload.status: expected one of Pending"},
-        {"a robot type that is none", status("AMR", "Idle"), "payload.robotType: expected one of LR, CR"},
-        {"a robot status that is none", status("LR", "Alarm"), "payload.robotStatus: expected one of Init"},
-        {"a TSC state that is none",
+        {"an unknown robot type", status("AMR", "Idle"), "payload.robotType: expected one of LR, CR"},
+        {"an unknown robot status", status("LR", "Alarm"), "payload.robotStatus: expected one of Init"},
+        {"an unknown TSC state",
          MakeRequestText("TscStateUpdate", R"({"state":"Stopped"})"),
          "payload.state: expected one of Auto"},
         {"isConnected a word",
          MakeRequestText("AcsCommStateUpdate", R"({"isConnected":"yes"})"),
          "payload.isConnected: expected true or false"},
-        {"an error level that is none",
+        {"an unknown error level",
          MakeRequestText("ErrorReport", R"({"robotId":"R","state":true,"errorCode":"E","level":"medium"})"),
          "payload.level: expected one of heavy, light"},
         {"robotId empty",
@@ -232,24 +232,22 @@ std::vector<BadInput> ListForMCS()
              "RobotStatusUpdate",
              R"({"robotId":"R","robotType":"LR","robotStatus":"Idle","carrierIds":["C\n"]})"),
          "payload.carrierIds[0]: expected an identifier without control characters"},
-        {"positions that are none",
-         MakeRequestText("RobotPositionUpdate", R"({"robots":[{"robotId":"R","x":"here"}]})"),
-         ""},
+        {"invalid positions", MakeRequestText("RobotPositionUpdate", R"({"robots":[{"robotId":"R","x":"here"}]})"), ""},
     };
 }
 
-/// Either session, as far as a bad text goes.
+/// Feeds one bad text to either session.
 template <typename TFeed>
 void CheckInput(const BadInput& bad, TFeed feed, const Protocol::SessionStatistics& statistics)
 {
     INFO(bad.name);
     const std::uint64_t before = statistics.CountOf(bad.note);
-    Testing::SessionProbe& probe = feed(bad.text);
-    CHECK(probe.GetEvents<Protocol::RequestReceived>().empty());
-    CHECK(probe.GetEvents<Protocol::Acked>().empty());
-    CHECK(probe.GetAll<Protocol::Close>().empty());
+    Testing::ActionRecorder& recorder = feed(bad.text);
+    CHECK(recorder.GetEvents<Protocol::RequestReceived>().empty());
+    CHECK(recorder.GetEvents<Protocol::Acked>().empty());
+    CHECK(recorder.GetAll<Protocol::Close>().empty());
     CHECK(statistics.CountOf(bad.note) == before + 1);
-    const auto sent = probe.GetAll<Protocol::SendText>();
+    const auto sent = recorder.GetAll<Protocol::SendText>();
     if (bad.reason.empty())
     {
         CHECK(sent.empty());
@@ -270,37 +268,37 @@ void Append(std::vector<BadInput>& inputs, std::vector<BadInput> more)
 
 } // namespace
 
-TEST_CASE("R1, R3 Whatever an MCS sends, the ACS refuses or counts it, executes nothing and goes on")
+TEST_CASE("R1, R3 Whatever an MCS sends, the ACS rejects or counts it, executes nothing and continues")
 {
-    Testing::AcsSessionBench bench;
+    Testing::AcsSessionFixture bench;
     bench.StartAndReplay();
     std::vector<BadInput> inputs = ListCommon("CancelPlan", R"({"planId":"P"})");
     Append(inputs, ListForACS());
-    const auto feed = [&bench](const std::string& text) -> Testing::SessionProbe& {
+    const auto feed = [&bench](const std::string& text) -> Testing::ActionRecorder& {
         bench.Text(text);
-        return bench.probe;
+        return bench.recorder;
     };
     int good = 0;
     for (const BadInput& bad : inputs)
     {
         CheckInput(bad, feed, bench.session.GetStatistics());
         bench.Text(MakeRequestText("CancelPlan", R"({"planId":"P"})", "good-" + std::to_string(++good)));
-        REQUIRE(bench.probe.GetEvents<Protocol::RequestReceived>().size() == 1);
+        REQUIRE(bench.recorder.GetEvents<Protocol::RequestReceived>().size() == 1);
     }
 }
 
-TEST_CASE("R1, R3 Whatever an ACS sends, the MCS refuses or counts it, delivers nothing and goes on")
+TEST_CASE("R1, R3 Whatever an ACS sends, the MCS rejects or counts it, delivers nothing and continues")
 {
     Testing::ManualClock clock;
     Testing::SeededRandom random;
     Protocol::McsSession session({}, random);
-    Testing::SessionProbe probe;
-    const auto feed = [&](const std::string& text) -> Testing::SessionProbe& {
-        probe.Clear();
-        session.OnText(1, text, clock.GetNow(), probe.out);
-        return probe;
+    Testing::ActionRecorder recorder;
+    const auto feed = [&](const std::string& text) -> Testing::ActionRecorder& {
+        recorder.Clear();
+        session.OnText(1, text, clock.GetNow(), recorder.out);
+        return recorder;
     };
-    session.OnConnected(1, clock.GetNow(), probe.out);
+    session.OnConnected(1, clock.GetNow(), recorder.out);
     feed(MakeRequestText("Registration", "{}", "r"));
     REQUIRE(session.IsRegistered());
     const std::string report = R"({"planId":"P","status":"Failed","message":""})";
@@ -311,17 +309,16 @@ TEST_CASE("R1, R3 Whatever an ACS sends, the MCS refuses or counts it, delivers 
     {
         CheckInput(bad, feed, session.GetStatistics());
         feed(MakeRequestText("PlanReport", report, "good-" + std::to_string(++good)));
-        REQUIRE(probe.GetEvents<Protocol::RequestReceived>().size() == 1);
+        REQUIRE(recorder.GetEvents<Protocol::RequestReceived>().size() == 1);
     }
 }
 
-TEST_CASE(
-    "R3 A request that cannot be read is told to the ACS with what could be read of it, the member and the reason")
+TEST_CASE("R3 An undecodable request is reported to the ACS with its decoded ids, the member and the reason")
 {
-    Testing::AcsSessionBench bench;
+    Testing::AcsSessionFixture bench;
     bench.StartAndReplay();
     bench.Text(MakePlanText(R"("steps":[{"stepNo":0}])"));
-    const auto refused = bench.probe.GetEvents<Protocol::RequestRefused>();
+    const auto refused = bench.recorder.GetEvents<Protocol::RequestRefused>();
     REQUIRE(refused.size() == 1);
     CHECK(refused[0].commandName == "ExecutionPlan");
     CHECK(refused[0].transactionID == "t-1");
@@ -329,21 +326,21 @@ TEST_CASE(
     CHECK(refused[0].path == "payload.steps[0].stepNo");
     CHECK(refused[0].reason == "payload.steps[0].stepNo: expected an integer from 1 to 2147483647, found 0");
     bench.Text(MakeRequestText("Dance", R"({"planId":"P"})"));
-    REQUIRE(bench.probe.GetEvents<Protocol::RequestRefused>().size() == 1);
-    CHECK(bench.probe.GetEvents<Protocol::RequestRefused>()[0].reason == "unsupported command");
+    REQUIRE(bench.recorder.GetEvents<Protocol::RequestRefused>().size() == 1);
+    CHECK(bench.recorder.GetEvents<Protocol::RequestRefused>()[0].reason == "unsupported command");
     for (const std::string& text : {std::string("hello"), MakeRequestText("PlanReportAck", "7")})
     {
         bench.Text(text); // not answered
-        CHECK(bench.probe.GetEvents<Protocol::RequestRefused>().empty());
+        CHECK(bench.recorder.GetEvents<Protocol::RequestRefused>().empty());
     }
 }
 
-TEST_CASE("R1, 4.1 The refusal of a planId with a control character repeats it, and the MCS can read that")
+TEST_CASE("R1, 4.1 The rejection of a planId with a control character repeats it, and the MCS can decode that")
 {
-    Testing::AcsSessionBench bench;
+    Testing::AcsSessionFixture bench;
     bench.StartAndReplay();
     bench.Text(MakeRequestText("CancelPlan", R"({"planId":"P\n1"})"));
-    const auto sent = bench.probe.GetAll<Protocol::SendText>();
+    const auto sent = bench.recorder.GetAll<Protocol::SendText>();
     REQUIRE(sent.size() == 1);
     const Protocol::DecodeOutcome read = Protocol::AcsCodec().Decode(sent[0].text);
     REQUIRE(read.message.has_value());
@@ -352,29 +349,29 @@ TEST_CASE("R1, 4.1 The refusal of a planId with a control character repeats it, 
     CHECK(std::get<Protocol::PlanAck>(ack.payload).planID == "P\n1");
 }
 
-TEST_CASE("1 A frame of 100 MB is counted and thrown away unread, by either side")
+TEST_CASE("1 Either side counts and drops a frame of 100 MB without parsing it")
 {
     std::string frame(100U * 1024U * 1024U, ' ');
     frame.replace(0, 2, "{}");
-    Testing::AcsSessionBench bench;
+    Testing::AcsSessionFixture bench;
     bench.StartAndReplay();
-    bench.probe.Clear();
-    bench.session.OnText(frame, bench.clock.GetNow(), bench.probe.out);
-    CHECK(bench.probe.GetNotes() == std::vector<EProtocolNote>{EProtocolNote::Undecodable});
-    CHECK(bench.probe.out.size() == 1);
+    bench.recorder.Clear();
+    bench.session.OnText(frame, bench.clock.GetNow(), bench.recorder.out);
+    CHECK(bench.recorder.GetNotes() == std::vector<EProtocolNote>{EProtocolNote::Undecodable});
+    CHECK(bench.recorder.out.size() == 1);
     CHECK(bench.session.IsRegistered());
 
     Protocol::McsSession session({}, bench.random);
-    session.OnConnected(1, bench.clock.GetNow(), bench.probe.out);
-    bench.probe.Clear();
-    session.OnText(1, frame, bench.clock.GetNow(), bench.probe.out);
-    CHECK(bench.probe.GetNotes() == std::vector<EProtocolNote>{EProtocolNote::Undecodable});
-    CHECK(bench.probe.out.size() == 1);
+    session.OnConnected(1, bench.clock.GetNow(), bench.recorder.out);
+    bench.recorder.Clear();
+    session.OnText(1, frame, bench.clock.GetNow(), bench.recorder.out);
+    CHECK(bench.recorder.GetNotes() == std::vector<EProtocolNote>{EProtocolNote::Undecodable});
+    CHECK(bench.recorder.out.size() == 1);
 }
 
-TEST_CASE("4.1 What actions on a set say of from and to is not looked at")
+TEST_CASE("4.1 from and to of actions on a set are not checked")
 {
-    Testing::AcsSessionBench bench;
+    Testing::AcsSessionFixture bench;
     bench.StartAndReplay();
     for (const std::string action : {"CloseSetCover", "OpenSetCover", "Start", "start"})
     {
@@ -384,16 +381,16 @@ TEST_CASE("4.1 What actions on a set say of from and to is not looked at")
             R"({"planId":"P","steps":[{"stepNo":1,"action":")" + action
                 + R"(","position":"A01.SET01","jobs":[{"jobId":"J","from":"-","to":"?"}]}]})",
             action));
-        CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().size() == 1);
+        CHECK(bench.recorder.GetEvents<Protocol::RequestReceived>().size() == 1);
     }
 }
 
-TEST_CASE("10 Locations that do not parse are the receiver's own business by option")
+TEST_CASE("10 By option a location that cannot be parsed is accepted")
 {
     Protocol::SessionOptions options = Testing::MakeOptions();
     options.codec.bLocationsChecked = false;
-    Testing::AcsSessionBench bench(options);
+    Testing::AcsSessionFixture bench(options);
     bench.StartAndReplay();
     bench.Text(MakeStepText(R"("position":"Room 7")"));
-    CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().size() == 1);
+    CHECK(bench.recorder.GetEvents<Protocol::RequestReceived>().size() == 1);
 }

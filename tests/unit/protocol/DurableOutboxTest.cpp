@@ -93,7 +93,7 @@ public:
     DurableOutbox outbox{store, random};
     SessionStub session;
 
-    /// Registered, and the replay of nothing done.
+    /// Registered, with an empty replay completed.
     void Register()
     {
         On(Protocol::Registered{});

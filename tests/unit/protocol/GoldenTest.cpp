@@ -16,7 +16,7 @@ using Protocol::EAcsCommand;
 namespace
 {
 
-/// A request or a response of the protocol, as it calls itself.
+/// A request or a response of the protocol.
 struct Kind
 {
     EAcsCommand command = EAcsCommand::ExecutionPlan;
@@ -24,7 +24,7 @@ struct Kind
     std::string name;
 };
 
-/// Every message that the protocol has, in both directions.
+/// Every message of the protocol, in both directions.
 std::vector<Kind> ListKinds()
 {
     std::vector<Kind> kinds;
@@ -92,12 +92,12 @@ TEST_CASE("4, 5 Every message, full and minimal, decodes and encodes to the same
     }
 }
 
-TEST_CASE("2, D-27 Every message with null, or nothing, for all that may be missing is the minimal one")
+TEST_CASE("2, D-27 With null or nothing in every optional member a message is the minimal one")
 {
     AcsCodec codec;
     for (const Kind& kind : ListKinds())
     {
-        // What SyncConfig carries is not looked into.
+        // The contents of SyncConfig are not decoded.
         if (kind.command == EAcsCommand::SyncConfig && !kind.bAck)
         {
             CHECK(Encode(Decode(codec, ReadGolden(kind, "null"))).find(R"("payload":{"x":null})") != std::string::npos);
@@ -115,7 +115,7 @@ TEST_CASE("2, D-27 Every message with null, or nothing, for all that may be miss
     }
 }
 
-TEST_CASE("4, 5 There is a golden file of each kind for every message, and none besides")
+TEST_CASE("4, 5 There is a golden file of each kind for every message, and no other")
 {
     std::set<std::string> expected;
     for (const Kind& kind : ListKinds())

@@ -112,7 +112,7 @@ std::string MakeAckText(const std::string& command, const std::string& transacti
 
 } // namespace
 
-TEST_CASE("The probe sees what is taken and given back")
+TEST_CASE("The probe counts what is allocated and freed")
 {
     const std::uint64_t blocks = HeapProbe::GetBlockCount();
     const std::int64_t bytes = HeapProbe::GetLiveBytes();
@@ -123,14 +123,14 @@ TEST_CASE("The probe sees what is taken and given back")
     CHECK(HeapProbe::GetLiveBytes() == bytes);
 }
 
-TEST_CASE("Decoding takes no block but those of the result's strings and vectors")
+TEST_CASE("Decoding allocates only the strings and vectors of the result")
 {
     CheckDecode<Protocol::ExecutionPlan>(ReadText("ExecutionPlanCR"));
     CheckDecode<Protocol::ExecutionPlan>(Encode(Testing::MakeLargePlan()));
     CheckDecode<Protocol::RobotPositionUpdate>(Encode(Testing::MakeFiftyPositions()));
 }
 
-TEST_CASE("Encoding into a text that is used again takes nothing")
+TEST_CASE("Encoding into a reused text allocates nothing")
 {
     AcsCodec codec;
     std::vector<AcsMessage> messages{Testing::MakeLargePlan(), Testing::MakeFiftyPositions()};
@@ -158,7 +158,7 @@ TEST_CASE("Encoding into a text that is used again takes nothing")
     CHECK(HeapProbe::GetBlockCount() == before);
 }
 
-TEST_CASE("An ACS session holds less than 64 KiB besides what waits in its queues")
+TEST_CASE("An ACS session holds less than 64 KiB besides its queues")
 {
     Testing::ManualClock clock;
     const std::string plan = Encode(Testing::MakeLargePlan());
@@ -191,7 +191,7 @@ TEST_CASE("An ACS session holds less than 64 KiB besides what waits in its queue
     CHECK(bytes + static_cast<std::int64_t>(sizeof(Protocol::AcsSession)) < MOST_SESSION_BYTES);
 }
 
-TEST_CASE("An MCS session holds less than 64 KiB besides what waits in its queues")
+TEST_CASE("An MCS session holds less than 64 KiB besides its queues")
 {
     Testing::ManualClock clock;
     const std::string positions = Encode(Testing::MakeFiftyPositions());

@@ -1,8 +1,8 @@
+#include "ActionRecorder.hpp"
 #include "Catch.hpp"
 #include "Fixture.hpp"
 #include "ManualClock.hpp"
 #include "SeededRandom.hpp"
-#include "SessionProbe.hpp"
 #include <acs/protocol/AcsCodec.hpp>
 #include <acs/protocol/AcsSession.hpp>
 #include <acs/protocol/McsSession.hpp>
@@ -25,20 +25,20 @@ namespace
 
 const std::string PLAN_REPORT = R"({"planId":"P","status":"Completed","message":""})";
 
-class McsBench
+class McsSessionFixture
 {
 public:
     Testing::ManualClock clock;
     Testing::SeededRandom random;
     Protocol::McsSession session;
-    Testing::SessionProbe probe;
+    Testing::ActionRecorder recorder;
 
-    explicit McsBench(bool bSecondRefused = false)
-        : McsBench(MakeOptions(bSecondRefused))
+    explicit McsSessionFixture(bool bSecondRefused = false)
+        : McsSessionFixture(MakeOptions(bSecondRefused))
     {
     }
 
-    explicit McsBench(const Protocol::McsSessionOptions& options)
+    explicit McsSessionFixture(const Protocol::McsSessionOptions& options)
         : session(options, random)
     {
     }
@@ -52,42 +52,42 @@ public:
 
     void Text(Protocol::ConnectionID connection, const std::string& text)
     {
-        probe.Clear();
-        session.OnText(connection, text, clock.GetNow(), probe.out);
+        recorder.Clear();
+        session.OnText(connection, text, clock.GetNow(), recorder.out);
     }
 
     void Register(Protocol::ConnectionID connection)
     {
-        session.OnConnected(connection, clock.GetNow(), probe.out);
+        session.OnConnected(connection, clock.GetNow(), recorder.out);
         Text(connection, MakeRequestText("Registration", "{}", "r-" + std::to_string(connection)));
     }
 };
 
 } // namespace
 
-TEST_CASE("6.2 The MCS acknowledges a registration; what comes before it is answered with Fail and goes no further")
+TEST_CASE("6.2 The MCS acknowledges a registration; earlier requests are answered with Fail and not delivered")
 {
-    McsBench bench;
-    bench.session.OnConnected(1, bench.clock.GetNow(), bench.probe.out);
+    McsSessionFixture bench;
+    bench.session.OnConnected(1, bench.clock.GetNow(), bench.recorder.out);
     bench.Text(1, MakeRequestText("PlanReport", PLAN_REPORT));
-    REQUIRE(bench.probe.GetAcks().size() == 1);
-    CHECK(bench.probe.GetAcks()[0].result == EAckResult::Fail);
-    CHECK(bench.probe.GetAcks()[0].message == "Register first.");
-    CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().empty());
-    CHECK(bench.probe.GetNotes() == std::vector<EProtocolNote>{EProtocolNote::BeforeRegistered});
+    REQUIRE(bench.recorder.GetAcks().size() == 1);
+    CHECK(bench.recorder.GetAcks()[0].result == EAckResult::Fail);
+    CHECK(bench.recorder.GetAcks()[0].message == "Register first.");
+    CHECK(bench.recorder.GetEvents<Protocol::RequestReceived>().empty());
+    CHECK(bench.recorder.GetNotes() == std::vector<EProtocolNote>{EProtocolNote::BeforeRegistered});
     bench.Text(1, MakeRequestText("Registration", "{}", "r"));
-    REQUIRE(bench.probe.GetAcks().size() == 1);
-    CHECK(bench.probe.GetAcks()[0].transactionID == "r");
-    CHECK(bench.probe.GetAcks()[0].result == EAckResult::Success);
+    REQUIRE(bench.recorder.GetAcks().size() == 1);
+    CHECK(bench.recorder.GetAcks()[0].transactionID == "r");
+    CHECK(bench.recorder.GetAcks()[0].result == EAckResult::Success);
     CHECK(bench.session.IsRegistered());
 }
 
-TEST_CASE("R3 A Registration that cannot be read is answered with Fail, and a good one may follow")
+TEST_CASE("R3 An undecodable Registration is answered with Fail, and a valid one may follow")
 {
-    McsBench bench;
-    bench.session.OnConnected(1, bench.clock.GetNow(), bench.probe.out);
+    McsSessionFixture bench;
+    bench.session.OnConnected(1, bench.clock.GetNow(), bench.recorder.out);
     bench.Text(1, MakeRequestText("Registration", "null", "r0"));
-    const auto refusals = bench.probe.GetAll<Protocol::SendText>();
+    const auto refusals = bench.recorder.GetAll<Protocol::SendText>();
     REQUIRE(refusals.size() == 1);
     CHECK(refusals[0].text.find(R"("command":"RegistrationAck","transactionId":"r0")") != std::string::npos);
     CHECK(refusals[0].text.find(R"("result":"Fail")") != std::string::npos);
@@ -96,76 +96,76 @@ TEST_CASE("R3 A Registration that cannot be read is answered with Fail, and a go
     CHECK(bench.session.IsRegistered());
 }
 
-TEST_CASE("6.2 A connection from which no Registration comes is closed, so that idle ones do not keep the ACS out")
+TEST_CASE("6.2 A connection without a Registration is closed, so that idle ones do not keep the ACS out")
 {
-    McsBench bench;
-    bench.session.OnConnected(1, bench.clock.GetNow(), bench.probe.out);
+    McsSessionFixture bench;
+    bench.session.OnConnected(1, bench.clock.GetNow(), bench.recorder.out);
     bench.clock.Advance(4s);
-    bench.session.OnConnected(2, bench.clock.GetNow(), bench.probe.out);
+    bench.session.OnConnected(2, bench.clock.GetNow(), bench.recorder.out);
     bench.Text(2, MakeRequestText("Registration", "{}", "r"));
     bench.clock.Advance(6s);
-    bench.probe.Clear();
-    bench.session.OnTimer(Protocol::ESessionTimer::Registration, bench.clock.GetNow(), bench.probe.out);
-    const auto closes = bench.probe.GetAll<Protocol::Close>();
+    bench.recorder.Clear();
+    bench.session.OnTimer(Protocol::ESessionTimer::Registration, bench.clock.GetNow(), bench.recorder.out);
+    const auto closes = bench.recorder.GetAll<Protocol::Close>();
     REQUIRE(closes.size() == 1);
     CHECK(closes[0].connection == 1);
     CHECK(closes[0].code == 1008);
     CHECK(bench.session.IsRegistered());
-    CHECK(bench.probe.GetAll<Protocol::StartTimer>().empty());
+    CHECK(bench.recorder.GetAll<Protocol::StartTimer>().empty());
 }
 
-TEST_CASE("6.2 Nobody is waited for any more once all connections have registered or gone")
+TEST_CASE("6.2 No Registration is awaited once all connections have registered or closed")
 {
-    McsBench bench;
-    bench.session.OnConnected(1, bench.clock.GetNow(), bench.probe.out);
-    bench.session.OnConnected(2, bench.clock.GetNow(), bench.probe.out);
-    bench.probe.Clear();
+    McsSessionFixture bench;
+    bench.session.OnConnected(1, bench.clock.GetNow(), bench.recorder.out);
+    bench.session.OnConnected(2, bench.clock.GetNow(), bench.recorder.out);
+    bench.recorder.Clear();
     bench.Text(1, MakeRequestText("Registration", "{}", "r"));
-    CHECK(bench.probe.GetAll<Protocol::CancelTimer>().empty());
-    bench.session.OnClosed(2, "", bench.clock.GetNow(), bench.probe.out);
-    const auto cancels = bench.probe.GetAll<Protocol::CancelTimer>();
+    CHECK(bench.recorder.GetAll<Protocol::CancelTimer>().empty());
+    bench.session.OnClosed(2, "", bench.clock.GetNow(), bench.recorder.out);
+    const auto cancels = bench.recorder.GetAll<Protocol::CancelTimer>();
     REQUIRE(cancels.size() == 1);
     CHECK(cancels[0].timer == Protocol::ESessionTimer::Registration);
 }
 
-TEST_CASE("D-4 An Ack that comes after its request was given up is that request's, not the next one's of its command")
+TEST_CASE("D-4 An Ack after its request has expired does not acknowledge the next request of the command")
 {
-    McsBench bench;
+    McsSessionFixture bench;
     bench.Register(1);
     const auto send = [&bench](const std::string& planID) {
         const Protocol::AcsRequest request =
             bench.session.MakeRequest(Protocol::CancelPlan{planID, ""}, bench.clock.GetNow());
-        REQUIRE(bench.session.TrySend(request, bench.clock.GetNow(), bench.probe.out));
+        REQUIRE(bench.session.TrySend(request, bench.clock.GetNow(), bench.recorder.out));
         return request.transactionID;
     };
     const std::string late = send("A");
     bench.clock.Advance(6s);
-    bench.probe.Clear();
-    bench.session.OnTimer(Protocol::ESessionTimer::Ack, bench.clock.GetNow(), bench.probe.out);
-    REQUIRE(bench.probe.GetEvents<Protocol::RequestUnanswered>().size() == 1);
+    bench.recorder.Clear();
+    bench.session.OnTimer(Protocol::ESessionTimer::Ack, bench.clock.GetNow(), bench.recorder.out);
+    REQUIRE(bench.recorder.GetEvents<Protocol::RequestUnanswered>().size() == 1);
     const std::string present = send("B");
     for (const std::string& transactionID : {late, present})
     {
         bench.Text(1, MakeAckText("CancelPlan", transactionID));
-        REQUIRE(bench.probe.GetEvents<Protocol::AckReceived>().size() == 1);
-        CHECK(bench.probe.GetEvents<Protocol::AckReceived>()[0].ack.transactionID == transactionID);
-        CHECK(bench.probe.GetNotes().empty());
+        REQUIRE(bench.recorder.GetEvents<Protocol::AckReceived>().size() == 1);
+        CHECK(bench.recorder.GetEvents<Protocol::AckReceived>()[0].ack.transactionID == transactionID);
+        CHECK(bench.recorder.GetNotes().empty());
     }
     bench.Text(1, MakeAckText("CancelPlan", present));
-    CHECK(bench.probe.GetEvents<Protocol::AckReceived>().empty());
-    CHECK(bench.probe.GetNotes() == std::vector<EProtocolNote>{EProtocolNote::AckUnexpected});
+    CHECK(bench.recorder.GetEvents<Protocol::AckReceived>().empty());
+    CHECK(bench.recorder.GetNotes() == std::vector<EProtocolNote>{EProtocolNote::AckUnexpected});
 }
 
 TEST_CASE("R1, R2 The MCS acknowledges each report once, a repeated one again, positions never")
 {
-    McsBench bench;
+    McsSessionFixture bench;
     bench.Register(1);
     bench.Text(1, MakeRequestText("PlanReport", PLAN_REPORT, "a"));
-    CHECK(bench.probe.GetAcks().at(0).transactionID == "a");
-    CHECK_FALSE(bench.probe.GetEvents<Protocol::RequestReceived>().at(0).bDuplicate);
+    CHECK(bench.recorder.GetAcks().at(0).transactionID == "a");
+    CHECK_FALSE(bench.recorder.GetEvents<Protocol::RequestReceived>().at(0).bDuplicate);
     bench.Text(1, MakeRequestText("PlanReport", PLAN_REPORT, "a"));
-    CHECK(bench.probe.GetAcks().size() == 1);
-    CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().at(0).bDuplicate);
+    CHECK(bench.recorder.GetAcks().size() == 1);
+    CHECK(bench.recorder.GetEvents<Protocol::RequestReceived>().at(0).bDuplicate);
     const Protocol::CommandCounters& counters = bench.session.GetStatistics().Of(EAcsCommand::PlanReport);
     CHECK(counters.received == 2);
     CHECK(counters.acknowledged == 2);
@@ -173,141 +173,141 @@ TEST_CASE("R1, R2 The MCS acknowledges each report once, a repeated one again, p
     CHECK(counters.refused == 0);
 
     bench.Text(1, MakeRequestText("RobotPositionUpdate", R"({"robots":[]})"));
-    CHECK(bench.probe.GetAll<Protocol::SendText>().empty());
-    CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().size() == 1);
+    CHECK(bench.recorder.GetAll<Protocol::SendText>().empty());
+    CHECK(bench.recorder.GetEvents<Protocol::RequestReceived>().size() == 1);
     CHECK(bench.session.GetStatistics().Of(EAcsCommand::RobotPositionUpdate).received == 1);
 }
 
-TEST_CASE("R3 The MCS refuses what it cannot read and what is not for it")
+TEST_CASE("R3 The MCS rejects undecodable messages and messages that are not for an MCS")
 {
-    McsBench bench;
+    McsSessionFixture bench;
     bench.Register(1);
     bench.Text(1, MakeRequestText("PlanReport", R"({"planId":"P","status":"Dancing"})"));
-    CHECK(bench.probe.GetAcks().at(0).result == EAckResult::Fail);
+    CHECK(bench.recorder.GetAcks().at(0).result == EAckResult::Fail);
     bench.Text(1, MakeRequestText("RequestAcsPlans", "{}"));
-    CHECK(bench.probe.GetAcks().at(0).message == "unsupported command");
-    CHECK(bench.probe.GetEvents<Protocol::RequestReceived>().empty());
+    CHECK(bench.recorder.GetAcks().at(0).message == "unsupported command");
+    CHECK(bench.recorder.GetEvents<Protocol::RequestReceived>().empty());
 }
 
-TEST_CASE("6.3 A request of the MCS is followed until its Ack")
+TEST_CASE("6.3 A request of the MCS is tracked until its Ack")
 {
-    McsBench bench;
+    McsSessionFixture bench;
     const Protocol::AcsRequest request =
         bench.session.MakeRequest(Protocol::CancelPlan{"P", "r"}, bench.clock.GetNow());
-    CHECK_FALSE(bench.session.TrySend(request, bench.clock.GetNow(), bench.probe.out));
+    CHECK_FALSE(bench.session.TrySend(request, bench.clock.GetNow(), bench.recorder.out));
     bench.Register(1);
-    bench.probe.Clear();
-    REQUIRE(bench.session.TrySend(request, bench.clock.GetNow(), bench.probe.out));
-    CHECK(bench.probe.GetRequests().at(0) == request);
-    CHECK(bench.probe.GetDelayOrNull(Protocol::ESessionTimer::Ack) == 5s);
+    bench.recorder.Clear();
+    REQUIRE(bench.session.TrySend(request, bench.clock.GetNow(), bench.recorder.out));
+    CHECK(bench.recorder.GetRequests().at(0) == request);
+    CHECK(bench.recorder.GetDelayOrNull(Protocol::ESessionTimer::Ack) == 5s);
     CHECK(bench.session.GetPendingCount() == 1);
     SECTION("answered")
     {
         bench.Text(1, MakeAckText("CancelPlan", request.transactionID, "Fail"));
-        CHECK(bench.probe.GetEvents<Protocol::AckReceived>().at(0).ack.result == EAckResult::Fail);
+        CHECK(bench.recorder.GetEvents<Protocol::AckReceived>().at(0).ack.result == EAckResult::Fail);
     }
     SECTION("answered with a foreign transactionId")
     {
         bench.Text(1, MakeAckText("CancelPlan", "other"));
-        CHECK(bench.probe.GetEvents<Protocol::AckReceived>().at(0).ack.transactionID == request.transactionID);
+        CHECK(bench.recorder.GetEvents<Protocol::AckReceived>().at(0).ack.transactionID == request.transactionID);
     }
     SECTION("not answered in time")
     {
         bench.clock.Advance(5s);
-        bench.probe.Clear();
-        bench.session.OnTimer(Protocol::ESessionTimer::Ack, bench.clock.GetNow(), bench.probe.out);
-        CHECK(bench.probe.GetEvents<Protocol::RequestUnanswered>().size() == 1);
+        bench.recorder.Clear();
+        bench.session.OnTimer(Protocol::ESessionTimer::Ack, bench.clock.GetNow(), bench.recorder.out);
+        CHECK(bench.recorder.GetEvents<Protocol::RequestUnanswered>().size() == 1);
     }
     SECTION("the link is lost")
     {
-        bench.probe.Clear();
-        bench.session.OnClosed(1, "gone", bench.clock.GetNow(), bench.probe.out);
-        CHECK(bench.probe.GetEvents<Protocol::RequestUnanswered>().size() == 1);
-        CHECK(bench.probe.GetEvents<Protocol::LinkLost>().size() == 1);
+        bench.recorder.Clear();
+        bench.session.OnClosed(1, "gone", bench.clock.GetNow(), bench.recorder.out);
+        CHECK(bench.recorder.GetEvents<Protocol::RequestUnanswered>().size() == 1);
+        CHECK(bench.recorder.GetEvents<Protocol::LinkLost>().size() == 1);
         CHECK_FALSE(bench.session.IsRegistered());
     }
     CHECK(bench.session.GetPendingCount() == 0);
 }
 
-TEST_CASE("12.3 A second client replaces the first, or is refused with 403 and 1008 by option")
+TEST_CASE("12.3 A second client replaces the first, or by option is rejected with 403 and 1008")
 {
     SECTION("replaces a half-open one")
     {
-        McsBench bench;
+        McsSessionFixture bench;
         bench.Register(1);
         CHECK_FALSE(bench.session.ShouldRefuseUpgrade());
         bench.Register(2);
-        CHECK(bench.probe.GetAll<Protocol::Close>().at(0).connection == 1);
-        CHECK(bench.probe.GetEvents<Protocol::LinkLost>().size() == 1);
-        CHECK(bench.probe.GetEvents<Protocol::Registered>().size() == 1);
+        CHECK(bench.recorder.GetAll<Protocol::Close>().at(0).connection == 1);
+        CHECK(bench.recorder.GetEvents<Protocol::LinkLost>().size() == 1);
+        CHECK(bench.recorder.GetEvents<Protocol::Registered>().size() == 1);
         CHECK(bench.session.GetRegisteredOrNull() == Protocol::ConnectionID(2));
-        bench.probe.Clear();
-        bench.session.OnClosed(1, "closed", bench.clock.GetNow(), bench.probe.out);
-        CHECK(bench.probe.out.empty());
+        bench.recorder.Clear();
+        bench.session.OnClosed(1, "closed", bench.clock.GetNow(), bench.recorder.out);
+        CHECK(bench.recorder.out.empty());
         CHECK(bench.session.IsRegistered());
     }
     SECTION("refused")
     {
-        McsBench bench(true);
+        McsSessionFixture bench(true);
         CHECK_FALSE(bench.session.ShouldRefuseUpgrade());
         bench.Register(1);
         CHECK(bench.session.ShouldRefuseUpgrade());
         bench.Text(1, MakeRequestText("Registration", "{}", "again"));
-        CHECK(bench.probe.GetAcks().at(0).result == EAckResult::Fail);
-        CHECK(bench.probe.GetAll<Protocol::Close>().at(0).code == 1008);
+        CHECK(bench.recorder.GetAcks().at(0).result == EAckResult::Fail);
+        CHECK(bench.recorder.GetAll<Protocol::Close>().at(0).code == 1008);
     }
 }
 
-TEST_CASE("6 Both sessions together: a plan, its reports, a cut and a second registration")
+TEST_CASE("6 Both sessions together: a plan, its reports, a lost link and a second registration")
 {
     Testing::ManualClock clock;
     Testing::SeededRandom random;
     Protocol::AcsSession acs({}, random);
     Protocol::McsSession mcs({}, random);
-    Testing::SessionProbe acsProbe;
-    Testing::SessionProbe mcsProbe;
-    // Carries texts to and fro until both are silent; returns the events in the probes.
+    Testing::ActionRecorder acsRecorder;
+    Testing::ActionRecorder mcsRecorder;
+    // Exchanges texts until both sides are silent; the recorders have the events.
     const auto exchange = [&](Protocol::ConnectionID connection) {
         std::size_t acsDone = 0;
         std::size_t mcsDone = 0;
-        while (acsDone < acsProbe.out.size() || mcsDone < mcsProbe.out.size())
+        while (acsDone < acsRecorder.out.size() || mcsDone < mcsRecorder.out.size())
         {
-            for (; acsDone < acsProbe.out.size(); ++acsDone)
+            for (; acsDone < acsRecorder.out.size(); ++acsDone)
             {
-                if (const auto* sendOrNull = std::get_if<Protocol::SendText>(&acsProbe.out[acsDone]))
+                if (const auto* sendOrNull = std::get_if<Protocol::SendText>(&acsRecorder.out[acsDone]))
                 {
-                    mcs.OnText(connection, sendOrNull->text, clock.GetNow(), mcsProbe.out);
+                    mcs.OnText(connection, sendOrNull->text, clock.GetNow(), mcsRecorder.out);
                 }
             }
-            for (; mcsDone < mcsProbe.out.size(); ++mcsDone)
+            for (; mcsDone < mcsRecorder.out.size(); ++mcsDone)
             {
-                if (const auto* sendOrNull = std::get_if<Protocol::SendText>(&mcsProbe.out[mcsDone]))
+                if (const auto* sendOrNull = std::get_if<Protocol::SendText>(&mcsRecorder.out[mcsDone]))
                 {
-                    acs.OnText(sendOrNull->text, clock.GetNow(), acsProbe.out);
+                    acs.OnText(sendOrNull->text, clock.GetNow(), acsRecorder.out);
                 }
             }
         }
     };
     const auto connect = [&](Protocol::ConnectionID connection) {
-        acsProbe.Clear();
-        mcsProbe.Clear();
-        mcs.OnConnected(connection, clock.GetNow(), mcsProbe.out);
-        acs.OnConnected(clock.GetNow(), acsProbe.out);
+        acsRecorder.Clear();
+        mcsRecorder.Clear();
+        mcs.OnConnected(connection, clock.GetNow(), mcsRecorder.out);
+        acs.OnConnected(clock.GetNow(), acsRecorder.out);
         exchange(connection);
         REQUIRE(acs.IsRegistered());
         REQUIRE(mcs.IsRegistered());
     };
-    acs.Start(clock.GetNow(), acsProbe.out);
+    acs.Start(clock.GetNow(), acsRecorder.out);
     connect(1);
 
     const Protocol::AcsRequest plan =
         mcs.MakeRequest(Protocol::ExecutionPlan{"P", "L", {}, {{1, "Start", "A01.SET01", {}, {}}}}, clock.GetNow());
-    acsProbe.Clear();
-    mcsProbe.Clear();
-    REQUIRE(mcs.TrySend(plan, clock.GetNow(), mcsProbe.out));
+    acsRecorder.Clear();
+    mcsRecorder.Clear();
+    REQUIRE(mcs.TrySend(plan, clock.GetNow(), mcsRecorder.out));
     exchange(1);
-    CHECK(acsProbe.GetEvents<Protocol::RequestReceived>().at(0).request == plan);
-    acsProbe.Clear();
+    CHECK(acsRecorder.GetEvents<Protocol::RequestReceived>().at(0).request == plan);
+    acsRecorder.Clear();
     acs.Answer(
         EAcsCommand::ExecutionPlan,
         plan.transactionID,
@@ -315,28 +315,28 @@ TEST_CASE("6 Both sessions together: a plan, its reports, a cut and a second reg
         "",
         Protocol::PlanAck{"P"},
         clock.GetNow(),
-        acsProbe.out);
+        acsRecorder.out);
     const Protocol::AcsRequest report{"rep-1", {}, Protocol::PlanReport{"P", Protocol::EPlanStatus::Completed, ""}};
-    REQUIRE(acs.TrySendDurable(report, clock.GetNow(), acsProbe.out));
-    mcsProbe.Clear();
+    REQUIRE(acs.TrySendDurable(report, clock.GetNow(), acsRecorder.out));
+    mcsRecorder.Clear();
     // The answers of the MCS are lost with the link.
-    for (const Protocol::SendText& send : acsProbe.GetAll<Protocol::SendText>())
+    for (const Protocol::SendText& send : acsRecorder.GetAll<Protocol::SendText>())
     {
-        mcs.OnText(1, send.text, clock.GetNow(), mcsProbe.out);
+        mcs.OnText(1, send.text, clock.GetNow(), mcsRecorder.out);
     }
-    CHECK(mcsProbe.GetEvents<Protocol::AckReceived>().size() == 1);
-    mcs.OnClosed(1, "cut", clock.GetNow(), mcsProbe.out);
-    acs.OnClosed("cut", clock.GetNow(), acsProbe.out);
+    CHECK(mcsRecorder.GetEvents<Protocol::AckReceived>().size() == 1);
+    mcs.OnClosed(1, "cut", clock.GetNow(), mcsRecorder.out);
+    acs.OnClosed("cut", clock.GetNow(), acsRecorder.out);
     clock.Advance(10s);
-    acs.OnTimer(Protocol::ESessionTimer::Reconnect, clock.GetNow(), acsProbe.out);
+    acs.OnTimer(Protocol::ESessionTimer::Reconnect, clock.GetNow(), acsRecorder.out);
     connect(2);
-    acsProbe.Clear();
-    mcsProbe.Clear();
-    REQUIRE(acs.TrySendDurable(report, clock.GetNow(), acsProbe.out));
-    acs.ReplayDone(clock.GetNow(), acsProbe.out);
+    acsRecorder.Clear();
+    mcsRecorder.Clear();
+    REQUIRE(acs.TrySendDurable(report, clock.GetNow(), acsRecorder.out));
+    acs.ReplayDone(clock.GetNow(), acsRecorder.out);
     exchange(2);
-    CHECK(acsProbe.GetEvents<Protocol::Acked>().at(0).transactionID == "rep-1");
-    CHECK(mcsProbe.GetEvents<Protocol::RequestReceived>().at(0).bDuplicate);
+    CHECK(acsRecorder.GetEvents<Protocol::Acked>().at(0).transactionID == "rep-1");
+    CHECK(mcsRecorder.GetEvents<Protocol::RequestReceived>().at(0).bDuplicate);
     CHECK(mcs.GetStatistics().Of(EAcsCommand::PlanReport).received == 2);
     CHECK(mcs.GetStatistics().Of(EAcsCommand::PlanReport).duplicates == 1);
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Whether every JSON example of sections 6.2 to 6.21 of the MCS-ACS document has its fixture, and every fixture its
-example: equal but for texts for people. Exit code 1 and a line per mistake; 77 (skipped) where $ACS_SPEC_DIR does not
+example: equal except free texts. Exit code 1 and a line per error; 77 (skipped) where $ACS_SPEC_DIR does not
 name a folder with the document."""
 
 import json
@@ -21,7 +21,7 @@ def find_document_or_none():
 
 
 def list_examples(text):
-    """Pairs of a line number and the value of each JSON example behind section 6.1."""
+    """Pairs of a line number and the value of each JSON example after section 6.1."""
     decoder = json.JSONDecoder()
     begin = text.index("### 6.2 ")
     for block in re.finditer(r"```json\n(.*?)```", text[begin:], re.DOTALL):
@@ -48,17 +48,17 @@ def main():
     fixtures = {path.name: without_free_texts(json.loads(path.read_text(encoding="utf-8")))
                 for path in sorted(FIXTURES.glob("*.json"))}
     used = set()
-    mistakes = []
+    errors = []
     count = 0
     for line, value in list_examples(document.read_text(encoding="utf-8")):
         count += 1
         names = [name for name, fixture in fixtures.items() if fixture == without_free_texts(value)]
         used.update(names)
         if not names:
-            mistakes.append(f"the example in line {line} ({value.get('command')}) has no fixture")
-    mistakes += [f"{name} is no example of the document" for name in fixtures if name not in used]
-    print("\n".join(mistakes) if mistakes else f"{count} examples, all with a fixture")
-    return 1 if mistakes else 0
+            errors.append(f"the example in line {line} ({value.get('command')}) has no fixture")
+    errors += [f"{name} is no example of the document" for name in fixtures if name not in used]
+    print("\n".join(errors) if errors else f"{count} examples, all with a fixture")
+    return 1 if errors else 0
 
 
 if __name__ == "__main__":

@@ -41,8 +41,8 @@ std::string MakeLaneID(std::size_t column, std::size_t row)
 
 } // namespace
 
-/// Rows are one-way in turn, but for the first and the last; columns are two-way. A third of the docks lie on dead ends
-/// of three nodes to the left and the right, where whoever leaves must come back the way he went.
+/// Rows are alternately one-way, except the first and the last; columns are two-way. A third of the docks is on dead
+/// ends of three nodes on the left and the right, which a vehicle leaves by the route by which it came.
 SiteMap MakeFleetSite()
 {
     std::vector<SiteNode> nodes;
@@ -92,12 +92,12 @@ SiteMap MakeFleetSite()
             }
         }
     }
-    // Places and homes in turn, spread over the floor; all docks of dead ends are places.
+    // Alternately places and parking positions all over the floor; all docks of dead ends are places.
     std::stable_partition(spots.begin(), spots.end(), [](const auto& spot) { return spot.first.front() == 'E'; });
     for (std::size_t i = 0; i < FLEET_PLACES + HOMES; ++i)
     {
         const bool bPlace = i < FLEET_PLACES;
-        // Steps of 29 through the rest meet each spot once, as the two numbers have no divisor in common.
+        // Steps of 29 visit each spot once, because the two numbers have no common divisor.
         const std::size_t deadEnds = 12;
         const std::size_t spot = i < deadEnds ? i : deadEnds + (i * 29) % (COLUMNS * ROWS);
         const auto& [lane, position] = spots[spot];

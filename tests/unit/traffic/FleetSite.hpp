@@ -11,10 +11,10 @@ namespace ACS::Testing
 /// Stations A01.CP01 and so on, each with a dock of its own ("D-A01.CP01").
 inline constexpr std::size_t FLEET_PLACES = 40;
 
-/// A floor of 92 lane nodes with FLEET_PLACES places and 36 homes.
+/// A floor of 92 lane nodes with FLEET_PLACES places and 36 parking positions.
 [[nodiscard]] Planning::SiteMap MakeFleetSite();
 
-/// Logistics robots LR01 and so on (36 at most), each at its home.
+/// Logistics robots LR01 and so on (36 at most), each on its parking position.
 [[nodiscard]] Planning::EngineOptions MakeFleetEngineOptions(std::size_t vehicles);
 
 } // namespace ACS::Testing

@@ -46,13 +46,13 @@ FleetWorld::FleetWorld(const FleetOptions& options)
     }
     for (Vehicle& vehicle : _vehicles)
     {
-        Tell(vehicle, LinkChanged{true});
-        TellState(vehicle);
+        RaiseEvent(vehicle, LinkChanged{true});
+        PublishState(vehicle);
     }
     RaiseTold();
-    if (options.bTroubles)
+    if (options.bFaults)
     {
-        Push(EHappening::Trouble, 0, 0, std::chrono::seconds(10));
+        Push(EHappening::Fault, 0, 0, std::chrono::seconds(10));
     }
 }
 
@@ -128,7 +128,7 @@ void FleetWorld::Happen(const Entry& entry)
             break;
         case EHappening::Accept:
             vehicle.bAccepted = true;
-            Tell(vehicle, NodePassed{vehicle.drive->driveID, vehicle.nodeID});
+            RaiseEvent(vehicle, NodePassed{vehicle.drive->driveID, vehicle.nodeID});
             BeginLeg(vehicle);
             break;
         case EHappening::Leg:
@@ -138,16 +138,16 @@ void FleetWorld::Happen(const Entry& entry)
             }
             break;
         case EHappening::Job:
-            Tell(vehicle, JobFinished{std::exchange(vehicle.jobID, {})});
+            RaiseEvent(vehicle, JobFinished{std::exchange(vehicle.jobID, {})});
             break;
-        case EHappening::Trouble:
-            Trouble();
+        case EHappening::Fault:
+            Fault();
             break;
         case EHappening::Recovery:
             Recover(vehicle);
             break;
         default:
-            violations.emplace_back("a happening has no case");
+            violations.emplace_back("no case for a happening");
             break;
     }
 }
@@ -170,7 +170,7 @@ void FleetWorld::Execute(const EngineActions& actions)
                     }
                 },
                 [this](const SendReport& typed) {
-                    TakeReport(typed.entry.report);
+                    OnReport(typed.entry.report);
                     EngineActions out;
                     _engine.Handle(MessageAcknowledged{typed.entry.sequence}, _clock.GetNow(), out);
                     Execute(out);
@@ -189,7 +189,7 @@ void FleetWorld::Execute(const EngineActions& actions)
     }
 }
 
-void FleetWorld::TakeReport(const Report& report)
+void FleetWorld::OnReport(const Report& report)
 {
     const auto* planOrNull = std::get_if<PlanReport>(&report);
     if (planOrNull == nullptr)
@@ -228,14 +228,14 @@ void FleetWorld::Obey(Vehicle& vehicle, const RobotCommand& command)
     const auto number = static_cast<std::size_t>(&vehicle - _vehicles.data());
     if (vehicle.bLost)
     {
-        violations.push_back(vehicle.robotID + " was told something while it was lost");
+        violations.push_back(vehicle.robotID + " received a command while it was lost");
     }
     std::visit(
         Core::Overloaded{
             [this, &vehicle, number](const Drive& drive) {
                 if (vehicle.drive.has_value() || drive.route.nodes.front().nodeID != vehicle.nodeID)
                 {
-                    violations.push_back(vehicle.robotID + " got a drive that it cannot begin");
+                    violations.push_back(vehicle.robotID + " received a drive that it cannot begin");
                     return;
                 }
                 ++drives;
@@ -249,7 +249,7 @@ void FleetWorld::Obey(Vehicle& vehicle, const RobotCommand& command)
                 if (!vehicle.drive.has_value() || extend.driveID != vehicle.drive->driveID
                     || extend.releasedCount <= vehicle.drive->releasedCount)
                 {
-                    violations.push_back(vehicle.robotID + " got an extension that does not fit");
+                    violations.push_back(vehicle.robotID + " received an extension that does not fit");
                     return;
                 }
                 vehicle.drive->releasedCount = extend.releasedCount;
@@ -271,22 +271,22 @@ void FleetWorld::Obey(Vehicle& vehicle, const RobotCommand& command)
                 Push(EHappening::Job, number, 0, std::chrono::seconds(3 + GetRandom(8)));
             },
             [this, &vehicle](const auto&) {
-                violations.push_back(vehicle.robotID + " was told what nobody asked for");
+                violations.push_back(vehicle.robotID + " received an unexpected command");
             }},
         command);
 }
 
-void FleetWorld::Tell(Vehicle& vehicle, RobotEvent event)
+void FleetWorld::RaiseEvent(Vehicle& vehicle, RobotEvent event)
 {
     if (vehicle.bLost)
     {
         vehicle.untold.push_back(std::move(event));
         return;
     }
-    _told.emplace_back(static_cast<std::size_t>(&vehicle - _vehicles.data()), std::move(event));
+    _raised.emplace_back(static_cast<std::size_t>(&vehicle - _vehicles.data()), std::move(event));
 }
 
-void FleetWorld::TellState(Vehicle& vehicle)
+void FleetWorld::PublishState(Vehicle& vehicle)
 {
     const auto [x, y] = GetPosition(vehicle);
     StateChanged state;
@@ -297,18 +297,18 @@ void FleetWorld::TellState(Vehicle& vehicle)
     state.lastNodeID = vehicle.nodeID;
     state.bDriving = vehicle.bMoving && !vehicle.bPaused;
     state.bPaused = vehicle.bPaused;
-    Tell(vehicle, std::move(state));
+    RaiseEvent(vehicle, std::move(state));
 }
 
 void FleetWorld::RaiseTold()
 {
-    while (!_told.empty())
+    while (!_raised.empty())
     {
-        const std::pair<std::size_t, RobotEvent> told = std::move(_told.front());
-        _told.pop_front();
+        const std::pair<std::size_t, RobotEvent> raised = std::move(_raised.front());
+        _raised.pop_front();
         ++events;
         EngineActions out;
-        _engine.Handle(_vehicles[told.first].robotID, told.second, _clock.GetNow(), out);
+        _engine.Handle(_vehicles[raised.first].robotID, raised.second, _clock.GetNow(), out);
         Execute(out);
     }
 }
@@ -326,7 +326,7 @@ void FleetWorld::BeginLeg(Vehicle& vehicle)
     ChangeSpeed(vehicle, vehicle.speed, false);
 }
 
-/// On the present leg from here on.
+/// Takes effect at the present point of the leg.
 void FleetWorld::ChangeSpeed(Vehicle& vehicle, double speed, bool bPaused)
 {
     vehicle.legDone = GetLegDone(vehicle);
@@ -352,12 +352,12 @@ void FleetWorld::EndLeg(Vehicle& vehicle)
     vehicle.nodeID = drive.route.nodes[vehicle.index].nodeID;
     vehicle.bMoving = false;
     vehicle.legDone = 0;
-    Tell(vehicle, NodePassed{drive.driveID, vehicle.nodeID});
+    RaiseEvent(vehicle, NodePassed{drive.driveID, vehicle.nodeID});
     if (vehicle.index + 1 == drive.route.nodes.size())
     {
-        Tell(vehicle, Arrived{drive.driveID});
+        RaiseEvent(vehicle, Arrived{drive.driveID});
         vehicle.drive.reset();
-        TellState(vehicle);
+        PublishState(vehicle);
     }
     else if (vehicle.bStopping)
     {
@@ -373,12 +373,12 @@ void FleetWorld::Stop(Vehicle& vehicle)
 {
     const std::string driveID = vehicle.drive->driveID;
     vehicle.drive.reset();
-    Tell(vehicle, DriveCancelled{driveID, vehicle.nodeID});
-    TellState(vehicle);
+    RaiseEvent(vehicle, DriveCancelled{driveID, vehicle.nodeID});
+    PublishState(vehicle);
 }
 
-/// One vehicle at a time has something new; several may have something at once.
-void FleetWorld::Trouble()
+/// Begins or ends the fault of one vehicle; several may have one at the same time.
+void FleetWorld::Fault()
 {
     const std::size_t number = GetRandom(_vehicles.size());
     Vehicle& vehicle = _vehicles[number];
@@ -389,38 +389,38 @@ void FleetWorld::Trouble()
         {
             case 0:
                 ChangeSpeed(vehicle, vehicle.speed, true);
-                TellState(vehicle);
+                PublishState(vehicle);
                 break;
             case 1:
                 ChangeSpeed(vehicle, 0.25, false);
                 break;
             default:
-                Tell(vehicle, LinkChanged{false});
+                RaiseEvent(vehicle, LinkChanged{false});
                 vehicle.bLost = true;
                 break;
         }
         Push(EHappening::Recovery, number, 0, std::chrono::seconds(5 + GetRandom(90)));
     }
-    Push(EHappening::Trouble, 0, 0, std::chrono::seconds(1 + GetRandom(15)));
+    Push(EHappening::Fault, 0, 0, std::chrono::seconds(1 + GetRandom(15)));
 }
 
 void FleetWorld::Recover(Vehicle& vehicle)
 {
     if (std::exchange(vehicle.bLost, false))
     {
-        Tell(vehicle, LinkChanged{true});
+        RaiseEvent(vehicle, LinkChanged{true});
         for (RobotEvent& event : std::exchange(vehicle.untold, {}))
         {
-            Tell(vehicle, std::move(event));
+            RaiseEvent(vehicle, std::move(event));
         }
     }
     ChangeSpeed(vehicle, 1, false);
-    TellState(vehicle);
+    PublishState(vehicle);
     BeginLeg(vehicle);
 }
 
-/// Where vehicles truly are: no node has two, be it that they are on it or between it and the next one, so nobody meets
-/// anybody on an edge; and none is nearer to another than its size.
+/// Checks the real positions: a node has at most one vehicle that is on it or drives from or to it, and the distance of
+/// two vehicles is at least their size.
 void FleetWorld::CheckPlaces()
 {
     _onNode.clear();
@@ -485,7 +485,7 @@ std::pair<double, double> FleetWorld::GetPosition(const Vehicle& vehicle) const
     return {node.x + done * (next.x - node.x), node.y + done * (next.y - node.y)};
 }
 
-/// On an empty floor, with the middle time of a job.
+/// The time on an empty floor, with the mean duration of a job.
 double FleetWorld::GetSeconds(const std::string& from, const std::string& to) const
 {
     constexpr double JOB_SECONDS = 6.5;

@@ -17,18 +17,18 @@
 namespace ACS::Testing
 {
 
-/// Which floor, how many vehicles, and what befalls them.
+/// The floor, the number of vehicles and their faults.
 struct FleetOptions
 {
     std::uint64_t seed = 1;
     std::size_t vehicles = 20;
     std::size_t transports = 1'000;
     std::size_t plansAtOnce = 40; ///< Plans that are submitted and not finished.
-    bool bTroubles = false;       ///< Vehicles pause, are slow, are lost, and recover.
+    bool bFaults = false;         ///< Vehicles pause, are slow, are lost, and recover.
 };
 
-/// A floor of one-way and two-way lanes, some of which are dead ends that two vehicles cannot share, and a fleet on it in
-/// virtual time. Vehicles drive along what is released to them, and are where they are, whatever the engine believes.
+/// A fleet in virtual time on a floor of one-way and two-way lanes, with dead ends that two vehicles cannot share.
+/// Vehicles drive along what is released to them; their positions are independent of the data of the engine.
 class FleetWorld
 {
     enum class EHappening : std::uint8_t
@@ -37,7 +37,7 @@ class FleetWorld
         Accept,
         Leg,
         Job,
-        Trouble,
+        Fault,
         Recovery,
     };
 
@@ -68,10 +68,10 @@ class FleetWorld
         bool bPaused = false;
         bool bLost = false;
         double speed = 1;   ///< Metres per second.
-        double legDone = 0; ///< Part of the leg that lay behind it at legTime.
+        double legDone = 0; ///< Part of the leg that was done at legTime.
         Core::SteadyTime legTime;
         std::string jobID;
-        std::uint64_t generation = 0; ///< Of its latest leg.
+        std::uint64_t generation = 0; ///< Number of its latest leg.
         std::vector<Planning::RobotEvent> untold;
     };
 
@@ -92,7 +92,7 @@ class FleetWorld
     Planning::PlanEngine _engine;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> _entries;
     std::map<Planning::EngineTimer, std::uint64_t> _timers;
-    std::deque<std::pair<std::size_t, Planning::RobotEvent>> _told;
+    std::deque<std::pair<std::size_t, Planning::RobotEvent>> _raised;
     std::uint64_t _order = 0;
     std::size_t _submitted = 0;
     std::map<std::string, Planning::Plan> _plans;
@@ -103,19 +103,19 @@ public:
     std::vector<std::string> violations;
     std::size_t completed = 0;
     std::size_t failed = 0;
-    std::size_t events = 0; ///< That the engine was told.
+    std::size_t events = 0; ///< Events that the engine has received.
     std::size_t drives = 0;
-    std::size_t cancels = 0; ///< Drives that were given up for another way, or to make way.
+    std::size_t cancels = 0; ///< Drives that were cancelled for a reroute or to yield.
 
     explicit FleetWorld(const FleetOptions& options);
 
-    /// Until all transports are done. False: they are not, and nothing would ever happen again, or a week has gone by.
+    /// Runs until all transports are done. False: they are not, and no event is left or a week has passed.
     [[nodiscard]] bool TryRun();
 
-    /// Of all transports: the time that it took over the time that it would have taken on an empty floor.
+    /// The mean over all transports of their time divided by the time on an empty floor.
     [[nodiscard]] double GetMeanSlowdown() const;
     [[nodiscard]] double GetVirtualHours() const;
-    /// What stands where, and what it waits for: to read when a run does not come to its end.
+    /// The position of each vehicle and what it waits for, for a run that does not end.
     [[nodiscard]] std::string Describe() const;
 
 private:
@@ -123,17 +123,17 @@ private:
     void Push(EHappening happening, std::size_t vehicle, std::uint64_t generation, Core::Duration delay);
     void SubmitMore();
     void Execute(const Planning::EngineActions& actions);
-    void TakeReport(const Planning::Report& report);
+    void OnReport(const Planning::Report& report);
     void Obey(Vehicle& vehicle, const Planning::RobotCommand& command);
-    void Tell(Vehicle& vehicle, Planning::RobotEvent event);
-    void TellState(Vehicle& vehicle);
+    void RaiseEvent(Vehicle& vehicle, Planning::RobotEvent event);
+    void PublishState(Vehicle& vehicle);
     void RaiseTold();
     void Happen(const Entry& entry);
     void BeginLeg(Vehicle& vehicle);
     void EndLeg(Vehicle& vehicle);
     void Stop(Vehicle& vehicle);
     void ChangeSpeed(Vehicle& vehicle, double speed, bool bPaused);
-    void Trouble();
+    void Fault();
     void Recover(Vehicle& vehicle);
     void CheckPlaces();
     [[nodiscard]] std::pair<double, double> GetPosition(const Vehicle& vehicle) const;

@@ -13,7 +13,7 @@ namespace
 
 void Run(const FleetOptions& options)
 {
-    INFO("seed " << options.seed << (options.bTroubles ? " with troubles" : ""));
+    INFO("seed " << options.seed << (options.bFaults ? " with faults" : ""));
     FleetWorld world(options);
     const bool bDone = world.TryRun();
     INFO(world.Describe());
@@ -21,11 +21,11 @@ void Run(const FleetOptions& options)
     REQUIRE(bDone);
     CHECK(world.completed == options.transports);
     const std::string line = fmt::format(
-        "{} vehicles, {} transports, seed {}{}: mean slowdown {:.2f}, {:.1f} h, {} drives, {} given up, {} events\n",
+        "{} vehicles, {} transports, seed {}{}: mean slowdown {:.2f}, {:.1f} h, {} drives, {} cancelled, {} events\n",
         options.vehicles,
         options.transports,
         options.seed,
-        options.bTroubles ? ", with troubles" : "",
+        options.bFaults ? ", with faults" : "",
         world.GetMeanSlowdown(),
         world.GetVirtualHours(),
         world.drives,
@@ -46,19 +46,19 @@ TEST_CASE("20 vehicles do 1,000 random transports on one-way and two-way lanes: 
     Run(alone);
 }
 
-TEST_CASE("The same, while vehicles pause, are slow, are lost and come back")
+TEST_CASE("20 vehicles that pause, are slow, are lost and recover do all transports")
 {
     for (std::uint64_t seed = 1; seed <= 3; ++seed)
     {
         FleetOptions options;
         options.seed = seed;
         options.transports = 120;
-        options.bTroubles = true;
+        options.bFaults = true;
         Run(options);
     }
 }
 
-TEST_CASE("36 vehicles crowd the same floor and still all transports are done")
+TEST_CASE("36 vehicles on the same floor do all transports")
 {
     FleetOptions options;
     options.vehicles = 36;

@@ -15,7 +15,7 @@ namespace
 using Nodes = std::vector<std::size_t>;
 
 /// A corridor 0-1-2-3-4, driven both ways, with a spur on each end (5 on 0, 6 on 4), one in the middle (7 on 2), and a
-/// second node 8 that is 0.3 m from node 3 and joined to nothing.
+/// second node 8 that is 0.3 m from node 3 and has no edge.
 SiteMap MakeCorridor()
 {
     const std::vector<SiteNodeRule> rules{{"lr", std::nullopt}};
@@ -40,7 +40,7 @@ SiteMap MakeCorridor()
     return *SiteMap::Create(std::move(nodes), std::move(edges), {});
 }
 
-/// Robot 0 at home on 5, robot 1 at home on 6.
+/// Robot 0 on its parking position 5, robot 1 on 6.
 Traffic MakeTraffic(double clearance = 0)
 {
     Traffic traffic(MakeCorridor(), clearance);
@@ -61,7 +61,7 @@ Nodes GetHeld(const Traffic& traffic, std::size_t robot)
 
 } // namespace
 
-TEST_CASE("Traffic: nodes are granted up to the first that another robot holds, and given back as they are passed")
+TEST_CASE("Traffic: nodes are granted up to the first that another robot holds, and released as they are passed")
 {
     Traffic traffic = MakeTraffic();
     CHECK(traffic.Extend(0, Nodes{0, 1, 2, 7}) == 4);
@@ -75,7 +75,7 @@ TEST_CASE("Traffic: nodes are granted up to the first that another robot holds, 
     CHECK(traffic.GetHolderOrNull(7) == 0);
 }
 
-TEST_CASE("Traffic: robots may meet in a corridor where each can go back, and go no further there")
+TEST_CASE("Traffic: robots may meet in a corridor where each can retreat, and drive no further there")
 {
     Traffic traffic = MakeTraffic();
     REQUIRE(traffic.Extend(0, Nodes{0, 1}) == 2);
@@ -85,9 +85,10 @@ TEST_CASE("Traffic: robots may meet in a corridor where each can go back, and go
     CHECK(traffic.GetBlockers() == Nodes{1});
 }
 
-TEST_CASE("Traffic: an order in which all come home is lost by one grant only, and that one is refused")
+TEST_CASE("Traffic: a grant after which the state is not safe is refused, all others are given")
 {
-    // Homes changed over: robot 0 lives on 6, robot 1 on 5; each is at the other's. One must turn into 7 first.
+    // The parking positions are exchanged: 6 for robot 0, which is on 5, and 5 for robot 1, which is on 6. One must
+    // enter 7.
     Traffic traffic(MakeCorridor(), 0);
     traffic.AddRobot("lr", 6);
     traffic.AddRobot("lr", 7);
@@ -95,7 +96,7 @@ TEST_CASE("Traffic: an order in which all come home is lost by one grant only, a
     REQUIRE(traffic.TryStand(1, 6));
     traffic.SetMovable(0, true);
     traffic.SetMovable(1, true);
-    // Robot 0 beyond 2 would keep robot 1 from 7, and robot 1 robot 0 from 6.
+    // Robot 0 after 2 would block robot 1 from 7, and robot 1 would block robot 0 from 6.
     REQUIRE(traffic.Extend(0, Nodes{0, 1}) == 2);
     traffic.Pass(0, 2);
     CHECK(traffic.Extend(0, Nodes{2}) == 0);
@@ -105,7 +106,7 @@ TEST_CASE("Traffic: an order in which all come home is lost by one grant only, a
     CHECK(traffic.Extend(0, Nodes{2, 3, 4, 6}) == 4);
 }
 
-TEST_CASE("Traffic: a robot that cannot move is an obstacle, and nobody drives where it would keep him from home")
+TEST_CASE("Traffic: a robot that cannot move is an obstacle, and no robot blocks the way to its parking position")
 {
     Traffic traffic = MakeTraffic();
     traffic.AddRobot("lr", 7);
@@ -118,13 +119,13 @@ TEST_CASE("Traffic: a robot that cannot move is an obstacle, and nobody drives w
     CHECK(traffic.CanServe(0, 2));
     CHECK(traffic.CanServe(1, 4));
     CHECK_FALSE(traffic.CanServe(1, 7));
-    // Robot 0 may come up to it and go back.
+    // Robot 0 may drive up to it and retreat.
     CHECK(traffic.Extend(0, Nodes{0, 1, 2, 3}) == 3);
     traffic.SetMovable(2, true);
     CHECK(traffic.CanServe(0, 4));
 }
 
-TEST_CASE("Traffic: a lost robot that drove on without leave holds where it is; where another is, that is told")
+TEST_CASE("Traffic: a lost robot holds the nodes that it entered without a reservation, unless another robot has them")
 {
     Traffic traffic = MakeTraffic();
     REQUIRE(traffic.Extend(0, Nodes{0}) == 1);
@@ -136,7 +137,7 @@ TEST_CASE("Traffic: a lost robot that drove on without leave holds where it is; 
     CHECK(GetHeld(traffic, 0) == Nodes{5, 0, 1, 2});
 }
 
-TEST_CASE("Traffic: a robot that stands between two nodes holds both until it has passed the first")
+TEST_CASE("Traffic: a robot that is stationary between two nodes holds both until it has passed the first")
 {
     Traffic traffic = MakeTraffic();
     REQUIRE(traffic.Extend(0, Nodes{0, 1, 2}) == 3);
@@ -151,7 +152,7 @@ TEST_CASE("Traffic: a robot that stands between two nodes holds both until it ha
     CHECK(traffic.GetHolderOrNull(1) == 0);
 }
 
-TEST_CASE("Traffic: nodes that are nearer to each other than the clearance exclude each other")
+TEST_CASE("Traffic: nodes whose distance is less than the clearance exclude each other")
 {
     for (const double clearance : {0.0, 0.5})
     {
@@ -163,7 +164,7 @@ TEST_CASE("Traffic: nodes that are nearer to each other than the clearance exclu
     }
 }
 
-TEST_CASE("Traffic: what is given back counts as a reason to ask again, and so does a robot that recovers")
+TEST_CASE("Traffic: released nodes and a robot that recovers change the count of freed nodes")
 {
     Traffic traffic = MakeTraffic();
     REQUIRE(traffic.Extend(0, Nodes{0, 1}) == 2);

@@ -27,7 +27,7 @@ TEST_CASE("5.1 The transition table of action statuses")
     }
 }
 
-TEST_CASE("5.1 A terminal status is never left, whatever is told")
+TEST_CASE("5.1 A terminal status never changes, whatever status is reported")
 {
     ActionMachine machine(ActionState{"a1", "pick", {}, EActionStatus::Running, {}});
     CHECK(machine.TrySet(EActionStatus::Running, "half"));

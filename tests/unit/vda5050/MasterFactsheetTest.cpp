@@ -1,4 +1,4 @@
-#include "MasterBench.hpp"
+#include "MasterSessionFixture.hpp"
 #include <acs/vda5050/EVda5050Error.hpp>
 
 #include <array>
@@ -24,27 +24,27 @@ FactsheetMessage MakeFactsheet()
     return factsheet;
 }
 
-void Tell(MasterBench& bench, const FactsheetMessage& factsheet)
+void DeliverFactsheet(MasterSessionFixture& bench, const FactsheetMessage& factsheet)
 {
-    bench.Say(ETopic::Factsheet, Vda5050Codec().Encode(factsheet, EVda5050Version::Version210));
+    bench.Deliver(ETopic::Factsheet, Vda5050Codec().Encode(factsheet, EVda5050Version::Version210));
     REQUIRE(bench.session.GetFactsheetOrNull() != nullptr);
 }
 
-Core::Result<void> Send(MasterBench& bench, const OrderMessage& order)
+Core::Result<void> Send(MasterSessionFixture& bench, const OrderMessage& order)
 {
     return bench.session.SendOrder(order, bench.GetNow(), bench.Clear());
 }
 
 } // namespace
 
-TEST_CASE("3.7 An order with an action that the factsheet does not list is not sent, and the error names it")
+TEST_CASE("3.7 An order with an action that the factsheet does not list is not sent, and the error names the action")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     OrderMessage order = MakeOrder(2, 2);
     order.nodes[1].actions.push_back(MakeAction("a1", EBlockingType::Hard, "pickAll"));
     order.edges[0].actions.push_back(MakeAction("a2", EBlockingType::None, "takePicture"));
-    Tell(bench, MakeFactsheet());
+    DeliverFactsheet(bench, MakeFactsheet());
     const auto refused = Send(bench, order);
     REQUIRE_FALSE(refused.has_value());
     CHECK(refused.error().code == EVda5050Error::NotSupported);
@@ -55,13 +55,13 @@ TEST_CASE("3.7 An order with an action that the factsheet does not list is not s
     CHECK(Send(bench, order).has_value());
 }
 
-TEST_CASE("3.7 Tolerances that are not listed are left out, a limit that is not listed refuses the order")
+TEST_CASE("3.7 Tolerances that are not listed are left out; an order with a limit that is not listed is rejected")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     FactsheetMessage factsheet = MakeFactsheet();
     factsheet.protocolFeatures.optionalParameters = {{"order.nodes.nodePosition", EParameterSupport::Supported, {}}};
-    Tell(bench, factsheet);
+    DeliverFactsheet(bench, factsheet);
     OrderMessage order = MakeOrder(2, 2);
     order.nodes[1].nodePosition->allowedDeviationXY = 0.5;
     order.edges[0].length = 10.0;
@@ -76,9 +76,9 @@ TEST_CASE("3.7 Tolerances that are not listed are left out, a limit that is not 
     CHECK_FALSE(bench.GetSentOrder().edges[0].length.has_value());
 }
 
-TEST_CASE("3.7 A factsheet that requires a member, or limits a size, refuses the order that breaks it")
+TEST_CASE("3.7 An order that lacks a member required by the factsheet, or exceeds a size in it, is rejected")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     FactsheetMessage factsheet = MakeFactsheet();
     OrderMessage order = MakeOrder(3, 3);
@@ -95,23 +95,23 @@ TEST_CASE("3.7 A factsheet that requires a member, or limits a size, refuses the
     {
         factsheet.protocolLimits.maxStringLengths.message = 200;
     }
-    Tell(bench, factsheet);
+    DeliverFactsheet(bench, factsheet);
     const auto refused = Send(bench, order);
     REQUIRE_FALSE(refused.has_value());
     CHECK(refused.error().code == EVda5050Error::NotSupported);
     MasterOptions careless = MakeMasterOptions();
     careless.bFactsheetObeyed = false;
-    MasterBench other(careless);
+    MasterSessionFixture other(careless);
     other.BeReady();
-    Tell(other, factsheet);
+    DeliverFactsheet(other, factsheet);
     CHECK(Send(other, order).has_value());
 }
 
-TEST_CASE("5.6 Instant actions are held against the factsheet too, but for those without which nobody can lead")
+TEST_CASE("5.6 Instant actions are checked against the factsheet, except those that every master needs")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
-    Tell(bench, MakeFactsheet());
+    DeliverFactsheet(bench, MakeFactsheet());
     const auto send = [&](std::string type) {
         return bench.session.SendInstantAction(
             MakeAction({}, EBlockingType::None, std::move(type)),
@@ -128,14 +128,14 @@ TEST_CASE("5.6 Instant actions are held against the factsheet too, but for those
     CHECK(message->actions[0].blockingType == EBlockingType::Soft); // the one that the vehicle takes
 }
 
-TEST_CASE("13 Between two order messages the vehicle has its minOrderInterval, and instant actions their number")
+TEST_CASE("13 The master keeps minOrderInterval between order messages and the limit of instant actions")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     FactsheetMessage factsheet = MakeFactsheet();
     factsheet.protocolLimits.timing.minOrderInterval = 5.0;
     factsheet.protocolLimits.maxArrayLengths.instantActions = 1;
-    Tell(bench, factsheet);
+    DeliverFactsheet(bench, factsheet);
     OrderBuilder builder = MakeBuilder(3);
     const OrderMessage order = *builder.MakeOrder(2);
     REQUIRE(Send(bench, order).has_value());
@@ -153,9 +153,8 @@ TEST_CASE("13 Between two order messages the vehicle has its minOrderInterval, a
     bench.Wait(std::chrono::seconds(3), EMasterTimer::ResendOrder);
     CHECK(bench.GetSent(ETopic::Order).size() == 1);
     CHECK(bench.session.GetStatistics().ordersResent == 0);
-    bench.Wait(
-        std::chrono::seconds(2),
-        EMasterTimer::ResendOrder); // a resend that waits is none of the master's concern
+    bench.Wait(std::chrono::seconds(2),
+               EMasterTimer::ResendOrder); // a delayed resend is not reported
     CHECK(Pick<OrderDelayed>(bench.GetOutput()).empty());
 
     for (int i = 0; i < 2; ++i)
@@ -170,7 +169,7 @@ TEST_CASE("13 Between two order messages the vehicle has its minOrderInterval, a
     CHECK(bench.GetSent(ETopic::InstantActions).size() == 2);
 }
 
-TEST_CASE("3.7 A factsheet with an interval below 0 or above a day is refused: nobody could keep it")
+TEST_CASE("3.7 A factsheet with an interval below 0 or above a day is rejected")
 {
     struct Row
     {
@@ -190,18 +189,18 @@ TEST_CASE("3.7 A factsheet with an interval below 0 or above a day is refused: n
         &*timing.defaultStateInterval,
         &*timing.visualizationInterval};
     *members.at(member) = row.interval;
-    MasterBench bench;
-    bench.Say(ETopic::Factsheet, Vda5050Codec().Encode(factsheet, EVda5050Version::Version210));
+    MasterSessionFixture bench;
+    bench.Deliver(ETopic::Factsheet, Vda5050Codec().Encode(factsheet, EVda5050Version::Version210));
     CHECK((bench.session.GetFactsheetOrNull() != nullptr) == row.bTaken);
     CHECK(Pick<MessageRefused>(bench.GetOutput()).size() == (row.bTaken ? 0 : 1));
 }
 
-TEST_CASE("3.7 Own ids that have to be short are taken anew where they are in use")
+TEST_CASE("3.7 A generated short id that is already in use is generated again")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     FactsheetMessage factsheet = MakeFactsheet();
     factsheet.protocolLimits.maxStringLengths.identifier = 1;
-    Tell(bench, factsheet);
+    DeliverFactsheet(bench, factsheet);
     bench.BeReady();
     for (int i = 0; i < 8; ++i)
     {
@@ -220,12 +219,12 @@ TEST_CASE("3.7 Own ids that have to be short are taken anew where they are in us
     }
 }
 
-TEST_CASE("4.6 A vehicle that announces a longer state interval is given it before it counts as silent")
+TEST_CASE("4.6 A vehicle that announces a longer state interval counts as silent only after that interval")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     FactsheetMessage factsheet = MakeFactsheet();
     factsheet.protocolLimits.timing.defaultStateInterval = 60.0;
-    Tell(bench, factsheet);
+    DeliverFactsheet(bench, factsheet);
     bench.BeReady();
     bench.Wait(std::chrono::seconds(64), EMasterTimer::Silence);
     CHECK(Pick<VehicleSilent>(bench.GetOutput()).empty());

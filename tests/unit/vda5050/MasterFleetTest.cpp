@@ -15,7 +15,7 @@ VehicleAddress MakeVehicle(int number)
     return VehicleAddress{"uagv", "ACS", "LR" + std::to_string(number)};
 }
 
-class FleetBench
+class MasterFleetFixture
 {
     Testing::ManualClock _clock;
 
@@ -23,7 +23,7 @@ public:
     MasterFleet fleet;
     FleetActions out;
 
-    explicit FleetBench(FleetOptions options = {})
+    explicit MasterFleetFixture(FleetOptions options = {})
         : fleet(std::move(options))
     {
         fleet.OnLinkUp(_clock.GetNow(), out);
@@ -39,28 +39,28 @@ public:
         ConnectionMessage message;
         message.header = MakeHeader(address, version);
         message.connectionState = EConnectionState::Online;
-        Say(address, ETopic::Connection, Vda5050Codec().Encode(message, version), true);
+        Deliver(address, ETopic::Connection, Vda5050Codec().Encode(message, version), true);
     }
 
     void SendState(const VehicleAddress& address, bool bRetained = false)
     {
         StateMessage message;
         message.header = MakeHeader(address, EVda5050Version::Version200);
-        Say(address, ETopic::State, Vda5050Codec().Encode(message, EVda5050Version::Version200), bRetained);
+        Deliver(address, ETopic::State, Vda5050Codec().Encode(message, EVda5050Version::Version200), bRetained);
     }
 
-    void Say(const VehicleAddress& address, ETopic topic, std::string payload, bool bRetained)
+    void Deliver(const VehicleAddress& address, ETopic topic, std::string payload, bool bRetained)
     {
         fleet.OnMessage(MqttMessage{BuildTopic(address, topic), std::move(payload), 1, bRetained}, GetNow(), out);
     }
 
-    template <typename TTold>
-    [[nodiscard]] std::vector<std::size_t> ListTellers() const
+    template <typename TEvent>
+    [[nodiscard]] std::vector<std::size_t> ListReportingVehicles() const
     {
         std::vector<std::size_t> vehicles;
         for (const FleetAction& action : out)
         {
-            if (std::holds_alternative<TTold>(action.action))
+            if (std::holds_alternative<TEvent>(action.action))
             {
                 vehicles.push_back(action.vehicle);
             }
@@ -84,44 +84,44 @@ private:
 
 TEST_CASE("6 A fleet discovers its vehicles from retained connection messages, each with its own version and session")
 {
-    FleetBench bench;
+    MasterFleetFixture bench;
     CHECK(bench.fleet.GetSubscriptions().size() == 4);
     CHECK(bench.fleet.GetSubscriptions()[2].topicFilter == "uagv/v2/+/+/connection");
     bench.Connect(MakeVehicle(1));
     bench.Connect(MakeVehicle(2), EVda5050Version::Version210);
     bench.Connect(MakeVehicle(1));
     REQUIRE(bench.fleet.GetSize() == 2);
-    CHECK(bench.ListTellers<VehicleOnline>() == std::vector<std::size_t>{0, 1});
+    CHECK(bench.ListReportingVehicles<VehicleOnline>() == std::vector<std::size_t>{0, 1});
     CHECK(bench.fleet.GetSession(0).GetOptions().version == EVda5050Version::Version200);
     CHECK(bench.fleet.GetSession(1).GetOptions().version == EVda5050Version::Version210);
     CHECK(bench.fleet.FindOrNull(MakeVehicle(2)) == std::optional<std::size_t>(1));
     CHECK_FALSE(bench.fleet.FindOrNull(MakeVehicle(3)).has_value());
     bench.out.clear();
     bench.SendState(MakeVehicle(2));
-    CHECK(bench.ListTellers<StateReceived>() == std::vector<std::size_t>{1});
+    CHECK(bench.ListReportingVehicles<StateReceived>() == std::vector<std::size_t>{1});
     CHECK(bench.fleet.GetSession(1).CanTakeOrder());
     CHECK_FALSE(bench.fleet.GetSession(0).CanTakeOrder());
 }
 
-TEST_CASE("6 A live state makes a vehicle known too, a retained one or another topic does not")
+TEST_CASE("6 A live state discovers a vehicle; a retained state or another topic does not")
 {
-    FleetBench bench;
+    MasterFleetFixture bench;
     bench.SendState(MakeVehicle(1), true);
-    bench.Say(MakeVehicle(1), ETopic::Order, "{}", false);
-    bench.Say(VehicleAddress{"other", "ACS", "LR1"}, ETopic::State, "{}", false);
+    bench.Deliver(MakeVehicle(1), ETopic::Order, "{}", false);
+    bench.Deliver(VehicleAddress{"other", "ACS", "LR1"}, ETopic::State, "{}", false);
     CHECK(bench.fleet.GetSize() == 0);
     bench.SendState(MakeVehicle(1));
     CHECK(bench.fleet.GetSize() == 1);
-    CHECK(bench.ListTellers<VehicleOnline>() == std::vector<std::size_t>{0});
+    CHECK(bench.ListReportingVehicles<VehicleOnline>() == std::vector<std::size_t>{0});
 }
 
-TEST_CASE("13 What nobody can read, another major version, and more vehicles than allowed are left out and counted")
+TEST_CASE("13 Undecodable messages, other major versions and vehicles beyond the limit are ignored and counted")
 {
     FleetOptions options;
     options.maxVehicles = 2;
-    FleetBench bench(options);
-    bench.Say(MakeVehicle(1), ETopic::Connection, "ONLINE", true);
-    bench.Say(MakeVehicle(1), ETopic::Connection, R"({"headerId":1,"version":"3.0.0"})", true);
+    MasterFleetFixture bench(options);
+    bench.Deliver(MakeVehicle(1), ETopic::Connection, "ONLINE", true);
+    bench.Deliver(MakeVehicle(1), ETopic::Connection, R"({"headerId":1,"version":"3.0.0"})", true);
     CHECK(bench.fleet.GetLeftOutCount() == 2);
     CHECK(bench.fleet.GetLastLeftOutOrNull()->reason.code == EVda5050Error::UnsupportedVersion);
     CHECK(bench.fleet.GetLastLeftOutOrNull()->topic == "uagv/v2/ACS/LR1/connection");
@@ -134,34 +134,34 @@ TEST_CASE("13 What nobody can read, another major version, and more vehicles tha
     CHECK(bench.fleet.GetLastLeftOutOrNull()->reason.code == Core::ECoreError::QueueFull);
 }
 
-TEST_CASE("3.1 A message that its own vehicle would not be believed makes no vehicle known")
+TEST_CASE("3.1 A message that a known vehicle's session would reject does not discover a vehicle")
 {
-    FleetBench bench;
+    MasterFleetFixture bench;
     CHECK(bench.fleet.GetLastLeftOutOrNull() == nullptr);
     ConnectionMessage message;
     message.header = Header{0, {}, "2.0.0", "ACS", "LR1"};
     message.connectionState = EConnectionState::Online;
     const std::string payload = Vda5050Codec().Encode(message, EVda5050Version::Version200);
-    bench.Say(VehicleAddress{"uagv", "OTHER", "LR1"}, ETopic::Connection, payload, true);
-    bench.Say(MakeVehicle(2), ETopic::Connection, payload, true);
-    bench.Say(MakeVehicle(1), ETopic::State, payload, false); // which is no state
+    bench.Deliver(VehicleAddress{"uagv", "OTHER", "LR1"}, ETopic::Connection, payload, true);
+    bench.Deliver(MakeVehicle(2), ETopic::Connection, payload, true);
+    bench.Deliver(MakeVehicle(1), ETopic::State, payload, false); // not a state
     CHECK(bench.fleet.GetSize() == 0);
     CHECK(bench.fleet.GetLeftOutCount() == 3);
     CHECK(bench.out.empty());
-    bench.Say(MakeVehicle(1), ETopic::Connection, payload, true);
+    bench.Deliver(MakeVehicle(1), ETopic::Connection, payload, true);
     CHECK(bench.fleet.GetSize() == 1);
-    CHECK(bench.ListTellers<VehicleOnline>() == std::vector<std::size_t>{0});
+    CHECK(bench.ListReportingVehicles<VehicleOnline>() == std::vector<std::size_t>{0});
 }
 
-TEST_CASE("13 What was counted of each vehicle is summed up for the fleet")
+TEST_CASE("13 The statistics of the fleet are the sums of those of its vehicles")
 {
-    FleetBench bench;
+    MasterFleetFixture bench;
     for (int i = 1; i <= 2; ++i)
     {
         bench.Connect(MakeVehicle(i));
         bench.SendState(MakeVehicle(i));
         bench.SendState(MakeVehicle(i), true);
-        bench.Say(MakeVehicle(i), ETopic::State, "{}", false);
+        bench.Deliver(MakeVehicle(i), ETopic::State, "{}", false);
     }
     const MasterStatistics statistics = bench.fleet.GetStatistics();
     CHECK(statistics.statesReceived == 2);
@@ -170,11 +170,11 @@ TEST_CASE("13 What was counted of each vehicle is summed up for the fleet")
     CHECK(statistics.messagesSent == 2); // what is asked for when a vehicle comes online
 }
 
-TEST_CASE("13 Without discovery a fleet listens to the vehicles that were added, and no others")
+TEST_CASE("13 Without discovery a fleet subscribes only to the vehicles that were added")
 {
     FleetOptions options;
     options.bDiscovery = false;
-    FleetBench bench(options);
+    MasterFleetFixture bench(options);
     const auto first = bench.fleet.Add(MakeVehicle(1), bench.GetNow(), bench.out);
     REQUIRE(first.has_value());
     CHECK(bench.fleet.Add(MakeVehicle(1), bench.GetNow(), bench.out).value_or(99) == *first);
@@ -184,21 +184,21 @@ TEST_CASE("13 Without discovery a fleet listens to the vehicles that were added,
     bench.Connect(MakeVehicle(2));
     bench.Connect(MakeVehicle(1));
     CHECK(bench.fleet.GetSize() == 1);
-    CHECK(bench.ListTellers<VehicleOnline>() == std::vector<std::size_t>{0});
+    CHECK(bench.ListReportingVehicles<VehicleOnline>() == std::vector<std::size_t>{0});
 }
 
-TEST_CASE("13 A vehicle that is removed is forgotten, its number stays its own, and others have its room")
+TEST_CASE("13 A removed vehicle frees its room; its number is not used again")
 {
     FleetOptions options;
     options.maxVehicles = 2;
-    FleetBench bench(options);
+    MasterFleetFixture bench(options);
     bench.Connect(MakeVehicle(1));
     bench.Connect(MakeVehicle(2));
     bench.Connect(MakeVehicle(3));
     REQUIRE(bench.fleet.GetLeftOutCount() == 1);
     bench.out.clear();
     REQUIRE(bench.fleet.TryRemove(0, bench.out));
-    CHECK(bench.ListTellers<CancelMasterTimer>() == std::vector<std::size_t>{0, 0, 0});
+    CHECK(bench.ListReportingVehicles<CancelMasterTimer>() == std::vector<std::size_t>{0, 0, 0});
     CHECK_FALSE(bench.fleet.TryRemove(0, bench.out));
     CHECK_FALSE(bench.fleet.TryRemove(7, bench.out));
     CHECK_FALSE(bench.fleet.Contains(0));
@@ -216,14 +216,14 @@ TEST_CASE("13 A vehicle that is removed is forgotten, its number stays its own, 
     CHECK(bench.fleet.GetSize() == 3);
 }
 
-TEST_CASE("13 Only welcome vehicles are discovered, and one that is added finds room in a full fleet")
+TEST_CASE("13 Only vehicles that pass the filter are discovered; one that is added finds room in a full fleet")
 {
     FleetOptions options;
     options.maxVehicles = 1;
     options.isWelcome = [](const VehicleAddress& address) {
         return address.serialNumber != "LR1";
     };
-    FleetBench bench(options);
+    MasterFleetFixture bench(options);
     bench.Connect(MakeVehicle(1));
     CHECK(bench.fleet.GetSize() == 0);
     REQUIRE(bench.fleet.GetLastLeftOutOrNull() != nullptr);
@@ -236,7 +236,7 @@ TEST_CASE("13 Only welcome vehicles are discovered, and one that is added finds 
     CHECK(bench.fleet.GetSession(1).GetLink() == EVehicleLink::Online);
 }
 
-TEST_CASE("2 An address that cannot stand in a topic makes no session and no fleet")
+TEST_CASE("2 No session and no fleet is created for an address that is invalid in a topic")
 {
     const VehicleAddress wrong = GENERATE(
         VehicleAddress{"uagv", "#", "+"},
@@ -258,9 +258,9 @@ TEST_CASE("2 An address that cannot stand in a topic makes no session and no fle
     CHECK(MasterSession::Create(options)->GetSubscriptions()[0].topicFilter == "uagv/v2/ACS/LR1/state");
 }
 
-TEST_CASE("13 The link's outage is every vehicle's, and a timer is one vehicle's")
+TEST_CASE("13 A link outage reaches every vehicle, a timer only its own")
 {
-    FleetBench bench;
+    MasterFleetFixture bench;
     bench.Connect(MakeVehicle(1));
     bench.Connect(MakeVehicle(2));
     bench.SendState(MakeVehicle(1));
@@ -270,7 +270,7 @@ TEST_CASE("13 The link's outage is every vehicle's, and a timer is one vehicle's
     Core::Now late = bench.GetNow();
     late.steady += options.stateInterval + options.stateMargin;
     bench.fleet.OnTimer(1, EMasterTimer::Silence, late, bench.out);
-    CHECK(bench.ListTellers<VehicleSilent>() == std::vector<std::size_t>{1});
+    CHECK(bench.ListReportingVehicles<VehicleSilent>() == std::vector<std::size_t>{1});
     CHECK(bench.fleet.GetSession(0).IsReady());
     bench.fleet.OnLinkDown(bench.GetNow(), bench.out);
     CHECK(bench.fleet.GetSession(0).GetLink() == EVehicleLink::Unknown);

@@ -1,4 +1,4 @@
-#include "MasterBench.hpp"
+#include "MasterSessionFixture.hpp"
 #include <acs/vda5050/EVda5050Error.hpp>
 
 namespace ACS::VDA5050::Test
@@ -7,7 +7,7 @@ namespace ACS::VDA5050::Test
 namespace
 {
 
-/// What a master wrote down before it was killed: N0 to N4, an action on N1 and N3; two messages of it.
+/// The record of a master before it was killed: N0 to N4, an action on N1 and N3, in two messages.
 struct Record
 {
     OrderMessage order;
@@ -24,22 +24,22 @@ struct Record
     }
 };
 
-Core::Result<void> Resume(MasterBench& bench, OrderRecord record)
+Core::Result<void> Resume(MasterSessionFixture& bench, OrderRecord record)
 {
     return bench.session.ResumeOrder(std::move(record), bench.GetNow(), bench.Clear());
 }
 
-void Show(MasterBench& bench, std::string actionID, EActionStatus status)
+void Show(MasterSessionFixture& bench, std::string actionID, EActionStatus status)
 {
     bench.state.actionStates.push_back(ActionState{std::move(actionID), "pick", {}, status, {}});
 }
 
 } // namespace
 
-TEST_CASE("13 A master that comes back sends nothing that the vehicle shows, and goes on from there")
+TEST_CASE("13 A resumed master sends nothing that the vehicle already shows, and continues from there")
 {
     const Record record;
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.Hold(record.order, 3);
     Show(bench, "a1", EActionStatus::Running);
     bench.BeReady();
@@ -60,10 +60,10 @@ TEST_CASE("13 A master that comes back sends nothing that the vehicle shows, and
     CHECK(Pick<OrderFinished>(bench.GetOutput()).size() == 1);
 }
 
-TEST_CASE("13 What the vehicle has not shown of a resumed order is sent, one message after the other")
+TEST_CASE("13 The messages of a resumed order that the vehicle has not shown are sent one after the other")
 {
     const Record record;
-    MasterBench bench;
+    MasterSessionFixture bench;
     const bool bFirstShown = GENERATE(true, false);
     if (bFirstShown)
     {
@@ -86,10 +86,10 @@ TEST_CASE("13 What the vehicle has not shown of a resumed order is sent, one mes
     CHECK(ListReached(bench.GetOutput()).size() == 5);
 }
 
-TEST_CASE("13 A resumed order that was finished meanwhile is told as finished at once")
+TEST_CASE("13 A resumed order that was finished meanwhile is reported as finished at once")
 {
     const Record record;
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.Hold(record.update, 0);
     Show(bench, "a1", EActionStatus::Finished);
     Show(bench, "a3", EActionStatus::Failed);
@@ -100,10 +100,10 @@ TEST_CASE("13 A resumed order that was finished meanwhile is told as finished at
     CHECK(bench.session.CanTakeOrder());
 }
 
-TEST_CASE("13 A resumed order that had been accepted and that the vehicle has lost is told, and never sent again")
+TEST_CASE("13 A resumed order that was accepted and that the vehicle has lost is reported as lost and not sent again")
 {
     const Record record;
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.state.orderID = GENERATE("", "order-2");
     bench.state.operatingMode = GENERATE(EOperatingMode::Automatic, EOperatingMode::Manual);
     bench.BeReady();
@@ -113,10 +113,10 @@ TEST_CASE("13 A resumed order that had been accepted and that the vehicle has lo
     CHECK(bench.session.GetOrderPhase() == EOrderPhase::None);
 }
 
-TEST_CASE("13 A resumed order counts on from the update that the vehicle shows")
+TEST_CASE("13 The updates of a resumed order are numbered on from the one that the vehicle shows")
 {
     const Record record;
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.Hold(record.order, 3);
     bench.state.orderUpdateID = 7;
     bench.BeReady();
@@ -126,10 +126,10 @@ TEST_CASE("13 A resumed order counts on from the update that the vehicle shows")
     CHECK(bench.GetSentOrder().orderUpdateID == 8);
 }
 
-TEST_CASE("13 A record that does not fit together, a vehicle that is not ready and a running order resume nothing")
+TEST_CASE("13 Nothing is resumed from an inconsistent record, without a ready vehicle, or beside a running order")
 {
     const Record record;
-    MasterBench bench;
+    MasterSessionFixture bench;
     CHECK(Resume(bench, {{record.order}, {}}).error().code == EVda5050Error::VehicleNotReady);
     CHECK(Resume(bench, {{record.order}, 0}).error().code == EVda5050Error::VehicleNotReady);
     bench.state.operatingMode = EOperatingMode::Manual;
@@ -155,9 +155,9 @@ TEST_CASE("13 A record that does not fit together, a vehicle that is not ready a
     CHECK(Resume(bench, {{record.order}, {}}).error().code == EVda5050Error::OrderActive);
 }
 
-TEST_CASE("5.6 An instant action that the vehicle shows already is not sent again, and followed to its end")
+TEST_CASE("5.6 An instant action that the vehicle already shows is not sent again but is followed to its end")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     const bool bEnded = GENERATE(true, false);
     Show(bench, "i1", bEnded ? EActionStatus::Finished : EActionStatus::Running);
     bench.BeReady();
@@ -175,7 +175,7 @@ TEST_CASE("5.6 An instant action that the vehicle shows already is not sent agai
 
 TEST_CASE("5.6 An instant action with the id of another one, or of one that has not ended, is not sent")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     Show(bench, "a1", EActionStatus::Finished);
     bench.BeReady();
     const auto send = [&bench](std::string actionID, std::string actionType) {
@@ -192,9 +192,9 @@ TEST_CASE("5.6 An instant action with the id of another one, or of one that has 
     CHECK(bench.GetSent(ETopic::InstantActions).empty());
 }
 
-TEST_CASE("4.1 An order with the id that the vehicle shows is not sent: it would be taken for the one that it had")
+TEST_CASE("4.1 An order with the orderId that the vehicle shows is not sent: the vehicle would take it for an update")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     const OrderMessage order = MakeOrder(3, 3);
     bench.Hold(order, GENERATE(as<std::size_t>(), 0, 2));
     bench.BeReady();

@@ -1,4 +1,4 @@
-#include "MasterBench.hpp"
+#include "MasterSessionFixture.hpp"
 #include <acs/vda5050/EVda5050Error.hpp>
 
 #include <algorithm>
@@ -9,8 +9,8 @@ namespace ACS::VDA5050::Test
 namespace
 {
 
-/// The first message of an order over four nodes, two of them released, taken by the vehicle; and the rest of its route.
-OrderBuilder Run(MasterBench& bench)
+/// An accepted order over four nodes, two of them released, and the builder with the rest of its route.
+OrderBuilder Run(MasterSessionFixture& bench)
 {
     bench.BeReady();
     OrderBuilder builder = MakeBuilder(4);
@@ -22,7 +22,7 @@ OrderBuilder Run(MasterBench& bench)
     return builder;
 }
 
-Core::Result<std::string> SendAction(MasterBench& bench, std::string actionID, std::string actionType)
+Core::Result<std::string> SendAction(MasterSessionFixture& bench, std::string actionID, std::string actionType)
 {
     return bench.session.SendInstantAction(
         MakeAction(std::move(actionID), EBlockingType::None, std::move(actionType)),
@@ -30,7 +30,7 @@ Core::Result<std::string> SendAction(MasterBench& bench, std::string actionID, s
         bench.Clear());
 }
 
-std::string GetSentActionID(const MasterBench& bench)
+std::string GetSentActionID(const MasterSessionFixture& bench)
 {
     const auto message =
         Vda5050Codec().Decode<InstantActionsMessage>(bench.GetSent(ETopic::InstantActions).back().payload);
@@ -38,16 +38,16 @@ std::string GetSentActionID(const MasterBench& bench)
     return message->actions.back().actionID;
 }
 
-void PublishFactsheet(MasterBench& bench, FactsheetMessage factsheet)
+void PublishFactsheet(MasterSessionFixture& bench, FactsheetMessage factsheet)
 {
     factsheet.header = Header{0, {}, "2.0.0", "ACS", "LR01"};
-    bench.Say(ETopic::Factsheet, Vda5050Codec().Encode(factsheet, EVda5050Version::Version210));
+    bench.Deliver(ETopic::Factsheet, Vda5050Codec().Encode(factsheet, EVda5050Version::Version210));
     REQUIRE(bench.session.GetFactsheetOrNull() != nullptr);
 }
 
 } // namespace
 
-TEST_CASE("4.2 An error about the running order is no answer to an update, unless it is known as one")
+TEST_CASE("4.2 Which errors about the running order reject an update")
 {
     struct Row
     {
@@ -65,7 +65,7 @@ TEST_CASE("4.2 An error about the running order is no answer to an update, unles
         Row{"badHorizon", {{"topic", "order"}, {"headerId", "1"}}, true},
         Row{"badHorizon", {{"topic", "instantAction"}, {"orderId", "order-1"}}, false});
     CAPTURE(row.type);
-    MasterBench bench;
+    MasterSessionFixture bench;
     OrderBuilder builder = Run(bench);
     REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(3), bench.GetNow(), bench.Clear()).has_value());
     bench.Refuse(row.type, row.references);
@@ -73,9 +73,9 @@ TEST_CASE("4.2 An error about the running order is no answer to an update, unles
     CHECK(bench.session.GetOrderPhase() == EOrderPhase::Active);
 }
 
-TEST_CASE("4.3 An update replaces the horizon: its nodes are told, those that it dropped never")
+TEST_CASE("4.3 An update replaces the horizon: its nodes are reported, the dropped ones never")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     Run(bench);
     std::vector<OrderNode> nodes = MakeNodes(3);
     nodes[2].nodeID = "OTHER";
@@ -90,30 +90,30 @@ TEST_CASE("4.3 An update replaces the horizon: its nodes are told, those that it
     CHECK(Pick<OrderLost>(bench.GetOutput()).empty());
 }
 
-TEST_CASE("2 After ONLINE a vehicle counts anew, also one whose clock is behind")
+TEST_CASE("2 After ONLINE headerIds start again, also for a vehicle whose clock is behind")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     const bool bRepeated = GENERATE(false, true); // an ONLINE without a will before it
     bench.BeReady();
     StateMessage reborn = bench.state;
     reborn.header = Header{0, bench.GetNow().wall - std::chrono::hours(1), "2.0.0", "ACS", "LR01"};
     const std::string payload = Vda5050Codec().Encode(reborn, EVda5050Version::Version200);
-    bench.Say(ETopic::State, payload);
+    bench.Deliver(ETopic::State, payload);
     CHECK(bench.session.GetStatistics().statesIgnored == 1);
     if (!bRepeated)
     {
         bench.Connect(EConnectionState::ConnectionBroken);
     }
     bench.Connect(EConnectionState::Online);
-    bench.Say(ETopic::State, payload);
+    bench.Deliver(ETopic::State, payload);
     CHECK(bench.session.GetStatistics().statesIgnored == 1);
     CHECK(bench.session.IsReady());
 }
 
-TEST_CASE("8.6 In a mode that is not the master's nothing is sent but requests, and what waits goes when it is back")
+TEST_CASE("8.6 In a mode without master control only requests are sent; waiting messages are sent when it is back")
 {
     const EOperatingMode mode = GENERATE(EOperatingMode::Manual, EOperatingMode::Service, EOperatingMode::TeachIn);
-    MasterBench bench;
+    MasterSessionFixture bench;
     OrderBuilder builder = Run(bench);
     REQUIRE(SendAction(bench, "i1", "startPause").has_value());
     bench.state.operatingMode = mode;
@@ -133,9 +133,9 @@ TEST_CASE("8.6 In a mode that is not the master's nothing is sent but requests, 
     CHECK(GetSentActionID(bench) == "i1");
 }
 
-TEST_CASE("3.7 The session's own ids are as the vehicle wants them, and other ids are refused")
+TEST_CASE("3.7 Generated ids have the form that the factsheet requires, and other ids are rejected")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     FactsheetMessage factsheet;
     MaximumStringLengths& limits = factsheet.protocolLimits.maxStringLengths;
     limits.identifier = 12;
@@ -152,9 +152,9 @@ TEST_CASE("3.7 The session's own ids are as the vehicle wants them, and other id
     CHECK(SendAction(bench, "pause-1", "startPause").has_value() == !*limits.bIdentifierNumericalOnly);
 }
 
-TEST_CASE("3.7 An instant action beyond the vehicle's sizes is not sent, and those of one message fit one by one")
+TEST_CASE("3.7 An instant action beyond the limits of the factsheet is not sent, and resends stay within them")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     FactsheetMessage factsheet;
     factsheet.protocolLimits.maxStringLengths.message = 400;
     factsheet.protocolLimits.maxArrayLengths.actionParameters = 1;
@@ -181,7 +181,7 @@ TEST_CASE("3.7 An instant action beyond the vehicle's sizes is not sent, and tho
     CHECK(std::ranges::all_of(sent, [](const MqttMessage& message) { return message.payload.size() <= 400; }));
 }
 
-TEST_CASE("13 Each bad message is counted and told, whatever is wrong with it, and changes nothing")
+TEST_CASE("13 Each invalid message is counted and reported, and changes nothing")
 {
     const ETopic topic = GENERATE(ETopic::State, ETopic::Connection, ETopic::Factsheet);
     const std::string header =
@@ -205,14 +205,14 @@ TEST_CASE("13 Each bad message is counted and told, whatever is wrong with it, a
         with(R"("ACS")", R"("OTHER")"),
         with("LR01", "LR/01"),
         std::string(1'000, '{')};
-    MasterBench bench;
+    MasterSessionFixture bench;
     Run(bench);
     const StateMessage before = *bench.session.GetStateOrNull();
     bench.Clear();
     for (const std::string& payload : bad)
     {
         CAPTURE(payload);
-        bench.Say(topic, payload);
+        bench.Deliver(topic, payload);
         CHECK(bench.GetOutput().size() == 1);
         CHECK(Pick<MessageRefused>(bench.GetOutput()).size() == 1);
         bench.Clear();

@@ -1,5 +1,5 @@
 #include "Catch.hpp"
-#include "MasterBench.hpp"
+#include "MasterSessionFixture.hpp"
 #include <acs/vda5050/EVda5050Error.hpp>
 
 #include <algorithm>
@@ -7,9 +7,9 @@
 namespace ACS::VDA5050::Test
 {
 
-TEST_CASE("6 ONLINE asks for state and factsheet; OFFLINE, the will and repeated retained messages are told once")
+TEST_CASE("6 ONLINE requests state and factsheet; OFFLINE, the will and repeated retained messages are reported once")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     CHECK(bench.session.GetSubscriptions().size() == 4);
     bench.Connect(EConnectionState::ConnectionBroken);
     bench.Connect(EConnectionState::Online);
@@ -33,11 +33,11 @@ TEST_CASE("6 ONLINE asks for state and factsheet; OFFLINE, the will and repeated
     CHECK_FALSE(bench.session.IsReady());
 }
 
-TEST_CASE("6 ONLINE asks for the factsheet again, which may have changed meanwhile")
+TEST_CASE("6 ONLINE requests the factsheet again, which may have changed")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
-    bench.Say(ETopic::Factsheet, Vda5050Codec().Encode(FactsheetMessage(), EVda5050Version::Version210));
+    bench.Deliver(ETopic::Factsheet, Vda5050Codec().Encode(FactsheetMessage(), EVda5050Version::Version210));
     REQUIRE(bench.session.GetFactsheetOrNull() != nullptr);
     bench.Connect(EConnectionState::Offline);
     static_cast<void>(bench.Clear());
@@ -49,10 +49,9 @@ TEST_CASE("6 ONLINE asks for the factsheet again, which may have changed meanwhi
     CHECK(std::ranges::count(request->actions, "factsheetRequest", &Action::actionType) == 1);
 }
 
-TEST_CASE(
-    "6.5 The will of a connection before, under another client id, comes after ONLINE: a state shows that it is old")
+TEST_CASE("6.5 A will of an earlier connection with another client id that arrives after ONLINE is recognised as old")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     bench.Connect(EConnectionState::ConnectionBroken);
     CHECK_FALSE(bench.session.IsReady());
@@ -60,13 +59,13 @@ TEST_CASE(
     CHECK(bench.session.IsReady());
     CHECK(bench.session.GetLink() == EVehicleLink::Online);
     bench.Connect(EConnectionState::Offline);
-    bench.SendState(); // it said itself that it leaves
+    bench.SendState(); // the vehicle itself published OFFLINE
     CHECK_FALSE(bench.session.IsReady());
 }
 
 TEST_CASE("13 An order is resent until the state shows its ids, and then no more")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     const OrderMessage order = MakeOrder(3, 2);
     REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
@@ -86,11 +85,11 @@ TEST_CASE("13 An order is resent until the state shows its ids, and then no more
     CHECK(bench.GetSent(ETopic::Order).empty());
 }
 
-TEST_CASE("13 Resends end after a count where one is set")
+TEST_CASE("13 Resends end after the configured number")
 {
     MasterOptions options = MakeMasterOptions();
     options.resendCount = 1;
-    MasterBench bench(options);
+    MasterSessionFixture bench(options);
     bench.BeReady();
     REQUIRE(bench.session.SendOrder(MakeOrder(2, 2), bench.GetNow(), bench.Clear()).has_value());
     bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendOrder);
@@ -101,9 +100,9 @@ TEST_CASE("13 Resends end after a count where one is set")
     CHECK(bench.session.GetOrderPhase() == EOrderPhase::None);
 }
 
-TEST_CASE("13 Nodes are told once and in order, also when the states between them were lost")
+TEST_CASE("13 Nodes are reported once and in order, also when the states between them were lost")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     const OrderMessage order = MakeOrder(5, 5);
     REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
@@ -123,7 +122,7 @@ TEST_CASE("13 Nodes are told once and in order, also when the states between the
 
 TEST_CASE("13 A vehicle with horizon left is waiting, and an order with actions left is not done")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     OrderBuilder builder = MakeBuilder(3);
     OrderMessage order = *builder.MakeOrder(2);
@@ -150,7 +149,7 @@ TEST_CASE("13 A vehicle with horizon left is waiting, and an order with actions 
 
 TEST_CASE("13 An update waits for the echo of the message before it")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     OrderBuilder builder = MakeBuilder(4);
     const OrderMessage order = *builder.MakeOrder(2);
@@ -168,7 +167,7 @@ TEST_CASE("13 An update waits for the echo of the message before it")
 
 TEST_CASE("13 An update that does not begin at the decision point is not sent")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     REQUIRE(bench.session.SendOrder(MakeOrder(4, 2), bench.GetNow(), bench.Clear()).has_value());
     OrderBuilder other = MakeBuilder(4);
@@ -178,14 +177,14 @@ TEST_CASE("13 An update that does not begin at the decision point is not sent")
     CHECK(result.error().code == EVda5050Error::InvalidOrder);
 }
 
-TEST_CASE("4.2 A rejection is known by its references, or by its type where there are none")
+TEST_CASE("4.2 A rejection is recognised by its references, or without references by its type")
 {
     const std::vector<ErrorReference> references = GENERATE(
         std::vector<ErrorReference>{{"orderId", "order-1"}, {"orderUpdateId", "0"}},
         std::vector<ErrorReference>{{"topic", "order"}, {"headerId", "0"}},
         std::vector<ErrorReference>{{"nodeId", "N0"}},
         std::vector<ErrorReference>{});
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     REQUIRE(bench.session.SendOrder(MakeOrder(2, 2), bench.GetNow(), bench.Clear()).has_value());
     bench.Refuse(ErrorTypes::NO_ROUTE_ERROR, references);
@@ -194,9 +193,9 @@ TEST_CASE("4.2 A rejection is known by its references, or by its type where ther
     CHECK(bench.session.GetOrderPhase() == EOrderPhase::None);
 }
 
-TEST_CASE("4.2 Other errors are no rejection: of another order, of before, of an instant action, of the battery")
+TEST_CASE("4.2 Errors of another order, of earlier, of an instant action or of the battery are no rejection")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     bench.Refuse(ErrorTypes::VALIDATION_ERROR, {});
     REQUIRE(bench.session.SendOrder(MakeOrder(2, 2), bench.GetNow(), bench.Clear()).has_value());
@@ -208,9 +207,9 @@ TEST_CASE("4.2 Other errors are no rejection: of another order, of before, of an
     CHECK(bench.session.GetOrderPhase() == EOrderPhase::Sent);
 }
 
-TEST_CASE("4.2 A rejected update leaves the running order alive, and the next one has another id")
+TEST_CASE("4.2 After a rejected update the order continues, and the next update has another id")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     OrderBuilder builder = MakeBuilder(4);
     const OrderMessage order = *builder.MakeOrder(2);
@@ -228,7 +227,7 @@ TEST_CASE("4.2 A rejected update leaves the running order alive, and the next on
 
 TEST_CASE("5.4 A cancel of an accepted order ends with the vehicle's FINISHED")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     const OrderMessage order = MakeOrder(3, 3);
     REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
@@ -256,7 +255,7 @@ TEST_CASE("5.4 A cancel of an accepted order ends with the vehicle's FINISHED")
 
 TEST_CASE("5.4 A cancel of an order that the vehicle never saw ends it, and it is not sent again")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     REQUIRE(bench.session.SendOrder(MakeOrder(2, 2), bench.GetNow(), bench.Clear()).has_value());
     REQUIRE(bench.session.Cancel(bench.GetNow(), bench.Clear()).has_value());
@@ -272,7 +271,7 @@ TEST_CASE("5.4 A cancel of an order that the vehicle never saw ends it, and it i
 TEST_CASE("13 A vehicle that restarts without the order, or cleared it, has lost it")
 {
     const bool bRestarted = GENERATE(true, false);
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     const OrderMessage order = MakeOrder(3, 3);
     REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
@@ -285,9 +284,9 @@ TEST_CASE("13 A vehicle that restarts without the order, or cleared it, has lost
     CHECK(bench.session.GetOrderPhase() == EOrderPhase::None);
 }
 
-TEST_CASE("4.6 A vehicle without a state for longer than the interval and the margin is silent, told once")
+TEST_CASE("4.6 A vehicle without a state for longer than interval plus margin is reported as silent, once")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     bench.Wait(std::chrono::seconds(20), EMasterTimer::ResendOrder);
     bench.SendState();
@@ -304,23 +303,23 @@ TEST_CASE("4.6 A vehicle without a state for longer than the interval and the ma
     CHECK(bench.session.IsReady());
 }
 
-TEST_CASE("2 A state that is older than one that came is ignored; ids that begin again are not")
+TEST_CASE("2 A state older than the last one is ignored; headerIds that restart are accepted")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     StateMessage old = bench.state;
     old.header.headerID = 0;
     old.header.timestamp -= std::chrono::seconds(1);
-    bench.Say(ETopic::State, Vda5050Codec().Encode(old, EVda5050Version::Version200));
+    bench.Deliver(ETopic::State, Vda5050Codec().Encode(old, EVda5050Version::Version200));
     CHECK(bench.session.GetStatistics().statesIgnored == 1);
     old.header.timestamp += std::chrono::seconds(2);
-    bench.Say(ETopic::State, Vda5050Codec().Encode(old, EVda5050Version::Version200));
+    bench.Deliver(ETopic::State, Vda5050Codec().Encode(old, EVda5050Version::Version200));
     CHECK(bench.session.GetStatistics().statesReceived == 2);
 }
 
-TEST_CASE("2 A retained state is no news: it brings no vehicle online and speaks for no order")
+TEST_CASE("2 A retained state brings no vehicle online and is no evidence about an order")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     StateMessage state;
     state.header = Header{7, bench.GetNow().wall, "2.0.0", "ACS", "LR01"};
     const MqttMessage message{
@@ -340,9 +339,9 @@ TEST_CASE("2 A retained state is no news: it brings no vehicle online and speaks
     CHECK(bench.session.IsReady());
 }
 
-TEST_CASE("6 After an outage of our link the retained ONLINE alone makes no vehicle ready: its state is of before")
+TEST_CASE("6 After an outage of the master's link the retained ONLINE alone makes no vehicle ready")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     REQUIRE(bench.session.IsReady());
     bench.session.OnLinkDown(bench.GetNow(), bench.Clear());
@@ -357,13 +356,13 @@ TEST_CASE("6 After an outage of our link the retained ONLINE alone makes no vehi
 
 TEST_CASE("3.1 A header of another vehicle or another major version is refused; empty names are tolerated")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     StateMessage state = bench.state;
     const auto say = [&](const std::string& version, const std::string& manufacturer, const std::string& serial) {
         state.header = Header{99, bench.GetNow().wall + std::chrono::seconds(1), version, manufacturer, serial};
         bench.Clear();
-        bench.Say(ETopic::State, Vda5050Codec().Encode(state, EVda5050Version::Version200));
+        bench.Deliver(ETopic::State, Vda5050Codec().Encode(state, EVda5050Version::Version200));
         return Pick<MessageRefused>(bench.GetOutput()).size() == 1;
     };
     CHECK(say("2.0.0", "OTHER", "LR01"));
@@ -376,22 +375,22 @@ TEST_CASE("3.1 A header of another vehicle or another major version is refused; 
     CHECK(bench.session.GetStatistics().statesReceived == 2);
 }
 
-TEST_CASE("13 Broken payloads are counted and told, nothing else happens")
+TEST_CASE("13 Broken payloads are counted and reported; nothing else happens")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     for (const ETopic topic : {ETopic::State, ETopic::Connection, ETopic::Visualization, ETopic::Factsheet})
     {
-        bench.Say(topic, R"({"headerId":"NaN")");
+        bench.Deliver(topic, R"({"headerId":"NaN")");
     }
     CHECK(Pick<MessageRefused>(bench.GetOutput()).size() == 4);
     CHECK(bench.session.GetStatistics().messagesRefused == 4);
     CHECK(bench.GetOutput().size() == 4);
 }
 
-TEST_CASE("13 No order is sent to a vehicle that is not ready, or has one")
+TEST_CASE("13 No order is sent to a vehicle that is not ready or has an order")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     const OrderMessage order = MakeOrder(2, 2);
     CHECK(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).error().code == EVda5050Error::VehicleNotReady);
     bench.BeReady();

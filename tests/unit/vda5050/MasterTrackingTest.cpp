@@ -1,4 +1,4 @@
-#include "MasterBench.hpp"
+#include "MasterSessionFixture.hpp"
 #include <acs/vda5050/EVda5050Error.hpp>
 
 #include <algorithm>
@@ -9,8 +9,8 @@ namespace ACS::VDA5050::Test
 namespace
 {
 
-/// An order over three nodes with an action on the last, taken by the vehicle.
-OrderMessage SendFirstOrder(MasterBench& bench)
+/// An accepted order over three nodes with an action on the last.
+OrderMessage SendFirstOrder(MasterSessionFixture& bench)
 {
     bench.BeReady();
     OrderMessage order = MakeOrder(3, 3);
@@ -24,7 +24,7 @@ OrderMessage SendFirstOrder(MasterBench& bench)
     return order;
 }
 
-std::string CancelOrder(MasterBench& bench)
+std::string CancelOrder(MasterSessionFixture& bench)
 {
     REQUIRE(bench.session.Cancel(bench.GetNow(), bench.Clear()).has_value());
     const auto message =
@@ -34,9 +34,9 @@ std::string CancelOrder(MasterBench& bench)
 
 } // namespace
 
-TEST_CASE("5.5 An action that vanishes before its end is told as lost, once; one that ended is not")
+TEST_CASE("5.5 An action that vanishes before its end is reported as lost once; one that ended is not")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     SendFirstOrder(bench);
     const bool bEnded = GENERATE(true, false);
     bench.state.actionStates[0].actionStatus = bEnded ? EActionStatus::Failed : EActionStatus::Running;
@@ -51,7 +51,7 @@ TEST_CASE("5.5 An action that vanishes before its end is told as lost, once; one
 
 TEST_CASE("5.5 The actions of an order that is lost end with it, and so does an instant action of a restarted vehicle")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     SendFirstOrder(bench);
     Action picture = MakeAction("i1", EBlockingType::None, "takePicture");
     REQUIRE(bench.session.SendInstantAction(picture, bench.GetNow(), bench.Clear()).has_value());
@@ -66,7 +66,7 @@ TEST_CASE("5.5 The actions of an order that is lost end with it, and so does an 
 
 TEST_CASE("5.5 An action that an update drops with its horizon is not lost")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     OrderBuilder builder = MakeBuilder(4);
     OrderMessage order = *builder.MakeOrder(2);
@@ -86,7 +86,7 @@ TEST_CASE("5.5 An action that an update drops with its horizon is not lost")
 
 TEST_CASE("5.4 A cancel of an order that has just ended finishes it")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     const OrderMessage order = SendFirstOrder(bench);
     const std::string cancelID = CancelOrder(bench);
     bench.Hold(order, 0);
@@ -98,9 +98,9 @@ TEST_CASE("5.4 A cancel of an order that has just ended finishes it")
     CHECK(Pick<ActionLost>(bench.GetOutput()).empty());
 }
 
-TEST_CASE("5.4 A cancel that the vehicle fails while it goes on leaves the order running")
+TEST_CASE("5.4 The order keeps running when the vehicle fails the cancel and continues")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     SendFirstOrder(bench);
     const std::string cancelID = CancelOrder(bench);
     bench.state.actionStates.push_back(ActionState{cancelID, "cancelOrder", {}, EActionStatus::Failed, {}});
@@ -110,9 +110,9 @@ TEST_CASE("5.4 A cancel that the vehicle fails while it goes on leaves the order
     CHECK(bench.session.Cancel(bench.GetNow(), bench.Clear()).has_value()); // and may be tried again
 }
 
-TEST_CASE("5.4 An order that comes to the vehicle after its cancel is cancelled once more by itself")
+TEST_CASE("5.4 An order that reaches the vehicle after its cancel is cancelled again automatically")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     const OrderMessage order = MakeOrder(3, 3);
     REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
@@ -137,9 +137,9 @@ TEST_CASE("5.4 An order that comes to the vehicle after its cancel is cancelled 
     CHECK(Pick<OrderReappeared>(bench.GetOutput()).size() == 1);
 }
 
-TEST_CASE("13 Reserved is what the vehicle says, and what was sent and is not answered; a rejection frees it")
+TEST_CASE("13 Reserved are the nodes that the vehicle shows and those sent but not answered; a rejection frees them")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     CHECK(bench.session.ListReserved() == std::vector{ReservedElement{"N0", 0, false, true}});
     OrderBuilder builder = MakeBuilder(4);
@@ -170,9 +170,9 @@ TEST_CASE("13 Reserved is what the vehicle says, and what was sent and is not an
     CHECK(bench.session.ListReserved() == std::vector{ReservedElement{"N0", 0, false, true}});
 }
 
-TEST_CASE("13 A master that takes up an order of which the vehicle has a later update counts on from that")
+TEST_CASE("13 A master that resumes an order of which the vehicle has a later update numbers on from that")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     OrderBuilder builder = MakeBuilder(4);
     const OrderMessage order = *builder.MakeOrder(2);
@@ -185,11 +185,11 @@ TEST_CASE("13 A master that takes up an order of which the vehicle has a later u
     CHECK(bench.GetSentOrder().orderUpdateID == 6);
 }
 
-TEST_CASE("4.2 An order that was rejected, or never shown, and that the vehicle takes after all is told and cancelled")
+TEST_CASE("4.2 A rejected or never shown order that the vehicle executes after all is reported and cancelled")
 {
     MasterOptions options = MakeMasterOptions();
     options.resendCount = 1;
-    MasterBench bench(options);
+    MasterSessionFixture bench(options);
     bench.BeReady();
     OrderMessage order = MakeOrder(3, 3);
     order.nodes[2].actions.push_back(MakeAction("a1", EBlockingType::Hard));
@@ -229,9 +229,9 @@ TEST_CASE("4.2 An order that was rejected, or never shown, and that the vehicle 
     CHECK_FALSE(bench.session.CanTakeOrder());
 }
 
-TEST_CASE("4.2 A rejected order that the vehicle took and finished between two states is told as both")
+TEST_CASE("4.2 A rejected order that the vehicle finished between two states is reported as rejected and as finished")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     const OrderMessage order = MakeOrder(3, 3);
     REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
@@ -246,9 +246,9 @@ TEST_CASE("4.2 A rejected order that the vehicle took and finished between two s
     CHECK(bench.session.CanTakeOrder());
 }
 
-TEST_CASE("4.2 A vehicle that runs the order of somebody else takes none, and the error says so")
+TEST_CASE("4.2 A vehicle that runs the order of another master gets none, and the error states the reason")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     OrderMessage foreign = MakeOrder(3, 3);
     foreign.orderID = "foreign";
     bench.Hold(foreign, 2);
@@ -263,9 +263,9 @@ TEST_CASE("4.2 A vehicle that runs the order of somebody else takes none, and th
     CHECK(bench.session.CanTakeOrder());
 }
 
-TEST_CASE("4.2 An error that names the header of a message that is none of ours is no rejection")
+TEST_CASE("4.2 An error that names the header of another master's message is no rejection")
 {
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     REQUIRE(bench.session.SendOrder(MakeOrder(2, 2), bench.GetNow(), bench.Clear()).has_value());
     bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendOrder);
@@ -276,10 +276,10 @@ TEST_CASE("4.2 An error that names the header of a message that is none of ours 
     CHECK(Pick<OrderRejected>(bench.GetOutput()).size() == 1);
 }
 
-TEST_CASE("5.5 Of thousands of actions and errors each change is told once, in the order of the state")
+TEST_CASE("5.5 Each change of thousands of actions and errors is reported once, in the order of the state")
 {
     constexpr std::size_t COUNT = 5'000;
-    MasterBench bench;
+    MasterSessionFixture bench;
     bench.BeReady();
     OrderMessage order = MakeOrder(2, 2);
     for (std::size_t index = 0; index < COUNT; ++index)

@@ -1,6 +1,6 @@
 #include "Catch.hpp"
 #include "SeededRandom.hpp"
-#include "VehicleBench.hpp"
+#include "VehicleSessionFixture.hpp"
 #include <acs/vda5050/MasterSession.hpp>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ class Line
     std::uint32_t _lossPercent = 0;
     MasterSession _master;
     VehicleSession _vehicle;
-    MasterActions _told;
+    MasterActions _events;
     std::optional<std::uint32_t> _goal;
     std::vector<std::string> _running;
 
@@ -30,7 +30,7 @@ public:
     Line(std::uint64_t seed, std::uint32_t lossPercent)
         : _random(seed),
           _master(MakeMasterOptions()),
-          _vehicle(VehicleBench::MakeOptions())
+          _vehicle(VehicleSessionFixture::MakeOptions())
     {
         AgvPosition position;
         position.bPositionInitialized = true;
@@ -41,7 +41,7 @@ public:
         VehicleActions up;
         _vehicle.OnLinkUp(_clock.GetNow(), up);
         ToMaster(up);
-        SetLoss(lossPercent); // who connects is heard
+        SetLoss(lossPercent); // the connect itself loses nothing
     }
 
     void SetLoss(std::uint32_t percent)
@@ -54,9 +54,9 @@ public:
         return _master;
     }
 
-    [[nodiscard]] const MasterActions& GetTold() const
+    [[nodiscard]] const MasterActions& GetEvents() const
     {
-        return _told;
+        return _events;
     }
 
     [[nodiscard]] Core::Now GetNow() const
@@ -116,7 +116,7 @@ private:
                 ToMaster(out);
             }
         }
-        std::copy(actions.begin(), actions.end(), std::back_inserter(_told));
+        std::copy(actions.begin(), actions.end(), std::back_inserter(_events));
     }
 
     void ToMaster(const VehicleActions& actions)
@@ -144,7 +144,7 @@ private:
 
 } // namespace
 
-TEST_CASE("13 With a third of all messages lost each order and each action is done once, and every node is told")
+TEST_CASE("13 With a third of the messages lost each order and action is executed once and every node reported")
 {
     const auto seed = static_cast<std::uint64_t>(GENERATE(range(1, 21)));
     CAPTURE(seed);
@@ -164,10 +164,10 @@ TEST_CASE("13 With a third of all messages lost each order and each action is do
     {
         line.Step();
     }
-    CHECK(Pick<OrderFinished>(line.GetTold()).size() == 1);
-    CHECK(Pick<OrderRejected>(line.GetTold()).empty());
-    CHECK(Pick<OrderAccepted>(line.GetTold()).size() == 2);
-    const std::vector<NodeReached> reached = Pick<NodeReached>(line.GetTold());
+    CHECK(Pick<OrderFinished>(line.GetEvents()).size() == 1);
+    CHECK(Pick<OrderRejected>(line.GetEvents()).empty());
+    CHECK(Pick<OrderAccepted>(line.GetEvents()).size() == 2);
+    const std::vector<NodeReached> reached = Pick<NodeReached>(line.GetEvents());
     REQUIRE(reached.size() == 5);
     for (std::size_t index = 0; index < reached.size(); ++index)
     {

@@ -8,7 +8,7 @@
 namespace ACS::VDA5050::Test
 {
 
-TEST_CASE("4.1 Each rule of an order's structure is told by itself")
+TEST_CASE("4.1 Each violated rule of an order's structure is reported separately")
 {
     struct Case
     {

@@ -1,5 +1,5 @@
 #include "Catch.hpp"
-#include "VehicleBench.hpp"
+#include "VehicleSessionFixture.hpp"
 #include <acs/vda5050/PredefinedActions.hpp>
 
 #include <algorithm>
@@ -73,7 +73,7 @@ std::vector<ActionParameter> MakeParameters(const Row& row, bool bAll)
     return parameters;
 }
 
-/// Whether a vehicle that lists the standard's rows takes an order with this action; the field that it blames, else.
+/// The parameter for which a vehicle with the standard's rows rejects an order with this action; empty if accepted.
 std::string FindBlame(const Action& action, EActionScope scope, EParameterCheck check = EParameterCheck::Tolerant)
 {
     OrderMessage order = MakeOrder(2, 2);
@@ -162,9 +162,9 @@ TEST_CASE("5.7 Each row as an instant action: taken by a vehicle that lists it, 
     for (const Row& row : GetRows())
     {
         CAPTURE(row.actionType);
-        VehicleOptions options = VehicleBench::MakeOptions();
+        VehicleOptions options = VehicleSessionFixture::MakeOptions();
         options.factsheet.protocolFeatures.agvActions = GetPredefinedActions();
-        VehicleBench bench(options);
+        VehicleSessionFixture bench(options);
         const bool bInstant = row.scopes.find('I') != std::string::npos;
         for (const std::string& parameter : row.parameters)
         {
@@ -187,12 +187,12 @@ TEST_CASE("5.7 Each row as an instant action: taken by a vehicle that lists it, 
     }
 }
 
-TEST_CASE("5.7 Without a list of its own a vehicle still keeps instant actions out of orders")
+TEST_CASE("5.7 Without a list of actions a vehicle still rejects instant actions in orders")
 {
     for (const Row& row : GetRows())
     {
         CAPTURE(row.actionType);
-        VehicleBench bench;
+        VehicleSessionFixture bench;
         OrderMessage order = MakeOrder(2, 2);
         order.nodes[1].actions.push_back(MakeAction("a1", EBlockingType::Hard, row.actionType));
         bench.Order(order);
@@ -210,7 +210,7 @@ TEST_CASE("5.7 A value may be written as text, as the older documents show it")
     CHECK(FindBlame(action, EActionScope::Node) == "x");
 }
 
-TEST_CASE("3.7 Parameters are checked strictly or leniently where the vehicle wants it so")
+TEST_CASE("3.7 Parameters are checked strictly or leniently, as configured")
 {
     Action pick = MakeRowAction({"pick", "NE", {"stationType", "loadType"}}, true);
     Action text = pick;
@@ -237,7 +237,7 @@ TEST_CASE("3.7 Parameters are checked strictly or leniently where the vehicle wa
 
 TEST_CASE("3.7 A blocking type that the factsheet does not list refuses the order")
 {
-    VehicleOptions options = VehicleBench::MakeOptions();
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
     AgvAction pick = *FindPredefinedActionOrNull("pick");
     pick.actionParameters.clear();
     pick.blockingTypes = {EBlockingType::Soft, EBlockingType::Hard};
@@ -245,7 +245,7 @@ TEST_CASE("3.7 A blocking type that the factsheet does not list refuses the orde
     options.factsheet.protocolFeatures.agvActions = {pick};
     for (const EBlockingType blocking : {EBlockingType::None, EBlockingType::Soft, EBlockingType::Hard})
     {
-        VehicleBench bench(options);
+        VehicleSessionFixture bench(options);
         OrderMessage order = MakeOrder(2, 2);
         order.nodes[1].actions.push_back(MakeAction("a1", blocking, "lift"));
         bench.Order(order);

@@ -11,7 +11,7 @@ namespace ACS::VDA5050
 namespace
 {
 
-/// With every member that an edge can have.
+/// An edge with every member.
 OrderEdge MakeFullEdge()
 {
     OrderEdge edge;
@@ -66,7 +66,7 @@ OrderMessage MakeFullOrder()
 
 } // namespace
 
-TEST_CASE("A held route gives back every member of its edges and nodes, those that are not there either")
+TEST_CASE("A remaining route returns every member of its edges and nodes, absent ones included")
 {
     const OrderMessage order = MakeFullOrder();
     RemainingRoute route;
@@ -90,7 +90,7 @@ TEST_CASE("A held route gives back every member of its edges and nodes, those th
     CHECK(route.GetEdgeState(1) == EdgeState{"E1", 3, {}, false, {}});
 }
 
-TEST_CASE("A held route forgets from its front and from its end, and knows where its first edge begins")
+TEST_CASE("A remaining route drops from its front and its end, and knows where its first edge begins")
 {
     const OrderMessage order = MakeFullOrder();
     RemainingRoute route;

@@ -52,7 +52,7 @@ TEST_CASE("6.11 Actions are found by their id, wherever others were erased, and 
     CHECK(moved.FindOrNull("a0") == nullptr);
 }
 
-TEST_CASE("6.11 What runs is counted by what it holds up, from its start to its end; instant actions hold up nothing")
+TEST_CASE("6.11 Running actions are counted by what they block, from start to end; instant actions block nothing")
 {
     struct Case
     {

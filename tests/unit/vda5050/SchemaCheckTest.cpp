@@ -12,7 +12,7 @@ using VDA5050::EVda5050Version;
 namespace
 {
 
-/// An order that breaks nothing, after a replacement that should.
+/// A valid order after a replacement that makes it invalid.
 std::string MakeOrder(const std::string& from = {}, const std::string& to = {})
 {
     std::string text =
@@ -74,11 +74,11 @@ TEST_CASE("1 The schema check refuses each planted fault and names its place")
         Case{R"("orderUpdateId":0)", R"("orderUpdateId":-1)", "#/orderUpdateId breaks minimum"},
         Case{R"("theta":3.1)", R"("theta":3.2)", "#/nodes/0/nodePosition/theta breaks maximum"},
         Case{R"("theta":3.1)", R"("theta":-4)", "#/nodes/0/nodePosition/theta breaks minimum"},
-        Case{"2026-11-20T23:37:12.345Z", "yesterday", "#/timestamp is no date-time"},
-        Case{"2026-11-20T23:37:12.345Z", "2026-11-20T23:37:12.345", "#/timestamp is no date-time"},
-        Case{"2026-11-20T23:37:12.345Z", "2026-13-20T23:37:12Z", "#/timestamp is no date-time"},
+        Case{"2026-11-20T23:37:12.345Z", "yesterday", "#/timestamp is not a date-time"},
+        Case{"2026-11-20T23:37:12.345Z", "2026-11-20T23:37:12.345", "#/timestamp is not a date-time"},
+        Case{"2026-11-20T23:37:12.345Z", "2026-13-20T23:37:12Z", "#/timestamp is not a date-time"},
         Case{R"("version":"2.0.0")", R"("version":"2.1.0")", "#/version is not 2.0.0"},
-        Case{R"("orderId":"o")", R"("orderId":"o","orderId":"p")", "the name orderId stands twice"},
+        Case{R"("orderId":"o")", R"("orderId":"o","orderId":"p")", "the name orderId is repeated"},
         Case{R"("x":0)", R"("x":NaN)", "no JSON"},
         Case{R"("edges":[]})", R"("edges":[])", "no JSON"});
     const std::string text = MakeOrder(planted.from, planted.to);

@@ -78,7 +78,7 @@ TMessage Read(const std::string& text, const DecodeTolerance& tolerance = {})
 
 } // namespace
 
-TEST_CASE("11 The examples of the project's own summary are read as they stand there")
+TEST_CASE("11 The examples of the project's own summary are decoded unchanged")
 {
     // NOLINTNEXTLINE(concurrency-mt-unsafe): no test changes its environment
     const char* folder = std::getenv("ACS_SPEC_DIR");
@@ -92,7 +92,7 @@ TEST_CASE("11 The examples of the project's own summary are read as they stand t
     const std::vector<std::string> examples = ListExamples(path);
     CHECK(Read<ConnectionMessage>(Find(examples, "connectionState")).connectionState == EConnectionState::Online);
 
-    // A node and an edge stand for themselves there: in an order they are a whole one.
+    // The summary shows single nodes and edges: here they are completed to an order.
     std::string order = Find(examples, "nodes");
     const std::string node = Find(examples, "nodePosition");
     order = Replace(order, R"("nodes": [])", R"("nodes":[)" + node + "," + node + "]");
@@ -118,7 +118,7 @@ TEST_CASE("11 The examples of the project's own summary are read as they stand t
         }
     }
 
-    // The state, and each part of a state that is shown by itself put into it.
+    // The state, with each separately shown part of a state inserted.
     const std::string state = Find(examples, "lastNodeId");
     CHECK(Read<StateMessage>(state).batteryState.reach == 5000.0);
     std::size_t parts = 0;

@@ -34,7 +34,7 @@ TEST_CASE("2 Other topics are refused")
     CHECK(parsed.error().code == EVda5050Error::InvalidTopic);
 }
 
-TEST_CASE("2 Another major version is told apart")
+TEST_CASE("2 Another major version is recognised")
 {
     const auto parsed = ParseTopic("vda5050/v3/KIT/0001/order");
     REQUIRE_FALSE(parsed.has_value());
@@ -46,7 +46,7 @@ TEST_CASE("2 Another major version is told apart")
     CHECK_FALSE(ReadVersionOrNull("").has_value());
 }
 
-TEST_CASE("2 A level of an address has no separator and no wildcard")
+TEST_CASE("2 A level of an address contains no separator and no wildcard")
 {
     CHECK(IsValidAddress({"uagv", "KIT", "0001"}));
     CHECK_FALSE(IsValidAddress({"uagv", "K/T", "0001"}));

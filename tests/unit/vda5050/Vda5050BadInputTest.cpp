@@ -25,7 +25,7 @@ namespace
 
 using Core::ECoreError;
 
-/// What Decode says against a payload, null where nothing.
+/// The error of Decode; null when the payload is accepted.
 template <typename TMessage>
 std::optional<Core::Error> FindErrorOrNull(std::string_view payload)
 {
@@ -55,7 +55,7 @@ struct Place
     rapidjson::Type type = rapidjson::kNullType;
 };
 
-/// Every value of a message but those whose form nothing says.
+/// Every value of a message except those whose form the standard leaves open.
 std::vector<Place> ListPlaces(const rapidjson::Document& message)
 {
     constexpr std::array<std::string_view, 3> FREE{"value", "data", "localizationParameters"};
@@ -189,7 +189,7 @@ TEST_CASE("12 (13) null is refused in each member that must be there, and nowher
     }
 }
 
-TEST_CASE("3 A message that is cut off anywhere is refused, and no JSON, or none for a message, too")
+TEST_CASE("3 A message that is cut off anywhere is rejected, and so is text that is not JSON or not a message")
 {
     for (const Kind& kind : KINDS)
     {
@@ -213,7 +213,7 @@ TEST_CASE("3 A message that is cut off anywhere is refused, and no JSON, or none
     }
 }
 
-TEST_CASE("3.1 What is no header is refused; a version, a name or an id is any text")
+TEST_CASE("3.1 An invalid header is rejected; a version, a name or an id is any text")
 {
     struct Case
     {
@@ -247,7 +247,7 @@ TEST_CASE("3.1 What is no header is refused; a version, a name or an id is any t
     }
 }
 
-TEST_CASE("3 A number out of its range and a word out of its list are refused, and the error says what would be right")
+TEST_CASE("3 A number out of range and a word that is not listed are rejected; the error states what is valid")
 {
     struct Case
     {

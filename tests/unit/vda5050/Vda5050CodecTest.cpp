@@ -8,7 +8,7 @@
 namespace ACS::VDA5050::Test
 {
 
-TEST_CASE("3 What 2.0 does not know is not written in 2.0")
+TEST_CASE("3 Members that 2.0 does not define are not written in 2.0")
 {
     Vda5050Codec codec;
     const auto order = codec.Decode<OrderMessage>(ReadFull(ETopic::Order, EVda5050Version::Version210));
@@ -98,7 +98,7 @@ TEST_CASE("12 Unknown members are ignored and counted; null is absent where a me
     CHECK(failed.error().path == "nodes[0].released");
 }
 
-TEST_CASE("3 A wrong payload is refused with the path of the member and what would be right")
+TEST_CASE("3 A wrong payload is rejected with the path of the member and what is valid")
 {
     struct Case
     {
@@ -128,7 +128,7 @@ TEST_CASE("3 A wrong payload is refused with the path of the member and what wou
     CHECK(message.error().code == wrong.code);
 }
 
-TEST_CASE("3 What names a refused message is read as far as it can be")
+TEST_CASE("3 The header and ids of a rejected message are read as far as possible")
 {
     Vda5050Codec codec;
     const auto identity = codec.DecodeIdentity(R"({"headerId":7,"orderId":"o","orderUpdateId":2,"nodes":5})");
@@ -139,7 +139,7 @@ TEST_CASE("3 What names a refused message is read as far as it can be")
     CHECK_FALSE(codec.DecodeIdentity("[").has_value());
 }
 
-TEST_CASE("3 Deep nesting and long payloads are refused, not followed")
+TEST_CASE("3 Deep nesting and long payloads are rejected without being parsed")
 {
     Vda5050Codec codec(CodecLimits{1000, 16});
     CHECK(codec.Decode<OrderMessage>(std::string(900, '[')).error().code != Core::ECoreError::MissingField);

@@ -104,8 +104,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "12 (13) Every message with null, or nothing, for all that may be missing is the minimal one; null is counted")
+TEST_CASE("12 (13) With null or nothing in every optional member a message is the minimal one; null is counted")
 {
     for (const EVda5050Version version : VERSIONS)
     {
@@ -129,7 +128,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("3 What one version knows more than the other is left out there: each is written as the other's schema asks")
+TEST_CASE("3 Members that only one version defines are left out in the other")
 {
     for (const GoldenKind& kind : GOLDEN_KINDS)
     {
@@ -159,7 +158,7 @@ TEST_CASE("3 The full messages have every member that their schemas name")
             std::vector<std::string> expected;
             if (kind.topic == ETopic::Factsheet)
             {
-                // Both have a schema that nothing, or nothing sensible, satisfies (section 1).
+                // No message, or no useful one, satisfies the schemas of both (section 1).
                 expected.emplace_back(
                     version == EVda5050Version::Version200 ? "protocolFeatures.agvActions[].blockingTypes"
                                                            : "agvGeometry.envelopes3d[].description");
@@ -169,7 +168,7 @@ TEST_CASE("3 The full messages have every member that their schemas name")
     }
 }
 
-TEST_CASE("1, 3 What was read leniently is written as the schemas ask, in either version")
+TEST_CASE("1, 3 What was read leniently is written as the schema requires, in either version")
 {
     std::size_t readable = 0;
     for (const auto& entry : std::filesystem::directory_iterator(ACS_CORPUS))
@@ -193,7 +192,7 @@ TEST_CASE("1, 3 What was read leniently is written as the schemas ask, in either
     CHECK(readable >= 20);
 }
 
-TEST_CASE("3.5 Visualization has less of a position than state has")
+TEST_CASE("3.5 The position in visualization has fewer members than in state")
 {
     VisualizationMessage message;
     message.agvPosition.emplace().mapDescription = "the floor";
@@ -206,7 +205,7 @@ TEST_CASE("3.5 Visualization has less of a position than state has")
     }
 }
 
-TEST_CASE("3 There is a golden file of each kind for every message, and none besides")
+TEST_CASE("3 There is a golden file of each kind for every message, and no other")
 {
     std::set<std::string> expected;
     for (const EVda5050Version version : VERSIONS)

@@ -42,7 +42,7 @@ template <typename TWanted, typename TAction>
     return picked;
 }
 
-/// Whatever a session published among these keeps to the official schema of its version.
+/// Every message that a session published among these is valid for the official schema of its version.
 template <typename TAction>
 void CheckPublished(const std::vector<TAction>& actions)
 {

@@ -1,5 +1,5 @@
 #include "Catch.hpp"
-#include "VehicleBench.hpp"
+#include "VehicleSessionFixture.hpp"
 #include <acs/vda5050/Vda5050Codec.hpp>
 
 #include <functional>
@@ -11,11 +11,11 @@ namespace ACS::VDA5050::Test
 namespace
 {
 
-/// One leaf of the tree: what stands before, what arrives, and what becomes of it.
+/// One leaf of the tree: the state before, the message, and the result.
 struct Leaf
 {
     const char* name;
-    std::function<void(VehicleBench&)> before;
+    std::function<void(VehicleSessionFixture&)> before;
     std::function<OrderMessage()> order;
     std::optional<std::string_view> errorType; ///< Absent: taken, or discarded.
     std::string heldOrderID;                   ///< Afterwards.
@@ -35,19 +35,19 @@ OrderMessage With(OrderMessage order, const std::function<void(OrderMessage&)>& 
     return order;
 }
 
-void Nothing(VehicleBench& /*bench*/)
+void Nothing(VehicleSessionFixture& /*bench*/)
 {
 }
 
 /// Three nodes, two of them released; the vehicle is on its way to N1.
-void UnderWay(VehicleBench& bench)
+void UnderWay(VehicleSessionFixture& bench)
 {
     bench.Order(MakeOrder(3, 2));
     bench.Drive(true);
 }
 
 /// The same without a horizon, and done.
-void Completed(VehicleBench& bench)
+void Completed(VehicleSessionFixture& bench)
 {
     bench.Order(MakeOrder(2, 2));
     bench.Drive(true);
@@ -70,7 +70,7 @@ OrderMessage At(std::size_t nodeIndex, OrderMessage order)
 void CheckLeaf(const Leaf& leaf)
 {
     CAPTURE(leaf.name);
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     leaf.before(bench);
     const StateMessage before = bench.GetSession().GetState();
     bench.Clear();
@@ -94,7 +94,7 @@ void CheckLeaf(const Leaf& leaf)
         CAPTURE(key);
         CHECK(FindReferenceOrNull(error, key) != nullptr);
     }
-    // Nothing of it was taken, and what ran goes on.
+    // Nothing of the message was applied, and the running order continues.
     CHECK(after.nodeStates == before.nodeStates);
     CHECK(after.edgeStates == before.edgeStates);
     CHECK(after.actionStates == before.actionStates);
@@ -128,7 +128,7 @@ TEST_CASE("4.2 Each leaf of the acceptance tree for a new order")
          "o2",
          0},
         {"accepted after a cancelled one",
-         [](VehicleBench& bench) {
+         [](VehicleSessionFixture& bench) {
              UnderWay(bench);
              bench.Instant("cancelOrder", "c1");
              bench.Drive(false);
@@ -144,7 +144,7 @@ TEST_CASE("4.2 Each leaf of the acceptance tree for a new order")
          "order-1",
          0},
         {"only a horizon left",
-         [](VehicleBench& bench) {
+         [](VehicleSessionFixture& bench) {
              UnderWay(bench);
              bench.Reach(2);
              bench.StandAt(10.0);
@@ -154,7 +154,7 @@ TEST_CASE("4.2 Each leaf of the acceptance tree for a new order")
          "order-1",
          0},
         {"only an action left",
-         [](VehicleBench& bench) {
+         [](VehicleSessionFixture& bench) {
              OrderMessage order = MakeOrder(1, 1);
              order.nodes[0].actions.push_back(MakeAction("a1", EBlockingType::None));
              bench.Order(order);
@@ -164,7 +164,7 @@ TEST_CASE("4.2 Each leaf of the acceptance tree for a new order")
          "order-1",
          0},
         {"a cancel runs",
-         [](VehicleBench& bench) {
+         [](VehicleSessionFixture& bench) {
              UnderWay(bench);
              bench.Instant("cancelOrder", "c1");
          },
@@ -173,13 +173,13 @@ TEST_CASE("4.2 Each leaf of the acceptance tree for a new order")
          "order-1",
          0},
         {"not on the first node",
-         [](VehicleBench& bench) { bench.StandAt(3.0); },
+         [](VehicleSessionFixture& bench) { bench.StandAt(3.0); },
          [] { return MakeOrder(2, 2); },
          ErrorTypes::NO_ROUTE_ERROR,
          "",
          0},
         {"inside the range of the first node",
-         [](VehicleBench& bench) { bench.StandAt(3.0); },
+         [](VehicleSessionFixture& bench) { bench.StandAt(3.0); },
          [] {
              return With(MakeOrder(2, 2), [](OrderMessage& order) {
                  order.nodes[0].nodePosition->allowedDeviationXY = 3.5;
@@ -189,7 +189,7 @@ TEST_CASE("4.2 Each leaf of the acceptance tree for a new order")
          "order-1",
          0},
         {"inside the range, turned the other way",
-         [](VehicleBench& bench) { bench.StandAt(3.0); },
+         [](VehicleSessionFixture& bench) { bench.StandAt(3.0); },
          [] {
              return With(At(9, MakeOrder(2, 2)), [](OrderMessage& order) {
                  order.nodes[0].nodePosition->x = 3.0;
@@ -201,7 +201,7 @@ TEST_CASE("4.2 Each leaf of the acceptance tree for a new order")
          "",
          0},
         {"inside the range, turned almost as asked, across the end of the circle",
-         [](VehicleBench& bench) { bench.StandAt(3.0, 3.1); },
+         [](VehicleSessionFixture& bench) { bench.StandAt(3.0, 3.1); },
          [] {
              return With(At(9, MakeOrder(2, 2)), [](OrderMessage& order) {
                  order.nodes[0].nodePosition->x = 3.0;
@@ -245,7 +245,7 @@ TEST_CASE("4.2 Each leaf of the acceptance tree for a new order")
 
 TEST_CASE("4.2 Each leaf of the acceptance tree for an update")
 {
-    const auto cancelled = [](VehicleBench& bench) {
+    const auto cancelled = [](VehicleSessionFixture& bench) {
         UnderWay(bench);
         bench.Instant("cancelOrder", "c1");
         bench.Drive(false);
@@ -258,7 +258,7 @@ TEST_CASE("4.2 Each leaf of the acceptance tree for an update")
          "order-1",
          0},
         {"a lower orderUpdateId",
-         [](VehicleBench& bench) {
+         [](VehicleSessionFixture& bench) {
              bench.Order(With(MakeOrder(3, 2), [](OrderMessage& order) { order.orderUpdateID = 5; }));
          },
          [] { return With(MakeUpdate(3, 2, 3), [](OrderMessage& order) { order.orderUpdateID = 4; }); },
@@ -316,7 +316,7 @@ TEST_CASE("4.2 Each leaf of the acceptance tree for an update")
          "order-1",
          0},
         {"during a cancel",
-         [](VehicleBench& bench) {
+         [](VehicleSessionFixture& bench) {
              UnderWay(bench);
              bench.Instant("cancelOrder", "c1");
          },
@@ -331,7 +331,7 @@ TEST_CASE("4.2 Each leaf of the acceptance tree for an update")
          "order-1",
          0},
         {"after a cancel, at lastNodeId, which the vehicle has left",
-         [&cancelled](VehicleBench& bench) {
+         [&cancelled](VehicleSessionFixture& bench) {
              cancelled(bench);
              bench.StandAt(5.0);
          },
@@ -339,7 +339,7 @@ TEST_CASE("4.2 Each leaf of the acceptance tree for an update")
          ErrorTypes::NO_ROUTE_ERROR,
          "order-1",
          0},
-        {"after a cancel, at lastNodeId, where it stands",
+        {"after a cancel, at lastNodeId, where the vehicle is stationary",
          cancelled,
          [] { return MakeUpdate(3, 1, 3); },
          std::nullopt,
@@ -352,7 +352,7 @@ TEST_CASE("4.2 Each leaf of the acceptance tree for an update")
     }
 }
 
-TEST_CASE("4.2 What an order may ask for that the vehicle does not have is refused with orderError")
+TEST_CASE("4.2 An order that requires something that the vehicle does not have is rejected with orderError")
 {
     struct Case
     {
@@ -449,7 +449,7 @@ TEST_CASE("4.2 What an order may ask for that the vehicle does not have is refus
     }
 }
 
-TEST_CASE("3.7 An order that is larger than the factsheet's limits is refused with orderError")
+TEST_CASE("3.7 An order that exceeds the limits of the factsheet is rejected with orderError")
 {
     struct Case
     {
@@ -514,22 +514,22 @@ TEST_CASE("3.7 An order that is larger than the factsheet's limits is refused wi
     }
 }
 
-TEST_CASE("3.7 Ids that are no numbers are refused by a vehicle that takes numbers only")
+TEST_CASE("3.7 A vehicle that accepts numeric ids only rejects other ids")
 {
-    VehicleOptions options = VehicleBench::MakeOptions();
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
     options.factsheet.protocolLimits.maxStringLengths.bIdentifierNumericalOnly = true;
-    VehicleBench bench(options);
+    VehicleSessionFixture bench(options);
     bench.Order(MakeOrder(2, 2, "1"));
     CHECK(bench.HasError(ErrorTypes::ORDER_ERROR));
 }
 
-TEST_CASE("4.1 An actionId that the state still shows is not taken twice")
+TEST_CASE("4.1 An actionId that the state still shows is not accepted again")
 {
     const auto withAction = [](OrderMessage order, std::size_t node, const char* actionID) {
         order.nodes[node].actions.push_back(MakeAction(actionID, EBlockingType::None));
         return order;
     };
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.Order(withAction(withAction(MakeOrder(3, 2), 1, "base"), 2, "horizon"));
     bench.Order(withAction(MakeUpdate(3, 2, 3), 1, "base"));
     CHECK(bench.HasError(ErrorTypes::VALIDATION_ERROR));
@@ -541,9 +541,9 @@ TEST_CASE("4.1 An actionId that the state still shows is not taken twice")
     CHECK(bench.GetSession().GetState().errors.empty());
 }
 
-TEST_CASE("4.2 The owner's own check refuses an order with the errors that it names")
+TEST_CASE("4.2 The application's own check rejects an order with the errors that it returns")
 {
-    VehicleOptions options = VehicleBench::MakeOptions();
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
     options.orderCheck = [](const OrderMessage& order) {
         std::vector<OrderViolation> violations;
         if (order.nodes.size() > 2)
@@ -552,7 +552,7 @@ TEST_CASE("4.2 The owner's own check refuses an order with the errors that it na
         }
         return violations;
     };
-    VehicleBench bench(options);
+    VehicleSessionFixture bench(options);
     bench.Order(MakeOrder(3, 3));
     CHECK(bench.HasError(ErrorTypes::NO_ROUTE_ERROR));
     CHECK(bench.GetSession().GetState().orderID.empty());

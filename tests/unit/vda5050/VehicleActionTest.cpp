@@ -1,5 +1,5 @@
 #include "Catch.hpp"
-#include "VehicleBench.hpp"
+#include "VehicleSessionFixture.hpp"
 #include <acs/vda5050/PredefinedActions.hpp>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ Core::JsonText Number(double number)
 
 VehicleOptions MakeAble()
 {
-    VehicleOptions options = VehicleBench::MakeOptions();
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
     options.factsheet.protocolFeatures.agvActions = GetPredefinedActions();
     return options;
 }
@@ -48,7 +48,7 @@ std::vector<ActionParameter> MakePose(double x, double theta, const char* mapID 
         {"lastNodeId", Text("N7")}};
 }
 
-void SetMaps(VehicleBench& bench, std::vector<MapState> maps)
+void SetMaps(VehicleSessionFixture& bench, std::vector<MapState> maps)
 {
     VehicleActions out;
     bench.GetSession().OnMaps(std::move(maps), bench.GetNow(), out);
@@ -76,7 +76,7 @@ Names ListMaps(const StateMessage& state)
 
 } // namespace
 
-TEST_CASE("5.2 Which actions of a node run beside each other, by their blocking types")
+TEST_CASE("5.2 Which actions of a node run in parallel, by their blocking types")
 {
     struct Case
     {
@@ -105,7 +105,7 @@ TEST_CASE("5.2 Which actions of a node run beside each other, by their blocking 
     {
         const Case& scheduling = cases[index];
         CAPTURE(index);
-        VehicleBench bench;
+        VehicleSessionFixture bench;
         OrderMessage order = MakeOrder(2, 2);
         for (std::size_t action = 0; action < scheduling.types.size(); ++action)
         {
@@ -141,7 +141,7 @@ TEST_CASE("5.2 Which actions of a node run beside each other, by their blocking 
 
 TEST_CASE("5.2 A HARD action waits for one that still runs from the node before, and the vehicle stops there")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderMessage order = MakeOrder(3, 3);
     order.nodes[0].actions.push_back(MakeAction("long", NONE));
     order.nodes[1].actions.push_back(MakeAction("alone", HARD));
@@ -161,7 +161,7 @@ TEST_CASE("5.2 SOFT and HARD actions of an edge run before the edge is entered, 
     for (const EBlockingType blocking : {NONE, SOFT, HARD})
     {
         CAPTURE(static_cast<int>(blocking));
-        VehicleBench bench;
+        VehicleSessionFixture bench;
         OrderMessage order = MakeOrder(3, 3);
         order.edges[1].actions.push_back(MakeAction("e", blocking));
         bench.Order(order);
@@ -176,11 +176,11 @@ TEST_CASE("5.2 SOFT and HARD actions of an edge run before the edge is entered, 
     }
 }
 
-TEST_CASE("5.2 Edge actions end with the edge: FINISHED where the owner can end them so, else FAILED with a warning")
+TEST_CASE("5.2 Edge actions end with the edge: FINISHED if the application ends them so, else FAILED with a warning")
 {
     for (const EActionStatus end : {EActionStatus::Finished, EActionStatus::Failed})
     {
-        VehicleBench bench;
+        VehicleSessionFixture bench;
         OrderMessage order = MakeOrder(2, 2);
         order.edges[0].actions.push_back(MakeAction("e", NONE, "detectObject"));
         bench.Order(order);
@@ -194,9 +194,9 @@ TEST_CASE("5.2 Edge actions end with the edge: FINISHED where the owner can end 
     }
 }
 
-TEST_CASE("5.1 An action that is not yet begun cannot be told to run, and none leaves its end")
+TEST_CASE("5.1 An action that has not begun cannot be set to RUNNING, and a terminal status never changes")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderMessage order = MakeOrder(3, 2);
     order.nodes[1].actions.push_back(MakeAction("later", NONE));
     bench.Order(order);
@@ -207,14 +207,14 @@ TEST_CASE("5.1 An action that is not yet begun cannot be told to run, and none l
     bench.Status("later", EActionStatus::Running);
     bench.Status("later", EActionStatus::Finished);
     CHECK_FALSE(bench.GetSession().TrySetActionStatus("later", EActionStatus::Failed, {}, bench.GetNow(), out));
-    CHECK_FALSE(bench.GetSession().TrySetActionStatus("nobody", EActionStatus::Running, {}, bench.GetNow(), out));
+    CHECK_FALSE(bench.GetSession().TrySetActionStatus("unknown", EActionStatus::Running, {}, bench.GetNow(), out));
     bench.Instant("startPause", "p1");
     CHECK_FALSE(bench.GetSession().TrySetActionStatus("p1", EActionStatus::Failed, {}, bench.GetNow(), out));
 }
 
 TEST_CASE("5.5 What is removed from actionStates, and when")
 {
-    VehicleBench bench(MakeAble());
+    VehicleSessionFixture bench(MakeAble());
     OrderMessage order = MakeOrder(3, 2);
     order.nodes[1].actions.push_back(MakeAction("base", NONE, "startCharging"));
     order.nodes[2].actions.push_back(MakeAction("horizon", NONE, "startCharging"));
@@ -248,7 +248,7 @@ TEST_CASE("5.5 What is removed from actionStates, and when")
 
 TEST_CASE("5.6 Instant actions do not make the vehicle busy, and do not wait for the order's actions")
 {
-    VehicleBench bench(MakeAble());
+    VehicleSessionFixture bench(MakeAble());
     bench.Instant("startCharging", "charge");
     bench.Status("charge", EActionStatus::Running);
     OrderMessage order = MakeOrder(2, 2);
@@ -261,7 +261,7 @@ TEST_CASE("5.6 Instant actions do not make the vehicle busy, and do not wait for
     CHECK(bench.GetStartedActions() == Names{"charge", "hard", "log"});
 }
 
-TEST_CASE("5.6 What is wrong with an instant action fails it alone, with a warning that names it")
+TEST_CASE("5.6 An invalid instant action fails alone, with a warning that names it")
 {
     struct Case
     {
@@ -281,7 +281,7 @@ TEST_CASE("5.6 What is wrong with an instant action fails it alone, with a warni
     for (const Case& instant : cases)
     {
         CAPTURE(instant.name);
-        VehicleBench bench(MakeAble());
+        VehicleSessionFixture bench(MakeAble());
         bench.Instant(
             {MakeAction("good1", NONE, "startCharging"), instant.action, MakeAction("good2", NONE, "stateRequest")});
         if (instant.action.actionParameters.empty())
@@ -307,7 +307,7 @@ TEST_CASE("5.6 More instant actions than the factsheet allows fail, an action wi
 {
     VehicleOptions options = MakeAble();
     options.factsheet.protocolLimits.maxArrayLengths.instantActions = 1;
-    VehicleBench bench(options);
+    VehicleSessionFixture bench(options);
     bench.Instant({MakeAction("i1", NONE, "stateRequest"), MakeAction("i2", NONE, "stateRequest")});
     CHECK(bench.GetStatus("i1") == EActionStatus::Finished);
     CHECK(bench.GetStatus("i2") == EActionStatus::Failed);
@@ -315,7 +315,7 @@ TEST_CASE("5.6 More instant actions than the factsheet allows fail, an action wi
     CHECK(bench.HasError(ErrorTypes::VALIDATION_ERROR));
 }
 
-TEST_CASE("5.7 enableMap, downloadMap and deleteMap: what they change, and what they fail for")
+TEST_CASE("5.7 enableMap, downloadMap and deleteMap: what they change, and why they fail")
 {
     struct Case
     {
@@ -341,7 +341,7 @@ TEST_CASE("5.7 enableMap, downloadMap and deleteMap: what they change, and what 
     for (const Case& change : cases)
     {
         CAPTURE(change.actionType, change.mapID, change.mapVersion);
-        VehicleBench bench(MakeAble());
+        VehicleSessionFixture bench(MakeAble());
         SetMaps(bench, MakeMaps());
         std::vector<ActionParameter> parameters = MakeMapParameters(change.mapID, change.mapVersion);
         if (std::string_view(change.actionType) != "downloadMap")
@@ -364,7 +364,7 @@ TEST_CASE("5.7 enableMap, downloadMap and deleteMap: what they change, and what 
 
 TEST_CASE("5.7 A download that fails leaves the maps as they are")
 {
-    VehicleBench bench(MakeAble());
+    VehicleSessionFixture bench(MakeAble());
     SetMaps(bench, MakeMaps());
     bench.Instant("downloadMap", "m1", MakeMapParameters("cellar", "1"));
     bench.Status("m1", EActionStatus::Running);
@@ -377,7 +377,7 @@ TEST_CASE("5.7 enableMap on a node: enabled when the node is reached, failed whe
     for (const char* mapVersion : {"2", "9"})
     {
         const bool bThere = std::string_view(mapVersion) == "2";
-        VehicleBench bench(MakeAble());
+        VehicleSessionFixture bench(MakeAble());
         SetMaps(bench, MakeMaps());
         OrderMessage order = MakeOrder(2, 2);
         order.nodes[1].actions.push_back(MakeAction("m1", HARD, "enableMap"));
@@ -396,7 +396,7 @@ TEST_CASE("5.7 enableMap on a node: enabled when the node is reached, failed whe
     }
 }
 
-TEST_CASE("7 An order with a map that is not on the vehicle is refused; one that is DISABLED is the master's matter")
+TEST_CASE("7 An order with a map that is not on the vehicle is rejected; one with a DISABLED map is accepted")
 {
     struct Case
     {
@@ -407,7 +407,7 @@ TEST_CASE("7 An order with a map that is not on the vehicle is refused; one that
     for (const Case& map : cases)
     {
         CAPTURE(map.mapID);
-        VehicleBench bench;
+        VehicleSessionFixture bench;
         std::vector<MapState> maps = MakeMaps();
         maps.push_back(MapState{"attic", "1", EMapStatus::Disabled, {}});
         SetMaps(bench, maps);
@@ -417,13 +417,13 @@ TEST_CASE("7 An order with a map that is not on the vehicle is refused; one that
         CHECK(bench.GetSession().GetState().orderID.empty() != map.bTaken);
         CHECK(bench.HasError(ErrorTypes::ORDER_ERROR) != map.bTaken);
     }
-    VehicleBench empty;
+    VehicleSessionFixture empty;
     SetMaps(empty, {});
     empty.Order(MakeOrder(2, 2));
     CHECK(empty.HasError(ErrorTypes::ORDER_ERROR));
 }
 
-TEST_CASE("5.7 initPosition sets pose, map and last node, and fails for what is no pose or while an order runs")
+TEST_CASE("5.7 initPosition sets pose, map and last node; it fails for an invalid pose and while an order runs")
 {
     struct Case
     {
@@ -441,7 +441,7 @@ TEST_CASE("5.7 initPosition sets pose, map and last node, and fails for what is 
     for (const Case& pose : cases)
     {
         CAPTURE(pose.name);
-        VehicleBench bench(MakeAble());
+        VehicleSessionFixture bench(MakeAble());
         SetMaps(bench, MakeMaps());
         if (pose.bOrderRuns)
         {
@@ -462,9 +462,9 @@ TEST_CASE("5.7 initPosition sets pose, map and last node, and fails for what is 
     }
 }
 
-TEST_CASE("5.7 initPosition on a node changes pose and map; the order says which node it is")
+TEST_CASE("5.7 initPosition on a node changes pose and map; the order defines the node")
 {
-    VehicleBench bench(MakeAble());
+    VehicleSessionFixture bench(MakeAble());
     OrderMessage order = MakeOrder(2, 2);
     order.nodes[1].actions.push_back(MakeAction("i1", HARD, "initPosition"));
     order.nodes[1].actions[0].actionParameters = MakePose(3.0, 0.5, "roof");
@@ -477,17 +477,17 @@ TEST_CASE("5.7 initPosition on a node changes pose and map; the order says which
     CHECK(bench.GetSession().GetState().lastNodeSequenceID == 2);
 }
 
-TEST_CASE("5.7 An action of an order that fails is a warning; the order goes on, but for a critical one")
+TEST_CASE("5.7 A failed action of an order is a warning and the order continues, unless the action is critical")
 {
     for (const bool bCritical : {false, true})
     {
         CAPTURE(bCritical);
-        VehicleOptions options = VehicleBench::MakeOptions();
+        VehicleOptions options = VehicleSessionFixture::MakeOptions();
         if (bCritical)
         {
             options.criticalActionTypes = {"pick"};
         }
-        VehicleBench bench(options);
+        VehicleSessionFixture bench(options);
         OrderMessage order = MakeOrder(2, 2);
         order.nodes[0].actions = {MakeAction("fails", HARD), MakeAction("next", NONE)};
         bench.Order(order);

@@ -1,5 +1,5 @@
 #include "Catch.hpp"
-#include "VehicleBench.hpp"
+#include "VehicleSessionFixture.hpp"
 #include <acs/vda5050/ActionMachine.hpp>
 
 #include <functional>
@@ -14,7 +14,7 @@ using Names = std::vector<std::string>;
 
 VehicleOptions MakeNodeBound()
 {
-    VehicleOptions options = VehicleBench::MakeOptions();
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
     options.bStopsBetweenNodes = false;
     return options;
 }
@@ -26,18 +26,21 @@ TEST_CASE("5.4 cancelOrder in every situation of a vehicle that may stop anywher
     struct Case
     {
         const char* name;
-        std::function<void(VehicleBench&)> before; ///< An order of three nodes, two of them released, stands.
-        EActionStatus status;                      ///< Of cancelOrder, at once.
-        std::size_t nodesLeft;                     ///< In the state that follows at once.
+        std::function<void(VehicleSessionFixture&)> before; ///< After an order of three nodes, two of them released.
+        EActionStatus status;                               ///< Of cancelOrder, at once.
+        std::size_t nodesLeft;                              ///< In the state that follows at once.
     };
     const std::vector<Case> cases{
         {"sent on the way, not yet known to move",
-         [](VehicleBench& bench) { bench.Clear(); },
+         [](VehicleSessionFixture& bench) { bench.Clear(); },
          EActionStatus::Running,
          2},
-        {"between two nodes, driving", [](VehicleBench& bench) { bench.Drive(true); }, EActionStatus::Running, 2},
+        {"between two nodes, driving",
+         [](VehicleSessionFixture& bench) { bench.Drive(true); },
+         EActionStatus::Running,
+         2},
         {"at the end of the base, with a horizon",
-         [](VehicleBench& bench) {
+         [](VehicleSessionFixture& bench) {
              bench.Drive(true);
              bench.Reach(2);
              bench.Drive(false);
@@ -45,7 +48,7 @@ TEST_CASE("5.4 cancelOrder in every situation of a vehicle that may stop anywher
          EActionStatus::Finished,
          0},
         {"paused between two nodes",
-         [](VehicleBench& bench) {
+         [](VehicleSessionFixture& bench) {
              bench.Drive(true);
              bench.Instant("startPause", "p1");
              bench.Drive(false);
@@ -53,28 +56,28 @@ TEST_CASE("5.4 cancelOrder in every situation of a vehicle that may stop anywher
          EActionStatus::Finished,
          0},
         {"pausing",
-         [](VehicleBench& bench) {
+         [](VehicleSessionFixture& bench) {
              bench.Drive(true);
              bench.Instant("startPause", "p1");
          },
          EActionStatus::Running,
          2},
         {"cancelled already",
-         [](VehicleBench& bench) {
+         [](VehicleSessionFixture& bench) {
              bench.Instant("cancelOrder", "c0");
              bench.Drive(false);
          },
          EActionStatus::Failed,
          0},
         {"being cancelled",
-         [](VehicleBench& bench) {
+         [](VehicleSessionFixture& bench) {
              bench.Drive(true);
              bench.Instant("cancelOrder", "c0");
          },
          EActionStatus::Running,
          2},
         {"cleared by MANUAL",
-         [](VehicleBench& bench) {
+         [](VehicleSessionFixture& bench) {
              bench.Mode(EOperatingMode::Manual);
              bench.Mode(EOperatingMode::Automatic);
          },
@@ -84,7 +87,7 @@ TEST_CASE("5.4 cancelOrder in every situation of a vehicle that may stop anywher
     for (const Case& situation : cases)
     {
         CAPTURE(situation.name);
-        VehicleBench bench;
+        VehicleSessionFixture bench;
         bench.Order(MakeOrder(3, 2));
         situation.before(bench);
         const std::size_t errorsBefore = bench.GetSession().GetState().errors.size();
@@ -93,7 +96,7 @@ TEST_CASE("5.4 cancelOrder in every situation of a vehicle that may stop anywher
         CHECK(bench.GetSession().GetState().nodeStates.size() == situation.nodesLeft);
         const bool bRefused = situation.status == EActionStatus::Failed;
         CHECK(bench.GetSession().GetState().errors.size() == errorsBefore + (bRefused ? 1 : 0));
-        // As soon as it is told that the vehicle stands all is empty, the ids and lastNodeId stay.
+        // When the vehicle is reported stationary everything but the ids and lastNodeId is empty.
         bench.Drive(true);
         bench.Drive(false);
         const StateMessage state = bench.GetSession().GetState();
@@ -106,14 +109,14 @@ TEST_CASE("5.4 cancelOrder in every situation of a vehicle that may stop anywher
     }
 }
 
-TEST_CASE("5.4.3 What a cancel does to an order action, by its status")
+TEST_CASE("5.4.3 The effect of a cancel on an order action, by its status")
 {
     struct Case
     {
         const char* name;
         std::vector<EActionStatus> before;
         EActionStatus after;
-        bool bToldToStop;
+        bool bStopRequested;
     };
     const std::vector<Case> cases{
         {"initializing", {EActionStatus::Initializing}, EActionStatus::Initializing, true},
@@ -125,7 +128,7 @@ TEST_CASE("5.4.3 What a cancel does to an order action, by its status")
     for (const Case& action : cases)
     {
         CAPTURE(action.name);
-        VehicleBench bench;
+        VehicleSessionFixture bench;
         OrderMessage order = MakeOrder(3, 2);
         order.nodes[0].actions.push_back(MakeAction("first", EBlockingType::Hard));
         order.nodes[2].actions.push_back(MakeAction("horizon", EBlockingType::Hard));
@@ -137,10 +140,10 @@ TEST_CASE("5.4.3 What a cancel does to an order action, by its status")
         bench.Instant("cancelOrder", "c1");
         CHECK(bench.GetStatus("first") == action.after);
         CHECK(bench.GetStatus("horizon") == EActionStatus::Failed);
-        CHECK(Pick<StopAction>(bench.GetOutput()).size() == (action.bToldToStop ? 1 : 0));
+        CHECK(Pick<StopAction>(bench.GetOutput()).size() == (action.bStopRequested ? 1 : 0));
         if (!IsTerminal(action.after))
         {
-            // It cannot be interrupted: the cancel is finished with it, and what it came to is kept.
+            // It cannot be interrupted: the cancel ends with it, and its result is kept.
             CHECK(bench.GetStatus("c1") == EActionStatus::Running);
             if (action.after != EActionStatus::Running)
             {
@@ -154,12 +157,12 @@ TEST_CASE("5.4.3 What a cancel does to an order action, by its status")
     }
 }
 
-TEST_CASE("5.4.4 A vehicle that stops between nodes keeps its nodes until it stands")
+TEST_CASE("5.4.4 A vehicle that stops between nodes keeps its nodes until it is stationary")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.Order(MakeOrder(3, 3));
     bench.Clear();
-    // It has been told to drive and has not said that it does: it may be on its way.
+    // A drive was started and has not been confirmed: the vehicle may be on its way.
     bench.Instant("cancelOrder", "c1");
     CHECK(Pick<StopDriving>(bench.GetOutput()).size() == 1);
     CHECK(ListNodes(bench.GetPublishedState()) == Names{"N1", "N2"});
@@ -177,9 +180,9 @@ TEST_CASE("5.4.4 A vehicle that stops between nodes keeps its nodes until it sta
     CHECK(Pick<DriveTo>(bench.GetOutput()).empty());
 }
 
-TEST_CASE("5.4.4 A vehicle that is bound to nodes and paused between two of them drives on after stopPause")
+TEST_CASE("5.4.4 A vehicle that stops only on nodes and is paused between two of them drives on after stopPause")
 {
-    VehicleBench bench(MakeNodeBound());
+    VehicleSessionFixture bench(MakeNodeBound());
     bench.Order(MakeOrder(4, 4));
     bench.Drive(true);
     bench.Instant("startPause", "p1");
@@ -204,9 +207,9 @@ TEST_CASE("5.4.4 A vehicle that is bound to nodes and paused between two of them
     CHECK(bench.GetPublishedState().lastNodeID == "N1");
 }
 
-TEST_CASE("5.4.4 A vehicle that is bound to nodes and stands on one stays there")
+TEST_CASE("5.4.4 A vehicle that stops only on nodes and is stationary on one stays there")
 {
-    VehicleBench bench(MakeNodeBound());
+    VehicleSessionFixture bench(MakeNodeBound());
     OrderMessage order = MakeOrder(3, 3);
     order.nodes[0].actions.push_back(MakeAction("a1", EBlockingType::Hard));
     bench.Order(order);
@@ -217,9 +220,9 @@ TEST_CASE("5.4.4 A vehicle that is bound to nodes and stands on one stays there"
     CHECK(Pick<DriveTo>(bench.GetOutput()).empty());
 }
 
-TEST_CASE("5.4.6 A cancelled order can be cancelled no more, and a new one follows it")
+TEST_CASE("5.4.6 A cancelled order cannot be cancelled again, and a new one can follow it")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.Order(MakeOrder(2, 2));
     bench.Instant("cancelOrder", "c1");
     bench.Drive(false);
@@ -247,7 +250,7 @@ TEST_CASE("5.4.8 While a cancel runs: orders and updates are refused, requests a
     for (const Case& instant : cases)
     {
         CAPTURE(instant.actionType);
-        VehicleBench bench;
+        VehicleSessionFixture bench;
         bench.Order(MakeOrder(3, 3));
         bench.Drive(true);
         bench.Instant("cancelOrder", "c1");
@@ -262,9 +265,9 @@ TEST_CASE("5.4.8 While a cancel runs: orders and updates are refused, requests a
     }
 }
 
-TEST_CASE("5.4.9 waitForTrigger fails when its order is cancelled; instant actions go on")
+TEST_CASE("5.4.9 waitForTrigger fails when its order is cancelled; instant actions continue")
 {
-    VehicleOptions options = VehicleBench::MakeOptions();
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
     AgvAction report;
     report.actionType = "logReport";
     report.actionScopes = {EActionScope::Instant};
@@ -273,7 +276,7 @@ TEST_CASE("5.4.9 waitForTrigger fails when its order is cancelled; instant actio
     trigger.actionScopes = {EActionScope::Node};
     trigger.actionParameters = {AgvActionParameter{"triggerType", EValueDataType::String, {}, false}};
     options.factsheet.protocolFeatures.agvActions = {report, trigger};
-    VehicleBench bench(options);
+    VehicleSessionFixture bench(options);
     OrderMessage order = MakeOrder(2, 2);
     order.nodes[0].actions.push_back(MakeAction("wait", EBlockingType::Hard, "waitForTrigger"));
     order.nodes[0].actions[0].actionParameters = {{"triggerType", Core::JsonText::FromString("LOCAL")}};

@@ -1,5 +1,5 @@
 #include "Catch.hpp"
-#include "VehicleBench.hpp"
+#include "VehicleSessionFixture.hpp"
 #include <acs/vda5050/Vda5050Codec.hpp>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ OrderMessage MakeCurved(std::size_t nodes, std::size_t released)
 }
 
 /// Two nodes; the edge has a corridor. The order goes in as 2.1 writes it.
-void OrderWithCorridor(VehicleBench& bench, std::size_t nodes = 2, std::vector<Action> actions = {})
+void OrderWithCorridor(VehicleSessionFixture& bench, std::size_t nodes = 2, std::vector<Action> actions = {})
 {
     OrderMessage order = MakeOrder(nodes, nodes);
     order.nodes[0].actions = std::move(actions);
@@ -39,13 +39,13 @@ void OrderWithCorridor(VehicleBench& bench, std::size_t nodes = 2, std::vector<A
     REQUIRE(bench.GetSession().GetState().orderID == "order-1");
 }
 
-bool TryCorridor(VehicleBench& bench, bool bOutside, VehicleActions& out)
+bool TryCorridor(VehicleSessionFixture& bench, bool bOutside, VehicleActions& out)
 {
     out.clear();
     return bench.GetSession().TrySetOutsideCorridor(bOutside, bench.GetNow(), out);
 }
 
-bool IsOutside(const VehicleBench& bench)
+bool IsOutside(const VehicleSessionFixture& bench)
 {
     return std::ranges::count(
                bench.GetPublishedState().errors,
@@ -56,7 +56,7 @@ bool IsOutside(const VehicleBench& bench)
 
 } // namespace
 
-TEST_CASE("7 What is no NURBS is told as a validationError")
+TEST_CASE("7 An invalid NURBS is reported as a validationError")
 {
     struct Case
     {
@@ -124,7 +124,7 @@ TEST_CASE("7 What is no NURBS is told as a validationError")
     }
 }
 
-TEST_CASE("4.1 Heights that are no numbers are told")
+TEST_CASE("4.1 Heights that are not numbers are reported")
 {
     for (std::optional<double> OrderEdge::*const member : {&OrderEdge::maxHeight, &OrderEdge::minHeight})
     {
@@ -183,7 +183,7 @@ TEST_CASE("7 A trajectory that does not begin and end at its nodes is refused wi
     for (const Case& curve : cases)
     {
         CAPTURE(curve.name);
-        VehicleBench bench;
+        VehicleSessionFixture bench;
         OrderMessage order = MakeCurved(3, 2);
         curve.change(order);
         bench.Order(order);
@@ -202,7 +202,7 @@ TEST_CASE("7 A trajectory that does not begin and end at its nodes is refused wi
     }
 }
 
-TEST_CASE("3.4 An order for a zone set that the vehicle does not have is refused; one without is taken")
+TEST_CASE("3.4 An order for a zone set that the vehicle does not have is rejected; one without a zone set is accepted")
 {
     struct Case
     {
@@ -212,9 +212,9 @@ TEST_CASE("3.4 An order for a zone set that the vehicle does not have is refused
     for (const Case& order : std::vector<Case>{{"", true}, {"day", true}, {"night", false}})
     {
         CAPTURE(order.zoneSetID);
-        VehicleOptions options = VehicleBench::MakeOptions();
+        VehicleOptions options = VehicleSessionFixture::MakeOptions();
         options.zoneSetIDs = {"day"};
-        VehicleBench bench(options);
+        VehicleSessionFixture bench(options);
         OrderMessage message = MakeOrder(2, 2);
         message.zoneSetID = order.zoneSetID;
         bench.Order(message);
@@ -225,16 +225,16 @@ TEST_CASE("3.4 An order for a zone set that the vehicle does not have is refused
         }
         CHECK(bench.GetPublishedState().zoneSetID == (order.bTaken ? order.zoneSetID : ""));
     }
-    VehicleBench any;
+    VehicleSessionFixture any;
     OrderMessage message = MakeOrder(2, 2);
     message.zoneSetID = "night";
     any.Order(message);
     CHECK(any.GetPublishedState().zoneSetID == "night");
 }
 
-TEST_CASE("7 Outside of its corridor the vehicle stops and says so, until it is back inside")
+TEST_CASE("7 Outside its corridor the vehicle stops and reports an error until it is back inside")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderWithCorridor(bench);
     bench.Drive(true);
     VehicleActions out;
@@ -253,7 +253,7 @@ TEST_CASE("7 Outside of its corridor the vehicle stops and says so, until it is 
     CHECK(*FindReferenceOrNull(state.errors[0], "topic") == "order");
     CHECK(FindReferenceOrNull(state.errors[0], "orderId") == nullptr);
     CHECK(TryCorridor(bench, true, out));
-    CHECK(out.empty()); // said already
+    CHECK(out.empty()); // reported already
     bench.Drive(false);
     bench.Instant("startPause", "p1");
     bench.Instant("stopPause", "p2");
@@ -264,27 +264,27 @@ TEST_CASE("7 Outside of its corridor the vehicle stops and says so, until it is 
     CHECK(bench.GetSession().GetState().errors.empty());
 }
 
-TEST_CASE("7 The error about a corridor ends with its edge, with a cancel, and comes for no other edge")
+TEST_CASE("7 The error about a corridor ends with its edge or with a cancel and is not reported for another edge")
 {
     VehicleActions out;
-    VehicleBench none;
+    VehicleSessionFixture none;
     CHECK_FALSE(TryCorridor(none, true, out));
     none.Order(MakeOrder(2, 2));
     CHECK_FALSE(TryCorridor(none, true, out));
     CHECK(none.GetSession().GetState().errors.empty());
 
-    VehicleBench waiting; // at the node before the edge
+    VehicleSessionFixture waiting; // at the node before the edge
     OrderWithCorridor(waiting, 2, {MakeAction("a1", EBlockingType::Hard)});
     CHECK_FALSE(TryCorridor(waiting, true, out));
 
-    VehicleBench reached;
+    VehicleSessionFixture reached;
     OrderWithCorridor(reached, 3);
     CHECK(TryCorridor(reached, true, out));
     reached.Reach(2); // while it brakes
     CHECK_FALSE(IsOutside(reached));
     CHECK(Pick<DriveTo>(reached.GetOutput()).back().node.nodeID == "N2");
 
-    VehicleBench cancelled;
+    VehicleSessionFixture cancelled;
     OrderWithCorridor(cancelled);
     CHECK(TryCorridor(cancelled, true, out));
     cancelled.Instant("cancelOrder", "c1");
@@ -294,14 +294,14 @@ TEST_CASE("7 The error about a corridor ends with its edge, with a cancel, and c
     CHECK_FALSE(IsOutside(cancelled));
 }
 
-TEST_CASE("7 A vehicle that is bound to nodes and outside of its corridor ends a cancel where it stands")
+TEST_CASE("7 A vehicle that stops only on nodes and is outside its corridor ends a cancel where it is stationary")
 {
     for (const bool bCancelFirst : {false, true})
     {
         CAPTURE(bCancelFirst);
-        VehicleOptions options = VehicleBench::MakeOptions();
+        VehicleOptions options = VehicleSessionFixture::MakeOptions();
         options.bStopsBetweenNodes = false;
-        VehicleBench bench(options);
+        VehicleSessionFixture bench(options);
         OrderWithCorridor(bench);
         bench.Drive(true);
         VehicleActions out;
@@ -323,11 +323,11 @@ TEST_CASE("7 A vehicle that is bound to nodes and outside of its corridor ends a
     }
 }
 
-TEST_CASE("7 A cancelled vehicle that is moved out of its corridor while it is paused has nothing to drive to")
+TEST_CASE("7 A cancelled vehicle that is moved out of its corridor while paused ends its cancel")
 {
-    VehicleOptions options = VehicleBench::MakeOptions();
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
     options.bStopsBetweenNodes = false;
-    VehicleBench bench(options);
+    VehicleSessionFixture bench(options);
     OrderWithCorridor(bench);
     bench.Drive(true);
     bench.Instant("startPause", "p1");
@@ -340,9 +340,9 @@ TEST_CASE("7 A cancelled vehicle that is moved out of its corridor while it is p
     CHECK_FALSE(IsOutside(bench));
 }
 
-TEST_CASE("4.4 A vehicle that plans its own way shows it in edgeStates, and does not change it")
+TEST_CASE("4.4 A vehicle that plans its own trajectory publishes it in edgeStates and does not change it")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderMessage order = MakeCurved(3, 3);
     bench.Order(order);
     bench.Clear();
@@ -353,7 +353,7 @@ TEST_CASE("4.4 A vehicle that plans its own way shows it in edgeStates, and does
     };
     Trajectory planned = MakeLine();
     planned.controlPoints[1].y = 3.0;
-    CHECK_FALSE(trySet(1, planned)); // master control has said which way
+    CHECK_FALSE(trySet(1, planned)); // the order defines the trajectory
     CHECK_FALSE(trySet(5, planned)); // no such edge
     CHECK_FALSE(trySet(3, Trajectory{1, {0.0}, {}}));
     CHECK(trySet(3, planned));

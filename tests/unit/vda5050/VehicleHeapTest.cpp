@@ -57,7 +57,7 @@ std::string MakeOrderText(std::size_t edgeCount)
     return Vda5050Codec().Encode(*order, EVda5050Version::Version200);
 }
 
-/// A vehicle on a link, on the heap as a whole, and what it holds of it.
+/// A vehicle on a link, allocated on the heap, and the memory that it holds.
 class CountedVehicle
 {
     std::int64_t _before = HeapProbe::GetLiveBytes();
@@ -82,7 +82,7 @@ public:
         REQUIRE(_session->GetState().nodeStates.size() == edgeCount);
     }
 
-    /// Blocks that a message takes which is due by time.
+    /// Allocations of a message that is due by time.
     [[nodiscard]] std::uint64_t CountBlocks(EVehicleTimer timer)
     {
         VehicleActions out;
@@ -103,7 +103,7 @@ public:
 
 } // namespace
 
-TEST_CASE("A codec holds nothing between calls")
+TEST_CASE("A codec holds no memory between calls")
 {
     const std::string text = MakeOrderText(60);
     const std::int64_t before = HeapProbe::GetLiveBytes();
@@ -113,7 +113,7 @@ TEST_CASE("A codec holds nothing between calls")
     CHECK(HeapProbe::GetLiveBytes() == before);
 }
 
-TEST_CASE("A session holds some KiB, and less than 300 bytes for each node and edge to come")
+TEST_CASE("A session holds a few KiB, and less than 300 bytes for each node and edge ahead")
 {
     CountedVehicle vehicle;
     const std::int64_t idle = vehicle.GetBytes();
@@ -125,7 +125,7 @@ TEST_CASE("A session holds some KiB, and less than 300 bytes for each node and e
     CHECK(driving > idle);
 }
 
-TEST_CASE("A state takes five blocks, however long the order: topic, payload, time, nodes and edges")
+TEST_CASE("A state allocates five blocks, however long the order: topic, payload, time, nodes and edges")
 {
     CountedVehicle near;
     near.Drive(10);
@@ -137,7 +137,7 @@ TEST_CASE("A state takes five blocks, however long the order: topic, payload, ti
     CHECK(far.CountBlocks(EVehicleTimer::MaximumStateInterval) == ofNear);
 }
 
-TEST_CASE("A visualization takes three blocks: topic, payload and time")
+TEST_CASE("A visualization allocates three blocks: topic, payload and time")
 {
     CountedVehicle vehicle;
     vehicle.Drive(60);

@@ -1,5 +1,5 @@
 #include "Catch.hpp"
-#include "VehicleBench.hpp"
+#include "VehicleSessionFixture.hpp"
 #include <acs/vda5050/PredefinedActions.hpp>
 #include <acs/vda5050/Vda5050Codec.hpp>
 
@@ -19,7 +19,7 @@ constexpr double ENDLESS = std::numeric_limits<double>::infinity();
 
 VehicleOptions MakeLimited(const std::function<void(ProtocolLimits&)>& limit)
 {
-    VehicleOptions options = VehicleBench::MakeOptions();
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
     options.factsheet.protocolFeatures.agvActions = GetPredefinedActions();
     limit(options.factsheet.protocolLimits);
     return options;
@@ -59,7 +59,7 @@ OrderMessage WithActions(OrderMessage order, std::size_t count)
 
 } // namespace
 
-TEST_CASE("3.7 An instant action that is larger than the factsheet allows fails alone, and says why")
+TEST_CASE("3.7 An instant action that exceeds the factsheet fails alone, with the reason")
 {
     struct Case
     {
@@ -87,7 +87,7 @@ TEST_CASE("3.7 An instant action that is larger than the factsheet allows fails 
     for (const Case& size : cases)
     {
         CAPTURE(size.name);
-        VehicleBench bench(MakeLimited(size.limit));
+        VehicleSessionFixture bench(MakeLimited(size.limit));
         bench.Instant({size.action, withParameters});
         CHECK(bench.GetStatus(size.action.actionID) == EActionStatus::Failed);
         CHECK(bench.GetStartedActions().size() == (size.action.actionID == "1" ? 0 : 1));
@@ -100,7 +100,7 @@ TEST_CASE("3.7 An instant action that is larger than the factsheet allows fails 
 
 TEST_CASE("3.7 Instant actions in a message that is too long are a validationError")
 {
-    VehicleBench bench(MakeLimited([](ProtocolLimits& limits) { limits.maxStringLengths.message = 300; }));
+    VehicleSessionFixture bench(MakeLimited([](ProtocolLimits& limits) { limits.maxStringLengths.message = 300; }));
     bench.Instant("stateRequest", "i1");
     CHECK(bench.GetStatus("i1") == EActionStatus::Finished);
     bench.Instant("stateRequest", std::string(300, 'x'));
@@ -108,7 +108,7 @@ TEST_CASE("3.7 Instant actions in a message that is too long are a validationErr
     CHECK(bench.GetSession().GetState().actionStates.size() == 1);
 }
 
-TEST_CASE("3.7 An order whose state would be larger than the factsheet says is refused with orderError")
+TEST_CASE("3.7 An order whose state would exceed the factsheet is rejected with orderError")
 {
     struct Case
     {
@@ -130,20 +130,20 @@ TEST_CASE("3.7 An order whose state would be larger than the factsheet says is r
     for (const Case& size : cases)
     {
         CAPTURE(size.name);
-        const auto check = [&size](VehicleBench& bench, bool bTaken) {
+        const auto check = [&size](VehicleSessionFixture& bench, bool bTaken) {
             CHECK(bench.HasError(ErrorTypes::ORDER_ERROR) != bTaken);
             if (!bTaken)
             {
                 CHECK(*FindReferenceOrNull(bench.GetPublishedState().errors.at(0), "parameter") == size.parameter);
             }
         };
-        VehicleBench fresh(MakeLimited(size.limit));
+        VehicleSessionFixture fresh(MakeLimited(size.limit));
         fresh.Order(WithActions(MakeOrder(5, 5), 4));
         check(fresh, false);
         fresh.Order(WithActions(MakeOrder(4, 4), 3));
         check(fresh, true);
         // What an update adds is counted to what is left of the base, its horizon is not.
-        VehicleBench updated(MakeLimited(size.limit));
+        VehicleSessionFixture updated(MakeLimited(size.limit));
         OrderBuilder builder = MakeBuilder(6);
         OrderMessage first = *builder.MakeOrder(2, 2);
         first.nodes[1].actions.push_back(MakeAction("kept", EBlockingType::None, "stopCharging"));
@@ -164,7 +164,8 @@ TEST_CASE("3.7 What counts for the limit of actionStates: the first node's actio
     for (const bool bRuns : {false, true})
     {
         CAPTURE(bRuns);
-        VehicleBench bench(MakeLimited([](ProtocolLimits& limits) { limits.maxArrayLengths.stateActionStates = 4; }));
+        VehicleSessionFixture bench(
+            MakeLimited([](ProtocolLimits& limits) { limits.maxArrayLengths.stateActionStates = 4; }));
         bench.Instant("startCharging", "i1");
         bench.Status("i1", EActionStatus::Running);
         if (!bRuns)
@@ -174,7 +175,8 @@ TEST_CASE("3.7 What counts for the limit of actionStates: the first node's actio
         bench.Order(WithActions(MakeOrder(1, 1), 4));
         CHECK(bench.HasError(ErrorTypes::ORDER_ERROR) == bRuns);
 
-        VehicleBench updated(MakeLimited([](ProtocolLimits& limits) { limits.maxArrayLengths.stateActionStates = 4; }));
+        VehicleSessionFixture updated(
+            MakeLimited([](ProtocolLimits& limits) { limits.maxArrayLengths.stateActionStates = 4; }));
         OrderBuilder builder = MakeBuilder(3);
         updated.Order(*builder.MakeOrder(2, 0));
         updated.Instant("startCharging", "i1");
@@ -186,14 +188,16 @@ TEST_CASE("3.7 What counts for the limit of actionStates: the first node's actio
         updated.Order(WithActions(*builder.MakeUpdate(3), 4));
         CHECK(updated.HasError(ErrorTypes::ORDER_ERROR) == bRuns);
     }
-    VehicleBench first(MakeLimited([](ProtocolLimits& limits) { limits.maxArrayLengths.stateActionStates = 4; }));
+    VehicleSessionFixture first(
+        MakeLimited([](ProtocolLimits& limits) { limits.maxArrayLengths.stateActionStates = 4; }));
     first.Order(WithActions(MakeOrder(1, 1), 5));
     CHECK(first.HasError(ErrorTypes::ORDER_ERROR));
 }
 
 TEST_CASE("3.7 Where actionStates is limited instant actions that have ended make way; a vehicle can always be stopped")
 {
-    VehicleBench bench(MakeLimited([](ProtocolLimits& limits) { limits.maxArrayLengths.stateActionStates = 3; }));
+    VehicleSessionFixture bench(
+        MakeLimited([](ProtocolLimits& limits) { limits.maxArrayLengths.stateActionStates = 3; }));
     for (const char* actionID : {"i1", "i2", "i3", "i4"})
     {
         bench.Instant("stateRequest", actionID);
@@ -221,7 +225,8 @@ TEST_CASE("3.7 Where actionStates is limited instant actions that have ended mak
 
 TEST_CASE("3.7 An update makes room for its actions among the instant actions that have ended")
 {
-    VehicleBench bench(MakeLimited([](ProtocolLimits& limits) { limits.maxArrayLengths.stateActionStates = 3; }));
+    VehicleSessionFixture bench(
+        MakeLimited([](ProtocolLimits& limits) { limits.maxArrayLengths.stateActionStates = 3; }));
     OrderBuilder builder = MakeBuilder(3);
     bench.Order(*builder.MakeOrder(2, 0));
     for (const char* actionID : {"i1", "i2", "i3"})
@@ -232,9 +237,9 @@ TEST_CASE("3.7 An update makes room for its actions among the instant actions th
     CHECK(ListActions(bench.GetPublishedState()) == std::vector<std::string>{"i3", "order-10", "order-11"});
 }
 
-TEST_CASE("3.7 A state is no longer than the factsheet says: loads, errors, information and references")
+TEST_CASE("3.7 A state keeps the limits of the factsheet: loads, errors, information and references")
 {
-    VehicleBench bench(MakeLimited([](ProtocolLimits& limits) {
+    VehicleSessionFixture bench(MakeLimited([](ProtocolLimits& limits) {
         limits.maxArrayLengths.stateLoads = 1;
         limits.maxArrayLengths.stateErrors = 2;
         limits.maxArrayLengths.stateInformation = 1;
@@ -276,12 +281,12 @@ TEST_CASE("3.7 A state is no longer than the factsheet says: loads, errors, info
     CheckPublished(out);
 }
 
-TEST_CASE("2 What is no number is never published: optional members are left out, the last position and charge stay")
+TEST_CASE("2 A value that is not a number is never published: optional members are left out, position and charge stay")
 {
     for (const double bad : {INVALID_NUMBER, ENDLESS, -ENDLESS})
     {
         CAPTURE(bad);
-        VehicleBench bench;
+        VehicleSessionFixture bench;
         bench.StandAt(3.0);
         VehicleActions out;
         BatteryState battery;
@@ -338,9 +343,9 @@ TEST_CASE("2 What is no number is never published: optional members are left out
     }
 }
 
-TEST_CASE("7 A heading that was counted beyond a half turn is published within pi")
+TEST_CASE("7 A heading beyond a half turn is published within pi")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.StandAt(1.0, 4.0);
     CHECK(bench.GetSession().GetState().agvPosition->theta == Approx(4.0 - 2.0 * std::acos(-1.0)));
     bench.StandAt(1.0, -3.0);
@@ -351,9 +356,9 @@ TEST_CASE("8.2 batteryHealth is published as it was measured, and whole in 2.0 a
 {
     for (const EVda5050Version version : {EVda5050Version::Version200, EVda5050Version::Version210})
     {
-        VehicleOptions options = VehicleBench::MakeOptions();
+        VehicleOptions options = VehicleSessionFixture::MakeOptions();
         options.version = version;
-        VehicleBench bench(options);
+        VehicleSessionFixture bench(options);
         BatteryState battery;
         battery.batteryHealth = 87.6;
         battery.bCharging = true;
@@ -365,9 +370,9 @@ TEST_CASE("8.2 batteryHealth is published as it was measured, and whole in 2.0 a
     }
 }
 
-TEST_CASE("8.4 Every error refers to a topic: without one some masters take it for the refusal of the last order")
+TEST_CASE("8.4 Every error refers to a topic: some masters take one without for the rejection of the last order")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     VehicleActions out;
     VehicleError own = MakeError("own", EErrorLevel::Warning);
     own.errorReferences = {{"topic", "factsheet"}};
@@ -388,7 +393,7 @@ TEST_CASE("8.4 Every error refers to a topic: without one some masters take it f
     }
 }
 
-TEST_CASE("4.2 What comes from outside is repeated in part: texts of any length leave a short state")
+TEST_CASE("4.2 Texts of a peer are truncated in errors: the state stays short")
 {
     constexpr std::size_t LENGTH = 60'000;
     constexpr std::size_t ENOUGH = 20'000;
@@ -400,24 +405,24 @@ TEST_CASE("4.2 What comes from outside is repeated in part: texts of any length 
         }
         return twoBytes;
     }();
-    const std::vector<std::function<void(VehicleBench&)>> attacks{
-        [&text](VehicleBench& bench) { bench.Instant(text, "i1"); },
-        [&text](VehicleBench& bench) { bench.Instant("stateRequest", text); },
-        [&text](VehicleBench& bench) {
+    const std::vector<std::function<void(VehicleSessionFixture&)>> attacks{
+        [&text](VehicleSessionFixture& bench) { bench.Instant(text, "i1"); },
+        [&text](VehicleSessionFixture& bench) { bench.Instant("stateRequest", text); },
+        [&text](VehicleSessionFixture& bench) {
             bench.Instant("logReport", "i1", {{text, Core::JsonText::FromString("")}});
         },
-        [&text](VehicleBench& bench) { bench.Order(MakeOrder(2, 2, text)); },
-        [&text](VehicleBench& bench) {
+        [&text](VehicleSessionFixture& bench) { bench.Order(MakeOrder(2, 2, text)); },
+        [&text](VehicleSessionFixture& bench) {
             OrderMessage order = MakeOrder(2, 2);
             order.nodes[1].actions.push_back(MakeAction("a1", EBlockingType::None, text));
             bench.Order(order);
         },
-        [&text](VehicleBench& bench) {
+        [&text](VehicleSessionFixture& bench) {
             OrderMessage order = MakeOrder(2, 2);
             order.nodes[1].nodePosition->mapID = text;
             bench.Order(order);
         },
-        [&text](VehicleBench& bench) {
+        [&text](VehicleSessionFixture& bench) {
             OrderMessage order = MakeOrder(2, 2);
             order.zoneSetID = text;
             bench.Order(order);
@@ -427,7 +432,7 @@ TEST_CASE("4.2 What comes from outside is repeated in part: texts of any length 
     {
         CAPTURE(index);
         VehicleOptions options = MakeLimited([](ProtocolLimits&) {});
-        VehicleBench bench(options);
+        VehicleSessionFixture bench(options);
         attacks[index](bench);
         const std::vector<PublishMessage> sent = Pick<PublishMessage>(bench.GetOutput());
         REQUIRE(sent.size() == 1);
@@ -438,7 +443,7 @@ TEST_CASE("4.2 What comes from outside is repeated in part: texts of any length 
     }
 }
 
-TEST_CASE("4.1 Of an order that breaks a thousand rules the first few are told")
+TEST_CASE("4.1 Only the first few of a thousand broken rules of an order are reported")
 {
     OrderMessage order = MakeOrder(500, 500);
     for (OrderNode& node : order.nodes)
@@ -447,7 +452,7 @@ TEST_CASE("4.1 Of an order that breaks a thousand rules the first few are told")
         node.sequenceID += 1;
     }
     CHECK(ValidateOrder(order).size() == 16);
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderMessage first = WithActions(MakeOrder(2, 1), 0);
     for (int i = 0; i < 40; ++i)
     {
@@ -461,7 +466,7 @@ TEST_CASE("4.1 Of an order that breaks a thousand rules the first few are told")
     CHECK(bench.GetSession().GetState().errors.size() == 16);
 }
 
-TEST_CASE("4.2 The error about an order that cannot be read names what could be read, and nothing else")
+TEST_CASE("4.2 The error about an undecodable order names what could be decoded, and nothing else")
 {
     struct Case
     {
@@ -477,7 +482,7 @@ TEST_CASE("4.2 The error about an order that cannot be read names what could be 
     for (const Case& payload : cases)
     {
         CAPTURE(payload.rest);
-        VehicleBench bench;
+        VehicleSessionFixture bench;
         bench.Payload(
             ETopic::Order,
             R"({"headerId":7,"timestamp":"2025-01-01T00:00:00Z","version":"2.0.0","manufacturer":"ACS","serialNumber":"LR01",)"

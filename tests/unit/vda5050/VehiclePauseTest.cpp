@@ -1,12 +1,12 @@
 #include "Catch.hpp"
-#include "VehicleBench.hpp"
+#include "VehicleSessionFixture.hpp"
 
 namespace ACS::VDA5050::Test
 {
 
-TEST_CASE("5.3 What a pause does to an order action, by its status")
+TEST_CASE("5.3 The effect of a pause on an order action, by its status")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderMessage order = MakeOrder(2, 2);
     order.nodes[0].actions = {
         MakeAction("pausable", EBlockingType::None),
@@ -23,7 +23,7 @@ TEST_CASE("5.3 What a pause does to an order action, by its status")
     CHECK(Pick<PauseAction>(bench.GetOutput()) == std::vector{PauseAction{"pausable"}, PauseAction{"stubborn"}});
     CHECK(bench.GetStatus("p1") == EActionStatus::Finished);
     bench.Status("pausable", EActionStatus::Paused);
-    // One that cannot be paused goes on and ends; what waits stays waiting, and nothing begins.
+    // An action that cannot be paused continues to its end. Waiting actions do not begin.
     bench.Status("stubborn", EActionStatus::Finished);
     CHECK(bench.GetStatus("later") == EActionStatus::Waiting);
     CHECK(bench.GetStartedActions().empty());
@@ -36,7 +36,7 @@ TEST_CASE("5.3 What a pause does to an order action, by its status")
 
 TEST_CASE("5.3 A paused vehicle takes orders and updates, and does not move before stopPause")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.Instant("startPause", "p1");
     CHECK(bench.GetPublishedState().bPaused == true);
     bench.Clear();
@@ -52,7 +52,7 @@ TEST_CASE("5.3 A paused vehicle takes orders and updates, and does not move befo
 
 TEST_CASE("5.3 An order whose last action ends during a pause is complete at once")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderMessage order = MakeOrder(1, 1);
     order.nodes[0].actions.push_back(MakeAction("stubborn", EBlockingType::None));
     bench.Order(order);
@@ -67,7 +67,7 @@ TEST_CASE("5.3 An order whose last action ends during a pause is complete at onc
 
 TEST_CASE("5.3 startPause and stopPause while paused or not are finished: both can be repeated")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.Instant("stopPause", "p1");
     bench.Instant("startPause", "p2");
     bench.Instant("startPause", "p3");
@@ -81,9 +81,9 @@ TEST_CASE("5.3 startPause and stopPause while paused or not are finished: both c
     CHECK(bench.GetPublishedState().bPaused == false);
 }
 
-TEST_CASE("5.3 stopPause before the vehicle stands ends startPause with a failure")
+TEST_CASE("5.3 stopPause before the vehicle is stationary fails startPause")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.Order(MakeOrder(2, 2));
     bench.Drive(true);
     bench.Instant("startPause", "p1");
@@ -95,7 +95,7 @@ TEST_CASE("5.3 stopPause before the vehicle stands ends startPause with a failur
     CHECK(Pick<DriveTo>(bench.GetOutput()).size() == 1);
 }
 
-TEST_CASE("5.3 A pause at the vehicle itself: paused is true, and who may end it")
+TEST_CASE("5.3 stopPause ends a pause at the vehicle itself unless that overrides the master")
 {
     struct Case
     {
@@ -107,7 +107,7 @@ TEST_CASE("5.3 A pause at the vehicle itself: paused is true, and who may end it
     for (const Case& button : cases)
     {
         CAPTURE(button.bOverridesMaster);
-        VehicleBench bench;
+        VehicleSessionFixture bench;
         bench.Order(MakeOrder(2, 2));
         bench.Drive(true);
         bench.Clear();
@@ -130,7 +130,7 @@ TEST_CASE("5.3 A pause at the vehicle itself: paused is true, and who may end it
 
 TEST_CASE("5.3 A cancel during a pause leaves paused true until stopPause")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.Order(MakeOrder(2, 2));
     bench.Drive(true);
     bench.Instant("startPause", "p1");

@@ -1,5 +1,5 @@
 #include "Catch.hpp"
-#include "VehicleBench.hpp"
+#include "VehicleSessionFixture.hpp"
 #include <acs/vda5050/OrderBuilder.hpp>
 #include <acs/vda5050/PredefinedActions.hpp>
 
@@ -21,7 +21,7 @@ constexpr std::size_t MOST_INSTANT = 128;
 
 VehicleOptions MakeSlow()
 {
-    VehicleOptions options = VehicleBench::MakeOptions();
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
     options.minimumStateInterval = std::chrono::milliseconds(50);
     return options;
 }
@@ -35,8 +35,8 @@ OrderMessage WithActions(OrderMessage order, std::size_t node, std::size_t count
     return order;
 }
 
-/// What was published since the last Clear was read by the bench's codec, or the test has failed.
-void CheckRefused(const VehicleBench& bench, std::string_view rule)
+/// The last published state has an orderError with this rule.
+void CheckRefused(const VehicleSessionFixture& bench, std::string_view rule)
 {
     REQUIRE_FALSE(bench.GetPublishedStates().empty());
     const StateMessage state = bench.GetPublishedStates().back();
@@ -45,7 +45,7 @@ void CheckRefused(const VehicleBench& bench, std::string_view rule)
     CHECK(state.errors[0].errorDescription.find(rule) != std::string::npos);
 }
 
-std::set<std::string> ListShown(const VehicleBench& bench)
+std::set<std::string> ListShown(const VehicleSessionFixture& bench)
 {
     std::set<std::string> ids;
     for (const StateMessage& state : bench.GetPublishedStates())
@@ -60,16 +60,16 @@ std::set<std::string> ListShown(const VehicleBench& bench)
 
 } // namespace
 
-TEST_CASE("6.10 An order with more actions than a state can show is refused, and so is the update that makes it so")
+TEST_CASE("6.10 An order with more actions than a state can show is rejected, also when an update adds them")
 {
     constexpr std::size_t HALF = 5'000;
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderMessage order = WithActions(MakeOrder(2, 2), 0, HALF, "a");
     bench.Order(WithActions(order, 1, HALF, "b"));
     CheckRefused(bench, "actionStates is 9840, found 10000");
     CHECK_FALSE(bench.GetSession().IsOrderRunning());
 
-    VehicleBench updated;
+    VehicleSessionFixture updated;
     OrderBuilder builder = MakeBuilder(3);
     updated.Order(WithActions(*builder.MakeOrder(2, 0), 0, HALF, "a"));
     updated.Clear();
@@ -79,7 +79,7 @@ TEST_CASE("6.10 An order with more actions than a state can show is refused, and
     CHECK(updated.GetPublishedState().actionStates.size() == HALF);
 }
 
-TEST_CASE("6.10 An order whose state would be longer than a message may be is refused, the sum of its updates too")
+TEST_CASE("6.10 An order whose state would exceed the length of a message is rejected, also by the sum of its updates")
 {
     constexpr std::size_t LENGTH = 60'000;
     constexpr std::size_t NODES = 40;
@@ -105,11 +105,11 @@ TEST_CASE("6.10 An order whose state would be longer than a message may be is re
         {
             fillers[filler](order, index);
         }
-        VehicleBench bench;
+        VehicleSessionFixture bench;
         bench.Order(order);
         CheckRefused(bench, "the length of the state");
 
-        VehicleBench updated;
+        VehicleSessionFixture updated;
         OrderBuilder builder = MakeBuilder(NODES);
         OrderMessage first = *builder.MakeOrder(NODES / 2, 0);
         OrderMessage second = *builder.MakeUpdate(NODES);
@@ -135,10 +135,10 @@ TEST_CASE("6.10 An order whose state would be longer than a message may be is re
     }
 }
 
-TEST_CASE("6.10 What a vehicle says at length is left out before a state becomes too long to be read")
+TEST_CASE("6.10 Long texts of a vehicle are left out before a state becomes too long to be decoded")
 {
     constexpr std::size_t LENGTH = 60'000;
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     Information information;
     information.infoDescription = std::string(LENGTH, 'x');
     bench.GetSession().OnInformation(std::vector(100, information));
@@ -154,9 +154,9 @@ TEST_CASE("6.10 What a vehicle says at length is left out before a state becomes
     CHECK(bench.GetPublishedState().information.size() == 10'000);
 }
 
-TEST_CASE("5.5 No result is longer than an error may repeat, whoever says it")
+TEST_CASE("5.5 A result is never longer than an error may repeat, whatever its source")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.Order(WithActions(MakeOrder(2, 2), 0, 1, "a"));
     VehicleActions out;
     CHECK(bench.GetSession()
@@ -164,11 +164,10 @@ TEST_CASE("5.5 No result is longer than an error may repeat, whoever says it")
     CHECK(bench.GetSession().GetState().actionStates.at(0).resultDescription.size() == 1024);
 }
 
-TEST_CASE(
-    "5.5 No instant action is forgotten before a state has shown its end; what comes meanwhile is told as an error")
+TEST_CASE("5.5 An instant action is kept until a state has shown its end; further ones are reported as errors")
 {
     constexpr std::size_t SENT = 1'000;
-    VehicleBench bench(MakeSlow());
+    VehicleSessionFixture bench(MakeSlow());
     bench.Instant("stateRequest", "first");
     bench.Clear();
     for (std::size_t index = 0; index < SENT; ++index)
@@ -190,9 +189,9 @@ TEST_CASE(
     CHECK(ListShown(bench).empty());
 }
 
-TEST_CASE("5.6 An instant action that was shown and made way is not performed anew, and its id not given to another")
+TEST_CASE("5.6 An instant action that was shown and removed is not performed again, and its id stays in use")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.Instant("startPause", "pause");
     bench.Instant("stopPause", "go");
     for (std::size_t index = 0; index < MOST_INSTANT; ++index)
@@ -212,9 +211,9 @@ TEST_CASE("5.6 An instant action that was shown and made way is not performed an
     CHECK(bench.GetSession().IsPaused());
 }
 
-TEST_CASE("5.5 Instant actions share a part of the state; a vehicle can be stopped where it is used up")
+TEST_CASE("5.5 Instant actions share a part of the state; a vehicle can be stopped when that is full")
 {
-    VehicleBench bench(MakeSlow());
+    VehicleSessionFixture bench(MakeSlow());
     bench.Instant("stateRequest", "first");
     const std::string text(1'000, '\x01');
     for (std::size_t index = 0; index < MOST_INSTANT; ++index)
@@ -235,9 +234,9 @@ TEST_CASE("5.5 Instant actions share a part of the state; a vehicle can be stopp
 
 TEST_CASE("5.5 Repeated cancels of a vehicle that is on its way are shown up to a bound")
 {
-    VehicleOptions options = VehicleBench::MakeOptions();
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
     options.bStopsBetweenNodes = false;
-    VehicleBench bench(options);
+    VehicleSessionFixture bench(options);
     bench.Order(MakeOrder(3, 3));
     bench.Drive(true);
     for (int i = 0; i < 300; ++i)
@@ -251,9 +250,9 @@ TEST_CASE("5.5 Repeated cancels of a vehicle that is on its way are shown up to 
 
 TEST_CASE("5.6 Names of an action that states would repeat are bounded")
 {
-    VehicleOptions options = VehicleBench::MakeOptions();
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
     options.factsheet.protocolFeatures.agvActions = GetPredefinedActions();
-    VehicleBench bench(options);
+    VehicleSessionFixture bench(options);
     bench.Instant(
         "downloadMap",
         "m1",
@@ -264,7 +263,7 @@ TEST_CASE("5.6 Names of an action that states would repeat are bounded")
     CHECK(bench.GetPublishedState().errors.at(0).errorDescription.find("too long") == 0);
 }
 
-TEST_CASE("4.2 The error about a message names what could be read of it, whatever is wrong beside it")
+TEST_CASE("4.2 The error about a message names what could be decoded of it, whatever else is wrong")
 {
     struct Case
     {
@@ -283,7 +282,7 @@ TEST_CASE("4.2 The error about a message names what could be read of it, whateve
     for (const Case& row : cases)
     {
         CAPTURE(row.payload);
-        VehicleBench bench;
+        VehicleSessionFixture bench;
         bench.Payload(ETopic::Order, row.payload);
         const VehicleError error = bench.GetPublishedState().errors.at(0);
         const auto check = [&error](std::string_view key, const char* expectedOrNull) {
@@ -298,22 +297,22 @@ TEST_CASE("4.2 The error about a message names what could be read of it, whateve
     }
 }
 
-TEST_CASE("8.4 An error lives as long as its cause, whatever its text says")
+TEST_CASE("8.4 An error is reported until its cause ends, whatever its text is")
 {
-    VehicleOptions options = VehicleBench::MakeOptions();
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
     options.orderCheck = [](const OrderMessage& order) {
         return std::vector{MakeOrderViolation(order, ErrorTypes::ORDER_ERROR, "the operating mode takes no orders")};
     };
-    VehicleBench bench(options);
+    VehicleSessionFixture bench(options);
     bench.Order(MakeOrder(2, 2));
     bench.Mode(EOperatingMode::Service);
     bench.Mode(EOperatingMode::Automatic);
     CHECK(bench.HasError(ErrorTypes::ORDER_ERROR));
 }
 
-TEST_CASE("4.2 A message can be handed over as a link delivers it")
+TEST_CASE("4.2 A message can be handled as the link delivers it")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     VehicleActions out;
     MqttMessage message{BuildTopic(MakeAddress(), ETopic::Order), "{", 0, true};
     bench.GetSession().OnMessage(message, bench.GetNow(), out);

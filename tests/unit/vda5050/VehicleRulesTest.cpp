@@ -1,5 +1,5 @@
 #include "Catch.hpp"
-#include "VehicleBench.hpp"
+#include "VehicleSessionFixture.hpp"
 #include <acs/vda5050/ActionMachine.hpp>
 #include <acs/vda5050/PredefinedActions.hpp>
 
@@ -16,13 +16,13 @@ using Names = std::vector<std::string>;
 
 VehicleOptions MakeCapable()
 {
-    VehicleOptions options = VehicleBench::MakeOptions();
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
     options.factsheet.protocolFeatures.agvActions = GetPredefinedActions();
     return options;
 }
 
 /// Reaches the end of two nodes.
-void Complete(VehicleBench& bench, const OrderMessage& order)
+void Complete(VehicleSessionFixture& bench, const OrderMessage& order)
 {
     bench.Order(order);
     bench.Drive(true);
@@ -54,9 +54,9 @@ const VehicleError* FindErrorOrNull(const StateMessage& state, std::string_view 
 
 } // namespace
 
-TEST_CASE("4.3 The stitching node keeps the contents that it came with, whatever the update says of it")
+TEST_CASE("4.3 The stitching node keeps its first contents, whatever the update contains")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderBuilder builder = MakeBuilder(3);
     OrderMessage order = *builder.MakeOrder(2, 0);
     order.nodes[1].actions.push_back(MakeAction("first", EBlockingType::None));
@@ -94,7 +94,7 @@ TEST_CASE("4.3 An update may replace, shorten or drop the horizon; what is assig
     for (const Case& horizon : cases)
     {
         CAPTURE(horizon.released, horizon.horizon);
-        VehicleBench bench;
+        VehicleSessionFixture bench;
         OrderBuilder builder = MakeBuilder(5);
         OrderMessage order = *builder.MakeOrder(2, 2);
         order.nodes[3].actions.push_back(MakeAction("dropped", EBlockingType::None));
@@ -113,9 +113,9 @@ TEST_CASE("4.3 An update may replace, shorten or drop the horizon; what is assig
     }
 }
 
-TEST_CASE("4.3 New actions where the vehicle stands come with a node more of the same name")
+TEST_CASE("4.3 New actions at the node of the vehicle come with a further node of the same nodeId")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderBuilder builder = MakeBuilder(2);
     Complete(bench, *builder.MakeOrder(2));
     OrderNode again = builder.GetNodes()[1];
@@ -133,11 +133,11 @@ TEST_CASE("4.3 New actions where the vehicle stands come with a node more of the
     CHECK(bench.GetStartedActions() == Names{"more"});
 }
 
-TEST_CASE("4.4 4.5 A vehicle that never had an order and stands on no node says so with empty ids")
+TEST_CASE("4.4 4.5 A vehicle that never had an order and is on no node reports empty ids")
 {
-    VehicleOptions options = VehicleBench::MakeOptions();
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
     options.initialNodeID.clear();
-    VehicleBench bench(options);
+    VehicleSessionFixture bench(options);
     const StateMessage state = bench.GetSession().GetState();
     CHECK(state.orderID.empty());
     CHECK(state.orderUpdateID == 0);
@@ -162,10 +162,9 @@ TEST_CASE("5.1 With which status an action may begin")
     }
 }
 
-TEST_CASE(
-    "5.2 An edge's action that has not begun when the edge is left behind fails with a warning, and begins no more")
+TEST_CASE("5.2 An edge action that has not begun when the edge is left fails with a warning and never begins")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderMessage order = MakeOrder(2, 2);
     order.nodes[0].actions.push_back(MakeAction("long", EBlockingType::None));
     order.edges[0].actions.push_back(MakeAction("late", EBlockingType::Hard));
@@ -182,7 +181,7 @@ TEST_CASE(
 
 TEST_CASE("5.3 An action that is being initialised is paused too, one that has not begun stays WAITING")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderMessage order = MakeOrder(2, 2);
     order.nodes[0].actions = {MakeAction("init", EBlockingType::Hard), MakeAction("later", EBlockingType::Hard)};
     bench.Order(order);
@@ -196,9 +195,9 @@ TEST_CASE("5.3 An action that is being initialised is paused too, one that has n
     CHECK(bench.GetStatus("init") == EActionStatus::Initializing);
 }
 
-TEST_CASE("5.4.7 After a cancel between two nodes an order may begin at a temporary node where the vehicle stands")
+TEST_CASE("5.4.7 After a cancel between two nodes an order may begin at a temporary node at the vehicle's position")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.Order(MakeOrder(2, 2));
     bench.Drive(true);
     bench.StandAt(5.0);
@@ -213,9 +212,9 @@ TEST_CASE("5.4.7 After a cancel between two nodes an order may begin at a tempor
     CHECK(bench.GetPublishedState().lastNodeID == "temporary");
 }
 
-TEST_CASE("5.5 What a cancel has failed stays in the report when the order goes on and drops its horizon again")
+TEST_CASE("5.5 Actions failed by a cancel stay reported when the order continues and drops its horizon again")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     const auto make = [](std::uint32_t updateID, std::size_t released, const char* actionID) {
         OrderMessage order = MakeOrder(2, released);
         order.orderUpdateID = updateID;
@@ -235,7 +234,7 @@ TEST_CASE("5.5 What a cancel has failed stays in the report when the order goes 
     CHECK(bench.GetPublishedState().actionStates.size() == 3); // with the cancel
 }
 
-TEST_CASE("8.6 An update of an order that MANUAL has cleared is judged as one after a cancel")
+TEST_CASE("8.6 An update of an order that MANUAL has cleared is handled as after a cancel")
 {
     struct Case
     {
@@ -251,7 +250,7 @@ TEST_CASE("8.6 An update of an order that MANUAL has cleared is judged as one af
     for (const Case& cleared : cases)
     {
         CAPTURE(cleared.releasedBefore, cleared.standsAt);
-        VehicleBench bench;
+        VehicleSessionFixture bench;
         bench.Order(MakeOrder(3, 2));
         bench.Mode(EOperatingMode::Manual);
         bench.StandAt(cleared.standsAt);
@@ -270,9 +269,9 @@ TEST_CASE("8.6 An update of an order that MANUAL has cleared is judged as one af
     }
 }
 
-TEST_CASE("5.6 Another action with the id of one that is reported is told as an error; the same one again is not")
+TEST_CASE("5.6 A different action with the id of a reported one is an error; the same action again is not")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderMessage order = MakeOrder(2, 2);
     order.nodes[1].actions.push_back(MakeAction("a1", EBlockingType::None));
     bench.Order(order);
@@ -291,9 +290,9 @@ TEST_CASE("5.6 Another action with the id of one that is reported is told as an 
     CHECK(bench.GetStatus("a1") == EActionStatus::Waiting);
 }
 
-TEST_CASE("8.6 What MANUAL ends says so, paused or not")
+TEST_CASE("8.6 Actions that MANUAL ends report the reason, paused or not")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderMessage order = MakeOrder(2, 2);
     order.nodes[0].actions = {MakeAction("paused", EBlockingType::None), MakeAction("runs", EBlockingType::None)};
     order.nodes[1].actions = {MakeAction("waits", EBlockingType::None)};
@@ -309,11 +308,11 @@ TEST_CASE("8.6 What MANUAL ends says so, paused or not")
     }
 }
 
-TEST_CASE("5.7 initPosition enables the only version of its map, and chooses none of several")
+TEST_CASE("5.7 initPosition enables the only version of its map, but none of several versions")
 {
     for (const bool bSeveral : {false, true})
     {
-        VehicleBench bench(MakeCapable());
+        VehicleSessionFixture bench(MakeCapable());
         std::vector<MapState> maps{{"roof", "1", EMapStatus::Disabled, {}}, {"floor", "1", EMapStatus::Enabled, {}}};
         if (bSeveral)
         {
@@ -330,9 +329,9 @@ TEST_CASE("5.7 initPosition enables the only version of its map, and chooses non
     }
 }
 
-TEST_CASE("5.7 After initPosition the vehicle is on the node that it was told, and counts within its old order")
+TEST_CASE("5.7 After initPosition the vehicle is on the given node, and sequenceIds stay those of its old order")
 {
-    VehicleBench bench(MakeCapable());
+    VehicleSessionFixture bench(MakeCapable());
     OrderBuilder builder = MakeBuilder(2);
     Complete(bench, *builder.MakeOrder(2));
     bench.Instant("initPosition", "i1", MakePose("floor"));
@@ -360,9 +359,9 @@ TEST_CASE("5.7 After initPosition the vehicle is on the node that it was told, a
     CHECK(bench.GetPublishedState().lastNodeSequenceID == 2);
 }
 
-TEST_CASE("5.7 What an action came to is its resultDescription: the name of a logReport, of an order's action too")
+TEST_CASE("5.7 The result of an action is its resultDescription: the name of a logReport, also for an order's action")
 {
-    VehicleBench bench(MakeCapable());
+    VehicleSessionFixture bench(MakeCapable());
     OrderMessage order = MakeOrder(1, 1);
     order.nodes[0].actions.push_back(MakeAction("find", EBlockingType::None, "detectObject"));
     bench.Order(order);
@@ -386,9 +385,9 @@ TEST_CASE("5.7 What an action came to is its resultDescription: the name of a lo
     CheckPublished(out);
 }
 
-TEST_CASE("5.7 An instant action that fails after it was started is a warning until another one is taken")
+TEST_CASE("5.7 An instant action that fails after its start is a warning until another one is accepted")
 {
-    VehicleBench bench(MakeCapable());
+    VehicleSessionFixture bench(MakeCapable());
     bench.Instant("startCharging", "charge");
     bench.Status("charge", EActionStatus::Running);
     VehicleActions out;
@@ -410,7 +409,7 @@ TEST_CASE("5.7 An instant action that fails after it was started is a warning un
 
 TEST_CASE("5.7 charging and loads are what the vehicle measures, not what an action should have changed")
 {
-    VehicleBench bench(MakeCapable());
+    VehicleSessionFixture bench(MakeCapable());
     bench.Instant("startCharging", "charge");
     bench.Status("charge", EActionStatus::Running);
     bench.Status("charge", EActionStatus::Finished);
@@ -423,7 +422,7 @@ TEST_CASE("5.7 charging and loads are what the vehicle measures, not what an act
     CHECK(Pick<PublishMessage>(out).size() == 1);
 }
 
-TEST_CASE("7 How far from its first node a vehicle may stand: what the node states, where that is absent or 0 its own")
+TEST_CASE("7 The allowed deviation from the first node is the node's own; absent or 0, the vehicle's")
 {
     struct Case
     {
@@ -444,9 +443,9 @@ TEST_CASE("7 How far from its first node a vehicle may stand: what the node stat
     for (const Case& deviation : cases)
     {
         CAPTURE(deviation.stated, deviation.own, deviation.distance);
-        VehicleOptions options = VehicleBench::MakeOptions();
+        VehicleOptions options = VehicleSessionFixture::MakeOptions();
         options.defaultDeviationXY = deviation.own;
-        VehicleBench bench(options);
+        VehicleSessionFixture bench(options);
         bench.StandAt(deviation.distance);
         OrderMessage order = MakeOrder(2, 2);
         order.nodes[0].nodePosition->allowedDeviationXY = deviation.stated;
@@ -455,9 +454,9 @@ TEST_CASE("7 How far from its first node a vehicle may stand: what the node stat
     }
 }
 
-TEST_CASE("12 An orderId that comes again after its order is done is an update, or the one that is known")
+TEST_CASE("12 An orderId that comes again after its order is done is an update or a repetition")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     Complete(bench, MakeOrder(2, 2));
     bench.Order(MakeOrder(2, 2)); // the same once more: nothing is done twice
     CHECK(Pick<OrderTaken>(bench.GetOutput()).empty());
@@ -469,11 +468,11 @@ TEST_CASE("12 An orderId that comes again after its order is done is an update, 
     CHECK(Pick<DriveTo>(bench.GetOutput()).empty());
 }
 
-TEST_CASE("12 An order that comes sooner than minOrderInterval is taken: the interval binds the master")
+TEST_CASE("12 An order that comes sooner than minOrderInterval is accepted: the interval binds the master")
 {
-    VehicleOptions options = VehicleBench::MakeOptions();
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
     options.factsheet.protocolLimits.timing.minOrderInterval = 10.0;
-    VehicleBench bench(options);
+    VehicleSessionFixture bench(options);
     OrderBuilder builder = MakeBuilder(3);
     bench.Order(*builder.MakeOrder(2));
     bench.Order(*builder.MakeUpdate(3));

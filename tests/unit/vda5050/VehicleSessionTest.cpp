@@ -1,5 +1,5 @@
 #include "Catch.hpp"
-#include "VehicleBench.hpp"
+#include "VehicleSessionFixture.hpp"
 #include <acs/vda5050/Vda5050Codec.hpp>
 
 #include <algorithm>
@@ -21,9 +21,9 @@ OrderMessage MakeUpdate(std::size_t nodeCount, std::size_t releasedBefore, std::
 
 } // namespace
 
-TEST_CASE("4.2 A new order is taken where none runs and the vehicle stands on its first node")
+TEST_CASE("4.2 A new order is accepted when none runs and the vehicle is on its first node")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.Order(MakeOrder(4, 2));
     CHECK(Pick<OrderTaken>(bench.GetOutput()) == std::vector{OrderTaken{"order-1", 0, false}});
     const StateMessage state = bench.GetPublishedState();
@@ -34,9 +34,9 @@ TEST_CASE("4.2 A new order is taken where none runs and the vehicle stands on it
     CHECK(state.errors.empty());
 }
 
-TEST_CASE("4.2 What is no order is refused with validationError, and the running order goes on")
+TEST_CASE("4.2 A payload that is not an order is rejected with validationError, and the running order continues")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.Order(MakeOrder(3, 3));
     const char* payload = GENERATE(
         "",
@@ -55,7 +55,7 @@ TEST_CASE("4.2 What is no order is refused with validationError, and the running
 
 TEST_CASE("4.2 An order with a broken structure is refused with validationError and its references")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderMessage order = MakeOrder(3, 3);
     order.nodes[1].sequenceID = 7;
     bench.Order(order);
@@ -67,14 +67,14 @@ TEST_CASE("4.2 An order with a broken structure is refused with validationError 
     CHECK(state.orderID.empty());
 }
 
-TEST_CASE("4.2 An action that the vehicle cannot perform refuses the order with orderError")
+TEST_CASE("4.2 An order with an action that the vehicle cannot perform is rejected with orderError")
 {
-    VehicleOptions options = VehicleBench::MakeOptions();
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
     AgvAction known;
     known.actionType = "drop";
     known.actionScopes = {EActionScope::Node};
     options.factsheet.protocolFeatures.agvActions = {known};
-    VehicleBench bench(options);
+    VehicleSessionFixture bench(options);
     OrderMessage order = MakeOrder(2, 2);
     order.nodes[1].actions.push_back(MakeAction("a1", EBlockingType::Hard, "pick"));
     bench.Order(order);
@@ -84,16 +84,16 @@ TEST_CASE("4.2 An action that the vehicle cannot perform refuses the order with 
 
 TEST_CASE("4.2 A second order while one runs, its horizon too, is refused with orderUpdateError")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.Order(MakeOrder(3, 1));
     bench.Order(MakeOrder(2, 2, "order-2"));
     CHECK(bench.HasError(ErrorTypes::ORDER_UPDATE_ERROR));
     CHECK(bench.GetPublishedState().orderID == "order-1");
 }
 
-TEST_CASE("4.2 A first node out of reach refuses the order with noRouteError")
+TEST_CASE("4.2 An order whose first node is out of reach is rejected with noRouteError")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.StandAt(3.0);
     bench.Order(MakeOrder(2, 2));
     CHECK(bench.HasError(ErrorTypes::NO_ROUTE_ERROR));
@@ -106,7 +106,7 @@ TEST_CASE("4.2 A first node out of reach refuses the order with noRouteError")
 
 TEST_CASE("4.2 A lower orderUpdateId is refused, an equal one is discarded without an error")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderMessage order = MakeOrder(3, 3);
     order.orderUpdateID = 2;
     bench.Order(order);
@@ -121,9 +121,9 @@ TEST_CASE("4.2 A lower orderUpdateId is refused, an equal one is discarded witho
     CHECK(bench.GetPublishedState().orderUpdateID == 2);
 }
 
-TEST_CASE("4.2 An update that does not begin at the decision point is refused, the order goes on")
+TEST_CASE("4.2 An update that does not begin at the decision point is rejected, and the order continues")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.Order(MakeOrder(5, 2));
     OrderMessage update = MakeUpdate(5, 3, 4);
     bench.Order(update);
@@ -134,7 +134,7 @@ TEST_CASE("4.2 An update that does not begin at the decision point is refused, t
 
 TEST_CASE("4.2 The order of another vehicle and a retained one are ignored")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderMessage order = MakeOrder(2, 2);
     order.header = Header{0, bench.GetNow().wall, "2.0.0", "ACS", "LR99"};
     const std::string foreign = Vda5050Codec().Encode(order, EVda5050Version::Version200);
@@ -148,7 +148,7 @@ TEST_CASE("4.2 The order of another vehicle and a retained one are ignored")
 
 TEST_CASE("4.3 An update extends the base at the decision point and replaces the horizon")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.Order(MakeOrder(5, 2));
     REQUIRE(Pick<DriveTo>(bench.GetOutput()).size() == 1);
     CHECK(Pick<DriveTo>(bench.GetOutput())[0].bStopAtNode);
@@ -160,7 +160,7 @@ TEST_CASE("4.3 An update extends the base at the decision point and replaces the
     CHECK(ListNodes(state) == Names{"N1", "N2", "N3"});
     CHECK(state.nodeStates[1].bReleased);
     CHECK_FALSE(state.nodeStates[2].bReleased);
-    // On the way to N1 the vehicle learns that it need not stop there any more.
+    // On the way to N1 the session reports that the vehicle need not stop there.
     REQUIRE(Pick<DriveTo>(bench.GetOutput()).size() == 1);
     CHECK(Pick<DriveTo>(bench.GetOutput())[0].node.nodeID == "N1");
     CHECK_FALSE(Pick<DriveTo>(bench.GetOutput())[0].bStopAtNode);
@@ -171,9 +171,9 @@ TEST_CASE("4.3 An update extends the base at the decision point and replaces the
     CHECK(next->node.nodeID == "N2");
 }
 
-TEST_CASE("4.3 After the base is done an update that begins at the last node is taken")
+TEST_CASE("4.3 After the base is done an update that begins at the last node is accepted")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderBuilder builder = MakeBuilder(2);
     bench.Order(*builder.MakeOrder(2));
     bench.Reach(2);
@@ -191,7 +191,7 @@ TEST_CASE("4.3 After the base is done an update that begins at the last node is 
 
 TEST_CASE("4.4 A traversal is one state: node and edge gone, lastNode set, the node's actions begun")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderMessage order = MakeOrder(3, 3);
     order.nodes[1].actions.push_back(MakeAction("a1", EBlockingType::Hard));
     bench.Order(order);
@@ -209,9 +209,9 @@ TEST_CASE("4.4 A traversal is one state: node and edge gone, lastNode set, the n
     CHECK_FALSE(bench.GetSession().TryReachNode(2, bench.GetNow(), out));
 }
 
-TEST_CASE("4.4 The next edge is entered when its vehicle moves on: its actions wait till then")
+TEST_CASE("4.4 The next edge is entered when the vehicle moves on; its actions wait until then")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderMessage order = MakeOrder(3, 3);
     order.nodes[1].actions.push_back(MakeAction("n", EBlockingType::Soft));
     order.edges[1].actions.push_back(MakeAction("e", EBlockingType::None));
@@ -230,7 +230,7 @@ TEST_CASE("4.4 The next edge is entered when its vehicle moves on: its actions w
 
 TEST_CASE("4.5 An order is complete when nothing is left to reach and every action ended; its ids stay")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderMessage order = MakeOrder(2, 2);
     order.nodes[1].actions.push_back(MakeAction("a1", EBlockingType::None));
     bench.Order(order);
@@ -252,7 +252,7 @@ TEST_CASE("4.5 An order is complete when nothing is left to reach and every acti
 
 TEST_CASE("4.5 A base that is done with a horizon left is no completed order")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.Order(MakeOrder(3, 2));
     bench.Reach(2);
     CHECK(Pick<OrderCompleted>(bench.GetOutput()).empty());
@@ -261,9 +261,9 @@ TEST_CASE("4.5 A base that is done with a horizon left is no completed order")
 
 TEST_CASE("4.6 States that are due close together are merged, and one comes after the interval at the latest")
 {
-    VehicleOptions options = VehicleBench::MakeOptions();
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
     options.minimumStateInterval = std::chrono::milliseconds(100);
-    VehicleBench bench(options);
+    VehicleSessionFixture bench(options);
     bench.Advance(std::chrono::milliseconds(40));
     bench.Drive(true);
     bench.Order(MakeOrder(2, 2));
@@ -287,7 +287,7 @@ TEST_CASE("4.6 States that are due close together are merged, and one comes afte
 
 TEST_CASE("5.2 Actions run by their blocking types, in the order of the array")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderMessage order = MakeOrder(2, 2);
     order.nodes[0].actions = {
         MakeAction("none1", EBlockingType::None),
@@ -309,9 +309,9 @@ TEST_CASE("5.2 Actions run by their blocking types, in the order of the array")
     CHECK(Pick<DriveTo>(bench.GetOutput()).size() == 1);
 }
 
-TEST_CASE("5.3 A pause stops the vehicle, is finished when it stands, and stopPause lets it drive on")
+TEST_CASE("5.3 A pause is finished when the vehicle is stationary, and stopPause lets it drive on")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.Order(MakeOrder(2, 2));
     bench.Drive(true);
     bench.Clear();
@@ -331,9 +331,9 @@ TEST_CASE("5.3 A pause stops the vehicle, is finished when it stands, and stopPa
     CHECK(Pick<DriveTo>(bench.GetOutput()).size() == 1);
 }
 
-TEST_CASE("5.4 A cancel fails what waits, stops what runs, and is finished when the vehicle stands")
+TEST_CASE("5.4 A cancel fails waiting actions, stops running ones, and is finished when the vehicle is stationary")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderMessage order = MakeOrder(3, 2);
     order.nodes[0].actions.push_back(MakeAction("runs", EBlockingType::None));
     order.nodes[2].actions.push_back(MakeAction("waits", EBlockingType::Hard));
@@ -360,11 +360,11 @@ TEST_CASE("5.4 A cancel fails what waits, stops what runs, and is finished when 
     CHECK(Pick<OrderCleared>(bench.GetOutput()).size() == 1);
 }
 
-TEST_CASE("5.4 A vehicle that is bound to nodes drives to the next one first")
+TEST_CASE("5.4 A vehicle that stops only on nodes drives to the next one first")
 {
-    VehicleOptions options = VehicleBench::MakeOptions();
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
     options.bStopsBetweenNodes = false;
-    VehicleBench bench(options);
+    VehicleSessionFixture bench(options);
     OrderMessage order = MakeOrder(3, 3);
     order.nodes[1].actions.push_back(MakeAction("late", EBlockingType::None));
     bench.Order(order);
@@ -383,7 +383,7 @@ TEST_CASE("5.4 A vehicle that is bound to nodes drives to the next one first")
 
 TEST_CASE("5.4 A cancel without an order fails with noOrderToCancel and the actionId")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.Instant("cancelOrder", "c1");
     CHECK(bench.GetStatus("c1") == EActionStatus::Failed);
     const StateMessage state = bench.GetPublishedState();
@@ -392,9 +392,9 @@ TEST_CASE("5.4 A cancel without an order fails with noOrderToCancel and the acti
     CHECK(*FindReferenceOrNull(state.errors[0], "actionId") == "c1");
 }
 
-TEST_CASE("5.4.7 After a cancel between two nodes an order must begin where the vehicle stands, or reach so far")
+TEST_CASE("5.4.7 After a cancel between two nodes an order must begin at the vehicle's position or reach it")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.Order(MakeOrder(2, 2));
     bench.StandAt(5.0);
     bench.Instant("cancelOrder", "c1");
@@ -410,7 +410,7 @@ TEST_CASE("5.4.7 After a cancel between two nodes an order must begin where the 
 TEST_CASE(
     "5.6 stateRequest and factsheetRequest are answered, an unknown instant action fails, a repeated id is ignored")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.Instant("stateRequest", "i1");
     CHECK(bench.GetStatus("i1") == EActionStatus::Finished);
     CHECK(bench.GetPublishedStates().size() == 1);
@@ -427,9 +427,9 @@ TEST_CASE(
     CHECK(bench.GetSession().GetState().actionStates.size() == 3);
 }
 
-TEST_CASE("6 The vehicle says ONLINE, leaves a will, and says OFFLINE when it goes; all retained with QoS 1")
+TEST_CASE("6 The vehicle publishes ONLINE, sets a will, and publishes OFFLINE at the end; all retained with QoS 1")
 {
-    VehicleSession session(VehicleBench::MakeOptions());
+    VehicleSession session(VehicleSessionFixture::MakeOptions());
     Testing::ManualClock clock;
     const MqttMessage will = session.MakeWill(clock.GetNow()).message;
     VehicleActions out;
@@ -461,9 +461,9 @@ TEST_CASE("6 The vehicle says ONLINE, leaves a will, and says OFFLINE when it go
         states == std::vector{EConnectionState::ConnectionBroken, EConnectionState::Online, EConnectionState::Offline});
 }
 
-TEST_CASE("8.6 MANUAL clears the order and takes no other")
+TEST_CASE("8.6 MANUAL clears the order and no other is accepted")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     OrderMessage order = MakeOrder(2, 2);
     order.nodes[1].actions.push_back(MakeAction("a1", EBlockingType::Hard));
     bench.Order(order);
@@ -480,9 +480,9 @@ TEST_CASE("8.6 MANUAL clears the order and takes no other")
 
 TEST_CASE("3.5 Visualization has the position at its own rate")
 {
-    VehicleOptions options = VehicleBench::MakeOptions();
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
     options.visualizationInterval = std::chrono::milliseconds(200);
-    VehicleBench bench(options);
+    VehicleSessionFixture bench(options);
     VehicleActions out;
     bench.GetSession().OnTimer(EVehicleTimer::Visualization, bench.GetNow(), out);
     CheckPublished(out);

@@ -1,5 +1,5 @@
 #include "Catch.hpp"
-#include "VehicleBench.hpp"
+#include "VehicleSessionFixture.hpp"
 #include <acs/vda5050/Vda5050Codec.hpp>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ constexpr std::chrono::milliseconds MINIMUM{50};
 
 VehicleOptions MakeSlowStates()
 {
-    VehicleOptions options = VehicleBench::MakeOptions();
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
     options.minimumStateInterval = MINIMUM;
     return options;
 }
@@ -29,90 +29,94 @@ VehicleError MakeOwnError()
 
 } // namespace
 
-TEST_CASE("4.6 Each reason to send a state sends one, and what is no reason sends none")
+TEST_CASE("4.6 Each reason to send a state sends one, and nothing else does")
 {
     struct Case
     {
         const char* name;
-        std::function<void(VehicleBench&, VehicleActions&)> change;
+        std::function<void(VehicleSessionFixture&, VehicleActions&)> change;
         bool bSends;
     };
     const std::vector<Case> cases{
-        {"order", [](VehicleBench& bench, VehicleActions&) { bench.Order(MakeOrder(2, 2, "order-2")); }, true},
+        {"order", [](VehicleSessionFixture& bench, VehicleActions&) { bench.Order(MakeOrder(2, 2, "order-2")); }, true},
         {"order update",
-         [](VehicleBench& bench, VehicleActions&) {
+         [](VehicleSessionFixture& bench, VehicleActions&) {
              OrderBuilder builder = MakeBuilder(3);
              REQUIRE(builder.MakeOrder(2).has_value());
              bench.Order(*builder.MakeUpdate(3));
          },
          true},
-        {"the same order again", [](VehicleBench& bench, VehicleActions&) { bench.Order(MakeOrder(3, 2)); }, true},
-        {"a payload that is none",
-         [](VehicleBench& bench, VehicleActions&) { bench.Payload(ETopic::Order, "{"); },
+        {"the same order again",
+         [](VehicleSessionFixture& bench, VehicleActions&) { bench.Order(MakeOrder(3, 2)); },
          true},
-        {"instant actions that are none",
-         [](VehicleBench& bench, VehicleActions&) { bench.Payload(ETopic::InstantActions, "{"); },
+        {"an undecodable order",
+         [](VehicleSessionFixture& bench, VehicleActions&) { bench.Payload(ETopic::Order, "{"); },
          true},
-        {"stateRequest", [](VehicleBench& bench, VehicleActions&) { bench.Instant("stateRequest", "i1"); }, true},
-        {"node passed", [](VehicleBench& bench, VehicleActions&) { bench.Reach(2); }, true},
-        {"driving", [](VehicleBench& bench, VehicleActions&) { bench.Drive(true); }, true},
-        {"driving as before", [](VehicleBench& bench, VehicleActions&) { bench.Drive(false); }, false},
-        {"paused", [](VehicleBench& bench, VehicleActions&) { bench.HardwarePause(true, false); }, true},
+        {"undecodable instant actions",
+         [](VehicleSessionFixture& bench, VehicleActions&) { bench.Payload(ETopic::InstantActions, "{"); },
+         true},
+        {"stateRequest",
+         [](VehicleSessionFixture& bench, VehicleActions&) { bench.Instant("stateRequest", "i1"); },
+         true},
+        {"node passed", [](VehicleSessionFixture& bench, VehicleActions&) { bench.Reach(2); }, true},
+        {"driving", [](VehicleSessionFixture& bench, VehicleActions&) { bench.Drive(true); }, true},
+        {"driving as before", [](VehicleSessionFixture& bench, VehicleActions&) { bench.Drive(false); }, false},
+        {"paused", [](VehicleSessionFixture& bench, VehicleActions&) { bench.HardwarePause(true, false); }, true},
         {"action status",
-         [](VehicleBench& bench, VehicleActions&) { bench.Status("a1", EActionStatus::Running); },
+         [](VehicleSessionFixture& bench, VehicleActions&) { bench.Status("a1", EActionStatus::Running); },
          true},
         {"operating mode",
-         [](VehicleBench& bench, VehicleActions&) { bench.Mode(EOperatingMode::SemiAutomatic); },
+         [](VehicleSessionFixture& bench, VehicleActions&) { bench.Mode(EOperatingMode::SemiAutomatic); },
          true},
         {"operating mode as before",
-         [](VehicleBench& bench, VehicleActions&) { bench.Mode(EOperatingMode::Automatic); },
+         [](VehicleSessionFixture& bench, VehicleActions&) { bench.Mode(EOperatingMode::Automatic); },
          false},
         {"errors",
-         [](VehicleBench& bench, VehicleActions& out) {
+         [](VehicleSessionFixture& bench, VehicleActions& out) {
              bench.GetSession().OnErrors({MakeOwnError()}, bench.GetNow(), out);
          },
          true},
         {"loads",
-         [](VehicleBench& bench, VehicleActions& out) {
+         [](VehicleSessionFixture& bench, VehicleActions& out) {
              bench.GetSession().OnLoads(std::vector{Load{}}, bench.GetNow(), out);
          },
          true},
         {"loads as before",
-         [](VehicleBench& bench, VehicleActions& out) { bench.GetSession().OnLoads({}, bench.GetNow(), out); },
+         [](VehicleSessionFixture& bench, VehicleActions& out) { bench.GetSession().OnLoads({}, bench.GetNow(), out); },
          false},
         {"maps",
-         [](VehicleBench& bench, VehicleActions& out) {
+         [](VehicleSessionFixture& bench, VehicleActions& out) {
              bench.GetSession().OnMaps(std::vector<MapState>(), bench.GetNow(), out);
          },
          true},
         {"safety",
-         [](VehicleBench& bench, VehicleActions& out) {
+         [](VehicleSessionFixture& bench, VehicleActions& out) {
              bench.GetSession().OnSafetyState(SafetyState{EEmergencyStop::Manual, false}, bench.GetNow(), out);
          },
          true},
         {"charging",
-         [](VehicleBench& bench, VehicleActions& out) {
+         [](VehicleSessionFixture& bench, VehicleActions& out) {
              BatteryState battery;
              battery.bCharging = true;
              bench.GetSession().OnBattery(battery, bench.GetNow(), out);
          },
          true},
         {"battery level",
-         [](VehicleBench& bench, VehicleActions& out) {
+         [](VehicleSessionFixture& bench, VehicleActions& out) {
              BatteryState battery;
              battery.batteryCharge = 12.0;
              bench.GetSession().OnBattery(battery, bench.GetNow(), out);
          },
          false},
-        {"position", [](VehicleBench& bench, VehicleActions&) { bench.StandAt(0.1); }, false},
+        {"position", [](VehicleSessionFixture& bench, VehicleActions&) { bench.StandAt(0.1); }, false},
         {"information",
-         [](VehicleBench& bench, VehicleActions&) { bench.GetSession().OnInformation({Information{}}); },
+         [](VehicleSessionFixture& bench, VehicleActions&) { bench.GetSession().OnInformation({Information{}}); },
          false},
     };
     for (const Case& reason : cases)
     {
         CAPTURE(reason.name);
-        VehicleBench bench;
+        VehicleSessionFixture bench;
         OrderMessage order = MakeOrder(3, 2);
         order.nodes[0].actions.push_back(MakeAction("a1", EBlockingType::None));
         bench.Order(order);
@@ -124,9 +128,9 @@ TEST_CASE("4.6 Each reason to send a state sends one, and what is no reason send
     }
 }
 
-TEST_CASE("4.6 Between two states lies the minimum interval, whatever happens; the last change is in the last one")
+TEST_CASE("4.6 States are at least the minimum interval apart, and the last state has the last change")
 {
-    VehicleBench bench(MakeSlowStates());
+    VehicleSessionFixture bench(MakeSlowStates());
     bench.Advance(std::chrono::seconds(1));
     bench.Order(MakeOrder(2, 2));
     CHECK(bench.GetPublishedStates().size() == 1);
@@ -144,12 +148,12 @@ TEST_CASE("4.6 Between two states lies the minimum interval, whatever happens; t
     CHECK(state->bDriving);
 }
 
-TEST_CASE("4.6 The factsheet says which intervals the vehicle keeps")
+TEST_CASE("4.6 The factsheet states the intervals that the vehicle keeps")
 {
     VehicleOptions options = MakeSlowStates();
     options.maximumStateInterval = std::chrono::seconds(10);
     options.visualizationInterval = std::chrono::milliseconds(250);
-    VehicleBench bench(options);
+    VehicleSessionFixture bench(options);
     bench.Instant("factsheetRequest", "i1");
     const MqttMessage message = Pick<PublishMessage>(bench.GetOutput()).front().message;
     CHECK(message.bRetained);
@@ -173,15 +177,15 @@ TEST_CASE("4.4 newBaseRequest while the base runs low and a horizon is left")
     for (const Case& base : cases)
     {
         CAPTURE(base.nodes, base.released);
-        VehicleBench bench;
+        VehicleSessionFixture bench;
         bench.Order(MakeOrder(base.nodes, base.released));
         CHECK(bench.GetPublishedState().bNewBaseRequest == base.bRequest);
     }
 }
 
-TEST_CASE("4.4 A vehicle without an order may find itself on another node; one with an order may not")
+TEST_CASE("4.4 A vehicle without an order may be set to another node; one with an order may not")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     VehicleActions out;
     CHECK(bench.GetSession().TrySetLastNode("N5", bench.GetNow(), out));
     CHECK(Pick<PublishMessage>(out).size() == 1);
@@ -196,19 +200,19 @@ TEST_CASE("8.4 How long an error of the session is reported")
     struct Case
     {
         const char* name;
-        std::function<void(VehicleBench&)> cause;
+        std::function<void(VehicleSessionFixture&)> cause;
         std::string_view errorType;
         bool bEndsWithMode;
         bool bEndsWithInstantAction;
     };
     const std::vector<Case> cases{
-        {"an order that is none",
-         [](VehicleBench& bench) { bench.Payload(ETopic::Order, "{"); },
+        {"an undecodable order",
+         [](VehicleSessionFixture& bench) { bench.Payload(ETopic::Order, "{"); },
          ErrorTypes::VALIDATION_ERROR,
          false,
          false},
         {"an order of another major version",
-         [](VehicleBench& bench) {
+         [](VehicleSessionFixture& bench) {
              OrderMessage order = MakeOrder(2, 2);
              order.header = Header{1, bench.GetNow().wall, "3.0.0", "ACS", "LR01"};
              bench.Payload(ETopic::Order, Vda5050Codec().Encode(order, EVda5050Version::Version200));
@@ -217,7 +221,7 @@ TEST_CASE("8.4 How long an error of the session is reported")
          false,
          false},
         {"an order that begins elsewhere",
-         [](VehicleBench& bench) {
+         [](VehicleSessionFixture& bench) {
              OrderMessage order = MakeOrder(2, 2);
              order.nodes[0].nodePosition->x = 99.0;
              bench.Order(order);
@@ -226,22 +230,22 @@ TEST_CASE("8.4 How long an error of the session is reported")
          false,
          false},
         {"a cancel without an order",
-         [](VehicleBench& bench) { bench.Instant("cancelOrder", "c1"); },
+         [](VehicleSessionFixture& bench) { bench.Instant("cancelOrder", "c1"); },
          ErrorTypes::NO_ORDER_TO_CANCEL,
          false,
          false},
-        {"instant actions that are none",
-         [](VehicleBench& bench) { bench.Payload(ETopic::InstantActions, "{"); },
+        {"undecodable instant actions",
+         [](VehicleSessionFixture& bench) { bench.Payload(ETopic::InstantActions, "{"); },
          ErrorTypes::VALIDATION_ERROR,
          false,
          true},
         {"an unknown instant action",
-         [](VehicleBench& bench) { bench.Instant("makeCoffee", "i1"); },
+         [](VehicleSessionFixture& bench) { bench.Instant("makeCoffee", "i1"); },
          ErrorTypes::INSTANT_ACTION_ERROR,
          false,
          true},
         {"an order in SERVICE",
-         [](VehicleBench& bench) {
+         [](VehicleSessionFixture& bench) {
              bench.Mode(EOperatingMode::Service);
              bench.Order(MakeOrder(2, 2));
          },
@@ -252,11 +256,11 @@ TEST_CASE("8.4 How long an error of the session is reported")
     for (const Case& error : cases)
     {
         CAPTURE(error.name);
-        VehicleBench bench;
+        VehicleSessionFixture bench;
         error.cause(bench);
         CHECK(bench.HasError(error.errorType));
         bench.Advance(std::chrono::hours(1));
-        bench.Payload(ETopic::InstantActions, "{}"); // none of them ends with something that is refused
+        bench.Payload(ETopic::InstantActions, "{}"); // an undecodable message ends none of them
         CHECK(bench.HasError(error.errorType));
         bench.Mode(EOperatingMode::Automatic);
         CHECK(bench.GetSession().GetState().errors.empty() == false);
@@ -277,9 +281,9 @@ TEST_CASE("8.4 How long an error of the session is reported")
     }
 }
 
-TEST_CASE("8.4 Errors of the vehicle itself are its own: an order does not end them; they never end the order")
+TEST_CASE("8.4 Errors that the vehicle raises are not ended by an order and never end the order")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     VehicleActions out;
     bench.GetSession().OnErrors({MakeOwnError()}, bench.GetNow(), out);
     bench.Order(MakeOrder(2, 2));
@@ -289,9 +293,9 @@ TEST_CASE("8.4 Errors of the vehicle itself are its own: an order does not end t
     CHECK(bench.GetSession().GetState().errors.empty());
 }
 
-TEST_CASE("8.4 The same refusal many times is one error, and many refusals do not fill the state")
+TEST_CASE("8.4 A repeated rejection is one error, and many rejections do not fill the state")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.StandAt(5.0);
     for (int i = 0; i < 100; ++i)
     {
@@ -305,7 +309,7 @@ TEST_CASE("8.4 The same refusal many times is one error, and many refusals do no
     CHECK(bench.GetSession().GetState().errors.size() == 16);
 }
 
-TEST_CASE("8.6 What each operating mode does to the order, to new orders and to instant actions")
+TEST_CASE("8.6 The effect of each operating mode on the order, on new orders and on instant actions")
 {
     struct Case
     {
@@ -324,7 +328,7 @@ TEST_CASE("8.6 What each operating mode does to the order, to new orders and to 
     for (const Case& mode : cases)
     {
         CAPTURE(static_cast<int>(mode.mode));
-        VehicleBench bench;
+        VehicleSessionFixture bench;
         OrderMessage order = MakeOrder(3, 2);
         order.nodes[0].actions.push_back(MakeAction("runs", EBlockingType::None));
         order.nodes[1].actions.push_back(MakeAction("waits", EBlockingType::None));
@@ -358,9 +362,9 @@ TEST_CASE("8.6 What each operating mode does to the order, to new orders and to 
     }
 }
 
-TEST_CASE("8.6 Leaving MANUAL clears an order too, should one have been there")
+TEST_CASE("8.6 Leaving MANUAL clears an order too, if there is one")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.Order(MakeOrder(2, 2));
     bench.Mode(EOperatingMode::Manual);
     bench.Drive(false);
@@ -369,9 +373,9 @@ TEST_CASE("8.6 Leaving MANUAL clears an order too, should one have been there")
     CHECK_FALSE(bench.GetSession().IsOrderRunning());
 }
 
-TEST_CASE("2 Without the link the vehicle drives on to the end of its base and says nothing; back, it says all")
+TEST_CASE("2 Without the link the vehicle drives to the end of its base; after a reconnect it publishes its state")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     bench.Order(MakeOrder(3, 3));
     VehicleActions out;
     bench.GetSession().OnLinkDown(bench.GetNow(), out);
@@ -396,9 +400,9 @@ TEST_CASE("2 Without the link the vehicle drives on to the end of its base and s
     CHECK(state->nodeStates.empty());
 }
 
-TEST_CASE("2 headerId counts by itself on each topic")
+TEST_CASE("2 headerId is counted separately on each topic")
 {
-    VehicleBench bench;
+    VehicleSessionFixture bench;
     std::vector<std::uint32_t> ids;
     for (int i = 0; i < 3; ++i)
     {

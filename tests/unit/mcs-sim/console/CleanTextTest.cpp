@@ -12,7 +12,7 @@ using ACS::McsSim::GetColumns;
 using ACS::McsSim::MakeText;
 using ACS::McsSim::StyledLine;
 
-TEST_CASE("Control characters and what is no UTF-8 become question marks")
+TEST_CASE("Control characters and invalid UTF-8 become question marks")
 {
     CHECK(CleanText("a\tb\x1b[0m\n") == "a?b?[0m?");
     CHECK(CleanText("한글 – ok") == "한글 – ok");
@@ -29,7 +29,7 @@ TEST_CASE("Columns are counted as a terminal does")
     CHECK(GetColumns("한글") == 4);
 }
 
-TEST_CASE("Text is cut at a character, and an ellipsis says so")
+TEST_CASE("Text is truncated at a character, with an ellipsis")
 {
     CHECK(FitText("abc", 5) == "abc  ");
     CHECK(FitText("abcdef", 4) == "abc…");

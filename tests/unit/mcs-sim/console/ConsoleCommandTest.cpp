@@ -17,7 +17,7 @@ TEST_CASE("A line of the console is a verb and what it is about")
     CHECK(*ParseConsoleLine(" ") == ConsoleCommand{});
 }
 
-TEST_CASE("What is no line of the console is told")
+TEST_CASE("An invalid line of the console is reported")
 {
     CHECK(ParseConsoleLine("dance\x1b[2J").error() == "there is no 'dance?[2J': try help");
     CHECK(ParseConsoleLine("cancel").error() == "expected 'cancel PLANID', found 'cancel'");

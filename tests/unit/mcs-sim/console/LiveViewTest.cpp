@@ -141,7 +141,7 @@ TEST_CASE("On a narrow terminal plans lose the front of their ids, not how far t
     CHECK(text.find("███░░  60 %\n") != std::string::npos);
 }
 
-TEST_CASE("No line of the live view is wider than the terminal, whatever stands in it")
+TEST_CASE("No line of the live view is wider than the terminal, whatever its content")
 {
     Scene scene;
     scene.board.OnStatus(

@@ -7,7 +7,7 @@
 
 using ACS::McsSim::RobotBoard;
 
-TEST_CASE("An ACS that invents robots fills the board up to its limit, which is told once")
+TEST_CASE("An ACS that invents robots fills the board up to its limit, which is reported once")
 {
     RobotBoard board;
     std::vector<std::string> lines;

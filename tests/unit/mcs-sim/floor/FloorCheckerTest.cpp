@@ -142,7 +142,7 @@ public:
         MoveTray("TRAY_01", "A01.CP02.TP01", "CR01.TP01");
     }
 
-    /// As an ACS that is right does it, but for the last tray's port.
+    /// Reports as a correct ACS does, except for the port of the last tray.
     void RunPlan(const std::string& planID, const std::string& lastPort = "A01.CP02.TP04")
     {
         RunSteps(planID, lastPort);
@@ -245,7 +245,7 @@ TEST_CASE("One move serves one report only")
     CHECK(fixture.tracker.CountViolations() == 2);
 }
 
-TEST_CASE("A move that no plan has asked for is a violation at the end; a person's hand is not")
+TEST_CASE("A move without a plan is a violation at the end; a change by hand is not")
 {
     FloorFixture fixture;
     fixture.Act(CarrierPlaced{"TRAY_09", "A01.CP03.TP01"});
@@ -366,7 +366,7 @@ TEST_CASE("A carrier on a robot is not restocked: the ACS has it on record")
     CHECK(fixture.world.GetPlaceOrNull("TRAY_02") == "A01.CP02.TP02");
 }
 
-TEST_CASE("A world that cannot be read or written is a violation, once for each reason")
+TEST_CASE("A world that is unreadable or not writable is a violation, once for each reason")
 {
     const ACS::Testing::TemporaryFolder folder;
     const std::string file = folder.GetPath() / "world.json";

@@ -102,7 +102,7 @@ TEST_CASE("Covers and buttons are those of the step's position, also of a step w
     CHECK(floor.carriers.empty());
 }
 
-TEST_CASE("Places that are none make no move: the ACS refuses the plan")
+TEST_CASE("Invalid places make no move: the ACS refuses the plan")
 {
     const FloorPlan floor = MakeFloorPlan(MakePlan(
         {{1, "CassetteLoad", "nowhere", {"C"}, {{"a", "A01.CP01", "AMR.CP01"}}},
@@ -111,7 +111,7 @@ TEST_CASE("Places that are none make no move: the ACS refuses the plan")
     CHECK(floor.carriers.empty());
 }
 
-TEST_CASE("A move is compared as the reporting robot causes it, any carrier with an open one")
+TEST_CASE("A move is compared with the robot that reports it; an unnamed carrier matches any")
 {
     const WorldEvent named = WithRobot(CarrierMoved{"", "C", "A01.CP01", "AMR.CP01"}, "LR01");
     CHECK(named == WorldEvent(CarrierMoved{"LR01", "C", "A01.CP01", "LR01.CP01"}));
@@ -127,7 +127,7 @@ TEST_CASE("A move is compared as the reporting robot causes it, any carrier with
     CHECK(WithRobot(CoverMoved{"", "A01.SET01", true}, "CR01") == WorldEvent(CoverMoved{"CR01", "A01.SET01", true}));
 }
 
-TEST_CASE("Docking and a person's hand are no moves; the others are described with the robot")
+TEST_CASE("Docking and changes by hand are not moves; the others are described with the robot")
 {
     CHECK_FALSE(IsMove(RobotDocked{"LR01", {"A01.CP01"}}));
     CHECK_FALSE(IsMove(CarrierPlaced{"C", "A01.CP01"}));

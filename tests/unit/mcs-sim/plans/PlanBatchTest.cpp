@@ -89,7 +89,7 @@ TEST_CASE("Carriers of many plans never share an id")
     CHECK(carriers.size() == plans.size());
 }
 
-TEST_CASE("Two whole messages with one transactionId are found out")
+TEST_CASE("Two whole messages with one transactionId are detected")
 {
     CHECK_FALSE(FindSharedTransactionOrNull({MakeSamplePlan("A", "T1"), MakeSamplePlan("B", "T2")}).has_value());
     CHECK(FindSharedTransactionOrNull({MakeSamplePlan("A", "T1"), MakeSamplePlan("B", "T1")}) == "T1");

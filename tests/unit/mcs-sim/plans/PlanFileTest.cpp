@@ -53,7 +53,7 @@ TEST_CASE("A plan file may begin with a byte order mark")
     CHECK(ParsePlanFile("\xEF\xBB\xBF" + std::string(PAYLOAD)).has_value());
 }
 
-TEST_CASE("A broken plan file is refused with the place of the mistake")
+TEST_CASE("An invalid plan file is refused with the position of the error")
 {
     CHECK(GetPlanError("{\"planId\":").find("JSON") != std::string::npos);
     CHECK(GetPlanError("").find("JSON") != std::string::npos);

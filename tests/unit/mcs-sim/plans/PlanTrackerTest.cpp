@@ -31,14 +31,14 @@ namespace
 {
 
 /// A tracker of one or more sample plans P1, P2, … with an ACS at its other end.
-class Bench
+class PlanTrackerFixture
 {
 public:
     ManualClock clock;
     PlanTracker tracker;
     PlanTracker::Lines lines;
 
-    explicit Bench(std::size_t count = 1)
+    explicit PlanTrackerFixture(std::size_t count = 1)
         : tracker(MakePlans(count))
     {
     }
@@ -53,7 +53,7 @@ public:
         return plans;
     }
 
-    /// Sends what is due; the planIds, in order.
+    /// Sends the plans that are due. Returns the planIds in order.
     std::string Send()
     {
         std::string sent;
@@ -113,7 +113,7 @@ public:
         return tracker.GetPlans().front();
     }
 
-    /// The only violation; something else where there is none or more than one.
+    /// The only violation; another text if there is none or more than one.
     [[nodiscard]] std::string GetViolation() const
     {
         return tracker.CountViolations() == 1 ? tracker.GetViolations().front()
@@ -125,112 +125,113 @@ public:
 
 TEST_CASE("6 A plan whose reports come in causal order is completed, without a violation")
 {
-    Bench bench;
-    bench.RunFirstJob();
-    bench.Report({MakeStepReport("P1", 1, EStepStatus::Completed)});
-    bench.RunSecondStep();
-    CHECK_FALSE(bench.tracker.IsFinished());
-    bench.Report({MakePlanReport("P1", EPlanStatus::Completed)});
-    CHECK(bench.tracker.IsFinished());
-    CHECK(bench.tracker.IsSuccess());
-    CHECK(bench.tracker.CountOutcome(EOutcome::Completed) == 1);
-    CHECK(bench.tracker.CountSteps().done == 2);
-    CHECK(bench.tracker.CountJobs().done == 3);
-    CHECK(bench.tracker.CountViolations() == 0);
-    CHECK(bench.GetFirst().robotID == "LR01");
-    CHECK(bench.lines.front() == "P1 ExecutionPlan sent");
-    CHECK(bench.lines.back() == "P1 PlanReport Completed (LR01)");
+    PlanTrackerFixture fixture;
+    fixture.RunFirstJob();
+    fixture.Report({MakeStepReport("P1", 1, EStepStatus::Completed)});
+    fixture.RunSecondStep();
+    CHECK_FALSE(fixture.tracker.IsFinished());
+    fixture.Report({MakePlanReport("P1", EPlanStatus::Completed)});
+    CHECK(fixture.tracker.IsFinished());
+    CHECK(fixture.tracker.IsSuccess());
+    CHECK(fixture.tracker.CountOutcome(EOutcome::Completed) == 1);
+    CHECK(fixture.tracker.CountSteps().done == 2);
+    CHECK(fixture.tracker.CountJobs().done == 3);
+    CHECK(fixture.tracker.CountViolations() == 0);
+    CHECK(fixture.GetFirst().robotID == "LR01");
+    CHECK(fixture.lines.front() == "P1 ExecutionPlan sent");
+    CHECK(fixture.lines.back() == "P1 PlanReport Completed (LR01)");
 }
 
-TEST_CASE("A line for people names step, job, status and robot")
+TEST_CASE("A printed line names step, job, status and robot")
 {
-    Bench bench;
-    bench.RunFirstJob();
-    CHECK(bench.lines[1] == "P1 ExecutionPlanAck Success");
-    CHECK(bench.lines[3] == "P1 StepReport step 1 CassetteLoad at A01.CP01 Dispatched (LR01)");
-    CHECK(bench.lines.back() == "P1 JobReport step 1 job 1/1 Completed (LR01)");
+    PlanTrackerFixture fixture;
+    fixture.RunFirstJob();
+    CHECK(fixture.lines[1] == "P1 ExecutionPlanAck Success");
+    CHECK(fixture.lines[3] == "P1 StepReport step 1 CassetteLoad at A01.CP01 Dispatched (LR01)");
+    CHECK(fixture.lines.back() == "P1 JobReport step 1 job 1/1 Completed (LR01)");
 }
 
 TEST_CASE("Nothing is sent before an ACS has registered")
 {
-    Bench bench(2);
-    CHECK(bench.Send().empty());
-    bench.tracker.OnRegistered();
-    CHECK(bench.Send() == "P1 P2");
-    CHECK(bench.Send().empty());
+    PlanTrackerFixture fixture(2);
+    CHECK(fixture.Send().empty());
+    fixture.tracker.OnRegistered();
+    CHECK(fixture.Send() == "P1 P2");
+    CHECK(fixture.Send().empty());
 }
 
-TEST_CASE("6.21 No plan is sent while the ACS says that it cannot take work")
+TEST_CASE("6.21 No plan is sent while the ACS reports that it accepts no work")
 {
-    Bench bench;
-    bench.tracker.OnRegistered();
-    bench.Report({ACS::Protocol::AcsCommStateUpdate{false}});
-    CHECK(bench.Send().empty());
-    bench.Report({ACS::Protocol::AcsCommStateUpdate{true}});
-    CHECK(bench.Send() == "P1");
+    PlanTrackerFixture fixture;
+    fixture.tracker.OnRegistered();
+    fixture.Report({ACS::Protocol::AcsCommStateUpdate{false}});
+    CHECK(fixture.Send().empty());
+    fixture.Report({ACS::Protocol::AcsCommStateUpdate{true}});
+    CHECK(fixture.Send() == "P1");
 }
 
 TEST_CASE("A plan that is not acknowledged within five seconds is sent again")
 {
-    Bench bench(2);
-    bench.tracker.OnRegistered();
-    bench.Send();
-    bench.Ack(0);
-    bench.clock.Advance(std::chrono::milliseconds(4'999));
-    CHECK(bench.Send().empty());
-    bench.clock.Advance(std::chrono::milliseconds(1));
-    CHECK(bench.Send() == "P2");
-    CHECK(bench.lines.back() == "P2 ExecutionPlan sent again");
-    CHECK(bench.tracker.CountResends() == 1);
-    bench.Ack(1);
-    bench.clock.Advance(std::chrono::milliseconds(60'000));
-    CHECK(bench.Send().empty());
+    PlanTrackerFixture fixture(2);
+    fixture.tracker.OnRegistered();
+    fixture.Send();
+    fixture.Ack(0);
+    fixture.clock.Advance(std::chrono::milliseconds(4'999));
+    CHECK(fixture.Send().empty());
+    fixture.clock.Advance(std::chrono::milliseconds(1));
+    CHECK(fixture.Send() == "P2");
+    CHECK(fixture.lines.back() == "P2 ExecutionPlan sent again");
+    CHECK(fixture.tracker.CountResends() == 1);
+    fixture.Ack(1);
+    fixture.clock.Advance(std::chrono::milliseconds(60'000));
+    CHECK(fixture.Send().empty());
 }
 
 TEST_CASE("After a reconnect only what was not acknowledged is sent again")
 {
-    Bench bench(3);
-    bench.tracker.OnRegistered();
-    bench.Send();
-    bench.Ack(1);
-    bench.tracker.OnLinkLost();
-    CHECK(bench.Send().empty());
-    bench.tracker.OnRegistered();
-    CHECK(bench.Send() == "P1 P3");
+    PlanTrackerFixture fixture(3);
+    fixture.tracker.OnRegistered();
+    fixture.Send();
+    fixture.Ack(1);
+    fixture.tracker.OnLinkLost();
+    CHECK(fixture.Send().empty());
+    fixture.tracker.OnRegistered();
+    CHECK(fixture.Send() == "P1 P3");
 }
 
-TEST_CASE("Only so many plans wait for their Ack at a time")
+TEST_CASE("The number of plans that wait for their Ack is limited")
 {
-    Bench bench(PlanTracker::SEND_WINDOW + 2);
-    bench.tracker.OnRegistered();
-    bench.Send();
-    CHECK(bench.lines.size() == PlanTracker::SEND_WINDOW);
-    bench.Ack(7);
-    CHECK(bench.Send() == "P" + std::to_string(PlanTracker::SEND_WINDOW + 1));
+    PlanTrackerFixture fixture(PlanTracker::SEND_WINDOW + 2);
+    fixture.tracker.OnRegistered();
+    fixture.Send();
+    CHECK(fixture.lines.size() == PlanTracker::SEND_WINDOW);
+    fixture.Ack(7);
+    CHECK(fixture.Send() == "P" + std::to_string(PlanTracker::SEND_WINDOW + 1));
 }
 
 TEST_CASE("A plan that is blocked lets later ones go, and is due when it is unblocked")
 {
-    Bench bench(3);
-    bench.tracker.Block(0);
-    bench.tracker.OnRegistered();
-    CHECK(bench.Send() == "P2 P3");
-    bench.Ack(1);
-    bench.Ack(2);
-    CHECK(bench.Send().empty());
-    bench.tracker.Unblock(0);
-    CHECK(bench.Send() == "P1");
+    PlanTrackerFixture fixture(3);
+    fixture.tracker.Block(0);
+    fixture.tracker.OnRegistered();
+    CHECK(fixture.Send() == "P2 P3");
+    fixture.Ack(1);
+    fixture.Ack(2);
+    CHECK(fixture.Send().empty());
+    fixture.tracker.Unblock(0);
+    CHECK(fixture.Send() == "P1");
 }
 
-TEST_CASE("6.13 A step is Skipped before it begins or while it is InProgress, and the plan goes on without a JobReport")
+TEST_CASE(
+    "6.13 A step is Skipped before it begins or while it is InProgress, and the plan continues without a JobReport")
 {
-    Bench bench;
-    bench.tracker.OnRegistered();
-    bench.Send();
-    bench.Report({MakePlanReport("P1", EPlanStatus::InProgress)});
+    PlanTrackerFixture fixture;
+    fixture.tracker.OnRegistered();
+    fixture.Send();
+    fixture.Report({MakePlanReport("P1", EPlanStatus::InProgress)});
     SECTION("from InProgress")
     {
-        bench.Report(
+        fixture.Report(
             {MakeStepReport("P1", 1, EStepStatus::Dispatched),
              MakeStepReport("P1", 1, EStepStatus::InProgress),
              MakeJobReport("P1", 1, "J1", EJobStatus::Instructed)});
@@ -238,59 +239,59 @@ TEST_CASE("6.13 A step is Skipped before it begins or while it is InProgress, an
     SECTION("from Pending")
     {
     }
-    bench.Report({MakeStepReport("P1", 1, EStepStatus::Skipped)});
-    bench.RunSecondStep();
-    bench.Report({MakePlanReport("P1", EPlanStatus::Completed)});
-    CHECK(bench.tracker.CountViolations() == 0);
-    CHECK(bench.tracker.IsSuccess());
-    bench.Report({MakeStepReport("P1", 1, EStepStatus::Skipped)});
-    CHECK(bench.tracker.CountViolations() == 1);
+    fixture.Report({MakeStepReport("P1", 1, EStepStatus::Skipped)});
+    fixture.RunSecondStep();
+    fixture.Report({MakePlanReport("P1", EPlanStatus::Completed)});
+    CHECK(fixture.tracker.CountViolations() == 0);
+    CHECK(fixture.tracker.IsSuccess());
+    fixture.Report({MakeStepReport("P1", 1, EStepStatus::Skipped)});
+    CHECK(fixture.tracker.CountViolations() == 1);
 }
 
 TEST_CASE("6.4 A refused plan has failed, for the reason that the ACS gave")
 {
-    Bench bench;
-    bench.tracker.OnRegistered();
-    bench.Send();
-    bench.Ack(0, EAckResult::Fail, "no such place as A09.CP01");
-    CHECK(bench.tracker.IsFinished());
-    CHECK_FALSE(bench.tracker.IsSuccess());
-    CHECK(bench.tracker.CountOutcome(EOutcome::Refused) == 1);
-    CHECK(bench.tracker.CountFailed() == 1);
-    CHECK(bench.GetFirst().reason == "no such place as A09.CP01");
-    CHECK(bench.lines.back() == "P1 ExecutionPlanAck Fail: no such place as A09.CP01");
-    bench.Report({MakePlanReport("P1", EPlanStatus::InProgress)});
-    CHECK(bench.GetViolation() == "P1 PlanReport after it was refused");
+    PlanTrackerFixture fixture;
+    fixture.tracker.OnRegistered();
+    fixture.Send();
+    fixture.Ack(0, EAckResult::Fail, "no such place as A09.CP01");
+    CHECK(fixture.tracker.IsFinished());
+    CHECK_FALSE(fixture.tracker.IsSuccess());
+    CHECK(fixture.tracker.CountOutcome(EOutcome::Refused) == 1);
+    CHECK(fixture.tracker.CountFailed() == 1);
+    CHECK(fixture.GetFirst().reason == "no such place as A09.CP01");
+    CHECK(fixture.lines.back() == "P1 ExecutionPlanAck Fail: no such place as A09.CP01");
+    fixture.Report({MakePlanReport("P1", EPlanStatus::InProgress)});
+    CHECK(fixture.GetViolation() == "P1 PlanReport after it was refused");
 }
 
 TEST_CASE("A late Ack that was taken for another transaction counts for the plan that it names")
 {
-    Bench bench(2);
-    bench.tracker.OnRegistered();
-    bench.Send();
-    ACS::Protocol::AcsAck late = MakeAck(bench.tracker.GetPlans()[0].planned, EAckResult::Success);
+    PlanTrackerFixture fixture(2);
+    fixture.tracker.OnRegistered();
+    fixture.Send();
+    ACS::Protocol::AcsAck late = MakeAck(fixture.tracker.GetPlans()[0].planned, EAckResult::Success);
     late.transactionID = "T2";
-    bench.tracker.OnAck(late, bench.lines);
-    CHECK(bench.tracker.GetPlans()[0].delivery == EDelivery::Accepted);
-    CHECK(bench.tracker.GetPlans()[1].delivery == EDelivery::Sent);
+    fixture.tracker.OnAck(late, fixture.lines);
+    CHECK(fixture.tracker.GetPlans()[0].delivery == EDelivery::Accepted);
+    CHECK(fixture.tracker.GetPlans()[1].delivery == EDelivery::Sent);
 }
 
 TEST_CASE("A plan that is being reported is not refused by the answer to its repetition")
 {
-    Bench bench;
-    bench.tracker.OnRegistered();
-    bench.Send();
-    bench.Report({MakePlanReport("P1", EPlanStatus::InProgress)});
-    bench.Ack(0, EAckResult::Fail, "Duplicated Plan");
-    CHECK(bench.GetFirst().delivery == EDelivery::Accepted);
-    CHECK(bench.tracker.CountOutcome(EOutcome::Open) == 1);
+    PlanTrackerFixture fixture;
+    fixture.tracker.OnRegistered();
+    fixture.Send();
+    fixture.Report({MakePlanReport("P1", EPlanStatus::InProgress)});
+    fixture.Ack(0, EAckResult::Fail, "Duplicated Plan");
+    CHECK(fixture.GetFirst().delivery == EDelivery::Accepted);
+    CHECK(fixture.tracker.CountOutcome(EOutcome::Open) == 1);
 }
 
 TEST_CASE("6.14 A failed job fails its step and its plan, in this order")
 {
-    Bench bench;
-    bench.RunFirstJob();
-    bench.Report(
+    PlanTrackerFixture fixture;
+    fixture.RunFirstJob();
+    fixture.Report(
         {MakeStepReport("P1", 1, EStepStatus::Completed),
          MakeStepReport("P1", 2, EStepStatus::Dispatched),
          MakeStepReport("P1", 2, EStepStatus::InProgress),
@@ -298,37 +299,37 @@ TEST_CASE("6.14 A failed job fails its step and its plan, in this order")
          MakeJobReport("P1", 2, "J2", EJobStatus::Failed)});
     SECTION("as it must be")
     {
-        bench.Report(
+        fixture.Report(
             {MakeStepReport("P1", 2, EStepStatus::Failed), MakePlanReport("P1", EPlanStatus::Failed, "gripper open")});
-        CHECK(bench.tracker.CountViolations() == 0);
-        CHECK(bench.tracker.CountOutcome(EOutcome::Failed) == 1);
-        CHECK(bench.GetFirst().reason == "gripper open");
+        CHECK(fixture.tracker.CountViolations() == 0);
+        CHECK(fixture.tracker.CountOutcome(EOutcome::Failed) == 1);
+        CHECK(fixture.GetFirst().reason == "gripper open");
     }
     SECTION("the plan before its step")
     {
-        bench.Report({MakePlanReport("P1", EPlanStatus::Failed)});
-        CHECK(bench.GetViolation() == "P1 PlanReport Failed before the step of its failed job");
+        fixture.Report({MakePlanReport("P1", EPlanStatus::Failed)});
+        CHECK(fixture.GetViolation() == "P1 PlanReport Failed before the step of its failed job");
     }
 }
 
 TEST_CASE("Cancelled and aborted plans count as failed")
 {
-    Bench bench(2);
-    bench.tracker.OnRegistered();
-    bench.Send();
-    bench.Report(
+    PlanTrackerFixture fixture(2);
+    fixture.tracker.OnRegistered();
+    fixture.Send();
+    fixture.Report(
         {MakePlanReport("P1", EPlanStatus::Cancelled),
          MakePlanReport("P2", EPlanStatus::InProgress),
          MakePlanReport("P2", EPlanStatus::Aborted)});
-    CHECK(bench.tracker.CountViolations() == 0);
-    CHECK(bench.tracker.CountFailed() == 2);
-    CHECK(bench.tracker.IsFinished());
+    CHECK(fixture.tracker.CountViolations() == 0);
+    CHECK(fixture.tracker.CountFailed() == 2);
+    CHECK(fixture.tracker.IsFinished());
 }
 
 TEST_CASE("A report out of causal order is a violation, and followed nevertheless")
 {
-    Bench bench;
-    bench.RunFirstJob();
+    PlanTrackerFixture fixture;
+    fixture.RunFirstJob();
     using Row = std::pair<AcsPayload, std::string>;
     const Row row = GENERATE(
         Row{MakePlanReport("P1", EPlanStatus::Completed), "P1 PlanReport Completed before all its steps"},
@@ -343,98 +344,98 @@ TEST_CASE("A report out of causal order is a violation, and followed nevertheles
         Row{MakeJobReport("P1", 1, "J2", EJobStatus::Completed), "P1 JobReport step 1 for an unknown job J2"},
         Row{MakeStepReport("P1", 3, EStepStatus::Dispatched), "P1 StepReport for an unknown step 3"},
         Row{MakePlanReport("P9", EPlanStatus::InProgress), "P9 PlanReport for an unknown plan"});
-    bench.Report({row.first});
-    CHECK(bench.GetViolation() == row.second);
-    CHECK_FALSE(bench.tracker.IsSuccess());
+    fixture.Report({row.first});
+    CHECK(fixture.GetViolation() == row.second);
+    CHECK_FALSE(fixture.tracker.IsSuccess());
 }
 
 TEST_CASE("A step is not Completed before all its jobs")
 {
-    Bench bench;
-    bench.RunFirstJob();
-    bench.Report(
+    PlanTrackerFixture fixture;
+    fixture.RunFirstJob();
+    fixture.Report(
         {MakeStepReport("P1", 1, EStepStatus::Completed),
          MakeStepReport("P1", 2, EStepStatus::Dispatched),
          MakeStepReport("P1", 2, EStepStatus::InProgress),
          MakeStepReport("P1", 2, EStepStatus::Completed)});
-    CHECK(bench.GetViolation() == "P1 StepReport step 2 Completed before all its jobs");
+    CHECK(fixture.GetViolation() == "P1 StepReport step 2 Completed before all its jobs");
 }
 
 TEST_CASE("6.13 A step is skipped before it is begun, or while its job is unresolved; a step that failed is not")
 {
-    Bench bench;
-    bench.RunFirstJob();
-    bench.Report(
+    PlanTrackerFixture fixture;
+    fixture.RunFirstJob();
+    fixture.Report(
         {MakeStepReport("P1", 1, EStepStatus::Completed),
          MakeStepReport("P1", 2, EStepStatus::Dispatched),
          MakeStepReport("P1", 2, EStepStatus::InProgress),
          MakeJobReport("P1", 2, "J2", EJobStatus::Instructed)});
     SECTION("unresolved")
     {
-        bench.Report({MakeStepReport("P1", 2, EStepStatus::Skipped), MakePlanReport("P1", EPlanStatus::Completed)});
-        CHECK(bench.tracker.CountViolations() == 0);
-        CHECK(bench.tracker.CountOutcome(EOutcome::Completed) == 1);
+        fixture.Report({MakeStepReport("P1", 2, EStepStatus::Skipped), MakePlanReport("P1", EPlanStatus::Completed)});
+        CHECK(fixture.tracker.CountViolations() == 0);
+        CHECK(fixture.tracker.CountOutcome(EOutcome::Completed) == 1);
     }
     SECTION("failed")
     {
-        bench.Report(
+        fixture.Report(
             {MakeJobReport("P1", 2, "J2", EJobStatus::Failed),
              MakeStepReport("P1", 2, EStepStatus::Failed),
              MakeStepReport("P1", 2, EStepStatus::Skipped)});
-        CHECK(bench.GetViolation() == "P1 StepReport step 2 Skipped after Failed");
+        CHECK(fixture.GetViolation() == "P1 StepReport step 2 Skipped after Failed");
     }
 }
 
 TEST_CASE("A violation makes the run fail even where every plan is completed")
 {
-    Bench bench;
-    bench.RunFirstJob();
-    bench.Report({MakePlanReport("P1", EPlanStatus::Completed)});
-    CHECK(bench.tracker.CountOutcome(EOutcome::Completed) == 1);
-    CHECK(bench.tracker.IsFinished());
-    CHECK_FALSE(bench.tracker.IsSuccess());
+    PlanTrackerFixture fixture;
+    fixture.RunFirstJob();
+    fixture.Report({MakePlanReport("P1", EPlanStatus::Completed)});
+    CHECK(fixture.tracker.CountOutcome(EOutcome::Completed) == 1);
+    CHECK(fixture.tracker.IsFinished());
+    CHECK_FALSE(fixture.tracker.IsSuccess());
 }
 
 TEST_CASE("7 A report after the final one is a violation, and changes nothing")
 {
-    Bench bench;
-    bench.tracker.OnRegistered();
-    bench.Send();
-    bench.Ack(0);
-    bench.Report({MakePlanReport("P1", EPlanStatus::Cancelled), MakePlanReport("P1", EPlanStatus::InProgress)});
-    CHECK(bench.GetViolation() == "P1 PlanReport after it was cancelled");
-    CHECK(bench.tracker.CountOutcome(EOutcome::Cancelled) == 1);
+    PlanTrackerFixture fixture;
+    fixture.tracker.OnRegistered();
+    fixture.Send();
+    fixture.Ack(0);
+    fixture.Report({MakePlanReport("P1", EPlanStatus::Cancelled), MakePlanReport("P1", EPlanStatus::InProgress)});
+    CHECK(fixture.GetViolation() == "P1 PlanReport after it was cancelled");
+    CHECK(fixture.tracker.CountOutcome(EOutcome::Cancelled) == 1);
 }
 
 TEST_CASE("A report about a plan that was not sent yet is a violation")
 {
-    Bench bench;
-    bench.tracker.OnRegistered();
-    bench.Report({MakePlanReport("P1", EPlanStatus::InProgress)});
-    CHECK(bench.GetViolation() == "P1 PlanReport before it was sent");
+    PlanTrackerFixture fixture;
+    fixture.tracker.OnRegistered();
+    fixture.Report({MakePlanReport("P1", EPlanStatus::InProgress)});
+    CHECK(fixture.GetViolation() == "P1 PlanReport before it was sent");
 }
 
 TEST_CASE("A plan that moves to another robot is a violation")
 {
-    Bench bench;
-    bench.RunFirstJob();
+    PlanTrackerFixture fixture;
+    fixture.RunFirstJob();
     ACS::Protocol::StepReport report = MakeStepReport("P1", 1, EStepStatus::Completed);
     report.robotID = "LR02";
-    bench.Report({report});
-    CHECK(bench.GetViolation() == "P1 moved from LR01 to LR02");
+    fixture.Report({report});
+    CHECK(fixture.GetViolation() == "P1 moved from LR01 to LR02");
 }
 
 TEST_CASE("D-24 A first report of Pending is no violation")
 {
-    Bench bench;
-    bench.tracker.OnRegistered();
-    bench.Send();
-    bench.Report(
+    PlanTrackerFixture fixture;
+    fixture.tracker.OnRegistered();
+    fixture.Send();
+    fixture.Report(
         {MakePlanReport("P1", EPlanStatus::Pending),
          MakeStepReport("P1", 1, EStepStatus::Pending),
          MakeJobReport("P1", 1, "J1", EJobStatus::Pending),
          MakePlanReport("P1", EPlanStatus::InProgress)});
-    CHECK(bench.tracker.CountViolations() == 0);
+    CHECK(fixture.tracker.CountViolations() == 0);
 }
 
 TEST_CASE("Of two plans with one planId the reports belong to the one that was not refused")
@@ -455,11 +456,11 @@ TEST_CASE("Of two plans with one planId the reports belong to the one that was n
 
 TEST_CASE("What a peer sends cannot forge a line or a terminal's sequence")
 {
-    Bench bench;
-    bench.tracker.OnRegistered();
-    bench.Send();
-    bench.Ack(0, EAckResult::Fail, "bad\n0.1 P1 PlanReport Completed\x1b[2J");
-    CHECK(bench.lines.back() == "P1 ExecutionPlanAck Fail: bad?0.1 P1 PlanReport Completed?[2J");
+    PlanTrackerFixture fixture;
+    fixture.tracker.OnRegistered();
+    fixture.Send();
+    fixture.Ack(0, EAckResult::Fail, "bad\n0.1 P1 PlanReport Completed\x1b[2J");
+    CHECK(fixture.lines.back() == "P1 ExecutionPlanAck Fail: bad?0.1 P1 PlanReport Completed?[2J");
 }
 
 TEST_CASE("12.6 Without resending a plan goes once, however long its Ack takes, and on a new connection too")
@@ -478,11 +479,11 @@ TEST_CASE("12.6 Without resending a plan goes once, however long its Ack takes, 
 
 TEST_CASE("A plan can be added to the run; the same message again is the same plan, and stays answered")
 {
-    Bench bench;
-    bench.RunFirstJob();
-    CHECK(bench.tracker.AddPlan(MakeSamplePlan("P1", "T1")) == 0);
-    bench.tracker.OnSent(0, bench.clock.GetNow(), bench.lines);
-    CHECK(bench.GetFirst().delivery == EDelivery::Accepted);
-    CHECK(bench.tracker.AddPlan(MakeSamplePlan("P2", "T2")) == 1);
-    CHECK(bench.tracker.CountOutcome(EOutcome::Open) == 2);
+    PlanTrackerFixture fixture;
+    fixture.RunFirstJob();
+    CHECK(fixture.tracker.AddPlan(MakeSamplePlan("P1", "T1")) == 0);
+    fixture.tracker.OnSent(0, fixture.clock.GetNow(), fixture.lines);
+    CHECK(fixture.GetFirst().delivery == EDelivery::Accepted);
+    CHECK(fixture.tracker.AddPlan(MakeSamplePlan("P2", "T2")) == 1);
+    CHECK(fixture.tracker.CountOutcome(EOutcome::Open) == 2);
 }

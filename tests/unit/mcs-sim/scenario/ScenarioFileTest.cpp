@@ -53,7 +53,7 @@ const std::string SEND_PLAN = R"({"send":"ExecutionPlan","file":"plan.json","as"
 
 } // namespace
 
-TEST_CASE("A plan is sent from a file or from the scenario itself, with fresh ids unless told otherwise")
+TEST_CASE("A plan is sent from a file or from the scenario itself, by default with fresh ids")
 {
     const auto fromFile = ParseOne<SendPlanStep>(SEND_PLAN);
     CHECK(fromFile.name == "A");
@@ -119,7 +119,7 @@ TEST_CASE("Faults are read with their command and duration")
     CHECK(ParseOne<SendTextStep>(R"({"sendText":{"command":"Dance"}})").text == R"({"command":"Dance"})");
 }
 
-TEST_CASE("A step tells people what it is, in its own words where it has some")
+TEST_CASE("A step is described by its note, or by what it does")
 {
     const auto scenario = Parse(
         SEND_PLAN
@@ -130,7 +130,7 @@ TEST_CASE("A step tells people what it is, in its own words where it has some")
     CHECK(scenario->steps[2].title == "look");
 }
 
-TEST_CASE("A mistake in a scenario is told with its place, what was expected and what is there")
+TEST_CASE("An error in a scenario is reported with its position, the expected and the found value")
 {
     using Row = std::pair<std::string, std::string>;
     const auto row = GENERATE(
@@ -166,7 +166,7 @@ TEST_CASE("A mistake in a scenario is told with its place, what was expected and
     CHECK(mistake.find(row.second) == 0);
 }
 
-TEST_CASE("A placeholder that stands for nothing is a mistake of the file, other braces are text")
+TEST_CASE("An unknown placeholder is an error of the file, other braces are text")
 {
     using Row = std::pair<std::string, std::string>;
     const auto row = GENERATE(
@@ -222,7 +222,7 @@ TEST_CASE("The head of a scenario is checked as its steps are")
         != std::string::npos);
 }
 
-TEST_CASE("A scenario file that is none is told by name and line, and its plans lie where it says")
+TEST_CASE("An invalid scenario file is reported with name and line; plan files are relative to it")
 {
     const ACS::Testing::TemporaryFolder folder;
     const std::string path = (folder.GetPath() / "scenario.json").string();

@@ -42,7 +42,7 @@ std::string MakeReport(const std::string& status, const std::string& planID = "P
         + planID + R"(","status":")" + status + R"(","message":""}})";
 }
 
-/// A scenario and the time that it lives in.
+/// A scenario and its clock.
 struct RunnerFixture
 {
     ACS::Testing::ManualClock clock;
@@ -92,34 +92,34 @@ struct RunnerFixture
 
 TEST_CASE("A scenario sends its plan as soon as an ACS is registered")
 {
-    RunnerFixture bench(SEND + R"({"expect":"PlanReport"})", false);
-    CHECK(bench.GetAll<SendPlannedPlan>().empty());
-    CHECK(bench.GetAll<StartScenarioTimer>().back().delay == 10s);
+    RunnerFixture fixture(SEND + R"({"expect":"PlanReport"})", false);
+    CHECK(fixture.GetAll<SendPlannedPlan>().empty());
+    CHECK(fixture.GetAll<StartScenarioTimer>().back().delay == 10s);
     SECTION("in time")
     {
-        bench.clock.Advance(9s);
-        bench.runner.OnRegistered(bench.clock.GetNow(), bench.out);
-        REQUIRE(bench.GetAll<SendPlannedPlan>().size() == 1);
-        CHECK(bench.GetAll<SendPlannedPlan>()[0].planned == ACS::Testing::MakeSamplePlan("P", "T"));
-        CHECK_FALSE(bench.runner.IsFinished());
+        fixture.clock.Advance(9s);
+        fixture.runner.OnRegistered(fixture.clock.GetNow(), fixture.out);
+        REQUIRE(fixture.GetAll<SendPlannedPlan>().size() == 1);
+        CHECK(fixture.GetAll<SendPlannedPlan>()[0].planned == ACS::Testing::MakeSamplePlan("P", "T"));
+        CHECK_FALSE(fixture.runner.IsFinished());
     }
     SECTION("too late")
     {
-        bench.Pass(10s);
-        CHECK(bench.runner.IsFinished());
-        CHECK(bench.GetVerdict(1).reason == "no ACS has registered within 10s");
-        CHECK(bench.GetVerdict(2).verdict == EVerdict::NotReached);
-        CHECK_FALSE(bench.runner.HasHeld());
+        fixture.Pass(10s);
+        CHECK(fixture.runner.IsFinished());
+        CHECK(fixture.GetVerdict(1).reason == "no ACS has registered within 10s");
+        CHECK(fixture.GetVerdict(2).verdict == EVerdict::NotReached);
+        CHECK_FALSE(fixture.runner.HasHeld());
     }
 }
 
-TEST_CASE("A plan goes with fresh ids as often as asked, and is spoken of by its name")
+TEST_CASE("A plan is sent with fresh ids the requested number of times, and is addressed by its name")
 {
-    RunnerFixture bench(
+    RunnerFixture fixture(
         R"({"send":"ExecutionPlan","file":"p","as":"A","times":3},{"cancel":"A"},
            {"send":"RequestAcsPlanHistory","payload":{"planIds":["{A}","{A.transactionId}","{A.2.1}","{A.1.carrier.1}"]}},
            {"sendAgain":"A"},{"sendAgain":"A","freshTransaction":true},{"sendText":"{A} { {} { A } {\"A\"}"})");
-    const std::vector<SendPlannedPlan> plans = bench.GetAll<SendPlannedPlan>();
+    const std::vector<SendPlannedPlan> plans = fixture.GetAll<SendPlannedPlan>();
     REQUIRE(plans.size() == 5);
     CHECK(plans[0].planned.plan.planID != plans[1].planned.plan.planID);
     const PlannedPlan& last = plans[2].planned;
@@ -127,7 +127,7 @@ TEST_CASE("A plan goes with fresh ids as often as asked, and is spoken of by its
     CHECK(plans[3].planned == last);
     CHECK(plans[4].planned.plan == last.plan);
     CHECK(plans[4].planned.transactionID != last.transactionID);
-    const std::vector<SendPayload> requests = bench.GetAll<SendPayload>();
+    const std::vector<SendPayload> requests = fixture.GetAll<SendPayload>();
     REQUIRE(requests.size() == 2);
     CHECK(std::get<ACS::Protocol::CancelPlan>(requests[0].payload).planID == last.plan.planID);
     CHECK(
@@ -137,100 +137,101 @@ TEST_CASE("A plan goes with fresh ids as often as asked, and is spoken of by its
             last.transactionID,
             last.plan.steps[0].jobs[0].jobID,
             last.plan.steps[1].carrierIDs[0]});
-    CHECK(bench.GetAll<SendRawText>().at(0).text == last.plan.planID + R"( { {} { A } {"A"})");
-    CHECK(bench.runner.HasHeld());
+    CHECK(fixture.GetAll<SendRawText>().at(0).text == last.plan.planID + R"( { {} { A } {"A"})");
+    CHECK(fixture.runner.HasHeld());
 }
 
-TEST_CASE("An expectation is held by the first message that matches, within its time")
+TEST_CASE("An expectation is fulfilled by the first message that matches, within its time limit")
 {
-    RunnerFixture bench(
+    RunnerFixture fixture(
         SEND + R"({"expect":"PlanReport","payload":{"planId":"{A}","status":"InProgress"},"within":"5s"})");
-    bench.Receive(MakeReport("InProgress", "other"));
-    CHECK_FALSE(bench.runner.IsFinished());
+    fixture.Receive(MakeReport("InProgress", "other"));
+    CHECK_FALSE(fixture.runner.IsFinished());
     SECTION("held")
     {
-        bench.clock.Advance(2s);
-        bench.Receive(MakeReport("InProgress"));
-        CHECK(bench.runner.HasHeld());
-        CHECK(bench.GetVerdict(2).duration == 2s);
-        CHECK(bench.GetAll<PrintLine>().back().text == "step 2 expect PlanReport planId={A}, status=InProgress: held");
+        fixture.clock.Advance(2s);
+        fixture.Receive(MakeReport("InProgress"));
+        CHECK(fixture.runner.HasHeld());
+        CHECK(fixture.GetVerdict(2).duration == 2s);
+        CHECK(
+            fixture.GetAll<PrintLine>().back().text == "step 2 expect PlanReport planId={A}, status=InProgress: held");
     }
     SECTION("failed with the last message that nearly matched")
     {
-        bench.Receive(MakeReport("Failed"));
-        bench.Pass(5s);
-        CHECK(bench.runner.IsFinished());
+        fixture.Receive(MakeReport("Failed"));
+        fixture.Pass(5s);
+        CHECK(fixture.runner.IsFinished());
         CHECK(
-            bench.GetVerdict(2).reason
+            fixture.GetVerdict(2).reason
             == R"(2 PlanReport came within 5s, none that matches; the last: payload.status: expected "InProgress", found "Failed")");
     }
 }
 
-TEST_CASE("An expectation for which nothing comes fails when its time is over, not before")
+TEST_CASE("An expectation without a message fails when its time limit is over, not before")
 {
-    RunnerFixture bench(R"({"expect":"TscStateUpdate","within":"5s"},{"wait":"1s"})");
-    bench.Receive(MakeReport("InProgress"));
-    bench.Pass(4'999ms);
-    CHECK_FALSE(bench.runner.IsFinished());
-    bench.Pass(1ms);
-    CHECK(bench.runner.IsFinished());
-    CHECK(bench.GetVerdict(1).reason == "no TscStateUpdate came within 5s");
-    CHECK(bench.GetVerdict(2).verdict == EVerdict::NotReached);
+    RunnerFixture fixture(R"({"expect":"TscStateUpdate","within":"5s"},{"wait":"1s"})");
+    fixture.Receive(MakeReport("InProgress"));
+    fixture.Pass(4'999ms);
+    CHECK_FALSE(fixture.runner.IsFinished());
+    fixture.Pass(1ms);
+    CHECK(fixture.runner.IsFinished());
+    CHECK(fixture.GetVerdict(1).reason == "no TscStateUpdate came within 5s");
+    CHECK(fixture.GetVerdict(2).verdict == EVerdict::NotReached);
 }
 
-TEST_CASE("Expectations look at what came after the one before, also where it came during a wait")
+TEST_CASE("Expectations consider the messages after the previous one, those during a wait included")
 {
-    RunnerFixture bench(
+    RunnerFixture fixture(
         R"({"wait":"1s"},{"expect":"PlanReport","payload":{"status":"Paused"}},
            {"expect":"PlanReport","payload":{"status":"InProgress"},"within":"1s"})");
-    bench.Receive(MakeReport("InProgress"));
-    bench.Receive(MakeReport("Paused"));
-    bench.Pass(1s);
-    CHECK(bench.GetVerdict(2).verdict == EVerdict::Held);
-    bench.Pass(1s);
-    CHECK(bench.GetVerdict(3).verdict == EVerdict::Failed);
+    fixture.Receive(MakeReport("InProgress"));
+    fixture.Receive(MakeReport("Paused"));
+    fixture.Pass(1s);
+    CHECK(fixture.GetVerdict(2).verdict == EVerdict::Held);
+    fixture.Pass(1s);
+    CHECK(fixture.GetVerdict(3).verdict == EVerdict::Failed);
 }
 
-TEST_CASE("What came before an action does not answer it")
+TEST_CASE("A message before an action does not fulfil an expectation after it")
 {
-    RunnerFixture bench(R"({"wait":"1s"},{"send":"RequestAcsPlans"},{"expect":"PlanReport","within":"1s"})");
-    bench.Receive(MakeReport("InProgress"));
-    bench.Pass(1s);
-    bench.Pass(1s);
-    CHECK(bench.GetVerdict(3).verdict == EVerdict::Failed);
+    RunnerFixture fixture(R"({"wait":"1s"},{"send":"RequestAcsPlans"},{"expect":"PlanReport","within":"1s"})");
+    fixture.Receive(MakeReport("InProgress"));
+    fixture.Pass(1s);
+    fixture.Pass(1s);
+    CHECK(fixture.GetVerdict(3).verdict == EVerdict::Failed);
 }
 
-TEST_CASE("Where nothing is expected, what comes fails at once, and what came before does too")
+TEST_CASE("Where no message is expected, one fails the scenario at once, also an earlier one")
 {
     const std::string steps =
         R"({"expect":"TscStateUpdate"},{"expectNothing":"PlanReport","payload":{"status":"Failed"},"for":"2s"})";
     const std::string tsc =
         R"({"command":"TscStateUpdate","transactionId":"t","timestamp":"2025-07-02T21:00:00Z","payload":{"state":"Auto"}})";
-    RunnerFixture bench(steps);
-    bench.Receive(MakeReport("Failed"));
-    bench.Receive(tsc);
-    bench.Receive(MakeReport("Completed"));
+    RunnerFixture fixture(steps);
+    fixture.Receive(MakeReport("Failed"));
+    fixture.Receive(tsc);
+    fixture.Receive(MakeReport("Completed"));
     SECTION("nothing came")
     {
-        bench.Pass(1'999ms);
-        CHECK_FALSE(bench.runner.IsFinished());
-        bench.Pass(1ms);
-        CHECK(bench.runner.HasHeld());
+        fixture.Pass(1'999ms);
+        CHECK_FALSE(fixture.runner.IsFinished());
+        fixture.Pass(1ms);
+        CHECK(fixture.runner.HasHeld());
     }
     SECTION("it came")
     {
-        bench.Receive(MakeReport("Failed"));
-        CHECK(bench.runner.IsFinished());
-        CHECK(bench.GetVerdict(2).reason == "it came: " + MakeReport("Failed"));
+        fixture.Receive(MakeReport("Failed"));
+        CHECK(fixture.runner.IsFinished());
+        CHECK(fixture.GetVerdict(2).reason == "it came: " + MakeReport("Failed"));
     }
 }
 
 TEST_CASE("An expectation may follow one of nothing and see the same messages")
 {
-    RunnerFixture bench(R"({"expectNothing":"StepReport","for":"2s"},{"expect":"PlanReport","within":"1s"})");
-    bench.Receive(MakeReport("Failed"));
-    bench.Pass(2s);
-    CHECK(bench.runner.HasHeld());
+    RunnerFixture fixture(R"({"expectNothing":"StepReport","for":"2s"},{"expect":"PlanReport","within":"1s"})");
+    fixture.Receive(MakeReport("Failed"));
+    fixture.Pass(2s);
+    CHECK(fixture.runner.HasHeld());
 }
 
 TEST_CASE(
@@ -239,47 +240,47 @@ TEST_CASE(
     const std::string tsc = ACS::Testing::MakeText("TscStateUpdate", "t1", R"({"state":"Auto"})");
     const std::string comm = ACS::Testing::MakeText("AcsCommStateUpdate", "t2", R"({"isConnected":true})");
     const std::string position = ACS::Testing::MakeText("RobotPositionUpdate", "t3", R"({"robots":[]})");
-    RunnerFixture bench(
+    RunnerFixture fixture(
         R"({"expectNext":"TscStateUpdate","besides":"RobotPositionUpdate","within":"5s"},
            {"expectNext":[{"command":"PlanReport","payload":{"planId":"1"}},
                           {"command":"PlanReport","payload":{"planId":"2"}}],"within":"5s"})");
     SECTION("in any order within the group")
     {
-        bench.Receive(position);
-        bench.Receive(tsc);
-        bench.Receive(MakeReport("InProgress", "2"));
-        CHECK_FALSE(bench.runner.IsFinished());
-        bench.Receive(MakeReport("InProgress", "1"));
-        CHECK(bench.runner.HasHeld());
+        fixture.Receive(position);
+        fixture.Receive(tsc);
+        fixture.Receive(MakeReport("InProgress", "2"));
+        CHECK_FALSE(fixture.runner.IsFinished());
+        fixture.Receive(MakeReport("InProgress", "1"));
+        CHECK(fixture.runner.HasHeld());
     }
     SECTION("another command")
     {
-        bench.Receive(comm);
-        CHECK(bench.GetVerdict(1).reason.find("AcsCommStateUpdate came before TscStateUpdate: ") == 0);
+        fixture.Receive(comm);
+        CHECK(fixture.GetVerdict(1).reason.find("AcsCommStateUpdate came before TscStateUpdate: ") == 0);
     }
     SECTION("one of the group twice")
     {
-        bench.Receive(tsc);
-        bench.Receive(MakeReport("InProgress", "2"));
-        bench.Receive(MakeReport("InProgress", "2"));
-        CHECK(bench.GetVerdict(2).reason == R"(payload.planId: expected "1", found "2")");
+        fixture.Receive(tsc);
+        fixture.Receive(MakeReport("InProgress", "2"));
+        fixture.Receive(MakeReport("InProgress", "2"));
+        CHECK(fixture.GetVerdict(2).reason == R"(payload.planId: expected "1", found "2")");
     }
     SECTION("what may come between here may not there")
     {
-        bench.Receive(tsc);
-        bench.Receive(position);
-        CHECK(bench.GetVerdict(2).verdict == EVerdict::Failed);
+        fixture.Receive(tsc);
+        fixture.Receive(position);
+        CHECK(fixture.GetVerdict(2).verdict == EVerdict::Failed);
     }
     SECTION("nothing in time")
     {
-        bench.Receive(tsc);
-        bench.Receive(MakeReport("InProgress", "1"));
-        bench.Pass(5s);
-        CHECK(bench.GetVerdict(2).reason == "no PlanReport came within 5s");
+        fixture.Receive(tsc);
+        fixture.Receive(MakeReport("InProgress", "1"));
+        fixture.Pass(5s);
+        CHECK(fixture.GetVerdict(2).reason == "no PlanReport came within 5s");
     }
 }
 
-TEST_CASE("A message is remembered by its name, and what is sent again is told from what is new")
+TEST_CASE("A message is stored under its name, and a repeated message is distinguished from a new one")
 {
     const auto make = [](const std::string& transactionID) {
         return ACS::Testing::MakeText(
@@ -287,101 +288,101 @@ TEST_CASE("A message is remembered by its name, and what is sent again is told f
             transactionID,
             R"({"planId":"P","status":"InProgress","message":""})");
     };
-    RunnerFixture bench(
+    RunnerFixture fixture(
         R"({"expect":"PlanReport","as":"S"},
            {"expect":"PlanReport","repeated":true,"transactionId":"{S.transactionId}","timestamp":"{S.timestamp}"},
            {"expectNothing":"*","repeated":true,"for":"5s"})");
-    bench.Receive(make("t1"));
-    bench.Receive(make("t2"));
-    CHECK(bench.GetVerdict(2).verdict == EVerdict::NotReached);
-    bench.Receive(make("t1"));
-    CHECK(bench.GetVerdict(2).verdict == EVerdict::Held);
-    bench.Receive(make("t3"));
+    fixture.Receive(make("t1"));
+    fixture.Receive(make("t2"));
+    CHECK(fixture.GetVerdict(2).verdict == EVerdict::NotReached);
+    fixture.Receive(make("t1"));
+    CHECK(fixture.GetVerdict(2).verdict == EVerdict::Held);
+    fixture.Receive(make("t3"));
     SECTION("nothing more comes again")
     {
-        bench.Pass(5s);
-        CHECK(bench.runner.HasHeld());
+        fixture.Pass(5s);
+        CHECK(fixture.runner.HasHeld());
     }
     SECTION("another one comes again")
     {
-        bench.Receive(make("t2"));
-        CHECK(bench.GetVerdict(3).reason == "it came: " + make("t2"));
+        fixture.Receive(make("t2"));
+        CHECK(fixture.GetVerdict(3).reason == "it came: " + make("t2"));
     }
 }
 
-TEST_CASE("A plan is waited for until its last report says so, or can never say so")
+TEST_CASE("A plan is waited for until its final report, or until none can come")
 {
-    RunnerFixture bench(SEND + R"({"waitFor":"A","status":"Completed","within":"20s"})");
-    bench.Receive(MakeReport("Completed", "other"));
-    bench.Receive(MakeReport("InProgress"));
-    CHECK_FALSE(bench.runner.IsFinished());
-    SECTION("it says so")
+    RunnerFixture fixture(SEND + R"({"waitFor":"A","status":"Completed","within":"20s"})");
+    fixture.Receive(MakeReport("Completed", "other"));
+    fixture.Receive(MakeReport("InProgress"));
+    CHECK_FALSE(fixture.runner.IsFinished());
+    SECTION("the report has come")
     {
-        bench.Receive(MakeReport("Completed"));
-        CHECK(bench.runner.HasHeld());
+        fixture.Receive(MakeReport("Completed"));
+        CHECK(fixture.runner.HasHeld());
     }
     SECTION("it cannot any more")
     {
-        bench.Receive(MakeReport("Aborted"));
-        CHECK(bench.GetVerdict(2).reason == "the plan is Aborted");
+        fixture.Receive(MakeReport("Aborted"));
+        CHECK(fixture.GetVerdict(2).reason == "the plan is Aborted");
     }
     SECTION("it did not in time")
     {
-        bench.Pass(20s);
-        CHECK(bench.GetVerdict(2).reason == "after 20s the plan is InProgress");
+        fixture.Pass(20s);
+        CHECK(fixture.GetVerdict(2).reason == "after 20s the plan is InProgress");
     }
 }
 
-TEST_CASE("Faults go out as they stand in the file, and a drop waits for the next registration")
+TEST_CASE("Faults are executed as in the file, and a drop waits for the next registration")
 {
-    RunnerFixture bench(
+    RunnerFixture fixture(
         R"({"withholdAcks":"PlanReport","for":"6s"},{"delayAcks":"*","by":"1s","for":"2s"},
            {"refuseRegistration":2},{"drop":"cut"},{"send":"SyncConfig"})");
-    CHECK(bench.GetAll<HoldAcksStep>().size() == 2);
-    CHECK(bench.GetAll<RefuseRegistrationStep>().at(0).times == 2);
-    CHECK(bench.GetAll<DropStep>().size() == 1);
-    CHECK(bench.GetAll<SendPayload>().empty());
-    bench.runner.OnLinkLost();
-    bench.runner.OnRegistered(bench.clock.GetNow(), bench.out);
-    CHECK(bench.GetAll<SendPayload>().size() == 1);
-    CHECK(bench.runner.HasHeld());
+    CHECK(fixture.GetAll<HoldAcksStep>().size() == 2);
+    CHECK(fixture.GetAll<RefuseRegistrationStep>().at(0).times == 2);
+    CHECK(fixture.GetAll<DropStep>().size() == 1);
+    CHECK(fixture.GetAll<SendPayload>().empty());
+    fixture.runner.OnLinkLost();
+    fixture.runner.OnRegistered(fixture.clock.GetNow(), fixture.out);
+    CHECK(fixture.GetAll<SendPayload>().size() == 1);
+    CHECK(fixture.runner.HasHeld());
 }
 
-TEST_CASE("Somebody is asked for something once an ACS is there, and what came before does not answer it")
+TEST_CASE("The operator is asked after an ACS has registered, and earlier messages do not fulfil the request")
 {
-    RunnerFixture bench(R"({"drop":"cut"},{"ask":"open the door"},{"expect":"ErrorReport"})");
-    bench.runner.OnLinkLost();
-    const auto count = [&bench] {
-        const auto lines = bench.GetAll<PrintLine>();
+    RunnerFixture fixture(R"({"drop":"cut"},{"ask":"open the door"},{"expect":"ErrorReport"})");
+    fixture.runner.OnLinkLost();
+    const auto count = [&fixture] {
+        const auto lines = fixture.GetAll<PrintLine>();
         return std::count(lines.begin(), lines.end(), PrintLine{"asked for: open the door"});
     };
     CHECK(count() == 0);
-    bench.runner.OnRegistered(bench.clock.GetNow(), bench.out);
+    fixture.runner.OnRegistered(fixture.clock.GetNow(), fixture.out);
     CHECK(count() == 1);
-    CHECK_FALSE(bench.runner.IsFinished());
-    bench.Receive(R"({"command":"ErrorReport"})");
-    CHECK(bench.runner.HasHeld());
+    CHECK_FALSE(fixture.runner.IsFinished());
+    fixture.Receive(R"({"command":"ErrorReport"})");
+    CHECK(fixture.runner.HasHeld());
 }
 
 TEST_CASE("A message that could not be sent fails the scenario")
 {
-    RunnerFixture bench(SEND + R"({"expect":"PlanReport"})");
-    bench.runner.OnSendFailed(bench.clock.GetNow(), bench.out);
-    CHECK(bench.runner.IsFinished());
-    CHECK(bench.GetVerdict(2).reason == "a message could not be sent: the link had just gone");
+    RunnerFixture fixture(SEND + R"({"expect":"PlanReport"})");
+    fixture.runner.OnSendFailed(fixture.clock.GetNow(), fixture.out);
+    CHECK(fixture.runner.IsFinished());
+    CHECK(fixture.GetVerdict(2).reason == "a message could not be sent: the link had just gone");
 }
 
 TEST_CASE("Messages that no expectation names are not kept, those that one names are kept up to a limit")
 {
-    RunnerFixture bench(R"({"wait":"1s"},{"expect":"PlanReport","payload":{"planId":"first"},"within":"1s"})");
-    bench.Receive(MakeReport("InProgress", "first"));
+    RunnerFixture fixture(R"({"wait":"1s"},{"expect":"PlanReport","payload":{"planId":"first"},"within":"1s"})");
+    fixture.Receive(MakeReport("InProgress", "first"));
     for (std::size_t i = 0; i < ScenarioRunner::MAX_KEPT; ++i)
     {
-        bench.Receive(MakeReport("InProgress"));
+        fixture.Receive(MakeReport("InProgress"));
     }
-    bench.Pass(1s);
-    bench.Pass(1s);
-    CHECK(bench.GetVerdict(2).verdict == EVerdict::Failed);
+    fixture.Pass(1s);
+    fixture.Pass(1s);
+    CHECK(fixture.GetVerdict(2).verdict == EVerdict::Failed);
 }
 
 TEST_CASE("Scenarios follow one another, the faults of one end with it, and the table has every verdict")

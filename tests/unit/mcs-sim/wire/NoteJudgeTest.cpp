@@ -8,7 +8,8 @@ using namespace ACS::McsSim; // NOLINT(google-build-using-namespace)
 using ACS::Protocol::EProtocolNote;
 using ACS::Protocol::ProtocolNoted;
 
-TEST_CASE("R1, R2, 6.1 What breaks a rule is a violation each time, what the document is loose about is told once")
+TEST_CASE(
+    "R1, R2, 6.1 A broken rule is a violation each time; a deviation that the document tolerates is reported once")
 {
     NoteJudge judge;
     const auto fault = GENERATE(
@@ -25,20 +26,20 @@ TEST_CASE("R1, R2, 6.1 What breaks a rule is a violation each time, what the doc
         CHECK(verdict->bViolation);
         CHECK(verdict->text == "ACS " + std::string(GetMeaning(fault)) + ": Dance");
     }
-    const auto habit = GENERATE(
+    const auto tolerated = GENERATE(
         EProtocolNote::UnknownMember,
         EProtocolNote::NullOptional,
         EProtocolNote::LenientWord,
         EProtocolNote::LenientNumber);
-    const auto first = judge.JudgeOrNull({habit, 3, ""});
+    const auto first = judge.JudgeOrNull({tolerated, 3, ""});
     REQUIRE(first.has_value());
     CHECK_FALSE(first->bViolation);
-    CHECK_FALSE(judge.JudgeOrNull({habit, 1, ""}).has_value());
-    CHECK(judge.GetCounts()[static_cast<std::size_t>(habit)] == 4);
+    CHECK_FALSE(judge.JudgeOrNull({tolerated, 1, ""}).has_value());
+    CHECK(judge.GetCounts()[static_cast<std::size_t>(tolerated)] == 4);
     CHECK(judge.GetCounts()[static_cast<std::size_t>(fault)] == 2);
 }
 
-TEST_CASE("What only an ACS notes, and what the public MCS does not know, is nobody's fault here")
+TEST_CASE("Notes that only an ACS makes, and what the public MCS does not know, are not violations")
 {
     NoteJudge judge;
     CHECK_FALSE(judge.JudgeOrNull({EProtocolNote::AckFailed, 1, "no"}).has_value());

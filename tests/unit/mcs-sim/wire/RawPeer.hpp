@@ -14,7 +14,7 @@
 namespace ACS::Testing
 {
 
-/// A WebSocket client that says one text after the other, whatever is answered, and stays.
+/// A WebSocket client that sends one text after the other, whatever the answers, and stays connected.
 class RawPeer
 {
     using Tcp = boost::asio::ip::tcp;

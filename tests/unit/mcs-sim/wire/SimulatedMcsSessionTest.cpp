@@ -1,10 +1,10 @@
 #include "wire/SimulatedMcsSession.hpp"
 
+#include "ActionRecorder.hpp"
 #include "Catch.hpp"
 #include "Fixture.hpp"
 #include "ManualClock.hpp"
 #include "SeededRandom.hpp"
-#include "SessionProbe.hpp"
 #include <acs/protocol/AcsCodec.hpp>
 
 #include <chrono>
@@ -31,7 +31,7 @@ class SimulatedMcsFixture
 public:
     Testing::ManualClock clock;
     Testing::SeededRandom random;
-    Testing::SessionProbe probe;
+    Testing::ActionRecorder probe;
     std::optional<std::chrono::milliseconds> delay; ///< The last one requested.
     McsSim::SimulatedMcsSession session;
 

@@ -28,7 +28,7 @@ TEST_CASE("A line of the trace has time, direction, connection and the message a
         == R"({"time":"2025-07-02T21:00:00.123+09:00","direction":"in","connection":3,"message":{"a": "\u002B", "a":1}})");
 }
 
-TEST_CASE("What is no JSON is a string in the trace, and a message with line ends stays on one line")
+TEST_CASE("Invalid JSON is a string in the trace, and a message with line ends stays on one line")
 {
     const std::string head = R"({"time":"2025-07-02T12:00:00.123+00:00","direction":"out","connection":1,"message":)";
     CHECK(MakeTraceLine(NOON, 0min, EWireDirection::Out, 1, "{\"a\" \n") == head + R"("{\"a\" \n"})");
@@ -36,7 +36,7 @@ TEST_CASE("What is no JSON is a string in the trace, and a message with line end
     CHECK(MakeTraceLine(NOON, 0min, EWireDirection::Out, 1, "\xEF\xBB\xBF{}") == head + "\"\xEF\xBB\xBF{}\"}");
 }
 
-TEST_CASE("A trace replaces the file that was there, and a place that cannot be written is told")
+TEST_CASE("A trace replaces an existing file, and a path that is not writable is reported")
 {
     const ACS::Testing::TemporaryFolder folder;
     const ACS::Testing::ManualClock clock;
@@ -57,7 +57,7 @@ TEST_CASE("A trace replaces the file that was there, and a place that cannot be 
     CHECK(refused.error().find("Is a directory") != std::string::npos);
 }
 
-TEST_CASE("A trace says that it is incomplete when its disk is full")
+TEST_CASE("A trace states that it is incomplete when its disk is full")
 {
     const ACS::Testing::ManualClock clock;
     const auto trace = TraceFile::Create("/dev/full", clock, std::chrono::minutes(0), ACS::Core::Logger());

@@ -20,7 +20,7 @@ std::string MakeAck(const std::string& result)
 
 } // namespace
 
-TEST_CASE("Only the registered ACS speaks to a scenario, and whoever registers")
+TEST_CASE("Only messages of the registered ACS, and Registrations, reach a scenario")
 {
     const std::string report = MakeText("TscStateUpdate", "T", R"({"state":"Auto"})");
     const std::string registration = MakeText("Registration", "T", "{}");

@@ -18,7 +18,7 @@ namespace
 
 constexpr int TICKS = 1000;
 
-/// A session whose service writes each sample into the room of the last one, and whose socket takes everything.
+/// A session whose service writes each sample into the memory of the last one, and whose socket sends everything.
 class BareServer
 {
     ACS::Testing::ManualClock _clock;
@@ -96,7 +96,7 @@ void Stream(BareServer& server)
 
 } // namespace
 
-TEST_CASE("The probe sees a text that outgrows its room")
+TEST_CASE("The probe counts a text that outgrows its memory")
 {
     const std::uint64_t blocks = HeapProbe::GetBlockCount();
     const std::string text(1000, 'x');
@@ -104,7 +104,7 @@ TEST_CASE("The probe sees a text that outgrows its room")
     CHECK(HeapProbe::GetBlockCount() == blocks + 1);
 }
 
-TEST_CASE("8 A tick of the MONITOR takes nothing from the heap")
+TEST_CASE("8 A tick of the MONITOR allocates nothing")
 {
     BareServer server;
     Stream(server);
@@ -123,7 +123,7 @@ TEST_CASE("8 A tick of the MONITOR takes nothing from the heap")
     CHECK(server.bytes - bytes > 100U * TICKS);
 }
 
-TEST_CASE("8 7.26 A tick for a reader that is too slow takes nothing from the heap either")
+TEST_CASE("8 7.26 A tick for a reader that is too slow allocates nothing either")
 {
     BareServer server;
     Stream(server);

@@ -24,7 +24,7 @@ void ReportBattery(EngineParts& parts, double percent, bool bCharging)
 
 } // namespace
 
-TEST_CASE("ChargingControl: a low battery makes the charging station the home until it is full enough")
+TEST_CASE("ChargingControl: with a low battery the charging station is the parking position until the resume level")
 {
     EngineParts parts(MakeChargingOptions());
     parts.PutOn(parts.lr, "D-CHG01");

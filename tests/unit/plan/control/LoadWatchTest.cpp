@@ -90,7 +90,7 @@ TEST_CASE("LoadWatch: further differences are reported once in an interval")
     CHECK(parts.Collect().ListReports<ErrorReport>().empty());
 }
 
-TEST_CASE("LoadWatch: loads are no evidence at the ports of an open job, nor of a doubtful robot")
+TEST_CASE("LoadWatch: loads are no evidence at the ports of an open job, nor for a robot with unstored work")
 {
     EngineParts parts;
     SECTION("an open job fills the port")

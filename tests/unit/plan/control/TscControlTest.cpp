@@ -68,7 +68,7 @@ TEST_CASE("TscControl: a pause survives a restart, and a start may begin with on
         CHECK(parts.tsc.GetState() == ETscState::Paused);
         CHECK(parts.Collect().ListChanges<TscChanged>() == std::vector{TscChanged{ETscState::Paused}});
     }
-    SECTION("the option pauses, and running plans come to their end")
+    SECTION("the option pauses, and running plans are completed")
     {
         options.bTscStartsPaused = true;
         EngineParts parts(options);

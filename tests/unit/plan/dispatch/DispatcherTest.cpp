@@ -45,7 +45,7 @@ TEST_CASE("Dispatcher: the nearest of the free robots gets the plan")
     CHECK(parts.dispatcher.FindNearestOrNull(plan) == nullptr);
 }
 
-TEST_CASE("Dispatcher: a robot that is known to have the carrier comes before a nearer one")
+TEST_CASE("Dispatcher: a robot that has the carrier on record is preferred to a nearer one")
 {
     EngineParts parts(MakeTestOptions(true));
     Plan plan = MakeLogisticsPlan("P1");

@@ -30,7 +30,7 @@ TEST_CASE("PortCheck: a port that is taken is not loaded, unless the options all
     CHECK(check.JudgePorts(plan, parts.lr).unavailabilityOrNull.has_value() != options.dispatch.bLoadsIntoTakenPorts);
 }
 
-TEST_CASE("PortCheck: the carrier of an unload must be there, or may be where no robot has it")
+TEST_CASE("PortCheck: a robot can unload a carrier that its port has on record, or that no robot has")
 {
     EngineParts parts(MakeTestOptions(true));
     const PortCheck check(parts.engine);

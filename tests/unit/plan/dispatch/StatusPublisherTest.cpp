@@ -59,7 +59,7 @@ TEST_CASE("StatusPublisher: a robot with a plan drives out of a station, along l
     CHECK(derive() == ERobotStatus::Working);
 }
 
-TEST_CASE("StatusPublisher: a status is published where it may have changed and has")
+TEST_CASE("StatusPublisher: only a status that has changed is published")
 {
     EngineParts parts;
     parts.PutOn(parts.lr, "D-CHG01");

@@ -29,7 +29,7 @@ TEST_CASE("WaitReasons: queued plans have a position and a reason for each robot
     CHECK(taken->message != reasons[0].message);
 }
 
-TEST_CASE("WaitReasons: what holds all plans back comes before what holds one back")
+TEST_CASE("WaitReasons: a reason that affects all plans precedes one that affects one plan")
 {
     EngineParts parts;
     parts.AddLoad();

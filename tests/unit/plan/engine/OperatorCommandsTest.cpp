@@ -33,7 +33,7 @@ bool IsReplyAccepted(const CallOutcome& outcome)
 
 } // namespace
 
-TEST_CASE("OperatorCommands: maintenance is stored where it changes")
+TEST_CASE("OperatorCommands: a changed maintenance state is stored")
 {
     OperatorParts parts;
     parts.lr.place.possibleNodes = {parts.FindNode("L03")};
@@ -142,7 +142,7 @@ TEST_CASE("OperatorCommands: the outcome of a known job is the robot's to report
     CHECK(plan.record.progress.state == EPlanState::Failed);
 }
 
-TEST_CASE("OperatorCommands: a step is skipped that is pending or whose job is unresolved")
+TEST_CASE("OperatorCommands: a pending step and a step with an unresolved job can be skipped")
 {
     OperatorParts parts;
     SECTION("no robot has the plan")

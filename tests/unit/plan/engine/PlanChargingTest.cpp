@@ -16,7 +16,7 @@ namespace
 
 using namespace std::chrono_literals;
 
-/// LR01 charges on CHG03, away from its home.
+/// LR01 charges on CHG03, not its parking position.
 PlanWorld MakeChargingWorld(const std::string& station = "CHG03")
 {
     return MakeWorld([&station](EngineOptions& options) { options.robots.front().chargingStationID = station; });
@@ -25,7 +25,7 @@ PlanWorld MakeChargingWorld(const std::string& station = "CHG03")
 void SetBattery(PlanWorld& world, double percent)
 {
     world.GetRobot("LR01").battery = percent;
-    world.TellState("LR01");
+    world.PublishState("LR01");
 }
 
 ERobotStatus GetStatus(const PlanWorld& world)
@@ -35,8 +35,7 @@ ERobotStatus GetStatus(const PlanWorld& world)
 
 } // namespace
 
-TEST_CASE(
-    "robot.battery_floor: a robot under it takes no plan, drives to its charger and comes back at the resume level")
+TEST_CASE("robot.battery_floor: below it a robot accepts no plan, charges and is used again at the resume level")
 {
     PlanWorld world = MakeChargingWorld();
     world.Connect();
@@ -59,7 +58,7 @@ TEST_CASE(
     CHECK(world.GetRobot("LR01").GetOccupied() == std::vector<std::string>{"D-CHG01"});
 }
 
-TEST_CASE("robot.battery_floor: a plan that was begun is done before the robot charges")
+TEST_CASE("robot.battery_floor: a plan in progress is completed before the robot charges")
 {
     PlanWorld world = MakeChargingWorld();
     world.Connect();
@@ -71,7 +70,7 @@ TEST_CASE("robot.battery_floor: a plan that was begun is done before the robot c
     CHECK(GetStatus(world) == ERobotStatus::Charging);
 }
 
-TEST_CASE("A robot whose home is its charger charges there below the resume level, and leaves for a plan at once")
+TEST_CASE("A robot whose parking position is its charger charges there below the resume level, and leaves for a plan")
 {
     PlanWorld world = MakeChargingWorld("CHG01");
     world.Connect();
@@ -84,7 +83,7 @@ TEST_CASE("A robot whose home is its charger charges there below the resume leve
     CHECK(FindLine(world, "command LR01 StopCharging", 0) < FindLine(world, "command LR01 Drive to D-A01.CP01", 0));
 }
 
-TEST_CASE("A robot that does not charge where it should is told again, and its alarm goes when it does")
+TEST_CASE("A robot that does not charge at its charger is commanded again; the alarm is cleared when it charges")
 {
     PlanWorld world = MakeChargingWorld();
     world.GetRobot("LR01").bIgnoresCharging = true;
@@ -99,7 +98,7 @@ TEST_CASE("A robot that does not charge where it should is told again, and its a
     CHECK(GetStatus(world) == ERobotStatus::Charging);
 }
 
-TEST_CASE("A robot without a charging station is used whatever its battery says")
+TEST_CASE("A robot without a charging station is used at any battery level")
 {
     PlanWorld world;
     world.Connect();
@@ -110,16 +109,16 @@ TEST_CASE("A robot without a charging station is used whatever its battery says"
     CHECK(world.GetRobot("LR01").chargesAsked == 0);
 }
 
-TEST_CASE("A charging station is one robot's alone, and the levels are in order")
+TEST_CASE("Options with a shared charging station or with battery levels out of order are rejected")
 {
     EngineOptions options = MakeTestOptions(true);
     options.robots[0].chargingStationID = "CHG01";
     options.robots[2].chargingStationID = "CHG01";
     options.robots[1].chargingStationID = "NOWHERE";
     options.dispatch.batteryFloor = 90;
-    const std::vector<ACS::Core::Error> mistakes = FindErrors(options, MakeTestSite());
-    REQUIRE(mistakes.size() == 3);
-    CHECK(mistakes[0].path == "robots.CR01.charge");
-    CHECK(mistakes[1].path == "robots.LR02.charge");
-    CHECK(mistakes[2].path == "robot.battery_floor");
+    const std::vector<ACS::Core::Error> errors = FindErrors(options, MakeTestSite());
+    REQUIRE(errors.size() == 3);
+    CHECK(errors[0].path == "robots.CR01.charge");
+    CHECK(errors[1].path == "robots.LR02.charge");
+    CHECK(errors[2].path == "robot.battery_floor");
 }

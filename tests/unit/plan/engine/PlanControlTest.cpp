@@ -17,7 +17,7 @@ using ACS::Testing::PlanWorld;
 using ACS::Testing::TryRunFor;
 using ACS::Testing::TryRunUntil;
 
-TEST_CASE("Controls that meet on one plan: the same one again shares the outcome, each has one result")
+TEST_CASE("Several controls of one plan: a repeated one shares the outcome, each has one result")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
@@ -103,7 +103,7 @@ TEST_CASE("R5, R6, 13.6 CancelPlan one event before the arrival succeeds, one ev
             CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
             continue;
         }
-        // What is asked before and confirmed before: the robot turns out to have stood still.
+        // Requested and confirmed before the arrival: the robot had not moved.
         world.Control(EPlanControl::Cancel, "P1");
         const std::string driveID = world.driveIDs.at("LR01");
         world.Raise("LR01", DriveCancelled{driveID, "L02"});
@@ -111,7 +111,7 @@ TEST_CASE("R5, R6, 13.6 CancelPlan one event before the arrival succeeds, one ev
     }
 }
 
-TEST_CASE("R6 A cancel that is overtaken by the arrival fails, and the plan goes on")
+TEST_CASE("R6 A cancel that is overtaken by the arrival fails, and the plan continues")
 {
     PlanWorld world;
     world.Connect();
@@ -142,7 +142,7 @@ TEST_CASE("D-14 cancel.until dispatch: a plan that a robot has is not cancelled"
     CHECK(world.GetReportsOf("P2").back() == "Plan Completed");
 }
 
-TEST_CASE("D-14 cancel.until first_job: a robot that has arrived and has not begun to work can be called back")
+TEST_CASE("D-14 cancel.until first_job: a plan is cancelled after the arrival until its first job begins")
 {
     PlanWorld world = MakeWorld([](EngineOptions& options) { options.controls.cancelUntil = ECancelWindow::FirstJob; });
     BeginPlan(world, MakeControlPlan("P1"), "Step 1 InProgress");
@@ -168,7 +168,7 @@ TEST_CASE("D-14 cancel.until first_job: a robot that has arrived and has not beg
     }
 }
 
-TEST_CASE("9 cancel.confirm_timeout: a robot that does not confirm makes the cancel fail, and the plan goes on")
+TEST_CASE("9 cancel.confirm_timeout: a cancel that the robot does not confirm fails, and the plan continues")
 {
     PlanWorld world =
         MakeWorld([](EngineOptions& options) { options.controls.cancelTimeout = std::chrono::milliseconds(900); });
@@ -182,7 +182,7 @@ TEST_CASE("9 cancel.confirm_timeout: a robot that does not confirm makes the can
     FinishPlan(world);
 }
 
-TEST_CASE("9 A paused plan whose cancel is not confirmed stays paused, and its robot is told to pause again")
+TEST_CASE("9 A paused plan whose cancel is not confirmed stays paused, and its robot is commanded to pause again")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
@@ -191,7 +191,7 @@ TEST_CASE("9 A paused plan whose cancel is not confirmed stays paused, and its r
     world.GetRobot("LR01").bIgnoresPause = true;
     const std::size_t line = world.trace.size();
     world.Control(EPlanControl::Cancel, "P1");
-    // It may have to drive on to the next node before it can stop for good.
+    // The robot may have to drive to the next node before it stops.
     CHECK(FindLine(world, "command LR01 CancelDrive", line) < FindLine(world, "command LR01 Resume", line));
     CHECK(FindLine(world, "command LR01 Resume", line) < world.trace.size());
     REQUIRE(TryRunUntil(world, "P1", "CancelResult Failed"));
@@ -199,7 +199,7 @@ TEST_CASE("9 A paused plan whose cancel is not confirmed stays paused, and its r
     CHECK(FindLine(world, "command LR01 Pause", line) < world.trace.size());
 }
 
-TEST_CASE("R7, 13.7 AbortPlan during job 2 of 5: exactly its end, the plan's and the result")
+TEST_CASE("R7, 13.7 AbortPlan during job 2 of 5: the end of the job, the end of the plan and the result are reported")
 {
     PlanWorld world;
     world.Connect();
@@ -236,7 +236,7 @@ TEST_CASE("D-15 abort.running_job stop: the job is dropped and the plan aborted 
     CHECK(world.GetRobot("LR01").GetOccupied() == Lines{"D-CHG01"});
 }
 
-TEST_CASE("D-17 A job that fails during an abort fails step and plan, and the abort; or just itself, by the key")
+TEST_CASE("D-17 A job that fails during an abort fails step, plan and abort, or by option only the job")
 {
     for (const bool bFails : {true, false})
     {
@@ -256,26 +256,28 @@ TEST_CASE("D-17 A job that fails during an abort fails step and plan, and the ab
     }
 }
 
-TEST_CASE("D-18 abort.report_step: the step that ends with the last job of an aborted plan is told, or not")
+TEST_CASE("D-18 abort.report_step decides whether the step that ends with the last job of an aborted plan is reported")
 {
-    for (const bool bTold : {false, true})
+    for (const bool bReported : {false, true})
     {
-        PlanWorld world = MakeWorld([bTold](EngineOptions& options) { options.controls.bAbortReportsStep = bTold; });
+        PlanWorld world =
+            MakeWorld([bReported](EngineOptions& options) { options.controls.bAbortReportsStep = bReported; });
         world.Connect();
         world.Submit(MakeLogisticsPlan("P1"));
         REQUIRE(TryRunUntil(world, "P1", "Job 1 P1-a4 InProgress"));
         world.Control(EPlanControl::Abort, "P1");
         REQUIRE(world.TryRun());
-        CHECK(Contains(world.GetReportsOf("P1"), "Step 1 Completed") == bTold);
+        CHECK(Contains(world.GetReportsOf("P1"), "Step 1 Completed") == bReported);
         CHECK(world.GetReportsOf("P1").back() == "AbortResult Success");
     }
 }
 
-TEST_CASE("D-19, D-20 Controls of unknown and of finished plans have one result that says why, by the key")
+TEST_CASE("D-19, D-20 Controls of unknown and of finished plans have one result with the reason, by option")
 {
-    for (const bool bTold : {true, false})
+    for (const bool bReported : {true, false})
     {
-        PlanWorld world = MakeWorld([bTold](EngineOptions& options) { options.controls.bResultAfterRefusal = bTold; });
+        PlanWorld world =
+            MakeWorld([bReported](EngineOptions& options) { options.controls.bResultAfterRefusal = bReported; });
         world.Connect();
         world.Submit(MakeLogisticsPlan("P1"));
         REQUIRE(world.TryRun());
@@ -290,7 +292,7 @@ TEST_CASE("D-19, D-20 Controls of unknown and of finished plans have one result 
             CHECK(world.replies.at(2).bAccepted);
             finished.push_back(std::string(GetText(control)) + "Result Failed");
         }
-        CHECK(world.GetReportsOf("P9") == (bTold ? finished : Lines{}));
+        CHECK(world.GetReportsOf("P9") == (bReported ? finished : Lines{}));
         CHECK(GetReportsAfter(world, "P1", before) == finished);
     }
 }

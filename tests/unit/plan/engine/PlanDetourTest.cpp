@@ -46,7 +46,7 @@ EngineOptions MakeOptions()
     return options;
 }
 
-void TellOfCr(PlanWorld& world, bool bInTheWay)
+void PublishCr(PlanWorld& world, bool bInTheWay)
 {
     StateChanged state;
     state.lastNodeID = bInTheWay ? "L02" : "D-CHG02";
@@ -59,20 +59,20 @@ std::size_t CountCancelled(const PlanWorld& world)
     return world.GetTraceOf("command LR01 CancelDrive").size();
 }
 
-/// LR01 waits on L01, as somebody has put CR01 on L02, and is told to give its way up for the one around it.
+/// LR01 waits on L01 because CR01 was put on L02, and is commanded to reroute around it.
 void BeginDetour(PlanWorld& world, bool bHears)
 {
     world.Connect();
     world.GetRobot("LR01").bIgnoresDriveCancel = !bHears;
     world.Submit(MakeLogisticsPlan("P1"));
     REQUIRE(TryRunUntil(world, "P1", "Step 1 Dispatched"));
-    TellOfCr(world, true);
+    PublishCr(world, true);
     REQUIRE(world.TryRun([&world] { return CountCancelled(world) == 1; }));
 }
 
 } // namespace
 
-TEST_CASE("Traffic: a vehicle that waits for one that cannot move takes another way")
+TEST_CASE("Traffic: a vehicle that waits for one that cannot move is rerouted")
 {
     PlanWorld world(1, MakeOptions(), MakeSite());
     BeginDetour(world, true);
@@ -80,8 +80,7 @@ TEST_CASE("Traffic: a vehicle that waits for one that cannot move takes another 
     CHECK(world.GetRobot("LR01").drives == 4);
 }
 
-TEST_CASE(
-    "Traffic: a vehicle that does not give its way up for another one goes on when it is free, also after a pause")
+TEST_CASE("Traffic: a vehicle that rejects a reroute continues when its route is free, also after a pause")
 {
     enum class EBetween
     {
@@ -106,7 +105,7 @@ TEST_CASE(
         world.store.bFails = false;
     }
     static_cast<void>(TryRunFor(world, MakeOptions().controls.cancelTimeout));
-    TellOfCr(world, false);
+    PublishCr(world, false);
     FinishPlan(world);
-    CHECK(world.GetRobot("LR01").drives == 3); // for its steps, and home
+    CHECK(world.GetRobot("LR01").drives == 3); // for its steps, and to its parking position
 }

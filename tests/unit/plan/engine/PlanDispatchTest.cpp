@@ -49,7 +49,7 @@ std::string GetReason(const PlanWorld& world, const std::string& planID, const s
 
 } // namespace
 
-TEST_CASE("Carrier continuity: an unload goes to the robot that has the carrier, however far it is")
+TEST_CASE("Carrier continuity: an unload is assigned to the robot that has the carrier, not to a nearer one")
 {
     for (const std::string owner : {"LR01", "LR02"})
     {
@@ -64,7 +64,7 @@ TEST_CASE("Carrier continuity: an unload goes to the robot that has the carrier,
     }
 }
 
-TEST_CASE("Carrier continuity: what one plan loads, the next one unloads, over a restart of the engine too")
+TEST_CASE("Carrier continuity: the carrier that one plan loads is unloaded by the next, also after a restart")
 {
     PlanWorld world(1, true);
     world.Connect();
@@ -79,7 +79,7 @@ TEST_CASE("Carrier continuity: what one plan loads, the next one unloads, over a
     CHECK(world.engine->GetActiveAlarms().empty());
 }
 
-TEST_CASE("Carrier continuity: a carrier that is elsewhere is waited for, and the answer says where it is")
+TEST_CASE("Carrier continuity: a plan whose carrier is elsewhere waits, and the wait reason names the place")
 {
     PlanWorld world(1, true);
     world.Connect();
@@ -91,12 +91,12 @@ TEST_CASE("Carrier continuity: a carrier that is elsewhere is waited for, and th
     CHECK(GetReason(world, "P2", "LR01") == "LR01.CP01 holds CASSETTE_07, not CASSETTE_08");
     SetCarrier(world, "LR01", std::nullopt);
     REQUIRE(world.TryRun());
-    // Nobody is known to have it any more: it may have been put on by hand.
+    // No robot is known to have it any more: it may have been loaded by hand.
     CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
     CHECK(world.GetReportsOf("P2").back() == "Plan Completed");
 }
 
-TEST_CASE("Carrier continuity: a carrier of which nothing is known is looked for first where something unknown is")
+TEST_CASE("Carrier continuity: a carrier that is not on record is unloaded first where an unknown carrier is")
 {
     PlanWorld world(1, true);
     world.Connect();
@@ -106,7 +106,7 @@ TEST_CASE("Carrier continuity: a carrier of which nothing is known is looked for
     CHECK(GetRobotOf(world, "P1") == "LR02");
 }
 
-TEST_CASE("An unload of another carrier than the one on record is told, and so long as nobody knows it is not")
+TEST_CASE("An unload of another carrier than the one on record is reported, unless the record has an unknown carrier")
 {
     for (const std::string known : {"CASSETTE_99", "UNKNOWN"})
     {
@@ -128,7 +128,7 @@ TEST_CASE("An unload of another carrier than the one on record is told, and so l
     }
 }
 
-TEST_CASE("A load into a port that is taken goes to another robot, or waits, unless the option says to try")
+TEST_CASE("A load into a port that is taken is assigned to another robot or waits, unless the option allows it")
 {
     for (const bool bTries : {false, true})
     {
@@ -159,7 +159,7 @@ TEST_CASE("A load into a port that is taken goes to another robot, or waits, unl
     CHECK(GetRobotOf(world, "P1") == "LR02");
 }
 
-TEST_CASE("A plan that unloads a port before it loads it is no load into a taken port")
+TEST_CASE("A plan that unloads a port before it loads it may find the port taken")
 {
     PlanWorld world;
     world.Connect();
@@ -174,7 +174,7 @@ TEST_CASE("A plan that unloads a port before it loads it is no load into a taken
     CHECK(world.engine->GetRobotStatuses().front().carrierIDs.front() == "CASSETTE_08");
 }
 
-TEST_CASE("Why does it wait: the place in the queue, and for each robot that could do it what keeps it")
+TEST_CASE("Wait reason: the position in the queue, and for each suitable robot why it is not used")
 {
     PlanWorld world(1, true);
     world.Submit(MakeLogisticsPlan("P1"));
@@ -198,7 +198,7 @@ TEST_CASE("Why does it wait: the place in the queue, and for each robot that cou
     CHECK_FALSE(world.engine->GetWaitReasonOrNull("P9").has_value());
 }
 
-TEST_CASE("Why does it wait: a plan that is held or paused, and one whose robot cannot go on")
+TEST_CASE("Wait reason: a plan that is held or paused, and one whose robot cannot continue")
 {
     PlanWorld world;
     world.Connect();
@@ -212,7 +212,7 @@ TEST_CASE("Why does it wait: a plan that is held or paused, and one whose robot 
     CHECK(world.engine->GetWaitReasonOrNull("P1")->message == "LR01: no connection.");
 }
 
-TEST_CASE("5.9 The position while a robot drives: the last station, the one it drives to, or none")
+TEST_CASE("5.9 The position while a robot drives is the last station, the next station or none, by option")
 {
     for (const EMovingPosition moving : {EMovingPosition::Last, EMovingPosition::Target, EMovingPosition::None})
     {
@@ -229,7 +229,7 @@ TEST_CASE("5.9 The position while a robot drives: the last station, the one it d
     }
 }
 
-TEST_CASE("A robot that loses its drive while it moves keeps the nodes ahead until it is known where it stands")
+TEST_CASE("A robot that loses its drive while it moves keeps the nodes ahead until its position is known")
 {
     PlanWorld world;
     ACS::Testing::BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");

@@ -11,7 +11,7 @@ namespace
 
 using namespace Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 
-/// The host with an engine, and a disk that answers when the test says so.
+/// The host with an engine, and a disk that answers when the test lets it.
 class HostTest
 {
 protected:
@@ -54,7 +54,7 @@ protected:
         _host.Push(SubmitPlan{MakeLogisticsPlan(planID), token});
     }
 
-    /// The disk answers as long as something is to be stored; false where that has no end.
+    /// The disk answers until nothing is left to store; false: that does not end.
     [[nodiscard]] bool TryStoreAll()
     {
         constexpr int MANY = 100;
@@ -98,7 +98,7 @@ const Core::Error DISK_FULL{make_error_code(EPlanningError::StoreFailed), "acsd.
 
 TEST_CASE_METHOD(
     HostTest,
-    "4.1 Plans that come while the disk works share the next commit, and each has its own Ack behind it")
+    "4.1 Plans that arrive while the disk works share the next commit, and each is acknowledged after it")
 {
     Submit("P1", 1);
     REQUIRE(_batches.size() == 1);
@@ -119,7 +119,7 @@ TEST_CASE_METHOD(
 
 TEST_CASE_METHOD(
     HostTest,
-    "4.1 A burst that cannot be stored is refused as a whole, with the reason, and nothing of it is left")
+    "4.1 Plans that arrive together and cannot be stored are all refused with the reason, and none is kept")
 {
     Submit("P0", 10);
     Submit("P1", 1);
@@ -138,10 +138,10 @@ TEST_CASE_METHOD(
 
 TEST_CASE_METHOD(
     HostTest,
-    "A store that is lost without a write is told by the alarm, refuses plans, and is tried until it is back")
+    "A store that is lost without a write raises an alarm, refuses plans and is retried until it works")
 {
     Submit("P0", 10);
-    _host.OnStoreLost(DISK_FULL); // a batch is on its way, and fails by itself where it is so
+    _host.OnStoreLost(DISK_FULL); // A batch that is being written fails by itself if the store is lost.
     CHECK(_engine.GetActiveAlarms().empty());
     _host.OnStored({});
     const std::size_t stored = _batches.size();
@@ -169,7 +169,7 @@ TEST_CASE_METHOD(
     CHECK(ListReplies() == Replies{{10, true}, {1, false}, {2, true}});
 }
 
-TEST_CASE_METHOD(HostTest, "What comes between two plans keeps its place")
+TEST_CASE_METHOD(HostTest, "An input between two plans is handled between them")
 {
     Submit("P1", 1);
     Submit("P2", 2);
@@ -189,7 +189,7 @@ TEST_CASE_METHOD(HostTest, "What comes between two plans keeps its place")
 
 TEST_CASE_METHOD(
     HostTest,
-    "A job whose robot goes away while its command waits for the disk is sent once more when the robot is back, no sooner")
+    "A job whose robot disconnects while its command waits for the disk is sent once, after the reconnect")
 {
     StateChanged state;
     state.lastNodeID = "D-A01.CP01"; // where the plan begins
@@ -209,7 +209,7 @@ TEST_CASE_METHOD(
     _host.Push(RobotInput{"LR01", LinkChanged{false}});
     REQUIRE(TryStoreAll());
     REQUIRE(_jobs.size() == 1);
-    _host.Push(RobotInput{"LR01", JobUnknown{"P1-a4"}}); // as the adapter says, which had not sent it
+    _host.Push(RobotInput{"LR01", JobUnknown{"P1-a4"}}); // The adapter reports this because it had not sent the job.
     REQUIRE(TryStoreAll());
     CHECK(_jobs.size() == 1);
     CHECK(_engine.GetPlanOrNull("P1")->state == EPlanState::InProgress);
@@ -223,7 +223,7 @@ TEST_CASE_METHOD(
 
 TEST_CASE_METHOD(
     HostTest,
-    "While the disk hangs a robot's states that differ in pose and battery only are one; all else keeps its place")
+    "While the disk hangs, states of a robot that differ only in pose and battery are merged; the order is kept")
 {
     StateChanged state;
     state.lastNodeID = "D-CHG01";
@@ -239,7 +239,7 @@ TEST_CASE_METHOD(
         _host.Push(RobotInput{"CR01", state}); // another robot's between them
     }
     CHECK(_host.GetWaitingCount() == 2);
-    state.errors.push_back({"AGV-x", EAlarmLevel::Light, "which goes again"});
+    state.errors.push_back({"AGV-x", EAlarmLevel::Light, "temporary"});
     _host.Push(RobotInput{"LR01", state});
     state.errors.clear();
     _host.Push(RobotInput{"LR01", state});
@@ -247,7 +247,7 @@ TEST_CASE_METHOD(
     _host.Push(RobotInput{"LR01", LinkChanged{false}});
     _host.Push(RobotInput{"LR01", LinkChanged{true}});
     state.x = 7;
-    _host.Push(RobotInput{"LR01", state}); // behind the new link
+    _host.Push(RobotInput{"LR01", state}); // After the new connection.
     CHECK(_host.GetWaitingCount() == 7);
     while (_host.IsStoring())
     {
@@ -259,7 +259,7 @@ TEST_CASE_METHOD(
 
 TEST_CASE_METHOD(
     HostTest,
-    "4.1, R1 A loop that is closed still tells what stands behind the batch on its way, and refuses what comes")
+    "4.1, R1 A closed loop still sends what waits for the batch that is being written, and refuses new requests")
 {
     Submit("P1", 1);
     Submit("P2", 2);

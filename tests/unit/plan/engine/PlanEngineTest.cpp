@@ -72,7 +72,7 @@ TEST_CASE("6.4 The control plan of the document completes with all its jobs")
     CHECK(world.engine->GetActiveAlarms().empty());
 }
 
-TEST_CASE("Both plans of the document dock at A01.CP01: one after the other, never both")
+TEST_CASE("Both plans of the document dock at A01.CP01 one after the other")
 {
     PlanWorld world;
     world.Connect();
@@ -84,7 +84,7 @@ TEST_CASE("Both plans of the document dock at A01.CP01: one after the other, nev
     CHECK(world.GetReportsOf("P2").back() == "Plan Completed");
 }
 
-TEST_CASE("Two robots that wait for each other's place are parted by one going home first")
+TEST_CASE("Of two robots that wait for each other's place one drives to its parking position first")
 {
     PlanWorld world;
     const auto makeShuttle =
@@ -110,7 +110,7 @@ TEST_CASE("Two robots that wait for each other's place are parted by one going h
     CHECK(std::ranges::count_if(drives, [](const std::string& drive) { return drive.starts_with("D-CHG02"); }) == 2);
 }
 
-TEST_CASE("Robots that stand on the lane and keep each other from home are parted by one going to a free place")
+TEST_CASE("Of two robots on the lane that block each other's parking position one drives to a free place")
 {
     EngineOptions options = MakeTestOptions(true);
     options.robots[0].startNodeID = "L05";
@@ -134,7 +134,7 @@ TEST_CASE("Robots that stand on the lane and keep each other from home are parte
     }
 }
 
-TEST_CASE("A robot without work goes home at once, and is out of the way when one with a plan comes")
+TEST_CASE("A robot without work drives to its parking position at once and clears the route of robots with a plan")
 {
     for (std::uint64_t seed = 1; seed <= 20; ++seed)
     {
@@ -162,7 +162,7 @@ TEST_CASE("A robot without work goes home at once, and is out of the way when on
     }
 }
 
-TEST_CASE("A robot without work that stands in the way of one with a plan goes home at once")
+TEST_CASE("A robot without work that blocks one with a plan drives to its parking position at once")
 {
     PlanWorld world;
     world.Connect();
@@ -178,7 +178,7 @@ TEST_CASE("A robot without work that stands in the way of one with a plan goes h
     CHECK(world.GetReportsOf("P2").back() == "Plan Completed");
 }
 
-TEST_CASE("5.9, 6.5 Work waits for a robot that arrives while a part of it is out of reach; the arrival is told once")
+TEST_CASE("5.9, 6.5 A robot that arrives while disconnected works after the reconnect; the arrival is reported once")
 {
     PlanWorld world;
     BeginPlan(world, MakeControlPlan("P1"), "Step 1 InProgress");
@@ -200,7 +200,8 @@ TEST_CASE("VDA5050: every drive has a base and is extended before the robot reac
     world.Connect();
     world.Submit(MakeLogisticsPlan("P1"));
     REQUIRE(world.TryRun());
-    world.Submit(MakeControlPlan("P2")); // alone, too: who waits for another robot stands at the end of its base
+    // Alone: a robot that waits for another one reaches the end of its base.
+    world.Submit(MakeControlPlan("P2"));
     REQUIRE(world.TryRun());
     for (const std::string robotID : {"LR01", "CR01"})
     {
@@ -211,7 +212,7 @@ TEST_CASE("VDA5050: every drive has a base and is extended before the robot reac
     CHECK(Contains(world.trace, "command LR01 Drive to D-A01.CP01 released 3 of 5"));
 }
 
-TEST_CASE("4.1 A plan is stored before its reply leaves and every report in the batch before it")
+TEST_CASE("4.1 A plan is stored before its reply is sent, and a report is stored before it is sent")
 {
     PlanWorld world;
     world.Connect();
@@ -227,7 +228,7 @@ TEST_CASE("4.1 A plan is stored before its reply leaves and every report in the 
     CHECK(world.store.GetState().plans.front().progress.state == EPlanState::Completed);
 }
 
-TEST_CASE("A store that fails refuses new plans with a reason while running ones go on, and is told by an alarm")
+TEST_CASE("A store that fails raises an alarm and refuses new plans with a reason, while running ones continue")
 {
     PlanWorld world;
     world.Connect();
@@ -254,7 +255,7 @@ TEST_CASE("A store that fails refuses new plans with a reason while running ones
     CHECK(world.replies.at(3).bAccepted);
 }
 
-TEST_CASE("Every n-th store may fail: the plan completes, reports stay in order and none is lost")
+TEST_CASE("When every n-th store fails, the plan completes, reports stay in order and none is lost")
 {
     for (std::size_t nth = 1; nth < 40; ++nth)
     {
@@ -282,7 +283,7 @@ TEST_CASE("Every n-th store may fail: the plan completes, reports stay in order 
     }
 }
 
-TEST_CASE("6.14 A failed job fails its step and its plan at once, and the rest is silence")
+TEST_CASE("6.14 A failed job fails its step and its plan at once, and nothing else is reported")
 {
     PlanWorld world;
     world.Connect();
@@ -298,7 +299,7 @@ TEST_CASE("6.14 A failed job fails its step and its plan at once, and the rest i
     CHECK(world.GetRobot("CR01").GetOccupied() == Lines{"D-CHG02"});
 }
 
-TEST_CASE("6.5 A pending plan and one before its first arrival are cancelled, a later one goes on")
+TEST_CASE("6.5 A plan is cancelled while it is pending and before its first arrival; after that it continues")
 {
     PlanWorld world;
     world.Submit(MakeLogisticsPlan("P1"));
@@ -329,7 +330,7 @@ TEST_CASE("6.5 A pending plan and one before its first arrival are cancelled, a 
     CHECK(world.GetReportsOf("P3").back() == "Plan Completed");
 }
 
-TEST_CASE("6.6 Abort lets the running job end: its report, the plan's and the result, nothing else")
+TEST_CASE("6.6 Abort lets the running job end: the job, the plan and the result are reported, nothing else")
 {
     PlanWorld world;
     BeginPlan(world, MakeControlPlan("P1"), "Job 2 P1-f3 InProgress");
@@ -342,7 +343,7 @@ TEST_CASE("6.6 Abort lets the running job end: its report, the plan's and the re
         == Lines{"Job 2 P1-f3 Completed", "Plan Aborted", "AbortResult Success"});
 }
 
-TEST_CASE("6.5 to 6.8 What cannot be done is answered by a result report that says why")
+TEST_CASE("6.5 to 6.8 A control that cannot be carried out has a result report with the reason")
 {
     PlanWorld world;
     world.Connect();
@@ -360,7 +361,7 @@ TEST_CASE("6.5 to 6.8 What cannot be done is answered by a result report that sa
     CHECK(world.GetReportsOf("P1").back() == "CancelResult Failed");
 }
 
-TEST_CASE("5.9 Carriers stand at their port's place; where a taken port may be loaded that is told")
+TEST_CASE("5.9 Carriers are listed at the index of their port; a load into a taken port is reported if it is allowed")
 {
     EngineOptions options = ACS::Testing::MakeTestOptions(false);
     options.dispatch.bLoadsIntoTakenPorts = true;
@@ -383,7 +384,7 @@ TEST_CASE("5.9 Carriers stand at their port's place; where a taken port may be l
         == std::vector<std::optional<std::string>>{std::nullopt, "TRAY_02", std::nullopt});
 }
 
-TEST_CASE("Higher priority goes first, equal priorities in the order of acceptance")
+TEST_CASE("Plans of a higher priority begin first, equal priorities in the order of acceptance")
 {
     PlanWorld world;
     Plan low = MakeLogisticsPlan("P1");
@@ -414,7 +415,7 @@ TEST_CASE("Higher priority goes first, equal priorities in the order of acceptan
     CHECK(ends == Lines{"P3", "P4", "P1", "P2"});
 }
 
-TEST_CASE("A robot is not used before it has told a place on the map, and a lost one shows as Disconnected")
+TEST_CASE("A robot is used after it has reported a place on the map; a lost one is Disconnected")
 {
     PlanWorld world;
     world.Submit(MakeLogisticsPlan("P1"));
@@ -435,7 +436,7 @@ TEST_CASE("A robot is not used before it has told a place on the map, and a lost
     FinishPlan(world);
 }
 
-TEST_CASE("5.8 A robot's error is reported when it comes and when it goes, and a heavy one keeps work away")
+TEST_CASE("5.8 The error of a robot is reported when it is set and when it is cleared; a heavy one keeps work away")
 {
     PlanWorld world;
     world.Connect();
@@ -465,7 +466,7 @@ TEST_CASE("A job that takes longer than its limit has failed")
     CHECK(Contains(world.trace, "command LR01 CancelJob"));
 }
 
-TEST_CASE("A robot whose job took too long neither drives nor works before the job has come to its end")
+TEST_CASE("A robot whose job exceeded its limit neither drives nor works before the job has ended")
 {
     EngineOptions options = MakeTestOptions(false);
     options.actions.at("CassetteLoad").timeout = std::chrono::milliseconds(1);
@@ -488,7 +489,7 @@ TEST_CASE("A robot whose job took too long neither drives nor works before the j
     CHECK(world.GetReportsOf("P2").back() == "Plan Completed");
 }
 
-TEST_CASE("5.8 After a restart alarms that nobody else can clear are cleared")
+TEST_CASE("5.8 After a restart alarms that no other input can clear are cleared")
 {
     PlanWorld world;
     world.bAcknowledges = false;
@@ -518,7 +519,7 @@ TEST_CASE("5.8 After a restart alarms that nobody else can clear are cleared")
     CHECK(world.engine->GetActiveAlarms().empty());
 }
 
-TEST_CASE("After a restart what does not fit the site any more fails with an alarm, and reports are kept for replay")
+TEST_CASE("After a restart plans that no longer fit the site fail with an alarm, and reports are kept for replay")
 {
     PlanWorld world;
     world.bAcknowledges = false;

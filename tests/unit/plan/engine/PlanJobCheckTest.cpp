@@ -16,7 +16,7 @@ using ACS::Testing::TryRunUntil;
 namespace
 {
 
-/// Rejects what the function finds something against.
+/// Rejects the jobs for which the function returns a reason.
 class FakeJobCheck final : public IJobCheck
 {
     std::function<std::string(const StartJob&)> _describe;
@@ -44,7 +44,7 @@ std::string RejectUnloads(const StartJob& job)
     return job.action == "CassetteUnload" ? "no fork for CassetteUnload" : "";
 }
 
-/// A load and an unload, as the last job is checked as well as the first.
+/// A load and an unload: the last job is checked as well as the first.
 Plan MakePlan(const std::string& planID, const std::string& robotID, const std::string& place = "A01.CP01")
 {
     const std::string port = robotID + ".CP01";
@@ -63,7 +63,7 @@ std::string GetOwner(const PlanWorld& world, const std::string& planID)
 
 } // namespace
 
-TEST_CASE("A plan goes to a robot that can do all of its jobs, however far it is")
+TEST_CASE("A plan is assigned to a robot that can do all of its jobs, not to a nearer one")
 {
     for (const std::string able : {"LR01", "LR02"})
     {
@@ -102,7 +102,7 @@ TEST_CASE("A plan with a job that no robot can do waits with the reasons until o
     CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
 }
 
-TEST_CASE("A plan for one robot waits for that robot, although another one could do it")
+TEST_CASE("A plan that names a robot waits for it, although another one could do it")
 {
     PlanWorld world(1, true);
     world.Connect();
@@ -117,7 +117,7 @@ TEST_CASE("A plan for one robot waits for that robot, although another one could
     CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
 }
 
-TEST_CASE("The plan decides: a robot is given what it can do and not what it cannot")
+TEST_CASE("A robot is assigned the plans that it can do, and no other")
 {
     PlanWorld world;
     world.Connect();
@@ -131,7 +131,7 @@ TEST_CASE("The plan decides: a robot is given what it can do and not what it can
     CHECK(world.GetReportsOf("P2").back() == "Plan Completed");
 }
 
-TEST_CASE("Jobs are checked as the robot would be commanded")
+TEST_CASE("Jobs are checked with the same command that the robot would receive")
 {
     PlanWorld world;
     std::vector<StartJob> checked;
@@ -153,7 +153,7 @@ TEST_CASE("Jobs are checked as the robot would be commanded")
     CHECK(checked == commanded);
 }
 
-TEST_CASE("A step without jobs is checked as the job that its robot would be commanded")
+TEST_CASE("A step without jobs is checked as the command that its robot would receive")
 {
     PlanWorld world;
     world.Connect();
@@ -165,7 +165,7 @@ TEST_CASE("A step without jobs is checked as the job that its robot would be com
         == "No robot can execute the plan: CR01: OpenSetCover at A01.SET01.");
 }
 
-TEST_CASE("A plan that a robot has stays with it, whatever is learnt of the robot")
+TEST_CASE("A plan that a robot has stays with it, also when the robot's abilities change")
 {
     PlanWorld world(1, true);
     world.Connect();
@@ -178,7 +178,7 @@ TEST_CASE("A plan that a robot has stays with it, whatever is learnt of the robo
     CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
 }
 
-TEST_CASE("A plan that waits over a restart is checked anew")
+TEST_CASE("A waiting plan is checked again after a restart")
 {
     PlanWorld world;
     world.Connect();
@@ -195,7 +195,7 @@ TEST_CASE("A plan that waits over a restart is checked anew")
     CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
 }
 
-TEST_CASE("D-24 The first report of a plan that no robot can do says why")
+TEST_CASE("D-24 The first report of a plan that no robot can do has the reason")
 {
     PlanWorld world = MakeWorld([](EngineOptions& options) { options.bInitialPendingReported = true; });
     world.Connect();

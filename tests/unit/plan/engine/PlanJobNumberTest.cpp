@@ -25,7 +25,7 @@ RobotWorkChanged MakeWork(std::int32_t jobNumber)
     return work;
 }
 
-/// Of the first job after a start on a store in which the robot's last job had this one.
+/// The number of the first job after a start on a store that has this number for the robot's last job.
 std::int32_t GetNumberAfter(std::int32_t previous)
 {
     PlanWorld world;
@@ -38,7 +38,7 @@ std::int32_t GetNumberAfter(std::int32_t previous)
 
 } // namespace
 
-TEST_CASE("Each job of a robot has a number of its own, 1 to 2^31 - 1, which is stored with the command")
+TEST_CASE("Each job of a robot has its own number, 1 to 2^31 - 1, which is stored with the command")
 {
     for (std::uint64_t seed = 1; seed <= 20; ++seed)
     {
@@ -67,7 +67,7 @@ TEST_CASE("A job's number differs from that of the robot's previous job, also af
     CHECK(GetNumberAfter(drawn - 1) == drawn);
 }
 
-TEST_CASE("After a restart a job that is asked for has the number that it had")
+TEST_CASE("A job whose outcome is requested after a restart keeps its number")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
@@ -95,7 +95,7 @@ TEST_CASE("A job that the robot never had is sent again under its number")
     CHECK(jobs[2].jobNumber != jobs[1].jobNumber);
 }
 
-TEST_CASE("A job of an older version, which the robot never had, gets a number when it is sent again")
+TEST_CASE("A job of an older version that the robot never had gets a number when it is sent again")
 {
     PlanWorld world;
     world.GetRobot("LR01").bMissesJobs = true;
@@ -115,13 +115,13 @@ TEST_CASE("A job of an older version, which the robot never had, gets a number w
     CHECK(robot.commandedJobs[1].jobNumber > 0);
 }
 
-TEST_CASE("A job that the operator has done again has another number, as it is another command")
+TEST_CASE("A job that the operator has done again is another command and has another number")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
     world.GetRobot("LR01").unresolvedReason = "it was switched off";
     RestartEngine(world);
-    world.Settle("P1", "P1-a4", EJobResolution::Again);
+    world.ResolveJob("P1", "P1-a4", EJobResolution::Again);
     REQUIRE(world.TryRun());
     const std::vector<StartJob>& jobs = world.GetRobot("LR01").commandedJobs;
     REQUIRE(jobs.size() >= 2);

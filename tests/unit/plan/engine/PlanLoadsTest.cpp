@@ -21,11 +21,11 @@ namespace
 using Carriers = std::vector<std::optional<std::string>>;
 using Loads = std::vector<PortLoad>;
 
-/// LR01, whose sensors show this from now on.
+/// Sets what the sensors of LR01 show from now on.
 void Show(PlanWorld& world, bool bLoaded, const std::string& carrierID = {})
 {
     world.GetRobot("LR01").loads = Loads{{"LR01.CP01", bLoaded, carrierID}};
-    world.TellState("LR01");
+    world.PublishState("LR01");
 }
 
 void SetCarrier(PlanWorld& world, std::optional<std::string> carrierIDOrNull)
@@ -34,7 +34,7 @@ void SetCarrier(PlanWorld& world, std::optional<std::string> carrierIDOrNull)
     REQUIRE(world.replies.at(77).bAccepted);
 }
 
-/// What the alarm about reported loads says; empty where there is none.
+/// The text of the alarm about reported loads; empty: it is not set.
 std::string GetAlarm(const PlanWorld& world)
 {
     const std::vector<Alarm>& alarms = world.engine->GetActiveAlarms();
@@ -64,7 +64,7 @@ Plan MakeLoadPlan()
 
 } // namespace
 
-TEST_CASE("Reported loads replace the record, and a difference is an alarm until the expected carrier is shown again")
+TEST_CASE("Reported loads replace the record, and a difference is an alarm until the expected carrier is back")
 {
     PlanWorld world;
     world.Connect();
@@ -93,7 +93,7 @@ TEST_CASE("Reported loads replace the record, and a difference is an alarm until
             "Error ACS-1011 cleared"});
 }
 
-TEST_CASE("A robot that shows another carrier in each state sets the alarm at once, then updates it every 10 s at most")
+TEST_CASE("A robot that shows another carrier in each state sets the alarm at once and updates it at most every 10 s")
 {
     PlanWorld world;
     world.Connect();
@@ -119,7 +119,7 @@ TEST_CASE("A robot that shows another carrier in each state sets the alarm at on
         == std::vector<std::string>{"Error ACS-1011 set", "Error ACS-1011 cleared", "Error ACS-1011 set"});
 }
 
-TEST_CASE("A robot whose carrier appears and disappears clears the alarm at once and sets it again every 10 s at most")
+TEST_CASE("A carrier that appears and disappears clears the alarm at once and sets it again at most every 10 s")
 {
     PlanWorld world;
     world.Connect();
@@ -138,15 +138,14 @@ TEST_CASE("A robot whose carrier appears and disappears clears the alarm at once
     CHECK(world.GetReportsOf("-").size() == 3);
 }
 
-TEST_CASE(
-    "A carrier that a robot shows at two ports is evidence for neither: the record stays, the alarm names both ports")
+TEST_CASE("A carrier that a robot shows at two ports is evidence for neither: the record stays, the alarm names both")
 {
     PlanWorld world;
     world.Connect();
     world.Ask(SetCarriers{"CR01", {"TRAY_01", "TRAY_02", {}}, 1});
     const auto show = [&world](Loads loads) {
         world.GetRobot("CR01").loads = std::move(loads);
-        world.TellState("CR01");
+        world.PublishState("CR01");
     };
     const auto getMessages = [&world] {
         Carriers messages;
@@ -187,7 +186,7 @@ TEST_CASE("A loaded port without an id keeps the carrier on record, or has an un
     Show(world, true);
     CHECK(GetCarrierOrNull(world) == "CASSETTE_01");
     SetCarrier(world, "UNKNOWN");
-    Show(world, true, "CASSETTE_02"); // no difference: now it is known
+    Show(world, true, "CASSETTE_02"); // No difference: the unknown carrier has an id now.
     CHECK(GetCarrierOrNull(world) == "CASSETTE_02");
     CHECK(GetAlarm(world).empty());
     Show(world, true, std::string(MAXIMUM_ID_LENGTH + 1, 'C')); // ids that no carrier can have
@@ -205,18 +204,18 @@ TEST_CASE("A robot that reports no loads keeps its record, and so does a port th
     PlanWorld world;
     world.Connect();
     SetCarrier(world, "CASSETTE_01");
-    world.TellState("LR01");
+    world.PublishState("LR01");
     CHECK(GetCarrierOrNull(world) == "CASSETTE_01");
     world.GetRobot("LR01").loads = Loads{};
-    world.TellState("LR01");
+    world.PublishState("LR01");
     CHECK(GetCarrierOrNull(world) == "CASSETTE_01");
     world.GetRobot("LR01").loads = Loads{{"LR01.CP07", true, "CASSETTE_02"}};
-    world.TellState("LR01");
+    world.PublishState("LR01");
     CHECK(GetCarrierOrNull(world) == "CASSETTE_01");
     CHECK(GetAlarm(world).empty());
 }
 
-TEST_CASE("While a job loads or unloads a port what is shown there is no difference, before and after its end")
+TEST_CASE("While a job uses a port, loads reported there are no difference, also just before and after its end")
 {
     PlanWorld world;
     world.GetRobot("LR01").loads = Loads{{"LR01.CP01", false, {}}};
@@ -233,7 +232,7 @@ TEST_CASE("While a job loads or unloads a port what is shown there is no differe
     CHECK(world.engine->GetActiveAlarms().empty());
 }
 
-TEST_CASE("After a job its robot shows what it has: another carrier, or one though the job has failed")
+TEST_CASE("After a job the robot's loads are compared: another carrier, or a carrier although the job failed")
 {
     PlanWorld world;
     world.GetRobot("LR01").loads = Loads{{"LR01.CP01", false, {}}};
@@ -252,7 +251,7 @@ TEST_CASE("After a job its robot shows what it has: another carrier, or one thou
             fmt::format("LR01.CP01: expected {}, reported CASSETTE_09", bFails ? "no carrier" : "CASSETTE_01")));
 }
 
-TEST_CASE("A job at another place of the robot does not hide what is shown at a port")
+TEST_CASE("A job at one port of the robot does not hide a difference at another port")
 {
     PlanWorld world;
     world.Connect();
@@ -260,7 +259,7 @@ TEST_CASE("A job at another place of the robot does not hide what is shown at a 
     world.Submit({"P1", "", 1, {{1, "TrayUnload", "A01.CP01", {"TRAY_01"}, {{"J1", "AMR.TP01", "A01.CP01.TP01"}}}}});
     REQUIRE(TryRunUntil(world, "P1", "Job 1 J1 InProgress"));
     world.GetRobot("CR01").loads = Loads{{"CR01.TP01", false, {}}, {"CR01.TP02", false, {}}, {"CR01.TP03", false, {}}};
-    world.TellState("CR01");
+    world.PublishState("CR01");
     CHECK(world.engine->GetRobotStatuses()[1].carrierIDs == Carriers{"TRAY_01", {}, {}});
     REQUIRE(world.engine->GetActiveAlarms().size() == 1);
     CHECK(
@@ -270,7 +269,7 @@ TEST_CASE("A job at another place of the robot does not hide what is shown at a 
     CHECK(world.engine->GetRobotStatuses()[1].carrierIDs == Carriers{{}, {}, {}});
 }
 
-TEST_CASE("What is shown at the port of a running job is no evidence against another port either")
+TEST_CASE("Loads reported at the port of a running job are no evidence about another port")
 {
     PlanWorld world;
     world.Connect();
@@ -278,12 +277,12 @@ TEST_CASE("What is shown at the port of a running job is no evidence against ano
     world.Submit({"P1", "", 1, {{1, "TrayUnload", "A01.CP01", {"TRAY_01"}, {{"J1", "AMR.TP01", "A01.CP01.TP01"}}}}});
     REQUIRE(TryRunUntil(world, "P1", "Job 1 J1 InProgress"));
     world.GetRobot("CR01").loads = Loads{{"CR01.TP01", true, "TRAY_02"}, {"CR01.TP02", true, "TRAY_02"}};
-    world.TellState("CR01");
+    world.PublishState("CR01");
     CHECK(world.engine->GetActiveAlarms().empty());
     CHECK(world.engine->GetRobotStatuses()[1].carrierIDs == Carriers{"TRAY_01", "TRAY_02", {}});
 }
 
-TEST_CASE("A port whose job is unresolved is not compared before an operator has answered")
+TEST_CASE("A port whose job is unresolved is not compared before the operator resolves the job")
 {
     PlanWorld world;
     world.GetRobot("LR01").loads = Loads{{"LR01.CP01", false, {}}};
@@ -293,14 +292,13 @@ TEST_CASE("A port whose job is unresolved is not compared before an operator has
     RestartEngine(world);
     CHECK(GetAlarm(world).empty());
     CHECK(GetCarrierOrNull(world) == std::nullopt);
-    world.Settle("P1", "P1-a4", EJobResolution::Done);
+    world.ResolveJob("P1", "P1-a4", EJobResolution::Done);
     REQUIRE(world.TryRun());
     CHECK(GetCarrierOrNull(world) == "CASSETTE_01");
     CHECK(world.engine->GetActiveAlarms().empty());
 }
 
-TEST_CASE(
-    "The alarm about reported loads goes when an operator clears it, or with the next job at the port; a restart keeps it")
+TEST_CASE("The alarm about reported loads is cleared by the operator or the next job at the port; a restart keeps it")
 {
     PlanWorld world;
     world.Connect();
@@ -327,7 +325,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("What a robot shows is reported at once, and plans that waited for the carrier begin")
+TEST_CASE("Reported loads are published at once, and plans that waited for the carrier begin")
 {
     PlanWorld world;
     world.Connect();

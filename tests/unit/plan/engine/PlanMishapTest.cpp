@@ -40,7 +40,7 @@ std::optional<EAlarmLevel> GetAlarmOrNull(const PlanWorld& world, std::string_vi
     return std::nullopt;
 }
 
-/// The plan's load takes longer than it may, and goes on.
+/// The load of the plan exceeds its limit and continues.
 void LetLoadRunOver(PlanWorld& world)
 {
     world.GetRobot("LR01").bIgnoresJobCancel = true;
@@ -59,7 +59,7 @@ PlanWorld MakeDroppingWorld(std::chrono::milliseconds jobEndTimeout)
 
 } // namespace
 
-TEST_CASE("A plan that comes when the store has worked for one batch only is not begun before it is stored")
+TEST_CASE("A plan that arrives after the store worked for one batch only is not begun before it is stored")
 {
     PlanWorld world;
     world.bAcknowledges = false;
@@ -73,7 +73,7 @@ TEST_CASE("A plan that comes when the store has worked for one batch only is not
     world.Submit(MakeLogisticsPlan("P2"), 2);
     CHECK_FALSE(world.replies.at(2).bAccepted);
     CHECK(world.GetTraceOf("command LR01 ").empty());
-    world.TellState("LR01");
+    world.PublishState("LR01");
     world.store.bFails = false;
     REQUIRE(world.TryRun());
     CHECK(world.GetReportsOf("P2").empty());
@@ -82,7 +82,7 @@ TEST_CASE("A plan that comes when the store has worked for one batch only is not
     CHECK(world.GetReportsOf("P3").back() == "Plan Completed");
 }
 
-TEST_CASE("D-23 A repetition of a plan that runs is accepted though a plan beside it could not be stored")
+TEST_CASE("D-23 A repeated plan that runs is accepted although another plan of the batch could not be stored")
 {
     PlanWorld world;
     world.Connect();
@@ -111,7 +111,7 @@ TEST_CASE("D-23 A repetition of a plan that runs is accepted though a plan besid
     CHECK(accepted == std::map<ReplyToken, bool>{{2, true}, {3, false}});
 }
 
-TEST_CASE("A store that fails is tried again after a while and with new plans, not with everything that happens")
+TEST_CASE("A failing store is retried after a delay and with new plans, not with every input")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
@@ -121,7 +121,7 @@ TEST_CASE("A store that fails is tried again after a while and with new plans, n
     for (std::size_t i = 0; i < 20; ++i)
     {
         world.GetRobot("CR01").battery = static_cast<double>(30 + i);
-        world.TellState("CR01");
+        world.PublishState("CR01");
         world.Ask(SetCarriers{"CR01", {"TRAY_" + std::to_string(i), std::nullopt, std::nullopt}, 0});
     }
     CHECK(world.store.attempts == attempts);
@@ -136,7 +136,7 @@ TEST_CASE("A store that fails is tried again after a while and with new plans, n
     CHECK(world.violations == Lines{});
 }
 
-TEST_CASE("9 cancel.confirm_timeout: a drive that is given up after that is begun again, as the plan goes on")
+TEST_CASE("9 cancel.confirm_timeout: a drive that is cancelled after it is begun again, because the plan continues")
 {
     PlanWorld world = MakeWorld([](EngineOptions& options) { options.controls.cancelTimeout = 10ms; });
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
@@ -149,7 +149,7 @@ TEST_CASE("9 cancel.confirm_timeout: a drive that is given up after that is begu
     CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
 }
 
-TEST_CASE("A robot that refuses to drive home is asked again less and less often, and goes when it can")
+TEST_CASE("A drive to the parking position that is rejected is repeated with growing delays until it is accepted")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 2 P1-b2 InProgress");
@@ -165,7 +165,7 @@ TEST_CASE("A robot that refuses to drive home is asked again less and less often
     CHECK(world.GetRobot("LR01").GetOccupied().front() == "D-CHG01");
 }
 
-TEST_CASE("A robot that stands where the map has nothing is not used, keeps what it held, and goes on when it is back")
+TEST_CASE("A robot at an unknown place is not used, keeps its nodes, and continues when its position is known")
 {
     for (const std::string nodeID : {"X99", ""})
     {
@@ -184,7 +184,7 @@ TEST_CASE("A robot that stands where the map has nothing is not used, keeps what
     }
 }
 
-TEST_CASE("A load that comes to its end after its plan was over has filled the robot's port")
+TEST_CASE("A load that ends after the end of its plan has filled the robot's port")
 {
     PlanWorld world = MakeDroppingWorld(60s);
     LetLoadRunOver(world);
@@ -196,7 +196,7 @@ TEST_CASE("A load that comes to its end after its plan was over has filled the r
     CHECK(world.store.GetState().carriers.front().carrierIDs.front() == GetCarrierOrNull(world));
 }
 
-TEST_CASE("A job over its time limit that had begun to move something is an alarm until its end is told")
+TEST_CASE("A job that exceeds its limit after it began to move something is an alarm until its end is reported")
 {
     PlanWorld world =
         MakeWorld([](EngineOptions& options) { options.actions.find("CassetteLoad")->second.timeout = 1ms; });
@@ -209,8 +209,7 @@ TEST_CASE("A job over its time limit that had begun to move something is an alar
     static_cast<void>(set);
 }
 
-TEST_CASE(
-    "A robot that does not tell how a given-up job ended is an alarm, and its own word or an operator's ends that")
+TEST_CASE("A dropped job without a reported end is an alarm until the robot reports it or the operator resolves it")
 {
     for (const bool bOperator : {false, true})
     {
@@ -225,9 +224,9 @@ TEST_CASE(
         CHECK(std::ranges::count_if(world.engine->GetActiveAlarms(), asks) == 1); // not again: its plan is over
         if (bOperator)
         {
-            world.Settle("P1", "P1-a4", EJobResolution::Again, 8);
+            world.ResolveJob("P1", "P1-a4", EJobResolution::Again, 8);
             CHECK_FALSE(world.replies.at(8).bAccepted);
-            world.Settle("P1", "P1-a4", EJobResolution::Failed, 9);
+            world.ResolveJob("P1", "P1-a4", EJobResolution::Failed, 9);
             CHECK(world.replies.at(9).bAccepted);
             CHECK(GetAlarmOrNull(world, "LR01", "ACS-1008") == std::nullopt);
         }
@@ -237,23 +236,23 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("6.6 The abort of a job whose robot is gone ends when an operator tells how the job ended")
+TEST_CASE("6.6 The abort of a job whose robot is offline ends when the operator resolves the job")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
     world.Control(EPlanControl::Abort, "P1");
-    world.Settle("P1", "P1-a4", EJobResolution::Failed, 7);
+    world.ResolveJob("P1", "P1-a4", EJobResolution::Failed, 7);
     CHECK(world.replies.at(7).message == "LR01 is connected and will report the outcome of the job.");
     world.Raise("LR01", LinkChanged{false});
-    world.Settle("P1", "P1-a4", EJobResolution::Again, 8);
+    world.ResolveJob("P1", "P1-a4", EJobResolution::Again, 8);
     CHECK_FALSE(world.replies.at(8).bAccepted);
-    world.Settle("P1", "P1-a4", EJobResolution::Failed, 9);
+    world.ResolveJob("P1", "P1-a4", EJobResolution::Failed, 9);
     CHECK(world.replies.at(9).bAccepted);
     CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::Failed); // D-17
     CHECK(Contains(world.GetReportsOf("P1"), "AbortResult Failed"));
 }
 
-TEST_CASE("A robot is told to stop charging before it leaves, also where it leaves without a plan")
+TEST_CASE("A robot is commanded to stop charging before it leaves, also where it leaves without a plan")
 {
     PlanWorld world = MakeWorld([](EngineOptions& options) {
         options.robots.front().chargingStationID = "CHG01";
@@ -262,7 +261,7 @@ TEST_CASE("A robot is told to stop charging before it leaves, also where it leav
     world.SwitchTSC(true);
     world.Connect();
     world.GetRobot("LR01").battery = 50;
-    world.TellState("LR01");
+    world.PublishState("LR01");
     REQUIRE(world.TryRun());
     REQUIRE(Contains(world.trace, "command LR01 StartCharging"));
     world.SwitchTSC(false);
@@ -273,33 +272,32 @@ TEST_CASE("A robot is told to stop charging before it leaves, also where it leav
     CHECK(stop < FindLine(world, "command LR01 Drive to D-CHG03 released 3 of 4", 0));
 }
 
-TEST_CASE("D-22 pause.mode after_job: the plan is paused when its job is to be done again, too")
+TEST_CASE("D-22 pause.mode after_job: the plan is paused also when its job is to be done again")
 {
     PlanWorld world = MakeWorld([](EngineOptions& options) { options.controls.bPausesAfterJob = true; });
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
     world.Control(EPlanControl::Pause, "P1");
-    world.Raise("LR01", JobUnresolved{"P1-a4", "the test says so"});
+    world.Raise("LR01", JobUnresolved{"P1-a4", "simulated by the test"});
     CHECK_FALSE(Contains(world.GetReportsOf("P1"), "PauseResult Success"));
-    world.Settle("P1", "P1-a4", EJobResolution::Again, 9);
+    world.ResolveJob("P1", "P1-a4", EJobResolution::Again, 9);
     REQUIRE(world.replies.at(9).bAccepted);
     CHECK(Contains(world.GetReportsOf("P1"), "PauseResult Success"));
     CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::Paused);
 }
 
-TEST_CASE(
-    "A job at work whose end the robot cannot tell is held alone: nothing after it was begun, whatever its marks say")
+TEST_CASE("Only the running job is unresolved when its robot cannot report its end, whatever the evidence")
 {
     PlanWorld world;
     world.GetRobot("LR01").progressToken = "5 5 0";
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
     world.GetRobot("LR01").progressToken = "0 0 0";
-    world.Raise("LR01", JobUnresolved{"P1-a4", "the test says so"});
-    world.Settle("P1", "P1-a4", EJobResolution::Done);
+    world.Raise("LR01", JobUnresolved{"P1-a4", "simulated by the test"});
+    world.ResolveJob("P1", "P1-a4", EJobResolution::Done);
     REQUIRE(world.TryRun());
     CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
 }
 
-TEST_CASE("5.8 An error that becomes heavier is told anew, once")
+TEST_CASE("5.8 An error that becomes heavier is reported again, once")
 {
     PlanWorld world;
     world.Connect();
@@ -314,7 +312,7 @@ TEST_CASE("5.8 An error that becomes heavier is told anew, once")
     CHECK(world.GetReportsOf("-") == Lines{"Error AGV-motor set", "Error AGV-motor cleared", "Error AGV-motor set"});
 }
 
-TEST_CASE("5.2 After a restart with work the TSC is told as Paused until robots have told where they stand")
+TEST_CASE("5.2 After a restart with work the TSC is Paused until the robots have reported their positions")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
@@ -330,7 +328,7 @@ TEST_CASE("5.2 After a restart with work the TSC is told as Paused until robots 
     CHECK(world.engine->GetTscState() == ETscState::Paused);
 }
 
-TEST_CASE("9 A robot that is not there after the start is an alarm, after robot.restart_wait")
+TEST_CASE("9 A robot that is missing after the start is an alarm, after robot.restart_wait")
 {
     PlanWorld world;
     world.Restart(MakeTestOptions(false), MakeTestSite());

@@ -38,7 +38,7 @@ void Fail(PlanWorld& world, bool bFails)
 
 } // namespace
 
-TEST_CASE("Maintenance: the robot ends its plan, then stands where it is, is Stopped, and takes no other one")
+TEST_CASE("Maintenance: the robot completes its plan, then stays where it is, is Stopped, and accepts no other plan")
 {
     PlanWorld world;
     world.Connect();
@@ -61,7 +61,7 @@ TEST_CASE("Maintenance: the robot ends its plan, then stands where it is, is Sto
     CHECK(Ask(world, SetMaintenance{"LR09", true, 0}) == "no: There is no robot LR09.");
 }
 
-TEST_CASE("Maintenance: plans that wait are given to others")
+TEST_CASE("Maintenance: waiting plans are assigned to other robots")
 {
     PlanWorld world(1, true);
     world.Connect();
@@ -93,7 +93,7 @@ TEST_CASE("Maintenance is kept over a restart")
     CHECK_FALSE(world.engine->GetRobotStatuses().front().bInMaintenance);
 }
 
-TEST_CASE("An alarm that the operator clears is told as cleared, and set again while its cause lasts")
+TEST_CASE("An alarm that the operator clears is reported as cleared, and set again while its cause remains")
 {
     PlanWorld world;
     world.Connect();
@@ -114,7 +114,7 @@ TEST_CASE("An alarm that the operator clears is told as cleared, and set again w
     CHECK(world.engine->GetActiveAlarms().empty());
 }
 
-TEST_CASE("An alarm is kept over a restart until it is cleared, and so is its clearing")
+TEST_CASE("An alarm is kept over a restart until it is cleared, and stays cleared after another one")
 {
     PlanWorld world;
     world.Connect();
@@ -122,7 +122,7 @@ TEST_CASE("An alarm is kept over a restart until it is cleared, and so is its cl
     plan.steps.pop_back();
     world.Submit(plan);
     REQUIRE(TryRunUntil(world, "P1", "Job 1 P1-a4 InProgress"));
-    // As a robot with another carrier on the port than the plan's.
+    // As if the robot had another carrier on the port than the plan's.
     world.Ask(SetCarriers{"LR01", {"CASSETTE_99"}, 0});
     REQUIRE(TryRunUntil(world, "P1", "Plan Completed"));
     REQUIRE(world.engine->GetActiveAlarms().size() == 1);
@@ -137,7 +137,7 @@ TEST_CASE("An alarm is kept over a restart until it is cleared, and so is its cl
     CHECK(world.GetReportsOf("-").back() == "Error ACS-1004 cleared");
 }
 
-TEST_CASE("5.9, R12 Ports that an operator corrects are told at once and stored; what cannot be is refused")
+TEST_CASE("5.9, R12 Ports that an operator corrects are published at once and stored; an invalid correction is refused")
 {
     PlanWorld world(1, true);
     world.Connect();

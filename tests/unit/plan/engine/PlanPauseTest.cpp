@@ -18,7 +18,7 @@ using ACS::Testing::TryRunFor;
 using ACS::Testing::TryRunUntil;
 
 TEST_CASE(
-    "R8, 6.7 Pause in a drive: the robot stands, then its status, the plan and the result are told; Resume goes on")
+    "R8, 6.7 Pause in a drive: after the robot has stopped, its status, the plan and the result follow; Resume ends it")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
@@ -47,7 +47,7 @@ TEST_CASE(
     CHECK(world.violations == Lines{});
 }
 
-TEST_CASE("R8, 6.7 Pause in a job stops it where it is, and Resume has it done, once")
+TEST_CASE("R8, 6.7 Pause in a job interrupts it, and after Resume it is completed once")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
@@ -66,7 +66,7 @@ TEST_CASE("R8, 6.7 Pause in a job stops it where it is, and Resume has it done, 
     CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"});
 }
 
-TEST_CASE("D-22 A job that the robot cannot pause comes to its end first, and the next is begun after Resume")
+TEST_CASE("D-22 A job that the robot cannot pause is completed first, and the next one begins after Resume")
 {
     PlanWorld world;
     world.Connect();
@@ -92,7 +92,7 @@ TEST_CASE("D-22 A job that the robot cannot pause comes to its end first, and th
 }
 
 TEST_CASE(
-    "D-22 pause.mode after_job: the running job ends, the robot is not asked to stop, and nothing further is begun")
+    "D-22 pause.mode after_job: the running job ends, the robot is not commanded to stop, and nothing else begins")
 {
     PlanWorld world = MakeWorld([](EngineOptions& options) { options.controls.bPausesAfterJob = true; });
     BeginPlan(world, MakeControlPlan("P1"), "Job 1 P1-cd InProgress");
@@ -107,7 +107,7 @@ TEST_CASE(
     FinishPlan(world);
 }
 
-TEST_CASE("9 pause.confirm_timeout: a robot that does not stop makes the pause fail, and the plan goes on")
+TEST_CASE("9 pause.confirm_timeout: the pause fails if the robot does not stop, and the plan continues")
 {
     PlanWorld world =
         MakeWorld([](EngineOptions& options) { options.controls.pauseTimeout = std::chrono::milliseconds(700); });
@@ -119,13 +119,13 @@ TEST_CASE("9 pause.confirm_timeout: a robot that does not stop makes the pause f
     const auto asked = world.GetNow().steady;
     REQUIRE(TryRunUntil(world, "P1", "PauseResult Failed"));
     CHECK(world.GetNow().steady - asked == std::chrono::milliseconds(700));
-    CHECK(Contains(world.trace, "command LR01 Resume")); // it may have heard after all
+    CHECK(Contains(world.trace, "command LR01 Resume")); // The robot may have received the pause.
     REQUIRE(world.TryRun());
     CHECK_FALSE(Contains(world.GetReportsOf("P1"), "Plan Paused"));
     CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
 }
 
-TEST_CASE("9 A pause that fails after its job was done has the plan go on with what comes next")
+TEST_CASE("9 After a pause that fails at the end of its job, the plan continues with the next job")
 {
     PlanWorld world;
     world.Connect();
@@ -138,7 +138,7 @@ TEST_CASE("9 A pause that fails after its job was done has the plan go on with w
     CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
 }
 
-TEST_CASE("7 A plan that waits for a robot is held in the queue, and takes its place in it when it is resumed")
+TEST_CASE("7 A plan that waits for a robot is held in the queue, and has its position again when it is resumed")
 {
     PlanWorld world;
     world.Submit(MakeLogisticsPlan("P1"));
@@ -160,7 +160,7 @@ TEST_CASE("7 A plan that waits for a robot is held in the queue, and takes its p
     CHECK(reports.back() == "Plan Completed");
 }
 
-TEST_CASE("6.7 Pause of a robot that stands and waits is told at once, and it is not driven before Resume")
+TEST_CASE("6.7 Pause of a robot that is stationary is reported at once, and it is not driven before Resume")
 {
     PlanWorld world;
     world.Connect();
@@ -168,7 +168,7 @@ TEST_CASE("6.7 Pause of a robot that stands and waits is told at once, and it is
     control.priority = 20;
     world.Submit(control);
     REQUIRE(TryRunUntil(world, "P2", "Job 1 P2-cd InProgress"));
-    world.Submit(MakeLogisticsPlan("P1")); // wants the dock where the other one works
+    world.Submit(MakeLogisticsPlan("P1")); // Waits for the dock where the other robot works.
     REQUIRE(TryRunUntil(world, "P1", "Step 1 Dispatched"));
     world.Control(EPlanControl::Pause, "P1");
     CHECK(world.GetReportsOf("P1").back() == "PauseResult Success");
@@ -181,7 +181,7 @@ TEST_CASE("6.7 Pause of a robot that stands and waits is told at once, and it is
     FinishPlan(world);
 }
 
-TEST_CASE("D-21 Pause of a paused plan succeeds again, Resume of one that runs or waits fails")
+TEST_CASE("D-21 Pause of a paused plan succeeds again, Resume of a running or waiting plan fails")
 {
     PlanWorld world;
     world.Submit(MakeLogisticsPlan("P1"));
@@ -199,7 +199,7 @@ TEST_CASE("D-21 Pause of a paused plan succeeds again, Resume of one that runs o
     FinishPlan(world);
 }
 
-TEST_CASE("6.8 A robot that does not go on leaves its plan paused, and the result says so")
+TEST_CASE("6.8 A plan stays paused if its robot does not resume, and the result reports that")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
@@ -214,7 +214,7 @@ TEST_CASE("6.8 A robot that does not go on leaves its plan paused, and the resul
     FinishPlan(world);
 }
 
-TEST_CASE("6.7 A robot that is lost while it is to pause is told again when it is back")
+TEST_CASE("6.7 A robot that disconnects before it pauses is commanded again after the reconnect")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
@@ -227,7 +227,7 @@ TEST_CASE("6.7 A robot that is lost while it is to pause is told again when it i
     world.Connect();
     REQUIRE(TryRunUntil(world, "P1", "PauseResult Success"));
 
-    // Nor does it go on by itself after another loss.
+    // It stays paused after another disconnect.
     world.Raise("LR01", LinkChanged{false});
     world.Operate("LR01", Resume{});
     const std::size_t line = world.trace.size();
@@ -237,7 +237,7 @@ TEST_CASE("6.7 A robot that is lost while it is to pause is told again when it i
     FinishPlan(world);
 }
 
-TEST_CASE("6.8 A robot that somebody had in hand when it was to go on is told again when it is under control")
+TEST_CASE("6.8 A robot that was in manual mode when it was to resume is commanded again in automatic mode")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
@@ -257,7 +257,7 @@ TEST_CASE("6.8 A robot that somebody had in hand when it was to go on is told ag
     CHECK(FindLine(world, "command LR01 Resume", line) < world.trace.size());
 }
 
-TEST_CASE("D-16 Abort of a paused plan drops its job, tells where to look, and the robot is used again")
+TEST_CASE("D-16 Abort of a paused plan drops its job, an alarm asks for a check, and the robot is used again")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
@@ -275,7 +275,7 @@ TEST_CASE("D-16 Abort of a paused plan drops its job, tells where to look, and t
     CHECK(world.engine->GetActiveAlarms().empty());
 }
 
-TEST_CASE("D-16 abort.paused_job finish: the paused job is done, then the plan is aborted")
+TEST_CASE("D-16 abort.paused_job finish: the paused job is completed, then the plan is aborted")
 {
     PlanWorld world = MakeWorld([](EngineOptions& options) { options.controls.bAbortFinishesPausedJob = true; });
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
@@ -288,7 +288,7 @@ TEST_CASE("D-16 abort.paused_job finish: the paused job is done, then the plan i
     CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4"});
 }
 
-TEST_CASE("6.6 Abort of a plan that is paused in a drive stands the robot free again")
+TEST_CASE("6.6 Abort of a plan that is paused in a drive makes the robot available again")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
@@ -300,7 +300,7 @@ TEST_CASE("6.6 Abort of a plan that is paused in a drive stands the robot free a
     CHECK(world.GetRobot("LR01").GetOccupied() == Lines{"D-CHG01"});
 }
 
-TEST_CASE("R5, 7 A paused plan is cancelled inside the window by way of the state that it was paused in")
+TEST_CASE("R5, 7 A paused plan that may be cancelled passes through the state in which it was paused")
 {
     PlanWorld world;
     world.Submit(MakeLogisticsPlan("P1"));
@@ -339,7 +339,7 @@ TEST_CASE("R9 A job that fails while its plan is paused fails step and plan at o
     CHECK(world.GetRobot("LR01").IsPaused() == false);
 }
 
-TEST_CASE("6.7 A job that ends though its plan is paused is told, and what comes next waits for Resume")
+TEST_CASE("6.7 A job that ends while its plan is paused is reported, and the next one waits for Resume")
 {
     PlanWorld world;
     world.Connect();
@@ -357,7 +357,7 @@ TEST_CASE("6.7 A job that ends though its plan is paused is told, and what comes
         GetReportsAfter(world, "P1", before + 2) == Lines{"Plan InProgress", "ResumeResult Success", "Plan Completed"});
 }
 
-TEST_CASE("A job's time limit stands still while its plan is paused")
+TEST_CASE("A job's time limit does not run while its plan is paused")
 {
     PlanWorld world = MakeWorld(
         [](EngineOptions& options) { options.actions.at("CassetteLoad").timeout = std::chrono::seconds(10); });
@@ -365,7 +365,7 @@ TEST_CASE("A job's time limit stands still while its plan is paused")
     PausePlan(world);
     REQUIRE(world.TryRun());
     CHECK(world.GetReportsOf("P1").back() == "PauseResult Success");
-    world.GetRobot("LR01").bIgnoresPause = true; // goes on as far as it tells, and does nothing
+    world.GetRobot("LR01").bIgnoresPause = true; // It reports that it has resumed, and does nothing.
     StateChanged state;
     state.lastNodeID = world.GetRobot("LR01").GetOccupied().front();
     world.Control(EPlanControl::Resume, "P1");
@@ -376,7 +376,7 @@ TEST_CASE("A job's time limit stands still while its plan is paused")
     CHECK(world.GetNow().steady - resumed < std::chrono::seconds(10));
 }
 
-TEST_CASE("A robot that comes to a stand in manual mode, after it was told to go on, is told again when it is back")
+TEST_CASE("A robot that stops in manual mode after its Resume is commanded to resume again in automatic mode")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");

@@ -30,11 +30,11 @@ void RestartAlone(PlanWorld& world)
     for (const char* robotID : {"CR01", "CR02"})
     {
         world.Raise(robotID, LinkChanged{true});
-        world.TellState(robotID);
+        world.PublishState(robotID);
     }
 }
 
-/// Starts the engine again on these rows, with a plan for CR01, whose way begins on L02. CR01 and CR02 are there.
+/// Starts the engine again on these rows, with a plan for CR01, whose route begins on L02. CR01 and CR02 report.
 void Restart(PlanWorld& world, const std::vector<RobotWorkChanged>& works)
 {
     for (const RobotWorkChanged& work : works)
@@ -45,8 +45,8 @@ void Restart(PlanWorld& world, const std::vector<RobotWorkChanged>& works)
     world.Submit(MakeControlPlan("P1"));
 }
 
-/// LR01 is at or behind L01 (x = 0), LR02 at or behind L15 (x = 14). In manual mode until it stands on its node.
-void Tell(PlanWorld& world, const std::string& robotID, double x, bool bDriving, Nodes heldNodeIDs = {})
+/// LR01 is at or after L01 (x = 0), LR02 at or after L15 (x = 14). In manual mode until it is on its node.
+void PublishPlace(PlanWorld& world, const std::string& robotID, double x, bool bDriving, Nodes heldNodeIDs = {})
 {
     StateChanged state;
     state.lastNodeID = robotID == "LR01" ? "L01" : "L15";
@@ -58,19 +58,19 @@ void Tell(PlanWorld& world, const std::string& robotID, double x, bool bDriving,
     world.Raise(robotID, state);
 }
 
-void TellFirst(PlanWorld& world, const std::string& robotID, double x, bool bDriving, Nodes heldNodeIDs = {})
+void PublishFirstPlace(PlanWorld& world, const std::string& robotID, double x, bool bDriving, Nodes heldNodeIDs = {})
 {
     world.Raise(robotID, LinkChanged{true});
-    Tell(world, robotID, x, bDriving, std::move(heldNodeIDs));
+    PublishPlace(world, robotID, x, bDriving, std::move(heldNodeIDs));
 }
 
-void TellAtHome(PlanWorld& world, const std::string& robotID)
+void PublishParked(PlanWorld& world, const std::string& robotID)
 {
     world.Raise(robotID, LinkChanged{true});
-    world.TellState(robotID);
+    world.PublishState(robotID);
 }
 
-/// What would be kept free for LR01 after another restart.
+/// The nodes that would be kept free for LR01 after another restart.
 Nodes GetKept(const PlanWorld& world)
 {
     const std::vector<RobotWorkChanged>& works = world.store.GetState().robotWorks;
@@ -91,75 +91,74 @@ bool HasAlarm(const PlanWorld& world, const std::string& robotID, const std::str
     });
 }
 
-/// LR01 may be on L01 to L03, and comes to a stand: between two nodes, then on one.
+/// LR01 may be on L01 to L03, and stops: between two nodes, then on one.
 void CheckKeptWhereItStands(PlanWorld& world)
 {
     CHECK(GetKept(world) == Nodes{"L01", "L02", "L03"});
-    Tell(world, "LR01", 0.9, false);
+    PublishPlace(world, "LR01", 0.9, false);
     CHECK(GetKept(world) == Nodes{"L01", "L02"});
     CHECK_FALSE(IsBegun(world));
-    Tell(world, "LR01", 0, false);
+    PublishPlace(world, "LR01", 0, false);
     CHECK(IsBegun(world));
 }
 
 } // namespace
 
-TEST_CASE(
-    "After a restart a robot that drives keeps all that was left of its way, and two nodes when it stands between")
+TEST_CASE("After a restart a driving robot keeps its remaining route, and two nodes when it stops between them")
 {
     PlanWorld world(1, true);
     Restart(world, {MakeWork("LR01", {"L01", "L02", "L03"})});
-    TellAtHome(world, "LR02");
-    TellFirst(world, "LR01", 0.1, true);
+    PublishParked(world, "LR02");
+    PublishFirstPlace(world, "LR01", 0.1, true);
     CheckKeptWhereItStands(world);
 }
 
-TEST_CASE("A robot that loses an order of before the restart between two nodes keeps the one ahead")
+TEST_CASE("A robot that loses an order from before the restart between two nodes keeps the one ahead")
 {
     PlanWorld world(1, true);
     Restart(world, {MakeWork("LR01", {"L01"})});
-    TellAtHome(world, "LR02");
-    TellFirst(world, "LR01", 0.1, true, {"L02", "L03"});
+    PublishParked(world, "LR02");
+    PublishFirstPlace(world, "LR01", 0.1, true, {"L02", "L03"});
     CheckKeptWhereItStands(world);
 }
 
-TEST_CASE("After a restart a robot that stands where another one is only supposed to be is believed")
+TEST_CASE("After a restart the reported position of a robot counts more than the assumed position of another one")
 {
-    const bool bThere = GENERATE(false, true); // whether the other one has told that it is on the way there
+    const bool bThere = GENERATE(false, true); // whether the other one has reported that it is on the way there
     PlanWorld world(1, true);
     Restart(world, {MakeWork("LR01", {"L01", "L15", "L02"})});
     if (bThere)
     {
-        TellFirst(world, "LR01", 0.1, true);
+        PublishFirstPlace(world, "LR01", 0.1, true);
     }
     static_cast<void>(TryRunFor(world, MakeTestOptions(true).restartWait));
-    TellFirst(world, "LR02", 14, false);
+    PublishFirstPlace(world, "LR02", 14, false);
     CHECK_FALSE(HasAlarm(world, "LR02", "ACS-1003"));
     CHECK_FALSE(IsBegun(world));
-    Tell(world, "LR01", 0, false);
+    PublishPlace(world, "LR01", 0, false);
     CHECK(IsBegun(world) == bThere);
 }
 
-TEST_CASE("After a restart a node where two robots may be is free when neither is there")
+TEST_CASE("After a restart a node where two robots may be is free once both have reported other nodes")
 {
     PlanWorld world(1, true);
     Restart(world, {MakeWork("LR01", {"L01", "L02"}), MakeWork("LR02", {"L15", "L01", "L02"})});
-    TellFirst(world, "LR02", 14.1, true);
+    PublishFirstPlace(world, "LR02", 14.1, true);
     static_cast<void>(TryRunFor(world, MakeTestOptions(true).restartWait));
     CHECK(HasAlarm(world, "LR01", "ACS-1002"));
     CHECK_FALSE(IsBegun(world));
-    Tell(world, "LR02", 14, false);
+    PublishPlace(world, "LR02", 14, false);
     CHECK_FALSE(IsBegun(world));
-    TellFirst(world, "LR01", 0, false);
+    PublishFirstPlace(world, "LR01", 0, false);
     CHECK_FALSE(HasAlarm(world, "LR01", "ACS-1003"));
     CHECK(IsBegun(world));
 }
 
-TEST_CASE("Where a robot may be is kept over one restart after the other")
+TEST_CASE("The nodes where a robot may be are kept over several restarts")
 {
     PlanWorld world(1, true);
     Restart(world, {MakeWork("LR01", {"L01", "L02"})});
-    TellAtHome(world, "LR02");
+    PublishParked(world, "LR02");
     static_cast<void>(TryRunFor(world, MakeTestOptions(true).restartWait));
     RestartAlone(world);
     CHECK_FALSE(IsBegun(world));

@@ -35,14 +35,14 @@ bool TryRunUntilStall(PlanWorld& world)
     return world.TryRun([&world] { return FindStallOrNull(world) != nullptr; });
 }
 
-/// LR01 takes its drive to A01.CP01 for P1 and stays where it is.
+/// LR01 accepts its drive to A01.CP01 for P1 and stays where it is.
 void BeginStuck(PlanWorld& world)
 {
     world.GetRobot("LR01").bStuck = true;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 Dispatched");
 }
 
-/// As somebody who frees it.
+/// Frees the robot, as an operator on the site would.
 void Unstick(PlanWorld& world)
 {
     world.GetRobot("LR01").bStuck = false;
@@ -59,7 +59,7 @@ std::string GetReason(const PlanWorld& world)
 } // namespace
 
 TEST_CASE(
-    "drive.stall_timeout: a robot that takes its drive and stays where it is raises ACS-1009, until it passes a node")
+    "drive.stall_timeout: a robot that accepts its drive and stays where it is raises ACS-1009 until it passes a node")
 {
     PlanWorld world;
     BeginStuck(world);
@@ -82,8 +82,7 @@ TEST_CASE(
     CHECK(std::ranges::find(reports, "Error ACS-1009 cleared") < std::ranges::find(reports, "Step 1 Completed"));
 }
 
-TEST_CASE(
-    "drive.stall_timeout: a drive that never reaches its robot raises ACS-1009, until the robot shows that it has it")
+TEST_CASE("drive.stall_timeout: a drive that never reaches its robot raises ACS-1009 until the robot confirms it")
 {
     PlanWorld world;
     world.GetRobot("LR01").bDeaf = true;
@@ -95,7 +94,7 @@ TEST_CASE(
     CHECK(GetReason(world).empty());
 }
 
-TEST_CASE("drive.stall_timeout: 0 watches no drive")
+TEST_CASE("drive.stall_timeout: 0 disables the alarm")
 {
     PlanWorld world = MakeWorld([](EngineOptions& options) { options.stallTimeout = 0ms; });
     BeginStuck(world);
@@ -103,7 +102,7 @@ TEST_CASE("drive.stall_timeout: 0 watches no drive")
     CHECK(FindStallOrNull(world) == nullptr);
 }
 
-TEST_CASE("drive.stall_timeout: a long edge has three times what the map says for it")
+TEST_CASE("drive.stall_timeout: the limit of a long edge is three times its drive time")
 {
     const SiteMap site = MakeTestSite();
     std::vector<SiteNode> nodes = site.GetNodes();
@@ -120,7 +119,7 @@ TEST_CASE("drive.stall_timeout: a long edge has three times what the map says fo
     CHECK(world.GetNow().steady - begun < 303s);
 }
 
-TEST_CASE("drive.stall_timeout: who waits for another one at the end of its way is not meant, the other one is")
+TEST_CASE("drive.stall_timeout: a robot that waits at the end of its base raises no alarm, the one that blocks it does")
 {
     PlanWorld world(1, MakeTestOptions(true), MakeTestSite());
     Plan first = MakeLogisticsPlan("P1");
@@ -137,7 +136,7 @@ TEST_CASE("drive.stall_timeout: who waits for another one at the end of its way 
     world.Submit(second);
     REQUIRE(world.TryRun());
     CHECK(world.GetReportsOf("P2").back() == "Step 1 InProgress");
-    world.TellState("LR02");
+    world.PublishState("LR02");
     const std::optional<WaitReason> reason = world.engine->GetWaitReasonOrNull("P2");
     REQUIRE(reason.has_value());
     CHECK(reason->message.ends_with("blocked by LR01."));
@@ -145,7 +144,7 @@ TEST_CASE("drive.stall_timeout: who waits for another one at the end of its way 
     CHECK(FindStallOrNull(world, "LR02") == nullptr);
 }
 
-TEST_CASE("drive.stall_timeout: a plan that is paused is not meant, and its time begins anew when it goes on")
+TEST_CASE("drive.stall_timeout: a paused plan raises no alarm, and the timer starts again when it is resumed")
 {
     PlanWorld world;
     BeginStuck(world);
@@ -162,7 +161,7 @@ TEST_CASE("drive.stall_timeout: a plan that is paused is not meant, and its time
     CHECK(world.GetNow().steady - resumed >= 60s);
 }
 
-TEST_CASE("drive.stall_timeout: out of reach the alarm goes, and its time begins anew when the robot is back")
+TEST_CASE("drive.stall_timeout: a disconnect clears the alarm, and the timer starts again after the reconnect")
 {
     PlanWorld world;
     BeginStuck(world);
@@ -178,7 +177,7 @@ TEST_CASE("drive.stall_timeout: out of reach the alarm goes, and its time begins
     CHECK(world.GetNow().steady - back == 60s);
 }
 
-TEST_CASE("drive.stall_timeout: the alarm goes with the drive, and an operator does not clear it before")
+TEST_CASE("drive.stall_timeout: the alarm ends with the drive, and an operator cannot clear it before")
 {
     PlanWorld world;
     BeginStuck(world);
@@ -190,7 +189,7 @@ TEST_CASE("drive.stall_timeout: the alarm goes with the drive, and an operator d
     CHECK(FindStallOrNull(world) == nullptr);
 }
 
-TEST_CASE("drive.stall_timeout: after a restart the drive is begun anew, and so is its time")
+TEST_CASE("drive.stall_timeout: after a restart the drive and the timer begin again")
 {
     PlanWorld world;
     BeginStuck(world);
@@ -206,7 +205,7 @@ TEST_CASE("drive.stall_timeout: after a restart the drive is begun anew, and so 
     CHECK(FindStallOrNull(world) == nullptr);
 }
 
-TEST_CASE("A plan whose robot cannot be used is told to wait, also while its robot drives or works")
+TEST_CASE("A plan whose robot is unavailable has a wait reason, also while the robot drives or works")
 {
     const auto [begun, what] = GENERATE(
         std::pair<std::string, std::string>{"Step 1 InProgress", "drives"},

@@ -59,7 +59,7 @@ TEST_CASE("D-6 queue.priority_order and queue.default_priority")
     }
 }
 
-TEST_CASE("queue.ageing: a plan that has waited long enough goes before a later one of a higher priority")
+TEST_CASE("queue.ageing: a plan that has waited long enough begins before a later one of a higher priority")
 {
     for (const int minutes : {0, 5, 20})
     {
@@ -69,14 +69,14 @@ TEST_CASE("queue.ageing: a plan that has waited long enough goes before a later 
         world.Advance(std::chrono::minutes(16));
         world.Submit(MakePlan("new", 4));
         world.Submit(MakePlan("urgent", 5));
-        // 16 minutes are worth 3.2 at 5 minutes each, 0.8 at 20.
+        // 16 minutes of age count as 3.2 priorities at 5 minutes each, and as 0.8 at 20 minutes.
         CHECK(GetQueue(world) == (minutes == 5 ? Lines{"urgent", "old", "new"} : Lines{"urgent", "new", "old"}));
         Restart(world, [minutes](EngineOptions& options) { options.queueAgeing = std::chrono::minutes(minutes); });
         CHECK(GetQueue(world) == (minutes == 5 ? Lines{"urgent", "old", "new"} : Lines{"urgent", "new", "old"}));
     }
 }
 
-TEST_CASE("D-23 A planId that is known is refused, unless plan.reuse_finished_id lets one that is over come again")
+TEST_CASE("D-23 A known planId is refused, unless plan.reuse_finished_id is set and its plan has ended")
 {
     for (const bool bReused : {false, true})
     {
@@ -96,7 +96,7 @@ TEST_CASE("D-23 A planId that is known is refused, unless plan.reuse_finished_id
     }
 }
 
-TEST_CASE("D-23 A planId that could not be used again for a failing store keeps its history")
+TEST_CASE("D-23 The history of a planId is kept when its next plan could not be stored")
 {
     PlanWorld world = MakeWorld([](EngineOptions& options) { options.bFinishedIDsReused = true; });
     world.Connect();
@@ -113,22 +113,23 @@ TEST_CASE("D-23 A planId that could not be used again for a failing store keeps 
     CHECK(world.store.GetState().plans.front().progress.state == EPlanState::Completed);
 }
 
-TEST_CASE("D-24 reports.initial_pending: accepted plans are reported as Pending, or not; refused ones never")
+TEST_CASE("D-24 reports.initial_pending decides whether accepted plans are reported as Pending; refused ones never are")
 {
-    for (const bool bTold : {false, true})
+    for (const bool bReported : {false, true})
     {
-        PlanWorld world = MakeWorld([bTold](EngineOptions& options) { options.bInitialPendingReported = bTold; });
+        PlanWorld world =
+            MakeWorld([bReported](EngineOptions& options) { options.bInitialPendingReported = bReported; });
         world.Submit(MakeLogisticsPlan("P1"));
         world.store.bFails = true;
         world.Submit(MakeLogisticsPlan("P2"));
         world.store.bFails = false;
         REQUIRE(world.TryRun());
-        CHECK(world.GetReportsOf("P1") == (bTold ? Lines{"Plan Pending"} : Lines{}));
+        CHECK(world.GetReportsOf("P1") == (bReported ? Lines{"Plan Pending"} : Lines{}));
         CHECK(world.GetReportsOf("P2").empty());
     }
 }
 
-TEST_CASE("history.keep: of finished plans only the latest are kept, in memory, in the store and after a restart")
+TEST_CASE("history.keep: the latest finished plans are kept in memory and in the store, also after a restart")
 {
     PlanWorld world = MakeWorld([](EngineOptions& options) { options.finishedPlansKept = 3; });
     world.Connect();
@@ -148,7 +149,7 @@ TEST_CASE("history.keep: of finished plans only the latest are kept, in memory, 
     CHECK(world.engine->GetPlanOrNull("P5")->state == EPlanState::Cancelled);
 }
 
-TEST_CASE("R15, E82 TSC: Pausing ends what runs and begins nothing, Paused keeps what comes, Auto begins it")
+TEST_CASE("R15, E82 TSC: Pausing completes what runs and begins nothing, Paused queues plans, Auto begins them")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
@@ -159,7 +160,7 @@ TEST_CASE("R15, E82 TSC: Pausing ends what runs and begins nothing, Paused keeps
     FinishPlan(world);
     CHECK(world.GetReportsOf("P2").empty());
     CHECK(world.GetTraceOf("tsc ") == Lines{"Pausing", "Paused"});
-    CHECK(world.GetRobot("LR01").GetOccupied() == Lines{"D-A02.CP03"}); // not even home
+    CHECK(world.GetRobot("LR01").GetOccupied() == Lines{"D-A02.CP03"}); // It does not drive to its parking position.
     world.SwitchTSC(true);
     world.SwitchTSC(false);
     world.SwitchTSC(false);
@@ -168,7 +169,7 @@ TEST_CASE("R15, E82 TSC: Pausing ends what runs and begins nothing, Paused keeps
     CHECK(world.GetReportsOf("P2").back() == "Plan Completed");
 }
 
-TEST_CASE("E82 TSC: paused at once where nothing runs, and back to Auto while it is still pausing")
+TEST_CASE("E82 TSC: Paused follows at once if nothing runs, and Auto is possible while it is Pausing")
 {
     PlanWorld world;
     world.Connect();
@@ -182,7 +183,7 @@ TEST_CASE("E82 TSC: paused at once where nothing runs, and back to Auto while it
     CHECK(world.GetTraceOf("tsc ") == Lines{"Pausing", "Paused", "Auto", "Pausing", "Auto"});
 }
 
-TEST_CASE("E82 TSC: a robot that still drives home keeps it pausing until it stands")
+TEST_CASE("E82 TSC: a robot that drives to its parking position keeps it Pausing until it has arrived")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Plan Completed");
@@ -194,7 +195,7 @@ TEST_CASE("E82 TSC: a robot that still drives home keeps it pausing until it sta
     CHECK(world.GetRobot("LR01").GetOccupied() == Lines{"D-CHG01"});
 }
 
-TEST_CASE("E82 TSC: a paused plan does not keep it pausing, and is not resumed before the TSC is Auto")
+TEST_CASE("E82 TSC: a paused plan does not keep it Pausing, and is not resumed before the TSC is Auto")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
@@ -209,7 +210,7 @@ TEST_CASE("E82 TSC: a paused plan does not keep it pausing, and is not resumed b
     FinishPlan(world);
 }
 
-TEST_CASE("E82 TSC: what was paused is so after a restart; tsc.initial paused begins so every time")
+TEST_CASE("E82 TSC: a pause is kept over a restart; with tsc.initial paused every start is Paused")
 {
     PlanWorld world;
     world.SwitchTSC(true);
@@ -226,14 +227,14 @@ TEST_CASE("E82 TSC: what was paused is so after a restart; tsc.initial paused be
     world.SwitchTSC(false);
     REQUIRE(TryRunUntil(world, "P1", "Plan InProgress"));
     Restart(world, [](EngineOptions& options) { options.bTscStartsPaused = true; });
-    CHECK(world.engine->GetTscState() == ETscState::Pausing); // what was being worked on comes to its end
+    CHECK(world.engine->GetTscState() == ETscState::Pausing); // Running plans are completed.
     world.Connect();
     FinishPlan(world);
     CHECK(world.engine->GetTscState() == ETscState::Paused);
     CHECK(world.store.GetState().tscState == ETscState::Paused);
 }
 
-TEST_CASE("E82 tsc.paused_accepts_plans: plans that come while the TSC is not Auto wait, or are refused")
+TEST_CASE("E82 tsc.paused_accepts_plans: plans that arrive while the TSC is not Auto wait, or are refused")
 {
     for (const bool bAccepted : {true, false})
     {
@@ -245,7 +246,7 @@ TEST_CASE("E82 tsc.paused_accepts_plans: plans that come while the TSC is not Au
     }
 }
 
-TEST_CASE("After a restart a plan that was held in the queue is still held, and goes on when it is resumed")
+TEST_CASE("After a restart a plan that was held in the queue is still held, and continues when it is resumed")
 {
     PlanWorld world;
     world.Submit(MakeLogisticsPlan("P1"));
@@ -258,7 +259,7 @@ TEST_CASE("After a restart a plan that was held in the queue is still held, and 
     FinishPlan(world);
 }
 
-TEST_CASE("9 outbox.max: with so many unacknowledged reports plans are refused, an alarm says so, and nothing is lost")
+TEST_CASE("9 outbox.max: at this number of unacknowledged reports plans are refused with an alarm, and nothing is lost")
 {
     constexpr std::size_t LIMIT = 8;
     PlanWorld world = MakeWorld([](EngineOptions& options) { options.maximumReports = LIMIT; });
@@ -275,7 +276,7 @@ TEST_CASE("9 outbox.max: with so many unacknowledged reports plans are refused, 
     REQUIRE_FALSE(world.GetReportsOf("P1").empty());
     CHECK(isFull());
     const std::vector<OutboxEntry> waiting = world.engine->GetUnacknowledged();
-    CHECK(waiting.size() > LIMIT); // what runs is told to its end
+    CHECK(waiting.size() > LIMIT); // Running plans are reported to their end.
     CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
 
     world.Submit(MakeLogisticsPlan("P2"), 2);

@@ -40,7 +40,7 @@ const Lines LOGISTICS_REPORTS{
     "Step 2 Completed",
     "Plan Completed"};
 
-/// P1, whose first job runs, after a restart over which nobody knows what became of it.
+/// P1, whose first job runs, after a restart. The outcome of the job is unknown.
 void BeginUnresolved(PlanWorld& world)
 {
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
@@ -55,7 +55,7 @@ void BeginUnresolved(PlanWorld& world)
     CHECK(alarm.message.find("it was switched off") != std::string::npos);
 }
 
-/// P1 was to go on when the engine ended, and its robot has not heard of it.
+/// P1 was being resumed when the engine ended, and its robot has not received the command.
 void CrashInResume(PlanWorld& world)
 {
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
@@ -68,7 +68,7 @@ void CrashInResume(PlanWorld& world)
 
 } // namespace
 
-TEST_CASE("13.8 A crash at any action and a restart: each state is reported once and in order, each job is done once")
+TEST_CASE("13.8 After a crash at any action and a restart each state is reported once in order, each job is done once")
 {
     for (std::size_t action = 0; action < 400; ++action)
     {
@@ -82,7 +82,7 @@ TEST_CASE("13.8 A crash at any action and a restart: each state is reported once
         if (bCrashed)
         {
             const auto pause = std::chrono::milliseconds(world.GetRandom(4) * world.GetRandom(3'000));
-            static_cast<void>(TryRunFor(world, pause)); // the robot goes on alone
+            static_cast<void>(TryRunFor(world, pause)); // The robot continues without the engine.
             RestartEngine(world);
             world.Submit(MakeLogisticsPlan("P1"), 2, "T1"); // its Ack may have been lost
             CHECK(world.replies.at(2).bAccepted);
@@ -100,7 +100,7 @@ TEST_CASE("13.8 A crash at any action and a restart: each state is reported once
     FAIL("the plan has more actions than were crashed at");
 }
 
-TEST_CASE("13.8 Crash after crash, at random moments, on four robots: every plan ends and every job is done once")
+TEST_CASE("13.8 Crashes at random moments with four robots: every plan ends and every job is done once")
 {
     for (std::uint64_t seed = 1; seed <= 80; ++seed)
     {
@@ -143,7 +143,7 @@ TEST_CASE("13.8 Crash after crash, at random moments, on four robots: every plan
     }
 }
 
-TEST_CASE("After a restart a job that ended meanwhile is told once, done or failed, and never commanded again")
+TEST_CASE("A job that ended during a restart is reported once, done or failed, and never commanded again")
 {
     for (const bool bFails : {false, true})
     {
@@ -165,7 +165,7 @@ TEST_CASE("After a restart a job that ended meanwhile is told once, done or fail
     }
 }
 
-TEST_CASE("After a restart a job that cannot be known is held: not repeated, the robot does nothing else")
+TEST_CASE("A job whose outcome is unknown after a restart is unresolved: not repeated, its robot gets no other job")
 {
     PlanWorld world;
     BeginUnresolved(world);
@@ -174,14 +174,14 @@ TEST_CASE("After a restart a job that cannot be known is held: not repeated, the
     CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::InProgress);
     CHECK(world.engine->GetPlanOrNull("P2")->state == EPlanState::Pending);
     CHECK(CountStarts(world, "P1-a4") == 1);
-    RestartEngine(world); // and still after one more
+    RestartEngine(world); // The same after another restart.
     REQUIRE(world.TryRun());
     CHECK(world.engine->GetActiveAlarms().size() == 1);
     CHECK(CountStarts(world, "P1-a4") == 1);
     CHECK(std::ranges::count(world.GetReportsOf("P1"), "Error ACS-1008 set") == 1);
 }
 
-TEST_CASE("The operator's answer to a held job: done, failed or again; what the robot tells later changes nothing")
+TEST_CASE("The operator resolves a job as done, failed or again; later reports of the robot change nothing")
 {
     for (const EJobResolution answer : {EJobResolution::Done, EJobResolution::Failed, EJobResolution::Again})
     {
@@ -189,14 +189,14 @@ TEST_CASE("The operator's answer to a held job: done, failed or again; what the 
         PlanWorld world;
         BeginUnresolved(world);
         REQUIRE(world.TryRun());
-        world.Raise("LR01", JobFailed{"P1-a4", "late news"});
+        world.Raise("LR01", JobFailed{"P1-a4", "late report"});
         CHECK(world.engine->GetActiveAlarms().size() == 1);
-        world.Settle("P1", "P1-b2", answer, 7);
+        world.ResolveJob("P1", "P1-b2", answer, 7);
         CHECK_FALSE(world.replies.at(7).bAccepted);
         const std::size_t told = world.GetReportsOf("P1").size();
-        world.Settle("P1", "P1-a4", answer, 8);
+        world.ResolveJob("P1", "P1-a4", answer, 8);
         CHECK(world.replies.at(8).bAccepted);
-        world.Settle("P1", "P1-a4", answer, 9);
+        world.ResolveJob("P1", "P1-a4", answer, 9);
         CHECK_FALSE(world.replies.at(9).bAccepted);
         CHECK(world.engine->GetActiveAlarms().empty());
         REQUIRE(world.TryRun());
@@ -209,7 +209,7 @@ TEST_CASE("The operator's answer to a held job: done, failed or again; what the 
     }
 }
 
-TEST_CASE("A plan whose job is held can be aborted, which tells where to look")
+TEST_CASE("A plan whose job is unresolved can be aborted, and an alarm asks for a check")
 {
     PlanWorld world;
     BeginUnresolved(world);
@@ -225,7 +225,7 @@ TEST_CASE("A plan whose job is held can be aborted, which tells where to look")
     CHECK(world.GetReportsOf("P2").back() == "Plan Completed");
 }
 
-TEST_CASE("After a restart nobody sets out before every robot has told where it stands, or 30 s have passed")
+TEST_CASE("After a restart no robot sets out before every robot has reported its position, or 30 s have passed")
 {
     for (const bool bAllThere : {true, false})
     {
@@ -251,7 +251,7 @@ TEST_CASE("After a restart nobody sets out before every robot has told where it 
     }
 }
 
-TEST_CASE("After a restart nobody waits for a robot that is in maintenance")
+TEST_CASE("After a restart no robot waits for one that is in maintenance")
 {
     PlanWorld world(1, true);
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 Dispatched");
@@ -269,7 +269,7 @@ TEST_CASE("After a restart nobody waits for a robot that is in maintenance")
     CHECK(world.GetTraceOf("command ").size() > before);
 }
 
-TEST_CASE("After a restart the nodes that a robot may still drive to are nobody else's")
+TEST_CASE("After a restart the nodes that a robot may still drive to are reserved for it")
 {
     PlanWorld world(1, true);
     world.Connect();
@@ -281,7 +281,7 @@ TEST_CASE("After a restart the nodes that a robot may still drive to are nobody 
     state.heldNodeIDs = {"L15", "L16", "L01", "L02"};
     world.Raise("LR02", state);
     world.Submit(MakeLogisticsPlan("P1"));
-    CHECK_FALSE(TryRunUntil(world, "P1", "Step 1 Dispatched")); // its way begins on L01
+    CHECK_FALSE(TryRunUntil(world, "P1", "Step 1 Dispatched")); // Its route begins on L01.
     CHECK(world.GetTraceOf("command LR01 ").empty());
     state.heldNodeIDs.clear();
     state.bOccupied = false;
@@ -289,7 +289,7 @@ TEST_CASE("After a restart the nodes that a robot may still drive to are nobody 
     CHECK(world.GetTraceOf("command LR01 ").size() == 1);
 }
 
-TEST_CASE("After a restart nobody is sent to where a robot that is not there yet may be, until it is out of service")
+TEST_CASE("After a restart the nodes where a missing robot may be are kept free until it is out of service")
 {
     for (const bool bDriving : {false, true})
     {
@@ -300,7 +300,7 @@ TEST_CASE("After a restart nobody is sent to where a robot that is not there yet
         for (const char* robotID : {"LR02", "CR01", "CR02"})
         {
             world.Raise(robotID, LinkChanged{true});
-            world.TellState(robotID);
+            world.PublishState(robotID);
         }
         REQUIRE(TryRunFor(world, MakeTestOptions(true).restartWait));
         world.Submit(MakeLogisticsPlan("P2")); // its first place is that of P1
@@ -311,7 +311,7 @@ TEST_CASE("After a restart nobody is sent to where a robot that is not there yet
     }
 }
 
-TEST_CASE("After a restart a plan that was paused stays so, and goes on where it was when it is resumed")
+TEST_CASE("After a restart a paused plan is still paused, and continues where it was when it is resumed")
 {
     for (const char* report :
          {"Step 1 InProgress", "Job 1 P1-a4 Instructed", "Job 1 P1-a4 InProgress", "Step 2 InProgress"})
@@ -334,8 +334,7 @@ TEST_CASE("After a restart a plan that was paused stays so, and goes on where it
     }
 }
 
-TEST_CASE(
-    "6.5 to 6.8 A control whose outcome was open has exactly one result after the restart, also when it came twice")
+TEST_CASE("6.5 to 6.8 A control whose outcome was open has one result after the restart, also when it was repeated")
 {
     struct Case
     {
@@ -364,7 +363,7 @@ TEST_CASE(
         world.GetRobot("LR01").bIgnoresPause = false;
         world.GetRobot("LR01").bIgnoresDriveCancel = false;
         RestartEngine(world);
-        world.Control(row.control, "P1", 6, "T5"); // the Ack was lost, or so it seems
+        world.Control(row.control, "P1", 6, "T5"); // The MCS repeats it because it has no Ack.
         CHECK(world.replies.at(6).bAccepted);
         REQUIRE(world.TryRun());
         CHECK(std::ranges::count(world.GetReportsOf("P1"), row.result) == 1);
@@ -384,11 +383,11 @@ TEST_CASE("6.8 A Resume whose outcome was open is carried out after the restart"
     CHECK(std::ranges::count(world.GetReportsOf("P1"), "ResumeResult Success") == 1);
 }
 
-TEST_CASE("6.8 A robot that shows no pause after the restart is told all the same to go on, as a part of it may stand")
+TEST_CASE("6.8 A robot that shows no pause after the restart is still commanded to resume: its arm may be paused")
 {
     PlanWorld world;
     CrashInResume(world);
-    world.GetRobot("LR01").bFinishesJobs = true; // goes on
+    world.GetRobot("LR01").bFinishesJobs = true; // It continues.
     world.GetRobot("LR01").resumesAsked = 0;
     RestartEngine(world);
     FinishPlan(world);
@@ -396,7 +395,7 @@ TEST_CASE("6.8 A robot that shows no pause after the restart is told all the sam
     CHECK(std::ranges::count(world.GetReportsOf("P1"), "ResumeResult Success") == 1);
 }
 
-TEST_CASE("6.5 A cancel that was open and whose robot arrived meanwhile fails, and the plan goes on")
+TEST_CASE("6.5 A cancel that was open and whose robot arrived meanwhile fails, and the plan continues")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
@@ -411,7 +410,7 @@ TEST_CASE("6.5 A cancel that was open and whose robot arrived meanwhile fails, a
     CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::InProgress);
 }
 
-TEST_CASE("D-23, 13.5 The same plan under the same transactionId is answered as the first time, also after a restart")
+TEST_CASE("D-23, 13.5 The same plan under the same transactionId has the same answer again, also after a restart")
 {
     PlanWorld world;
     world.Connect();
@@ -440,8 +439,7 @@ TEST_CASE("D-23, 13.5 The same plan under the same transactionId is answered as 
     CHECK(world.GetReportsOf("P1") == LOGISTICS_REPORTS);
 }
 
-TEST_CASE(
-    "D-23 Another control under a transactionId that a control of the plan had is no repetition, nor after a restart")
+TEST_CASE("D-23 Another control under the transactionId of an earlier one is no repetition, also after a restart")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
@@ -457,7 +455,7 @@ TEST_CASE(
     CHECK(std::ranges::count(reports, "AbortResult Success") == 1);
 }
 
-TEST_CASE("A job that was given up and had not ended keeps its robot out of work over a restart, too")
+TEST_CASE("A job that was dropped and has not ended keeps its robot unavailable, also after a restart")
 {
     for (const bool bUnresolved : {false, true})
     {
@@ -473,9 +471,9 @@ TEST_CASE("A job that was given up and had not ended keeps its robot out of work
         if (bUnresolved)
         {
             CHECK(world.engine->GetPlanOrNull("P2")->state == EPlanState::Pending);
-            world.Settle("P1", "P1-a4", EJobResolution::Again, 8);
+            world.ResolveJob("P1", "P1-a4", EJobResolution::Again, 8);
             CHECK_FALSE(world.replies.at(8).bAccepted);
-            world.Settle("P1", "P1-a4", EJobResolution::Done, 9);
+            world.ResolveJob("P1", "P1-a4", EJobResolution::Done, 9);
             CHECK(world.replies.at(9).bAccepted);
         }
         REQUIRE(world.TryRun());
@@ -487,7 +485,7 @@ TEST_CASE("A job that was given up and had not ended keeps its robot out of work
     }
 }
 
-TEST_CASE("A store of an older version, which tells nothing of robots, has a running job held and a waiting one begun")
+TEST_CASE("With a store of an older version, without work of robots, a running job is unresolved, a waiting one begins")
 {
     for (const EJobState state : {EJobState::Pending, EJobState::InProgress})
     {

@@ -11,7 +11,7 @@ using ACS::Testing::PlanWorld;
 namespace
 {
 
-/// Transports between random places, so that robots want each other's places all the time.
+/// Transports between random places, so that robots always compete for places.
 Plan MakeRandomPlan(PlanWorld& world, std::size_t number)
 {
     const auto pick = [&world](std::initializer_list<const char*> names) {
@@ -49,7 +49,7 @@ std::size_t CountFinal(const PlanWorld& world, const std::string& planID)
 
 } // namespace
 
-TEST_CASE("Random plans on a crowded loop all complete and no node ever has two robots")
+TEST_CASE("Random plans on a crowded loop all complete, and no node has two robots at any time")
 {
     for (std::uint64_t seed = 1; seed <= 200; ++seed)
     {
@@ -81,7 +81,7 @@ TEST_CASE("Random plans on a crowded loop all complete and no node ever has two 
 namespace
 {
 
-void TakeCarriersOff(PlanWorld& world)
+void RemoveCarriers(PlanWorld& world)
 {
     for (const RobotStatus& robot : world.engine->GetRobotStatuses())
     {
@@ -91,8 +91,7 @@ void TakeCarriersOff(PlanWorld& world)
 
 } // namespace
 
-TEST_CASE(
-    "Random controls, refused drives and failing jobs leave every plan with one end, every control with one result")
+TEST_CASE("With random controls, rejected drives and failed jobs every plan ends once and every control has one result")
 {
     for (std::uint64_t seed = 1; seed <= 100; ++seed)
     {
@@ -131,8 +130,8 @@ TEST_CASE(
         REQUIRE(world.TryRun());
         for (std::size_t round = 0; round < PLANS && !world.engine->GetActivePlans().empty(); ++round)
         {
-            // A plan that was given up may have left its carrier on a robot, whom others wait for.
-            TakeCarriersOff(world);
+            // An aborted plan may have left its carrier on a robot, and other robots wait for it.
+            RemoveCarriers(world);
             REQUIRE(world.TryRun());
         }
         const auto results = std::ranges::count_if(world.reports, [](const OutboxEntry& entry) {

@@ -50,7 +50,7 @@ Lines GetStepReports(const PlanWorld& world)
     return steps;
 }
 
-/// P1, whose first job runs, after a restart over which nobody knows what became of it.
+/// P1, whose first job runs, after a restart. The outcome of the job is unknown.
 void BeginUnresolved(PlanWorld& world, const Plan& plan)
 {
     BeginPlan(world, plan, "Job 1 P1-a4 InProgress");
@@ -61,7 +61,7 @@ void BeginUnresolved(PlanWorld& world, const Plan& plan)
 
 } // namespace
 
-TEST_CASE("6.13 Steps that an operator skips while they are Pending are left out, and the plan completes without them")
+TEST_CASE("6.13 Pending steps that an operator skips are left out, and the plan completes without them")
 {
     PlanWorld world;
     BeginPlan(world, MakeCoverPlan(), "Step 1 InProgress");
@@ -91,8 +91,7 @@ TEST_CASE("6.13 Steps that an operator skips while they are Pending are left out
     CHECK(world.GetTraceOf("command CR01 StartJob").size() == 2);
 }
 
-TEST_CASE(
-    "6.13 A step whose job is unresolved is skipped: no report of the job, the ports as they were, the plan goes on")
+TEST_CASE("6.13 A step with an unresolved job is skipped: the job is not reported, ports are kept, the plan continues")
 {
     PlanWorld world;
     Plan plan = MakeLogisticsPlan("P1");
@@ -113,7 +112,7 @@ TEST_CASE(
             "Step 2 InProgress",
             "Job 2 P1-b2 Instructed"});
     CHECK(world.engine->GetRobotStatuses().front().carrierIDs.front() == std::nullopt);
-    world.Raise("LR01", JobFinished{"P1-a4"}); // late news
+    world.Raise("LR01", JobFinished{"P1-a4"}); // A late report.
     CHECK(world.engine->GetRobotStatuses().front().carrierIDs.front() == std::nullopt);
     FinishPlan(world);
     CHECK_FALSE(Contains(world.GetReportsOf("P1"), "Job 1 P1-a4 Completed"));
@@ -134,7 +133,7 @@ TEST_CASE("6.13 A plan whose last step is skipped is Completed at once, also aft
     CHECK(world.engine->GetActiveAlarms().empty());
 }
 
-TEST_CASE("6.13 In a paused plan the step that is next is skipped, and what is behind it waits for Resume")
+TEST_CASE("6.13 In a paused plan the next step is skipped, and the one after it waits for Resume")
 {
     PlanWorld world = MakeWorld([](EngineOptions& options) { options.controls.bPausesAfterJob = true; });
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
@@ -156,7 +155,7 @@ TEST_CASE("6.13 In a paused plan the step that is next is skipped, and what is b
     CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4"});
 }
 
-TEST_CASE("6.13 A pause that waits for the end of an unresolved job comes when its step is skipped")
+TEST_CASE("6.13 A pause that waits for the end of an unresolved job is confirmed when its step is skipped")
 {
     const auto change = [](EngineOptions& options) {
         options.controls.bPausesAfterJob = true;
@@ -173,10 +172,10 @@ TEST_CASE("6.13 A pause that waits for the end of an unresolved job comes when i
     CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::Paused);
     world.Control(EPlanControl::Resume, "P1");
     FinishPlan(world);
-    CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"}); // it did the first one all the same
+    CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"}); // It did the first one nevertheless.
 }
 
-TEST_CASE("6.13 What is under way, over, unknown or not begun cannot be skipped")
+TEST_CASE("6.13 A step that runs, has ended, is unknown or whose plan has not begun cannot be skipped")
 {
     PlanWorld world;
     CHECK(Skip(world, 1) == "no: There is no plan P1.");
@@ -195,7 +194,7 @@ TEST_CASE("6.13 What is under way, over, unknown or not begun cannot be skipped"
     CHECK(Skip(world, 2) == "no: Plan P1 is already Completed.");
 }
 
-TEST_CASE("6.13 A load that is skipped leaves the robot without its tray: the memory step waits until it is on record")
+TEST_CASE("6.13 After a skipped load of a tray the memory step waits until the tray is on record")
 {
     PlanWorld world;
     Plan plan = MakeControlPlan("P1");

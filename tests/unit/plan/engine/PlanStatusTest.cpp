@@ -39,7 +39,7 @@ SiteMap MakeSiteWith(const std::string& from, const std::string& to)
     return *SiteMap::Create(site.GetNodes(), edges, site.GetStations());
 }
 
-/// LR01's statuses up to its first job, but for where it comes from.
+/// LR01's statuses up to its first job, without the position that it comes from.
 Lines GetStatuses(PlanWorld& world)
 {
     REQUIRE(TryRunUntil(world, "P1", "Job 1 J1 InProgress"));
@@ -56,7 +56,7 @@ RobotStatus GetStatus(const PlanWorld& world, const std::string& robotID)
     return *std::ranges::find(statuses, robotID, &RobotStatus::robotID);
 }
 
-/// Of the latest PlanReport with this state.
+/// The message of the latest PlanReport with this state.
 std::string GetMessage(const PlanWorld& world, const std::string& planID, EPlanState state)
 {
     std::string message = "no such report";
@@ -73,7 +73,7 @@ std::string GetMessage(const PlanWorld& world, const std::string& planID, EPlanS
 
 } // namespace
 
-TEST_CASE("5.9 A robot that starts on the last node before the dock arrives as soon as it has its drive")
+TEST_CASE("5.9 A robot that starts on the last node before the dock arrives when it accepts its drive")
 {
     EngineOptions options = MakeTestOptions(false);
     options.robots[0].startNodeID = "L03";
@@ -106,7 +106,7 @@ TEST_CASE("5.9 From dock to dock over one edge: the robot docks, and its arrival
     CHECK(GetStatuses(world) == Lines{"UnDocking CHG01", "Arrival A01.CP01", "Docking A01.CP01", "Working A01.CP01"});
 }
 
-TEST_CASE("5.9 A dock on the way is no dock to leave: the robot arrives there and docks at the next one")
+TEST_CASE("5.9 A robot on a route through another dock reports its arrival there and docks at the next one")
 {
     PlanWorld world(1, MakeTestOptions(false), MakeSiteWith("D-A01.CP01", "D-A01.CP06"));
     world.Connect();
@@ -125,10 +125,10 @@ TEST_CASE("5.9 A robot that is at its place already arrives there without a driv
     world.Submit(plan);
     FinishPlan(world);
     CHECK(world.GetTraceOf("status LR01 Arrival") == Lines{" A01.CP01", " A01.CP01"});
-    CHECK(world.GetRobot("LR01").drives == 2); // there and home
+    CHECK(world.GetRobot("LR01").drives == 2); // To the place and to the parking position.
 }
 
-TEST_CASE("5.9 A robot that waits for its way is Moving, and its message says for whom")
+TEST_CASE("5.9 A robot that waits for its route is Moving, and its message names the robot in the way")
 {
     PlanWorld world;
     BeginPlan(world, MakeLoadPlan(), "Job 1 J1 Instructed");
@@ -142,7 +142,7 @@ TEST_CASE("5.9 A robot that waits for its way is Moving, and its message says fo
     CHECK(GetStatus(world, "CR01").message.empty());
 }
 
-TEST_CASE("5.9 The message of a robot says why it does not do more")
+TEST_CASE("5.9 The message of a robot has the reason why it makes no progress")
 {
     PlanWorld world;
     CHECK(GetStatus(world, "LR01").message == "LR01: no connection.");
@@ -169,7 +169,7 @@ TEST_CASE("5.9 The message of a robot says why it does not do more")
     CHECK(GetStatus(world, "LR01").message.ends_with(" not reached."));
 }
 
-TEST_CASE("5.9 A robot whose job is unresolved says so")
+TEST_CASE("5.9 The message of a robot reports its unresolved job")
 {
     PlanWorld world;
     BeginPlan(world, MakeLoadPlan(), "Job 1 J1 InProgress");
@@ -179,7 +179,7 @@ TEST_CASE("5.9 A robot whose job is unresolved says so")
     CHECK(GetStatus(world, "LR01").message == "Outcome of job J1 unknown. Check LR01, then resolve the job.");
 }
 
-TEST_CASE("5.4 The message of a plan's report says which robot has it, and which control changed it")
+TEST_CASE("5.4 The message of a PlanReport names the robot of the plan, and the control that changed it")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
@@ -200,7 +200,7 @@ TEST_CASE("5.4 The message of a plan's report says which robot has it, and which
     CHECK(std::get<ControlResultReport>(world.reports.back().report).message == "The plan is Cancelled.");
 }
 
-TEST_CASE("5.4, D-24 The message of a plan that is reported as Pending says why it waits")
+TEST_CASE("5.4, D-24 The message of a plan that is reported as Pending has its wait reason")
 {
     EngineOptions options = MakeTestOptions(false);
     options.bInitialPendingReported = true;
@@ -210,14 +210,14 @@ TEST_CASE("5.4, D-24 The message of a plan that is reported as Pending says why 
     CHECK(GetMessage(world, "P1", EPlanState::Pending) == "No suitable robot is free.");
 }
 
-TEST_CASE("5.6 The message of a job's report says why it failed, and who reported it as done")
+TEST_CASE("5.6 The message of a JobReport has the cause of the failure, or that the operator reported it as done")
 {
     PlanWorld world;
     const bool bFails = GENERATE(false, true);
     BeginPlan(world, MakeLoadPlan(), "Job 1 J1 InProgress");
     world.GetRobot("LR01").unresolvedReason = "it was switched off";
     RestartEngine(world);
-    world.Settle("P1", "J1", bFails ? EJobResolution::Failed : EJobResolution::Done);
+    world.ResolveJob("P1", "J1", bFails ? EJobResolution::Failed : EJobResolution::Done);
     const auto last = std::find_if(world.reports.rbegin(), world.reports.rend(), [](const OutboxEntry& entry) {
         return std::holds_alternative<JobReport>(entry.report);
     });

@@ -24,15 +24,15 @@ using ACS::Testing::TryRunUntil;
 namespace
 {
 
-/// The job that an operator is asked about; empty: none is.
-std::string GetHeldJob(const PlanWorld& world)
+/// The job that an operator must resolve; empty: none.
+std::string GetUnresolvedJob(const PlanWorld& world)
 {
     const std::vector<Alarm> alarms = world.engine->GetActiveAlarms();
     const auto held = std::ranges::find(alarms, "ACS-1008", &Alarm::errorCode);
     return held == alarms.end() ? std::string() : held->jobID.value_or(std::string());
 }
 
-/// While the disk fails LR01 does its first job.
+/// While the disk fails, LR01 does its first job.
 void CrashBehindFirstJob(PlanWorld& world)
 {
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
@@ -42,21 +42,21 @@ void CrashBehindFirstJob(PlanWorld& world)
     world.store.bFails = false;
 }
 
-/// The first job of LR01 was done, and nobody wrote that down: both of its jobs are asked for, and each is done once.
+/// The first job of LR01 was done and not stored: both of its jobs are unresolved, and each is done once.
 void CheckFirstJobHeld(PlanWorld& world)
 {
     REQUIRE(world.TryRun());
-    CHECK(GetHeldJob(world) == "P1-a4");
-    world.Settle("P1", "P1-a4", EJobResolution::Done);
+    CHECK(GetUnresolvedJob(world) == "P1-a4");
+    world.ResolveJob("P1", "P1-a4", EJobResolution::Done);
     REQUIRE(world.TryRun());
-    world.Settle("P1", "P1-b2", EJobResolution::Again);
+    world.ResolveJob("P1", "P1-b2", EJobResolution::Again);
     FinishPlan(world);
     CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"});
 }
 
 } // namespace
 
-TEST_CASE("A crash while the disk fails: what the robot did and nobody wrote down is held, not done again")
+TEST_CASE("A crash while the disk fails: a job that was done and not stored is unresolved, and is not repeated")
 {
     PlanWorld world;
     CrashBehindFirstJob(world);
@@ -65,16 +65,16 @@ TEST_CASE("A crash while the disk fails: what the robot did and nobody wrote dow
     REQUIRE(world.engine->GetActiveAlarms().size() == 1);
     CHECK(world.engine->GetActiveAlarms().front().errorCode == "ACS-1008");
     CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4"});
-    world.Settle("P1", "P1-a4", EJobResolution::Done);
+    world.ResolveJob("P1", "P1-a4", EJobResolution::Done);
     // The next one may have been done as well.
     REQUIRE(world.TryRun());
     CHECK(CountStarts(world, "P1-b2") == 0);
-    world.Settle("P1", "P1-b2", EJobResolution::Again);
+    world.ResolveJob("P1", "P1-b2", EJobResolution::Again);
     FinishPlan(world);
     CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"});
 }
 
-TEST_CASE("A crash while the disk fails: each job that the robot may have done is asked for, also after another crash")
+TEST_CASE("A crash while the disk fails: each job that may have been done is unresolved, also after another crash")
 {
     PlanWorld world;
     BeginPlan(world, MakeControlPlan("P1"), "Job 1 P1-cd InProgress");
@@ -84,27 +84,27 @@ TEST_CASE("A crash while the disk fails: each job that the robot may have done i
     world.store.bFails = false;
     RestartEngine(world);
     REQUIRE(world.TryRun());
-    CHECK(GetHeldJob(world) == "P1-b3");
+    CHECK(GetUnresolvedJob(world) == "P1-b3");
     world.Crash();
     RestartEngine(world);
     REQUIRE(world.TryRun());
-    CHECK(GetHeldJob(world) == "P1-b3");
-    world.Settle("P1", "P1-b3", EJobResolution::Done);
+    CHECK(GetUnresolvedJob(world) == "P1-b3");
+    world.ResolveJob("P1", "P1-b3", EJobResolution::Done);
     REQUIRE(world.TryRun());
-    CHECK(GetHeldJob(world) == "P1-f3"); // of the next step
-    world.Settle("P1", "P1-f3", EJobResolution::Done);
+    CHECK(GetUnresolvedJob(world) == "P1-f3"); // of the next step
+    world.ResolveJob("P1", "P1-f3", EJobResolution::Done);
     REQUIRE(world.TryRun());
-    CHECK(GetHeldJob(world) == "P1-e0");
-    world.Settle("P1", "P1-e0", EJobResolution::Done); // begun before the crash, and done after it
+    CHECK(GetUnresolvedJob(world) == "P1-e0");
+    world.ResolveJob("P1", "P1-e0", EJobResolution::Done); // begun before the crash, and done after it
     REQUIRE(world.TryRun());
-    CHECK(GetHeldJob(world) == "P1-d1");
-    world.Settle("P1", "P1-d1", EJobResolution::Again);
+    CHECK(GetUnresolvedJob(world) == "P1-d1");
+    world.ResolveJob("P1", "P1-d1", EJobResolution::Again);
     FinishPlan(world);
     CHECK(world.GetRobot("CR01").doneJobs == Lines{"P1-cd", "P1-b3", "P1-f3", "P1-e0", "P1-d1", "P1-d2"});
-    CHECK(GetHeldJob(world).empty());
+    CHECK(GetUnresolvedJob(world).empty());
 }
 
-TEST_CASE("A crash while the disk fails: so is the first job of a robot of which no command is written down")
+TEST_CASE("A crash while the disk fails: the first job of a robot without a stored command is unresolved")
 {
     const std::string before = GENERATE("", "an order of another system");
     PlanWorld world(1, true);
@@ -121,7 +121,7 @@ TEST_CASE("A crash while the disk fails: so is the first job of a robot of which
     world.Submit(MakeLogisticsPlan("P1"));
     REQUIRE(TryRunUntil(world, "P1", "Step 1 Dispatched"));
     world.store.bFails = true;
-    world.TellState("LR02");
+    world.PublishState("LR02");
     REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").doneJobs.size() == 1; }));
     world.Crash();
     world.store.bFails = false;
@@ -131,7 +131,7 @@ TEST_CASE("A crash while the disk fails: so is the first job of a robot of which
 }
 
 TEST_CASE(
-    "A crash while the disk fails: so is the first job of a robot that took its first drive and was switched off since")
+    "A crash while the disk fails: the first job of a robot that was switched off after its first drive is unresolved")
 {
     PlanWorld world;
     CrashBehindFirstJob(world);
@@ -140,7 +140,7 @@ TEST_CASE(
     CheckFirstJobHeld(world);
 }
 
-TEST_CASE("What an arm shows as its plan begins is written down with that")
+TEST_CASE("The evidence of an arm at the begin of its plan is stored with the plan")
 {
     PlanWorld world;
     world.Connect();
@@ -154,7 +154,7 @@ TEST_CASE("What an arm shows as its plan begins is written down with that")
     CHECK(std::ranges::find(works, "CR01", &RobotWorkChanged::robotID)->progressToken == "5 5 0");
 }
 
-TEST_CASE("A robot that shows nothing after a restart, as it was switched off meanwhile, has its next job asked for")
+TEST_CASE("The next job of a robot that was switched off during a restart and shows no evidence is unresolved")
 {
     PlanWorld world;
     BeginPlan(world, MakeControlPlan("P1"), "Job 1 P1-cd InProgress");
@@ -169,11 +169,10 @@ TEST_CASE("A robot that shows nothing after a restart, as it was switched off me
     RestartEngine(world);
     world.Control(EPlanControl::Resume, "P1");
     REQUIRE(world.TryRun());
-    CHECK_FALSE(GetHeldJob(world).empty());
+    CHECK_FALSE(GetUnresolvedJob(world).empty());
 }
 
-TEST_CASE(
-    "A job is not begun in the call that begins its plan, if that cannot be stored: after a crash it would be again")
+TEST_CASE("A job is not begun in the call that begins its plan if that cannot be stored: a crash would repeat it")
 {
     PlanWorld world =
         ACS::Testing::MakeWorld([](EngineOptions& options) { options.robots.front().startNodeID = "D-A01.CP01"; });
@@ -187,7 +186,7 @@ TEST_CASE(
     CHECK(CountStarts(world, "P1-a4") == 1);
 }
 
-TEST_CASE("A robot is not told to pause by a request that cannot be stored: after a crash nobody would let it go on")
+TEST_CASE("A robot is not paused by a request that cannot be stored: after a crash it would not be resumed")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
@@ -201,19 +200,19 @@ TEST_CASE("A robot is not told to pause by a request that cannot be stored: afte
     FinishPlan(world);
 }
 
-TEST_CASE("A control that cannot be stored is refused: after a crash nobody would know that it was promised")
+TEST_CASE("A control that cannot be stored is refused: after a crash it would be lost")
 {
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
     world.store.bFails = true;
-    world.Control(EPlanControl::Pause, "P1", 5, "T5"); // the write that shows that the disk fails
+    world.Control(EPlanControl::Pause, "P1", 5, "T5"); // This write shows that the disk fails.
     CHECK_FALSE(world.replies.at(5).bAccepted);
     CHECK(world.replies.at(5).message.find("cannot be stored") != std::string::npos);
     world.Control(EPlanControl::Pause, "P1", 6, "T5");
     CHECK_FALSE(world.replies.at(6).bAccepted);
     world.Control(EPlanControl::Abort, "P1", 7, "T7");
     CHECK_FALSE(world.replies.at(7).bAccepted);
-    world.Control(EPlanControl::Abort, "nobody", 8, "T8");
+    world.Control(EPlanControl::Abort, "unknown", 8, "T8");
     CHECK_FALSE(world.replies.at(8).bAccepted);
     static_cast<void>(TryRunFor(world, 1s));
     world.store.bFails = false;
@@ -225,7 +224,7 @@ TEST_CASE("A control that cannot be stored is refused: after a crash nobody woul
     CHECK(Contains(world.GetReportsOf("P1"), "AbortResult Success"));
 }
 
-TEST_CASE("13.5 A plan that is stored is not refused because it is sent again together with one that cannot be")
+TEST_CASE("13.5 A stored plan that is sent again is accepted although another plan of the batch cannot be stored")
 {
     PlanWorld world;
     world.Connect();
@@ -236,7 +235,7 @@ TEST_CASE("13.5 A plan that is stored is not refused because it is sent again to
     CHECK_FALSE(world.replies.at(3).bAccepted);
 }
 
-TEST_CASE("6.7 A pause that waits for the end of a held job is confirmed when the job is to be done again")
+TEST_CASE("6.7 A pause that waits for the end of an unresolved job is confirmed when the job is to be done again")
 {
     const auto change = [](EngineOptions& options) {
         options.controls.bPausesAfterJob = true;
@@ -246,17 +245,16 @@ TEST_CASE("6.7 A pause that waits for the end of a held job is confirmed when th
     world.GetRobot("LR01").unresolvedReason = "it was switched off";
     RestartEngine(world, change);
     REQUIRE(world.TryRun());
-    REQUIRE(GetHeldJob(world) == "P1-a4");
+    REQUIRE(GetUnresolvedJob(world) == "P1-a4");
     world.Control(EPlanControl::Pause, "P1");
-    world.Settle("P1", "P1-a4", EJobResolution::Again);
+    world.ResolveJob("P1", "P1-a4", EJobResolution::Again);
     CHECK(world.GetReportsOf("P1").back() != "Plan Completed");
     CHECK(Contains(world.GetReportsOf("P1"), "PauseResult Success"));
     world.Control(EPlanControl::Resume, "P1");
     FinishPlan(world);
 }
 
-TEST_CASE(
-    "While the disk fails no plan is begun, and one whose begin was lost does no job: a crash would begin it again")
+TEST_CASE("While the disk fails no plan begins, and one whose begin was lost starts no job: a crash would repeat it")
 {
     PlanWorld world;
     world.Connect();

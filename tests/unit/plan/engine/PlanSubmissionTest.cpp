@@ -93,7 +93,7 @@ TEST_CASE("PlanSubmission: plans are refused at each limit")
         parts.engine.transaction.AddReport(PlanReport{});
         CHECK_FALSE(parts.IsAccepted("P2"));
     }
-    SECTION("a paused TSC, where the options say so")
+    SECTION("a paused TSC, if the options refuse plans then")
     {
         options.bTscPausedAcceptsPlans = GENERATE(false, true);
         SubmissionParts parts(options);

@@ -52,11 +52,11 @@ TEST_CASE("A plan whose memory job needs a tray waits until the tray is on recor
     REQUIRE(world.TryRun());
     CHECK(world.GetReportsOf("P1").empty());
     CHECK(GetOnlyReason(world) == "CR01.TP02 has no tray for CR01.TP02.MP25");
-    SetTrays(world, "CR01", {"TRAY_01", "UNKNOWN", "TRAY_03"}); // what it is nobody need know
+    SetTrays(world, "CR01", {"TRAY_01", "UNKNOWN", "TRAY_03"}); // An unknown tray is sufficient.
     FinishPlan(world);
 }
 
-TEST_CASE("A memory job goes to the robot that has its tray")
+TEST_CASE("A memory job is assigned to the robot that has its tray")
 {
     for (const std::string owner : {"CR01", "CR02"})
     {
@@ -69,7 +69,7 @@ TEST_CASE("A memory job goes to the robot that has its tray")
     }
 }
 
-TEST_CASE("A tray that the plan itself loads before is there for its memory jobs, one that it unloads before is not")
+TEST_CASE("A memory job finds the tray that its plan has loaded before, and not one that it has unloaded")
 {
     PlanWorld world;
     world.Connect();
@@ -91,7 +91,7 @@ TEST_CASE("A tray that the plan itself loads before is there for its memory jobs
     }
 }
 
-TEST_CASE("A robot whose tray was taken away under way waits at the set and says why, until it is on record again")
+TEST_CASE("A robot whose tray was removed during its drive waits at the set with a reason until the tray is on record")
 {
     PlanWorld world;
     world.Connect();

@@ -53,7 +53,7 @@ struct GateParts : EngineParts
 
 } // namespace
 
-TEST_CASE("StoreGate: what depends on a batch is released after it is stored")
+TEST_CASE("StoreGate: actions that depend on a batch are released after it is stored")
 {
     GateParts parts;
     parts.engine.transaction.AddReport(PlanReport{"P1", EPlanState::Pending, {}});
@@ -109,7 +109,7 @@ TEST_CASE("StoreGate: a plan that cannot be stored is refused, and the reports w
     CHECK(parts.engine.backlog.CountHeldBack() == 1);
 }
 
-TEST_CASE("StoreGate: the retry stores what has waited, and the next call clears the alarm")
+TEST_CASE("StoreGate: the retry stores waiting changes, and the next call clears the alarm")
 {
     GateParts parts;
     parts.FailStore();

@@ -8,7 +8,7 @@ using ACS::Testing::MakeControlPlan;
 using ACS::Testing::MakeLogisticsPlan;
 using ACS::Testing::PlanWorld;
 
-TEST_CASE("4.1 What is wrong with a plan is refused with a message that names the field")
+TEST_CASE("4.1 A faulty plan is refused with a message that names the field")
 {
     struct Case
     {
@@ -87,7 +87,7 @@ TEST_CASE("4.1 What is wrong with a plan is refused with a message that names th
     }
 }
 
-TEST_CASE("4.1 Two robots named in one plan are refused, one of them pins the plan")
+TEST_CASE("4.1 A plan that names two robots is refused, one that names a robot is assigned to it")
 {
     PlanWorld world(1, true);
     Plan mixed = MakeLogisticsPlan("P1");
@@ -105,7 +105,7 @@ TEST_CASE("4.1 Two robots named in one plan are refused, one of them pins the pl
     CHECK(world.GetRobot("LR01").drives == 0);
 }
 
-TEST_CASE("4.1 A plan that no robot can do is refused with each robot's reason; else it goes to one that can")
+TEST_CASE("4.1 A plan that no robot can do is refused with each robot's reason, others are assigned to one that can")
 {
     EngineOptions options = ACS::Testing::MakeTestOptions(true);
     options.robots.front().rejectedActions = {{"CassetteLoad", "its gripper is too small"}};
@@ -124,14 +124,14 @@ TEST_CASE("4.1 A plan that no robot can do is refused with each robot's reason; 
         world.replies.at(2).message.find("LR01 cannot do CassetteLoad: its gripper is too small") != std::string::npos);
 }
 
-TEST_CASE("4.1 A port may be loaded again behind an unload; one that is taken by option")
+TEST_CASE("4.1 A port may be loaded again after an unload, and while it is taken by option")
 {
     Plan plan = MakeLogisticsPlan("P1");
     Step again = plan.steps[0];
     again.stepNo = 3;
     again.jobs[0].jobID = "again";
     EngineOptions options = ACS::Testing::MakeTestOptions(false);
-    SECTION("Behind an unload")
+    SECTION("After an unload")
     {
         plan.steps.push_back(again);
     }
@@ -169,7 +169,7 @@ TEST_CASE("4.1 A place outside the step's position is refused unless the reach o
         {
             INFO(plan.planID << (bListed ? " listed" : ""));
             EngineOptions options = ACS::Testing::MakeTestOptions(false);
-            options.reach["A01.CP02"] = {"A01.CP01"}; // what can be reached from there is another matter
+            options.reach["A01.CP02"] = {"A01.CP01"}; // this does not extend the reach of A01.CP01
             options.reach["A01.SET02"] = {"A01.SET01"};
             if (bListed)
             {
@@ -185,7 +185,7 @@ TEST_CASE("4.1 A place outside the step's position is refused unless the reach o
     }
 }
 
-TEST_CASE("4.1 Absent, null and superfluous places, lower case, gaps and disorder are no reason to refuse")
+TEST_CASE("4.1 Absent, null and superfluous places, lower case, gaps and any order of steps are accepted")
 {
     PlanWorld world;
     Plan plan;
@@ -222,7 +222,7 @@ TEST_CASE("4.1 Absent, null and superfluous places, lower case, gaps and disorde
             "Plan Completed"});
 }
 
-TEST_CASE("6.4 A planId that was used and a full queue are refused")
+TEST_CASE("6.4 A planId that was used is refused, and so is a plan for a full queue")
 {
     EngineOptions options = ACS::Testing::MakeTestOptions(false);
     options.maximumPlans = 2;
@@ -241,7 +241,7 @@ TEST_CASE("6.4 A planId that was used and a full queue are refused")
     CHECK_FALSE(world.replies.at(5).bAccepted);
 }
 
-TEST_CASE("Options that do not fit the site are all told at once")
+TEST_CASE("Options that do not fit the site are all reported together")
 {
     EngineOptions options = ACS::Testing::MakeTestOptions(false);
     CHECK(FindErrors(options, ACS::Testing::MakeTestSite()).empty());
@@ -252,15 +252,15 @@ TEST_CASE("Options that do not fit the site are all told at once")
     options.places.push_back(*ACS::Core::Location::Parse("A77.CP01.TP02"));
     options.reach["A01.CP01"] = {"A01.CP02", "A77.CP02"};
     options.reach["A77.CP03"] = {"A01.CP01"};
-    const std::vector<ACS::Core::Error> mistakes = FindErrors(options, ACS::Testing::MakeTestSite());
-    REQUIRE(mistakes.size() == 6);
-    CHECK(mistakes[0].path == "robots.LR01.vehicle_type");
-    CHECK(mistakes[1].path == "robots.CR01.start_node");
-    CHECK(mistakes[2].path == "robots.CR01.home");
-    CHECK(mistakes[3].path == "site.ports");
-    CHECK(mistakes[3].found == "A77.CP01.TP01");
-    CHECK(mistakes[4].path == "stations.\"A01.CP01\".reach");
-    CHECK(mistakes[4].found == "A77.CP02");
-    CHECK(mistakes[5].path == "stations.\"A77.CP03\".reach");
-    CHECK(mistakes[5].found == "A77.CP03");
+    const std::vector<ACS::Core::Error> errors = FindErrors(options, ACS::Testing::MakeTestSite());
+    REQUIRE(errors.size() == 6);
+    CHECK(errors[0].path == "robots.LR01.vehicle_type");
+    CHECK(errors[1].path == "robots.CR01.start_node");
+    CHECK(errors[2].path == "robots.CR01.home");
+    CHECK(errors[3].path == "site.ports");
+    CHECK(errors[3].found == "A77.CP01.TP01");
+    CHECK(errors[4].path == "stations.\"A01.CP01\".reach");
+    CHECK(errors[4].found == "A77.CP02");
+    CHECK(errors[5].path == "stations.\"A77.CP03\".reach");
+    CHECK(errors[5].found == "A77.CP03");
 }

@@ -76,7 +76,7 @@ TEST_CASE("PlanBook: the queue is ordered by priority and, within one, by age")
     {
         options.queueAgeing = 1min;
     }
-    SECTION("where the lower number is the more urgent one")
+    SECTION("with lower numbers for more urgent plans")
     {
         options.bLowerPriorityFirst = true;
     }
@@ -134,7 +134,7 @@ TEST_CASE("PlanBook: an ended plan is history and lives to the end of the call")
     CHECK(book.CollectProgress().size() == 1);
 }
 
-TEST_CASE("PlanBook: the oldest finished plans are forgotten once their end is stored")
+TEST_CASE("PlanBook: the oldest finished plans are dropped after their end is stored")
 {
     EngineOptions options;
     options.finishedPlansKept = 1;

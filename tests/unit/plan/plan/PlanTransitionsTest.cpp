@@ -15,7 +15,7 @@ TEST_CASE("7 Completed, Failed, Cancelled and Aborted are final and the other pl
     CHECK_FALSE(IsFinal(EPlanState::Paused));
 }
 
-TEST_CASE("7 Plans, steps and jobs change as the section draws it and not otherwise")
+TEST_CASE("7 Plans, steps and jobs have exactly the transitions of the section")
 {
     CHECK(CanChange(EPlanState::Pending, EPlanState::InProgress));
     CHECK(CanChange(EPlanState::Paused, EPlanState::Aborted));
@@ -39,7 +39,7 @@ TEST_CASE("7 Plans, steps and jobs change as the section draws it and not otherw
     CHECK_FALSE(CanChange(ETscState::Paused, ETscState::Pausing));
 }
 
-TEST_CASE("3 States are spelt as the document spells them")
+TEST_CASE("3 States are spelt as in the document")
 {
     CHECK(GetText(EPlanState::Cancelled) == "Cancelled");
     CHECK(GetText(EStepState::InProgress) == "InProgress");

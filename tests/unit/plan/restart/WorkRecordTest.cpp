@@ -58,15 +58,15 @@ TEST_CASE("WorkRecord: a job has a number of its own, and a repeated job keeps i
     CHECK(record.NumberJob(false, random) != first);
 }
 
-TEST_CASE("WorkRecord: a shown command that was not stored makes the next jobs doubtful")
+TEST_CASE("WorkRecord: a shown command that was not stored makes the next jobs unresolved")
 {
     RobotWorkChanged stored = MakeStored("C2");
     stored.earlierIDs = {"C1"};
     CHECK_FALSE(IsUnresolvedAfter(stored, MakeShown("C2")));
     CHECK_FALSE(IsUnresolvedAfter(stored, MakeShown("C1")));
-    CHECK_FALSE(IsUnresolvedAfter(stored, MakeShown(std::nullopt))); // robots of its kind show none
+    CHECK_FALSE(IsUnresolvedAfter(stored, MakeShown(std::nullopt))); // robots of this kind show no command
     CHECK(IsUnresolvedAfter(stored, MakeShown("C3")));
-    CHECK(IsUnresolvedAfter(stored, MakeShown(""))); // it has forgotten its commands
+    CHECK(IsUnresolvedAfter(stored, MakeShown(""))); // it has lost its commands
 }
 
 TEST_CASE("WorkRecord: a robot that never had a command shows none")

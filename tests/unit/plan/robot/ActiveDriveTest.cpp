@@ -49,7 +49,7 @@ TEST_CASE("ActiveDrive: the robot approaches from the last node before the targe
     CHECK(drive.GetNextNodeID() == "D");
 }
 
-TEST_CASE("ActiveDrive: a cancellation that nothing waits for any more is late")
+TEST_CASE("ActiveDrive: a cancellation after its requester has ended is late")
 {
     ActiveDrive drive = MakeDrive();
     drive.StopAwaitingCancellation();

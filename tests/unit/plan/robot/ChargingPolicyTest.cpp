@@ -48,7 +48,7 @@ TEST_CASE("ChargingPolicy: a robot that charges is not commanded to, and an inte
     CHECK(policy.TryRepeat());
 }
 
-TEST_CASE("ChargingPolicy: charging is stopped only where it was commanded or shown")
+TEST_CASE("ChargingPolicy: charging is stopped only if it was commanded or shown")
 {
     ChargingPolicy policy;
     CHECK_FALSE(policy.TryEnd());

@@ -31,7 +31,7 @@ TEST_CASE("JobTracker: a job is open from its command to its release")
     CHECK(tracker.GetOrNull() == nullptr);
 }
 
-TEST_CASE("JobTracker: after a restart the outcome is asked for once")
+TEST_CASE("JobTracker: after a restart the outcome is requested once")
 {
     JobTracker tracker = MakeTracker();
     CHECK_FALSE(tracker.TryEndRecovery());

@@ -38,7 +38,7 @@ Indices Find(const std::optional<StateChanged>& stateOrNull)
 
 } // namespace
 
-TEST_CASE("FindNodesAhead: a robot that drives or is out of reach keeps all nodes ahead")
+TEST_CASE("FindNodesAhead: a robot that drives or is disconnected keeps all nodes ahead")
 {
     StateChanged driving = MakeStopped(0);
     driving.bDriving = true;
@@ -46,19 +46,19 @@ TEST_CASE("FindNodesAhead: a robot that drives or is out of reach keeps all node
     CHECK(Find(std::nullopt) == Indices{1, 2});
 }
 
-TEST_CASE("FindNodesAhead: a robot that stands on its node keeps none")
+TEST_CASE("FindNodesAhead: a robot that is stationary on its node keeps none")
 {
     CHECK(Find(MakeStopped(0.4)).empty());
     CHECK(FindNodesAhead(MakeLine(), MakeStopped(5), 0, {}).empty());
 }
 
-TEST_CASE("FindNodesAhead: a robot between two nodes keeps those that it stands between")
+TEST_CASE("FindNodesAhead: a robot that is stationary between two nodes keeps these")
 {
     CHECK(Find(MakeStopped(5)) == Indices{1});
     CHECK(Find(MakeStopped(15)) == Indices{1, 2});
 }
 
-TEST_CASE("FindNodesAhead: a robot beside the route, or without a pose, keeps none")
+TEST_CASE("FindNodesAhead: a robot away from the route, or without a pose, keeps none")
 {
     CHECK(Find(MakeStopped(5, 0.6)).empty());
     StateChanged lost = MakeStopped(5);

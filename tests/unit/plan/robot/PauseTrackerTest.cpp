@@ -5,7 +5,7 @@
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 using ERepeat = PauseTracker::ERepeat;
 
-TEST_CASE("PauseTracker: only a pause that was commanded is ended")
+TEST_CASE("PauseTracker: a resume ends only a pause that was commanded")
 {
     PauseTracker tracker;
     CHECK_FALSE(tracker.TryResume());
@@ -19,7 +19,7 @@ TEST_CASE("PauseTracker: only a pause that was commanded is ended")
     CHECK_FALSE(tracker.IsResuming());
 }
 
-TEST_CASE("PauseTracker: a pause is commanded again when the robot is back, or has left its pause")
+TEST_CASE("PauseTracker: a pause is commanded again after a reconnect, or when the robot has resumed by itself")
 {
     PauseTracker tracker;
     tracker.Pause();
@@ -30,7 +30,7 @@ TEST_CASE("PauseTracker: a pause is commanded again when the robot is back, or h
     CHECK(tracker.IsPaused());
 }
 
-TEST_CASE("PauseTracker: a resume is owed until the robot shows in automatic mode that it is not paused")
+TEST_CASE("PauseTracker: a resume is pending until the robot shows in automatic mode that it is not paused")
 {
     PauseTracker tracker;
     tracker.Resume();

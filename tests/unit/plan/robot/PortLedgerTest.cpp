@@ -48,7 +48,7 @@ TEST_CASE("PortLedger: a job moves its carrier, and an unknown one where the pla
     CHECK(ledger.GetCarriers() == CarrierIDs{"UNKNOWN", "T1"});
 }
 
-TEST_CASE("PortLedger: a job that contradicts the record counts all the same")
+TEST_CASE("PortLedger: a job that contradicts the record still changes it")
 {
     PortLedger ledger = MakeLedger({"T1", std::nullopt});
     CHECK(
@@ -107,7 +107,7 @@ TEST_CASE("PortLedger: a report about the port of an open job is no evidence")
     CHECK_FALSE(comparison.bDisputed);
 }
 
-TEST_CASE("PortLedger: a job or an operator settles a dispute")
+TEST_CASE("PortLedger: a job or an operator ends a dispute")
 {
     PortLedger ledger = MakeLedger({"T1", std::nullopt});
     static_cast<void>(ledger.Compare(MakeLoads({std::nullopt, std::nullopt}), {}));

@@ -61,7 +61,7 @@ TEST_CASE("LIF: nodes, edges and stations become a map, degrees become radians")
     CHECK_FALSE(site->HasVehicleType("cr"));
 }
 
-TEST_CASE("LIF: a file that is not LIF is refused at the place where it goes wrong")
+TEST_CASE("LIF: an invalid file is refused with the place of the error")
 {
     struct Case
     {
@@ -93,7 +93,7 @@ TEST_CASE("LIF: a file that is not LIF is refused at the place where it goes wro
     CHECK_FALSE(DecodeLIF("[]").has_value());
 }
 
-TEST_CASE("LIF: an error in the second layout is found there, and a map without nodes is none")
+TEST_CASE("LIF: an error in the second layout names that layout, and a map without nodes is refused")
 {
     const std::string second =
         R"(, {"layoutId": "two", "layoutVersion": "1", "nodes": [{"nodeId": "N1", "nodePosition": {"x": 0, "y": 0},

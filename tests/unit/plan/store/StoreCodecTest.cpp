@@ -5,7 +5,7 @@
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 using namespace ACS;           // NOLINT(google-build-using-namespace)
 
-TEST_CASE("Store texts: plans, states, carriers and alarms come back as they went")
+TEST_CASE("Store texts: plans, states, carriers and alarms are decoded as they were encoded")
 {
     const Plan plan = Testing::MakeControlPlan("PLAN-\"1\" ä");
     CHECK(DecodePlan(EncodePlan(plan)) == plan);
@@ -24,7 +24,7 @@ TEST_CASE("Store texts: plans, states, carriers and alarms come back as they wen
     CHECK(DecodeAlarm(EncodeAlarm(alarm)) == alarm);
 }
 
-TEST_CASE("Store texts: a robot's work comes back with its job, also as older versions wrote it")
+TEST_CASE("Store texts: the work of a robot is decoded with its job, also from older versions")
 {
     RobotWorkChanged work;
     work.robotID = "CR01";
@@ -44,7 +44,7 @@ TEST_CASE("Store texts: a robot's work comes back with its job, also as older ve
     CHECK(*old == work);
 }
 
-TEST_CASE("Store texts: what was accepted comes back however long it is")
+TEST_CASE("Store texts: an accepted text of any length is decoded")
 {
     constexpr std::size_t LONGEST_MESSAGE_BY_DEFAULT = 4U * 1024 * 1024;
     constexpr std::size_t LONGEST_STRING_BY_DEFAULT = 64U * 1024;
@@ -57,9 +57,9 @@ TEST_CASE("Store texts: what was accepted comes back however long it is")
     REQUIRE(text.size() > LONGEST_MESSAGE_BY_DEFAULT);
     const Core::Result<Plan> read = DecodePlan(text);
     REQUIRE(read.has_value());
-    CHECK((*read == plan)); // without the text of both where it fails
+    CHECK((*read == plan)); // double brackets: a failure does not print both texts
 
-    // A vehicle's description of that length, with words of ours before it.
+    // A vehicle's description of that length after a text of the engine.
     const Report report =
         PlanReport{"P1", EPlanState::Failed, "It failed: " + std::string(LONGEST_STRING_BY_DEFAULT, 'x')};
     const Core::Result<Report> readReport = DecodeReport(EncodeReport(report));
@@ -67,7 +67,7 @@ TEST_CASE("Store texts: what was accepted comes back however long it is")
     CHECK((*readReport == report));
 }
 
-TEST_CASE("Store texts: every kind of report comes back as it went")
+TEST_CASE("Store texts: every kind of report is decoded as it was encoded")
 {
     const std::vector<Report> reports{
         PlanReport{"P1", EPlanState::Failed, "why"},
@@ -82,7 +82,7 @@ TEST_CASE("Store texts: every kind of report comes back as it went")
     }
 }
 
-TEST_CASE("Store texts: what is damaged is refused and not guessed")
+TEST_CASE("Store texts: a damaged text is refused")
 {
     CHECK_FALSE(DecodePlan("").has_value());
     CHECK_FALSE(DecodePlan(R"({"steps":[]})").has_value());

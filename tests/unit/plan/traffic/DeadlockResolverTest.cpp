@@ -10,7 +10,7 @@ using namespace ACS::Testing;  // NOLINT(google-build-using-namespace): its fixt
 namespace
 {
 
-/// Each robot stands where the other one has its step.
+/// Each robot is where the other one has its step.
 void Exchange(EngineParts& parts)
 {
     Plan plan = MakeControlPlan("P2");

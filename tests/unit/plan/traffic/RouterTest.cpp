@@ -37,7 +37,7 @@ std::vector<std::string> GetNodeIDs(const std::optional<Route>& routeOrNull)
 
 } // namespace
 
-TEST_CASE("Routes: the quickest way, not the shortest one, and the quicker of two edges")
+TEST_CASE("Routes: the route takes the least time, not the least distance, and the faster of two edges")
 {
     const SiteMap site = *SiteMap::Create(
         {MakeNode("A", 0, 0), MakeNode("B", 10, 0), MakeNode("C", 5, 5)},
@@ -55,7 +55,7 @@ TEST_CASE("Routes: the quickest way, not the shortest one, and the quicker of tw
     CHECK(router.FindRouteOrNull("lr", "A", "A")->nodes.size() == 1);
 }
 
-TEST_CASE("Routes: against a one-way edge, for another vehicle type or to an unknown node there is none")
+TEST_CASE("Routes: there is none against a one-way edge, for another vehicle type or to an unknown node")
 {
     const SiteMap site =
         *SiteMap::Create({MakeNode("A", 0, 0), MakeNode("B", 10, 0)}, {MakeEdge("E", "A", "B", 1)}, {});
@@ -66,7 +66,7 @@ TEST_CASE("Routes: against a one-way edge, for another vehicle type or to an unk
     CHECK_FALSE(router.FindRouteOrNull("lr", "A", "Z").has_value());
 }
 
-TEST_CASE("Routes: nodes that are excluded are driven around, the ends never are")
+TEST_CASE("Routes: a route avoids excluded nodes except its first and last")
 {
     const SiteMap site = *SiteMap::Create(
         {MakeNode("A", 0, 0), MakeNode("B", 5, 0), MakeNode("C", 5, 5), MakeNode("D", 10, 0)},
@@ -88,7 +88,7 @@ TEST_CASE("Routes: nodes that are excluded are driven around, the ends never are
     CHECK(GetNodeIDs(router.FindRouteOrNull("lr", "A", "B", isAny)) == std::vector<std::string>{"A", "B"});
 }
 
-TEST_CASE("Routes: of several starts the one with the quickest way to the target, along one-way edges")
+TEST_CASE("Routes: of several starts the one with the fastest route to the target, along one-way edges")
 {
     const SiteMap site = *SiteMap::Create(
         {MakeNode("A", 0, 0), MakeNode("B", 10, 0), MakeNode("C", 5, 5), MakeNode("D", 50, 0)},
@@ -108,7 +108,7 @@ TEST_CASE("Routes: of several starts the one with the quickest way to the target
     CHECK(router.FindQuickestStartOrNull("cr", std::vector<std::size_t>{1}, 1)->nodeIndex == 1);
 }
 
-TEST_CASE("Routes: a search goes no farther than it must, however large the site and however many the starts")
+TEST_CASE("Routes: the cost of a search depends on the length of the route, not on the size of the site or the starts")
 {
     constexpr int NODES = 2000;
     std::vector<SiteNode> nodes;
@@ -135,7 +135,7 @@ TEST_CASE("Routes: a search goes no farther than it must, however large the site
     const std::uint64_t before = router.CountVisitedNodes();
     CHECK(router.FindQuickestStartOrNull("lr", starts, 1005)->nodeIndex == 1000);
     CHECK(router.CountVisitedNodes() - before <= 12);
-    // One after the other they cost no more than the whole site once: the times to a target are kept.
+    // All of them together cost at most one search of the whole site: the times to a target are cached.
     for (const std::size_t start : starts)
     {
         CHECK(router.FindQuickestStartOrNull("lr", std::vector<std::size_t>{start}, 1005).has_value());
@@ -143,7 +143,7 @@ TEST_CASE("Routes: a search goes no farther than it must, however large the site
     CHECK(router.CountVisitedNodes() - before <= NODES);
 }
 
-TEST_CASE("Sites: of several stations that share a node the first is the one at that node")
+TEST_CASE("Sites: of several stations on one node the first is the station of the node")
 {
     const SiteMap site = *SiteMap::Create(
         {MakeNode("A", 0, 0), MakeNode("B", 10, 0), MakeNode("C", 20, 0)},
@@ -155,9 +155,9 @@ TEST_CASE("Sites: of several stations that share a node the first is the one at 
     CHECK(site.FindStationAtOrNull("D") == nullptr);
 }
 
-TEST_CASE("Routes: turning takes time where the map tells how fast a vehicle turns, and a route meets each node once")
+TEST_CASE("Routes: turning takes time if the map has a rotation speed, and a route has each node once")
 {
-    // Down a staircase or around the corner: as long, but four turns more.
+    // Down a staircase or around the corner: the same length, but four turns more.
     std::vector<SiteEdge> edges{
         MakeEdge("AB", "A", "B", 1),
         MakeEdge("BC", "B", "C", 1),
@@ -184,7 +184,7 @@ TEST_CASE("Routes: turning takes time where the map tells how fast a vehicle tur
     CHECK(route->travelSeconds == Approx(4 / 0.99 + 1.5708 / 0.5).epsilon(0.001));
 }
 
-TEST_CASE("Routes: a node counts as reached at most half of the way to the nearest other one on its map")
+TEST_CASE("Routes: a node counts as reached within half of the distance to the nearest other node on its map")
 {
     std::vector<SiteNode> nodes{
         MakeNode("A", 0, 0),

@@ -118,7 +118,7 @@ TEST_CASE("TrafficCoordinator: the nodes of a reroute are granted before the dri
     const CallOutcome outcome = parts.Collect();
     CHECK(outcome.ListCommands<CancelDrive>() == std::vector{CancelDrive{parts.lr.drive->driveID}});
     CHECK(outcome.GetDelayOrNull(EEngineTimer::ControlConfirm) == parts.engine.options.controls.cancelTimeout);
-    SECTION("a robot that keeps its drive gives them back")
+    SECTION("a robot that keeps its drive releases them")
     {
         parts.coordinator.AbandonReroute(parts.lr);
         CHECK_FALSE(parts.lr.drive->reroute.has_value());
@@ -126,7 +126,7 @@ TEST_CASE("TrafficCoordinator: the nodes of a reroute are granted before the dri
         CHECK_FALSE(parts.places.GetTraffic().GetHolderOrNull(parts.FindNode("L04")).has_value());
         CHECK(parts.places.GetTraffic().GetHolderOrNull(parts.FindNode("L03")) == 0U);
     }
-    SECTION("a robot that has stopped drives on along them")
+    SECTION("a robot that has stopped continues along them")
     {
         parts.coordinator.EndDrive(parts.lr);
         parts.coordinator.BeginReroute(parts.lr, *route, false);
@@ -136,7 +136,8 @@ TEST_CASE("TrafficCoordinator: the nodes of a reroute are granted before the dri
     }
 }
 
-TEST_CASE("TrafficCoordinator: a refused drive home is tried again, each time twice as late up to 64 times")
+TEST_CASE(
+    "TrafficCoordinator: a rejected drive to the parking position is repeated, with a delay that doubles up to 64 times")
 {
     EngineParts parts;
     parts.PutOn(parts.lr, "D-A01.CP01");

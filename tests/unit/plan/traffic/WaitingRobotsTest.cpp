@@ -21,7 +21,7 @@ void MakeBothWait(EngineParts& parts)
 
 } // namespace
 
-TEST_CASE("WaitingRobots: the target is the retreat, then the place of the step, then home")
+TEST_CASE("WaitingRobots: the target is the retreat, then the place of the step, then the parking position")
 {
     EngineParts parts;
     parts.PutOn(parts.lr, "D-CHG01");
@@ -49,7 +49,7 @@ TEST_CASE("WaitingRobots: a target is held by the robot on it and by the robot o
     CHECK(parts.waiting.GetTargetHolders(parts.lr, other) == std::vector<std::size_t>{1});
 }
 
-TEST_CASE("WaitingRobots: robots wait in the order of their plans, idle ones away from home")
+TEST_CASE("WaitingRobots: robots wait in the order of their plans, then idle ones outside their parking position")
 {
     EngineParts parts;
     MakeBothWait(parts);

@@ -70,7 +70,7 @@ TEST_CASE("DriveOutcomes: an arrival ends a plan that is to be aborted, and fail
         plan.record.progress.state == (control == EPlanControl::Abort ? EPlanState::Aborted : EPlanState::InProgress));
 }
 
-TEST_CASE("DriveOutcomes: a rejected drive fails the plan, on the way home it is tried again later")
+TEST_CASE("DriveOutcomes: a rejected drive fails the plan, one to the parking position is repeated later")
 {
     DriveParts parts;
     SECTION("to a step")
@@ -80,7 +80,7 @@ TEST_CASE("DriveOutcomes: a rejected drive fails the plan, on the way home it is
         CHECK(plan.record.progress.state == EPlanState::Failed);
         CHECK_FALSE(parts.Collect().GetDelayOrNull(EEngineTimer::HomeRetry).has_value());
     }
-    SECTION("home")
+    SECTION("to the parking position")
     {
         parts.PutOn(parts.lr, "D-A01.CP01");
         parts.drives.SendIdleHome();

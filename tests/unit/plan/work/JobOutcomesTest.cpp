@@ -102,7 +102,7 @@ TEST_CASE("JobOutcomes: a job that the robot never had is repeated under its com
     }
 }
 
-TEST_CASE("JobOutcomes: an uncertain job waits for the operator, whatever the robot reports later")
+TEST_CASE("JobOutcomes: an unresolved job waits for the operator, whatever the robot reports later")
 {
     EngineParts parts;
     ActivePlan& plan = parts.BeginLoad();

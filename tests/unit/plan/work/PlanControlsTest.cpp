@@ -161,7 +161,7 @@ TEST_CASE("PlanControls: a repeated request has a reply and no second result, a 
     CHECK(plan.record.progress.controlCount == 2);
 }
 
-TEST_CASE("PlanControls: while the store fails no control is accepted, nor repeated where it was not stored")
+TEST_CASE("PlanControls: while the store fails no control is accepted, and none repeated that was not stored")
 {
     EngineParts parts;
     ActivePlan& plan = parts.BeginDriveToLoad();

@@ -136,7 +136,7 @@ TEST_CASE("PlanWork: a failed plan reports its job, its step and then itself")
     CHECK(parts.lr.planOrNull == nullptr);
 }
 
-TEST_CASE("PlanWork: a dropped job keeps its robot until its end, with an alarm where it had begun")
+TEST_CASE("PlanWork: a dropped job keeps its robot until its end, with an alarm if it had begun")
 {
     EngineParts parts;
     const bool bBegun = GENERATE(false, true);

@@ -1,4 +1,4 @@
-#include "VehicleBench.hpp"
+#include "VehicleSessionFixture.hpp"
 
 #include "Catch.hpp"
 #include <acs/vda5050/Vda5050Codec.hpp>
@@ -9,7 +9,7 @@
 namespace ACS::VDA5050::Test
 {
 
-VehicleOptions VehicleBench::MakeOptions()
+VehicleOptions VehicleSessionFixture::MakeOptions()
 {
     VehicleOptions options;
     options.address = MakeAddress();
@@ -18,7 +18,7 @@ VehicleOptions VehicleBench::MakeOptions()
     return options;
 }
 
-VehicleBench::VehicleBench(VehicleOptions options)
+VehicleSessionFixture::VehicleSessionFixture(VehicleOptions options)
     : _session(std::move(options))
 {
     StandAt(0.0);
@@ -26,49 +26,49 @@ VehicleBench::VehicleBench(VehicleOptions options)
     Clear();
 }
 
-VehicleBench::~VehicleBench()
+VehicleSessionFixture::~VehicleSessionFixture()
 {
     CheckPublished(_out);
 }
 
-VehicleSession& VehicleBench::GetSession()
+VehicleSession& VehicleSessionFixture::GetSession()
 {
     return _session;
 }
 
-Core::Now VehicleBench::GetNow() const
+Core::Now VehicleSessionFixture::GetNow() const
 {
     return _clock.GetNow();
 }
 
-const VehicleActions& VehicleBench::GetOutput() const
+const VehicleActions& VehicleSessionFixture::GetOutput() const
 {
     return _out;
 }
 
-void VehicleBench::Clear()
+void VehicleSessionFixture::Clear()
 {
     CheckPublished(_out);
     _out.clear();
 }
 
-void VehicleBench::Advance(std::chrono::milliseconds span)
+void VehicleSessionFixture::Advance(std::chrono::milliseconds span)
 {
     _clock.Advance(span);
 }
 
-void VehicleBench::Order(OrderMessage order)
+void VehicleSessionFixture::Order(OrderMessage order)
 {
     order.header = Header{_headerID++, _clock.GetNow().wall, "2.0.0", "ACS", "LR01"};
     Payload(ETopic::Order, Vda5050Codec().Encode(order, EVda5050Version::Version200));
 }
 
-void VehicleBench::Payload(ETopic topic, std::string_view payload, bool bRetained)
+void VehicleSessionFixture::Payload(ETopic topic, std::string_view payload, bool bRetained)
 {
     _session.OnMessage(BuildTopic(MakeAddress(), topic), payload, bRetained, _clock.GetNow(), _out);
 }
 
-void VehicleBench::Instant(
+void VehicleSessionFixture::Instant(
     std::string_view actionType,
     const std::string& actionID,
     std::vector<ActionParameter> parameters)
@@ -78,7 +78,7 @@ void VehicleBench::Instant(
     Instant({std::move(action)});
 }
 
-void VehicleBench::Instant(std::vector<Action> actions)
+void VehicleSessionFixture::Instant(std::vector<Action> actions)
 {
     InstantActionsMessage message;
     message.header = Header{_headerID++, _clock.GetNow().wall, "2.0.0", "ACS", "LR01"};
@@ -86,22 +86,22 @@ void VehicleBench::Instant(std::vector<Action> actions)
     Payload(ETopic::InstantActions, Vda5050Codec().Encode(message, EVda5050Version::Version200));
 }
 
-void VehicleBench::Reach(std::uint32_t sequenceID)
+void VehicleSessionFixture::Reach(std::uint32_t sequenceID)
 {
     CHECK(_session.TryReachNode(sequenceID, _clock.GetNow(), _out));
 }
 
-void VehicleBench::Drive(bool bDriving)
+void VehicleSessionFixture::Drive(bool bDriving)
 {
     _session.OnDrivingChanged(bDriving, _clock.GetNow(), _out);
 }
 
-void VehicleBench::Status(std::string_view actionID, EActionStatus status)
+void VehicleSessionFixture::Status(std::string_view actionID, EActionStatus status)
 {
     CHECK(_session.TrySetActionStatus(actionID, status, {}, _clock.GetNow(), _out));
 }
 
-void VehicleBench::StandAt(double x, double theta)
+void VehicleSessionFixture::StandAt(double x, double theta)
 {
     AgvPosition position;
     position.bPositionInitialized = true;
@@ -111,17 +111,17 @@ void VehicleBench::StandAt(double x, double theta)
     _session.OnPosition(position, Velocity{});
 }
 
-void VehicleBench::Mode(EOperatingMode mode)
+void VehicleSessionFixture::Mode(EOperatingMode mode)
 {
     _session.OnOperatingMode(mode, _clock.GetNow(), _out);
 }
 
-void VehicleBench::HardwarePause(bool bPaused, bool bOverridesMaster)
+void VehicleSessionFixture::HardwarePause(bool bPaused, bool bOverridesMaster)
 {
     _session.OnHardwarePause(bPaused, bOverridesMaster, _clock.GetNow(), _out);
 }
 
-std::vector<StateMessage> VehicleBench::GetPublishedStates() const
+std::vector<StateMessage> VehicleSessionFixture::GetPublishedStates() const
 {
     std::vector<StateMessage> states;
     Vda5050Codec codec;
@@ -137,13 +137,13 @@ std::vector<StateMessage> VehicleBench::GetPublishedStates() const
     return states;
 }
 
-StateMessage VehicleBench::GetPublishedState() const
+StateMessage VehicleSessionFixture::GetPublishedState() const
 {
     const std::vector<StateMessage> states = GetPublishedStates();
     return states.empty() ? _session.GetState() : states.back();
 }
 
-std::vector<std::string> VehicleBench::GetStartedActions() const
+std::vector<std::string> VehicleSessionFixture::GetStartedActions() const
 {
     std::vector<std::string> ids;
     for (const StartAction& start : Pick<StartAction>(_out))
@@ -153,7 +153,7 @@ std::vector<std::string> VehicleBench::GetStartedActions() const
     return ids;
 }
 
-EActionStatus VehicleBench::GetStatus(std::string_view actionID) const
+EActionStatus VehicleSessionFixture::GetStatus(std::string_view actionID) const
 {
     const StateMessage state = _session.GetState();
     const auto found = std::ranges::find(state.actionStates, actionID, &ActionState::actionID);
@@ -161,7 +161,7 @@ EActionStatus VehicleBench::GetStatus(std::string_view actionID) const
     return found->actionStatus;
 }
 
-bool VehicleBench::HasError(std::string_view errorType) const
+bool VehicleSessionFixture::HasError(std::string_view errorType) const
 {
     const StateMessage state = GetPublishedState();
     return std::ranges::find(state.errors, errorType, &VehicleError::errorType) != state.errors.end();

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "ActionRecorder.hpp"
 #include "Catch.hpp"
 #include "Fixture.hpp"
 #include "ManualClock.hpp"
 #include "SeededRandom.hpp"
-#include "SessionProbe.hpp"
 #include <acs/protocol/AcsSession.hpp>
 
 #include <chrono>
@@ -37,40 +37,40 @@ inline Protocol::SessionOptions MakeOptions()
     return options;
 }
 
-/// A session with its clock, and shorthands for what happens to it.
-class AcsSessionBench
+/// A session with its clock, and shorthands for its inputs.
+class AcsSessionFixture
 {
 public:
     ManualClock clock;
     SeededRandom random;
     Protocol::AcsSession session;
-    SessionProbe probe;
+    ActionRecorder recorder;
 
-    explicit AcsSessionBench(const Protocol::SessionOptions& options = MakeOptions())
+    explicit AcsSessionFixture(const Protocol::SessionOptions& options = MakeOptions())
         : session(options, random)
     {
     }
 
     void Text(const std::string& text)
     {
-        probe.Clear();
-        session.OnText(text, clock.GetNow(), probe.out);
+        recorder.Clear();
+        session.OnText(text, clock.GetNow(), recorder.out);
     }
 
     void Timer(Protocol::ESessionTimer timer, std::chrono::milliseconds after)
     {
-        probe.Clear();
+        recorder.Clear();
         clock.Advance(after);
-        session.OnTimer(timer, clock.GetNow(), probe.out);
+        session.OnTimer(timer, clock.GetNow(), recorder.out);
     }
 
     void Closed()
     {
-        probe.Clear();
-        session.OnClosed("gone", clock.GetNow(), probe.out);
+        recorder.Clear();
+        session.OnClosed("gone", clock.GetNow(), recorder.out);
     }
 
-    /// The plan of the fixture ExecutionPlanLR is taken.
+    /// The plan of the fixture ExecutionPlanLR is accepted.
     void AnswerPlan()
     {
         session.Answer(
@@ -80,46 +80,46 @@ public:
             "registered",
             Protocol::PlanAck{"PLAN-20250702-001"},
             clock.GetNow(),
-            probe.out);
+            recorder.out);
     }
 
     [[nodiscard]] bool TrySend(const std::string& transactionID)
     {
-        return session.TrySendDurable(MakeReport(transactionID), clock.GetNow(), probe.out);
+        return session.TrySendDurable(MakeReport(transactionID), clock.GetNow(), recorder.out);
     }
 
     /// From Connecting to Registered.
     void Register()
     {
-        probe.Clear();
-        session.OnConnected(clock.GetNow(), probe.out);
-        const std::vector<Protocol::AcsRequest> requests = probe.GetRequests();
+        recorder.Clear();
+        session.OnConnected(clock.GetNow(), recorder.out);
+        const std::vector<Protocol::AcsRequest> requests = recorder.GetRequests();
         REQUIRE(requests.size() == 1);
         Text(MakeAckText("Registration", requests[0].transactionID));
-        REQUIRE(probe.GetEvents<Protocol::Registered>().size() == 1);
+        REQUIRE(recorder.GetEvents<Protocol::Registered>().size() == 1);
     }
 
     void StartAndRegister()
     {
-        session.Start(clock.GetNow(), probe.out);
+        session.Start(clock.GetNow(), recorder.out);
         Register();
     }
 
     void StartAndReplay()
     {
         StartAndRegister();
-        probe.Clear();
-        session.ReplayDone(clock.GetNow(), probe.out);
+        recorder.Clear();
+        session.ReplayDone(clock.GetNow(), recorder.out);
     }
 
     void AckAllRequests()
     {
-        for (const Protocol::AcsRequest& request : probe.GetRequests())
+        for (const Protocol::AcsRequest& request : recorder.GetRequests())
         {
             session.OnText(
                 MakeAckText(std::string(GetText(GetCommand(request))), request.transactionID),
                 clock.GetNow(),
-                probe.out);
+                recorder.out);
         }
     }
 };

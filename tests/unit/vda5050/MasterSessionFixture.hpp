@@ -23,8 +23,8 @@ namespace ACS::VDA5050::Test
     return options;
 }
 
-/// A master whose vehicle is written by the test.
-class MasterBench
+/// A master session; the test writes the messages of the vehicle.
+class MasterSessionFixture
 {
     Testing::ManualClock _clock;
     MasterActions _out;
@@ -34,19 +34,19 @@ public:
     MasterSession session;
     StateMessage state;
 
-    explicit MasterBench(MasterOptions options = MakeMasterOptions())
+    explicit MasterSessionFixture(MasterOptions options = MakeMasterOptions())
         : session(std::move(options))
     {
         state.lastNodeID = "N0";
         session.OnLinkUp(_clock.GetNow(), _out);
     }
 
-    MasterBench(const MasterBench&) = delete;
-    MasterBench& operator=(const MasterBench&) = delete;
-    MasterBench(MasterBench&&) = delete;
-    MasterBench& operator=(MasterBench&&) = delete;
+    MasterSessionFixture(const MasterSessionFixture&) = delete;
+    MasterSessionFixture& operator=(const MasterSessionFixture&) = delete;
+    MasterSessionFixture(MasterSessionFixture&&) = delete;
+    MasterSessionFixture& operator=(MasterSessionFixture&&) = delete;
 
-    ~MasterBench() // as Clear: what was published is held against the schemas
+    ~MasterSessionFixture() // as Clear: what was published is checked against the schemas
     {
         CheckPublished(_out);
     }
@@ -73,10 +73,10 @@ public:
         ConnectionMessage message;
         message.header = Header{_headerID++, _clock.GetNow().wall, "2.0.0", "ACS", "LR01"};
         message.connectionState = connection;
-        Say(ETopic::Connection, Vda5050Codec().Encode(message, EVda5050Version::Version200));
+        Deliver(ETopic::Connection, Vda5050Codec().Encode(message, EVda5050Version::Version200));
     }
 
-    void Say(ETopic topic, std::string_view payload)
+    void Deliver(ETopic topic, std::string_view payload)
     {
         session.OnMessage(BuildTopic(MakeAddress(), topic), payload, _clock.GetNow(), _out);
     }
@@ -84,7 +84,7 @@ public:
     void SendState()
     {
         state.header = Header{_headerID++, _clock.GetNow().wall, "2.0.0", "ACS", "LR01"};
-        Say(ETopic::State, Vda5050Codec().Encode(state, EVda5050Version::Version200));
+        Deliver(ETopic::State, Vda5050Codec().Encode(state, EVda5050Version::Version200));
     }
 
     void BeReady()
@@ -100,7 +100,7 @@ public:
         session.OnTimer(timer, _clock.GetNow(), _out);
     }
 
-    /// As a vehicle shows an order that it has taken.
+    /// Sets the state to that of a vehicle that has accepted the order.
     void Hold(const OrderMessage& order, std::size_t nodesLeft)
     {
         state.orderID = order.orderID;

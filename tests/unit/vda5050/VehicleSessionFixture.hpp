@@ -13,8 +13,8 @@
 namespace ACS::VDA5050::Test
 {
 
-/// A vehicle at N0 that is linked; it writes down what it is told, and drives nowhere by itself.
-class VehicleBench
+/// A vehicle at N0 with a link. It records the actions of the session and never drives by itself.
+class VehicleSessionFixture
 {
     Testing::ManualClock _clock;
     VehicleSession _session;
@@ -22,12 +22,12 @@ class VehicleBench
     std::uint32_t _headerID = 0;
 
 public:
-    explicit VehicleBench(VehicleOptions options = MakeOptions());
-    VehicleBench(const VehicleBench&) = delete;
-    VehicleBench& operator=(const VehicleBench&) = delete;
-    VehicleBench(VehicleBench&&) = delete;
-    VehicleBench& operator=(VehicleBench&&) = delete;
-    ~VehicleBench(); ///< As Clear: what was published is held against the schemas.
+    explicit VehicleSessionFixture(VehicleOptions options = MakeOptions());
+    VehicleSessionFixture(const VehicleSessionFixture&) = delete;
+    VehicleSessionFixture& operator=(const VehicleSessionFixture&) = delete;
+    VehicleSessionFixture(VehicleSessionFixture&&) = delete;
+    VehicleSessionFixture& operator=(VehicleSessionFixture&&) = delete;
+    ~VehicleSessionFixture(); ///< As Clear: what was published is checked against the schemas.
 
     [[nodiscard]] static VehicleOptions MakeOptions();
 

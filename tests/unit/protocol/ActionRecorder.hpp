@@ -14,8 +14,8 @@
 namespace ACS::Testing
 {
 
-/// Reads what a session has put out.
-class SessionProbe
+/// Reads the actions of a session.
+class ActionRecorder
 {
     Protocol::AcsCodec _codec;
 
