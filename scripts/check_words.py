@@ -7,30 +7,20 @@ import sys
 
 from source_tree import COMMENT_OR_STRING, list_files, read_text, run_check
 
-# (beginning, end) of the paths that are covered. Sources are added as their words are brought to the glossary.
-COVERED = (
-    ("", ".md"),
-    ("apps/mcs-sim/", ""),
-    ("cmake/", ""),
-    ("examples/", ".cpp"),
-    ("examples/", ".hpp"),
-    ("examples/site/", ".toml"),
-    ("libacs-core/", ""),
-    ("libacs-protocol/", ""),
-    ("libopenstream/", ""),
-    ("libvda5050/", ""),
-    ("scripts/", ""),
-    ("tests/install/", ".cpp"),
-)
-
-# Not covered although they match.
+# Not covered.
 EXCEPTIONS = (
     re.compile(r"^scripts/check_words\.py$"),  # lists them
+    re.compile(r"^tests/style/(?:bad/|plant_violations\.py$)"),  # violate rules on purpose
+)
+
+# (path, literal with its quotes): names that existing files on disk have, so that they cannot be changed.
+STORED_NAMES = (
+    ("libplan/src/codec/StoreCodec.cpp", '"doubtful"'),  # key of RobotWorkChanged::bUnresolved in acsd.db
 )
 
 # What is rejected, and what to write in its place.
 WORDS = (
-    (r"tells?|told|telling", "report, publish, send, log, return or state"),
+    (r"tells?(?!\()|told|telling", "report, publish, send, log, return or state"),
     (r"says?|said|saying", "report, state or answer"),
     (r"hears?|heard", "receive"),
     (r"for ever", "indefinitely"),
@@ -88,11 +78,13 @@ def keep_prose(path, text):
 
 
 def is_covered(path):
-    return (any(path.startswith(beginning) and path.endswith(end) for beginning, end in COVERED)
-            and not any(exception.search(path) for exception in EXCEPTIONS))
+    return not any(exception.search(path) for exception in EXCEPTIONS)
 
 
 def check_text(path, text):
+    for stored_path, name in STORED_NAMES:
+        if path == stored_path:
+            text = text.replace(name, _blank(name))
     prose = _COMMENT_MARK.sub(lambda match: _blank(match.group(0)), keep_prose(path, text))
     for match in PATTERN.finditer(prose):
         better = next(WORDS[i][1] for i in range(len(WORDS)) if match.group(f"w{i}"))
