@@ -105,6 +105,7 @@ void AcsdCore::Close()
 void AcsdCore::OnSessionEvent(const Protocol::SessionEvent& event)
 {
     _gateway.OnSessionEvent(event);
+    UpdateDrain();
 }
 
 void AcsdCore::OnRobotEvent(const std::string& robotID, const Planning::RobotEvent& event)
@@ -137,6 +138,10 @@ void AcsdCore::OnMqttDown()
 
 void AcsdCore::OnStored(const Core::Result<void>& result)
 {
+    if (_phase == EPhase::Stopped)
+    {
+        return; // the store was late
+    }
     _dependencies.output.CancelTimer(EAcsdTimer::StoreLate);
     _dependencies.output.ObserveCommit(_storeWatch.OnStored(result, _dependencies.clock.GetNow().steady));
     _host.OnStored(result);

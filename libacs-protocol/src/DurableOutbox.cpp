@@ -19,13 +19,10 @@ DurableOutbox::DurableOutbox(IOutboxStore& store, Core::IRandom& random)
 
 void DurableOutbox::Restore(std::vector<DurableRequest> requests)
 {
+    assert(_requests.empty() && "the store is read before the first report");
     std::ranges::sort(requests, {}, &DurableRequest::sequence);
     _requests.assign(std::make_move_iterator(requests.begin()), std::make_move_iterator(requests.end()));
-    _sent = 0;
-    if (!_requests.empty())
-    {
-        _lastSequence = std::max(_lastSequence, _requests.back().sequence);
-    }
+    _lastSequence = _requests.empty() ? 0 : _requests.back().sequence;
 }
 
 Core::Result<void> DurableOutbox::Add(AcsPayload payload, const Core::Timestamp& timestamp)
@@ -49,6 +46,34 @@ void DurableOutbox::Queue(DurableRequest request)
     _requests.push_back(std::move(request));
 }
 
+Core::Result<std::size_t> DurableOutbox::Discard(const std::function<bool(const DurableRequest& request)>& predicate)
+{
+    std::vector<std::uint64_t> dropped;
+    std::deque<DurableRequest> kept;
+    std::size_t keptSent = 0;
+    for (std::size_t i = 0; i < _requests.size(); ++i)
+    {
+        if (predicate(_requests[i]))
+        {
+            dropped.push_back(_requests[i].sequence);
+            continue;
+        }
+        kept.push_back(std::move(_requests[i]));
+        keptSent += i < _sent ? 1 : 0;
+    }
+    _requests = std::move(kept);
+    _sent = keptSent;
+    Core::Result<std::size_t> result = dropped.size();
+    for (const std::uint64_t sequence : dropped) // the store may queue further requests from within
+    {
+        if (const Core::Result<void> removed = _store.Remove(sequence); !removed.has_value() && result.has_value())
+        {
+            result = tl::unexpected(removed.error());
+        }
+    }
+    return result;
+}
+
 Core::Result<void> DurableOutbox::OnEvent(const SessionEvent& event)
 {
     return std::visit(
@@ -59,6 +84,10 @@ Core::Result<void> DurableOutbox::OnEvent(const SessionEvent& event)
                 return {};
             },
             [this](const LinkLost& /*lost*/) -> Core::Result<void> {
+                _phase = EPhase::Closed;
+                return {};
+            },
+            [this](const Stopped& /*stopped*/) -> Core::Result<void> {
                 _phase = EPhase::Closed;
                 return {};
             },

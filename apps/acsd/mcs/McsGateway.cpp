@@ -66,12 +66,20 @@ std::string DescribeUnknown(const std::vector<std::string_view>& planIDs)
     return planIDs.size() > MAX_NAMED ? text + fmt::format(" and {} more", planIDs.size() - MAX_NAMED) : text;
 }
 
-/// The reports that an MCS needs even if it requests the history: ends of plans and results of controls.
-bool IsReplayed(const Planning::Report& report, EOutboxReplay replay)
+/// Whether the MCS needs the report even if it requests the history: how plans ended, and the outcome of its controls.
+bool IsReplayed(const Protocol::AcsPayload& report, EOutboxReplay replay)
 {
-    const auto* const planOrNull = std::get_if<Planning::PlanReport>(&report);
-    const bool bFinal = (planOrNull != nullptr && Planning::IsFinal(planOrNull->state))
-        || std::holds_alternative<Planning::ControlResultReport>(report);
+    const bool bFinal = std::visit(
+        Core::Overloaded{
+            [](const Protocol::PlanReport& plan) { return Protocol::IsFinal(plan.status); },
+            [](const Protocol::CancelResultReport&) { return true; },
+            [](const Protocol::AbortResultReport&) { return true; },
+            [](const Protocol::PauseResultReport&) { return true; },
+            [](const Protocol::ResumeResultReport&) { return true; },
+            [](const auto& /*other*/) {
+                return false;
+            }},
+        report);
     return replay == EOutboxReplay::All || (replay == EOutboxReplay::FinalOnly && bFinal);
 }
 
@@ -152,10 +160,8 @@ void McsGateway::OnSessionEvent(const Protocol::SessionEvent& event)
                     _output.SendPosition(update);
                 }
             },
-            [&](const Protocol::LinkLost&) {
-                static_cast<void>(_outbox.OnEvent(event)); // removes nothing
-                _sent.clear();
-            },
+            [&](const Protocol::LinkLost&) { EndConnection(event); },
+            [&](const Protocol::Stopped&) { EndConnection(event); },
             [](const auto&) { /* nothing to be done */ }},
         event);
 }
@@ -400,42 +406,26 @@ const RefusedReports& McsGateway::GetRefusedReports() const noexcept
     return _refusedReports;
 }
 
-/// The requests are built again: the style may have changed.
 void McsGateway::BeginReplay()
 {
     _sent.clear();
-    const std::vector<Planning::OutboxEntry> entries = _engine.GetUnacknowledged();
-    std::vector<Protocol::DurableRequest> replayed;
-    std::vector<std::uint64_t> leftOut;
-    for (const Protocol::DurableRequest& request : _outbox.GetRequests())
-    {
-        const auto entry = std::ranges::lower_bound(entries, request.sequence, {}, &Planning::OutboxEntry::sequence);
-        if (entry == entries.end() || entry->sequence != request.sequence)
-        {
-            continue;
-        }
-        if (IsReplayed(entry->report, _style.replay))
-        {
-            replayed.push_back(MakeRequest(*entry));
-        }
-        else
-        {
-            leftOut.push_back(entry->sequence);
-        }
-    }
-    _outbox.Restore(std::move(replayed));
-    static_cast<void>(_outbox.OnEvent(Protocol::Registered{})); // removes nothing
-    if (!leftOut.empty())
+    const Core::Result<std::size_t> discarded = _outbox.Discard([this](const Protocol::DurableRequest& request) {
+        return !IsReplayed(request.request.payload, _style.replay);
+    });
+    if (discarded.has_value() && *discarded > 0)
     {
         _logger.Warning(
             "reports of the outage are not sent, because of outbox.replay",
-            {{"count", fmt::format_int(leftOut.size()).str()}});
+            {{"count", fmt::format_int(*discarded).str()}});
     }
-    for (const std::uint64_t sequence : leftOut)
-    {
-        _handler(Planning::MessageAcknowledged{sequence});
-    }
+    static_cast<void>(_outbox.OnEvent(Protocol::Registered{})); // removes nothing
     Feed();
+}
+
+void McsGateway::EndConnection(const Protocol::SessionEvent& event)
+{
+    static_cast<void>(_outbox.OnEvent(event)); // removes nothing
+    _sent.clear();
 }
 
 void McsGateway::Feed()
@@ -473,7 +463,7 @@ Protocol::DurableRequest McsGateway::MakeRequest(const Planning::OutboxEntry& en
 Core::Result<void> McsGateway::Append(const Protocol::DurableRequest& /*request*/)
 {
     assert(false && "a report is stored with the plan's state");
-    return {};
+    return Core::Fail(Core::ECoreError::QueueFull, "outbox", "reports from the engine only", "a report of the gateway");
 }
 
 Core::Result<void> McsGateway::Remove(std::uint64_t sequence)

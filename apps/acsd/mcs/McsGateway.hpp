@@ -32,8 +32,8 @@ namespace ACS::Acsd
 /// The reason of a refusal without the value that was found. Refusals with the same result count as repetitions in the log.
 [[nodiscard]] std::string CutReason(std::string_view reason);
 
-/// The MCS side of acsd: passes requests to the engine as commands, answers them, sends the engine's outbox through the
-/// session and reports acknowledgements to the engine. Pure: the caller owns the session.
+/// The MCS side of acsd: passes requests to the engine as commands, answers them, sends the reports of the engine through the
+/// session and returns their acknowledgements. Pure: the caller owns the session.
 class McsGateway final : private Protocol::IOutboxStore
 {
 public:
@@ -89,7 +89,7 @@ public:
     /// Call once, before all other functions, with the reports of the store.
     void Restore(const std::vector<Planning::OutboxEntry>& entries);
 
-    /// In effect from the next message. Without a style, messages are written as MCS-ACS defines them.
+    /// In effect from the next message; a report that is already queued keeps the style it has. Without a style, messages are written as MCS-ACS defines them.
     void SetStyle(MessageStyle style);
     void SetAckObserver(AckObserver observer);
 
@@ -124,6 +124,7 @@ private:
     void HandleAck(const Protocol::Acked& acked);
     void HandleRefusal(const Protocol::Acked& acked, const SentReport& sent);
     void BeginReplay();
+    void EndConnection(const Protocol::SessionEvent& event);
     void Feed();
     [[nodiscard]] Protocol::DurableRequest MakeRequest(const Planning::OutboxEntry& entry) const;
     [[nodiscard]] Core::Result<void> Append(const Protocol::DurableRequest& request) override;

@@ -79,12 +79,6 @@ EOutcome GetOutcome(const TrackedPlan& plan)
     }
 }
 
-bool IsFinal(EPlanStatus status) noexcept
-{
-    return status == EPlanStatus::Completed || status == EPlanStatus::Failed || status == EPlanStatus::Cancelled
-        || status == EPlanStatus::Aborted;
-}
-
 bool IsDone(const TrackedStep& step) noexcept
 {
     return step.status == EStepStatus::Completed || step.status == EStepStatus::Skipped;

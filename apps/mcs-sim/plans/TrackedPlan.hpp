@@ -69,7 +69,6 @@ struct TrackedPlan
 
 [[nodiscard]] std::string_view GetText(EOutcome outcome);
 [[nodiscard]] EOutcome GetOutcome(const TrackedPlan& plan);
-[[nodiscard]] bool IsFinal(Protocol::EPlanStatus status) noexcept;
 /// Completed or Skipped: the next step may begin.
 [[nodiscard]] bool IsDone(const TrackedStep& step) noexcept;
 /// The index of the step that is being worked on, or comes next; of the last one where all are done.

@@ -184,19 +184,41 @@ TEST_CASE("A report between LinkLost and Registered waits for the replay, which 
     CHECK(fixture.session.replays == 1);
 }
 
-TEST_CASE("Restore before Registered replaces the requests of the replay")
+TEST_CASE("A report between Stopped and Registered waits for the replay")
+{
+    OutboxFixture fixture;
+    fixture.Register();
+    fixture.Add("A");
+    fixture.On(Protocol::Stopped{});
+    fixture.session = {};
+    fixture.Add("B");
+    CHECK(fixture.session.sent.empty());
+    fixture.On(Protocol::Registered{});
+    CHECK(fixture.session.sent == std::vector<std::string>{"A", "B"});
+}
+
+TEST_CASE("Discarded requests are removed from the store and not sent again; the others are")
 {
     OutboxFixture fixture;
     fixture.Register();
     fixture.Add("A");
     fixture.Add("B");
-    fixture.On(Protocol::LinkLost{"cut", true});
-    fixture.session = {};
-    fixture.outbox.Restore({fixture.outbox.GetRequests().front()});
-    fixture.On(Protocol::Registered{});
+    fixture.session.room = 0;
     fixture.Add("C");
-    CHECK(fixture.session.sent == std::vector<std::string>{"A", "C"});
-    CHECK(fixture.outbox.GetRequests().back().sequence == 3);
+    const auto isNotC = [](const DurableRequest& request) {
+        return std::get<Protocol::PlanReport>(request.request.payload).planID != "C";
+    };
+    CHECK(fixture.outbox.Discard(isNotC).value() == 2);
+    CHECK(fixture.store.requests.size() == 1);
+    fixture.session.room = 5;
+    fixture.On(Protocol::WindowOpened{});
+    CHECK(fixture.session.sent == std::vector<std::string>{"A", "B", "C"});
+    fixture.session = {};
+    fixture.On(Protocol::Registered{});
+    CHECK(fixture.session.sent == std::vector<std::string>{"C"});
+    fixture.store.bFailing = true;
+    CHECK_FALSE(fixture.outbox.Discard([](const DurableRequest& /*request*/) { return true; }).has_value());
+    CHECK(fixture.outbox.GetRequests().empty());
 }
 
 TEST_CASE("A connection that is lost during its replay does not end the replay of the next one")

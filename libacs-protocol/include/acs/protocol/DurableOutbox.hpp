@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,8 +44,7 @@ public:
     /// The random source generates transaction ids. Store and random source must outlive the outbox.
     DurableOutbox(IOutboxStore& store, Core::IRandom& random);
 
-    /// Replaces all requests, in any order. Call with those of the store before all other functions, and with those to be
-    /// replayed, if they are not all, before OnEvent(Registered).
+    /// Requests that the store returned at start, in any order. Call before all other functions.
     void Restore(std::vector<DurableRequest> requests);
 
     /// Assigns sequence and transactionID, stores the report and queues it. On an error of the store the report is not
@@ -55,7 +55,12 @@ public:
     /// is higher than that of all requests before it.
     void Queue(DurableRequest request);
 
-    /// Handles Registered, LinkLost and Acked; other events have no effect. An error is that of IOutboxStore::Remove; the
+    /// Drops the requests for which the predicate is true, in the store as well: they are not sent again. Returns their
+    /// number. An error is that of IOutboxStore::Remove; the outbox has dropped them nevertheless.
+    [[nodiscard]] Core::Result<std::size_t> Discard(
+        const std::function<bool(const DurableRequest& request)>& predicate);
+
+    /// Handles Registered, LinkLost, Stopped and Acked; other events have no effect. An error is that of IOutboxStore::Remove; the
     /// outbox has forgotten the request nevertheless.
     [[nodiscard]] Core::Result<void> OnEvent(const SessionEvent& event);
 

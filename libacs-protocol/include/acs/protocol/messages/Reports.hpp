@@ -19,6 +19,13 @@ enum class EPlanStatus : std::uint8_t
     Aborted,
 };
 
+/// Whether the plan has ended.
+[[nodiscard]] constexpr bool IsFinal(EPlanStatus status) noexcept
+{
+    return status == EPlanStatus::Completed || status == EPlanStatus::Failed || status == EPlanStatus::Cancelled
+        || status == EPlanStatus::Aborted;
+}
+
 /// Section 6.13.
 enum class EStepStatus : std::uint8_t
 {
