@@ -137,6 +137,10 @@ void AcsdProcess::Store(const Planning::StoreBatch& batch)
         return;
     }
     CrashByChance(20, "before a write");
+    if (_bDead)
+    {
+        return;
+    }
     _writing = batch;
     const bool bSlow = _around.scenario.Has(EFault::Disk) && _around.chance.IsHit(30);
     const Core::Duration time = _around.chance.GetBetween(1ms, bSlow ? 3s : 6ms);
@@ -203,12 +207,11 @@ void AcsdProcess::OnAction(const Planning::EngineAction& action, const Acsd::Acs
 void AcsdProcess::OnReport(const Planning::SendReport& report, const Acsd::AcsdCore::ActionHandler& execute)
 {
     _around.trace.Add("acsd: report {}: {}", report.entry.sequence, Describe(report.entry.report));
-    const Mutator::ReportOutcome outcome = _mutator.OnReport(report.entry);
-    for (const Planning::OutboxEntry& published : outcome.reported)
+    if (std::optional<Planning::OutboxEntry> entry = _mutator.OnReport(report.entry))
     {
-        execute(Planning::SendReport{published});
+        execute(Planning::SendReport{std::move(*entry)});
     }
-    if (outcome.bAcknowledged)
+    else
     {
         PushCommand(Planning::MessageAcknowledged{report.entry.sequence});
     }
@@ -377,12 +380,13 @@ bool AcsdProcess::IsRegistered() const
 
 bool AcsdProcess::TrySendDurable(const Protocol::AcsRequest& request)
 {
-    bool bSent = false;
+    bool bSent = true;
     RunSession([this, &request, &bSent](Core::Now now, auto& out) {
-        bSent = _session.TrySendDurable(request, now, out);
-        if (const std::optional<Protocol::AcsRequest> further = bSent ? _mutator.OnSent(request) : std::nullopt)
+        bool bFirst = true;
+        for (const Protocol::AcsRequest& sent : _mutator.OnSend(request))
         {
-            static_cast<void>(_session.TrySendDurable(*further, now, out));
+            const bool bAccepted = _session.TrySendDurable(sent, now, out);
+            bSent = std::exchange(bFirst, false) ? bAccepted : bSent;
         }
     });
     return bSent;

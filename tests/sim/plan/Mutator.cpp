@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -36,14 +35,10 @@ bool IsFinalReport(const Planning::Report& report)
 
 bool IsResult(const Protocol::AcsPayload& payload)
 {
-    return std::visit(
-        []<typename TPayload>(const TPayload& /*payload*/) {
-            return std::is_same_v<
-                       TPayload,
-                       Protocol::
-                           CancelResultReport> || std::is_same_v<TPayload, Protocol::AbortResultReport> || std::is_same_v<TPayload, Protocol::PauseResultReport> || std::is_same_v<TPayload, Protocol::ResumeResultReport>;
-        },
-        payload);
+    return std::holds_alternative<Protocol::CancelResultReport>(payload)
+        || std::holds_alternative<Protocol::AbortResultReport>(payload)
+        || std::holds_alternative<Protocol::PauseResultReport>(payload)
+        || std::holds_alternative<Protocol::ResumeResultReport>(payload);
 }
 
 } // namespace
@@ -94,56 +89,52 @@ Planning::ReplyCommand Mutator::OnReply(Planning::ReplyCommand reply) const
     return reply;
 }
 
-Mutator::ReportOutcome Mutator::OnReport(const Planning::OutboxEntry& entry)
+std::optional<Planning::OutboxEntry> Mutator::OnReport(Planning::OutboxEntry entry)
 {
-    ReportOutcome outcome{{entry}, false};
-    const bool bResult = std::holds_alternative<Planning::ControlResultReport>(entry.report);
-    const bool bFinal = IsFinalReport(entry.report);
-    const bool bSwallowed = (Is(EMutation::PlanReportSwallowed) && bFinal && _chance.IsHit(300))
-        || (Is(EMutation::ResultSwallowed) && bResult);
+    auto* const resultOrNull = std::get_if<Planning::ControlResultReport>(&entry.report);
+    const bool bSwallowed = (Is(EMutation::PlanReportSwallowed) && IsFinalReport(entry.report) && _chance.IsHit(300))
+        || (Is(EMutation::ResultSwallowed) && resultOrNull != nullptr);
     if (bSwallowed)
-    {
-        return {{}, true};
-    }
-    if (Is(EMutation::ResultInverted) && bResult)
-    {
-        auto& result = std::get<Planning::ControlResultReport>(outcome.reported.front().report);
-        result.bSucceeded = !result.bSucceeded;
-    }
-    if (Is(EMutation::ReportsSwapped))
-    {
-        if (!_heldBack.has_value() && _chance.IsHit(100))
-        {
-            _heldBack = entry;
-            return {{}, false};
-        }
-        if (_heldBack.has_value())
-        {
-            outcome.reported.push_back(*std::exchange(_heldBack, std::nullopt));
-            std::swap(outcome.reported.front().sequence, outcome.reported.back().sequence);
-        }
-    }
-    return outcome;
-}
-
-std::optional<Protocol::AcsRequest> Mutator::OnSent(const Protocol::AcsRequest& request)
-{
-    const auto* const planOrNull = std::get_if<Protocol::PlanReport>(&request.payload);
-    const bool bFinal = planOrNull != nullptr && planOrNull->status >= Protocol::EPlanStatus::Completed;
-    const bool bTwice =
-        (Is(EMutation::FinalReportTwice) && bFinal) || (Is(EMutation::ResultTwice) && IsResult(request.payload));
-    const bool bInvented = Is(EMutation::ReportNotStored) && _chance.IsHit(50);
-    if (!bTwice && !bInvented)
     {
         return std::nullopt;
     }
-    Protocol::AcsRequest further = request;
-    further.transactionID = Core::MakeUUID(_random);
+    if (Is(EMutation::ResultInverted) && resultOrNull != nullptr)
+    {
+        resultOrNull->bSucceeded = !resultOrNull->bSucceeded;
+    }
+    return entry;
+}
+
+std::vector<Protocol::AcsRequest> Mutator::OnSend(const Protocol::AcsRequest& request)
+{
+    std::vector<Protocol::AcsRequest> sent{request};
+    if (Is(EMutation::ReportsSwapped))
+    {
+        if (_heldBack.has_value())
+        {
+            sent.push_back(*std::exchange(_heldBack, std::nullopt));
+        }
+        else if (_chance.IsHit(100))
+        {
+            _heldBack = request;
+            return {};
+        }
+    }
+    const auto* const planOrNull = std::get_if<Protocol::PlanReport>(&request.payload);
+    const bool bFinal = planOrNull != nullptr && Protocol::IsFinal(planOrNull->status);
+    const bool bTwice =
+        (Is(EMutation::FinalReportTwice) && bFinal) || (Is(EMutation::ResultTwice) && IsResult(request.payload));
+    const bool bInvented = Is(EMutation::ReportNotStored) && _chance.IsHit(50);
+    if (bTwice || bInvented)
+    {
+        sent.push_back(request);
+        sent.back().transactionID = Core::MakeUUID(_random);
+    }
     if (bInvented)
     {
-        further.payload = Protocol::ErrorReport{};
+        sent.back().payload = Protocol::ErrorReport{};
     }
-    return further;
+    return sent;
 }
 
 Mutator::CommandOutcome Mutator::OnCommand(const Planning::CommandRobot& command)

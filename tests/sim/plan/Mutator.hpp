@@ -23,12 +23,6 @@ namespace ACS::Simulation
 class Mutator final
 {
 public:
-    struct ReportOutcome
-    {
-        std::vector<Planning::OutboxEntry> reported;
-        bool bAcknowledged = false; ///< To the engine, without an Ack of the MCS.
-    };
-
     struct CommandOutcome
     {
         std::vector<Planning::RobotCommand> sent;
@@ -40,7 +34,7 @@ private:
     EMutation _mutation;
     ChanceModel& _chance;
     Core::IRandom& _random;
-    std::optional<Planning::OutboxEntry> _heldBack;
+    std::optional<Protocol::AcsRequest> _heldBack;
     std::map<std::string, Planning::Drive> _drives;                                ///< The latest of each robot.
     std::set<std::string> _denied;                                                 ///< CommandIDs.
     std::map<std::pair<std::string, std::string>, Planning::StartJob> _latestJobs; ///< By robot and action.
@@ -53,9 +47,10 @@ public:
     [[nodiscard]] Planning::StoredState OnRestore(Planning::StoredState state) const;
     [[nodiscard]] Planning::StoreBatch OnWrite(Planning::StoreBatch batch) const;
     [[nodiscard]] Planning::ReplyCommand OnReply(Planning::ReplyCommand reply) const;
-    [[nodiscard]] ReportOutcome OnReport(const Planning::OutboxEntry& entry);
-    /// A further request to send after this one.
-    [[nodiscard]] std::optional<Protocol::AcsRequest> OnSent(const Protocol::AcsRequest& request);
+    /// Nullopt: the report is dropped, and the engine receives an acknowledgement.
+    [[nodiscard]] std::optional<Planning::OutboxEntry> OnReport(Planning::OutboxEntry entry);
+    /// The requests to send in place of this one. Only the first must be sent.
+    [[nodiscard]] std::vector<Protocol::AcsRequest> OnSend(const Protocol::AcsRequest& request);
     [[nodiscard]] CommandOutcome OnCommand(const Planning::CommandRobot& command);
     [[nodiscard]] std::vector<Planning::RobotEvent> OnEvent(
         const std::string& robotID,
