@@ -122,7 +122,7 @@ public:
             const std::string result = Apply(command);
             if (!result.starts_with("ok: "))
             {
-                _logger.Warning("a fault may not take effect", {{"fault", command.fault.text}, {"result", result}});
+                _logger.Warning("this fault might have no effect", {{"fault", command.fault.text}, {"result", result}});
             }
         }
         for (std::size_t i = 0; i < _members.size(); ++i)

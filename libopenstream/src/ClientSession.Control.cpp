@@ -116,7 +116,11 @@ void ClientSession::Impl::CheckControls(Core::Now now, ClientActions& out)
 {
     if (_state == EClientState::Ready && now.steady >= GetSendDeadline())
     {
-        HandleLoss(EClientLossReason::SendTimeout, "the connection did not take a CONTROL in time", now, out);
+        HandleLoss(
+            EClientLossReason::SendTimeout,
+            "timeout: a CONTROL could not be written to the connection",
+            now,
+            out);
         return;
     }
     _controls.EraseIf([now, &out](const PendingControl& control) {

@@ -430,7 +430,7 @@ Core::Result<std::string> MasterSession::Impl::SendInstantAction(Action action, 
     const ActionState* const shown = FindShownOrNull(actionID);
     if (IsTracked(actionID) || (shown != nullptr && shown->actionType != action.actionType))
     {
-        return Core::Fail(EVda5050Error::InvalidOrder, "actionId", "an id of its own", actionID);
+        return Core::Fail(EVda5050Error::InvalidOrder, "actionId", "an actionId that no other action uses", actionID);
     }
     if (shown != nullptr)
     {

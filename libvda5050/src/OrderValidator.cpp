@@ -27,19 +27,19 @@ void CheckSequence(const OrderMessage& order, OrderFindings& findings)
     std::uint32_t expected = order.nodes.front().sequenceID;
     if (expected % SEQUENCE_STEP != 0)
     {
-        findings.Add("the sequenceId of a node is even", ReferenceKeys::NODE_ID, order.nodes.front().nodeID);
+        findings.Add("the sequenceId of a node must be even", ReferenceKeys::NODE_ID, order.nodes.front().nodeID);
     }
     for (std::size_t index = 0; index < order.nodes.size(); ++index)
     {
         const OrderNode& node = order.nodes[index];
         if (node.sequenceID != expected)
         {
-            findings.Add("sequenceIds follow each other without a gap", ReferenceKeys::NODE_ID, node.nodeID);
+            findings.Add("sequenceIds must follow each other without a gap", ReferenceKeys::NODE_ID, node.nodeID);
         }
         if (index < order.edges.size() && order.edges[index].sequenceID != expected + 1)
         {
             findings.Add(
-                "sequenceIds follow each other without a gap",
+                "sequenceIds must follow each other without a gap",
                 ReferenceKeys::EDGE_ID,
                 order.edges[index].edgeID);
         }
@@ -51,7 +51,7 @@ void CheckBase(const OrderMessage& order, OrderFindings& findings)
 {
     if (!order.nodes.front().bReleased)
     {
-        findings.Add("the first node is released", ReferenceKeys::NODE_ID, order.nodes.front().nodeID);
+        findings.Add("the first node must be released", ReferenceKeys::NODE_ID, order.nodes.front().nodeID);
     }
     for (std::size_t index = 0; index < order.edges.size(); ++index)
     {
@@ -59,11 +59,11 @@ void CheckBase(const OrderMessage& order, OrderFindings& findings)
         const bool bJoined = order.nodes[index].bReleased && order.nodes[index + 1].bReleased;
         if (edge.bReleased && !bJoined)
         {
-            findings.Add("a released edge joins released nodes", ReferenceKeys::EDGE_ID, edge.edgeID);
+            findings.Add("the nodes of a released edge must be released", ReferenceKeys::EDGE_ID, edge.edgeID);
         }
         if (!edge.bReleased && order.nodes[index + 1].bReleased)
         {
-            findings.Add("nothing is released behind the horizon's begin", ReferenceKeys::EDGE_ID, edge.edgeID);
+            findings.Add("nothing after the begin of the horizon may be released", ReferenceKeys::EDGE_ID, edge.edgeID);
         }
     }
 }
@@ -96,11 +96,11 @@ void CheckNodes(const OrderMessage& order, OrderFindings& findings)
     {
         if (node.nodeID.empty())
         {
-            findings.Add("a node has a nodeId");
+            findings.Add("a node must have a nodeId");
         }
         if (node.nodePosition.has_value() && HasBadNumbers(*node.nodePosition))
         {
-            findings.Add("a node's position is inside its ranges", ReferenceKeys::NODE_ID, node.nodeID);
+            findings.Add("the position of a node must be inside its ranges", ReferenceKeys::NODE_ID, node.nodeID);
         }
     }
 }
@@ -112,15 +112,18 @@ void CheckEdges(const OrderMessage& order, OrderFindings& findings)
         const OrderEdge& edge = order.edges[index];
         if (edge.startNodeID != order.nodes[index].nodeID || edge.endNodeID != order.nodes[index + 1].nodeID)
         {
-            findings.Add("an edge names the nodes beside it", ReferenceKeys::EDGE_ID, edge.edgeID);
+            findings.Add(
+                "an edge must have the nodeIds of the nodes before and after it",
+                ReferenceKeys::EDGE_ID,
+                edge.edgeID);
         }
         if (edge.edgeID.empty())
         {
-            findings.Add("an edge has an edgeId");
+            findings.Add("an edge must have an edgeId");
         }
         if (HasBadNumbers(edge))
         {
-            findings.Add("an edge's numbers are inside their ranges", ReferenceKeys::EDGE_ID, edge.edgeID);
+            findings.Add("the numbers of an edge must be inside their ranges", ReferenceKeys::EDGE_ID, edge.edgeID);
         }
         const std::string_view fault =
             edge.trajectory.has_value() ? FindTrajectoryFault(*edge.trajectory) : std::string_view();
@@ -144,7 +147,7 @@ void CheckActions(const OrderMessage& order, OrderFindings& findings)
             if (action.actionID.empty() || bNull)
             {
                 findings.Add(
-                    "an action has an id, and no parameter that is null",
+                    "an action must have an actionId and no parameter that is null",
                     ReferenceKeys::ACTION_ID,
                     action.actionID);
             }
@@ -162,7 +165,7 @@ void CheckActions(const OrderMessage& order, OrderFindings& findings)
     const auto repeated = std::ranges::adjacent_find(ids);
     if (repeated != ids.end())
     {
-        findings.Add("actionIds are unique", ReferenceKeys::ACTION_ID, std::string(*repeated));
+        findings.Add("actionIds must be unique", ReferenceKeys::ACTION_ID, std::string(*repeated));
     }
 }
 
@@ -172,7 +175,8 @@ void CheckNames(const OrderMessage& order, OrderFindings& findings)
     const auto check = [&findings](std::string_view name) {
         if (name.size() > LONGEST_FOREIGN_TEXT)
         {
-            findings.Add("a name has at most " + std::to_string(LONGEST_FOREIGN_TEXT) + " bytes: " + std::string(name));
+            findings.Add(
+                "a name must have at most " + std::to_string(LONGEST_FOREIGN_TEXT) + " bytes: " + std::string(name));
         }
     };
     const auto checkActions = [&check](const std::vector<Action>& actions) {
@@ -217,11 +221,11 @@ std::vector<OrderViolation> ValidateOrder(const OrderMessage& order)
     OrderFindings findings(order, ErrorTypes::VALIDATION_ERROR);
     if (order.orderID.empty())
     {
-        findings.Add("an order has an orderId");
+        findings.Add("an order must have an orderId");
     }
     if (order.nodes.empty() || order.edges.size() + 1 != order.nodes.size())
     {
-        findings.Add("an order has at least one node, and one edge less than nodes");
+        findings.Add("an order must have at least one node, and one edge less than nodes");
         return findings.Take();
     }
     CheckSequence(order, findings);

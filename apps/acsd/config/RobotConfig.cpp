@@ -108,7 +108,7 @@ LoadPositions ReadLoadPositions(const ConfigSection& robot, const std::vector<Co
         {
             section.AddError(
                 given == names.end() ? other->second : portName,
-                fmt::format("is {}, as the position of another port is: each port has one of its own", position));
+                fmt::format("is {}, which another port uses already: give each port a different position", position));
         }
     }
     return {ports, names};

@@ -81,8 +81,8 @@ AcsdMetrics::AcsdMetrics(Apps::MetricsEndpoint& metrics)
     _metrics.AddGauge(MCS_CONNECTED, "1 when the WebSocket to the MCS is open");
     _metrics.AddGauge(MCS_REGISTERED, "1 when the MCS has accepted the registration");
     _metrics.AddCounter(MCS_LINK_LOSSES, "Connections to the MCS that ended or could not be established");
-    _metrics.AddCounter(MCS_SENT, "Requests sent to the MCS, with resends");
-    _metrics.AddCounter(MCS_RECEIVED, "Requests received from the MCS, with repeated ones");
+    _metrics.AddCounter(MCS_SENT, "Requests sent to the MCS, including resends");
+    _metrics.AddCounter(MCS_RECEIVED, "Requests received from the MCS, including repeated ones");
     _metrics.AddCounter(MCS_REFUSED, "Requests of the MCS that were answered with Fail");
     _metrics.AddCounter(MCS_NACKS, "Reports that the MCS answered with Fail");
     _metrics.AddCounter(MCS_TIMEOUTS, "Reports without an Ack after all resends");

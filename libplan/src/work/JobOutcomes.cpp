@@ -129,7 +129,7 @@ void JobOutcomes::OnJobUnresolved(Robot& robot, const JobUnresolved& event)
     const bool bOfPlan = robot.activity == EActivity::Works && GetJobID(*robot.planOrNull) == event.jobID;
     if ((bOverdue || bOfPlan) && !robot.job.IsUnresolved())
     {
-        // After a restart, marks that do not prove this job prove none of the later jobs either.
+        // After a restart, a progress token that does not prove this job proves none of the later jobs either.
         if (robot.job.IsRecovering() && bOfPlan && !robot.job.GetOrNull()->progressToken.empty())
         {
             robot.work.MarkUnresolved();

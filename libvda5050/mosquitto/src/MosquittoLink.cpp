@@ -295,7 +295,7 @@ void MosquittoLink::Impl::LogRival(const std::error_code& reason)
 {
     if (_bRivalTold)
     {
-        _logger.Debug("lost the MQTT broker to another client again", {{"client", _options.clientID}});
+        _logger.Debug("disconnected again: another client uses the same client id", {{"client", _options.clientID}});
         return;
     }
     _bRivalTold = true;

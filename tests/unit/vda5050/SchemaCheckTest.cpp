@@ -79,8 +79,8 @@ TEST_CASE("1 The schema check refuses each planted fault and names its place")
         Case{"2026-11-20T23:37:12.345Z", "2026-13-20T23:37:12Z", "#/timestamp is not a date-time"},
         Case{R"("version":"2.0.0")", R"("version":"2.1.0")", "#/version is not 2.0.0"},
         Case{R"("orderId":"o")", R"("orderId":"o","orderId":"p")", "the name orderId is repeated"},
-        Case{R"("x":0)", R"("x":NaN)", "no JSON"},
-        Case{R"("edges":[]})", R"("edges":[])", "no JSON"});
+        Case{R"("x":0)", R"("x":NaN)", "invalid JSON"},
+        Case{R"("edges":[]})", R"("edges":[])", "invalid JSON"});
     const std::string text = MakeOrder(planted.from, planted.to);
     CAPTURE(text);
     const auto fault = FindSchemaFaultOrNull(EVda5050Version::Version200, ETopic::Order, text);

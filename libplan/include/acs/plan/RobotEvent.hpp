@@ -41,7 +41,8 @@ struct PortLoad
 };
 
 /// What the robot shows of its commands. After a restart of the ACS the engine recognises by it which jobs were done. The default
-/// shows nothing: each job in progress at a crash becomes unresolved.
+/// shows nothing: the adapter answers each RecoverJob with JobUnresolved, and an operator resolves that job. Jobs that were done
+/// while the store failed are not recognised then, and are commanded again.
 struct RestartEvidence
 {
     /// The last Drive or StartJob that the robot shows; empty if it shows none, for example after it was switched off. nullopt

@@ -321,7 +321,7 @@ TEST_CASE("An invalid configuration of jobs is reported under its key")
         {{"robots.LR01.load_positions.CP02=x"}, "robots.LR01.load_positions.CP02: expected a port of this robot"},
         {{"robots.LR01.load_positions.CP01="}, "robots.LR01.load_positions.CP01: expected a port of this robot"},
         {{R"(robots.LR01.ports=["CP01-02"])", "robots.LR01.load_positions.CP01=CP02"},
-         "robots.LR01.load_positions.CP01: is CP02, as the position of another port is"},
+         "robots.LR01.load_positions.CP01: is CP02, which another port uses already"},
         {{"robots.CR01.arm.counter_echo=256"}, "robots.CR01.arm.counter_echo: expected an integer from -1 to 255"},
         {{R"(stations."A01.CP01".reach=["A09.CP01"])"},
          R"(stations."A01.CP01".reach: expected other stations of the site map, found "A09.CP01")"},
