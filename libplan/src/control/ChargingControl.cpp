@@ -89,7 +89,7 @@ void ChargingControl::OnChargeRetry(Robot& robot)
     _transaction.RequestDispatch();
 }
 
-Alarm ChargingControl::MakeChargeAlarm(const Robot& robot) const
+Alarm ChargingControl::MakeChargeAlarm(const Robot& robot)
 {
     return MakeAlarm(
         robot.GetID(),

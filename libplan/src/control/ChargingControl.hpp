@@ -36,7 +36,7 @@ public:
     [[nodiscard]] std::optional<std::size_t> GetChargeNodeOrNull(const Robot& robot) const;
 
 private:
-    [[nodiscard]] Alarm MakeChargeAlarm(const Robot& robot) const;
+    [[nodiscard]] static Alarm MakeChargeAlarm(const Robot& robot);
     [[nodiscard]] bool IsChargeDue(const Robot& robot) const;
 };
 

@@ -98,7 +98,7 @@ void Dispatcher::OnJobCheck(Robot& robot, const JobCheckChanged& event)
     _transaction.RequestDispatch();
 }
 
-void Dispatcher::CheckJobs(ActivePlan& plan, const Robot& robot) const
+void Dispatcher::CheckJobs(ActivePlan& plan, const Robot& robot)
 {
     plan.rejections.erase(robot.index);
     if (robot.view.jobCheck == nullptr || std::ranges::count(plan.resolved.candidates, robot.index) == 0)

@@ -36,7 +36,7 @@ public:
     /// Checks the unassigned plans again. An assigned plan stays with its robot, whose adapter refuses the job.
     void OnJobCheck(Robot& robot, const JobCheckChanged& event);
     /// Records the first job of the plan that the robot rejects.
-    void CheckJobs(ActivePlan& plan, const Robot& robot) const;
+    static void CheckJobs(ActivePlan& plan, const Robot& robot);
     /// Rejections of disconnected robots do not count: they may be outdated.
     [[nodiscard]] bool IsRejectedByAll(const ActivePlan& plan) const;
     [[nodiscard]] std::string DescribeRejections(const ActivePlan& plan) const;

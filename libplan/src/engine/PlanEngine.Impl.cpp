@@ -28,7 +28,7 @@ PlanEngine::Impl::Impl(EngineOptions options, SiteMap site, Core::IRandom& rando
       _jobs(_engine, _loads, _work),
       _controls(_engine, _tsc, _answers, _waiting, _coordinator, _status, _work),
       _drives(_engine, _tsc, _answers, _places, _waiting, _coordinator, _work, _controls),
-      _submission(_engine, _tsc, _dispatcher, _waits),
+      _submission(_engine, _tsc, _waits),
       _operator(_engine, _loads, _stalls, _places, _work, _jobs),
       _recovery(_engine, _tsc, _answers, _places, _status, _work),
       _store(_engine, _answers, _places, _work)

@@ -1,5 +1,6 @@
 #include "engine/PlanSubmission.hpp"
 
+#include "dispatch/Dispatcher.hpp"
 #include <acs/core/ECoreError.hpp>
 
 #include <fmt/format.h>
@@ -10,11 +11,7 @@
 namespace ACS::Planning
 {
 
-PlanSubmission::PlanSubmission(
-    EngineState& engine,
-    const TscControl& tsc,
-    const Dispatcher& dispatcher,
-    const WaitReasons& waits)
+PlanSubmission::PlanSubmission(EngineState& engine, const TscControl& tsc, const WaitReasons& waits)
     : _options(engine.options),
       _admission(engine.admission),
       _plans(engine.plans),
@@ -23,7 +20,6 @@ PlanSubmission::PlanSubmission(
       _transaction(engine.transaction),
       _call(engine.call),
       _tsc(tsc),
-      _dispatcher(dispatcher),
       _waits(waits)
 {
 }
@@ -53,7 +49,7 @@ void PlanSubmission::Submit(const SubmitPlan& command)
     {
         _unreported.push_back(plan->record.plan.planID);
     }
-    std::ranges::for_each(_fleet, [this, &plan](const Robot& robot) { _dispatcher.CheckJobs(*plan, robot); });
+    std::ranges::for_each(_fleet, [&plan](const Robot& robot) { Dispatcher::CheckJobs(*plan, robot); });
     _transaction.Store(_plans.Accept(std::move(plan), _transaction.GetNow().wall));
     _transaction.Emit(ReplyCommand{command.replyToken, true, REGISTERED});
     _transaction.StartTimer(EEngineTimer::Dispatch, {}, {});

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "control/TscControl.hpp"
-#include "dispatch/Dispatcher.hpp"
 #include "dispatch/WaitReasons.hpp"
 #include "transaction/EngineState.hpp"
 
@@ -25,12 +24,11 @@ class PlanSubmission
     EngineTransaction& _transaction;
     CallRecord& _call;
     const TscControl& _tsc;
-    const Dispatcher& _dispatcher;
     const WaitReasons& _waits;
     std::vector<std::string> _unreported; ///< Accepted, PlanReport(Pending) not sent.
 
 public:
-    PlanSubmission(EngineState& engine, const TscControl& tsc, const Dispatcher& dispatcher, const WaitReasons& waits);
+    PlanSubmission(EngineState& engine, const TscControl& tsc, const WaitReasons& waits);
 
     /// Checks the plan, stores and queues it, and replies.
     void Submit(const SubmitPlan& command);

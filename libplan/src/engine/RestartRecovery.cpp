@@ -316,7 +316,7 @@ void RestartRecovery::RaiseMissing()
         if (robot.view.bOnline)
         {
             _transaction.RaiseAlarm(
-                _places.MakePlaceAlarm(robot, "Robot connected, but it reports no state. Check the robot."));
+                PlaceTracker::MakePlaceAlarm(robot, "Robot connected, but it reports no state. Check the robot."));
             continue;
         }
         const bool bHasWork = robot.planOrNull != nullptr || robot.job.GetOrNull() != nullptr;

@@ -145,7 +145,7 @@ bool DeadlockResolver::TryRetreat(Robot& robot, const Robot& leader)
     }
     if (bBegun)
     {
-        _waiting.YieldTo(robot, leader);
+        WaitingRobots::YieldTo(robot, leader);
         _transaction.Note(
             robot,
             fmt::format(

@@ -120,7 +120,7 @@ std::vector<std::size_t> PlaceTracker::ListClaimed(const Robot& robot, std::size
     return claim;
 }
 
-Alarm PlaceTracker::MakePlaceAlarm(const Robot& robot, std::string message) const
+Alarm PlaceTracker::MakePlaceAlarm(const Robot& robot, std::string message)
 {
     return MakeAlarm(robot.GetID(), ALARM_PLACE, EAlarmLevel::Heavy, std::move(message));
 }

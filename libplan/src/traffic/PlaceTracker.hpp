@@ -25,7 +25,7 @@ public:
     explicit PlaceTracker(EngineState& engine);
 
     /// ACS-1003
-    [[nodiscard]] Alarm MakePlaceAlarm(const Robot& robot, std::string message) const;
+    [[nodiscard]] static Alarm MakePlaceAlarm(const Robot& robot, std::string message);
     /// Updates whether the robot can drive; one that cannot is a fixed obstacle.
     void NoteMovable(const Robot& robot);
     /// Reserves the node of a robot without a drive, and the nodes it may still reach on an order of another master.

@@ -372,7 +372,7 @@ bool TrafficCoordinator::TryAdvance(Robot& robot, std::size_t routeIndex)
             nodes.subspan(drive.grantedCount, routeIndex + 1 - drive.grantedCount);
         if (drive.reroute.has_value() || !_traffic.TryOverrun(robot.index, overrun))
         {
-            _transaction.RaiseAlarm(_places.MakePlaceAlarm(
+            _transaction.RaiseAlarm(PlaceTracker::MakePlaceAlarm(
                 robot,
                 fmt::format(
                     "Robot entered node {} without a reservation. Move the robot to a free node.",

@@ -12,7 +12,7 @@ namespace
 
 struct SubmissionParts : EngineParts
 {
-    PlanSubmission submission{engine, tsc, dispatcher, waits};
+    PlanSubmission submission{engine, tsc, waits};
 
     using EngineParts::EngineParts;
 
