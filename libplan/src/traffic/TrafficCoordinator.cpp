@@ -225,7 +225,7 @@ bool TrafficCoordinator::TryBeginPlannedRoute(Robot& robot)
     return TryBeginDrive(robot, *robot.search.plannedRoute);
 }
 
-bool TrafficCoordinator::TryPlanRoute(Robot& robot, std::size_t target)
+bool TrafficCoordinator::TryPlanRoute(Robot& robot, std::size_t target) const
 {
     if (!robot.search.plannedRoute.has_value() || robot.search.plannedRoute->target != target)
     {

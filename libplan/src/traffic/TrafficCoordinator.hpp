@@ -89,7 +89,7 @@ private:
     [[nodiscard]] bool CanParkAt(const RobotOptions& robot, std::size_t dock) const;
     /// Begins the planned route, or a detour around stationary robots if there is one.
     [[nodiscard]] bool TryBeginPlannedRoute(Robot& robot);
-    [[nodiscard]] bool TryPlanRoute(Robot& robot, std::size_t target);
+    [[nodiscard]] bool TryPlanRoute(Robot& robot, std::size_t target) const;
 };
 
 } // namespace ACS::Planning
