@@ -39,7 +39,7 @@ bool JobOutcomes::TryEndOverdueJob(Robot& robot, const std::string& jobID, bool 
     _transaction.CancelTimer(EEngineTimer::JobEnd, robot.GetID());
     if (bDone)
     {
-        _transaction.ClearAlarm(_work.MakeDroppedAlarm(robot));
+        _transaction.ClearAlarm(PlanWork::MakeDroppedAlarm(robot));
         _loads.MoveCarrier(robot, *robot.job.GetOrNull());
     }
     _work.ReleaseJob(robot);

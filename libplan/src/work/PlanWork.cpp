@@ -346,7 +346,7 @@ void PlanWork::RaiseDropped(const Robot& robot)
     }
 }
 
-Alarm PlanWork::MakeDroppedAlarm(const Robot& robot) const
+Alarm PlanWork::MakeDroppedAlarm(const Robot& robot)
 {
     Alarm alarm = MakeAlarm(
         robot.GetID(),
@@ -400,7 +400,7 @@ void PlanWork::AbortUnresolvedJob(Robot& robot)
     EndByControl(*robot.planOrNull, EPlanControl::Abort);
 }
 
-Alarm PlanWork::MakeUnresolvedAlarm(const Robot& robot) const
+Alarm PlanWork::MakeUnresolvedAlarm(const Robot& robot)
 {
     Alarm alarm = MakeAlarm(robot.GetID(), ALARM_UNRESOLVED, EAlarmLevel::Heavy, {});
     AddJob(alarm, *robot.job.GetOrNull());

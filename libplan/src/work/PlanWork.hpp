@@ -58,7 +58,7 @@ public:
     /// Commands the robot to cancel its job. The robot gets no work until it has reported the end of the job.
     void DropJob(Robot& robot);
     /// ACS-1007
-    [[nodiscard]] Alarm MakeDroppedAlarm(const Robot& robot) const;
+    [[nodiscard]] static Alarm MakeDroppedAlarm(const Robot& robot);
     /// The outcome of the job is unknown: the robot gets no work until an operator resolves the job.
     void SuspendJob(Robot& robot, const std::string& reason);
     /// Aborts the plan without an operator resolving its job.
@@ -84,7 +84,7 @@ private:
     void RaiseDropped(const Robot& robot);
     /// Suspends the present job instead of commanding it.
     void SuspendUnresolvedJob(Robot& robot);
-    [[nodiscard]] Alarm MakeUnresolvedAlarm(const Robot& robot) const;
+    [[nodiscard]] static Alarm MakeUnresolvedAlarm(const Robot& robot);
 };
 
 } // namespace ACS::Planning
