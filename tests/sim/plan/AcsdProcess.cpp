@@ -207,7 +207,7 @@ void AcsdProcess::OnAction(const Planning::EngineAction& action, const Acsd::Acs
 void AcsdProcess::OnReport(const Planning::SendReport& report, const Acsd::AcsdCore::ActionHandler& execute)
 {
     _around.trace.Add("acsd: report {}: {}", report.entry.sequence, Describe(report.entry.report));
-    if (std::optional<Planning::OutboxEntry> entry = _mutator.OnReport(report.entry))
+    if (std::optional<Planning::OutboxEntry> entry = _mutator.PassReportOrNull(report.entry))
     {
         execute(Planning::SendReport{std::move(*entry)});
     }

@@ -89,7 +89,7 @@ Planning::ReplyCommand Mutator::OnReply(Planning::ReplyCommand reply) const
     return reply;
 }
 
-std::optional<Planning::OutboxEntry> Mutator::OnReport(Planning::OutboxEntry entry)
+std::optional<Planning::OutboxEntry> Mutator::PassReportOrNull(Planning::OutboxEntry entry)
 {
     auto* const resultOrNull = std::get_if<Planning::ControlResultReport>(&entry.report);
     const bool bSwallowed = (Is(EMutation::PlanReportSwallowed) && IsFinalReport(entry.report) && _chance.IsHit(300))

@@ -48,7 +48,7 @@ public:
     [[nodiscard]] Planning::StoreBatch OnWrite(Planning::StoreBatch batch) const;
     [[nodiscard]] Planning::ReplyCommand OnReply(Planning::ReplyCommand reply) const;
     /// Nullopt: the report is dropped, and the engine receives an acknowledgement.
-    [[nodiscard]] std::optional<Planning::OutboxEntry> OnReport(Planning::OutboxEntry entry);
+    [[nodiscard]] std::optional<Planning::OutboxEntry> PassReportOrNull(Planning::OutboxEntry entry);
     /// The requests to send in place of this one. Only the first must be sent.
     [[nodiscard]] std::vector<Protocol::AcsRequest> OnSend(const Protocol::AcsRequest& request);
     [[nodiscard]] CommandOutcome OnCommand(const Planning::CommandRobot& command);
