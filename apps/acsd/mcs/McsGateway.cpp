@@ -343,7 +343,7 @@ void McsGateway::AnswerList(
     {
         if constexpr (std::is_same_v<TList, Protocol::ErrorListAck>)
         {
-            std::ranges::reverse(all); // the newest plans matter most
+            std::ranges::reverse(all); // the newest errors matter most
         }
         std::size_t tooMany = count;
         count = 0;

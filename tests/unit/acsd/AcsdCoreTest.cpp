@@ -342,6 +342,39 @@ TEST_CASE_METHOD(
     CHECK(_closes == 1);
 }
 
+TEST_CASE_METHOD(AcsdCoreFixture, "A stop that loses the MCS waits no longer for Acks")
+{
+    Begin(MakeStateWithReport(_clock));
+    Register();
+    _core->Stop();
+    Advance(1s);
+    REQUIRE_FALSE(_core->IsClosed());
+    _bRegistered = false;
+    _core->OnSessionEvent(Protocol::LinkLost{"reset", true});
+    Advance(AcsdCore::SETTLE_TIME - 1ms);
+    CHECK_FALSE(_core->IsClosed());
+    Advance(1ms);
+    CHECK(_core->IsClosed());
+}
+
+TEST_CASE_METHOD(AcsdCoreFixture, "A transaction that ends after the stop has no effect")
+{
+    Begin();
+    Register();
+    _bDiskHangs = true;
+    Submit("P1");
+    _core->Stop();
+    Advance(_config.operations.drainTimeout + AcsdCore::STOP_LIMIT);
+    REQUIRE(_stops == 1);
+    const std::size_t commits = _commits;
+    _bDiskHangs = false;
+    ServeDisk();
+    CHECK(_commits == commits);
+    CHECK(_answers.empty());
+    CHECK(_closes == 0);
+    CHECK(_stops == 1);
+}
+
 TEST_CASE_METHOD(AcsdCoreFixture, "A stop completes the transaction under way before it closes the links")
 {
     Begin();
