@@ -109,7 +109,7 @@ public:
         static_cast<void>(_client->SendControl(request, EControlTracking::Streamed));
     }
 
-    /// Continues the stream at its longest period, so that sent lines are not skipped, as after a STOP.
+    /// Continues the stream at its longest period, so that sent lines are not skipped as they would be after a STOP.
     void SlowDown()
     {
         _client->SetMonitor(MonitorRequest{URL, MAXIMUM_PERIOD, {}, {}});

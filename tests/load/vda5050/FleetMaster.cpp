@@ -17,7 +17,7 @@ namespace
 
 constexpr std::size_t ORDER_EDGES = 60;
 constexpr std::size_t BASE_NODES = 10;  ///< Of the first message of an order.
-constexpr std::size_t RELEASE_AT = 4;   ///< When this number of released nodes is ahead,
+constexpr std::size_t RELEASE_AT = 4;   ///< When at most this number of released nodes is ahead,
 constexpr std::size_t RELEASE_MORE = 8; ///< this number of nodes is released.
 constexpr std::uint64_t TIMERS = 16;    ///< A vehicle has fewer.
 

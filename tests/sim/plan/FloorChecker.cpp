@@ -181,7 +181,7 @@ void FloorChecker::ActByHand(const Sim::WorldEvent& event)
     Report(event, _world.Act(event));
 }
 
-/// Built only for a violation, because there are many.
+/// The text is built only for a printed trace, because there are many.
 void FloorChecker::Report(const Sim::WorldEvent& event, const Core::Result<void>& done) const
 {
     if (_trace.IsPrinting())

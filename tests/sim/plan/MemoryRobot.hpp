@@ -32,7 +32,7 @@ private:
     {
         bool bStopsOnEdges = false;     ///< A pause stops it between two nodes.
         bool bFinishesJobs = false;     ///< A job that runs is not paused.
-        bool bIgnoresJobCancel = false; ///< An arm cannot interrupt its program.
+        bool bIgnoresJobCancel = false; ///< Like an arm, which never aborts its program.
         std::size_t slowness = 1;
     };
 

@@ -244,7 +244,7 @@ void ChooseService(Scenario& scenario)
     {
         return;
     }
-    // A robot that leaves its charger is back some runs later, for half a minute.
+    // A robot that leaves its charger is back some drives later, for half a minute.
     scenario.options.dispatch.batteryFloor = 20;
     scenario.options.dispatch.batteryResume = 35;
     for (Planning::RobotOptions& robot : scenario.options.robots)

@@ -391,7 +391,7 @@ void World::Watch()
     _behaviours.Start(EBehaviour::Watch, WATCH_INTERVAL, [this] { Watch(); });
 }
 
-/// An aborted plan may have left its carrier on a robot, and other robots wait for it: the operator removes it.
+/// A plan that did not complete may have left its carrier on a robot, and other robots wait for it: the operator removes it.
 void World::RemoveCarriers()
 {
     if (_process == nullptr)

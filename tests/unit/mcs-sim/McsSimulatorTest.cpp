@@ -505,6 +505,27 @@ TEST_CASE("A connection that is not the registered ACS fulfils no expectation")
     CHECK(Contains(output, "no ErrorReport came within 300ms"));
 }
 
+TEST_CASE("12.3 With the profile nexus a second client is rejected, with the profile spec it is accepted")
+{
+    const bool bNexus = GENERATE(false, true);
+    CAPTURE(bNexus);
+    ACS::McsSim::SimulatorOptions options;
+    options.profile = bNexus ? ACS::McsSim::EProfile::Nexus : ACS::McsSim::EProfile::Spec;
+    McsSimulatorFixture fixture(1, false, options);
+    fixture.acs->Connect();
+    while (!Contains(fixture.out.str(), "ACS registered"))
+    {
+        REQUIRE(fixture.context.run_one_for(LONGEST) > 0);
+    }
+    ACS::Testing::RawPeer peer(fixture.context, {});
+    peer.ConnectAsync(fixture.endpoint.port);
+    while (!peer.WasAnswered())
+    {
+        REQUIRE(fixture.context.run_one_for(LONGEST) > 0);
+    }
+    CHECK(peer.WasAccepted() != bNexus);
+}
+
 TEST_CASE("The console executes its commands: sends, lists plans and ends the run")
 {
     ACS::McsSim::SimulatorOptions options;

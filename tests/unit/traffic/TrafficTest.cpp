@@ -87,8 +87,7 @@ TEST_CASE("Traffic: robots may meet in a corridor where each can retreat, and dr
 
 TEST_CASE("Traffic: a grant after which the state is not safe is refused, all others are given")
 {
-    // The parking positions are exchanged: 6 for robot 0, which is on 5, and 5 for robot 1, which is on 6. One must
-    // enter 7.
+    // Robot 0 is on 5 and has the parking position 6. Robot 1 is on 6, has 7, and must enter it first.
     Traffic traffic(MakeCorridor(), 0);
     traffic.AddRobot("lr", 6);
     traffic.AddRobot("lr", 7);
@@ -96,7 +95,7 @@ TEST_CASE("Traffic: a grant after which the state is not safe is refused, all ot
     REQUIRE(traffic.TryStand(1, 6));
     traffic.SetMovable(0, true);
     traffic.SetMovable(1, true);
-    // Robot 0 after 2 would block robot 1 from 7, and robot 1 would block robot 0 from 6.
+    // Robot 0 on 2 or beyond would block robot 1 from 7, and robot 1 would block robot 0 from 6.
     REQUIRE(traffic.Extend(0, Nodes{0, 1}) == 2);
     traffic.Pass(0, 2);
     CHECK(traffic.Extend(0, Nodes{2}) == 0);
@@ -106,7 +105,7 @@ TEST_CASE("Traffic: a grant after which the state is not safe is refused, all ot
     CHECK(traffic.Extend(0, Nodes{2, 3, 4, 6}) == 4);
 }
 
-TEST_CASE("Traffic: a robot that cannot move is an obstacle, and no robot blocks the way to its parking position")
+TEST_CASE("Traffic: a robot that cannot move is an obstacle, and no robot drives where it would be cut off by it")
 {
     Traffic traffic = MakeTraffic();
     traffic.AddRobot("lr", 7);

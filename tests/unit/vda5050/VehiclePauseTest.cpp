@@ -95,7 +95,7 @@ TEST_CASE("5.3 stopPause before the vehicle is stationary fails startPause")
     CHECK(Pick<DriveTo>(bench.GetOutput()).size() == 1);
 }
 
-TEST_CASE("5.3 stopPause ends a pause at the vehicle itself unless that overrides the master")
+TEST_CASE("5.3 A pause at the vehicle itself is shown in paused; stopPause ends it unless it overrides the master")
 {
     struct Case
     {

@@ -399,7 +399,7 @@ TEST_CASE("The keys of the decision register are read")
     CHECK(Read({"cancel.until=dispatch"}).engine.controls.cancelUntil == Planning::ECancelWindow::Dispatch);
 }
 
-TEST_CASE("A removed key is an error that names its replacement, for every value")
+TEST_CASE("A removed key is an error that states why or what replaces it, for every value")
 {
     for (const char* override :
          {"plan.duplicate=fail",

@@ -157,7 +157,7 @@ TEST_CASE("/readyz and /status show why a link is down, /status the report that 
     CHECK(HasText(Acsd::MakeStatusResponse(program, *world.engine).body, R"("planId":null,"message":"unknown job")"));
 }
 
-TEST_CASE("POST /robots/ID/maintenance/on and off; /status shows it and which plan waits for it")
+TEST_CASE("POST /robots/ID/maintenance/on and off; /status shows it and why a plan waits for it")
 {
     Operator user;
     CHECK(user.Post("/robots/LR01/maintenance/on") == "202 {\"message\":\"LR01 is taken out of service.\"}\n");

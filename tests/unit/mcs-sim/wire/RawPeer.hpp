@@ -23,6 +23,8 @@ class RawPeer
     boost::beast::flat_buffer _buffer;
     std::vector<std::string> _texts;
     std::size_t _said = 0;
+    bool _bAnswered = false;
+    bool _bAccepted = false;
 
 public:
     RawPeer(boost::asio::io_context& context, std::vector<std::string> texts)
@@ -38,7 +40,9 @@ public:
             if (!error)
             {
                 _stream.async_handshake("127.0.0.1", "/acs/", [this](boost::system::error_code refused) {
-                    if (!refused)
+                    _bAnswered = true;
+                    _bAccepted = !refused;
+                    if (_bAccepted)
                     {
                         SayNext();
                         Listen();
@@ -46,6 +50,17 @@ public:
                 });
             }
         });
+    }
+
+    /// Whether the upgrade was answered.
+    [[nodiscard]] bool WasAnswered() const noexcept
+    {
+        return _bAnswered;
+    }
+
+    [[nodiscard]] bool WasAccepted() const noexcept
+    {
+        return _bAccepted;
     }
 
 private:

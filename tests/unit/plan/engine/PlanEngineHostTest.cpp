@@ -189,7 +189,7 @@ TEST_CASE_METHOD(HostTest, "An input between two plans is handled between them")
 
 TEST_CASE_METHOD(
     HostTest,
-    "A job whose robot disconnects while its command waits for the disk is sent once, after the reconnect")
+    "A job whose robot disconnects while its command waits for the disk is sent once more, not before the reconnect")
 {
     StateChanged state;
     state.lastNodeID = "D-A01.CP01"; // where the plan begins

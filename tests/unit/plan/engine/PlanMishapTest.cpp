@@ -136,7 +136,7 @@ TEST_CASE("A failing store is retried after a delay and with new plans, not with
     CHECK(world.violations == Lines{});
 }
 
-TEST_CASE("9 cancel.confirm_timeout: a drive that is cancelled after it is begun again, because the plan continues")
+TEST_CASE("9 cancel.confirm_timeout: a drive that ends by a late cancel begins again, because the plan continues")
 {
     PlanWorld world = MakeWorld([](EngineOptions& options) { options.controls.cancelTimeout = 10ms; });
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");

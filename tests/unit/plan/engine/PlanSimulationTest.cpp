@@ -130,7 +130,7 @@ TEST_CASE("With random controls, rejected drives and failed jobs every plan ends
         REQUIRE(world.TryRun());
         for (std::size_t round = 0; round < PLANS && !world.engine->GetActivePlans().empty(); ++round)
         {
-            // An aborted plan may have left its carrier on a robot, and other robots wait for it.
+            // A plan that did not complete may have left its carrier on a robot, and other robots wait for it.
             RemoveCarriers(world);
             REQUIRE(world.TryRun());
         }

@@ -106,7 +106,7 @@ TEST_CASE("5.9 From dock to dock over one edge: the robot docks, and its arrival
     CHECK(GetStatuses(world) == Lines{"UnDocking CHG01", "Arrival A01.CP01", "Docking A01.CP01", "Working A01.CP01"});
 }
 
-TEST_CASE("5.9 A robot on a route through another dock reports its arrival there and docks at the next one")
+TEST_CASE("5.9 A dock on the route is not left with UnDocking: the robot arrives there and docks at the next one")
 {
     PlanWorld world(1, MakeTestOptions(false), MakeSiteWith("D-A01.CP01", "D-A01.CP06"));
     world.Connect();
