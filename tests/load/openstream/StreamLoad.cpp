@@ -279,7 +279,7 @@ int main(int argc, char** argv)
         app.add_flag(
                "--soak",
                options.bSoak,
-               "Run only 8 sessions with MONITOR and CONTROL on one connection each, all the time without a restart")
+               "Run only 8 sessions with MONITOR and CONTROL on one connection each, in a single run")
             ->excludes(sessions);
         app.add_flag(
             "--realtime",

@@ -391,7 +391,8 @@ void World::Watch()
     _behaviours.Start(EBehaviour::Watch, WATCH_INTERVAL, [this] { Watch(); });
 }
 
-/// A plan that did not complete may have left its carrier on a robot, and other robots wait for it: the operator removes it.
+/// A plan that did not complete may have left its carrier on a robot, and other robots wait for it: the operator
+/// removes it.
 void World::RemoveCarriers()
 {
     if (_process == nullptr)

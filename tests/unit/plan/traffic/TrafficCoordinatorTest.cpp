@@ -137,7 +137,7 @@ TEST_CASE("TrafficCoordinator: the nodes of a reroute are granted before the dri
 }
 
 TEST_CASE(
-    "TrafficCoordinator: a rejected drive to the parking position is repeated, with a delay that doubles up to the 64-fold")
+    "TrafficCoordinator: a rejected drive to the parking position is repeated, with a delay that doubles up to 64-fold")
 {
     EngineParts parts;
     parts.PutOn(parts.lr, "D-A01.CP01");
