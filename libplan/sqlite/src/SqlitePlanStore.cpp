@@ -56,7 +56,7 @@ class SqlitePlanStore::Impl
     StoreOrigin _origin;
     int _systemError = 0;
     bool _bOpen = false;    ///< The database is marked as open (StoreGeneration.hpp).
-    bool _bRescued = false; ///< The database file is missing and its content was copied.
+    bool _bRescued = false; ///< The database file is missing or replaced, and its content was copied.
 
 public:
     /// Throws SQLite::Exception, as all functions of this class except the destructor.
@@ -190,7 +190,7 @@ private:
         }
     }
 
-    /// Merges the content of a missing log into the database. Returns the remedy for the error text.
+    /// Merges the content of a missing or replaced log into the database. Returns the remedy for the error text.
     [[nodiscard]] std::string SaveLog()
     {
         Close();
@@ -200,7 +200,7 @@ private:
               "merged into the database until then";
     }
 
-    /// Copies the content of a missing database. Returns the remedy for the error text.
+    /// Copies the content of a missing or replaced database. Returns the remedy for the error text.
     [[nodiscard]] std::string Rescue(bool bReplaced)
     {
         const std::string copy = GetRescuePath(_path);

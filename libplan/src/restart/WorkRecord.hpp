@@ -42,7 +42,8 @@ public:
 
     /// A record with the members that this class has.
     [[nodiscard]] RobotWorkChanged Make(const std::string& robotID) const;
-    /// Whether the record must be stored. A changed progress token alone is no reason: the token counts at a command or the end of a job.
+    /// Whether the record must be stored. A changed progress token alone is no reason: the token counts at a command or the
+    /// end of a job.
     [[nodiscard]] bool TryBeginStore(const RobotWorkChanged& work);
     void OnStored(RobotWorkChanged work);
 

@@ -45,8 +45,8 @@ private:
     bool _bStalled = false;
 
 public:
-    /// progressOrNull: nullopt without a drive or a connection. releasedCountOrNull: released nodes; nullopt while no further node is
-    /// expected. The time without progress restarts with each node and each extension.
+    /// progressOrNull: nullopt without a drive or a connection. releasedCountOrNull: released nodes; nullopt while no further
+    /// node is expected. The time without progress restarts with each node and each extension.
     [[nodiscard]] Update OnProgress(
         std::optional<DriveProgress> progressOrNull,
         std::optional<std::size_t> releasedCountOrNull,

@@ -60,13 +60,13 @@ public:
     [[nodiscard]] Core::Result<std::size_t> Discard(
         const std::function<bool(const DurableRequest& request)>& predicate);
 
-    /// Handles Registered, LinkLost, Stopped and Acked; other events have no effect. An error is that of IOutboxStore::Remove; the
-    /// outbox has forgotten the request nevertheless.
+    /// Handles Registered, LinkLost, Stopped and Acked; other events have no effect. An error is that of
+    /// IOutboxStore::Remove; the outbox has forgotten the request nevertheless.
     [[nodiscard]] Core::Result<void> OnEvent(const SessionEvent& event);
 
-    /// Sends what the session accepts, in order, and ends the replay of a connection. Before Registered it sends nothing.
-    /// Call after Restore, Add, Queue and OnEvent. The session has TrySendDurable(request) and ReplayDone(), as an AcsClient
-    /// has.
+    /// Sends what the session accepts, in order, and ends the replay of a connection. Before Registered, and after LinkLost
+    /// or Stopped, it sends nothing. Call after Restore, Add, Queue, Discard and OnEvent. The session has
+    /// TrySendDurable(request) and ReplayDone(), as an AcsClient has.
     template <typename TSession>
     void Feed(TSession& session)
     {

@@ -9,8 +9,8 @@ namespace ACS::Planning
 /// Severity of an alarm.
 enum class EAlarmLevel : std::uint8_t
 {
-    Heavy, ///< The robot cannot work.
-    Light, ///< A warning; the robot continues to work.
+    Heavy, ///< Work cannot continue.
+    Light, ///< A warning; work continues.
 };
 
 /// The value of section 3 ("heavy").

@@ -12,7 +12,7 @@ enum class ERobotStatus : std::uint8_t
     Init,         ///< Connected; its position is unknown.
     Disconnected, ///< Not connected.
     Manual,       ///< Not under automatic control.
-    Idle,         ///< Has no plan.
+    Idle,         ///< Has no plan, no drive and no job.
     Moving,       ///< Drives, or has a plan and waits for a route.
     Arrival,      ///< Reached the last node before the position of its step, or the position. Reported once per drive.
     Docking,      ///< On the last edge of its route, which leads into a station.

@@ -10,7 +10,7 @@ namespace ACS::Planning
 enum class EStepState : std::uint8_t
 {
     Pending,    ///< Not started.
-    Dispatched, ///< Sent to the robot.
+    Dispatched, ///< Assigned to the robot.
     InProgress, ///< The robot drives or works for it.
     Completed,  ///< Final: all its jobs are done.
     Failed,     ///< Final.

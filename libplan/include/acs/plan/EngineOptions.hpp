@@ -114,8 +114,9 @@ enum class EMovingPosition : std::uint8_t
 /// How plans are assigned to robots, and when robots charge.
 struct DispatchOptions
 {
-    double batteryFloor = 20;  ///< Percent. A robot below it is given no plan and drives to its charging station.
-    double batteryResume = 80; ///< Percent. A charging robot is given no plan and stays until it has this level.
+    double batteryFloor = 20; ///< Percent. A robot below it is given no plan and drives to its charging station.
+    /// Percent. A robot that was below batteryFloor is given no plan and stays at its charging station until it has this level.
+    double batteryResume = 80;
     std::chrono::milliseconds chargeRetry{10'000}; ///< Maximum time to show bCharging before StartCharging is repeated.
     /// Start a load into a port that has a carrier according to the record, and accept a plan that loads a port twice.
     bool bLoadsIntoTakenPorts = false;
@@ -149,8 +150,8 @@ struct EngineOptions
     DispatchOptions dispatch;
     EMovingPosition movingPosition = EMovingPosition::Last;
     std::chrono::milliseconds extensionDelay{2'000}; ///< Delay after which an unconfirmed drive is extended.
-    /// Time without a passed node after which a connected robot with released nodes ahead raises ACS-1009; at least three
-    /// times the travel time of its next edge. 0 disables the alarm.
+    /// Time without a passed node after which a connected robot with released nodes ahead, not paused by a control, raises
+    /// ACS-1009; at least three times the travel time of its next edge. 0 disables the alarm.
     std::chrono::milliseconds stallTimeout{60'000};
     /// Delay before a robot that rejected the drive to its parking position is sent again; doubled each time, up to 64 times
     /// this value.
@@ -160,7 +161,7 @@ struct EngineOptions
     std::chrono::milliseconds restartWait{30'000};
     std::chrono::milliseconds storeRetry{1'000};      ///< Delay before a failed batch is stored again.
     std::chrono::milliseconds acknowledgedDelay{200}; ///< Acknowledgements of this period are stored in one batch.
-    std::size_t finishedPlansKept = 1'000;            ///< Number of finished plans in memory and in the store.
+    std::size_t finishedPlansKept = 1'000; ///< Finished plans in memory and in the store; their planIDs stay known.
 };
 
 /// All errors of the options, each with a path ("robots.LR01.home"); empty if the options are valid. PlanEngine requires

@@ -45,7 +45,7 @@ public:
     virtual void OnAlarmChanged(const Alarm& alarm, bool bSet, std::string_view transactionID, Core::Now now) = 0;
     virtual void OnRobotStatusChanged(const RobotStatus& status, Core::Now now) = 0;
     virtual void OnTscChanged(ETscState state, ETscState from, Core::Now now) = 0;
-    /// A deviation that was tolerated, for the log.
+    /// An event without a state of its own, for the log: a tolerated deviation, or a decision of the engine.
     virtual void OnNote(std::string_view robotID, std::string_view text, Core::Now now) = 0;
 };
 

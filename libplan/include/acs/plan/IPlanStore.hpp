@@ -32,7 +32,7 @@ struct PlanProgressed
     bool operator==(const PlanProgressed&) const = default;
 };
 
-/// A finished plan was deleted (EngineOptions::finishedPlansKept).
+/// A finished plan was deleted (EngineOptions::finishedPlansKept, bFinishedIDsReused).
 struct PlanRemoved
 {
     std::uint64_t sequence = 0; ///< PlanRecord::sequence.

@@ -142,7 +142,8 @@ struct Resume
 };
 
 /// Start charging. Sent only to a robot that is docked at its charging station and has no drive and no job. Answered by
-/// StateChanged with bCharging. Until then the command is repeated every DispatchOptions::chargeRetry, with an alarm.
+/// StateChanged with bCharging. Until then the command is repeated every DispatchOptions::chargeRetry, with an alarm if its
+/// battery is low.
 struct StartCharging
 {
     bool operator==(const StartCharging&) const = default;

@@ -43,9 +43,9 @@ public:
     [[nodiscard]] Core::Result<void> Append(const StoreBatch& batch) override;
 
     /// Fails if the database or its log was removed, moved or replaced while open; Append fails too, because its changes would
-    /// be lost. The content of a removed database is copied to `acsd.db.rescued` immediately. When the files are back, the
-    /// store works again and the copy is deleted. Otherwise the next Open restores the copy, or fails if there is another
-    /// database.
+    /// be lost. The content of such a database is copied to `acsd.db.rescued` immediately; that of such a log is merged into the
+    /// database. When the files are back, the store works again and the copy is deleted. Otherwise the next Open restores the
+    /// copy, or fails if there is another database.
     [[nodiscard]] Core::Result<void> Check() override;
 };
 
