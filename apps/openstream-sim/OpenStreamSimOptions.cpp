@@ -295,8 +295,9 @@ std::string MakeFooter()
         "A program ends after its duration ({} s without --program and --programs). It reports in 32-bit words of relay\n"
         "m: when it begins it adds 1 at byte {} (ml{}), when it finishes at byte {}, when it fails or is abandoned at\n"
         "byte {}; byte {} has the number of the program that ended last. With --programs it also copies its job number\n"
-        "to byte {} before it counts its beginning, and does its work on the floor of --world when it finishes; if the\n"
-        "floor does not allow the work, the program fails. GET /project/plc/m/val_s32?st={}&len=5 reads all five.",
+        "to byte {} before it counts its beginning. When it finishes it does its work on the floor of --world, at the\n"
+        "places that its relays named when it began; if the floor does not allow the work, the program fails.\n"
+        "GET /project/plc/m/val_s32?st={}&len=5 reads all five.",
         Apps::MakeFaultHelp(GetFaultGrammar()),
         std::chrono::duration_cast<std::chrono::seconds>(ProgramSpec{}.duration).count(),
         STARTED_BYTE,

@@ -141,7 +141,7 @@ public:
     }
 
 private:
-    /// Updates the states after changes of the world by other programs.
+    /// Updates the states after changes of the world by any program.
     void PollWorld()
     {
         constexpr std::chrono::milliseconds INTERVAL{500};

@@ -215,8 +215,8 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
         app,
         "--world",
         options.worldPath,
-        "World file that the simulators share (docs/reference/world.md); a pick from an empty place fails then. Without it "
-        "every pick and drop finds its load (default)");
+        "World file that the simulators share (docs/reference/world.md); a pick from an empty place and a drop to an occupied one "
+        "fail then. Without it every pick and drop finds its load (default)");
     Apps::AddRepeatedOption(
         app,
         "--vehicle",

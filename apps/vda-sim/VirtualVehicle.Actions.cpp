@@ -195,7 +195,7 @@ void VirtualVehicle::UpdateDock(Core::Now now)
     {
         LogWarning(
             now,
-            "cannot record the docking of the vehicle in the world",
+            "cannot record in the world where the vehicle is docked",
             {{"reason", Core::Describe(docked.error())}});
     }
 }

@@ -435,7 +435,7 @@ void VirtualVehicle::KeepTicking(VirtualActions& out)
         return;
     }
     _bTicking = true;
-    // The faster the simulated time, the shorter the tick, so that arrivals are reported without a delay.
+    // The faster the simulated time, the shorter the tick, so that arrivals are not reported late in simulated time.
     const auto tick = std::chrono::duration_cast<Core::Duration>(50ms / std::clamp(_options.timeScale, 1.0, 5.0));
     out.emplace_back(StartVirtualTimer{KEY_TICK, tick});
 }

@@ -101,7 +101,7 @@ private:
     double _pendingSeconds = 0.0; ///< Simulated, not yet processed: less than a slice.
     std::vector<VDA5050::Load> _reportedLoads;
     std::string _dockNodeID;    ///< Where it was docked last; empty: nowhere.
-    bool _bDockUnknown = false; ///< The docking is not recorded in the world: retry at the next tick.
+    bool _bDockUnknown = false; ///< That it docked or left is not recorded in the world: retry at the next tick.
     bool _bDriving = false;
     bool _bTicking = false;
     bool _bStopWanted = false; ///< By the session.
@@ -134,7 +134,7 @@ public:
     void OnTimer(std::uint64_t key, Core::Now now, VirtualActions& out);
     /// Publishes OFFLINE, as the last message.
     void Leave(Core::Now now, VirtualActions& out);
-    /// Another program has changed the world: the loads on board may have changed.
+    /// The world has changed: the loads on board may have changed too.
     void OnWorldChanged(Core::Now now, VirtualActions& out);
 
     /// The delay of the fault counts from now, or from the first OnLinkUp if that is still to come. False if the vehicle

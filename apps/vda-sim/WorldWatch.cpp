@@ -22,11 +22,11 @@ bool WorldWatch::HasChanged()
         _failure = std::move(failure);
         if (_failure.empty())
         {
-            _logger.Info("the world file is readable again");
+            _logger.Info("the journal of the world is readable again");
         }
         else
         {
-            _logger.Error("cannot read the world file: picks and drops fail", {{"reason", _failure}});
+            _logger.Error("cannot read the journal of the world: picks and drops fail", {{"reason", _failure}});
         }
     }
     return bChanged;

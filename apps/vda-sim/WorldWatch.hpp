@@ -8,7 +8,7 @@
 namespace ACS::VdaSim
 {
 
-/// Polls the world for changes by other programs, and logs when it becomes unreadable and readable again.
+/// Polls the world for changes, of all programs, and logs when it becomes unreadable and readable again.
 class WorldWatch
 {
     Sim::IWorld* _world;

@@ -25,7 +25,7 @@ std::set<std::string, std::less<>> MakeStations(const std::vector<std::string>& 
     return stations;
 }
 
-/// Puts the path of the world file before the path of the error.
+/// Sets the path of an error to that in the world file. The path that it had before is added to what was found.
 template <typename TValue>
 Core::Result<void> AtPath(std::string path, const Core::Result<TValue>& result)
 {

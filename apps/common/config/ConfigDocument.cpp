@@ -84,7 +84,7 @@ std::string MakeUnknownText(const std::set<std::string>& known, const std::strin
 {
     if (known.empty())
     {
-        return "unknown key; this table has no keys";
+        return "unknown key; no key is allowed in this table";
     }
     const auto nearest =
         std::ranges::min_element(known, {}, [&key](const std::string& other) { return CountEdits(key, other); });

@@ -186,7 +186,7 @@ private:
         out.push_back({entry.fault, true, {}});
     }
 
-    /// Ends the fault if it is due. True if it must be removed, false if it is not due or is repeated.
+    /// Ends an active fault if it is due or takes effect once. True if it must be removed, false if it continues or is repeated.
     [[nodiscard]] static bool TryEnd(Entry& entry, Core::SteadyTime now, Changes& out)
     {
         const bool bOver = entry.bActive && entry.due.has_value() && *entry.due <= now;

@@ -32,7 +32,7 @@ struct FaultRow
 {
     typename TFault::Kind kind{};
     std::string_view name;
-    std::string_view parameters; ///< Keys that only this kind has, between blanks.
+    std::string_view parameters; ///< Keys besides those of the time (when, whenOnce), between blanks.
     std::string_view effect;     ///< One sentence for the help.
     bool bOnce = false;          ///< Takes effect once and ends immediately.
 };

@@ -34,7 +34,7 @@ std::optional<OpenStream::EApiMethod> ParseMethodOrNull(std::string_view text)
     return std::nullopt;
 }
 
-/// The path with its percent signs encoded again: the Open API does not decode them, and the server has.
+/// The path with its percent signs encoded again: the server has decoded the path, and the service decodes %5B and %5D.
 std::string MakePath(std::string_view decoded)
 {
     std::string path;

@@ -32,7 +32,7 @@ struct TrajectoryAgility
 
 /// The trajectory buffer and the arm that follows it. The commanded position moves from point to point in straight lines of
 /// the axes, each in its time; the arm follows with a first-order lag. When the buffer is empty it stays at the last point.
-/// The arm's position at a time does not depend on how often Advance is called. Pure; times are simulated.
+/// The arm's position at a time does not depend on how often TryAdvance is called. Pure; times are simulated.
 class TrajectoryFollower
 {
     enum class EPhase : std::uint8_t

@@ -356,7 +356,7 @@ TEST_CASE("A docking that could not be recorded in the world is recorded later")
     VehicleDriver driver(floor.GetOptions());
     driver.Pass(1s);
     CHECK(floor.GetWorld().TakeEvents().empty());
-    CHECK(driver.GetLog().Contains(Core::ELogLevel::Warning, "cannot record the docking of the vehicle"));
+    CHECK(driver.GetLog().Contains(Core::ELogLevel::Warning, "cannot record in the world where the vehicle is docked"));
     world.Unlock();
     driver.Pass(1s);
     const std::vector<Sim::WorldEvent> events = floor.GetWorld().TakeEvents();
