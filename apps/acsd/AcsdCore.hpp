@@ -59,7 +59,7 @@ private:
     {
         Running,
         Draining, ///< No new plans; waits for the Acks of all reports.
-        Settling, ///< All reports are acknowledged.
+        Settling, ///< All reports are acknowledged, or no MCS is registered.
         Closing,  ///< No inputs; waits for the transaction under way.
         Leaving,  ///< The links are being closed.
         Stopped

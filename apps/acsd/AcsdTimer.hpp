@@ -13,7 +13,7 @@ enum class EAcsdTimer : std::uint8_t
 {
     WorkGrace,  ///< Until isConnected=false is reported because no work can be accepted.
     Drain,      ///< Time limit of a drain.
-    Settle,     ///< Every report is acknowledged; the engine has not stored that yet.
+    Settle,     ///< Time for the engine to store the latest acknowledgements.
     Stop,       ///< Time limit of closing the links.
     Status,     ///< Until the states of the robots are repeated.
     StoreLate,  ///< Time limit of a transaction.

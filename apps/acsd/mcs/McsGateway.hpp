@@ -86,10 +86,11 @@ public:
         IMcsOutput& output,
         CommandHandler handler);
 
-    /// Call once, before all other functions, with the reports of the store.
+    /// Call once with the reports of the store, after SetStyle and before all functions that send.
     void Restore(const std::vector<Planning::OutboxEntry>& entries);
 
-    /// In effect from the next message; a report that is already queued keeps the style it has. Without a style, messages are written as MCS-ACS defines them.
+    /// In effect from the next message; a report that is already queued keeps the style it has. Without a style, messages
+    /// are written as MCS-ACS defines them.
     void SetStyle(MessageStyle style);
     void SetAckObserver(AckObserver observer);
 

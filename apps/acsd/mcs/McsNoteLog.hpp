@@ -11,9 +11,9 @@
 namespace ACS::Acsd
 {
 
-/// Logs how the MCS deviates from the protocol, rate-limited by kind. An undecodable message may also be refused, which the
-/// session reports next and which is logged on its own: the note waits for the next event and is then dropped or written.
-/// Pure.
+/// Logs how the MCS deviates from the protocol, rate-limited by kind and reason. A message that is undecodable or has an
+/// unknown command may also be refused, which the session reports next and which is logged on its own: the note waits for
+/// the next event and is then dropped or written. Pure.
 class McsNoteLog
 {
     struct Waiting

@@ -86,7 +86,7 @@ AcsdMetrics::AcsdMetrics(Apps::MetricsEndpoint& metrics)
     _metrics.AddCounter(MCS_REFUSED, "Requests of the MCS that were answered with Fail");
     _metrics.AddCounter(MCS_NACKS, "Reports that the MCS answered with Fail");
     _metrics.AddCounter(MCS_TIMEOUTS, "Reports without an Ack after all resends");
-    _metrics.AddCounter(MCS_UNMATCHED, "Acks with an unknown transactionId, or of nothing that was sent");
+    _metrics.AddCounter(MCS_UNMATCHED, "Acks with an unknown transactionId, or without a pending request");
     _metrics.AddCounter(MCS_NOTES, "Deviations of the MCS from the specification, by kind");
     _metrics.AddGauge(MCS_LONGEST, "Length of the longest message sent to the MCS, in bytes");
     _metrics.AddCounter(POSITIONS_MISSED, "Periods of RobotPositionUpdate without a message because acsd was late");

@@ -22,7 +22,7 @@ struct MethodTable
     MethodKeys keys;
 };
 
-/// By action. Keys of tables of stations include the station.
+/// By action; those of stations by station, then by action.
 using MethodTables = std::map<std::string, MethodTable, std::less<>>;
 using StationTables = std::map<std::string, MethodTables, std::less<>>;
 

@@ -17,7 +17,7 @@ namespace ACS::Acsd
 class StoreWatch
 {
 public:
-    /// Maximum duration of a write, until which no report is sent and no request is answered. A healthy disk takes
+    /// Maximum duration of a write. Until the write ends, no report is sent and no command is answered. A healthy disk takes
     /// milliseconds.
     static constexpr std::chrono::milliseconds LIMIT{5'000};
 

@@ -34,7 +34,7 @@ public:
     StoreWorker(const StoreWorker&) = delete;
     StoreWorker& operator=(const StoreWorker&) = delete;
 
-    /// Waits for the write under way. No handler is called after it.
+    /// Waits until all batches that were appended are written. Calls no handler any more.
     ~StoreWorker();
 
     /// Batches are written one after the other. Each is answered by one call of the handler, never from within this call.
