@@ -39,7 +39,7 @@ std::string MakeAlarmText(const Planning::Alarm& alarm)
     }
     const std::string planID = EncodeSegment(*alarm.planID);
     std::string text = fmt::format(
-        "{} To resolve the job, send POST /plans/{}/jobs/{}/done (or failed, or again) to acsd's HTTP address.",
+        "{} To resolve the job, send POST /plans/{}/jobs/{}/done to acsd's HTTP address, with the answer in the place of done.",
         alarm.message,
         planID,
         EncodeSegment(*alarm.jobID));

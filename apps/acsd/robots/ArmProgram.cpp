@@ -57,7 +57,8 @@ void ArmProgram::Rewind()
     _controls.Rewind();
 }
 
-/// If a program was started or stopped from outside acsd, the program counter is set once, and the program is selected again.
+/// If a program was started or stopped from outside acsd, the program counter is set once, and the program is selected
+/// again.
 bool ArmProgram::TryRewind(const ArmRefusal& refusal)
 {
     if (!ArmProgramControls::IsRewindWanted(refusal) || std::exchange(_work.bRewound, true))

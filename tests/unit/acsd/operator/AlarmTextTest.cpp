@@ -18,8 +18,8 @@ TEST_CASE("The text of ACS-1008 has the request that resolves the job; a message
     const std::string text = MakeAlarmText(alarm);
     CHECK(
         text
-        == "Look. To resolve the job, send POST /plans/P%2F1%20%C3%BC/jobs/J-1/done (or failed, or again) to acsd's HTTP "
-           "address.");
+        == "Look. To resolve the job, send POST /plans/P%2F1%20%C3%BC/jobs/J-1/done to acsd's HTTP address, with the answer in "
+           "the place of done.");
     const std::size_t begin = text.find("/plans/");
     const Core::Result<Apps::HttpRequest> target =
         Apps::ParseHttpTarget(std::string_view(text).substr(begin, text.find(' ', begin) - begin));

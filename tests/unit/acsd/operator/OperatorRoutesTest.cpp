@@ -213,8 +213,8 @@ TEST_CASE("POST /plans/PLAN/jobs/JOB/done, failed and again resolve an unresolve
         user.GetStatus(),
         "then answer done (the plan continues with the next job), failed (the plan fails) or again (the job was not done and "
         "nothing was moved: it is repeated). Or skip the step (the plan continues with the next step, and the job has no "
-        "further report), or abort the plan from the MCS. To resolve the job, send POST /plans/P1/jobs/P1-a4/done (or failed, "
-        "or again) to acsd's HTTP address. To skip the step, send POST /plans/P1/steps/1/skip."));
+        "further report), or abort the plan from the MCS. To resolve the job, send POST /plans/P1/jobs/P1-a4/done to "
+        "acsd's HTTP address, with the answer in the place of done. To skip the step, send POST /plans/P1/steps/1/skip."));
     CHECK(HasText(user.Post("/plans/P1/jobs/P1-b2/done"), "404 "));
     CHECK(HasText(user.Post("/plans/P2/jobs/P1-a4/again"), "404 "));
     CHECK(HasText(user.Post("/plans/P1/jobs/P1-a4/done"), "202 "));
