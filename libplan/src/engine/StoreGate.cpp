@@ -12,6 +12,25 @@
 namespace ACS::Planning
 {
 
+namespace
+{
+
+/// Moves no element if there is none yet.
+template <typename TElement>
+void Append(std::vector<TElement>& list, std::vector<TElement> added)
+{
+    if (list.empty())
+    {
+        list = std::move(added);
+    }
+    else
+    {
+        list.insert(list.end(), std::make_move_iterator(added.begin()), std::make_move_iterator(added.end()));
+    }
+}
+
+} // namespace
+
 StoreGate::StoreGate(EngineState& engine, ControlAnswers& answers, const PlaceTracker& places, PlanWork& work)
     : _options(engine.options),
       _plans(engine.plans),
@@ -30,15 +49,19 @@ void StoreGate::Commit(EngineActions& out)
 {
     CollectWork();
     std::vector<StoreChange> changes = _backlog.CollectChanges();
-    std::ranges::move(_plans.CollectProgress(), std::back_inserter(changes));
-    std::ranges::move(_transaction.CollectChanges(), std::back_inserter(changes));
+    for (PlanProgressed& progress : _plans.CollectProgress())
+    {
+        changes.emplace_back(std::move(progress));
+    }
+    Append(changes, _transaction.CollectChanges());
     if (!_backlog.IsWorthTrying(changes))
     {
         _backlog.Add(std::move(changes));
         ReleaseActions(out);
         return;
     }
-    EngineActions dependent;
+    EngineActions withheld;
+    EngineActions& dependent = changes.empty() ? out : withheld;
     if (!changes.empty())
     {
         std::ranges::move(_acknowledged, std::back_inserter(changes));
@@ -52,14 +75,13 @@ void StoreGate::Commit(EngineActions& out)
     {
         dependent.emplace_back(SendReport{std::move(entry)});
     }
-    std::ranges::move(_transaction.CollectActions(), std::back_inserter(dependent));
+    Append(dependent, _transaction.CollectActions());
     if (changes.empty())
     {
-        std::ranges::move(dependent, std::back_inserter(out));
         return;
     }
     StoreBatch batch{std::move(changes)};
-    _gate.Close(batch, std::move(dependent));
+    _gate.Close(batch, std::move(withheld));
     out.emplace_back(StorePlans{std::move(batch)});
 }
 
@@ -114,10 +136,10 @@ void StoreGate::StoreAcknowledged()
 
 void StoreGate::OnStored(const Core::Result<void>& result, Core::Now now, EngineActions& out)
 {
-    const CommitGate::Transaction transaction = _gate.Open();
+    CommitGate::Transaction transaction = _gate.Open();
     if (result.has_value())
     {
-        std::ranges::copy(transaction.dependent, std::back_inserter(out));
+        Append(out, std::move(transaction.dependent));
         return;
     }
     const std::string reason = Core::Describe(result.error());

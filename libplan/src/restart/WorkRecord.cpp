@@ -111,9 +111,10 @@ bool WorkRecord::TryBeginStore(const RobotWorkChanged& work)
 {
     const bool bNothing =
         _stored.robotID.empty() && work.commandID.empty() && !work.bPauseAsked && work.nodeIDs.empty();
-    RobotWorkChanged unchanged = work;
-    unchanged.progressToken = _stored.progressToken;
-    return !bNothing && (std::exchange(_bTokenDue, false) || unchanged != _stored);
+    std::string token = std::exchange(_stored.progressToken, work.progressToken);
+    const bool bChanged = work != _stored;
+    _stored.progressToken = std::move(token);
+    return !bNothing && (std::exchange(_bTokenDue, false) || bChanged);
 }
 
 void WorkRecord::OnStored(RobotWorkChanged work)

@@ -102,21 +102,20 @@ std::string_view EngineTransaction::AddReport(Report report)
 void EngineTransaction::WatchOutbox()
 {
     constexpr std::size_t TENTH = 10;
-    Alarm alarm = MakeAlarm(
-        OWN_ROBOT_ID,
-        ALARM_OUTBOX,
-        EAlarmLevel::Heavy,
-        fmt::format(
-            "Outbox full: {} reports are not acknowledged, and new plans are refused. Check the MCS and its connection.",
-            _options.maximumReports));
     const std::size_t count = _outbox.GetUnacknowledged().size();
     if (count >= _options.maximumReports)
     {
-        RaiseAlarm(std::move(alarm));
+        RaiseAlarm(MakeAlarm(
+            OWN_ROBOT_ID,
+            ALARM_OUTBOX,
+            EAlarmLevel::Heavy,
+            fmt::format(
+                "Outbox full: {} reports are not acknowledged, and new plans are refused. Check the MCS and its connection.",
+                _options.maximumReports)));
     }
     else if (count < _options.maximumReports - _options.maximumReports / TENTH)
     {
-        ClearAlarm(alarm);
+        ClearAlarm(MakeAlarm(OWN_ROBOT_ID, ALARM_OUTBOX, EAlarmLevel::Heavy, {}));
     }
 }
 
