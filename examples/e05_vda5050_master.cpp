@@ -100,7 +100,7 @@ private:
                 },
                 [this](const DriveTo& drive) {
                     fmt::print("vehicle: drives to {}\n", drive.node.nodeID); // And is there at once.
-                    _vehicle.TryReachNode(drive.node.sequenceID, _now, _fromVehicle);
+                    _vehicle.TryReachNode({drive.node.sequenceID, drive.bStopAtNode}, _now, _fromVehicle);
                 },
                 [this](const StartVehicleTimer& start) {
                     if (start.timer == EVehicleTimer::MinimumStateInterval) // The next state waits for it.

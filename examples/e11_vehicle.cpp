@@ -238,11 +238,8 @@ private:
                 _position.y = drive.node.nodePosition->y;
                 _session.OnPosition(_position, {});
             }
-            if (drive.bStopAtNode)
-            {
-                _session.OnDrivingChanged(false, ReadClock(), _actions);
-            }
-            static_cast<void>(_session.TryReachNode(drive.node.sequenceID, ReadClock(), _actions));
+            const NodeArrival arrival{drive.node.sequenceID, drive.bStopAtNode};
+            static_cast<void>(_session.TryReachNode(arrival, ReadClock(), _actions));
         });
     }
 

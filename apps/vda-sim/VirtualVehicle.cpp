@@ -229,13 +229,13 @@ void VirtualVehicle::AdvanceSlice(Core::Now now, VirtualActions& out)
     {
         _charge = std::min(FULL_CHARGE, _charge + SLICE_SECONDS * CHARGE_PER_SECOND);
     }
+    if (bArrived)
+    {
+        ReachNode(now, out); // first: it ends the edge's actions
+    }
     if (!_faults.IsActive(EFaultKind::EmergencyStop))
     {
         _actionRunner.Advance(SLICE_SECONDS, _outcomes);
-    }
-    if (bArrived)
-    {
-        ReachNode(now, out);
     }
     if (!_outcomes.empty())
     {
@@ -267,7 +267,19 @@ void VirtualVehicle::ReachNode(Core::Now now, VirtualActions& out)
     }
     ReportPosition();
     UpdateDock(now);
-    if (!_session.TryReachNode(leg.node.sequenceID, now, _sessionActions))
+    VDA5050::NodeArrival arrival{leg.node.sequenceID, leg.bStopAtNode};
+    for (const VDA5050::Action& action : leg.edge.actions)
+    {
+        if (auto ended = _actionRunner.StopOrNull(action.actionID, true); ended.has_value())
+        {
+            arrival.edgeActions.push_back({std::move(ended->actionID), ended->status, std::move(ended->result)});
+        }
+    }
+    if (_session.TryReachNode(std::move(arrival), now, _sessionActions))
+    {
+        _bDriving = _bDriving && !leg.bStopAtNode;
+    }
+    else
     {
         _logger.Warning("reached a node that the session does not expect", {{"node", _nodeID}});
     }

@@ -184,7 +184,7 @@ void VehicleSession::Impl::StopOrderActions(const std::string& reason, VehicleAc
 void VehicleSession::Impl::FinishCancelIfStationary(VehicleActions& out)
 {
     // Outside of its corridor a vehicle does not get to the next node by itself.
-    const bool bOnTheWay = _bLegActive || (_bLastLeg && !_route.IsEmpty() && !_corridorError.has_value());
+    const bool bOnTheWay = _bLegActive || (_bLastLeg && !_bEndReached && !_corridorError.has_value());
     if (!_cancelActionIDs.empty() && IsStationary() && !bOnTheWay && _actions.CountOpen() == 0)
     {
         ClearOrder(out);
@@ -197,12 +197,17 @@ void VehicleSession::Impl::DiscardRoute()
     _actionQueue.clear();
     _bEdgeEntered = false;
     _bLegBegun = false;
+    _bEndReached = false;
     _bHeldByFailure = false;
     _corridorError.reset();
 }
 
 void VehicleSession::Impl::ClearOrder(VehicleActions& out)
 {
+    if (_bEndReached)
+    {
+        PassFrontNode();
+    }
     DiscardRoute();
     _bLegActive = false;
     _bLastLeg = false;
@@ -260,7 +265,7 @@ void VehicleSession::Impl::OnOperatingMode(EOperatingMode mode, Core::Now now, V
     else
     {
         std::erase_if(_sessionErrors, [](const SessionError& known) {
-            return known.lifetime == EErrorLifetime::UntilMode;
+            return known.lifetime == EErrorLifetime::UntilMode && known.bShown;
         });
     }
     if (bManual && IsExecuting())

@@ -25,13 +25,26 @@ bool HasBlocking(std::span<const Action> actions)
 
 } // namespace
 
-bool VehicleSession::Impl::TryReachNode(std::uint32_t sequenceID, Core::Now now, VehicleActions& out)
+bool VehicleSession::Impl::TryReachNode(NodeArrival arrival, Core::Now now, VehicleActions& out)
 {
-    if (_route.IsEmpty() || !_bEdgeEntered || _route.GetNodeSequenceID(0) != sequenceID)
+    if (_route.IsEmpty() || !_bEdgeEntered || _route.GetNodeSequenceID(0) != arrival.sequenceID)
     {
         return false;
     }
-    ReachFront(out);
+    if (arrival.bStationary)
+    {
+        _bDriving = false;
+        _bHalting = false;
+        _bLegActive = false; // an action that fails here has no drive to stop
+    }
+    LeaveEdge(std::move(arrival.edgeActions), out);
+    // Without nodes a cancelled order would look like a completed one.
+    _bEndReached = !_cancelActionIDs.empty() && _route.GetSize() == 1;
+    if (!_bEndReached)
+    {
+        PassFrontNode();
+    }
+    FinishPauseIfStationary();
     FinishCancelIfStationary(out);
     Advance(out);
     Settle(now, out);
@@ -78,18 +91,9 @@ bool VehicleSession::Impl::TrySetActionStatus(
 {
     ReportedAction* trackedOrNull = _actions.FindOrNull(actionID);
     if (trackedOrNull == nullptr || !trackedOrNull->bStarted
-        || !_actions.TrySetStatus(*trackedOrNull, status, std::move(resultDescription)))
+        || !TryChangeStatus(*trackedOrNull, status, std::move(resultDescription), out))
     {
         return false;
-    }
-    _bStateDue = true;
-    if (status == EActionStatus::Finished)
-    {
-        ApplyOwnEffect(trackedOrNull->action, trackedOrNull->scope);
-    }
-    else if (status == EActionStatus::Failed)
-    {
-        OnActionFailed(*trackedOrNull, out);
     }
     FinishCancelIfStationary(out);
     Advance(out);
@@ -141,6 +145,28 @@ void VehicleSession::Impl::Enqueue(std::span<const Action> actions)
     std::ranges::transform(actions, std::back_inserter(_actionQueue), &Action::actionID);
 }
 
+bool VehicleSession::Impl::TryChangeStatus(
+    ReportedAction& tracked,
+    EActionStatus status,
+    std::string resultDescription,
+    VehicleActions& out)
+{
+    if (!_actions.TrySetStatus(tracked, status, std::move(resultDescription)))
+    {
+        return false;
+    }
+    _bStateDue = true;
+    if (status == EActionStatus::Finished)
+    {
+        ApplyOwnEffect(tracked.action, tracked.scope);
+    }
+    else if (status == EActionStatus::Failed)
+    {
+        OnActionFailed(tracked, out);
+    }
+    return true;
+}
+
 void VehicleSession::Impl::SetStatus(std::string_view actionID, EActionStatus status, const std::string& result)
 {
     ReportedAction* trackedOrNull = _actions.FindOrNull(actionID);
@@ -156,9 +182,7 @@ void VehicleSession::Impl::Start(ReportedAction& tracked, VehicleActions& out)
     std::string fault = tracked.IsInstant() ? std::string() : FindOwnFault(tracked.action, tracked.scope);
     if (!fault.empty())
     {
-        static_cast<void>(_actions.TrySetStatus(tracked, EActionStatus::Failed, std::move(fault)));
-        _bStateDue = true;
-        OnOrderActionFailed(tracked, out);
+        static_cast<void>(TryChangeStatus(tracked, EActionStatus::Failed, std::move(fault), out));
         return;
     }
     _actions.MarkStarted(tracked);
@@ -264,14 +288,14 @@ void VehicleSession::Impl::DriveToFront(bool bStopAtNode, VehicleActions& out)
 void VehicleSession::Impl::DriveLastLeg(VehicleActions& out)
 {
     const bool bTold = _bLegActive && _bLegStops;
-    if (_bLastLeg && !_route.IsEmpty() && !bTold && !_corridorError.has_value())
+    if (_bLastLeg && !_bEndReached && !bTold && !_corridorError.has_value())
     {
         DriveToFront(true, out);
     }
 }
 
-/// 6.10.2: what one traversal changes belongs to one state.
-void VehicleSession::Impl::ReachFront(VehicleActions& out)
+/// 6.11: the edge's actions end with the edge. The state that no longer shows the edge shows their ends.
+void VehicleSession::Impl::LeaveEdge(std::vector<EdgeActionEnd> ends, VehicleActions& out)
 {
     for (const Action& action : _route.GetEdgeActions(0))
     {
@@ -280,26 +304,41 @@ void VehicleSession::Impl::ReachFront(VehicleActions& out)
         {
             continue;
         }
+        const auto end = std::ranges::find(ends, action.actionID, &EdgeActionEnd::actionID);
+        if (trackedOrNull->bStarted && end != ends.end() && IsTerminal(end->status)
+            && TryChangeStatus(*trackedOrNull, end->status, std::move(end->resultDescription), out))
+        {
+            continue;
+        }
         if (trackedOrNull->bStarted)
         {
             out.emplace_back(StopAction{action.actionID, true});
         }
-        else
-        {
-            static_cast<void>(_actions.TrySetStatus(*trackedOrNull, EActionStatus::Failed, "its edge was left"));
-            OnOrderActionFailed(*trackedOrNull, out);
-        }
+        static_cast<void>(TryChangeStatus(*trackedOrNull, EActionStatus::Failed, "its edge was left", out));
     }
-    _lastNodeID = _route.GetNodeID(0);
-    _lastNodeSequenceID = _route.GetNodeSequenceID(0);
-    _distanceSinceLastNode.reset();
     _bEdgeEntered = false;
     _bLegActive = false;
     _bLegBegun = false;
     _corridorError.reset();
     _bStateDue = true;
+}
+
+void VehicleSession::Impl::PassFrontNode()
+{
+    _lastNodeID = _route.GetNodeID(0);
+    _lastNodeSequenceID = _route.GetNodeSequenceID(0);
+    _distanceSinceLastNode.reset();
     Enqueue(_route.GetNodeActions(0));
     _route.DropFront();
+}
+
+/// An action of the next edge, which may not outlive it in the state.
+bool VehicleSession::Impl::RunsEdgeAction() const
+{
+    return std::ranges::any_of(_actions, [this](const ReportedAction& tracked) {
+        return tracked.scope == EActionScope::Edge && tracked.sequenceID == _route.GetEdgeSequenceID(0)
+            && !tracked.IsEnded();
+    });
 }
 
 bool VehicleSession::Impl::IsExecuting() const

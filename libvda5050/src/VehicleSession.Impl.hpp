@@ -21,7 +21,7 @@ namespace ACS::VDA5050
 
 class VehicleSession::Impl
 {
-    /// All errors end with the next accepted order; some earlier.
+    /// All errors end with the next accepted order; some earlier. None ends before a state has shown it.
     enum class EErrorLifetime : std::uint8_t
     {
         UntilOrder,
@@ -33,7 +33,7 @@ class VehicleSession::Impl
     {
         VehicleError error;
         EErrorLifetime lifetime = EErrorLifetime::UntilOrder;
-        bool bShown = false; ///< Of an earlier message.
+        bool bShown = false; ///< Was published in a state.
     };
 
     struct EvictedAction
@@ -82,8 +82,9 @@ class VehicleSession::Impl
     bool _bLegActive = false;     ///< DriveTo was sent last.
     bool _bLegBegun = false;      ///< Between two nodes, driving or not.
     bool _bLegStops = true;
-    bool _bLastLeg = false; ///< After a cancel, a line-guided vehicle drives to the next node.
-    bool _bHalting = false; ///< StopDriving was sent, and the vehicle is not stationary yet.
+    bool _bLastLeg = false;    ///< After a cancel, a line-guided vehicle drives to the next node.
+    bool _bEndReached = false; ///< The last node of a cancelled order, which is shown until the cancel is finished.
+    bool _bHalting = false;    ///< StopDriving was sent, and the vehicle is not stationary yet.
     bool _bMasterPause = false;
     bool _bHardwarePause = false;
     bool _bPauseOverridden = false;
@@ -109,7 +110,7 @@ public:
         Core::Now now,
         VehicleActions& out);
     void OnTimer(EVehicleTimer timer, Core::Now now, VehicleActions& out);
-    bool TryReachNode(std::uint32_t sequenceID, Core::Now now, VehicleActions& out);
+    bool TryReachNode(NodeArrival arrival, Core::Now now, VehicleActions& out);
     bool TrySetLastNode(std::string nodeID, Core::Now now, VehicleActions& out);
     bool TrySetOutsideCorridor(bool bOutside, Core::Now now, VehicleActions& out);
     bool TrySetTrajectory(std::uint32_t edgeSequenceID, Trajectory trajectory, Core::Now now, VehicleActions& out);
@@ -162,7 +163,9 @@ private:
     void DriveToFront(bool bStopAtNode, VehicleActions& out);
     void DriveLastLeg(VehicleActions& out);
     void FinishOrderIfDone(VehicleActions& out);
-    void ReachFront(VehicleActions& out);
+    void LeaveEdge(std::vector<EdgeActionEnd> ends, VehicleActions& out);
+    void PassFrontNode();
+    [[nodiscard]] bool RunsEdgeAction() const;
     [[nodiscard]] bool CanDrive() const;
     [[nodiscard]] bool NeedsStopAtFront() const;
     [[nodiscard]] bool IsExecuting() const;
@@ -177,6 +180,11 @@ private:
     void ReportUnlistedParameters(const Action& action, ETopic topic);
     void Enqueue(std::span<const Action> actions);
     void Start(ReportedAction& tracked, VehicleActions& out);
+    [[nodiscard]] bool TryChangeStatus(
+        ReportedAction& tracked,
+        EActionStatus status,
+        std::string resultDescription,
+        VehicleActions& out);
     void SetStatus(std::string_view actionID, EActionStatus status, const std::string& result = {});
     ReportedAction& AddInstantAction(const Action& action, EActionStatus status, const std::string& result = {});
     [[nodiscard]] bool TryEvict();

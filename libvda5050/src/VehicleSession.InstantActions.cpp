@@ -50,10 +50,6 @@ void VehicleSession::Impl::OnInstantActions(std::string_view payload, Core::Now 
     {
         return;
     }
-    for (SessionError& known : _sessionErrors)
-    {
-        known.bShown = true;
-    }
     const ProtocolLimits& limits = _options.factsheet.protocolLimits;
     MessageSizes sizes;
     sizes.payload = payload.size();
@@ -76,7 +72,6 @@ void VehicleSession::Impl::OnInstantActions(std::string_view payload, Core::Now 
     }
     if (bTaken)
     {
-        // Those of this message have yet to be seen.
         std::erase_if(_sessionErrors, [](const SessionError& known) {
             return known.lifetime == EErrorLifetime::UntilInstantAction && known.bShown;
         });

@@ -226,10 +226,11 @@ OrderContext VehicleSession::Impl::MakeContext() const
     for (const ReportedAction& tracked : _actions)
     {
         const bool bInstant = tracked.IsInstant();
-        const bool bInstantRuns = bInstant && !tracked.IsEnded();
+        // An end that no state has shown yet makes no way.
+        const bool bInstantStays = bInstant && !(tracked.IsEnded() && tracked.bShown);
         // What has ended may be of a route that was cancelled and had the same sequenceIds.
         const bool bOfBase = !bInstant && (tracked.sequenceID < baseEnd || tracked.IsEnded());
-        if (bInstantRuns)
+        if (bInstantStays)
         {
             context.instantActionIDs.push_back(tracked.action.actionID);
         }
@@ -237,9 +238,7 @@ OrderContext VehicleSession::Impl::MakeContext() const
         {
             context.actionIDs.push_back(tracked.action.actionID);
         }
-        // An end that no state has shown yet makes no way.
-        const bool bStays = bOfBase || (bInstant && !(tracked.IsEnded() && tracked.bShown));
-        context.keptActions += bStays ? 1U : 0U;
+        context.keptActions += bOfBase || bInstantStays ? 1U : 0U;
         context.keptBytes += bOfBase ? MeasureActionState(tracked.machine.GetState()) : 0;
     }
     return context;
@@ -259,9 +258,11 @@ void VehicleSession::Impl::RefuseOrder(const OrderMessage& order, OrderJudgement
 
 void VehicleSession::Impl::AcceptOrder(OrderMessage order, VehicleActions& out)
 {
-    _actions.EraseIf([](const ReportedAction& tracked) { return !tracked.IsInstant() || tracked.IsEnded(); });
+    // The master has to see the end of each instant action, and each error.
+    _actions.EraseIf(
+        [](const ReportedAction& tracked) { return !tracked.IsInstant() || (tracked.IsEnded() && tracked.bShown); });
     _evicted.clear();
-    _sessionErrors.clear();
+    std::erase_if(_sessionErrors, [](const SessionError& known) { return known.bShown; });
     DiscardRoute();
     _bCleared = false;
     _bOrderRunning = true;
@@ -282,7 +283,7 @@ void VehicleSession::Impl::AcceptOrder(OrderMessage order, VehicleActions& out)
 
 void VehicleSession::Impl::AcceptUpdate(OrderMessage order, VehicleActions& out)
 {
-    _sessionErrors.clear();
+    std::erase_if(_sessionErrors, [](const SessionError& known) { return known.bShown; });
     DropHorizon();
     _bCleared = false;
     _bOrderRunning = true;

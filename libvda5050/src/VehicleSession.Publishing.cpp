@@ -44,7 +44,8 @@ void VehicleSession::Impl::OnLinkUp(Core::Now now, VehicleActions& out)
     _bLinkUp = true;
     PublishConnection(EConnectionState::Online, now, out);
     PublishFactsheet(now, out);
-    PublishState(now, out);
+    _bStateDue = true;
+    Settle(now, out);
     if (_options.visualizationInterval.count() > 0)
     {
         out.emplace_back(StartVehicleTimer{EVehicleTimer::Visualization, _options.visualizationInterval});
@@ -84,7 +85,8 @@ void VehicleSession::Impl::OnTimer(EVehicleTimer timer, Core::Now now, VehicleAc
             Settle(now, out);
             break;
         case EVehicleTimer::MaximumStateInterval:
-            PublishState(now, out);
+            _bStateDue = true;
+            Settle(now, out);
             break;
         case EVehicleTimer::Visualization:
             PublishVisualization(now, out);
@@ -97,7 +99,7 @@ void VehicleSession::Impl::OnTimer(EVehicleTimer timer, Core::Now now, VehicleAc
 
 void VehicleSession::Impl::Settle(Core::Now now, VehicleActions& out)
 {
-    if (!_bStateDue || !_bLinkUp || _bMinimumTimerRuns)
+    if (!_bStateDue || !_bLinkUp)
     {
         return;
     }
@@ -108,8 +110,11 @@ void VehicleSession::Impl::Settle(Core::Now now, VehicleActions& out)
         PublishState(now, out);
         return;
     }
-    _bMinimumTimerRuns = true;
-    out.emplace_back(StartVehicleTimer{EVehicleTimer::MinimumStateInterval, due - now.steady});
+    if (!_bMinimumTimerRuns)
+    {
+        _bMinimumTimerRuns = true;
+        out.emplace_back(StartVehicleTimer{EVehicleTimer::MinimumStateInterval, due - now.steady});
+    }
 }
 
 StateMessage VehicleSession::Impl::GetState() const
@@ -128,8 +133,8 @@ StateMessage VehicleSession::Impl::GetState() const
     {
         state.nodeStates.push_back(_route.GetNodeState(index));
     }
-    // 6.6.3: a cancelled vehicle on its way to the next node shows that node alone.
-    const std::size_t shownEdges = _bLastLeg ? 0 : _route.GetSize();
+    // 6.6.3: a cancelled vehicle on its way to the next node shows that node alone, once the edge's actions have ended.
+    const std::size_t shownEdges = _bLastLeg && !RunsEdgeAction() ? 0 : _route.GetSize();
     state.edgeStates.reserve(shownEdges);
     for (std::size_t index = 0; index < shownEdges; ++index)
     {
@@ -179,6 +184,10 @@ void VehicleSession::Impl::PublishState(Core::Now now, VehicleActions& out)
     for (ReportedAction& tracked : _actions)
     {
         tracked.bShown = tracked.IsEnded();
+    }
+    for (SessionError& known : _sessionErrors)
+    {
+        known.bShown = true;
     }
     if (_bMinimumTimerRuns)
     {

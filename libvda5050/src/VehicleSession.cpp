@@ -61,9 +61,9 @@ void VehicleSession::OnTimer(EVehicleTimer timer, Core::Now now, VehicleActions&
     _impl->OnTimer(timer, now, out);
 }
 
-bool VehicleSession::TryReachNode(std::uint32_t sequenceID, Core::Now now, VehicleActions& out)
+bool VehicleSession::TryReachNode(NodeArrival arrival, Core::Now now, VehicleActions& out)
 {
-    return _impl->TryReachNode(sequenceID, now, out);
+    return _impl->TryReachNode(std::move(arrival), now, out);
 }
 
 bool VehicleSession::TrySetLastNode(std::string nodeID, Core::Now now, VehicleActions& out)

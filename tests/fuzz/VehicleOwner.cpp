@@ -34,6 +34,7 @@ double Measure(Choices& choices)
 
 VehicleOwner::VehicleOwner(VehicleOptions options)
     : _limits(options.factsheet.protocolLimits.maxArrayLengths),
+      _minimumInterval(options.minimumStateInterval),
       _session(std::move(options))
 {
     _session.OnLinkUp(_now, _out);
@@ -71,8 +72,8 @@ void VehicleOwner::ReachNode()
 {
     if (_leg.has_value())
     {
-        const std::uint32_t sequenceID = std::exchange(_leg, std::nullopt)->node.sequenceID;
-        static_cast<void>(_session.TryReachNode(sequenceID, _now, _out));
+        const DriveTo leg = *std::exchange(_leg, std::nullopt);
+        static_cast<void>(_session.TryReachNode({leg.node.sequenceID, leg.bStopAtNode}, _now, _out));
         Obey();
     }
 }
@@ -165,7 +166,7 @@ void VehicleOwner::ReachWithoutCommand(Choices& choices)
     const std::vector<NodeState> nodes = _session.GetState().nodeStates;
     const std::uint32_t any = choices.Take(16);
     const bool bNext = any > 7 && !nodes.empty();
-    static_cast<void>(_session.TryReachNode(bNext ? nodes.front().sequenceID : any, _now, _out));
+    static_cast<void>(_session.TryReachNode({bNext ? nodes.front().sequenceID : any, any % 2 == 0}, _now, _out));
 }
 
 void VehicleOwner::LeaveCorridor(bool bOutside)
@@ -238,6 +239,10 @@ std::uint32_t VehicleOwner::ReadHeaderID(const MqttMessage& message)
     {
         const Core::Result<StateMessage> state = _codec.Decode<StateMessage>(message.payload);
         Require(state.has_value(), "a state can be decoded");
+        Require(
+            !_stateTime.has_value() || _now.steady - *_stateTime >= _minimumInterval,
+            "the minimum interval is kept");
+        _stateTime = _now.steady;
         return state->header.headerID;
     }
     const Core::Result<MessageIdentity> identity = _codec.DecodeIdentity(message.payload);
@@ -293,6 +298,10 @@ void VehicleOwner::Watch(const VehicleAction& action)
     else if (const auto* start = std::get_if<StartAction>(&action))
     {
         WatchStart(*start);
+    }
+    else if (const auto* stop = std::get_if<StopAction>(&action); stop != nullptr && stop->bEdgeEnded)
+    {
+        _running.erase(stop->actionID);
     }
 }
 
@@ -354,6 +363,13 @@ void VehicleOwner::WatchActions(const StateMessage& state)
         const auto known = _statuses.find(entry.first);
         return known == _statuses.end() || IsTerminal(known->second);
     });
+    for (const auto& entry : _running)
+    {
+        const StartAction& start = entry.second.start;
+        const bool bShown =
+            std::ranges::find(state.edgeStates, start.sequenceID, &EdgeState::sequenceID) != state.edgeStates.end();
+        Require(start.scope != EActionScope::Edge || bShown, "an edge action ends with its edge");
+    }
 }
 
 void VehicleOwner::WatchBounds(const StateMessage& state) const

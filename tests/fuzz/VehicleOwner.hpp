@@ -26,6 +26,8 @@ class VehicleOwner
     };
 
     VDA5050::MaximumArrayLengths _limits; ///< Limits of what it publishes.
+    Core::Duration _minimumInterval;
+    std::optional<Core::SteadyTime> _stateTime;
     VDA5050::VehicleSession _session;
     VDA5050::Vda5050Codec _codec;
     Core::Now _now;

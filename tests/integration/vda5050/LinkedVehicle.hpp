@@ -154,7 +154,7 @@ private:
             _session.OnPosition(position, VDA5050::Velocity{});
             Do([&goal](auto& vehicle, Core::Now now, auto& out) {
                 vehicle.OnDrivingChanged(true, now, out);
-                CHECK(vehicle.TryReachNode(goal.node.sequenceID, now, out));
+                CHECK(vehicle.TryReachNode({goal.node.sequenceID, goal.bStopAtNode}, now, out));
             });
             Do([](auto& vehicle, Core::Now now, auto& out) { vehicle.OnDrivingChanged(false, now, out); });
         });

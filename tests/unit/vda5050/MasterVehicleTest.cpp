@@ -81,7 +81,7 @@ public:
         }
         if (_goal.has_value())
         {
-            CHECK(_vehicle.TryReachNode(*std::exchange(_goal, std::nullopt), _clock.GetNow(), out));
+            CHECK(_vehicle.TryReachNode({*std::exchange(_goal, std::nullopt)}, _clock.GetNow(), out));
         }
         _vehicle.OnTimer(EVehicleTimer::MaximumStateInterval, _clock.GetNow(), out);
         ToMaster(out);

@@ -176,9 +176,21 @@ TEST_CASE("5.2 SOFT and HARD actions of an edge run before the edge is entered, 
     }
 }
 
-TEST_CASE("5.2 Edge actions end with the edge: FINISHED if the application ends them so, else FAILED with a warning")
+TEST_CASE("5.2 Edge actions end with the edge: FINISHED if the arrival states so, else FAILED with a warning")
 {
-    for (const EActionStatus end : {EActionStatus::Finished, EActionStatus::Failed})
+    struct Case
+    {
+        std::vector<EdgeActionEnd> ends;
+        EActionStatus status;
+        bool bStopRequested;
+    };
+    const std::vector<Case> cases{
+        {{{"e", EActionStatus::Finished}}, EActionStatus::Finished, false},
+        {{{"e", EActionStatus::Failed}}, EActionStatus::Failed, false},
+        {{{"e", EActionStatus::Running}}, EActionStatus::Failed, true},
+        {{}, EActionStatus::Failed, true},
+    };
+    for (const Case& end : cases)
     {
         VehicleSessionFixture bench;
         OrderMessage order = MakeOrder(2, 2);
@@ -186,10 +198,10 @@ TEST_CASE("5.2 Edge actions end with the edge: FINISHED if the application ends 
         bench.Order(order);
         bench.Status("e", EActionStatus::Running);
         bench.Clear();
-        bench.Reach(2);
-        CHECK(Pick<StopAction>(bench.GetOutput()) == std::vector{StopAction{"e", true}});
-        bench.Status("e", end);
-        CHECK(bench.HasError(ErrorTypes::ACTION_ERROR) == (end == EActionStatus::Failed));
+        bench.Reach(2, true, end.ends);
+        CHECK(bench.GetStatus("e") == end.status);
+        CHECK(Pick<StopAction>(bench.GetOutput()).size() == (end.bStopRequested ? 1 : 0));
+        CHECK(bench.HasError(ErrorTypes::ACTION_ERROR) == (end.status == EActionStatus::Failed));
         CHECK(Pick<OrderCompleted>(bench.GetOutput()).size() == 1);
     }
 }

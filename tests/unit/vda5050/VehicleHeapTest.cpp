@@ -86,8 +86,10 @@ public:
     [[nodiscard]] std::uint64_t CountBlocks(EVehicleTimer timer)
     {
         VehicleActions out;
+        _clock.Advance(std::chrono::minutes(1));
         _session->OnTimer(timer, _clock.GetNow(), out); // the vector's own growth is the owner's
         out.clear();
+        _clock.Advance(std::chrono::minutes(1));
         const std::uint64_t before = HeapProbe::GetBlockCount();
         _session->OnTimer(timer, _clock.GetNow(), out);
         const std::uint64_t taken = HeapProbe::GetBlockCount() - before;

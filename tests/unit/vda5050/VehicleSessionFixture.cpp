@@ -86,9 +86,9 @@ void VehicleSessionFixture::Instant(std::vector<Action> actions)
     Payload(ETopic::InstantActions, Vda5050Codec().Encode(message, EVda5050Version::Version200));
 }
 
-void VehicleSessionFixture::Reach(std::uint32_t sequenceID)
+void VehicleSessionFixture::Reach(std::uint32_t sequenceID, bool bStationary, std::vector<EdgeActionEnd> edgeActions)
 {
-    CHECK(_session.TryReachNode(sequenceID, _clock.GetNow(), _out));
+    CHECK(_session.TryReachNode({sequenceID, bStationary, std::move(edgeActions)}, _clock.GetNow(), _out));
 }
 
 void VehicleSessionFixture::Drive(bool bDriving)

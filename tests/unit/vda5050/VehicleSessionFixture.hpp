@@ -44,7 +44,7 @@ public:
         const std::string& actionID,
         std::vector<ActionParameter> parameters = {});
     void Instant(std::vector<Action> actions);
-    void Reach(std::uint32_t sequenceID);
+    void Reach(std::uint32_t sequenceID, bool bStationary = false, std::vector<EdgeActionEnd> edgeActions = {});
     void Drive(bool bDriving);
     void Status(std::string_view actionID, EActionStatus status);
     void StandAt(double x, double theta = 0.0);

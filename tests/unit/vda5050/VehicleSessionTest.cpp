@@ -206,7 +206,7 @@ TEST_CASE("4.4 A traversal is one state: node and edge gone, lastNode set, the n
     CHECK(bench.GetStartedActions() == Names{"a1"});
     CHECK(Pick<DriveTo>(bench.GetOutput()).empty());
     VehicleActions out;
-    CHECK_FALSE(bench.GetSession().TryReachNode(2, bench.GetNow(), out));
+    CHECK_FALSE(bench.GetSession().TryReachNode({2}, bench.GetNow(), out));
 }
 
 TEST_CASE("4.4 The next edge is entered when the vehicle moves on; its actions wait until then")
@@ -280,6 +280,7 @@ TEST_CASE("4.6 States that are due close together are merged, and one comes afte
         == StartVehicleTimer{EVehicleTimer::MaximumStateInterval, std::chrono::seconds(30)});
     CheckPublished(out);
     out.clear();
+    bench.Advance(std::chrono::seconds(30));
     bench.GetSession().OnTimer(EVehicleTimer::MaximumStateInterval, bench.GetNow(), out);
     CheckPublished(out);
     CHECK(Pick<PublishMessage>(out).size() == 1);

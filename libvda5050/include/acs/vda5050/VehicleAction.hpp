@@ -49,8 +49,9 @@ struct NextLeg
     bool operator==(const NextLeg&) const = default;
 };
 
-/// Drive along the edge to its end node, then call TryReachNode with the node's sequenceID. One leg at a time. A repeated
-/// sequenceID changes only bStopAtNode while driving, and resumes the drive after StopDriving.
+/// Drive along the edge to its end node, then call TryReachNode with the node's sequenceID; if it stops there, once it is
+/// stationary. One leg at a time. A repeated sequenceID changes only bStopAtNode while driving, and resumes the drive after
+/// StopDriving.
 struct DriveTo
 {
     OrderEdge edge;
@@ -96,12 +97,12 @@ struct ResumeAction
     bool operator==(const ResumeAction&) const = default;
 };
 
-/// End the action now (Failed), or let it finish if it cannot be interrupted. At the end of its edge an action without a
-/// goal of its own ends with Finished.
+/// End the action now (Failed), or let it finish if it cannot be interrupted.
 struct StopAction
 {
     std::string actionID;
-    bool bEdgeEnded = false; ///< Otherwise the order was cancelled.
+    /// Its edge has ended, and NodeArrival did not contain it: it is FAILED already. Otherwise the order was cancelled.
+    bool bEdgeEnded = false;
 
     bool operator==(const StopAction&) const = default;
 };

@@ -25,7 +25,7 @@ struct VehicleOptions
     FactsheetMessage factsheet;
     EParameterCheck parameterCheck = EParameterCheck::Tolerant;
 
-    /// Changes within this interval are merged into one state.
+    /// Minimum interval of states, without exception: changes within it are merged into the next one.
     std::chrono::milliseconds minimumStateInterval{50};
     /// Maximum interval of states.
     std::chrono::milliseconds maximumStateInterval{30'000};

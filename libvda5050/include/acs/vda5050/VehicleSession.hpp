@@ -2,6 +2,7 @@
 
 #include <acs/core/Now.hpp>
 #include <acs/vda5050/IMqttLink.hpp>
+#include <acs/vda5050/NodeArrival.hpp>
 #include <acs/vda5050/OrderMessage.hpp>
 #include <acs/vda5050/StateMessage.hpp>
 #include <acs/vda5050/VehicleAction.hpp>
@@ -20,8 +21,8 @@ namespace ACS::VDA5050
 /// The vehicle side of the protocol: accepts orders and instant actions by the rules of 2.x, requests drives and actions
 /// from its owner (the vehicle control, or a simulator), and publishes the state. Pure: no clock, no I/O; all output is
 /// appended to out, which the caller reuses. Not shared between threads. Calls append to out: move the actions out of it
-/// before carrying them out. The owner reports changes with the On… functions; states are merged and sent as section 6.10
-/// requires.
+/// before carrying them out. The owner reports changes with the On… functions. One state has all consequences of a call;
+/// states are at least minimumStateInterval apart, and changes in between are merged into the next one.
 class VehicleSession
 {
     class Impl;
@@ -40,7 +41,8 @@ public:
     /// The will for the next connect; its header has the time.
     [[nodiscard]] MqttWill MakeWill(Core::Now now);
 
-    /// Connected and subscribed: publishes ONLINE, the factsheet and a state, and starts the timers.
+    /// Connected and subscribed: publishes ONLINE, the factsheet and, once minimumStateInterval has passed since the last
+    /// one, a state; starts the timers.
     void OnLinkUp(Core::Now now, VehicleActions& out);
     /// The order continues to the end of the base; nothing is published until OnLinkUp.
     void OnLinkDown(Core::Now now, VehicleActions& out);
@@ -57,7 +59,8 @@ public:
     void OnTimer(EVehicleTimer timer, Core::Now now, VehicleActions& out);
 
     /// The vehicle has reached the node of the last DriveTo. Returns false and does nothing for any other sequenceID.
-    bool TryReachNode(std::uint32_t sequenceID, Core::Now now, VehicleActions& out);
+    /// While the order is being cancelled, its last node is shown as reached only when the cancel is finished.
+    bool TryReachNode(NodeArrival arrival, Core::Now now, VehicleActions& out);
     /// The vehicle has localised itself on this node (moved by hand, a tag); empty: on none. False while an order runs.
     bool TrySetLastNode(std::string nodeID, Core::Now now, VehicleActions& out);
     /// The vehicle has left the corridor of its current edge, or is back inside. The vehicle monitors this itself, for its
