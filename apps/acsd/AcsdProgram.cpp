@@ -150,6 +150,10 @@ int RunAcsd(int argc, const char* const* argv)
         {
             fmt::print(stderr, "warning: {}\n", warning);
         }
+        for (const std::string& note : config.notes)
+        {
+            fmt::print(stderr, "note: {}\n", note);
+        }
         fmt::print("{}: no errors\n", options.configFile);
         return 0;
     }

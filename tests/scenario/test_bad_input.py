@@ -120,6 +120,8 @@ class BadInput(ScenarioCase):
     def test_the_example_configuration_is_valid(self):
         result = self.run_program("acsd", "--config", SITE / "acsd.toml", "--check-config")
         self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("note: site.map: members without effect on driving: ", result.stderr)
+        self.assertNotIn("warning: ", result.stderr)
 
     def test_acsd_is_ready_without_broker_and_mcs_and_ends_cleanly(self):
         acsd = self.line.start("acsd", "--config", SITE / "acsd.toml", "--set", "mcs.url=ws://127.0.0.1:1/acs/",

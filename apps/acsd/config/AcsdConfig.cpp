@@ -9,6 +9,7 @@
 #include "config/RobotConfig.hpp"
 #include "config/StationConfig.hpp"
 #include <acs/plan/LifReader.hpp>
+#include <acs/plan/UnusedLifMember.hpp>
 #include <acs/plan_sqlite/SqlitePlanStore.hpp>
 
 #include <fmt/format.h>
@@ -24,6 +25,33 @@ namespace
 {
 
 using Apps::ConfigSection;
+
+void ReportUnusedMembers(const std::string& map, AcsdConfig& config)
+{
+    using EKind = Planning::UnusedLifMember::EKind;
+    std::string ignored;
+    for (const Planning::UnusedLifMember& member : Planning::FindUnusedMembers(map))
+    {
+        const std::string_view times = member.count == 1 ? "time" : "times";
+        if (member.kind == EKind::Informative)
+        {
+            ignored += fmt::format("{}{} ({} {})", ignored.empty() ? "" : ", ", member.path, member.count, times);
+            continue;
+        }
+        config.warnings.push_back(fmt::format(
+            "site.map: {} {} ({} {}, first {})",
+            member.path,
+            member.kind == EKind::Unknown ? "is not a member of LIF 1.0 and has no effect"
+                                          : "is not supported: " + member.effect,
+            member.count,
+            times,
+            member.first));
+    }
+    if (!ignored.empty())
+    {
+        config.notes.push_back("site.map: members without effect on driving: " + ignored);
+    }
+}
 
 void ReadSite(const ConfigSection& root, const std::string& fileName, AcsdConfig& config)
 {
@@ -58,6 +86,7 @@ void ReadSite(const ConfigSection& root, const std::string& fileName, AcsdConfig
     if (site)
     {
         config.site = std::move(*site);
+        ReportUnusedMembers(*text, config);
     }
     else
     {
