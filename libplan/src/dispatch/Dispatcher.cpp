@@ -55,17 +55,18 @@ Robot* Dispatcher::FindNearestOrNull(const ActivePlan& plan)
 
 Robot* Dispatcher::FindQuickestOrNull(const ActivePlan& plan, const std::vector<Robot*>& robots) const
 {
-    // One search per vehicle type.
-    std::map<std::string_view, std::vector<std::size_t>> starts;
+    // One search per vehicle type and load.
+    std::map<std::pair<std::string_view, ELoad>, std::vector<std::size_t>> starts;
     for (const Robot* robot : robots)
     {
-        starts[robot->options->vehicleTypeID].push_back(*robot->place.node);
+        starts[{robot->options->vehicleTypeID, robot->GetLoad()}].push_back(*robot->place.node);
     }
     std::optional<QuickestStart> quickest;
-    for (const auto& [vehicleTypeID, nodes] : starts)
+    for (const auto& [key, nodes] : starts)
     {
+        const auto& [vehicleTypeID, load] = key;
         const std::size_t dock = *_admission.FindDockOrNull(plan.resolved.steps.front().stationID, vehicleTypeID);
-        const std::optional<QuickestStart> start = _router.FindQuickestStartOrNull(vehicleTypeID, nodes, dock);
+        const std::optional<QuickestStart> start = _router.FindQuickestStartOrNull(vehicleTypeID, load, nodes, dock);
         if (start.has_value() && (!quickest.has_value() || start->travelSeconds < quickest->travelSeconds))
         {
             quickest = start;
@@ -82,7 +83,7 @@ bool Dispatcher::HasWay(const ActivePlan& plan, const Robot& robot) const
     const std::string& vehicleTypeID = robot.options->vehicleTypeID;
     const std::size_t dock = *_admission.FindDockOrNull(plan.resolved.steps.front().stationID, vehicleTypeID);
     const std::array start{*robot.place.node};
-    return _router.FindQuickestStartOrNull(vehicleTypeID, start, dock).has_value();
+    return _router.FindQuickestStartOrNull(vehicleTypeID, robot.GetLoad(), start, dock).has_value();
 }
 
 void Dispatcher::OnJobCheck(Robot& robot, const JobCheckChanged& event)

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <acs/plan/ELoad.hpp>
 #include <acs/plan/RobotCommand.hpp>
+#include <acs/plan/SiteMap.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ACS::Planning
@@ -28,6 +31,7 @@ enum class ECancellation : std::uint8_t
 struct PlannedRoute
 {
     std::size_t target = 0;
+    ELoad load = ELoad::Unknown; ///< With which the robot may drive it.
     Route route;
     std::vector<std::size_t> nodes; ///< Of the route, by index in the map.
 };
@@ -43,6 +47,7 @@ struct Reroute
 struct ActiveDrive
 {
     std::string driveID;
+    ELoad load = ELoad::Unknown; ///< Of the robot when the route was planned.
     Route route;
     std::vector<std::size_t> nodes; ///< Of the route, by index in the map.
     std::size_t grantedCount = 0;   ///< Nodes from the start that are or were granted.
@@ -60,6 +65,8 @@ struct ActiveDrive
     [[nodiscard]] bool IsAtBaseEnd() const noexcept;
     /// The last node before the target is passed.
     [[nodiscard]] bool IsApproaching() const noexcept;
+    /// Nodes from the start that a vehicle of the type may reach with this load; at least the granted ones.
+    [[nodiscard]] std::size_t CountReachable(const SiteMap& site, std::string_view vehicleTypeID, ELoad present) const;
     /// The node after the last one passed, at most the last node.
     [[nodiscard]] const std::string& GetNextNodeID() const;
 };

@@ -10,6 +10,14 @@ const std::string& Robot::GetID() const
     return options->robotID.GetText();
 }
 
+ELoad Robot::GetLoad() const
+{
+    const bool bLoaded = std::ranges::any_of(ports.GetCarriers(), [](const std::optional<std::string>& carrierOrNull) {
+        return carrierOrNull.has_value();
+    });
+    return bLoaded ? ELoad::Loaded : ELoad::Empty;
+}
+
 EUnavailability Robot::GetUnavailability() const
 {
     if (!view.bOnline)

@@ -64,6 +64,8 @@ struct Robot
     RobotChanges changes;
 
     [[nodiscard]] const std::string& GetID() const;
+    /// By the record of its ports; the other load than in reality is possible until its sensors report.
+    [[nodiscard]] ELoad GetLoad() const;
     /// The first reason that applies, apart from having other work.
     [[nodiscard]] EUnavailability GetUnavailability() const;
     [[nodiscard]] std::string Describe(EUnavailability unavailability) const;

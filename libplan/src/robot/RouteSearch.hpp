@@ -25,6 +25,7 @@ struct RouteSearch
     std::optional<PlannedRoute> detour;       ///< Around the robots that blocked the route at detourAt.
     std::uint64_t detourAt = 0;               ///< PlaceTracker::GetStandingChanges then.
     std::size_t detourTarget = 0;
+    ELoad detourLoad = ELoad::Unknown;
     std::size_t detours = 0;           ///< Driven on the way to its present step.
     std::uint64_t refusedAt = 0;       ///< Traffic::GetFreedCount then.
     std::vector<std::size_t> blockers; ///< Robots that blocked its last attempt to drive.

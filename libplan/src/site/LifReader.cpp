@@ -135,6 +135,14 @@ struct JsonFields<Planning::LifNode>
 };
 
 template <>
+struct JsonFields<Planning::SiteLoadRestriction>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("unloaded", &Planning::SiteLoadRestriction::bUnloaded),
+        Required("loaded", &Planning::SiteLoadRestriction::bLoaded));
+};
+
+template <>
 struct JsonFields<Planning::SiteEdgeRule>
 {
     static constexpr auto FIELDS = std::make_tuple(
@@ -143,7 +151,8 @@ struct JsonFields<Planning::SiteEdgeRule>
         Optional("orientationType", &Planning::SiteEdgeRule::orientationType),
         Optional("rotationAllowed", &Planning::SiteEdgeRule::bRotationAllowed),
         Optional("maxSpeed", &Planning::SiteEdgeRule::maxSpeed),
-        Optional("maxRotationSpeed", &Planning::SiteEdgeRule::maxRotationSpeed));
+        Optional("maxRotationSpeed", &Planning::SiteEdgeRule::maxRotationSpeed),
+        Optional("loadRestriction", &Planning::SiteEdgeRule::loadRestriction));
 };
 
 template <>

@@ -33,6 +33,12 @@ const SiteNodeRule* SiteNode::FindRuleOrNull(std::string_view vehicleTypeID) con
     return FindAmongOrNull(rules, vehicleTypeID);
 }
 
+bool SiteEdgeRule::IsPermitted(ELoad load) const noexcept
+{
+    const SiteLoadRestriction restriction = loadRestriction.value_or(SiteLoadRestriction{});
+    return (restriction.bUnloaded || load == ELoad::Loaded) && (restriction.bLoaded || load == ELoad::Empty);
+}
+
 const SiteEdgeRule* SiteEdge::FindRuleOrNull(std::string_view vehicleTypeID) const noexcept
 {
     return FindAmongOrNull(rules, vehicleTypeID);

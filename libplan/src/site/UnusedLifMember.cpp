@@ -48,14 +48,9 @@ bool IsTurnRestricted(const Value& value)
     return !value.IsString() || value.GetString() != std::string_view("BOTH");
 }
 
-bool IsLoadRestricted(const Value& value)
+bool IsFilled(const Value& list)
 {
-    const auto isRefused = [&value](std::string_view name) {
-        const Value* const allowedOrNull = Json::FindFirstOrNull(value, name);
-        return allowedOrNull != nullptr && !allowedOrNull->IsTrue();
-    };
-    const Value* const setsOrNull = Json::FindFirstOrNull(value, "loadSetNames");
-    return isRefused("unloaded") || isRefused("loaded") || setsOrNull != nullptr;
+    return !list.IsArray() || !list.Empty();
 }
 
 struct KnownMember
@@ -74,6 +69,7 @@ constexpr std::string_view NODE_POSITION = "layouts[].nodes[].nodePosition";
 constexpr std::string_view NODE_RULE = "layouts[].nodes[].vehicleTypeNodeProperties[]";
 constexpr std::string_view EDGE = "layouts[].edges[]";
 constexpr std::string_view EDGE_RULE = "layouts[].edges[].vehicleTypeEdgeProperties[]";
+constexpr std::string_view LOAD_RULE = "layouts[].edges[].vehicleTypeEdgeProperties[].loadRestriction";
 constexpr std::string_view STATION = "layouts[].stations[]";
 constexpr std::string_view NO_ACTIONS = "REQUIRED actions are not sent to vehicles";
 constexpr std::string_view NO_TURN_LIMIT = "the turn on the node is not restricted";
@@ -121,12 +117,10 @@ constexpr std::array KNOWN{
     KnownMember{EDGE_RULE, "maxRotationSpeed"},
     KnownMember{EDGE_RULE, "minHeight", ERole::Demand, NO_HEIGHT},
     KnownMember{EDGE_RULE, "maxHeight", ERole::Demand, NO_HEIGHT},
-    KnownMember{
-        EDGE_RULE,
-        "loadRestriction",
-        ERole::Demand,
-        "vehicles use the edge with and without a load",
-        &IsLoadRestricted},
+    KnownMember{EDGE_RULE, "loadRestriction", ERole::Objects},
+    KnownMember{LOAD_RULE, "unloaded"},
+    KnownMember{LOAD_RULE, "loaded"},
+    KnownMember{LOAD_RULE, "loadSetNames", ERole::Demand, "vehicles use the edge with any load", &IsFilled},
     KnownMember{EDGE_RULE, "trajectory", ERole::Demand, "orders have no trajectory"},
     KnownMember{EDGE_RULE, "corridor", ERole::Demand, "orders have no corridor"},
     KnownMember{EDGE_RULE, "actions", ERole::Demands, NO_ACTIONS, &IsRequired},

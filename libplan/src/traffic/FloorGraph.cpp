@@ -42,7 +42,15 @@ double GetAngleBetween(double left, double right)
     return std::abs(std::remainder(left - right, 2 * std::numbers::pi));
 }
 
-FloorGraph::FloorGraph(const SiteMap& site, std::string_view vehicleTypeID)
+bool IsLoadRestricted(const SiteMap& site, std::string_view vehicleTypeID)
+{
+    return std::ranges::any_of(site.GetEdges(), [vehicleTypeID](const SiteEdge& edge) {
+        const SiteEdgeRule* const ruleOrNull = edge.FindRuleOrNull(vehicleTypeID);
+        return ruleOrNull != nullptr && !ruleOrNull->IsPermitted(ELoad::Unknown);
+    });
+}
+
+FloorGraph::FloorGraph(const SiteMap& site, std::string_view vehicleTypeID, ELoad load)
 {
     const std::vector<SiteEdge>& edges = site.GetEdges();
     for (std::size_t i = 0; i < edges.size(); ++i)
@@ -52,7 +60,7 @@ FloorGraph::FloorGraph(const SiteMap& site, std::string_view vehicleTypeID)
         const SiteNode& fromNode = site.GetNodes()[from];
         const SiteNode& toNode = site.GetNodes()[to];
         const SiteEdgeRule* ruleOrNull = edges[i].FindRuleOrNull(vehicleTypeID);
-        if (ruleOrNull == nullptr || fromNode.FindRuleOrNull(vehicleTypeID) == nullptr
+        if (ruleOrNull == nullptr || !ruleOrNull->IsPermitted(load) || fromNode.FindRuleOrNull(vehicleTypeID) == nullptr
             || toNode.FindRuleOrNull(vehicleTypeID) == nullptr || from == to)
         {
             continue;

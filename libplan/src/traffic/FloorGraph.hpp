@@ -22,7 +22,7 @@ struct Lane
     double turnSpeed = 0; ///< Radians per second; 0: not given by the map.
 };
 
-/// What a vehicle type can drive along: the edges of the map whose ends and itself it may use. Lanes by index, in the
+/// What a vehicle type can drive along with this load: the edges of the map whose ends and itself it may use. Lanes by index, in the
 /// order of their first node.
 class FloorGraph
 {
@@ -32,7 +32,7 @@ class FloorGraph
     std::vector<std::size_t> _firstIncoming; ///< Of each node, and one more.
 
 public:
-    FloorGraph(const SiteMap& site, std::string_view vehicleTypeID);
+    FloorGraph(const SiteMap& site, std::string_view vehicleTypeID, ELoad load);
 
     [[nodiscard]] std::size_t GetNodeCount() const noexcept;
     [[nodiscard]] std::span<const Lane> GetLanes() const noexcept;
@@ -46,6 +46,9 @@ public:
     /// Seconds of turning on the node between two lanes; 0 if the map does not give the rotation speed.
     [[nodiscard]] static double GetTurnSeconds(const Lane& from, const Lane& to);
 };
+
+/// Whether the map restricts any edge of the vehicle type to vehicles with a load, or to those without.
+[[nodiscard]] bool IsLoadRestricted(const SiteMap& site, std::string_view vehicleTypeID);
 
 /// The smallest angle between two headings, in radians.
 [[nodiscard]] double GetAngleBetween(double left, double right);

@@ -2,6 +2,7 @@
 #include <acs/plan/Router.hpp>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <limits>
 #include <map>
@@ -76,9 +77,12 @@ std::vector<double> MeasureDeviations(const std::vector<SiteNode>& nodes)
 
 class Router::Impl
 {
+    /// By ELoad; the same graph where the map does not distinguish loads.
+    using Graphs = std::array<std::shared_ptr<Graph>, 3>;
+
     const SiteMap& _site;
-    std::vector<double> _deviations;                           ///< Of each node.
-    mutable std::map<std::string, Graph, std::less<>> _graphs; ///< Searches keep what they found.
+    std::vector<double> _deviations;                    ///< Of each node.
+    std::map<std::string, Graphs, std::less<>> _graphs; ///< By vehicle type. Searches keep what they found.
     mutable std::uint64_t _visitedNodes = 0;
     mutable std::uint64_t _uses = 0;
 
@@ -91,13 +95,16 @@ public:
         {
             for (const SiteEdgeRule& rule : edge.rules)
             {
-                if (!_graphs.contains(rule.vehicleTypeID))
+                const auto [entry, bNew] = _graphs.try_emplace(rule.vehicleTypeID);
+                if (!bNew)
                 {
-                    Graph graph{FloorGraph(site, rule.vehicleTypeID), false, {}};
-                    graph.bTurns = std::ranges::any_of(graph.floor.GetLanes(), [](const Lane& lane) {
-                        return lane.turnSpeed > 0;
-                    });
-                    _graphs.emplace(rule.vehicleTypeID, std::move(graph));
+                    continue;
+                }
+                const bool bRestricted = IsLoadRestricted(site, rule.vehicleTypeID);
+                for (const ELoad load : {ELoad::Unknown, ELoad::Empty, ELoad::Loaded})
+                {
+                    entry->second[static_cast<std::size_t>(load)] =
+                        bRestricted || load == ELoad::Unknown ? MakeGraph(rule.vehicleTypeID, load) : entry->second[0];
                 }
             }
         }
@@ -139,14 +146,15 @@ public:
 
     [[nodiscard]] std::optional<Route> FindOrNull(
         std::string_view vehicleTypeID,
+        ELoad load,
         std::string_view fromNodeID,
         std::string_view toNodeID,
         const NodeFilter& isExcluded) const
     {
         const std::optional<std::size_t> from = _site.FindNodeIndexOrNull(fromNodeID);
         const std::optional<std::size_t> to = _site.FindNodeIndexOrNull(toNodeID);
-        const auto found = _graphs.find(vehicleTypeID);
-        if (!from.has_value() || !to.has_value() || (found == _graphs.end() && *from != *to))
+        Graph* const graphOrNull = FindGraphOrNull(vehicleTypeID, load);
+        if (!from.has_value() || !to.has_value() || (graphOrNull == nullptr && *from != *to))
         {
             return std::nullopt;
         }
@@ -156,7 +164,7 @@ public:
             route.nodes.push_back(MakeNode(*from, vehicleTypeID));
             return route;
         }
-        Graph& graph = found->second;
+        Graph& graph = *graphOrNull;
         Field& field = GetField(graph, *to);
         Settle(
             graph.floor,
@@ -181,6 +189,7 @@ public:
 
     [[nodiscard]] std::optional<QuickestStart> FindQuickestStartOrNull(
         std::string_view vehicleTypeID,
+        ELoad load,
         std::span<const std::size_t> starts,
         std::size_t target) const
     {
@@ -188,12 +197,12 @@ public:
         {
             return QuickestStart{target, 0.0};
         }
-        const auto found = _graphs.find(vehicleTypeID);
-        if (found == _graphs.end() || starts.empty())
+        Graph* const graphOrNull = FindGraphOrNull(vehicleTypeID, load);
+        if (graphOrNull == nullptr || starts.empty())
         {
             return std::nullopt;
         }
-        Field& field = GetField(found->second, target);
+        Field& field = GetField(*graphOrNull, target);
         std::vector<bool> marks(_site.GetNodes().size(), false);
         bool bKnown = false;
         for (const std::size_t start : starts)
@@ -204,7 +213,7 @@ public:
         if (!bKnown)
         {
             Settle(
-                found->second.floor,
+                graphOrNull->floor,
                 field,
                 [&marks](std::size_t node) { return marks[node]; },
                 NO_LANE);
@@ -223,6 +232,20 @@ public:
     }
 
 private:
+    [[nodiscard]] std::shared_ptr<Graph> MakeGraph(std::string_view vehicleTypeID, ELoad load) const
+    {
+        auto graph = std::make_shared<Graph>(Graph{FloorGraph(_site, vehicleTypeID, load), false, {}});
+        graph->bTurns =
+            std::ranges::any_of(graph->floor.GetLanes(), [](const Lane& lane) { return lane.turnSpeed > 0; });
+        return graph;
+    }
+
+    [[nodiscard]] Graph* FindGraphOrNull(std::string_view vehicleTypeID, ELoad load) const
+    {
+        const auto found = _graphs.find(vehicleTypeID);
+        return found == _graphs.end() ? nullptr : found->second[static_cast<std::size_t>(load)].get();
+    }
+
     [[nodiscard]] Field& GetField(Graph& graph, std::size_t target) const
     {
         const auto [place, bNew] = graph.fields.try_emplace(target);
@@ -400,24 +423,26 @@ std::optional<Route> Router::FindRouteOrNull(
     std::string_view fromNodeID,
     std::string_view toNodeID) const
 {
-    return _impl->FindOrNull(vehicleTypeID, fromNodeID, toNodeID, {});
+    return _impl->FindOrNull(vehicleTypeID, ELoad::Unknown, fromNodeID, toNodeID, {});
 }
 
 std::optional<Route> Router::FindRouteOrNull(
     std::string_view vehicleTypeID,
+    ELoad load,
     std::string_view fromNodeID,
     std::string_view toNodeID,
     const NodeFilter& isExcluded) const
 {
-    return _impl->FindOrNull(vehicleTypeID, fromNodeID, toNodeID, isExcluded);
+    return _impl->FindOrNull(vehicleTypeID, load, fromNodeID, toNodeID, isExcluded);
 }
 
 std::optional<QuickestStart> Router::FindQuickestStartOrNull(
     std::string_view vehicleTypeID,
+    ELoad load,
     std::span<const std::size_t> startIndices,
     std::size_t targetIndex) const
 {
-    return _impl->FindQuickestStartOrNull(vehicleTypeID, startIndices, targetIndex);
+    return _impl->FindQuickestStartOrNull(vehicleTypeID, load, startIndices, targetIndex);
 }
 
 std::uint64_t Router::CountVisitedNodes() const noexcept

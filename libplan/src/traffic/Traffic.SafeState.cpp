@@ -23,29 +23,59 @@ void Traffic::FindReturns()
     {
         return;
     }
-    const std::vector<std::uint16_t> none(_covers.size(), 0);
     for (Vehicle& vehicle : _vehicles)
     {
-        vehicle.bCanReturn =
-            vehicle.home.has_value() && vehicle.graphOrNull != nullptr
-            && std::ranges::any_of(
-                vehicle.graphOrNull->GetLanesFrom(*vehicle.home),
-                [this, &vehicle, &none](const Lane& lane) {
-                    return !IsHomeOfOther(vehicle, lane.to) && HasWay(vehicle, lane.to, *vehicle.home, none);
+        vehicle.bCanReturn = vehicle.home.has_value() && !vehicle.graphs.empty();
+        for (LoadGraph& graph : vehicle.graphs)
+        {
+            if (!vehicle.home.has_value())
+            {
+                break;
+            }
+            FindReturns(vehicle, graph);
+            const bool bReturns = std::ranges::any_of(
+                graph.floor->GetLanesFrom(*vehicle.home),
+                [this, &vehicle, &graph](const Lane& lane) {
+                    return !IsHomeOfOther(vehicle, lane.to) && graph.returns[lane.to];
                 });
+            vehicle.bCanReturn = vehicle.bCanReturn && bReturns;
+        }
+    }
+}
+
+/// From the home backwards, around the homes of others.
+void Traffic::FindReturns(const Vehicle& vehicle, LoadGraph& graph) const
+{
+    graph.returns.assign(_holders.size(), false);
+    graph.returns[*vehicle.home] = true;
+    _open.assign(1, static_cast<std::uint32_t>(*vehicle.home));
+    for (std::size_t next = 0; next < _open.size(); ++next)
+    {
+        for (const std::size_t index : graph.floor->GetLanesTo(_open[next]))
+        {
+            const std::size_t from = graph.floor->GetLanes()[index].from;
+            if (!graph.returns[from])
+            {
+                graph.returns[from] = true;
+                if (!IsHomeOfOther(vehicle, from))
+                {
+                    _open.push_back(static_cast<std::uint32_t>(from));
+                }
+            }
+        }
     }
 }
 
 /// Dijkstra's algorithm, backwards from the home.
-void Traffic::FindWaysHome(Vehicle& vehicle) const
+void Traffic::FindWaysHome(LoadGraph& graph, std::size_t home) const
 {
     using OpenNode = std::pair<double, std::size_t>;
-    const FloorGraph& graph = *vehicle.graphOrNull;
+    const FloorGraph& floor = *graph.floor;
     std::vector<double> seconds(_holders.size(), std::numeric_limits<double>::infinity());
     std::priority_queue<OpenNode, std::vector<OpenNode>, std::greater<>> open;
-    vehicle.nextToHome.assign(_holders.size(), NOWHERE);
-    seconds[*vehicle.home] = 0;
-    open.emplace(0, *vehicle.home);
+    graph.nextToHome.assign(_holders.size(), NOWHERE);
+    seconds[home] = 0;
+    open.emplace(0, home);
     while (!open.empty())
     {
         const auto [reached, node] = open.top();
@@ -54,13 +84,13 @@ void Traffic::FindWaysHome(Vehicle& vehicle) const
         {
             continue;
         }
-        for (const std::size_t index : graph.GetLanesTo(node))
+        for (const std::size_t index : floor.GetLanesTo(node))
         {
-            const Lane& lane = graph.GetLanes()[index];
+            const Lane& lane = floor.GetLanes()[index];
             if (reached + lane.seconds < seconds[lane.from])
             {
                 seconds[lane.from] = reached + lane.seconds;
-                vehicle.nextToHome[lane.from] = static_cast<std::uint32_t>(node);
+                graph.nextToHome[lane.from] = static_cast<std::uint32_t>(node);
                 open.emplace(seconds[lane.from], lane.from);
             }
         }
@@ -93,8 +123,12 @@ bool Traffic::IsHomeOfOther(const Vehicle& vehicle, std::size_t node) const
 }
 
 /// A route around covered nodes and the homes of others, so that the order of parking does not matter.
-bool Traffic::HasWay(const Vehicle& vehicle, std::size_t from, std::size_t to, const std::vector<std::uint16_t>& covers)
-    const
+bool Traffic::HasWay(
+    const Vehicle& vehicle,
+    const LoadGraph& graph,
+    std::size_t from,
+    std::size_t to,
+    const std::vector<std::uint16_t>& covers) const
 {
     if (from == to)
     {
@@ -109,7 +143,7 @@ bool Traffic::HasWay(const Vehicle& vehicle, std::size_t from, std::size_t to, c
     _seen[from] = _search;
     for (std::size_t next = 0; next < _open.size(); ++next)
     {
-        for (const Lane& lane : vehicle.graphOrNull->GetLanesFrom(_open[next]))
+        for (const Lane& lane : graph.floor->GetLanesFrom(_open[next]))
         {
             if (lane.to == to)
             {
@@ -125,12 +159,15 @@ bool Traffic::HasWay(const Vehicle& vehicle, std::size_t from, std::size_t to, c
     return false;
 }
 
-bool Traffic::HasStraightWayHome(const Vehicle& vehicle, std::size_t from, const std::vector<std::uint16_t>& covers)
-    const
+bool Traffic::HasStraightWayHome(
+    const Vehicle& vehicle,
+    const LoadGraph& graph,
+    std::size_t from,
+    const std::vector<std::uint16_t>& covers) const
 {
-    for (std::size_t node = from; node != *vehicle.home; node = vehicle.nextToHome[node])
+    for (std::size_t node = from; node != *vehicle.home; node = graph.nextToHome[node])
     {
-        const std::uint32_t next = vehicle.nextToHome[node];
+        const std::uint32_t next = graph.nextToHome[node];
         if (next == NOWHERE || covers[next] > 0 || IsHomeOfOther(vehicle, next))
         {
             return false;
@@ -139,15 +176,20 @@ bool Traffic::HasStraightWayHome(const Vehicle& vehicle, std::size_t from, const
     return true;
 }
 
-/// covers: of all other robots.
+/// covers: of all other robots. A route is needed with each load with which the map has one from there, so that a job that
+/// changes the load leaves the state safe. A station that can be left with one load only needs that of this load: the job there
+/// is assumed to end, as for every robot that works.
 bool Traffic::CanGoHome(const Vehicle& vehicle, std::size_t from, const std::vector<std::uint16_t>& covers)
 {
     FindReturns();
-    if (!vehicle.bCanReturn)
-    {
-        return false;
-    }
-    return HasStraightWayHome(vehicle, from, covers) || HasWay(vehicle, from, *vehicle.home, covers);
+    const auto returns = [from](const LoadGraph& graph) {
+        return graph.returns[from];
+    };
+    return vehicle.bCanReturn && std::ranges::any_of(vehicle.graphs, returns)
+        && std::ranges::all_of(vehicle.graphs, [this, &vehicle, &covers, &returns, from](const LoadGraph& graph) {
+               return !returns(graph) || HasStraightWayHome(vehicle, graph, from, covers)
+                   || HasWay(vehicle, graph, from, *vehicle.home, covers);
+           });
 }
 
 /// Robots that can park do so and free their nodes for the rest; the order makes no difference. All granted nodes of a robot
@@ -263,13 +305,10 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
 bool Traffic::CanServe(std::size_t robot, std::size_t node) const
 {
     const Vehicle& vehicle = _vehicles[robot];
-    if (vehicle.path.empty() || !vehicle.home.has_value() || vehicle.graphOrNull == nullptr || !IsAnyFixed())
+    if (vehicle.path.empty() || !vehicle.home.has_value() || vehicle.graphs.empty() || !IsAnyFixed())
     {
         return true;
     }
-    const auto canServe = [this, &vehicle, node](const std::vector<std::uint16_t>& covers) {
-        return HasWay(vehicle, GetEnd(vehicle), node, covers) && HasWay(vehicle, node, *vehicle.home, covers);
-    };
     std::vector<std::uint16_t> covers(_covers.size(), 0);
     const std::vector<std::uint16_t> none = covers;
     for (const Vehicle& other : _vehicles)
@@ -279,7 +318,24 @@ bool Traffic::CanServe(std::size_t robot, std::size_t node) const
             Cover(other, covers, true);
         }
     }
-    return canServe(covers) || !canServe(none);
+    const auto canReach = [this, &vehicle, node](const std::vector<std::uint16_t>& covered) {
+        return std::ranges::any_of(vehicle.graphs, [this, &vehicle, &covered, node](const LoadGraph& graph) {
+            return HasWay(vehicle, graph, GetEnd(vehicle), node, covered);
+        });
+    };
+    const auto canLeave = [this, &vehicle, node](const LoadGraph& graph, const std::vector<std::uint16_t>& covered) {
+        return HasWay(vehicle, graph, node, *vehicle.home, covered);
+    };
+    const bool bLeaves = std::ranges::any_of(vehicle.graphs, [&canLeave, &none](const LoadGraph& graph) {
+        return canLeave(graph, none);
+    });
+    if (!bLeaves || !canReach(none))
+    {
+        return true; // not because of robots that cannot move
+    }
+    return canReach(covers) && std::ranges::all_of(vehicle.graphs, [&canLeave, &covers, &none](const LoadGraph& graph) {
+               return canLeave(graph, covers) || !canLeave(graph, none);
+           });
 }
 
 } // namespace ACS::Planning

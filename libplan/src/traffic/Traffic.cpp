@@ -20,9 +20,15 @@ Traffic::Traffic(const SiteMap& site, double clearance)
     {
         for (const SiteEdgeRule& rule : edge.rules)
         {
-            if (!_graphs.contains(rule.vehicleTypeID))
+            const auto [entry, bNew] = _graphs.try_emplace(rule.vehicleTypeID);
+            if (bNew && IsLoadRestricted(site, rule.vehicleTypeID))
             {
-                _graphs.emplace(rule.vehicleTypeID, FloorGraph(site, rule.vehicleTypeID));
+                entry->second.emplace_back(site, rule.vehicleTypeID, ELoad::Empty);
+                entry->second.emplace_back(site, rule.vehicleTypeID, ELoad::Loaded);
+            }
+            else if (bNew)
+            {
+                entry->second.emplace_back(site, rule.vehicleTypeID, ELoad::Unknown);
             }
         }
     }
@@ -55,11 +61,16 @@ void Traffic::AddRobot(std::string_view vehicleTypeID, std::optional<std::size_t
 {
     Vehicle& vehicle = _vehicles.emplace_back();
     const auto found = _graphs.find(vehicleTypeID);
-    vehicle.graphOrNull = found == _graphs.end() ? nullptr : &found->second;
     vehicle.home = homeOrNull;
-    if (homeOrNull.has_value() && vehicle.graphOrNull != nullptr)
+    for (const FloorGraph& floor :
+         found == _graphs.end() ? std::span<const FloorGraph>() : std::span<const FloorGraph>(found->second))
     {
-        FindWaysHome(vehicle);
+        LoadGraph& graph = vehicle.graphs.emplace_back();
+        graph.floor = &floor;
+        if (homeOrNull.has_value())
+        {
+            FindWaysHome(graph, *homeOrNull);
+        }
     }
     for (const std::uint32_t node : homeOrNull.has_value() ? _near[*homeOrNull] : std::vector<std::uint32_t>())
     {
@@ -72,16 +83,20 @@ void Traffic::AddRobot(std::string_view vehicleTypeID, std::optional<std::size_t
 bool Traffic::IsSpur(std::string_view vehicleTypeID, std::size_t node) const
 {
     const auto found = _graphs.find(vehicleTypeID);
-    if (found == _graphs.end() || found->second.GetLanesFrom(node).empty() || found->second.GetLanesTo(node).empty())
+    if (found == _graphs.end() || found->second.front().GetLanesFrom(node).empty())
     {
         return false;
     }
-    const FloorGraph& graph = found->second;
-    const std::size_t neighbour = graph.GetLanesFrom(node).front().to;
-    return std::ranges::all_of(graph.GetLanesFrom(node), [neighbour](const Lane& lane) { return lane.to == neighbour; })
-        && std::ranges::all_of(graph.GetLanesTo(node), [&graph, neighbour](std::size_t lane) {
-               return graph.GetLanes()[lane].from == neighbour;
-           });
+    const std::size_t neighbour = found->second.front().GetLanesFrom(node).front().to;
+    return std::ranges::all_of(found->second, [node, neighbour](const FloorGraph& graph) {
+        return !graph.GetLanesFrom(node).empty() && !graph.GetLanesTo(node).empty()
+            && std::ranges::all_of(
+                graph.GetLanesFrom(node),
+                [neighbour](const Lane& lane) { return lane.to == neighbour; })
+            && std::ranges::all_of(graph.GetLanesTo(node), [&graph, neighbour](std::size_t lane) {
+                   return graph.GetLanes()[lane].from == neighbour;
+               });
+    });
 }
 
 void Traffic::SetMovable(std::size_t robot, bool bMovable)

@@ -20,18 +20,26 @@ namespace ACS::Planning
 ///
 /// A node and all nodes within the clearance are reserved by one robot at a time. A robot holds the node on which it is
 /// stationary and the granted nodes of its route, and frees each node as it passes. A grant is refused if a robot that could
-/// park before, one after another with the others, could not park afterwards.
+/// park before, one after another with the others, could not park afterwards. Whether it can park does not depend on its
+/// present load: a job may change that on any station.
 class Traffic
 {
+    /// What a vehicle can drive along with one load.
+    struct LoadGraph
+    {
+        const FloorGraph* floor = nullptr;
+        std::vector<std::uint32_t> nextToHome; ///< By node: the next one on the quickest route home.
+        std::vector<bool> returns;             ///< By node: whether a route home is free while all others are parked.
+    };
+
     struct Vehicle
     {
-        const FloorGraph* graphOrNull = nullptr; ///< Null where no edge is for its type.
+        std::vector<LoadGraph> graphs; ///< None where no edge is for its type; one where loads make no difference.
         std::optional<std::size_t> home;
-        std::vector<std::size_t> path;         ///< Held nodes in driving order; it is on the first.
-        std::vector<std::size_t> extra;        ///< Other held nodes: where it may be, or may drive uncommanded.
-        std::vector<std::uint32_t> nextToHome; ///< By node: the next one on the quickest route home.
+        std::vector<std::size_t> path;  ///< Held nodes in driving order; it is on the first.
+        std::vector<std::size_t> extra; ///< Other held nodes: where it may be, or may drive uncommanded.
         bool bMovable = false;
-        bool bCanReturn = false; ///< A route leads out of its home and back while all others are parked.
+        bool bCanReturn = false; ///< With any load a route leads out of its home and back while all others are parked.
     };
 
     /// Which robots can park; kept until it may have changed.
@@ -58,7 +66,7 @@ class Traffic
     };
 
     std::vector<std::vector<std::uint32_t>> _near; ///< Of each node: those that it excludes, itself among them.
-    std::map<std::string, FloorGraph, std::less<>> _graphs;
+    std::map<std::string, std::vector<FloorGraph>, std::less<>> _graphs; ///< By type: of empty and loaded vehicles.
     std::vector<Vehicle> _vehicles;
     std::vector<std::optional<std::size_t>> _holders;
     std::vector<std::uint16_t> _covers; ///< Of each node: how many held nodes exclude it.
@@ -122,7 +130,7 @@ public:
     [[nodiscard]] bool IsOpenFor(std::size_t node, std::size_t robot) const;
     /// Other robots that hold the node or one within the clearance.
     [[nodiscard]] std::vector<std::size_t> GetHolders(std::size_t node, std::size_t robot) const;
-    /// Whether the node is a dead end for the vehicle type, so that no route passes through it.
+    /// Whether the node is a dead end for the vehicle type with any load, so that no route passes through it.
     [[nodiscard]] bool IsSpur(std::string_view vehicleTypeID, std::size_t node) const;
     /// Whether two nodes exclude each other.
     [[nodiscard]] bool IsNear(std::size_t left, std::size_t right) const;
@@ -141,8 +149,9 @@ public:
 
 private:
     void FindNear(const SiteMap& site, double clearance);
-    void FindWaysHome(Vehicle& vehicle) const;
+    void FindWaysHome(LoadGraph& graph, std::size_t home) const;
     void FindReturns();
+    void FindReturns(const Vehicle& vehicle, LoadGraph& graph) const;
     [[nodiscard]] static std::size_t GetEnd(const Vehicle& vehicle);
     void Hold(std::size_t robot, std::size_t node);
     void Free(std::size_t node);
@@ -153,11 +162,13 @@ private:
     [[nodiscard]] bool IsHomeOfOther(const Vehicle& vehicle, std::size_t node) const;
     [[nodiscard]] bool HasWay(
         const Vehicle& vehicle,
+        const LoadGraph& graph,
         std::size_t from,
         std::size_t to,
         const std::vector<std::uint16_t>& covers) const;
     [[nodiscard]] bool HasStraightWayHome(
         const Vehicle& vehicle,
+        const LoadGraph& graph,
         std::size_t from,
         const std::vector<std::uint16_t>& covers) const;
     [[nodiscard]] bool CanGoHome(const Vehicle& vehicle, std::size_t from, const std::vector<std::uint16_t>& covers);

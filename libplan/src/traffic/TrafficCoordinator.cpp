@@ -118,7 +118,9 @@ void TrafficCoordinator::ExtendBase(Robot& robot)
     }
     if (drive.grantedCount < drive.nodes.size() && drive.grantedCount < reached + _options.baseLength)
     {
-        const std::size_t wanted = std::min(drive.nodes.size(), reached + 2 * _options.baseLength);
+        const std::size_t wanted = std::min(
+            drive.CountReachable(_site, robot.options->vehicleTypeID, robot.GetLoad()),
+            reached + 2 * _options.baseLength);
         const std::span<const std::size_t> nodes(drive.nodes);
         const std::size_t granted =
             _traffic.Extend(robot.index, nodes.subspan(drive.grantedCount, wanted - drive.grantedCount));
@@ -146,7 +148,7 @@ EDriveAttempt TrafficCoordinator::TryDrive(Robot& robot)
         robot.parking.retreatNode.reset();
         return EDriveAttempt::AtTarget;
     }
-    const bool bFirst = !robot.search.plannedRoute.has_value() || robot.search.plannedRoute->target != *target;
+    const bool bFirst = !HasRoute(robot, *target);
     if (!TryPlanRoute(robot, *target))
     {
         return EDriveAttempt::NoRoute;
@@ -201,7 +203,8 @@ bool TrafficCoordinator::TryBeginPlannedRoute(Robot& robot)
     }
     // The detour is kept until a robot stops, starts, or becomes movable or not.
     if (robot.search.detourAt != _places.GetStandingChanges()
-        || robot.search.detourTarget != robot.search.plannedRoute->target)
+        || robot.search.detourTarget != robot.search.plannedRoute->target
+        || robot.search.detourLoad != robot.search.plannedRoute->load)
     {
         const auto isStandingInTheWay = [this, &robot](std::size_t node) {
             const std::vector<std::size_t> holders = _traffic.GetHolders(node, robot.index);
@@ -212,6 +215,7 @@ bool TrafficCoordinator::TryBeginPlannedRoute(Robot& robot)
         robot.search.detour = PlanRouteOrNull(robot, robot.search.plannedRoute->target, isStandingInTheWay);
         robot.search.detourAt = _places.GetStandingChanges();
         robot.search.detourTarget = robot.search.plannedRoute->target;
+        robot.search.detourLoad = robot.search.plannedRoute->load;
     }
     if (robot.search.detour.has_value())
     {
@@ -225,9 +229,15 @@ bool TrafficCoordinator::TryBeginPlannedRoute(Robot& robot)
     return TryBeginDrive(robot, *robot.search.plannedRoute);
 }
 
+bool TrafficCoordinator::HasRoute(const Robot& robot, std::size_t target)
+{
+    const std::optional<PlannedRoute>& planned = robot.search.plannedRoute;
+    return planned.has_value() && planned->target == target && planned->load == robot.GetLoad();
+}
+
 bool TrafficCoordinator::TryPlanRoute(Robot& robot, std::size_t target) const
 {
-    if (!robot.search.plannedRoute.has_value() || robot.search.plannedRoute->target != target)
+    if (!HasRoute(robot, target))
     {
         robot.search.plannedRoute = PlanRouteOrNull(robot, target, {});
     }
@@ -242,6 +252,7 @@ std::optional<PlannedRoute> TrafficCoordinator::PlanRouteOrNull(
     const std::vector<SiteNode>& nodes = _site.GetNodes();
     std::optional<Route> route = _router.FindRouteOrNull(
         robot.options->vehicleTypeID,
+        robot.GetLoad(),
         nodes[*robot.place.node].nodeID,
         nodes[target].nodeID,
         isExcluded);
@@ -251,6 +262,7 @@ std::optional<PlannedRoute> TrafficCoordinator::PlanRouteOrNull(
     }
     PlannedRoute plannedRoute;
     plannedRoute.target = target;
+    plannedRoute.load = robot.GetLoad();
     for (const RouteNode& node : route->nodes)
     {
         plannedRoute.nodes.push_back(*_site.FindNodeIndexOrNull(node.nodeID));
@@ -277,6 +289,7 @@ bool TrafficCoordinator::TryBeginDrive(Robot& robot, const PlannedRoute& planned
     ActiveDrive drive;
     drive.driveID = Core::MakeUUID(_random);
     robot.work.AddCommand(drive.driveID);
+    drive.load = plannedRoute.load;
     drive.route = plannedRoute.route;
     drive.nodes = plannedRoute.nodes;
     drive.grantedCount = granted + 1;
@@ -334,9 +347,9 @@ bool TrafficCoordinator::TryReroute(Robot& robot, PlannedRoute plannedRoute, boo
 
 void TrafficCoordinator::BeginReroute(Robot& robot, PlannedRoute plannedRoute, bool bRetreats)
 {
-    if (plannedRoute.nodes.front() != robot.place.node)
+    if (plannedRoute.nodes.front() != robot.place.node || plannedRoute.load != robot.GetLoad())
     {
-        return; // The robot has moved since: it waits as any other.
+        return; // The robot has moved since, or has another load: it waits as any other.
     }
     if (bRetreats)
     {

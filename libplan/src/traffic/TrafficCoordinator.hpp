@@ -90,6 +90,8 @@ private:
     /// Begins the planned route, or a detour around stationary robots if there is one.
     [[nodiscard]] bool TryBeginPlannedRoute(Robot& robot);
     [[nodiscard]] bool TryPlanRoute(Robot& robot, std::size_t target) const;
+    /// Whether its planned route leads to the target, and may be driven with its present load.
+    [[nodiscard]] static bool HasRoute(const Robot& robot, std::size_t target);
 };
 
 } // namespace ACS::Planning

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,7 +44,7 @@ std::string MakeLaneID(std::size_t column, std::size_t row)
 
 /// Rows are alternately one-way, except the first and the last; columns are two-way. A third of the docks is on dead
 /// ends of three nodes on the left and the right, which a vehicle leaves by the route by which it came.
-SiteMap MakeFleetSite()
+SiteMap MakeFleetSite(bool bLoadRestrictions)
 {
     std::vector<SiteNode> nodes;
     std::vector<SiteEdge> edges;
@@ -74,6 +75,10 @@ SiteMap MakeFleetSite()
             if (row > 0)
             {
                 join(MakeLaneID(column, row - 1), lane, true);
+                for (SiteEdge& edge : std::span(edges).last(bLoadRestrictions && column % 4 >= 2 ? 2 : 0))
+                {
+                    edge.rules.front().loadRestriction = SiteLoadRestriction{column % 4 == 2, column % 4 == 3};
+                }
             }
         }
         for (const bool bLeft : {true, false})

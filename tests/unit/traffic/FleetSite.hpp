@@ -12,7 +12,8 @@ namespace ACS::Testing
 inline constexpr std::size_t FLEET_PLACES = 40;
 
 /// A floor of 92 lane nodes with FLEET_PLACES places and 36 parking positions.
-[[nodiscard]] Planning::SiteMap MakeFleetSite();
+/// With load restrictions some of the two-way lanes are only for empty vehicles, and others only for loaded ones.
+[[nodiscard]] Planning::SiteMap MakeFleetSite(bool bLoadRestrictions);
 
 /// Logistics robots LR01 and so on (36 at most), each on its parking position.
 [[nodiscard]] Planning::EngineOptions MakeFleetEngineOptions(std::size_t vehicles);

@@ -32,9 +32,9 @@ Core::Duration ToDuration(double seconds)
 FleetWorld::FleetWorld(const FleetOptions& options)
     : _options(options),
       _random(options.seed),
-      _site(MakeFleetSite()),
+      _site(MakeFleetSite(options.bLoadRestrictions)),
       _router(_site),
-      _engine(MakeFleetEngineOptions(options.vehicles), MakeFleetSite(), _random)
+      _engine(MakeFleetEngineOptions(options.vehicles), _site, _random)
 {
     const EngineOptions engineOptions = MakeFleetEngineOptions(options.vehicles);
     for (const RobotOptions& robot : engineOptions.robots)
@@ -138,6 +138,7 @@ void FleetWorld::Happen(const Entry& entry)
             }
             break;
         case EHappening::Job:
+            vehicle.bLoaded = vehicle.jobID.ends_with("-1");
             RaiseEvent(vehicle, JobFinished{std::exchange(vehicle.jobID, {})});
             break;
         case EHappening::Fault:
@@ -237,6 +238,15 @@ void FleetWorld::Obey(Vehicle& vehicle, const RobotCommand& command)
                 {
                     violations.push_back(vehicle.robotID + " received a drive that it cannot begin");
                     return;
+                }
+                const ELoad load = vehicle.bLoaded ? ELoad::Loaded : ELoad::Empty;
+                for (const RouteEdge& edge : drive.route.edges)
+                {
+                    const auto found = std::ranges::find(_site.GetEdges(), edge.edgeID, &SiteEdge::edgeID);
+                    if (!found->rules.front().IsPermitted(load))
+                    {
+                        violations.push_back(vehicle.robotID + " must not use " + edge.edgeID + " with its load");
+                    }
                 }
                 ++drives;
                 vehicle.drive = drive;

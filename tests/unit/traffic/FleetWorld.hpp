@@ -25,6 +25,7 @@ struct FleetOptions
     std::size_t transports = 1'000;
     std::size_t plansAtOnce = 40; ///< Plans that are submitted and not finished.
     bool bFaults = false;         ///< Vehicles pause, are slow, are lost, and recover.
+    bool bLoadRestrictions = false;
 };
 
 /// A fleet in virtual time on a floor of one-way and two-way lanes, with dead ends that two vehicles cannot share.
@@ -71,6 +72,7 @@ class FleetWorld
         double legDone = 0; ///< Part of the leg that was done at legTime.
         Core::SteadyTime legTime;
         std::string jobID;
+        bool bLoaded = false;
         std::uint64_t generation = 0; ///< Number of its latest leg.
         std::vector<Planning::RobotEvent> untold;
     };

@@ -67,3 +67,16 @@ TEST_CASE("36 vehicles on the same floor do all transports")
     options.seed = 7;
     Run(options);
 }
+
+TEST_CASE("20 vehicles use lanes for empty and for loaded vehicles only, with faults and without")
+{
+    for (const bool bFaults : {false, true})
+    {
+        FleetOptions options;
+        options.transports = 200;
+        options.seed = 3;
+        options.bFaults = bFaults;
+        options.bLoadRestrictions = true;
+        Run(options);
+    }
+}

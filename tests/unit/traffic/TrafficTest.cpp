@@ -54,6 +54,47 @@ Traffic MakeTraffic(double clearance = 0)
     return traffic;
 }
 
+enum class EUse
+{
+    Always,
+    Empty,
+    Loaded,
+};
+
+struct Way
+{
+    std::size_t from = 0;
+    std::size_t to = 0;
+    EUse use = EUse::Always;
+};
+
+/// Robot 0 on its parking position 0; robot 1 on node 3, from where it cannot park.
+Traffic MakeRestricted(const std::vector<Way>& ways)
+{
+    std::vector<SiteNode> nodes;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+        nodes.push_back({std::to_string(i), static_cast<double>(i), 0, "floor", {{"lr", std::nullopt}}});
+    }
+    std::vector<SiteEdge> edges;
+    for (const Way& way : ways)
+    {
+        SiteEdgeRule rule;
+        rule.vehicleTypeID = "lr";
+        rule.loadRestriction = SiteLoadRestriction{way.use != EUse::Loaded, way.use != EUse::Empty};
+        const std::string from = std::to_string(way.from);
+        const std::string to = std::to_string(way.to);
+        edges.push_back({fmt::format("{}>{}", from, to), from, to, {rule}});
+    }
+    Traffic traffic(*SiteMap::Create(std::move(nodes), std::move(edges), {}), 0);
+    traffic.AddRobot("lr", 0);
+    traffic.AddRobot("lr", std::nullopt);
+    REQUIRE(traffic.TryStand(0, 0));
+    REQUIRE(traffic.TryStand(1, 3));
+    traffic.SetMovable(0, true);
+    return traffic;
+}
+
 Nodes GetHeld(const Traffic& traffic, std::size_t robot)
 {
     return {traffic.GetHeld(robot).begin(), traffic.GetHeld(robot).end()};
@@ -175,4 +216,47 @@ TEST_CASE("Traffic: released nodes and a robot that recovers change the count of
     const std::uint64_t passed = traffic.GetFreedCount();
     traffic.SetMovable(1, false);
     CHECK(traffic.GetFreedCount() > passed);
+}
+
+TEST_CASE("Traffic: a robot drives only where it could park with a load as well as without")
+{
+    for (const EUse shortcut : {EUse::Always, EUse::Empty, EUse::Loaded})
+    {
+        // The only other way back from 2 is over 3.
+        Traffic traffic = MakeRestricted({{0, 1}, {1, 0}, {1, 2}, {2, 1, shortcut}, {2, 3}, {3, 1}});
+        CHECK(traffic.Extend(0, Nodes{1, 2}) == (shortcut == EUse::Always ? 2 : 1));
+        CHECK(traffic.CanServe(0, 2) == (shortcut == EUse::Always));
+    }
+}
+
+TEST_CASE("Traffic: a station that is entered with a load and left without one needs a route from there without a load")
+{
+    Traffic open = MakeRestricted({{0, 1}, {1, 0}, {1, 2, EUse::Loaded}, {2, 1, EUse::Empty}});
+    CHECK(open.Extend(0, Nodes{1, 2}) == 2);
+    CHECK(open.CanServe(0, 2));
+    Traffic blocked = MakeRestricted({{0, 1}, {1, 0}, {1, 2, EUse::Loaded}, {2, 3, EUse::Empty}, {3, 1}});
+    CHECK_FALSE(blocked.CanServe(0, 2));
+    CHECK(blocked.CanServe(0, 1));
+    CHECK(blocked.Extend(0, Nodes{1, 2}) == 1);
+}
+
+TEST_CASE("Traffic: a robot that can reach its parking position with one load only has no guarantee")
+{
+    for (const EUse home : {EUse::Always, EUse::Empty, EUse::Loaded})
+    {
+        Traffic traffic = MakeRestricted({{0, 1}, {1, 0, home}, {1, 2}, {2, 3}, {3, 1}});
+        CHECK(traffic.Extend(0, Nodes{1, 2}) == (home == EUse::Always ? 1 : 2));
+    }
+}
+
+TEST_CASE("Traffic: a node is a dead end only if it is one with and without a load")
+{
+    const auto isSpur = [](const std::vector<Way>& ways) {
+        return MakeRestricted(ways).IsSpur("lr", 2);
+    };
+    CHECK(isSpur({{1, 2}, {2, 1}}));
+    CHECK(isSpur({{1, 2}, {2, 1}, {0, 1, EUse::Empty}}));
+    CHECK_FALSE(isSpur({{1, 2}, {2, 1}, {2, 3, EUse::Loaded}}));
+    CHECK_FALSE(isSpur({{1, 2}, {2, 1}, {3, 2, EUse::Empty}}));
+    CHECK_FALSE(isSpur({{1, 2}, {2, 1, EUse::Loaded}}));
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/plan/ELoad.hpp>
 #include <acs/plan/RobotCommand.hpp>
 #include <acs/plan/SiteMap.hpp>
 
@@ -25,8 +26,8 @@ struct QuickestStart
     double travelSeconds = 0.0; ///< Seconds.
 };
 
-/// Finds routes of shortest travel time, for each vehicle type over the nodes and edges that it may use. The map must outlive
-/// the router. Not thread-safe.
+/// Finds routes of shortest travel time, for each vehicle type over the nodes and edges that it may use with its load. The map
+/// must outlive the router. Not thread-safe.
 class Router
 {
 public:
@@ -44,16 +45,17 @@ public:
     Router& operator=(const Router&) = delete;
     ~Router();
 
-    /// The fastest route between two nodes; one node and no edge if they are the same. nullopt if there is no route, or if a
-    /// node or the vehicle type is not on the map.
+    /// The fastest route between two nodes for a vehicle of unknown load; one node and no edge if they are the same. nullopt if
+    /// there is no route, or if a node or the vehicle type is not on the map.
     [[nodiscard]] std::optional<Route> FindRouteOrNull(
         std::string_view vehicleTypeID,
         std::string_view fromNodeID,
         std::string_view toNodeID) const;
 
-    /// The same, avoiding the nodes that the filter excludes. The filter does not apply to the two ends.
+    /// The same with this load, avoiding the nodes that the filter excludes. The filter does not apply to the two ends.
     [[nodiscard]] std::optional<Route> FindRouteOrNull(
         std::string_view vehicleTypeID,
+        ELoad load,
         std::string_view fromNodeID,
         std::string_view toNodeID,
         const NodeFilter& isExcluded) const;
@@ -62,6 +64,7 @@ public:
     /// target cannot be reached from any of them. Costs one search for any number of starts.
     [[nodiscard]] std::optional<QuickestStart> FindQuickestStartOrNull(
         std::string_view vehicleTypeID,
+        ELoad load,
         std::span<const std::size_t> startIndices,
         std::size_t targetIndex) const;
 

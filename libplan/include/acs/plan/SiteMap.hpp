@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/core/Result.hpp>
+#include <acs/plan/ELoad.hpp>
 
 #include <cstddef>
 #include <functional>
@@ -36,6 +37,15 @@ struct SiteNode
     bool operator==(const SiteNode&) const = default;
 };
 
+/// Which vehicles may use an edge.
+struct SiteLoadRestriction
+{
+    bool bUnloaded = true;
+    bool bLoaded = true;
+
+    bool operator==(const SiteLoadRestriction&) const = default;
+};
+
 /// How a vehicle type uses an edge. A type without a rule may not use the edge.
 struct SiteEdgeRule
 {
@@ -45,6 +55,10 @@ struct SiteEdgeRule
     std::optional<double> orientation;      ///< Radians (degrees in LIF).
     std::string orientationType;            ///< "TANGENTIAL", "GLOBAL" or empty.
     std::optional<bool> bRotationAllowed;
+    std::optional<SiteLoadRestriction> loadRestriction; ///< Absent: with and without a load.
+
+    /// Whether a vehicle of the type with this load may use the edge.
+    [[nodiscard]] bool IsPermitted(ELoad load) const noexcept;
 
     bool operator==(const SiteEdgeRule&) const = default;
 };

@@ -3,6 +3,7 @@
 #include "fixtures/PlanWorld.hpp"
 
 #include <memory>
+#include <vector>
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 using namespace ACS::Testing;  // NOLINT(google-build-using-namespace): its fixtures
@@ -85,4 +86,28 @@ TEST_CASE("Dispatcher: a plan that a robot has keeps its robot")
     ActivePlan& plan = parts.BeginDriveToLoad();
     parts.dispatcher.OnJobCheck(parts.lr, JobCheckChanged{std::make_shared<SingleActionCheck>("CassetteLoad")});
     CHECK(plan.rejections.empty());
+}
+
+TEST_CASE("Dispatcher: the nearest robot is found over edges for its load, and a robot without such a route has none")
+{
+    for (const bool bEmptyOnly : {true, false})
+    {
+        // No edge leads from L05 to L06 but the restricted one.
+        const SiteMap restricted = MakeRestrictedSite({bEmptyOnly, !bEmptyOnly});
+        std::vector<SiteEdge> edges = restricted.GetEdges();
+        std::erase_if(edges, [](const SiteEdge& edge) { return edge.edgeID == "L05>AROUND"; });
+        EngineParts parts(
+            MakeTestOptions(true),
+            *SiteMap::Create(restricted.GetNodes(), edges, restricted.GetStations()));
+        Robot& other = parts.engine.fleet[2];
+        Plan plan = MakeLogisticsPlan("P1");
+        plan.steps.front().position = "A01.CP06";
+        plan.steps.front().jobs.front().from = "A01.CP06";
+        const ActivePlan& active = parts.Add(plan);
+        parts.PutOn(parts.lr, "D-CHG01");
+        parts.PutOn(other, "D-A01.CP02");
+        CHECK(parts.dispatcher.HasWay(active, other) == bEmptyOnly);
+        // Without a route to wait for, the first candidate is returned.
+        CHECK(parts.dispatcher.FindNearestOrNull(active) == (bEmptyOnly ? &other : &parts.lr));
+    }
 }

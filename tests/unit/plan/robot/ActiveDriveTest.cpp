@@ -2,6 +2,10 @@
 
 #include "Catch.hpp"
 
+#include <string>
+#include <utility>
+#include <vector>
+
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 
 namespace
@@ -34,6 +38,34 @@ TEST_CASE("ActiveDrive: the base ends on the last released node unless that is t
     CHECK_FALSE(drive.IsAtBaseEnd());
     drive.passed = 3;
     CHECK_FALSE(drive.IsAtBaseEnd());
+}
+
+TEST_CASE("ActiveDrive: a robot whose load changes may continue up to the first edge that its new load may not use")
+{
+    std::vector<SiteNode> nodes;
+    std::vector<SiteEdge> edges;
+    ActiveDrive drive = MakeDrive();
+    for (const RouteNode& node : drive.route.nodes)
+    {
+        nodes.push_back({node.nodeID, static_cast<double>(nodes.size()), 0, "", {{"lr", std::nullopt}}});
+    }
+    for (const auto& [from, to] : {std::pair("A", "B"), std::pair("B", "C"), std::pair("C", "D")})
+    {
+        SiteEdgeRule rule;
+        rule.vehicleTypeID = "lr";
+        rule.loadRestriction = SiteLoadRestriction{true, to == std::string("B")};
+        edges.push_back({std::string(from) + to, from, to, {rule}});
+        RouteEdge edge;
+        edge.edgeID = edges.back().edgeID;
+        drive.route.edges.push_back(edge);
+    }
+    const SiteMap site = *SiteMap::Create(nodes, edges, {});
+    drive.load = ELoad::Empty;
+    drive.grantedCount = 1;
+    CHECK(drive.CountReachable(site, "lr", ELoad::Empty) == 4);
+    CHECK(drive.CountReachable(site, "lr", ELoad::Loaded) == 2);
+    drive.grantedCount = 3; // The robot may be on its way there.
+    CHECK(drive.CountReachable(site, "lr", ELoad::Loaded) == 3);
 }
 
 TEST_CASE("ActiveDrive: the robot approaches from the last node before the target on")

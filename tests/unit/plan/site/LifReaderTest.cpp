@@ -61,6 +61,27 @@ TEST_CASE("LIF: nodes, edges and stations become a map, degrees become radians")
     CHECK_FALSE(site->HasVehicleType("cr"));
 }
 
+TEST_CASE("LIF: an edge is for vehicles with and without a load, unless it has a restriction")
+{
+    const auto permits = [](const std::string& restriction, ELoad load) {
+        const Core::Result<SiteMap> site =
+            DecodeLIF(Replace(GetLIF(), R"("maxSpeed": 1.2)", R"("maxSpeed": 1.2)" + restriction));
+        REQUIRE(site.has_value());
+        return site->GetEdges().front().FindRuleOrNull("lr")->IsPermitted(load);
+    };
+    const std::string empty = R"(, "loadRestriction": {"unloaded": true, "loaded": false, "loadSetNames": ["a"]})";
+    const std::string loaded = R"(, "loadRestriction": {"unloaded": false, "loaded": true})";
+    const std::string none = R"(, "loadRestriction": {"unloaded": false, "loaded": false})";
+    for (const ELoad load : {ELoad::Unknown, ELoad::Empty, ELoad::Loaded})
+    {
+        CHECK(permits("", load));
+        CHECK(permits(R"(, "loadRestriction": null)", load));
+        CHECK(permits(empty, load) == (load == ELoad::Empty));
+        CHECK(permits(loaded, load) == (load == ELoad::Loaded));
+        CHECK_FALSE(permits(none, load));
+    }
+}
+
 TEST_CASE("LIF: an invalid file is refused with the place of the error")
 {
     struct Case
@@ -78,6 +99,9 @@ TEST_CASE("LIF: an invalid file is refused with the place of the error")
         {"270.0", "361.0", "layouts[0].edges[0].vehicleTypeEdgeProperties[0].vehicleOrientation"},
         {R"("theta": 1.5)", R"("theta": 90)", "layouts[0].nodes[0].vehicleTypeNodeProperties[0].theta"},
         {R"("maxSpeed": 1.2)", R"("maxSpeed": 0)", "layouts[0].edges[0].vehicleTypeEdgeProperties[0].maxSpeed"},
+        {R"("maxSpeed": 1.2)",
+         R"("loadRestriction": {"unloaded": true})",
+         "layouts[0].edges[0].vehicleTypeEdgeProperties[0].loadRestriction.loaded"},
         {R"(["N2"])", R"(["N3"])", "layouts[0].stations[0].interactionNodeIds[0]"},
         {R"(["N2"])", "[]", "layouts[0].stations[0].interactionNodeIds"},
         {R"("x": 3)", R"("x": "3")", "layouts[0].nodes[1].nodePosition.x"},

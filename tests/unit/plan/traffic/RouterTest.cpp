@@ -80,12 +80,48 @@ TEST_CASE("Routes: a route avoids excluded nodes except its first and last")
     const auto isB = [](std::size_t node) {
         return node == 1;
     };
-    CHECK(GetNodeIDs(router.FindRouteOrNull("lr", "A", "D", isB)) == std::vector<std::string>{"A", "C", "D"});
+    CHECK(
+        GetNodeIDs(router.FindRouteOrNull("lr", ELoad::Empty, "A", "D", isB))
+        == std::vector<std::string>{"A", "C", "D"});
     const auto isAny = [](std::size_t) {
         return true;
     };
-    CHECK_FALSE(router.FindRouteOrNull("lr", "A", "D", isAny).has_value());
-    CHECK(GetNodeIDs(router.FindRouteOrNull("lr", "A", "B", isAny)) == std::vector<std::string>{"A", "B"});
+    CHECK_FALSE(router.FindRouteOrNull("lr", ELoad::Empty, "A", "D", isAny).has_value());
+    CHECK(
+        GetNodeIDs(router.FindRouteOrNull("lr", ELoad::Empty, "A", "B", isAny)) == std::vector<std::string>{"A", "B"});
+}
+
+TEST_CASE("Routes: an edge with a load restriction is used by vehicles with a permitted load only")
+{
+    const auto restrict = [](SiteEdge edge, bool bUnloaded, bool bLoaded) {
+        edge.rules.front().loadRestriction = SiteLoadRestriction{bUnloaded, bLoaded};
+        return edge;
+    };
+    const SiteMap site = *SiteMap::Create(
+        {MakeNode("A", 0, 0), MakeNode("B", 5, 1), MakeNode("C", 5, 3), MakeNode("D", 5, 9), MakeNode("E", 10, 0)},
+        {restrict(MakeEdge("AB", "A", "B", 1), true, false),
+         MakeEdge("BE", "B", "E", 1),
+         restrict(MakeEdge("AC", "A", "C", 1), false, true),
+         MakeEdge("CE", "C", "E", 1),
+         restrict(MakeEdge("AE", "A", "E", 10), false, false),
+         MakeEdge("AD", "A", "D", 1),
+         MakeEdge("DE", "D", "E", 1)},
+        {});
+    const Router router(site);
+    const auto find = [&router](ELoad load) {
+        return GetNodeIDs(router.FindRouteOrNull("lr", load, "A", "E", {}));
+    };
+    CHECK(find(ELoad::Empty) == std::vector<std::string>{"A", "B", "E"});
+    CHECK(find(ELoad::Loaded) == std::vector<std::string>{"A", "C", "E"});
+    CHECK(find(ELoad::Unknown) == std::vector<std::string>{"A", "D", "E"});
+    CHECK(GetNodeIDs(router.FindRouteOrNull("lr", "A", "E")) == find(ELoad::Unknown));
+    const auto isOpen = [&router](ELoad load, std::size_t target) {
+        return router.FindQuickestStartOrNull("lr", load, std::vector<std::size_t>{0}, target).has_value();
+    };
+    CHECK(isOpen(ELoad::Empty, 1));
+    CHECK_FALSE(isOpen(ELoad::Loaded, 1));
+    CHECK_FALSE(isOpen(ELoad::Empty, 2));
+    CHECK(isOpen(ELoad::Loaded, 2));
 }
 
 TEST_CASE("Routes: of several starts the one with the fastest route to the target, along one-way edges")
@@ -96,7 +132,7 @@ TEST_CASE("Routes: of several starts the one with the fastest route to the targe
         {});
     const Router router(site);
     const auto find = [&router](std::vector<std::size_t> starts, std::size_t target) {
-        return router.FindQuickestStartOrNull("lr", starts, target);
+        return router.FindQuickestStartOrNull("lr", ELoad::Empty, starts, target);
     };
     CHECK(find({0, 2}, 1)->nodeIndex == 2);
     CHECK(find({0, 2}, 1)->travelSeconds == Approx(7.0711).epsilon(0.001));
@@ -104,8 +140,8 @@ TEST_CASE("Routes: of several starts the one with the fastest route to the targe
     CHECK(find({3, 1}, 1)->travelSeconds == 0.0);
     CHECK_FALSE(find({3}, 0).has_value());
     CHECK_FALSE(find({}, 0).has_value());
-    CHECK_FALSE(router.FindQuickestStartOrNull("cr", std::vector<std::size_t>{0}, 1).has_value());
-    CHECK(router.FindQuickestStartOrNull("cr", std::vector<std::size_t>{1}, 1)->nodeIndex == 1);
+    CHECK_FALSE(router.FindQuickestStartOrNull("cr", ELoad::Empty, std::vector<std::size_t>{0}, 1).has_value());
+    CHECK(router.FindQuickestStartOrNull("cr", ELoad::Empty, std::vector<std::size_t>{1}, 1)->nodeIndex == 1);
 }
 
 TEST_CASE("Routes: the cost of a search depends on the length of the route, not on the size of the site or the starts")
@@ -133,12 +169,12 @@ TEST_CASE("Routes: the cost of a search depends on the length of the route, not 
         starts.push_back(20 * i);
     }
     const std::uint64_t before = router.CountVisitedNodes();
-    CHECK(router.FindQuickestStartOrNull("lr", starts, 1005)->nodeIndex == 1000);
+    CHECK(router.FindQuickestStartOrNull("lr", ELoad::Empty, starts, 1005)->nodeIndex == 1000);
     CHECK(router.CountVisitedNodes() - before <= 12);
     // All of them together cost at most one search of the whole site: the times to a target are cached.
     for (const std::size_t start : starts)
     {
-        CHECK(router.FindQuickestStartOrNull("lr", std::vector<std::size_t>{start}, 1005).has_value());
+        CHECK(router.FindQuickestStartOrNull("lr", ELoad::Empty, std::vector<std::size_t>{start}, 1005).has_value());
     }
     CHECK(router.CountVisitedNodes() - before <= NODES);
 }

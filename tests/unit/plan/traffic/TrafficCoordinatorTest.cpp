@@ -1,5 +1,8 @@
 #include "Catch.hpp"
 #include "fixtures/EngineParts.hpp"
+#include "fixtures/PlanWorld.hpp"
+
+#include <algorithm>
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 using namespace ACS::Testing;  // NOLINT(google-build-using-namespace): its fixtures
@@ -148,5 +151,75 @@ TEST_CASE(
         CHECK(parts.Collect().GetDelayOrNull(EEngineTimer::HomeRetry) == parts.engine.options.homeRetry * factor);
         parts.coordinator.OnHomeRetry(parts.lr);
         CHECK_FALSE(parts.lr.parking.bRefused);
+    }
+}
+
+TEST_CASE("TrafficCoordinator: a robot that waits gets another route when its load changes")
+{
+    EngineParts parts(MakeTestOptions(false), MakeRestrictedSite({true, false}));
+    parts.PutOn(parts.lr, "D-CHG01");
+    parts.PutOn(parts.cr, "D-A01.CP06");
+    Plan plan = MakeLogisticsPlan("P1");
+    plan.steps.front().position = "A01.CP06";
+    plan.steps.front().jobs.front().from = "A01.CP06";
+    parts.work.BeginPlan(parts.Add(plan), parts.lr);
+    const std::size_t around = parts.FindNode("AROUND");
+    const auto isAround = [&parts, around] {
+        return std::ranges::count(parts.lr.search.plannedRoute->nodes, around) > 0;
+    };
+    REQUIRE(parts.coordinator.TryDrive(parts.lr) == EDriveAttempt::Waits);
+    CHECK_FALSE(isAround());
+    parts.lr.ports.Correct({"C1"});
+    REQUIRE(parts.coordinator.TryDrive(parts.lr) == EDriveAttempt::Waits);
+    CHECK(isAround());
+}
+
+TEST_CASE("TrafficCoordinator: a detour that was found for another load is not used")
+{
+    EngineParts parts(MakeTestOptions(false), MakeRestrictedSite({true, false}));
+    const std::size_t dock = parts.FindNode("D-A01.CP06");
+    const std::size_t around = parts.FindNode("AROUND");
+    parts.PutOn(parts.lr, "D-CHG01");
+    Plan plan = MakeLogisticsPlan("P1");
+    plan.steps.front().position = "A01.CP06";
+    plan.steps.front().jobs.front().from = "A01.CP06";
+    parts.work.BeginPlan(parts.Add(plan), parts.lr);
+    parts.PutOn(parts.cr, "AROUND");
+    parts.lr.search.detour = parts.coordinator.PlanRouteOrNull(parts.lr, dock, {});
+    parts.lr.search.detourTarget = dock;
+    parts.lr.search.detourLoad = ELoad::Empty;
+    parts.lr.search.detourAt = parts.places.GetStandingChanges();
+    parts.lr.ports.Correct({"C1"});
+    REQUIRE(parts.coordinator.TryDrive(parts.lr) == EDriveAttempt::Begun);
+    CHECK(std::ranges::count(parts.lr.drive->nodes, around) == 1);
+}
+
+TEST_CASE("TrafficCoordinator: a drive is not extended along an edge that the robot may not use with a new load")
+{
+    for (const bool bRestricted : {false, true})
+    {
+        EngineParts parts(MakeTestOptions(false), MakeRestrictedSite({true, !bRestricted}));
+        parts.PutOn(parts.lr, "D-CHG01");
+        parts.BeginDrive(parts.lr, "D-A01.CP06");
+        REQUIRE(parts.lr.drive->nodes.size() == 10);
+        REQUIRE(parts.coordinator.TryAdvance(parts.lr, 3));
+        parts.lr.ports.Correct({"C1"});
+        parts.coordinator.ExtendBase(parts.lr);
+        CHECK(parts.lr.drive->grantedCount == (bRestricted ? 6 : 10)); // L05 is the sixth node
+    }
+}
+
+TEST_CASE("TrafficCoordinator: a reroute that was planned for another load is not begun")
+{
+    for (const bool bChanged : {false, true})
+    {
+        EngineParts parts(MakeTestOptions(false), MakeRestrictedSite({true, false}));
+        parts.PutOn(parts.lr, "D-CHG01");
+        const std::optional<PlannedRoute> route =
+            parts.coordinator.PlanRouteOrNull(parts.lr, parts.FindNode("D-A01.CP06"), {});
+        REQUIRE(route.has_value());
+        parts.lr.ports.Correct({bChanged ? std::optional<std::string>("C1") : std::nullopt});
+        parts.coordinator.BeginReroute(parts.lr, *route, false);
+        CHECK(parts.lr.drive.has_value() != bChanged);
     }
 }
