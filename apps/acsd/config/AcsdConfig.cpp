@@ -9,6 +9,7 @@
 #include "config/RobotConfig.hpp"
 #include "config/StationConfig.hpp"
 #include <acs/plan/LifReader.hpp>
+#include <acs/plan/Router.hpp>
 #include <acs/plan/UnusedLifMember.hpp>
 #include <acs/plan_sqlite/SqlitePlanStore.hpp>
 
@@ -50,6 +51,41 @@ void ReportUnusedMembers(const std::string& map, AcsdConfig& config)
     if (!ignored.empty())
     {
         config.notes.push_back("site.map: members without effect on driving: " + ignored);
+    }
+}
+
+/// The traffic control guarantees progress only to robots that can park with and without a load.
+void WarnOfParking(AcsdConfig& config)
+{
+    const Planning::Router router(*config.site);
+    for (const Planning::RobotOptions& robot : config.engine.robots)
+    {
+        const std::optional<std::string>& parking =
+            robot.homeStationID.has_value() ? robot.homeStationID : robot.chargingStationID;
+        if (!parking.has_value())
+        {
+            continue; // acsd chooses one that can be reached in both cases
+        }
+        const std::size_t dock =
+            *config.site->FindNodeIndexOrNull(config.site->FindStationOrNull(*parking)->nodeIDs.front());
+        std::vector<std::size_t> others;
+        for (const Planning::SiteStation& station : config.site->GetStations())
+        {
+            others.push_back(*config.site->FindNodeIndexOrNull(station.nodeIDs.front()));
+        }
+        std::erase(others, dock);
+        const auto isReached = [&](Planning::ELoad load) {
+            return router.FindQuickestStartOrNull(robot.vehicleTypeID, load, others, dock).has_value();
+        };
+        const bool bLoaded = isReached(Planning::ELoad::Loaded);
+        if (bLoaded != isReached(Planning::ELoad::Empty))
+        {
+            config.warnings.push_back(fmt::format(
+                "robots.{}: its parking position {} cannot be reached {} a load; it may block other robots",
+                robot.robotID.GetText(),
+                *parking,
+                bLoaded ? "without" : "with"));
+        }
     }
 }
 
@@ -163,6 +199,10 @@ AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& ove
             const std::string path = std::exchange(error.path, {});
             reader.AddError(path, Core::Describe(error));
         }
+    }
+    if (reader.GetErrors().empty() && config.site.has_value())
+    {
+        WarnOfParking(config);
     }
     config.errors = reader.GetErrors();
     std::ranges::move(otherErrors, std::back_inserter(config.errors));

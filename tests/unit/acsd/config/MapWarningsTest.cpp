@@ -11,15 +11,15 @@ using namespace ACS; // NOLINT(google-build-using-namespace)
 namespace
 {
 
-/// The example site with a map in which `members` are added to the rules of the first edges.
-Acsd::AcsdConfig ReadWith(const std::vector<std::string>& members)
+/// The example site with a map in which each member is added to the rule of an edge: the first one after the text.
+Acsd::AcsdConfig ReadWith(const std::vector<std::string>& members, const std::string& after = "\"edges\"")
 {
     const Testing::TemporaryFolder folder;
     std::ifstream from(std::string(ACS_SITE) + "/site.lif.json");
     std::stringstream read;
     read << from.rdbuf();
     std::string text = read.str();
-    std::size_t at = 0;
+    std::size_t at = text.find(after);
     for (const std::string& member : members)
     {
         at = text.find("\"maxSpeed\"", at);
@@ -59,4 +59,17 @@ TEST_CASE("Members of the map that demand nothing are one note, and no warning")
         config.notes[0].find("layouts[].edges[].vehicleTypeEdgeProperties[].reentryAllowed (1 time)")
         != std::string::npos);
     CHECK(config.notes[0].find("layouts[].layoutName (1 time)") != std::string::npos);
+}
+
+TEST_CASE("A parking position that a robot cannot reach with a load is a warning")
+{
+    const std::string edge = R"("endNodeId": "D-CHG01")";
+    const auto read = [&edge](const std::string& unloaded, const std::string& loaded) {
+        return ReadWith({R"("loadRestriction": {"unloaded": )" + unloaded + R"(, "loaded": )" + loaded + "}"}, edge)
+            .warnings;
+    };
+    const std::string begin = "robots.LR01: its parking position CHG01 cannot be reached ";
+    CHECK(read("true", "true").empty());
+    CHECK(read("true", "false") == std::vector{begin + "with a load; it may block other robots"});
+    CHECK(read("false", "true") == std::vector{begin + "without a load; it may block other robots"});
 }
