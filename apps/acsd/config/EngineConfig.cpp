@@ -18,6 +18,7 @@ using Apps::ConfigSection;
 constexpr std::int64_t MOST_BASE_NODES = 1'000;
 constexpr double MOST_CLEARANCE = 100;
 constexpr std::int64_t MAXIMUM_PERCENT = 100;
+constexpr std::int64_t MOST_REJECTIONS = 1'000;
 constexpr std::int64_t MOST_PLANS = 100'000;
 constexpr std::int64_t FEWEST_REPORTS = 100;
 constexpr std::int64_t MOST_REPORTS = 10'000'000;
@@ -67,6 +68,8 @@ void ReadDispatch(const ConfigSection& root, Planning::EngineOptions& engine)
     };
     dispatch.batteryFloor = readPercent("battery_floor", dispatch.batteryFloor);
     dispatch.batteryResume = readPercent("battery_resume", dispatch.batteryResume);
+    engine.maximumRejections = static_cast<std::size_t>(
+        robot.GetInteger("max_rejections", 1, MOST_REJECTIONS, static_cast<std::int64_t>(engine.maximumRejections)));
     dispatch.bLoadsIntoTakenPorts = robot.GetWord("taken_port", {"wait", "load"}, "wait") == "load";
 
     engine.stallTimeout = root.GetSection("drive").GetDuration("stall_timeout", 0ms, 24h, engine.stallTimeout);

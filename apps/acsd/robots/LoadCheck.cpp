@@ -68,4 +68,30 @@ std::optional<std::string> LoadCheck::FindContradictionOrNull(const std::vector<
     return std::nullopt;
 }
 
+ELoadEvidence LoadCheck::GetEvidence(const std::vector<PortLoad>& loads) const
+{
+    std::size_t done = 0;
+    std::size_t notDone = 0;
+    for (const PortLoad& load : loads)
+    {
+        const bool bOther = !load.carrierID.empty() && !_carrierID.empty() && load.carrierID != _carrierID;
+        if (load.port == _loadedPort)
+        {
+            done += load.bLoaded && !bOther ? 1U : 0U;
+            notDone += load.bLoaded ? 0U : 1U;
+        }
+        else if (load.port == _emptiedPort)
+        {
+            done += load.bLoaded ? 0U : 1U;
+            notDone += load.bLoaded && !bOther ? 1U : 0U;
+        }
+    }
+    const std::size_t ports = (_loadedPort.has_value() ? 1U : 0U) + (_emptiedPort.has_value() ? 1U : 0U);
+    if (ports == 0 || std::max(done, notDone) < ports)
+    {
+        return ELoadEvidence::None;
+    }
+    return done == ports ? ELoadEvidence::Done : ELoadEvidence::NotDone;
+}
+
 } // namespace ACS::Acsd

@@ -59,7 +59,13 @@ void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now,
 void Vda5050RobotAdapter::CancelJob(const std::string& jobID, Core::Now now, AdapterActions& out)
 {
     const Planning::StartJob* const runningOrNull = _job.GetRunningOrNull();
-    if (_job.IsDeferred(jobID))
+    const VehicleJob::Interrupted* const interruptedOrNull = _job.GetInterruptedOrNull();
+    if (interruptedOrNull != nullptr && interruptedOrNull->job.jobID == jobID)
+    {
+        out.emplace_back(RaiseEvent{Planning::JobFailed{jobID, interruptedOrNull->reason}});
+        _job.Clear();
+    }
+    else if (_job.IsDeferred(jobID))
     {
         _job.Clear();
         out.emplace_back(RaiseEvent{Planning::JobFailed{jobID, "cancelled before it was sent to the vehicle"}});
@@ -180,13 +186,24 @@ void Vda5050RobotAdapter::OnActionChanged(const VDA5050::ActionChanged& action, 
             OnJobDone(out);
             break;
         case VDA5050::EActionStatus::Failed:
-            out.emplace_back(RaiseEvent{Planning::JobFailed{
-                _job.TakeRunning().jobID,
-                action.resultDescription.empty() ? "the vehicle's action failed" : action.resultDescription}});
+            OnActionFailed(
+                action.resultDescription.empty() ? "the vehicle's action failed" : action.resultDescription,
+                out);
             break;
         default:
             break;
     }
+}
+
+/// Outside automatic mode an action has not failed for a reason of its own: the vehicle has ended it, as the standard demands.
+void Vda5050RobotAdapter::OnActionFailed(const std::string& reason, AdapterActions& out)
+{
+    if (!_report.GetState().bAutomatic)
+    {
+        InterruptJob(reason, out);
+        return;
+    }
+    out.emplace_back(RaiseEvent{Planning::JobFailed{_job.TakeRunning().jobID, reason}});
 }
 
 } // namespace ACS::Acsd

@@ -66,4 +66,45 @@ void Vda5050RobotAdapter::DropLoadCheck(AdapterActions& out)
     }
 }
 
+void Vda5050RobotAdapter::InterruptJob(const std::string& reason, AdapterActions& out)
+{
+    if (_report.GetState().loads.has_value())
+    {
+        _job.Interrupt(reason);
+        EvaluateInterruption(out);
+        return;
+    }
+    const std::string jobID = _job.TakeRunning().jobID;
+    out.emplace_back(RaiseEvent{Planning::JobUnresolved{jobID, reason + "; the vehicle reports no loads"}});
+}
+
+void Vda5050RobotAdapter::EvaluateInterruption(AdapterActions& out)
+{
+    const VehicleJob::Interrupted* const interruptedOrNull = _job.GetInterruptedOrNull();
+    const Planning::StateChanged& state = _report.GetState();
+    if (interruptedOrNull == nullptr || !_session.IsReady() || !state.bAutomatic || state.bOccupied)
+    {
+        return;
+    }
+    const Planning::StartJob& job = interruptedOrNull->job;
+    const JobMethod* const methodOrNull = _methods.FindMethodOrNull(job.action);
+    const LoadCheck check(job, methodOrNull == nullptr ? Planning::EActionEffect::None : methodOrNull->effect);
+    switch (state.loads.has_value() ? check.GetEvidence(*state.loads) : ELoadEvidence::None)
+    {
+        case ELoadEvidence::Done:
+            out.emplace_back(RaiseEvent{Planning::JobFinished{job.jobID}});
+            break;
+        case ELoadEvidence::NotDone:
+            out.emplace_back(RaiseEvent{Planning::JobInterrupted{job.jobID, interruptedOrNull->reason}});
+            break;
+        case ELoadEvidence::None:
+        default:
+            out.emplace_back(RaiseEvent{Planning::JobUnresolved{
+                job.jobID,
+                interruptedOrNull->reason + "; the loads of the vehicle do not show whether it was done"}});
+            break;
+    }
+    _job.Clear();
+}
+
 } // namespace ACS::Acsd

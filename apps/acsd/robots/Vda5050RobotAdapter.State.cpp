@@ -54,6 +54,7 @@ void Vda5050RobotAdapter::OnState(Core::Now now, AdapterActions& out)
     SetOnline(_session.IsReady(), out);
     out.emplace_back(RaiseEvent{_report.GetState()});
     VerifyLoads(out);
+    EvaluateInterruption(out);
     if (bOccupied)
     {
         CancelForeignOrder(now);

@@ -215,15 +215,20 @@ bool Vda5050RobotAdapter::IsDrive(std::string_view orderID) const
     return _drive.has_value() && _drive->GetOrderID() == orderID;
 }
 
-void Vda5050RobotAdapter::RejectOrder(const std::string& orderID, const std::string& reason, AdapterActions& out)
+bool Vda5050RobotAdapter::IsJob(std::string_view orderID) const
 {
     const Planning::StartJob* const jobOrNull = _job.GetRunningOrNull();
+    return jobOrNull != nullptr && jobOrNull->commandID == orderID;
+}
+
+void Vda5050RobotAdapter::RejectOrder(const std::string& orderID, const std::string& reason, AdapterActions& out)
+{
     if (IsDrive(orderID))
     {
         _drive.reset();
         out.emplace_back(RaiseEvent{Planning::DriveRejected{orderID, reason}});
     }
-    else if (jobOrNull != nullptr && jobOrNull->commandID == orderID)
+    else if (IsJob(orderID))
     {
         out.emplace_back(RaiseEvent{Planning::JobFailed{_job.TakeRunning().jobID, reason}});
     }
@@ -273,9 +278,7 @@ void Vda5050RobotAdapter::HandleAction(const VDA5050::MasterAction& action, Core
                 }
             },
             [&](const VDA5050::OrderRejected& rejected) { OnRejected(rejected, now, out); },
-            [&](const VDA5050::OrderLost& lost) {
-                RejectOrder(lost.orderID, "the vehicle lost the order: " + lost.reason, out);
-            },
+            [&](const VDA5050::OrderLost& lost) { OnLost(lost, out); },
             [&](const VDA5050::NodeReached& reached) { OnNodeReached(reached, out); },
             [&](const VDA5050::ActionChanged& changed) { OnActionChanged(changed, out); },
             [&](const VDA5050::OrderFinished& finished) { OnFinished(finished.orderID, out); },
@@ -298,7 +301,11 @@ void Vda5050RobotAdapter::OnNodeReached(const VDA5050::NodeReached& reached, Ada
 void Vda5050RobotAdapter::OnRejected(const VDA5050::OrderRejected& rejected, Core::Now now, AdapterActions& out)
 {
     const std::string reason = "the vehicle rejected the order: " + rejected.reason;
-    if (!IsDrive(rejected.orderID) || rejected.orderUpdateID == 0)
+    if (IsJob(rejected.orderID))
+    {
+        out.emplace_back(RaiseEvent{Planning::JobRejected{_job.TakeRunning().jobID, reason}});
+    }
+    else if (!IsDrive(rejected.orderID) || rejected.orderUpdateID == 0)
     {
         RejectOrder(rejected.orderID, reason, out);
     }
@@ -306,6 +313,19 @@ void Vda5050RobotAdapter::OnRejected(const VDA5050::OrderRejected& rejected, Cor
     {
         // An update was rejected. The vehicle still drives along the route that it accepted before.
         AbandonDrive(reason, now, out);
+    }
+}
+
+void Vda5050RobotAdapter::OnLost(const VDA5050::OrderLost& lost, AdapterActions& out)
+{
+    const std::string reason = "the vehicle lost the order: " + lost.reason;
+    if (IsJob(lost.orderID))
+    {
+        InterruptJob(reason, out);
+    }
+    else
+    {
+        RejectOrder(lost.orderID, reason, out);
     }
 }
 

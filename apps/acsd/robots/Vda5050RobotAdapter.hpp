@@ -80,6 +80,10 @@ private:
     void VerifyLoads(Planning::AdapterActions& out);
     void OnLoadTimeout(Planning::AdapterActions& out);
     void DropLoadCheck(Planning::AdapterActions& out);
+    /// The vehicle has ended the action of the running job before it was done.
+    void InterruptJob(const std::string& reason, Planning::AdapterActions& out);
+    /// Reports what became of an interrupted job, when the vehicle is in automatic mode again.
+    void EvaluateInterruption(Planning::AdapterActions& out);
 
     /// Evaluates what the vehicle's state shows of a job that was commanded before a restart.
     void RecoverJob(Core::Now now, Planning::AdapterActions& out);
@@ -90,6 +94,7 @@ private:
     void SendPendingOrder(Core::Now now, Planning::AdapterActions& out);
     void SendPendingUpdate(Core::Now now, Planning::AdapterActions& out);
     [[nodiscard]] bool IsDrive(std::string_view orderID) const;
+    [[nodiscard]] bool IsJob(std::string_view orderID) const;
     void RejectOrder(const std::string& orderID, const std::string& reason, Planning::AdapterActions& out);
 
     /// The vehicle has accepted the drive, which cannot be continued. It is reported as rejected when the vehicle has stopped.
@@ -108,7 +113,9 @@ private:
     void OnPosition(const VDA5050::PositionReceived& received, Planning::AdapterActions& out);
     void OnNodeReached(const VDA5050::NodeReached& reached, Planning::AdapterActions& out);
     void OnActionChanged(const VDA5050::ActionChanged& action, Planning::AdapterActions& out);
+    void OnActionFailed(const std::string& reason, Planning::AdapterActions& out);
     void OnRejected(const VDA5050::OrderRejected& rejected, Core::Now now, Planning::AdapterActions& out);
+    void OnLost(const VDA5050::OrderLost& lost, Planning::AdapterActions& out);
     void OnFinished(const std::string& orderID, Planning::AdapterActions& out);
     void OnCancelled(const std::string& orderID, Planning::AdapterActions& out);
     void OnCancelFailed(Core::Now now, Planning::AdapterActions& out);

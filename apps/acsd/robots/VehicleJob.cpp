@@ -26,6 +26,11 @@ void VehicleJob::VerifyLoads(LoadCheck check)
     _state = VerifyingLoads{std::move(check)};
 }
 
+void VehicleJob::Interrupt(std::string reason)
+{
+    _state = Interrupted{TakeRunning(), std::move(reason)};
+}
+
 void VehicleJob::Clear()
 {
     _state = std::monostate{};
@@ -90,6 +95,11 @@ const LoadCheck* VehicleJob::GetLoadCheckOrNull() const noexcept
 {
     const VerifyingLoads* const verifyingOrNull = std::get_if<VerifyingLoads>(&_state);
     return verifyingOrNull == nullptr ? nullptr : &verifyingOrNull->check;
+}
+
+const VehicleJob::Interrupted* VehicleJob::GetInterruptedOrNull() const noexcept
+{
+    return std::get_if<Interrupted>(&_state);
 }
 
 } // namespace ACS::Acsd

@@ -4,6 +4,7 @@
 #include <acs/plan/RobotCommand.hpp>
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <variant>
 
@@ -38,13 +39,25 @@ class VehicleJob final
         LoadCheck check;
     };
 
-    std::variant<std::monostate, Deferred, Recovering, Running, VerifyingLoads> _state;
+public:
+    /// The vehicle ended the action before it was done: its mode was switched, or it was restarted. What its loads show is
+    /// evaluated when it is in automatic mode again.
+    struct Interrupted
+    {
+        Planning::StartJob job;
+        std::string reason;
+    };
+
+private:
+    std::variant<std::monostate, Deferred, Recovering, Running, VerifyingLoads, Interrupted> _state;
 
 public:
     void Defer(Planning::StartJob job);
     void Recover(Planning::RecoverJob recovery);
     void Run(Planning::StartJob job);
     void VerifyLoads(LoadCheck check);
+    /// The running job. Only while GetRunningOrNull is not null.
+    void Interrupt(std::string reason);
     void Clear();
 
     /// The deferred job, which is then no longer here.
@@ -60,6 +73,7 @@ public:
     [[nodiscard]] bool IsRecovering() const;
     [[nodiscard]] const Planning::StartJob* GetRunningOrNull() const noexcept;
     [[nodiscard]] const LoadCheck* GetLoadCheckOrNull() const noexcept;
+    [[nodiscard]] const Interrupted* GetInterruptedOrNull() const noexcept;
 };
 
 } // namespace ACS::Acsd

@@ -260,6 +260,11 @@ void PlanTracker::Handle(const Protocol::StepReport& report, Lines& out)
     {
         return;
     }
+    if (IsTakenOver(*planOrNull, *stepOrNull, report))
+    {
+        planOrNull->robotID = report.robotID;
+        stepOrNull->status = Protocol::EStepStatus::Pending;
+    }
     CheckRobot(*planOrNull, report.robotID, out);
     const std::optional<std::string> mistake = FindStepViolationOrNull(*planOrNull, *stepOrNull, report.status);
     if (mistake.has_value())

@@ -129,6 +129,15 @@ std::optional<std::string> FindStepViolationOrNull(const TrackedPlan& plan, cons
     return std::nullopt;
 }
 
+bool IsTakenOver(const TrackedPlan& plan, const TrackedStep& step, const Protocol::StepReport& report)
+{
+    const bool bOpen = step.status == EStepStatus::Dispatched || step.status == EStepStatus::InProgress;
+    const bool bNoJob = std::ranges::none_of(plan.steps, [](const TrackedStep& other) {
+        return std::ranges::any_of(other.jobs, &TrackedJob::bReported);
+    });
+    return bOpen && bNoJob && report.status == EStepStatus::Dispatched && report.robotID != plan.robotID;
+}
+
 std::optional<std::string> FindJobViolationOrNull(
     const TrackedPlan& plan,
     const TrackedStep& step,

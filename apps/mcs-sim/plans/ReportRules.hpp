@@ -15,6 +15,8 @@ namespace ACS::McsSim
     const TrackedPlan& plan,
     const TrackedStep& step,
     Protocol::EStepStatus status);
+/// The report assigns the begun plan to another robot, which is allowed before its first job.
+[[nodiscard]] bool IsTakenOver(const TrackedPlan& plan, const TrackedStep& step, const Protocol::StepReport& report);
 [[nodiscard]] std::optional<std::string> FindJobViolationOrNull(
     const TrackedPlan& plan,
     const TrackedStep& step,

@@ -200,6 +200,10 @@ std::vector<Core::Error> FindErrors(const EngineOptions& options, const SiteMap&
     {
         finder.Add("queue.max_plans", "at least 1", "0");
     }
+    if (options.maximumRejections == 0)
+    {
+        finder.Add("robot.max_rejections", "at least 1", "0");
+    }
     const DispatchOptions& dispatch = options.dispatch;
     if (!(dispatch.batteryFloor >= 0 && dispatch.batteryFloor < dispatch.batteryResume
           && dispatch.batteryResume <= 100))

@@ -29,6 +29,7 @@ OperatorCommands::OperatorCommands(
     EngineState& engine,
     LoadWatch& loads,
     const StallWatch& stalls,
+    RejectionWatch& rejections,
     PlaceTracker& places,
     PlanWork& work,
     JobOutcomes& jobs)
@@ -39,6 +40,7 @@ OperatorCommands::OperatorCommands(
       _backlog(engine.backlog),
       _loads(loads),
       _stalls(stalls),
+      _rejections(rejections),
       _places(places),
       _work(work),
       _jobs(jobs)
@@ -94,10 +96,16 @@ void OperatorCommands::ClearByOperator(const ClearAlarms& command)
             fmt::format("{} has no alarm {}.", command.robotID, command.errorCode));
         return;
     }
-    if (Robot* robotOrNull = _fleet.FindOrNull(command.robotID);
-        robotOrNull != nullptr && command.errorCode == ALARM_LOADS)
+    if (Robot* robotOrNull = _fleet.FindOrNull(command.robotID); robotOrNull != nullptr)
     {
-        robotOrNull->ports.ForgetDisputes(); // the record already has the reported loads
+        if (command.errorCode == ALARM_LOADS)
+        {
+            robotOrNull->ports.ForgetDisputes(); // the record already has the reported loads
+        }
+        else if (command.errorCode == ALARM_REJECTIONS)
+        {
+            _rejections.EndRow(*robotOrNull);
+        }
     }
     std::size_t lasting = 0;
     for (const ErrorReport& report : cleared)

@@ -2,6 +2,7 @@
 
 #include "control/ControlAnswers.hpp"
 #include "control/LoadWatch.hpp"
+#include "control/RejectionWatch.hpp"
 #include "control/StallWatch.hpp"
 #include "traffic/PlaceTracker.hpp"
 #include "transaction/EngineState.hpp"
@@ -27,6 +28,7 @@ class OperatorCommands
     const StoreBacklog& _backlog;
     LoadWatch& _loads;
     const StallWatch& _stalls;
+    RejectionWatch& _rejections;
     PlaceTracker& _places;
     PlanWork& _work;
     JobOutcomes& _jobs;
@@ -36,6 +38,7 @@ public:
         EngineState& engine,
         LoadWatch& loads,
         const StallWatch& stalls,
+        RejectionWatch& rejections,
         PlaceTracker& places,
         PlanWork& work,
         JobOutcomes& jobs);

@@ -18,6 +18,7 @@ PlanEngine::Impl::Impl(EngineOptions options, SiteMap site, Core::IRandom& rando
       _charging(_engine),
       _loads(_engine),
       _stalls(_engine),
+      _rejections(_engine),
       _places(_engine),
       _waiting(_engine, _tsc, _places),
       _coordinator(_engine, _answers, _charging, _places, _waiting),
@@ -25,11 +26,11 @@ PlanEngine::Impl::Impl(EngineOptions options, SiteMap site, Core::IRandom& rando
       _waits(_engine, _tsc, _stalls, _waiting, _coordinator, _dispatcher),
       _status(_engine, _stalls, _waiting, _waits),
       _work(_engine, _answers, _loads, _status),
-      _jobs(_engine, _loads, _work),
+      _jobs(_engine, _loads, _rejections, _work),
       _controls(_engine, _tsc, _answers, _waiting, _coordinator, _status, _work),
-      _drives(_engine, _tsc, _answers, _places, _waiting, _coordinator, _work, _controls),
+      _drives(_engine, _tsc, _answers, _rejections, _places, _waiting, _coordinator, _work, _controls),
       _submission(_engine, _tsc, _waits),
-      _operator(_engine, _loads, _stalls, _places, _work, _jobs),
+      _operator(_engine, _loads, _stalls, _rejections, _places, _work, _jobs),
       _recovery(_engine, _tsc, _answers, _places, _status, _work),
       _store(_engine, _answers, _places, _work)
 {
@@ -107,10 +108,13 @@ void PlanEngine::Impl::HandleEvent(std::string_view robotID, const RobotEvent& e
             [this, &robot](const JobStarted& typed) { _jobs.OnJobStarted(robot, typed); },
             [this, &robot](const JobFinished& typed) { _jobs.OnJobFinished(robot, typed); },
             [this, &robot](const JobFailed& typed) { _jobs.OnJobFailed(robot, typed); },
+            [this, &robot](const JobRejected& typed) { _jobs.OnJobRejected(robot, typed); },
+            [this, &robot](const JobInterrupted& typed) { _jobs.OnJobInterrupted(robot, typed); },
             [this, &robot](const JobUnknown& typed) { _jobs.OnJobUnknown(robot, typed); },
             [this, &robot](const JobUnresolved& typed) { _jobs.OnJobUnresolved(robot, typed); },
             [this, &robot](const JobCheckChanged& typed) {
                 _dispatcher.OnJobCheck(robot, typed);
+                _rejections.OnRobotChanged(robot);
             }},
         event);
     _places.NoteMovable(robot);
@@ -143,6 +147,7 @@ void PlanEngine::Impl::OnTimer(const EngineTimer& timer, Core::Now now, EngineAc
         case EEngineTimer::JobEnd:
         case EEngineTimer::ChargeRetry:
         case EEngineTimer::DriveStall:
+        case EEngineTimer::RejectionRetry:
         case EEngineTimer::LoadAlarm:
         default:
             break;
@@ -179,6 +184,9 @@ void PlanEngine::Impl::OnRobotTimer(EEngineTimer kind, Robot& robot)
             break;
         case EEngineTimer::DriveStall:
             _stalls.OnDriveStall(robot);
+            break;
+        case EEngineTimer::RejectionRetry:
+            _rejections.OnRetryDue(robot);
             break;
         case EEngineTimer::LoadAlarm:
             _loads.OnLoadAlarmTimer(robot);
@@ -278,6 +286,7 @@ void PlanEngine::Impl::OnLink(Robot& robot, const LinkChanged& event)
     if (event.bOnline)
     {
         _engine.transaction.ClearAlarm(alarm);
+        _rejections.OnRobotChanged(robot);
         return;
     }
     // The state is outdated when the robot reconnects.
@@ -297,8 +306,13 @@ void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
     const bool bWasPaused = !bFirst && robot.view.state->bPaused;
     // A robot in manual mode may ignore commands.
     const bool bBack = bFirst || (!robot.view.state->bAutomatic && event.bAutomatic);
+    const bool bErrorsChanged = !bFirst && robot.view.state->errors != event.errors;
     robot.view.state = event;
     CompareErrors(robot);
+    if (bBack || bErrorsChanged)
+    {
+        _rejections.OnRobotChanged(robot);
+    }
     if (!robot.drive.has_value())
     {
         _places.Place(robot);

@@ -3,6 +3,7 @@
 #include "control/ChargingControl.hpp"
 #include "control/ControlAnswers.hpp"
 #include "control/LoadWatch.hpp"
+#include "control/RejectionWatch.hpp"
 #include "control/StallWatch.hpp"
 #include "control/TscControl.hpp"
 #include "dispatch/Dispatcher.hpp"
@@ -41,6 +42,7 @@ class PlanEngine::Impl
     ChargingControl _charging;
     LoadWatch _loads;
     StallWatch _stalls;
+    RejectionWatch _rejections;
     PlaceTracker _places;
     WaitingRobots _waiting;
     TrafficCoordinator _coordinator;

@@ -126,9 +126,13 @@ void RestartRecovery::RestorePlan(PlanRecord record)
         RestoreWork(plan, *robotOrNull);
         RestoreControl(plan, *robotOrNull);
     }
-    else if (plan.record.progress.state == EPlanState::Pending) // else it is held in the queue
+    else
     {
-        _plans.Enqueue(plan);
+        FindPosition(plan);
+        if (plan.record.progress.state != EPlanState::Paused) // else it is held in the queue
+        {
+            _plans.Enqueue(plan);
+        }
     }
 }
 
@@ -218,7 +222,7 @@ void RestartRecovery::RestoreAlarms(std::vector<Alarm> alarms)
     }
     _transaction.ReportAlarms(_alarms.ClearIf([this](const Alarm& alarm) {
         const bool bRobotGone = alarm.robotID != OWN_ROBOT_ID && _fleet.FindOrNull(alarm.robotID) == nullptr;
-        return bRobotGone || alarm.errorCode == ALARM_STALL;
+        return bRobotGone || alarm.errorCode == ALARM_STALL || alarm.errorCode == ALARM_REJECTIONS;
     }));
 }
 

@@ -34,6 +34,13 @@ enum class EContinuation : std::uint8_t
     End,  ///< All steps are done: the end is reported when the pause ends.
 };
 
+/// The present job is commanded again.
+struct JobRepetition
+{
+    std::string commandID;     ///< Of a job that the robot never had: it is sent again with it. Empty: another one.
+    bool bInterrupted = false; ///< The robot has interrupted the job before. It is repeated only once.
+};
+
 /// A plan that is not finished.
 struct ActivePlan
 {
@@ -45,10 +52,10 @@ struct ActivePlan
     EContinuation next = EContinuation::Job;
     std::string madeJobID; ///< Of a step without jobs.
     std::optional<std::size_t> robot;
-    bool bStepArrived = false;     ///< Arrival was reported for the present step and its drive.
-    bool bJobBegun = false;        ///< Any of its jobs.
-    bool bUnstored = false;        ///< Its start is not stored yet: the first job waits for that.
-    std::string repeatedCommandID; ///< commandID of a job that the robot never had: it is sent again with it.
+    bool bStepArrived = false; ///< Arrival was reported for the present step and its drive.
+    bool bJobBegun = false;    ///< Any of its jobs.
+    bool bUnstored = false;    ///< Its start is not stored yet: the first job waits for that.
+    JobRepetition repetition;
     std::optional<Core::SteadyTime> jobDeadline;
     std::optional<Core::Duration> jobTimeLeft;     ///< Of a job that is paused.
     std::map<std::size_t, std::string> rejections; ///< Unassigned: by robot, why it cannot do a job.
@@ -56,6 +63,8 @@ struct ActivePlan
 
 /// Whether the present step has jobs. Without them the engine makes one, whose id the MCS does not know.
 [[nodiscard]] bool HasJob(const ActivePlan& plan);
+/// A robot has, or had, the plan: its first step was dispatched.
+[[nodiscard]] bool IsBegun(const ActivePlan& plan);
 /// Of the present job.
 [[nodiscard]] const std::string& GetJobID(const ActivePlan& plan);
 /// State of the present job; Pending of a step without jobs.

@@ -63,4 +63,29 @@ std::vector<std::size_t> FindNodesAhead(
     return {};
 }
 
+std::vector<std::size_t> FindNodesBeside(const SiteMap& site, const StateChanged& state, std::size_t node)
+{
+    const SiteNode& own = site.GetNodes()[node];
+    constexpr double ON_NODE = 0.01; // metres; most robots are, and the edges need no search
+    if (!state.bPoseKnown || state.bDriving || std::hypot(state.x - own.x, state.y - own.y) <= ON_NODE)
+    {
+        return {};
+    }
+    std::vector<std::size_t> beside;
+    for (const SiteEdge& edge : site.GetEdges())
+    {
+        if (edge.startNodeID != own.nodeID && edge.endNodeID != own.nodeID)
+        {
+            continue;
+        }
+        const std::string& otherID = edge.startNodeID == own.nodeID ? edge.endNodeID : edge.startNodeID;
+        const std::size_t other = *site.FindNodeIndexOrNull(otherID);
+        if (IsBetween(state, own, site.GetNodes()[other]) && std::ranges::count(beside, other) == 0)
+        {
+            beside.push_back(other);
+        }
+    }
+    return beside;
+}
+
 } // namespace ACS::Planning

@@ -19,4 +19,11 @@ namespace ACS::Planning
     std::size_t node,
     std::span<const std::size_t> ahead);
 
+/// The neighbours of the node between which and the node the robot is stationary, for a robot whose route is not known: it was
+/// driven by hand, or it drove while nothing could be stored.
+[[nodiscard]] std::vector<std::size_t> FindNodesBeside(
+    const SiteMap& site,
+    const StateChanged& state,
+    std::size_t node);
+
 } // namespace ACS::Planning

@@ -53,7 +53,11 @@ EUnavailability Robot::GetUnavailability() const
         return EUnavailability::Manual;
     }
     const bool bOccupied = state.bOccupied || control.bStandstillAwaited || job.IsOverdue();
-    return bOccupied ? EUnavailability::Occupied : EUnavailability::None;
+    if (bOccupied)
+    {
+        return EUnavailability::Occupied;
+    }
+    return view.rejections.GetState() == ERejection::None ? EUnavailability::None : EUnavailability::Rejecting;
 }
 
 std::string Robot::Describe(EUnavailability unavailability) const
@@ -81,6 +85,10 @@ std::string Robot::Describe(EUnavailability unavailability) const
             return "not in automatic mode";
         case EUnavailability::Occupied:
             return "busy with work of an ended plan";
+        case EUnavailability::Rejecting:
+            return (view.rejections.GetState() == ERejection::Exhausted ? "rejects its commands: "
+                                                                        : "rejected its command, which is sent again: ")
+                + view.rejections.GetReason();
         default:
             return "unavailable";
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "robot/RejectionTracker.hpp"
 #include <acs/plan/IJobCheck.hpp>
 #include <acs/plan/RobotEvent.hpp>
 
@@ -16,6 +17,7 @@ struct RobotView
     std::optional<StateChanged> state;         ///< Since the connection; nullopt until the first.
     std::shared_ptr<const IJobCheck> jobCheck; ///< Null: no job is rejected.
     bool bInMaintenance = false;
+    RejectionTracker rejections;
 };
 
 } // namespace ACS::Planning

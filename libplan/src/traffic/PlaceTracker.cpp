@@ -45,10 +45,16 @@ void PlaceTracker::Place(Robot& robot)
         robot.view.state,
         *node,
         node == robot.place.node ? robot.place.aheadNodes : ListPossibleAhead(robot, *node));
+    if (ahead.empty())
+    {
+        ahead = FindNodesBeside(_site, *robot.view.state, *node);
+    }
+    const std::optional<std::size_t> heading = GetHeadingOrNull(robot, ahead);
     std::erase_if(ahead, [&claim](std::size_t between) { return std::ranges::count(claim, between) > 0; });
     std::vector<std::size_t> held(claim);
     held.insert(held.end(), ahead.begin(), ahead.end());
-    if (robot.place.bPlaced && node == robot.place.node && held == robot.place.heldNodes)
+    if (robot.place.bPlaced && node == robot.place.node && held == robot.place.heldNodes
+        && heading == robot.place.heading)
     {
         return;
     }
@@ -80,6 +86,8 @@ void PlaceTracker::Place(Robot& robot)
     robot.parking.refusals = node == robot.place.node ? robot.parking.refusals : 0;
     robot.place.node = node;
     robot.place.heldNodes = std::move(held);
+    robot.place.heading = heading;
+    _traffic.SetHeading(robot.index, heading);
     robot.place.bPlaced = true;
     robot.search.plannedRoute.reset();
     ++_standingChanges;
@@ -104,6 +112,12 @@ void PlaceTracker::OnPositionLost(Robot& robot)
             : fmt::format(
                 "Robot is on node {}, which is not on the map. Move the robot to a free node, or correct the map.",
                 nodeID)));
+}
+
+std::optional<std::size_t> PlaceTracker::GetHeadingOrNull(const Robot& robot, std::span<const std::size_t> ahead)
+{
+    const bool bKnown = robot.view.state.has_value() && robot.view.state->bPoseKnown && !robot.view.state->bDriving;
+    return bKnown && ahead.size() == 1 ? std::optional(ahead.front()) : std::nullopt;
 }
 
 std::vector<std::size_t> PlaceTracker::ListClaimed(const Robot& robot, std::size_t node) const

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,10 @@ public:
 
     /// ACS-1003
     [[nodiscard]] static Alarm MakePlaceAlarm(const Robot& robot, std::string message);
+    /// The node of these on the way to which the robot is stationary; nullopt if it is on its node or drives.
+    [[nodiscard]] static std::optional<std::size_t> GetHeadingOrNull(
+        const Robot& robot,
+        std::span<const std::size_t> ahead);
     /// Updates whether the robot can drive; one that cannot is a fixed obstacle.
     void NoteMovable(const Robot& robot);
     /// Reserves the node of a robot without a drive, and the nodes it may still reach on an order of another master.

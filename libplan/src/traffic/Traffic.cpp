@@ -114,7 +114,7 @@ bool Traffic::IsMovable(std::size_t robot) const
 
 std::size_t Traffic::GetEnd(const Vehicle& vehicle)
 {
-    return vehicle.path.back();
+    return vehicle.heading.value_or(vehicle.path.back());
 }
 
 /// A safe state of all robots remains one where nodes were only given back or granted.
@@ -183,6 +183,7 @@ bool Traffic::TryStand(
     };
     const bool bHeld = isOwn(node) && std::ranges::all_of(wanted, isOwn);
     Vehicle& vehicle = _vehicles[robot];
+    vehicle.heading.reset();
     std::vector<std::size_t> held = std::exchange(vehicle.path, {node});
     std::ranges::move(std::exchange(vehicle.extra, {}), std::back_inserter(held));
     std::erase_if(_awaited, [robot](const Awaited& awaited) { return awaited.robot == robot; });
@@ -204,6 +205,14 @@ bool Traffic::TryStand(
     HoldPossible(robot, wanted);
     Note(bHeld);
     return true;
+}
+
+void Traffic::SetHeading(std::size_t robot, std::optional<std::size_t> headingOrNull)
+{
+    if (std::exchange(_vehicles[robot].heading, headingOrNull) != headingOrNull)
+    {
+        Note(false);
+    }
 }
 
 void Traffic::HoldPossible(std::size_t robot, std::span<const std::size_t> nodes)
@@ -240,7 +249,9 @@ std::size_t Traffic::Extend(std::size_t robot, std::span<const std::size_t> ahea
     Vehicle& vehicle = _vehicles[robot];
     assert(!vehicle.path.empty());
     std::size_t count = 0;
-    while (count < ahead.size() && IsFreeFor(ahead[count], robot))
+    // A node that it holds already and is to pass again is granted when it has passed it the first time.
+    while (count < ahead.size() && IsFreeFor(ahead[count], robot)
+           && std::ranges::count(vehicle.path, ahead[count]) == 0)
     {
         ++count;
     }
@@ -264,6 +275,7 @@ std::size_t Traffic::Extend(std::size_t robot, std::span<const std::size_t> ahea
     }
     if (count > 0)
     {
+        vehicle.heading.reset();
         _blockers.clear();
         Note(true);
     }

@@ -36,8 +36,9 @@ class Traffic
     {
         std::vector<LoadGraph> graphs; ///< None where no edge is for its type; one where loads make no difference.
         std::optional<std::size_t> home;
-        std::vector<std::size_t> path;  ///< Held nodes in driving order; it is on the first.
-        std::vector<std::size_t> extra; ///< Other held nodes: where it may be, or may drive uncommanded.
+        std::vector<std::size_t> path;      ///< Held nodes in driving order; it is on the first.
+        std::optional<std::size_t> heading; ///< It is stationary between its node and this one, and cannot turn round.
+        std::vector<std::size_t> extra;     ///< Other held nodes: where it may be, or may drive uncommanded.
         bool bMovable = false;
         bool bCanReturn = false; ///< With any load a route leads out of its home and back while all others are parked.
     };
@@ -102,14 +103,18 @@ public:
         std::span<const std::size_t> extra = {},
         std::span<const std::size_t> possible = {});
 
+    /// The robot is stationary on its way to this node, which it holds: its way to its parking position begins there. nullopt: it
+    /// is on its node. Until TryStand or a grant.
+    void SetHeading(std::size_t robot, std::optional<std::size_t> headingOrNull);
+
     /// The robot may be on these nodes: reserves them in addition, and those of other robots as soon as they are freed.
     void HoldPossible(std::size_t robot, std::span<const std::size_t> nodes);
 
     /// Frees one node of HoldPossible.
     void Disown(std::size_t robot, std::size_t node);
 
-    /// Grants the next nodes of the route, up to the first that is refused. Returns their number; GetBlockers has the reason
-    /// for 0.
+    /// Grants the next nodes of the route, up to the first that is refused or that it must pass before. Returns their number;
+    /// GetBlockers has the reason for 0.
     [[nodiscard]] std::size_t Extend(std::size_t robot, std::span<const std::size_t> ahead);
 
     /// The robot is on these nodes without a grant. False, without a change, if another robot holds one.

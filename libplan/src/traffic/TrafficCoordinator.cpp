@@ -30,7 +30,7 @@ TrafficCoordinator::TrafficCoordinator(
       _charging(charging),
       _places(places),
       _waiting(waiting),
-      _router(engine.site),
+      _routes(engine.site),
       _traffic(places.GetTraffic())
 {
 }
@@ -81,8 +81,8 @@ bool TrafficCoordinator::CanParkAt(const RobotOptions& robot, std::size_t dock) 
     }
     const std::string& dockID = _site.GetNodes()[dock].nodeID;
     const std::string& startID = robot.startNodeID.value_or(dockID);
-    return _router.FindRouteOrNull(robot.vehicleTypeID, startID, dockID).has_value()
-        && _router.FindRouteOrNull(robot.vehicleTypeID, dockID, startID).has_value();
+    return _routes.GetRouter().FindRouteOrNull(robot.vehicleTypeID, startID, dockID).has_value()
+        && _routes.GetRouter().FindRouteOrNull(robot.vehicleTypeID, dockID, startID).has_value();
 }
 
 void TrafficCoordinator::ExtendDrives()
@@ -143,13 +143,14 @@ EDriveAttempt TrafficCoordinator::TryDrive(Robot& robot)
     {
         return EDriveAttempt::Waits;
     }
-    if (robot.place.node == target)
+    // Between two nodes it is not at its target, even if it has just left it.
+    if (robot.place.node == target && !_routes.FindLaneOrNull(robot, *target).has_value())
     {
         robot.parking.retreatNode.reset();
         return EDriveAttempt::AtTarget;
     }
-    const bool bFirst = !HasRoute(robot, *target);
-    if (!TryPlanRoute(robot, *target))
+    const bool bFirst = !RoutePlanner::HasRoute(robot, *target);
+    if (!_routes.TryPlanRoute(robot, *target))
     {
         return EDriveAttempt::NoRoute;
     }
@@ -212,7 +213,7 @@ bool TrafficCoordinator::TryBeginPlannedRoute(Robot& robot)
                 return !_fleet[holder].drive.has_value() || !_traffic.IsMovable(holder);
             });
         };
-        robot.search.detour = PlanRouteOrNull(robot, robot.search.plannedRoute->target, isStandingInTheWay);
+        robot.search.detour = _routes.PlanRouteOrNull(robot, robot.search.plannedRoute->target, isStandingInTheWay);
         robot.search.detourAt = _places.GetStandingChanges();
         robot.search.detourTarget = robot.search.plannedRoute->target;
         robot.search.detourLoad = robot.search.plannedRoute->load;
@@ -229,46 +230,12 @@ bool TrafficCoordinator::TryBeginPlannedRoute(Robot& robot)
     return TryBeginDrive(robot, *robot.search.plannedRoute);
 }
 
-bool TrafficCoordinator::HasRoute(const Robot& robot, std::size_t target)
-{
-    const std::optional<PlannedRoute>& planned = robot.search.plannedRoute;
-    return planned.has_value() && planned->target == target && planned->load == robot.GetLoad();
-}
-
-bool TrafficCoordinator::TryPlanRoute(Robot& robot, std::size_t target) const
-{
-    if (!HasRoute(robot, target))
-    {
-        robot.search.plannedRoute = PlanRouteOrNull(robot, target, {});
-    }
-    return robot.search.plannedRoute.has_value();
-}
-
 std::optional<PlannedRoute> TrafficCoordinator::PlanRouteOrNull(
     const Robot& robot,
     std::size_t target,
     const Router::NodeFilter& isExcluded) const
 {
-    const std::vector<SiteNode>& nodes = _site.GetNodes();
-    std::optional<Route> route = _router.FindRouteOrNull(
-        robot.options->vehicleTypeID,
-        robot.GetLoad(),
-        nodes[*robot.place.node].nodeID,
-        nodes[target].nodeID,
-        isExcluded);
-    if (!route.has_value())
-    {
-        return std::nullopt;
-    }
-    PlannedRoute plannedRoute;
-    plannedRoute.target = target;
-    plannedRoute.load = robot.GetLoad();
-    for (const RouteNode& node : route->nodes)
-    {
-        plannedRoute.nodes.push_back(*_site.FindNodeIndexOrNull(node.nodeID));
-    }
-    plannedRoute.route = std::move(*route);
-    return plannedRoute;
+    return _routes.PlanRouteOrNull(robot, target, isExcluded);
 }
 
 bool TrafficCoordinator::TryBeginDrive(Robot& robot, const PlannedRoute& plannedRoute)
@@ -400,6 +367,7 @@ bool TrafficCoordinator::TryAdvance(Robot& robot, std::size_t routeIndex)
         _traffic.Pass(robot.index, routeIndex - drive.passed);
         _transaction.RequestDispatch();
         robot.place.aheadNodes.clear();
+        robot.place.heading.reset();
         robot.place.possibleNodes.clear();
         robot.parking.refusals = 0;
     }
@@ -455,6 +423,8 @@ void TrafficCoordinator::EndDrive(Robot& robot)
         _traffic.TryStand(robot.index, *robot.place.node, {}, std::span(robot.place.heldNodes).subspan(1));
     assert(bStands);
     static_cast<void>(bStands);
+    robot.place.heading = PlaceTracker::GetHeadingOrNull(robot, robot.place.aheadNodes);
+    _traffic.SetHeading(robot.index, robot.place.heading);
     robot.drive.reset();
     _places.NoteStandingChanged();
     robot.search.plannedRoute.reset();
@@ -464,7 +434,7 @@ void TrafficCoordinator::EndDrive(Robot& robot)
 
 const Router& TrafficCoordinator::GetRouter() const noexcept
 {
-    return _router;
+    return _routes.GetRouter();
 }
 
 void TrafficCoordinator::OnExtensionDue(Robot& robot)

@@ -3,6 +3,7 @@
 #include "control/ChargingControl.hpp"
 #include "control/ControlAnswers.hpp"
 #include "traffic/PlaceTracker.hpp"
+#include "traffic/RoutePlanner.hpp"
 #include "traffic/WaitingRobots.hpp"
 #include "transaction/EngineState.hpp"
 #include <acs/plan/Router.hpp>
@@ -24,7 +25,7 @@ enum class EDriveAttempt : std::uint8_t
     NoRoute,
 };
 
-/// Owns the router. Plans routes, begins and ends drives, extends their base and reroutes them.
+/// Owns the RoutePlanner. Begins and ends drives, extends their base and reroutes them.
 class TrafficCoordinator
 {
     const EngineOptions& _options;
@@ -37,7 +38,7 @@ class TrafficCoordinator
     ChargingControl& _charging;
     PlaceTracker& _places;
     const WaitingRobots& _waiting;
-    Router _router;
+    RoutePlanner _routes;
     Traffic& _traffic;
 
 public:
@@ -62,7 +63,7 @@ public:
     void ExtendBase(Robot& robot);
     /// Begins a drive to the robot's target if its route is free. Returns what the caller must do next.
     [[nodiscard]] EDriveAttempt TryDrive(Robot& robot);
-    /// The quickest route that avoids the excluded nodes.
+    /// RoutePlanner::PlanRouteOrNull.
     [[nodiscard]] std::optional<PlannedRoute> PlanRouteOrNull(
         const Robot& robot,
         std::size_t target,
@@ -89,9 +90,6 @@ private:
     [[nodiscard]] bool CanParkAt(const RobotOptions& robot, std::size_t dock) const;
     /// Begins the planned route, or a detour around stationary robots if there is one.
     [[nodiscard]] bool TryBeginPlannedRoute(Robot& robot);
-    [[nodiscard]] bool TryPlanRoute(Robot& robot, std::size_t target) const;
-    /// Whether its planned route leads to the target, and may be driven with its present load.
-    [[nodiscard]] static bool HasRoute(const Robot& robot, std::size_t target);
 };
 
 } // namespace ACS::Planning

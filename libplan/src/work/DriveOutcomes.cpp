@@ -8,10 +8,23 @@
 namespace ACS::Planning
 {
 
+namespace
+{
+
+/// The node that the robot passed last, or a later one. A route may pass a node twice.
+std::vector<RouteNode>::const_iterator FindAhead(const ActiveDrive& drive, const std::string& nodeID)
+{
+    const auto passed = static_cast<std::ptrdiff_t>(drive.passed);
+    return std::ranges::find(drive.route.nodes.begin() + passed, drive.route.nodes.end(), nodeID, &RouteNode::nodeID);
+}
+
+} // namespace
+
 DriveOutcomes::DriveOutcomes(
     EngineState& engine,
     TscControl& tsc,
     ControlAnswers& answers,
+    RejectionWatch& rejections,
     PlaceTracker& places,
     WaitingRobots& waiting,
     TrafficCoordinator& coordinator,
@@ -22,6 +35,7 @@ DriveOutcomes::DriveOutcomes(
       _fleet(engine.fleet),
       _transaction(engine.transaction),
       _answers(answers),
+      _rejections(rejections),
       _waiting(waiting),
       _coordinator(coordinator),
       _deadlocks(engine, tsc, places, waiting, coordinator),
@@ -100,9 +114,9 @@ void DriveOutcomes::OnNodePassed(Robot& robot, const NodePassed& event)
         return;
     }
     const std::vector<RouteNode>& nodes = robot.drive->route.nodes;
-    const auto found = std::ranges::find(nodes, event.nodeID, &RouteNode::nodeID);
+    const auto found = FindAhead(*robot.drive, event.nodeID);
     const auto routeIndex = static_cast<std::size_t>(found - nodes.begin());
-    if (found == nodes.end() || routeIndex < robot.drive->passed)
+    if (found == nodes.end())
     {
         _transaction.Note(robot, fmt::format("reported node {}, which is not ahead on its route", event.nodeID));
         return;
@@ -119,6 +133,10 @@ void DriveOutcomes::OnNodePassed(Robot& robot, const NodePassed& event)
     {
         _work.MarkStepBegun(*robot.planOrNull);
     }
+    if (routeIndex > 0)
+    {
+        _rejections.EndRow(robot);
+    }
     if (_coordinator.TryAdvance(robot, routeIndex))
     {
         _work.UpdateApproach(robot);
@@ -134,10 +152,10 @@ void DriveOutcomes::OnArrived(Robot& robot, const Arrived& event)
     }
     if (!_coordinator.TryAdvance(robot, robot.drive->nodes.size() - 1))
     {
-        OnDriveRejected(robot, DriveRejected{event.driveID, "it entered a node that is reserved for another robot"});
-        robot.place.bPlaced = false;
+        OnNodeOfOther(robot);
         return;
     }
+    _rejections.EndRow(robot);
     const EDriveGoal goal = robot.drive->goal;
     const std::string nodeID = robot.drive->route.nodes.back().nodeID;
     _coordinator.EndDrive(robot);
@@ -184,25 +202,44 @@ void DriveOutcomes::OnDriveRejected(Robot& robot, const DriveRejected& event)
     {
         return;
     }
+    ActivePlan* planOrNull = EndFailedDrive(robot, event.reason);
+    if (planOrNull == nullptr)
+    {
+        return;
+    }
+    // The plan waits, and continues with another drive from where the robot is then.
+    _rejections.OnRejected(robot, event.reason);
+    if (robot.view.rejections.GetState() == ERejection::Exhausted && PlanWork::CanRelease(*planOrNull))
+    {
+        _work.ReleasePlan(*planOrNull);
+    }
+}
+
+void DriveOutcomes::OnNodeOfOther(Robot& robot)
+{
+    constexpr std::string_view REASON = "it entered a node that is reserved for another robot";
+    if (ActivePlan* planOrNull = EndFailedDrive(robot, REASON); planOrNull != nullptr)
+    {
+        _work.FailPlan(*planOrNull, fmt::format("{} did not complete its drive: {}", robot.GetID(), REASON));
+    }
+    robot.place.bPlaced = false;
+}
+
+ActivePlan* DriveOutcomes::EndFailedDrive(Robot& robot, std::string_view reason)
+{
     const EDriveGoal goal = robot.drive->goal;
     _coordinator.EndDrive(robot);
-    _transaction.Note(robot, "did not complete its drive: " + event.reason);
+    _transaction.Note(robot, fmt::format("did not complete its drive: {}", reason));
     if (goal == EDriveGoal::Home)
     {
         _coordinator.RefuseHome(robot);
-        return;
+        return nullptr;
     }
-    if (robot.planOrNull == nullptr)
+    if (robot.planOrNull != nullptr && robot.IsEnding())
     {
-        return;
+        _work.EndByControl(*robot.planOrNull, *robot.planOrNull->record.progress.control);
     }
-    ActivePlan& plan = *robot.planOrNull;
-    if (robot.IsEnding())
-    {
-        _work.EndByControl(plan, *plan.record.progress.control);
-        return;
-    }
-    _work.FailPlan(plan, fmt::format("{} did not complete its drive: {}", robot.GetID(), event.reason));
+    return robot.planOrNull;
 }
 
 void DriveOutcomes::OnDriveCancelled(Robot& robot, const DriveCancelled& event)
@@ -212,12 +249,11 @@ void DriveOutcomes::OnDriveCancelled(Robot& robot, const DriveCancelled& event)
         return;
     }
     const std::vector<RouteNode>& nodes = robot.drive->route.nodes;
-    const auto found = std::ranges::find(nodes, event.nodeID, &RouteNode::nodeID);
+    const auto found = FindAhead(*robot.drive, event.nodeID);
     const auto routeIndex = static_cast<std::size_t>(found - nodes.begin());
     if (found != nodes.end() && routeIndex > robot.drive->passed && !_coordinator.TryAdvance(robot, routeIndex))
     {
-        OnDriveRejected(robot, DriveRejected{event.driveID, "it entered a node that is reserved for another robot"});
-        robot.place.bPlaced = false;
+        OnNodeOfOther(robot);
         return;
     }
     const bool bWanted = robot.IsEnding();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "control/ControlAnswers.hpp"
+#include "control/RejectionWatch.hpp"
 #include "traffic/DeadlockResolver.hpp"
 #include "traffic/TrafficCoordinator.hpp"
 #include "traffic/WaitingRobots.hpp"
@@ -12,6 +13,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ACS::Planning
@@ -25,6 +27,7 @@ class DriveOutcomes
     const Fleet& _fleet;
     EngineTransaction& _transaction;
     ControlAnswers& _answers;
+    RejectionWatch& _rejections;
     WaitingRobots& _waiting;
     TrafficCoordinator& _coordinator;
     DeadlockResolver _deadlocks;
@@ -36,6 +39,7 @@ public:
         EngineState& engine,
         TscControl& tsc,
         ControlAnswers& answers,
+        RejectionWatch& rejections,
         PlaceTracker& places,
         WaitingRobots& waiting,
         TrafficCoordinator& coordinator,
@@ -57,6 +61,10 @@ private:
     /// Tries to drive, and begins the work or fails the plan. Returns whether the robot drives or is at its target.
     [[nodiscard]] bool TryMove(Robot& robot);
     void OnNoRoute(Robot& robot, std::size_t target);
+    /// The robot has entered a node that another robot has reserved: its plan fails, and its place is unknown.
+    void OnNodeOfOther(Robot& robot);
+    /// Ends the drive, and the plan that is to be cancelled or aborted. Returns the plan that continues; null if there is none.
+    [[nodiscard]] ActivePlan* EndFailedDrive(Robot& robot, std::string_view reason);
 };
 
 } // namespace ACS::Planning

@@ -3,23 +3,21 @@
 namespace ACS::Planning
 {
 
-JobOutcomes::JobOutcomes(EngineState& engine, LoadWatch& loads, PlanWork& work)
+JobOutcomes::JobOutcomes(EngineState& engine, LoadWatch& loads, RejectionWatch& rejections, PlanWork& work)
     : _transaction(engine.transaction),
       _loads(loads),
+      _rejections(rejections),
       _work(work)
 {
 }
 
 void JobOutcomes::OnJobStarted(Robot& robot, const JobStarted& event)
 {
-    if (robot.activity != EActivity::Works || GetJobID(*robot.planOrNull) != event.jobID)
+    if (!IsPresent(robot, event.jobID))
     {
         return;
     }
-    if (robot.job.IsUnresolved())
-    {
-        return; // an operator resolves it
-    }
+    _rejections.EndRow(robot);
     robot.work.MarkCommandTaken();
     robot.changes.bWork = true;
     _work.EndRecovery(robot);
@@ -61,7 +59,7 @@ void JobOutcomes::OnJobFinished(Robot& robot, const JobFinished& event)
     {
         return;
     }
-    if (robot.activity != EActivity::Works || GetJobID(*robot.planOrNull) != event.jobID || robot.job.IsUnresolved())
+    if (!IsPresent(robot, event.jobID))
     {
         return;
     }
@@ -75,7 +73,7 @@ void JobOutcomes::OnJobFailed(Robot& robot, const JobFailed& event)
     {
         return;
     }
-    if (robot.activity != EActivity::Works || GetJobID(*robot.planOrNull) != event.jobID || robot.job.IsUnresolved())
+    if (!IsPresent(robot, event.jobID))
     {
         return;
     }
@@ -94,13 +92,50 @@ void JobOutcomes::OnJobTimeout(Robot& robot)
     _work.FailPlan(*robot.planOrNull, "The job exceeded its time limit.");
 }
 
+void JobOutcomes::OnJobRejected(Robot& robot, const JobRejected& event)
+{
+    if (TryEndOverdueJob(robot, event.jobID, false) || !IsPresent(robot, event.jobID))
+    {
+        return;
+    }
+    if (robot.planOrNull->record.progress.control == EPlanControl::Abort)
+    {
+        _work.EndByControl(*robot.planOrNull, EPlanControl::Abort);
+        return;
+    }
+    _work.RepeatJob(robot, robot.job.GetOrNull()->commandID);
+    _rejections.OnRejected(robot, event.reason);
+}
+
+void JobOutcomes::OnJobInterrupted(Robot& robot, const JobInterrupted& event)
+{
+    if (TryEndOverdueJob(robot, event.jobID, false) || !IsPresent(robot, event.jobID))
+    {
+        return;
+    }
+    if (robot.planOrNull->record.progress.control == EPlanControl::Abort)
+    {
+        _work.EndByControl(*robot.planOrNull, EPlanControl::Abort);
+    }
+    else if (robot.planOrNull->repetition.bInterrupted)
+    {
+        _work.SuspendJob(robot, "the robot has interrupted it twice, the second time because " + event.reason);
+    }
+    else
+    {
+        _transaction.Note(robot, "repeats its job, which was interrupted: " + event.reason);
+        _work.RepeatJob(robot, {});
+        robot.planOrNull->repetition.bInterrupted = true;
+    }
+}
+
 void JobOutcomes::OnJobUnknown(Robot& robot, const JobUnknown& event)
 {
     if (TryEndOverdueJob(robot, event.jobID, false))
     {
         return;
     }
-    if (robot.activity != EActivity::Works || GetJobID(*robot.planOrNull) != event.jobID || robot.job.IsUnresolved())
+    if (!IsPresent(robot, event.jobID))
     {
         return;
     }
@@ -137,6 +172,11 @@ void JobOutcomes::OnJobUnresolved(Robot& robot, const JobUnresolved& event)
         robot.changes.bWork = true;
         _work.SuspendJob(robot, event.reason);
     }
+}
+
+bool JobOutcomes::IsPresent(const Robot& robot, const std::string& jobID)
+{
+    return robot.activity == EActivity::Works && GetJobID(*robot.planOrNull) == jobID && !robot.job.IsUnresolved();
 }
 
 } // namespace ACS::Planning

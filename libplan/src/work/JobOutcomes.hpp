@@ -1,6 +1,7 @@
 #pragma once
 
 #include "control/LoadWatch.hpp"
+#include "control/RejectionWatch.hpp"
 #include "transaction/EngineState.hpp"
 #include "work/PlanWork.hpp"
 
@@ -18,10 +19,11 @@ class JobOutcomes
 {
     EngineTransaction& _transaction;
     LoadWatch& _loads;
+    RejectionWatch& _rejections;
     PlanWork& _work;
 
 public:
-    JobOutcomes(EngineState& engine, LoadWatch& loads, PlanWork& work);
+    JobOutcomes(EngineState& engine, LoadWatch& loads, RejectionWatch& rejections, PlanWork& work);
 
     void OnJobStarted(Robot& robot, const JobStarted& event);
     /// Ends a job whose plan has ended, by the robot's report or an operator. The moved carrier is recorded. False: no such job.
@@ -32,8 +34,14 @@ public:
     void OnJobFailed(Robot& robot, const JobFailed& event);
     /// The job has exceeded the time limit of its action: it is cancelled and the plan fails.
     void OnJobTimeout(Robot& robot);
+    void OnJobRejected(Robot& robot, const JobRejected& event);
+    void OnJobInterrupted(Robot& robot, const JobInterrupted& event);
     void OnJobUnknown(Robot& robot, const JobUnknown& event);
     void OnJobUnresolved(Robot& robot, const JobUnresolved& event);
+
+private:
+    /// The robot has the job, it is the present one of its plan, and no operator must resolve it.
+    [[nodiscard]] static bool IsPresent(const Robot& robot, const std::string& jobID);
 };
 
 } // namespace ACS::Planning

@@ -37,13 +37,45 @@ void PlanWork::BeginPlan(ActivePlan& plan, Robot& robot)
     robot.work.BeginPlan(robot.view.state.has_value() ? robot.view.state->restartEvidence.commandID : std::nullopt);
     robot.changes.bWork = true;
     _call.begunPlanIDs.push_back(plan.record.plan.planID);
-    _transaction.ChangePlan(plan, EPlanState::InProgress, fmt::format("Assigned to {}.", robot.GetID()));
+    if (plan.record.progress.state == EPlanState::Pending)
+    {
+        _transaction.ChangePlan(plan, EPlanState::InProgress, fmt::format("Assigned to {}.", robot.GetID()));
+    }
     BeginStep(plan, robot);
+}
+
+bool PlanWork::CanRelease(const ActivePlan& plan)
+{
+    return plan.robot.has_value() && plan.resolved.candidates.size() > 1 && !plan.bJobBegun
+        && plan.record.progress.state == EPlanState::InProgress && !plan.record.progress.control.has_value();
+}
+
+void PlanWork::ReleasePlan(ActivePlan& plan)
+{
+    Robot& robot = _fleet[*plan.robot];
+    _transaction.Note(robot, fmt::format("plan {} returns to the queue for another robot", plan.record.plan.planID));
+    FreeRobot(robot);
+    plan.robot.reset();
+    plan.record.progress.robotID.clear();
+    _plans.MarkProgressed(plan.record.plan.planID);
+    _plans.Enqueue(plan);
+    _transaction.RequestDispatch();
+}
+
+void PlanWork::FreeRobot(Robot& robot)
+{
+    robot.planOrNull = nullptr;
+    robot.activity = EActivity::Idle;
+    robot.changes.bWork = robot.work.TryResolve() || robot.changes.bWork;
+    robot.parking.retreatNode.reset();
+    robot.changes.bStatus = true;
+    robot.search.plannedRoute.reset();
 }
 
 void PlanWork::BeginStep(ActivePlan& plan, Robot& robot)
 {
     plan.job = 0;
+    plan.repetition = {};
     plan.next = EContinuation::Job;
     plan.bStepArrived = false;
     robot.activity = EActivity::Waits;
@@ -115,7 +147,7 @@ void PlanWork::BeginJob(Robot& robot)
     {
         _transaction.ChangeJob(plan, EJobState::Instructed, {});
     }
-    const std::string repeated = std::exchange(plan.repeatedCommandID, {});
+    const std::string repeated = std::exchange(plan.repetition.commandID, {});
     StartJob job = MakeStartJob(robot);
     job.commandID = repeated.empty() ? Core::MakeUUID(_random) : repeated;
     job.jobNumber = robot.work.NumberJob(!repeated.empty(), _random);
@@ -176,6 +208,7 @@ void PlanWork::EndJob(Robot& robot, std::string message)
         return;
     }
     ++plan.job;
+    plan.repetition = {};
     ContinuePlan(robot);
 }
 
@@ -298,12 +331,7 @@ void PlanWork::EndPlan(ActivePlan& plan, EPlanState state, const std::string& me
         {
             ReleaseJob(robot);
         }
-        robot.planOrNull = nullptr;
-        robot.activity = EActivity::Idle;
-        robot.changes.bWork = robot.work.TryResolve() || robot.changes.bWork;
-        robot.parking.retreatNode.reset();
-        robot.changes.bStatus = true;
-        robot.search.plannedRoute.reset();
+        FreeRobot(robot);
     }
     _transaction.RequestDispatch();
     if (state == EPlanState::Completed)
@@ -359,7 +387,7 @@ Alarm PlanWork::MakeDroppedAlarm(const Robot& robot)
 
 void PlanWork::SuspendUnresolvedJob(Robot& robot)
 {
-    robot.planOrNull->repeatedCommandID.clear();
+    robot.planOrNull->repetition.commandID.clear();
     robot.job.Begin(MakeStartJob(robot));
     robot.changes.bWork = true;
     SuspendJob(robot, "the robot may have done work that the ACS could not store before it stopped");
@@ -422,7 +450,7 @@ void PlanWork::RepeatJob(Robot& robot, std::string commandID)
 {
     StopJobTimer(robot);
     ReleaseJob(robot);
-    robot.planOrNull->repeatedCommandID = std::move(commandID);
+    robot.planOrNull->repetition.commandID = std::move(commandID);
     robot.activity = EActivity::Waits;
     robot.changes.bStatus = true;
     _transaction.RequestDispatch();

@@ -32,8 +32,12 @@ class PlanWork
 public:
     PlanWork(EngineState& engine, ControlAnswers& answers, LoadWatch& loads, StatusPublisher& status);
 
-    /// Assigns the plan to the robot and begins its first step.
+    /// Assigns the plan to the robot and begins its first step; again if another robot had the plan before (ReleasePlan).
     void BeginPlan(ActivePlan& plan, Robot& robot);
+    /// Another robot may take over the plan: it names no robot, none of its jobs was commanded, and no control is open.
+    [[nodiscard]] static bool CanRelease(const ActivePlan& plan);
+    /// Takes the plan from its robot, which is stationary without a drive, and returns it to the queue. It stays InProgress.
+    void ReleasePlan(ActivePlan& plan);
     void BeginStep(ActivePlan& plan, Robot& robot);
     /// The robot moves to the step's station: the step is InProgress.
     void MarkStepBegun(ActivePlan& plan);
@@ -74,6 +78,7 @@ public:
     void StopJobTimer(Robot& robot);
 
 private:
+    static void FreeRobot(Robot& robot);
     void BeginJob(Robot& robot);
     void LimitJob(Robot& robot);
     /// Continues with the next job or step, unless the plan is paused.

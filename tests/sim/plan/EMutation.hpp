@@ -31,6 +31,7 @@ enum class EMutation : std::uint8_t
     StationaryTooEarly,
     ResumeSwallowed,
     RefusalAcked,
+    LostDriveFailsPlan,
     TimerForgotten,
     RecoveryDenied,
     MaintenanceForgotten,
@@ -48,7 +49,7 @@ struct MutationText
     bool bOfArms = false; ///< Found only with arms, which most runs do not have.
 };
 
-inline constexpr std::size_t MUTATION_COUNT = 28;
+inline constexpr std::size_t MUTATION_COUNT = 29;
 
 /// By EMutation.
 inline constexpr std::array<MutationText, MUTATION_COUNT> MUTATION_TEXTS{{
@@ -73,6 +74,7 @@ inline constexpr std::array<MutationText, MUTATION_COUNT> MUTATION_TEXTS{{
      "a robot counts as stationary too early after the cancel of a drive, also of a drive from before a restart"},
     {"resume-swallowed", "the command to resume does not reach the robot"},
     {"refused-plan-acked", "a plan that was refused is acknowledged as accepted"},
+    {"lost-drive-fails-plan", "a plan whose robot lost or rejected a drive is reported as failed at its end"},
     {"timer-forgotten", "now and then a timer of the engine does not fire"},
     {"recovery-denied", "after a restart each robot reports that it never had its job"},
     {"maintenance-forgotten", "after a restart all robots are in service"},

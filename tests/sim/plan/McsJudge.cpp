@@ -131,6 +131,11 @@ void McsJudge::NotePlanAck(const Protocol::AcsAck& ack)
     CheckKept();
 }
 
+void McsJudge::NoteFailedByOperator(const std::string& planID)
+{
+    _failedByOperator.insert(planID);
+}
+
 void McsJudge::NoteControlSent(
     Planning::EPlanControl control,
     const std::string& planID,
@@ -266,6 +271,25 @@ void McsJudge::OnPlanReport(const Protocol::PlanReport& report)
     {
         CheckCompleted(report.planID, *planOrNull);
     }
+    else if (report.status == Protocol::EPlanStatus::Failed)
+    {
+        CheckFailed(report.planID, *planOrNull);
+    }
+}
+
+/// A drive that is rejected or lost is no reason: the plan waits for its robot.
+void McsJudge::CheckFailed(const std::string& planID, const PlanView& plan)
+{
+    const bool bHasReason =
+        _failedByOperator.contains(planID) || std::ranges::any_of(plan.steps, [](const auto& step) {
+            return step.second.jobs.empty() || std::ranges::any_of(step.second.jobs, [](const auto& job) {
+                       return job.second == Protocol::EJobStatus::Failed;
+                   });
+        });
+    if (!bHasReason)
+    {
+        _trace.Violate("plan {} is Failed, but none of its jobs is", planID);
+    }
 }
 
 void McsJudge::CheckCompleted(const std::string& planID, const PlanView& plan)
@@ -302,6 +326,19 @@ void McsJudge::OnStepReport(const Protocol::StepReport& report)
             report.planID,
             GetText(step.status),
             GetText(report.status));
+    }
+    const bool bJobReported = std::ranges::any_of(planOrNull->steps, [](const auto& other) {
+        return std::ranges::any_of(other.second.jobs, [](const auto& job) {
+            return job.second != Protocol::EJobStatus::Pending;
+        });
+    });
+    const bool bMoved = std::exchange(step.robotID, report.robotID) != report.robotID;
+    const bool bTakenOver = report.status == Protocol::EStepStatus::Dispatched
+        && step.status != Protocol::EStepStatus::Pending && bMoved && !bJobReported;
+    const bool bSameStatus = report.status == Protocol::EStepStatus::Dispatched && !bMoved;
+    if (step.status != Protocol::EStepStatus::Pending && !bTakenOver && (bMoved || bSameStatus))
+    {
+        _trace.Violate("step {} of plan {} is reported of {}", report.stepNo, report.planID, report.robotID);
     }
     step.status = report.status;
     const bool bEarlierDone = std::all_of(planOrNull->steps.begin(), found, [](const auto& earlier) {

@@ -33,6 +33,7 @@ private:
     struct StepView
     {
         Protocol::EStepStatus status = Protocol::EStepStatus::Pending;
+        std::string robotID; ///< Of the latest report.
         std::map<std::string, Protocol::EJobStatus> jobs;
     };
 
@@ -59,6 +60,7 @@ private:
     const WorkChecker& _workChecker;
     std::map<std::string, PlanView> _plans;
     std::map<std::pair<std::string, Planning::EPlanControl>, ControlView> _controls;
+    std::set<std::string> _failedByOperator; ///< Plans.
     std::map<std::string, Protocol::AcsPayload> _seen;
     std::uint64_t _lastSequence = 0;
     std::map<std::string, Protocol::RobotStatusUpdate> _statuses;
@@ -72,6 +74,8 @@ public:
     void NotePlan(const Protocol::ExecutionPlan& plan, bool bGood);
     void NotePlanSent(const std::string& planID);
     void NotePlanAck(const Protocol::AcsAck& ack);
+    /// The operator resolves a job of the plan as failed: the plan may fail without a JobReport(Failed).
+    void NoteFailedByOperator(const std::string& planID);
     void NoteControlSent(Planning::EPlanControl control, const std::string& planID, const std::string& transactionID);
     void NoteControlAck(Planning::EPlanControl control, const std::string& planID, const Protocol::AcsAck& ack);
 
@@ -99,6 +103,7 @@ private:
     void HandleFirst(const Protocol::AcsPayload& payload);
     [[nodiscard]] PlanView* FindReportedOrNull(const std::string& planID, std::string_view what);
     void CheckCompleted(const std::string& planID, const PlanView& plan);
+    void CheckFailed(const std::string& planID, const PlanView& plan);
 };
 
 /// The control of the command or of the result; nullopt: another message.

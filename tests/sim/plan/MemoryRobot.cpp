@@ -2,6 +2,7 @@
 
 #include <acs/core/Overloaded.hpp>
 
+#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -63,7 +64,7 @@ void MemoryRobot::BeginDrive(const Planning::Drive& drive)
     }
     view->second.releasedCount = drive.releasedCount;
     view->second.nodeID = GetNodeID();
-    const bool bRefused = _drive.has_value() || _job.has_value() || drive.route.nodes.front().nodeID != GetNodeID();
+    const bool bRefused = _drive.has_value() || _job.has_value() || !CanBegin(drive.route);
     if (bRefused || _chance.IsHit(rejectChance))
     {
         _trace.Add("{} rejects a drive to {}", _robotID, drive.route.nodes.back().nodeID);
@@ -78,6 +79,18 @@ void MemoryRobot::BeginDrive(const Planning::Drive& drive)
     _bStopping = false;
     _snapshot.activeDriveID = drive.driveID;
     GoOn();
+}
+
+/// It is on the first node; or within its deviation, on the way to the second one.
+bool MemoryRobot::CanBegin(const Planning::Route& route) const
+{
+    const Planning::RouteNode& first = route.nodes.front();
+    if (first.nodeID != GetNodeID() || !_nextNodeID.has_value())
+    {
+        return first.nodeID == GetNodeID();
+    }
+    const double distance = std::hypot(first.x - _snapshot.state.x, first.y - _snapshot.state.y);
+    return route.nodes[1].nodeID == *_nextNodeID && distance <= first.allowedDeviation;
 }
 
 void MemoryRobot::Extend(const Planning::ExtendDrive& extension)
@@ -119,6 +132,7 @@ void MemoryRobot::GoOn()
         return;
     }
     _bMoving = true;
+    _nextNodeID.reset();
     ShowPlace();
     _timers.Start(ETimer::Move, _chance.GetBetween(300ms, 1'500ms) * _nature.slowness, [this] { OnMoveTimer(); });
 }
@@ -160,6 +174,30 @@ void MemoryRobot::EndDrive(EDriveState state)
     _snapshot.activeDriveID.clear();
     _drive.reset();
     _bStopping = false;
+}
+
+/// As the standard demands of a vehicle that is switched to manual mode.
+void MemoryRobot::LoseDrive()
+{
+    if (!_drive.has_value())
+    {
+        return;
+    }
+    if (std::exchange(_bMoving, false))
+    {
+        const Planning::RouteNode& node = _drive->route.nodes[_index];
+        const Planning::RouteNode& next = _drive->route.nodes[_index + 1];
+        _nextNodeID = next.nodeID;
+        _snapshot.state.x = (node.x + next.x) / 2;
+        _snapshot.state.y = (node.y + next.y) / 2;
+        _snapshot.state.bPoseKnown = true;
+    }
+    _timers.Cancel(ETimer::Move);
+    _snapshot.drives.erase(_drive->driveID);
+    _snapshot.activeDriveID.clear();
+    _drive.reset();
+    _bMoveHalted = _bStopping = false;
+    ShowPlace();
 }
 
 void MemoryRobot::BeginJob(const Planning::StartJob& job)
@@ -290,7 +328,7 @@ void MemoryRobot::Unhalt()
 /// Switches it off and on: it drops its drive and job and loses its memory.
 void MemoryRobot::Forget()
 {
-    if (_bMoving)
+    if (_bMoving || _nextNodeID.has_value())
     {
         return; // not between two nodes: it would have to be carried to one
     }
@@ -308,6 +346,18 @@ void MemoryRobot::Forget()
     Show();
 }
 
+void MemoryRobot::PutOnNode()
+{
+    if (_nextNodeID.has_value())
+    {
+        _trace.Add("{} is driven by hand to {}", _robotID, *_nextNodeID);
+        _snapshot.state.lastNodeID = *std::exchange(_nextNodeID, std::nullopt);
+        _snapshot.state.bPoseKnown = false; // until its next node
+        ShowPlace();
+        Show();
+    }
+}
+
 void MemoryRobot::Disturb()
 {
     _bStopped = true;
@@ -318,6 +368,7 @@ void MemoryRobot::Disturb()
             break;
         case 1:
             _snapshot.state.bAutomatic = false;
+            LoseDrive();
             break;
         default:
             _snapshot.state.errors = {{"AGV-lost", Planning::EAlarmLevel::Heavy, "lost its way"}};
@@ -345,8 +396,13 @@ void MemoryRobot::ShowPlace()
     {
         nodeIDs.push_back(_drive->route.nodes[_index + 1].nodeID);
     }
+    else if (_nextNodeID.has_value())
+    {
+        nodeIDs.push_back(*_nextNodeID);
+    }
+    const bool bOnNode = nodeIDs.size() == 1;
     _workChecker.OnPlaced(_robotID, std::move(nodeIDs));
-    _workChecker.GetFloor().OnPlaced(_robotID, _bMoving ? std::string() : GetNodeID());
+    _workChecker.GetFloor().OnPlaced(_robotID, bOnNode ? GetNodeID() : std::string());
 }
 
 void MemoryRobot::Show()

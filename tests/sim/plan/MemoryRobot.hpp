@@ -53,7 +53,8 @@ private:
     std::optional<Planning::StartJob> _job;
     bool _bJobHalted = false;
     bool _bPauseAsked = false;
-    bool _bStopped = false; ///< Safety stop, manual mode or error: neither drives nor works.
+    bool _bStopped = false;                 ///< Safety stop, manual mode or error: neither drives nor works.
+    std::optional<std::string> _nextNodeID; ///< It lost its drive on the way to this node, and is between the two.
 
 public:
     /// Per mille.
@@ -74,6 +75,7 @@ public:
 
     /// Begins a random emergency stop, manual mode or error for a while.
     void Disturb();
+    void PutOnNode();
     void Forget();
     void Recover();
 
@@ -92,6 +94,8 @@ private:
     void OnJobTimer();
     void FinishJob();
     void EndDrive(EDriveState state);
+    void LoseDrive();
+    [[nodiscard]] bool CanBegin(const Planning::Route& route) const;
     void EndJob(EJobState state, const std::string& reason);
     void Unhalt();
     void ShowPlace();

@@ -102,6 +102,17 @@ std::optional<Planning::OutboxEntry> Mutator::PassReportOrNull(Planning::OutboxE
     {
         resultOrNull->bSucceeded = !resultOrNull->bSucceeded;
     }
+    const auto* const stepOrNull = std::get_if<Planning::StepReport>(&entry.report);
+    if (stepOrNull != nullptr && _losers.erase(stepOrNull->robotID) > 0)
+    {
+        _lostPlans.insert(stepOrNull->planID);
+    }
+    auto* const planOrNull = std::get_if<Planning::PlanReport>(&entry.report);
+    if (Is(EMutation::LostDriveFailsPlan) && planOrNull != nullptr && _lostPlans.contains(planOrNull->planID)
+        && planOrNull->state == Planning::EPlanState::Completed)
+    {
+        planOrNull->state = Planning::EPlanState::Failed;
+    }
     return entry;
 }
 
@@ -204,9 +215,13 @@ Planning::StartJob Mutator::Misdirect(const std::string& robotID, Planning::Star
     return job;
 }
 
-std::vector<Planning::RobotEvent> Mutator::OnEvent(const std::string& robotID, const Planning::RobotEvent& event) const
+std::vector<Planning::RobotEvent> Mutator::OnEvent(const std::string& robotID, const Planning::RobotEvent& event)
 {
     std::vector<Planning::RobotEvent> events{event};
+    if (std::holds_alternative<Planning::DriveRejected>(event))
+    {
+        _losers.insert(robotID);
+    }
     auto* const stateOrNull = std::get_if<Planning::StateChanged>(&events.front());
     if (Is(EMutation::StationaryTooEarly) && stateOrNull != nullptr
         && (stateOrNull->bOccupied || _stationary.contains(robotID)))

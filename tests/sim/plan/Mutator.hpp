@@ -38,6 +38,8 @@ private:
     std::map<std::string, Planning::Drive> _drives;                                ///< The latest of each robot.
     std::set<std::string> _denied;                                                 ///< CommandIDs.
     std::map<std::pair<std::string, std::string>, Planning::StartJob> _latestJobs; ///< By robot and action.
+    std::set<std::string> _losers;     ///< Robots that rejected or lost a drive, until their next step.
+    std::set<std::string> _lostPlans;  ///< Plans with a step of such a robot.
     std::set<std::string> _stationary; ///< Robots that count as stationary until their next drive.
 
 public:
@@ -54,7 +56,7 @@ public:
     [[nodiscard]] CommandOutcome OnCommand(const Planning::CommandRobot& command);
     [[nodiscard]] std::vector<Planning::RobotEvent> OnEvent(
         const std::string& robotID,
-        const Planning::RobotEvent& event) const;
+        const Planning::RobotEvent& event);
     [[nodiscard]] bool ShouldForgetTimer() const;
 
 private:

@@ -65,6 +65,11 @@ void RadioRobot::Forget()
     _robot.Forget();
 }
 
+void RadioRobot::PutOnNode()
+{
+    _robot.PutOnNode();
+}
+
 void RadioRobot::Calm()
 {
     _robot.rejectChance = 0;

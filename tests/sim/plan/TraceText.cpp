@@ -95,6 +95,12 @@ std::string Describe(const Planning::RobotEvent& event)
             [](const Planning::JobFailed& typed) {
                 return fmt::format("job {} failed: {}", typed.jobID, typed.reason);
             },
+            [](const Planning::JobRejected& typed) {
+                return fmt::format("job {} rejected: {}", typed.jobID, typed.reason);
+            },
+            [](const Planning::JobInterrupted& typed) {
+                return fmt::format("job {} interrupted: {}", typed.jobID, typed.reason);
+            },
             [](const Planning::JobUnknown& typed) { return fmt::format("job {} is unknown", typed.jobID); },
             [](const Planning::JobUnresolved& typed) {
                 return fmt::format("outcome of job {} unknown: {}", typed.jobID, typed.reason);

@@ -256,6 +256,12 @@ void VehicleRobot::ShowJobs()
         {
             _around.workChecker.OnJobFinished(_robotID, *jobOrNull);
         }
+        else if (
+            action.actionStatus == VDA5050::EActionStatus::Failed && bWasBegun
+            && state.operatingMode == VDA5050::EOperatingMode::Manual)
+        {
+            _around.workChecker.OnJobInterrupted(_robotID, *jobOrNull);
+        }
     }
 }
 
@@ -314,15 +320,14 @@ void VehicleRobot::Recover()
             static_cast<void>(_vehicle->EndFaults(kind, now, out));
         }
     });
-    if (_bLed)
+    if (std::exchange(_bLed, false) && _chance.IsHit(500))
     {
-        _bLed = false;
-        PutOnNode();
+        DriveByHand(); // otherwise it continues from where it is
     }
 }
 
 /// In manual mode the operator drives it to one end of the edge on which its order was lost, and sets its position.
-void VehicleRobot::PutOnNode()
+void VehicleRobot::DriveByHand()
 {
     const VDA5050::StateMessage state = _vehicle->GetState();
     if (!state.nodeStates.empty())
@@ -332,7 +337,7 @@ void VehicleRobot::PutOnNode()
     if (state.bDriving)
     {
         constexpr std::uint64_t HAND_KEY = 1'000; // not a timer of the vehicle
-        _timers.Start(HAND_KEY, 1s, [this] { PutOnNode(); });
+        _timers.Start(HAND_KEY, 1s, [this] { DriveByHand(); });
         return;
     }
     const Planning::SiteNode& node = *_around.site.FindNodeOrNull(_chance.Pick(_place));
@@ -353,6 +358,14 @@ void VehicleRobot::PutOnNode()
     Call([this, &topic, &text](Core::Now now, auto& out) { _vehicle->OnMessage({topic, text, 2, false}, now, out); });
 }
 
+void VehicleRobot::PutOnNode()
+{
+    if (_place.size() > 1 && !_vehicle->GetState().bDriving)
+    {
+        DriveByHand();
+    }
+}
+
 bool VehicleRobot::IsDisturbed() const
 {
     return _bDisturbed;
@@ -368,6 +381,15 @@ void VehicleRobot::Forget()
     _charge = _vehicle->GetState().batteryState.batteryCharge;
     _timers.CancelAll();
     _actions.clear();
+    for (const auto& [actionID, status] : _status)
+    {
+        const Planning::StartJob* const jobOrNull = _around.workChecker.FindCommandOrNull(actionID);
+        const bool bRuns = status == VDA5050::EActionStatus::Running || status == VDA5050::EActionStatus::Paused;
+        if (jobOrNull != nullptr && bRuns)
+        {
+            _around.workChecker.OnJobInterrupted(_robotID, *jobOrNull);
+        }
+    }
     _status.clear();
     _around.broker.Abandon(*_client);
     SwitchOn(_place.front());

@@ -78,6 +78,7 @@ public:
     void Disturb() override;
     void Recover() override;
     [[nodiscard]] bool IsDisturbed() const override;
+    void PutOnNode() override;
     void Forget() override;
     void OnFloorChanged() override;
     void Calm() override;
@@ -93,7 +94,7 @@ private:
     void Call(TCall call);
     void Execute(const VdaSim::VirtualAction& action);
     void Inject(VdaSim::Fault fault);
-    void PutOnNode();
+    void DriveByHand();
     void ShowPlace();
     void ShowJobs();
     void SeeFloor();

@@ -65,11 +65,19 @@ void WorkChecker::OnJobBegun(const std::string& robotID, const Planning::StartJo
 {
     _trace.Add("{} begins job {} of {} step {}", robotID, job.jobID, job.planID, job.stepNo);
     const JobKey key = MakeKey(job.planID, job.stepNo, job.jobID);
-    if (++_jobs[key].begun > 1)
+    JobTruth& truth = _jobs[key];
+    if (++truth.begun > 1 + std::min<std::size_t>(truth.interrupted, 1) || truth.finished > 0)
     {
         _trace.Violate("job {} of plan {} step {} is executed twice", job.jobID, job.planID, job.stepNo);
     }
     _floor.OnJobBegun(robotID, key);
+}
+
+void WorkChecker::OnJobInterrupted(const std::string& robotID, const Planning::StartJob& job)
+{
+    _trace.Add("{} interrupts job {} of {}", robotID, job.jobID, job.planID);
+    ++_jobs[MakeKey(job.planID, job.stepNo, job.jobID)].interrupted;
+    _floor.OnJobEnded(robotID);
 }
 
 void WorkChecker::OnJobFinished(const std::string& robotID, const Planning::StartJob& job)

@@ -24,6 +24,7 @@ public:
     struct JobTruth
     {
         std::size_t begun = 0;
+        std::size_t interrupted = 0; ///< Ended by a mode switch or a restart, before anything was moved.
         std::size_t finished = 0;
         bool bMoved = false; ///< What it moves is where the plan requires it, or was moved on from there.
     };
@@ -50,6 +51,8 @@ public:
     /// The robot occupies these nodes: one, or both ends of its edge.
     void OnPlaced(const std::string& robotID, std::vector<std::string> nodeIDs);
     void OnJobBegun(const std::string& robotID, const Planning::StartJob& job);
+    /// The robot has ended the job before it was done, without a fault: it may be executed once more.
+    void OnJobInterrupted(const std::string& robotID, const Planning::StartJob& job);
     void OnJobFinished(const std::string& robotID, const Planning::StartJob& job);
 
     [[nodiscard]] FloorChecker& GetFloor() noexcept;

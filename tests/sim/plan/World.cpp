@@ -19,6 +19,8 @@ namespace
 /// All work must be finished within this time after the last fault.
 constexpr std::chrono::hours SETTLING_LIMIT{2};
 constexpr std::chrono::seconds WATCH_INTERVAL{1};
+/// Time that a robot has to continue from where it is, after the last fault.
+constexpr std::chrono::minutes PATIENCE{30};
 
 /// The streams of the seed's random numbers.
 constexpr std::uint64_t NETWORK_PART = 101;
@@ -297,6 +299,7 @@ void World::Operate()
         _process->PushCommand(Planning::ControlTSC{bPause, 0});
     }
     ResolveJobs();
+    ClearRejections();
     _behaviours.Start(EBehaviour::Operator, _faultChance.GetBetween(1s, 60s), [this] { Operate(); });
 }
 
@@ -363,7 +366,25 @@ void World::ResolveJobs()
             : Planning::EJobResolution::Failed;
         const Planning::EJobResolution answer = truth.finished > 0 ? Planning::EJobResolution::Done : other;
         _trace.Add("operator: job {} of {} {}", jobID, *alarm.planID, GetText(answer));
+        if (answer == Planning::EJobResolution::Failed)
+        {
+            _judge.NoteFailedByOperator(*alarm.planID);
+        }
         _process->PushCommand(Planning::ResolveJob{*alarm.planID, jobID, answer, 0});
+    }
+}
+
+/// The operator has checked each robot that rejects its drives, and lets it try again.
+void World::ClearRejections()
+{
+    const std::vector<Planning::Alarm> alarms =
+        _process == nullptr ? std::vector<Planning::Alarm>() : _process->GetEngine().GetActiveAlarms();
+    for (const Planning::Alarm& alarm : alarms)
+    {
+        if (alarm.errorCode == "ACS-1012")
+        {
+            _process->PushCommand(Planning::ClearAlarms{alarm.robotID, alarm.errorCode, {}, {}, 0});
+        }
     }
 }
 
@@ -371,11 +392,17 @@ void World::ResolveJobs()
 void World::Watch()
 {
     ResolveJobs();
+    ClearRejections();
     if (_process != nullptr && _process->GetEngine().GetTscState() != Planning::ETscState::Auto)
     {
         _process->PushCommand(Planning::ControlTSC{false, 0});
     }
     _operator.PutAllIntoService();
+    if (_timeline.GetNow().steady > _deadline - SETTLING_LIMIT + PATIENCE)
+    {
+        // Two robots that are each between two nodes may block each other.
+        std::ranges::for_each(_robots, [](const auto& robot) { robot.second->PutOnNode(); });
+    }
     RemoveCarriers();
     const std::string unrest = DescribeUnrest();
     if (unrest.empty())

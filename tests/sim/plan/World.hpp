@@ -89,6 +89,7 @@ private:
     void TurnRobot(const std::string& robotID);
     void TurnRadio(const std::string& robotID);
     void ResolveJobs();
+    void ClearRejections();
     void Watch();
     void RemoveCarriers();
     [[nodiscard]] std::vector<std::string> GetPorts(std::string_view robotID) const;

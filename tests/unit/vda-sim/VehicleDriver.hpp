@@ -34,7 +34,12 @@ inline Planning::SiteMap MakeTestSite()
         return Planning::SiteNode{std::move(nodeID), x, y, "floor", {{"any", thetaOrNull}}};
     };
     const auto edge = [](std::string from, std::string to, double speed, double orientation, bool bRotation) {
-        Planning::SiteEdgeRule rule{"any", speed, std::nullopt, orientation, "TANGENTIAL", bRotation};
+        Planning::SiteEdgeRule rule;
+        rule.vehicleTypeID = "any";
+        rule.maxSpeed = speed;
+        rule.orientation = orientation;
+        rule.orientationType = "TANGENTIAL";
+        rule.bRotationAllowed = bRotation;
         std::string edgeID = from + "-" + to;
         return Planning::SiteEdge{std::move(edgeID), std::move(from), std::move(to), {std::move(rule)}};
     };

@@ -31,6 +31,7 @@ enum class EEngineTimer : std::uint8_t
     ChargeRetry,    ///< The robot does not show that it charges: repeat StartCharging.
     JobEnd,         ///< The robot has not reported the end of a cancelled job.
     DriveStall,     ///< The robot has passed no node for EngineOptions::stallTimeout.
+    RejectionRetry, ///< Send a command again to the robot that rejected one.
     LoadAlarm,      ///< The alarm about reported loads may be set or updated again.
 };
 

@@ -153,6 +153,9 @@ struct EngineOptions
     /// Time without a passed node after which a connected robot with released nodes ahead, not paused by a control, raises
     /// ACS-1009; at least three times the travel time of its next edge. 0 disables the alarm.
     std::chrono::milliseconds stallTimeout{60'000};
+    /// Number of drives to steps and jobs that a robot rejects in a row before it is unavailable (ACS-1012); at least 1.
+    std::size_t maximumRejections = 3;
+    std::chrono::milliseconds rejectionRetry{2'000}; ///< Delay before a rejected drive or job is commanded again.
     /// Delay before a robot that rejected the drive to its parking position is sent again; doubled each time, up to 64 times
     /// this value.
     std::chrono::milliseconds homeRetry{5'000};

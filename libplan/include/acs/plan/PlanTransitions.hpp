@@ -19,8 +19,8 @@ struct Transition
     TState to;
 };
 
-/// The transitions that section 7 of MCS-ACS allows, and the one that section 6.13 requires. The engine makes no other
-/// transition.
+/// The transitions that section 7 of MCS-ACS allows, the one that section 6.13 requires, and those of a plan that another robot
+/// takes over. The engine makes no other transition.
 inline constexpr std::array PLAN_TRANSITIONS{
     Transition<EPlanState>{EPlanState::Pending, EPlanState::InProgress},
     Transition<EPlanState>{EPlanState::Pending, EPlanState::Paused},
@@ -41,6 +41,8 @@ inline constexpr std::array STEP_TRANSITIONS{
     Transition<EStepState>{EStepState::Pending, EStepState::Skipped},
     Transition<EStepState>{EStepState::Dispatched, EStepState::InProgress},
     Transition<EStepState>{EStepState::Dispatched, EStepState::Failed},
+    Transition<EStepState>{EStepState::Dispatched, EStepState::Dispatched}, // to another robot, before the first job
+    Transition<EStepState>{EStepState::InProgress, EStepState::Dispatched}, // likewise
     Transition<EStepState>{EStepState::InProgress, EStepState::Completed},
     Transition<EStepState>{EStepState::InProgress, EStepState::Failed},
     Transition<EStepState>{EStepState::InProgress, EStepState::Skipped}, // SkipStep of a step with an unresolved job

@@ -82,8 +82,8 @@ struct CancelDrive
     bool operator==(const CancelDrive&) const = default;
 };
 
-/// Execute a job at the current position. Answered by JobStarted and then JobFinished or JobFailed; by JobUnknown if the job
-/// was certainly not started and may be sent again; or by JobUnresolved if its outcome cannot be known. All locations are
+/// Execute a job at the current position. Answered by JobStarted and then JobFinished, JobFailed or JobInterrupted; by
+/// JobRejected, or by JobUnknown if it was not received and may be sent again; or by JobUnresolved if its outcome cannot be known. All locations are
 /// canonical and name the robot itself ("LR01.CP01", never "AMR.CP01").
 struct StartJob
 {

@@ -99,7 +99,8 @@ struct Arrived
     bool operator==(const Arrived&) const = default;
 };
 
-/// The robot has rejected or abandoned the drive. It has stopped and keeps nothing of it.
+/// The robot has rejected or abandoned the drive. It has stopped and keeps nothing of it. The engine commands another drive from
+/// where the robot is then, until the robot has rejected too many commands in a row (EngineOptions::maximumRejections).
 struct DriveRejected
 {
     std::string driveID;
@@ -141,6 +142,27 @@ struct JobFailed
     bool operator==(const JobFailed&) const = default;
 };
 
+/// The robot has rejected the job and will not execute it. The engine commands it again, with the same commandID, until the robot
+/// has rejected too many commands in a row (EngineOptions::maximumRejections).
+struct JobRejected
+{
+    std::string jobID;
+    std::string reason;
+
+    bool operator==(const JobRejected&) const = default;
+};
+
+/// The robot has ended the job before it was done, without a fault: its mode was switched, or it was restarted. It shows that
+/// nothing was moved. The engine commands the job once more, with another commandID. A robot that does not show whether the job
+/// was done raises JobUnresolved instead.
+struct JobInterrupted
+{
+    std::string jobID;
+    std::string reason;
+
+    bool operator==(const JobInterrupted&) const = default;
+};
+
 /// The robot shows that it never received the job: it can be commanded again without the risk of a second execution.
 struct JobUnknown
 {
@@ -180,6 +202,8 @@ using RobotEvent = std::variant<
     JobStarted,
     JobFinished,
     JobFailed,
+    JobRejected,
+    JobInterrupted,
     JobUnknown,
     JobUnresolved,
     JobCheckChanged>;

@@ -429,12 +429,15 @@ TEST_CASE("robot.* and robots.NAME.charge are read; a charging station is no oth
     const Acsd::AcsdConfig config = Read(
         {"robot.battery_floor=15",
          "robot.battery_resume=90",
+         "robot.max_rejections=5",
          "robot.taken_port=load",
          "robots.LR01.charge=CHG01",
          "mcs.position_while_moving=target"});
     REQUIRE(config.errors.empty());
     CHECK(config.engine.dispatch.batteryFloor == 15);
     CHECK(config.engine.dispatch.batteryResume == 90);
+    CHECK(config.engine.maximumRejections == 5);
+    CHECK(Read({}).engine.maximumRejections == 3);
     CHECK(config.engine.dispatch.bLoadsIntoTakenPorts);
     CHECK(config.engine.robots.back().chargingStationID == "CHG01");
     CHECK(config.engine.movingPosition == Planning::EMovingPosition::Target);
@@ -451,5 +454,6 @@ TEST_CASE("robot.* and robots.NAME.charge are read; a charging station is no oth
     CHECK(errors.find("robots.LR01.charge") != std::string::npos);
     CHECK(errors.find("robots.CR01.charge") != std::string::npos);
     CHECK(Read({"robot.battery_floor=-1"}).errors.size() == 1);
+    CHECK(Read({"robot.max_rejections=0"}).errors.size() == 1);
     CHECK(Read({"mcs.position_while_moving=here"}).errors.size() == 1);
 }

@@ -222,4 +222,79 @@ TEST_CASE("After a restart a finished action is held against the loads too")
     CHECK(vehicle.TakeEvents<JobFinished>() == std::vector<JobFinished>{{"J"}});
 }
 
+TEST_CASE("A job that was interrupted is judged by the loads when the vehicle is in automatic mode again")
+{
+    LoadFixture vehicle;
+    Planning::StartJob job = MakeJob("Shift");
+    job.from = "LR01.CP01";
+    job.to = "LR01.CP02";
+    vehicle.Show({LoadFixture::MakeLoad("CP01", "C1")});
+    vehicle.Command(job);
+    vehicle.ShowOrder(vehicle.TakeOrders().at(0), {});
+    vehicle.state.actionStates = {{"U1", "shift", "", VDA5050::EActionStatus::Running, ""}};
+    vehicle.ShowState();
+    vehicle.state.operatingMode = VDA5050::EOperatingMode::Manual;
+    vehicle.state.actionStates = {{"U1", "shift", "", VDA5050::EActionStatus::Failed, "the mode changed"}};
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::JobFailed>().empty());
+    vehicle.state.operatingMode = VDA5050::EOperatingMode::Automatic;
+    SECTION("nothing was moved")
+    {
+        vehicle.ShowState();
+        CHECK(
+            vehicle.TakeEvents<Planning::JobInterrupted>()
+            == std::vector<Planning::JobInterrupted>{{"J", "the mode changed"}});
+        CHECK(vehicle.TakeEvents<JobFinished>().empty());
+    }
+    SECTION("the operator has completed it")
+    {
+        vehicle.Show({LoadFixture::MakeLoad("rear", "C1")});
+        CHECK(vehicle.TakeEvents<JobFinished>().size() == 1);
+        CHECK(vehicle.TakeEvents<Planning::JobInterrupted>().empty());
+    }
+    SECTION("the loads prove neither")
+    {
+        vehicle.Show({});
+        const auto unresolved = vehicle.TakeEvents<JobUnresolved>();
+        REQUIRE(unresolved.size() == 1);
+        CHECK(unresolved[0].reason == "the mode changed; the loads of the vehicle do not show whether it was done");
+    }
+    SECTION("it is cancelled meanwhile")
+    {
+        vehicle.Command(Planning::CancelJob{"J"});
+        CHECK(vehicle.TakeEvents<Planning::JobFailed>().size() == 1);
+        vehicle.ShowState();
+        CHECK(vehicle.TakeEvents<Planning::JobInterrupted>().empty());
+    }
+    vehicle.ShowState();
+    CHECK(
+        vehicle.TakeEvents<Planning::JobInterrupted>().size() + vehicle.TakeEvents<JobFinished>().size()
+            + vehicle.TakeEvents<JobUnresolved>().size() + vehicle.TakeEvents<Planning::JobFailed>().size()
+        == 1);
+}
+
+TEST_CASE("A job whose order the vehicle lost is judged at once; without loads an operator resolves it")
+{
+    LoadFixture vehicle;
+    const bool bShowsLoads = GENERATE(true, false);
+    if (!bShowsLoads)
+    {
+        vehicle.state.loads.reset();
+    }
+    Planning::StartJob job = MakeJob("CassetteLoad");
+    job.from = "A01.CP01";
+    job.to = "LR01.CP02";
+    vehicle.Command(job);
+    vehicle.ShowOrder(vehicle.TakeOrders().at(0), {});
+    vehicle.state.actionStates = {{"U1", "pick", "", VDA5050::EActionStatus::Running, ""}};
+    vehicle.ShowState();
+    vehicle.state.orderID.clear(); // it was restarted
+    vehicle.state.actionStates.clear();
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::JobInterrupted>().size() == (bShowsLoads ? 1U : 0U));
+    const auto unresolved = vehicle.TakeEvents<JobUnresolved>();
+    REQUIRE(unresolved.size() == (bShowsLoads ? 0U : 1U));
+    CHECK((bShowsLoads || unresolved[0].reason.ends_with("; the vehicle reports no loads")));
+}
+
 } // namespace ACS::Acsd::Test

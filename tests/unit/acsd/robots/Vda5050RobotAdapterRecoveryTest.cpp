@@ -64,7 +64,7 @@ TEST_CASE("After a restart a job whose action runs is watched to its end, and th
     lost.state.orderID.clear();
     lost.state.actionStates.clear();
     lost.ShowState();
-    CHECK(lost.TakeEvents<Planning::JobFailed>().size() == 1);
+    CHECK(lost.TakeEvents<Planning::JobUnresolved>().size() == 1);
 }
 
 TEST_CASE(

@@ -171,6 +171,22 @@ TEST_CASE("A rejected order is reported with the vehicle's reason")
     CHECK(rejected[0].reason.find("too far away") != std::string::npos);
 }
 
+TEST_CASE("A rejected order of a job rejects the job")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    vehicle.Command(MakeJob("CassetteLoad"));
+    VDA5050::VehicleError error;
+    error.errorType = "validationError";
+    error.errorReferences = {{"orderId", "U1"}, {"orderUpdateId", "0"}, {"topic", "order"}};
+    vehicle.state.errors = {error};
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::JobFailed>().empty());
+    const auto rejected = vehicle.TakeEvents<Planning::JobRejected>();
+    REQUIRE(rejected.size() == 1);
+    CHECK(rejected[0].jobID == "J");
+}
+
 TEST_CASE("A command that comes before the vehicle has finished waits and is sent then")
 {
     VehicleFixture vehicle;

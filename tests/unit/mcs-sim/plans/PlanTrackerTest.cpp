@@ -425,6 +425,44 @@ TEST_CASE("A plan that moves to another robot is a violation")
     CHECK(fixture.GetViolation() == "P1 moved from LR01 to LR02");
 }
 
+TEST_CASE("Another robot may take over a plan with StepReport(Dispatched) before the first job, and not after it")
+{
+    PlanTrackerFixture fixture;
+    ACS::Protocol::StepReport other = MakeStepReport("P1", 1, EStepStatus::Dispatched);
+    other.robotID = "LR02";
+    SECTION("before")
+    {
+        fixture.tracker.OnRegistered();
+        fixture.Send();
+        fixture.Ack(0);
+        fixture.Report(
+            {MakePlanReport("P1", EPlanStatus::InProgress),
+             MakeStepReport("P1", 1, EStepStatus::Dispatched),
+             MakeStepReport("P1", 1, EStepStatus::InProgress),
+             other});
+        CHECK(fixture.tracker.CountViolations() == 0);
+        fixture.Report({MakeStepReport("P1", 1, EStepStatus::InProgress)}); // of the first robot
+        CHECK(fixture.GetViolation() == "P1 moved from LR02 to LR01");
+    }
+    SECTION("to the same robot")
+    {
+        fixture.tracker.OnRegistered();
+        fixture.Send();
+        fixture.Ack(0);
+        fixture.Report(
+            {MakePlanReport("P1", EPlanStatus::InProgress),
+             MakeStepReport("P1", 1, EStepStatus::Dispatched),
+             MakeStepReport("P1", 1, EStepStatus::Dispatched)});
+        CHECK(fixture.GetViolation() == "P1 StepReport step 1 Dispatched after Dispatched");
+    }
+    SECTION("after")
+    {
+        fixture.RunFirstJob();
+        fixture.Report({other});
+        CHECK(fixture.tracker.CountViolations() > 0);
+    }
+}
+
 TEST_CASE("D-24 A first report of Pending is no violation")
 {
     PlanTrackerFixture fixture;

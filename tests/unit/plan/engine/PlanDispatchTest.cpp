@@ -243,7 +243,7 @@ TEST_CASE("A robot that loses its drive while it moves keeps the nodes ahead unt
     world.Raise("LR01", state);
     const std::size_t line = world.trace.size();
     world.Raise("LR01", DriveRejected{world.GetRobot("LR01").GetDriveID(), "the vehicle lost the order"});
-    CHECK(world.GetReportsOf("P1").back() == "Plan Failed");
+    CHECK(world.GetReportsOf("P1").back() == "Step 1 InProgress");
     CHECK(ACS::Testing::FindLine(world, "command CR01", line) == world.trace.size()); // it waits at L02
     state.x = 0.9;
     state.bDriving = false;

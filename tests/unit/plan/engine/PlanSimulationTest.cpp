@@ -121,6 +121,7 @@ TEST_CASE("With random controls, rejected drives and failed jobs every plan ends
             world.GetRobot("CR02").bFinishesJobs = world.GetRandom(2) == 0;
         }
         world.GetRobot("LR01").bRejectDrives = false;
+        world.Ask(ClearAlarms{"LR01", "ACS-1012", {}, {}, 0});
         REQUIRE(world.TryRun());
         for (const PlanSummary& paused : world.engine->GetActivePlans())
         {

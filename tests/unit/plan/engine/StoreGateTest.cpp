@@ -147,7 +147,7 @@ TEST_CASE("StoreGate: the first job of a plan that is not stored as begun is wit
     const CallOutcome failed = parts.EndStore(false);
     CHECK(failed.ListCommands<StartJob>().empty());
     CHECK(plan.bUnstored);
-    CHECK(plan.repeatedCommandID == commandID);
+    CHECK(plan.repetition.commandID == commandID);
     CHECK(parts.lr.activity == EActivity::Waits);
 }
 

@@ -18,7 +18,7 @@ SiteMap MakeLine()
         nodes[i].nodeID = std::string(1, static_cast<char>('A' + i));
         nodes[i].x = 10.0 * static_cast<double>(i);
     }
-    return *SiteMap::Create(nodes, {}, {});
+    return *SiteMap::Create(nodes, {{"A>B", "A", "B", {}}, {"B>C", "B", "C", {}}}, {});
 }
 
 StateChanged MakeStopped(double x, double y = 0)
@@ -64,4 +64,18 @@ TEST_CASE("FindNodesAhead: a robot away from the route, or without a pose, keeps
     StateChanged lost = MakeStopped(5);
     lost.bPoseKnown = false;
     CHECK(Find(lost).empty());
+}
+
+TEST_CASE(
+    "FindNodesBeside: a robot off its node whose route is unknown is between it and a neighbour, in either direction")
+{
+    const SiteMap line = MakeLine();
+    CHECK(FindNodesBeside(line, MakeStopped(0), 0).empty());
+    CHECK(FindNodesBeside(line, MakeStopped(5), 0) == Indices{1});
+    CHECK(FindNodesBeside(line, MakeStopped(5), 1) == Indices{0});
+    CHECK(FindNodesBeside(line, MakeStopped(15), 1) == Indices{2});
+    CHECK(FindNodesBeside(line, MakeStopped(5, 0.6), 0).empty());
+    StateChanged driving = MakeStopped(5);
+    driving.bDriving = true;
+    CHECK(FindNodesBeside(line, driving, 0).empty());
 }

@@ -223,3 +223,48 @@ TEST_CASE("TrafficCoordinator: a reroute that was planned for another load is no
         CHECK(parts.lr.drive.has_value() != bChanged);
     }
 }
+
+TEST_CASE(
+    "TrafficCoordinator: a robot that is stationary between two nodes continues on its lane, if its route allows it")
+{
+    EngineParts parts;
+    parts.BeginDriveToLoad();
+    parts.lr.drive->bConfirmed = true;
+    REQUIRE(parts.coordinator.TryAdvance(parts.lr, 1));
+    const SiteNode& node = *parts.engine.site.FindNodeOrNull("L01");
+    const SiteNode& next = *parts.engine.site.FindNodeOrNull("L02");
+    StateChanged& state = *parts.lr.view.state;
+    state.lastNodeID = "L01";
+    state.bPoseKnown = true;
+    state.x = (node.x + next.x) / 2;
+    state.y = (node.y + next.y) / 2;
+    parts.coordinator.EndDrive(parts.lr);
+    REQUIRE(parts.lr.place.aheadNodes == std::vector<std::size_t>{parts.FindNode("L02")});
+    parts.Discard();
+    SECTION("to its step")
+    {
+        REQUIRE(parts.coordinator.TryDrive(parts.lr) == EDriveAttempt::Begun);
+        const auto drives = parts.Collect().ListCommands<Drive>();
+        REQUIRE(drives.size() == 1);
+        const std::vector<RouteNode>& nodes = drives.front().route.nodes;
+        CHECK(nodes[0].nodeID == "L01");
+        CHECK(nodes[1].nodeID == "L02");
+        CHECK(nodes[0].allowedDeviation > GetDistance(node, next) / 2);
+        CHECK(nodes[1].allowedDeviation == RouteNode{}.allowedDeviation);
+        CHECK(drives.front().route.edges.size() + 1 == nodes.size());
+    }
+    SECTION("to a place that it has passed: round the loop")
+    {
+        const auto route = parts.coordinator.PlanRouteOrNull(parts.lr, parts.FindNode("D-CHG01"), {});
+        REQUIRE(route.has_value());
+        CHECK(std::ranges::count(route->nodes, parts.FindNode("L01")) == 2);
+        CHECK(route->nodes[1] == parts.FindNode("L02"));
+        CHECK(route->nodes.back() == parts.FindNode("D-CHG01"));
+    }
+    SECTION("to the node that it has left")
+    {
+        parts.lr.parking.retreatNode = parts.FindNode("L01");
+        CHECK(parts.coordinator.TryDrive(parts.lr) == EDriveAttempt::Begun);
+        CHECK(parts.lr.drive->nodes.back() == parts.FindNode("L01"));
+    }
+}

@@ -11,7 +11,7 @@ namespace
 
 struct DriveParts : EngineParts
 {
-    DriveOutcomes drives{engine, tsc, answers, places, waiting, coordinator, work, controls};
+    DriveOutcomes drives{engine, tsc, answers, rejections, places, waiting, coordinator, work, controls};
 
     [[nodiscard]] std::string GetDriveID() const
     {
@@ -70,15 +70,21 @@ TEST_CASE("DriveOutcomes: an arrival ends a plan that is to be aborted, and fail
         plan.record.progress.state == (control == EPlanControl::Abort ? EPlanState::Aborted : EPlanState::InProgress));
 }
 
-TEST_CASE("DriveOutcomes: a rejected drive fails the plan, one to the parking position is repeated later")
+TEST_CASE("DriveOutcomes: the plan of a rejected drive waits, one to the parking position is repeated later")
 {
     DriveParts parts;
     SECTION("to a step")
     {
         ActivePlan& plan = parts.BeginDriveToLoad();
         parts.drives.OnDriveRejected(parts.lr, DriveRejected{parts.GetDriveID(), "blocked"});
-        CHECK(plan.record.progress.state == EPlanState::Failed);
-        CHECK_FALSE(parts.Collect().GetDelayOrNull(EEngineTimer::HomeRetry).has_value());
+        CHECK(plan.record.progress.state == EPlanState::InProgress);
+        CHECK(parts.lr.planOrNull == &plan);
+        CHECK(parts.lr.activity == EActivity::Waits);
+        CHECK_FALSE(parts.lr.drive.has_value());
+        CHECK(parts.lr.view.rejections.GetCount() == 1);
+        const CallOutcome outcome = parts.Collect();
+        CHECK(outcome.GetDelayOrNull(EEngineTimer::RejectionRetry).has_value());
+        CHECK_FALSE(outcome.GetDelayOrNull(EEngineTimer::HomeRetry).has_value());
     }
     SECTION("to the parking position")
     {
@@ -118,6 +124,38 @@ TEST_CASE("DriveOutcomes: a cancelled drive ends the plan that was to end, and n
     SECTION("nothing was to be cancelled")
     {
         parts.drives.OnDriveCancelled(parts.lr, DriveCancelled{parts.GetDriveID(), "L01"});
-        CHECK(plan.record.progress.state == EPlanState::Failed);
+        CHECK(plan.record.progress.state == EPlanState::InProgress);
+        CHECK(parts.lr.view.rejections.GetReason() == "it was cancelled");
+        CHECK(parts.lr.place.node == parts.FindNode("L01"));
     }
+}
+
+TEST_CASE("DriveOutcomes: each node after the first and the arrival end a row of rejected drives")
+{
+    DriveParts parts;
+    parts.BeginDriveToLoad();
+    parts.lr.view.rejections.Add("no route", 3);
+    parts.drives.OnNodePassed(parts.lr, NodePassed{parts.GetDriveID(), "D-CHG01"});
+    CHECK(parts.lr.view.rejections.GetCount() == 1);
+    SECTION("a node")
+    {
+        parts.drives.OnNodePassed(parts.lr, NodePassed{parts.GetDriveID(), "L01"});
+    }
+    SECTION("the arrival")
+    {
+        parts.drives.OnArrived(parts.lr, Arrived{parts.GetDriveID()});
+    }
+    CHECK(parts.lr.view.rejections.GetCount() == 0);
+}
+
+TEST_CASE(
+    "DriveOutcomes: the plan of a robot that entered a reserved node fails, and the place of the robot is unknown")
+{
+    DriveParts parts;
+    ActivePlan& plan = parts.BeginDriveToLoad();
+    parts.PutOn(parts.cr, "D-A01.CP01");
+    parts.drives.OnArrived(parts.lr, Arrived{parts.GetDriveID()});
+    CHECK(plan.record.progress.state == EPlanState::Failed);
+    CHECK_FALSE(parts.lr.place.bPlaced);
+    CHECK(parts.lr.view.rejections.GetCount() == 0);
 }

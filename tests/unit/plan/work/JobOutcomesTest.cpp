@@ -116,3 +116,70 @@ TEST_CASE("JobOutcomes: an unresolved job waits for the operator, whatever the r
     CHECK(GetJobState(plan) == EJobState::Instructed);
     CHECK(parts.lr.job.IsUnresolved());
 }
+
+TEST_CASE("JobOutcomes: a rejected job is commanded again under its commandID when the robot may be sent one")
+{
+    EngineParts parts;
+    ActivePlan& plan = parts.BeginLoad();
+    const std::string commandID = parts.lr.job.GetOrNull()->commandID;
+    parts.jobs.OnJobRejected(parts.lr, JobRejected{"another", "no route"});
+    CHECK(parts.lr.job.GetOrNull() != nullptr);
+    parts.jobs.OnJobRejected(parts.lr, JobRejected{"P1-a4", "no route"});
+    CHECK(plan.record.progress.state == EPlanState::InProgress);
+    CHECK(GetJobState(plan) == EJobState::Instructed);
+    CHECK(parts.lr.activity == EActivity::Waits);
+    CHECK(parts.lr.GetUnavailability() == EUnavailability::Rejecting);
+    parts.rejections.OnRetryDue(parts.lr);
+    parts.Discard();
+    parts.work.BeginWork(parts.lr);
+    const auto jobs = parts.Collect().ListCommands<StartJob>();
+    REQUIRE(jobs.size() == 1);
+    CHECK(jobs.front().commandID == commandID);
+    parts.jobs.OnJobStarted(parts.lr, JobStarted{"P1-a4"});
+    CHECK(parts.lr.view.rejections.GetCount() == 0);
+}
+
+TEST_CASE("JobOutcomes: an interrupted job is repeated once under another commandID, then an operator resolves it")
+{
+    EngineParts parts;
+    ActivePlan& plan = parts.BeginLoad();
+    const std::string commandID = parts.lr.job.GetOrNull()->commandID;
+    parts.jobs.OnJobStarted(parts.lr, JobStarted{"P1-a4"});
+    parts.Discard();
+    parts.jobs.OnJobInterrupted(parts.lr, JobInterrupted{"P1-a4", "manual mode"});
+    parts.work.BeginWork(parts.lr);
+    const CallOutcome repeated = parts.Collect();
+    REQUIRE(repeated.ListCommands<StartJob>().size() == 1);
+    CHECK(repeated.ListCommands<StartJob>().front().commandID != commandID);
+    CHECK(repeated.ListReports<JobReport>().empty());
+    CHECK(GetJobState(plan) == EJobState::InProgress);
+    SECTION("it is interrupted again")
+    {
+        parts.jobs.OnJobInterrupted(parts.lr, JobInterrupted{"P1-a4", "manual mode"});
+        CHECK(parts.lr.job.IsUnresolved());
+        CHECK(parts.Collect().ListChanges<AlarmSet>().front().alarm.errorCode == "ACS-1008");
+        CHECK(plan.record.progress.state == EPlanState::InProgress);
+    }
+    SECTION("it is done, and the next job may be interrupted too")
+    {
+        parts.jobs.OnJobFinished(parts.lr, JobFinished{"P1-a4"});
+        CHECK(plan.step == 1);
+        CHECK_FALSE(plan.repetition.bInterrupted);
+    }
+}
+
+TEST_CASE("JobOutcomes: a job that is rejected or interrupted while its plan is aborted ends the plan")
+{
+    EngineParts parts;
+    ActivePlan& plan = parts.BeginLoad();
+    parts.controls.Control(ControlPlan{EPlanControl::Abort, "P1", {}, 7, {}});
+    SECTION("rejected")
+    {
+        parts.jobs.OnJobRejected(parts.lr, JobRejected{"P1-a4", "no route"});
+    }
+    SECTION("interrupted")
+    {
+        parts.jobs.OnJobInterrupted(parts.lr, JobInterrupted{"P1-a4", "manual mode"});
+    }
+    CHECK(plan.record.progress.state == EPlanState::Aborted);
+}

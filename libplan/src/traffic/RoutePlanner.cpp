@@ -1,0 +1,112 @@
+#include "traffic/RoutePlanner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace ACS::Planning
+{
+
+namespace
+{
+
+/// The second route begins at the last node of the first one.
+Route Join(Route first, Route second)
+{
+    first.nodes.insert(
+        first.nodes.end(),
+        std::make_move_iterator(second.nodes.begin() + 1),
+        std::make_move_iterator(second.nodes.end()));
+    first.edges.insert(
+        first.edges.end(),
+        std::make_move_iterator(second.edges.begin()),
+        std::make_move_iterator(second.edges.end()));
+    first.travelSeconds += second.travelSeconds;
+    return first;
+}
+
+} // namespace
+
+RoutePlanner::RoutePlanner(const SiteMap& site)
+    : _site(site),
+      _router(site)
+{
+}
+
+const Router& RoutePlanner::GetRouter() const noexcept
+{
+    return _router;
+}
+
+bool RoutePlanner::HasRoute(const Robot& robot, std::size_t target)
+{
+    const std::optional<PlannedRoute>& planned = robot.search.plannedRoute;
+    return planned.has_value() && planned->target == target && planned->load == robot.GetLoad();
+}
+
+bool RoutePlanner::TryPlanRoute(Robot& robot, std::size_t target) const
+{
+    if (!HasRoute(robot, target))
+    {
+        robot.search.plannedRoute = PlanRouteOrNull(robot, target, {});
+    }
+    return robot.search.plannedRoute.has_value();
+}
+
+std::optional<PlannedRoute> RoutePlanner::PlanRouteOrNull(
+    const Robot& robot,
+    std::size_t target,
+    const Router::NodeFilter& isExcluded) const
+{
+    const std::vector<SiteNode>& nodes = _site.GetNodes();
+    std::optional<Route> lane = FindLaneOrNull(robot, target);
+    const std::string startID = lane.has_value() ? lane->nodes.back().nodeID : nodes[*robot.place.node].nodeID;
+    std::optional<Route> route =
+        _router
+            .FindRouteOrNull(robot.options->vehicleTypeID, robot.GetLoad(), startID, nodes[target].nodeID, isExcluded);
+    if (!route.has_value())
+    {
+        return std::nullopt;
+    }
+    if (lane.has_value())
+    {
+        route = Join(std::move(*lane), std::move(*route));
+    }
+    PlannedRoute plannedRoute;
+    plannedRoute.target = target;
+    plannedRoute.load = robot.GetLoad();
+    for (const RouteNode& node : route->nodes)
+    {
+        plannedRoute.nodes.push_back(*_site.FindNodeIndexOrNull(node.nodeID));
+    }
+    plannedRoute.route = std::move(*route);
+    return plannedRoute;
+}
+
+std::optional<Route> RoutePlanner::FindLaneOrNull(const Robot& robot, std::size_t target) const
+{
+    if (!robot.place.heading.has_value() || !robot.view.state.has_value())
+    {
+        return std::nullopt;
+    }
+    const std::vector<SiteNode>& nodes = _site.GetNodes();
+    const std::string& vehicleTypeID = robot.options->vehicleTypeID;
+    const std::string& nextID = nodes[*robot.place.heading].nodeID;
+    const ELoad load = robot.GetLoad();
+    std::optional<Route> lane =
+        _router.FindRouteOrNull(vehicleTypeID, load, nodes[*robot.place.node].nodeID, nextID, {});
+    if (!lane.has_value() || lane->edges.size() != 1
+        || !_router.FindRouteOrNull(vehicleTypeID, load, nextID, nodes[target].nodeID, {}).has_value())
+    {
+        return std::nullopt;
+    }
+    // Otherwise the robot would reject the drive: it is farther from the first node than the map allows.
+    constexpr double MARGIN = 0.1;
+    RouteNode& first = lane->nodes.front();
+    const double distance = std::hypot(robot.view.state->x - first.x, robot.view.state->y - first.y);
+    first.allowedDeviation = std::max(first.allowedDeviation, distance + MARGIN);
+    return lane;
+}
+
+} // namespace ACS::Planning

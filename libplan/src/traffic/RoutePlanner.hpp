@@ -1,0 +1,40 @@
+#pragma once
+
+#include "robot/ActiveDrive.hpp"
+#include "robot/Robot.hpp"
+#include <acs/plan/Router.hpp>
+#include <acs/plan/SiteMap.hpp>
+
+#include <cstddef>
+#include <optional>
+
+namespace ACS::Planning
+{
+
+/// Owns the router. Plans the routes of robots, with their present load and from where they are.
+class RoutePlanner
+{
+    const SiteMap& _site;
+    Router _router;
+
+public:
+    /// The site must outlive the planner.
+    explicit RoutePlanner(const SiteMap& site);
+
+    [[nodiscard]] const Router& GetRouter() const noexcept;
+    /// Whether its planned route leads to the target, and may be driven with its present load.
+    [[nodiscard]] static bool HasRoute(const Robot& robot, std::size_t target);
+    /// Plans its route to the target if it has none. False: there is none.
+    [[nodiscard]] bool TryPlanRoute(Robot& robot, std::size_t target) const;
+    /// The quickest route that avoids the excluded nodes.
+    [[nodiscard]] std::optional<PlannedRoute> PlanRouteOrNull(
+        const Robot& robot,
+        std::size_t target,
+        const Router::NodeFilter& isExcluded) const;
+    /// The lane from the robot's node to the next one, if the robot is stationary between the two. It cannot turn round there, so
+    /// its route begins with this lane, and may pass its node again. nullopt if the robot is on its node, or if the target cannot
+    /// be reached in this way.
+    [[nodiscard]] std::optional<Route> FindLaneOrNull(const Robot& robot, std::size_t target) const;
+};
+
+} // namespace ACS::Planning
