@@ -104,7 +104,10 @@ void ControlAnswers::StopConfirmingControl(Robot& robot)
 
 void ControlAnswers::LeavePause(ActivePlan& plan, std::string message)
 {
-    _transaction.ChangePlan(plan, IsBegun(plan) ? EPlanState::InProgress : EPlanState::Pending, std::move(message));
+    _transaction.ChangePlan(
+        plan,
+        plan.robot.has_value() ? EPlanState::InProgress : EPlanState::Pending,
+        std::move(message));
 }
 
 void ControlAnswers::ReleasePause(Robot& robot)

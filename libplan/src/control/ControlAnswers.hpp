@@ -39,7 +39,7 @@ public:
     void StopConfirming(Robot& robot);
     /// As StopConfirming; a pending reroute gets its full time again.
     void StopConfirmingControl(Robot& robot);
-    /// A paused plan becomes InProgress, or Pending if no robot has had it.
+    /// A paused plan becomes InProgress, or Pending without a robot.
     void LeavePause(ActivePlan& plan, std::string message);
     /// Commands the robot to resume if the engine has paused it.
     void ReleasePause(Robot& robot);

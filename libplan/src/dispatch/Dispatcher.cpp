@@ -53,6 +53,15 @@ Robot* Dispatcher::FindNearestOrNull(const ActivePlan& plan)
     return bAll ? &_fleet[plan.resolved.candidates.front()] : nullptr;
 }
 
+Robot* Dispatcher::FindSuccessorOrNull(ActivePlan& plan)
+{
+    for (const std::size_t index : plan.resolved.candidates)
+    {
+        CheckJobs(plan, _fleet[index]); // only plans without a robot are checked when a factsheet changes
+    }
+    return FindNearestOrNull(plan);
+}
+
 Robot* Dispatcher::FindQuickestOrNull(const ActivePlan& plan, const std::vector<Robot*>& robots) const
 {
     // One search per vehicle type and load.

@@ -30,6 +30,8 @@ public:
     /// The nearest robot that is free, can do the jobs and has suitable ports. Robots whose record has the carriers come before
     /// those where they are only assumed.
     [[nodiscard]] Robot* FindNearestOrNull(const ActivePlan& plan);
+    /// The nearest robot that can take over a plan from its robot, which is not free.
+    [[nodiscard]] Robot* FindSuccessorOrNull(ActivePlan& plan);
     [[nodiscard]] const PortCheck& GetPorts() const noexcept;
     /// Whether a route leads to the plan's first station. Uses the router's cached times instead of a route search.
     [[nodiscard]] bool HasWay(const ActivePlan& plan, const Robot& robot) const;

@@ -247,6 +247,7 @@ void PlanEngine::Impl::Dispatch()
         // The start of a plan must be stored before the plan is executed.
         if (_tsc.GetState() == ETscState::Auto && !_engine.backlog.IsFailing())
         {
+            HandOverPlans();
             AssignPlans();
         }
         _drives.MoveWaiting();
@@ -270,6 +271,23 @@ void PlanEngine::Impl::AssignPlans()
         if (Robot* robotOrNull = _dispatcher.FindNearestOrNull(*plan); robotOrNull != nullptr)
         {
             _work.BeginPlan(*plan, *robotOrNull);
+        }
+    }
+}
+
+void PlanEngine::Impl::HandOverPlans()
+{
+    for (Robot& robot : _engine.fleet)
+    {
+        if (robot.view.rejections.GetState() != ERejection::Exhausted || robot.planOrNull == nullptr
+            || robot.drive.has_value() || !_work.CanHandOver(*robot.planOrNull))
+        {
+            continue;
+        }
+        ActivePlan& plan = *robot.planOrNull;
+        if (Robot* successorOrNull = _dispatcher.FindSuccessorOrNull(plan); successorOrNull != nullptr)
+        {
+            _work.HandOver(plan, *successorOrNull);
         }
     }
 }

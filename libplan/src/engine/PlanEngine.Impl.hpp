@@ -89,6 +89,8 @@ private:
     void Begin(Core::Now now);
     void Dispatch();
     void AssignPlans();
+    /// Gives plans of robots that reject their commands to other robots.
+    void HandOverPlans();
     void End(EngineActions& out);
     void OnRobotTimer(EEngineTimer kind, Robot& robot);
     void OnLink(Robot& robot, const LinkChanged& event);

@@ -126,13 +126,9 @@ void RestartRecovery::RestorePlan(PlanRecord record)
         RestoreWork(plan, *robotOrNull);
         RestoreControl(plan, *robotOrNull);
     }
-    else
+    else if (plan.record.progress.state == EPlanState::Pending) // else it is held in the queue
     {
-        FindPosition(plan);
-        if (plan.record.progress.state != EPlanState::Paused) // else it is held in the queue
-        {
-            _plans.Enqueue(plan);
-        }
+        _plans.Enqueue(plan);
     }
 }
 

@@ -12,13 +12,6 @@ bool HasJob(const ActivePlan& plan)
     return !plan.record.plan.steps[plan.step].jobs.empty();
 }
 
-bool IsBegun(const ActivePlan& plan)
-{
-    return plan.robot.has_value() || std::ranges::any_of(plan.record.progress.steps, [](const StepProgress& step) {
-               return step.state != EStepState::Pending && step.state != EStepState::Skipped;
-           });
-}
-
 const std::string& GetJobID(const ActivePlan& plan)
 {
     return HasJob(plan) ? plan.record.plan.steps[plan.step].jobs[plan.job].jobID : plan.madeJobID;

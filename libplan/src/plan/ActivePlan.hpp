@@ -63,8 +63,6 @@ struct ActivePlan
 
 /// Whether the present step has jobs. Without them the engine makes one, whose id the MCS does not know.
 [[nodiscard]] bool HasJob(const ActivePlan& plan);
-/// A robot has, or had, the plan: its first step was dispatched.
-[[nodiscard]] bool IsBegun(const ActivePlan& plan);
 /// Of the present job.
 [[nodiscard]] const std::string& GetJobID(const ActivePlan& plan);
 /// State of the present job; Pending of a step without jobs.

@@ -1,5 +1,7 @@
 #include "robot/NodesAhead.hpp"
 
+#include <acs/plan/RobotCommand.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -67,10 +69,13 @@ std::vector<std::size_t> FindNodesBeside(const SiteMap& site, const StateChanged
 {
     const SiteNode& own = site.GetNodes()[node];
     constexpr double ON_NODE = 0.01; // metres; most robots are, and the edges need no search
-    if (!state.bPoseKnown || state.bDriving || std::hypot(state.x - own.x, state.y - own.y) <= ON_NODE)
+    const double distance = std::hypot(state.x - own.x, state.y - own.y);
+    if (!state.bPoseKnown || state.bDriving || distance <= ON_NODE)
     {
         return {};
     }
+    // Within this distance a drive to the node has reached it.
+    double deviation = RouteNode{}.allowedDeviation;
     std::vector<std::size_t> beside;
     for (const SiteEdge& edge : site.GetEdges())
     {
@@ -80,12 +85,13 @@ std::vector<std::size_t> FindNodesBeside(const SiteMap& site, const StateChanged
         }
         const std::string& otherID = edge.startNodeID == own.nodeID ? edge.endNodeID : edge.startNodeID;
         const std::size_t other = *site.FindNodeIndexOrNull(otherID);
+        deviation = std::min(deviation, GetDistance(own, site.GetNodes()[other]) / 2);
         if (IsBetween(state, own, site.GetNodes()[other]) && std::ranges::count(beside, other) == 0)
         {
             beside.push_back(other);
         }
     }
-    return beside;
+    return distance <= deviation ? std::vector<std::size_t>() : beside;
 }
 
 } // namespace ACS::Planning

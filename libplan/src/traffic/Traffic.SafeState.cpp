@@ -268,8 +268,10 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
     // The present state, before the nodes are held on trial.
     static_cast<void>(GetSafeState(ESafeStateScope::AllMove));
     const std::size_t heldCount = vehicle.path.size();
+    const std::optional<std::size_t> heading = vehicle.heading;
     std::vector<std::size_t> held;
     const auto take = [this, robot, ahead, &vehicle, &held] {
+        vehicle.heading.reset();
         for (const std::size_t node : ahead)
         {
             vehicle.path.push_back(node);
@@ -280,7 +282,8 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
             }
         }
     };
-    const auto giveBack = [this, heldCount, &vehicle, &held] {
+    const auto giveBack = [this, heldCount, heading, &vehicle, &held] {
+        vehicle.heading = heading;
         vehicle.path.resize(heldCount);
         std::ranges::for_each(held, [this](std::size_t node) { Free(node); });
         held.clear();

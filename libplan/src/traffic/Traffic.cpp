@@ -209,6 +209,10 @@ bool Traffic::TryStand(
 
 void Traffic::SetHeading(std::size_t robot, std::optional<std::size_t> headingOrNull)
 {
+    if (headingOrNull.has_value() && _holders[*headingOrNull] != robot)
+    {
+        headingOrNull.reset(); // another robot is there
+    }
     if (std::exchange(_vehicles[robot].heading, headingOrNull) != headingOrNull)
     {
         Note(false);

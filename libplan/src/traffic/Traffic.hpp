@@ -103,8 +103,8 @@ public:
         std::span<const std::size_t> extra = {},
         std::span<const std::size_t> possible = {});
 
-    /// The robot is stationary on its way to this node, which it holds: its way to its parking position begins there. nullopt: it
-    /// is on its node. Until TryStand or a grant.
+    /// The robot is stationary on its way to this node: its way to its parking position begins there. Ignored if another robot
+    /// holds the node. nullopt: the robot is on its node. Until TryStand or a grant.
     void SetHeading(std::size_t robot, std::optional<std::size_t> headingOrNull);
 
     /// The robot may be on these nodes: reserves them in addition, and those of other robots as soon as they are freed.

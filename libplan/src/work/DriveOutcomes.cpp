@@ -202,16 +202,10 @@ void DriveOutcomes::OnDriveRejected(Robot& robot, const DriveRejected& event)
     {
         return;
     }
-    ActivePlan* planOrNull = EndFailedDrive(robot, event.reason);
-    if (planOrNull == nullptr)
+    if (EndFailedDrive(robot, event.reason) != nullptr)
     {
-        return;
-    }
-    // The plan waits, and continues with another drive from where the robot is then.
-    _rejections.OnRejected(robot, event.reason);
-    if (robot.view.rejections.GetState() == ERejection::Exhausted && PlanWork::CanRelease(*planOrNull))
-    {
-        _work.ReleasePlan(*planOrNull);
+        // The plan waits, and continues with another drive from where the robot is then, or with another robot.
+        _rejections.OnRejected(robot, event.reason);
     }
 }
 

@@ -88,6 +88,11 @@ void JobOutcomes::OnJobTimeout(Robot& robot)
         return;
     }
     robot.planOrNull->jobDeadline.reset();
+    if (robot.view.state.has_value() && !robot.view.state->bAutomatic)
+    {
+        _work.LimitJob(robot); // the operator has interrupted it
+        return;
+    }
     _work.DropJob(robot);
     _work.FailPlan(*robot.planOrNull, "The job exceeded its time limit.");
 }

@@ -44,22 +44,21 @@ void PlanWork::BeginPlan(ActivePlan& plan, Robot& robot)
     BeginStep(plan, robot);
 }
 
-bool PlanWork::CanRelease(const ActivePlan& plan)
+bool PlanWork::CanHandOver(const ActivePlan& plan) const
 {
     return plan.robot.has_value() && plan.resolved.candidates.size() > 1 && !plan.bJobBegun
-        && plan.record.progress.state == EPlanState::InProgress && !plan.record.progress.control.has_value();
+        && !_fleet[*plan.robot].work.IsUnresolved() && plan.record.progress.state == EPlanState::InProgress
+        && !plan.record.progress.control.has_value();
 }
 
-void PlanWork::ReleasePlan(ActivePlan& plan)
+void PlanWork::HandOver(ActivePlan& plan, Robot& successor)
 {
     Robot& robot = _fleet[*plan.robot];
-    _transaction.Note(robot, fmt::format("plan {} returns to the queue for another robot", plan.record.plan.planID));
+    _transaction.Note(robot, fmt::format("plan {} is handed over to {}", plan.record.plan.planID, successor.GetID()));
     FreeRobot(robot);
-    plan.robot.reset();
-    plan.record.progress.robotID.clear();
+    plan.record.progress.bArrived = false;
+    BeginPlan(plan, successor);
     _plans.MarkProgressed(plan.record.plan.planID);
-    _plans.Enqueue(plan);
-    _transaction.RequestDispatch();
 }
 
 void PlanWork::FreeRobot(Robot& robot)

@@ -32,12 +32,13 @@ class PlanWork
 public:
     PlanWork(EngineState& engine, ControlAnswers& answers, LoadWatch& loads, StatusPublisher& status);
 
-    /// Assigns the plan to the robot and begins its first step; again if another robot had the plan before (ReleasePlan).
+    /// Assigns the plan to the robot and begins its first step; again if another robot had the plan before (HandOver).
     void BeginPlan(ActivePlan& plan, Robot& robot);
-    /// Another robot may take over the plan: it names no robot, none of its jobs was commanded, and no control is open.
-    [[nodiscard]] static bool CanRelease(const ActivePlan& plan);
-    /// Takes the plan from its robot, which is stationary without a drive, and returns it to the queue. It stays InProgress.
-    void ReleasePlan(ActivePlan& plan);
+    /// Another robot may take over the plan: it names no robot, none of its jobs was commanded or may be done, and no control is
+    /// open.
+    [[nodiscard]] bool CanHandOver(const ActivePlan& plan) const;
+    /// Gives the plan to another robot. The present one is stationary without a drive.
+    void HandOver(ActivePlan& plan, Robot& successor);
     void BeginStep(ActivePlan& plan, Robot& robot);
     /// The robot moves to the step's station: the step is InProgress.
     void MarkStepBegun(ActivePlan& plan);
@@ -73,14 +74,14 @@ public:
     void RepeatJob(Robot& robot, std::string commandID);
     /// The robot has reported the outcome of the job.
     void EndRecovery(Robot& robot);
-    /// Limits the time of the present job.
+    /// Limits the time of the present job as its action demands.
+    void LimitJob(Robot& robot);
     void StartJobTimer(Robot& robot, Core::Duration limit);
     void StopJobTimer(Robot& robot);
 
 private:
     static void FreeRobot(Robot& robot);
     void BeginJob(Robot& robot);
-    void LimitJob(Robot& robot);
     /// Continues with the next job or step, unless the plan is paused.
     void ContinuePlan(Robot& robot);
     /// Begins the next step, or the next job if the robot can work.

@@ -141,48 +141,44 @@ TEST_CASE("A plan whose robot rejects all its drives is taken over by another ro
     CHECK(world.violations == Lines{});
 }
 
-TEST_CASE("A plan that no robot has any more can be controlled, and is in the queue after a restart")
+TEST_CASE(
+    "A plan whose robot rejects its drives is handed over when another robot is free, and to no other robot before")
 {
     PlanWorld world(1, true);
     world.GetRobot("LR01").bRejectDrives = true;
     world.GetRobot("LR02").bRejectDrives = true;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 Dispatched");
     static_cast<void>(TryRunFor(world, 1min));
-    REQUIRE_FALSE(world.engine->GetPlanOrNull("P1")->robotID.has_value());
-    CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::InProgress);
-    SECTION("cancelled")
+    CHECK(world.engine->GetPlanOrNull("P1")->robotID == "LR02");
+    const auto count = [&world] {
+        return std::ranges::count(world.GetReportsOf("P1"), "Step 1 Dispatched");
+    };
+    CHECK(count() == 2);
+    SECTION("the same robot may try again")
     {
-        world.Control(EPlanControl::Cancel, "P1");
-        REQUIRE(world.TryRun());
-        CHECK(world.GetReportsOf("P1").back() == "CancelResult Success");
-        CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::Cancelled);
-        return;
+        world.GetRobot("LR02").bRejectDrives = false;
+        world.Ask(ClearAlarms{"LR02", "ACS-1012", {}, {}, 0});
+        FinishPlan(world);
+        CHECK(count() == 2);
     }
-    SECTION("paused and resumed")
+    SECTION("the other robot may try again")
+    {
+        world.GetRobot("LR01").bRejectDrives = false;
+        world.Ask(ClearAlarms{"LR01", "ACS-1012", {}, {}, 0});
+        FinishPlan(world);
+        CHECK(count() == 3);
+        CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"});
+    }
+    SECTION("it is paused meanwhile")
     {
         world.Control(EPlanControl::Pause, "P1");
+        world.GetRobot("LR01").bRejectDrives = false;
+        world.Ask(ClearAlarms{"LR01", "ACS-1012", {}, {}, 0});
+        static_cast<void>(TryRunFor(world, 1min));
+        CHECK(count() == 2);
         world.Control(EPlanControl::Resume, "P1");
-        CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::InProgress);
-        world.GetRobot("LR01").bRejectDrives = false;
-        world.Ask(ClearAlarms{"LR01", "ACS-1012", {}, {}, 0});
+        FinishPlan(world);
+        CHECK(count() == 3);
     }
-    SECTION("the TSC is paused meanwhile")
-    {
-        world.SwitchTSC(true);
-        CHECK(world.engine->GetTscState() == ETscState::Paused);
-        world.SwitchTSC(false);
-        world.GetRobot("LR01").bRejectDrives = false;
-        world.Ask(ClearAlarms{"LR01", "ACS-1012", {}, {}, 0});
-    }
-    SECTION("after a restart")
-    {
-        world.GetRobot("LR01").bRejectDrives = false;
-        world.GetRobot("LR02").bRejectDrives = false;
-        world.Crash();
-        world.Restart(ACS::Testing::MakeTestOptions(true), ACS::Testing::MakeTestSite());
-        world.Connect();
-        CHECK_FALSE(HasAlarm(world));
-    }
-    FinishPlan(world);
     CHECK(world.violations == Lines{});
 }

@@ -71,6 +71,8 @@ TEST_CASE(
 {
     const SiteMap line = MakeLine();
     CHECK(FindNodesBeside(line, MakeStopped(0), 0).empty());
+    CHECK(FindNodesBeside(line, MakeStopped(0.5), 0).empty()); // within the deviation of a drive
+    CHECK(FindNodesBeside(line, MakeStopped(0.6), 0) == Indices{1});
     CHECK(FindNodesBeside(line, MakeStopped(5), 0) == Indices{1});
     CHECK(FindNodesBeside(line, MakeStopped(5), 1) == Indices{0});
     CHECK(FindNodesBeside(line, MakeStopped(15), 1) == Indices{2});

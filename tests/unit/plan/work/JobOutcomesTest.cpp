@@ -1,5 +1,6 @@
 #include "Catch.hpp"
 #include "fixtures/EngineParts.hpp"
+#include "fixtures/PlanWorld.hpp"
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 using namespace ACS::Testing;  // NOLINT(google-build-using-namespace): its fixtures
@@ -182,4 +183,19 @@ TEST_CASE("JobOutcomes: a job that is rejected or interrupted while its plan is 
         parts.jobs.OnJobInterrupted(parts.lr, JobInterrupted{"P1-a4", "manual mode"});
     }
     CHECK(plan.record.progress.state == EPlanState::Aborted);
+}
+
+TEST_CASE("JobOutcomes: the time limit of a job does not end while its robot is in manual mode")
+{
+    EngineOptions options = MakeTestOptions(false);
+    options.actions["CassetteLoad"].timeout = std::chrono::minutes(1);
+    EngineParts parts(options);
+    ActivePlan& plan = parts.BeginLoad();
+    parts.lr.view.state->bAutomatic = false;
+    parts.jobs.OnJobTimeout(parts.lr);
+    CHECK(plan.record.progress.state == EPlanState::InProgress);
+    CHECK(parts.Collect().GetDelayOrNull(EEngineTimer::JobTimeout) == std::chrono::minutes(1));
+    parts.lr.view.state->bAutomatic = true;
+    parts.jobs.OnJobTimeout(parts.lr);
+    CHECK(plan.record.progress.state == EPlanState::Failed);
 }

@@ -155,3 +155,43 @@ TEST_CASE("PlanWork: a dropped job keeps its robot until its end, with an alarm 
     CHECK(parts.lr.job.IsOverdue());
     CHECK(parts.lr.GetUnavailability() == EUnavailability::Occupied);
 }
+
+TEST_CASE("PlanWork: a plan is handed over before its first job only, and not if the robot may have done it")
+{
+    EngineParts parts(MakeTestOptions(true));
+    ActivePlan& plan = parts.BeginDriveToLoad();
+    REQUIRE(parts.work.CanHandOver(plan));
+    SECTION("the robot may have done jobs that could not be stored")
+    {
+        parts.lr.work.MarkUnresolved();
+        CHECK_FALSE(parts.work.CanHandOver(plan));
+    }
+    SECTION("a job was commanded")
+    {
+        plan.bJobBegun = true;
+        CHECK_FALSE(parts.work.CanHandOver(plan));
+    }
+    SECTION("a control is open")
+    {
+        parts.controls.Control(ControlPlan{EPlanControl::Pause, "P1", {}, 7, {}});
+        CHECK_FALSE(parts.work.CanHandOver(plan));
+    }
+    SECTION("handed over")
+    {
+        Robot& other = *parts.engine.fleet.FindOrNull("LR02");
+        parts.coordinator.EndDrive(parts.lr);
+        parts.PutOn(other, "D-CHG03");
+        plan.record.progress.bArrived = true;
+        parts.Discard();
+        parts.work.HandOver(plan, other);
+        CHECK(parts.lr.planOrNull == nullptr);
+        CHECK(other.planOrNull == &plan);
+        CHECK_FALSE(plan.record.progress.bArrived);
+        const CallOutcome outcome = parts.Collect();
+        CHECK(outcome.ListReports<PlanReport>().empty());
+        const auto steps = outcome.ListReports<StepReport>();
+        REQUIRE(steps.size() == 1);
+        CHECK(steps.front().robotID == "LR02");
+        CHECK(steps.front().state == EStepState::Dispatched);
+    }
+}
