@@ -333,7 +333,7 @@ void VehicleSession::Impl::PassFrontNode()
 }
 
 /// An action of the next edge, which may not outlive it in the state.
-bool VehicleSession::Impl::RunsEdgeAction() const
+bool VehicleSession::Impl::HasRunningEdgeAction() const
 {
     return std::ranges::any_of(_actions, [this](const ReportedAction& tracked) {
         return tracked.scope == EActionScope::Edge && tracked.sequenceID == _route.GetEdgeSequenceID(0)

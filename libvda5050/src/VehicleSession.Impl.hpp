@@ -165,7 +165,7 @@ private:
     void FinishOrderIfDone(VehicleActions& out);
     void LeaveEdge(std::vector<EdgeActionEnd> ends, VehicleActions& out);
     void PassFrontNode();
-    [[nodiscard]] bool RunsEdgeAction() const;
+    [[nodiscard]] bool HasRunningEdgeAction() const;
     [[nodiscard]] bool CanDrive() const;
     [[nodiscard]] bool NeedsStopAtFront() const;
     [[nodiscard]] bool IsExecuting() const;

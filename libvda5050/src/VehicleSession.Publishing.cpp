@@ -134,7 +134,7 @@ StateMessage VehicleSession::Impl::GetState() const
         state.nodeStates.push_back(_route.GetNodeState(index));
     }
     // 6.6.3: a cancelled vehicle on its way to the next node shows that node alone, once the edge's actions have ended.
-    const std::size_t shownEdges = _bLastLeg && !RunsEdgeAction() ? 0 : _route.GetSize();
+    const std::size_t shownEdges = _bLastLeg && !HasRunningEdgeAction() ? 0 : _route.GetSize();
     state.edgeStates.reserve(shownEdges);
     for (std::size_t index = 0; index < shownEdges; ++index)
     {

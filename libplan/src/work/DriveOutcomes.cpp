@@ -202,7 +202,7 @@ void DriveOutcomes::OnDriveRejected(Robot& robot, const DriveRejected& event)
     {
         return;
     }
-    if (EndFailedDrive(robot, event.reason) != nullptr)
+    if (EndFailedDriveOrNull(robot, event.reason) != nullptr)
     {
         // The plan waits, and continues with another drive from where the robot is then, or with another robot.
         _rejections.OnRejected(robot, event.reason);
@@ -212,14 +212,14 @@ void DriveOutcomes::OnDriveRejected(Robot& robot, const DriveRejected& event)
 void DriveOutcomes::OnNodeOfOther(Robot& robot)
 {
     constexpr std::string_view REASON = "it entered a node that is reserved for another robot";
-    if (ActivePlan* planOrNull = EndFailedDrive(robot, REASON); planOrNull != nullptr)
+    if (ActivePlan* planOrNull = EndFailedDriveOrNull(robot, REASON); planOrNull != nullptr)
     {
         _work.FailPlan(*planOrNull, fmt::format("{} did not complete its drive: {}", robot.GetID(), REASON));
     }
     robot.place.bPlaced = false;
 }
 
-ActivePlan* DriveOutcomes::EndFailedDrive(Robot& robot, std::string_view reason)
+ActivePlan* DriveOutcomes::EndFailedDriveOrNull(Robot& robot, std::string_view reason)
 {
     const EDriveGoal goal = robot.drive->goal;
     _coordinator.EndDrive(robot);

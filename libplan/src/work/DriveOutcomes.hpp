@@ -64,7 +64,7 @@ private:
     /// The robot has entered a node that another robot has reserved: its plan fails, and its place is unknown.
     void OnNodeOfOther(Robot& robot);
     /// Ends the drive, and the plan that is to be cancelled or aborted. Returns the plan that continues; null if there is none.
-    [[nodiscard]] ActivePlan* EndFailedDrive(Robot& robot, std::string_view reason);
+    [[nodiscard]] ActivePlan* EndFailedDriveOrNull(Robot& robot, std::string_view reason);
 };
 
 } // namespace ACS::Planning
