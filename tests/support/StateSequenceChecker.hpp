@@ -83,12 +83,12 @@ public:
         {
             Require(state.orderID == _orderID, "the order is the accepted one", state);
             Require(
-                !state.bDriving || !StopsAtLastNode(state),
+                !state.bDriving || !IsStoppingAtLastNode(state),
                 "a vehicle that stops at its node is stationary",
                 state);
             CheckEdges(state);
             const bool bFurther = _last.has_value() && state.lastNodeSequenceID > _last->lastNodeSequenceID;
-            _stopCount += bFurther && StopsAtLastNode(state) ? 1U : 0U;
+            _stopCount += bFurther && IsStoppingAtLastNode(state) ? 1U : 0U;
         }
         CheckCancels(state);
         std::erase_if(_instantActions, [&state](const std::string& actionID) { return IsShownEnded(state, actionID); });
@@ -185,7 +185,7 @@ private:
     }
 
     /// At the end of the base, or for SOFT and HARD actions of the node or of the next edge.
-    [[nodiscard]] bool StopsAtLastNode(const VDA5050::StateMessage& state) const
+    [[nodiscard]] bool IsStoppingAtLastNode(const VDA5050::StateMessage& state) const
     {
         return std::ranges::none_of(state.nodeStates, &VDA5050::NodeState::bReleased)
             || HasOpenBlocking(state, state.lastNodeSequenceID) || HasOpenBlocking(state, state.lastNodeSequenceID + 1);
