@@ -88,7 +88,9 @@ void VehicleSessionFixture::Instant(std::vector<Action> actions)
 
 void VehicleSessionFixture::Reach(std::uint32_t sequenceID, bool bStationary, std::vector<EdgeActionEnd> edgeActions)
 {
-    CHECK(_session.TryReachNode({sequenceID, bStationary, std::move(edgeActions)}, _clock.GetNow(), _out));
+    const bool bReached =
+        _session.TryReachNode({sequenceID, bStationary, std::move(edgeActions)}, _clock.GetNow(), _out);
+    CHECK(bReached);
 }
 
 void VehicleSessionFixture::Drive(bool bDriving)
