@@ -21,6 +21,12 @@ struct RobotPlace
     std::vector<std::size_t> aheadNodes;
     /// It is stationary between its node and this one. It cannot turn round there, so its next drive begins with this lane.
     std::optional<std::size_t> heading;
+
+    /// Whether it is on this node, and not between it and the next one.
+    [[nodiscard]] bool IsOn(std::optional<std::size_t> wantedOrNull) const
+    {
+        return node == wantedOrNull && !heading.has_value();
+    }
 };
 
 } // namespace ACS::Planning

@@ -59,7 +59,7 @@ bool DeadlockResolver::TryDetour(Robot& robot)
 {
     const bool bHome = robot.planOrNull == nullptr || robot.parking.retreatNode.has_value();
     const std::optional<std::size_t> target = _waiting.GetTargetOrNull(robot);
-    if (!target.has_value() || target == robot.place.node || robot.control.bConfirming
+    if (!target.has_value() || robot.place.IsOn(target) || robot.control.bConfirming
         || (!bHome && robot.search.detours >= DETOURS_AT_MOST) || !_waiting.GetTargetHolders(robot, *target).empty())
     {
         return false;
@@ -119,7 +119,7 @@ bool DeadlockResolver::TryRetreat(Robot& robot, const Robot& leader)
     if (!_traffic.IsMovable(robot.index) || _waiting.IsMoving(robot) || bGoesHome || robot.parking.bRefused
         || robot.control.bConfirming
         || (robot.parking.retreatNode.has_value() && robot.parking.retreatNode == robot.parking.parkingNode)
-        || !robot.parking.parkingNode.has_value() || robot.place.node == robot.parking.parkingNode
+        || !robot.parking.parkingNode.has_value() || robot.place.IsOn(robot.parking.parkingNode)
         || !_waiting.GetTargetHolders(robot, *robot.parking.parkingNode).empty())
     {
         return false;
@@ -182,7 +182,7 @@ bool DeadlockResolver::TryStepAside(Robot& robot, const Robot& leader)
     {
         const std::optional<std::size_t> dock =
             _admission.FindDockOrNull(station.stationID, robot.options->vehicleTypeID);
-        if (!dock.has_value() || avoided[*dock] || dock == wanted || dock == robot.place.node
+        if (!dock.has_value() || avoided[*dock] || dock == wanted || robot.place.IsOn(dock)
             || !_traffic.IsOpenFor(*dock, robot.index) || !_waiting.GetTargetHolders(robot, *dock).empty())
         {
             continue;

@@ -86,7 +86,7 @@ std::optional<PlannedRoute> RoutePlanner::PlanRouteOrNull(
 
 std::optional<Route> RoutePlanner::FindLaneOrNull(const Robot& robot, std::size_t target) const
 {
-    if (!robot.place.heading.has_value() || !robot.view.state.has_value())
+    if (!robot.place.heading.has_value())
     {
         return std::nullopt;
     }
@@ -96,17 +96,21 @@ std::optional<Route> RoutePlanner::FindLaneOrNull(const Robot& robot, std::size_
     const ELoad load = robot.GetLoad();
     std::optional<Route> lane =
         _router.FindRouteOrNull(vehicleTypeID, load, nodes[*robot.place.node].nodeID, nextID, {});
-    if (!lane.has_value() || lane->edges.size() != 1
-        || !_router.FindRouteOrNull(vehicleTypeID, load, nextID, nodes[target].nodeID, {}).has_value())
+    const bool bReaches = lane.has_value() && lane->edges.size() == 1
+        && _router.FindRouteOrNull(vehicleTypeID, load, nextID, nodes[target].nodeID, {}).has_value();
+    return bReaches ? lane : std::nullopt;
+}
+
+void RoutePlanner::ReachStart(const Robot& robot, Route& route)
+{
+    if (!robot.view.state.has_value())
     {
-        return std::nullopt;
+        return;
     }
-    // Otherwise the robot would reject the drive: it is farther from the first node than the map allows.
     constexpr double MARGIN = 0.1;
-    RouteNode& first = lane->nodes.front();
+    RouteNode& first = route.nodes.front();
     const double distance = std::hypot(robot.view.state->x - first.x, robot.view.state->y - first.y);
     first.allowedDeviation = std::max(first.allowedDeviation, distance + MARGIN);
-    return lane;
 }
 
 } // namespace ACS::Planning

@@ -35,6 +35,9 @@ public:
     /// its route begins with this lane, and may pass its node again. nullopt if the robot is on its node, or if the target cannot
     /// be reached in this way.
     [[nodiscard]] std::optional<Route> FindLaneOrNull(const Robot& robot, std::size_t target) const;
+    /// Between two nodes the robot is farther from the first node than the map allows, and would reject the drive: extends the
+    /// allowed deviation to the robot.
+    static void ReachStart(const Robot& robot, Route& route);
 };
 
 } // namespace ACS::Planning

@@ -258,6 +258,10 @@ bool TrafficCoordinator::TryBeginDrive(Robot& robot, const PlannedRoute& planned
     robot.work.AddCommand(drive.driveID);
     drive.load = plannedRoute.load;
     drive.route = plannedRoute.route;
+    if (robot.place.heading == plannedRoute.nodes[1])
+    {
+        RoutePlanner::ReachStart(robot, drive.route);
+    }
     drive.nodes = plannedRoute.nodes;
     drive.grantedCount = granted + 1;
     // The last node is not released yet: the robot needs a horizon.

@@ -47,8 +47,8 @@ bool WaitingRobots::IsAtPlace(const Robot& robot) const
         return false;
     }
     const ActivePlan& plan = *robot.planOrNull;
-    return robot.place.node
-        == _admission.FindDockOrNull(plan.resolved.steps[plan.step].stationID, robot.options->vehicleTypeID);
+    return robot.place.IsOn(
+        _admission.FindDockOrNull(plan.resolved.steps[plan.step].stationID, robot.options->vehicleTypeID));
 }
 
 std::vector<Robot*> WaitingRobots::GetWaiting()
@@ -72,7 +72,7 @@ std::vector<Robot*> WaitingRobots::ListAwayFromHome()
     {
         const bool bIdle = robot.planOrNull == nullptr && !robot.drive.has_value() && !robot.parking.bRefused;
         if (bIdle && robot.IsUsable() && robot.parking.homeNode.has_value()
-            && robot.parking.homeNode != robot.place.node)
+            && !robot.place.IsOn(robot.parking.homeNode))
         {
             away.push_back(&robot);
         }
@@ -106,7 +106,7 @@ bool WaitingRobots::IsWaiting(const Robot& robot) const
         return true;
     }
     const std::optional<std::size_t> target = GetTargetOrNull(robot);
-    return _tsc.CanDriveHome() && !robot.parking.bRefused && target.has_value() && target != robot.place.node;
+    return _tsc.CanDriveHome() && !robot.parking.bRefused && target.has_value() && !robot.place.IsOn(target);
 }
 
 bool WaitingRobots::IsHelpable(const Robot& robot) const
@@ -129,7 +129,7 @@ bool WaitingRobots::IsYielding(const Robot& robot) const
     if (!robot.search.yield->planSequence.has_value())
     {
         return leader.planOrNull == nullptr && leader.parking.homeNode.has_value()
-            && leader.place.node != leader.parking.homeNode;
+            && !leader.place.IsOn(leader.parking.homeNode);
     }
     return leader.planOrNull != nullptr && leader.planOrNull->record.sequence == robot.search.yield->planSequence
         && leader.planOrNull->step == robot.search.yield->step && leader.activity == EActivity::Waits;

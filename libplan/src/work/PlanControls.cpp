@@ -362,7 +362,7 @@ void PlanControls::UpdateStandstill(Robot& robot)
     robot.control.bStandstillAwaited = false;
     ActivePlan& plan = *robot.planOrNull;
     const EPlanControl control = *plan.record.progress.control;
-    const bool bArrived = robot.place.node == _waiting.GetTargetOrNull(robot);
+    const bool bArrived = robot.place.IsOn(_waiting.GetTargetOrNull(robot));
     if (control != EPlanControl::Cancel || !bArrived || _options.controls.cancelUntil == ECancelWindow::FirstJob)
     {
         _work.EndByControl(plan, control);

@@ -93,11 +93,6 @@ void ArmRobot::OnFloorChanged()
     _base.OnFloorChanged();
 }
 
-void ArmRobot::PutOnNode()
-{
-    _base.PutOnNode();
-}
-
 void ArmRobot::Calm()
 {
     _base.Calm();

@@ -46,7 +46,6 @@ public:
     void Disturb() override;
     void Recover() override;
     [[nodiscard]] bool IsDisturbed() const override;
-    void PutOnNode() override;
     void Forget() override;
     void OnFloorChanged() override;
     void Calm() override;

@@ -35,8 +35,6 @@ public:
     virtual void Disturb() = 0;
     virtual void Recover() = 0;
     [[nodiscard]] virtual bool IsDisturbed() const = 0;
-    /// The operator drives it to a node if it is stationary between two nodes without a drive.
-    virtual void PutOnNode() = 0;
     /// Switches it off and on if it is on a node: it drops its drive and job and loses its memory.
     virtual void Forget() = 0;
 

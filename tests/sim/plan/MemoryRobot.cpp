@@ -346,18 +346,6 @@ void MemoryRobot::Forget()
     Show();
 }
 
-void MemoryRobot::PutOnNode()
-{
-    if (_nextNodeID.has_value())
-    {
-        _trace.Add("{} is driven by hand to {}", _robotID, *_nextNodeID);
-        _snapshot.state.lastNodeID = *std::exchange(_nextNodeID, std::nullopt);
-        _snapshot.state.bPoseKnown = false; // until its next node
-        ShowPlace();
-        Show();
-    }
-}
-
 void MemoryRobot::Disturb()
 {
     _bStopped = true;

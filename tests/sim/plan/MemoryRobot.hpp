@@ -75,7 +75,6 @@ public:
 
     /// Begins a random emergency stop, manual mode or error for a while.
     void Disturb();
-    void PutOnNode();
     void Forget();
     void Recover();
 

@@ -65,11 +65,6 @@ void RadioRobot::Forget()
     _robot.Forget();
 }
 
-void RadioRobot::PutOnNode()
-{
-    _robot.PutOnNode();
-}
-
 void RadioRobot::Calm()
 {
     _robot.rejectChance = 0;

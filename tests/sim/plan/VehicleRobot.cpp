@@ -358,14 +358,6 @@ void VehicleRobot::DriveByHand()
     Call([this, &topic, &text](Core::Now now, auto& out) { _vehicle->OnMessage({topic, text, 2, false}, now, out); });
 }
 
-void VehicleRobot::PutOnNode()
-{
-    if (_place.size() > 1 && !_vehicle->GetState().bDriving)
-    {
-        DriveByHand();
-    }
-}
-
 bool VehicleRobot::IsDisturbed() const
 {
     return _bDisturbed;

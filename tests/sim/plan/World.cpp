@@ -19,8 +19,6 @@ namespace
 /// All work must be finished within this time after the last fault.
 constexpr std::chrono::hours SETTLING_LIMIT{2};
 constexpr std::chrono::seconds WATCH_INTERVAL{1};
-/// Time that a robot has to continue from where it is, after the last fault.
-constexpr std::chrono::minutes PATIENCE{30};
 
 /// The streams of the seed's random numbers.
 constexpr std::uint64_t NETWORK_PART = 101;
@@ -398,11 +396,6 @@ void World::Watch()
         _process->PushCommand(Planning::ControlTSC{false, 0});
     }
     _operator.PutAllIntoService();
-    if (_timeline.GetNow().steady > _deadline - SETTLING_LIMIT + PATIENCE)
-    {
-        // Two robots that are each between two nodes may block each other.
-        std::ranges::for_each(_robots, [](const auto& robot) { robot.second->PutOnNode(); });
-    }
     RemoveCarriers();
     const std::string unrest = DescribeUnrest();
     if (unrest.empty())

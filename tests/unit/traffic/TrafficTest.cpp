@@ -68,8 +68,8 @@ struct Way
     EUse use = EUse::Always;
 };
 
-/// Robot 0 on its parking position 0; robot 1 on node 3, from where it cannot park.
-Traffic MakeRestricted(const std::vector<Way>& ways)
+/// Four nodes in a row.
+SiteMap MakeRow(const std::vector<Way>& ways)
 {
     std::vector<SiteNode> nodes;
     for (std::size_t i = 0; i < 4; ++i)
@@ -86,7 +86,13 @@ Traffic MakeRestricted(const std::vector<Way>& ways)
         const std::string to = std::to_string(way.to);
         edges.push_back({fmt::format("{}>{}", from, to), from, to, {rule}});
     }
-    Traffic traffic(*SiteMap::Create(std::move(nodes), std::move(edges), {}), 0);
+    return *SiteMap::Create(std::move(nodes), std::move(edges), {});
+}
+
+/// Robot 0 on its parking position 0; robot 1 on node 3, from where it cannot park.
+Traffic MakeRestricted(const std::vector<Way>& ways)
+{
+    Traffic traffic(MakeRow(ways), 0);
     traffic.AddRobot("lr", 0);
     traffic.AddRobot("lr", std::nullopt);
     REQUIRE(traffic.TryStand(0, 0));
@@ -259,4 +265,38 @@ TEST_CASE("Traffic: a node is a dead end only if it is one with and without a lo
     CHECK_FALSE(isSpur({{1, 2}, {2, 1}, {2, 3, EUse::Loaded}}));
     CHECK_FALSE(isSpur({{1, 2}, {2, 1}, {3, 2, EUse::Empty}}));
     CHECK_FALSE(isSpur({{1, 2}, {2, 1, EUse::Loaded}}));
+}
+
+TEST_CASE("Traffic: a robot between two nodes leaves from the second one, unless another robot is there")
+{
+    Traffic traffic = MakeRestricted({{0, 1}, {1, 0}, {1, 2}, {2, 3}, {3, 1}});
+    REQUIRE(traffic.TryStand(0, 1, {}, Nodes{2, 3}));
+    CHECK(traffic.CanServe(0, 1));
+    traffic.SetHeading(0, 3);
+    CHECK(traffic.CanServe(0, 1));
+    traffic.SetHeading(0, 2);
+    CHECK_FALSE(traffic.CanServe(0, 1)); // the way back is by node 3
+    traffic.SetHeading(0, std::nullopt);
+    CHECK(traffic.CanServe(0, 1));
+}
+
+TEST_CASE("Traffic: a robot between two nodes is granted no node from which it cannot park")
+{
+    Traffic traffic(MakeRow({{0, 1}, {1, 0}, {1, 2}, {2, 1}, {2, 3}}), 0);
+    traffic.AddRobot("lr", 0);
+    traffic.SetMovable(0, true);
+    REQUIRE(traffic.TryStand(0, 1, {}, Nodes{2}));
+    traffic.SetHeading(0, 2);
+    CHECK(traffic.Extend(0, Nodes{2, 3}) == 1);
+    CHECK(GetHeld(traffic, 0) == Nodes{1, 2});
+}
+
+TEST_CASE("Traffic: a node that a robot holds and is to pass again is granted after it has passed it")
+{
+    Traffic traffic = MakeRestricted({{0, 1}, {1, 0}, {1, 2}, {2, 1}});
+    REQUIRE(traffic.TryStand(0, 1));
+    CHECK(traffic.Extend(0, Nodes{2, 1, 0}) == 1);
+    traffic.Pass(0, 1);
+    CHECK(traffic.Extend(0, Nodes{1, 0}) == 2);
+    CHECK(GetHeld(traffic, 0) == Nodes{2, 1, 0});
 }

@@ -261,6 +261,13 @@ TEST_CASE(
         CHECK(route->nodes[1] == parts.FindNode("L02"));
         CHECK(route->nodes.back() == parts.FindNode("D-CHG01"));
     }
+    SECTION("to its home, which it has just left")
+    {
+        parts.lr.planOrNull = nullptr;
+        parts.lr.parking.homeNode = parts.FindNode("L01");
+        CHECK(std::ranges::count(parts.waiting.ListAwayFromHome(), &parts.lr) == 1);
+        CHECK(parts.waiting.IsWaiting(parts.lr));
+    }
     SECTION("to the node that it has left")
     {
         parts.lr.parking.retreatNode = parts.FindNode("L01");
