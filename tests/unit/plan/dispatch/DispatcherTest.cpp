@@ -111,3 +111,15 @@ TEST_CASE("Dispatcher: the nearest robot is found over edges for its load, and a
         CHECK(parts.dispatcher.FindNearestOrNull(active) == (bEmptyOnly ? &other : &parts.lr));
     }
 }
+
+TEST_CASE("Dispatcher: the successor of a plan's robot is free and can do its jobs by its latest factsheet")
+{
+    EngineParts parts(MakeTestOptions(true));
+    Robot& other = parts.engine.fleet[2];
+    ActivePlan& plan = parts.BeginDriveToLoad();
+    CHECK(parts.dispatcher.FindSuccessorOrNull(plan) == nullptr);
+    parts.PutOn(other, "D-CHG03");
+    CHECK(parts.dispatcher.FindSuccessorOrNull(plan) == &other);
+    parts.dispatcher.OnJobCheck(other, JobCheckChanged{std::make_shared<SingleActionCheck>("CassetteUnload")});
+    CHECK(parts.dispatcher.FindSuccessorOrNull(plan) == nullptr);
+}
