@@ -79,7 +79,7 @@ class Modes(ScenarioCase):
         return types
 
     def run_with_fault(self, fault):
-        self.start_line(("LR01,type=LR", "CR01,type=CR,node=D-CHG02"), fault)
+        self.start_line(("LR01,type=LR", "CR01,type=CR,node=D-CHG02"), fault, overrides=("robot.load_timeout=1s",))
         self.finish()
         return self.read_drives()
 

@@ -41,6 +41,12 @@ void Vda5050RobotAdapter::VerifyLoads(AdapterActions& out)
 
 void Vda5050RobotAdapter::OnLoadTimeout(AdapterActions& out)
 {
+    const VehicleJob::Interrupted* const interruptedOrNull = _job.GetInterruptedOrNull();
+    if (interruptedOrNull != nullptr && interruptedOrNull->bLoadsAwaited)
+    {
+        EvaluateInterruption(true, out);
+        return;
+    }
     const LoadCheck* const checkOrNull = _job.GetLoadCheckOrNull();
     if (checkOrNull == nullptr)
     {
@@ -71,25 +77,40 @@ void Vda5050RobotAdapter::InterruptJob(const std::string& reason, AdapterActions
     if (_report.GetState().loads.has_value())
     {
         _job.Interrupt(reason);
-        EvaluateInterruption(out);
+        EvaluateInterruption(false, out);
         return;
     }
     const std::string jobID = _job.TakeRunning().jobID;
     out.emplace_back(RaiseEvent{Planning::JobUnresolved{jobID, reason + "; the vehicle reports no loads"}});
 }
 
-void Vda5050RobotAdapter::EvaluateInterruption(AdapterActions& out)
+/// Loads may follow later, so only a job that is done is certain at once.
+void Vda5050RobotAdapter::EvaluateInterruption(bool bFinal, AdapterActions& out)
 {
     const VehicleJob::Interrupted* const interruptedOrNull = _job.GetInterruptedOrNull();
     const Planning::StateChanged& state = _report.GetState();
-    if (interruptedOrNull == nullptr || !_session.IsReady() || !state.bAutomatic || state.bOccupied)
+    if (interruptedOrNull == nullptr)
     {
+        return;
+    }
+    if (!_session.IsReady() || !state.bAutomatic || state.bOccupied)
+    {
+        _job.StopAwaitingLoads();
         return;
     }
     const Planning::StartJob& job = interruptedOrNull->job;
     const JobMethod* const methodOrNull = _methods.FindMethodOrNull(job.action);
     const LoadCheck check(job, methodOrNull == nullptr ? Planning::EActionEffect::None : methodOrNull->effect);
-    switch (state.loads.has_value() ? check.GetEvidence(*state.loads) : ELoadEvidence::None)
+    const ELoadEvidence evidence = state.loads.has_value() ? check.GetEvidence(*state.loads) : ELoadEvidence::None;
+    if (evidence != ELoadEvidence::Done && !bFinal)
+    {
+        if (_job.TryAwaitLoads())
+        {
+            out.emplace_back(Planning::StartAdapterTimer{LOAD_TIMER, _loadTimeout});
+        }
+        return;
+    }
+    switch (evidence)
     {
         case ELoadEvidence::Done:
             out.emplace_back(RaiseEvent{Planning::JobFinished{job.jobID}});
@@ -104,6 +125,7 @@ void Vda5050RobotAdapter::EvaluateInterruption(AdapterActions& out)
                 interruptedOrNull->reason + "; the loads of the vehicle do not show whether it was done"}});
             break;
     }
+    out.emplace_back(Planning::CancelAdapterTimer{LOAD_TIMER});
     _job.Clear();
 }
 

@@ -54,7 +54,7 @@ void Vda5050RobotAdapter::OnState(Core::Now now, AdapterActions& out)
     SetOnline(_session.IsReady(), out);
     out.emplace_back(RaiseEvent{_report.GetState()});
     VerifyLoads(out);
-    EvaluateInterruption(out);
+    EvaluateInterruption(false, out);
     if (bOccupied)
     {
         CancelForeignOrder(now);

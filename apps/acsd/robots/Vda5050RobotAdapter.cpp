@@ -169,7 +169,11 @@ void Vda5050RobotAdapter::SendPendingOrder(Core::Now now, AdapterActions& out)
     VDA5050::OrderMessage order = *std::exchange(_pendingOrder, std::nullopt);
     const std::string orderID = order.orderID;
     const Core::Result<void> sent = _session.SendOrder(std::move(order), now, _sessionActions);
-    if (!sent)
+    if (!sent && IsJob(orderID))
+    {
+        out.emplace_back(RaiseEvent{Planning::JobRejected{_job.TakeRunning().jobID, Core::Describe(sent.error())}});
+    }
+    else if (!sent)
     {
         RejectOrder(orderID, Core::Describe(sent.error()), out);
     }
@@ -375,9 +379,11 @@ void Vda5050RobotAdapter::OnFinished(const std::string& orderID, AdapterActions&
     {
         _drive.reset();
         out.emplace_back(RaiseEvent{Planning::Arrived{orderID}});
-        return;
     }
-    RejectOrder(orderID, "the order ended without an end of its action", out);
+    else if (IsJob(orderID))
+    {
+        InterruptJob("the order ended without an end of its action", out);
+    }
 }
 
 void Vda5050RobotAdapter::SetOnline(bool bOnline, AdapterActions& out)

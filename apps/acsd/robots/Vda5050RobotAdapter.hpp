@@ -82,8 +82,8 @@ private:
     void DropLoadCheck(Planning::AdapterActions& out);
     /// The vehicle has ended the action of the running job before it was done.
     void InterruptJob(const std::string& reason, Planning::AdapterActions& out);
-    /// Reports what became of an interrupted job, when the vehicle is in automatic mode again.
-    void EvaluateInterruption(Planning::AdapterActions& out);
+    /// Reports what became of an interrupted job, when the vehicle is in automatic mode again. bFinal: its loads have had their time.
+    void EvaluateInterruption(bool bFinal, Planning::AdapterActions& out);
 
     /// Evaluates what the vehicle's state shows of a job that was commanded before a restart.
     void RecoverJob(Core::Now now, Planning::AdapterActions& out);

@@ -31,6 +31,18 @@ void VehicleJob::Interrupt(std::string reason)
     _state = Interrupted{TakeRunning(), std::move(reason)};
 }
 
+bool VehicleJob::TryAwaitLoads()
+{
+    assert(std::holds_alternative<Interrupted>(_state));
+    return !std::exchange(std::get<Interrupted>(_state).bLoadsAwaited, true);
+}
+
+void VehicleJob::StopAwaitingLoads()
+{
+    assert(std::holds_alternative<Interrupted>(_state));
+    std::get<Interrupted>(_state).bLoadsAwaited = false;
+}
+
 void VehicleJob::Clear()
 {
     _state = std::monostate{};

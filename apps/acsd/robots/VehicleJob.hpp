@@ -46,6 +46,7 @@ public:
     {
         Planning::StartJob job;
         std::string reason;
+        bool bLoadsAwaited = false; ///< The time in which its loads must show the outcome has begun.
     };
 
 private:
@@ -58,6 +59,10 @@ public:
     void VerifyLoads(LoadCheck check);
     /// The running job. Only while GetRunningOrNull is not null.
     void Interrupt(std::string reason);
+    /// The time of the loads begins. Only while GetInterruptedOrNull is not null. False: it has begun before.
+    [[nodiscard]] bool TryAwaitLoads();
+    /// The vehicle is not available: the time begins again when it is.
+    void StopAwaitingLoads();
     void Clear();
 
     /// The deferred job, which is then no longer here.

@@ -83,8 +83,8 @@ struct CancelDrive
 };
 
 /// Execute a job at the current position. Answered by JobStarted and then JobFinished, JobFailed or JobInterrupted; by
-/// JobRejected, or by JobUnknown if it was not received and may be sent again; or by JobUnresolved if its outcome cannot be known. All locations are
-/// canonical and name the robot itself ("LR01.CP01", never "AMR.CP01").
+/// JobRejected; by JobUnknown if it was not received and may be sent again; or by JobUnresolved if its outcome cannot be known.
+/// All locations are canonical and name the robot itself ("LR01.CP01", never "AMR.CP01").
 struct StartJob
 {
     std::string planID;

@@ -241,6 +241,8 @@ TEST_CASE("A job that was interrupted is judged by the loads when the vehicle is
     SECTION("nothing was moved")
     {
         vehicle.ShowState();
+        CHECK(vehicle.TakeEvents<Planning::JobInterrupted>().empty()); // the loads may follow later
+        vehicle.FireLoadTimer();
         CHECK(
             vehicle.TakeEvents<Planning::JobInterrupted>()
             == std::vector<Planning::JobInterrupted>{{"J", "the mode changed"}});
@@ -252,9 +254,29 @@ TEST_CASE("A job that was interrupted is judged by the loads when the vehicle is
         CHECK(vehicle.TakeEvents<JobFinished>().size() == 1);
         CHECK(vehicle.TakeEvents<Planning::JobInterrupted>().empty());
     }
+    SECTION("its loads follow later")
+    {
+        vehicle.ShowState();
+        vehicle.Show({LoadFixture::MakeLoad("rear", "C1")});
+        CHECK(vehicle.TakeEvents<JobFinished>().size() == 1);
+        vehicle.FireLoadTimer();
+    }
+    SECTION("it is switched to manual mode again before its loads have had their time")
+    {
+        vehicle.ShowState();
+        vehicle.state.operatingMode = VDA5050::EOperatingMode::Manual;
+        vehicle.ShowState();
+        vehicle.FireLoadTimer();
+        CHECK(vehicle.TakeEvents<Planning::JobInterrupted>().empty());
+        vehicle.state.operatingMode = VDA5050::EOperatingMode::Automatic;
+        vehicle.ShowState();
+        vehicle.FireLoadTimer();
+        CHECK(vehicle.TakeEvents<Planning::JobInterrupted>().size() == 1);
+    }
     SECTION("the loads prove neither")
     {
         vehicle.Show({});
+        vehicle.FireLoadTimer();
         const auto unresolved = vehicle.TakeEvents<JobUnresolved>();
         REQUIRE(unresolved.size() == 1);
         CHECK(unresolved[0].reason == "the mode changed; the loads of the vehicle do not show whether it was done");
@@ -273,7 +295,7 @@ TEST_CASE("A job that was interrupted is judged by the loads when the vehicle is
         == 1);
 }
 
-TEST_CASE("A job whose order the vehicle lost is judged at once; without loads an operator resolves it")
+TEST_CASE("A job whose order the vehicle lost is judged by the loads; without loads an operator resolves it")
 {
     LoadFixture vehicle;
     const bool bShowsLoads = GENERATE(true, false);
@@ -291,10 +313,30 @@ TEST_CASE("A job whose order the vehicle lost is judged at once; without loads a
     vehicle.state.orderID.clear(); // it was restarted
     vehicle.state.actionStates.clear();
     vehicle.ShowState();
+    vehicle.FireLoadTimer();
     CHECK(vehicle.TakeEvents<Planning::JobInterrupted>().size() == (bShowsLoads ? 1U : 0U));
     const auto unresolved = vehicle.TakeEvents<JobUnresolved>();
     REQUIRE(unresolved.size() == (bShowsLoads ? 0U : 1U));
     CHECK((bShowsLoads || unresolved[0].reason.ends_with("; the vehicle reports no loads")));
+}
+
+TEST_CASE("A job whose order ends without the end of its action is judged by the loads")
+{
+    LoadFixture vehicle;
+    Planning::StartJob job = MakeJob("CassetteLoad");
+    job.from = "A01.CP01";
+    job.to = "LR01.CP02";
+    vehicle.Command(job);
+    vehicle.ShowOrder(vehicle.TakeOrders().at(0), {});
+    vehicle.state.actionStates = {{"U1", "pick", "", VDA5050::EActionStatus::Running, ""}};
+    vehicle.ShowState();
+    vehicle.state.actionStates.clear();
+    vehicle.ShowState();
+    vehicle.FireLoadTimer();
+    CHECK(vehicle.TakeEvents<Planning::JobFailed>().empty());
+    const auto interrupted = vehicle.TakeEvents<Planning::JobInterrupted>();
+    REQUIRE(interrupted.size() == 1);
+    CHECK(interrupted[0].reason == "the order ended without an end of its action");
 }
 
 } // namespace ACS::Acsd::Test
