@@ -29,7 +29,7 @@ public:
             case ECoreError::OutOfRange:
                 return "a value is out of range";
             case ECoreError::UnknownWord:
-                return "a word is not one of those defined";
+                return "a name or value is not one of the defined ones";
             case ECoreError::TooLarge:
                 return "too long or too deeply nested";
             case ECoreError::InvalidLocation:

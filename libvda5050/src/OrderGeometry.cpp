@@ -70,7 +70,7 @@ std::string_view FindTrajectoryFault(const Trajectory& curve)
     const bool bRange = std::ranges::all_of(curve.knotVector, [](double knot) { return knot >= 0.0 && knot <= 1.0; });
     if (!bCounts || !bRange || !std::ranges::is_sorted(curve.knotVector))
     {
-        return "a trajectory has control points + degree + 1 rising knots from 0 to 1";
+        return "a trajectory must have control points + degree + 1 knots from 0 to 1, none less than the one before";
     }
     const bool bFinite = std::ranges::all_of(curve.controlPoints, [](const ControlPoint& point) {
         return std::isfinite(point.x) && std::isfinite(point.y);

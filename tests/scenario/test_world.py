@@ -134,7 +134,7 @@ class World(ScenarioCase):
         self.assertEqual(violations, [
             f"{plan_id} JobReport step 1 Completed, but not moved: CR01: TRAY_01 from A01.CP02.TP01 to CR01.TP02",
             f"{plan_id} TRAY_01 is at A01.CP02.TP01, not at CR01.TP02",
-            "moved without a JobReport: CR01: TRAY_02 from A01.CP02.TP02 to CR01.TP01"])
+            "done without a report: CR01: TRAY_02 from A01.CP02.TP02 to CR01.TP01"])
 
     def test_repeated_plans_find_the_floor_that_they_need(self):
         mcs = self.run_plans(PLANS, "--repeat", "2")

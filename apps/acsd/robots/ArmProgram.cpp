@@ -195,7 +195,7 @@ void ArmProgram::OnProof(const ArmProof& proof, const std::string& echo, Adapter
             Fail("the arm's program reported a failure", out);
             break;
         case ArmProof::EOutcome::OtherProgram:
-            ReportUnresolved(fmt::format("the arm's counters were raised by another program: {}", echo), out);
+            ReportUnresolved(fmt::format("another program of the arm has run: {}", echo), out);
             break;
         case ArmProof::EOutcome::Open:
         default:

@@ -202,7 +202,7 @@ void FloorChecker::Finish(PlanTracker::Lines& out)
     }
     for (const Move& move : _moves)
     {
-        _tracker.AddViolation("moved without a JobReport: " + CleanText(Describe(move.event)), out);
+        _tracker.AddViolation("done without a report: " + CleanText(Describe(move.event)), out);
     }
     _moves.clear();
 }

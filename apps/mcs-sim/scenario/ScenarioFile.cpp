@@ -249,7 +249,8 @@ MessagePattern ReadPattern(ObjectReader& reader, std::string_view member, std::s
     {
         reader.Refuse(
             member,
-            "the Ack of a command of the MCS, a name with '*', or one of " + ListCommands(IsSentByACS),
+            "the Ack of a command of the MCS, a pattern with '*' that matches a message of the ACS, or one of "
+                + ListCommands(IsSentByACS),
             Core::QuoteForError(pattern.command));
     }
     std::string members = "{";

@@ -34,7 +34,7 @@ std::string_view GetSentence(EApiError error)
         case EApiError::Playing:
             return "an automatic program is running";
         case EApiError::NoProgram:
-            return "no program is selected; POST /project/context/tasks[0]/cur_prog_cnt with its pno";
+            return "no program is selected; POST /project/context/tasks[0]/cur_prog_cnt with the pno of a program";
         case EApiError::EmergencyStop:
             return "the emergency stop is pressed; release it first";
         case EApiError::BufferFull:

@@ -95,7 +95,7 @@ constexpr std::array<Apps::FaultParameter<Fault>, 11> PARAMETERS{
 constexpr std::array<Apps::FaultRow<Fault>, 11> ROWS{
     {{EFaultKind::Silence, "silence", "", "stays connected and answers commands, but sends no data lines"},
      {EFaultKind::Hole, "hole", "", "the same for 100 ms, or for the time of for"},
-     {EFaultKind::Drop, "drop", "", "closes each Open Stream connection without a line", true},
+     {EFaultKind::Drop, "drop", "", "closes every Open Stream connection without a last message", true},
      {EFaultKind::Slow, "slow", "time side", "delays each answer of the Open API, by default by 500 ms"},
      {EFaultKind::Refuse, "refuse", "count status code", "refuses the next CONTROL, by default with 403 and -1554"},
      {EFaultKind::Mode,

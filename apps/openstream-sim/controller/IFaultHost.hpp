@@ -16,7 +16,7 @@ public:
     IFaultHost& operator=(const IFaultHost&) = delete;
     virtual ~IFaultHost() = default;
 
-    /// Close every Open Stream connection without a line.
+    /// Close every Open Stream connection without a last message.
     virtual void DropSessions() = 0;
 
     /// Call ControllerFaults::OnTimer at this time; nullopt: cancel. Replaces the previous time.

@@ -168,7 +168,7 @@ std::optional<WaitReason> WaitReasons::DescribeBegunOrNull(const ActivePlan& pla
     {
         const std::optional<std::string> objection = PortCheck::DescribeMissingTrayOrNull(robot);
         reason.message = objection.has_value()
-            ? fmt::format("{}: load the tray by hand and correct the record.", *objection)
+            ? fmt::format("{}: load the tray by hand, then correct the record of the robot's ports.", *objection)
             : robot.GetID() + " is about to start the job.";
         return reason;
     }

@@ -166,7 +166,7 @@ void OperatorCommands::CorrectCarriers(const SetCarriers& command)
     _transaction.Note(
         robot,
         fmt::format(
-            "ports corrected by the operator from {} to {}",
+            "record of the ports corrected by the operator: it was ({}), it is ({})",
             DescribePorts(robot.ports.GetCarriers()),
             DescribePorts(command.carrierIDs)));
     robot.ports.Correct(command.carrierIDs);

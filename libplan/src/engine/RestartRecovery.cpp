@@ -323,8 +323,8 @@ void RestartRecovery::RaiseMissing()
         Alarm alarm = MakeLinkAlarm(
             robot.GetID(),
             bHasWork
-                ? "Robot with unfinished work not connected since the start of the ACS. Check the robot and its network."
-                : "Robot not connected since the start of the ACS. Check the robot and its network.");
+                ? "The robot has unfinished work and has not connected since the start of the ACS. Check the robot and its network."
+                : "The robot has not connected since the start of the ACS. Check the robot and its network.");
         if (!robot.place.possibleNodes.empty())
         {
             alarm.message +=

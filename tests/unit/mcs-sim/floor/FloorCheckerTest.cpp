@@ -230,7 +230,7 @@ TEST_CASE("Another place than the job's is a report without a move, a move witho
         fixture.Finish()
         == "P1 JobReport step 3 Completed, but not moved: CR01: TRAY_02 from CR01.TP02 to A01.CP02.TP04\n"
            "P1 TRAY_02 is at A01.CP02.TP02, not at A01.CP02.TP04\n"
-           "moved without a JobReport: CR01: TRAY_02 from CR01.TP02 to A01.CP02.TP02\n");
+           "done without a report: CR01: TRAY_02 from CR01.TP02 to A01.CP02.TP02\n");
     CHECK(fixture.checker.GetCount() == DeliveryCount{1, 1});
     CHECK_FALSE(fixture.tracker.IsSuccess());
 }
@@ -253,7 +253,7 @@ TEST_CASE("A move without a plan is a violation at the end; a change by hand is 
     fixture.Dock("A01.CP03");
     fixture.MoveTray("TRAY_09", "A01.CP03.TP01", "CR01.TP03");
     fixture.Act(CarrierPlaced{"TRAY_08", "A01.CP03.TP01"});
-    CHECK(fixture.Finish() == "moved without a JobReport: CR01: TRAY_09 from A01.CP03.TP01 to CR01.TP03\n");
+    CHECK(fixture.Finish() == "done without a report: CR01: TRAY_09 from A01.CP03.TP01 to CR01.TP03\n");
 }
 
 TEST_CASE("A job that was begun and is not Completed may have been done: its move is excused, once")
@@ -269,8 +269,7 @@ TEST_CASE("A job that was begun and is not Completed may have been done: its mov
     {
         fixture.MoveTray("TRAY_01", "CR01.TP01", "A01.CP02.TP01");
         fixture.MoveTray("TRAY_01", "A01.CP02.TP01", "CR01.TP01");
-        CHECK(
-            fixture.Finish().substr(0, 69) == "moved without a JobReport: CR01: TRAY_01 from CR01.TP01 to A01.CP02.T");
+        CHECK(fixture.Finish().substr(0, 65) == "done without a report: CR01: TRAY_01 from CR01.TP01 to A01.CP02.T");
         CHECK(fixture.tracker.CountViolations() == 2);
     }
     CHECK(fixture.checker.GetCount() == DeliveryCount{});

@@ -81,11 +81,17 @@ public:
     }
 
     /// Registered, sent, accepted, and the reports of the first step up to its job's end.
-    void RunFirstJob()
+    /// The plan is sent and accepted.
+    void Begin()
     {
         tracker.OnRegistered();
         Send();
         Ack(0);
+    }
+
+    void RunFirstJob()
+    {
+        Begin();
         Report(
             {MakePlanReport("P1", EPlanStatus::InProgress),
              MakeStepReport("P1", 1, EStepStatus::Dispatched),
@@ -432,9 +438,7 @@ TEST_CASE("Another robot may take over a plan with StepReport(Dispatched) before
     other.robotID = "LR02";
     SECTION("before")
     {
-        fixture.tracker.OnRegistered();
-        fixture.Send();
-        fixture.Ack(0);
+        fixture.Begin();
         fixture.Report(
             {MakePlanReport("P1", EPlanStatus::InProgress),
              MakeStepReport("P1", 1, EStepStatus::Dispatched),
@@ -446,9 +450,7 @@ TEST_CASE("Another robot may take over a plan with StepReport(Dispatched) before
     }
     SECTION("to the same robot")
     {
-        fixture.tracker.OnRegistered();
-        fixture.Send();
-        fixture.Ack(0);
+        fixture.Begin();
         fixture.Report(
             {MakePlanReport("P1", EPlanStatus::InProgress),
              MakeStepReport("P1", 1, EStepStatus::Dispatched),

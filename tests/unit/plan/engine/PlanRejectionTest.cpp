@@ -26,6 +26,13 @@ std::string GetWaitReason(const PlanWorld& world)
     return reason.has_value() ? reason->message : std::string();
 }
 
+/// A robot was given the plan a minute ago.
+void BeginForMinute(PlanWorld& world)
+{
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 Dispatched");
+    static_cast<void>(TryRunFor(world, 1min));
+}
+
 } // namespace
 
 TEST_CASE("A plan whose robot loses its drive in manual mode waits, and continues from where the robot is")
@@ -63,8 +70,7 @@ TEST_CASE("A robot that rejects three drives in a row is unavailable until somet
 {
     PlanWorld world;
     world.GetRobot("LR01").bRejectDrives = true;
-    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 Dispatched");
-    static_cast<void>(TryRunFor(world, 1min));
+    BeginForMinute(world);
     CHECK(world.GetTraceOf("command LR01 Drive").size() == 3);
     CHECK(HasAlarm(world));
     CHECK(GetWaitReason(world) == "LR01: rejects its commands: simulated by the test.");
@@ -106,8 +112,7 @@ TEST_CASE("A robot that accepts each drive and drops it without progress is unav
 {
     PlanWorld world;
     world.GetRobot("LR01").bDropsDrives = true;
-    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 Dispatched");
-    static_cast<void>(TryRunFor(world, 1min));
+    BeginForMinute(world);
     CHECK(world.GetRobot("LR01").drives == 3);
     CHECK(HasAlarm(world));
 }
@@ -147,8 +152,7 @@ TEST_CASE(
     PlanWorld world(1, true);
     world.GetRobot("LR01").bRejectDrives = true;
     world.GetRobot("LR02").bRejectDrives = true;
-    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 Dispatched");
-    static_cast<void>(TryRunFor(world, 1min));
+    BeginForMinute(world);
     CHECK(world.engine->GetPlanOrNull("P1")->robotID == "LR02");
     const auto count = [&world] {
         return std::ranges::count(world.GetReportsOf("P1"), "Step 1 Dispatched");

@@ -101,7 +101,7 @@ TEST_CASE("A robot whose tray was removed during its drive waits at the set with
     SetTrays(world, "CR01", {{}, "TRAY_02", {}});
     REQUIRE(world.TryRun());
     const std::string reason =
-        "CR01.TP01 has no tray for CR01.TP01.MP03: load the tray by hand and correct the record.";
+        "CR01.TP01 has no tray for CR01.TP01.MP03: load the tray by hand, then correct the record of the robot's ports.";
     CHECK(world.engine->GetWaitReasonOrNull("P1")->message == reason);
     CHECK(world.engine->GetRobotStatuses()[1].status == ERobotStatus::Working);
     CHECK(world.engine->GetRobotStatuses()[1].message == reason);
