@@ -187,7 +187,11 @@ void MasterSession::Impl::OnVehicleOnline(Core::Now now, MasterActions& out)
     {
         PublishInstantActions(std::move(requests), now, out);
     }
-    ResendOrder(now, out);
+    _bAwaySinceSend = _inFlight.has_value() && _sendCount > 0;
+    if (!_bAwaySinceSend || _bAccepted)
+    {
+        ResendOrder(now, out);
+    }
     ResendInstantActions(now, out);
 }
 

@@ -75,6 +75,8 @@ class MasterSession::Impl
     std::vector<WithdrawnOrder> _withdrawnOrders;   ///< The last orders that ended before they were shown.
     std::vector<TrackedAction> _tracked;            ///< Not yet ended.
     std::vector<VehicleError> _errorsBeforeSend;    ///< Sorted.
+    std::string _orderIDBeforeSend;                 ///< Of the vehicle's state.
+    bool _bAwaySinceSend = false;                   ///< The vehicle was not connected for a time since then.
     std::uint32_t _firstHeaderID = 0;               ///< Of the message in flight; increases with each resend.
     std::vector<RouteNode> _route;                  ///< Accepted nodes, base and horizon.
     std::size_t _reachedNodes = 0;                  ///< Number of nodes of _route that were reported.
@@ -124,6 +126,9 @@ private:
     void SettlePendingActions(const ActionIndex& shown, MasterActions& out);
     void SettleInFlight(Core::Now now, MasterActions& out);
     void AcceptInFlight(Core::Now now, MasterActions& out);
+    /// Whether the vehicle may have executed the order in flight without showing it, and forgotten it by a restart.
+    [[nodiscard]] bool IsInFlightDoubtful() const;
+    void DropInFlight(MasterActions& out);
     void RejectInFlight(const std::string& errorType, const std::string& reason, MasterActions& out);
     [[nodiscard]] bool IsRejection(const VehicleError& error) const;
     [[nodiscard]] const VehicleError* FindRejectionOrNull() const;

@@ -82,7 +82,36 @@ void MasterSession::Impl::SettleInFlight(Core::Now now, MasterActions& out)
     if (rejectionOrNull != nullptr)
     {
         RejectInFlight(rejectionOrNull->errorType, rejectionOrNull->errorDescription, out);
+        return;
     }
+    if (IsInFlightDoubtful())
+    {
+        DropInFlight(out);
+    }
+    else if (std::exchange(_bAwaySinceSend, false) && !_bAccepted)
+    {
+        ResendOrder(now, out);
+    }
+}
+
+bool MasterSession::Impl::IsInFlightDoubtful() const
+{
+    if (_bAccepted || _sendCount == 0)
+    {
+        return false;
+    }
+    const bool bForgot = _state->orderID.empty() && !_orderIDBeforeSend.empty();
+    const bool bUnknown = _orderIDBeforeSend.empty() || _state->orderID != _orderIDBeforeSend;
+    return bForgot || (_bAwaySinceSend && bUnknown);
+}
+
+void MasterSession::Impl::DropInFlight(MasterActions& out)
+{
+    Withdraw(&*_inFlight, true);
+    out.emplace_back(OrderLost{
+        _orderID,
+        "the vehicle was restarted, or not connected, after the order was sent, and may have executed it"});
+    EndOrder(out);
 }
 
 void MasterSession::Impl::ExtendRoute(const OrderMessage& order)

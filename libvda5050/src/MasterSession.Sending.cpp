@@ -233,6 +233,8 @@ void MasterSession::Impl::StartWaitingForEcho(OrderMessage order, Core::Now now,
 {
     _errorsBeforeSend = _state->errors;
     std::ranges::sort(_errorsBeforeSend);
+    _orderIDBeforeSend = _state->orderID;
+    _bAwaySinceSend = false;
     _sendCount = 0;
     _inFlight = std::move(order);
     PublishOrder(now, out);

@@ -54,6 +54,7 @@ void MemoryRobotAdapter::Handle(const Planning::RobotCommand& command, Core::Now
                 _job = job;
                 _bJobStarted = false;
                 _bJobShown = false;
+                _commandBeforeJob = _bOnline ? std::optional(_snapshot->lastCommandID) : std::nullopt;
                 Send(job);
             },
             [this, &out](const Planning::RecoverJob& recovery) {
@@ -140,6 +141,7 @@ void MemoryRobotAdapter::OnSnapshot(const RobotSnapshot& snapshot, Planning::Ada
     Confirm();
     if (!std::exchange(_bOnline, true))
     {
+        DropDoubtfulJob(out);
         for (const RobotMessage& message : _unconfirmed)
         {
             _send(message);
@@ -150,6 +152,22 @@ void MemoryRobotAdapter::OnSnapshot(const RobotSnapshot& snapshot, Planning::Ada
     Recover(out);
     UpdateJob(out);
     PublishState(out);
+}
+
+/// The robot was away since the job was sent. If it does not show the command of before, it may have done the job and forgotten it.
+void MemoryRobotAdapter::DropDoubtfulJob(Planning::AdapterActions& out)
+{
+    const auto isJob = [](const RobotMessage& message) {
+        return std::holds_alternative<Planning::StartJob>(message);
+    };
+    const bool bKnown = !_commandBeforeJob.has_value()
+        || (!_commandBeforeJob->empty() && _snapshot->lastCommandID == *_commandBeforeJob);
+    _commandBeforeJob = _snapshot->lastCommandID;
+    if (bKnown || std::erase_if(_unconfirmed, isJob) == 0)
+    {
+        return;
+    }
+    Raise(Planning::JobUnresolved{std::exchange(_job, std::nullopt)->jobID, "the robot remembers nothing"}, out);
 }
 
 void MemoryRobotAdapter::Confirm()

@@ -33,7 +33,9 @@ private:
     std::optional<Planning::StartJob> _job;
     std::optional<Planning::RecoverJob> _recovery; ///< Requested, and not answered by the robot yet.
     bool _bJobStarted = false;
-    bool _bJobShown = false;     ///< The robot has received it.
+    bool _bJobShown = false; ///< The robot has received it.
+    /// The last command that the robot showed when the job was sent; nullopt: the job was not sent yet.
+    std::optional<std::string> _commandBeforeJob;
     std::string _foreignDriveID; ///< A drive from before a restart that is being cancelled.
 
 public:
@@ -50,6 +52,7 @@ public:
 
 private:
     void Send(const RobotMessage& message);
+    void DropDoubtfulJob(Planning::AdapterActions& out);
     void Confirm();
     [[nodiscard]] bool IsConfirmed(const RobotMessage& message) const;
     void Recover(Planning::AdapterActions& out);

@@ -190,7 +190,8 @@ struct CancelFailed
     bool operator==(const CancelFailed&) const = default;
 };
 
-/// The vehicle has dropped the order by itself: restart, manual mode, or an order of another master.
+/// The vehicle has dropped the order by itself: restart, manual mode, or an order of another master. Also of an order that it has
+/// not shown: it was away or restarted after the order was sent, and may have executed it.
 struct OrderLost
 {
     std::string orderID;
