@@ -57,7 +57,7 @@ Robot* Dispatcher::FindSuccessorOrNull(ActivePlan& plan)
 {
     for (const std::size_t index : plan.resolved.candidates)
     {
-        CheckJobs(plan, _fleet[index]); // only plans without a robot are checked when a factsheet changes
+        CheckJobs(plan, _fleet[index]); // only pending plans are checked when a factsheet changes
     }
     return FindNearestOrNull(plan);
 }
@@ -100,7 +100,7 @@ void Dispatcher::OnJobCheck(Robot& robot, const JobCheckChanged& event)
     robot.view.jobCheck = event.jobCheck;
     for (const auto& [planID, plan] : _plans.GetActive())
     {
-        if (!plan->robot.has_value())
+        if (plan->record.progress.state == EPlanState::Pending)
         {
             CheckJobs(*plan, robot);
         }

@@ -269,7 +269,7 @@ std::optional<std::string> OperatorCommands::GetRejectionReasonOrNull(const Skip
     {
         return fmt::format("Plan {} has no step {}.", command.planID, command.stepNo);
     }
-    if (!plan.robot.has_value())
+    if (!plan.robot.has_value() || IsOffered(plan))
     {
         return fmt::format("Plan {} has no robot yet. Skip the step once the plan is InProgress.", command.planID);
     }

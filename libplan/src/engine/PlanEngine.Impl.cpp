@@ -270,7 +270,7 @@ void PlanEngine::Impl::AssignPlans()
         }
         if (Robot* robotOrNull = _dispatcher.FindNearestOrNull(*plan); robotOrNull != nullptr)
         {
-            _work.BeginPlan(*plan, *robotOrNull);
+            _work.GetAssignment().Offer(*plan, *robotOrNull);
         }
     }
 }
@@ -279,15 +279,23 @@ void PlanEngine::Impl::HandOverPlans()
 {
     for (Robot& robot : _engine.fleet)
     {
-        if (robot.view.rejections.GetState() != ERejection::Exhausted || robot.planOrNull == nullptr
-            || robot.drive.has_value() || !_work.CanHandOver(*robot.planOrNull))
+        if (robot.planOrNull == nullptr || robot.drive.has_value())
         {
             continue;
         }
         ActivePlan& plan = *robot.planOrNull;
+        if (IsOffered(plan) && !robot.IsUsable())
+        {
+            _work.GetAssignment().Withdraw(plan);
+            continue;
+        }
+        if (robot.view.rejections.GetState() != ERejection::Exhausted || !_work.GetAssignment().CanHandOver(plan))
+        {
+            continue;
+        }
         if (Robot* successorOrNull = _dispatcher.FindSuccessorOrNull(plan); successorOrNull != nullptr)
         {
-            _work.HandOver(plan, *successorOrNull);
+            _work.GetAssignment().HandOver(plan, *successorOrNull);
         }
     }
 }

@@ -126,6 +126,10 @@ void RestartRecovery::RestorePlan(PlanRecord record)
         RestoreWork(plan, *robotOrNull);
         RestoreControl(plan, *robotOrNull);
     }
+    else if (const std::optional<EPlanControl> control = plan.record.progress.control; control.has_value())
+    {
+        _work.EndByControl(plan, *control); // its robot had not accepted its first command
+    }
     else if (plan.record.progress.state == EPlanState::Pending) // else it is held in the queue
     {
         _plans.Enqueue(plan);

@@ -7,6 +7,11 @@
 namespace ACS::Planning
 {
 
+bool IsOffered(const ActivePlan& plan)
+{
+    return plan.robot.has_value() && plan.record.progress.state == EPlanState::Pending;
+}
+
 bool HasJob(const ActivePlan& plan)
 {
     return !plan.record.plan.steps[plan.step].jobs.empty();

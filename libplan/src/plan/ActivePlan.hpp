@@ -58,9 +58,11 @@ struct ActivePlan
     JobRepetition repetition;
     std::optional<Core::SteadyTime> jobDeadline;
     std::optional<Core::Duration> jobTimeLeft;     ///< Of a job that is paused.
-    std::map<std::size_t, std::string> rejections; ///< Unassigned: by robot, why it cannot do a job.
+    std::map<std::size_t, std::string> rejections; ///< While Pending: by robot, why it cannot do a job.
 };
 
+/// Whether it has a robot that has not accepted its first command yet.
+[[nodiscard]] bool IsOffered(const ActivePlan& plan);
 /// Whether the present step has jobs. Without them the engine makes one, whose id the MCS does not know.
 [[nodiscard]] bool HasJob(const ActivePlan& plan);
 /// Of the present job.

@@ -216,7 +216,7 @@ const PlanRecord* PlanBook::FindRecordOrNull(std::string_view planID) const
 bool PlanBook::IsAnyRunning() const
 {
     return std::ranges::any_of(_active, [](const auto& entry) {
-        return entry.second->record.progress.state == EPlanState::InProgress;
+        return entry.second->record.progress.state == EPlanState::InProgress || IsOffered(*entry.second);
     });
 }
 

@@ -39,6 +39,7 @@ DriveOutcomes::DriveOutcomes(
       _waiting(waiting),
       _coordinator(coordinator),
       _deadlocks(engine, tsc, places, waiting, coordinator),
+      _assignment(work.GetAssignment()),
       _work(work),
       _controls(controls)
 {
@@ -122,6 +123,10 @@ void DriveOutcomes::OnNodePassed(Robot& robot, const NodePassed& event)
         return;
     }
     robot.drive->bTaken = true;
+    if (robot.drive->goal == EDriveGoal::Step && robot.planOrNull != nullptr)
+    {
+        _assignment.Start(*robot.planOrNull);
+    }
     robot.work.MarkCommandTaken();
     robot.changes.bWork = true;
     if (!robot.drive->bConfirmed)
@@ -206,6 +211,10 @@ void DriveOutcomes::OnDriveRejected(Robot& robot, const DriveRejected& event)
     {
         // The plan waits, and continues with another drive from where the robot is then, or with another robot.
         _rejections.OnRejected(robot, event.reason);
+        if (IsOffered(*robot.planOrNull))
+        {
+            _assignment.Withdraw(*robot.planOrNull);
+        }
     }
 }
 

@@ -31,6 +31,7 @@ class DriveOutcomes
     WaitingRobots& _waiting;
     TrafficCoordinator& _coordinator;
     DeadlockResolver _deadlocks;
+    PlanAssignment& _assignment;
     PlanWork& _work;
     PlanControls& _controls;
 

@@ -27,6 +27,7 @@ PlanControls::PlanControls(
       _waiting(waiting),
       _coordinator(coordinator),
       _status(status),
+      _assignment(work.GetAssignment()),
       _work(work)
 {
 }
@@ -150,7 +151,7 @@ bool PlanControls::IsCancellable(const ActivePlan& plan) const
     switch (_options.controls.cancelUntil)
     {
         case ECancelWindow::Dispatch:
-            return !plan.robot.has_value();
+            return !plan.robot.has_value() || IsOffered(plan);
         case ECancelWindow::FirstJob:
             return !plan.bJobBegun;
         case ECancelWindow::FirstArrival:
@@ -194,7 +195,7 @@ void PlanControls::ContinueAfterControl(Robot& robot)
     }
     if (plan.next == EContinuation::Step)
     {
-        _work.BeginStep(plan, robot);
+        _assignment.BeginStep(plan, robot);
     }
     if (robot.drive.has_value())
     {
@@ -249,6 +250,11 @@ void PlanControls::Pause(ActivePlan& plan)
         return;
     }
     _answers.Answer(plan, false, "Superseded by PausePlan.");
+    if (IsOffered(plan) && !_fleet[*plan.robot].drive.has_value())
+    {
+        _assignment.Withdraw(plan);
+    }
+    _assignment.Start(plan); // its robot may have accepted the drive and not shown it yet
     _answers.Ask(plan, EPlanControl::Pause);
     if (!plan.robot.has_value())
     {

@@ -31,6 +31,7 @@ class PlanControls
     const WaitingRobots& _waiting;
     TrafficCoordinator& _coordinator;
     StatusPublisher& _status;
+    PlanAssignment& _assignment;
     PlanWork& _work;
 
 public:

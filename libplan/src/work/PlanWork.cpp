@@ -19,70 +19,16 @@ PlanWork::PlanWork(EngineState& engine, ControlAnswers& answers, LoadWatch& load
       _fleet(engine.fleet),
       _alarms(engine.alarms),
       _transaction(engine.transaction),
-      _call(engine.call),
       _answers(answers),
       _loads(loads),
-      _status(status)
+      _status(status),
+      _assignment(engine)
 {
 }
 
-void PlanWork::BeginPlan(ActivePlan& plan, Robot& robot)
+PlanAssignment& PlanWork::GetAssignment() noexcept
 {
-    _plans.Dequeue(plan);
-    plan.robot = robot.index;
-    plan.rejections.clear();
-    plan.record.progress.robotID = robot.GetID();
-    robot.planOrNull = &plan;
-    robot.parking.bRefused = false;
-    robot.work.BeginPlan(robot.view.state.has_value() ? robot.view.state->restartEvidence.commandID : std::nullopt);
-    robot.changes.bWork = true;
-    _call.begunPlanIDs.push_back(plan.record.plan.planID);
-    if (plan.record.progress.state == EPlanState::Pending)
-    {
-        _transaction.ChangePlan(plan, EPlanState::InProgress, fmt::format("Assigned to {}.", robot.GetID()));
-    }
-    BeginStep(plan, robot);
-}
-
-bool PlanWork::CanHandOver(const ActivePlan& plan) const
-{
-    return plan.robot.has_value() && plan.resolved.candidates.size() > 1 && !plan.bJobBegun
-        && !_fleet[*plan.robot].work.IsUnresolved() && plan.record.progress.state == EPlanState::InProgress
-        && !plan.record.progress.control.has_value();
-}
-
-void PlanWork::HandOver(ActivePlan& plan, Robot& successor)
-{
-    Robot& robot = _fleet[*plan.robot];
-    _transaction.Note(robot, fmt::format("plan {} is handed over to {}", plan.record.plan.planID, successor.GetID()));
-    FreeRobot(robot);
-    plan.record.progress.bArrived = false;
-    BeginPlan(plan, successor);
-    _plans.MarkProgressed(plan.record.plan.planID);
-}
-
-void PlanWork::FreeRobot(Robot& robot)
-{
-    robot.planOrNull = nullptr;
-    robot.activity = EActivity::Idle;
-    robot.changes.bWork = robot.work.TryResolve() || robot.changes.bWork;
-    robot.parking.retreatNode.reset();
-    robot.changes.bStatus = true;
-    robot.search.plannedRoute.reset();
-}
-
-void PlanWork::BeginStep(ActivePlan& plan, Robot& robot)
-{
-    plan.job = 0;
-    plan.repetition = {};
-    plan.next = EContinuation::Job;
-    plan.bStepArrived = false;
-    robot.activity = EActivity::Waits;
-    robot.changes.bStatus = true;
-    robot.search.plannedRoute.reset();
-    robot.search.detours = 0;
-    _transaction.ChangeStep(plan, EStepState::Dispatched, {});
-    _transaction.RequestDispatch();
+    return _assignment;
 }
 
 void PlanWork::MarkStepBegun(ActivePlan& plan)
@@ -96,6 +42,7 @@ void PlanWork::MarkStepBegun(ActivePlan& plan)
 void PlanWork::MarkArrived(Robot& robot)
 {
     ActivePlan& plan = *robot.planOrNull;
+    _assignment.Start(plan);
     if (!std::exchange(plan.record.progress.bArrived, true))
     {
         _plans.MarkProgressed(plan.record.plan.planID);
@@ -250,7 +197,7 @@ void PlanWork::BeginNext(Robot& robot)
 {
     if (robot.planOrNull->next == EContinuation::Step)
     {
-        BeginStep(*robot.planOrNull, robot);
+        _assignment.BeginStep(*robot.planOrNull, robot);
         return;
     }
     if (robot.IsUsable() && !PortCheck::DescribeMissingTrayOrNull(robot).has_value())
@@ -283,6 +230,7 @@ void PlanWork::ConfirmPause(Robot& robot)
 
 void PlanWork::FailPlan(ActivePlan& plan, const std::string& reason)
 {
+    _assignment.Start(plan);
     const bool bAborting =
         plan.record.progress.control == EPlanControl::Abort && !_options.controls.bJobFailureFailsAbort;
     if (plan.record.progress.state == EPlanState::Paused && !bAborting)
@@ -330,7 +278,7 @@ void PlanWork::EndPlan(ActivePlan& plan, EPlanState state, const std::string& me
         {
             ReleaseJob(robot);
         }
-        FreeRobot(robot);
+        PlanAssignment::FreeRobot(robot);
     }
     _transaction.RequestDispatch();
     if (state == EPlanState::Completed)

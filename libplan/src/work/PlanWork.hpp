@@ -5,6 +5,7 @@
 #include "dispatch/PortCheck.hpp"
 #include "dispatch/StatusPublisher.hpp"
 #include "transaction/EngineState.hpp"
+#include "work/PlanAssignment.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -24,22 +25,15 @@ class PlanWork
     Fleet& _fleet;
     AlarmBook& _alarms;
     EngineTransaction& _transaction;
-    CallRecord& _call;
     ControlAnswers& _answers;
     LoadWatch& _loads;
     StatusPublisher& _status;
+    PlanAssignment _assignment;
 
 public:
     PlanWork(EngineState& engine, ControlAnswers& answers, LoadWatch& loads, StatusPublisher& status);
 
-    /// Assigns the plan to the robot and begins its first step; again if another robot had the plan before (HandOver).
-    void BeginPlan(ActivePlan& plan, Robot& robot);
-    /// Another robot may take over the plan: it names no robot, none of its jobs was commanded or may be done, and no control is
-    /// open.
-    [[nodiscard]] bool CanHandOver(const ActivePlan& plan) const;
-    /// Gives the plan to another robot. The present one is stationary without a drive.
-    void HandOver(ActivePlan& plan, Robot& successor);
-    void BeginStep(ActivePlan& plan, Robot& robot);
+    [[nodiscard]] PlanAssignment& GetAssignment() noexcept;
     /// The robot moves to the step's station: the step is InProgress.
     void MarkStepBegun(ActivePlan& plan);
     /// The robot is at the last node before its step's station, or at the station.
@@ -80,7 +74,6 @@ public:
     void StopJobTimer(Robot& robot);
 
 private:
-    static void FreeRobot(Robot& robot);
     void BeginJob(Robot& robot);
     /// Continues with the next job or step, unless the plan is paused.
     void ContinuePlan(Robot& robot);

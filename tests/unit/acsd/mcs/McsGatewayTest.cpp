@@ -66,7 +66,7 @@ protected:
         _host.OnStored({});
         _host.Push(Planning::RobotInput{"LR01", LinkChanged{true}});
         StateChanged state;
-        state.lastNodeID = "D-CHG01";
+        state.lastNodeID = "D-A01.CP01"; // where the plan begins: it starts without a drive
         _host.Push(Planning::RobotInput{"LR01", state});
     }
 

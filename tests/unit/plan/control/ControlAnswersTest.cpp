@@ -110,7 +110,7 @@ TEST_CASE("ControlAnswers: a plan leaves its pause to the state that fits whethe
     parts.answers.LeavePause(queued, {});
     CHECK(queued.record.progress.state == EPlanState::Pending);
     parts.PutOn(parts.lr, "D-CHG01");
-    parts.work.BeginPlan(queued, parts.lr);
+    parts.assignment.Offer(queued, parts.lr);
     parts.engine.transaction.ChangePlan(queued, EPlanState::Paused, {});
     parts.answers.LeavePause(queued, {});
     CHECK(queued.record.progress.state == EPlanState::InProgress);

@@ -73,7 +73,7 @@ TEST_CASE("PortCheck: memory in a tray needs the tray on record or loaded by the
     ActivePlan& active = parts.Add(plan);
     CHECK(check.JudgePorts(active, parts.cr).unavailabilityOrNull.has_value());
     parts.PutOn(parts.cr, "D-CHG02");
-    parts.work.BeginPlan(active, parts.cr);
+    parts.assignment.Offer(active, parts.cr);
     CHECK(PortCheck::DescribeMissingTrayOrNull(parts.cr).has_value());
     parts.cr.ports.Correct({"TRAY_01", std::nullopt, std::nullopt});
     CHECK_FALSE(PortCheck::DescribeMissingTrayOrNull(parts.cr).has_value());

@@ -36,7 +36,7 @@ TEST_CASE("StatusPublisher: a robot with a plan drives out of a station, along l
 {
     EngineParts parts;
     parts.PutOn(parts.lr, "D-CHG01");
-    parts.work.BeginPlan(parts.AddLoad(), parts.lr);
+    parts.assignment.Offer(parts.AddLoad(), parts.lr);
     const auto derive = [&parts] {
         return parts.status.DeriveStatus(parts.lr);
     };

@@ -169,10 +169,10 @@ TEST_CASE("6.7 Pause of a robot that is stationary is reported at once, and it i
     world.Submit(control);
     REQUIRE(TryRunUntil(world, "P2", "Job 1 P2-cd InProgress"));
     world.Submit(MakeLogisticsPlan("P1")); // Waits for the dock where the other robot works.
-    REQUIRE(TryRunUntil(world, "P1", "Step 1 Dispatched"));
+    REQUIRE(world.TryRun([&world] { return world.engine->GetRobotStatuses()[0].planID == "P1"; }));
     world.Control(EPlanControl::Pause, "P1");
     CHECK(world.GetReportsOf("P1").back() == "PauseResult Success");
-    CHECK(world.engine->GetRobotStatuses()[0].status == ERobotStatus::Stopped);
+    CHECK_FALSE(world.engine->GetRobotStatuses()[0].planID.has_value());
     REQUIRE(world.TryRun());
     CHECK(world.GetReportsOf("P2").back() == "Plan Completed");
     CHECK(world.GetRobot("LR01").drives == 0);

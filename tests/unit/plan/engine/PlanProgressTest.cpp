@@ -86,7 +86,8 @@ TEST_CASE("drive.stall_timeout: a drive that never reaches its robot raises ACS-
 {
     PlanWorld world;
     world.GetRobot("LR01").bDeaf = true;
-    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 Dispatched");
+    world.Connect();
+    world.Submit(MakeLogisticsPlan("P1"));
     REQUIRE(TryRunUntilStall(world));
     CHECK(GetReason(world) == "LR01 stalled: drive to node L01 not confirmed for 60 s. Check the robot.");
     world.Raise("LR01", NodePassed{world.driveIDs.at("LR01"), "D-CHG01"});

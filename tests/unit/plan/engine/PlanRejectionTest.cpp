@@ -5,8 +5,10 @@ using ACS::Testing::BeginPlan;
 using ACS::Testing::Contains;
 using ACS::Testing::FinishPlan;
 using ACS::Testing::Lines;
+using ACS::Testing::MakeControlPlan;
 using ACS::Testing::MakeLogisticsPlan;
 using ACS::Testing::PlanWorld;
+using ACS::Testing::RestartEngine;
 using ACS::Testing::TryRunFor;
 using ACS::Testing::TryRunUntil;
 
@@ -24,6 +26,13 @@ std::string GetWaitReason(const PlanWorld& world)
 {
     const std::optional<WaitReason> reason = world.engine->GetWaitReasonOrNull("P1");
     return reason.has_value() ? reason->message : std::string();
+}
+
+/// Why the first robot cannot take the plan, which is in the queue.
+std::string GetRobotReason(const PlanWorld& world)
+{
+    const std::optional<WaitReason> reason = world.engine->GetWaitReasonOrNull("P1");
+    return reason.has_value() && !reason->robots.empty() ? reason->robots.front().reason : std::string();
 }
 
 /// A robot was given the plan a minute ago.
@@ -49,7 +58,7 @@ TEST_CASE("A plan whose robot loses its drive in manual mode waits, and continue
         BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
         REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").GetOccupied() == Lines{"L02", "L03"}; }));
     }
-    SECTION("before it has confirmed the drive")
+    SECTION("on its first node")
     {
         BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 Dispatched");
     }
@@ -70,11 +79,13 @@ TEST_CASE("A robot that rejects three drives in a row is unavailable until somet
 {
     PlanWorld world;
     world.GetRobot("LR01").bRejectDrives = true;
-    BeginForMinute(world);
+    world.Connect();
+    world.Submit(MakeLogisticsPlan("P1"));
+    static_cast<void>(TryRunFor(world, 1min));
     CHECK(world.GetTraceOf("command LR01 Drive").size() == 3);
     CHECK(HasAlarm(world));
-    CHECK(GetWaitReason(world) == "LR01: rejects its commands: simulated by the test.");
-    CHECK(world.GetReportsOf("P1").back() == "Step 1 Dispatched");
+    CHECK(GetRobotReason(world) == "rejects its commands: simulated by the test");
+    CHECK_FALSE(Contains(world.GetReportsOf("P1"), "Plan InProgress"));
     SECTION("its mode")
     {
         world.SwitchMode("LR01", true);
@@ -117,7 +128,80 @@ TEST_CASE("A robot that accepts each drive and drops it without progress is unav
     CHECK(HasAlarm(world));
 }
 
-TEST_CASE("A plan whose robot rejects all its drives is taken over by another robot, unless it names the robot")
+TEST_CASE("Until a robot has accepted its first drive, the plan is Pending, also when it is cancelled or paused")
+{
+    PlanWorld world;
+    world.GetRobot("LR01").bDeaf = true;
+    world.Connect();
+    world.Submit(MakeLogisticsPlan("P1"));
+    REQUIRE(world.TryRun([&world] { return world.GetTraceOf("command LR01 Drive").size() == 1; }));
+    CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::Pending);
+    const std::string driveID = world.driveIDs.at("LR01");
+    SECTION("it accepts it")
+    {
+        world.Raise("LR01", NodePassed{driveID, "D-CHG01"});
+        CHECK(world.GetReportsOf("P1") == Lines{"Plan InProgress", "Step 1 Dispatched"});
+    }
+    SECTION("it is cancelled")
+    {
+        world.Control(EPlanControl::Cancel, "P1");
+        CHECK(world.GetReportsOf("P1").empty());
+        world.Raise("LR01", DriveRejected{driveID, "cancelled before it was sent"});
+        CHECK(world.GetReportsOf("P1") == Lines{"Plan Cancelled", "CancelResult Success"});
+    }
+    SECTION("it is cancelled, and the ACS is restarted before the robot has answered")
+    {
+        world.Control(EPlanControl::Cancel, "P1");
+        world.Crash();
+        RestartEngine(world);
+        REQUIRE(world.TryRun());
+        CHECK(world.GetReportsOf("P1") == Lines{"Plan Cancelled", "CancelResult Success"});
+    }
+    SECTION("it is paused: the robot may have accepted it already")
+    {
+        world.Control(EPlanControl::Pause, "P1");
+        CHECK(
+            world.GetReportsOf("P1")
+            == Lines{"Plan InProgress", "Step 1 Dispatched", "Plan Paused", "PauseResult Success"});
+    }
+    SECTION("the TSC is paused: it waits for the plan, as for one in progress")
+    {
+        world.SwitchTSC(true);
+        CHECK(world.engine->GetTscState() == ETscState::Pausing);
+        world.Raise("LR01", DriveRejected{driveID, "rejected"});
+        CHECK(world.engine->GetTscState() == ETscState::Paused);
+        CHECK(world.GetReportsOf("P1").empty());
+    }
+    SECTION("the ACS is restarted")
+    {
+        world.GetRobot("LR01").bDeaf = false;
+        world.Crash();
+        RestartEngine(world);
+        FinishPlan(world);
+        CHECK(std::ranges::count(world.GetReportsOf("P1"), "Plan InProgress") == 1);
+    }
+    CHECK(world.violations == Lines{});
+}
+
+TEST_CASE("A plan whose robot becomes unavailable before it has a drive is given to another robot")
+{
+    PlanWorld world(1, true);
+    Plan control = MakeControlPlan("P2");
+    control.priority = 20;
+    BeginPlan(world, control, "Job 1 P2-cd InProgress");
+    world.Submit(MakeLogisticsPlan("P1")); // waits for the dock where CR01 works
+    REQUIRE(world.TryRun([&world] { return world.engine->GetRobotStatuses()[0].planID == "P1"; }));
+    CHECK(world.GetRobot("LR01").drives == 0);
+    world.SwitchMode("LR01", true);
+    CHECK_FALSE(world.engine->GetRobotStatuses()[0].planID.has_value());
+    REQUIRE(world.TryRun());
+    CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
+    CHECK(world.GetRobot("LR02").doneJobs == Lines{"P1-a4", "P1-b2"});
+    CHECK(std::ranges::count(world.GetReportsOf("P1"), "Step 1 Dispatched") == 1);
+    CHECK(world.violations == Lines{});
+}
+
+TEST_CASE("A plan whose robot rejects its first drive is given to another robot, unless it names the robot")
 {
     PlanWorld world(1, true);
     world.GetRobot("LR01").bRejectDrives = true;
@@ -131,27 +215,27 @@ TEST_CASE("A plan whose robot rejects all its drives is taken over by another ro
     }
     world.Submit(plan);
     static_cast<void>(TryRunFor(world, 10min));
-    CHECK(HasAlarm(world));
-    CHECK(world.GetTraceOf("command LR01 Drive").size() == 3);
+    CHECK(HasAlarm(world) == bPinned);
+    CHECK(world.GetTraceOf("command LR01 Drive").size() == (bPinned ? 3 : 1));
+    const Lines reports = world.GetReportsOf("P1");
     if (bPinned)
     {
-        CHECK(GetWaitReason(world) == "LR01: rejects its commands: simulated by the test.");
+        CHECK_FALSE(Contains(reports, "Plan InProgress"));
+        CHECK(GetRobotReason(world) == "rejects its commands: simulated by the test");
         return;
     }
-    const Lines reports = world.GetReportsOf("P1");
     CHECK(std::ranges::count(reports, "Plan InProgress") == 1);
-    CHECK(std::ranges::count(reports, "Step 1 Dispatched") == 2);
+    CHECK(std::ranges::count(reports, "Step 1 Dispatched") == 1);
     CHECK(reports.back() == "Plan Completed");
     CHECK(world.GetRobot("LR02").doneJobs == Lines{"P1-a4", "P1-b2"});
     CHECK(world.violations == Lines{});
 }
 
-TEST_CASE(
-    "A plan whose robot rejects its drives is handed over when another robot is free, and to no other robot before")
+TEST_CASE("A plan whose robot drops its drives is handed over when another robot is free, and to no other robot before")
 {
     PlanWorld world(1, true);
-    world.GetRobot("LR01").bRejectDrives = true;
-    world.GetRobot("LR02").bRejectDrives = true;
+    world.GetRobot("LR01").bDropsDrives = true;
+    world.GetRobot("LR02").bDropsDrives = true;
     BeginForMinute(world);
     CHECK(world.engine->GetPlanOrNull("P1")->robotID == "LR02");
     const auto count = [&world] {
@@ -160,14 +244,14 @@ TEST_CASE(
     CHECK(count() == 2);
     SECTION("the same robot may try again")
     {
-        world.GetRobot("LR02").bRejectDrives = false;
+        world.GetRobot("LR02").bDropsDrives = false;
         world.Ask(ClearAlarms{"LR02", "ACS-1012", {}, {}, 0});
         FinishPlan(world);
         CHECK(count() == 2);
     }
     SECTION("the other robot may try again")
     {
-        world.GetRobot("LR01").bRejectDrives = false;
+        world.GetRobot("LR01").bDropsDrives = false;
         world.Ask(ClearAlarms{"LR01", "ACS-1012", {}, {}, 0});
         FinishPlan(world);
         CHECK(count() == 3);
@@ -176,7 +260,7 @@ TEST_CASE(
     SECTION("it is paused meanwhile")
     {
         world.Control(EPlanControl::Pause, "P1");
-        world.GetRobot("LR01").bRejectDrives = false;
+        world.GetRobot("LR01").bDropsDrives = false;
         world.Ask(ClearAlarms{"LR01", "ACS-1012", {}, {}, 0});
         static_cast<void>(TryRunFor(world, 1min));
         CHECK(count() == 2);

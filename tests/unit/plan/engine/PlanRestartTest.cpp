@@ -230,7 +230,8 @@ TEST_CASE("After a restart no robot sets out before every robot has reported its
     for (const bool bAllThere : {true, false})
     {
         PlanWorld world(1, true);
-        BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 Dispatched");
+        world.Connect();
+        world.Submit(MakeLogisticsPlan("P1"));
         world.Restart(MakeTestOptions(true), MakeTestSite());
         const std::size_t before = world.GetTraceOf("command ").size();
         StateChanged state;

@@ -184,12 +184,12 @@ TEST_CASE("6.13 A step that runs, has ended, is unknown or whose plan has not be
     CHECK(Skip(world, 3) == "no: Plan P1 has no step 3.");
     world.Connect();
     const std::string rule = ". Only a Pending step or a step with an unresolved job can be skipped.";
-    REQUIRE(TryRunUntil(world, "P1", "Step 1 Dispatched"));
-    CHECK(Skip(world, 1) == "no: Step 1 is Dispatched" + rule);
     REQUIRE(TryRunUntil(world, "P1", "Job 1 P1-a4 InProgress"));
     CHECK(Skip(world, 1) == "no: Step 1 is InProgress" + rule);
     REQUIRE(TryRunUntil(world, "P1", "Step 1 Completed"));
     CHECK(Skip(world, 1) == "no: Step 1 is Completed" + rule);
+    REQUIRE(TryRunUntil(world, "P1", "Step 2 Dispatched"));
+    CHECK(Skip(world, 2) == "no: Step 2 is Dispatched" + rule);
     FinishPlan(world);
     CHECK(Skip(world, 2) == "no: Plan P1 is already Completed.");
 }

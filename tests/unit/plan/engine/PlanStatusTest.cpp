@@ -133,7 +133,7 @@ TEST_CASE("5.9 A robot that waits for its route is Moving, and its message names
     PlanWorld world;
     BeginPlan(world, MakeLoadPlan(), "Job 1 J1 Instructed");
     world.Submit(MakeControlPlan("P2"));
-    REQUIRE(TryRunUntil(world, "P2", "Step 1 Dispatched"));
+    REQUIRE(world.TryRun([&world] { return GetStatus(world, "CR01").planID == "P2"; }));
     const RobotStatus waiting = GetStatus(world, "CR01");
     CHECK(waiting.status == ERobotStatus::Moving);
     CHECK(waiting.message == "CR01 waits for LR01 to clear its route.");

@@ -104,32 +104,6 @@ TEST_CASE("A crash while the disk fails: each job that may have been done is unr
     CHECK(GetUnresolvedJob(world).empty());
 }
 
-TEST_CASE("A crash while the disk fails: the first job of a robot without a stored command is unresolved")
-{
-    const std::string before = GENERATE("", "an order of another system");
-    PlanWorld world(1, true);
-    world.Connect();
-    StateChanged state;
-    state.lastNodeID = "D-CHG01";
-    state.restartEvidence.commandID = before;
-    world.Raise("LR01", state);
-    StateChanged inTheWay;
-    inTheWay.lastNodeID = "D-CHG03";
-    inTheWay.bDriving = true;
-    inTheWay.heldNodeIDs = {"L01"};
-    world.Raise("LR02", inTheWay);
-    world.Submit(MakeLogisticsPlan("P1"));
-    REQUIRE(TryRunUntil(world, "P1", "Step 1 Dispatched"));
-    world.store.bFails = true;
-    world.PublishState("LR02");
-    REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").doneJobs.size() == 1; }));
-    world.Crash();
-    world.store.bFails = false;
-    world.Restart(ACS::Testing::MakeTestOptions(true), ACS::Testing::MakeTestSite());
-    world.Connect();
-    CheckFirstJobHeld(world);
-}
-
 TEST_CASE(
     "A crash while the disk fails: the first job of a robot that was switched off after its first drive is unresolved")
 {

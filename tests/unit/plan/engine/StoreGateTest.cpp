@@ -140,7 +140,7 @@ TEST_CASE("StoreGate: the first job of a plan that is not stored as begun is wit
     parts.PutOn(parts.lr, "D-A01.CP01");
     ActivePlan& plan = parts.AddLoad();
     parts.Discard(); // the plan itself is stored
-    parts.work.BeginPlan(plan, parts.lr);
+    parts.assignment.Offer(plan, parts.lr);
     parts.work.BeginWork(parts.lr);
     const std::string commandID = parts.lr.job.GetOrNull()->commandID;
     static_cast<void>(parts.CommitCall());

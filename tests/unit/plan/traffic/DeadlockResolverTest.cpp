@@ -19,8 +19,8 @@ void Exchange(EngineParts& parts)
     plan.steps.front().jobs = {{"P2-1", "A01.CP02.TP01", "AMR.TP01"}};
     parts.PutOn(parts.lr, "D-A01.CP02");
     parts.PutOn(parts.cr, "D-A01.CP01");
-    parts.work.BeginPlan(parts.AddLoad(), parts.lr);
-    parts.work.BeginPlan(parts.Add(plan), parts.cr);
+    parts.assignment.Offer(parts.AddLoad(), parts.lr);
+    parts.assignment.Offer(parts.Add(plan), parts.cr);
     REQUIRE(parts.coordinator.TryDrive(parts.lr) == EDriveAttempt::Waits);
     REQUIRE(parts.coordinator.TryDrive(parts.cr) == EDriveAttempt::Waits);
     parts.Discard();
@@ -81,7 +81,7 @@ TEST_CASE("DeadlockResolver: an idle robot in its parking position steps aside")
     DeadlockResolver resolver(parts.engine, parts.tsc, parts.places, parts.waiting, parts.coordinator);
     parts.PutOn(parts.lr, "D-CHG01");
     parts.PutOn(parts.cr, "D-A01.CP01");
-    parts.work.BeginPlan(parts.AddLoad(), parts.lr);
+    parts.assignment.Offer(parts.AddLoad(), parts.lr);
     REQUIRE(parts.coordinator.TryDrive(parts.lr) == EDriveAttempt::Waits);
     parts.Discard();
     SECTION("while robots are driven")

@@ -11,7 +11,7 @@ TEST_CASE("TrafficCoordinator: a drive begins with the length of the base")
 {
     EngineParts parts;
     parts.PutOn(parts.lr, "D-CHG01");
-    parts.work.BeginPlan(parts.AddLoad(), parts.lr);
+    parts.assignment.Offer(parts.AddLoad(), parts.lr);
     parts.Discard();
     REQUIRE(parts.coordinator.TryDrive(parts.lr) == EDriveAttempt::Begun);
     const CallOutcome outcome = parts.Collect();
@@ -32,7 +32,7 @@ TEST_CASE("TrafficCoordinator: a robot does not set out for a place that another
     EngineParts parts;
     parts.PutOn(parts.lr, "D-CHG01");
     parts.PutOn(parts.cr, "D-A01.CP01");
-    parts.work.BeginPlan(parts.AddLoad(), parts.lr);
+    parts.assignment.Offer(parts.AddLoad(), parts.lr);
     parts.Discard();
     CHECK(parts.coordinator.TryDrive(parts.lr) == EDriveAttempt::Waits);
     CHECK(parts.lr.search.blockers == std::vector<std::size_t>{1});
@@ -162,7 +162,7 @@ TEST_CASE("TrafficCoordinator: a robot that waits gets another route when its lo
     Plan plan = MakeLogisticsPlan("P1");
     plan.steps.front().position = "A01.CP06";
     plan.steps.front().jobs.front().from = "A01.CP06";
-    parts.work.BeginPlan(parts.Add(plan), parts.lr);
+    parts.assignment.Offer(parts.Add(plan), parts.lr);
     const std::size_t around = parts.FindNode("AROUND");
     const auto isAround = [&parts, around] {
         return std::ranges::count(parts.lr.search.plannedRoute->nodes, around) > 0;
@@ -183,7 +183,7 @@ TEST_CASE("TrafficCoordinator: a detour that was found for another load is not u
     Plan plan = MakeLogisticsPlan("P1");
     plan.steps.front().position = "A01.CP06";
     plan.steps.front().jobs.front().from = "A01.CP06";
-    parts.work.BeginPlan(parts.Add(plan), parts.lr);
+    parts.assignment.Offer(parts.Add(plan), parts.lr);
     parts.PutOn(parts.cr, "AROUND");
     parts.lr.search.detour = parts.coordinator.PlanRouteOrNull(parts.lr, dock, {});
     parts.lr.search.detourTarget = dock;

@@ -13,8 +13,8 @@ void MakeBothWait(EngineParts& parts)
 {
     parts.PutOn(parts.lr, "D-A01.CP02");
     parts.PutOn(parts.cr, "D-A01.CP03");
-    parts.work.BeginPlan(parts.AddLoad(), parts.lr);
-    parts.work.BeginPlan(parts.Add(MakeControlPlan("P2")), parts.cr);
+    parts.assignment.Offer(parts.AddLoad(), parts.lr);
+    parts.assignment.Offer(parts.Add(MakeControlPlan("P2")), parts.cr);
     parts.lr.search.blockers = {parts.cr.index};
     parts.cr.search.blockers = {parts.lr.index};
 }
@@ -26,7 +26,7 @@ TEST_CASE("WaitingRobots: the target is the retreat, then the place of the step,
     EngineParts parts;
     parts.PutOn(parts.lr, "D-CHG01");
     CHECK(parts.waiting.GetTargetOrNull(parts.lr) == parts.FindNode("D-CHG01"));
-    parts.work.BeginPlan(parts.AddLoad(), parts.lr);
+    parts.assignment.Offer(parts.AddLoad(), parts.lr);
     CHECK(parts.waiting.GetTargetOrNull(parts.lr) == parts.FindNode("D-A01.CP01"));
     CHECK_FALSE(parts.waiting.IsAtPlace(parts.lr));
     parts.PutOn(parts.lr, "D-A01.CP01");

@@ -6,25 +6,18 @@ using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test o
 using namespace ACS::Testing;  // NOLINT(google-build-using-namespace): its fixtures
 using namespace std::chrono_literals;
 
-TEST_CASE("PlanWork: a plan that begins leaves the queue and dispatches its first step")
+TEST_CASE("PlanWork: a plan that fails before its robot has accepted a command is reported as started first")
 {
     EngineParts parts;
     parts.PutOn(parts.lr, "D-CHG01");
     ActivePlan& plan = parts.AddLoad();
+    parts.assignment.Offer(plan, parts.lr);
     parts.Discard();
-    parts.work.BeginPlan(plan, parts.lr);
-    CHECK(parts.engine.plans.GetQueue().empty());
-    CHECK(parts.lr.planOrNull == &plan);
-    CHECK(parts.lr.activity == EActivity::Waits);
-    CHECK(plan.record.progress.robotID == "LR01");
-    CHECK(plan.record.progress.state == EPlanState::InProgress);
-    CHECK(plan.record.progress.steps[0].state == EStepState::Dispatched);
-    CHECK(plan.record.progress.steps[1].state == EStepState::Pending);
-    CHECK(parts.engine.call.begunPlanIDs == std::vector<std::string>{"P1"});
-    CHECK(parts.engine.transaction.IsDispatchNeeded());
-    const CallOutcome outcome = parts.Collect();
-    CHECK(outcome.ListReports<PlanReport>().size() == 1);
-    CHECK(outcome.ListReports<StepReport>().size() == 1);
+    parts.work.FailPlan(plan, "no route");
+    const auto reports = parts.Collect().ListReports<PlanReport>();
+    REQUIRE(reports.size() == 2);
+    CHECK(reports[0].state == EPlanState::InProgress);
+    CHECK(reports[1].state == EPlanState::Failed);
 }
 
 TEST_CASE("PlanWork: work begins with one arrival and the job's command, with its limit")
@@ -34,7 +27,7 @@ TEST_CASE("PlanWork: work begins with one arrival and the job's command, with it
     EngineParts parts(options);
     parts.PutOn(parts.lr, "D-A01.CP01");
     ActivePlan& plan = parts.AddLoad();
-    parts.work.BeginPlan(plan, parts.lr);
+    parts.assignment.Offer(plan, parts.lr);
     parts.Discard();
     parts.work.BeginWork(parts.lr);
     parts.work.MarkArrived(parts.lr);
@@ -62,7 +55,8 @@ TEST_CASE("PlanWork: no job begins before the plan is stored as begun, nor witho
     {
         parts.PutOn(parts.lr, "D-A01.CP01");
         ActivePlan& plan = parts.AddLoad();
-        parts.work.BeginPlan(plan, parts.lr);
+        parts.assignment.Offer(plan, parts.lr);
+        parts.assignment.Start(plan);
         plan.bUnstored = true;
         parts.work.BeginWork(parts.lr);
         CHECK(plan.record.progress.bArrived);
@@ -73,7 +67,7 @@ TEST_CASE("PlanWork: no job begins before the plan is stored as begun, nor witho
         Plan plan = MakeControlPlan("P1");
         plan.steps = {plan.steps[1]};
         parts.PutOn(parts.cr, "D-A01.SET01");
-        parts.work.BeginPlan(parts.Add(plan), parts.cr);
+        parts.assignment.Offer(parts.Add(plan), parts.cr);
         parts.work.BeginWork(parts.cr);
         CHECK(parts.cr.activity == EActivity::Waits);
     }
@@ -154,44 +148,4 @@ TEST_CASE("PlanWork: a dropped job keeps its robot until its end, with an alarm 
     parts.work.EndByControl(*parts.lr.planOrNull, EPlanControl::Abort);
     CHECK(parts.lr.job.IsOverdue());
     CHECK(parts.lr.GetUnavailability() == EUnavailability::Occupied);
-}
-
-TEST_CASE("PlanWork: a plan is handed over before its first job only, and not if the robot may have done it")
-{
-    EngineParts parts(MakeTestOptions(true));
-    ActivePlan& plan = parts.BeginDriveToLoad();
-    REQUIRE(parts.work.CanHandOver(plan));
-    SECTION("the robot may have done jobs that could not be stored")
-    {
-        parts.lr.work.MarkUnresolved();
-        CHECK_FALSE(parts.work.CanHandOver(plan));
-    }
-    SECTION("a job was commanded")
-    {
-        plan.bJobBegun = true;
-        CHECK_FALSE(parts.work.CanHandOver(plan));
-    }
-    SECTION("a control is open")
-    {
-        parts.controls.Control(ControlPlan{EPlanControl::Pause, "P1", {}, 7, {}});
-        CHECK_FALSE(parts.work.CanHandOver(plan));
-    }
-    SECTION("handed over")
-    {
-        Robot& other = *parts.engine.fleet.FindOrNull("LR02");
-        parts.coordinator.EndDrive(parts.lr);
-        parts.PutOn(other, "D-CHG03");
-        plan.record.progress.bArrived = true;
-        parts.Discard();
-        parts.work.HandOver(plan, other);
-        CHECK(parts.lr.planOrNull == nullptr);
-        CHECK(other.planOrNull == &plan);
-        CHECK_FALSE(plan.record.progress.bArrived);
-        const CallOutcome outcome = parts.Collect();
-        CHECK(outcome.ListReports<PlanReport>().empty());
-        const auto steps = outcome.ListReports<StepReport>();
-        REQUIRE(steps.size() == 1);
-        CHECK(steps.front().robotID == "LR02");
-        CHECK(steps.front().state == EStepState::Dispatched);
-    }
 }
