@@ -69,6 +69,9 @@ class MasterSession::Impl
     bool _bAccepted = false;               ///< The vehicle has shown a message of this order.
     std::optional<OrderMessage> _inFlight; ///< Sent, and not shown yet.
     std::optional<OrderMessage> _queued;   ///< Waits until the one in flight is shown.
+    bool _bHorizonOmitted = false;
+    /// The messages that were built with a horizon, from the accepted one on: more nodes follow, whether or not it was sent.
+    std::vector<std::uint32_t> _continuedUpdateIDs;
     std::uint32_t _sendCount = 0;
     std::optional<Core::SteadyTime> _lastOrderTime; ///< Of the last published message.
     std::optional<OrderMessage> _withdrawn;         ///< In flight when the cancel was sent; the vehicle may receive it.
@@ -93,6 +96,7 @@ public:
     void OnMessage(std::string_view topic, std::string_view payload, bool bRetained, Core::Now now, MasterActions& out);
     void OnTimer(EMasterTimer timer, Core::Now now, MasterActions& out);
     [[nodiscard]] Core::Result<void> SendOrder(OrderMessage order, Core::Now now, MasterActions& out);
+    void SetHorizonOmitted(bool bOmitted) noexcept;
     [[nodiscard]] Core::Result<void> SendOrderUpdate(OrderMessage update, Core::Now now, MasterActions& out);
     [[nodiscard]] Core::Result<void> ResumeOrder(OrderRecord record, Core::Now now, MasterActions& out);
     [[nodiscard]] Core::Result<std::string> SendInstantAction(Action action, Core::Now now, MasterActions& out);
@@ -142,6 +146,9 @@ private:
     /// Discards the previous order.
     void BeginOrder(std::string orderID, std::uint32_t lastUpdateID);
     void AddToRoute(const OrderMessage& order);
+    /// Changes the order to what the vehicle takes. True: it continues with nodes that are not in its base.
+    [[nodiscard]] Core::Result<bool> Prepare(OrderMessage& order, Core::Now now) const;
+    void NoteContinuation(std::uint32_t orderUpdateID, bool bContinues);
     /// The message is in flight until the vehicle shows it.
     void StartWaitingForEcho(OrderMessage order, Core::Now now, MasterActions& out);
     /// The start of an update: the last released node of the last message.

@@ -148,6 +148,7 @@ void MasterSession::Impl::AcceptInFlight(Core::Now now, MasterActions& out)
     // A master that takes an order up again may know less of it than the vehicle has.
     _acceptedUpdateID = std::max(_inFlight->orderUpdateID, _state->orderUpdateID);
     _lastSentUpdateID = std::max(_lastSentUpdateID, _acceptedUpdateID);
+    std::erase_if(_continuedUpdateIDs, [this](std::uint32_t updateID) { return updateID < _acceptedUpdateID; });
     _inFlight.reset();
     out.emplace_back(CancelMasterTimer{EMasterTimer::ResendOrder});
     out.emplace_back(OrderAccepted{_orderID, _acceptedUpdateID});
@@ -247,7 +248,8 @@ void MasterSession::Impl::ReportReachedNodes(MasterActions& out)
 
 bool MasterSession::Impl::IsOrderDone() const
 {
-    if (_inFlight.has_value() || _reachedNodes != _route.size() || !_state->nodeStates.empty()
+    const bool bContinues = std::ranges::count(_continuedUpdateIDs, _acceptedUpdateID) > 0;
+    if (bContinues || _inFlight.has_value() || _reachedNodes != _route.size() || !_state->nodeStates.empty()
         || !_state->edgeStates.empty())
     {
         return false;

@@ -99,6 +99,11 @@ Core::Result<void> CheckRecord(const std::vector<OrderMessage>& messages)
     return {};
 }
 
+bool HasHorizon(const OrderMessage& order)
+{
+    return std::ranges::any_of(order.nodes, [](const OrderNode& node) { return !node.bReleased; });
+}
+
 } // namespace
 
 Header MasterSession::Impl::MakeHeader(ETopic topic, Core::Now now)
@@ -227,6 +232,41 @@ void MasterSession::Impl::BeginOrder(std::string orderID, std::uint32_t lastUpda
     _bAccepted = false;
     _route.clear();
     _reachedNodes = 0;
+    _continuedUpdateIDs.clear();
+}
+
+Core::Result<bool> MasterSession::Impl::Prepare(OrderMessage& order, Core::Now now) const
+{
+    Core::Result<void> check = CheckStructure(order);
+    if (!check)
+    {
+        return tl::unexpected(std::move(check.error()));
+    }
+    const bool bContinues = HasHorizon(order);
+    if (bContinues && _bHorizonOmitted)
+    {
+        std::erase_if(order.nodes, [](const OrderNode& node) { return !node.bReleased; });
+        std::erase_if(order.edges, [](const OrderEdge& edge) { return !edge.bReleased; });
+    }
+    check = FitOrder(order, now);
+    if (!check)
+    {
+        return tl::unexpected(std::move(check.error()));
+    }
+    return bContinues;
+}
+
+void MasterSession::Impl::NoteContinuation(std::uint32_t orderUpdateID, bool bContinues)
+{
+    if (bContinues)
+    {
+        _continuedUpdateIDs.push_back(orderUpdateID);
+    }
+}
+
+void MasterSession::Impl::SetHorizonOmitted(bool bOmitted) noexcept
+{
+    _bHorizonOmitted = bOmitted;
 }
 
 void MasterSession::Impl::StartWaitingForEcho(OrderMessage order, Core::Now now, MasterActions& out)
@@ -266,16 +306,13 @@ Core::Result<void> MasterSession::Impl::SendOrder(OrderMessage order, Core::Now 
             "a vehicle that is online, has sent a state and drives by itself",
             _options.address.serialNumber);
     }
-    Core::Result<void> check = CheckStructure(order);
-    if (check)
+    const Core::Result<bool> prepared = Prepare(order, now);
+    if (!prepared)
     {
-        check = FitOrder(order, now);
-    }
-    if (!check)
-    {
-        return check;
+        return tl::unexpected(prepared.error());
     }
     BeginOrder(order.orderID, order.orderUpdateID);
+    NoteContinuation(order.orderUpdateID, *prepared);
     StartWaitingForEcho(std::move(order), now, out);
     return {};
 }
@@ -305,21 +342,18 @@ Core::Result<void> MasterSession::Impl::SendOrderUpdate(OrderMessage update, Cor
         return Core::Fail(EVda5050Error::UpdatePending, {}, "at most one update that waits", _orderID);
     }
     update.orderID = _orderID;
-    Core::Result<void> check = CheckStructure(update);
-    if (check)
+    const Core::Result<bool> prepared = Prepare(update, now);
+    if (!prepared)
     {
-        check = FitOrder(update, now);
+        return tl::unexpected(prepared.error());
     }
-    if (!check)
-    {
-        return check;
-    }
-    check = CheckBegin(update, GetDecisionPoint());
+    Core::Result<void> check = CheckBegin(update, GetDecisionPoint());
     if (!check)
     {
         return check;
     }
     update.orderUpdateID = ++_lastSentUpdateID;
+    NoteContinuation(update.orderUpdateID, *prepared);
     if (_inFlight.has_value())
     {
         _queued = std::move(update);
@@ -365,15 +399,22 @@ Core::Result<void> MasterSession::Impl::ResumeOrder(OrderRecord record, Core::No
     {
         return Core::Fail(EVda5050Error::InvalidOrder, {}, "two messages at most that were not shown", orderID);
     }
-    for (auto message = open; message != messages.end(); ++message)
+    std::vector<std::uint32_t> continuedUpdateIDs;
+    for (auto message = messages.begin(); message != messages.end(); ++message)
     {
-        check = FitOrder(*message, now);
-        if (!check)
+        const Core::Result<bool> prepared =
+            message < open ? Core::Result<bool>(HasHorizon(*message)) : Prepare(*message, now);
+        if (!prepared)
         {
-            return check;
+            return tl::unexpected(prepared.error());
+        }
+        if (*prepared)
+        {
+            continuedUpdateIDs.push_back(message->orderUpdateID);
         }
     }
     BeginOrder(orderID, messages.back().orderUpdateID);
+    _continuedUpdateIDs = std::move(continuedUpdateIDs);
     for (auto message = messages.begin(); message != open; ++message)
     {
         AddToRoute(*message);

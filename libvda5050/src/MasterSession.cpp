@@ -66,6 +66,11 @@ Core::Result<void> MasterSession::SendOrder(OrderMessage order, Core::Now now, M
     return _impl->SendOrder(std::move(order), now, out);
 }
 
+void MasterSession::SetHorizonOmitted(bool bOmitted) noexcept
+{
+    _impl->SetHorizonOmitted(bOmitted);
+}
+
 Core::Result<void> MasterSession::SendOrderUpdate(OrderMessage update, Core::Now now, MasterActions& out)
 {
     return _impl->SendOrderUpdate(std::move(update), now, out);

@@ -2,6 +2,7 @@
 #include <acs/vda5050/OrderBuilder.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <utility>
 
@@ -105,9 +106,15 @@ Core::Result<OrderMessage> OrderBuilder::MakeUpdate(std::size_t releasedNodes, s
             std::to_string(releasedNodes));
     }
     const std::size_t decisionPoint = _releasedNodes - 1;
-    _releasedNodes = releasedNodes;
+    _releasedBefore = std::exchange(_releasedNodes, releasedNodes);
     ++_orderUpdateID;
     return Cut(decisionPoint, horizonNodes);
+}
+
+void OrderBuilder::WithdrawUpdate() noexcept
+{
+    assert(_releasedBefore > 0);
+    _releasedNodes = std::exchange(_releasedBefore, 0);
 }
 
 Core::Result<void> OrderBuilder::Append(std::vector<OrderNode> nodes, std::vector<OrderEdge> edges)

@@ -309,15 +309,30 @@ void Vda5050RobotAdapter::OnRejected(const VDA5050::OrderRejected& rejected, Cor
     {
         out.emplace_back(RaiseEvent{Planning::JobRejected{_job.TakeRunning().jobID, reason}});
     }
-    else if (!IsDrive(rejected.orderID) || rejected.orderUpdateID == 0)
+    else if (!IsDrive(rejected.orderID))
     {
         RejectOrder(rejected.orderID, reason, out);
     }
-    else if (!_drive->GetAbandonReasonOrNull().has_value())
+    else if (rejected.orderUpdateID == 0)
     {
-        // An update was rejected. The vehicle still drives along the route that it accepted before.
+        OnDriveRejected(reason, out);
+    }
+    else if (!_drive->GetAbandonReasonOrNull().has_value() && !_drive->TryShortenUpdate())
+    {
+        // The vehicle still drives along the route that it accepted before.
         AbandonDrive(reason, now, out);
     }
+}
+
+void Vda5050RobotAdapter::OnDriveRejected(const std::string& reason, AdapterActions& out)
+{
+    if (_drive->HasHorizon())
+    {
+        // Some vehicles accept no horizon, which a factsheet cannot state: the next order is the other kind.
+        _bHorizonOmitted = !_bHorizonOmitted;
+        _session.SetHorizonOmitted(_bHorizonOmitted);
+    }
+    RejectOrder(std::string(_drive->GetOrderID()), reason, out);
 }
 
 void Vda5050RobotAdapter::OnLost(const VDA5050::OrderLost& lost, AdapterActions& out)

@@ -45,6 +45,7 @@ class Vda5050RobotAdapter final : public IMqttRobotAdapter
     VDA5050::MasterActions _sessionActions;
 
     bool _bOnline = false;
+    bool _bHorizonOmitted = false;
     VehicleReport _report;
     std::optional<VehicleDrive> _drive;
     VehicleJob _job;
@@ -115,6 +116,7 @@ private:
     void OnActionChanged(const VDA5050::ActionChanged& action, Planning::AdapterActions& out);
     void OnActionFailed(const std::string& reason, Planning::AdapterActions& out);
     void OnRejected(const VDA5050::OrderRejected& rejected, Core::Now now, Planning::AdapterActions& out);
+    void OnDriveRejected(const std::string& reason, Planning::AdapterActions& out);
     void OnLost(const VDA5050::OrderLost& lost, Planning::AdapterActions& out);
     void OnFinished(const std::string& orderID, Planning::AdapterActions& out);
     void OnCancelled(const std::string& orderID, Planning::AdapterActions& out);

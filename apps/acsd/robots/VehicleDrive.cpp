@@ -87,7 +87,7 @@ bool VehicleDrive::IsUpdateDue() const
 
 Core::Result<VDA5050::OrderMessage> VehicleDrive::MakeUpdate()
 {
-    return _route.MakeUpdate(_wantedReleased);
+    return _route.MakeUpdate(_bShortUpdate ? _route.GetReleasedNodes() + 1 : _wantedReleased);
 }
 
 void VehicleDrive::OnUpdateSent(VDA5050::OrderMessage update)
@@ -98,6 +98,18 @@ void VehicleDrive::OnUpdateSent(VDA5050::OrderMessage update)
 void VehicleDrive::OnConfirmed()
 {
     _message = Confirmed{};
+    _bShortUpdate = false;
+}
+
+bool VehicleDrive::TryShortenUpdate()
+{
+    if (std::exchange(_bShortUpdate, true))
+    {
+        return false;
+    }
+    _route.WithdrawUpdate();
+    _message = Confirmed{};
+    return true;
 }
 
 void VehicleDrive::OnNodePassed(std::string nodeID)
@@ -123,6 +135,11 @@ const std::string& VehicleDrive::GetOrderID() const noexcept
 const std::string& VehicleDrive::GetLastPassedNodeID() const noexcept
 {
     return _lastPassedNodeID;
+}
+
+bool VehicleDrive::HasHorizon() const noexcept
+{
+    return !_route.IsWholeRouteReleased();
 }
 
 const VDA5050::OrderMessage* VehicleDrive::GetPendingUpdateOrNull() const noexcept

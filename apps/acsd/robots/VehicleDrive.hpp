@@ -36,6 +36,7 @@ class VehicleDrive final
     std::size_t _wantedReleased; ///< Number of nodes that the engine has released.
     std::variant<OrderPending, UpdatePending, Confirmed> _message;
     std::string _lastPassedNodeID;
+    bool _bShortUpdate = false; ///< The vehicle has rejected an update, and has confirmed none since.
     std::optional<std::string> _abandonReason;
 
     VehicleDrive(VDA5050::OrderBuilder route, std::size_t wantedReleased);
@@ -56,6 +57,8 @@ public:
     void OnUpdateSent(VDA5050::OrderMessage update);
     /// The vehicle has confirmed the latest message.
     void OnConfirmed();
+    /// The vehicle has rejected the update: the next one is as short as possible. False: this was the short one.
+    [[nodiscard]] bool TryShortenUpdate();
     void OnNodePassed(std::string nodeID);
 
     /// The drive is being cancelled for this reason. It is reported as rejected when the vehicle has stopped.
@@ -64,6 +67,8 @@ public:
 
     [[nodiscard]] const std::string& GetOrderID() const noexcept;
     [[nodiscard]] const std::string& GetLastPassedNodeID() const noexcept;
+    /// Nodes of the route are not released yet.
+    [[nodiscard]] bool HasHorizon() const noexcept;
     /// The update that the vehicle has not confirmed; null where there is none.
     [[nodiscard]] const VDA5050::OrderMessage* GetPendingUpdateOrNull() const noexcept;
 };

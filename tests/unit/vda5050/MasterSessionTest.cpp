@@ -131,6 +131,30 @@ TEST_CASE("13 A vehicle that shows no order any more before it has shown the one
     CHECK(Pick<OrderLost>(bench.GetOutput()).size() == 1);
 }
 
+TEST_CASE("4.2 Without its horizon an order is not finished at the end of its base, and continues with an update")
+{
+    MasterSessionFixture bench;
+    bench.session.SetHorizonOmitted(true);
+    bench.BeReady();
+    REQUIRE(bench.session.SendOrder(MakeOrder(3, 2), bench.GetNow(), bench.Clear()).has_value());
+    const OrderMessage sent = bench.GetSentOrder();
+    CHECK(sent.nodes.size() == 2);
+    CHECK(sent.edges.size() == 1);
+    bench.Hold(sent, 0);
+    bench.SendState();
+    CHECK(ListReached(bench.GetOutput()) == std::vector<std::string>{"N0", "N1"});
+    CHECK(Pick<OrderFinished>(bench.GetOutput()).empty());
+    CHECK(bench.session.GetOrderPhase() == EOrderPhase::Active);
+    OrderMessage update = MakeOrder(3, 3);
+    update.nodes.erase(update.nodes.begin());
+    update.edges.erase(update.edges.begin());
+    REQUIRE(bench.session.SendOrderUpdate(update, bench.GetNow(), bench.Clear()).has_value());
+    bench.Hold(bench.GetSentOrder(), 0);
+    bench.SendState();
+    CHECK(ListReached(bench.GetOutput()) == std::vector<std::string>{"N2"});
+    CHECK(Pick<OrderFinished>(bench.GetOutput()).size() == 1);
+}
+
 TEST_CASE("13 Resends end after the configured number")
 {
     MasterOptions options = MakeMasterOptions();

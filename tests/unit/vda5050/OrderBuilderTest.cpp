@@ -38,6 +38,19 @@ TEST_CASE("4.3 A built update begins at the decision point and releases more")
     CHECK(builder.IsWholeRouteReleased());
 }
 
+TEST_CASE("4.3 After a rejected update the next one begins at the same decision point, with a new number")
+{
+    OrderBuilder builder = MakeBuilder(5);
+    REQUIRE(builder.MakeOrder(2).has_value());
+    REQUIRE(builder.MakeUpdate(4).has_value());
+    builder.WithdrawUpdate();
+    const auto update = builder.MakeUpdate(3);
+    REQUIRE(update.has_value());
+    CHECK(ValidateOrder(*update).empty());
+    CHECK(update->orderUpdateID == 2);
+    CHECK(update->nodes.front().nodeID == "N1");
+}
+
 TEST_CASE("4.3 A base is never taken back, and there is one first message")
 {
     OrderBuilder builder = MakeBuilder(3);

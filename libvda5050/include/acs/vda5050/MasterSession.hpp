@@ -111,6 +111,9 @@ public:
     /// other optional member, action, parameter or size that is not listed is an error. An empty list allows everything.
     /// Errors: VehicleNotReady, OrderActive (also for an order of another master), InvalidOrder, NotSupported.
     [[nodiscard]] Core::Result<void> SendOrder(OrderMessage order, Core::Now now, MasterActions& out);
+    /// For a vehicle that rejects orders with a horizon, which a factsheet cannot state: later orders and updates are sent without
+    /// it. The order still ends only with a message that had no horizon before.
+    void SetHorizonOmitted(bool bOmitted) noexcept;
     /// The next update of the running order: nodes from the decision point on. The session sets orderID and orderUpdateID.
     /// The update is sent once the vehicle shows the previous message; at most one update can wait.
     /// Errors: NoOrder, UpdatePending, InvalidOrder, NotSupported.

@@ -25,6 +25,7 @@ private:
     std::vector<OrderNode> _nodes;
     std::vector<OrderEdge> _edges;
     std::size_t _releasedNodes = 0;
+    std::size_t _releasedBefore = 0; ///< Before the last update.
 
     OrderBuilder(std::string orderID, std::vector<OrderNode> nodes, std::vector<OrderEdge> edges);
 
@@ -47,6 +48,9 @@ public:
     [[nodiscard]] Core::Result<OrderMessage> MakeUpdate(
         std::size_t releasedNodes,
         std::size_t horizonNodes = WHOLE_ROUTE);
+
+    /// The vehicle has rejected the last update: the next one begins where that one did. Only once for each update.
+    void WithdrawUpdate() noexcept;
 
     /// Extends the route by the same number of edges and nodes, which are not released yet; the first edge starts at the last
     /// node.

@@ -305,17 +305,67 @@ void SendUnseenUpdate(VehicleFixture& vehicle)
     REQUIRE(vehicle.TakeOrders().size() == 1);
 }
 
-TEST_CASE(
-    "A drive whose update is refused is rejected only when the vehicle has stopped: until then it drives on its base")
+void RejectUpdate(VehicleFixture& vehicle, const std::string& orderUpdateID)
 {
-    VehicleFixture vehicle;
-    SendUnseenUpdate(vehicle);
     VDA5050::VehicleError error;
     error.errorType = "orderUpdateError";
     error.errorDescription = "no such edge";
-    error.errorReferences = {{"orderId", "D"}, {"orderUpdateId", "1"}, {"topic", "order"}};
+    error.errorReferences = {{"orderId", "D"}, {"orderUpdateId", orderUpdateID}, {"topic", "order"}};
     vehicle.state.errors = {error};
     vehicle.ShowState();
+}
+
+TEST_CASE("A rejected update is followed by one that releases a single node, and the drive continues")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    Planning::Drive drive = MakeDrive();
+    drive.releasedCount = 1;
+    vehicle.Command(drive);
+    vehicle.ShowOrder(vehicle.TakeOrders().at(0), {"B", "C"});
+    vehicle.ShowState();
+    vehicle.Command(Planning::ExtendDrive{"D", 3});
+    REQUIRE(vehicle.TakeOrders().at(0).nodes.back().bReleased);
+    RejectUpdate(vehicle, "1");
+    const auto shortened = vehicle.TakeOrders();
+    REQUIRE(shortened.size() == 1);
+    CHECK(shortened[0].orderUpdateID == 2);
+    CHECK(shortened[0].nodes.front().nodeID == "A");
+    CHECK(std::ranges::count(shortened[0].nodes, true, &VDA5050::OrderNode::bReleased) == 2);
+    vehicle.state.errors.clear();
+    vehicle.ShowOrder(shortened[0], {"B", "C"});
+    vehicle.ShowState();
+    const auto next = vehicle.TakeOrders();
+    REQUIRE(next.size() == 1);
+    CHECK(next[0].nodes.front().nodeID == "B");
+    CHECK(next[0].nodes.back().bReleased);
+    CHECK(vehicle.TakeEvents<Planning::DriveRejected>().empty());
+}
+
+TEST_CASE("After a rejected order with a horizon the next order has none, and the one after that has one again")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    for (const std::size_t nodes : {3U, 2U, 3U})
+    {
+        vehicle.Command(MakeDrive());
+        CHECK(vehicle.TakeOrders().at(0).nodes.size() == nodes);
+        RejectUpdate(vehicle, "0");
+        CHECK(vehicle.TakeEvents<Planning::DriveRejected>().size() == 1);
+        vehicle.actions.clear();
+        vehicle.state.errors.clear();
+        vehicle.ShowState();
+    }
+}
+
+TEST_CASE(
+    "A drive whose update is refused twice is rejected when the vehicle has stopped: until then it drives on its base")
+{
+    VehicleFixture vehicle;
+    SendUnseenUpdate(vehicle);
+    RejectUpdate(vehicle, "1");
+    REQUIRE(vehicle.TakeOrders().size() == 1);
+    RejectUpdate(vehicle, "2");
     CHECK(vehicle.TakeEvents<Planning::DriveRejected>().empty());
     REQUIRE_FALSE(vehicle.outputs.messages.empty());
     const std::string& payload = vehicle.outputs.messages.back().payload;
