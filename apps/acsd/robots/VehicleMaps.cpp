@@ -1,0 +1,150 @@
+#include "robots/VehicleMaps.hpp"
+
+#include <acs/vda5050/PredefinedActions.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+constexpr std::string_view ERROR_CODE = "AGV-mapNotEnabled";
+
+std::string Describe(const VehicleMap& map)
+{
+    return map.version.empty() ? "map " + map.mapID : fmt::format("map {} version {}", map.mapID, map.version);
+}
+
+void AddParameter(VDA5050::Action& action, std::string_view key, const std::string& value)
+{
+    action.actionParameters.push_back({std::string(key), Core::JsonText::FromString(value)});
+}
+
+} // namespace
+
+VehicleMaps::VehicleMaps(std::vector<VehicleMap> needed)
+    : _needed(std::move(needed))
+{
+}
+
+void VehicleMaps::OnConnected()
+{
+    _request.reset();
+    _failures.clear();
+}
+
+void VehicleMaps::OnReported(std::optional<std::vector<VDA5050::MapState>> mapsOrNull)
+{
+    _reported = std::move(mapsOrNull);
+}
+
+std::optional<VDA5050::Action> VehicleMaps::MakeRequestOrNull() const
+{
+    const VehicleMap* const mapOrNull = _request.has_value() ? nullptr : FindNextOrNull();
+    if (mapOrNull == nullptr)
+    {
+        return std::nullopt;
+    }
+    const bool bDownload = FindReportedOrNull(*mapOrNull) == nullptr;
+    VDA5050::Action action;
+    action.actionType = bDownload ? VDA5050::ActionTypes::DOWNLOAD_MAP : VDA5050::ActionTypes::ENABLE_MAP;
+    AddParameter(action, "mapId", mapOrNull->mapID);
+    AddParameter(action, "mapVersion", mapOrNull->version);
+    if (bDownload)
+    {
+        AddParameter(action, "mapDownloadLink", mapOrNull->downloadLink);
+        if (!mapOrNull->hash.empty())
+        {
+            AddParameter(action, "mapHash", mapOrNull->hash);
+        }
+    }
+    return action;
+}
+
+void VehicleMaps::OnSent(std::string actionID)
+{
+    if (const VehicleMap* const mapOrNull = FindNextOrNull(); mapOrNull != nullptr)
+    {
+        _request = Request{std::move(actionID), mapOrNull->mapID};
+    }
+}
+
+void VehicleMaps::OnEnded(const std::string& actionID, const std::string& error)
+{
+    if (!_request.has_value() || _request->actionID != actionID)
+    {
+        return;
+    }
+    if (!error.empty())
+    {
+        _failures.insert_or_assign(_request->mapID, error);
+    }
+    _request.reset();
+}
+
+std::vector<Planning::RobotError> VehicleMaps::ListErrors() const
+{
+    std::vector<Planning::RobotError> errors;
+    for (const VehicleMap& map : _needed)
+    {
+        if (!_reported.has_value() || IsEnabled(map))
+        {
+            continue;
+        }
+        const bool bThere = FindReportedOrNull(map) != nullptr;
+        const auto failure = _failures.find(map.mapID);
+        const bool bBegun = _request.has_value() && _request->mapID == map.mapID;
+        std::string text = fmt::format("{} is {}", Describe(map), bThere ? "not enabled" : "not on the vehicle");
+        if (failure != _failures.end())
+        {
+            text +=
+                fmt::format(", and the vehicle could not {} it: {}", bThere ? "enable" : "download", failure->second);
+        }
+        text += bBegun
+            ? fmt::format("; it {} it now", bThere ? "enables" : "downloads")
+            : std::string(". Enable it at the vehicle, or correct the maps of the robot in the configuration");
+        errors.push_back({std::string(ERROR_CODE), Planning::EAlarmLevel::Heavy, text + "."});
+    }
+    return errors;
+}
+
+const VDA5050::MapState* VehicleMaps::FindReportedOrNull(const VehicleMap& map) const
+{
+    if (!_reported.has_value())
+    {
+        return nullptr;
+    }
+    const VDA5050::MapState* foundOrNull = nullptr;
+    for (const VDA5050::MapState& reported : *_reported)
+    {
+        const bool bSame = reported.mapID == map.mapID && (map.version.empty() || reported.mapVersion == map.version);
+        const bool bBetter = foundOrNull == nullptr || reported.mapStatus == VDA5050::EMapStatus::Enabled;
+        foundOrNull = bSame && bBetter ? &reported : foundOrNull;
+    }
+    return foundOrNull;
+}
+
+bool VehicleMaps::IsEnabled(const VehicleMap& map) const
+{
+    const VDA5050::MapState* const reportedOrNull = FindReportedOrNull(map);
+    return reportedOrNull != nullptr && reportedOrNull->mapStatus == VDA5050::EMapStatus::Enabled;
+}
+
+/// The first map that acsd can download or enable, and that has not failed.
+const VehicleMap* VehicleMaps::FindNextOrNull() const
+{
+    const auto next = std::ranges::find_if(_needed, [this](const VehicleMap& map) {
+        const bool bPossible =
+            !map.version.empty() && (FindReportedOrNull(map) != nullptr || !map.downloadLink.empty());
+        return _reported.has_value() && !IsEnabled(map) && bPossible && !_failures.contains(map.mapID);
+    });
+    return next == _needed.end() ? nullptr : &*next;
+}
+
+} // namespace ACS::Acsd

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <acs/plan/RobotEvent.hpp>
+#include <acs/vda5050/Action.hpp>
+#include <acs/vda5050/StateMessage.hpp>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+/// A map of the site that a vehicle must have enabled before it drives.
+struct VehicleMap
+{
+    std::string mapID;
+    std::string version;      ///< Empty: any version, which acsd does not enable.
+    std::string downloadLink; ///< Empty: acsd does not download the map. Else with a version.
+    std::string hash;         ///< Of the download; may be empty.
+
+    bool operator==(const VehicleMap&) const = default;
+};
+
+/// Compares the maps that a vehicle reports with those it needs, and has the vehicle download and enable the missing ones. A
+/// vehicle that reports no maps has no error.
+class VehicleMaps final
+{
+    struct Request
+    {
+        std::string actionID;
+        std::string mapID;
+    };
+
+    std::vector<VehicleMap> _needed;
+    std::optional<std::vector<VDA5050::MapState>> _reported;
+    std::optional<Request> _request;              ///< The vehicle executes one at a time.
+    std::map<std::string, std::string> _failures; ///< By mapID, since the vehicle was connected.
+
+public:
+    explicit VehicleMaps(std::vector<VehicleMap> needed);
+
+    /// The vehicle was connected: what has failed is tried again.
+    void OnConnected();
+    void OnReported(std::optional<std::vector<VDA5050::MapState>> mapsOrNull);
+    /// The instant action that brings the next missing map, without an id; nullopt: nothing to do, or one is being executed.
+    [[nodiscard]] std::optional<VDA5050::Action> MakeRequestOrNull() const;
+    /// The action of MakeRequestOrNull was sent with this id.
+    void OnSent(std::string actionID);
+    /// The action has ended. error: why it failed; empty: done. Actions of others are ignored.
+    void OnEnded(const std::string& actionID, const std::string& error);
+    /// One for each map that is not enabled: the vehicle must not drive.
+    [[nodiscard]] std::vector<Planning::RobotError> ListErrors() const;
+
+private:
+    /// Null: the vehicle does not have the map.
+    [[nodiscard]] const VDA5050::MapState* FindReportedOrNull(const VehicleMap& map) const;
+    [[nodiscard]] bool IsEnabled(const VehicleMap& map) const;
+    [[nodiscard]] const VehicleMap* FindNextOrNull() const;
+};
+
+} // namespace ACS::Acsd
