@@ -87,9 +87,9 @@ Core::Result<void> MasterSession::Impl::FitOrder(OrderMessage& order, Core::Now 
     for (const OrderViolation& violation : FindUnusable(order, context))
     {
         const std::string* const path = FindReferenceOrNull(violation.error, ReferenceKeys::PARAMETER);
-        if (path == nullptr || !TryLeaveOut(order, *path))
+        if (path != nullptr)
         {
-            break; // found again below
+            static_cast<void>(TryLeaveOut(order, *path)); // what remains is found again below
         }
     }
     if (context.factsheet->protocolLimits.maxStringLengths.message.value_or(0) != 0)

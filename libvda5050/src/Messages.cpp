@@ -33,4 +33,13 @@ bool CanPerform(const FactsheetMessage& factsheet, std::string_view actionType, 
     return std::ranges::any_of(factsheet.protocolFeatures.agvActions, isMatch);
 }
 
+bool IsSupported(const FactsheetMessage& factsheet, std::string_view parameter)
+{
+    const std::optional<std::vector<OptionalParameter>>& list = factsheet.protocolFeatures.optionalParameters;
+    return !list.has_value() || std::ranges::any_of(*list, [parameter](const OptionalParameter& listed) {
+        const std::string_view path = listed.parameter;
+        return path.starts_with(parameter) && (path.size() == parameter.size() || path[parameter.size()] == '.');
+    });
+}
+
 } // namespace ACS::VDA5050

@@ -132,21 +132,11 @@ void AddElement(VehicleError& /*error*/, const OrderMessage& /*order*/)
 {
 }
 
-/// Listing a member supports those that it lies in too.
-std::optional<EParameterSupport> GetSupportOrNull(const FactsheetMessage& factsheet, std::string_view path)
+bool IsRequired(const FactsheetMessage& factsheet, std::string_view path)
 {
-    std::optional<EParameterSupport> support;
-    for (const OptionalParameter& listed : factsheet.protocolFeatures.optionalParameters)
-    {
-        if (listed.parameter == path)
-        {
-            return listed.support;
-        }
-        const bool bInside = listed.parameter.size() > path.size() && listed.parameter.starts_with(path)
-            && listed.parameter[path.size()] == '.';
-        support = bInside ? EParameterSupport::Supported : support;
-    }
-    return support;
+    const std::vector<OptionalParameter>& list = *factsheet.protocolFeatures.optionalParameters;
+    const auto listed = std::ranges::find(list, path, &OptionalParameter::parameter);
+    return listed != list.end() && listed->support == EParameterSupport::Required;
 }
 
 /// One violation a member: what is wrong with it is wrong on every element.
@@ -159,9 +149,8 @@ void CheckMembers(
 {
     for (const auto& member : members)
     {
-        const std::optional<EParameterSupport> support = GetSupportOrNull(factsheet, member.path);
-        const bool bRequired = support == EParameterSupport::Required;
-        if (support.has_value() && !bRequired)
+        const bool bRequired = IsRequired(factsheet, member.path);
+        if (!bRequired && IsSupported(factsheet, member.path))
         {
             continue;
         }
@@ -261,7 +250,25 @@ void CheckZoneSet(const OrderContext& context, OrderFindings& unusable)
     AddReference(error, ReferenceKeys::PARAMETER, "order.zoneSetId");
 }
 
+template <typename TMembers>
+void AddSupported(const TMembers& members, std::vector<OptionalParameter>& out)
+{
+    for (const auto& member : members)
+    {
+        out.push_back({std::string(member.path), EParameterSupport::Supported, {}});
+    }
+}
+
 } // namespace
+
+std::vector<OptionalParameter> ListOptionalParameters()
+{
+    std::vector<OptionalParameter> all;
+    AddSupported(ORDER_MEMBERS, all);
+    AddSupported(NODE_MEMBERS, all);
+    AddSupported(EDGE_MEMBERS, all);
+    return all;
+}
 
 std::vector<OrderViolation> FindUnusable(const OrderMessage& order, const OrderContext& context)
 {
@@ -277,7 +284,7 @@ std::vector<OrderViolation> FindUnusable(const OrderMessage& order, const OrderC
         {
             CheckActions(edge, EActionScope::Edge, context, unusable);
         }
-        if (!factsheet.protocolFeatures.optionalParameters.empty())
+        if (factsheet.protocolFeatures.optionalParameters.has_value())
         {
             CheckMembers(std::array{std::cref(order)}, ORDER_MEMBERS, factsheet, unusable);
             CheckMembers(order.nodes, NODE_MEMBERS, factsheet, unusable);

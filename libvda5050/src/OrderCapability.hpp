@@ -11,4 +11,7 @@ namespace ACS::VDA5050
 /// to the field.
 [[nodiscard]] std::vector<OrderViolation> FindUnusable(const OrderMessage& order, const OrderContext& context);
 
+/// The optional members that FindUnusable checks, as supported ones.
+[[nodiscard]] std::vector<OptionalParameter> ListOptionalParameters();
+
 } // namespace ACS::VDA5050

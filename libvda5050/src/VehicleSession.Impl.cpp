@@ -1,6 +1,7 @@
 #include "VehicleSession.Impl.hpp"
 
 #include "AngleBound.hpp"
+#include "OrderCapability.hpp"
 #include "OrderErrors.hpp"
 #include "StateBounds.hpp"
 
@@ -40,6 +41,11 @@ VehicleSession::Impl::Impl(VehicleOptions options)
     if (_options.visualizationInterval.count() > 0)
     {
         timing.visualizationInterval = ToSeconds(_options.visualizationInterval);
+    }
+    if (std::optional<std::vector<OptionalParameter>>& list = _options.factsheet.protocolFeatures.optionalParameters;
+        !list.has_value())
+    {
+        list = ListOptionalParameters(); // the schema demands a list
     }
     for (std::size_t index = 0; index < TOPIC_COUNT; ++index)
     {

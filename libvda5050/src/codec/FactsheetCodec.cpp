@@ -188,7 +188,7 @@ struct JsonFields<VDA5050::ProtocolFeatures>
 {
     using Type = VDA5050::ProtocolFeatures;
     static constexpr auto FIELDS = std::make_tuple(
-        Required("optionalParameters", &Type::optionalParameters),
+        Optional("optionalParameters", &Type::optionalParameters),
         Required("agvActions", &Type::agvActions));
 };
 

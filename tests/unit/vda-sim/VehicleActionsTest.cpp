@@ -261,9 +261,7 @@ TEST_CASE("7.4 The factsheet lists the limits of a vehicle: message sizes, load 
     CHECK(VDA5050::CanPerform(base, ActionTypes::FINE_POSITIONING, EActionScope::Node));
 
     const auto hasCorridor = [](VDA5050::EVda5050Version version) {
-        return std::ranges::any_of(
-            MakeFactsheet(EVehicleType::Logistics, version).protocolFeatures.optionalParameters,
-            [](const VDA5050::OptionalParameter& listed) { return listed.parameter == "order.edges.corridor"; });
+        return VDA5050::IsSupported(MakeFactsheet(EVehicleType::Logistics, version), "order.edges.corridor");
     };
     CHECK(hasCorridor(VDA5050::EVda5050Version::Version210));
     CHECK_FALSE(hasCorridor(VDA5050::EVda5050Version::Version200));

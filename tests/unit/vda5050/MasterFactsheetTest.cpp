@@ -60,7 +60,8 @@ TEST_CASE("3.7 Tolerances that are not listed are left out; an order with a limi
     MasterSessionFixture bench;
     bench.BeReady();
     FactsheetMessage factsheet = MakeFactsheet();
-    factsheet.protocolFeatures.optionalParameters = {{"order.nodes.nodePosition", EParameterSupport::Supported, {}}};
+    factsheet.protocolFeatures.optionalParameters = {
+        OptionalParameter{"order.nodes.nodePosition", EParameterSupport::Supported, {}}};
     DeliverFactsheet(bench, factsheet);
     OrderMessage order = MakeOrder(2, 2);
     order.nodes[1].nodePosition->allowedDeviationXY = 0.5;
@@ -76,6 +77,57 @@ TEST_CASE("3.7 Tolerances that are not listed are left out; an order with a limi
     CHECK_FALSE(bench.GetSentOrder().edges[0].length.has_value());
 }
 
+TEST_CASE("3.7 A member is supported where it or one inside it is listed, and where there is no list")
+{
+    FactsheetMessage factsheet = MakeFactsheet();
+    CHECK(IsSupported(factsheet, "order.edges.trajectory"));
+    factsheet.protocolFeatures.optionalParameters.emplace();
+    CHECK_FALSE(IsSupported(factsheet, "order.edges.trajectory"));
+    factsheet.protocolFeatures.optionalParameters->push_back(
+        {"order.nodes.nodePosition.theta", EParameterSupport::Supported, {}});
+    CHECK(IsSupported(factsheet, "order.nodes.nodePosition.theta"));
+    CHECK(IsSupported(factsheet, "order.nodes.nodePosition"));
+    CHECK_FALSE(IsSupported(factsheet, "order.nodes.nodePos"));
+    CHECK_FALSE(IsSupported(factsheet, "order.nodes.nodePosition.theta.more"));
+    CHECK_FALSE(IsSupported(factsheet, "order.nodes.nodePosition.allowedDeviationXY"));
+}
+
+TEST_CASE("3.7 An absent list of optional parameters and an empty one remain different when encoded and decoded")
+{
+    Vda5050Codec codec;
+    FactsheetMessage factsheet = MakeFactsheet();
+    const auto absent = codec.Decode<FactsheetMessage>(codec.Encode(factsheet, EVda5050Version::Version210));
+    REQUIRE(absent.has_value());
+    CHECK_FALSE(absent->protocolFeatures.optionalParameters.has_value());
+    factsheet.protocolFeatures.optionalParameters.emplace();
+    const auto empty = codec.Decode<FactsheetMessage>(codec.Encode(factsheet, EVda5050Version::Version210));
+    REQUIRE(empty.has_value());
+    REQUIRE(empty->protocolFeatures.optionalParameters.has_value());
+    CHECK(empty->protocolFeatures.optionalParameters->empty());
+}
+
+TEST_CASE("3.7 With an empty list of optional parameters an order has no tolerances, and limits are rejected")
+{
+    MasterSessionFixture bench;
+    bench.BeReady();
+    FactsheetMessage factsheet = MakeFactsheet();
+    factsheet.protocolFeatures.optionalParameters.emplace();
+    DeliverFactsheet(bench, factsheet);
+    OrderMessage order = MakeOrder(2, 2);
+    for (OrderNode& node : order.nodes)
+    {
+        node.nodePosition.reset();
+    }
+    order.edges[0].length = 10.0;
+    order.edges[0].maxSpeed = 1.0;
+    const auto refused = Send(bench, order);
+    REQUIRE_FALSE(refused.has_value());
+    CHECK(refused.error().path == "order.edges.maxSpeed");
+    order.edges[0].maxSpeed.reset();
+    REQUIRE(Send(bench, order).has_value());
+    CHECK_FALSE(bench.GetSentOrder().edges[0].length.has_value());
+}
+
 TEST_CASE("3.7 An order that lacks a member required by the factsheet, or exceeds a size in it, is rejected")
 {
     MasterSessionFixture bench;
@@ -85,7 +137,7 @@ TEST_CASE("3.7 An order that lacks a member required by the factsheet, or exceed
     SECTION("a required member")
     {
         factsheet.protocolFeatures.optionalParameters = {
-            {"order.nodes.nodePosition.theta", EParameterSupport::Required, {}}};
+            OptionalParameter{"order.nodes.nodePosition.theta", EParameterSupport::Required, {}}};
     }
     SECTION("nodes")
     {

@@ -431,7 +431,12 @@ TEST_CASE("4.2 An order that requires something that the vehicle does not have i
         FactsheetMessage factsheet;
         context.factsheet = &factsheet;
         member.use(order);
-        CHECK(JudgeOrder(order, context).verdict == EOrderVerdict::NewOrder); // a factsheet that lists nothing
+        CHECK(JudgeOrder(order, context).verdict == EOrderVerdict::NewOrder); // no list
+        factsheet.protocolFeatures.optionalParameters.emplace();
+        const OrderJudgement none = JudgeOrder(order, context);
+        CHECK(std::ranges::any_of(none.violations, [&member](const OrderViolation& violation) {
+            return *FindReferenceOrNull(violation.error, "parameter") == member.field;
+        }));
         // nodePosition itself is in use in every order here.
         factsheet.protocolFeatures.optionalParameters = {
             OptionalParameter{"order.nodes.nodePosition", EParameterSupport::Supported, {}}};
@@ -439,10 +444,10 @@ TEST_CASE("4.2 An order that requires something that the vehicle does not have i
         REQUIRE(refused.violations.size() == 1);
         CHECK(refused.violations[0].error.errorType == ErrorTypes::ORDER_ERROR);
         CHECK(*FindReferenceOrNull(refused.violations[0].error, "parameter") == member.field);
-        factsheet.protocolFeatures.optionalParameters.push_back(
+        factsheet.protocolFeatures.optionalParameters->push_back(
             OptionalParameter{member.field, EParameterSupport::Supported, {}});
         CHECK(JudgeOrder(order, context).verdict == EOrderVerdict::NewOrder);
-        factsheet.protocolFeatures.optionalParameters.back().support = EParameterSupport::Required;
+        factsheet.protocolFeatures.optionalParameters->back().support = EParameterSupport::Required;
         const OrderJudgement missing = JudgeOrder(MakeOrder(2, 2), context);
         REQUIRE(missing.violations.size() == 1);
         CHECK(*FindReferenceOrNull(missing.violations[0].error, "parameter") == member.field);

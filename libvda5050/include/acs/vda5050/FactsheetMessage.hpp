@@ -178,7 +178,8 @@ struct AgvAction
 
 struct ProtocolFeatures
 {
-    std::vector<OptionalParameter> optionalParameters; ///< Unlisted parameters are not supported.
+    /// Unlisted parameters are not supported; an empty list supports none. Absent, against the schema: all are allowed.
+    std::optional<std::vector<OptionalParameter>> optionalParameters;
     std::vector<AgvAction> agvActions;
 
     bool operator==(const ProtocolFeatures&) const = default;
@@ -330,5 +331,10 @@ struct FactsheetMessage
 
 /// Whether the factsheet lists the action type with this scope.
 [[nodiscard]] bool CanPerform(const FactsheetMessage& factsheet, std::string_view actionType, EActionScope scope);
+
+/// Whether an optional member may be sent to the vehicle. The parameter is its full path, such as "order.edges.trajectory".
+/// True where optionalParameters is absent, or lists the parameter or one inside it. A listed parameter does not imply those
+/// inside it.
+[[nodiscard]] bool IsSupported(const FactsheetMessage& factsheet, std::string_view parameter);
 
 } // namespace ACS::VDA5050

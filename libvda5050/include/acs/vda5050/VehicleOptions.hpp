@@ -21,7 +21,8 @@ struct VehicleOptions
     EVda5050Version version = EVda5050Version::Version200;
     QosTable qos;
     /// Capabilities of the vehicle; the session sets header and timing. Orders are checked against it: an action, a
-    /// parameter, an optional member or a size that it does not list is refused. An empty list allows everything.
+    /// parameter, an optional member or a size that it does not list is refused. An empty list of actions allows all.
+    /// Without a list of optional parameters all are supported, and listed in what is published.
     FactsheetMessage factsheet;
     EParameterCheck parameterCheck = EParameterCheck::Tolerant;
 
