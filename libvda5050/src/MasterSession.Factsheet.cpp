@@ -2,6 +2,7 @@
 #include "MasterSession.Impl.hpp"
 #include "OrderCapability.hpp"
 #include "OrderErrors.hpp"
+#include <acs/vda5050/ActionMachine.hpp>
 #include <acs/vda5050/EVda5050Error.hpp>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace ACS::VDA5050
@@ -19,35 +21,6 @@ namespace ACS::VDA5050
 
 namespace
 {
-
-/// Members that a vehicle can do without: it keeps its own tolerance, and measures the edge itself. True: left out.
-bool TryLeaveOut(OrderMessage& order, std::string_view path)
-{
-    const auto forPositions = [&order](const auto& change) {
-        for (OrderNode& node : order.nodes)
-        {
-            if (node.nodePosition.has_value())
-            {
-                change(*node.nodePosition);
-            }
-        }
-        return true;
-    };
-    if (path == "order.nodes.nodePosition.allowedDeviationXY")
-    {
-        return forPositions([](NodePosition& position) { position.allowedDeviationXY.reset(); });
-    }
-    if (path == "order.nodes.nodePosition.allowedDeviationTheta")
-    {
-        return forPositions([](NodePosition& position) { position.allowedDeviationTheta.reset(); });
-    }
-    if (path == "order.edges.length")
-    {
-        std::ranges::for_each(order.edges, [](OrderEdge& edge) { edge.length.reset(); });
-        return true;
-    }
-    return false;
-}
 
 Core::Duration ToDuration(double seconds)
 {
@@ -61,6 +34,30 @@ bool IsAlwaysSent(std::string_view actionType)
         || actionType == ActionTypes::STOP_PAUSE || actionType == ActionTypes::STATE_REQUEST
         || actionType == ActionTypes::FACTSHEET_REQUEST;
 }
+
+/// What the vehicle's state keeps when it accepts the update. Ended actions do not count: a vehicle may remove them.
+void AddKept(const OrderMessage& update, const StateMessage& state, OrderContext& context)
+{
+    context.heldOrderID = update.orderID;
+    const std::uint32_t stitch = update.nodes.front().sequenceID;
+    context.keptNodes = static_cast<std::size_t>(
+        std::ranges::count_if(state.nodeStates, [stitch](const NodeState& node) { return node.sequenceID <= stitch; }));
+    context.keptActions =
+        static_cast<std::size_t>(std::ranges::count_if(state.actionStates, [](const ActionState& action) {
+            return !IsTerminal(action.actionStatus);
+        }));
+}
+
+/// The order with its first nodes only.
+OrderMessage Shorten(const OrderMessage& whole, std::size_t nodeCount)
+{
+    OrderMessage order = whole;
+    order.nodes.resize(nodeCount);
+    order.edges.resize(nodeCount - 1);
+    return order;
+}
+
+constexpr std::string_view LIMITS = "max"; ///< Prefix of the paths of sizes, such as maxArrayLens.order.nodes.
 
 struct SizeLimit
 {
@@ -78,36 +75,64 @@ const FactsheetMessage* MasterSession::Impl::GetRulesOrNull() const
 
 Core::Result<void> MasterSession::Impl::FitOrder(OrderMessage& order, Core::Now now) const
 {
-    OrderContext context;
-    context.factsheet = GetRulesOrNull();
-    if (context.factsheet == nullptr)
+    const FactsheetMessage* const rules = GetRulesOrNull();
+    if (rules == nullptr)
     {
         return {};
     }
-    for (const OrderViolation& violation : FindUnusable(order, context))
+    AdaptToFactsheet(order, *rules);
+    OrderContext context;
+    context.factsheet = rules;
+    const bool bUpdate = order.orderID == _orderID && (_phase == EOrderPhase::Sent || _phase == EOrderPhase::Active);
+    if (bUpdate && _state.has_value() && _state->orderID == _orderID)
     {
-        const std::string* const path = FindReferenceOrNull(violation.error, ReferenceKeys::PARAMETER);
-        if (path != nullptr)
+        AddKept(order, *_state, context);
+    }
+    const auto check = [this, now, rules, &context](OrderMessage& candidate) -> Core::Result<void> {
+        if (rules->protocolLimits.maxStringLengths.message.value_or(0) != 0)
         {
-            static_cast<void>(TryLeaveOut(order, *path)); // what remains is found again below
+            candidate.header = PeekHeader(ETopic::Order, now);
+            context.payloadBytes = _codec.Encode(candidate, _options.version).size();
+        }
+        const std::vector<OrderViolation> violations = FindUnusable(candidate, context);
+        if (violations.empty())
+        {
+            return {};
+        }
+        const std::string* const path = FindReferenceOrNull(violations.front().error, ReferenceKeys::PARAMETER);
+        return Core::Fail(
+            EVda5050Error::NotSupported,
+            path == nullptr ? std::string() : *path,
+            violations.front().rule,
+            "order " + candidate.orderID);
+    };
+    Core::Result<void> checked = check(order);
+    const auto base = static_cast<std::size_t>(std::ranges::count(order.nodes, true, &OrderNode::bReleased));
+    if (checked || !checked.error().path.starts_with(LIMITS) || base == order.nodes.size())
+    {
+        return checked;
+    }
+    // The horizon is optional: as much of it is sent as fits.
+    const OrderMessage whole = order;
+    std::size_t tooMany = whole.nodes.size();
+    std::size_t fitting = base;
+    order = Shorten(whole, base);
+    checked = check(order);
+    while (checked && tooMany - fitting > 1)
+    {
+        const std::size_t middle = fitting + (tooMany - fitting) / 2;
+        OrderMessage candidate = Shorten(whole, middle);
+        if (check(candidate))
+        {
+            fitting = middle;
+            order = std::move(candidate);
+        }
+        else
+        {
+            tooMany = middle;
         }
     }
-    if (context.factsheet->protocolLimits.maxStringLengths.message.value_or(0) != 0)
-    {
-        order.header = PeekHeader(ETopic::Order, now);
-        context.payloadBytes = _codec.Encode(order, _options.version).size();
-    }
-    const std::vector<OrderViolation> violations = FindUnusable(order, context);
-    if (violations.empty())
-    {
-        return {};
-    }
-    const std::string* const path = FindReferenceOrNull(violations.front().error, ReferenceKeys::PARAMETER);
-    return Core::Fail(
-        EVda5050Error::NotSupported,
-        path == nullptr ? std::string() : *path,
-        violations.front().rule,
-        "order " + order.orderID);
+    return checked;
 }
 
 std::string MasterSession::Impl::MakeActionID(std::string_view actionType, Core::Now now)

@@ -11,7 +11,8 @@ namespace ACS::VDA5050
 {
 
 MasterSession::Impl::Impl(MasterOptions options)
-    : _options(std::move(options))
+    : _options(std::move(options)),
+      _factsheet(_options.factsheet)
 {
     for (std::size_t index = 0; index < TOPIC_COUNT; ++index)
     {

@@ -61,7 +61,7 @@ class MasterSession::Impl
     bool _bNumbersKnown = false; ///< A state was received since ONLINE, which restarts the headerIds.
     Core::SteadyTime _lastStateTime;
     std::optional<StateMessage> _state;
-    std::optional<FactsheetMessage> _factsheet;
+    std::optional<FactsheetMessage> _factsheet; ///< Received, or that of the options.
     EOrderPhase _phase = EOrderPhase::None;
     std::string _orderID;
     std::uint32_t _lastSentUpdateID = 0;
@@ -95,6 +95,8 @@ public:
     void OnLinkDown(Core::Now now, MasterActions& out);
     void OnMessage(std::string_view topic, std::string_view payload, bool bRetained, Core::Now now, MasterActions& out);
     void OnTimer(EMasterTimer timer, Core::Now now, MasterActions& out);
+    /// Changes the order to what the factsheet supports, as far as the standard allows.
+    [[nodiscard]] Core::Result<void> FitOrder(OrderMessage& order, Core::Now now) const;
     [[nodiscard]] Core::Result<void> SendOrder(OrderMessage order, Core::Now now, MasterActions& out);
     void SetHorizonOmitted(bool bOmitted) noexcept;
     [[nodiscard]] Core::Result<void> SendOrderUpdate(OrderMessage update, Core::Now now, MasterActions& out);
@@ -172,7 +174,6 @@ private:
 
     /// Null without a factsheet, or if it is not obeyed.
     [[nodiscard]] const FactsheetMessage* GetRulesOrNull() const;
-    [[nodiscard]] Core::Result<void> FitOrder(OrderMessage& order, Core::Now now) const;
     [[nodiscard]] Core::Result<void> FitInstantAction(Action& action, Core::Now now) const;
     [[nodiscard]] Core::Duration GetOrderInterval() const;
     [[nodiscard]] Core::Duration GetAllowedSilence() const;

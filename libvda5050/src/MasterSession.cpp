@@ -71,6 +71,11 @@ void MasterSession::SetHorizonOmitted(bool bOmitted) noexcept
     _impl->SetHorizonOmitted(bOmitted);
 }
 
+Core::Result<void> MasterSession::CheckOrder(OrderMessage order, Core::Now now) const
+{
+    return _impl->FitOrder(order, now);
+}
+
 Core::Result<void> MasterSession::SendOrderUpdate(OrderMessage update, Core::Now now, MasterActions& out)
 {
     return _impl->SendOrderUpdate(std::move(update), now, out);

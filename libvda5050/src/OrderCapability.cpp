@@ -10,6 +10,7 @@
 #include <array>
 #include <cctype>
 #include <cstddef>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <string_view>
@@ -21,42 +22,66 @@ namespace ACS::VDA5050
 namespace
 {
 
-/// Optional members that change what the vehicle does; descriptions are for people and always taken.
+/// An optional member that changes what the vehicle does; descriptions are for people and always accepted.
 template <typename TElement>
 struct OptionalMember
 {
     std::string_view path; ///< As a factsheet names it.
     bool (*isThere)(const TElement&);
+    /// Removes the member for a vehicle that does not support it. Null: the member demands something of the vehicle, and a drive
+    /// without it would be unsafe or another one than was ordered. The order is then unusable.
+    void (*leaveOut)(TElement&) = nullptr;
+    /// Sets the value that restricts nothing, for a vehicle that requires the member. Null: there is no such value.
+    void (*fillIn)(TElement&, const FactsheetMessage&) = nullptr;
 };
 
 constexpr std::array NODE_MEMBERS{
+    // A vehicle that follows a line finds its nodes without positions.
     OptionalMember<OrderNode>{
         "order.nodes.nodePosition",
-        [](const OrderNode& node) {
-            return node.nodePosition.has_value();
+        [](const OrderNode& node) { return node.nodePosition.has_value(); },
+        [](OrderNode& node) {
+            node.nodePosition.reset();
         }},
+    // Without an orientation the vehicle plans its own; without tolerances it uses its own.
     OptionalMember<OrderNode>{
         "order.nodes.nodePosition.theta",
-        [](const OrderNode& node) {
-            return node.nodePosition.has_value() && node.nodePosition->theta.has_value();
+        [](const OrderNode& node) { return node.nodePosition.has_value() && node.nodePosition->theta.has_value(); },
+        [](OrderNode& node) {
+            node.nodePosition->theta.reset();
         }},
     OptionalMember<OrderNode>{
         "order.nodes.nodePosition.allowedDeviationXY",
         [](const OrderNode& node) {
             return node.nodePosition.has_value() && node.nodePosition->allowedDeviationXY.has_value();
+        },
+        [](OrderNode& node) {
+            node.nodePosition->allowedDeviationXY.reset();
         }},
     OptionalMember<OrderNode>{
         "order.nodes.nodePosition.allowedDeviationTheta",
         [](const OrderNode& node) {
             return node.nodePosition.has_value() && node.nodePosition->allowedDeviationTheta.has_value();
+        },
+        [](OrderNode& node) { node.nodePosition->allowedDeviationTheta.reset(); },
+        [](OrderNode& node, const FactsheetMessage&) {
+            if (node.nodePosition.has_value())
+            {
+                node.nodePosition->allowedDeviationTheta = std::numbers::pi;
+            }
         }},
 };
 
 constexpr std::array EDGE_MEMBERS{
     OptionalMember<OrderEdge>{
         "order.edges.maxSpeed",
-        [](const OrderEdge& edge) {
-            return edge.maxSpeed.has_value();
+        [](const OrderEdge& edge) { return edge.maxSpeed.has_value(); },
+        nullptr,
+        [](OrderEdge& edge, const FactsheetMessage& factsheet) {
+            if (factsheet.physicalParameters.speedMax > 0.0)
+            {
+                edge.maxSpeed = factsheet.physicalParameters.speedMax;
+            }
         }},
     OptionalMember<OrderEdge>{
         "order.edges.maxHeight",
@@ -73,30 +98,48 @@ constexpr std::array EDGE_MEMBERS{
         [](const OrderEdge& edge) {
             return edge.orientation.has_value();
         }},
+    // TANGENTIAL is the default, and a type without an orientation says nothing.
     OptionalMember<OrderEdge>{
         "order.edges.orientationType",
-        [](const OrderEdge& edge) {
-            return edge.orientationType.has_value();
+        [](const OrderEdge& edge) { return edge.orientationType.has_value(); },
+        [](OrderEdge& edge) {
+            if (edge.orientationType == EOrientationType::Tangential || !edge.orientation.has_value())
+            {
+                edge.orientationType.reset();
+            }
+        },
+        [](OrderEdge& edge, const FactsheetMessage&) {
+            edge.orientationType = EOrientationType::Tangential;
         }},
     OptionalMember<OrderEdge>{
         "order.edges.direction",
         [](const OrderEdge& edge) {
             return !edge.direction.empty();
         }},
+    // True is the default.
     OptionalMember<OrderEdge>{
         "order.edges.rotationAllowed",
-        [](const OrderEdge& edge) {
-            return edge.bRotationAllowed.has_value();
+        [](const OrderEdge& edge) { return edge.bRotationAllowed.has_value(); },
+        [](OrderEdge& edge) {
+            if (edge.bRotationAllowed == true)
+            {
+                edge.bRotationAllowed.reset();
+            }
+        },
+        [](OrderEdge& edge, const FactsheetMessage&) {
+            edge.bRotationAllowed = true;
         }},
     OptionalMember<OrderEdge>{
         "order.edges.maxRotationSpeed",
         [](const OrderEdge& edge) {
             return edge.maxRotationSpeed.has_value();
         }},
+    // The vehicle measures the edge itself.
     OptionalMember<OrderEdge>{
         "order.edges.length",
-        [](const OrderEdge& edge) {
-            return edge.length.has_value();
+        [](const OrderEdge& edge) { return edge.length.has_value(); },
+        [](OrderEdge& edge) {
+            edge.length.reset();
         }},
     OptionalMember<OrderEdge>{
         "order.edges.trajectory",
@@ -250,6 +293,31 @@ void CheckZoneSet(const OrderContext& context, OrderFindings& unusable)
     AddReference(error, ReferenceKeys::PARAMETER, "order.zoneSetId");
 }
 
+template <typename TElements, typename TMembers>
+void AdaptMembers(TElements& elements, const TMembers& members, const FactsheetMessage& factsheet)
+{
+    for (const auto& member : members)
+    {
+        const bool bRequired = IsRequired(factsheet, member.path);
+        if (!bRequired && IsSupported(factsheet, member.path))
+        {
+            continue;
+        }
+        for (auto& element : elements)
+        {
+            const bool bThere = member.isThere(element);
+            if (bThere && !bRequired && member.leaveOut != nullptr)
+            {
+                member.leaveOut(element);
+            }
+            else if (!bThere && bRequired && member.fillIn != nullptr)
+            {
+                member.fillIn(element, factsheet);
+            }
+        }
+    }
+}
+
 template <typename TMembers>
 void AddSupported(const TMembers& members, std::vector<OptionalParameter>& out)
 {
@@ -260,6 +328,15 @@ void AddSupported(const TMembers& members, std::vector<OptionalParameter>& out)
 }
 
 } // namespace
+
+void AdaptToFactsheet(OrderMessage& order, const FactsheetMessage& factsheet)
+{
+    if (factsheet.protocolFeatures.optionalParameters.has_value())
+    {
+        AdaptMembers(order.nodes, NODE_MEMBERS, factsheet);
+        AdaptMembers(order.edges, EDGE_MEMBERS, factsheet);
+    }
+}
 
 std::vector<OptionalParameter> ListOptionalParameters()
 {

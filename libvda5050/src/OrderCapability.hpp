@@ -11,6 +11,10 @@ namespace ACS::VDA5050
 /// to the field.
 [[nodiscard]] std::vector<OrderViolation> FindUnusable(const OrderMessage& order, const OrderContext& context);
 
+/// Leaves out optional members that the vehicle does not support and can do without, and fills in those that it requires where a
+/// value restricts nothing. FindUnusable finds the others.
+void AdaptToFactsheet(OrderMessage& order, const FactsheetMessage& factsheet);
+
 /// The optional members that FindUnusable checks, as supported ones.
 [[nodiscard]] std::vector<OptionalParameter> ListOptionalParameters();
 

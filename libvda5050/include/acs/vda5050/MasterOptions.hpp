@@ -1,11 +1,13 @@
 #pragma once
 
 #include <acs/vda5050/EVda5050Version.hpp>
+#include <acs/vda5050/FactsheetMessage.hpp>
 #include <acs/vda5050/QosTable.hpp>
 #include <acs/vda5050/Topic.hpp>
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace ACS::VDA5050
@@ -26,7 +28,9 @@ struct MasterOptions
     std::chrono::milliseconds stateMargin{5'000};
     /// Request the factsheet when the vehicle comes online, unless the retained one was received.
     bool bFactsheetRequested = true;
-    /// Send only what the received factsheet supports: see MasterSession::SendOrder.
+    /// In effect until the vehicle has sent its own.
+    std::optional<FactsheetMessage> factsheet = std::nullopt;
+    /// Send only what the factsheet supports: see MasterSession::SendOrder.
     bool bFactsheetObeyed = true;
     /// Request a state when the vehicle comes online: the broker retains ONLINE, but no state.
     bool bStateRequested = true;

@@ -107,13 +107,17 @@ public:
     /// Sends an order (with orderID and route, without header) and resends it until the vehicle shows it. The
     /// orderUpdateID is sent as given. The orderID must be new to the vehicle, which would otherwise treat the order as its
     /// current or last one; see ResumeOrder.
-    /// Once a factsheet was received, the order is checked against it: unlisted tolerances and lengths are omitted; any
-    /// other optional member, action, parameter or size that is not listed is an error. An empty list allows everything.
+    /// With a factsheet, unlisted optional members that the vehicle can do without are omitted, required ones filled in where a
+    /// value restricts nothing, and the horizon is shortened to what fits. Any other optional member, action, parameter or size
+    /// that is not supported is an error.
     /// Errors: VehicleNotReady, OrderActive (also for an order of another master), InvalidOrder, NotSupported.
     [[nodiscard]] Core::Result<void> SendOrder(OrderMessage order, Core::Now now, MasterActions& out);
     /// For a vehicle that rejects orders with a horizon, which a factsheet cannot state: later orders and updates are sent without
     /// it. The order still ends only with a message that had no horizon before.
     void SetHorizonOmitted(bool bOmitted) noexcept;
+    /// Whether the factsheet allows the order, or the update if its orderID is that of the running order. True without one.
+    /// Error: NotSupported, with the factsheet's name of the member as path.
+    [[nodiscard]] Core::Result<void> CheckOrder(OrderMessage order, Core::Now now) const;
     /// The next update of the running order: nodes from the decision point on. The session sets orderID and orderUpdateID.
     /// The update is sent once the vehicle shows the previous message; at most one update can wait.
     /// Errors: NoOrder, UpdatePending, InvalidOrder, NotSupported.
@@ -147,6 +151,7 @@ public:
     [[nodiscard]] bool IsReady() const;
     /// The last state, null before the first.
     [[nodiscard]] const StateMessage* GetStateOrNull() const noexcept;
+    /// The last one received, or else MasterOptions::factsheet; null without either.
     [[nodiscard]] const FactsheetMessage* GetFactsheetOrNull() const noexcept;
     [[nodiscard]] const MasterStatistics& GetStatistics() const noexcept;
     [[nodiscard]] const MasterOptions& GetOptions() const noexcept;
