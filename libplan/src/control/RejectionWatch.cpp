@@ -66,6 +66,23 @@ void RejectionWatch::EndRow(Robot& robot)
     }
 }
 
+void RejectionWatch::OnCompatibility(Robot& robot, const CompatibilityChanged& event)
+{
+    robot.view.incompatibility = event.incompatibility;
+    robot.changes.bStatus = true;
+    Alarm alarm = MakeAlarm(robot.GetID(), ALARM_INCOMPATIBLE, EAlarmLevel::Heavy, {});
+    if (event.incompatibility.empty())
+    {
+        _transaction.ClearAlarm(alarm);
+    }
+    else
+    {
+        alarm.message = "Robot incompatible: " + event.incompatibility;
+        _transaction.RaiseAlarm(std::move(alarm));
+    }
+    _transaction.RequestDispatch();
+}
+
 Alarm RejectionWatch::MakeRejectionAlarm(const Robot& robot)
 {
     return MakeAlarm(robot.GetID(), ALARM_REJECTIONS, EAlarmLevel::Heavy, {});

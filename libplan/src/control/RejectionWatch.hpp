@@ -7,7 +7,8 @@
 namespace ACS::Planning
 {
 
-/// Decides when a robot that rejected a drive or a job is sent one again, and raises ACS-1012 for a robot that rejects all.
+/// Decides when a robot that rejected a drive or a job is sent one again, and raises ACS-1012 for a robot that rejects all, and
+/// ACS-1013 for one that is known to be unable to do them.
 class RejectionWatch
 {
     const EngineOptions& _options;
@@ -25,6 +26,8 @@ public:
     void OnRobotChanged(Robot& robot);
     /// The robot has passed a node or begun a job, or the operator has cleared the alarm: the row of rejections has ended.
     void EndRow(Robot& robot);
+
+    void OnCompatibility(Robot& robot, const CompatibilityChanged& event);
 
 private:
     [[nodiscard]] static Alarm MakeRejectionAlarm(const Robot& robot);

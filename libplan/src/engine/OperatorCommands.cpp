@@ -151,6 +151,10 @@ bool OperatorCommands::HasCause(const Alarm& alarm) const
     {
         return _stalls.IsStalled(robot);
     }
+    if (alarm.errorCode == ALARM_INCOMPATIBLE)
+    {
+        return !robot.view.incompatibility.empty();
+    }
     return robot.view.state.has_value()
         && std::ranges::count(robot.view.state->errors, alarm.errorCode, &RobotError::errorCode) > 0;
 }

@@ -115,6 +115,9 @@ void PlanEngine::Impl::HandleEvent(std::string_view robotID, const RobotEvent& e
             [this, &robot](const JobCheckChanged& typed) {
                 _dispatcher.OnJobCheck(robot, typed);
                 _rejections.OnRobotChanged(robot);
+            },
+            [this, &robot](const CompatibilityChanged& typed) {
+                _rejections.OnCompatibility(robot, typed);
             }},
         event);
     _places.NoteMovable(robot);
@@ -289,7 +292,9 @@ void PlanEngine::Impl::HandOverPlans()
             _work.GetAssignment().Withdraw(plan);
             continue;
         }
-        if (robot.view.rejections.GetState() != ERejection::Exhausted || !_work.GetAssignment().CanHandOver(plan))
+        const bool bUnable =
+            robot.view.rejections.GetState() == ERejection::Exhausted || !robot.view.incompatibility.empty();
+        if (!bUnable || !_work.GetAssignment().CanHandOver(plan))
         {
             continue;
         }

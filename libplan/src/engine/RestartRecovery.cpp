@@ -222,7 +222,8 @@ void RestartRecovery::RestoreAlarms(std::vector<Alarm> alarms)
     }
     _transaction.ReportAlarms(_alarms.ClearIf([this](const Alarm& alarm) {
         const bool bRobotGone = alarm.robotID != OWN_ROBOT_ID && _fleet.FindOrNull(alarm.robotID) == nullptr;
-        return bRobotGone || alarm.errorCode == ALARM_STALL || alarm.errorCode == ALARM_REJECTIONS;
+        return bRobotGone || alarm.errorCode == ALARM_STALL || alarm.errorCode == ALARM_REJECTIONS
+            || alarm.errorCode == ALARM_INCOMPATIBLE;
     }));
 }
 

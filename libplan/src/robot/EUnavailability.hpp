@@ -17,6 +17,7 @@ enum class EUnavailability : std::uint8_t
     Paused,
     Manual,
     Occupied,
+    Incompatible,
     Rejecting,
 };
 

@@ -57,6 +57,10 @@ EUnavailability Robot::GetUnavailability() const
     {
         return EUnavailability::Occupied;
     }
+    if (!view.incompatibility.empty())
+    {
+        return EUnavailability::Incompatible;
+    }
     return view.rejections.GetState() == ERejection::None ? EUnavailability::None : EUnavailability::Rejecting;
 }
 
@@ -85,6 +89,8 @@ std::string Robot::Describe(EUnavailability unavailability) const
             return "not in automatic mode";
         case EUnavailability::Occupied:
             return "busy with work of an ended plan";
+        case EUnavailability::Incompatible:
+            return "incompatible, see ACS-1013";
         case EUnavailability::Rejecting:
             return (view.rejections.GetState() == ERejection::Exhausted ? "rejects its commands: "
                                                                         : "rejected its command, which is sent again: ")

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace ACS::Planning
 {
@@ -17,6 +18,7 @@ struct RobotView
     std::optional<StateChanged> state;         ///< Since the connection; nullopt until the first.
     std::shared_ptr<const IJobCheck> jobCheck; ///< Null: no job is rejected.
     bool bInMaintenance = false;
+    std::string incompatibility; ///< Empty: the robot can carry out what it is commanded.
     RejectionTracker rejections;
 };
 

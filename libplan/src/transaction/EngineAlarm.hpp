@@ -23,7 +23,8 @@ inline constexpr std::string_view ALARM_STALL = "ACS-1009";      ///< A drive ma
 inline constexpr std::string_view ALARM_CHARGE = "ACS-1010";     ///< The robot does not charge.
 inline constexpr std::string_view ALARM_LOADS = "ACS-1011";      ///< Reported loads contradict the record of the ports.
 inline constexpr std::string_view ALARM_REJECTIONS = "ACS-1012"; ///< The robot rejects its commands.
-inline constexpr std::string_view ALARM_OUTBOX = "ACS-1020";     ///< Too many reports without an acknowledgement.
+inline constexpr std::string_view ALARM_INCOMPATIBLE = "ACS-1013"; ///< The robot cannot do what it will be commanded.
+inline constexpr std::string_view ALARM_OUTBOX = "ACS-1020";       ///< Too many reports without an acknowledgement.
 /// Prefix of the engine's codes. Alarms without it are errors that robots reported.
 inline constexpr std::string_view ALARM_PREFIX = "ACS-";
 /// The robotID of alarms about the engine itself.

@@ -106,6 +106,10 @@ std::string Describe(const Planning::RobotEvent& event)
                 return fmt::format("outcome of job {} unknown: {}", typed.jobID, typed.reason);
             },
             [](const Planning::JobCheckChanged&) { return std::string("checks jobs again"); },
+            [](const Planning::CompatibilityChanged& typed) {
+                return typed.incompatibility.empty() ? std::string("compatible")
+                                                     : "incompatible: " + typed.incompatibility;
+            },
             [](const auto&) {
                 return std::string("other event");
             }},

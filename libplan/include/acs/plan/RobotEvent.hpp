@@ -190,6 +190,17 @@ struct JobCheckChanged
     bool operator==(const JobCheckChanged&) const = default;
 };
 
+/// Whether the robot can carry out what the engine will command has become known, for example by a factsheet. An incompatible
+/// robot is unavailable and has an alarm (ACS-1013) until the adapter reports it compatible. Stays in effect while the robot is
+/// disconnected.
+struct CompatibilityChanged
+{
+    /// Why the robot is incompatible, and what to correct, in sentences for the operator. Empty (initial value): compatible.
+    std::string incompatibility;
+
+    bool operator==(const CompatibilityChanged&) const = default;
+};
+
 /// What an adapter reports about its robot. Events of another drive or job than the current one are ignored, so that an
 /// adapter may repeat an event.
 using RobotEvent = std::variant<
@@ -206,6 +217,7 @@ using RobotEvent = std::variant<
     JobInterrupted,
     JobUnknown,
     JobUnresolved,
-    JobCheckChanged>;
+    JobCheckChanged,
+    CompatibilityChanged>;
 
 } // namespace ACS::Planning

@@ -78,6 +78,25 @@ TEST_CASE("RejectionWatch: a robot that rejects every drive gets an alarm with i
     }
 }
 
+TEST_CASE("RejectionWatch: an incompatible robot is unavailable with a heavy alarm until it is compatible")
+{
+    RejectionParts parts;
+    parts.rejections.OnCompatibility(parts.lr, {"its factsheet does not list order.edges.maxSpeed. Correct it."});
+    CHECK(parts.lr.GetUnavailability() == EUnavailability::Incompatible);
+    CHECK(parts.lr.Describe(EUnavailability::Incompatible) == "incompatible, see ACS-1013");
+    const auto alarms = parts.Collect().ListChanges<AlarmSet>();
+    REQUIRE(alarms.size() == 1);
+    CHECK(alarms.front().alarm.errorCode == "ACS-1013");
+    CHECK(alarms.front().alarm.level == EAlarmLevel::Heavy);
+    CHECK(
+        alarms.front().alarm.message
+        == "Robot incompatible: its factsheet does not list order.edges.maxSpeed. Correct it.");
+    parts.rejections.OnCompatibility(parts.lr, {});
+    CHECK(parts.lr.IsUsable());
+    CHECK(parts.Collect().ListClearedAlarms() == std::vector<std::string>{"ACS-1013"});
+    CHECK(parts.engine.transaction.IsDispatchNeeded());
+}
+
 TEST_CASE("RejectionWatch: a drive that is lost in manual mode or without a connection is not counted")
 {
     RejectionParts parts;

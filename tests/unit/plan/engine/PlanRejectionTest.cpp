@@ -270,3 +270,35 @@ TEST_CASE("A plan whose robot drops its drives is handed over when another robot
     }
     CHECK(world.violations == Lines{});
 }
+
+TEST_CASE("An incompatible robot is given no plan until it is compatible")
+{
+    PlanWorld world;
+    world.Connect();
+    world.Raise("LR01", CompatibilityChanged{"its factsheet does not list order.edges.maxSpeed."});
+    world.Submit(MakeLogisticsPlan("P1"));
+    static_cast<void>(TryRunFor(world, 1min));
+    CHECK(world.GetTraceOf("command LR01").empty());
+    const auto countAlarms = [&world] {
+        return std::ranges::count(world.engine->GetActiveAlarms(), "ACS-1013", &Alarm::errorCode);
+    };
+    CHECK(countAlarms() == 1);
+    world.Ask(ClearAlarms{"LR01", "ACS-1013", {}, {}, 3});
+    CHECK(countAlarms() == 1); // its cause remains
+    world.Raise("LR01", CompatibilityChanged{});
+    CHECK(countAlarms() == 0);
+    FinishPlan(world);
+    CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"});
+}
+
+TEST_CASE("A plan whose robot becomes incompatible before its first job is handed over")
+{
+    PlanWorld world(1, true);
+    world.GetRobot("LR01").bRejectDrives = true;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 Dispatched");
+    world.Raise("LR01", CompatibilityChanged{"its factsheet does not list order.edges.maxSpeed."});
+    FinishPlan(world);
+    CHECK(world.GetTraceOf("command LR01 Drive").size() == 1);
+    CHECK(world.GetRobot("LR02").doneJobs == Lines{"P1-a4", "P1-b2"});
+    CHECK(world.violations == Lines{});
+}
