@@ -53,12 +53,16 @@ void VehicleSession::Impl::OnMessage(
     {
         return;
     }
-    if (bRetained)
+    if (bRetained || payload.empty())
     {
-        // An order of yesterday, replayed by the broker to a vehicle that has restarted.
+        // An order of yesterday, replayed by the broker to a vehicle that has restarted; or a master that removes it there.
         out.emplace_back(MessageIgnored{
             bOrder ? ETopic::Order : ETopic::InstantActions,
-            Core::Error{make_error_code(EVda5050Error::InvalidOrder), {}, "a message sent now", "a retained one"}});
+            Core::Error{
+                make_error_code(EVda5050Error::InvalidOrder),
+                {},
+                "a message sent now",
+                bRetained ? "a retained one" : "an empty one, which removes a retained one"}});
         return;
     }
     if (bOrder)

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <mqtt_protocol.h>
 #include <span>
+#include <tuple>
 #include <utility>
 
 namespace ACS::VDA5050
@@ -337,6 +338,15 @@ std::optional<int> MosquittoConnection::SubscribeOrNull(const MqttSubscription& 
     }
     Settle(MOSQ_ERR_SUCCESS, 0);
     return messageID;
+}
+
+void MosquittoConnection::Unsubscribe(const std::string& topicFilter)
+{
+    if (IsUp())
+    {
+        std::ignore = mosquitto_unsubscribe(GetClientOrNull(), nullptr, topicFilter.c_str());
+        Settle(MOSQ_ERR_SUCCESS, 0);
+    }
 }
 
 void MosquittoConnection::Confirm()

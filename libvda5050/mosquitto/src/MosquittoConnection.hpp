@@ -107,6 +107,8 @@ public:
     [[nodiscard]] Core::Result<int> Publish(const MqttMessage& message);
     /// The id with which OnSubscribed comes; nothing where there is no connection or the filter is none.
     [[nodiscard]] std::optional<int> SubscribeOrNull(const MqttSubscription& subscription);
+    /// Without an answer. Does nothing where there is no connection.
+    void Unsubscribe(const std::string& topicFilter);
     /// The owner has all that it waited for: the time to connect is no longer counted.
     void Confirm();
     /// Ends with OnConnectionClosed.

@@ -40,7 +40,8 @@ class MosquittoLink::Impl final : public IMosquittoConnectionOwner, public std::
     bool _bUp = false;
     bool _bOutageLogged = false;
     bool _bRefusalLogged = false;
-    bool _bTooLongLogged = false; ///< In this connection.
+    bool _bLaterRefusalLogged = false; ///< In this connection.
+    bool _bTooLongLogged = false;      ///< In this connection.
     bool _bRivalTold = false;
     bool _bStopping = false;
     bool _bStopped = false;
@@ -57,6 +58,7 @@ public:
     void Abandon();
     [[nodiscard]] Core::Result<void> Publish(const MqttMessage& message);
     void Subscribe(const std::vector<MqttSubscription>& subscriptions);
+    void Unsubscribe(const std::string& topicFilter);
     void SetWill(const MqttWill& will);
     [[nodiscard]] bool IsConnected() const;
     void StopAsync(
@@ -73,6 +75,7 @@ public:
 
 private:
     void Connect();
+    void Forget(const std::string& topicFilter);
     void Retry(std::chrono::milliseconds pause);
     [[nodiscard]] bool HasRival(bool bWasUp, const std::error_code& reason);
     void LogEnd(bool bWasUp, bool bRenewal, bool bRival, const std::error_code& reason);
@@ -152,9 +155,7 @@ void MosquittoLink::Impl::Subscribe(const std::vector<MqttSubscription>& subscri
 {
     for (const MqttSubscription& subscription : subscriptions)
     {
-        std::erase_if(_subscriptions, [&subscription](const MqttSubscription& known) {
-            return known.topicFilter == subscription.topicFilter;
-        });
+        Forget(subscription.topicFilter);
         _subscriptions.push_back(subscription);
         if (_connectionOrNull != nullptr)
         {
@@ -169,6 +170,22 @@ void MosquittoLink::Impl::Subscribe(const std::vector<MqttSubscription>& subscri
             }
         }
     }
+}
+
+void MosquittoLink::Impl::Unsubscribe(const std::string& topicFilter)
+{
+    Forget(topicFilter);
+    if (_connectionOrNull != nullptr)
+    {
+        _connectionOrNull->Unsubscribe(topicFilter);
+    }
+}
+
+void MosquittoLink::Impl::Forget(const std::string& topicFilter)
+{
+    std::erase_if(_subscriptions, [&topicFilter](const MqttSubscription& known) {
+        return known.topicFilter == topicFilter;
+    });
 }
 
 void MosquittoLink::Impl::SetWill(const MqttWill& will)
@@ -193,6 +210,7 @@ void MosquittoLink::Impl::Connect()
     _unconfirmed.clear();
     _later.clear();
     _refusedFilter.clear();
+    _bLaterRefusalLogged = false;
     _bTooLongLogged = false;
     if (_options.bCleanSession)
     {
@@ -338,7 +356,8 @@ void MosquittoLink::Impl::OnSubscribed(int messageID, bool bGranted)
     {
         if (!bGranted)
         {
-            _logger.Error(
+            _logger.Write(
+                std::exchange(_bLaterRefusalLogged, true) ? Core::ELogLevel::Debug : Core::ELogLevel::Error,
                 "the MQTT broker refuses a subscription: check its access rules",
                 {{"broker", GetAddress()}, {"filter", later->second}});
         }
@@ -569,6 +588,11 @@ Core::Result<void> MosquittoLink::Publish(const MqttMessage& message)
 void MosquittoLink::Subscribe(const std::vector<MqttSubscription>& subscriptions)
 {
     _impl->Subscribe(subscriptions);
+}
+
+void MosquittoLink::Unsubscribe(const std::string& topicFilter)
+{
+    _impl->Unsubscribe(topicFilter);
 }
 
 void MosquittoLink::SetWill(const MqttWill& will)

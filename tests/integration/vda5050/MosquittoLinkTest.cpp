@@ -127,6 +127,26 @@ TEST_CASE_METHOD(LinkTest, "6.2 After an outage of the broker the link reconnect
     CHECK(link->log.CountLevel(Core::ELogLevel::Warning) == 1);
 }
 
+TEST_CASE_METHOD(LinkTest, "A subscription that was ended receives nothing, also after a reconnect")
+{
+    _version = GENERATE(EMqttVersion::Version311, EMqttVersion::Version5);
+    const auto link = MakeConnected("link", "wanted");
+    link->link.Subscribe({{"unwanted", 1}});
+    link->link.Unsubscribe("unwanted");
+    const auto publishBoth = [&](std::size_t expected) {
+        REQUIRE(link->link.Publish({"unwanted", "text", 1, false}).has_value());
+        REQUIRE(link->link.Publish({"wanted", "text", 1, false}).has_value());
+        REQUIRE(TryRunUntil(_context, [&]() { return link->listener.CountTopic("wanted") == expected; }));
+        CHECK(link->listener.CountTopic("unwanted") == 0);
+    };
+    publishBoth(1);
+    _broker.Kill();
+    REQUIRE(TryRunUntil(_context, [&]() { return link->listener.downs == 1; }));
+    _broker.Restart();
+    REQUIRE(TryRunUntil(_context, [&]() { return link->listener.ups == 2; }));
+    publishBoth(2);
+}
+
 TEST_CASE_METHOD(LinkTest, "An unreachable broker is logged once, with the remedy, and connected when it starts")
 {
     _broker.Kill();

@@ -72,6 +72,8 @@ public:
     [[nodiscard]] virtual Core::Result<void> Publish(const MqttMessage& message) = 0;
     /// Subscribes now and after each reconnect.
     virtual void Subscribe(const std::vector<MqttSubscription>& subscriptions) = 0;
+    /// Ends the subscription with this filter, now and for later connections. Messages that are on their way still arrive.
+    virtual void Unsubscribe(const std::string& topicFilter) = 0;
 };
 
 } // namespace ACS::VDA5050

@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace ACS::VDA5050
@@ -61,6 +62,9 @@ public:
     /// are confirmed; messages that arrive earlier are delivered after it. If the broker refuses one of them, the connection
     /// is closed and retried; the refusal of a later subscription is logged.
     void Subscribe(const std::vector<MqttSubscription>& subscriptions) override;
+
+    /// Without a connection, the broker keeps the subscription of a persistent session.
+    void Unsubscribe(const std::string& topicFilter) override;
 
     /// Applies from the next connect on.
     void SetWill(const MqttWill& will);
