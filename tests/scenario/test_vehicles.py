@@ -2,9 +2,12 @@
 """Vehicles of several makes and with several ports: each gets its jobs with its own names of actions, places and ports."""
 
 import json
-import unittest
+import shutil
+import subprocess
+import time
+import urllib.request
 
-from scenario_case import FINISH_SECONDS, TIME_SCALE, ScenarioCase, main
+from scenario_case import FINISH_SECONDS, PLANS, STATUS_SECONDS, TIME_SCALE, ScenarioCase, main
 
 # A make whose actions, parameters and load positions have names of their own. It knows no stationType.
 OTHER_MAKE = ("LR02,type=LR,node=N001,ports=2,load=CP01:1,load=CP02:2,pick=loadCassette,drop=unloadCassette,"
@@ -64,6 +67,11 @@ class Vehicles(ScenarioCase):
         self.http = self.acsd.wait_ready()["http"]
         return mcs
 
+    @staticmethod
+    def read_metrics(http):
+        with urllib.request.urlopen(f"http://{http}/metrics", timeout=STATUS_SECONDS) as response:
+            return response.read().decode()
+
     def stop_acsd(self):
         """Else the last line of the trace may be half written."""
         self.line.forget(self.acsd)
@@ -115,6 +123,38 @@ class Vehicles(ScenarioCase):
         self.assertEqual(self.read_actions("LR01")[0], ("pick", {
             "stationType": "rack", "stationName": "A01.CP01", "loadType": "cassette", "loadId": "C1", "lhd": "CP03",
             "height": 0.8}))
+
+    def run_mosquitto(self, name, *arguments):
+        binary = shutil.which(name)
+        self.assertIsNotNone(binary, f"{name} is missing; run scripts/setup")
+        return subprocess.run([binary, "-p", str(self.line.broker_port), "-q", "1", *arguments], capture_output=True,
+                              text=True, timeout=10, check=False)
+
+    def test_commands_that_others_have_left_on_the_broker_are_removed(self):
+        topics = [f"uagv/v2/ACS/LR01/{topic}" for topic in ("order", "instantActions")]
+        foreign = "uagv/v2/ACS/OTHER/order"
+        self.line.start_broker()
+        for topic in (*topics, foreign):
+            self.assertEqual(self.run_mosquitto("mosquitto_pub", "-r", "-t", topic, "-m", '{"orderId": "left"}').returncode, 0)
+        self.line.share_world()
+        mcs = self.line.start_mcs([PLANS[0]])
+        arm = self.line.start_arm(TIME_SCALE).wait_ready()
+        acsd = self.line.start_acsd(mcs.wait_ready()["ws"], arm)
+        http = acsd.wait_ready()["http"]
+        deadline = time.monotonic() + FINISH_SECONDS
+        metric = 'acsd_retained_commands_removed_total{robot="LR01"} 2'
+        while metric not in self.read_metrics(http):
+            self.assertLess(time.monotonic(), deadline, acsd.log.read_text())
+            time.sleep(0.05)
+        # A vehicle that subscribes now receives what is left: here the message that is not for one of acsd's vehicles.
+        left = self.run_mosquitto("mosquitto_sub", "-F", "%t", "-W", "1", *[part for topic in (*topics, foreign)
+                                                                            for part in ("-t", topic)])
+        self.assertEqual(left.stdout.split(), [foreign])
+        for topic in topics:
+            self.assertRegex(acsd.log.read_text(), f"warning.*retained.*{topic}")
+        self.line.start_vehicles(TIME_SCALE).wait_ready()
+        self.assertEqual(mcs.wait(FINISH_SECONDS), 0)
+        self.assertIn(metric, self.read_metrics(http))
 
     def test_two_makes_each_complete_a_plan_on_one_site(self):
         plans = [make_plan("OURS", "LR01", [("C1", "A01.CP01", "CP01", "A02.CP01")]),

@@ -1,6 +1,7 @@
 #include "robots/RobotHost.hpp"
 
 #include "common/process/TimerSet.hpp"
+#include "robots/RetainedCommands.hpp"
 #include "robots/RobotAdapterFactory.hpp"
 #include "robots/RobotOutputs.hpp"
 #include "robots/VehicleWatch.hpp"
@@ -46,6 +47,7 @@ struct RobotHost::Impl
     bool bExecuting = false;
     std::optional<ArmTrace> armTrace;
     VehicleWatch watch;
+    RetainedCommands retained;
     std::optional<Core::SteadyTime> seenAt;
     std::unique_ptr<OpenStreamAsio::OpenStreamClient> armClient;
 
@@ -57,7 +59,11 @@ struct RobotHost::Impl
               *config.site,
               link.robotID,
               {surroundings.clock, surroundings.logger.MakeFor("robot"), surroundings.metrics},
-              link.methods.GetPositions())
+              link.methods.GetPositions()),
+          retained(
+              {surroundings.mqtt, surroundings.logger.MakeFor("robot"), surroundings.metrics},
+              link.robotID,
+              {config.mqtt.interfaceName, link.manufacturer, link.serialNumber})
     {
         RobotAdapter made = MakeRobotAdapter(config, robot, outputs);
         adapter = std::move(made.adapter);
@@ -221,16 +227,22 @@ void RobotHost::Handle(const Planning::RobotCommand& command)
 
 void RobotHost::OnLinkUp()
 {
+    _impl->retained.OnLinkUp();
     _impl->Call([this](Core::Now now, Planning::AdapterActions& out) { _impl->adapter->OnLinkUp(now, out); });
 }
 
 void RobotHost::OnLinkDown()
 {
+    _impl->retained.OnLinkDown();
     _impl->Call([this](Core::Now now, Planning::AdapterActions& out) { _impl->adapter->OnLinkDown(now, out); });
 }
 
 void RobotHost::OnMqttMessage(const VDA5050::MqttMessage& message)
 {
+    if (_impl->retained.TryHandle(message))
+    {
+        return;
+    }
     if (!message.bRetained)
     {
         _impl->seenAt = _impl->surroundings.clock.GetNow().steady;
