@@ -92,6 +92,7 @@ public:
         vehicle.qos = _options->link.qos;
         vehicle.type = spec.type;
         vehicle.startNodeID = startNodeID;
+        vehicle.startPosition = spec.startPosition;
         vehicle.timeScale = _options->timeScale;
         vehicle.charge = spec.charge;
         vehicle.actionSeconds = _options->actionSeconds;

@@ -227,9 +227,9 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
         },
         "Vehicle with this serialNumber. Keys: type=LR|CR, carries cassettes or is the base of an arm (default LR); "
         "node=NODEID, start node (default: the dock of charger CHG01 for the first vehicle, CHG02 for the second and so "
-        "on, or a node of the site if there is no such charger); protocol=VERSION (default: --protocol); "
-        "battery=PERCENT, initial charge (default 100); ports=N, number of load positions CP01, CP02 ... (default 4 for "
-        "LR, 0 for CR); load=PORT:NAME, the vehicle's name of a port; pick=ACTIONTYPE and drop=ACTIONTYPE, actions that "
+        "on, or a node of the site if there is no such charger); position=X:Y, start position in metres (default: that of "
+        "the node); protocol=VERSION (default: --protocol); battery=PERCENT, initial charge (default 100); ports=N, number "
+        "of load positions CP01, CP02 ... (default 4 for LR, 0 for CR); load=PORT:NAME, the vehicle's name of a port; pick=ACTIONTYPE and drop=ACTIONTYPE, actions that "
         "pick and drop; PARAMETER=NAME[:TYPE], the vehicle's name of a parameter of pick and drop (empty: not "
         "supported). May be repeated")
         .type_name("NAME[,KEY=VALUE]...");

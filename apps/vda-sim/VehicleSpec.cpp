@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -51,6 +52,20 @@ Core::Result<double> ParsePercent(std::string_view text)
     return percent;
 }
 
+Core::Result<StartPosition> ParsePosition(std::string_view text)
+{
+    StartPosition position;
+    const char* const end = text.data() + text.size();
+    const auto x = std::from_chars(text.data(), end, position.x);
+    const bool bColon = x.ec == std::errc() && x.ptr != end && *x.ptr == ':';
+    const auto y = bColon ? std::from_chars(x.ptr + 1, end, position.y) : x;
+    if (!bColon || y.ec != std::errc() || y.ptr != end || !std::isfinite(position.x) || !std::isfinite(position.y))
+    {
+        return Core::Fail(Core::ECoreError::OutOfRange, "position", "X:Y in metres", Core::QuoteForError(text));
+    }
+    return position;
+}
+
 Core::Result<void> ReadPart(std::string_view part, VehicleSpec& spec, std::set<std::string_view>& known)
 {
     const std::size_t equals = part.find('=');
@@ -73,6 +88,10 @@ Core::Result<void> ReadPart(std::string_view part, VehicleSpec& spec, std::set<s
     {
         return Store(ParsePercent(value), spec.charge);
     }
+    if (key == "position")
+    {
+        return Store(ParsePosition(value), spec.startPosition);
+    }
     if (key == "node" && !value.empty())
     {
         spec.startNodeID = std::string(value);
@@ -88,7 +107,9 @@ Core::Result<void> ReadPart(std::string_view part, VehicleSpec& spec, std::set<s
         return Core::Fail(
             Core::ECoreError::UnknownWord,
             {},
-            fmt::format("type=LR|CR, node=NODEID, protocol=VERSION, battery=PERCENT, {}", LOAD_HANDLING_KEYS),
+            fmt::format(
+                "type=LR|CR, node=NODEID, position=X:Y, protocol=VERSION, battery=PERCENT, {}",
+                LOAD_HANDLING_KEYS),
             Core::QuoteForError(part));
     }
     return {};
@@ -114,7 +135,8 @@ Core::Result<VehicleSpec> ParseVehicleSpec(std::string_view text)
         return Core::Fail(
             Core::ECoreError::InvalidIdentifier,
             {},
-            "NAME[,type=LR|CR][,node=NODEID][,protocol=VERSION][,battery=PERCENT], NAME without blanks, /, +, #, $, * and =",
+            "NAME[,type=LR|CR][,node=NODEID][,position=X:Y][,protocol=VERSION][,battery=PERCENT], NAME without blanks, /, +, "
+            "#, $, * and =",
             Core::QuoteForError(spec.name));
     }
     std::set<std::string_view> known;

@@ -12,7 +12,17 @@
 namespace ACS::VdaSim
 {
 
-/// One `--vehicle NAME[,type=LR|CR][,node=NODEID][,protocol=VERSION][,battery=PERCENT]` with the keys of LOAD_HANDLING_KEYS.
+/// A place on the map, in metres.
+struct StartPosition
+{
+    double x = 0.0;
+    double y = 0.0;
+
+    bool operator==(const StartPosition&) const = default;
+};
+
+/// One `--vehicle NAME[,type=LR|CR][,node=NODEID][,position=X:Y][,protocol=VERSION][,battery=PERCENT]` with the keys of
+/// LOAD_HANDLING_KEYS.
 struct VehicleSpec
 {
     std::string name; ///< The serialNumber.
@@ -21,6 +31,7 @@ struct VehicleSpec
     std::optional<VDA5050::EVda5050Version> version; ///< Absent: that of --protocol.
     double charge = 100.0;                           ///< %
     LoadHandling handling{};
+    std::optional<StartPosition> startPosition{}; ///< Absent: that of the node.
 
     bool operator==(const VehicleSpec&) const = default;
 };

@@ -84,7 +84,13 @@ VirtualVehicle::VirtualVehicle(
     const Planning::SiteNode* const node = site.FindNodeOrNull(_nodeID);
     if (node != nullptr)
     {
-        _motion = VehicleMotion(_options.limits, GetStartPose(*node));
+        Pose pose = GetStartPose(*node);
+        if (_options.startPosition.has_value())
+        {
+            pose.x = _options.startPosition->x;
+            pose.y = _options.startPosition->y;
+        }
+        _motion = VehicleMotion(_options.limits, pose);
         _mapID = node->mapID;
     }
 }

@@ -69,6 +69,7 @@ struct VirtualVehicleOptions
     VDA5050::EParameterCheck parameterCheck = VDA5050::EParameterCheck::Strict;
     Sim::IWorld* worldOrNull =
         nullptr; ///< The shared floor, which outlives it; null: every pick and drop finds its load.
+    std::optional<StartPosition> startPosition{}; ///< Absent: that of the node.
 };
 
 /// A simulated vehicle: a VehicleSession, the motion, the actions, the battery and the faults. Pure: time is a parameter,

@@ -23,6 +23,7 @@ TEST_CASE("A vehicle is its name, and optionally its type and its node, in any o
     CHECK(
         VdaSim::ParseVehicleSpec("X,battery=7.5,protocol=2.1.0")
         == VehicleSpec{"X", EVehicleType::Logistics, {}, VDA5050::EVda5050Version::Version210, 7.5});
+    CHECK(VdaSim::ParseVehicleSpec("X,position=-1.5:20").value().startPosition == VdaSim::StartPosition{-1.5, 20.0});
 }
 
 TEST_CASE("A vehicle may have its own number of ports, names of them, action types and parameters")
@@ -62,6 +63,11 @@ TEST_CASE("An invalid vehicle is refused with what is expected")
           "A,node=",
           "A,speed=3",
           "A,protocol=3.0.0",
+          "A,position=",
+          "A,position=1",
+          "A,position=1:",
+          "A,position=1:2:3",
+          "A,position=nan:1",
           "A,battery=101",
           "A,battery=-1",
           "A,battery=nan",

@@ -39,6 +39,25 @@ VDA5050::OrderBuilder AddAction(
 
 } // namespace
 
+TEST_CASE("A vehicle that starts between two nodes continues from there")
+{
+    VdaSim::VirtualVehicleOptions options = VehicleDriver::MakeOptions("N0");
+    options.startPosition = VdaSim::StartPosition{4.0, 0.0};
+    VehicleDriver driver(std::move(options));
+    CHECK(driver.GetState().lastNodeID == "N0");
+    CHECK(driver.GetState().agvPosition->x == 4.0);
+    std::vector<VDA5050::OrderNode> nodes = driver.MakeRoute("order-1", {"N0", "N1"}).GetNodes();
+    nodes.front().nodePosition->allowedDeviationXY = 4.1;
+    const std::vector<VDA5050::OrderEdge> edges =
+        VehicleDriver::Take(driver.MakeRoute("order-1", {"N0", "N1"}).MakeOrder(2)).edges;
+    driver.Send(
+        VehicleDriver::Take(VehicleDriver::Take(VDA5050::OrderBuilder::Create("order-1", nodes, edges)).MakeOrder(2)));
+    double nearest = 4.0;
+    driver.Pass(60s, [&]() { nearest = std::min(nearest, driver.GetPose().x); });
+    CHECK(nearest == 4.0);
+    CHECK(driver.GetState().lastNodeID == "N1");
+}
+
 TEST_CASE("6.6 A vehicle drives to the end of its base and never beyond, however long nothing follows")
 {
     VehicleDriver driver("N0");
