@@ -304,7 +304,9 @@ void Vda5050RobotAdapter::OnNodeReached(const VDA5050::NodeReached& reached, Ada
 
 void Vda5050RobotAdapter::OnRejected(const VDA5050::OrderRejected& rejected, Core::Now now, AdapterActions& out)
 {
-    const std::string reason = "the vehicle rejected the order: " + rejected.reason;
+    const std::string_view separator = rejected.errorType.empty() || rejected.reason.empty() ? "" : ": ";
+    const std::string reason =
+        fmt::format("the vehicle rejected the order: {}{}{}", rejected.errorType, separator, rejected.reason);
     if (IsJob(rejected.orderID))
     {
         out.emplace_back(RaiseEvent{Planning::JobRejected{_job.TakeRunning().jobID, reason}});

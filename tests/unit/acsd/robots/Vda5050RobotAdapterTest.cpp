@@ -154,7 +154,7 @@ TEST_CASE("A failed action fails the job with the vehicle's words")
     CHECK(vehicle.TakeEvents<Planning::JobFailed>() == std::vector<Planning::JobFailed>{{"J", "station is empty"}});
 }
 
-TEST_CASE("A rejected order is reported with the vehicle's reason")
+TEST_CASE("A rejected order is reported with type and description of the vehicle's error")
 {
     VehicleFixture vehicle;
     vehicle.ComeOnline();
@@ -168,10 +168,10 @@ TEST_CASE("A rejected order is reported with the vehicle's reason")
     const auto rejected = vehicle.TakeEvents<Planning::DriveRejected>();
     REQUIRE(rejected.size() == 1);
     CHECK(rejected[0].driveID == "D");
-    CHECK(rejected[0].reason.find("too far away") != std::string::npos);
+    CHECK(rejected[0].reason == "the vehicle rejected the order: noRouteError: too far away");
 }
 
-TEST_CASE("A rejected order of a job rejects the job")
+TEST_CASE("A rejected order of a job rejects the job, also with an error without a description")
 {
     VehicleFixture vehicle;
     vehicle.ComeOnline();
@@ -185,6 +185,7 @@ TEST_CASE("A rejected order of a job rejects the job")
     const auto rejected = vehicle.TakeEvents<Planning::JobRejected>();
     REQUIRE(rejected.size() == 1);
     CHECK(rejected[0].jobID == "J");
+    CHECK(rejected[0].reason == "the vehicle rejected the order: validationError");
 }
 
 TEST_CASE("A command that comes before the vehicle has finished waits and is sent then")
