@@ -86,6 +86,14 @@ class VehicleRestarts(RestartCase):
         self.restart_vehicle(f"node={DOCK}")
         self.assertEqual(self.read_actions()[-1], "drop")
 
+    def test_after_an_action_that_was_never_reported(self):
+        """The state that accepts the job comes 50 ms after the state of the arrival; it is lost, as all that follow."""
+        self.hold(f"LR01 silence topic=state node={DOCK} at=30ms")
+        self.wait_for(lambda: self.read_moves() == PICKED, "the carrier is picked")
+        self.assertEqual(self.find_last_state()["actionStates"], [])
+        self.restart_vehicle(f"node={DOCK}")
+        self.assertEqual(self.read_actions()[-1], "drop")
+
     def test_with_the_load_on_board(self):
         self.hold("LR01 stuck node=N060 error=held level=WARNING")
         self.wait_for_error("held")
