@@ -108,6 +108,7 @@ void MasterSession::Impl::OnTimer(EMasterTimer timer, Core::Now now, MasterActio
 void MasterSession::Impl::Refuse(ETopic topic, Core::Error error, MasterActions& out)
 {
     ++_statistics.messagesRefused;
+    _statistics.lastRefusal = std::string(GetTopicName(topic)) + ": " + Core::Describe(error);
     out.emplace_back(MessageRefused{topic, std::move(error)});
 }
 

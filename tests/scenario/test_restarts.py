@@ -11,28 +11,7 @@ DOCK = "D-A01.CP01"
 PICKED = [("A01.CP01", "LR01.CP01")]
 
 
-class RestartCase(TracedLineCase):
-    def wait_for(self, is_due, what):
-        deadline = time.monotonic() + FINISH_SECONDS
-        while not is_due():
-            self.assertLess(time.monotonic(), deadline, what)
-            self.assertTrue(self.acsd.is_running(), "acsd has ended by itself")
-            time.sleep(0.02)
-
-    def find_last_state(self):
-        states = self.read_messages("in", "state") if self.trace.exists() else []
-        return states[-1] if states else None
-
-    def has_error(self, error_type):
-        state = self.find_last_state()
-        return state is not None and any(error["errorType"] == error_type for error in state["errors"])
-
-    def wait_for_error(self, error_type):
-        """A fault of vda-sim holds the vehicle in the phase and shows this error."""
-        self.wait_for(lambda: self.has_error(error_type), error_type)
-
-
-class VehicleRestarts(RestartCase):
+class VehicleRestarts(TracedLineCase):
     def hold(self, *faults):
         self.start_line(*faults, overrides=("robot.load_timeout=1s",))
 
@@ -102,7 +81,7 @@ class VehicleRestarts(RestartCase):
         self.assertEqual(self.read_actions(), ["pick", "drop"])
 
 
-class AcsdRestarts(RestartCase):
+class AcsdRestarts(TracedLineCase):
     def restart_acsd(self):
         self.kill(self.acsd)
         self.start_acsd()

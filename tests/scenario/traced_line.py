@@ -2,6 +2,7 @@
 
 import json
 import signal
+import time
 import urllib.request
 
 from scenario_case import FINISH_SECONDS, PLANS, STATUS_SECONDS, ScenarioCase
@@ -64,16 +65,37 @@ class TracedLineCase(ScenarioCase):
         self.acsd.stop()  # else the end of the trace may be missing
         self.assertEqual(self.read_moves(), [("A01.CP01", f"{robot}.CP01"), (f"{robot}.CP01", "A02.CP03")])
 
+    def read_trace(self):
+        """(direction, vehicle, topic, message) of each MQTT message; the last line may not be complete yet."""
+        files = sorted(self.trace.iterdir()) if self.trace.exists() else []
+        lines = [line for file in files for line in file.read_text().splitlines(keepends=True) if line.endswith("\n")]
+        for entry in map(json.loads, lines):
+            if entry["link"] == "mqtt":
+                vehicle, topic = entry["topic"].split("/")[-2:]
+                yield entry["direction"], vehicle, topic, json.loads(entry["text"] or "{}")
+
     def read_messages(self, direction, topic):
-        """What acsd sent to or received from LR01 on the topic; the last line may not be complete yet."""
-        messages = []
-        for file in sorted(self.trace.iterdir()):
-            for line in file.read_text().splitlines(keepends=True):
-                entry = json.loads(line) if line.endswith("\n") else {"link": ""}
-                if entry["link"] == "mqtt" and entry["direction"] == direction \
-                        and entry["topic"].endswith(f"/LR01/{topic}"):
-                    messages.append(json.loads(entry["text"]))
-        return messages
+        """What acsd sent to or received from LR01 on the topic."""
+        return [message for *place, message in self.read_trace() if place == [direction, "LR01", topic]]
+
+    def find_last_state(self):
+        states = self.read_messages("in", "state")
+        return states[-1] if states else None
+
+    def wait_for(self, is_due, what):
+        deadline = time.monotonic() + FINISH_SECONDS
+        while not is_due():
+            self.assertLess(time.monotonic(), deadline, what)
+            self.assertTrue(self.acsd.is_running(), "acsd has ended by itself")
+            time.sleep(0.02)
+
+    def has_error(self, error_type):
+        state = self.find_last_state()
+        return state is not None and any(error["errorType"] == error_type for error in state["errors"])
+
+    def wait_for_error(self, error_type):
+        """A fault of vda-sim holds the vehicle in a phase and shows this error."""
+        self.wait_for(lambda: self.has_error(error_type), error_type)
 
     def read_drives(self):
         """The nodes of each order to LR01 that is a drive, in the order of sending."""

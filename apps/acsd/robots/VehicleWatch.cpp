@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -120,10 +121,31 @@ void VehicleWatch::CheckPosition(const VDA5050::StateMessage& state)
             Note("off_map", fmt::format("x {} y {}", at.x, at.y));
         }
     }
+    CheckDistance(state);
     const double charge = state.batteryState.batteryCharge;
     if (charge < 0 || charge > HIGHEST_CHARGE)
     {
         Note("battery_range", fmt::format("{} %", charge));
+    }
+}
+
+/// A vehicle that is driven by hand may be anywhere.
+void VehicleWatch::CheckDistance(const VDA5050::StateMessage& state)
+{
+    const Planning::SiteNode* const nodeOrNull = _site.FindNodeOrNull(state.lastNodeID);
+    if (nodeOrNull == nullptr || !state.agvPosition.has_value() || !state.agvPosition->bPositionInitialized
+        || !VDA5050::IsLedByMaster(state.operatingMode))
+    {
+        return;
+    }
+    const double distance = std::hypot(state.agvPosition->x - nodeOrNull->x, state.agvPosition->y - nodeOrNull->y);
+    const auto leadsThere = [this, nodeOrNull, distance](const Planning::SiteEdge& edge) {
+        return edge.startNodeID == nodeOrNull->nodeID
+            && distance <= Planning::GetDistance(*nodeOrNull, *_site.FindNodeOrNull(edge.endNodeID)) + MARGIN;
+    };
+    if (distance > MARGIN && std::ranges::none_of(_site.GetEdges(), leadsThere))
+    {
+        Note("far_from_node", fmt::format("{:.1f} m from {}", distance, nodeOrNull->nodeID));
     }
 }
 
@@ -190,11 +212,7 @@ void VehicleWatch::OnStatistics(const VDA5050::MasterStatistics& statistics)
                 Note(kind, detail);
             }
         };
-    count(
-        _statistics.messagesRefused,
-        statistics.messagesRefused,
-        "unreadable_message",
-        "not VDA5050 2.x, or of another vehicle");
+    count(_statistics.messagesRefused, statistics.messagesRefused, "unreadable_message", statistics.lastRefusal);
     count(_statistics.statesIgnored, statistics.statesIgnored, "state_out_of_order", "older than the one before");
     count(_statistics.retainedIgnored, statistics.retainedIgnored, "state_retained", "retained, of unknown age");
     _statistics = statistics;

@@ -32,7 +32,7 @@ public:
         Apps::MetricsEndpoint& metrics;
     };
 
-    /// How far outside the rectangle around all nodes a vehicle may be, in metres.
+    /// How far outside the rectangle around all nodes, or beyond the lanes of its last node, a vehicle may be, in metres.
     static constexpr double MARGIN = 5.0;
 
 private:
@@ -85,6 +85,7 @@ public:
 private:
     [[nodiscard]] static Range FindRange(const Planning::SiteMap& site, double Planning::SiteNode::*coordinate);
     void CheckPosition(const VDA5050::StateMessage& state);
+    void CheckDistance(const VDA5050::StateMessage& state);
     void CheckLoads(const VDA5050::StateMessage& state);
     void CheckOrder(const VDA5050::StateMessage& state);
     void CheckActions(const VDA5050::StateMessage& state);

@@ -440,6 +440,7 @@ TEST_CASE("3.1 A header of another vehicle or another major version is refused; 
     CHECK(say("3.0.0", "ACS", "LR01"));
     CHECK(Pick<MessageRefused>(bench.GetOutput())[0].error.code == EVda5050Error::UnsupportedVersion);
     CHECK(bench.session.GetStatistics().messagesRefused == 3);
+    CHECK(bench.session.GetStatistics().lastRefusal == "state: version: expected 2.x, found 3.0.0");
     CHECK(bench.session.GetStatistics().statesReceived == 1);
     CHECK_FALSE(say("2.1.0", "", ""));
     CHECK(bench.session.GetStatistics().statesReceived == 2);

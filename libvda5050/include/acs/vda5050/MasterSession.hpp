@@ -65,6 +65,7 @@ struct MasterStatistics
     std::uint64_t messagesRefused = 0;
     std::uint64_t messagesSent = 0;
     std::uint64_t ordersResent = 0;
+    std::string lastRefusal{}; ///< Topic and reason of the last refused message; empty: none was refused.
 
     bool operator==(const MasterStatistics&) const = default;
 };

@@ -115,6 +115,34 @@ TEST_CASE_METHOD(WatchFixture, "A position off the map is logged; one near its b
     CHECK(CountOf("off_map") == 1);
 }
 
+TEST_CASE_METHOD(
+    WatchFixture,
+    "A position that no lane from the last node leads to is logged, unless the vehicle is driven by hand")
+{
+    const Planning::SiteEdge& edge = config.site->GetEdges().front();
+    const Planning::SiteNode& end = *config.site->FindNodeOrNull(edge.endNodeID);
+    state.lastNodeID = edge.startNodeID;
+    VDA5050::AgvPosition& at = state.agvPosition.emplace();
+    at.bPositionInitialized = true;
+    at.x = end.x;
+    at.y = end.y + VehicleWatch::MARGIN / 2;
+    Show();
+    CHECK(CountOf("far_from_node") == 0);
+    at.y = end.y + VehicleWatch::MARGIN + Planning::GetDistance(*config.site->FindNodeOrNull(edge.startNodeID), end);
+    Show();
+    CHECK(CountOf("far_from_node") == 1);
+    CHECK(CountOf("off_map") == 0);
+    state.operatingMode = VDA5050::EOperatingMode::Manual;
+    Show();
+    state.operatingMode = VDA5050::EOperatingMode::Automatic;
+    at.bPositionInitialized = false;
+    Show();
+    state.lastNodeID.clear();
+    at.bPositionInitialized = true;
+    Show();
+    CHECK(CountOf("far_from_node") == 1);
+}
+
 TEST_CASE_METHOD(WatchFixture, "An action that goes backwards is logged, before and after its end")
 {
     using E = VDA5050::EActionStatus;
@@ -161,12 +189,14 @@ TEST_CASE_METHOD(WatchFixture, "Messages that the session dropped are counted by
 {
     VDA5050::MasterStatistics statistics;
     statistics.messagesRefused = 2;
+    statistics.lastRefusal = "state: operatingMode: unknown";
     statistics.statesIgnored = 1;
     watch.OnStatistics(statistics);
     statistics.messagesRefused = 3;
     statistics.retainedIgnored = 1;
     watch.OnStatistics(statistics);
     CHECK(CountOf("unreadable_message") == 3);
+    CHECK(sink.ContainsField("detail", "state: operatingMode: unknown"));
     CHECK(CountOf("state_out_of_order") == 1);
     CHECK(CountOf("state_retained") == 1);
 }
