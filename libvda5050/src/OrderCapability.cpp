@@ -98,7 +98,7 @@ constexpr std::array EDGE_MEMBERS{
         [](const OrderEdge& edge) {
             return edge.orientation.has_value();
         }},
-    // TANGENTIAL is the default, and a type without an orientation says nothing.
+    // TANGENTIAL is the default, and a type has no effect without an orientation.
     OptionalMember<OrderEdge>{
         "order.edges.orientationType",
         [](const OrderEdge& edge) { return edge.orientationType.has_value(); },

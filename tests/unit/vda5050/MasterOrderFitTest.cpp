@@ -249,6 +249,31 @@ TEST_CASE("3.7 An update is checked together with the nodes that the vehicle has
     CHECK(bench.Check(update).empty());
 }
 
+TEST_CASE("3.7 An order whose horizon was left out continues after its base")
+{
+    FitFixture bench;
+    FactsheetMessage factsheet = MakeBareFactsheet();
+    factsheet.protocolLimits.maxArrayLengths.orderNodes = 2;
+    bench.Deliver(factsheet);
+    OrderBuilder builder = MakeBuilder(4);
+    REQUIRE(bench.Send(*builder.MakeOrder(2)).has_value());
+    OrderMessage sent = bench.GetSentOrder();
+    for (std::size_t released = 3; released <= 4; ++released)
+    {
+        CHECK(sent.nodes.size() == 2);
+        bench.Hold(sent, 0); // waits at the end of its base
+        bench.SendState();
+        CHECK(Pick<OrderFinished>(bench.GetOutput()).empty());
+        CHECK(bench.session.GetOrderPhase() == EOrderPhase::Active);
+        const OrderMessage update = *builder.MakeUpdate(released);
+        REQUIRE(bench.session.SendOrderUpdate(update, bench.GetNow(), bench.Clear()).has_value());
+        sent = bench.GetSentOrder();
+    }
+    bench.Hold(sent, 0);
+    bench.SendState();
+    CHECK(Pick<OrderFinished>(bench.GetOutput()).size() == 1);
+}
+
 TEST_CASE("3.7 The factsheet of the options is in effect until the vehicle sends its own")
 {
     MasterOptions options = MakeMasterOptions();
