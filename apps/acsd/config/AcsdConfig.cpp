@@ -8,6 +8,7 @@
 #include "config/RemovedKeys.hpp"
 #include "config/RobotConfig.hpp"
 #include "config/StationConfig.hpp"
+#include "robots/VehicleCompatibility.hpp"
 #include <acs/plan/LifReader.hpp>
 #include <acs/plan/Router.hpp>
 #include <acs/plan/UnusedLifMember.hpp>
@@ -17,6 +18,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
+#include <memory>
+#include <string>
 #include <utility>
 
 namespace ACS::Acsd
@@ -130,6 +134,39 @@ void ReadSite(const ConfigSection& root, const std::string& fileName, AcsdConfig
     }
 }
 
+/// Robots of one vehicle type share its part of the map.
+void SetMaps(AcsdConfig& config)
+{
+    std::map<std::string, std::shared_ptr<const VehicleMap>> maps;
+    for (std::size_t i = 0; i < config.robots.size(); ++i)
+    {
+        const std::string& vehicleTypeID = config.engine.robots[i].vehicleTypeID;
+        std::shared_ptr<const VehicleMap>& map = maps[vehicleTypeID];
+        if (map == nullptr)
+        {
+            map = std::make_shared<const VehicleMap>(*config.site, vehicleTypeID);
+        }
+        config.robots[i].map = map;
+    }
+}
+
+/// What a received factsheet would be reported for by an alarm.
+void WarnOfFactsheets(AcsdConfig& config)
+{
+    for (const RobotLinkConfig& robot : config.robots)
+    {
+        VDA5050::MasterOptions options;
+        options.address = {config.mqtt.interfaceName, robot.manufacturer, robot.serialNumber};
+        options.factsheet = robot.factsheet;
+        const VDA5050::MasterSession session(std::move(options));
+        const std::string incompatibility = FindIncompatibility(session, *robot.map, robot.methods, {});
+        if (!incompatibility.empty())
+        {
+            config.warnings.push_back(fmt::format("robots.{}: {}", robot.robotID, incompatibility));
+        }
+    }
+}
+
 void ReadStore(const ConfigSection& root, const std::string& fileName, bool bStoreInspected, AcsdConfig& config)
 {
     const ConfigSection section = root.GetSection("store");
@@ -185,7 +222,7 @@ AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& ove
     ReadHTTP(root, config);
     ReadEngineConfig(root, config.engine);
     ReadStations(root, config);
-    ReadRobots(root, config);
+    ReadRobots(root, fileName, config);
     ReadJobs(root, config);
     ReportRemovedKeys(root);
     if (reader.GetErrors().empty())
@@ -203,6 +240,8 @@ AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& ove
     if (reader.GetErrors().empty() && config.site.has_value())
     {
         WarnOfParking(config);
+        SetMaps(config);
+        WarnOfFactsheets(config);
     }
     config.errors = reader.GetErrors();
     std::ranges::move(otherErrors, std::back_inserter(config.errors));

@@ -10,8 +10,10 @@
 #include "robots/ArmRelay.hpp"
 #include "robots/JobData.hpp"
 #include "robots/JobMethods.hpp"
+#include "robots/VehicleMap.hpp"
 #include <acs/plan/EngineOptions.hpp>
 #include <acs/plan/SiteMap.hpp>
+#include <acs/vda5050/FactsheetMessage.hpp>
 
 #include <chrono>
 #include <cstddef>
@@ -35,7 +37,9 @@ struct RobotLinkConfig
     std::string protocolVersion;        ///< "2.0.0" or "2.1.0"
     std::optional<Apps::Url> armOrNull; ///< tcp://, Open Stream server of the arm's controller
     ArmOptions armOptions = {};
-    JobMethods methods = {}; ///< Of the actions of its type.
+    JobMethods methods = {};                                           ///< Of the actions of its type.
+    std::optional<VDA5050::FactsheetMessage> factsheet = std::nullopt; ///< Of factsheet_file.
+    std::shared_ptr<const VehicleMap> map = std::make_shared<const VehicleMap>();
 };
 
 /// acsd's complete and checked configuration.

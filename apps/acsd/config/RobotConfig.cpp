@@ -1,11 +1,14 @@
 #include "config/RobotConfig.hpp"
 
+#include "common/config/TextFile.hpp"
 #include "config/ArmConfig.hpp"
+#include "config/McsConfig.hpp"
 #include "config/PlaceConfig.hpp"
 #include "mcs/MessageValue.hpp"
 #include <acs/core/Location.hpp>
 #include <acs/core/RobotID.hpp>
 #include <acs/vda5050/Topic.hpp>
+#include <acs/vda5050/Vda5050Codec.hpp>
 
 #include <fmt/format.h>
 
@@ -122,7 +125,35 @@ bool HasRobotKey(const ConfigSection& section)
     return std::ranges::any_of(KEYS, [&names](const char* key) { return std::ranges::count(names, key) > 0; });
 }
 
-void ReadRobot(const ConfigSection& section, const std::string& name, AcsdConfig& config)
+std::optional<VDA5050::FactsheetMessage> ReadFactsheetOrNull(const ConfigSection& robot, const std::string& fileName)
+{
+    const std::optional<std::string> name = robot.GetStringOrNull("factsheet_file");
+    if (!name.has_value())
+    {
+        return std::nullopt;
+    }
+    const std::string path = ResolvePath(fileName, *name);
+    const tl::expected<std::string, std::string> text = Apps::ReadTextFile(path);
+    if (!text.has_value())
+    {
+        robot.AddError(
+            "factsheet_file",
+            fmt::format("{} cannot be read ({}); give the path of a JSON file", path, text.error()));
+        return std::nullopt;
+    }
+    Core::Result<VDA5050::FactsheetMessage> factsheet =
+        VDA5050::Vda5050Codec().Decode<VDA5050::FactsheetMessage>(*text);
+    if (!factsheet)
+    {
+        robot.AddError(
+            "factsheet_file",
+            fmt::format("{} is not a VDA5050 factsheet: {}", path, Core::Describe(factsheet.error())));
+        return std::nullopt;
+    }
+    return std::move(*factsheet);
+}
+
+void ReadRobot(const ConfigSection& section, const std::string& name, const std::string& fileName, AcsdConfig& config)
 {
     const Core::Result<Core::RobotID> robotID = Core::RobotID::Parse(name);
     if (!robotID)
@@ -151,6 +182,7 @@ void ReadRobot(const ConfigSection& section, const std::string& name, AcsdConfig
     link.manufacturer = section.GetString("manufacturer");
     link.serialNumber = section.GetString("serial");
     link.protocolVersion = section.GetWord("protocol", {"2.0.0", "2.1.0"}, "2.0.0");
+    link.factsheet = ReadFactsheetOrNull(section, fileName);
     link.armOrNull = ReadArmOrNull(section, options.type == Planning::ERobotType::CR, config.robots);
     if (link.armOrNull.has_value())
     {
@@ -183,12 +215,12 @@ void ReadRobot(const ConfigSection& section, const std::string& name, AcsdConfig
 
 } // namespace
 
-void ReadRobots(const ConfigSection& root, AcsdConfig& config)
+void ReadRobots(const ConfigSection& root, const std::string& fileName, AcsdConfig& config)
 {
     const ConfigSection robots = root.GetSection("robots");
     for (const std::string& name : robots.GetNames())
     {
-        ReadRobot(robots.GetSection(name), name, config);
+        ReadRobot(robots.GetSection(name), name, fileName, config);
     }
     if (config.robots.empty())
     {

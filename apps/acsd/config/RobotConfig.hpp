@@ -3,11 +3,14 @@
 #include "common/config/ConfigSection.hpp"
 #include "config/AcsdConfig.hpp"
 
+#include <string>
+
 namespace ACS::Acsd
 {
 
 /// Reads the table `robots`, all but their actions, into EngineOptions::robots and AcsdConfig::robots, which have one entry
-/// per robot in the same order. The table `arm` and the stations have been read.
-void ReadRobots(const Apps::ConfigSection& root, AcsdConfig& config);
+/// per robot in the same order. The table `arm` and the stations have been read. Paths are relative to
+/// the folder of the file.
+void ReadRobots(const Apps::ConfigSection& root, const std::string& fileName, AcsdConfig& config);
 
 } // namespace ACS::Acsd

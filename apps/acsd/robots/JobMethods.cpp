@@ -24,6 +24,19 @@ void JobMethods::SetMethod(const std::string& action, const std::string& station
     _methods[action].insert_or_assign(stationID, std::move(method));
 }
 
+std::vector<const JobMethod*> JobMethods::ListMethods() const
+{
+    std::vector<const JobMethod*> methods;
+    for (const auto& [action, byStation] : _methods)
+    {
+        for (const auto& [stationID, method] : byStation)
+        {
+            methods.push_back(&method);
+        }
+    }
+    return methods;
+}
+
 const JobMethod* JobMethods::FindMethodOrNull(std::string_view action) const
 {
     const auto methods = _methods.find(action);

@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace ACS::Acsd
 {
@@ -36,6 +37,9 @@ public:
 
     /// Sets the method at one station. An empty stationID means every station without a method of its own.
     void SetMethod(const std::string& action, const std::string& stationID, JobMethod method);
+
+    /// The methods of all actions at all stations. Valid until SetMethod.
+    [[nodiscard]] std::vector<const JobMethod*> ListMethods() const;
 
     /// The method at some station; null if the robot has none for the action.
     [[nodiscard]] const JobMethod* FindMethodOrNull(std::string_view action) const;

@@ -33,8 +33,9 @@ OpenStreamRobotAdapter::OpenStreamRobotAdapter(
     ArmOptions arm,
     JobMethods methods,
     ArmInputResolver inputs,
-    RobotOutputs& outputs)
-    : _base(std::move(base), methods, outputs),
+    RobotOutputs& outputs,
+    std::shared_ptr<const VehicleMap> map)
+    : _base(std::move(base), methods, outputs, Vda5050RobotAdapter::LOAD_TIMEOUT, std::move(map)),
       _options(std::move(arm)),
       _methods(std::move(methods)),
       _resolveInputs(std::move(inputs)),

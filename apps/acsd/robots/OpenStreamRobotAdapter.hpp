@@ -56,7 +56,8 @@ public:
         ArmOptions arm,
         JobMethods methods,
         ArmInputResolver inputs,
-        RobotOutputs& outputs);
+        RobotOutputs& outputs,
+        std::shared_ptr<const VehicleMap> map = std::make_shared<const VehicleMap>());
 
     void Handle(const Planning::RobotCommand& command, Core::Now now, Planning::AdapterActions& out) override;
     void OnTimer(Planning::AdapterTimerID timer, Core::Now now, Planning::AdapterActions& out) override;

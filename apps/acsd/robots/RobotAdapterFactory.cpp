@@ -25,6 +25,7 @@ VDA5050::MasterOptions MakeMasterOptions(const AcsdConfig& config, const RobotLi
     // Longer where the factsheet announces a longer interval between states.
     options.stateMargin = std::min(options.stateMargin, config.operations.offlineAfter / 3);
     options.stateInterval = config.operations.offlineAfter - options.stateMargin;
+    options.factsheet = robot.factsheet;
     options.version = VDA5050::ReadVersionOrNull(robot.protocolVersion).value_or(VDA5050::EVda5050Version::Version200);
     return options;
 }
@@ -40,7 +41,8 @@ RobotAdapter MakeRobotAdapter(const AcsdConfig& config, const RobotLinkConfig& r
             std::move(options),
             robot.methods,
             outputs,
-            config.operations.loadTimeout);
+            config.operations.loadTimeout,
+            robot.map);
         return {std::move(vehicle), nullptr};
     }
     auto adapter = std::make_unique<OpenStreamRobotAdapter>(
@@ -48,7 +50,8 @@ RobotAdapter MakeRobotAdapter(const AcsdConfig& config, const RobotLinkConfig& r
         robot.armOptions,
         robot.methods,
         [methods = robot.methods](const Planning::StartJob& job) { return MakeArmInputs(methods, job); },
-        outputs);
+        outputs,
+        robot.map);
     OpenStreamRobotAdapter* const arm = adapter.get();
     return {std::move(adapter), arm};
 }

@@ -253,6 +253,10 @@ void RobotHost::OnMqttMessage(const VDA5050::MqttMessage& message)
         _impl->adapter->OnMqttMessage(message, now, out);
     });
     _impl->watch.OnStatistics(session.GetStatistics());
+    if (message.topic.ends_with("/factsheet") && session.GetFactsheetOrNull() != nullptr)
+    {
+        _impl->watch.OnFactsheet(*session.GetFactsheetOrNull());
+    }
     if (session.GetStatistics().statesReceived != statesBefore)
     {
         _impl->watch.OnState(*session.GetStateOrNull());

@@ -51,7 +51,7 @@ void Vda5050RobotAdapter::OnState(Core::Now now, AdapterActions& out)
     RecoverJob(now, out); // first: a job of before a restart does not make the vehicle occupied
     const bool bOccupied = IsOccupied(state);
     _report.SetOccupied(bOccupied, state);
-    SetOnline(_session.IsReady(), out);
+    SetOnline(_session.IsReady(), now, out);
     out.emplace_back(RaiseEvent{_report.GetState()});
     VerifyLoads(out);
     EvaluateInterruption(false, out);

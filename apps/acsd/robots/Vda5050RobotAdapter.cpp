@@ -1,5 +1,6 @@
 #include "robots/Vda5050RobotAdapter.hpp"
 
+#include "robots/VehicleCompatibility.hpp"
 #include <acs/core/Overloaded.hpp>
 
 #include <fmt/format.h>
@@ -22,11 +23,13 @@ Vda5050RobotAdapter::Vda5050RobotAdapter(
     VDA5050::MasterOptions options,
     JobMethods methods,
     RobotOutputs& outputs,
-    std::chrono::milliseconds loadTimeout)
-    : _bFactsheetAwaited(options.bFactsheetRequested),
+    std::chrono::milliseconds loadTimeout,
+    std::shared_ptr<const VehicleMap> map)
+    : _bFactsheetAwaited(options.bFactsheetRequested && !options.factsheet.has_value()),
       _session(std::move(options)),
       _methods(std::move(methods)),
-      _jobCheck(std::make_shared<const VehicleJobCheck>(_methods, nullptr, _bFactsheetAwaited)),
+      _map(std::move(map)),
+      _jobCheck(std::make_shared<const VehicleJobCheck>(_methods, _session.GetFactsheetOrNull(), _bFactsheetAwaited)),
       _outputs(outputs),
       _loadTimeout(loadTimeout)
 {
@@ -104,7 +107,7 @@ void Vda5050RobotAdapter::OnLinkDown(Core::Now now, AdapterActions& out)
 {
     _session.OnLinkDown(now, _sessionActions);
     Drain(now, out);
-    SetOnline(false, out);
+    SetOnline(false, now, out);
 }
 
 void Vda5050RobotAdapter::OnMqttMessage(const VDA5050::MqttMessage& message, Core::Now now, AdapterActions& out)
@@ -126,7 +129,8 @@ void Vda5050RobotAdapter::StartDrive(const Planning::Drive& drive, Core::Now now
         out.emplace_back(RaiseEvent{Planning::DriveRejected{drive.driveID, Core::Describe(made.error())}});
         return;
     }
-    Core::Result<VDA5050::OrderMessage> order = made->MakeOrder();
+    Core::Result<VDA5050::OrderMessage> order = made->MakeOrder(
+        [this, now](const VDA5050::OrderMessage& message) { return _session.CheckOrder(message, now); });
     if (!order)
     {
         out.emplace_back(RaiseEvent{Planning::DriveRejected{drive.driveID, Core::Describe(order.error())}});
@@ -187,7 +191,12 @@ void Vda5050RobotAdapter::SendPendingUpdate(Core::Now now, AdapterActions& out)
     {
         return;
     }
-    Core::Result<VDA5050::OrderMessage> update = _drive->MakeUpdate();
+    Core::Result<VDA5050::OrderMessage> update = _drive->MakeUpdate(
+        [this, now](const VDA5050::OrderMessage& message) { return _session.CheckOrder(message, now); });
+    if (!update && _drive->HasNodesAhead() && update.error().path.starts_with("max"))
+    {
+        return; // there is room when the vehicle has passed some of them
+    }
     if (!update)
     {
         AbandonDrive(Core::Describe(update.error()), now, out);
@@ -272,9 +281,9 @@ void Vda5050RobotAdapter::HandleAction(const VDA5050::MasterAction& action, Core
                 OnFactsheet(now, out);
             },
             [&](const VDA5050::VehicleOnline&) { _foreignOrderID.clear(); },
-            [&](const VDA5050::VehicleOffline&) { SetOnline(false, out); },
-            [&](const VDA5050::VehicleBroken&) { SetOnline(false, out); },
-            [&](const VDA5050::VehicleSilent&) { SetOnline(false, out); },
+            [&](const VDA5050::VehicleOffline&) { SetOnline(false, now, out); },
+            [&](const VDA5050::VehicleBroken&) { SetOnline(false, now, out); },
+            [&](const VDA5050::VehicleSilent&) { SetOnline(false, now, out); },
             [&](const VDA5050::OrderAccepted&) {
                 if (_drive.has_value())
                 {
@@ -403,7 +412,7 @@ void Vda5050RobotAdapter::OnFinished(const std::string& orderID, AdapterActions&
     }
 }
 
-void Vda5050RobotAdapter::SetOnline(bool bOnline, AdapterActions& out)
+void Vda5050RobotAdapter::SetOnline(bool bOnline, Core::Now now, AdapterActions& out)
 {
     if (std::exchange(_bOnline, bOnline) == bOnline)
     {
@@ -412,6 +421,7 @@ void Vda5050RobotAdapter::SetOnline(bool bOnline, AdapterActions& out)
     if (bOnline)
     {
         UpdateJobCheck(out); // before the engine gives it a plan
+        UpdateCompatibility(now, out);
     }
     if (_bFactsheetAwaited && bOnline)
     {
@@ -431,6 +441,7 @@ void Vda5050RobotAdapter::OnFactsheet(Core::Now now, AdapterActions& out)
     {
         UpdateJobCheck(out);
     }
+    UpdateCompatibility(now, out);
     if (const std::optional<Planning::StartJob> jobOrNull = _job.TakeDeferredOrNull(); jobOrNull.has_value())
     {
         StartJob(*jobOrNull, now, out);
@@ -441,6 +452,16 @@ void Vda5050RobotAdapter::UpdateJobCheck(AdapterActions& out)
 {
     _jobCheck = std::make_shared<const VehicleJobCheck>(_methods, _session.GetFactsheetOrNull(), _bFactsheetAwaited);
     out.emplace_back(RaiseEvent{Planning::JobCheckChanged{_jobCheck}});
+}
+
+void Vda5050RobotAdapter::UpdateCompatibility(Core::Now now, AdapterActions& out)
+{
+    std::string incompatibility = FindIncompatibility(_session, *_map, _methods, now);
+    if (_incompatibility != incompatibility)
+    {
+        _incompatibility = incompatibility;
+        out.emplace_back(RaiseEvent{Planning::CompatibilityChanged{std::move(incompatibility)}});
+    }
 }
 
 } // namespace ACS::Acsd

@@ -6,6 +6,7 @@
 #include "robots/VehicleDrive.hpp"
 #include "robots/VehicleJob.hpp"
 #include "robots/VehicleJobCheck.hpp"
+#include "robots/VehicleMap.hpp"
 #include "robots/VehicleReport.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/vda5050/MasterSession.hpp>
@@ -28,9 +29,12 @@ namespace ACS::Acsd
 /// outputs.
 class Vda5050RobotAdapter final : public IMqttRobotAdapter
 {
+public:
+    static constexpr std::chrono::milliseconds LOAD_TIMEOUT{10'000};
+
+private:
     /// Numbers below 50 are those of the session's own timers.
     static constexpr Planning::AdapterTimerID LOAD_TIMER = 50;
-    static constexpr std::chrono::milliseconds LOAD_TIMEOUT{10'000};
     static constexpr Planning::AdapterTimerID FACTSHEET_TIMER = 51;
     /// Maximum time to wait for the answer to the first factsheetRequest. After it the vehicle is treated as one without a
     /// factsheet.
@@ -39,6 +43,7 @@ class Vda5050RobotAdapter final : public IMqttRobotAdapter
     bool _bFactsheetAwaited;
     VDA5050::MasterSession _session;
     JobMethods _methods;
+    std::shared_ptr<const VehicleMap> _map;
     std::shared_ptr<const VehicleJobCheck> _jobCheck;
     RobotOutputs& _outputs;
     std::chrono::milliseconds _loadTimeout;
@@ -50,16 +55,18 @@ class Vda5050RobotAdapter final : public IMqttRobotAdapter
     std::optional<VehicleDrive> _drive;
     VehicleJob _job;
     std::optional<VDA5050::OrderMessage> _pendingOrder; ///< Sent when the vehicle has finished the order before.
+    std::string _incompatibility;                       ///< As reported.
     std::string _foreignOrderID; ///< The latest order of another master for which cancelOrder was sent.
 
 public:
     /// The outputs must outlive the adapter. loadTimeout: maximum time for the loads to agree with a job whose action is
-    /// finished.
+    /// finished. The factsheet is compared with the map, and job orders have the positions of its nodes.
     Vda5050RobotAdapter(
         VDA5050::MasterOptions options,
         JobMethods methods,
         RobotOutputs& outputs,
-        std::chrono::milliseconds loadTimeout = LOAD_TIMEOUT);
+        std::chrono::milliseconds loadTimeout = LOAD_TIMEOUT,
+        std::shared_ptr<const VehicleMap> map = std::make_shared<const VehicleMap>());
 
     void Handle(const Planning::RobotCommand& command, Core::Now now, Planning::AdapterActions& out) override;
     void OnTimer(Planning::AdapterTimerID timer, Core::Now now, Planning::AdapterActions& out) override;
@@ -121,10 +128,11 @@ private:
     void OnFinished(const std::string& orderID, Planning::AdapterActions& out);
     void OnCancelled(const std::string& orderID, Planning::AdapterActions& out);
     void OnCancelFailed(Core::Now now, Planning::AdapterActions& out);
-    void SetOnline(bool bOnline, Planning::AdapterActions& out);
+    void SetOnline(bool bOnline, Core::Now now, Planning::AdapterActions& out);
     /// The factsheet was received, or is no longer awaited.
     void OnFactsheet(Core::Now now, Planning::AdapterActions& out);
     void UpdateJobCheck(Planning::AdapterActions& out);
+    void UpdateCompatibility(Core::Now now, Planning::AdapterActions& out);
 };
 
 } // namespace ACS::Acsd

@@ -13,12 +13,7 @@ VDA5050::OrderNode MakeNode(const Planning::RouteNode& from)
 {
     VDA5050::OrderNode node;
     node.nodeID = from.nodeID;
-    VDA5050::NodePosition& position = node.nodePosition.emplace();
-    position.x = from.x;
-    position.y = from.y;
-    position.theta = from.theta;
-    position.mapID = from.mapID;
-    position.allowedDeviationXY = from.allowedDeviation;
+    node.nodePosition = MakeNodePosition(from);
     return node;
 }
 
@@ -41,6 +36,17 @@ VDA5050::OrderEdge MakeEdge(const Planning::RouteEdge& from)
 }
 
 } // namespace
+
+VDA5050::NodePosition MakeNodePosition(const Planning::RouteNode& node)
+{
+    VDA5050::NodePosition position;
+    position.x = node.x;
+    position.y = node.y;
+    position.theta = node.theta;
+    position.mapID = node.mapID;
+    position.allowedDeviationXY = node.allowedDeviation;
+    return position;
+}
 
 VehicleDrive::VehicleDrive(VDA5050::OrderBuilder route, std::size_t wantedReleased)
     : _route(std::move(route)),
@@ -69,9 +75,10 @@ Core::Result<VehicleDrive> VehicleDrive::Create(const Planning::Drive& drive)
     return VehicleDrive(std::move(*route), drive.releasedCount);
 }
 
-Core::Result<VDA5050::OrderMessage> VehicleDrive::MakeOrder()
+Core::Result<VDA5050::OrderMessage> VehicleDrive::MakeOrder(const OrderCheck& check)
 {
-    return _route.MakeOrder(_wantedReleased);
+    constexpr std::size_t LEAST_RELEASED = 2; // a base of one node drives nowhere
+    return MakeFitting(LEAST_RELEASED, check);
 }
 
 void VehicleDrive::Extend(std::size_t releasedCount)
@@ -85,9 +92,38 @@ bool VehicleDrive::IsUpdateDue() const
         && _wantedReleased > _route.GetReleasedNodes();
 }
 
-Core::Result<VDA5050::OrderMessage> VehicleDrive::MakeUpdate()
+Core::Result<VDA5050::OrderMessage> VehicleDrive::MakeUpdate(const OrderCheck& check)
 {
-    return _route.MakeUpdate(_bShortUpdate ? _route.GetReleasedNodes() + 1 : _wantedReleased);
+    return MakeFitting(_route.GetReleasedNodes() + 1, check);
+}
+
+Core::Result<VDA5050::OrderMessage> VehicleDrive::MakeFitting(std::size_t leastReleased, const OrderCheck& check)
+{
+    for (std::size_t released = _bShortUpdate ? leastReleased : _wantedReleased;; --released)
+    {
+        VDA5050::OrderBuilder route = _route;
+        Core::Result<VDA5050::OrderMessage> message =
+            route.GetReleasedNodes() == 0 ? route.MakeOrder(released) : route.MakeUpdate(released);
+        if (!message)
+        {
+            return message;
+        }
+        Core::Result<void> checked = check(*message);
+        if (checked)
+        {
+            _route = std::move(route);
+            return message;
+        }
+        if (released <= leastReleased || !checked.error().path.starts_with("max"))
+        {
+            return tl::unexpected(std::move(checked.error()));
+        }
+    }
+}
+
+bool VehicleDrive::HasNodesAhead() const
+{
+    return _passedCount < _route.GetReleasedNodes();
 }
 
 void VehicleDrive::OnUpdateSent(VDA5050::OrderMessage update)
@@ -115,6 +151,7 @@ bool VehicleDrive::TryShortenUpdate()
 void VehicleDrive::OnNodePassed(std::string nodeID)
 {
     _lastPassedNodeID = std::move(nodeID);
+    ++_passedCount;
 }
 
 void VehicleDrive::Abandon(std::string reason)

@@ -6,6 +6,7 @@
 #include <acs/vda5050/OrderMessage.hpp>
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
@@ -13,10 +14,18 @@
 namespace ACS::Acsd
 {
 
+/// The node's position in an order.
+[[nodiscard]] VDA5050::NodePosition MakeNodePosition(const Planning::RouteNode& node);
+
 /// One drive as an order of a VDA5050 vehicle: its route, the nodes that the engine has released, and the message that the
 /// vehicle has not confirmed yet.
 class VehicleDrive final
 {
+public:
+    /// An error whose path begins with "max" means that the message is too large.
+    using OrderCheck = std::function<Core::Result<void>(const VDA5050::OrderMessage&)>;
+
+private:
     /// The order itself is not confirmed.
     struct OrderPending
     {
@@ -35,6 +44,7 @@ class VehicleDrive final
     VDA5050::OrderBuilder _route;
     std::size_t _wantedReleased; ///< Number of nodes that the engine has released.
     std::variant<OrderPending, UpdatePending, Confirmed> _message;
+    std::size_t _passedCount = 0;
     std::string _lastPassedNodeID;
     bool _bShortUpdate = false; ///< The vehicle has rejected an update, and has confirmed none since.
     std::optional<std::string> _abandonReason;
@@ -45,14 +55,17 @@ public:
     /// Fails with InvalidOrder.
     [[nodiscard]] static Core::Result<VehicleDrive> Create(const Planning::Drive& drive);
 
-    /// The first message. Fails with InvalidOrder.
-    [[nodiscard]] Core::Result<VDA5050::OrderMessage> MakeOrder();
+    /// The first message, with as many of the released nodes as the check accepts, at least two. Fails with the error of the check,
+    /// or with InvalidOrder.
+    [[nodiscard]] Core::Result<VDA5050::OrderMessage> MakeOrder(const OrderCheck& check);
     void Extend(std::size_t releasedCount);
     /// The engine has released more than the vehicle knows, the vehicle has confirmed the latest message, and the drive is
     /// not abandoned.
     [[nodiscard]] bool IsUpdateDue() const;
-    /// Fails with InvalidOrder.
-    [[nodiscard]] Core::Result<VDA5050::OrderMessage> MakeUpdate();
+    /// With as many further nodes as the check accepts, at least one. Fails with the error of the check, or with InvalidOrder.
+    [[nodiscard]] Core::Result<VDA5050::OrderMessage> MakeUpdate(const OrderCheck& check);
+    /// The vehicle still has nodes to pass. What does not fit beside them may fit later.
+    [[nodiscard]] bool HasNodesAhead() const;
     /// The update was sent.
     void OnUpdateSent(VDA5050::OrderMessage update);
     /// The vehicle has confirmed the latest message.
@@ -71,6 +84,9 @@ public:
     [[nodiscard]] bool HasHorizon() const noexcept;
     /// The update that the vehicle has not confirmed; null where there is none.
     [[nodiscard]] const VDA5050::OrderMessage* GetPendingUpdateOrNull() const noexcept;
+
+private:
+    [[nodiscard]] Core::Result<VDA5050::OrderMessage> MakeFitting(std::size_t leastReleased, const OrderCheck& check);
 };
 
 } // namespace ACS::Acsd

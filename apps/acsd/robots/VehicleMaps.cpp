@@ -16,7 +16,7 @@ namespace
 
 constexpr std::string_view ERROR_CODE = "AGV-mapNotEnabled";
 
-std::string Describe(const VehicleMap& map)
+std::string Describe(const NeededMap& map)
 {
     return map.version.empty() ? "map " + map.mapID : fmt::format("map {} version {}", map.mapID, map.version);
 }
@@ -28,7 +28,7 @@ void AddParameter(VDA5050::Action& action, std::string_view key, const std::stri
 
 } // namespace
 
-VehicleMaps::VehicleMaps(std::vector<VehicleMap> needed)
+VehicleMaps::VehicleMaps(std::vector<NeededMap> needed)
     : _needed(std::move(needed))
 {
 }
@@ -46,7 +46,7 @@ void VehicleMaps::OnReported(std::optional<std::vector<VDA5050::MapState>> mapsO
 
 std::optional<VDA5050::Action> VehicleMaps::MakeRequestOrNull() const
 {
-    const VehicleMap* const mapOrNull = _request.has_value() ? nullptr : FindNextOrNull();
+    const NeededMap* const mapOrNull = _request.has_value() ? nullptr : FindNextOrNull();
     if (mapOrNull == nullptr)
     {
         return std::nullopt;
@@ -69,7 +69,7 @@ std::optional<VDA5050::Action> VehicleMaps::MakeRequestOrNull() const
 
 void VehicleMaps::OnSent(std::string actionID)
 {
-    if (const VehicleMap* const mapOrNull = FindNextOrNull(); mapOrNull != nullptr)
+    if (const NeededMap* const mapOrNull = FindNextOrNull(); mapOrNull != nullptr)
     {
         _request = Request{std::move(actionID), mapOrNull->mapID};
     }
@@ -91,7 +91,7 @@ void VehicleMaps::OnEnded(const std::string& actionID, const std::string& error)
 std::vector<Planning::RobotError> VehicleMaps::ListErrors() const
 {
     std::vector<Planning::RobotError> errors;
-    for (const VehicleMap& map : _needed)
+    for (const NeededMap& map : _needed)
     {
         if (!_reported.has_value() || IsEnabled(map))
         {
@@ -114,7 +114,7 @@ std::vector<Planning::RobotError> VehicleMaps::ListErrors() const
     return errors;
 }
 
-const VDA5050::MapState* VehicleMaps::FindReportedOrNull(const VehicleMap& map) const
+const VDA5050::MapState* VehicleMaps::FindReportedOrNull(const NeededMap& map) const
 {
     if (!_reported.has_value())
     {
@@ -130,16 +130,16 @@ const VDA5050::MapState* VehicleMaps::FindReportedOrNull(const VehicleMap& map) 
     return foundOrNull;
 }
 
-bool VehicleMaps::IsEnabled(const VehicleMap& map) const
+bool VehicleMaps::IsEnabled(const NeededMap& map) const
 {
     const VDA5050::MapState* const reportedOrNull = FindReportedOrNull(map);
     return reportedOrNull != nullptr && reportedOrNull->mapStatus == VDA5050::EMapStatus::Enabled;
 }
 
 /// The first map that acsd can download or enable, and that has not failed.
-const VehicleMap* VehicleMaps::FindNextOrNull() const
+const NeededMap* VehicleMaps::FindNextOrNull() const
 {
-    const auto next = std::ranges::find_if(_needed, [this](const VehicleMap& map) {
+    const auto next = std::ranges::find_if(_needed, [this](const NeededMap& map) {
         const bool bPossible =
             !map.version.empty() && (FindReportedOrNull(map) != nullptr || !map.downloadLink.empty());
         return _reported.has_value() && !IsEnabled(map) && bPossible && !_failures.contains(map.mapID);

@@ -13,14 +13,14 @@ namespace ACS::Acsd
 {
 
 /// A map of the site that a vehicle must have enabled before it drives.
-struct VehicleMap
+struct NeededMap
 {
     std::string mapID;
     std::string version;      ///< Empty: any version, which acsd does not enable.
     std::string downloadLink; ///< Empty: acsd does not download the map. Else with a version.
     std::string hash;         ///< Of the download; may be empty.
 
-    bool operator==(const VehicleMap&) const = default;
+    bool operator==(const NeededMap&) const = default;
 };
 
 /// Compares the maps that a vehicle reports with those it needs, and has the vehicle download and enable the missing ones. A
@@ -33,13 +33,13 @@ class VehicleMaps final
         std::string mapID;
     };
 
-    std::vector<VehicleMap> _needed;
+    std::vector<NeededMap> _needed;
     std::optional<std::vector<VDA5050::MapState>> _reported;
     std::optional<Request> _request;              ///< The vehicle executes one at a time.
     std::map<std::string, std::string> _failures; ///< By mapID, since the vehicle was connected.
 
 public:
-    explicit VehicleMaps(std::vector<VehicleMap> needed);
+    explicit VehicleMaps(std::vector<NeededMap> needed);
 
     /// The vehicle was connected: what has failed is tried again.
     void OnConnected();
@@ -55,9 +55,9 @@ public:
 
 private:
     /// Null: the vehicle does not have the map.
-    [[nodiscard]] const VDA5050::MapState* FindReportedOrNull(const VehicleMap& map) const;
-    [[nodiscard]] bool IsEnabled(const VehicleMap& map) const;
-    [[nodiscard]] const VehicleMap* FindNextOrNull() const;
+    [[nodiscard]] const VDA5050::MapState* FindReportedOrNull(const NeededMap& map) const;
+    [[nodiscard]] bool IsEnabled(const NeededMap& map) const;
+    [[nodiscard]] const NeededMap* FindNextOrNull() const;
 };
 
 } // namespace ACS::Acsd

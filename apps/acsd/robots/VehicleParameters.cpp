@@ -54,17 +54,53 @@ const AgvActionParameter* FindUnnamedOrNull(const AgvAction& listed, const JobMe
 
 } // namespace
 
+std::optional<std::string> FindMethodFaultOrNull(const JobMethod& method, const VDA5050::FactsheetMessage& factsheet)
+{
+    const std::string& actionType = method.vehicleAction;
+    const AgvAction* const listedOrNull = FindListedOrNull(&factsheet, actionType);
+    if (listedOrNull == nullptr)
+    {
+        return factsheet.protocolFeatures.agvActions.empty()
+            ? std::nullopt
+            : std::optional(fmt::format("the vehicle's factsheet does not list {}", actionType));
+    }
+    if (!VDA5050::CanPerform(factsheet, actionType, VDA5050::EActionScope::Node))
+    {
+        return fmt::format("the vehicle's factsheet does not list {} with the scope NODE", actionType);
+    }
+    if (listedOrNull->actionParameters.empty())
+    {
+        return std::nullopt; // the factsheet lists no parameters
+    }
+    for (const VehicleParameter& parameter : method.parameters)
+    {
+        if (!parameter.bDefault && FindParameterOrNull(listedOrNull, parameter.key) == nullptr)
+        {
+            return fmt::format(
+                "the vehicle's factsheet does not list the parameter {} of {}",
+                parameter.key,
+                actionType);
+        }
+    }
+    const AgvActionParameter* const unnamedOrNull = FindUnnamedOrNull(*listedOrNull, method);
+    return unnamedOrNull == nullptr
+        ? std::nullopt
+        : std::optional(
+            fmt::format("the parameter {} of {} is mandatory and not configured", unnamedOrNull->key, actionType));
+}
+
 tl::expected<std::vector<VDA5050::ActionParameter>, std::string> MakeActionParameters(
     const JobMethod& method,
     const JobData& data,
     const VDA5050::FactsheetMessage* factsheetOrNull)
 {
     const std::string& actionType = method.vehicleAction;
+    std::optional<std::string> fault =
+        factsheetOrNull == nullptr ? std::nullopt : FindMethodFaultOrNull(method, *factsheetOrNull);
     const AgvAction* listedOrNull = FindListedOrNull(factsheetOrNull, actionType);
-    const bool bListsOthers = factsheetOrNull != nullptr && !factsheetOrNull->protocolFeatures.agvActions.empty();
-    if (listedOrNull == nullptr && bListsOthers)
+    if (fault.has_value() && listedOrNull == nullptr)
     {
-        return tl::unexpected(fmt::format("the vehicle's factsheet does not list {}", actionType));
+        return tl::unexpected(std::move(*fault));
     }
     if (listedOrNull != nullptr && listedOrNull->actionParameters.empty())
     {
@@ -78,12 +114,7 @@ tl::expected<std::vector<VDA5050::ActionParameter>, std::string> MakeActionParam
         const AgvActionParameter* const knownOrNull = FindParameterOrNull(listedOrNull, parameter.key);
         if (listedOrNull != nullptr && knownOrNull == nullptr)
         {
-            if (parameter.bDefault)
-            {
-                continue;
-            }
-            return tl::unexpected(
-                fmt::format("the vehicle's factsheet does not list the parameter {} of {}", parameter.key, actionType));
+            continue; // one of the defaults, or a fault
         }
         tl::expected<Core::JsonText, std::string> value = parameter.value.Resolve(
             data,
@@ -98,11 +129,9 @@ tl::expected<std::vector<VDA5050::ActionParameter>, std::string> MakeActionParam
                 fmt::format("the parameter {} of {} cannot be given: {}", parameter.key, actionType, value.error()));
         }
     }
-    if (const AgvActionParameter* const unnamedOrNull =
-            listedOrNull == nullptr ? nullptr : FindUnnamedOrNull(*listedOrNull, method))
+    if (fault.has_value())
     {
-        return tl::unexpected(
-            fmt::format("the parameter {} of {} is mandatory and not configured", unnamedOrNull->key, actionType));
+        return tl::unexpected(std::move(*fault));
     }
     return parameters;
 }

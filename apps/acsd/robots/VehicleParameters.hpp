@@ -7,6 +7,7 @@
 
 #include <tl/expected.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,5 +20,10 @@ namespace ACS::Acsd
     const JobMethod& method,
     const JobData& data,
     const VDA5050::FactsheetMessage* factsheetOrNull);
+
+/// Why the vehicle cannot do any job by this method, as far as its factsheet shows it without a job; nullopt if it can.
+[[nodiscard]] std::optional<std::string> FindMethodFaultOrNull(
+    const JobMethod& method,
+    const VDA5050::FactsheetMessage& factsheet);
 
 } // namespace ACS::Acsd

@@ -2,6 +2,7 @@
 
 #include <acs/core/Overloaded.hpp>
 #include <acs/vda5050/ActionMachine.hpp>
+#include <acs/vda5050/FactsheetCheck.hpp>
 
 #include <fmt/format.h>
 
@@ -100,6 +101,14 @@ void VehicleWatch::OnState(const VDA5050::StateMessage& state)
         }
     }
     _shown = std::move(shown);
+}
+
+void VehicleWatch::OnFactsheet(const VDA5050::FactsheetMessage& factsheet)
+{
+    for (const std::string& contradiction : VDA5050::FindContradictions(factsheet))
+    {
+        Note("factsheet", contradiction);
+    }
 }
 
 void VehicleWatch::OnAway()

@@ -7,6 +7,7 @@
 #include <acs/core/Now.hpp>
 #include <acs/openstream/ClientSessionActions.hpp>
 #include <acs/plan/SiteMap.hpp>
+#include <acs/vda5050/FactsheetMessage.hpp>
 #include <acs/vda5050/MasterSession.hpp>
 #include <acs/vda5050/StateMessage.hpp>
 
@@ -73,6 +74,8 @@ public:
 
     /// A state that the session accepted as new.
     void OnState(const VDA5050::StateMessage& state);
+
+    void OnFactsheet(const VDA5050::FactsheetMessage& factsheet);
 
     /// The vehicle was disconnected: its sequence numbers may begin again.
     void OnAway();

@@ -457,3 +457,45 @@ TEST_CASE("robot.* and robots.NAME.charge are read; a charging station is no oth
     CHECK(Read({"robot.max_rejections=0"}).errors.size() == 1);
     CHECK(Read({"mcs.position_while_moving=here"}).errors.size() == 1);
 }
+
+TEST_CASE("A factsheet_file is read without a header, and an unreadable one is an error with path and reason")
+{
+    const Testing::TemporaryFolder folder;
+    const std::string file = folder.GetPath() / "lr.json";
+    const auto write = [&file](const std::string& features) {
+        std::ofstream(file)
+            << R"({"typeSpecification":{"seriesName":"LR","agvKinematic":"DIFF","agvClass":"CARRIER","maxLoadMass":1,)"
+            << R"("localizationTypes":[],"navigationTypes":[]},"physicalParameters":{"speedMin":0,"speedMax":1,)"
+            << R"("accelerationMax":1,"decelerationMax":1,"heightMax":1,"width":1,"length":1},"protocolLimits":{)"
+            << R"("maxStringLens":{},"maxArrayLens":{},"timing":{"minOrderInterval":0,"minStateInterval":0}},)"
+            << R"("protocolFeatures":)" << features << R"(,"agvGeometry":{},"loadSpecification":{}})";
+    };
+    const std::vector<std::string> keys{"robots.LR01.factsheet_file=" + file};
+    write(R"({"agvActions":[]})");
+    const Acsd::AcsdConfig good = Read(keys);
+    CHECK(good.errors.empty());
+    CHECK(good.warnings.empty());
+    const auto robot = std::ranges::find(good.robots, "LR01", &Acsd::RobotLinkConfig::robotID);
+    REQUIRE(robot->factsheet.has_value());
+    CHECK(robot->factsheet->typeSpecification.seriesName == "LR");
+    CHECK_FALSE(robot->map->GetRoutes().empty());
+
+    write(R"({"agvActions":[],"optionalParameters":[]})");
+    const Acsd::AcsdConfig poor = Read(keys);
+    CHECK(poor.errors.empty());
+    REQUIRE(poor.warnings.size() == 1);
+    CHECK(poor.warnings[0].find("robots.LR01: the drive from ") == 0);
+    CHECK(poor.warnings[0].find("does not support order.edges.") != std::string::npos);
+
+    write("7");
+    const Acsd::AcsdConfig wrong = Read(keys);
+    REQUIRE(wrong.errors.size() == 1);
+    CHECK(
+        wrong.errors[0].find("robots.LR01.factsheet_file: " + file + " is not a VDA5050 factsheet: ")
+        != std::string::npos);
+    CHECK(wrong.errors[0].find("protocolFeatures") != std::string::npos);
+
+    const Acsd::AcsdConfig missing = Read({"robots.LR01.factsheet_file=nowhere.json"});
+    REQUIRE(missing.errors.size() == 1);
+    CHECK(missing.errors[0].find(std::string(ACS_SITE) + "/nowhere.json cannot be read") != std::string::npos);
+}

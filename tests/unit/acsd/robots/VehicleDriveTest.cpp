@@ -16,7 +16,7 @@ VehicleDrive MakeSentDrive()
 {
     Core::Result<VehicleDrive> drive = VehicleDrive::Create(MakeDrive());
     REQUIRE(drive);
-    REQUIRE(drive->MakeOrder());
+    REQUIRE(drive->MakeOrder(ACCEPT));
     return std::move(*drive);
 }
 
@@ -34,7 +34,7 @@ TEST_CASE("The order of a drive has the engine's route, released as far as the e
     Core::Result<VehicleDrive> drive = VehicleDrive::Create(MakeDrive());
     REQUIRE(drive);
     CHECK(drive->GetOrderID() == "D");
-    const Core::Result<VDA5050::OrderMessage> order = drive->MakeOrder();
+    const Core::Result<VDA5050::OrderMessage> order = drive->MakeOrder(ACCEPT);
     REQUIRE(order);
     REQUIRE(order->nodes.size() == 3);
     CHECK(order->nodes[1].bReleased);
@@ -50,7 +50,7 @@ TEST_CASE("An update is due when more is released, and only after the vehicle ha
     CHECK_FALSE(drive.IsUpdateDue());
     drive.OnConfirmed();
     REQUIRE(drive.IsUpdateDue());
-    Core::Result<VDA5050::OrderMessage> update = drive.MakeUpdate();
+    Core::Result<VDA5050::OrderMessage> update = drive.MakeUpdate(ACCEPT);
     REQUIRE(update);
     drive.OnUpdateSent(std::move(*update));
     CHECK_FALSE(drive.IsUpdateDue());

@@ -7,6 +7,7 @@
 #include <acs/vda5050/Vda5050Codec.hpp>
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -35,6 +36,11 @@ struct StandardFactsheet
     }
 };
 
+/// Accepts every order.
+inline const VehicleDrive::OrderCheck ACCEPT = [](const VDA5050::OrderMessage&) {
+    return Core::Result<void>();
+};
+
 /// The vehicle's side is played by hand: it shows what a test lets it show.
 struct VehicleFixture
 {
@@ -59,8 +65,11 @@ struct VehicleFixture
     {
     }
 
-    explicit VehicleFixture(JobMethods methods, VDA5050::MasterOptions options = MakeOptions())
-        : adapter(std::move(options), std::move(methods), outputs)
+    explicit VehicleFixture(
+        JobMethods methods,
+        VDA5050::MasterOptions options = MakeOptions(),
+        std::shared_ptr<const VehicleMap> map = std::make_shared<const VehicleMap>())
+        : adapter(std::move(options), std::move(methods), outputs, Vda5050RobotAdapter::LOAD_TIMEOUT, std::move(map))
     {
         state.header.version = "2.0.0";
         state.header.manufacturer = "ACS";

@@ -14,7 +14,7 @@ namespace
 using VDA5050::EMapStatus;
 using VDA5050::MapState;
 
-const VehicleMap HALL{"hall", "2", "http://files/hall-2.zip", "abc"};
+const NeededMap HALL{"hall", "2", "http://files/hall-2.zip", "abc"};
 
 std::string GetText(const VDA5050::Action& action, const std::string& key)
 {

@@ -251,4 +251,35 @@ TEST_CASE_METHOD(WatchFixture, "A load at a position that no port has is reporte
     CHECK(CountOf("unknown_load_position") == 1);
 }
 
+TEST_CASE("A factsheet that contradicts itself, or requires an unknown member of orders, is logged and counted")
+{
+    WatchFixture fixture;
+    VDA5050::FactsheetMessage factsheet;
+    factsheet.protocolFeatures.agvActions.resize(2);
+    factsheet.protocolFeatures.agvActions[0].actionType = "pick";
+    factsheet.protocolFeatures.agvActions[1].actionType = "drop";
+    factsheet.protocolFeatures.optionalParameters = {
+        {"order.edges.maxSpeed", VDA5050::EParameterSupport::Required, {}},
+        {"order.nodes.nodeId", VDA5050::EParameterSupport::Required, {}},
+        {"state.loads", VDA5050::EParameterSupport::Required, {}}};
+    fixture.watch.OnFactsheet(factsheet);
+    CHECK(fixture.CountOf("factsheet") == 0);
+    SECTION("an action twice")
+    {
+        factsheet.protocolFeatures.agvActions[1].actionType = "pick";
+    }
+    SECTION("a member twice")
+    {
+        factsheet.protocolFeatures.optionalParameters->push_back(
+            {"order.edges.maxSpeed", VDA5050::EParameterSupport::Supported, {}});
+    }
+    SECTION("an unknown member is required")
+    {
+        factsheet.protocolFeatures.optionalParameters->push_back(
+            {"order.edges.colour", VDA5050::EParameterSupport::Required, {}});
+    }
+    fixture.watch.OnFactsheet(factsheet);
+    CHECK(fixture.CountOf("factsheet") == 1);
+}
+
 } // namespace ACS::Acsd::Test
