@@ -34,8 +34,9 @@ bool IsOn(const Fault& fault, std::optional<VDA5050::ETopic> topicOrNull)
 
 } // namespace
 
-MessageGate::MessageGate(EFaultDirection direction)
-    : _direction(direction)
+MessageGate::MessageGate(EFaultDirection direction, Core::Duration orderDelay)
+    : _direction(direction),
+      _orderDelay(orderDelay)
 {
     assert(direction != EFaultDirection::Both);
 }
@@ -47,7 +48,7 @@ void MessageGate::Pass(
     Core::SteadyTime now,
     std::vector<VDA5050::MqttMessage>& out)
 {
-    if (faults.IsEmpty() && _held.empty())
+    if (faults.IsEmpty() && _held.empty() && _orderDelay == Core::Duration::zero())
     {
         out.push_back(std::move(message));
         return;
@@ -65,7 +66,7 @@ void MessageGate::Pass(
     {
         return;
     }
-    Core::SteadyTime due = now;
+    Core::SteadyTime due = topic == VDA5050::ETopic::Order ? now + _orderDelay : now;
     if (const Fault* const delay = faults.FindOrNull(EFaultKind::Delay, isMine); delay != nullptr)
     {
         const std::chrono::duration<double, Core::Duration::period> extra(

@@ -29,12 +29,14 @@ private:
     };
 
     EFaultDirection _direction; ///< In or Out.
+    Core::Duration _orderDelay;
     std::deque<Held> _held;
     std::size_t _heldBytes = 0;
     std::size_t _overflow = 0;
 
 public:
-    explicit MessageGate(EFaultDirection direction);
+    /// Every order is delayed by orderDelay, besides the faults.
+    explicit MessageGate(EFaultDirection direction, Core::Duration orderDelay = {});
 
     /// Appends the message to out if it is not dropped or delayed.
     void Pass(

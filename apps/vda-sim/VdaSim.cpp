@@ -95,6 +95,7 @@ public:
         vehicle.startPosition = spec.startPosition;
         vehicle.timeScale = _options->timeScale;
         vehicle.charge = spec.charge;
+        vehicle.profile = spec.profile.value_or(_options->profile);
         vehicle.actionSeconds = _options->actionSeconds;
         vehicle.handling = spec.handling;
         vehicle.parameterCheck =

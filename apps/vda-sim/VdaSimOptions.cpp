@@ -148,9 +148,21 @@ std::string CheckFaults(const std::vector<FaultCommand>& faults, const std::vect
     return {};
 }
 
+std::string MakeProfileHelp()
+{
+    std::string help;
+    for (const VehicleProfile& profile : GetProfiles())
+    {
+        help += fmt::format("  {:<18}{}\n", profile.name, profile.description);
+    }
+    return help;
+}
+
 std::string MakeFooter()
 {
     return fmt::format(
+        "Profiles of vehicles:\n"
+        "{}"
         "Faults, on the command line, in a file (one per line, # begins a comment) and on the control topic:\n"
         "  VEHICLE FAULT [KEY=VALUE]...  begins a fault; VEHICLE is a name, or the beginning of names followed by *\n"
         "      at=DURATION: begin after this time; node=NODEID: begin on arrival at this node;\n"
@@ -160,7 +172,8 @@ std::string MakeFooter()
         "{}"
         "Example: vda-sim ... --fault 'LR01 blocked node=N045 for=10s' --fault 'LR* loss percent=5'\n"
         "         mosquitto_pub -t vda-sim/control -m 'LR01 estop for=5s'\n"
-        "docs/reference/vda-sim.md describes every fault.",
+        "docs/reference/vda-sim.md describes every profile and every fault.",
+        MakeProfileHelp(),
         Apps::MakeFaultHelp(GetFaultGrammar()));
 }
 
@@ -228,7 +241,7 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
         "Vehicle with this serialNumber. Keys: type=LR|CR, carries cassettes or is the base of an arm (default LR); "
         "node=NODEID, start node (default: the dock of charger CHG01 for the first vehicle, CHG02 for the second and so "
         "on, or a node of the site if there is no such charger); position=X:Y, start position in metres (default: that of "
-        "the node); protocol=VERSION (default: --protocol); battery=PERCENT, initial charge (default 100); ports=N, number "
+        "the node); protocol=VERSION (default: --protocol); battery=PERCENT, initial charge (default 100); profile=NAME (default: --profile); ports=N, number "
         "of load positions CP01, CP02 ... (default 4 for LR, 0 for CR); load=PORT:NAME, the vehicle's name of a port; pick=ACTIONTYPE and drop=ACTIONTYPE, actions that "
         "pick and drop; PARAMETER=NAME[:TYPE], the vehicle's name of a parameter of pick and drop (empty: not "
         "supported). May be repeated")
@@ -279,6 +292,17 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
         },
         "VDA5050 version of vehicles without protocol=VERSION: 2.0.0 or 2.1.0")
         .default_str("2.0.0");
+    Apps::AddTextOption(
+        app,
+        "--profile",
+        [&options](const std::string& text) {
+            return Read(ParseProfile(text), [&options](EVehicleProfile profile) {
+                options.profile = profile;
+                return std::string();
+            });
+        },
+        "Make that vehicles without profile=NAME imitate, see below; they reject what breaks its rules")
+        .default_str(std::string(GetProfile(options.profile).name));
     Apps::AddTimeScaleOption(app, options.timeScale);
     Apps::AddRepeatedOption(
         app,

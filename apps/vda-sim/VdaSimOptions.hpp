@@ -30,6 +30,7 @@ struct VdaSimOptions
     std::string manufacturer = "ACS";
     std::string interfaceName = "uagv";
     VDA5050::EVda5050Version version = VDA5050::EVda5050Version::Version200;
+    EVehicleProfile profile = EVehicleProfile::Standard; ///< Of vehicles without one of their own.
     double timeScale = 1.0;
     std::optional<std::uint64_t> seed; ///< Absent: random and logged.
     std::map<std::string, double, std::less<>> actionSeconds;

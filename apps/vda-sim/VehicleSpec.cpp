@@ -84,6 +84,10 @@ Core::Result<void> ReadPart(std::string_view part, VehicleSpec& spec, std::set<s
     {
         return Store(ParseProtocol(value), spec.version);
     }
+    if (key == "profile")
+    {
+        return Store(ParseProfile(value), spec.profile);
+    }
     if (key == "battery")
     {
         return Store(ParsePercent(value), spec.charge);
@@ -108,7 +112,7 @@ Core::Result<void> ReadPart(std::string_view part, VehicleSpec& spec, std::set<s
             Core::ECoreError::UnknownWord,
             {},
             fmt::format(
-                "type=LR|CR, node=NODEID, position=X:Y, protocol=VERSION, battery=PERCENT, {}",
+                "type=LR|CR, node=NODEID, position=X:Y, protocol=VERSION, battery=PERCENT, profile=NAME, {}",
                 LOAD_HANDLING_KEYS),
             Core::QuoteForError(part));
     }
@@ -135,7 +139,7 @@ Core::Result<VehicleSpec> ParseVehicleSpec(std::string_view text)
         return Core::Fail(
             Core::ECoreError::InvalidIdentifier,
             {},
-            "NAME[,type=LR|CR][,node=NODEID][,position=X:Y][,protocol=VERSION][,battery=PERCENT], NAME without blanks, /, +, "
+            "NAME[,type=LR|CR][,node=NODEID][,position=X:Y][,protocol=VERSION][,battery=PERCENT][,profile=NAME], NAME without blanks, /, +, "
             "#, $, * and =",
             Core::QuoteForError(spec.name));
     }

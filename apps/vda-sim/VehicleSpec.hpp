@@ -1,6 +1,7 @@
 #pragma once
 
 #include "vda-sim/LoadHandling.hpp"
+#include "vda-sim/VehicleProfile.hpp"
 #include <acs/core/Result.hpp>
 #include <acs/vda5050/EVda5050Version.hpp>
 
@@ -21,7 +22,7 @@ struct StartPosition
     bool operator==(const StartPosition&) const = default;
 };
 
-/// One `--vehicle NAME[,type=LR|CR][,node=NODEID][,position=X:Y][,protocol=VERSION][,battery=PERCENT]` with the keys of
+/// One `--vehicle NAME[,type=LR|CR][,node=NODEID][,position=X:Y][,protocol=VERSION][,battery=PERCENT][,profile=NAME]` with the keys of
 /// LOAD_HANDLING_KEYS.
 struct VehicleSpec
 {
@@ -32,6 +33,7 @@ struct VehicleSpec
     double charge = 100.0;                           ///< %
     LoadHandling handling{};
     std::optional<StartPosition> startPosition{}; ///< Absent: that of the node.
+    std::optional<EVehicleProfile> profile{};     ///< Absent: that of --profile.
 
     bool operator==(const VehicleSpec&) const = default;
 };

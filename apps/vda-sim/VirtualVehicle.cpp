@@ -2,12 +2,14 @@
 
 #include "vda-sim/CutForLog.hpp"
 #include "vda-sim/OrderLimits.hpp"
+#include "vda-sim/ProfileRules.hpp"
 #include "vda-sim/VehicleFactsheet.hpp"
 #include <acs/core/Overloaded.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -34,12 +36,22 @@ VDA5050::VehicleOptions MakeSessionOptions(const VirtualVehicleOptions& options,
     session.version = options.version;
     session.qos = options.qos;
     session.factsheet = MakeFactsheet(options.type, options.limits, options.version, options.handling);
+    const VehicleProfile& profile = GetProfile(options.profile);
+    if (profile.adaptOrNull != nullptr)
+    {
+        profile.adaptOrNull(session.factsheet);
+    }
     session.parameterCheck = options.parameterCheck;
-    session.visualizationInterval = 200ms;
+    session.visualizationInterval = profile.traits.bReportsPosition ? 200ms : 0ms;
+    session.bForgetsInManual = profile.traits.bForgetsInManual;
     session.bStopsBetweenNodes = false; // like a line-guided vehicle: a cancelled order ends on a node
     session.initialNodeID = options.startNodeID;
-    session.orderCheck = [&site](const VDA5050::OrderMessage& order) {
-        return FindUndrivable(order, site);
+    session.orderCheck = [&site, traits = profile.traits, handling = options.handling](
+                             const VDA5050::OrderMessage& order,
+                             const VDA5050::OrderContext& context) {
+        std::vector<VDA5050::OrderViolation> violations = FindUndrivable(order, site);
+        std::ranges::move(FindRejected(order, context, traits, handling), std::back_inserter(violations));
+        return violations;
     };
     std::set<std::string> mapIDs;
     for (const Planning::SiteNode& node : site.GetNodes())
@@ -79,6 +91,7 @@ VirtualVehicle::VirtualVehicle(
           LoadDevice(_options.address.serialNumber, _options.type, _options.handling, _options.worldOrNull)),
       _nodeID(_options.startNodeID),
       _charge(_options.charge),
+      _incoming(EFaultDirection::In, GetProfile(_options.profile).traits.acceptanceTime),
       _warnings(_logger)
 {
     const Planning::SiteNode* const node = site.FindNodeOrNull(_nodeID);
@@ -112,7 +125,7 @@ void VirtualVehicle::OnLinkUp(Core::Now now, VirtualActions& out)
     _actionRunner.GetDevice().UpdateLoads();
     _reportedLoads = _actionRunner.GetDevice().GetLoads();
     _session.OnLoads(_reportedLoads, now, _sessionActions);
-    if (!_bWasOnline && !_mapID.empty())
+    if (!_bWasOnline && !_mapID.empty() && GetProfile(_options.profile).traits.bReportsPosition)
     {
         const VDA5050::MapState map{_mapID, "1", VDA5050::EMapStatus::Enabled, {}};
         _session.OnMaps(std::vector<VDA5050::MapState>{map}, now, _sessionActions);
@@ -407,6 +420,10 @@ void VirtualVehicle::LogWarning(Core::Now now, std::string_view message, std::in
 
 void VirtualVehicle::ReportPosition()
 {
+    if (!GetProfile(_options.profile).traits.bReportsPosition)
+    {
+        return;
+    }
     const Pose& pose = _motion.GetPose();
     VDA5050::AgvPosition position;
     position.bPositionInitialized = !_faults.IsActive(EFaultKind::Lost);

@@ -5,6 +5,7 @@
 #include "vda-sim/Fault.hpp"
 #include "vda-sim/MessageGate.hpp"
 #include "vda-sim/VehicleMotion.hpp"
+#include "vda-sim/VehicleProfile.hpp"
 #include "vda-sim/VehicleSpec.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
@@ -70,6 +71,7 @@ struct VirtualVehicleOptions
     Sim::IWorld* worldOrNull =
         nullptr; ///< The shared floor, which outlives it; null: every pick and drop finds its load.
     std::optional<StartPosition> startPosition{}; ///< Absent: that of the node.
+    EVehicleProfile profile = EVehicleProfile::Standard;
 };
 
 /// A simulated vehicle: a VehicleSession, the motion, the actions, the battery and the faults. Pure: time is a parameter,
@@ -111,7 +113,7 @@ private:
     FaultBoard _faults;
     FaultChanges _faultChanges;
     std::vector<Fault> _waitingFaults; ///< Until it is online for the first time.
-    MessageGate _incoming{EFaultDirection::In};
+    MessageGate _incoming;
     MessageGate _outgoing{EFaultDirection::Out};
     std::vector<VDA5050::VehicleError> _orderErrors; ///< Until an order is accepted.
     std::optional<Core::SteadyTime> _nextEvent;      ///< What the event timer runs for.

@@ -182,7 +182,7 @@ OrderJudgement JudgeOrder(const OrderMessage& order, const OrderContext& context
         violations = FindRepeatedActions(order, context, bHeld);
         if (violations.empty() && context.orderCheck)
         {
-            violations = context.orderCheck(order);
+            violations = context.orderCheck(order, context);
         }
     }
     return violations.empty() ? judgement : Reject(std::move(violations));

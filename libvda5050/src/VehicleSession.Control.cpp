@@ -31,7 +31,7 @@ bool VehicleSession::Impl::IsPauseOverridden(const Action& action, const Header&
             action,
             header,
             ErrorTypes::INSTANT_ACTION_ERROR,
-            "the vehicle's own switch overrides " + action.actionType);
+            {"the vehicle's own switch overrides " + action.actionType, {}});
     }
     return _bPauseOverridden;
 }
@@ -137,7 +137,7 @@ void VehicleSession::Impl::StartCancel(const Action& action, const Header& heade
 {
     if (!IsExecuting())
     {
-        FailInstantAction(action, header, ErrorTypes::NO_ORDER_TO_CANCEL, "there is no order to cancel");
+        FailInstantAction(action, header, ErrorTypes::NO_ORDER_TO_CANCEL, {"there is no order to cancel", {}});
         return;
     }
     const bool bFirst = _cancelActionIDs.empty();
@@ -256,6 +256,7 @@ void VehicleSession::Impl::OnOperatingMode(EOperatingMode mode, Core::Now now, V
         return;
     }
     const bool bManual = mode == EOperatingMode::Manual || _operatingMode == EOperatingMode::Manual;
+    const bool bBetweenNodes = _bLegBegun;
     _operatingMode = mode;
     _bStateDue = true;
     if (!CanMoveByItself())
@@ -281,8 +282,25 @@ void VehicleSession::Impl::OnOperatingMode(EOperatingMode mode, Core::Now now, V
         }
         ClearOrder(out);
     }
+    if (mode == EOperatingMode::Manual && _options.bForgetsInManual)
+    {
+        ForgetOrder(bBetweenNodes);
+    }
     Advance(out);
     Settle(now, out);
+}
+
+void VehicleSession::Impl::ForgetOrder(bool bBetweenNodes)
+{
+    _orderID.clear();
+    _orderUpdateID = 0;
+    _zoneSetID.clear();
+    _lastNodeSequenceID = 0;
+    if (bBetweenNodes)
+    {
+        _lastNodeID.clear();
+    }
+    _actions.EraseIf([](const ReportedAction& tracked) { return !tracked.IsInstant() || tracked.IsEnded(); });
 }
 
 bool VehicleSession::Impl::CanMoveByItself() const

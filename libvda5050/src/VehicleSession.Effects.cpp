@@ -202,7 +202,7 @@ void VehicleSession::Impl::OnActionFailed(const ReportedAction& tracked, Vehicle
         tracked.action,
         std::nullopt,
         ErrorTypes::ACTION_ERROR,
-        state.actionType + " failed: " + state.resultDescription);
+        {state.actionType + " failed: " + state.resultDescription, {}});
 }
 
 /// 2.x does not stop an order for a failed action; a vehicle may, for the kinds that it names.

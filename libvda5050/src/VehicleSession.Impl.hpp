@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ActionFault.hpp"
 #include "RemainingRoute.hpp"
 #include "ReportedActions.hpp"
 #include <acs/vda5050/OrderValidator.hpp>
@@ -191,17 +192,17 @@ private:
     [[nodiscard]] bool TryMakeRoomFor(const Action& action);
     [[nodiscard]] bool IsRepeated(const Action& action);
     [[nodiscard]] std::string FindClash(const Action& action);
-    [[nodiscard]] std::string FindRefusal(const Action& action, bool bTooMany) const;
+    [[nodiscard]] std::optional<ActionFault> FindRefusalOrNull(const Action& action, bool bTooMany) const;
     void ReportInstantAction(
         const Action& action,
         std::optional<std::uint32_t> headerIDOrNull,
         std::string_view errorType,
-        const std::string& reason);
+        const ActionFault& fault);
     void FailInstantAction(
         const Action& action,
         const Header& header,
         std::string_view errorType,
-        const std::string& reason);
+        const ActionFault& fault);
     [[nodiscard]] bool IsPauseOverridden(const Action& action, const Header& header);
     void StartPause(const Action& action, const Header& header, VehicleActions& out);
     void StopPause(const Action& action, const Header& header, VehicleActions& out);
@@ -213,6 +214,7 @@ private:
     void StopMoving(VehicleActions& out);
     void DiscardRoute();
     void ClearOrder(VehicleActions& out);
+    void ForgetOrder(bool bBetweenNodes);
     void FinishCancelIfStationary(VehicleActions& out);
     void FinishPauseIfStationary();
     [[nodiscard]] std::string FindOwnFault(const Action& action, EActionScope scope);

@@ -110,17 +110,17 @@ bool VehicleSession::Impl::TryHandleInstantAction(
     }
     if (!clash.empty())
     {
-        ReportInstantAction(action, header.headerID, ErrorTypes::INSTANT_ACTION_ERROR, clash);
+        ReportInstantAction(action, header.headerID, ErrorTypes::INSTANT_ACTION_ERROR, {clash, {}});
         return false;
     }
-    const std::string reason = FindRefusal(action, bTooMany);
-    if (reason.empty())
+    const std::optional<ActionFault> refusal = FindRefusalOrNull(action, bTooMany);
+    if (!refusal.has_value())
     {
         PerformOwnInstantAction(action, header, now, out);
     }
     else
     {
-        FailInstantAction(action, header, ErrorTypes::INSTANT_ACTION_ERROR, reason);
+        FailInstantAction(action, header, ErrorTypes::INSTANT_ACTION_ERROR, *refusal);
     }
     const ReportedAction* trackedOrNull = _actions.FindOrNull(action.actionID);
     return trackedOrNull != nullptr && trackedOrNull->machine.GetStatus() != EActionStatus::Failed;
@@ -149,21 +149,23 @@ std::string VehicleSession::Impl::FindClash(const Action& action)
     return bUsed ? "the actionId is in use already" : std::string();
 }
 
-/// Why an instant action fails regardless of its type; empty if it is processed.
-std::string VehicleSession::Impl::FindRefusal(const Action& action, bool bTooMany) const
+/// Why an instant action fails regardless of its type; nullopt if it is processed.
+std::optional<ActionFault> VehicleSession::Impl::FindRefusalOrNull(const Action& action, bool bTooMany) const
 {
     const bool bRequest =
         action.actionType == ActionTypes::STATE_REQUEST || action.actionType == ActionTypes::FACTSHEET_REQUEST;
     if (bTooMany)
     {
-        return "the message has more instant actions than the vehicle takes";
+        return ActionFault{
+            "the message has more instant actions than the vehicle takes",
+            "maxArrayLens.instantActions"};
     }
     if (!CanMoveByItself() && !bRequest)
     {
-        return "the operating mode takes no instant actions";
+        return ActionFault{"the operating mode takes no instant actions", {}};
     }
     const std::vector<ActionFault> faults = FindSizeFaults(Measure(action), _options.factsheet.protocolLimits);
-    return faults.empty() ? std::string() : faults[0].rule;
+    return faults.empty() ? std::nullopt : std::optional(faults[0]);
 }
 
 void VehicleSession::Impl::PerformOwnInstantAction(
@@ -195,12 +197,12 @@ void VehicleSession::Impl::PerformOwnInstantAction(
     }
     else
     {
-        const std::optional<ActionFault> fault =
-            FindActionFaultOrNull(_options.factsheet, action, EActionScope::Instant, _options.parameterCheck);
-        const std::string reason = fault.has_value() ? fault->rule : FindOwnFault(action, EActionScope::Instant);
-        if (!reason.empty())
+        const ActionFault fault =
+            FindActionFaultOrNull(_options.factsheet, action, EActionScope::Instant, _options.parameterCheck)
+                .value_or(ActionFault{FindOwnFault(action, EActionScope::Instant), {}});
+        if (!fault.rule.empty())
         {
-            FailInstantAction(action, header, ErrorTypes::INSTANT_ACTION_ERROR, reason);
+            FailInstantAction(action, header, ErrorTypes::INSTANT_ACTION_ERROR, fault);
             return;
         }
         ReportUnlistedParameters(action, ETopic::InstantActions);
@@ -265,27 +267,31 @@ void VehicleSession::Impl::FailInstantAction(
     const Action& action,
     const Header& header,
     std::string_view errorType,
-    const std::string& reason)
+    const ActionFault& fault)
 {
-    AddInstantAction(action, EActionStatus::Failed, std::string(CutForeignText(reason)));
-    ReportInstantAction(action, header.headerID, errorType, reason);
+    AddInstantAction(action, EActionStatus::Failed, std::string(CutForeignText(fault.rule)));
+    ReportInstantAction(action, header.headerID, errorType, fault);
 }
 
 void VehicleSession::Impl::ReportInstantAction(
     const Action& action,
     std::optional<std::uint32_t> headerIDOrNull,
     std::string_view errorType,
-    const std::string& reason)
+    const ActionFault& fault)
 {
     VehicleError error;
     error.errorType = errorType;
-    error.errorDescription = reason;
+    error.errorDescription = fault.rule;
     AddReference(error, ReferenceKeys::TOPIC, GetTopicName(ETopic::InstantActions));
     if (headerIDOrNull.has_value())
     {
         AddReference(error, ReferenceKeys::HEADER_ID, std::to_string(*headerIDOrNull));
     }
     AddReference(error, ReferenceKeys::ACTION_ID, action.actionID);
+    if (!fault.field.empty())
+    {
+        AddReference(error, ReferenceKeys::PARAMETER, fault.field);
+    }
     AddSessionError(
         std::move(error),
         errorType == ErrorTypes::NO_ORDER_TO_CANCEL ? EErrorLifetime::UntilOrder : EErrorLifetime::UntilInstantAction);

@@ -37,13 +37,6 @@ VDA5050::Trajectory MakeCurve(std::uint32_t degree, std::uint32_t points)
     return curve;
 }
 
-bool HasReference(const VDA5050::VehicleError& error, std::string_view key, std::string_view value)
-{
-    return std::ranges::any_of(error.errorReferences, [&](const VDA5050::ErrorReference& reference) {
-        return reference.referenceKey == key && reference.referenceValue == value;
-    });
-}
-
 struct Row
 {
     std::string_view errorType;

@@ -72,6 +72,9 @@ TEST_CASE("An invalid vehicle is refused with what is expected")
           "A,battery=-1",
           "A,battery=nan",
           "A,battery=5%",
+          "A,profile=",
+          "A,profile=fast",
+          "A,profile=blocking,profile=blocking",
           "A,type=LR,type=CR",
           "A,node=N1,node=N2",
           "A,ports=",
@@ -196,6 +199,18 @@ TEST_CASE("The command line counts vehicles, and takes faults, their files, acti
     CHECK(good.options.seed == 42);
     CHECK(good.options.controlTopic.empty());
     CHECK(good.options.actionSeconds.at("pick") == 0.25);
+}
+
+TEST_CASE("A vehicle has its own profile, else that of the command line, else the standard one")
+{
+    const ReadOptions read =
+        ReadOptionsFrom({"--vehicle", "A", "--vehicle", "B,profile=blocking", "--profile", "no-horizon"});
+    REQUIRE_FALSE(read.exitCode.has_value());
+    CHECK(read.options.profile == VdaSim::EVehicleProfile::NoHorizon);
+    CHECK_FALSE(read.options.vehicles[0].profile.has_value());
+    CHECK(read.options.vehicles[1].profile == VdaSim::EVehicleProfile::Blocking);
+    CHECK(ReadOptionsFrom({"--vehicle", "A"}).options.profile == VdaSim::EVehicleProfile::Standard);
+    CHECK(ReadOptionsFrom({"--vehicle", "A", "--profile", "fast"}).exitCode == 2);
 }
 
 TEST_CASE("With a world every vehicle has the name of a robot")

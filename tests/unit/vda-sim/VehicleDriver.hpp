@@ -403,4 +403,11 @@ private:
     }
 };
 
+[[nodiscard]] inline bool HasReference(const VDA5050::VehicleError& error, std::string_view key, std::string_view value)
+{
+    return std::ranges::any_of(error.errorReferences, [&](const VDA5050::ErrorReference& reference) {
+        return reference.referenceKey == key && reference.referenceValue == value;
+    });
+}
+
 } // namespace ACS::Testing

@@ -549,7 +549,7 @@ TEST_CASE("4.1 An actionId that the state still shows is not accepted again")
 TEST_CASE("4.2 The application's own check rejects an order with the errors that it returns")
 {
     VehicleOptions options = VehicleSessionFixture::MakeOptions();
-    options.orderCheck = [](const OrderMessage& order) {
+    options.orderCheck = [](const OrderMessage& order, const OrderContext& /*context*/) {
         std::vector<OrderViolation> violations;
         if (order.nodes.size() > 2)
         {

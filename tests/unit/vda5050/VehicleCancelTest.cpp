@@ -2,6 +2,7 @@
 #include "VehicleSessionFixture.hpp"
 #include <acs/vda5050/ActionMachine.hpp>
 
+#include <algorithm>
 #include <functional>
 
 namespace ACS::VDA5050::Test
@@ -291,6 +292,40 @@ TEST_CASE("5.4.9 waitForTrigger fails when its order is cancelled; instant actio
     bench.Status("wait", EActionStatus::Failed);
     CHECK(bench.GetStatus("c1") == EActionStatus::Finished);
     CHECK(bench.GetStatus("log") == EActionStatus::Running);
+}
+
+TEST_CASE(
+    "8.6 A vehicle that forgets everything in MANUAL shows no order, no ended action, and its node only if it is on it")
+{
+    VehicleOptions options = MakeNodeBound();
+    options.bForgetsInManual = true;
+    for (const bool bLeft : {false, true})
+    {
+        CAPTURE(bLeft);
+        VehicleSessionFixture bench(options);
+        OrderMessage order = MakeOrder(3, 3);
+        order.nodes[0].actions.push_back(MakeAction("begun", bLeft ? EBlockingType::None : EBlockingType::Hard));
+        bench.Order(order);
+        bench.Status("begun", EActionStatus::Running);
+        bench.Instant("startPause", "pause");
+        bench.Mode(EOperatingMode::Manual);
+        const StateMessage state = bench.GetPublishedState();
+        CHECK(state.orderID.empty());
+        CHECK(state.nodeStates.empty());
+        CHECK(state.edgeStates.empty());
+        CHECK(state.lastNodeID == (bLeft ? "" : "N0"));
+        CHECK(std::ranges::none_of(state.actionStates, [](const ActionState& action) {
+            return action.actionID == "begun";
+        }));
+        CHECK(bench.GetPublishedState().errors.empty());
+        bench.Drive(false);
+        bench.Instant("stopPause", "resume");
+        bench.Mode(EOperatingMode::Automatic);
+        order.orderID = "order-2";
+        bench.Order(order);
+        CHECK(bench.GetSession().GetState().orderID == "order-2");
+        CHECK(bench.GetSession().GetState().lastNodeID == "N0");
+    }
 }
 
 } // namespace ACS::VDA5050::Test

@@ -66,23 +66,27 @@ TEST_CASE("3.7 An instant action that exceeds the factsheet fails alone, with th
         const char* name;
         std::function<void(ProtocolLimits&)> limit;
         Action action;
+        std::string_view member;
     };
     Action withParameters = MakeAction("1", EBlockingType::None, "logReport");
     withParameters.actionParameters = {{"reason", Core::JsonText::FromString("a")}};
     const std::vector<Case> cases{
         {"the id is too long",
          [](ProtocolLimits& limits) { limits.maxStringLengths.identifier = 3; },
-         MakeAction("1234", EBlockingType::None, "stateRequest")},
+         MakeAction("1234", EBlockingType::None, "stateRequest"),
+         "maxStringLens.idLen"},
         {"the id is no number",
          [](ProtocolLimits& limits) { limits.maxStringLengths.bIdentifierNumericalOnly = true; },
-         MakeAction("s1", EBlockingType::None, "stateRequest")},
+         MakeAction("s1", EBlockingType::None, "stateRequest"),
+         "maxStringLens.idNumericalOnly"},
         {"too many parameters",
          [](ProtocolLimits& limits) { limits.maxArrayLengths.actionParameters = 1; },
          [&withParameters] {
              Action action = withParameters;
              action.actionParameters.push_back({"more", Core::JsonText::FromString("b")});
              return action;
-         }()},
+         }(),
+         "maxArrayLens.actions.actionsParameters"},
     };
     for (const Case& size : cases)
     {
@@ -95,6 +99,7 @@ TEST_CASE("3.7 An instant action that exceeds the factsheet fails alone, with th
         REQUIRE(state.errors.size() == 1);
         CHECK(state.errors[0].errorType == ErrorTypes::INSTANT_ACTION_ERROR);
         CHECK(*FindReferenceOrNull(state.errors[0], "actionId") == size.action.actionID);
+        CHECK(*FindReferenceOrNull(state.errors[0], "parameter") == size.member);
     }
 }
 

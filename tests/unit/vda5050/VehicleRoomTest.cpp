@@ -300,7 +300,7 @@ TEST_CASE("4.2 The error about a message names what could be decoded of it, what
 TEST_CASE("8.4 An error is reported until its cause ends, whatever its text is")
 {
     VehicleOptions options = VehicleSessionFixture::MakeOptions();
-    options.orderCheck = [](const OrderMessage& order) {
+    options.orderCheck = [](const OrderMessage& order, const OrderContext& /*context*/) {
         return std::vector{MakeOrderViolation(order, ErrorTypes::ORDER_ERROR, "the operating mode takes no orders")};
     };
     VehicleSessionFixture bench(options);

@@ -36,8 +36,10 @@ struct OrderViolation
 /// and angle ranges. Empty if the order is valid.
 [[nodiscard]] std::vector<OrderViolation> ValidateOrder(const OrderMessage& order);
 
+struct OrderContext;
+
 /// An additional check of the vehicle, for example for orders that its control cannot drive. Empty: no violations.
-using OrderCheck = std::function<std::vector<OrderViolation>(const OrderMessage&)>;
+using OrderCheck = std::function<std::vector<OrderViolation>(const OrderMessage&, const OrderContext&)>;
 
 /// State of a vehicle when an order arrives.
 struct OrderContext

@@ -40,6 +40,9 @@ struct VehicleOptions
     std::vector<std::string> criticalActionTypes;
     /// Whether a cancel stops the vehicle between two nodes; otherwise it drives to the next one (line guided).
     bool bStopsBetweenNodes = true;
+    /// Whether the vehicle forgets everything at a change to MANUAL: the state then has no orderId, no actions that have
+    /// ended or belong to the order, and between two nodes no lastNodeId. Otherwise the cleared order stays in the state.
+    bool bForgetsInManual = false;
     /// Additional check of an otherwise valid order or update; not called for a resent one.
     OrderCheck orderCheck;
     /// Maps of the vehicle in addition to those of OnMaps. Orders with other maps are refused, unless both are empty.
