@@ -141,7 +141,8 @@ bool OperatorCommands::HasCause(const Alarm& alarm) const
     }
     if (alarm.errorCode == ALARM_PLACE)
     {
-        return robot.view.bOnline && !robot.place.bPlaced;
+        const bool bLeftRoute = robot.drive.has_value() && robot.drive->bLeftRoute;
+        return robot.view.bOnline && (!robot.place.bPlaced || bLeftRoute);
     }
     if (alarm.errorCode == ALARM_UNRESOLVED)
     {

@@ -348,9 +348,13 @@ void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
     {
         _places.Place(robot);
     }
-    else if (event.bDriving && robot.drive->goal == EDriveGoal::Step && robot.planOrNull != nullptr)
+    else
     {
-        _work.MarkStepBegun(*robot.planOrNull);
+        _coordinator.VerifyRoute(robot);
+        if (event.bDriving && robot.drive->goal == EDriveGoal::Step && robot.planOrNull != nullptr)
+        {
+            _work.MarkStepBegun(*robot.planOrNull);
+        }
     }
     robot.changes.bWork = robot.work.TryCheckEvidence(event, robot.planOrNull != nullptr) || robot.changes.bWork;
     _loads.CompareLoads(robot);

@@ -55,7 +55,8 @@ struct ActiveDrive
     std::size_t passed = 0;         ///< Index in the route of the last node passed.
     EDriveGoal goal = EDriveGoal::Step;
     bool bConfirmed = false;
-    bool bTaken = false; ///< The robot has confirmed the drive.
+    bool bTaken = false;     ///< The robot has confirmed the drive.
+    bool bLeftRoute = false; ///< The robot reports a node that the route does not have.
     ECancellation cancellation = ECancellation::None;
     std::optional<Reroute> reroute;
 

@@ -112,7 +112,7 @@ void TrafficCoordinator::ExtendBase(Robot& robot)
 {
     ActiveDrive& drive = *robot.drive;
     const std::size_t reached = drive.passed + 1;
-    if (drive.IsCancelling() || !robot.CanAdvance())
+    if (drive.IsCancelling() || drive.bLeftRoute || !robot.CanAdvance())
     {
         return;
     }
@@ -380,10 +380,37 @@ bool TrafficCoordinator::TryAdvance(Robot& robot, std::size_t routeIndex)
     return true;
 }
 
+void TrafficCoordinator::VerifyRoute(Robot& robot)
+{
+    ActiveDrive& drive = *robot.drive;
+    const std::string& nodeID = robot.view.state->lastNodeID;
+    const bool bOff =
+        drive.bTaken && !nodeID.empty() && std::ranges::count(drive.route.nodes, nodeID, &RouteNode::nodeID) == 0;
+    if (std::exchange(drive.bLeftRoute, bOff) == bOff)
+    {
+        return;
+    }
+    _transaction.RequestDispatch();
+    if (bOff)
+    {
+        _transaction.RaiseAlarm(PlaceTracker::MakePlaceAlarm(
+            robot,
+            fmt::format("Robot reports node {}, which is not on its route. Check where the robot is.", nodeID)));
+    }
+    else
+    {
+        _transaction.ClearAlarm(PlaceTracker::MakePlaceAlarm(robot, {}));
+    }
+}
+
 void TrafficCoordinator::EndDrive(Robot& robot)
 {
     const std::string& robotID = robot.GetID();
     const ActiveDrive& drive = *robot.drive;
+    if (drive.bLeftRoute)
+    {
+        _transaction.ClearAlarm(PlaceTracker::MakePlaceAlarm(robot, {}));
+    }
     if (!drive.bConfirmed)
     {
         _transaction.CancelTimer(EEngineTimer::DriveExtension, robotID);

@@ -83,6 +83,8 @@ public:
     /// The robot has reached this node of its route: frees the nodes before it. False: the robot entered a node that another
     /// robot has reserved.
     [[nodiscard]] bool TryAdvance(Robot& robot, std::size_t routeIndex);
+    /// Raises an alarm while a robot that has confirmed its drive reports a node off its route. It is granted no further nodes.
+    void VerifyRoute(Robot& robot);
     /// The robot is stationary on the node that it passed last, or after it: frees the rest of the route.
     void EndDrive(Robot& robot);
 

@@ -93,6 +93,44 @@ TEST_CASE("TrafficCoordinator: a robot may pass a free node without a grant, and
     }
 }
 
+TEST_CASE(
+    "TrafficCoordinator: a robot that reports a node off its route has an alarm until it is back or its drive ends")
+{
+    EngineParts parts;
+    parts.BeginDriveToLoad();
+    REQUIRE(parts.coordinator.TryAdvance(parts.lr, 1));
+    parts.lr.drive->bTaken = true;
+    parts.Discard();
+    const auto report = [&parts](const std::string& nodeID) {
+        parts.lr.view.state->lastNodeID = nodeID;
+        parts.coordinator.VerifyRoute(parts.lr);
+        return parts.Collect();
+    };
+    CHECK(report("L02").ListSetAlarms().empty());
+    CHECK(report("").ListSetAlarms().empty()); // it does not know
+    CHECK(report("D-A02.CP01").ListSetAlarms() == std::vector<std::string>{"ACS-1003"});
+    CHECK(report("D-A02.CP01").ListSetAlarms().empty()); // is set already
+    SECTION("it is back")
+    {
+        CHECK(report("L02").ListClearedAlarms() == std::vector<std::string>{"ACS-1003"});
+    }
+    SECTION("its drive ends")
+    {
+        parts.coordinator.EndDrive(parts.lr);
+        CHECK(parts.Collect().ListClearedAlarms() == std::vector<std::string>{"ACS-1003"});
+    }
+}
+
+TEST_CASE("TrafficCoordinator: a drive that the robot has not taken yet has no route that it could have left")
+{
+    EngineParts parts;
+    parts.BeginDriveToLoad();
+    parts.Discard();
+    parts.lr.view.state->lastNodeID = "D-A02.CP01";
+    parts.coordinator.VerifyRoute(parts.lr);
+    CHECK(parts.Collect().ListSetAlarms().empty());
+}
+
 TEST_CASE("TrafficCoordinator: a drive that has ended leaves its nodes to others")
 {
     EngineParts parts;
