@@ -12,16 +12,27 @@ import time
 import urllib.request
 
 from scenario_case import STATUS_SECONDS, main
-from traced_line import TracedLineCase
+from traced_line import VEHICLES, TracedLineCase
 
 HELD = ("LR01 stuck node=N047 for=4s error=held level=WARNING", "LR01 silence topic=state node=N047 at=100ms for=4s")
 SILENT_AFTER = 0.3  # s
 FORGED = 1_000_000  # first headerId of a state of the test
+OTHER_NODE = "N060"
+LR02 = f"""
+[robots.LR02]
+type = "LR"
+manufacturer = "ACS"
+serial = "LR02"
+vehicle_type = "lr-base"
+start_node = "{OTHER_NODE}"
+ports = ["CP01"]
+"""
 
 
 class Contradictions(TracedLineCase):
-    def start_held(self):
-        self.start_line(*HELD)
+    def start_held(self, vehicles=VEHICLES, tables=""):
+        self.start_line(*HELD, vehicles=vehicles, tables=tables, overrides=("tsc.initial=paused",))
+        self.resume_with_all_vehicles()
         self.wait_for_error("held")
         time.sleep(SILENT_AFTER)
 
@@ -68,6 +79,13 @@ class Contradictions(TracedLineCase):
         self.wait_for_oddity("far_from_node")
         self.finish()
         self.assert_begins(self.read_drives()[1], "D-A01.CP01", "N052")
+
+    def test_a_vehicle_that_reports_the_node_of_another(self):
+        self.start_held(vehicles=(VEHICLES[0], f"LR02,type=LR,node={OTHER_NODE}", VEHICLES[1]), tables=LR02)
+        self.forge_state(lastNodeId=OTHER_NODE)
+        self.wait_for_status(self.http, lambda status: [
+            alarm["robotId"] for alarm in status["alarms"] if alarm["errorCode"] == "ACS-1003"] == ["LR01"])
+        self.finish()
 
     def test_a_state_of_another_order(self):
         self.start_held()

@@ -40,10 +40,6 @@ class Refusals(TracedLineCase):
             (alarm["robotId"], alarm["level"]) for alarm in status["alarms"] if alarm["errorCode"] == "ACS-1012"
         ] == [("LR01", "heavy")])
 
-    def wait_for_vehicles(self):
-        self.wait_for_status(self.http, lambda status: all(
-            robot["status"] not in ("Init", "Disconnected") for robot in status["robots"]))
-
     def command_vehicles(self, line):
         binary = shutil.which("mosquitto_pub")
         self.assertIsNotNone(binary, "mosquitto_pub is missing; run scripts/setup")
@@ -75,8 +71,7 @@ class Refusals(TracedLineCase):
     def test_the_plan_of_a_vehicle_that_rejects_every_order_is_completed_by_another(self):
         self.start_line("LR01 refuse for=10m", vehicles=make_vehicles("LR02"), tables=make_table("LR02"),
                         overrides=("tsc.initial=paused",))
-        self.wait_for_vehicles()
-        self.post("/tsc/resume")  # the nearest vehicle is LR01
+        self.resume_with_all_vehicles()
         self.finish("LR02")
         self.assertEqual(len(self.read_drives()), 3)
 
@@ -85,9 +80,8 @@ class Refusals(TracedLineCase):
                         tables="".join(map(make_table, OTHER_NODES)), overrides=("tsc.initial=paused",),
                         world={"version": 1, "carriers": {carrier: ends[0] for carrier, ends in TRANSPORTS.items()}},
                         plans=[self.make_plan(carrier) for carrier in TRANSPORTS])
-        self.wait_for_vehicles()
         self.wait_for_status(self.http, lambda status: len(status["plans"]) == len(TRANSPORTS))
-        self.post("/tsc/resume")
+        self.resume_with_all_vehicles()
         self.wait_for_status(self.http, lambda status: [plan["planId"] for plan in status["plans"]] == ["PLAN-C5"],
                              FINISH_SECONDS)
         pinned = self.read_status(self.http)["plans"][0]

@@ -45,6 +45,12 @@ class TracedLineCase(ScenarioCase):
                                          arguments=("--trace", self.trace))
         self.http = self.acsd.wait_ready()["http"]
 
+    def resume_with_all_vehicles(self):
+        """With tsc.initial=paused: the first plan goes to the nearest vehicle, LR01, not to the first one that connects."""
+        self.wait_for_status(self.http, lambda status: all(
+            robot["status"] not in ("Init", "Disconnected") for robot in status["robots"]))
+        self.post("/tsc/resume")
+
     def kill(self, program):
         self.line.forget(program)
         program.send_signal(signal.SIGKILL)
