@@ -108,6 +108,7 @@ std::vector<Violation> MakeLengthViolations()
          "maxArrayLens.node.actions",
          [](OrderMessage& order) {
              order.nodes[1].actions.push_back(MakeWork("finePositioning", "more"));
+             order.nodes[1].actions.back().actionParameters.clear();
          }},
         {PROFILE,
          "parameter",
@@ -151,12 +152,6 @@ std::vector<Violation> MakePartialViolations()
 {
     constexpr auto PROFILE = EVehicleProfile::PartialFactsheet;
     return {
-        {PROFILE,
-         "parameter",
-         "order.zoneSetId",
-         [](OrderMessage& order) {
-             order.zoneSetID = "zones";
-         }},
         {PROFILE,
          "parameter",
          "order.nodes.nodePosition.theta",
