@@ -59,7 +59,7 @@ LegPath LegPath::Create(const MapPoint& from, const MapPoint& to, const std::opt
     std::vector<MapPoint> points{from};
     if (curveOrNull.has_value())
     {
-        const std::vector<MapPoint> curve = NurbsCurve(*curveOrNull).Sample(SPACING, MAX_SAMPLES);
+        const std::vector<MapPoint> curve = MakeCurve(*curveOrNull).Sample(SPACING, MAX_SAMPLES);
         // A vehicle that is past the beginning joins the curve after the nearest point.
         const auto nearest =
             std::ranges::min_element(curve, {}, [&from](const MapPoint& point) { return GetDistance(from, point); });

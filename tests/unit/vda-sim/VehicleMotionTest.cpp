@@ -65,7 +65,7 @@ double RunLeg(VehicleMotion& motion, const std::function<void()>& watch = {}, do
 
 TEST_CASE("7 A NURBS of degree 2 with the right weights is a circle")
 {
-    const NurbsCurve curve(MakeQuarterCircle(2.0));
+    const NurbsCurve curve = VdaSim::MakeCurve(MakeQuarterCircle(2.0));
     for (int i = 0; i <= 100; ++i)
     {
         const MapPoint point = curve.GetPoint(i / 100.0);
@@ -96,7 +96,7 @@ TEST_CASE("7 A NURBS without weights and with inner knots goes where the recursi
             + (right > 0.0 ? (knots[index + degree + 1] - place) / right * getBasis(index + 1, degree - 1, place)
                            : 0.0);
     };
-    const NurbsCurve nurbs(curve);
+    const NurbsCurve nurbs = VdaSim::MakeCurve(curve);
     for (int step = 0; step < 50; ++step)
     {
         const double place = step / 50.0;
@@ -117,10 +117,10 @@ TEST_CASE("7 A curve of degree 1 is its corners, and knots that all are one plac
     VDA5050::Trajectory corners;
     corners.knotVector = {0.0, 0.0, 0.5, 1.0, 1.0};
     corners.controlPoints = {{0, 0, {}}, {3, 0, {}}, {3, 4, {}}};
-    CHECK(NurbsCurve(corners).Sample(0.05, 400) == std::vector<MapPoint>{{0, 0}, {3, 0}, {3, 4}});
+    CHECK(VdaSim::MakeCurve(corners).Sample(0.05, 400) == std::vector<MapPoint>{{0, 0}, {3, 0}, {3, 4}});
     VDA5050::Trajectory point = MakeQuarterCircle(1.0);
     point.knotVector = {0.5, 0.5, 0.5, 0.5, 0.5, 0.5};
-    CHECK(NurbsCurve(point).Sample(0.05, 400).size() == 1);
+    CHECK(VdaSim::MakeCurve(point).Sample(0.05, 400).size() == 1);
 }
 
 TEST_CASE("However long a curve is, it has no more than some hundred samples")
@@ -151,7 +151,7 @@ TEST_CASE("7 A curve has no more samples than asked for, also where it has more 
     curve.knotVector.insert(curve.knotVector.end(), 3, 1.0);
     for (const std::size_t most : {std::size_t{2}, std::size_t{100}, std::size_t{400}})
     {
-        const std::vector<MapPoint> samples = NurbsCurve(curve).Sample(0.05, most);
+        const std::vector<MapPoint> samples = VdaSim::MakeCurve(curve).Sample(0.05, most);
         CHECK(samples.size() == most);
         CHECK(samples.front() == MapPoint{0.0, 0.0});
         CHECK(samples.back() == MapPoint{1000.0, 0.0});
