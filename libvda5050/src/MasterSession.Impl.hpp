@@ -146,6 +146,7 @@ private:
     void EndOrder(MasterActions& out);
     void ExtendRoute(const OrderMessage& order);
     /// Discards the previous order.
+    void SetZoneSet(OrderMessage& order) const;
     void BeginOrder(std::string orderID, std::uint32_t lastUpdateID);
     void AddToRoute(const OrderMessage& order);
     /// Changes the order to what the vehicle takes. True: it continues with nodes that are not in its base.

@@ -280,6 +280,14 @@ void MasterSession::Impl::StartWaitingForEcho(OrderMessage order, Core::Now now,
     PublishOrder(now, out);
 }
 
+void MasterSession::Impl::SetZoneSet(OrderMessage& order) const
+{
+    if (order.zoneSetID.empty())
+    {
+        order.zoneSetID = _options.zoneSetID;
+    }
+}
+
 Core::Result<void> MasterSession::Impl::SendOrder(OrderMessage order, Core::Now now, MasterActions& out)
 {
     if (_phase != EOrderPhase::None)
@@ -306,6 +314,7 @@ Core::Result<void> MasterSession::Impl::SendOrder(OrderMessage order, Core::Now 
             "a vehicle that is online, has sent a state and drives by itself",
             _options.address.serialNumber);
     }
+    SetZoneSet(order);
     const Core::Result<bool> prepared = Prepare(order, now);
     if (!prepared)
     {
@@ -342,6 +351,7 @@ Core::Result<void> MasterSession::Impl::SendOrderUpdate(OrderMessage update, Cor
         return Core::Fail(EVda5050Error::UpdatePending, {}, "at most one update that waits", _orderID);
     }
     update.orderID = _orderID;
+    SetZoneSet(update);
     const Core::Result<bool> prepared = Prepare(update, now);
     if (!prepared)
     {

@@ -32,6 +32,8 @@ struct MasterOptions
     std::optional<FactsheetMessage> factsheet = std::nullopt;
     /// Send only what the factsheet supports: see MasterSession::SendOrder.
     bool bFactsheetObeyed = true;
+    /// zoneSetId of orders that have none; may be empty.
+    std::string zoneSetID = {};
     /// Request a state when the vehicle comes online: the broker retains ONLINE, but no state.
     bool bStateRequested = true;
     /// Prefix of the ids of the session's own actions (cancelOrder, stateRequest, …), which the wall clock and a counter make
