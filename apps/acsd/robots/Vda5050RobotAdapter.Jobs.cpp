@@ -37,6 +37,14 @@ void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now,
         out.emplace_back(RaiseEvent{Planning::JobFailed{job.jobID, "the vehicle does not report its node"}});
         return;
     }
+    if (!_nodeWithOpenActions.empty() && stateOrNull->lastNodeID == _nodeWithOpenActions)
+    {
+        out.emplace_back(RaiseEvent{Planning::JobRejected{
+            job.jobID,
+            "a REQUIRED action of the node " + _nodeWithOpenActions
+                + " has not finished: move the vehicle away and back"}});
+        return;
+    }
     DropLoadCheck(out);
     _job.Clear();
     if (stateOrNull->orderID == job.commandID)

@@ -123,7 +123,10 @@ const VDA5050::MasterSession& Vda5050RobotAdapter::GetSession() const noexcept
 
 void Vda5050RobotAdapter::StartDrive(const Planning::Drive& drive, Core::Now now, AdapterActions& out)
 {
-    Core::Result<VehicleDrive> made = VehicleDrive::Create(drive);
+    const std::vector<Planning::RouteNode>& nodes = drive.route.nodes;
+    const bool bStartActions = !nodes.empty() && nodes.front().nodeID == _nodeWithOpenActions;
+    const bool bCorridors = _session.GetOptions().version != VDA5050::EVda5050Version::Version200;
+    Core::Result<VehicleDrive> made = VehicleDrive::Create(drive, {bStartActions, bCorridors});
     if (!made)
     {
         out.emplace_back(RaiseEvent{Planning::DriveRejected{drive.driveID, Core::Describe(made.error())}});
@@ -238,13 +241,24 @@ void Vda5050RobotAdapter::RejectOrder(const std::string& orderID, const std::str
 {
     if (IsDrive(orderID))
     {
-        _drive.reset();
+        static_cast<void>(TakeDrive());
         out.emplace_back(RaiseEvent{Planning::DriveRejected{orderID, reason}});
     }
     else if (IsJob(orderID))
     {
         out.emplace_back(RaiseEvent{Planning::JobFailed{_job.TakeRunning().jobID, reason}});
     }
+}
+
+VehicleDrive Vda5050RobotAdapter::TakeDrive()
+{
+    VehicleDrive drive = *std::exchange(_drive, std::nullopt);
+    const std::string& nodeID = drive.GetLastPassedNodeID();
+    if (!nodeID.empty()) // otherwise the vehicle has not accepted it
+    {
+        _nodeWithOpenActions = drive.HasOpenActionsAt(nodeID) ? nodeID : std::string();
+    }
+    return drive;
 }
 
 void Vda5050RobotAdapter::Drain(Core::Now now, AdapterActions& out)
@@ -293,7 +307,10 @@ void Vda5050RobotAdapter::HandleAction(const VDA5050::MasterAction& action, Core
             [&](const VDA5050::OrderRejected& rejected) { OnRejected(rejected, now, out); },
             [&](const VDA5050::OrderLost& lost) { OnLost(lost, out); },
             [&](const VDA5050::NodeReached& reached) { OnNodeReached(reached, out); },
-            [&](const VDA5050::ActionChanged& changed) { OnActionChanged(changed, out); },
+            [&](const VDA5050::ActionChanged& changed) {
+                OnDriveAction(changed, now, out);
+                OnActionChanged(changed, out);
+            },
             [&](const VDA5050::OrderFinished& finished) { OnFinished(finished.orderID, out); },
             [&](const VDA5050::OrderCancelled& cancelled) { OnCancelled(cancelled.orderID, out); },
             [&](const VDA5050::CancelFailed&) { OnCancelFailed(now, out); },
@@ -308,6 +325,31 @@ void Vda5050RobotAdapter::OnNodeReached(const VDA5050::NodeReached& reached, Ada
     {
         _drive->OnNodePassed(reached.nodeID);
         out.emplace_back(RaiseEvent{Planning::NodePassed{_drive->GetOrderID(), reached.nodeID}});
+    }
+}
+
+/// Outside automatic mode, and in an order that is being cancelled, the vehicle ends actions as the standard demands.
+void Vda5050RobotAdapter::OnDriveAction(const VDA5050::ActionChanged& action, Core::Now now, AdapterActions& out)
+{
+    const std::string* const openOrNull = _drive.has_value() ? _drive->FindOpenActionOrNull(action.actionID) : nullptr;
+    if (openOrNull == nullptr)
+    {
+        return;
+    }
+    if (action.status == VDA5050::EActionStatus::Finished)
+    {
+        _drive->OnActionFinished(action.actionID);
+    }
+    const bool bCancelling = _session.GetOrderPhase() == VDA5050::EOrderPhase::Cancelling;
+    if (action.status == VDA5050::EActionStatus::Failed && !bCancelling && _report.GetState().bAutomatic)
+    {
+        AbandonDrive(
+            fmt::format(
+                "the action {} failed: {}",
+                *openOrNull,
+                action.resultDescription.empty() ? "no reason given" : action.resultDescription),
+            now,
+            out);
     }
 }
 
@@ -366,7 +408,7 @@ void Vda5050RobotAdapter::OnCancelled(const std::string& orderID, AdapterActions
         RejectOrder(orderID, "cancelled", out);
         return;
     }
-    const VehicleDrive drive = *std::exchange(_drive, std::nullopt);
+    const VehicleDrive drive = TakeDrive();
     if (const std::optional<std::string>& reason = drive.GetAbandonReasonOrNull(); reason.has_value())
     {
         out.emplace_back(RaiseEvent{Planning::DriveRejected{orderID, *reason}});
@@ -403,8 +445,13 @@ void Vda5050RobotAdapter::OnFinished(const std::string& orderID, AdapterActions&
 {
     if (IsDrive(orderID))
     {
-        _drive.reset();
-        out.emplace_back(RaiseEvent{Planning::Arrived{orderID}});
+        const VehicleDrive drive = TakeDrive();
+        const std::string* const openOrNull = drive.GetOpenActionOrNull();
+        out.emplace_back(
+            openOrNull == nullptr ? RaiseEvent{Planning::Arrived{orderID}}
+                                  : RaiseEvent{Planning::DriveRejected{
+                                      orderID,
+                                      "the vehicle did not report the end of the action " + *openOrNull}});
     }
     else if (IsJob(orderID))
     {

@@ -57,6 +57,7 @@ private:
     std::optional<VDA5050::OrderMessage> _pendingOrder; ///< Sent when the vehicle has finished the order before.
     std::string _incompatibility;                       ///< As reported.
     std::string _foreignOrderID; ///< The latest order of another master for which cancelOrder was sent.
+    std::string _nodeWithOpenActions; ///< Node of the last drive whose REQUIRED actions have not finished; empty: none.
 
 public:
     /// The outputs must outlive the adapter. loadTimeout: maximum time for the loads to agree with a job whose action is
@@ -105,6 +106,9 @@ private:
     [[nodiscard]] bool IsJob(std::string_view orderID) const;
     void RejectOrder(const std::string& orderID, const std::string& reason, Planning::AdapterActions& out);
 
+    /// The drive has ended. Its next drive repeats the actions of the vehicle's node that have not finished.
+    [[nodiscard]] VehicleDrive TakeDrive();
+
     /// The vehicle has accepted the drive, which cannot be continued. It is reported as rejected when the vehicle has stopped.
     void AbandonDrive(const std::string& reason, Core::Now now, Planning::AdapterActions& out);
 
@@ -121,6 +125,7 @@ private:
     void OnPosition(const VDA5050::PositionReceived& received, Planning::AdapterActions& out);
     void OnNodeReached(const VDA5050::NodeReached& reached, Planning::AdapterActions& out);
     void OnActionChanged(const VDA5050::ActionChanged& action, Planning::AdapterActions& out);
+    void OnDriveAction(const VDA5050::ActionChanged& action, Core::Now now, Planning::AdapterActions& out);
     void OnActionFailed(const std::string& reason, Planning::AdapterActions& out);
     void OnRejected(const VDA5050::OrderRejected& rejected, Core::Now now, Planning::AdapterActions& out);
     void OnDriveRejected(const std::string& reason, Planning::AdapterActions& out);

@@ -1,13 +1,58 @@
 #include "robots/VehicleDrive.hpp"
 
+#include <acs/vda5050/TrajectoryCurve.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
 #include <utility>
-#include <vector>
 
 namespace ACS::Acsd
 {
 
 namespace
 {
+
+/// Unique in the order and the same each time that the drive is sent. Not longer than the driveID, because vehicles limit the
+/// length of ids; what remains of the driveID makes it different from those of other drives.
+std::string MakeActionID(const std::string& driveID, std::size_t sequenceID, std::size_t index)
+{
+    const std::string suffix = fmt::format("-{}-{}", sequenceID, index);
+    constexpr std::size_t SHORTEST_PREFIX = 16;
+    const std::size_t room = driveID.size() - std::min(driveID.size(), suffix.size());
+    return driveID.substr(0, room < SHORTEST_PREFIX ? std::string::npos : room) + suffix;
+}
+
+VDA5050::EBlockingType ToBlockingType(Planning::EActionBlocking blocking)
+{
+    constexpr std::array TYPES{
+        VDA5050::EBlockingType::None,
+        VDA5050::EBlockingType::Soft,
+        VDA5050::EBlockingType::Hard};
+    return TYPES.at(static_cast<std::size_t>(blocking));
+}
+
+std::vector<VDA5050::Action> MakeActions(
+    const std::vector<Planning::SiteAction>& from,
+    const std::string& driveID,
+    std::size_t sequenceID)
+{
+    std::vector<VDA5050::Action> actions;
+    for (const Planning::SiteAction& required : from)
+    {
+        VDA5050::Action& action = actions.emplace_back();
+        action.actionType = required.actionType;
+        action.actionID = MakeActionID(driveID, sequenceID, actions.size() - 1);
+        action.actionDescription = required.description;
+        action.blockingType = ToBlockingType(required.blocking);
+        for (const Planning::SiteActionParameter& parameter : required.parameters)
+        {
+            action.actionParameters.push_back({parameter.key, parameter.value});
+        }
+    }
+    return actions;
+}
 
 VDA5050::OrderNode MakeNode(const Planning::RouteNode& from)
 {
@@ -17,7 +62,7 @@ VDA5050::OrderNode MakeNode(const Planning::RouteNode& from)
     return node;
 }
 
-VDA5050::OrderEdge MakeEdge(const Planning::RouteEdge& from)
+VDA5050::OrderEdge MakeEdge(const Planning::RouteEdge& from, bool bCorridor)
 {
     VDA5050::OrderEdge edge;
     edge.edgeID = from.edgeID;
@@ -32,6 +77,20 @@ VDA5050::OrderEdge MakeEdge(const Planning::RouteEdge& from)
     }
     edge.bRotationAllowed = from.bRotationAllowed;
     edge.length = from.length;
+    edge.minHeight = from.minHeight;
+    edge.maxHeight = from.maxHeight;
+    if (from.trajectory.has_value())
+    {
+        edge.trajectory = VDA5050::MakeTrajectory(*from.trajectory);
+    }
+    if (bCorridor && from.corridor.has_value())
+    {
+        using EPoint = VDA5050::ECorridorReferencePoint;
+        edge.corridor = VDA5050::Corridor{
+            from.corridor->leftWidth,
+            from.corridor->rightWidth,
+            from.corridor->bContour ? EPoint::Contour : EPoint::KinematicCenter};
+    }
     return edge;
 }
 
@@ -54,17 +113,32 @@ VehicleDrive::VehicleDrive(VDA5050::OrderBuilder route, std::size_t wantedReleas
 {
 }
 
-Core::Result<VehicleDrive> VehicleDrive::Create(const Planning::Drive& drive)
+Core::Result<VehicleDrive> VehicleDrive::Create(const Planning::Drive& drive, const Contents& contents)
 {
+    std::vector<OpenAction> open;
     std::vector<VDA5050::OrderNode> nodes;
     std::vector<VDA5050::OrderEdge> edges;
-    for (const Planning::RouteNode& node : drive.route.nodes)
+    for (std::size_t i = 0; i < drive.route.nodes.size(); ++i)
     {
-        nodes.push_back(MakeNode(node));
+        VDA5050::OrderNode& node = nodes.emplace_back(MakeNode(drive.route.nodes[i]));
+        if (i > 0 || contents.bStartActions)
+        {
+            node.actions = MakeActions(drive.route.nodes[i].actions, drive.driveID, 2 * i);
+        }
+        for (const VDA5050::Action& action : node.actions)
+        {
+            open.push_back(
+                {action.actionID, node.nodeID, fmt::format("{} of the node {}", action.actionType, node.nodeID)});
+        }
     }
-    for (const Planning::RouteEdge& edge : drive.route.edges)
+    for (std::size_t i = 0; i < drive.route.edges.size(); ++i)
     {
-        edges.push_back(MakeEdge(edge));
+        VDA5050::OrderEdge& edge = edges.emplace_back(MakeEdge(drive.route.edges[i], contents.bCorridors));
+        edge.actions = MakeActions(drive.route.edges[i].actions, drive.driveID, 2 * i + 1);
+        for (const VDA5050::Action& action : edge.actions)
+        {
+            open.push_back({action.actionID, {}, fmt::format("{} of the edge {}", action.actionType, edge.edgeID)});
+        }
     }
     Core::Result<VDA5050::OrderBuilder> route =
         VDA5050::OrderBuilder::Create(drive.driveID, std::move(nodes), std::move(edges));
@@ -72,7 +146,9 @@ Core::Result<VehicleDrive> VehicleDrive::Create(const Planning::Drive& drive)
     {
         return tl::unexpected(std::move(route.error()));
     }
-    return VehicleDrive(std::move(*route), drive.releasedCount);
+    VehicleDrive made(std::move(*route), drive.releasedCount);
+    made._openActions = std::move(open);
+    return made;
 }
 
 Core::Result<VDA5050::OrderMessage> VehicleDrive::MakeOrder(const OrderCheck& check)
@@ -152,6 +228,27 @@ void VehicleDrive::OnNodePassed(std::string nodeID)
 {
     _lastPassedNodeID = std::move(nodeID);
     ++_passedCount;
+}
+
+void VehicleDrive::OnActionFinished(std::string_view actionID)
+{
+    std::erase_if(_openActions, [actionID](const OpenAction& open) { return open.actionID == actionID; });
+}
+
+const std::string* VehicleDrive::FindOpenActionOrNull(std::string_view actionID) const
+{
+    const auto found = std::ranges::find(_openActions, actionID, &OpenAction::actionID);
+    return found == _openActions.end() ? nullptr : &found->text;
+}
+
+const std::string* VehicleDrive::GetOpenActionOrNull() const noexcept
+{
+    return _openActions.empty() ? nullptr : &_openActions.front().text;
+}
+
+bool VehicleDrive::HasOpenActionsAt(std::string_view nodeID) const
+{
+    return std::ranges::count(_openActions, nodeID, &OpenAction::nodeID) > 0;
 }
 
 void VehicleDrive::Abandon(std::string reason)

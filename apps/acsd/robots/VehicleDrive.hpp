@@ -9,7 +9,9 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
+#include <vector>
 
 namespace ACS::Acsd
 {
@@ -24,6 +26,11 @@ class VehicleDrive final
 public:
     /// An error whose path begins with "max" means that the message is too large.
     using OrderCheck = std::function<Core::Result<void>(const VDA5050::OrderMessage&)>;
+    struct Contents
+    {
+        bool bStartActions = false; ///< The actions of the first node; otherwise the vehicle has performed them.
+        bool bCorridors = true;
+    };
 
 private:
     /// The order itself is not confirmed.
@@ -41,6 +48,14 @@ private:
     {
     };
 
+    /// A REQUIRED action of the map that the vehicle has not finished.
+    struct OpenAction
+    {
+        std::string actionID;
+        std::string nodeID; ///< Empty for an action of an edge.
+        std::string text;   ///< What it is, for people.
+    };
+
     VDA5050::OrderBuilder _route;
     std::size_t _wantedReleased; ///< Number of nodes that the engine has released.
     std::variant<OrderPending, UpdatePending, Confirmed> _message;
@@ -48,12 +63,13 @@ private:
     std::string _lastPassedNodeID;
     bool _bShortUpdate = false; ///< The vehicle has rejected an update, and has confirmed none since.
     std::optional<std::string> _abandonReason;
+    std::vector<OpenAction> _openActions;
 
     VehicleDrive(VDA5050::OrderBuilder route, std::size_t wantedReleased);
 
 public:
     /// Fails with InvalidOrder.
-    [[nodiscard]] static Core::Result<VehicleDrive> Create(const Planning::Drive& drive);
+    [[nodiscard]] static Core::Result<VehicleDrive> Create(const Planning::Drive& drive, const Contents& contents);
 
     /// The first message, with as many of the released nodes as the check accepts, at least two. Fails with the error of the check,
     /// or with InvalidOrder.
@@ -73,6 +89,12 @@ public:
     /// The vehicle has rejected the update: the next one is as short as possible. False: this was the short one.
     [[nodiscard]] bool TryShortenUpdate();
     void OnNodePassed(std::string nodeID);
+    void OnActionFinished(std::string_view actionID);
+    /// What the unfinished action is, for people; null if the drive has no such action.
+    [[nodiscard]] const std::string* FindOpenActionOrNull(std::string_view actionID) const;
+    /// Likewise of the first unfinished action.
+    [[nodiscard]] const std::string* GetOpenActionOrNull() const noexcept;
+    [[nodiscard]] bool HasOpenActionsAt(std::string_view nodeID) const;
 
     /// The drive is being cancelled for this reason. It is reported as rejected when the vehicle has stopped.
     void Abandon(std::string reason);

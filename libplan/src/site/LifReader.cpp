@@ -24,6 +24,7 @@ constexpr double FULL_TURN_DEGREES = 360.0;
 /// Files may round half a turn up (3.1416).
 constexpr double MAXIMUM_THETA = 3.1416;
 constexpr std::size_t MAXIMUM_NAME = 256;
+constexpr std::size_t MAXIMUM_DEGREE = 3; // also the default
 constexpr std::size_t MAXIMUM_ELEMENTS = 100'000;
 constexpr std::size_t MAXIMUM_BYTES = 64U * 1024U * 1024U;
 
@@ -39,6 +40,13 @@ struct LifPosition
 {
     double x = 0;
     double y = 0;
+};
+
+struct LifTrajectory
+{
+    std::optional<std::size_t> degree;
+    std::vector<double> knots;
+    std::vector<Core::CurvePoint> points;
 };
 
 struct LifNode
@@ -117,11 +125,91 @@ struct JsonFields<Planning::LifPosition>
 };
 
 template <>
+struct EnumNames<Planning::EActionRequirement>
+{
+    using Type = Planning::EActionRequirement;
+    static constexpr std::array WORDS{
+        EnumWord<Type>{Type::Optional, "OPTIONAL"},
+        EnumWord<Type>{Type::Conditional, "CONDITIONAL"},
+        EnumWord<Type>{Type::Required, "REQUIRED"}};
+};
+
+template <>
+struct EnumNames<Planning::EActionBlocking>
+{
+    using Type = Planning::EActionBlocking;
+    static constexpr std::array WORDS{
+        EnumWord<Type>{Type::None, "NONE"},
+        EnumWord<Type>{Type::Soft, "SOFT"},
+        EnumWord<Type>{Type::Hard, "HARD"}};
+};
+
+template <>
+struct JsonFields<Planning::SiteActionParameter>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("key", &Planning::SiteActionParameter::key).WithLength(1, Planning::MAXIMUM_NAME),
+        Required("value", &Planning::SiteActionParameter::value));
+};
+
+template <>
+struct JsonFields<Planning::SiteAction>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("actionType", &Planning::SiteAction::actionType).WithLength(1, Planning::MAXIMUM_NAME),
+        Optional("actionDescription", &Planning::SiteAction::description),
+        Defaulted("requirementType", &Planning::SiteAction::requirement),
+        Required("blockingType", &Planning::SiteAction::blocking),
+        Optional("actionParameters", &Planning::SiteAction::parameters));
+};
+
+template <>
+struct JsonFields<Core::CurvePoint>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("x", &Core::CurvePoint::x),
+        Required("y", &Core::CurvePoint::y),
+        Optional("weight", &Core::CurvePoint::weight));
+};
+
+template <>
+struct JsonFields<Planning::LifTrajectory>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Optional("degree", &Planning::LifTrajectory::degree).Between(1, Planning::MAXIMUM_DEGREE),
+        Required("knotVector", &Planning::LifTrajectory::knots),
+        Required("controlPoints", &Planning::LifTrajectory::points));
+};
+
+template <>
+struct ValueDecoder<Core::Nurbs>
+{
+    [[nodiscard]] static bool TryDecode(
+        const Value& value,
+        Core::Nurbs& out,
+        const FieldBounds& bounds,
+        DecodeContext& context)
+    {
+        Planning::LifTrajectory trajectory;
+        if (!ValueDecoder<Planning::LifTrajectory>::TryDecode(value, trajectory, bounds, context))
+        {
+            return false;
+        }
+        out = {
+            trajectory.degree.value_or(Planning::MAXIMUM_DEGREE),
+            std::move(trajectory.knots),
+            std::move(trajectory.points)};
+        return true;
+    }
+};
+
+template <>
 struct JsonFields<Planning::SiteNodeRule>
 {
     static constexpr auto FIELDS = std::make_tuple(
         Required("vehicleTypeId", &Planning::SiteNodeRule::vehicleTypeID).WithLength(1, Planning::MAXIMUM_NAME),
-        Optional("theta", &Planning::SiteNodeRule::theta).Between(-Planning::MAXIMUM_THETA, Planning::MAXIMUM_THETA));
+        Optional("theta", &Planning::SiteNodeRule::theta).Between(-Planning::MAXIMUM_THETA, Planning::MAXIMUM_THETA),
+        Optional("actions", &Planning::SiteNodeRule::actions));
 };
 
 template <>
@@ -152,7 +240,11 @@ struct JsonFields<Planning::SiteEdgeRule>
         Optional("rotationAllowed", &Planning::SiteEdgeRule::bRotationAllowed),
         Optional("maxSpeed", &Planning::SiteEdgeRule::maxSpeed),
         Optional("maxRotationSpeed", &Planning::SiteEdgeRule::maxRotationSpeed),
-        Optional("loadRestriction", &Planning::SiteEdgeRule::loadRestriction));
+        Optional("loadRestriction", &Planning::SiteEdgeRule::loadRestriction),
+        Optional("minHeight", &Planning::SiteEdgeRule::minHeight),
+        Optional("maxHeight", &Planning::SiteEdgeRule::maxHeight),
+        Optional("trajectory", &Planning::SiteEdgeRule::trajectory),
+        Optional("actions", &Planning::SiteEdgeRule::actions));
 };
 
 template <>

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <unordered_set>
 #include <utility>
 
@@ -24,6 +25,32 @@ const TRule* FindAmongOrNull(const std::vector<TRule>& rules, std::string_view v
 tl::unexpected<Core::Error> Refuse(std::string path, std::string expected, std::string found)
 {
     return Core::Fail(EPlanningError::InvalidSite, std::move(path), std::move(expected), std::move(found));
+}
+
+/// Nodes within this distance are at the same position.
+constexpr double SAME_PLACE = 0.01;
+
+/// By node, in metres.
+std::vector<double> MeasureDeviations(const std::vector<SiteNode>& nodes)
+{
+    std::vector<std::size_t> byX(nodes.size());
+    std::iota(byX.begin(), byX.end(), std::size_t{0});
+    std::ranges::sort(byX, {}, [&nodes](std::size_t index) { return nodes[index].x; });
+    std::vector<double> deviations(nodes.size(), LARGEST_DEVIATION);
+    for (auto left = byX.begin(); left != byX.end(); ++left)
+    {
+        const SiteNode& node = nodes[*left];
+        for (auto right = left + 1; right != byX.end() && nodes[*right].x - node.x < 2 * LARGEST_DEVIATION; ++right)
+        {
+            const double distance = GetDistance(node, nodes[*right]);
+            if (distance > SAME_PLACE && nodes[*right].mapID == node.mapID)
+            {
+                deviations[*left] = std::min(deviations[*left], distance / 2);
+                deviations[*right] = std::min(deviations[*right], distance / 2);
+            }
+        }
+    }
+    return deviations;
 }
 
 } // namespace
@@ -56,6 +83,7 @@ Core::Result<SiteMap> SiteMap::Create(
     Core::Result<void> checked = site.IndexNodes();
     if (checked.has_value())
     {
+        site._deviations = MeasureDeviations(site._nodes);
         checked = site.CheckEdges();
     }
     if (checked.has_value())
@@ -103,15 +131,53 @@ Core::Result<void> SiteMap::CheckEdges() const
         {
             return Refuse(fmt::format("edges[{}].endNodeId", i), "the id of another node", edge.endNodeID);
         }
-        const auto slow = std::ranges::find_if(edge.rules, [](const SiteEdgeRule& rule) {
-            return rule.maxSpeed.has_value() && !(*rule.maxSpeed > 0);
-        });
-        if (slow != edge.rules.end())
+        for (std::size_t rule = 0; rule < edge.rules.size(); ++rule)
+        {
+            Core::Result<void> checked = CheckRule(edge, edge.rules[rule]);
+            if (!checked.has_value())
+            {
+                checked.error().path =
+                    fmt::format("edges[{}].vehicleTypeEdgeProperties[{}].{}", i, rule, checked.error().path);
+                return checked;
+            }
+        }
+    }
+    return {};
+}
+
+Core::Result<void> SiteMap::CheckRule(const SiteEdge& edge, const SiteEdgeRule& rule) const
+{
+    if (rule.maxSpeed.has_value() && !(*rule.maxSpeed > 0))
+    {
+        return Refuse("maxSpeed", "a speed greater than 0", fmt::format("{}", *rule.maxSpeed));
+    }
+    if (!rule.trajectory.has_value())
+    {
+        return {};
+    }
+    if (const std::string_view fault = Core::FindCurveFault(*rule.trajectory); !fault.empty())
+    {
+        return Refuse(
+            "trajectory",
+            std::string(fault),
+            fmt::format(
+                "degree {}, {} knots, {} control points",
+                rule.trajectory->degree,
+                rule.trajectory->knots.size(),
+                rule.trajectory->points.size()));
+    }
+    const std::vector<Core::CurvePoint>& points = rule.trajectory->points;
+    for (const auto& [nodeID, point] :
+         {std::pair(&edge.startNodeID, &points.front()), {&edge.endNodeID, &points.back()}})
+    {
+        const std::size_t index = _nodeIndices.find(*nodeID)->second;
+        const double distance = std::hypot(point->x - _nodes[index].x, point->y - _nodes[index].y);
+        if (distance > _deviations[index])
         {
             return Refuse(
-                fmt::format("edges[{}].vehicleTypeEdgeProperties[{}].maxSpeed", i, slow - edge.rules.begin()),
-                "a speed greater than 0",
-                fmt::format("{}", *slow->maxSpeed));
+                "trajectory.controlPoints",
+                fmt::format("an end within {:.3f} m of the node {}", _deviations[index], *nodeID),
+                fmt::format("{:.3f} m", distance));
         }
     }
     return {};
@@ -173,6 +239,28 @@ std::optional<std::size_t> SiteMap::FindNodeIndexOrNull(std::string_view nodeID)
 {
     const auto found = _nodeIndices.find(nodeID);
     return found == _nodeIndices.end() ? std::nullopt : std::optional(found->second);
+}
+
+double SiteMap::GetAllowedDeviation(std::size_t nodeIndex) const
+{
+    return _deviations[nodeIndex];
+}
+
+double SiteMap::GetLength(const SiteEdge& edge, const SiteEdgeRule& rule) const
+{
+    if (!rule.trajectory.has_value())
+    {
+        return GetDistance(*FindNodeOrNull(edge.startNodeID), *FindNodeOrNull(edge.endNodeID));
+    }
+    constexpr double SPACING = 0.05;
+    constexpr std::size_t MAXIMUM_POINTS = 1'000;
+    const std::vector<Core::MapPoint> points = Core::NurbsCurve(*rule.trajectory).Sample(SPACING, MAXIMUM_POINTS);
+    double length = 0;
+    for (std::size_t i = 1; i < points.size(); ++i)
+    {
+        length += std::hypot(points[i].x - points[i - 1].x, points[i].y - points[i - 1].y);
+    }
+    return length;
 }
 
 const SiteStation* SiteMap::FindStationOrNull(std::string_view stationID) const

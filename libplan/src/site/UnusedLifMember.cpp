@@ -24,7 +24,7 @@ enum class ERole : std::uint8_t
     Used,
     Informative,
     Demand,
-    Demands, ///< A list; each of its elements may demand something.
+    Actions, ///< A list; the elements that are not REQUIRED are unused.
 };
 
 bool IsDemand(const Value& /*value*/)
@@ -37,10 +37,15 @@ bool IsFalse(const Value& value)
     return value.IsFalse();
 }
 
-bool IsRequired(const Value& action)
+bool HasRequirement(const Value& action, std::string_view requirement)
 {
     const Value* const typeOrNull = Json::FindFirstOrNull(action, "requirementType");
-    return typeOrNull != nullptr && typeOrNull->IsString() && typeOrNull->GetString() == std::string_view("REQUIRED");
+    return typeOrNull != nullptr && typeOrNull->IsString() && typeOrNull->GetString() == requirement;
+}
+
+bool IsConditional(const Value& action)
+{
+    return HasRequirement(action, "CONDITIONAL");
 }
 
 bool IsTurnRestricted(const Value& value)
@@ -58,7 +63,7 @@ struct KnownMember
     std::string_view owner; ///< Path of the objects that have it.
     std::string_view name;
     ERole role = ERole::Used;
-    std::string_view effect = {};                 ///< Of Demand and Demands.
+    std::string_view effect = {};                 ///< Of Demand and Actions.
     bool (*isDemanded)(const Value&) = &IsDemand; ///< Likewise.
 };
 
@@ -71,9 +76,8 @@ constexpr std::string_view EDGE = "layouts[].edges[]";
 constexpr std::string_view EDGE_RULE = "layouts[].edges[].vehicleTypeEdgeProperties[]";
 constexpr std::string_view LOAD_RULE = "layouts[].edges[].vehicleTypeEdgeProperties[].loadRestriction";
 constexpr std::string_view STATION = "layouts[].stations[]";
-constexpr std::string_view NO_ACTIONS = "REQUIRED actions are not sent to vehicles";
+constexpr std::string_view NO_ACTIONS = "CONDITIONAL actions are not sent to vehicles";
 constexpr std::string_view NO_TURN_LIMIT = "the turn on the node is not restricted";
-constexpr std::string_view NO_HEIGHT = "orders have no height limit";
 
 /// The members of LIF 1.0, and the corridor of VDA5050, which a file may have too. LifReader.cpp decodes the used ones.
 constexpr std::array KNOWN{
@@ -99,7 +103,7 @@ constexpr std::array KNOWN{
     KnownMember{NODE, "vehicleTypeNodeProperties", ERole::Objects},
     KnownMember{NODE_RULE, "vehicleTypeId"},
     KnownMember{NODE_RULE, "theta"},
-    KnownMember{NODE_RULE, "actions", ERole::Demands, NO_ACTIONS, &IsRequired},
+    KnownMember{NODE_RULE, "actions", ERole::Actions, NO_ACTIONS, &IsConditional},
     KnownMember{LAYOUT, "edges", ERole::Objects},
     KnownMember{EDGE, "edgeId"},
     KnownMember{EDGE, "edgeName", ERole::Informative},
@@ -115,15 +119,15 @@ constexpr std::array KNOWN{
     KnownMember{EDGE_RULE, "rotationAtEndNodeAllowed", ERole::Demand, NO_TURN_LIMIT, &IsTurnRestricted},
     KnownMember{EDGE_RULE, "maxSpeed"},
     KnownMember{EDGE_RULE, "maxRotationSpeed"},
-    KnownMember{EDGE_RULE, "minHeight", ERole::Demand, NO_HEIGHT},
-    KnownMember{EDGE_RULE, "maxHeight", ERole::Demand, NO_HEIGHT},
+    KnownMember{EDGE_RULE, "minHeight"},
+    KnownMember{EDGE_RULE, "maxHeight"},
     KnownMember{EDGE_RULE, "loadRestriction", ERole::Objects},
     KnownMember{LOAD_RULE, "unloaded"},
     KnownMember{LOAD_RULE, "loaded"},
     KnownMember{LOAD_RULE, "loadSetNames", ERole::Demand, "vehicles use the edge with any load", &IsFilled},
-    KnownMember{EDGE_RULE, "trajectory", ERole::Demand, "orders have no trajectory"},
-    KnownMember{EDGE_RULE, "corridor", ERole::Demand, "orders have no corridor"},
-    KnownMember{EDGE_RULE, "actions", ERole::Demands, NO_ACTIONS, &IsRequired},
+    KnownMember{EDGE_RULE, "trajectory"},
+    KnownMember{EDGE_RULE, "corridor", ERole::Demand, "it is given in the configuration, site.corridors"},
+    KnownMember{EDGE_RULE, "actions", ERole::Actions, NO_ACTIONS, &IsConditional},
     KnownMember{
         EDGE_RULE,
         "reentryAllowed",
@@ -207,7 +211,7 @@ private:
         const std::string& path,
         const std::string& place)
     {
-        const bool bByElement = known.role == ERole::Objects || known.role == ERole::Demands;
+        const bool bByElement = known.role == ERole::Objects || known.role == ERole::Actions;
         if (!bByElement || !value.IsArray())
         {
             VisitElementRecursive(value, known, path, place);
@@ -228,6 +232,10 @@ private:
         if (known.role == ERole::Objects)
         {
             VisitRecursive(value, path, place);
+            return;
+        }
+        if (known.role == ERole::Actions && HasRequirement(value, "REQUIRED"))
+        {
             return;
         }
         const bool bDemand = known.role != ERole::Informative && known.isDemanded(value);

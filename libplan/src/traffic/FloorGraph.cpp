@@ -69,7 +69,8 @@ FloorGraph::FloorGraph(const SiteMap& site, std::string_view vehicleTypeID, ELoa
         lane.from = from;
         lane.to = to;
         lane.edge = i;
-        lane.seconds = GetDriveSeconds(GetDistance(fromNode, toNode), ruleOrNull->maxSpeed);
+        lane.length = site.GetLength(edges[i], *ruleOrNull);
+        lane.seconds = GetDriveSeconds(lane.length, ruleOrNull->maxSpeed);
         lane.heading = GetHeading(fromNode, toNode, *ruleOrNull);
         lane.turnSpeed = ruleOrNull->maxRotationSpeed.value_or(0);
         _lanes.push_back(lane);

@@ -17,8 +17,9 @@ struct Lane
     std::size_t from = 0; ///< Node by index in the map.
     std::size_t to = 0;   ///< Node by index in the map.
     std::size_t edge = 0; ///< Edge by index in the map.
+    double length = 0;    ///< Metres.
     double seconds = 0;   ///< Of driving along it.
-    double heading = 0;   ///< Radians: orientation of the vehicle on the edge.
+    double heading = 0; ///< Radians: orientation of the vehicle on the straight line, also where there is a trajectory.
     double turnSpeed = 0; ///< Radians per second; 0: not given by the map.
 };
 

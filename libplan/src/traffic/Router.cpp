@@ -46,31 +46,14 @@ struct Graph
     std::map<std::size_t, Field> fields; ///< By target.
 };
 
-/// Nodes within this distance are at the same position.
-constexpr double SAME_PLACE = 0.01;
-
-/// By node, in metres.
-std::vector<double> MeasureDeviations(const std::vector<SiteNode>& nodes)
+/// The actions that are always performed.
+std::vector<SiteAction> ListRequired(const std::vector<SiteAction>& actions)
 {
-    std::vector<std::size_t> byX(nodes.size());
-    std::iota(byX.begin(), byX.end(), std::size_t{0});
-    std::ranges::sort(byX, {}, [&nodes](std::size_t index) { return nodes[index].x; });
-    std::vector<double> deviations(nodes.size(), RouteNode{}.allowedDeviation);
-    for (auto left = byX.begin(); left != byX.end(); ++left)
-    {
-        const SiteNode& node = nodes[*left];
-        for (auto right = left + 1; right != byX.end() && nodes[*right].x - node.x < 2 * RouteNode{}.allowedDeviation;
-             ++right)
-        {
-            const double distance = GetDistance(node, nodes[*right]);
-            if (distance > SAME_PLACE && nodes[*right].mapID == node.mapID)
-            {
-                deviations[*left] = std::min(deviations[*left], distance / 2);
-                deviations[*right] = std::min(deviations[*right], distance / 2);
-            }
-        }
-    }
-    return deviations;
+    std::vector<SiteAction> required;
+    std::ranges::copy_if(actions, std::back_inserter(required), [](const SiteAction& action) {
+        return action.requirement == EActionRequirement::Required;
+    });
+    return required;
 }
 
 } // namespace
@@ -81,15 +64,13 @@ class Router::Impl
     using Graphs = std::array<std::shared_ptr<Graph>, 3>;
 
     const SiteMap& _site;
-    std::vector<double> _deviations;                    ///< Of each node.
     std::map<std::string, Graphs, std::less<>> _graphs; ///< By vehicle type. Searches keep what they found.
     mutable std::uint64_t _visitedNodes = 0;
     mutable std::uint64_t _uses = 0;
 
 public:
     explicit Impl(const SiteMap& site)
-        : _site(site),
-          _deviations(MeasureDeviations(site.GetNodes()))
+        : _site(site)
     {
         for (const SiteEdge& edge : site.GetEdges())
         {
@@ -125,23 +106,29 @@ public:
             node.y,
             ruleOrNull == nullptr ? std::nullopt : ruleOrNull->theta,
             node.mapID,
-            _deviations[nodeIndex]};
+            _site.GetAllowedDeviation(nodeIndex),
+            ruleOrNull == nullptr ? std::vector<SiteAction>() : ListRequired(ruleOrNull->actions)};
     }
 
-    [[nodiscard]] RouteEdge MakeEdge(std::size_t edgeIndex, std::string_view vehicleTypeID) const
+    [[nodiscard]] RouteEdge MakeEdge(const Lane& lane, std::string_view vehicleTypeID) const
     {
-        const SiteEdge& edge = _site.GetEdges()[edgeIndex];
+        const SiteEdge& edge = _site.GetEdges()[lane.edge];
         const SiteEdgeRule& rule = *edge.FindRuleOrNull(vehicleTypeID);
         return {
             edge.edgeID,
             edge.startNodeID,
             edge.endNodeID,
-            GetDistance(*_site.FindNodeOrNull(edge.startNodeID), *_site.FindNodeOrNull(edge.endNodeID)),
+            lane.length,
             rule.maxSpeed,
             rule.maxRotationSpeed,
             rule.orientation,
             rule.orientationType,
-            rule.bRotationAllowed};
+            rule.bRotationAllowed,
+            rule.minHeight,
+            rule.maxHeight,
+            rule.trajectory,
+            edge.corridor,
+            ListRequired(rule.actions)};
     }
 
     [[nodiscard]] std::optional<Route> FindOrNull(
@@ -404,7 +391,7 @@ private:
         for (const std::size_t index : lanes)
         {
             const Lane& lane = floor.GetLanes()[index];
-            route.edges.push_back(MakeEdge(lane.edge, vehicleTypeID));
+            route.edges.push_back(MakeEdge(lane, vehicleTypeID));
             route.nodes.push_back(MakeNode(lane.to, vehicleTypeID));
         }
         return route;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/core/Now.hpp>
+#include <acs/plan/SiteMap.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -22,7 +23,9 @@ struct RouteNode
     std::string mapID;           ///< May be empty.
     /// Metres. The node is reached when the vehicle is within this distance. At most half the distance to the nearest other
     /// node.
-    double allowedDeviation = 0.5;
+    double allowedDeviation = LARGEST_DEVIATION;
+    /// Performed each time that the robot reaches the node; not again when a drive starts there.
+    std::vector<SiteAction> actions = {};
 
     bool operator==(const RouteNode&) const = default;
 };
@@ -33,12 +36,17 @@ struct RouteEdge
     std::string edgeID;
     std::string startNodeID;
     std::string endNodeID;
-    double length = 0;                      ///< Metres, straight line between the nodes.
+    double length = 0;                      ///< Metres, along the trajectory or the straight line.
     std::optional<double> maxSpeed;         ///< Metres per second.
     std::optional<double> maxRotationSpeed; ///< Radians per second.
     std::optional<double> orientation;      ///< Radians; orientation of the vehicle on the edge.
     std::string orientationType;            ///< "TANGENTIAL" or "GLOBAL"; empty: not given.
     std::optional<bool> bRotationAllowed;
+    std::optional<double> minHeight = {}; ///< As in SiteEdgeRule, like the following.
+    std::optional<double> maxHeight = {};
+    std::optional<Core::Nurbs> trajectory = {};
+    std::optional<SiteCorridor> corridor = {};
+    std::vector<SiteAction> actions = {}; ///< Performed each time that the robot drives along the edge.
 
     bool operator==(const RouteEdge&) const = default;
 };
@@ -55,7 +63,9 @@ struct Route
 
 /// Drive along the route, which starts at the robot's node. The robot may drive up to the last released node (the base). The
 /// remaining nodes (the horizon) are released later by ExtendDrive. Answered by NodePassed for the first node when the robot
-/// has accepted the drive, by NodePassed for each further node, and by Arrived; or by DriveRejected at any time.
+/// has accepted the drive, by NodePassed for each further node, and by Arrived when it is at the last node and all actions have
+/// ended; or by DriveRejected at any time, also because an action has failed. A later drive that starts at the node of such an
+/// action performs that node's actions again.
 struct Drive
 {
     std::string driveID;           ///< A UUID; never used twice.

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <acs/core/NurbsCurve.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/plan/ELoad.hpp>
+#include <acs/plan/SiteAction.hpp>
 
 #include <cstddef>
 #include <functional>
@@ -19,6 +21,7 @@ struct SiteNodeRule
 {
     std::string vehicleTypeID;
     std::optional<double> theta; ///< Radians; absent: any.
+    std::vector<SiteAction> actions = {};
 
     bool operator==(const SiteNodeRule&) const = default;
 };
@@ -46,6 +49,17 @@ struct SiteLoadRestriction
     bool operator==(const SiteLoadRestriction&) const = default;
 };
 
+/// How far a vehicle may leave an edge, left and right of the driving direction, to avoid obstacles.
+struct SiteCorridor
+{
+    double leftWidth = 0;  ///< Metres.
+    double rightWidth = 0; ///< Metres.
+    /// Whether the contour of the vehicle with its load must stay inside; otherwise its kinematic center.
+    bool bContour = false;
+
+    bool operator==(const SiteCorridor&) const = default;
+};
+
 /// How a vehicle type uses an edge. A type without a rule may not use the edge.
 struct SiteEdgeRule
 {
@@ -56,6 +70,10 @@ struct SiteEdgeRule
     std::string orientationType;            ///< "TANGENTIAL", "GLOBAL" or empty.
     std::optional<bool> bRotationAllowed;
     std::optional<SiteLoadRestriction> loadRestriction; ///< Absent: with and without a load.
+    std::optional<double> minHeight = {};               ///< Metres; of the load handling device at least.
+    std::optional<double> maxHeight = {};               ///< Metres; of the vehicle with its load at most.
+    std::optional<Core::Nurbs> trajectory = {}; ///< Without a fault, from node to node; absent: a straight line.
+    std::vector<SiteAction> actions = {};
 
     /// Whether a vehicle of the type with this load may use the edge.
     [[nodiscard]] bool IsPermitted(ELoad load) const noexcept;
@@ -70,6 +88,7 @@ struct SiteEdge
     std::string startNodeID;
     std::string endNodeID;
     std::vector<SiteEdgeRule> rules;
+    std::optional<SiteCorridor> corridor = std::nullopt; ///< Absent: the vehicle stays on the edge.
 
     /// Null if the type may not use the edge.
     [[nodiscard]] const SiteEdgeRule* FindRuleOrNull(std::string_view vehicleTypeID) const noexcept;
@@ -87,6 +106,9 @@ struct SiteStation
 
     bool operator==(const SiteStation&) const = default;
 };
+
+/// Metres. The largest distance from a node at which it counts as reached.
+inline constexpr double LARGEST_DEVIATION = 0.5;
 
 /// Nodes, directed edges and stations of a site. Always valid: ids are unique among nodes, among edges and among stations,
 /// every referenced node exists, and there is at least one node. Immutable; a copy is independent.
@@ -110,6 +132,7 @@ class SiteMap
     Index _nodeIndices;
     Index _stationIndices;
     Index _stationIndicesByNode;
+    std::vector<double> _deviations; ///< Of each node.
 
     SiteMap() = default;
 
@@ -130,6 +153,13 @@ public:
     /// Index in GetNodes; nullopt if there is no node of this id.
     [[nodiscard]] std::optional<std::size_t> FindNodeIndexOrNull(std::string_view nodeID) const;
 
+    /// Metres. The node is reached when the vehicle is within this distance: LARGEST_DEVIATION, and at most half the distance
+    /// to the nearest other node.
+    [[nodiscard]] double GetAllowedDeviation(std::size_t nodeIndex) const;
+
+    /// Metres along the trajectory of the vehicle type, or along the straight line; the type may use the edge.
+    [[nodiscard]] double GetLength(const SiteEdge& edge, const SiteEdgeRule& rule) const;
+
     /// Null if there is no station of this id.
     [[nodiscard]] const SiteStation* FindStationOrNull(std::string_view stationID) const;
 
@@ -142,6 +172,7 @@ public:
 private:
     [[nodiscard]] Core::Result<void> IndexNodes();
     [[nodiscard]] Core::Result<void> CheckEdges() const;
+    [[nodiscard]] Core::Result<void> CheckRule(const SiteEdge& edge, const SiteEdgeRule& rule) const;
     [[nodiscard]] Core::Result<void> IndexStations();
 };
 

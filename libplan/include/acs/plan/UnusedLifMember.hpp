@@ -20,9 +20,10 @@ struct UnusedLifMember
     };
 
     EKind kind = EKind::Informative;
-    std::string path;   ///< Without indices: "layouts[].nodes[].nodeName".
-    std::string effect; ///< What happens without it: "orders have no trajectory"; empty unless Unsupported.
-    std::string first;  ///< "layouts[0].nodes[3].nodeName"
+    std::string path; ///< Without indices: "layouts[].nodes[].nodeName".
+    std::string
+        effect; ///< What happens without it: "CONDITIONAL actions are not sent to vehicles"; empty unless Unsupported.
+    std::string first; ///< "layouts[0].nodes[3].nodeName"
     std::size_t count = 0;
 };
 

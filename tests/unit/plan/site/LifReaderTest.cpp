@@ -30,6 +30,17 @@ const std::string& GetLIF()
     return TEXT;
 }
 
+const std::string RULE_OF_NODE = "layouts[0].nodes[0].vehicleTypeNodeProperties[0]";
+const std::string RULE_OF_EDGE = "layouts[0].edges[0].vehicleTypeEdgeProperties[0]";
+const std::string NODE_ACTION = R"("actions": [{"requirementType": "REQUIRED", )";
+
+/// A trajectory from N1 to x and 4.
+std::string MakeCurve(const std::string& degree, const std::string& knots, const std::string& x)
+{
+    return R"("trajectory": {"degree": )" + degree + R"(, "knotVector": [)" + knots
+        + R"(], "controlPoints": [{"x": 0, "y": 0}, {"x": )" + x + R"(, "y": 4}]})";
+}
+
 std::string Replace(std::string text, const std::string& from, const std::string& to)
 {
     const std::size_t place = text.find(from);
@@ -82,6 +93,45 @@ TEST_CASE("LIF: an edge is for vehicles with and without a load, unless it has a
     }
 }
 
+TEST_CASE("LIF: an edge with a trajectory has the length of the curve, whose degree is 3 unless it is given")
+{
+    const auto measure = [](const std::string& members) {
+        const Core::Result<SiteMap> site = DecodeLIF(Replace(GetLIF(), R"("maxSpeed": 1.2)", members));
+        REQUIRE(site.has_value());
+        const SiteEdge& edge = site->GetEdges().front();
+        return site->GetLength(edge, edge.rules.front());
+    };
+    CHECK(measure(R"("maxSpeed": 1.2)") == 5.0);
+    const std::string corner = R"("controlPoints": [{"x": 0, "y": 0}, {"x": 3, "y": 0}, {"x": 3, "y": 4}]})";
+    CHECK(measure(R"("trajectory": {"degree": 1, "knotVector": [0, 0, 0.5, 1, 1], )" + corner) == Approx(7.0));
+    const std::string line =
+        R"("trajectory": {"knotVector": [0, 0, 0, 0, 1, 1, 1, 1], "controlPoints": [{"x": 0, "y": 0},
+        {"x": 1, "y": 1}, {"x": 2, "y": 2}, {"x": 3, "y": 4}]})";
+    CHECK(measure(line) > 5.0);
+    CHECK(measure(line) < 5.1);
+}
+
+TEST_CASE("LIF: actions keep their requirement, blocking type and parameters")
+{
+    const Core::Result<SiteMap> site = DecodeLIF(Replace(
+        GetLIF(),
+        R"("theta": 1.5)",
+        R"("actions": [{"actionType": "a", "blockingType": "SOFT", "requirementType": "REQUIRED",
+            "actionParameters": [{"key": "k", "value": 1.5}]}, {"actionType": "b", "blockingType": "NONE"}])"));
+    REQUIRE(site.has_value());
+    const std::vector<SiteAction>& actions = site->GetNodes().front().rules.front().actions;
+    REQUIRE(actions.size() == 2);
+    CHECK(
+        actions[0]
+        == SiteAction{
+            "a",
+            "",
+            EActionRequirement::Required,
+            EActionBlocking::Soft,
+            {{"k", Core::JsonText::FromNumber(1.5)}}});
+    CHECK(actions[1] == SiteAction{"b", "", EActionRequirement::Optional, EActionBlocking::None, {}});
+}
+
 TEST_CASE("LIF: an invalid file is refused with the place of the error")
 {
     struct Case
@@ -102,6 +152,23 @@ TEST_CASE("LIF: an invalid file is refused with the place of the error")
         {R"("maxSpeed": 1.2)",
          R"("loadRestriction": {"unloaded": true})",
          "layouts[0].edges[0].vehicleTypeEdgeProperties[0].loadRestriction.loaded"},
+        {R"("theta": 1.5)", NODE_ACTION + R"("blockingType": "HARD"}])", RULE_OF_NODE + ".actions[0].actionType"},
+        {R"("theta": 1.5)",
+         NODE_ACTION + R"("actionType": "a", "blockingType": "FIRM"}])",
+         RULE_OF_NODE + ".actions[0].blockingType"},
+        {R"("theta": 1.5)",
+         NODE_ACTION
+             + R"("actionType": "a", "blockingType": "NONE", "actionParameters": [{"key": "k", "value": null}]}])",
+         RULE_OF_NODE + ".actions[0].actionParameters[0].value"},
+        {R"("theta": 1.5)",
+         R"("actions": [{"actionType": "a", "blockingType": "NONE", "requirementType": "MUST"}])",
+         RULE_OF_NODE + ".actions[0].requirementType"},
+        {R"("maxSpeed": 1.2)", R"("actions": [7])", RULE_OF_EDGE + ".actions[0]"},
+        {R"("maxSpeed": 1.2)", R"("maxHeight": "2")", RULE_OF_EDGE + ".maxHeight"},
+        {R"("maxSpeed": 1.2)", R"("trajectory": {"controlPoints": []})", RULE_OF_EDGE + ".trajectory.knotVector"},
+        {R"("maxSpeed": 1.2)", MakeCurve("4", "0, 0, 1, 1", "3"), RULE_OF_EDGE + ".trajectory.degree"},
+        {R"("maxSpeed": 1.2)", MakeCurve("1", "0, 0, 1", "3"), RULE_OF_EDGE + ".trajectory"},
+        {R"("maxSpeed": 1.2)", MakeCurve("1", "0, 0, 1, 1", "9"), RULE_OF_EDGE + ".trajectory.controlPoints"},
         {R"(["N2"])", R"(["N3"])", "layouts[0].stations[0].interactionNodeIds[0]"},
         {R"(["N2"])", "[]", "layouts[0].stations[0].interactionNodeIds"},
         {R"("x": 3)", R"("x": "3")", "layouts[0].nodes[1].nodePosition.x"},

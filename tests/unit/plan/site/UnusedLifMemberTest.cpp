@@ -86,15 +86,11 @@ TEST_CASE("LIF: a member that demands something without effect is reported with 
     const std::string node = "layouts[0].nodes[0].vehicleTypeNodeProperties[0]";
     const std::string edge = "layouts[0].edges[1].vehicleTypeEdgeProperties[0]";
     const std::string actions = R"("actions": [{"actionType": "a", "blockingType": "NONE"},
-        {"actionType": "b", "requirementType": "REQUIRED", "blockingType": "NONE"}])";
-    const std::string spline = R"("trajectory": {"degree": 1, "knotVector": [0, 1], "controlPoints": []})";
+        {"actionType": "b", "requirementType": "CONDITIONAL", "blockingType": "NONE"}])";
     const std::vector<Row> rows{
         {actions, "", NODE_RULE + ".actions[]", node + ".actions[1]"},
         {"", actions, EDGE_RULE + ".actions[]", edge + ".actions[1]"},
-        {"", spline, EDGE_RULE + ".trajectory", edge + ".trajectory"},
         {"", R"("corridor": {"leftWidth": 1, "rightWidth": 1})", EDGE_RULE + ".corridor", edge + ".corridor"},
-        {"", R"("maxHeight": 2)", EDGE_RULE + ".maxHeight", edge + ".maxHeight"},
-        {"", R"("minHeight": 1)", EDGE_RULE + ".minHeight", edge + ".minHeight"},
         {"", R"("reentryAllowed": false)", EDGE_RULE + ".reentryAllowed", edge + ".reentryAllowed"},
         {"",
          R"("rotationAtStartNodeAllowed": "CW")",
@@ -124,7 +120,7 @@ TEST_CASE("LIF: a member that demands something without effect is reported with 
 TEST_CASE("LIF: a member whose value demands nothing is informative, and null counts as absent")
 {
     const std::string harmless = R"("reentryAllowed": true, "rotationAtStartNodeAllowed": "BOTH",
-        "loadRestriction": {"unloaded": true, "loaded": false, "loadSetNames": []}, "actions": [{"requirementType": "CONDITIONAL"}])";
+        "loadRestriction": {"unloaded": true, "loaded": false, "loadSetNames": []}, "actions": [{"actionType": "a", "requirementType": "OPTIONAL", "blockingType": "NONE"}])";
     CHECK(FindOf(EKind::Unsupported, MakeMap("", harmless)).empty());
     const std::vector<UnusedLifMember> found = FindOf(EKind::Informative, MakeMap("", harmless));
     for (const std::string name :
@@ -138,12 +134,30 @@ TEST_CASE("LIF: a member whose value demands nothing is informative, and null co
     CHECK(std::ranges::count_if(absent, [](const UnusedLifMember& member) { return member.path.size() > 40; }) == 0);
 }
 
+TEST_CASE("LIF: REQUIRED actions, trajectories and heights are used")
+{
+    const std::string actions =
+        R"("actions": [{"actionType": "a", "requirementType": "REQUIRED", "blockingType": "NONE"}])";
+    const std::string text = MakeMap(actions, actions + R"(, "minHeight": 1, "maxHeight": 2, "trajectory": {"degree": 1,
+        "knotVector": [0, 0, 1, 1], "controlPoints": [{"x": 0, "y": 0}, {"x": 3, "y": 4}]})");
+    for (const EKind kind : {EKind::Unsupported, EKind::Informative, EKind::Unknown})
+    {
+        for (const UnusedLifMember& member : FindOf(kind, text))
+        {
+            INFO(member.path);
+            CHECK(member.path.find("Properties[]") == std::string::npos);
+        }
+    }
+}
+
 TEST_CASE("LIF: members of one kind are counted, over all layouts, and the first one is named")
 {
-    std::string text = MakeMap(R"("actions": [{"requirementType": "REQUIRED"}, {"requirementType": "REQUIRED"}])", "");
+    const std::string action = R"({"actionType": "a", "requirementType": "CONDITIONAL", "blockingType": "NONE"})";
+    std::string text = MakeMap(R"("actions": [)" + action + ", " + action + "]", "");
     text.resize(text.size() - 2);
     text += R"(, {"layoutId": "two", "layoutVersion": "1", "nodes": [{"nodeId": "N3", "nodePosition": {"x": 9, "y": 0},
-        "vehicleTypeNodeProperties": [{"vehicleTypeId": "lr", "actions": [{"requirementType": "REQUIRED"}]}]}],
+        "vehicleTypeNodeProperties": [{"vehicleTypeId": "lr", "actions": [)"
+        + action + R"(]}]}],
         "edges": [], "stations": []}]})";
     const std::vector<UnusedLifMember> found = FindOf(EKind::Unsupported, text);
     REQUIRE(found.size() == 1);
