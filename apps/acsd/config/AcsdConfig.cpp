@@ -2,6 +2,7 @@
 
 #include "common/config/TextFile.hpp"
 #include "config/ArmConfig.hpp"
+#include "config/CorridorConfig.hpp"
 #include "config/EngineConfig.hpp"
 #include "config/JobConfig.hpp"
 #include "config/PlaceConfig.hpp"
@@ -93,22 +94,25 @@ void WarnOfParking(AcsdConfig& config)
     }
 }
 
-void ReadSite(const ConfigSection& root, const std::string& fileName, AcsdConfig& config)
+/// Corridors are optional for the vehicle: without one it stops at an obstacle.
+void WarnOfCorridors(AcsdConfig& config)
 {
-    const ConfigSection section = root.GetSection("site");
-    const std::string map = section.GetString("map");
-    config.siteFile = ResolvePath(fileName, map);
-    config.engine.places = ReadPlaces(section, "ports", "");
-    const std::string zone = section.GetString("timezone", "system");
-    const Core::Result<Apps::LocalOffset> offset = Apps::LocalOffset::Parse(zone);
-    if (offset)
+    const bool bCorridors = std::ranges::any_of(config.site->GetEdges(), [](const Planning::SiteEdge& edge) {
+        return edge.corridor.has_value();
+    });
+    for (const RobotLinkConfig& robot : config.robots)
     {
-        config.localOffset = *offset;
+        if (bCorridors && robot.protocolVersion == "2.0.0")
+        {
+            config.warnings.push_back(fmt::format(
+                "site.corridors: robots.{} gets none, because VDA5050 has corridors since 2.1",
+                robot.robotID));
+        }
     }
-    else
-    {
-        section.AddError("timezone", Core::Describe(offset.error()));
-    }
+}
+
+void ReadMap(const ConfigSection& section, const std::string& map, AcsdConfig& config)
+{
     if (map.empty())
     {
         section.AddError("map", "is empty; give the path of a LIF file");
@@ -165,6 +169,27 @@ void WarnOfFactsheets(AcsdConfig& config)
             config.warnings.push_back(fmt::format("robots.{}: {}", robot.robotID, incompatibility));
         }
     }
+}
+
+void ReadSite(const ConfigSection& root, const std::string& fileName, AcsdConfig& config)
+{
+    const ConfigSection section = root.GetSection("site");
+    const std::string map = section.GetString("map");
+    config.zoneSetID = section.GetString("zone_set", "");
+    config.siteFile = ResolvePath(fileName, map);
+    config.engine.places = ReadPlaces(section, "ports", "");
+    const std::string zone = section.GetString("timezone", "system");
+    const Core::Result<Apps::LocalOffset> offset = Apps::LocalOffset::Parse(zone);
+    if (offset)
+    {
+        config.localOffset = *offset;
+    }
+    else
+    {
+        section.AddError("timezone", Core::Describe(offset.error()));
+    }
+    ReadMap(section, map, config);
+    ReadCorridors(section, config.site);
 }
 
 void ReadStore(const ConfigSection& root, const std::string& fileName, bool bStoreInspected, AcsdConfig& config)
@@ -242,6 +267,7 @@ AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& ove
         WarnOfParking(config);
         SetMaps(config);
         WarnOfFactsheets(config);
+        WarnOfCorridors(config);
     }
     config.errors = reader.GetErrors();
     std::ranges::move(otherErrors, std::back_inserter(config.errors));

@@ -50,6 +50,7 @@ struct AcsdConfig
     ArmOptions arm; ///< Defaults of all arms.
     EArmRelayIndex relayIndex = EArmRelayIndex::Value;
     std::string siteFile;
+    std::string zoneSetID; ///< Of all orders; may be empty.
     std::string storePath;
     Apps::Endpoint httpListen{"127.0.0.1", 8080};
     std::vector<std::string> httpHosts; ///< Accepted host names, without port.

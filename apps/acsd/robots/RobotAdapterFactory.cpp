@@ -27,6 +27,7 @@ VDA5050::MasterOptions MakeMasterOptions(const AcsdConfig& config, const RobotLi
     options.stateInterval = config.operations.offlineAfter - options.stateMargin;
     options.factsheet = robot.factsheet;
     options.version = VDA5050::ReadVersionOrNull(robot.protocolVersion).value_or(VDA5050::EVda5050Version::Version200);
+    options.zoneSetID = config.zoneSetID;
     return options;
 }
 

@@ -1,6 +1,7 @@
 #include "ExampleSite.hpp"
 #include "TemporaryFolder.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -38,13 +39,15 @@ Acsd::AcsdConfig ReadWith(const std::vector<std::string>& members, const std::st
 
 TEST_CASE("What the map demands without effect is one warning for each kind of member")
 {
-    const Acsd::AcsdConfig config = ReadWith({R"("maxHeight": 2.5)", R"("maxHeight": 2.0, "maxspeed": 1)"});
+    const Acsd::AcsdConfig config =
+        ReadWith({R"("reentryAllowed": false)", R"("reentryAllowed": false, "maxspeed": 1)"});
     REQUIRE(config.warnings.size() == 2);
     const std::string rule = "layouts[].edges[].vehicleTypeEdgeProperties[].";
     CHECK(
         config.warnings[0]
-        == "site.map: " + rule + "maxHeight is not supported: orders have no height limit (2 times, first "
-            + "layouts[0].edges[0].vehicleTypeEdgeProperties[0].maxHeight)");
+        == "site.map: " + rule
+            + "reentryAllowed is not supported: a vehicle that becomes automatic on the edge is used at once (2 times, "
+            + "first layouts[0].edges[0].vehicleTypeEdgeProperties[0].reentryAllowed)");
     CHECK(config.warnings[1].starts_with(
         "site.map: " + rule + "maxspeed is not a member of LIF 1.0 and has no effect (1 time, first layouts[0]."));
 }
@@ -59,6 +62,35 @@ TEST_CASE("Members of the map that demand nothing are one note, and no warning")
         config.notes[0].find("layouts[].edges[].vehicleTypeEdgeProperties[].reentryAllowed (1 time)")
         != std::string::npos);
     CHECK(config.notes[0].find("layouts[].layoutName (1 time)") != std::string::npos);
+}
+
+TEST_CASE("Corridors are put on the edges of the map, with a warning for vehicles of 2.0")
+{
+    const Acsd::AcsdConfig config = Acsd::Test::ReadSite(
+        {"site.corridors=[{edge='N001-N002', left=0.5, right=1}, {edge='N002-N003', left=0, right=2, ref='CONTOUR'}]",
+         "site.zone_set=hall-2",
+         "robots.LR01.protocol=2.0.0"});
+    CHECK(config.errors.empty());
+    CHECK(config.zoneSetID == "hall-2");
+    const auto findCorridor = [&config](const std::string& edgeID) {
+        return std::ranges::find(config.site->GetEdges(), edgeID, &Planning::SiteEdge::edgeID)->corridor;
+    };
+    CHECK(findCorridor("N001-N002") == Planning::SiteCorridor{0.5, 1, false});
+    CHECK(findCorridor("N002-N003") == Planning::SiteCorridor{0, 2, true});
+    CHECK(findCorridor("N003-N004") == std::nullopt);
+    const std::string warning = "site.corridors: robots.LR01 gets none, because VDA5050 has corridors since 2.1";
+    CHECK(std::ranges::count(config.warnings, warning) == 1);
+    CHECK(Acsd::Test::ReadSite({"site.zone_set=hall-2"}).warnings.empty());
+}
+
+TEST_CASE("A corridor of an unknown edge, or a second one of an edge, is an error")
+{
+    Acsd::Test::CheckErrors({
+        {{"site.corridors=[{edge='E99', left=1, right=1}]"}, "site.corridors[0].edge: the map has no edge \"E99\""},
+        {{"site.corridors=[{edge='N001-N002', left=-1, right=1}]"}, "site.corridors[0].left: "},
+        {{"site.corridors=[{edge='N001-N002', left=1, right=1}, {edge='N001-N002', left=1, right=1}]"},
+         "site.corridors[1].edge: N001-N002 has a corridor already"},
+    });
 }
 
 TEST_CASE("A parking position that a robot cannot reach with a load is a warning")
