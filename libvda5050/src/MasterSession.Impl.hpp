@@ -96,6 +96,7 @@ public:
     void OnMessage(std::string_view topic, std::string_view payload, bool bRetained, Core::Now now, MasterActions& out);
     void OnTimer(EMasterTimer timer, Core::Now now, MasterActions& out);
     /// Changes the order to what the factsheet supports, as far as the standard allows.
+    void SetZoneSet(OrderMessage& order) const;
     [[nodiscard]] Core::Result<void> FitOrder(OrderMessage& order, Core::Now now) const;
     [[nodiscard]] Core::Result<void> SendOrder(OrderMessage order, Core::Now now, MasterActions& out);
     void SetHorizonOmitted(bool bOmitted) noexcept;
@@ -146,7 +147,6 @@ private:
     void EndOrder(MasterActions& out);
     void ExtendRoute(const OrderMessage& order);
     /// Discards the previous order.
-    void SetZoneSet(OrderMessage& order) const;
     void BeginOrder(std::string orderID, std::uint32_t lastUpdateID);
     void AddToRoute(const OrderMessage& order);
     /// Changes the order to what the vehicle takes. True: it continues with nodes that are not in its base.

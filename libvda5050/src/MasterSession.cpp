@@ -73,6 +73,7 @@ void MasterSession::SetHorizonOmitted(bool bOmitted) noexcept
 
 Core::Result<void> MasterSession::CheckOrder(OrderMessage order, Core::Now now) const
 {
+    _impl->SetZoneSet(order);
     return _impl->FitOrder(order, now);
 }
 

@@ -146,10 +146,12 @@ constexpr std::array EDGE_MEMBERS{
         [](const OrderEdge& edge) {
             return edge.trajectory.has_value();
         }},
+    // Without a corridor the vehicle stays on the edge.
     OptionalMember<OrderEdge>{
         "order.edges.corridor",
-        [](const OrderEdge& edge) {
-            return edge.corridor.has_value();
+        [](const OrderEdge& edge) { return edge.corridor.has_value(); },
+        [](OrderEdge& edge) {
+            edge.corridor.reset();
         }},
 };
 

@@ -113,7 +113,7 @@ VehicleDrive::VehicleDrive(VDA5050::OrderBuilder route, std::size_t wantedReleas
 {
 }
 
-Core::Result<VehicleDrive> VehicleDrive::Create(const Planning::Drive& drive, const Contents& contents)
+Core::Result<VehicleDrive> VehicleDrive::Create(const Planning::Drive& drive, const DriveContents& contents)
 {
     std::vector<OpenAction> open;
     std::vector<VDA5050::OrderNode> nodes;

@@ -19,6 +19,13 @@ namespace ACS::Acsd
 /// The node's position in an order.
 [[nodiscard]] VDA5050::NodePosition MakeNodePosition(const Planning::RouteNode& node);
 
+/// What the order of a drive has, besides the route.
+struct DriveContents
+{
+    bool bStartActions = false; ///< The actions of the first node; otherwise the vehicle has performed them.
+    bool bCorridors = true;
+};
+
 /// One drive as an order of a VDA5050 vehicle: its route, the nodes that the engine has released, and the message that the
 /// vehicle has not confirmed yet.
 class VehicleDrive final
@@ -26,11 +33,6 @@ class VehicleDrive final
 public:
     /// An error whose path begins with "max" means that the message is too large.
     using OrderCheck = std::function<Core::Result<void>(const VDA5050::OrderMessage&)>;
-    struct Contents
-    {
-        bool bStartActions = false; ///< The actions of the first node; otherwise the vehicle has performed them.
-        bool bCorridors = true;
-    };
 
 private:
     /// The order itself is not confirmed.
@@ -69,7 +71,9 @@ private:
 
 public:
     /// Fails with InvalidOrder.
-    [[nodiscard]] static Core::Result<VehicleDrive> Create(const Planning::Drive& drive, const Contents& contents);
+    [[nodiscard]] static Core::Result<VehicleDrive> Create(
+        const Planning::Drive& drive,
+        const DriveContents& contents = {});
 
     /// The first message, with as many of the released nodes as the check accepts, at least two. Fails with the error of the check,
     /// or with InvalidOrder.

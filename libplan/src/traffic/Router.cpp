@@ -1,3 +1,4 @@
+#include "site/DriveTime.hpp"
 #include "traffic/FloorGraph.hpp"
 #include <acs/plan/Router.hpp>
 
@@ -110,15 +111,15 @@ public:
             ruleOrNull == nullptr ? std::vector<SiteAction>() : ListRequired(ruleOrNull->actions)};
     }
 
-    [[nodiscard]] RouteEdge MakeEdge(const Lane& lane, std::string_view vehicleTypeID) const
+    [[nodiscard]] RouteEdge MakeEdge(std::size_t edgeIndex, double length, std::string_view vehicleTypeID) const
     {
-        const SiteEdge& edge = _site.GetEdges()[lane.edge];
+        const SiteEdge& edge = _site.GetEdges()[edgeIndex];
         const SiteEdgeRule& rule = *edge.FindRuleOrNull(vehicleTypeID);
         return {
             edge.edgeID,
             edge.startNodeID,
             edge.endNodeID,
-            lane.length,
+            length,
             rule.maxSpeed,
             rule.maxRotationSpeed,
             rule.orientation,
@@ -129,6 +130,24 @@ public:
             rule.trajectory,
             edge.corridor,
             ListRequired(rule.actions)};
+    }
+
+    [[nodiscard]] std::optional<Route> MakeRouteOrNull(std::string_view vehicleTypeID, std::size_t edgeIndex) const
+    {
+        const SiteEdge& edge = _site.GetEdges()[edgeIndex];
+        const std::size_t from = *_site.FindNodeIndexOrNull(edge.startNodeID);
+        const std::size_t to = *_site.FindNodeIndexOrNull(edge.endNodeID);
+        const SiteEdgeRule* const ruleOrNull = edge.FindRuleOrNull(vehicleTypeID);
+        if (ruleOrNull == nullptr || _site.GetNodes()[from].FindRuleOrNull(vehicleTypeID) == nullptr
+            || _site.GetNodes()[to].FindRuleOrNull(vehicleTypeID) == nullptr)
+        {
+            return std::nullopt;
+        }
+        const double length = _site.GetLength(edge, *ruleOrNull);
+        return Route{
+            {MakeNode(from, vehicleTypeID), MakeNode(to, vehicleTypeID)},
+            {MakeEdge(edgeIndex, length, vehicleTypeID)},
+            GetDriveSeconds(length, ruleOrNull->maxSpeed)};
     }
 
     [[nodiscard]] std::optional<Route> FindOrNull(
@@ -391,7 +410,7 @@ private:
         for (const std::size_t index : lanes)
         {
             const Lane& lane = floor.GetLanes()[index];
-            route.edges.push_back(MakeEdge(lane, vehicleTypeID));
+            route.edges.push_back(MakeEdge(lane.edge, lane.length, vehicleTypeID));
             route.nodes.push_back(MakeNode(lane.to, vehicleTypeID));
         }
         return route;
@@ -430,6 +449,11 @@ std::optional<QuickestStart> Router::FindQuickestStartOrNull(
     std::size_t targetIndex) const
 {
     return _impl->FindQuickestStartOrNull(vehicleTypeID, load, startIndices, targetIndex);
+}
+
+std::optional<Route> Router::MakeRouteOrNull(std::string_view vehicleTypeID, std::size_t edgeIndex) const
+{
+    return _impl->MakeRouteOrNull(vehicleTypeID, edgeIndex);
 }
 
 std::uint64_t Router::CountVisitedNodes() const noexcept

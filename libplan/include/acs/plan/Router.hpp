@@ -68,6 +68,9 @@ public:
         std::span<const std::size_t> startIndices,
         std::size_t targetIndex) const;
 
+    /// The edge alone, as the route between its nodes. nullopt if the vehicle type may not use it.
+    [[nodiscard]] std::optional<Route> MakeRouteOrNull(std::string_view vehicleTypeID, std::size_t edgeIndex) const;
+
     /// Number of nodes that all searches so far have visited: their cost, independent of the machine.
     [[nodiscard]] std::uint64_t CountVisitedNodes() const noexcept;
 };

@@ -14,7 +14,7 @@ namespace
 /// A to C, released to B, whose order was made.
 VehicleDrive MakeSentDrive()
 {
-    Core::Result<VehicleDrive> drive = VehicleDrive::Create(MakeDrive(), {});
+    Core::Result<VehicleDrive> drive = VehicleDrive::Create(MakeDrive());
     REQUIRE(drive);
     REQUIRE(drive->MakeOrder(ACCEPT));
     return std::move(*drive);
@@ -26,12 +26,12 @@ TEST_CASE("A drive without nodes makes no order")
 {
     Planning::Drive drive = MakeDrive();
     drive.route = {};
-    CHECK_FALSE(VehicleDrive::Create(drive, {}));
+    CHECK_FALSE(VehicleDrive::Create(drive));
 }
 
 TEST_CASE("The order of a drive has the engine's route, released as far as the engine has")
 {
-    Core::Result<VehicleDrive> drive = VehicleDrive::Create(MakeDrive(), {});
+    Core::Result<VehicleDrive> drive = VehicleDrive::Create(MakeDrive());
     REQUIRE(drive);
     CHECK(drive->GetOrderID() == "D");
     const Core::Result<VDA5050::OrderMessage> order = drive->MakeOrder(ACCEPT);
