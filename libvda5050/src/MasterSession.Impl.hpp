@@ -95,8 +95,9 @@ public:
     void OnLinkDown(Core::Now now, MasterActions& out);
     void OnMessage(std::string_view topic, std::string_view payload, bool bRetained, Core::Now now, MasterActions& out);
     void OnTimer(EMasterTimer timer, Core::Now now, MasterActions& out);
-    /// Changes the order to what the factsheet supports, as far as the standard allows.
+    /// Sets the zone set of the options where the order has none.
     void SetZoneSet(OrderMessage& order) const;
+    /// Changes the order to what the factsheet supports, as far as the standard allows.
     [[nodiscard]] Core::Result<void> FitOrder(OrderMessage& order, Core::Now now) const;
     [[nodiscard]] Core::Result<void> SendOrder(OrderMessage order, Core::Now now, MasterActions& out);
     void SetHorizonOmitted(bool bOmitted) noexcept;

@@ -237,6 +237,7 @@ void MasterSession::Impl::BeginOrder(std::string orderID, std::uint32_t lastUpda
 
 Core::Result<bool> MasterSession::Impl::Prepare(OrderMessage& order, Core::Now now) const
 {
+    SetZoneSet(order);
     Core::Result<void> check = CheckStructure(order);
     if (!check)
     {
@@ -314,7 +315,6 @@ Core::Result<void> MasterSession::Impl::SendOrder(OrderMessage order, Core::Now 
             "a vehicle that is online, has sent a state and drives by itself",
             _options.address.serialNumber);
     }
-    SetZoneSet(order);
     const Core::Result<bool> prepared = Prepare(order, now);
     if (!prepared)
     {
@@ -351,7 +351,6 @@ Core::Result<void> MasterSession::Impl::SendOrderUpdate(OrderMessage update, Cor
         return Core::Fail(EVda5050Error::UpdatePending, {}, "at most one update that waits", _orderID);
     }
     update.orderID = _orderID;
-    SetZoneSet(update);
     const Core::Result<bool> prepared = Prepare(update, now);
     if (!prepared)
     {
