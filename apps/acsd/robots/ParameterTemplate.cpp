@@ -59,7 +59,7 @@ JsonText MakeJSON(const JobValue& value)
         value);
 }
 
-std::string MakeText(const JobValue& value)
+std::string WriteText(const JobValue& value)
 {
     const auto* const text = std::get_if<std::string>(&value);
     return text == nullptr ? MakeJSON(value).GetText() : *text;
@@ -97,7 +97,7 @@ std::optional<JsonText> MakeIntegerOrNull(const JobValue& value)
 
 std::optional<JsonText> MakeBooleanOrNull(const JobValue& value)
 {
-    const std::string text = MakeText(value);
+    const std::string text = WriteText(value);
     return text == "true" || text == "false" ? std::optional(JsonText::FromBoolean(text == "true")) : std::nullopt;
 }
 
@@ -113,7 +113,7 @@ std::optional<JsonText> ConvertOrNull(const JobValue& value, EValueDataType type
         case EValueDataType::Integer:
             return MakeIntegerOrNull(value);
         case EValueDataType::String:
-            return JsonText::FromString(MakeText(value));
+            return JsonText::FromString(WriteText(value));
         case EValueDataType::Object:
         case EValueDataType::Array:
         default:

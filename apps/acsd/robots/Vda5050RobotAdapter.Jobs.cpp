@@ -37,20 +37,17 @@ void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now,
         out.emplace_back(RaiseEvent{Planning::JobFailed{job.jobID, "the vehicle does not report its node"}});
         return;
     }
-    if (!_nodeWithOpenActions.empty() && stateOrNull->lastNodeID == _nodeWithOpenActions)
-    {
-        out.emplace_back(RaiseEvent{Planning::JobRejected{
-            job.jobID,
-            "a REQUIRED action of the node " + _nodeWithOpenActions
-                + " has not finished: move the vehicle away and back"}});
-        return;
-    }
     DropLoadCheck(out);
     _job.Clear();
     if (stateOrNull->orderID == job.commandID)
     {
         // The order was considered lost and has reached the vehicle late.
         ResumeJob(job, now, out);
+        return;
+    }
+    if (_openNode.has_value() && stateOrNull->lastNodeID == _openNode->nodeID)
+    {
+        RepeatActions(job, now, out);
         return;
     }
     tl::expected<VDA5050::Action, std::string> action = _jobCheck->MakeAction(job);
@@ -75,7 +72,9 @@ void Vda5050RobotAdapter::CancelJob(const std::string& jobID, Core::Now now, Ada
     }
     else if (_job.IsDeferred(jobID))
     {
+        const std::string repetitionID = IsRepeating() ? _drive->GetOrderID() : std::string();
         _job.Clear();
+        CancelOrder(repetitionID, now, out);
         out.emplace_back(RaiseEvent{Planning::JobFailed{jobID, "cancelled before it was sent to the vehicle"}});
     }
     else if (runningOrNull != nullptr && runningOrNull->jobID == jobID)

@@ -123,10 +123,7 @@ const VDA5050::MasterSession& Vda5050RobotAdapter::GetSession() const noexcept
 
 void Vda5050RobotAdapter::StartDrive(const Planning::Drive& drive, Core::Now now, AdapterActions& out)
 {
-    const std::vector<Planning::RouteNode>& nodes = drive.route.nodes;
-    const bool bStartActions = !nodes.empty() && nodes.front().nodeID == _nodeWithOpenActions;
-    const bool bCorridors = _session.GetOptions().version != VDA5050::EVda5050Version::Version200;
-    Core::Result<VehicleDrive> made = VehicleDrive::Create(drive, {bStartActions, bCorridors});
+    Core::Result<VehicleDrive> made = VehicleDrive::Create(drive, MakeContents(drive.route));
     if (!made)
     {
         out.emplace_back(RaiseEvent{Planning::DriveRejected{drive.driveID, Core::Describe(made.error())}});
@@ -242,23 +239,12 @@ void Vda5050RobotAdapter::RejectOrder(const std::string& orderID, const std::str
     if (IsDrive(orderID))
     {
         static_cast<void>(TakeDrive());
-        out.emplace_back(RaiseEvent{Planning::DriveRejected{orderID, reason}});
+        ReportDriveRejected(orderID, reason, out);
     }
     else if (IsJob(orderID))
     {
         out.emplace_back(RaiseEvent{Planning::JobFailed{_job.TakeRunning().jobID, reason}});
     }
-}
-
-VehicleDrive Vda5050RobotAdapter::TakeDrive()
-{
-    VehicleDrive drive = *std::exchange(_drive, std::nullopt);
-    const std::string& nodeID = drive.GetLastPassedNodeID();
-    if (!nodeID.empty()) // otherwise the vehicle has not accepted it
-    {
-        _nodeWithOpenActions = drive.HasOpenActionsAt(nodeID) ? nodeID : std::string();
-    }
-    return drive;
 }
 
 void Vda5050RobotAdapter::Drain(Core::Now now, AdapterActions& out)
@@ -311,7 +297,7 @@ void Vda5050RobotAdapter::HandleAction(const VDA5050::MasterAction& action, Core
                 OnDriveAction(changed, now, out);
                 OnActionChanged(changed, out);
             },
-            [&](const VDA5050::OrderFinished& finished) { OnFinished(finished.orderID, out); },
+            [&](const VDA5050::OrderFinished& finished) { OnFinished(finished.orderID, now, out); },
             [&](const VDA5050::OrderCancelled& cancelled) { OnCancelled(cancelled.orderID, out); },
             [&](const VDA5050::CancelFailed&) { OnCancelFailed(now, out); },
             [](const auto&) {
@@ -325,31 +311,6 @@ void Vda5050RobotAdapter::OnNodeReached(const VDA5050::NodeReached& reached, Ada
     {
         _drive->OnNodePassed(reached.nodeID);
         out.emplace_back(RaiseEvent{Planning::NodePassed{_drive->GetOrderID(), reached.nodeID}});
-    }
-}
-
-/// Outside automatic mode, and in an order that is being cancelled, the vehicle ends actions as the standard demands.
-void Vda5050RobotAdapter::OnDriveAction(const VDA5050::ActionChanged& action, Core::Now now, AdapterActions& out)
-{
-    const std::string* const openOrNull = _drive.has_value() ? _drive->FindOpenActionOrNull(action.actionID) : nullptr;
-    if (openOrNull == nullptr)
-    {
-        return;
-    }
-    if (action.status == VDA5050::EActionStatus::Finished)
-    {
-        _drive->OnActionFinished(action.actionID);
-    }
-    const bool bCancelling = _session.GetOrderPhase() == VDA5050::EOrderPhase::Cancelling;
-    if (action.status == VDA5050::EActionStatus::Failed && !bCancelling && _report.GetState().bAutomatic)
-    {
-        AbandonDrive(
-            fmt::format(
-                "the action {} failed: {}",
-                *openOrNull,
-                action.resultDescription.empty() ? "no reason given" : action.resultDescription),
-            now,
-            out);
     }
 }
 
@@ -411,7 +372,7 @@ void Vda5050RobotAdapter::OnCancelled(const std::string& orderID, AdapterActions
     const VehicleDrive drive = TakeDrive();
     if (const std::optional<std::string>& reason = drive.GetAbandonReasonOrNull(); reason.has_value())
     {
-        out.emplace_back(RaiseEvent{Planning::DriveRejected{orderID, *reason}});
+        ReportDriveRejected(orderID, *reason, out);
         return;
     }
     out.emplace_back(RaiseEvent{Planning::DriveCancelled{orderID, drive.GetLastPassedNodeID()}});
@@ -441,17 +402,11 @@ void Vda5050RobotAdapter::OnCancelFailed(Core::Now now, AdapterActions& out)
     }
 }
 
-void Vda5050RobotAdapter::OnFinished(const std::string& orderID, AdapterActions& out)
+void Vda5050RobotAdapter::OnFinished(const std::string& orderID, Core::Now now, AdapterActions& out)
 {
     if (IsDrive(orderID))
     {
-        const VehicleDrive drive = TakeDrive();
-        const std::string* const openOrNull = drive.GetOpenActionOrNull();
-        out.emplace_back(
-            openOrNull == nullptr ? RaiseEvent{Planning::Arrived{orderID}}
-                                  : RaiseEvent{Planning::DriveRejected{
-                                      orderID,
-                                      "the vehicle did not report the end of the action " + *openOrNull}});
+        OnDriveFinished(orderID, now, out);
     }
     else if (IsJob(orderID))
     {
@@ -489,6 +444,10 @@ void Vda5050RobotAdapter::OnFactsheet(Core::Now now, AdapterActions& out)
         UpdateJobCheck(out);
     }
     UpdateCompatibility(now, out);
+    if (IsRepeating())
+    {
+        return;
+    }
     if (const std::optional<Planning::StartJob> jobOrNull = _job.TakeDeferredOrNull(); jobOrNull.has_value())
     {
         StartJob(*jobOrNull, now, out);

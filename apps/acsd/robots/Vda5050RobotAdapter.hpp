@@ -15,6 +15,7 @@
 #include <tl/expected.hpp>
 
 #include <chrono>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -55,9 +56,11 @@ private:
     std::optional<VehicleDrive> _drive;
     VehicleJob _job;
     std::optional<VDA5050::OrderMessage> _pendingOrder; ///< Sent when the vehicle has finished the order before.
-    std::string _incompatibility;                       ///< As reported.
-    std::string _foreignOrderID; ///< The latest order of another master for which cancelOrder was sent.
-    std::string _nodeWithOpenActions; ///< Node of the last drive whose REQUIRED actions have not finished; empty: none.
+    std::string _incompatibility; ///< As reported.
+    /// The node of the last drive whose REQUIRED actions have not finished, with these.
+    std::optional<Planning::RouteNode> _openNode;
+    std::size_t _repetitionCount = 0; ///< Of orders that repeat actions of a node before a job.
+    std::string _foreignOrderID;      ///< The latest order of another master for which cancelOrder was sent.
 
 public:
     /// The outputs must outlive the adapter. loadTimeout: maximum time for the loads to agree with a job whose action is
@@ -106,8 +109,14 @@ private:
     [[nodiscard]] bool IsJob(std::string_view orderID) const;
     void RejectOrder(const std::string& orderID, const std::string& reason, Planning::AdapterActions& out);
 
-    /// The drive has ended. Its next drive repeats the actions of the vehicle's node that have not finished.
+    [[nodiscard]] DriveContents MakeContents(const Planning::Route& route) const;
+    /// The drive has ended. The next drive or job repeats the actions of the vehicle's node that have not finished.
     [[nodiscard]] VehicleDrive TakeDrive();
+    /// Performs the unfinished actions of the vehicle's node as a drive with this node only, which the engine does not know. The
+    /// deferred job follows when they have finished; otherwise it is rejected.
+    void RepeatActions(const Planning::StartJob& job, Core::Now now, Planning::AdapterActions& out);
+    [[nodiscard]] bool IsRepeating() const;
+    void ReportDriveRejected(const std::string& orderID, const std::string& reason, Planning::AdapterActions& out);
 
     /// The vehicle has accepted the drive, which cannot be continued. It is reported as rejected when the vehicle has stopped.
     void AbandonDrive(const std::string& reason, Core::Now now, Planning::AdapterActions& out);
@@ -130,7 +139,8 @@ private:
     void OnRejected(const VDA5050::OrderRejected& rejected, Core::Now now, Planning::AdapterActions& out);
     void OnDriveRejected(const std::string& reason, Planning::AdapterActions& out);
     void OnLost(const VDA5050::OrderLost& lost, Planning::AdapterActions& out);
-    void OnFinished(const std::string& orderID, Planning::AdapterActions& out);
+    void OnFinished(const std::string& orderID, Core::Now now, Planning::AdapterActions& out);
+    void OnDriveFinished(const std::string& orderID, Core::Now now, Planning::AdapterActions& out);
     void OnCancelled(const std::string& orderID, Planning::AdapterActions& out);
     void OnCancelFailed(Core::Now now, Planning::AdapterActions& out);
     void SetOnline(bool bOnline, Core::Now now, Planning::AdapterActions& out);

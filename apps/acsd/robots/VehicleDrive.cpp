@@ -120,24 +120,28 @@ Core::Result<VehicleDrive> VehicleDrive::Create(const Planning::Drive& drive, co
     std::vector<VDA5050::OrderEdge> edges;
     for (std::size_t i = 0; i < drive.route.nodes.size(); ++i)
     {
-        VDA5050::OrderNode& node = nodes.emplace_back(MakeNode(drive.route.nodes[i]));
-        if (i > 0 || contents.bStartActions)
+        const Planning::RouteNode& from = drive.route.nodes[i];
+        const std::vector<Planning::SiteAction>& actions = i == 0 ? contents.startActions : from.actions;
+        VDA5050::OrderNode& node = nodes.emplace_back(MakeNode(from));
+        node.actions = MakeActions(actions, drive.driveID, 2 * i);
+        for (std::size_t action = 0; action < actions.size(); ++action)
         {
-            node.actions = MakeActions(drive.route.nodes[i].actions, drive.driveID, 2 * i);
-        }
-        for (const VDA5050::Action& action : node.actions)
-        {
-            open.push_back(
-                {action.actionID, node.nodeID, fmt::format("{} of the node {}", action.actionType, node.nodeID)});
+            OpenAction& added = open.emplace_back();
+            added.actionID = node.actions[action].actionID;
+            added.text = fmt::format("{} of the node {}", actions[action].actionType, from.nodeID);
+            added.node = from;
+            added.node->actions = {actions[action]};
         }
     }
     for (std::size_t i = 0; i < drive.route.edges.size(); ++i)
     {
-        VDA5050::OrderEdge& edge = edges.emplace_back(MakeEdge(drive.route.edges[i], contents.bCorridors));
-        edge.actions = MakeActions(drive.route.edges[i].actions, drive.driveID, 2 * i + 1);
+        const Planning::RouteEdge& from = drive.route.edges[i];
+        VDA5050::OrderEdge& edge = edges.emplace_back(MakeEdge(from, contents.bCorridors));
+        edge.actions = MakeActions(from.actions, drive.driveID, 2 * i + 1);
         for (const VDA5050::Action& action : edge.actions)
         {
-            open.push_back({action.actionID, {}, fmt::format("{} of the edge {}", action.actionType, edge.edgeID)});
+            const std::string text = fmt::format("{} of the edge {}", action.actionType, from.edgeID);
+            open.push_back({action.actionID, text, std::nullopt});
         }
     }
     Core::Result<VDA5050::OrderBuilder> route =
@@ -246,9 +250,23 @@ const std::string* VehicleDrive::GetOpenActionOrNull() const noexcept
     return _openActions.empty() ? nullptr : &_openActions.front().text;
 }
 
-bool VehicleDrive::HasOpenActionsAt(std::string_view nodeID) const
+std::optional<Planning::RouteNode> VehicleDrive::GetOpenNodeOrNull() const
 {
-    return std::ranges::count(_openActions, nodeID, &OpenAction::nodeID) > 0;
+    std::optional<Planning::RouteNode> node;
+    for (const OpenAction& open : _openActions)
+    {
+        if (!open.node.has_value() || open.node->nodeID != _lastPassedNodeID)
+        {
+            continue;
+        }
+        if (!node.has_value())
+        {
+            node = open.node;
+            continue;
+        }
+        node->actions.push_back(open.node->actions.front());
+    }
+    return node;
 }
 
 void VehicleDrive::Abandon(std::string reason)

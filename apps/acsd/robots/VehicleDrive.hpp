@@ -22,7 +22,7 @@ namespace ACS::Acsd
 /// What the order of a drive has, besides the route.
 struct DriveContents
 {
-    bool bStartActions = false; ///< The actions of the first node; otherwise the vehicle has performed them.
+    std::vector<Planning::SiteAction> startActions = {}; ///< Of the first node, instead of those of the route.
     bool bCorridors = true;
 };
 
@@ -54,8 +54,9 @@ private:
     struct OpenAction
     {
         std::string actionID;
-        std::string nodeID; ///< Empty for an action of an edge.
-        std::string text;   ///< What it is, for people.
+        std::string text; ///< What it is, for people.
+        /// With this action alone; absent for an action of an edge.
+        std::optional<Planning::RouteNode> node;
     };
 
     VDA5050::OrderBuilder _route;
@@ -98,7 +99,8 @@ public:
     [[nodiscard]] const std::string* FindOpenActionOrNull(std::string_view actionID) const;
     /// Likewise of the first unfinished action.
     [[nodiscard]] const std::string* GetOpenActionOrNull() const noexcept;
-    [[nodiscard]] bool HasOpenActionsAt(std::string_view nodeID) const;
+    /// The node that the vehicle passed last, with its unfinished actions; nullopt if it has none.
+    [[nodiscard]] std::optional<Planning::RouteNode> GetOpenNodeOrNull() const;
 
     /// The drive is being cancelled for this reason. It is reported as rejected when the vehicle has stopped.
     void Abandon(std::string reason);

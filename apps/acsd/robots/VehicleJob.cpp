@@ -92,6 +92,11 @@ bool VehicleJob::IsDeferred(std::string_view jobID) const
     return deferredOrNull != nullptr && deferredOrNull->job.jobID == jobID;
 }
 
+bool VehicleJob::HasDeferred() const
+{
+    return std::holds_alternative<Deferred>(_state);
+}
+
 bool VehicleJob::IsRecovering() const
 {
     return std::holds_alternative<Recovering>(_state);

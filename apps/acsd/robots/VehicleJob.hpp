@@ -75,6 +75,7 @@ public:
     [[nodiscard]] bool TryStart();
 
     [[nodiscard]] bool IsDeferred(std::string_view jobID) const;
+    [[nodiscard]] bool HasDeferred() const;
     [[nodiscard]] bool IsRecovering() const;
     [[nodiscard]] const Planning::StartJob* GetRunningOrNull() const noexcept;
     [[nodiscard]] const LoadCheck* GetLoadCheckOrNull() const noexcept;

@@ -123,7 +123,7 @@ TEST_CASE("A factsheet that allows no drive at all closes no edge, and without f
 {
     Planning::SiteMap site = MakeSite();
     KnownVehicle vehicle = MakeVehicle({"order.edges.trajectory"}, {"lift"});
-    vehicle.options.factsheet->protocolLimits.maxStringLengths.id = 5;
+    vehicle.options.factsheet->protocolLimits.maxStringLengths.identifier = 5;
     CHECK(RestrictMap({vehicle}, site).empty());
     CHECK(RestrictMap({}, site).empty());
     CHECK(ListOpen(site, "lr").size() == 3);

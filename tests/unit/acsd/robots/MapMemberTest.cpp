@@ -132,6 +132,16 @@ struct LiftingVehicle : VehicleFixture
         ShowState();
     }
 
+    /// It was restarted on N2.
+    void LoseOrder()
+    {
+        state.orderID.clear();
+        state.nodeStates.clear();
+        state.actionStates.clear();
+        ShowState();
+        REQUIRE(TakeEvents<Planning::DriveRejected>().size() == 1);
+    }
+
     /// On N3, where the drive ends.
     void ShowAtEnd()
     {
@@ -291,10 +301,6 @@ TEST_CASE(
     REQUIRE(rejected.size() == 1);
     CHECK(rejected[0].reason == "the action lift of the node N2 failed: jammed");
 
-    // No job at a node whose action has not been performed.
-    vehicle.Command(MakeJob("CassetteLoad"));
-    REQUIRE(vehicle.TakeEvents<Planning::JobRejected>().size() == 1);
-
     vehicle.outputs.messages.clear();
     Planning::Drive next = MakeMapDrive(vehicle.lift, vehicle.lift, "D2");
     next.route.nodes.erase(next.route.nodes.begin());
@@ -306,14 +312,70 @@ TEST_CASE(
     CHECK(order.nodes[0].actions[0].actionID == "D2-0-0");
 }
 
+TEST_CASE("A job at a node whose REQUIRED action has not finished is sent when the action has been repeated")
+{
+    LiftingVehicle vehicle;
+    vehicle.ShowAtNode(VDA5050::EActionStatus::Running);
+    vehicle.LoseOrder();
+    const auto repeat = [&vehicle](VDA5050::EActionStatus end) {
+        vehicle.outputs.messages.clear();
+        vehicle.Command(MakeJob("CassetteLoad"));
+        const std::vector<VDA5050::OrderMessage> orders = vehicle.TakeOrders();
+        REQUIRE(orders.size() == 1);
+        REQUIRE(orders[0].nodes.size() == 1);
+        REQUIRE(orders[0].nodes[0].actions.size() == 1);
+        const VDA5050::Action& action = orders[0].nodes[0].actions[0];
+        CHECK(action.actionType == "lift");
+        vehicle.ShowOrder(orders[0], {});
+        vehicle.ShowAt("N2", 0);
+        vehicle.state.actionStates = {LiftingVehicle::MakeState(action.actionID, VDA5050::EActionStatus::Running)};
+        vehicle.ShowState();
+        CHECK(vehicle.TakeOrders().empty());
+        vehicle.state.actionStates[0].actionStatus = end;
+        vehicle.ShowState();
+        return orders[0];
+    };
+    const VDA5050::OrderMessage failed = repeat(VDA5050::EActionStatus::Failed);
+    CHECK(vehicle.TakeEvents<Planning::JobRejected>().size() == 1);
+    CHECK(vehicle.TakeOrders().empty());
+
+    const VDA5050::OrderMessage finished = repeat(VDA5050::EActionStatus::Finished);
+    CHECK(finished.orderID != failed.orderID);
+    CHECK(finished.nodes[0].actions[0].actionID != failed.nodes[0].actions[0].actionID);
+    const std::vector<VDA5050::OrderMessage> jobs = vehicle.TakeOrders();
+    REQUIRE(jobs.size() == 1);
+    CHECK(jobs[0].orderID == "U1");
+    REQUIRE(jobs[0].nodes[0].actions.size() == 1);
+    CHECK(jobs[0].nodes[0].actions[0].actionType == "pick");
+    CHECK(vehicle.TakeEvents<Planning::JobRejected>().size() == 1);
+    CHECK(vehicle.TakeEvents<Planning::Arrived>().empty());
+}
+
+TEST_CASE("A job that is cancelled while actions are repeated is not sent")
+{
+    LiftingVehicle vehicle;
+    vehicle.ShowAtNode(VDA5050::EActionStatus::Running);
+    vehicle.LoseOrder();
+    vehicle.Command(MakeJob("CassetteLoad"));
+    const VDA5050::OrderMessage repetition = vehicle.TakeOrders().at(0);
+    vehicle.ShowOrder(repetition, {});
+    vehicle.ShowAt("N2", 0);
+    vehicle.state.actionStates = {
+        LiftingVehicle::MakeState(repetition.nodes[0].actions[0].actionID, VDA5050::EActionStatus::Running)};
+    vehicle.ShowState();
+    vehicle.Command(Planning::CancelJob{"J"});
+    CHECK(vehicle.TakeEvents<Planning::JobFailed>().size() == 1);
+    CHECK(vehicle.adapter.GetSession().GetOrderPhase() == VDA5050::EOrderPhase::Cancelling);
+    vehicle.state.actionStates[0].actionStatus = VDA5050::EActionStatus::Finished;
+    vehicle.ShowState();
+    CHECK(vehicle.TakeOrders().empty());
+}
+
 TEST_CASE("A drive does not repeat the actions of the node where it starts after they have finished")
 {
     LiftingVehicle vehicle;
     vehicle.ShowAtNode(VDA5050::EActionStatus::Finished);
-    vehicle.state.orderID.clear();
-    vehicle.state.nodeStates.clear();
-    vehicle.ShowState();
-    REQUIRE(vehicle.TakeEvents<Planning::DriveRejected>().size() == 1);
+    vehicle.LoseOrder();
     Planning::Drive next = MakeMapDrive(vehicle.lift, vehicle.lift, "D2");
     next.route.nodes.erase(next.route.nodes.begin());
     next.route.edges.erase(next.route.edges.begin());
