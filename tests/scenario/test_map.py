@@ -15,11 +15,11 @@ CURVE = {"degree": 2, "knotVector": [0, 0, 0, 1, 1, 1],
 
 
 class Map(ScenarioCase):
-    def write_map(self):
+    def write_map(self, node_id):
         """The example map with demands on the way of LR01 to its first station."""
         site = json.loads((self.line.site_dir / "site.lif.json").read_text())
         layout = site["layouts"][0]
-        node = next(node for node in layout["nodes"] if node["nodeId"] == "N046")
+        node = next(node for node in layout["nodes"] if node["nodeId"] == node_id)
         edge = next(edge for edge in layout["edges"] if edge["edgeId"] == "N046-N047")
         node["vehicleTypeNodeProperties"][0]["actions"] = [NODE_ACTION]
         edge["vehicleTypeEdgeProperties"][0] |= {"actions": [EDGE_ACTION], "trajectory": CURVE}
@@ -27,7 +27,7 @@ class Map(ScenarioCase):
         path.write_text(json.dumps(site))
         return path
 
-    def run_plan(self, *faults):
+    def run_plan(self, node_id, *faults):
         self.line.share_world()
         self.line.start_broker()
         vehicles = self.line.start_vehicles(TIME_SCALE, ("LR01,type=LR", "CR01,type=CR,node=D-CHG02"), faults=faults)
@@ -35,7 +35,7 @@ class Map(ScenarioCase):
         arm = self.line.start_arm(TIME_SCALE).wait_ready()
         mcs = self.line.start_mcs([PLANS[0]])
         self.trace = self.line.folder / "trace"
-        acsd = self.line.start_acsd(mcs.wait_ready()["ws"], arm, f"site.map={self.write_map()}",
+        acsd = self.line.start_acsd(mcs.wait_ready()["ws"], arm, f"site.map={self.write_map(node_id)}",
                                     arguments=("--trace", self.trace))
         acsd.wait_ready()
         self.assertEqual(mcs.wait(FINISH_SECONDS), 0)
@@ -64,7 +64,7 @@ class Map(ScenarioCase):
                 if order["orderUpdateId"] == 0 and len(order["nodes"]) > 1]
 
     def test_the_actions_and_the_trajectory_of_the_map_are_driven_once(self):
-        self.run_plan()
+        self.run_plan("N046")
         self.assertEqual(self.read_last_states("finePositioning"), ["FINISHED"])
         self.assertEqual(self.read_last_states("detectObject"), ["FINISHED"])
         edge = next(edge for edge in self.read_drives()[0]["edges"] if edge["edgeId"] == "N046-N047")
@@ -72,11 +72,12 @@ class Map(ScenarioCase):
         positions = [state["agvPosition"] for state in self.read_messages("in", "visualization") if "agvPosition" in state]
         self.assertGreater(max(position["x"] for position in positions if 10.5 < position["y"] < 11.5), 3.3)
 
-    def test_an_action_that_fails_is_repeated(self):
-        self.run_plan("LR01 action-fails type=finePositioning")
+    def test_an_action_that_fails_at_a_station_is_repeated_before_the_job(self):
+        self.run_plan("D-A01.CP01", "LR01 action-fails type=finePositioning")
         self.assertEqual(self.read_last_states("finePositioning"), ["FAILED", "FINISHED"])
-        self.assertEqual(self.read_last_states("detectObject")[-1], "FINISHED")
-        self.assertEqual(self.read_drives()[1]["nodes"][0]["nodeId"], "N046")
+        jobs = [order["nodes"][0]["actions"] for order in self.read_messages("out", "order") if len(order["nodes"]) == 1]
+        self.assertEqual([action["actionType"] for actions in jobs for action in actions],
+                         ["finePositioning", "pick", "drop"])
 
 
 if __name__ == "__main__":
