@@ -5,6 +5,7 @@
 #include "config/CorridorConfig.hpp"
 #include "config/EngineConfig.hpp"
 #include "config/JobConfig.hpp"
+#include "config/MapRestriction.hpp"
 #include "config/PlaceConfig.hpp"
 #include "config/RemovedKeys.hpp"
 #include "config/RobotConfig.hpp"
@@ -92,6 +93,26 @@ void WarnOfParking(AcsdConfig& config)
                 bLoaded ? "without" : "with"));
         }
     }
+}
+
+/// Of what the factsheets of factsheet_file do not allow.
+void CloseEdges(AcsdConfig& config)
+{
+    std::vector<KnownVehicle> vehicles;
+    for (std::size_t i = 0; i < config.robots.size(); ++i)
+    {
+        const RobotLinkConfig& robot = config.robots[i];
+        if (!robot.factsheet.has_value())
+        {
+            continue;
+        }
+        VDA5050::MasterOptions options;
+        options.address = {config.mqtt.interfaceName, robot.manufacturer, robot.serialNumber};
+        options.version = VDA5050::ReadVersionOrNull(robot.protocolVersion).value_or(options.version);
+        options.factsheet = robot.factsheet;
+        vehicles.push_back({robot.robotID, config.engine.robots[i].vehicleTypeID, std::move(options)});
+    }
+    std::ranges::move(RestrictMap(vehicles, *config.site), std::back_inserter(config.warnings));
 }
 
 /// Corridors are optional for the vehicle: without one it stops at an obstacle.
@@ -256,6 +277,7 @@ AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& ove
     }
     if (reader.GetErrors().empty() && config.site.has_value())
     {
+        CloseEdges(config);
         for (Core::Error& error : Planning::FindErrors(config.engine, *config.site))
         {
             const std::string path = std::exchange(error.path, {});

@@ -22,10 +22,10 @@ std::string FindFault(const VDA5050::MasterSession& session, const Planning::Rou
 {
     constexpr const char* ANY_UUID = "01234567-89ab-4cde-8f01-23456789abcd"; // the length of all orderIds
     Core::Result<VehicleDrive> drive = VehicleDrive::Create(Planning::Drive{ANY_UUID, route, route.nodes.size()});
-    const Core::Result<VDA5050::OrderMessage> order =
-        drive ? drive->MakeOrder() : tl::unexpected(std::move(drive.error()));
-    const Core::Result<void> checked = order ? session.CheckOrder(*order, Core::Now{}) : tl::unexpected(order.error());
-    return checked ? std::string() : checked.error().expected;
+    const Core::Result<VDA5050::OrderMessage> order = drive
+        ? drive->MakeOrder([&session](const auto& message) { return session.CheckOrder(message, Core::Now{}); })
+        : tl::unexpected(std::move(drive.error()));
+    return order ? std::string() : order.error().expected;
 }
 
 Planning::Route RemoveDemands(Planning::Route route)

@@ -56,7 +56,7 @@ private:
     std::optional<VehicleDrive> _drive;
     VehicleJob _job;
     std::optional<VDA5050::OrderMessage> _pendingOrder; ///< Sent when the vehicle has finished the order before.
-    std::string _incompatibility; ///< As reported.
+    std::string _incompatibility;                       ///< As reported.
     /// The node of the last drive whose REQUIRED actions have not finished, with these.
     std::optional<Planning::RouteNode> _openNode;
     std::size_t _repetitionCount = 0; ///< Of orders that repeat actions of a node before a job.
