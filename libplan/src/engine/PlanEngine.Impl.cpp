@@ -292,9 +292,7 @@ void PlanEngine::Impl::HandOverPlans()
             _work.GetAssignment().Withdraw(plan);
             continue;
         }
-        const bool bUnable =
-            robot.view.rejections.GetState() == ERejection::Exhausted || !robot.view.incompatibility.empty();
-        if (!bUnable || !_work.GetAssignment().CanHandOver(plan))
+        if (!robot.IsUnfit() || !_work.GetAssignment().CanHandOver(plan))
         {
             continue;
         }

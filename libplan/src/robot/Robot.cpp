@@ -105,6 +105,11 @@ bool Robot::IsUsable() const
     return GetUnavailability() == EUnavailability::None;
 }
 
+bool Robot::IsUnfit() const
+{
+    return view.rejections.GetState() == ERejection::Exhausted || !view.incompatibility.empty();
+}
+
 bool Robot::IsFree() const
 {
     return planOrNull == nullptr && !drive.has_value() && !charging.IsBatteryLow() && IsUsable();

@@ -70,6 +70,8 @@ struct Robot
     [[nodiscard]] EUnavailability GetUnavailability() const;
     [[nodiscard]] std::string Describe(EUnavailability unavailability) const;
     [[nodiscard]] bool IsUsable() const;
+    /// It rejects all its commands or cannot do them: another robot may take over its plan.
+    [[nodiscard]] bool IsUnfit() const;
     /// Whether a plan may be assigned to it.
     [[nodiscard]] bool IsFree() const;
     /// Whether its drive may be extended. A disconnected robot may still report nodes, and then continues.

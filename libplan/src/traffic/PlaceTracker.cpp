@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -32,8 +33,7 @@ void PlaceTracker::NoteMovable(const Robot& robot)
 
 void PlaceTracker::Place(Robot& robot)
 {
-    const std::string& nodeID = robot.view.state->lastNodeID;
-    const std::optional<std::size_t> node = _site.FindNodeIndexOrNull(nodeID);
+    const std::optional<std::size_t> node = FindNodeOrNull(robot);
     if (!node.has_value())
     {
         OnPositionLost(robot);
@@ -91,11 +91,40 @@ void PlaceTracker::Place(Robot& robot)
     robot.place.bPlaced = true;
     robot.search.plannedRoute.reset();
     ++_standingChanges;
+    const std::string& nodeID = _site.GetNodes()[*node].nodeID;
     if (const SiteStation* stationOrNull = _site.FindStationAtOrNull(nodeID); stationOrNull != nullptr)
     {
         robot.place.position = stationOrNull->stationID;
     }
     _transaction.RequestDispatch();
+}
+
+/// Some vehicles forget their last node in manual mode. Where such a one is shows its position on its last drive.
+std::optional<std::size_t> PlaceTracker::FindNodeOrNull(const Robot& robot) const
+{
+    const StateChanged& state = *robot.view.state;
+    if (!state.lastNodeID.empty() || !robot.place.bPlaced || !robot.place.node.has_value() || !state.bPoseKnown)
+    {
+        return _site.FindNodeIndexOrNull(state.lastNodeID);
+    }
+    const std::size_t last = *robot.place.node;
+    std::vector<std::size_t> passed{last};
+    passed.insert(passed.end(), robot.place.aheadNodes.begin(), robot.place.aheadNodes.end());
+    const auto isOn = [this, &state](std::size_t node) {
+        const SiteNode& place = _site.GetNodes()[node];
+        return std::hypot(state.x - place.x, state.y - place.y) <= RouteNode{}.allowedDeviation;
+    };
+    if (const auto on = std::ranges::find_if(passed, isOn); on != passed.end())
+    {
+        return *on;
+    }
+    const std::vector<std::size_t> between = FindNodesAhead(_site, state, last, robot.place.aheadNodes);
+    if (!state.bDriving && between.size() > 1)
+    {
+        return between.front();
+    }
+    const bool bThere = state.bDriving || !between.empty() || !FindNodesBeside(_site, state, last).empty();
+    return bThere ? std::optional(last) : std::nullopt;
 }
 
 void PlaceTracker::OnPositionLost(Robot& robot)

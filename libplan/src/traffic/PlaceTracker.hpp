@@ -48,6 +48,7 @@ public:
     void ForgetPossibleNodes(Robot& robot);
 
 private:
+    [[nodiscard]] std::optional<std::size_t> FindNodeOrNull(const Robot& robot) const;
     /// The robot reports no node of the map. Its reservations stay until it reports one.
     void OnPositionLost(Robot& robot);
     /// The robot's node, then the nodes to which it may still drive.

@@ -126,12 +126,8 @@ TEST_CASE(
          [](OrderEdge& edge) {
              edge.maxRotationSpeed = 0.2;
          }},
-        {"order.edges.trajectory",
-         [](OrderEdge& edge) {
+        {"order.edges.trajectory", [](OrderEdge& edge) {
              edge.trajectory = Trajectory{1, {0.0, 0.0, 1.0, 1.0}, {ControlPoint{}, ControlPoint{10.0, 0.0, {}}}};
-         }},
-        {"order.edges.corridor", [](OrderEdge& edge) {
-             edge.corridor = Corridor{1.0, 1.0, {}};
          }}};
     for (const Case& member : cases)
     {

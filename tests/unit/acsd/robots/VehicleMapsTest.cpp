@@ -73,7 +73,8 @@ TEST_CASE("A missing map is downloaded, then enabled, each once; until then the 
     CHECK(maps.ListErrors().empty());
 }
 
-TEST_CASE("A map that could not be downloaded is not tried again before the next connection, and the error has the reason")
+TEST_CASE(
+    "A map that could not be downloaded is not tried again before the next connection, and the error has the reason")
 {
     VehicleMaps maps({HALL});
     maps.OnReported(std::vector<MapState>());

@@ -55,6 +55,37 @@ TEST_CASE("PlaceTracker: an unknown node is an alarm of a robot that had a posit
     CHECK(parts.places.GetTraffic().GetHolderOrNull(parts.FindNode("D-A01.CP01")) == 0U);
 }
 
+TEST_CASE("PlaceTracker: a robot that forgets its node keeps it while it is on the node or on an edge of it")
+{
+    EngineParts parts;
+    parts.PutOn(parts.lr, "L03");
+    const SiteNode& own = parts.engine.site.GetNodes()[parts.FindNode("L03")];
+    const SiteNode& next = parts.engine.site.GetNodes()[parts.FindNode("L04")];
+    StateChanged& state = *parts.lr.view.state;
+    state.lastNodeID.clear();
+    state.bPoseKnown = true;
+    state.x = own.x;
+    state.y = own.y;
+    parts.places.Place(parts.lr);
+    CHECK(parts.lr.place.bPlaced);
+    state.x = own.x + 0.7 * (next.x - own.x);
+    state.y = own.y + 0.7 * (next.y - own.y);
+    parts.places.Place(parts.lr);
+    CHECK(parts.lr.place.bPlaced);
+    CHECK(parts.lr.place.node == parts.FindNode("L03"));
+    CHECK(parts.places.GetTraffic().GetHolderOrNull(parts.FindNode("L04")) == 0U);
+    SECTION("it has been carried away")
+    {
+        state.x = own.x + 100.0;
+    }
+    SECTION("its position is unknown")
+    {
+        state.bPoseKnown = false;
+    }
+    parts.places.Place(parts.lr);
+    CHECK_FALSE(parts.lr.place.bPlaced);
+}
+
 TEST_CASE("PlaceTracker: the nodes of a foreign order are kept free and stored")
 {
     EngineParts parts;
