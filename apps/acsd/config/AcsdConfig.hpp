@@ -11,6 +11,7 @@
 #include "robots/JobData.hpp"
 #include "robots/JobMethods.hpp"
 #include "robots/VehicleMap.hpp"
+#include "robots/VehicleMaps.hpp"
 #include <acs/plan/EngineOptions.hpp>
 #include <acs/plan/SiteMap.hpp>
 #include <acs/vda5050/FactsheetMessage.hpp>
@@ -40,6 +41,7 @@ struct RobotLinkConfig
     JobMethods methods = {};                                           ///< Of the actions of its type.
     std::optional<VDA5050::FactsheetMessage> factsheet = std::nullopt; ///< Of factsheet_file.
     std::shared_ptr<const VehicleMap> map = std::make_shared<const VehicleMap>();
+    std::vector<NeededMap> maps = {}; ///< How the vehicle gets maps.
 };
 
 /// acsd's complete and checked configuration.

@@ -117,6 +117,27 @@ LoadPositions ReadLoadPositions(const ConfigSection& robot, const std::vector<Co
     return {ports, names};
 }
 
+/// How the vehicle gets the maps of its nodes: a table by mapId.
+std::vector<NeededMap> ReadMaps(const ConfigSection& robot)
+{
+    std::vector<NeededMap> maps;
+    const ConfigSection section = robot.GetSection("maps");
+    for (const std::string& mapID : section.GetNames())
+    {
+        const ConfigSection map = section.GetSection(mapID);
+        maps.push_back(
+            {mapID,
+             map.GetString("version"),
+             map.GetStringOrNull("download").value_or(std::string()),
+             map.GetStringOrNull("hash").value_or(std::string())});
+        if (maps.back().version.empty())
+        {
+            map.AddError("version", "expected the mapVersion that the vehicle is to enable");
+        }
+    }
+    return maps;
+}
+
 /// Whether the table has one of the keys that each robot needs. One with overrides under a misspelled name has none.
 bool HasRobotKey(const ConfigSection& section)
 {
@@ -183,6 +204,7 @@ void ReadRobot(const ConfigSection& section, const std::string& name, const std:
     link.serialNumber = section.GetString("serial");
     link.protocolVersion = section.GetWord("protocol", {"2.0.0", "2.1.0"}, "2.0.0");
     link.factsheet = ReadFactsheetOrNull(section, fileName);
+    link.maps = ReadMaps(section);
     link.armOrNull = ReadArmOrNull(section, options.type == Planning::ERobotType::CR, config.robots);
     if (link.armOrNull.has_value())
     {

@@ -34,8 +34,9 @@ OpenStreamRobotAdapter::OpenStreamRobotAdapter(
     JobMethods methods,
     ArmInputResolver inputs,
     RobotOutputs& outputs,
-    std::shared_ptr<const VehicleMap> map)
-    : _base(std::move(base), methods, outputs, Vda5050RobotAdapter::LOAD_TIMEOUT, std::move(map)),
+    std::shared_ptr<const VehicleMap> map,
+    const std::vector<NeededMap>& maps)
+    : _base(std::move(base), methods, outputs, Vda5050RobotAdapter::LOAD_TIMEOUT, std::move(map), maps),
       _options(std::move(arm)),
       _methods(std::move(methods)),
       _resolveInputs(std::move(inputs)),

@@ -57,7 +57,8 @@ public:
         JobMethods methods,
         ArmInputResolver inputs,
         RobotOutputs& outputs,
-        std::shared_ptr<const VehicleMap> map = std::make_shared<const VehicleMap>());
+        std::shared_ptr<const VehicleMap> map = std::make_shared<const VehicleMap>(),
+        const std::vector<NeededMap>& maps = {});
 
     void Handle(const Planning::RobotCommand& command, Core::Now now, Planning::AdapterActions& out) override;
     void OnTimer(Planning::AdapterTimerID timer, Core::Now now, Planning::AdapterActions& out) override;

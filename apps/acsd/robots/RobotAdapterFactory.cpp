@@ -43,7 +43,8 @@ RobotAdapter MakeRobotAdapter(const AcsdConfig& config, const RobotLinkConfig& r
             robot.methods,
             outputs,
             config.operations.loadTimeout,
-            robot.map);
+            robot.map,
+            robot.maps);
         return {std::move(vehicle), nullptr};
     }
     auto adapter = std::make_unique<OpenStreamRobotAdapter>(
@@ -52,7 +53,8 @@ RobotAdapter MakeRobotAdapter(const AcsdConfig& config, const RobotLinkConfig& r
         robot.methods,
         [methods = robot.methods](const Planning::StartJob& job) { return MakeArmInputs(methods, job); },
         outputs,
-        robot.map);
+        robot.map,
+        robot.maps);
     OpenStreamRobotAdapter* const arm = adapter.get();
     return {std::move(adapter), arm};
 }

@@ -48,6 +48,8 @@ void Vda5050RobotAdapter::OnState(Core::Now now, AdapterActions& out)
 {
     const VDA5050::StateMessage& state = *_session.GetStateOrNull();
     _report.Update(state, IsJobRunning(state), _methods.GetPositions());
+    _maps.OnReported(state.maps);
+    _report.AddErrors(_maps.ListErrors());
     RecoverJob(now, out); // first: a job of before a restart does not make the vehicle occupied
     const bool bOccupied = IsOccupied(state);
     _report.SetOccupied(bOccupied, state);
@@ -59,6 +61,26 @@ void Vda5050RobotAdapter::OnState(Core::Now now, AdapterActions& out)
     {
         CancelForeignOrder(now);
     }
+    else if (_session.CanTakeOrder())
+    {
+        RequestMap(now);
+    }
+}
+
+void Vda5050RobotAdapter::RequestMap(Core::Now now)
+{
+    std::optional<VDA5050::Action> requestOrNull = _maps.MakeRequestOrNull();
+    if (!requestOrNull.has_value())
+    {
+        return;
+    }
+    Core::Result<std::string> sent = _session.SendInstantAction(std::move(*requestOrNull), now, _sessionActions);
+    if (sent)
+    {
+        _maps.OnSent(std::move(*sent));
+        return;
+    }
+    _maps.OnNotSent(Core::Describe(sent.error()));
 }
 
 void Vda5050RobotAdapter::OnPosition(const VDA5050::PositionReceived& received, AdapterActions& out)

@@ -24,14 +24,16 @@ Vda5050RobotAdapter::Vda5050RobotAdapter(
     JobMethods methods,
     RobotOutputs& outputs,
     std::chrono::milliseconds loadTimeout,
-    std::shared_ptr<const VehicleMap> map)
+    std::shared_ptr<const VehicleMap> map,
+    const std::vector<NeededMap>& maps)
     : _bFactsheetAwaited(options.bFactsheetRequested && !options.factsheet.has_value()),
       _session(std::move(options)),
       _methods(std::move(methods)),
       _map(std::move(map)),
       _jobCheck(std::make_shared<const VehicleJobCheck>(_methods, _session.GetFactsheetOrNull(), _bFactsheetAwaited)),
       _outputs(outputs),
-      _loadTimeout(loadTimeout)
+      _loadTimeout(loadTimeout),
+      _maps(*_map, maps)
 {
 }
 
@@ -280,7 +282,14 @@ void Vda5050RobotAdapter::HandleAction(const VDA5050::MasterAction& action, Core
                 out.emplace_back(Planning::CancelAdapterTimer{FACTSHEET_TIMER});
                 OnFactsheet(now, out);
             },
-            [&](const VDA5050::VehicleOnline&) { _foreignOrderID.clear(); },
+            [&](const VDA5050::VehicleOnline&) {
+                _foreignOrderID.clear();
+                _maps.OnConnected();
+            },
+            [&](const VDA5050::InstantActionRejected& rejected) {
+                _maps.OnEnded(rejected.actionID, "rejected: " + rejected.reason);
+            },
+            [&](const VDA5050::ActionLost& lost) { _maps.OnEnded(lost.actionID, lost.reason); },
             [&](const VDA5050::VehicleOffline&) { SetOnline(false, now, out); },
             [&](const VDA5050::VehicleBroken&) { SetOnline(false, now, out); },
             [&](const VDA5050::VehicleSilent&) { SetOnline(false, now, out); },
@@ -294,6 +303,7 @@ void Vda5050RobotAdapter::HandleAction(const VDA5050::MasterAction& action, Core
             [&](const VDA5050::OrderLost& lost) { OnLost(lost, out); },
             [&](const VDA5050::NodeReached& reached) { OnNodeReached(reached, out); },
             [&](const VDA5050::ActionChanged& changed) {
+                _maps.OnChanged(changed);
                 OnDriveAction(changed, now, out);
                 OnActionChanged(changed, out);
             },

@@ -7,6 +7,7 @@
 #include "robots/VehicleJob.hpp"
 #include "robots/VehicleJobCheck.hpp"
 #include "robots/VehicleMap.hpp"
+#include "robots/VehicleMaps.hpp"
 #include "robots/VehicleReport.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/vda5050/MasterSession.hpp>
@@ -52,6 +53,7 @@ private:
 
     bool _bOnline = false;
     bool _bHorizonOmitted = false;
+    VehicleMaps _maps;
     VehicleReport _report;
     std::optional<VehicleDrive> _drive;
     VehicleJob _job;
@@ -64,13 +66,15 @@ private:
 
 public:
     /// The outputs must outlive the adapter. loadTimeout: maximum time for the loads to agree with a job whose action is
-    /// finished. The factsheet is compared with the map, and job orders have the positions of its nodes.
+    /// finished. The factsheet is compared with the map, and job orders have the positions of its nodes. maps: how the vehicle
+    /// gets the maps of these nodes.
     Vda5050RobotAdapter(
         VDA5050::MasterOptions options,
         JobMethods methods,
         RobotOutputs& outputs,
         std::chrono::milliseconds loadTimeout = LOAD_TIMEOUT,
-        std::shared_ptr<const VehicleMap> map = std::make_shared<const VehicleMap>());
+        std::shared_ptr<const VehicleMap> map = std::make_shared<const VehicleMap>(),
+        const std::vector<NeededMap>& maps = {});
 
     void Handle(const Planning::RobotCommand& command, Core::Now now, Planning::AdapterActions& out) override;
     void OnTimer(Planning::AdapterTimerID timer, Core::Now now, Planning::AdapterActions& out) override;
@@ -103,6 +107,8 @@ private:
     void ResumeJob(const Planning::StartJob& job, Core::Now now, Planning::AdapterActions& out);
     void CancelOrder(std::string_view id, Core::Now now, Planning::AdapterActions& out);
     void SendInstantAction(std::string_view actionType, Core::Now now);
+    /// Has the vehicle download or enable a map that it lacks.
+    void RequestMap(Core::Now now);
     void SendPendingOrder(Core::Now now, Planning::AdapterActions& out);
     void SendPendingUpdate(Core::Now now, Planning::AdapterActions& out);
     [[nodiscard]] bool IsDrive(std::string_view orderID) const;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -31,6 +32,24 @@ void AddParameter(VDA5050::Action& action, std::string_view key, const std::stri
 VehicleMaps::VehicleMaps(std::vector<NeededMap> needed)
     : _needed(std::move(needed))
 {
+}
+
+VehicleMaps::VehicleMaps(const VehicleMap& map, const std::vector<NeededMap>& configured)
+{
+    std::set<std::string> mapIDs;
+    for (const Planning::Route& route : map.GetRoutes())
+    {
+        for (const Planning::RouteNode& node : route.nodes)
+        {
+            mapIDs.insert(node.mapID);
+        }
+    }
+    mapIDs.erase(std::string());
+    for (const std::string& mapID : mapIDs)
+    {
+        const auto row = std::ranges::find(configured, mapID, &NeededMap::mapID);
+        _needed.push_back(row == configured.end() ? NeededMap{mapID, {}, {}, {}} : *row);
+    }
 }
 
 void VehicleMaps::OnConnected()
@@ -75,6 +94,14 @@ void VehicleMaps::OnSent(std::string actionID)
     }
 }
 
+void VehicleMaps::OnNotSent(const std::string& error)
+{
+    if (const NeededMap* const mapOrNull = FindNextOrNull(); mapOrNull != nullptr)
+    {
+        _failures.insert_or_assign(mapOrNull->mapID, error);
+    }
+}
+
 void VehicleMaps::OnEnded(const std::string& actionID, const std::string& error)
 {
     if (!_request.has_value() || _request->actionID != actionID)
@@ -86,6 +113,18 @@ void VehicleMaps::OnEnded(const std::string& actionID, const std::string& error)
         _failures.insert_or_assign(_request->mapID, error);
     }
     _request.reset();
+}
+
+void VehicleMaps::OnChanged(const VDA5050::ActionChanged& action)
+{
+    if (action.status == VDA5050::EActionStatus::Finished)
+    {
+        OnEnded(action.actionID, {});
+    }
+    else if (action.status == VDA5050::EActionStatus::Failed)
+    {
+        OnEnded(action.actionID, action.resultDescription.empty() ? "the action failed" : action.resultDescription);
+    }
 }
 
 std::vector<Planning::RobotError> VehicleMaps::ListErrors() const

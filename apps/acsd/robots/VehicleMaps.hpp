@@ -1,7 +1,9 @@
 #pragma once
 
+#include "robots/VehicleMap.hpp"
 #include <acs/plan/RobotEvent.hpp>
 #include <acs/vda5050/Action.hpp>
+#include <acs/vda5050/MasterAction.hpp>
 #include <acs/vda5050/StateMessage.hpp>
 
 #include <map>
@@ -40,6 +42,8 @@ class VehicleMaps final
 
 public:
     explicit VehicleMaps(std::vector<NeededMap> needed);
+    /// The vehicle needs the maps of its nodes; configured: how it gets them.
+    VehicleMaps(const VehicleMap& map, const std::vector<NeededMap>& configured);
 
     /// The vehicle was connected: what has failed is tried again.
     void OnConnected();
@@ -48,8 +52,11 @@ public:
     [[nodiscard]] std::optional<VDA5050::Action> MakeRequestOrNull() const;
     /// The action of MakeRequestOrNull was sent with this id.
     void OnSent(std::string actionID);
+    /// The action of MakeRequestOrNull cannot be sent.
+    void OnNotSent(const std::string& error);
     /// The action has ended. error: why it failed; empty: done. Actions of others are ignored.
     void OnEnded(const std::string& actionID, const std::string& error);
+    void OnChanged(const VDA5050::ActionChanged& action);
     /// One for each map that is not enabled: the vehicle must not drive.
     [[nodiscard]] std::vector<Planning::RobotError> ListErrors() const;
 

@@ -88,6 +88,11 @@ void VehicleReport::UpdateErrors(const VDA5050::StateMessage& state)
     }
 }
 
+void VehicleReport::AddErrors(const std::vector<Planning::RobotError>& errors)
+{
+    _state.errors.insert(_state.errors.end(), errors.begin(), errors.end());
+}
+
 void VehicleReport::OnPosition(const VDA5050::AgvPosition& position)
 {
     UpdatePose(position);

@@ -4,6 +4,8 @@
 #include <acs/plan/RobotEvent.hpp>
 #include <acs/vda5050/StateMessage.hpp>
 
+#include <vector>
+
 namespace ACS::Acsd
 {
 
@@ -19,6 +21,8 @@ public:
     void Update(const VDA5050::StateMessage& state, bool bJobRunning, const LoadPositions& positions);
     /// A position between two states.
     void OnPosition(const VDA5050::AgvPosition& position);
+    /// After Update, in addition to the errors of the state.
+    void AddErrors(const std::vector<Planning::RobotError>& errors);
     /// After Update. An occupied vehicle keeps the released nodes ahead of it.
     void SetOccupied(bool bOccupied, const VDA5050::StateMessage& state);
 

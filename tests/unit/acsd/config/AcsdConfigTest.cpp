@@ -458,6 +458,16 @@ TEST_CASE("robot.* and robots.NAME.charge are read; a charging station is no oth
     CHECK(Read({"mcs.position_while_moving=here"}).errors.size() == 1);
 }
 
+TEST_CASE("The maps of a robot need a version, and may have a link and a hash")
+{
+    const Acsd::AcsdConfig config =
+        Read({R"(robots.LR01.maps.hall.version="2")", R"(robots.LR01.maps.hall.download="http://files/hall.zip")"});
+    CHECK(config.errors.empty());
+    const auto robot = std::ranges::find(config.robots, "LR01", &Acsd::RobotLinkConfig::robotID);
+    CHECK(robot->maps == std::vector<Acsd::NeededMap>{{"hall", "2", "http://files/hall.zip", {}}});
+    CHECK(Read({R"(robots.LR01.maps.hall.hash="1")"}).errors.size() == 1);
+}
+
 TEST_CASE("A factsheet_file is read without a header, and an unreadable one is an error with path and reason")
 {
     const Testing::TemporaryFolder folder;

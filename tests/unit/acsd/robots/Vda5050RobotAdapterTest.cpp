@@ -496,4 +496,41 @@ TEST_CASE("6.7 Without the member paused, the ends of startPause and stopPause d
     CHECK_FALSE(vehicle.TakeEvents<Planning::StateChanged>().back().bPaused);
 }
 
+TEST_CASE("A vehicle without the map of its nodes has an error until it has enabled it at acsd's request")
+{
+    const Core::Result<Planning::SiteMap> site = Planning::SiteMap::Create(
+        {{"A", 0, 0, "hall", {{"lr", {}}}}, {"B", 2, 0, "hall", {{"lr", {}}}}},
+        {{"A-B", "A", "B", {{"lr", {}, {}, {}, {}, {}, {}}}}},
+        {});
+    REQUIRE(site);
+    VDA5050::MasterOptions options = VehicleFixture::MakeOptions();
+    options.version = VDA5050::EVda5050Version::Version210;
+    VehicleFixture vehicle(
+        JobMethods(),
+        options,
+        std::make_shared<const VehicleMap>(*site, "lr"),
+        {{"hall", "2", {}, {}}});
+    vehicle.state.header.version = "2.1.0";
+    vehicle.state.maps = std::vector<VDA5050::MapState>{{"hall", "2", VDA5050::EMapStatus::Enabled, {}}};
+    vehicle.ComeOnline();
+    CHECK(vehicle.TakeEvents<Planning::StateChanged>().back().errors.empty());
+    CHECK(vehicle.outputs.messages.empty());
+    vehicle.state.maps->front().mapStatus = VDA5050::EMapStatus::Disabled;
+    vehicle.ShowState();
+    const auto states = vehicle.TakeEvents<Planning::StateChanged>();
+    REQUIRE_FALSE(states.empty());
+    REQUIRE(states.back().errors.size() == 1);
+    CHECK(states.back().errors.front().errorCode == "AGV-mapNotEnabled");
+    CHECK(states.back().errors.front().level == Planning::EAlarmLevel::Heavy);
+    const auto sent = vehicle.codec.Decode<VDA5050::InstantActionsMessage>(vehicle.outputs.messages.back().payload);
+    REQUIRE(sent);
+    CHECK(sent->actions.at(0).actionType == "enableMap");
+    const std::size_t count = vehicle.outputs.messages.size();
+    vehicle.state.actionStates = {{sent->actions[0].actionID, "enableMap", "", VDA5050::EActionStatus::Finished, ""}};
+    vehicle.state.maps->front().mapStatus = VDA5050::EMapStatus::Enabled;
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::StateChanged>().back().errors.empty());
+    CHECK(vehicle.outputs.messages.size() == count);
+}
+
 } // namespace ACS::Acsd::Test

@@ -68,8 +68,15 @@ struct VehicleFixture
     explicit VehicleFixture(
         JobMethods methods,
         VDA5050::MasterOptions options = MakeOptions(),
-        std::shared_ptr<const VehicleMap> map = std::make_shared<const VehicleMap>())
-        : adapter(std::move(options), std::move(methods), outputs, Vda5050RobotAdapter::LOAD_TIMEOUT, std::move(map))
+        std::shared_ptr<const VehicleMap> map = std::make_shared<const VehicleMap>(),
+        const std::vector<NeededMap>& maps = {})
+        : adapter(
+            std::move(options),
+            std::move(methods),
+            outputs,
+            Vda5050RobotAdapter::LOAD_TIMEOUT,
+            std::move(map),
+            maps)
     {
         state.header.version = "2.0.0";
         state.header.manufacturer = "ACS";
@@ -83,7 +90,8 @@ struct VehicleFixture
         message.header = state.header;
         message.header.timestamp = clock.GetNow().wall;
         std::string payload;
-        codec.Encode(message, VDA5050::EVda5050Version::Version200, payload);
+        const auto version = VDA5050::ReadVersionOrNull(message.header.version);
+        codec.Encode(message, version.value_or(VDA5050::EVda5050Version::Version200), payload);
         adapter.OnMqttMessage({"uagv/v2/ACS/LR01/" + std::string(topic), payload, 0, false}, clock.GetNow(), actions);
     }
 
