@@ -62,8 +62,10 @@ class Refusals(TracedLineCase):
     def test_a_vehicle_that_rejects_its_orders_is_unavailable_until_the_alarm_is_cleared(self):
         self.start_line("LR01 refuse count=3")
         self.wait_for_refusal_alarm()
-        waits = self.read_status(self.http)["plans"][0]["waits"]["message"]
-        self.assertIn("LR01: rejects its commands: the vehicle rejected the order", waits)
+        (plan,) = self.read_status(self.http)["plans"]
+        self.assertEqual(plan["status"], "Pending")
+        (robot,) = plan["waits"]["robots"]
+        self.assertIn("rejects its commands: the vehicle rejected the order", robot["reason"])
         self.post("/alarms/clear?robot=LR01&code=ACS-1012")
         self.finish()
         self.assertEqual(len([nodes for nodes in self.read_drives() if nodes[0]["nodeId"] == "D-CHG01"]), 4)
@@ -73,7 +75,7 @@ class Refusals(TracedLineCase):
                         overrides=("tsc.initial=paused",))
         self.resume_with_all_vehicles()
         self.finish("LR02")
-        self.assertEqual(len(self.read_drives()), 3)
+        self.assertEqual(len(self.read_drives()), 1)
 
     def test_a_fleet_of_five_works_without_the_vehicle_that_rejects_every_order(self):
         self.start_line("LR01 refuse for=10m error=routeError", vehicles=make_vehicles(*OTHER_NODES),
