@@ -11,6 +11,7 @@
 #include <fmt/core.h>
 
 #include <cstdint>
+#include <string>
 #include <utility>
 #include <variant>
 
@@ -28,13 +29,15 @@ class MemoryACS : private Core::IClock
     PlanEngineHost _host;
 
 public:
+    std::string driveID; ///< Of the latest drive.
+
     MemoryACS(const EngineOptions& options, const SiteMap& site, IPlanStore& store, Core::IRandom& random)
         : _store(store),
           _engine(options, site, random),
           _host(
               _engine,
               *this,
-              [](const EngineAction& action) { Execute(action); },
+              [this](const EngineAction& action) { Execute(action); },
               // A store can fail, on a full disk for example. The engine then rejects new plans and repeats the rest later.
               [this](const StoreBatch& batch) { _host.OnStored(_store.Append(batch)); })
     {
@@ -70,7 +73,7 @@ private:
         return {};
     }
 
-    static void Execute(const EngineAction& action)
+    void Execute(const EngineAction& action)
     {
         if (const auto* sendOrNull = std::get_if<SendReport>(&action))
         {
@@ -78,8 +81,9 @@ private:
         }
         else if (const auto* commandOrNull = std::get_if<CommandRobot>(&action))
         {
-            const bool bDrive = std::holds_alternative<Drive>(commandOrNull->command);
-            fmt::print("  to {}: {}\n", commandOrNull->robotID, bDrive ? "drive" : "another command");
+            const auto* driveOrNull = std::get_if<Drive>(&commandOrNull->command);
+            fmt::print("  to {}: {}\n", commandOrNull->robotID, driveOrNull != nullptr ? "drive" : "another command");
+            driveID = driveOrNull != nullptr ? driveOrNull->driveID : driveID;
         }
         // Timers are ignored: this lesson pushes the one that it needs.
     }
@@ -103,8 +107,9 @@ void RunFirstACS(const EngineOptions& options, const SiteMap& site, IPlanStore& 
     acs.ConnectRobot();
     fmt::print("the MCS submits a plan\n");
     acs.Push(SubmitPlan{ExampleFloor::MakePlan(), 1});
-    fmt::print("the engine assigns plans to robots\n");
+    fmt::print("the engine assigns plans to robots, and the robot accepts its drive\n");
     acs.Push(EngineTimer{EEngineTimer::Dispatch, {}});
+    acs.Push(RobotInput{ExampleFloor::ROBOT, NodePassed{acs.driveID, "N-HOME"}});
     // Acknowledgements are stored a little later, together: a crash before that only repeats a report.
     fmt::print("the MCS acknowledges the first report\n");
     acs.Push(MessageAcknowledged{1});
@@ -134,8 +139,7 @@ int main()
         return 1;
     }
     MemoryACS acs(*options, *site, store, random);
-    // The plan still has its robot. The outcome of a job would be requested (RecoverJob); this robot was driving, and its
-    // drive starts again as soon as it has reported its position.
+    // The plan still has its robot, which was driving: its drive starts again when it has reported its position.
     acs.Restore(std::move(*stored));
     PrintPlan(acs.GetEngine());
     fmt::print("the robot connects\n");

@@ -79,7 +79,7 @@ class Operator(ScenarioCase):
         self.assertEqual(self.ask("/robots/CR01/maintenance/off", "POST")[0], 202)
         self.wait_for_reason("CR01.TP01 is taken by TRAY_99")
         self.assertEqual(self.ask("/robots/CR01/carriers?carrier=&carrier=&carrier=", "POST")[0], 202)
-        self.wait_for(lambda _: "from TRAY_99, empty, empty to empty, empty, empty" in self.acsd.log.read_text(errors="replace") or None,
+        self.wait_for(lambda _: "it was (TRAY_99, empty, empty), it is (empty, empty, empty)" in self.acsd.log.read_text(errors="replace") or None,
                       "a line about the corrected port")
         self.assertEqual(mcs.wait(FINISH_SECONDS), 0)
         self.assert_last_line(mcs, "1 plans completed, 0 failed")

@@ -452,8 +452,9 @@ def list_sample_keys(text):
     """Keys that a configuration shows in comments only, as "# key = value", in tables that may be comments too."""
     table, keys = "", set()
     for line in text.splitlines():
-        if match := re.match(r"^(?:# )?\[([a-zA-Z0-9_.\"]+)\]", line):
-            table = match[1].replace('"', "")
+        if match := re.match(r"^(?:# )?\[(\[?)([a-zA-Z0-9_.\"]+)\]", line):
+            table = match[2].replace('"', "")
+            keys.update({table} if match[1] else ())
         elif match := re.match(r"^# ([a-zA-Z_.]+) = ", line):
             keys.add(f"{table}.{match[1]}")
     return keys
@@ -463,6 +464,7 @@ def check_key_table(config, text, document):
     """The document's tables of keys and the file, read and as text, name the same keys."""
     def make_general(keys):
         names = {re.sub(r"^(robots|actions)\.[^.]+", r"\1.NAME", key) for key in keys}
+        names = {re.sub(r"\.maps\.[^.]+", ".maps.MAPID", name) for name in names}
         return {re.sub(r"^stations\..+\.", "stations.NAME.", name) for name in names}
     used = make_general(list_keys_recursive(config))
     listed = set(re.findall(r"^\| `([a-zA-Z_.]+)` \|", document, re.MULTILINE))
