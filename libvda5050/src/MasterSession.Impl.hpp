@@ -59,6 +59,8 @@ class MasterSession::Impl
     bool _bSilent = false;
     bool _bStateFresh = false;   ///< A state was received since the vehicle is online.
     bool _bNumbersKnown = false; ///< A state was received since ONLINE, which restarts the headerIds.
+    bool _bHorizonOmitted = false;
+    bool _bAwaySinceSend = false; ///< The vehicle was not connected for a time since the order was sent.
     Core::SteadyTime _lastStateTime;
     std::optional<StateMessage> _state;
     std::optional<FactsheetMessage> _factsheet; ///< Received, or that of the options.
@@ -69,7 +71,6 @@ class MasterSession::Impl
     bool _bAccepted = false;               ///< The vehicle has shown a message of this order.
     std::optional<OrderMessage> _inFlight; ///< Sent, and not shown yet.
     std::optional<OrderMessage> _queued;   ///< Waits until the one in flight is shown.
-    bool _bHorizonOmitted = false;
     /// The messages that were built with a horizon, from the accepted one on: more nodes follow, whether or not it was sent.
     std::vector<std::uint32_t> _continuedUpdateIDs;
     std::uint32_t _sendCount = 0;
@@ -79,7 +80,6 @@ class MasterSession::Impl
     std::vector<TrackedAction> _tracked;            ///< Not yet ended.
     std::vector<VehicleError> _errorsBeforeSend;    ///< Sorted.
     std::string _orderIDBeforeSend;                 ///< Of the vehicle's state.
-    bool _bAwaySinceSend = false;                   ///< The vehicle was not connected for a time since then.
     std::uint32_t _firstHeaderID = 0;               ///< Of the message in flight; increases with each resend.
     std::vector<RouteNode> _route;                  ///< Accepted nodes, base and horizon.
     std::size_t _reachedNodes = 0;                  ///< Number of nodes of _route that were reported.
