@@ -78,7 +78,7 @@ TEST_CASE("3.7 Optional members that a vehicle can do without are left out where
     {
         bench.Deliver(MakeListing({"order.nodes.nodePosition"}));
         REQUIRE(bench.Send(order).has_value());
-        const NodePosition& position = *bench.GetSentOrder().nodes[1].nodePosition;
+        const NodePosition position = *bench.GetSentOrder().nodes[1].nodePosition;
         CHECK(position.x == order.nodes[1].nodePosition->x);
         CHECK_FALSE(position.theta.has_value());
         CHECK_FALSE(position.allowedDeviationTheta.has_value());
