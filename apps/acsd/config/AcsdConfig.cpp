@@ -162,16 +162,16 @@ void ReadMap(const ConfigSection& section, const std::string& map, AcsdConfig& c
 /// Robots of one vehicle type share its part of the map.
 void SetMaps(AcsdConfig& config)
 {
-    std::map<std::string, std::shared_ptr<const VehicleMap>> maps;
+    std::map<std::string, std::shared_ptr<DriveCheck>> checks;
     for (std::size_t i = 0; i < config.robots.size(); ++i)
     {
         const std::string& vehicleTypeID = config.engine.robots[i].vehicleTypeID;
-        std::shared_ptr<const VehicleMap>& map = maps[vehicleTypeID];
-        if (map == nullptr)
+        std::shared_ptr<DriveCheck>& drives = checks[vehicleTypeID];
+        if (drives == nullptr)
         {
-            map = std::make_shared<const VehicleMap>(*config.site, vehicleTypeID);
+            drives = std::make_shared<DriveCheck>(VehicleMap(*config.site, vehicleTypeID));
         }
-        config.robots[i].map = map;
+        config.robots[i].drives = drives;
     }
 }
 
@@ -184,7 +184,7 @@ void WarnOfFactsheets(AcsdConfig& config)
         options.address = {config.mqtt.interfaceName, robot.manufacturer, robot.serialNumber};
         options.factsheet = robot.factsheet;
         const VDA5050::MasterSession session(std::move(options));
-        const std::string incompatibility = FindIncompatibility(session, *robot.map, robot.methods, {});
+        const std::string incompatibility = FindIncompatibility(session, *robot.drives, robot.methods, {});
         if (!incompatibility.empty())
         {
             config.warnings.push_back(fmt::format("robots.{}: {}", robot.robotID, incompatibility));

@@ -8,9 +8,9 @@
 #include "config/MqttConfig.hpp"
 #include "config/OperationsConfig.hpp"
 #include "robots/ArmRelay.hpp"
+#include "robots/DriveCheck.hpp"
 #include "robots/JobData.hpp"
 #include "robots/JobMethods.hpp"
-#include "robots/VehicleMap.hpp"
 #include "robots/VehicleMaps.hpp"
 #include <acs/plan/EngineOptions.hpp>
 #include <acs/plan/SiteMap.hpp>
@@ -38,10 +38,10 @@ struct RobotLinkConfig
     std::string protocolVersion;        ///< "2.0.0" or "2.1.0"
     std::optional<Apps::Url> armOrNull; ///< tcp://, Open Stream server of the arm's controller
     ArmOptions armOptions = {};
-    JobMethods methods = {};                                           ///< Of the actions of its type.
-    std::optional<VDA5050::FactsheetMessage> factsheet = std::nullopt; ///< Of factsheet_file.
-    std::shared_ptr<const VehicleMap> map = std::make_shared<const VehicleMap>();
-    std::vector<NeededMap> maps = {}; ///< How the vehicle gets maps.
+    JobMethods methods = {};                                             ///< Of the actions of its type.
+    std::optional<VDA5050::FactsheetMessage> factsheet = std::nullopt;   ///< Of factsheet_file.
+    std::shared_ptr<DriveCheck> drives = std::make_shared<DriveCheck>(); ///< Shared by its vehicle type.
+    std::vector<NeededMap> maps = {};                                    ///< How the vehicle gets maps.
 };
 
 /// acsd's complete and checked configuration.

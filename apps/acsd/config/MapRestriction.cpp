@@ -1,6 +1,6 @@
 #include "config/MapRestriction.hpp"
 
-#include "robots/VehicleDrive.hpp"
+#include "robots/DriveCheck.hpp"
 #include <acs/plan/Router.hpp>
 #include <acs/vda5050/MasterSession.hpp>
 
@@ -20,12 +20,8 @@ namespace
 /// Why the vehicle refuses a drive along the route; empty: it does not.
 std::string FindFault(const VDA5050::MasterSession& session, const Planning::Route& route)
 {
-    constexpr const char* ANY_UUID = "01234567-89ab-4cde-8f01-23456789abcd"; // the length of all orderIds
-    Core::Result<VehicleDrive> drive = VehicleDrive::Create(Planning::Drive{ANY_UUID, route, route.nodes.size()});
-    const Core::Result<VDA5050::OrderMessage> order = drive
-        ? drive->MakeOrder([&session](const auto& message) { return session.CheckOrder(message, Core::Now{}); })
-        : tl::unexpected(std::move(drive.error()));
-    return order ? std::string() : order.error().expected;
+    const Core::Result<void> checked = CheckDrive(session, route, Core::Now{});
+    return checked ? std::string() : checked.error().expected;
 }
 
 Planning::Route RemoveDemands(Planning::Route route)

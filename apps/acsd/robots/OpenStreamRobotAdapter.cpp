@@ -34,9 +34,9 @@ OpenStreamRobotAdapter::OpenStreamRobotAdapter(
     JobMethods methods,
     ArmInputResolver inputs,
     RobotOutputs& outputs,
-    std::shared_ptr<const VehicleMap> map,
+    std::shared_ptr<DriveCheck> drives,
     const std::vector<NeededMap>& maps)
-    : _base(std::move(base), methods, outputs, Vda5050RobotAdapter::LOAD_TIMEOUT, std::move(map), maps),
+    : _base(std::move(base), methods, outputs, Vda5050RobotAdapter::LOAD_TIMEOUT, std::move(drives), maps),
       _options(std::move(arm)),
       _methods(std::move(methods)),
       _resolveInputs(std::move(inputs)),

@@ -57,7 +57,7 @@ public:
         JobMethods methods,
         ArmInputResolver inputs,
         RobotOutputs& outputs,
-        std::shared_ptr<const VehicleMap> map = std::make_shared<const VehicleMap>(),
+        std::shared_ptr<DriveCheck> drives = std::make_shared<DriveCheck>(),
         const std::vector<NeededMap>& maps = {});
 
     void Handle(const Planning::RobotCommand& command, Core::Now now, Planning::AdapterActions& out) override;

@@ -43,7 +43,7 @@ RobotAdapter MakeRobotAdapter(const AcsdConfig& config, const RobotLinkConfig& r
             robot.methods,
             outputs,
             config.operations.loadTimeout,
-            robot.map,
+            robot.drives,
             robot.maps);
         return {std::move(vehicle), nullptr};
     }
@@ -53,7 +53,7 @@ RobotAdapter MakeRobotAdapter(const AcsdConfig& config, const RobotLinkConfig& r
         robot.methods,
         [methods = robot.methods](const Planning::StartJob& job) { return MakeArmInputs(methods, job); },
         outputs,
-        robot.map,
+        robot.drives,
         robot.maps);
     OpenStreamRobotAdapter* const arm = adapter.get();
     return {std::move(adapter), arm};

@@ -91,7 +91,8 @@ VDA5050::OrderMessage Vda5050RobotAdapter::MakeJobOrder(const Planning::StartJob
     VDA5050::OrderNode& node = order.nodes.emplace_back();
     node.nodeID = _session.GetStateOrNull()->lastNodeID;
     node.bReleased = true;
-    if (const Planning::RouteNode* const knownOrNull = _map->FindNodeOrNull(node.nodeID); knownOrNull != nullptr)
+    if (const Planning::RouteNode* const knownOrNull = _drives->GetMap().FindNodeOrNull(node.nodeID);
+        knownOrNull != nullptr)
     {
         node.nodePosition = MakeNodePosition(*knownOrNull);
     }

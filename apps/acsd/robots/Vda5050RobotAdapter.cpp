@@ -24,16 +24,16 @@ Vda5050RobotAdapter::Vda5050RobotAdapter(
     JobMethods methods,
     RobotOutputs& outputs,
     std::chrono::milliseconds loadTimeout,
-    std::shared_ptr<const VehicleMap> map,
+    std::shared_ptr<DriveCheck> drives,
     const std::vector<NeededMap>& maps)
     : _bFactsheetAwaited(options.bFactsheetRequested && !options.factsheet.has_value()),
       _session(std::move(options)),
       _methods(std::move(methods)),
-      _map(std::move(map)),
+      _drives(std::move(drives)),
       _jobCheck(std::make_shared<const VehicleJobCheck>(_methods, _session.GetFactsheetOrNull(), _bFactsheetAwaited)),
       _outputs(outputs),
       _loadTimeout(loadTimeout),
-      _maps(*_map, maps)
+      _maps(_drives->GetMap(), maps)
 {
 }
 
@@ -472,7 +472,7 @@ void Vda5050RobotAdapter::UpdateJobCheck(AdapterActions& out)
 
 void Vda5050RobotAdapter::UpdateCompatibility(Core::Now now, AdapterActions& out)
 {
-    std::string incompatibility = FindIncompatibility(_session, *_map, _methods, now);
+    std::string incompatibility = FindIncompatibility(_session, *_drives, _methods, now);
     if (_incompatibility != incompatibility)
     {
         _incompatibility = incompatibility;

@@ -1,12 +1,12 @@
 #pragma once
 
+#include "robots/DriveCheck.hpp"
 #include "robots/IMqttRobotAdapter.hpp"
 #include "robots/JobMethods.hpp"
 #include "robots/RobotOutputs.hpp"
 #include "robots/VehicleDrive.hpp"
 #include "robots/VehicleJob.hpp"
 #include "robots/VehicleJobCheck.hpp"
-#include "robots/VehicleMap.hpp"
 #include "robots/VehicleMaps.hpp"
 #include "robots/VehicleReport.hpp"
 #include <acs/core/Now.hpp>
@@ -45,7 +45,7 @@ private:
     bool _bFactsheetAwaited;
     VDA5050::MasterSession _session;
     JobMethods _methods;
-    std::shared_ptr<const VehicleMap> _map;
+    std::shared_ptr<DriveCheck> _drives;
     std::shared_ptr<const VehicleJobCheck> _jobCheck;
     RobotOutputs& _outputs;
     std::chrono::milliseconds _loadTimeout;
@@ -73,7 +73,7 @@ public:
         JobMethods methods,
         RobotOutputs& outputs,
         std::chrono::milliseconds loadTimeout = LOAD_TIMEOUT,
-        std::shared_ptr<const VehicleMap> map = std::make_shared<const VehicleMap>(),
+        std::shared_ptr<DriveCheck> drives = std::make_shared<DriveCheck>(),
         const std::vector<NeededMap>& maps = {});
 
     void Handle(const Planning::RobotCommand& command, Core::Now now, Planning::AdapterActions& out) override;

@@ -1,6 +1,5 @@
 #include "robots/VehicleCompatibility.hpp"
 
-#include "robots/VehicleDrive.hpp"
 #include "robots/VehicleParameters.hpp"
 
 #include <fmt/format.h>
@@ -15,35 +14,6 @@ namespace ACS::Acsd
 
 namespace
 {
-
-constexpr const char* ANY_UUID = "01234567-89ab-4cde-8f01-23456789abcd"; // of the length of all orderIds
-
-std::optional<std::string> FindDriveFaultOrNull(
-    const VDA5050::MasterSession& session,
-    const Planning::Route& route,
-    Core::Now now)
-{
-    Planning::Drive drive;
-    drive.driveID = ANY_UUID;
-    drive.route = route;
-    drive.releasedCount = route.nodes.size();
-    Core::Result<VehicleDrive> made = VehicleDrive::Create(drive);
-    const Core::Result<VDA5050::OrderMessage> order = made
-        ? made->MakeOrder([&session, now](const auto& message) { return session.CheckOrder(message, now); })
-        : tl::unexpected(std::move(made.error()));
-    if (order)
-    {
-        return std::nullopt;
-    }
-    const Core::Error& error = order.error();
-    const bool bNamed = error.expected.find(error.path) != std::string::npos;
-    return fmt::format(
-        "the drive from {} to {} cannot be ordered: {}{}.",
-        route.nodes.front().nodeID,
-        route.nodes.back().nodeID,
-        error.expected,
-        bNamed ? "" : " (" + error.path + ")");
-}
 
 std::optional<std::string> FindJobFaultOrNull(const VDA5050::FactsheetMessage& factsheet, const JobMethods& methods)
 {
@@ -68,7 +38,7 @@ std::optional<std::string> FindJobFaultOrNull(const VDA5050::FactsheetMessage& f
 
 std::string FindIncompatibility(
     const VDA5050::MasterSession& session,
-    const VehicleMap& map,
+    DriveCheck& drives,
     const JobMethods& methods,
     Core::Now now)
 {
@@ -77,22 +47,18 @@ std::string FindIncompatibility(
     {
         return {};
     }
-    std::optional<std::string> fault;
-    for (const Planning::Route& route : map.GetRoutes())
+    const std::string driveFault = drives.FindFault(session, now);
+    if (!driveFault.empty())
     {
-        fault = FindDriveFaultOrNull(session, route, now);
-        if (fault.has_value())
-        {
-            return *fault + " Correct the factsheet (of the vehicle, or robots.NAME.factsheet_file) or the map.";
-        }
+        return driveFault + " Correct the factsheet (of the vehicle, or robots.NAME.factsheet_file) or the map.";
     }
-    fault = FindJobFaultOrNull(*factsheetOrNull, methods);
-    if (fault.has_value())
+    const std::optional<std::string> jobFault = FindJobFaultOrNull(*factsheetOrNull, methods);
+    if (jobFault.has_value())
     {
         return fmt::format(
             "it can do none of its jobs: {}. Correct the factsheet (of the vehicle, or robots.NAME.factsheet_file) or the "
             "actions of the robot.",
-            *fault);
+            *jobFault);
     }
     return {};
 }

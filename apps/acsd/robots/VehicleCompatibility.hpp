@@ -1,7 +1,7 @@
 #pragma once
 
+#include "robots/DriveCheck.hpp"
 #include "robots/JobMethods.hpp"
-#include "robots/VehicleMap.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/vda5050/MasterSession.hpp>
 
@@ -14,7 +14,7 @@ namespace ACS::Acsd
 /// sentence each. Empty: nothing, or there is no factsheet. A vehicle that can do some of its jobs is compatible.
 [[nodiscard]] std::string FindIncompatibility(
     const VDA5050::MasterSession& session,
-    const VehicleMap& map,
+    DriveCheck& drives,
     const JobMethods& methods,
     Core::Now now);
 

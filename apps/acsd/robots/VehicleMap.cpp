@@ -3,6 +3,7 @@
 #include <acs/plan/Router.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <utility>
 
@@ -12,17 +13,15 @@ namespace ACS::Acsd
 VehicleMap::VehicleMap(const Planning::SiteMap& site, std::string_view vehicleTypeID)
 {
     const Planning::Router router(site);
-    for (const Planning::SiteEdge& edge : site.GetEdges())
+    for (std::size_t i = 0; i < site.GetEdges().size(); ++i)
     {
-        const Planning::SiteEdgeRule* const ruleOrNull = edge.FindRuleOrNull(vehicleTypeID);
-        if (ruleOrNull == nullptr)
+        const Planning::SiteEdgeRule* const ruleOrNull = site.GetEdges()[i].FindRuleOrNull(vehicleTypeID);
+        if (ruleOrNull == nullptr
+            || (!ruleOrNull->IsPermitted(Planning::ELoad::Empty) && !ruleOrNull->IsPermitted(Planning::ELoad::Loaded)))
         {
             continue;
         }
-        const Planning::ELoad load =
-            ruleOrNull->IsPermitted(Planning::ELoad::Empty) ? Planning::ELoad::Empty : Planning::ELoad::Loaded;
-        std::optional<Planning::Route> route =
-            router.FindRouteOrNull(vehicleTypeID, load, edge.startNodeID, edge.endNodeID, {});
+        std::optional<Planning::Route> route = router.MakeRouteOrNull(vehicleTypeID, i);
         if (route.has_value())
         {
             _routes.push_back(std::move(*route));

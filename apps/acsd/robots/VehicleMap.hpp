@@ -20,7 +20,7 @@ public:
 
     VehicleMap(const Planning::SiteMap& site, std::string_view vehicleTypeID);
 
-    /// Routes between neighbouring nodes, which have all the edges that drives use.
+    /// Each edge that the vehicle type may use, as a route of its own.
     [[nodiscard]] const std::vector<Planning::Route>& GetRoutes() const noexcept;
 
     /// Null if no route has the node.

@@ -488,7 +488,7 @@ TEST_CASE("A factsheet_file is read without a header, and an unreadable one is a
     const auto robot = std::ranges::find(good.robots, "LR01", &Acsd::RobotLinkConfig::robotID);
     REQUIRE(robot->factsheet.has_value());
     CHECK(robot->factsheet->typeSpecification.seriesName == "LR");
-    CHECK_FALSE(robot->map->GetRoutes().empty());
+    CHECK_FALSE(robot->drives->GetMap().GetRoutes().empty());
 
     write(R"({"agvActions":[],"optionalParameters":[]})");
     const Acsd::AcsdConfig poor = Read(keys);

@@ -508,7 +508,7 @@ TEST_CASE("A vehicle without the map of its nodes has an error until it has enab
     VehicleFixture vehicle(
         JobMethods(),
         options,
-        std::make_shared<const VehicleMap>(*site, "lr"),
+        std::make_shared<DriveCheck>(VehicleMap(*site, "lr")),
         {{"hall", "2", {}, {}}});
     vehicle.state.header.version = "2.1.0";
     vehicle.state.maps = std::vector<VDA5050::MapState>{{"hall", "2", VDA5050::EMapStatus::Enabled, {}}};

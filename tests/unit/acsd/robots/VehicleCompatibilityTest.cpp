@@ -22,7 +22,7 @@ using VDA5050::EParameterSupport;
 using VDA5050::FactsheetMessage;
 
 /// Nodes A, B and C in a line, with a speed on the second edge.
-std::shared_ptr<const VehicleMap> MakeMap()
+std::shared_ptr<DriveCheck> MakeDrives()
 {
     std::vector<Planning::SiteNode> nodes;
     for (const auto& [nodeID, x] : {std::pair("A", 0.0), std::pair("B", 2.0), std::pair("C", 4.0)})
@@ -34,17 +34,19 @@ std::shared_ptr<const VehicleMap> MakeMap()
     slow.maxSpeed = 0.4;
     const auto site = Planning::SiteMap::Create(nodes, {{"AB", "A", "B", {plain}}, {"BC", "B", "C", {slow}}}, {});
     REQUIRE(site);
-    return std::make_shared<const VehicleMap>(*site, "T");
+    return std::make_shared<DriveCheck>(VehicleMap(*site, "T"));
 }
 
 /// A vehicle that does CassetteLoad by pick and CassetteUnload by drop on that map.
 struct CompatibilityFixture : VehicleFixture
 {
-    explicit CompatibilityFixture(VDA5050::MasterOptions options = MakeOptions())
+    explicit CompatibilityFixture(
+        VDA5050::MasterOptions options = MakeOptions(),
+        std::shared_ptr<DriveCheck> drives = MakeDrives())
         : VehicleFixture(
             JobMethods{{"CassetteLoad", {"pick", 0}}, {"CassetteUnload", {"drop", 0}}},
             std::move(options),
-            MakeMap())
+            std::move(drives))
     {
     }
 
@@ -152,6 +154,32 @@ TEST_CASE("A vehicle that does not support what the map demands is incompatible 
     CHECK(vehicle.Send(factsheet) == "none"); // it is known
     List(factsheet, {"order.edges.maxSpeed"});
     CHECK(vehicle.Send(factsheet).empty());
+}
+
+TEST_CASE("Vehicles with equal factsheets share one check of the map; the results of few factsheets are kept")
+{
+    const std::shared_ptr<DriveCheck> drives = MakeDrives();
+    FactsheetMessage factsheet = StandardFactsheet().factsheet;
+    List(factsheet, {});
+    factsheet.vehicleConfig.emplace();
+    for (const char* address : {"10.0.0.1", "10.0.0.2"})
+    {
+        factsheet.vehicleConfig->network.emplace().localIpAddress = address;
+        CompatibilityFixture vehicle(CompatibilityFixture::MakeOptions(), drives);
+        vehicle.ComeOnline();
+        CHECK_THAT(vehicle.Send(factsheet), Catch::Contains("does not support order.edges.maxSpeed"));
+        CHECK(drives->CountFactsheets() == 1);
+    }
+    for (std::uint32_t limit = 1; limit < 2 * DriveCheck::MOST_FACTSHEETS; ++limit)
+    {
+        CAPTURE(limit);
+        FactsheetMessage other = StandardFactsheet().factsheet;
+        other.protocolLimits.maxArrayLengths.orderNodes = limit;
+        CompatibilityFixture vehicle(CompatibilityFixture::MakeOptions(), drives);
+        vehicle.ComeOnline();
+        CHECK((vehicle.Send(other) == "none") == (limit > 1));
+    }
+    CHECK(drives->CountFactsheets() == DriveCheck::MOST_FACTSHEETS);
 }
 
 TEST_CASE("A vehicle with limits that make driving impossible is incompatible, and the limit is named")
@@ -315,13 +343,14 @@ TEST_CASE("With a factsheet of the configuration none is awaited, and a received
 TEST_CASE("Whatever the factsheet, no order is sent that it does not allow")
 {
     std::mt19937 random(18); // NOLINT(cert-msc32-c,cert-msc51-cpp): the same factsheets in each run
+    const std::shared_ptr<DriveCheck> drives = MakeDrives();
     std::size_t sentDrives = 0;
     std::size_t sentJobs = 0;
     std::size_t incompatible = 0;
     for (int round = 0; round < 500; ++round)
     {
         CAPTURE(round);
-        CompatibilityFixture vehicle;
+        CompatibilityFixture vehicle(CompatibilityFixture::MakeOptions(), drives);
         vehicle.ComeOnline();
         const FactsheetMessage factsheet = MakeRandomFactsheet(random);
         const std::string incompatibility = vehicle.Send(factsheet);

@@ -68,14 +68,14 @@ struct VehicleFixture
     explicit VehicleFixture(
         JobMethods methods,
         VDA5050::MasterOptions options = MakeOptions(),
-        std::shared_ptr<const VehicleMap> map = std::make_shared<const VehicleMap>(),
+        std::shared_ptr<DriveCheck> drives = std::make_shared<DriveCheck>(),
         const std::vector<NeededMap>& maps = {})
         : adapter(
             std::move(options),
             std::move(methods),
             outputs,
             Vda5050RobotAdapter::LOAD_TIMEOUT,
-            std::move(map),
+            std::move(drives),
             maps)
     {
         state.header.version = "2.0.0";

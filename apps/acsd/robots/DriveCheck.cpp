@@ -1,0 +1,92 @@
+#include "robots/DriveCheck.hpp"
+
+#include "robots/VehicleDrive.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+std::string DescribeFault(const Planning::Route& route, const Core::Error& error)
+{
+    const bool bNamed = error.expected.find(error.path) != std::string::npos;
+    return fmt::format(
+        "the drive from {} to {} cannot be ordered: {}{}.",
+        route.nodes.front().nodeID,
+        route.nodes.back().nodeID,
+        error.expected,
+        bNamed ? "" : " (" + error.path + ")");
+}
+
+} // namespace
+
+Core::Result<void> CheckDrive(const VDA5050::MasterSession& session, const Planning::Route& route, Core::Now now)
+{
+    constexpr const char* ANY_UUID = "01234567-89ab-4cde-8f01-23456789abcd"; // of the length of all orderIds
+    Core::Result<VehicleDrive> drive = VehicleDrive::Create(Planning::Drive{ANY_UUID, route, route.nodes.size()});
+    if (!drive)
+    {
+        return tl::unexpected(std::move(drive.error()));
+    }
+    Core::Result<VDA5050::OrderMessage> order =
+        drive->MakeOrder([&session, now](const auto& message) { return session.CheckOrder(message, now); });
+    return order ? Core::Result<void>() : tl::unexpected(std::move(order.error()));
+}
+
+DriveCheck::DriveCheck(VehicleMap map)
+    : _map(std::move(map))
+{
+}
+
+const VehicleMap& DriveCheck::GetMap() const noexcept
+{
+    return _map;
+}
+
+std::string DriveCheck::FindFault(const VDA5050::MasterSession& session, Core::Now now)
+{
+    const VDA5050::FactsheetMessage* const factsheetOrNull = session.GetFactsheetOrNull();
+    if (factsheetOrNull == nullptr)
+    {
+        return {};
+    }
+    const VDA5050::MasterOptions& options = session.GetOptions();
+    const std::size_t addressLength = options.address.manufacturer.size() + options.address.serialNumber.size();
+    Subject subject{*factsheetOrNull, options.version, addressLength};
+    subject.factsheet.header = {};
+    subject.factsheet.vehicleConfig.reset(); // network addresses
+    const auto known = std::ranges::find(_checked, subject, &Checked::subject);
+    if (known != _checked.end())
+    {
+        return known->fault;
+    }
+    std::string fault;
+    for (const Planning::Route& route : _map.GetRoutes())
+    {
+        const Core::Result<void> checked = CheckDrive(session, route, now);
+        if (!checked)
+        {
+            fault = DescribeFault(route, checked.error());
+            break;
+        }
+    }
+    if (_checked.size() == MOST_FACTSHEETS)
+    {
+        _checked.erase(_checked.begin());
+    }
+    _checked.push_back({std::move(subject), fault});
+    return fault;
+}
+
+std::size_t DriveCheck::CountFactsheets() const noexcept
+{
+    return _checked.size();
+}
+
+} // namespace ACS::Acsd
