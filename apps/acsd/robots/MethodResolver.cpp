@@ -112,7 +112,7 @@ void RefuseCounters(const MethodTable& table, const RobotLinkConfig& robot)
                 .AddError(
                     input.relay.name,
                     fmt::format(
-                        "is a counter of the arm of {}, bytes {} to {}; give an unused relay",
+                        "this relay holds a job counter of the arm of {} (bytes {} to {}); choose another one",
                         robot.robotID,
                         *counter,
                         *counter + METHOD_WORD_BYTES - 1));

@@ -195,7 +195,7 @@ TEST_CASE("The numbers of relays count values, or bytes as in the vendor's manua
     CHECK(overlapping.errors.front().find("ml106: shares bytes with ml105") != std::string::npos);
     const Acsd::AcsdConfig counter = ReadJobs({"arm.relay_index=byte", tray + "={ml400=1}"});
     CHECK(std::ranges::any_of(counter.errors, [](const std::string& error) {
-        return error.find("ml400: is a counter of the arm of CR01") != std::string::npos;
+        return error.find("ml400: this relay holds a job counter of the arm of CR01") != std::string::npos;
     }));
     CHECK(ReadJobs({tray + "={ml105='{job_number}', m3360=1}"}).errors.size() == 1);
     for (const char* const other : {"ml120", "ml2000", "sl105"})
@@ -300,8 +300,8 @@ TEST_CASE("An invalid configuration of jobs is reported under its key")
         {{tray + ".ml120='{station.height}'"},
          tray + ".ml120: {station.height} is not a whole number at station A01.CP01"},
         {{tray + ".ml120=1.5"}, tray + ".ml120: expected a whole number"},
-        {{tray + ".ml101=1"}, tray + ".ml101: is a counter of the arm of CR01, bytes 404 to 407"},
-        {{tray + ".mb419=1"}, tray + ".mb419: is a counter of the arm of CR01"},
+        {{tray + ".ml101=1"}, tray + ".ml101: this relay holds a job counter of the arm of CR01 (bytes 404 to 407)"},
+        {{tray + ".mb419=1"}, tray + ".mb419: this relay holds a job counter of the arm of CR01"},
         {{"actions.OpenSetCover.arm_inputs.ml120='{robot_port}'"},
          "actions.OpenSetCover.arm_inputs.ml120: no job of this action has {robot_port}"},
         {{"actions.OpenSetCover.arm_inputs.ml120='{from.set}'"},
@@ -334,7 +334,7 @@ TEST_CASE("An invalid configuration of jobs is reported under its key")
         {{R"(stations."A01.CP01".actions.TrayLoad.vehicle_action="x")"},
          R"(stations."A01.CP01".actions.TrayLoad: expected keys of the same kind as in actions.TrayLoad)"},
         {{R"(stations."A01.CP01".actions.TrayLoad.arm_inputs.ml100=1)"},
-         R"(stations."A01.CP01".actions.TrayLoad.arm_inputs.ml100: is a counter)"},
+         R"(stations."A01.CP01".actions.TrayLoad.arm_inputs.ml100: this relay holds a job counter)"},
         {{"robot.load_timeout=2h"}, "robot.load_timeout: expected a duration"}};
     for (const Row& row : rows)
     {

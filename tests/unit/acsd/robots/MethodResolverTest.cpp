@@ -163,7 +163,8 @@ TEST_CASE("An input that shares a byte with a counter is an error, whatever its 
         const std::vector<std::string> errors = read(relay);
         REQUIRE(errors.size() == 1);
         CHECK(
-            errors.front().find(std::string("arm_inputs.") + relay + ": is a counter of the arm of CR01, bytes 4")
+            errors.front().find(
+                std::string("arm_inputs.") + relay + ": this relay holds a job counter of the arm of CR01 (bytes 4")
             != std::string::npos);
     }
 }
@@ -173,14 +174,15 @@ TEST_CASE("The counters are those of each robot's own arm, and the inputs those 
     const std::string tray = "actions.TrayLoad.arm_inputs";
     CheckErrors({
         {{SECOND_ARM + "protocol='2.0.0'}", tray + "={ml121=1}"},
-         tray + ".ml121: is a counter of the arm of CR02, bytes 484 to 487"},
+         tray + ".ml121: this relay holds a job counter of the arm of CR02 (bytes 484 to 487)"},
         {{SECOND_ARM + "actions.TrayLoad.arm_inputs={ml122=1}}"},
-         "robots.CR02.actions.TrayLoad.arm_inputs.ml122: is a counter of the arm of CR02"},
+         "robots.CR02.actions.TrayLoad.arm_inputs.ml122: this relay holds a job counter of the arm of CR02"},
         {{"robots.CR01.arm.monitor_url=/project/plc/s/val_s32", "robots.CR01.actions.TrayLoad.arm_inputs={sl100=1}"},
-         "robots.CR01.actions.TrayLoad.arm_inputs.sl100: is a counter of the arm of CR01"},
-        {{"arm.monitor_url=/project/plc/m/val_s32/", tray + "={ml100=1}"}, tray + ".ml100: is a counter of the arm"},
+         "robots.CR01.actions.TrayLoad.arm_inputs.sl100: this relay holds a job counter of the arm of CR01"},
+        {{"arm.monitor_url=/project/plc/m/val_s32/", tray + "={ml100=1}"},
+         tray + ".ml100: this relay holds a job counter of the arm"},
         {{R"(stations."A01.CP01".actions.TrayLoad.arm_inputs={mb419=1})"},
-         R"(stations."A01.CP01".actions.TrayLoad.arm_inputs.mb419: is a counter of the arm of CR01, bytes 416 to 419)"},
+         R"(stations."A01.CP01".actions.TrayLoad.arm_inputs.mb419: this relay holds a job counter of the arm of CR01 (bytes 416 to 419))"},
     });
     CHECK(ReadSite({"robots.CR01.arm.monitor_url=/project/plc/s/val_s32", tray + "={ml100=1}"}).errors.empty());
     CHECK(
