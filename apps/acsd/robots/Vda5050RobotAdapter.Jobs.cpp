@@ -1,5 +1,7 @@
 #include "robots/Vda5050RobotAdapter.hpp"
 
+#include "robots/VehicleParameters.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -151,7 +153,7 @@ void Vda5050RobotAdapter::ResumeJob(const Planning::StartJob& job, Core::Now now
     VDA5050::Action action;
     action.actionType = shown == state.actionStates.end() || shown->actionType.empty() ? job.action : shown->actionType;
     action.actionID = job.commandID;
-    action.blockingType = VDA5050::EBlockingType::Hard;
+    action.blockingType = JOB_BLOCKING;
     VDA5050::OrderRecord record;
     record.messages.push_back(MakeJobOrder(job, std::move(action)));
     record.acceptedUpdateID = state.orderUpdateID;

@@ -48,7 +48,7 @@ tl::expected<VDA5050::Action, std::string> VehicleJobCheck::MakeAction(const Pla
     VDA5050::Action action;
     action.actionType = methodOrNull->vehicleAction;
     action.actionID = job.commandID;
-    action.blockingType = VDA5050::EBlockingType::Hard;
+    action.blockingType = JOB_BLOCKING;
     action.actionParameters = std::move(*parameters);
     return action;
 }

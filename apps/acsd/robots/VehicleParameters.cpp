@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 
 namespace ACS::Acsd
@@ -52,12 +54,46 @@ const AgvActionParameter* FindUnnamedOrNull(const AgvAction& listed, const JobMe
     return unnamed == listed.actionParameters.end() ? nullptr : &*unnamed;
 }
 
+/// Most parameters of an action; nullopt: no limit.
+std::optional<std::size_t> GetMostParameters(const VDA5050::FactsheetMessage* factsheetOrNull)
+{
+    const std::uint32_t most =
+        factsheetOrNull == nullptr ? 0 : factsheetOrNull->protocolLimits.maxArrayLengths.actionParameters.value_or(0);
+    return most == 0 ? std::nullopt : std::optional<std::size_t>(most);
+}
+
+/// Configured ones, and those that the rules demand.
+std::size_t CountNeeded(const JobMethod& method, const AgvAction* rulesOrNull)
+{
+    return static_cast<std::size_t>(
+        std::ranges::count_if(method.parameters, [rulesOrNull](const VehicleParameter& parameter) {
+            return !parameter.bDefault || IsMandatory(FindParameterOrNull(rulesOrNull, parameter.key));
+        }));
+}
+
+/// Where the factsheet lists no parameters, those of the standard's action are in force.
+const AgvAction* GetRulesOrNull(const AgvAction* listedOrNull, const std::string& actionType)
+{
+    return listedOrNull == nullptr || listedOrNull->actionParameters.empty()
+        ? VDA5050::FindPredefinedActionOrNull(actionType)
+        : listedOrNull;
+}
+
 } // namespace
 
 std::optional<std::string> FindMethodFaultOrNull(const JobMethod& method, const VDA5050::FactsheetMessage& factsheet)
 {
     const std::string& actionType = method.vehicleAction;
     const AgvAction* const listedOrNull = FindListedOrNull(&factsheet, actionType);
+    const std::size_t needed = CountNeeded(method, GetRulesOrNull(listedOrNull, actionType));
+    if (needed > GetMostParameters(&factsheet).value_or(needed))
+    {
+        return fmt::format(
+            "{} has {} parameters, and the factsheet allows {} (maxArrayLens.actions.actionsParameters)",
+            actionType,
+            needed,
+            *GetMostParameters(&factsheet));
+    }
     if (listedOrNull == nullptr)
     {
         return factsheet.protocolFeatures.agvActions.empty()
@@ -67,6 +103,11 @@ std::optional<std::string> FindMethodFaultOrNull(const JobMethod& method, const 
     if (!VDA5050::CanPerform(factsheet, actionType, VDA5050::EActionScope::Node))
     {
         return fmt::format("the vehicle's factsheet does not list {} with the scope NODE", actionType);
+    }
+    const std::vector<VDA5050::EBlockingType>& blockingTypes = listedOrNull->blockingTypes;
+    if (!blockingTypes.empty() && std::ranges::find(blockingTypes, JOB_BLOCKING) == blockingTypes.end())
+    {
+        return fmt::format("the vehicle's factsheet does not list {} with the blocking type HARD", actionType);
     }
     if (listedOrNull->actionParameters.empty())
     {
@@ -106,8 +147,10 @@ tl::expected<std::vector<VDA5050::ActionParameter>, std::string> MakeActionParam
     {
         listedOrNull = nullptr; // the factsheet lists no parameters
     }
-    const AgvAction* const rulesOrNull =
-        listedOrNull == nullptr ? VDA5050::FindPredefinedActionOrNull(actionType) : listedOrNull;
+    const AgvAction* const rulesOrNull = GetRulesOrNull(listedOrNull, actionType);
+    const std::size_t needed = CountNeeded(method, rulesOrNull);
+    const std::size_t most = GetMostParameters(factsheetOrNull).value_or(method.parameters.size());
+    std::size_t room = most - std::min(most, needed); // for defaults that nobody demands
     std::vector<VDA5050::ActionParameter> parameters;
     for (const VehicleParameter& parameter : method.parameters)
     {
@@ -116,14 +159,21 @@ tl::expected<std::vector<VDA5050::ActionParameter>, std::string> MakeActionParam
         {
             continue; // one of the defaults, or a fault
         }
+        const bool bMandatory = IsMandatory(FindParameterOrNull(rulesOrNull, parameter.key));
+        const bool bOmittable = parameter.bDefault && !bMandatory;
+        if (bOmittable && room == 0)
+        {
+            continue;
+        }
         tl::expected<Core::JsonText, std::string> value = parameter.value.Resolve(
             data,
             knownOrNull == nullptr ? std::nullopt : std::optional(knownOrNull->valueDataType));
         if (value.has_value())
         {
             parameters.push_back({parameter.key, std::move(*value)});
+            room -= bOmittable ? 1 : 0;
         }
-        else if (IsMandatory(FindParameterOrNull(rulesOrNull, parameter.key)))
+        else if (bMandatory)
         {
             return tl::unexpected(
                 fmt::format("the parameter {} of {} cannot be given: {}", parameter.key, actionType, value.error()));

@@ -14,8 +14,10 @@
 namespace ACS::Acsd
 {
 
+constexpr VDA5050::EBlockingType JOB_BLOCKING = VDA5050::EBlockingType::Hard; ///< Of the vehicle's actions for jobs.
+
 /// The parameters of the vehicle's action for one job, of the types that the factsheet declares. An optional one without a
-/// value of its type is left out. The error names a mandatory one without a value, or one that the factsheet does not list.
+/// value of its type is left out, and a default beyond the number that the factsheet allows. The error names a mandatory one without a value, or one that the factsheet does not list.
 [[nodiscard]] tl::expected<std::vector<VDA5050::ActionParameter>, std::string> MakeActionParameters(
     const JobMethod& method,
     const JobData& data,

@@ -5,7 +5,9 @@
 #include "robots/VehicleFixture.hpp"
 #include <acs/vda5050/PredefinedActions.hpp>
 
+#include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -228,6 +230,43 @@ TEST_CASE("A mandatory parameter of the factsheet that is not configured is an e
     CHECK(
         Make({"lift", 0, Parse("speed = 0.5")}, MakeLoad(), &factsheet)
         == "the parameter fork of lift is mandatory and not configured");
+}
+
+TEST_CASE("An action with more parameters than the factsheet allows is an error; defaults are left out first")
+{
+    VDA5050::FactsheetMessage factsheet;
+    std::optional<std::uint32_t>& most = factsheet.protocolLimits.maxArrayLengths.actionParameters;
+    const JobMethod lift{"lift", 0, Parse("a = 1\nb = 2")};
+    most = 2;
+    CHECK(Make(lift, MakeLoad(), &factsheet) == "a=1 b=2");
+    most = 0; // no limit
+    CHECK(Make(lift, MakeLoad(), &factsheet) == "a=1 b=2");
+    most = 1;
+    const std::string error =
+        "lift has 2 parameters, and the factsheet allows 1 (maxArrayLens.actions.actionsParameters)";
+    CHECK(Make(lift, MakeLoad(), &factsheet) == error);
+    CHECK(FindMethodFaultOrNull(lift, factsheet) == error);
+    factsheet.protocolFeatures = MakeFactsheet({}).protocolFeatures;
+    CHECK(FindMethodFaultOrNull(lift, factsheet) == error);
+
+    const JobMethod detach{"detach", 0, MakeDefaultParameters("detach", GetLoadRule(), 1)};
+    CHECK(Make(detach, MakeLoad()) == R"(stationName="A01.CP01" loadId="C1")");
+    CHECK(Make(detach, MakeLoad(), &factsheet) == "the vehicle's factsheet does not list detach");
+    factsheet.protocolFeatures.agvActions.clear();
+    CHECK(Make(detach, MakeLoad(), &factsheet) == R"(stationName="A01.CP01")");
+}
+
+TEST_CASE("An action that the vehicle does not perform with the blocking type HARD is an error")
+{
+    VDA5050::FactsheetMessage factsheet = MakeFactsheet({});
+    const JobMethod lift{"lift", 0, Parse("a = 1")};
+    std::vector<VDA5050::EBlockingType>& blockingTypes = factsheet.protocolFeatures.agvActions[0].blockingTypes;
+    blockingTypes = {VDA5050::EBlockingType::Soft, VDA5050::EBlockingType::Hard};
+    CHECK(Make(lift, MakeLoad(), &factsheet) == "a=1");
+    blockingTypes.pop_back();
+    const std::string error = "the vehicle's factsheet does not list lift with the blocking type HARD";
+    CHECK(Make(lift, MakeLoad(), &factsheet) == error);
+    CHECK(FindMethodFaultOrNull(lift, factsheet) == error);
 }
 
 TEST_CASE("Without a factsheet the standard defines what a pick needs")
