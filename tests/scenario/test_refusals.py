@@ -70,6 +70,17 @@ class Refusals(TracedLineCase):
         self.finish()
         self.assertEqual(len([nodes for nodes in self.read_drives() if nodes[0]["nodeId"] == "D-CHG01"]), 4)
 
+    def test_a_change_of_the_operating_mode_lets_a_vehicle_that_rejected_its_orders_work_again(self):
+        self.start_line("LR01 refuse count=3")
+        self.wait_for_refusal_alarm()
+        self.command_vehicles("LR01 mode mode=MANUAL")
+        self.wait_for(lambda: self.find_last_state()["operatingMode"] == "MANUAL", "MANUAL")
+        self.assertEqual(len(self.find_refusal_alarms()), 1)
+        self.command_vehicles("LR01 end mode")
+        self.wait_for_status(self.http, lambda status: all(
+            alarm["errorCode"] != "ACS-1012" for alarm in status["alarms"]))
+        self.finish()
+
     def test_the_plan_of_a_vehicle_that_rejects_every_order_is_completed_by_another(self):
         self.start_line("LR01 refuse for=10m", vehicles=make_vehicles("LR02"), tables=make_table("LR02"),
                         overrides=("tsc.initial=paused",))
