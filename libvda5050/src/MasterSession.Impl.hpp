@@ -23,6 +23,7 @@ class MasterSession::Impl
     {
         Action action;
         std::uint32_t sendCount = 0;
+        std::string orderID; ///< Of the vehicle when the action was sent.
     };
 
     struct TrackedAction
@@ -131,6 +132,8 @@ private:
     [[nodiscard]] bool IsUnderMasterControl() const;
 
     void ReportDifferences(const std::optional<StateMessage>& previousOrNull, MasterActions& out) const;
+    /// The cancelOrder was for an order of another master, which has ended: sent again it would end the next order.
+    [[nodiscard]] bool IsCancelLate(const PendingAction& pending) const;
     void SettlePendingActions(const ActionIndex& shown, MasterActions& out);
     void SettleInFlight(Core::Now now, MasterActions& out);
     void AcceptInFlight(Core::Now now, MasterActions& out);

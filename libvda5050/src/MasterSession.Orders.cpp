@@ -36,6 +36,18 @@ bool MasterSession::Impl::IsTracked(std::string_view actionID) const
     return std::ranges::find(_tracked, actionID, &TrackedAction::actionID) != _tracked.end();
 }
 
+bool MasterSession::Impl::IsCancelLate(const PendingAction& pending) const
+{
+    if (pending.action.actionType != ActionTypes::CANCEL_ORDER || pending.action.actionID == _cancelActionID)
+    {
+        return false;
+    }
+    const bool bActs = std::ranges::any_of(_state->actionStates, [](const ActionState& action) {
+        return !IsTerminal(action.actionStatus);
+    });
+    return _state->orderID != pending.orderID || (_state->nodeStates.empty() && _state->edgeStates.empty() && !bActs);
+}
+
 void MasterSession::Impl::SettlePendingActions(const ActionIndex& shown, MasterActions& out)
 {
     if (_pendingActions.empty())
@@ -52,6 +64,12 @@ void MasterSession::Impl::SettlePendingActions(const ActionIndex& shown, MasterA
             const std::string* reference = FindReferenceOrNull(error, ReferenceKeys::ACTION_ID);
             return reference != nullptr && *reference == actionID;
         });
+        if (refused == _state->errors.end() && IsCancelLate(pending))
+        {
+            out.emplace_back(InstantActionRejected{actionID, {}, "the order has ended before it was cancelled"});
+            RemoveTrackedAction(actionID);
+            return true;
+        }
         if (refused == _state->errors.end())
         {
             return false;

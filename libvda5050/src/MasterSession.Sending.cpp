@@ -496,7 +496,7 @@ Core::Result<std::string> MasterSession::Impl::SendInstantAction(Action action, 
     }
     if (!IsRequest(action.actionType))
     {
-        _pendingActions.push_back(PendingAction{action, 1});
+        _pendingActions.push_back(PendingAction{action, 1, _state.has_value() ? _state->orderID : std::string()});
         _tracked.push_back(TrackedAction{action.actionID, action.actionType, true, false});
         out.emplace_back(StartMasterTimer{EMasterTimer::ResendInstantActions, _options.resendInterval});
     }

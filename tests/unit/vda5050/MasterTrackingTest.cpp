@@ -263,6 +263,36 @@ TEST_CASE("4.2 A vehicle that runs the order of another master gets none, and th
     CHECK(bench.session.CanTakeOrder());
 }
 
+TEST_CASE("4.2 A cancelOrder for another master's order is not sent again when that order has ended")
+{
+    MasterSessionFixture bench;
+    OrderMessage foreign = MakeOrder(3, 3);
+    foreign.orderID = "foreign";
+    bench.Hold(foreign, 2);
+    bench.BeReady();
+    Action cancel;
+    cancel.actionType = ActionTypes::CANCEL_ORDER;
+    REQUIRE(bench.session.SendInstantAction(cancel, bench.GetNow(), bench.Clear()));
+    bench.SendState();
+    CHECK(Pick<InstantActionRejected>(bench.GetOutput()).empty());
+    bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendInstantActions);
+    CHECK(bench.GetSent(ETopic::InstantActions).size() == 2);
+    bench.Clear();
+    SECTION("it is complete")
+    {
+        bench.Hold(foreign, 0);
+    }
+    SECTION("another one follows")
+    {
+        foreign.orderID = "next";
+        bench.Hold(foreign, 2);
+    }
+    bench.SendState();
+    REQUIRE(Pick<InstantActionRejected>(bench.GetOutput()).size() == 1);
+    CHECK(Pick<InstantActionRejected>(bench.GetOutput())[0].reason == "the order has ended before it was cancelled");
+    CHECK(Pick<CancelMasterTimer>(bench.GetOutput()).size() == 1);
+}
+
 TEST_CASE("4.2 An error that names the header of another master's message is no rejection")
 {
     MasterSessionFixture bench;
