@@ -36,6 +36,45 @@ bool IsBetween(const StateChanged& state, const SiteNode& from, const SiteNode& 
     return along > tolerance && along <= length + tolerance && beside <= STAND_TOLERANCE;
 }
 
+/// Whether the robot may be on a curve of the edge: a curve is inside the box of its control points.
+bool IsNearCurve(const StateChanged& state, const SiteEdge& edge)
+{
+    return std::ranges::any_of(edge.rules, [&state](const SiteEdgeRule& rule) {
+        if (!rule.trajectory.has_value())
+        {
+            return false;
+        }
+        const auto [left, right] = std::ranges::minmax(rule.trajectory->points, {}, &Core::CurvePoint::x);
+        const auto [bottom, top] = std::ranges::minmax(rule.trajectory->points, {}, &Core::CurvePoint::y);
+        return state.x >= left.x - STAND_TOLERANCE && state.x <= right.x + STAND_TOLERANCE
+            && state.y >= bottom.y - STAND_TOLERANCE && state.y <= top.y + STAND_TOLERANCE;
+    });
+}
+
+/// As between two nodes of a straight edge, for those with a curve.
+std::vector<std::size_t> FindNodesOfCurve(
+    const SiteMap& site,
+    const StateChanged& state,
+    std::size_t node,
+    std::span<const std::size_t> ahead)
+{
+    const std::vector<SiteNode>& nodes = site.GetNodes();
+    std::size_t from = node;
+    for (const std::size_t next : ahead)
+    {
+        const bool bNear = std::ranges::any_of(site.GetEdges(), [&](const SiteEdge& edge) {
+            return edge.startNodeID == nodes[from].nodeID && edge.endNodeID == nodes[next].nodeID
+                && IsNearCurve(state, edge);
+        });
+        if (bNear)
+        {
+            return from == node ? std::vector<std::size_t>{next} : std::vector<std::size_t>{from, next};
+        }
+        from = next;
+    }
+    return {};
+}
+
 } // namespace
 
 std::vector<std::size_t> FindNodesAhead(
@@ -62,7 +101,7 @@ std::vector<std::size_t> FindNodesAhead(
         }
         from = next;
     }
-    return {};
+    return FindNodesOfCurve(site, *stateOrNull, node, ahead);
 }
 
 std::vector<std::size_t> FindNodesBeside(const SiteMap& site, const StateChanged& state, std::size_t node)
@@ -86,7 +125,8 @@ std::vector<std::size_t> FindNodesBeside(const SiteMap& site, const StateChanged
         const std::string& otherID = edge.startNodeID == own.nodeID ? edge.endNodeID : edge.startNodeID;
         const std::size_t other = *site.FindNodeIndexOrNull(otherID);
         deviation = std::min(deviation, GetDistance(own, site.GetNodes()[other]) / 2);
-        if (IsBetween(state, own, site.GetNodes()[other]) && std::ranges::count(beside, other) == 0)
+        const bool bBetween = IsBetween(state, own, site.GetNodes()[other]) || IsNearCurve(state, edge);
+        if (bBetween && std::ranges::count(beside, other) == 0)
         {
             beside.push_back(other);
         }

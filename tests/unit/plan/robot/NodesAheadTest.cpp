@@ -67,6 +67,28 @@ TEST_CASE("FindNodesAhead: a robot away from the route, or without a pose, keeps
 }
 
 TEST_CASE(
+    "A robot that is stationary on a curve keeps the nodes of the edge, although it is far from the straight line")
+{
+    std::vector<SiteNode> nodes(3);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+    {
+        nodes[i].nodeID = std::string(1, static_cast<char>('A' + i));
+        nodes[i].x = 10.0 * static_cast<double>(i);
+        nodes[i].rules = {{"lr", {}}};
+    }
+    SiteEdgeRule bent;
+    bent.vehicleTypeID = "lr";
+    bent.trajectory = ACS::Core::Nurbs{2, {0, 0, 0, 1, 1, 1}, {{0, 0, {}}, {5, 8, {}}, {10, 0, {}}}};
+    const SiteMap map = *SiteMap::Create(nodes, {{"A>B", "A", "B", {bent}}, {"B>C", "B", "C", {}}}, {});
+    const Indices ahead{1, 2};
+    CHECK(FindNodesAhead(map, MakeStopped(5, 4), 0, ahead) == Indices{1});
+    CHECK(FindNodesAhead(map, MakeStopped(5, -4), 0, ahead).empty());
+    CHECK(FindNodesAhead(map, MakeStopped(15, 4), 0, ahead).empty());
+    CHECK(FindNodesBeside(map, MakeStopped(5, 4), 0) == Indices{1});
+    CHECK(FindNodesBeside(map, MakeStopped(5, 4), 1) == Indices{0});
+}
+
+TEST_CASE(
     "FindNodesBeside: a robot off its node whose route is unknown is between it and a neighbour, in either direction")
 {
     const SiteMap line = MakeLine();
