@@ -183,6 +183,8 @@ void WarnOfFactsheets(AcsdConfig& config)
         VDA5050::MasterOptions options;
         options.address = {config.mqtt.interfaceName, robot.manufacturer, robot.serialNumber};
         options.factsheet = robot.factsheet;
+        options.version = VDA5050::ReadVersionOrNull(robot.protocolVersion).value_or(options.version);
+        options.zoneSetID = config.zoneSetID;
         const VDA5050::MasterSession session(std::move(options));
         const std::string incompatibility = FindIncompatibility(session, *robot.drives, robot.methods, {});
         if (!incompatibility.empty())

@@ -29,7 +29,8 @@ void OpenStreamRobotAdapter::DrainBase(AdapterActions& out)
             raiseOrNull != nullptr && std::holds_alternative<Planning::JobCheckChanged>(raiseOrNull->event);
         if (bJobCheck)
         {
-            continue; // the base does no jobs
+            ReportOnline(out); // the factsheet is here; the base does no jobs
+            continue;
         }
         if (stateOrNull != nullptr)
         {
@@ -96,7 +97,7 @@ void OpenStreamRobotAdapter::ReportArm(AdapterActions& out)
 void OpenStreamRobotAdapter::ReportOnline(AdapterActions& out)
 {
     const bool bArmInReach = _monitor.IsReady() || (!_monitor.IsLost() && _trouble.has_value());
-    const bool bOnline = _bBaseOnline && bArmInReach;
+    const bool bOnline = _bBaseOnline && bArmInReach && !_base.IsFactsheetAwaited();
     if (std::exchange(_bOnline, bOnline) == bOnline)
     {
         return;

@@ -75,7 +75,11 @@ void Vda5050RobotAdapter::ReportDriveRejected(
 void Vda5050RobotAdapter::OnDriveFinished(const std::string& orderID, Core::Now now, AdapterActions& out)
 {
     const VehicleDrive drive = TakeDrive();
-    if (const std::string* const openOrNull = drive.GetOpenActionOrNull(); openOrNull != nullptr)
+    if (const std::optional<std::string>& reason = drive.GetAbandonReasonOrNull(); reason.has_value())
+    {
+        ReportDriveRejected(orderID, *reason, out);
+    }
+    else if (const std::string* const openOrNull = drive.GetOpenActionOrNull(); openOrNull != nullptr)
     {
         ReportDriveRejected(orderID, "the vehicle did not report the end of the action " + *openOrNull, out);
     }
@@ -104,13 +108,16 @@ void Vda5050RobotAdapter::OnDriveAction(const VDA5050::ActionChanged& action, Co
     const bool bCancelling = _session.GetOrderPhase() == VDA5050::EOrderPhase::Cancelling;
     if (action.status == VDA5050::EActionStatus::Failed && !bCancelling && _report.GetState().bAutomatic)
     {
-        AbandonDrive(
-            fmt::format(
-                "the action {} failed: {}",
-                *openOrNull,
-                action.resultDescription.empty() ? "no reason given" : action.resultDescription),
-            now,
-            out);
+        const std::string reason = fmt::format(
+            "the action {} failed: {}",
+            *openOrNull,
+            action.resultDescription.empty() ? "no reason given" : action.resultDescription);
+        if (_session.GetOrderID() != _drive->GetOrderID())
+        {
+            _drive->Abandon(reason); // the same state ends the order, which is reported after its last nodes
+            return;
+        }
+        AbandonDrive(reason, now, out);
     }
 }
 

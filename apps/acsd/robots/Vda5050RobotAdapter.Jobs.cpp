@@ -36,7 +36,7 @@ void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now,
     const VDA5050::StateMessage* stateOrNull = _session.GetStateOrNull();
     if (stateOrNull == nullptr || stateOrNull->lastNodeID.empty())
     {
-        out.emplace_back(RaiseEvent{Planning::JobFailed{job.jobID, "the vehicle does not report its node"}});
+        out.emplace_back(RaiseEvent{Planning::JobRejected{job.jobID, "the vehicle does not report its node"}});
         return;
     }
     DropLoadCheck(out);

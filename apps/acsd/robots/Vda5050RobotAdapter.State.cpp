@@ -49,9 +49,13 @@ void Vda5050RobotAdapter::OnState(Core::Now now, AdapterActions& out)
     const VDA5050::StateMessage& state = *_session.GetStateOrNull();
     _report.Update(state, IsJobRunning(state), _methods.GetPositions());
     _maps.OnReported(state.maps);
-    _report.AddErrors(_maps.ListErrors());
     RecoverJob(now, out); // first: a job of before a restart does not make the vehicle occupied
     const bool bOccupied = IsOccupied(state);
+    if (!bOccupied && _session.CanTakeOrder())
+    {
+        RequestMap(now);
+    }
+    _report.AddErrors(_maps.ListErrors());
     _report.SetOccupied(bOccupied, state);
     SetOnline(_session.IsReady(), now, out);
     out.emplace_back(RaiseEvent{_report.GetState()});
@@ -60,10 +64,6 @@ void Vda5050RobotAdapter::OnState(Core::Now now, AdapterActions& out)
     if (bOccupied)
     {
         CancelForeignOrder(now);
-    }
-    else if (_session.CanTakeOrder())
-    {
-        RequestMap(now);
     }
 }
 

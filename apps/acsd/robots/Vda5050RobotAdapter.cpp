@@ -123,19 +123,24 @@ const VDA5050::MasterSession& Vda5050RobotAdapter::GetSession() const noexcept
     return _session;
 }
 
+bool Vda5050RobotAdapter::IsFactsheetAwaited() const noexcept
+{
+    return _bFactsheetAwaited;
+}
+
 void Vda5050RobotAdapter::StartDrive(const Planning::Drive& drive, Core::Now now, AdapterActions& out)
 {
     Core::Result<VehicleDrive> made = VehicleDrive::Create(drive, MakeContents(drive.route));
     if (!made)
     {
-        out.emplace_back(RaiseEvent{Planning::DriveRejected{drive.driveID, Core::Describe(made.error())}});
+        ReportDriveRejected(drive.driveID, Core::Describe(made.error()), out);
         return;
     }
     Core::Result<VDA5050::OrderMessage> order = made->MakeOrder(
         [this, now](const VDA5050::OrderMessage& message) { return _session.CheckOrder(message, now); });
     if (!order)
     {
-        out.emplace_back(RaiseEvent{Planning::DriveRejected{drive.driveID, Core::Describe(order.error())}});
+        ReportDriveRejected(drive.driveID, Core::Describe(order.error()), out);
         return;
     }
     _drive = std::move(*made);
@@ -303,7 +308,10 @@ void Vda5050RobotAdapter::HandleAction(const VDA5050::MasterAction& action, Core
             [&](const VDA5050::OrderLost& lost) { OnLost(lost, out); },
             [&](const VDA5050::NodeReached& reached) { OnNodeReached(reached, out); },
             [&](const VDA5050::ActionChanged& changed) {
-                _maps.OnChanged(changed);
+                if (_maps.OnChanged(changed))
+                {
+                    OnState(now, out); // the next request, and its errors; the next state may be 30 s away
+                }
                 OnDriveAction(changed, now, out);
                 OnActionChanged(changed, out);
             },
@@ -448,12 +456,12 @@ void Vda5050RobotAdapter::SetOnline(bool bOnline, Core::Now now, AdapterActions&
 
 void Vda5050RobotAdapter::OnFactsheet(Core::Now now, AdapterActions& out)
 {
+    UpdateCompatibility(now, out); // first: the job check lets the engine give the vehicle a plan
     const bool bAwaited = std::exchange(_bFactsheetAwaited, false);
     if (bAwaited || !_jobCheck->IsFor(_session.GetFactsheetOrNull()))
     {
         UpdateJobCheck(out);
     }
-    UpdateCompatibility(now, out);
     if (IsRepeating())
     {
         return;

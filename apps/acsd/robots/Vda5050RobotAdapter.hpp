@@ -87,6 +87,9 @@ public:
 
     [[nodiscard]] const VDA5050::MasterSession& GetSession() const noexcept override;
 
+    /// The factsheet was requested and has not arrived: what may be sent is not known. JobCheckChanged is raised at the end.
+    [[nodiscard]] bool IsFactsheetAwaited() const noexcept;
+
 private:
     void StartDrive(const Planning::Drive& drive, Core::Now now, Planning::AdapterActions& out);
     void StartJob(const Planning::StartJob& job, Core::Now now, Planning::AdapterActions& out);

@@ -56,6 +56,7 @@ void VehicleMaps::OnConnected()
 {
     _request.reset();
     _failures.clear();
+    _requestCounts.clear();
 }
 
 void VehicleMaps::OnReported(std::optional<std::vector<VDA5050::MapState>> mapsOrNull)
@@ -70,7 +71,7 @@ std::optional<VDA5050::Action> VehicleMaps::MakeRequestOrNull() const
     {
         return std::nullopt;
     }
-    const bool bDownload = FindReportedOrNull(*mapOrNull) == nullptr;
+    const bool bDownload = MakeTask(*mapOrNull).bDownload;
     VDA5050::Action action;
     action.actionType = bDownload ? VDA5050::ActionTypes::DOWNLOAD_MAP : VDA5050::ActionTypes::ENABLE_MAP;
     AddParameter(action, "mapId", mapOrNull->mapID);
@@ -90,7 +91,8 @@ void VehicleMaps::OnSent(std::string actionID)
 {
     if (const NeededMap* const mapOrNull = FindNextOrNull(); mapOrNull != nullptr)
     {
-        _request = Request{std::move(actionID), mapOrNull->mapID};
+        _request = Request{std::move(actionID), MakeTask(*mapOrNull)};
+        ++_requestCounts[_request->task];
     }
 }
 
@@ -98,33 +100,43 @@ void VehicleMaps::OnNotSent(const std::string& error)
 {
     if (const NeededMap* const mapOrNull = FindNextOrNull(); mapOrNull != nullptr)
     {
-        _failures.insert_or_assign(mapOrNull->mapID, error);
+        _failures.insert_or_assign(MakeTask(*mapOrNull), error);
     }
 }
 
-void VehicleMaps::OnEnded(const std::string& actionID, const std::string& error)
+bool VehicleMaps::OnEnded(const std::string& actionID, const std::string& error)
 {
     if (!_request.has_value() || _request->actionID != actionID)
     {
-        return;
+        return false;
     }
     if (!error.empty())
     {
-        _failures.insert_or_assign(_request->mapID, error);
+        _failures.insert_or_assign(_request->task, error);
+    }
+    else if (_requestCounts[_request->task] == MOST_REQUESTS)
+    {
+        _failures.insert_or_assign(
+            _request->task,
+            fmt::format("it reported {} times that it has, and does not show it in its state", MOST_REQUESTS));
     }
     _request.reset();
+    return true;
 }
 
-void VehicleMaps::OnChanged(const VDA5050::ActionChanged& action)
+bool VehicleMaps::OnChanged(const VDA5050::ActionChanged& action)
 {
     if (action.status == VDA5050::EActionStatus::Finished)
     {
-        OnEnded(action.actionID, {});
+        return OnEnded(action.actionID, {});
     }
-    else if (action.status == VDA5050::EActionStatus::Failed)
+    if (action.status == VDA5050::EActionStatus::Failed)
     {
-        OnEnded(action.actionID, action.resultDescription.empty() ? "the action failed" : action.resultDescription);
+        return OnEnded(
+            action.actionID,
+            action.resultDescription.empty() ? "the action failed" : action.resultDescription);
     }
+    return false;
 }
 
 std::vector<Planning::RobotError> VehicleMaps::ListErrors() const
@@ -137,8 +149,8 @@ std::vector<Planning::RobotError> VehicleMaps::ListErrors() const
             continue;
         }
         const bool bThere = FindReportedOrNull(map) != nullptr;
-        const auto failure = _failures.find(map.mapID);
-        const bool bBegun = _request.has_value() && _request->mapID == map.mapID;
+        const auto failure = _failures.find(MakeTask(map));
+        const bool bBegun = _request.has_value() && _request->task.mapID == map.mapID;
         std::string text = fmt::format("{} is {}", Describe(map), bThere ? "not enabled" : "not on the vehicle");
         if (failure != _failures.end())
         {
@@ -181,9 +193,14 @@ const NeededMap* VehicleMaps::FindNextOrNull() const
     const auto next = std::ranges::find_if(_needed, [this](const NeededMap& map) {
         const bool bPossible =
             !map.version.empty() && (FindReportedOrNull(map) != nullptr || !map.downloadLink.empty());
-        return _reported.has_value() && !IsEnabled(map) && bPossible && !_failures.contains(map.mapID);
+        return _reported.has_value() && !IsEnabled(map) && bPossible && !_failures.contains(MakeTask(map));
     });
     return next == _needed.end() ? nullptr : &*next;
+}
+
+VehicleMaps::Task VehicleMaps::MakeTask(const NeededMap& map) const
+{
+    return {map.mapID, FindReportedOrNull(map) == nullptr};
 }
 
 } // namespace ACS::Acsd

@@ -6,6 +6,8 @@
 #include <acs/vda5050/MasterAction.hpp>
 #include <acs/vda5050/StateMessage.hpp>
 
+#include <compare>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -29,16 +31,29 @@ struct NeededMap
 /// vehicle that reports no maps has no error.
 class VehicleMaps final
 {
+    /// What a vehicle is asked to do with a map.
+    struct Task
+    {
+        std::string mapID;
+        bool bDownload; ///< Otherwise enable.
+
+        auto operator<=>(const Task&) const = default;
+    };
+
     struct Request
     {
         std::string actionID;
-        std::string mapID;
+        Task task;
     };
+
+    static constexpr std::size_t MOST_REQUESTS =
+        3; ///< Of a task that the vehicle reports as finished, without the effect.
 
     std::vector<NeededMap> _needed;
     std::optional<std::vector<VDA5050::MapState>> _reported;
-    std::optional<Request> _request;              ///< The vehicle executes one at a time.
-    std::map<std::string, std::string> _failures; ///< By mapID, since the vehicle was connected.
+    std::optional<Request> _request;            ///< The vehicle executes one at a time.
+    std::map<Task, std::string> _failures;      ///< Since the vehicle was connected.
+    std::map<Task, std::size_t> _requestCounts; ///< Since the vehicle was connected.
 
 public:
     explicit VehicleMaps(std::vector<NeededMap> needed);
@@ -55,8 +70,9 @@ public:
     /// The action of MakeRequestOrNull cannot be sent.
     void OnNotSent(const std::string& error);
     /// The action has ended. error: why it failed; empty: done. Actions of others are ignored.
-    void OnEnded(const std::string& actionID, const std::string& error);
-    void OnChanged(const VDA5050::ActionChanged& action);
+    /// Whether it was that of the current request.
+    bool OnEnded(const std::string& actionID, const std::string& error);
+    bool OnChanged(const VDA5050::ActionChanged& action);
     /// One for each map that is not enabled: the vehicle must not drive.
     [[nodiscard]] std::vector<Planning::RobotError> ListErrors() const;
 
@@ -65,6 +81,7 @@ private:
     [[nodiscard]] const VDA5050::MapState* FindReportedOrNull(const NeededMap& map) const;
     [[nodiscard]] bool IsEnabled(const NeededMap& map) const;
     [[nodiscard]] const NeededMap* FindNextOrNull() const;
+    [[nodiscard]] Task MakeTask(const NeededMap& map) const;
 };
 
 } // namespace ACS::Acsd

@@ -47,6 +47,7 @@ inline VDA5050::MasterOptions MakeBaseOptions()
 {
     VDA5050::MasterOptions options;
     options.address = {"uagv", "ACS", "CR01"};
+    options.bFactsheetRequested = false;
     return options;
 }
 
@@ -72,9 +73,9 @@ struct ArmFixture
     {
     }
 
-    ArmFixture(ArmOptions options, ArmInputResolver inputs)
+    ArmFixture(ArmOptions options, ArmInputResolver inputs, VDA5050::MasterOptions base = MakeBaseOptions())
         : adapter(
-            MakeBaseOptions(),
+            std::move(base),
             std::move(options),
             {{"TrayLoad", {"", 11}}, {"CassetteLoad", {"pick", 0}}},
             std::move(inputs),

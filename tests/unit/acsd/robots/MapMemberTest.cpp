@@ -91,22 +91,24 @@ const std::string LIFT = R"("actions": [
     {"actionType": "wave", "blockingType": "NONE"},
     {"actionType": "lock", "requirementType": "REQUIRED", "blockingType": "SOFT"}])";
 
-/// The vehicle on its way from N1 to N3 with the action "lift" on N2 and on E1.
+/// The vehicle on its way from N1 to N3, or to N2 only, with the action "lift" on N2 and on E1.
 struct LiftingVehicle : VehicleFixture
 {
     const std::string lift =
         R"("actions": [{"actionType": "lift", "requirementType": "REQUIRED", "blockingType": "HARD"}])";
     VDA5050::OrderMessage order;
 
-    LiftingVehicle()
+    explicit LiftingVehicle(std::size_t nodeCount = 3)
     {
         state.lastNodeID = "N1";
         ComeOnline();
         Planning::Drive drive = MakeMapDrive(lift, lift, "D1");
-        drive.releasedCount = 3;
+        drive.route.nodes.resize(nodeCount);
+        drive.route.edges.resize(nodeCount - 1);
+        drive.releasedCount = nodeCount;
         Command(drive);
         order = TakeOrders().at(0);
-        ShowOrder(order, {"N2", "N3"});
+        ShowOrder(order, nodeCount == 2 ? std::vector<std::string>{"N2"} : std::vector<std::string>{"N2", "N3"});
         state.actionStates = {
             MakeState("D1-1-0", VDA5050::EActionStatus::Waiting),
             MakeState("D1-2-0", VDA5050::EActionStatus::Waiting)};
@@ -310,6 +312,27 @@ TEST_CASE(
     const VDA5050::OrderMessage order = vehicle.TakeOrders().at(0);
     REQUIRE(order.nodes[0].actions.size() == 1);
     CHECK(order.nodes[0].actions[0].actionID == "D2-0-0");
+}
+
+TEST_CASE("An action that fails in the state that shows the arrival is repeated before the job")
+{
+    LiftingVehicle vehicle(2);
+    vehicle.ShowOrder(vehicle.order, {});
+    vehicle.ShowAt("N2", 2);
+    vehicle.state.actionStates = {
+        LiftingVehicle::MakeState("D1-1-0", VDA5050::EActionStatus::Finished),
+        LiftingVehicle::MakeState("D1-2-0", VDA5050::EActionStatus::Failed)};
+    vehicle.ShowState();
+    REQUIRE(vehicle.TakeEvents<Planning::NodePassed>().size() == 1);
+    CHECK(vehicle.TakeEvents<Planning::Arrived>().empty());
+    const auto rejected = vehicle.TakeEvents<Planning::DriveRejected>();
+    REQUIRE(rejected.size() == 1);
+    CHECK_THAT(rejected[0].reason, Catch::Contains("the action lift of the node N2 failed"));
+    vehicle.outputs.messages.clear();
+    vehicle.Command(MakeJob("CassetteLoad"));
+    const std::vector<VDA5050::OrderMessage> orders = vehicle.TakeOrders();
+    REQUIRE(orders.size() == 1);
+    CHECK(orders[0].nodes[0].actions.at(0).actionType == "lift");
 }
 
 TEST_CASE("A job at a node whose REQUIRED action has not finished is sent when the action has been repeated")

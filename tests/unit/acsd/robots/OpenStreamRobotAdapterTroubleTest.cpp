@@ -267,6 +267,29 @@ TEST_CASE("A controller that accepts the MONITOR of a probe and shows nothing is
     }
 }
 
+TEST_CASE("A robot with an arm is online when the factsheet of its base is here, or does not come")
+{
+    VDA5050::MasterOptions base = MakeBaseOptions();
+    base.bFactsheetRequested = true;
+    ArmFixture arm(MakeArmOptions(), {}, base);
+    arm.BringUpWithBase();
+    CHECK(arm.TakeEvents<Planning::LinkChanged>().empty());
+    SECTION("it arrives")
+    {
+        VDA5050::FactsheetMessage factsheet;
+        factsheet.header = {1, arm.clock.GetNow().wall, "2.0.0", "ACS", "CR01"};
+        std::string payload;
+        VDA5050::Vda5050Codec().Encode(factsheet, VDA5050::EVda5050Version::Version200, payload);
+        arm.adapter.OnMqttMessage({"uagv/v2/ACS/CR01/factsheet", payload, 0, true}, arm.clock.GetNow(), arm.actions);
+    }
+    SECTION("it is not sent")
+    {
+        constexpr Planning::AdapterTimerID FACTSHEET_TIMER = 51;
+        arm.adapter.OnTimer(FACTSHEET_TIMER, arm.clock.GetNow(), arm.actions);
+    }
+    CHECK(arm.TakeEvents<Planning::LinkChanged>() == std::vector<Planning::LinkChanged>{{true}});
+}
+
 TEST_CASE("The robot's state is reported when it comes online, because its base may report the next one much later")
 {
     ArmFixture arm;

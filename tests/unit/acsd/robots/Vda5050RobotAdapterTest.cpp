@@ -526,6 +526,7 @@ TEST_CASE("A vehicle without the map of its nodes has an error until it has enab
     REQUIRE(sent);
     CHECK(sent->actions.at(0).actionType == "enableMap");
     const std::size_t count = vehicle.outputs.messages.size();
+    CHECK(states.back().errors.front().message == "map hall version 2 is not enabled; it enables it now.");
     vehicle.state.actionStates = {{sent->actions[0].actionID, "enableMap", "", VDA5050::EActionStatus::Finished, ""}};
     vehicle.state.maps->front().mapStatus = VDA5050::EMapStatus::Enabled;
     vehicle.ShowState();

@@ -323,6 +323,28 @@ TEST_CASE("A part waits while the vehicle's state has no room for it")
     CHECK(vehicle.TakeEvents<Planning::DriveRejected>().empty());
 }
 
+TEST_CASE("A vehicle is reported as incompatible before it can be given a plan")
+{
+    VDA5050::MasterOptions options = VehicleFixture::MakeOptions();
+    options.bFactsheetRequested = true;
+    CompatibilityFixture vehicle(options);
+    vehicle.ComeOnline();
+    vehicle.actions.clear();
+    FactsheetMessage factsheet;
+    List(factsheet, {});
+    vehicle.Receive("factsheet", factsheet);
+    std::vector<std::string> raised;
+    for (const Planning::AdapterAction& action : vehicle.actions)
+    {
+        if (const auto* const raise = std::get_if<Planning::RaiseEvent>(&action))
+        {
+            raised.emplace_back(
+                std::holds_alternative<CompatibilityChanged>(raise->event) ? "incompatible" : "job check");
+        }
+    }
+    CHECK(raised == std::vector<std::string>{"incompatible", "job check"});
+}
+
 TEST_CASE("With a factsheet of the configuration none is awaited, and a received one replaces it")
 {
     VDA5050::MasterOptions options = VehicleFixture::MakeOptions();

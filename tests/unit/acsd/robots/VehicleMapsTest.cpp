@@ -89,6 +89,26 @@ TEST_CASE(
     CHECK(maps.MakeRequestOrNull().has_value());
 }
 
+TEST_CASE("A vehicle that reports a map as enabled and does not show it is asked three times")
+{
+    VehicleMaps maps({HALL});
+    for (int request = 0; request < 3; ++request)
+    {
+        maps.OnReported(std::vector<MapState>{{"hall", "2", EMapStatus::Disabled, {}}});
+        REQUIRE(maps.MakeRequestOrNull().has_value());
+        maps.OnSent("A1");
+        CHECK(maps.OnEnded("A1", {}));
+    }
+    maps.OnReported(std::vector<MapState>{{"hall", "2", EMapStatus::Disabled, {}}});
+    CHECK_FALSE(maps.MakeRequestOrNull().has_value());
+    CHECK(
+        maps.ListErrors().front().message
+        == "map hall version 2 is not enabled, and the vehicle could not enable it: it reported 3 times that it has, and does "
+           "not show it in its state. Enable it at the vehicle, or correct the maps of the robot in the configuration.");
+    maps.OnConnected();
+    CHECK(maps.MakeRequestOrNull().has_value());
+}
+
 TEST_CASE("A map without a version or a link is neither enabled nor downloaded")
 {
     VehicleMaps maps({{"hall", {}, {}, {}}, {"yard", "3", {}, {}}});
