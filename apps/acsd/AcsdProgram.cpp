@@ -115,7 +115,10 @@ int RunAcsd(int argc, const char* const* argv)
     app.add_option("--config", options.configFile, "configuration (TOML); examples/site/acsd.toml explains every key")
         ->required()
         ->type_name("FILE");
-    app.add_option("--set", options.overrides, "override one key, for example --set mcs.url=ws://10.0.0.1:9001/acs/")
+    app.add_option(
+           "--set",
+           options.overrides,
+           "override one key, for example --set mcs.url=ws://10.0.0.1:9001/acs/; may be repeated")
         ->type_name("KEY=VALUE")
         ->take_all()
         ->allow_extra_args(false);
