@@ -1,8 +1,8 @@
 #pragma once
 
 #include "robots/VehicleMap.hpp"
-#include <acs/core/Result.hpp>
 #include <acs/core/Now.hpp>
+#include <acs/core/Result.hpp>
 #include <acs/vda5050/MasterSession.hpp>
 
 #include <cstddef>
@@ -22,6 +22,10 @@ namespace ACS::Acsd
 /// long; vehicles with equal factsheets share one result. Used by the vehicles of one type on one thread.
 class DriveCheck final
 {
+public:
+    static constexpr std::size_t MOST_FACTSHEETS = 16; ///< Of which the results are kept.
+
+private:
     /// All that a result depends on besides the map.
     struct Subject
     {
@@ -42,8 +46,6 @@ class DriveCheck final
     std::vector<Checked> _checked; ///< The oldest first.
 
 public:
-    static constexpr std::size_t MOST_FACTSHEETS = 16; ///< Of which the results are kept.
-
     explicit DriveCheck(VehicleMap map = {});
 
     [[nodiscard]] const VehicleMap& GetMap() const noexcept;

@@ -150,7 +150,7 @@ tl::expected<std::vector<VDA5050::ActionParameter>, std::string> MakeActionParam
     const AgvAction* const rulesOrNull = GetRulesOrNull(listedOrNull, actionType);
     const std::size_t needed = CountNeeded(method, rulesOrNull);
     const std::size_t most = GetMostParameters(factsheetOrNull).value_or(method.parameters.size());
-    std::size_t room = most - std::min(most, needed); // for defaults that nobody demands
+    std::size_t room = most - std::min(most, needed); // for defaults that are not mandatory
     std::vector<VDA5050::ActionParameter> parameters;
     for (const VehicleParameter& parameter : method.parameters)
     {
