@@ -57,7 +57,7 @@ OrderMessage Shorten(const OrderMessage& whole, std::size_t nodeCount)
     return order;
 }
 
-constexpr std::string_view LIMITS = "max"; ///< Prefix of the paths of sizes, such as maxArrayLens.order.nodes.
+constexpr std::string_view LIMITS = "max"; ///< Prefix of the names of size limits (FindSizeFaults).
 
 struct SizeLimit
 {

@@ -93,7 +93,7 @@ std::vector<ActionFault> FindSizeFaults(const MessageSizes& sizes, const Protoco
             sizes.actionStates,
             arrays.stateActionStates,
             StateRoom::ORDER_ACTIONS},
-        Limit{"the length of the state", sizes.stateBytes, std::nullopt, StateRoom::ORDER_BYTES}};
+        Limit{"maximum length of the state", sizes.stateBytes, std::nullopt, StateRoom::ORDER_BYTES}};
     std::vector<ActionFault> faults;
     for (const Limit& limit : table)
     {

@@ -33,7 +33,8 @@ struct MessageSizes
 [[nodiscard]] MessageSizes Measure(const OrderMessage& order);
 [[nodiscard]] MessageSizes Measure(const Action& action);
 
-/// What is larger than the vehicle allows, or than a state has room for; the field is the name of the limit.
+/// What is larger than the vehicle allows, or than a state has room for; the field is the name of the limit
+/// and begins with "max": master control then sends a shorter horizon or base.
 [[nodiscard]] std::vector<ActionFault> FindSizeFaults(const MessageSizes& sizes, const ProtocolLimits& limits);
 
 } // namespace ACS::VDA5050

@@ -218,6 +218,26 @@ TEST_CASE("3.7 The horizon is shortened to the bytes that the vehicle accepts")
     CHECK(payload.size() > 1200); // one more node and edge do not fit
 }
 
+TEST_CASE("3.7 The horizon is shortened to what the state of the vehicle has room for")
+{
+    constexpr std::size_t NODES = 40;
+    constexpr std::size_t FITTING = 35; // 2 MiB for the state, where the first node is not listed
+    const std::string text(60'000, 'x');
+    const auto makeLong = [&text](std::size_t released) {
+        OrderMessage order = MakeOrder(NODES, released);
+        for (OrderNode& node : order.nodes)
+        {
+            node.nodeDescription = text;
+        }
+        return order;
+    };
+    FitFixture bench;
+    bench.Deliver(MakeBareFactsheet());
+    CHECK(bench.Check(makeLong(FITTING + 1)) == "maximum length of the state");
+    REQUIRE(bench.Send(makeLong(3)).has_value());
+    CHECK(bench.GetSentOrder().nodes.size() == FITTING);
+}
+
 TEST_CASE("3.7 A base that does not fit is an error that names the limit")
 {
     FitFixture bench;

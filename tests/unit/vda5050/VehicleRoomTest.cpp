@@ -107,7 +107,7 @@ TEST_CASE("6.10 An order whose state would exceed the length of a message is rej
         }
         VehicleSessionFixture bench;
         bench.Order(order);
-        CheckRefused(bench, "the length of the state");
+        CheckRefused(bench, "maximum length of the state");
 
         VehicleSessionFixture updated;
         OrderBuilder builder = MakeBuilder(NODES);
@@ -131,7 +131,7 @@ TEST_CASE("6.10 An order whose state would exceed the length of a message is rej
         CHECK(updated.GetSession().IsOrderRunning());
         updated.Clear();
         updated.Order(second);
-        CheckRefused(updated, "the length of the state");
+        CheckRefused(updated, "maximum length of the state");
     }
 }
 
