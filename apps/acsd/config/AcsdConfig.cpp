@@ -24,6 +24,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace ACS::Acsd
 {
@@ -147,10 +148,15 @@ void ReadMap(const ConfigSection& section, const std::string& map, AcsdConfig& c
             fmt::format("{} cannot be read ({}); give the path of a LIF file", config.siteFile, text.error()));
         return;
     }
-    Core::Result<Planning::SiteMap> site = Planning::DecodeLIF(*text);
+    std::vector<std::string> warnings;
+    Core::Result<Planning::SiteMap> site = Planning::DecodeLIF(*text, warnings);
     if (site)
     {
         config.site = std::move(*site);
+        for (const std::string& warning : warnings)
+        {
+            config.warnings.push_back("site.map: " + warning);
+        }
         ReportUnusedMembers(*text, config);
     }
     else

@@ -1,3 +1,4 @@
+#include "site/TrajectoryFault.hpp"
 #include <acs/core/ECoreError.hpp>
 #include <acs/json/JsonDecoder.hpp>
 #include <acs/json/JsonDocument.hpp>
@@ -24,7 +25,7 @@ constexpr double FULL_TURN_DEGREES = 360.0;
 /// Files may round half a turn up (3.1416).
 constexpr double MAXIMUM_THETA = 3.1416;
 constexpr std::size_t MAXIMUM_NAME = 256;
-constexpr std::size_t MAXIMUM_DEGREE = 3; // also the default
+constexpr std::size_t MAXIMUM_DEGREE = 3; // also the default; FindFault checks it
 constexpr std::size_t MAXIMUM_ELEMENTS = 100'000;
 constexpr std::size_t MAXIMUM_BYTES = 64U * 1024U * 1024U;
 
@@ -176,7 +177,7 @@ template <>
 struct JsonFields<Planning::LifTrajectory>
 {
     static constexpr auto FIELDS = std::make_tuple(
-        Optional("degree", &Planning::LifTrajectory::degree).Between(1, Planning::MAXIMUM_DEGREE),
+        Optional("degree", &Planning::LifTrajectory::degree),
         Required("knotVector", &Planning::LifTrajectory::knots),
         Required("controlPoints", &Planning::LifTrajectory::points));
 };
@@ -195,6 +196,7 @@ struct ValueDecoder<Core::Nurbs>
         {
             return false;
         }
+        Planning::ScaleKnots(trajectory.knots);
         out = {
             trajectory.degree.value_or(Planning::MAXIMUM_DEGREE),
             std::move(trajectory.knots),
@@ -322,7 +324,57 @@ Core::Result<LifFile> DecodeFile(std::string_view text)
     return file;
 }
 
-Core::Result<SiteMap> MakeSite(LifFile&& file)
+/// Empty: the edge has no trajectory for the vehicle type, or a valid one.
+std::string FindFault(const SiteMap& site, const SiteEdge& edge, const SiteEdgeRule& rule)
+{
+    if (!rule.trajectory.has_value())
+    {
+        return {};
+    }
+    const std::size_t degree = rule.trajectory->degree;
+    return degree < 1 || degree > MAXIMUM_DEGREE
+        ? fmt::format("the degree must be from 1 to {}, found {}", MAXIMUM_DEGREE, degree)
+        : FindTrajectoryFault(*rule.trajectory, edge, site);
+}
+
+/// An edge without a rule for a vehicle type is closed for it. The site has the nodes of the edges.
+void CloseEdges(const SiteMap& site, std::vector<SiteEdge>& edges, std::vector<std::string>& warnings)
+{
+    for (SiteEdge& edge : edges)
+    {
+        std::vector<std::string> closed;
+        for (const SiteEdgeRule& rule : edge.rules)
+        {
+            const std::string fault = FindFault(site, edge, rule);
+            if (!fault.empty())
+            {
+                closed.push_back(rule.vehicleTypeID);
+                warnings.push_back(fmt::format(
+                    "{} does not use the edge {}, because its trajectory is invalid: {}",
+                    rule.vehicleTypeID,
+                    edge.edgeID,
+                    fault));
+            }
+        }
+        std::erase_if(edge.rules, [&closed](const SiteEdgeRule& rule) {
+            return std::ranges::find(closed, rule.vehicleTypeID) != closed.end();
+        });
+    }
+}
+
+std::vector<SiteEdge> WithoutTrajectories(std::vector<SiteEdge> edges)
+{
+    for (SiteEdge& edge : edges)
+    {
+        for (SiteEdgeRule& rule : edge.rules)
+        {
+            rule.trajectory.reset();
+        }
+    }
+    return edges;
+}
+
+Core::Result<SiteMap> MakeSite(LifFile&& file, std::vector<std::string>& warnings)
 {
     std::vector<SiteNode> nodes;
     std::vector<SiteEdge> edges;
@@ -351,20 +403,29 @@ Core::Result<SiteMap> MakeSite(LifFile&& file)
         }
         std::ranges::move(layout.stations, std::back_inserter(stations));
     }
-    Core::Result<SiteMap> site = SiteMap::Create(std::move(nodes), std::move(edges), std::move(stations));
+    // Trajectories are checked against nodes that are known to be valid, and never refuse the map.
+    Core::Result<SiteMap> site = SiteMap::Create(std::move(nodes), WithoutTrajectories(edges), std::move(stations));
     if (!site.has_value())
     {
         site.error().path = LocatePath(site.error().path, counts);
+        return site;
     }
-    return site;
+    CloseEdges(*site, edges, warnings);
+    return SiteMap::Create(site->GetNodes(), std::move(edges), site->GetStations());
 }
 
 } // namespace
 
-Core::Result<SiteMap> DecodeLIF(std::string_view text)
+Core::Result<SiteMap> DecodeLIF(std::string_view text, std::vector<std::string>& warnings)
 {
     Core::Result<LifFile> file = DecodeFile(text);
-    return file.has_value() ? MakeSite(std::move(*file)) : tl::unexpected(std::move(file.error()));
+    return file.has_value() ? MakeSite(std::move(*file), warnings) : tl::unexpected(std::move(file.error()));
+}
+
+Core::Result<SiteMap> DecodeLIF(std::string_view text)
+{
+    std::vector<std::string> ignored;
+    return DecodeLIF(text, ignored);
 }
 
 } // namespace ACS::Planning

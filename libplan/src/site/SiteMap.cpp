@@ -1,3 +1,4 @@
+#include "site/TrajectoryFault.hpp"
 #include <acs/plan/EPlanningError.hpp>
 #include <acs/plan/SiteMap.hpp>
 
@@ -151,34 +152,11 @@ Core::Result<void> SiteMap::CheckRule(const SiteEdge& edge, const SiteEdgeRule& 
     {
         return Refuse("maxSpeed", "a speed greater than 0", fmt::format("{}", *rule.maxSpeed));
     }
-    if (!rule.trajectory.has_value())
+    if (const std::string fault =
+            rule.trajectory.has_value() ? FindTrajectoryFault(*rule.trajectory, edge, *this) : std::string();
+        !fault.empty())
     {
-        return {};
-    }
-    if (const std::string_view fault = Core::FindCurveFault(*rule.trajectory); !fault.empty())
-    {
-        return Refuse(
-            "trajectory",
-            std::string(fault),
-            fmt::format(
-                "degree {}, {} knots, {} control points",
-                rule.trajectory->degree,
-                rule.trajectory->knots.size(),
-                rule.trajectory->points.size()));
-    }
-    const std::vector<Core::CurvePoint>& points = rule.trajectory->points;
-    for (const auto& [nodeID, point] :
-         {std::pair(&edge.startNodeID, &points.front()), {&edge.endNodeID, &points.back()}})
-    {
-        const std::size_t index = _nodeIndices.find(*nodeID)->second;
-        const double distance = std::hypot(point->x - _nodes[index].x, point->y - _nodes[index].y);
-        if (distance > _deviations[index])
-        {
-            return Refuse(
-                "trajectory.controlPoints",
-                fmt::format("an end within {:.3f} m of the node {}", _deviations[index], *nodeID),
-                fmt::format("{:.3f} m", distance));
-        }
+        return Refuse("trajectory", "a valid trajectory", fault);
     }
     return {};
 }

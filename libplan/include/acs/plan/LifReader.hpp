@@ -3,7 +3,9 @@
 #include <acs/core/Result.hpp>
 #include <acs/plan/SiteMap.hpp>
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace ACS::Planning
 {
@@ -11,6 +13,10 @@ namespace ACS::Planning
 /// Decodes a VDMA LIF 1.0 file. All its layouts are merged into one map; degrees are converted to radians. Accepts any text:
 /// an invalid one is an error with the path of the member ("layouts[0].edges[3].endNodeId"). Errors: those of
 /// ACS::Core::ECoreError and EPlanningError::InvalidSite.
-[[nodiscard]] Core::Result<SiteMap> DecodeLIF(std::string_view text);
+///
+/// LIF gives no range for knots: those of a trajectory are scaled to 0 to 1. An invalid trajectory closes its edge for the
+/// vehicle type: the edge loses its rules for that type, and `warnings` receives a line with the type, the edge and the reason.
+[[nodiscard]] Core::Result<SiteMap> DecodeLIF(std::string_view text, std::vector<std::string>& warnings);
+[[nodiscard]] Core::Result<SiteMap> DecodeLIF(std::string_view text); ///< Without the warnings.
 
 } // namespace ACS::Planning

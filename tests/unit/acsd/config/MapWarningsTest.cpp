@@ -64,6 +64,22 @@ TEST_CASE("Members of the map that demand nothing are one note, and no warning")
     CHECK(config.notes[0].find("layouts[].layoutName (1 time)") != std::string::npos);
 }
 
+TEST_CASE("An invalid trajectory of the map closes its edge with a warning")
+{
+    const Acsd::AcsdConfig config =
+        ReadWith({R"("trajectory": {"degree": 3, "knotVector": [0, 1, 2], "controlPoints": [{"x": 0, "y": 0}]})"});
+    const Planning::SiteEdge& edge = config.site->GetEdges().front();
+    REQUIRE(config.warnings.size() == 1);
+    const std::string begin = "site.map: ";
+    const std::string end = " does not use the edge " + edge.edgeID
+        + ", because its trajectory is invalid: degree 3 requires at least 4 control points, found 1";
+    CHECK(config.warnings[0].starts_with(begin));
+    CHECK(config.warnings[0].ends_with(end));
+    const std::string type =
+        config.warnings[0].substr(begin.size(), config.warnings[0].size() - begin.size() - end.size());
+    CHECK(edge.FindRuleOrNull(type) == nullptr);
+}
+
 TEST_CASE("Corridors are put on the edges of the map, with a warning for vehicles of 2.0")
 {
     const Acsd::AcsdConfig config = Acsd::Test::ReadSite(

@@ -4,6 +4,7 @@
 
 #include <numbers>
 #include <string>
+#include <vector>
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 using namespace ACS;           // NOLINT(google-build-using-namespace)
@@ -111,6 +112,93 @@ TEST_CASE("LIF: an edge with a trajectory has the length of the curve, whose deg
     CHECK(measure(line) < 5.1);
 }
 
+TEST_CASE("LIF: the knots of a trajectory are scaled to 0 to 1, which VDA5050 requires of orders")
+{
+    struct Case
+    {
+        std::string knots;
+        std::vector<double> scaled;
+    };
+    const std::vector<Case> cases{
+        {"0, 0, 1, 1", {0, 0, 1, 1}},
+        {"0, 0, 7, 7", {0, 0, 1, 1}},
+        {"-2, -2, 2, 2", {0, 0, 1, 1}},
+        {"0.25, 0.25, 0.75, 0.75", {0, 0, 1, 1}},
+        {"0, 1, 3, 4", {0, 0.25, 0.75, 1}}, // not clamped; of degree 1 it ends at the control points nevertheless
+    };
+    for (const Case& valid : cases)
+    {
+        CAPTURE(valid.knots);
+        std::vector<std::string> warnings;
+        const Core::Result<SiteMap> site =
+            DecodeLIF(Replace(GetLIF(), R"("maxSpeed": 1.2)", MakeCurve("1", valid.knots, "3")), warnings);
+        REQUIRE(site.has_value());
+        CHECK(warnings.empty());
+        const SiteEdge& edge = site->GetEdges().front();
+        REQUIRE(edge.rules.size() == 1);
+        CHECK(edge.rules.front().trajectory->knots == valid.scaled);
+        CHECK(site->GetLength(edge, edge.rules.front()) == Approx(5.0));
+    }
+}
+
+TEST_CASE("LIF: an invalid trajectory closes the edge for its vehicle type only, with a warning")
+{
+    struct Case
+    {
+        std::string curve;
+        std::string reason;
+    };
+    const std::string counts = "2 control points and degree ";
+    const std::string order = "the knots must not decrease, and the last must be greater than the first";
+    const std::vector<Case> cases{
+        {MakeCurve("3", "0, 1, 2", "3"), "degree 3 requires at least 4 control points, found 2"}, // the example of LIF
+        {MakeCurve("1", "0, 0, 1", "3"), counts + "1 require 4 knots, found 3"},
+        {MakeCurve("2", "0, 0, 0, 1, 1", "3"), "degree 2 requires at least 3 control points, found 2"},
+        {MakeCurve("4", "0, 0, 1, 1", "3"), "the degree must be from 1 to 3, found 4"},
+        {MakeCurve("0", "0, 0, 1", "3"), "the degree must be from 1 to 3, found 0"},
+        {MakeCurve("1", "0, 1, 0, 1", "3"), order},
+        {MakeCurve("1", "2, 2, 2, 2", "3"), order},
+        {MakeCurve("1", "0, 1, 1, 2", "3"), "the curve is empty, because the knots 2 and 3 are equal"},
+        {MakeCurve("1", "0, 0, 1, 1", "9"), "it ends 6.000 m from the node N2, allowed are 0.500 m"},
+        {Replace(MakeCurve("1", "0, 0, 1, 1", "3"), R"("y": 0)", R"("y": 0, "weight": -1)"),
+         "a trajectory's control points have a place, and weights that leave a curve"},
+        // Not clamped: its control points begin and end at the nodes, the curve itself does not.
+        {R"("trajectory": {"degree": 2, "knotVector": [0, 1, 2, 3, 4, 5], "controlPoints":
+            [{"x": 0, "y": 0}, {"x": 1.5, "y": 2}, {"x": 3, "y": 4}]})",
+         "it begins 1.250 m from the node N1, allowed are 0.500 m"},
+    };
+    for (const Case& wrong : cases)
+    {
+        CAPTURE(wrong.curve);
+        const std::string rules = wrong.curve + R"(}, {"vehicleTypeId": "cr", "maxSpeed": 0.7)";
+        std::vector<std::string> warnings;
+        const Core::Result<SiteMap> site = DecodeLIF(Replace(GetLIF(), R"("maxSpeed": 1.2)", rules), warnings);
+        REQUIRE(site.has_value());
+        const SiteEdge& edge = site->GetEdges().front();
+        CHECK(edge.FindRuleOrNull("lr") == nullptr);
+        REQUIRE(edge.FindRuleOrNull("cr") != nullptr);
+        CHECK(edge.FindRuleOrNull("cr")->maxSpeed == 0.7);
+        CHECK(
+            warnings
+            == std::vector<std::string>{
+                "lr does not use the edge E1, because its trajectory is invalid: " + wrong.reason});
+    }
+}
+
+TEST_CASE("LIF: a trajectory that is not clamped is accepted if the curve itself leads from node to node")
+{
+    // A straight line with evenly spaced control points, which begins and ends half way between the outer two.
+    const std::string line = R"("trajectory": {"degree": 2, "knotVector": [0, 1, 2, 3, 4, 5], "controlPoints":
+        [{"x": -1.5, "y": -2}, {"x": 1.5, "y": 2}, {"x": 4.5, "y": 6}]})";
+    std::vector<std::string> warnings;
+    const Core::Result<SiteMap> site = DecodeLIF(Replace(GetLIF(), R"("maxSpeed": 1.2)", line), warnings);
+    REQUIRE(site.has_value());
+    CHECK(warnings.empty());
+    const SiteEdge& edge = site->GetEdges().front();
+    REQUIRE(edge.rules.size() == 1);
+    CHECK(site->GetLength(edge, edge.rules.front()) == Approx(5.0));
+}
+
 TEST_CASE("LIF: actions keep their requirement, blocking type and parameters")
 {
     const Core::Result<SiteMap> site = DecodeLIF(Replace(
@@ -166,9 +254,8 @@ TEST_CASE("LIF: an invalid file is refused with the place of the error")
         {R"("maxSpeed": 1.2)", R"("actions": [7])", RULE_OF_EDGE + ".actions[0]"},
         {R"("maxSpeed": 1.2)", R"("maxHeight": "2")", RULE_OF_EDGE + ".maxHeight"},
         {R"("maxSpeed": 1.2)", R"("trajectory": {"controlPoints": []})", RULE_OF_EDGE + ".trajectory.knotVector"},
-        {R"("maxSpeed": 1.2)", MakeCurve("4", "0, 0, 1, 1", "3"), RULE_OF_EDGE + ".trajectory.degree"},
-        {R"("maxSpeed": 1.2)", MakeCurve("1", "0, 0, 1", "3"), RULE_OF_EDGE + ".trajectory"},
-        {R"("maxSpeed": 1.2)", MakeCurve("1", "0, 0, 1, 1", "9"), RULE_OF_EDGE + ".trajectory.controlPoints"},
+        {R"("maxSpeed": 1.2)", MakeCurve("-1", "0, 0, 1, 1", "3"), RULE_OF_EDGE + ".trajectory.degree"},
+        {R"("maxSpeed": 1.2)", R"("maxSpeed": 0, )" + MakeCurve("1", "0, 0, 1", "3"), RULE_OF_EDGE + ".maxSpeed"},
         {R"(["N2"])", R"(["N3"])", "layouts[0].stations[0].interactionNodeIds[0]"},
         {R"(["N2"])", "[]", "layouts[0].stations[0].interactionNodeIds"},
         {R"("x": 3)", R"("x": "3")", "layouts[0].nodes[1].nodePosition.x"},
