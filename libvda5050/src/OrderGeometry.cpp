@@ -16,7 +16,7 @@ namespace
 /// A point of a curve that should lie at a node.
 struct CurveEnd
 {
-    const ControlPoint& point;
+    Core::MapPoint point;
     const OrderNode& node;
     std::string_view name;
 };
@@ -60,9 +60,12 @@ std::vector<OrderViolation> FindLooseEnds(const OrderMessage& order, const Order
         const OrderEdge& edge = order.edges[index];
         if (edge.trajectory.has_value())
         {
-            const std::vector<ControlPoint>& points = edge.trajectory->controlPoints;
-            CheckEnd(edge, CurveEnd{points.front(), order.nodes[index], "begin"}, context, unusable);
-            CheckEnd(edge, CurveEnd{points.back(), order.nodes[index + 1], "end"}, context, unusable);
+            // Unless the knots are clamped, the outer control points are not the ends of the curve.
+            const Core::NurbsCurve curve(MakeNurbs(*edge.trajectory));
+            const Core::MapPoint begin = curve.GetPoint(curve.GetBegin());
+            const Core::MapPoint end = curve.GetPoint(curve.GetEnd());
+            CheckEnd(edge, CurveEnd{begin, order.nodes[index], "begin"}, context, unusable);
+            CheckEnd(edge, CurveEnd{end, order.nodes[index + 1], "end"}, context, unusable);
         }
     }
     return unusable.Take();

@@ -173,6 +173,18 @@ TEST_CASE("7 A trajectory that does not begin and end at its nodes is refused wi
              order.nodes[1].nodePosition.reset();
          },
          ""},
+        {"is not clamped, and leads from node to node",
+         [](OrderMessage& order) {
+             order.edges[0].trajectory =
+                 Trajectory{2, {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}, {{-5.0, 0.0, {}}, {5.0, 0.0, {}}, {15.0, 0.0, {}}}};
+         },
+         ""},
+        {"is not clamped, and begins beside its node, unlike the control points",
+         [](OrderMessage& order) {
+             order.edges[0].trajectory =
+                 Trajectory{2, {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}, {{0.0, 0.0, {}}, {5.0, 0.0, {}}, {15.0, 0.0, {}}}};
+         },
+         "N0"},
         {"in the horizon",
          [](OrderMessage& order) {
              order.edges[1].trajectory = MakeLine();

@@ -2,6 +2,7 @@
 
 #include "Catch.hpp"
 #include "robots/VehicleFixture.hpp"
+#include <acs/vda5050/EVda5050Error.hpp>
 
 #include <utility>
 
@@ -59,6 +60,24 @@ TEST_CASE("An update is due when more is released, and only after the vehicle ha
     drive.OnConfirmed();
     CHECK(drive.GetPendingUpdateOrNull() == nullptr);
     CHECK_FALSE(drive.IsUpdateDue());
+}
+
+TEST_CASE("An order that the state of the vehicle has no room for releases fewer nodes")
+{
+    Core::Result<VehicleDrive> drive = VehicleDrive::Create(MakeDrive());
+    REQUIRE(drive);
+    drive->Extend(3);
+    const Core::Result<VDA5050::OrderMessage> order =
+        drive->MakeOrder([](const VDA5050::OrderMessage& candidate) -> Core::Result<void> {
+            if (!candidate.nodes[2].bReleased)
+            {
+                return {};
+            }
+            return Core::Fail(VDA5050::EVda5050Error::NotSupported, "maximum length of the state", "", "");
+        });
+    REQUIRE(order);
+    CHECK(order->nodes[1].bReleased);
+    CHECK_FALSE(order->nodes[2].bReleased);
 }
 
 TEST_CASE("An abandoned drive is not extended, and keeps the reason")
