@@ -292,9 +292,9 @@ void Vda5050RobotAdapter::HandleAction(const VDA5050::MasterAction& action, Core
                 _maps.OnConnected();
             },
             [&](const VDA5050::InstantActionRejected& rejected) {
-                _maps.OnEnded(rejected.actionID, "rejected: " + rejected.reason);
+                _maps.TryEnd(rejected.actionID, "rejected: " + rejected.reason);
             },
-            [&](const VDA5050::ActionLost& lost) { _maps.OnEnded(lost.actionID, lost.reason); },
+            [&](const VDA5050::ActionLost& lost) { _maps.TryEnd(lost.actionID, lost.reason); },
             [&](const VDA5050::VehicleOffline&) { SetOnline(false, now, out); },
             [&](const VDA5050::VehicleBroken&) { SetOnline(false, now, out); },
             [&](const VDA5050::VehicleSilent&) { SetOnline(false, now, out); },
@@ -308,7 +308,7 @@ void Vda5050RobotAdapter::HandleAction(const VDA5050::MasterAction& action, Core
             [&](const VDA5050::OrderLost& lost) { OnLost(lost, out); },
             [&](const VDA5050::NodeReached& reached) { OnNodeReached(reached, out); },
             [&](const VDA5050::ActionChanged& changed) {
-                if (_maps.OnChanged(changed))
+                if (_maps.TryApply(changed))
                 {
                     OnState(now, out); // the next request, and its errors; the next state may be 30 s away
                 }

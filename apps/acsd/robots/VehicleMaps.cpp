@@ -104,7 +104,7 @@ void VehicleMaps::OnNotSent(const std::string& error)
     }
 }
 
-bool VehicleMaps::OnEnded(const std::string& actionID, const std::string& error)
+bool VehicleMaps::TryEnd(const std::string& actionID, const std::string& error)
 {
     if (!_request.has_value() || _request->actionID != actionID)
     {
@@ -124,15 +124,15 @@ bool VehicleMaps::OnEnded(const std::string& actionID, const std::string& error)
     return true;
 }
 
-bool VehicleMaps::OnChanged(const VDA5050::ActionChanged& action)
+bool VehicleMaps::TryApply(const VDA5050::ActionChanged& action)
 {
     if (action.status == VDA5050::EActionStatus::Finished)
     {
-        return OnEnded(action.actionID, {});
+        return TryEnd(action.actionID, {});
     }
     if (action.status == VDA5050::EActionStatus::Failed)
     {
-        return OnEnded(
+        return TryEnd(
             action.actionID,
             action.resultDescription.empty() ? "the action failed" : action.resultDescription);
     }

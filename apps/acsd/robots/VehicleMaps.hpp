@@ -69,10 +69,10 @@ public:
     void OnSent(std::string actionID);
     /// The action of MakeRequestOrNull cannot be sent.
     void OnNotSent(const std::string& error);
-    /// The action has ended. error: why it failed; empty: done. Actions of others are ignored.
-    /// Whether it was that of the current request.
-    bool OnEnded(const std::string& actionID, const std::string& error);
-    bool OnChanged(const VDA5050::ActionChanged& action);
+    /// The action has ended. error: why it failed; empty: done. False: it is not that of the current request.
+    bool TryEnd(const std::string& actionID, const std::string& error);
+    /// Likewise, if the action has ended.
+    bool TryApply(const VDA5050::ActionChanged& action);
     /// One for each map that is not enabled: the vehicle must not drive.
     [[nodiscard]] std::vector<Planning::RobotError> ListErrors() const;
 

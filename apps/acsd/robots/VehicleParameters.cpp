@@ -55,7 +55,7 @@ const AgvActionParameter* FindUnnamedOrNull(const AgvAction& listed, const JobMe
 }
 
 /// Most parameters of an action; nullopt: no limit.
-std::optional<std::size_t> GetMostParameters(const VDA5050::FactsheetMessage* factsheetOrNull)
+std::optional<std::size_t> GetMostParametersOrNull(const VDA5050::FactsheetMessage* factsheetOrNull)
 {
     const std::uint32_t most =
         factsheetOrNull == nullptr ? 0 : factsheetOrNull->protocolLimits.maxArrayLengths.actionParameters.value_or(0);
@@ -86,13 +86,13 @@ std::optional<std::string> FindMethodFaultOrNull(const JobMethod& method, const 
     const std::string& actionType = method.vehicleAction;
     const AgvAction* const listedOrNull = FindListedOrNull(&factsheet, actionType);
     const std::size_t needed = CountNeeded(method, GetRulesOrNull(listedOrNull, actionType));
-    if (needed > GetMostParameters(&factsheet).value_or(needed))
+    if (needed > GetMostParametersOrNull(&factsheet).value_or(needed))
     {
         return fmt::format(
             "{} has {} parameters, and the factsheet allows {} (maxArrayLens.actions.actionsParameters)",
             actionType,
             needed,
-            *GetMostParameters(&factsheet));
+            *GetMostParametersOrNull(&factsheet));
     }
     if (listedOrNull == nullptr)
     {
@@ -149,7 +149,7 @@ tl::expected<std::vector<VDA5050::ActionParameter>, std::string> MakeActionParam
     }
     const AgvAction* const rulesOrNull = GetRulesOrNull(listedOrNull, actionType);
     const std::size_t needed = CountNeeded(method, rulesOrNull);
-    const std::size_t most = GetMostParameters(factsheetOrNull).value_or(method.parameters.size());
+    const std::size_t most = GetMostParametersOrNull(factsheetOrNull).value_or(method.parameters.size());
     std::size_t room = most - std::min(most, needed); // for defaults that are not mandatory
     std::vector<VDA5050::ActionParameter> parameters;
     for (const VehicleParameter& parameter : method.parameters)

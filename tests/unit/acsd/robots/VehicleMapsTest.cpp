@@ -59,9 +59,9 @@ TEST_CASE("A missing map is downloaded, then enabled, each once; until then the 
     REQUIRE(maps.ListErrors().size() == 1);
     CHECK(maps.ListErrors().front().level == Planning::EAlarmLevel::Heavy);
     CHECK(maps.ListErrors().front().message == "map hall version 2 is not on the vehicle; it downloads it now.");
-    maps.OnEnded("other", "failed");
+    maps.TryEnd("other", "failed");
     CHECK_FALSE(maps.MakeRequestOrNull().has_value());
-    maps.OnEnded("A1", {});
+    maps.TryEnd("A1", {});
     maps.OnReported(std::vector<MapState>{{"hall", "2", EMapStatus::Disabled, {}}});
     const auto enable = maps.MakeRequestOrNull();
     REQUIRE(enable.has_value());
@@ -79,7 +79,7 @@ TEST_CASE(
     VehicleMaps maps({HALL});
     maps.OnReported(std::vector<MapState>());
     maps.OnSent("A1");
-    maps.OnEnded("A1", "no such file");
+    maps.TryEnd("A1", "no such file");
     CHECK_FALSE(maps.MakeRequestOrNull().has_value());
     CHECK(
         maps.ListErrors().front().message
@@ -97,7 +97,7 @@ TEST_CASE("A vehicle that reports a map as enabled and does not show it is asked
         maps.OnReported(std::vector<MapState>{{"hall", "2", EMapStatus::Disabled, {}}});
         REQUIRE(maps.MakeRequestOrNull().has_value());
         maps.OnSent("A1");
-        CHECK(maps.OnEnded("A1", {}));
+        CHECK(maps.TryEnd("A1", {}));
     }
     maps.OnReported(std::vector<MapState>{{"hall", "2", EMapStatus::Disabled, {}}});
     CHECK_FALSE(maps.MakeRequestOrNull().has_value());
