@@ -62,13 +62,13 @@ std::optional<std::size_t> GetMostParametersOrNull(const VDA5050::FactsheetMessa
     return most == 0 ? std::nullopt : std::optional<std::size_t>(most);
 }
 
-/// Configured ones, and those that the rules demand.
-std::size_t CountNeeded(const JobMethod& method, const AgvAction* rulesOrNull)
+std::string DescribeTooMany(const std::string& actionType, std::size_t count, std::size_t most)
 {
-    return static_cast<std::size_t>(
-        std::ranges::count_if(method.parameters, [rulesOrNull](const VehicleParameter& parameter) {
-            return !parameter.bDefault || IsMandatory(FindParameterOrNull(rulesOrNull, parameter.key));
-        }));
+    return fmt::format(
+        "{} has {} parameters, and the factsheet allows {} (maxArrayLens.actions.actionsParameters)",
+        actionType,
+        count,
+        most);
 }
 
 /// Where the factsheet lists no parameters, those of the standard's action are in force.
@@ -85,14 +85,15 @@ std::optional<std::string> FindMethodFaultOrNull(const JobMethod& method, const 
 {
     const std::string& actionType = method.vehicleAction;
     const AgvAction* const listedOrNull = FindListedOrNull(&factsheet, actionType);
-    const std::size_t needed = CountNeeded(method, GetRulesOrNull(listedOrNull, actionType));
-    if (needed > GetMostParametersOrNull(&factsheet).value_or(needed))
+    const AgvAction* const rulesOrNull = GetRulesOrNull(listedOrNull, actionType);
+    const auto mandatory = static_cast<std::size_t>(
+        std::ranges::count_if(method.parameters, [rulesOrNull](const VehicleParameter& parameter) {
+            return IsMandatory(FindParameterOrNull(rulesOrNull, parameter.key));
+        }));
+    const std::size_t most = GetMostParametersOrNull(&factsheet).value_or(mandatory);
+    if (mandatory > most)
     {
-        return fmt::format(
-            "{} has {} parameters, and the factsheet allows {} (maxArrayLens.actions.actionsParameters)",
-            actionType,
-            needed,
-            *GetMostParametersOrNull(&factsheet));
+        return DescribeTooMany(actionType, mandatory, most);
     }
     if (listedOrNull == nullptr)
     {
@@ -148,10 +149,8 @@ tl::expected<std::vector<VDA5050::ActionParameter>, std::string> MakeActionParam
         listedOrNull = nullptr; // the factsheet lists no parameters
     }
     const AgvAction* const rulesOrNull = GetRulesOrNull(listedOrNull, actionType);
-    const std::size_t needed = CountNeeded(method, rulesOrNull);
-    const std::size_t most = GetMostParametersOrNull(factsheetOrNull).value_or(method.parameters.size());
-    std::size_t room = most - std::min(most, needed); // for defaults that are not mandatory
     std::vector<VDA5050::ActionParameter> parameters;
+    std::vector<std::string> omittable; // defaults that are not mandatory, in the order of the parameters
     for (const VehicleParameter& parameter : method.parameters)
     {
         const AgvActionParameter* const knownOrNull = FindParameterOrNull(listedOrNull, parameter.key);
@@ -160,18 +159,16 @@ tl::expected<std::vector<VDA5050::ActionParameter>, std::string> MakeActionParam
             continue; // one of the defaults, or a fault
         }
         const bool bMandatory = IsMandatory(FindParameterOrNull(rulesOrNull, parameter.key));
-        const bool bOmittable = parameter.bDefault && !bMandatory;
-        if (bOmittable && room == 0)
-        {
-            continue;
-        }
         tl::expected<Core::JsonText, std::string> value = parameter.value.Resolve(
             data,
             knownOrNull == nullptr ? std::nullopt : std::optional(knownOrNull->valueDataType));
         if (value.has_value())
         {
             parameters.push_back({parameter.key, std::move(*value)});
-            room -= bOmittable ? 1 : 0;
+            if (parameter.bDefault && !bMandatory)
+            {
+                omittable.push_back(parameter.key);
+            }
         }
         else if (bMandatory)
         {
@@ -182,6 +179,17 @@ tl::expected<std::vector<VDA5050::ActionParameter>, std::string> MakeActionParam
     if (fault.has_value())
     {
         return tl::unexpected(std::move(*fault));
+    }
+    const std::size_t most = GetMostParametersOrNull(factsheetOrNull).value_or(parameters.size());
+    for (; parameters.size() > most && !omittable.empty(); omittable.pop_back())
+    {
+        std::erase_if(parameters, [&omittable](const VDA5050::ActionParameter& parameter) {
+            return parameter.key == omittable.back();
+        });
+    }
+    if (parameters.size() > most)
+    {
+        return tl::unexpected(DescribeTooMany(actionType, parameters.size(), most));
     }
     return parameters;
 }
