@@ -6,11 +6,11 @@
 #include <acs/vda5050/MasterAction.hpp>
 #include <acs/vda5050/StateMessage.hpp>
 
-#include <compare>
 #include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace ACS::Acsd
@@ -37,7 +37,10 @@ class VehicleMaps final
         std::string mapID;
         bool bDownload; ///< Otherwise enable.
 
-        auto operator<=>(const Task&) const = default;
+        bool operator<(const Task& other) const noexcept
+        {
+            return std::tie(mapID, bDownload) < std::tie(other.mapID, other.bDownload);
+        }
     };
 
     struct Request
