@@ -5,7 +5,6 @@
 #include <acs/vda5050/OrderValidator.hpp>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace ACS::VDA5050
@@ -13,23 +12,6 @@ namespace ACS::VDA5050
 
 namespace
 {
-
-bool IsRequest(std::string_view actionType)
-{
-    return actionType == ActionTypes::STATE_REQUEST || actionType == ActionTypes::FACTSHEET_REQUEST;
-}
-
-/// There are vehicles that take these with exactly this blocking type only.
-EBlockingType ChooseBlockingType(const Action& action)
-{
-    if (IsRequest(action.actionType))
-    {
-        return EBlockingType::None;
-    }
-    const bool bHard = action.actionType == ActionTypes::CANCEL_ORDER || action.actionType == ActionTypes::START_PAUSE
-        || action.actionType == ActionTypes::STOP_PAUSE;
-    return bHard ? EBlockingType::Hard : action.blockingType;
-}
 
 Core::Result<void> CheckStructure(const OrderMessage& order)
 {
@@ -172,55 +154,6 @@ void MasterSession::Impl::ResendOrder(Core::Now now, MasterActions& out)
     const std::uint32_t sentBefore = _sendCount;
     PublishOrder(now, out);
     _statistics.ordersResent += sentBefore != 0 && _sendCount != sentBefore ? 1U : 0U;
-}
-
-void MasterSession::Impl::PublishInstantActions(std::vector<Action> actions, Core::Now now, MasterActions& out)
-{
-    const std::size_t most = GetMaximumInstantActions();
-    while (!actions.empty())
-    {
-        const auto end = actions.begin() + static_cast<std::ptrdiff_t>(std::min(most, actions.size()));
-        InstantActionsMessage message;
-        message.header = MakeHeader(ETopic::InstantActions, now);
-        message.actions.assign(std::move_iterator(actions.begin()), std::move_iterator(end));
-        actions.erase(actions.begin(), end);
-        PublishPayload(ETopic::InstantActions, _codec.Encode(message, _options.version), out);
-    }
-}
-
-void MasterSession::Impl::ResendInstantActions(Core::Now now, MasterActions& out)
-{
-    if (_link != EVehicleLink::Online || !IsUnderMasterControl())
-    {
-        return;
-    }
-    std::vector<Action> actions;
-    const auto isSpent = [this, &actions, &out](PendingAction& pending) {
-        if (_options.resendCount != 0 && pending.sendCount > _options.resendCount)
-        {
-            out.emplace_back(InstantActionRejected{pending.action.actionID, {}, "the vehicle never showed the action"});
-            RemoveTrackedAction(pending.action.actionID);
-            return true;
-        }
-        ++pending.sendCount;
-        actions.push_back(pending.action);
-        return false;
-    };
-    std::vector<PendingAction> kept;
-    for (PendingAction& pending : _pendingActions)
-    {
-        if (!isSpent(pending))
-        {
-            kept.push_back(std::move(pending));
-        }
-    }
-    _pendingActions = std::move(kept);
-    if (!actions.empty())
-    {
-        PublishInstantActions(std::move(actions), now, out);
-        out.emplace_back(StartMasterTimer{EMasterTimer::ResendInstantActions, _options.resendInterval});
-    }
-    UpdateCancel(out);
 }
 
 void MasterSession::Impl::BeginOrder(std::string orderID, std::uint32_t lastUpdateID)
@@ -445,63 +378,6 @@ Core::Result<void> MasterSession::Impl::ResumeOrder(OrderRecord record, Core::No
     UpdateActions(ActionIndex(_state->actionStates), out);
     UpdateOrder(out);
     return {};
-}
-
-const ActionState* MasterSession::Impl::FindShownOrNull(std::string_view actionID) const
-{
-    if (!_state.has_value())
-    {
-        return nullptr;
-    }
-    const auto found = std::ranges::find(_state->actionStates, actionID, &ActionState::actionID);
-    return found == _state->actionStates.end() ? nullptr : &*found;
-}
-
-Core::Result<std::string> MasterSession::Impl::SendInstantAction(Action action, Core::Now now, MasterActions& out)
-{
-    const bool bTaken = IsUnderMasterControl() || IsRequest(action.actionType);
-    if (_link != EVehicleLink::Online || !bTaken)
-    {
-        return Core::Fail(
-            EVda5050Error::VehicleNotReady,
-            {},
-            bTaken ? "a vehicle that is online" : "a mode that takes instant actions",
-            _options.address.serialNumber);
-    }
-    if (action.actionID.empty())
-    {
-        action.actionID = MakeActionID(action.actionType, now);
-    }
-    action.blockingType = ChooseBlockingType(action);
-    const Core::Result<void> fit = FitInstantAction(action, now);
-    if (!fit)
-    {
-        return tl::unexpected(fit.error());
-    }
-    std::string actionID = action.actionID;
-    const ActionState* const shown = FindShownOrNull(actionID);
-    if (IsTracked(actionID) || (shown != nullptr && shown->actionType != action.actionType))
-    {
-        return Core::Fail(EVda5050Error::InvalidOrder, "actionId", "an actionId that no other action uses", actionID);
-    }
-    if (shown != nullptr)
-    {
-        out.emplace_back(
-            ActionChanged{shown->actionID, shown->actionType, shown->actionStatus, shown->resultDescription});
-        if (!IsTerminal(shown->actionStatus))
-        {
-            _tracked.push_back(TrackedAction{action.actionID, action.actionType, true, true});
-        }
-        return actionID;
-    }
-    if (!IsRequest(action.actionType))
-    {
-        _pendingActions.push_back(PendingAction{action, 1, _state.has_value() ? _state->orderID : std::string()});
-        _tracked.push_back(TrackedAction{action.actionID, action.actionType, true, false});
-        out.emplace_back(StartMasterTimer{EMasterTimer::ResendInstantActions, _options.resendInterval});
-    }
-    PublishInstantActions({std::move(action)}, now, out);
-    return actionID;
 }
 
 } // namespace ACS::VDA5050

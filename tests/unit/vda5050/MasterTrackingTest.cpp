@@ -32,6 +32,16 @@ std::string CancelOrder(MasterSessionFixture& bench)
     return message->actions.front().actionID;
 }
 
+/// The vehicle drives an order of another master, with two nodes left.
+OrderMessage BeginForeignOrder(MasterSessionFixture& bench)
+{
+    OrderMessage foreign = MakeOrder(3, 3);
+    foreign.orderID = "foreign";
+    bench.Hold(foreign, 2);
+    bench.BeReady();
+    return foreign;
+}
+
 } // namespace
 
 TEST_CASE("5.5 An action that vanishes before its end is reported as lost once; one that ended is not")
@@ -249,10 +259,7 @@ TEST_CASE("4.2 A rejected order that the vehicle finished between two states is 
 TEST_CASE("4.2 A vehicle that runs the order of another master gets none, and the error states the reason")
 {
     MasterSessionFixture bench;
-    OrderMessage foreign = MakeOrder(3, 3);
-    foreign.orderID = "foreign";
-    bench.Hold(foreign, 2);
-    bench.BeReady();
+    OrderMessage foreign = BeginForeignOrder(bench);
     CHECK_FALSE(bench.session.CanTakeOrder());
     const auto sent = bench.session.SendOrder(MakeOrder(3, 3), bench.GetNow(), bench.Clear());
     REQUIRE_FALSE(sent);
@@ -266,10 +273,7 @@ TEST_CASE("4.2 A vehicle that runs the order of another master gets none, and th
 TEST_CASE("4.2 A cancelOrder for another master's order is not sent again when that order has ended")
 {
     MasterSessionFixture bench;
-    OrderMessage foreign = MakeOrder(3, 3);
-    foreign.orderID = "foreign";
-    bench.Hold(foreign, 2);
-    bench.BeReady();
+    OrderMessage foreign = BeginForeignOrder(bench);
     Action cancel;
     cancel.actionType = ActionTypes::CANCEL_ORDER;
     REQUIRE(bench.session.SendInstantAction(cancel, bench.GetNow(), bench.Clear()));

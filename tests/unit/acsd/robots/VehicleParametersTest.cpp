@@ -74,7 +74,7 @@ std::string Make(
 }
 
 /// A vehicle whose action "lift" has these parameters.
-VDA5050::FactsheetMessage MakeFactsheet(const std::vector<VDA5050::AgvActionParameter>& parameters)
+VDA5050::FactsheetMessage MakeLiftFactsheet(const std::vector<VDA5050::AgvActionParameter>& parameters)
 {
     VDA5050::FactsheetMessage factsheet;
     factsheet.protocolFeatures.agvActions.push_back({"lift", "", {VDA5050::EActionScope::Node}, parameters, "", {}});
@@ -186,9 +186,9 @@ TEST_CASE("Values have the type that the factsheet declares")
     for (const Row& row : rows)
     {
         INFO(row.toml << " " << row.result);
-        VDA5050::FactsheetMessage factsheet = MakeFactsheet({{"a", row.type, "", false}});
+        VDA5050::FactsheetMessage factsheet = MakeLiftFactsheet({{"a", row.type, "", false}});
         CHECK(Make({"lift", 0, Parse(row.toml)}, MakeLoad(), &factsheet) == row.result);
-        factsheet = MakeFactsheet({{"a", row.type, "", true}});
+        factsheet = MakeLiftFactsheet({{"a", row.type, "", true}});
         const bool bGiven = row.result.starts_with("a=");
         CHECK(Make({"lift", 0, Parse(row.toml)}, MakeLoad(), &factsheet) == (bGiven ? row.result : ""));
     }
@@ -196,7 +196,7 @@ TEST_CASE("Values have the type that the factsheet declares")
 
 TEST_CASE("An action or a configured parameter that the factsheet does not list is an error")
 {
-    const VDA5050::FactsheetMessage factsheet = MakeFactsheet({{"height", EValueDataType::Float, "", true}});
+    const VDA5050::FactsheetMessage factsheet = MakeLiftFactsheet({{"height", EValueDataType::Float, "", true}});
     CHECK(
         Make({"pick", 0, Parse("height = 1.0")}, MakeLoad(), &factsheet)
         == "the vehicle's factsheet does not list pick");
@@ -212,7 +212,7 @@ TEST_CASE("An optional parameter without a value is left out, a mandatory one is
     const JobMethod method{"lift", 0, Parse("height = '{station.height}'\nname = '{place}'")};
     CHECK(Make(method, MakeLoad("A01.CP02")) == R"(name="A01.CP02")");
     const auto make = [&method](std::optional<bool> bOptional) {
-        const VDA5050::FactsheetMessage factsheet = MakeFactsheet(
+        const VDA5050::FactsheetMessage factsheet = MakeLiftFactsheet(
             {{"height", EValueDataType::Float, "", bOptional}, {"name", EValueDataType::String, "", true}});
         return Make(method, MakeLoad("A01.CP02"), &factsheet);
     };
@@ -225,7 +225,7 @@ TEST_CASE("An optional parameter without a value is left out, a mandatory one is
 TEST_CASE("A mandatory parameter of the factsheet that is not configured is an error, an optional one is not")
 {
     VDA5050::FactsheetMessage factsheet =
-        MakeFactsheet({{"fork", EValueDataType::Integer, "", false}, {"speed", EValueDataType::Float, "", true}});
+        MakeLiftFactsheet({{"fork", EValueDataType::Integer, "", false}, {"speed", EValueDataType::Float, "", true}});
     CHECK(Make({"lift", 0, Parse("fork = 1")}, MakeLoad(), &factsheet) == "fork=1");
     CHECK(
         Make({"lift", 0, Parse("speed = 0.5")}, MakeLoad(), &factsheet)
@@ -249,10 +249,10 @@ TEST_CASE("An action with more parameters than the factsheet allows is an error;
     const JobMethod sided{"lift", 0, Parse("a = 1\nb = '{station.slot}'")};
     CHECK(Make(sided, MakeLoad("A01.CP02"), &factsheet) == "a=1");
     factsheet.protocolFeatures =
-        MakeFactsheet({{"a", EValueDataType::Integer, "", false}, {"b", EValueDataType::Integer, "", false}})
+        MakeLiftFactsheet({{"a", EValueDataType::Integer, "", false}, {"b", EValueDataType::Integer, "", false}})
             .protocolFeatures;
     CHECK(FindMethodFaultOrNull(lift, factsheet) == error);
-    factsheet.protocolFeatures = MakeFactsheet({}).protocolFeatures;
+    factsheet.protocolFeatures = MakeLiftFactsheet({}).protocolFeatures;
 
     const JobMethod detach{"detach", 0, MakeDefaultParameters("detach", GetLoadRule(), 1)};
     CHECK(Make(detach, MakeLoad()) == R"(stationName="A01.CP01" loadId="C1")");
@@ -263,7 +263,7 @@ TEST_CASE("An action with more parameters than the factsheet allows is an error;
 
 TEST_CASE("An action that the vehicle does not perform with the blocking type HARD is an error")
 {
-    VDA5050::FactsheetMessage factsheet = MakeFactsheet({});
+    VDA5050::FactsheetMessage factsheet = MakeLiftFactsheet({});
     const JobMethod lift{"lift", 0, Parse("a = 1")};
     std::vector<VDA5050::EBlockingType>& blockingTypes = factsheet.protocolFeatures.agvActions[0].blockingTypes;
     blockingTypes = {VDA5050::EBlockingType::Soft, VDA5050::EBlockingType::Hard};

@@ -1,0 +1,98 @@
+#include "ExampleSite.hpp"
+#include "TemporaryFolder.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace ACS::Acsd::Test
+{
+
+TEST_CASE("robot.* and robots.NAME.charge are read; a charging station is no other robot's home")
+{
+    const AcsdConfig config = ReadSite(
+        {"robot.battery_floor=15",
+         "robot.battery_resume=90",
+         "robot.max_rejections=5",
+         "robot.taken_port=load",
+         "robots.LR01.charge=CHG01",
+         "mcs.position_while_moving=target"});
+    REQUIRE(config.errors.empty());
+    CHECK(config.engine.dispatch.batteryFloor == 15);
+    CHECK(config.engine.dispatch.batteryResume == 90);
+    CHECK(config.engine.maximumRejections == 5);
+    CHECK(ReadSite({}).engine.maximumRejections == 3);
+    CHECK(config.engine.dispatch.bLoadsIntoTakenPorts);
+    CHECK(config.engine.robots.back().chargingStationID == "CHG01");
+    CHECK(config.engine.movingPosition == Planning::EMovingPosition::Target);
+    CHECK_FALSE(ReadSite({}).engine.robots.back().chargingStationID.has_value());
+
+    const AcsdConfig wrong =
+        ReadSite({"robot.battery_floor=90", "robots.LR01.charge=CHG02", "robots.CR01.charge=NOWHERE"});
+    std::string errors;
+    for (const std::string& error : wrong.errors)
+    {
+        errors += error + "\n";
+    }
+    CHECK(errors.find("robot.battery_floor") != std::string::npos);
+    CHECK(errors.find("robots.LR01.charge") != std::string::npos);
+    CHECK(errors.find("robots.CR01.charge") != std::string::npos);
+    CHECK(ReadSite({"robot.battery_floor=-1"}).errors.size() == 1);
+    CHECK(ReadSite({"robot.max_rejections=0"}).errors.size() == 1);
+    CHECK(ReadSite({"mcs.position_while_moving=here"}).errors.size() == 1);
+}
+
+TEST_CASE("The maps of a robot need a version, and may have a link and a hash")
+{
+    const AcsdConfig config =
+        ReadSite({R"(robots.LR01.maps.hall.version="2")", R"(robots.LR01.maps.hall.download="http://files/hall.zip")"});
+    CHECK(config.errors.empty());
+    const auto robot = std::ranges::find(config.robots, "LR01", &RobotLinkConfig::robotID);
+    CHECK(robot->maps == std::vector<NeededMap>{{"hall", "2", "http://files/hall.zip", {}}});
+    CHECK(ReadSite({R"(robots.LR01.maps.hall.hash="1")"}).errors.size() == 1);
+}
+
+TEST_CASE("A factsheet_file is read without a header, and an unreadable one is an error with path and reason")
+{
+    const Testing::TemporaryFolder folder;
+    const std::string file = folder.GetPath() / "lr.json";
+    const auto write = [&file](const std::string& features) {
+        std::ofstream(file)
+            << R"({"typeSpecification":{"seriesName":"LR","agvKinematic":"DIFF","agvClass":"CARRIER","maxLoadMass":1,)"
+            << R"("localizationTypes":[],"navigationTypes":[]},"physicalParameters":{"speedMin":0,"speedMax":1,)"
+            << R"("accelerationMax":1,"decelerationMax":1,"heightMax":1,"width":1,"length":1},"protocolLimits":{)"
+            << R"("maxStringLens":{},"maxArrayLens":{},"timing":{"minOrderInterval":0,"minStateInterval":0}},)"
+            << R"("protocolFeatures":)" << features << R"(,"agvGeometry":{},"loadSpecification":{}})";
+    };
+    const std::vector<std::string> keys{"robots.LR01.factsheet_file=" + file};
+    write(R"({"agvActions":[]})");
+    const AcsdConfig good = ReadSite(keys);
+    CHECK(good.errors.empty());
+    CHECK(good.warnings.empty());
+    const auto robot = std::ranges::find(good.robots, "LR01", &RobotLinkConfig::robotID);
+    REQUIRE(robot->factsheet.has_value());
+    CHECK(robot->factsheet->typeSpecification.seriesName == "LR");
+    CHECK_FALSE(robot->drives->GetMap().GetRoutes().empty());
+
+    write(R"({"agvActions":[],"optionalParameters":[]})");
+    const AcsdConfig poor = ReadSite(keys);
+    CHECK(poor.errors.empty());
+    REQUIRE(poor.warnings.size() == 1);
+    CHECK(poor.warnings[0].find("robots.LR01: the drive from ") == 0);
+    CHECK(poor.warnings[0].find("does not support order.edges.") != std::string::npos);
+
+    write("7");
+    const AcsdConfig wrong = ReadSite(keys);
+    REQUIRE(wrong.errors.size() == 1);
+    CHECK(
+        wrong.errors[0].find("robots.LR01.factsheet_file: " + file + " is not a VDA5050 factsheet: ")
+        != std::string::npos);
+    CHECK(wrong.errors[0].find("protocolFeatures") != std::string::npos);
+
+    const AcsdConfig missing = ReadSite({"robots.LR01.factsheet_file=nowhere.json"});
+    REQUIRE(missing.errors.size() == 1);
+    CHECK(missing.errors[0].find(std::string(ACS_SITE) + "/nowhere.json cannot be read") != std::string::npos);
+}
+
+} // namespace ACS::Acsd::Test
