@@ -58,7 +58,7 @@ std::string DriveCheck::FindFault(const VDA5050::MasterSession& session, Core::N
     }
     const VDA5050::MasterOptions& options = session.GetOptions();
     const std::size_t addressLength = options.address.manufacturer.size() + options.address.serialNumber.size();
-    Subject subject{*factsheetOrNull, options.version, addressLength};
+    Subject subject{*factsheetOrNull, options.zoneSetID, addressLength, options.version};
     subject.factsheet.header = {};
     subject.factsheet.vehicleConfig.reset(); // network addresses
     const auto known = std::ranges::find(_checked, subject, &Checked::subject);

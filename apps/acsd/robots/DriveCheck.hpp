@@ -30,8 +30,9 @@ private:
     struct Subject
     {
         VDA5050::FactsheetMessage factsheet; ///< Without what differs between equal vehicles.
-        VDA5050::EVda5050Version version;    ///< Of the orders.
+        std::string zoneSetID;               ///< Of the orders.
         std::size_t addressLength;           ///< A part of the size of orders.
+        VDA5050::EVda5050Version version;    ///< Of the orders.
 
         bool operator==(const Subject&) const = default;
     };
