@@ -49,7 +49,7 @@ bool HasHalfSurrogate(std::string_view text)
     return false;
 }
 
-/// Passes the parser's events on to the document, and ends the parse at the depth limit and at half a surrogate pair.
+/// Passes the parser's events on to the document, and ends the parse at a limit and at half a surrogate pair.
 class StrictHandler
 {
 public:
@@ -58,15 +58,16 @@ public:
 private:
     Document& _document;
     std::size_t _depth = 0;
-    const std::size_t _maximumDepth;
+    std::size_t _values = 0;
+    const ParseLimits& _limits;
     const bool _bEscaped; ///< The text has escapes at all: without them there are no half pairs to look for.
     bool _bHalfSurrogate = false;
     bool _bNumberTooLarge = false;
 
 public:
-    StrictHandler(Document& document, std::size_t maximumDepth, bool bEscaped)
+    StrictHandler(Document& document, const ParseLimits& limits, bool bEscaped)
         : _document(document),
-          _maximumDepth(maximumDepth),
+          _limits(limits),
           _bEscaped(bEscaped)
     {
     }
@@ -76,6 +77,11 @@ public:
         return _bNumberTooLarge;
     }
 
+    [[nodiscard]] bool HasTooManyValues() const
+    {
+        return _values > _limits.values;
+    }
+
     [[nodiscard]] bool HasFoundHalfSurrogate() const
     {
         return _bHalfSurrogate;
@@ -83,42 +89,46 @@ public:
 
     bool Null()
     {
-        return _document.Null();
+        return CanCount() && _document.Null();
     }
 
     bool Bool(bool bValue)
     {
-        return _document.Bool(bValue);
+        return CanCount() && _document.Bool(bValue);
     }
 
     bool Int(int value)
     {
-        return _document.Int(value);
+        return CanCount() && _document.Int(value);
     }
 
     bool Uint(unsigned value)
     {
-        return _document.Uint(value);
+        return CanCount() && _document.Uint(value);
     }
 
     bool Int64(std::int64_t value)
     {
-        return _document.Int64(value);
+        return CanCount() && _document.Int64(value);
     }
 
     bool Uint64(std::uint64_t value)
     {
-        return _document.Uint64(value);
+        return CanCount() && _document.Uint64(value);
     }
 
     bool Double(double value)
     {
-        return _document.Double(value);
+        return CanCount() && _document.Double(value);
     }
 
     /// Text that follows JSON's grammar of a number.
     bool RawNumber(const char* text, rapidjson::SizeType length, bool /*bCopy*/)
     {
+        if (!CanCount())
+        {
+            return false;
+        }
         const std::string_view number(text, length);
         const bool bInteger =
             std::ranges::none_of(number, [](char sign) { return sign == '.' || sign == 'e' || sign == 'E'; });
@@ -147,12 +157,12 @@ public:
 
     bool String(const char* text, rapidjson::SizeType length, bool bCopy)
     {
-        return IsWhole(text, length) && _document.String(text, length, bCopy);
+        return CanCount() && IsWhole(text, length) && _document.String(text, length, bCopy);
     }
 
     bool StartObject()
     {
-        return ++_depth <= _maximumDepth && _document.StartObject();
+        return CanCount() && ++_depth <= _limits.depth && _document.StartObject();
     }
 
     bool Key(const char* text, rapidjson::SizeType length, bool bCopy)
@@ -168,7 +178,7 @@ public:
 
     bool StartArray()
     {
-        return ++_depth <= _maximumDepth && _document.StartArray();
+        return CanCount() && ++_depth <= _limits.depth && _document.StartArray();
     }
 
     bool EndArray(rapidjson::SizeType count)
@@ -183,6 +193,12 @@ private:
     {
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
         return error == std::errc() && end == text.data() + text.size();
+    }
+
+    /// Counts one value more; whether it is within the limit.
+    [[nodiscard]] bool CanCount()
+    {
+        return ++_values <= _limits.values;
     }
 
     [[nodiscard]] bool IsWhole(const char* text, rapidjson::SizeType length)
@@ -271,7 +287,7 @@ Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const Pars
         FIRST_STACK_BYTES);
     TextStream stream = MakeStream(body, _valuePool);
     rapidjson::ParseResult outcome;
-    StrictHandler handler(document, limits.depth, body.find('\\') != std::string_view::npos);
+    StrictHandler handler(document, limits, body.find('\\') != std::string_view::npos);
     const auto generate = [&](Document& /*target*/) {
         outcome = bLenient ? reader.Parse<LENIENT_FLAGS>(stream, handler) : reader.Parse<PARSE_FLAGS>(stream, handler);
         return !outcome.IsError();
@@ -284,6 +300,10 @@ Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const Pars
     if (handler.HasFoundLargeNumber())
     {
         return Core::Fail(Core::ECoreError::InvalidJSON, {}, "JSON", "a number beyond the range of a double");
+    }
+    if (handler.HasTooManyValues())
+    {
+        return Core::Fail(Core::ECoreError::TooLarge, {}, fmt::format("at most {} values", limits.values));
     }
     if (outcome.Code() == rapidjson::kParseErrorTermination)
     {

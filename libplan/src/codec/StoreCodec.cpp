@@ -229,6 +229,7 @@ Core::Result<TValue> DecodeText(std::string_view text)
     constexpr std::size_t ANY = std::numeric_limits<std::size_t>::max();
     Json::ParseLimits limits;
     limits.bytes = ANY;
+    limits.values = ANY;
     const Core::Result<const Json::Value*> root = document.Parse(text, limits);
     if (!root.has_value())
     {

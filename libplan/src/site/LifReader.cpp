@@ -300,6 +300,7 @@ Core::Result<LifFile> DecodeFile(std::string_view text)
     Json::JsonDocument document;
     Json::ParseLimits limits;
     limits.bytes = MAXIMUM_BYTES;
+    limits.values = MAXIMUM_BYTES; // a file of the operator: its length is enough
     const Core::Result<const Json::Value*> root = document.Parse(text, limits);
     if (!root.has_value())
     {

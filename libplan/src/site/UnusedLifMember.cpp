@@ -264,6 +264,7 @@ std::vector<UnusedLifMember> FindUnusedMembers(std::string_view text)
     Json::JsonDocument document;
     Json::ParseLimits limits;
     limits.bytes = text.size(); // DecodeLIF has the limit
+    limits.values = text.size();
     const Core::Result<const Value*> root = document.Parse(text, limits);
     MemberCounter counter;
     if (root.has_value())

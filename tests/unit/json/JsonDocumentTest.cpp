@@ -53,6 +53,7 @@ TEST_CASE("Five megabytes of opening brackets are refused without a crash")
     limits.bytes = 8U * 1024U * 1024U;
     CHECK(GetParseError(std::string(5U * 1024U * 1024U, '['), limits) == Core::ECoreError::TooLarge);
     limits.depth = limits.bytes;
+    limits.values = limits.bytes;
     CHECK(GetParseError(std::string(5U * 1024U * 1024U, '['), limits) == Core::ECoreError::InvalidJSON);
 }
 
@@ -61,6 +62,35 @@ TEST_CASE("Nesting is accepted up to the limit")
     const ParseLimits limits{1024, 3};
     CHECK_FALSE(GetParseError("[[[1]]]", limits));
     CHECK(GetParseError("[[[[1]]]]", limits) == Core::ECoreError::TooLarge);
+}
+
+TEST_CASE("The parse ends at the first value beyond the limit, whatever its kind and depth")
+{
+    ParseLimits limits;
+    limits.values = 4;
+    for (const std::string_view text :
+         {"[1,2,3]", R"({"a":1,"b":{"c":[]}})", R"(["a",null,true])", "[[],{},-1]", "[18446744073709551615,1e3,0]"})
+    {
+        INFO(text);
+        CHECK_FALSE(GetParseError(text, limits));
+        const std::string more = fmt::format("[{},", text); // not JSON, but the limit comes first
+        CHECK(GetParseError(more, limits) == Core::ECoreError::TooLarge);
+    }
+    JsonDocument document;
+    const auto root = document.Parse("[1,2,3,4]", limits);
+    REQUIRE_FALSE(root.has_value());
+    CHECK(root.error().expected == "at most 4 values");
+}
+
+TEST_CASE("Four megabytes of numbers are refused after 250,000 of them")
+{
+    std::string text = "[0";
+    while (text.size() < 4U * 1024U * 1024U - 8)
+    {
+        text += ",0";
+    }
+    CHECK(GetParseError(text + "]") == Core::ECoreError::TooLarge);
+    CHECK(GetParseError(text.substr(0, 2 * 249'999) + "]") == std::error_code());
 }
 
 TEST_CASE("A text longer than the limit is refused before it is parsed")

@@ -22,6 +22,7 @@ struct ParseLimits
 {
     std::size_t bytes = 4U * 1024U * 1024U; ///< Longest text.
     std::size_t depth = 64;                 ///< Deepest nesting of objects and arrays.
+    std::size_t values = 250'000;           ///< Values of any kind, objects and arrays among them, at any depth.
 };
 
 /// Parses JSON text into RapidJSON's document: iterative (no stack overflow), encoding checked, full precision.
@@ -41,7 +42,8 @@ public:
     JsonDocument& operator=(const JsonDocument&) = delete;
     ~JsonDocument();
 
-    /// The value is valid until the next Parse. Errors: TooLarge, InvalidJSON (with byte or line). With bLenient,
+    /// The value is valid until the next Parse. Errors: TooLarge, InvalidJSON (with byte or line). A limit ends the
+    /// parse where it is exceeded. With bLenient,
     /// comments and commas behind the last member or element are read over.
     [[nodiscard]] Core::Result<const Value*> Parse(
         std::string_view text,
