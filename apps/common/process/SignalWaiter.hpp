@@ -9,7 +9,7 @@ namespace ACS::Apps
 {
 
 /// Calls its handler at the first SIGINT or SIGTERM, on the executor: the program then stops cleanly. A second signal
-/// ends the process at once, with 130 or 143, even when the event loop hangs. At most one instance exists at a time.
+/// ends the process at once, with 130 or 143, even when the event loop hangs since before the first one. At most one instance exists at a time.
 class SignalWaiter final
 {
 public:

@@ -19,7 +19,15 @@ namespace
 
 constexpr int EXIT_NOT_KILLED = 7;
 
-/// A child of its own takes the second signal: it ends the process. Returns its status as waitpid() gives it.
+/// The child's status as waitpid() gives it.
+int WaitFor(pid_t child)
+{
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    return status;
+}
+
+/// A child of its own takes the second signal: it ends the process.
 int RunChildWithTwoSignals(int signalNumber)
 {
     const pid_t child = fork();
@@ -35,9 +43,22 @@ int RunChildWithTwoSignals(int signalNumber)
         context.run_for(5s);
         std::_Exit(EXIT_NOT_KILLED);
     }
-    int status = 0;
-    REQUIRE(waitpid(child, &status, 0) == child);
-    return status;
+    return WaitFor(child);
+}
+
+/// The same in a child whose loop never runs.
+int RunHangingChildWithTwoSignals(int signalNumber)
+{
+    const pid_t child = fork();
+    if (child == 0)
+    {
+        boost::asio::io_context context;
+        const Apps::SignalWaiter waiter(context.get_executor(), [](int) {});
+        std::raise(signalNumber);
+        std::raise(signalNumber);
+        std::_Exit(EXIT_NOT_KILLED);
+    }
+    return WaitFor(child);
 }
 
 } // namespace
@@ -64,6 +85,14 @@ TEST_CASE("The second signal ends the process immediately with 130 or 143")
 {
     const int signalNumber = GENERATE(SIGINT, SIGTERM);
     const int status = RunChildWithTwoSignals(signalNumber);
+    REQUIRE(WIFEXITED(status));
+    REQUIRE(WEXITSTATUS(status) == 128 + signalNumber);
+}
+
+TEST_CASE("The second signal ends a process whose loop hangs since before the first")
+{
+    const int signalNumber = GENERATE(SIGINT, SIGTERM);
+    const int status = RunHangingChildWithTwoSignals(signalNumber);
     REQUIRE(WIFEXITED(status));
     REQUIRE(WEXITSTATUS(status) == 128 + signalNumber);
 }
