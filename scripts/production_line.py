@@ -35,9 +35,11 @@ def _die_with_parent():
 
 
 class Program:
-    """A child process whose output goes to a log file; its standard output is watched for the ready line too."""
+    """A child process whose output goes to a log file, or its standard error to log_descriptor; its standard output is
+    watched for the ready line too."""
 
-    def __init__(self, name, argv, folder, on_output=None, stdin=subprocess.DEVNULL, environment=None, bufsize=-1):
+    def __init__(self, name, argv, folder, on_output=None, stdin=subprocess.DEVNULL, environment=None, bufsize=-1,
+                 log_descriptor=None):
         self.name = name
         self.log = pathlib.Path(folder) / f"{name}.log"
         self.addresses = {}
@@ -46,7 +48,7 @@ class Program:
         self._log_file = open(self.log, "ab", buffering=0)
         try:
             self.process = subprocess.Popen(
-                argv, cwd=folder, env=environment, stdin=stdin, stdout=subprocess.PIPE, stderr=self._log_file,
+                argv, cwd=folder, env=environment, stdin=stdin, stdout=subprocess.PIPE, stderr=self._log_file if log_descriptor is None else log_descriptor,
                 bufsize=bufsize, start_new_session=True, preexec_fn=_die_with_parent)
         except OSError as error:
             raise LineError(f"{name} cannot be started: {error.strerror}: {argv[0]}") from error

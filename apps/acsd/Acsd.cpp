@@ -4,6 +4,7 @@
 #include "common/http/HttpRoutes.hpp"
 #include "common/http/HttpServer.hpp"
 #include "common/http/MetricsEndpoint.hpp"
+#include "common/process/LoopWatchdog.hpp"
 #include "common/process/TimerSet.hpp"
 #include "config/LiveConfig.hpp"
 #include "mcs/McsLink.hpp"
@@ -18,7 +19,10 @@
 #include <acs/vda5050/Topic.hpp>
 #include <acs/vda5050_mosquitto/MosquittoLink.hpp>
 
+#include <fmt/format.h>
+
 #include <cassert>
+#include <chrono>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -46,6 +50,7 @@ class Acsd::Impl final : private IAcsdOutput, private VDA5050::IMqttLinkListener
     /// By manufacturer and serial number: a message costs one look-up, however many robots there are.
     std::map<std::pair<std::string, std::string>, RobotHost*> _vehicles;
     Apps::TimerSet<AcsdTimer> _timers;
+    Apps::LoopWatchdog _watchdog;
     Apps::HttpRoutes _routes;
     Apps::HttpServer _http;
     Apps::Endpoint _httpEndpoint;
@@ -75,6 +80,10 @@ public:
               MakeMqttOptions(_config.mqtt, _dependencies.random),
               *this),
           _timers(_dependencies.executor, [this](const AcsdTimer& timer) { _core.OnTimer(timer); }),
+          _watchdog(
+              _dependencies.executor,
+              {_config.operations.stallLimit, _dependencies.aliveInterval},
+              {[this](Core::Duration stall) { OnStall(stall); }, _dependencies.onAlive}),
           _http(
               _dependencies.executor,
               [this](const Apps::HttpRequest& request) { return _routes.Respond(request); },
@@ -125,6 +134,7 @@ public:
 
     void Start()
     {
+        _watchdog.Start();
         for (const auto& [robotID, robot] : _robots)
         {
             robot->Start();
@@ -212,6 +222,7 @@ private:
     void OnStopped() override
     {
         _http.Stop();
+        _watchdog.Stop();
         if (_stopHandler)
         {
             std::exchange(_stopHandler, nullptr)();
@@ -226,6 +237,14 @@ private:
     void ObserveAckWait(Core::Duration wait) override
     {
         _metrics.ObserveAckWait(wait);
+    }
+
+    void OnStall(Core::Duration stall)
+    {
+        _metrics.ObserveStall(stall);
+        _dependencies.logger.Warning(
+            "the event loop was blocked",
+            {{"seconds", fmt::format("{:.3f}", std::chrono::duration<double>(stall).count())}});
     }
 
     void OnLinkUp() override
@@ -325,6 +344,10 @@ private:
         for (const auto& [robotID, robot] : _robots)
         {
             _metrics.UpdateRobot(*robot, now);
+        }
+        if (_dependencies.countDroppedLines)
+        {
+            _metrics.UpdateLog(_dependencies.countDroppedLines());
         }
         if (_dependencies.traceOrNull != nullptr)
         {

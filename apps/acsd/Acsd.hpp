@@ -9,6 +9,7 @@
 
 #include <boost/asio/any_io_executor.hpp>
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 
@@ -30,6 +31,11 @@ public:
         Core::IRandom& random;
         Core::Logger logger;
         MessageTrace* traceOrNull = nullptr;
+        /// Log lines that were dropped until now; empty where nothing is dropped.
+        std::function<std::uint64_t()> countDroppedLines;
+        /// Called from the event loop at aliveInterval, which is 0 without a watchdog.
+        std::function<void()> onAlive;
+        Core::Duration aliveInterval{};
     };
 
 private:

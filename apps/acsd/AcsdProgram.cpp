@@ -5,6 +5,7 @@
 #include "common/log/SpdlogSink.hpp"
 #include "common/process/HangUpWaiter.hpp"
 #include "common/process/ReadyLine.hpp"
+#include "common/process/ServiceNotifier.hpp"
 #include "common/process/SignalWaiter.hpp"
 #include "common/process/SystemClock.hpp"
 #include "common/process/SystemRandom.hpp"
@@ -13,6 +14,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -68,7 +70,9 @@ int Serve(const ProgramOptions& options, AcsdConfig config)
 {
     Apps::SystemClock clock;
     Apps::SystemRandom random;
-    Apps::SpdlogSink sink(options.bLogLevelGiven ? options.common.logLevel : config.operations.logLevel);
+    Apps::SpdlogSink sink(
+        options.bLogLevelGiven ? options.common.logLevel : config.operations.logLevel,
+        Apps::ELogWriting::Queued);
     const Core::Logger logger(sink, NAME);
     for (const std::string& warning : config.warnings)
     {
@@ -87,18 +91,33 @@ int Serve(const ProgramOptions& options, AcsdConfig config)
         trace = std::move(*created);
     }
     boost::asio::io_context context(1);
-    Core::Result<std::unique_ptr<Acsd>> acsd =
-        Acsd::Create(Acsd::Dependencies{context.get_executor(), clock, random, logger, trace.get()}, std::move(config));
+    const Apps::ServiceNotifier service(Apps::GetNotifyAddress());
+    Core::Result<std::unique_ptr<Acsd>> acsd = Acsd::Create(
+        Acsd::Dependencies{
+            context.get_executor(),
+            clock,
+            random,
+            logger,
+            trace.get(),
+            [&sink] { return sink.GetDropped(); },
+            [&service] { service.TryNotify("WATCHDOG=1"); },
+            Apps::GetWatchdogTimeoutOrNull().value_or(std::chrono::microseconds(0)) / 2},
+        std::move(config));
     if (!acsd)
     {
         Apps::PrintError(NAME, Core::Describe(acsd.error()));
         return 1;
     }
     std::optional<Apps::SignalWaiter> signals;
-    signals.emplace(context.get_executor(), [&](int) { (*acsd)->StopAsync([&context] { context.stop(); }); });
+    signals.emplace(context.get_executor(), [&](int) {
+        service.TryNotify("STOPPING=1");
+        (*acsd)->StopAsync([&context] { context.stop(); });
+    });
     const Apps::HangUpWaiter hangUps(context.get_executor(), [&] { ReadAgain(options, logger, sink, **acsd); });
     (*acsd)->Start();
+    sink.Flush();
     Apps::PrintReadyLine({{"http", (*acsd)->GetHttpEndpoint()}});
+    service.TryNotify("READY=1");
     context.run();
     return 0;
 }

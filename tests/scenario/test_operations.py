@@ -4,6 +4,7 @@
 import json
 import os
 import signal
+import socket
 import subprocess
 import time
 import urllib.error
@@ -113,6 +114,44 @@ class Operations(ScenarioCase):
         except urllib.error.HTTPError as error:
             with error:
                 return error.code, json.load(error)
+
+    def test_a_log_pipe_that_is_full_stops_no_plan_and_acsd_ends_at_sigterm(self):
+        stub = self.start_stub()
+        robots = self.start_robots()
+        reader, writer = os.pipe()
+        self.addCleanup(os.close, reader)
+        os.set_blocking(writer, False)
+        with self.assertRaises(BlockingIOError):
+            while True:
+                os.write(writer, b"x" * 4096)
+        os.set_blocking(writer, True)
+        try:
+            acsd = self.line.start_acsd(stub.address, robots, "shutdown.drain_timeout=0ms", log_descriptor=writer)
+        finally:
+            os.close(writer)
+        address = acsd.wait_ready()["http"]
+        stub.wait_for("RobotStatusUpdate", lambda message: message.payload["robotStatus"] == "Idle"
+                      and message.payload["robotId"] == "LR01")
+        self.assertEqual(self.submit(stub, "P1")["result"], "Success")
+        stub.wait_for("PlanReport", lambda message: message.payload["status"] == "Completed")
+        self.assertEqual(self.read_ready(address)[0], 200)
+        acsd.send_signal(signal.SIGTERM)
+        self.assertEqual(acsd.wait(DRAIN_SECONDS), 0)
+
+    def test_systemd_hears_that_acsd_is_ready_alive_and_stopping(self):
+        stub = self.start_stub()
+        robots = self.start_robots()
+        with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as service:
+            service.bind(str(self.line.folder / "notify"))
+            service.settimeout(LOG_SECONDS)
+            acsd = self.line.start_acsd(stub.address, robots, environment=os.environ | {
+                "NOTIFY_SOCKET": str(self.line.folder / "notify"), "WATCHDOG_USEC": "400000"})
+            acsd.wait_ready()
+            self.assertEqual([service.recv(100) for _ in range(3)], [b"READY=1", b"WATCHDOG=1", b"WATCHDOG=1"])
+            acsd.send_signal(signal.SIGTERM)
+            while (state := service.recv(100)) == b"WATCHDOG=1":
+                pass
+            self.assertEqual(state, b"STOPPING=1")
 
     def test_a_removed_store_is_reported_saved_and_restored_at_the_next_start(self):
         stub = self.start_stub()
@@ -279,7 +318,8 @@ class Operations(ScenarioCase):
                        'acsd_job_duration_seconds_count{action="CassetteLoad"} 1', 'acsd_arm_up{robot="CR01"} 1',
                        'acsd_mcs_ack_wait_seconds_count', 'acsd_store_commit_seconds_count',
                        'acsd_alarms_active{level="heavy"}', 'acsd_outbox_oldest_seconds',
-                       'acsd_position_ticks_missed_total', 'acsd_trace_lost_total 0'):
+                       'acsd_position_ticks_missed_total', 'acsd_trace_lost_total 0',
+                       'acsd_log_lines_dropped_total 0'):
             self.assertIn(figure, metrics)
         self.assertNotIn("acsd_robot_oddities_total{", metrics)
 

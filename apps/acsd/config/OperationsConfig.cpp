@@ -34,7 +34,9 @@ Core::ELogLevel ReadLogLevel(const ConfigSection& log)
 
 void ReadOperationsConfig(const ConfigSection& root, OperationsConfig& config)
 {
-    config.logLevel = ReadLogLevel(root.GetSection("log"));
+    const ConfigSection log = root.GetSection("log");
+    config.logLevel = ReadLogLevel(log);
+    config.stallLimit = log.GetDuration("stall_limit", 10ms, 1h, config.stallLimit);
 
     const ConfigSection trace = root.GetSection("trace");
     config.trace.maxFileBytes = static_cast<std::uint64_t>(trace.GetInteger(

@@ -13,6 +13,8 @@ namespace ACS::Acsd
 struct OperationsConfig
 {
     Core::ELogLevel logLevel = Core::ELogLevel::Info;
+    /// `log.stall_limit`: time for which the event loop may be blocked before this is logged and counted.
+    std::chrono::milliseconds stallLimit{500};
     Apps::TraceLimits trace;
     /// `comm.grace`: time without broker or robots before isConnected=false is reported.
     std::chrono::milliseconds workGrace{10'000};

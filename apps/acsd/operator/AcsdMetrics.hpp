@@ -26,11 +26,13 @@ public:
 
     void ObserveAckWait(Core::Duration wait);
     void ObserveCommit(Core::Duration duration);
+    void ObserveStall(Core::Duration stall);
 
     void UpdateLink(const std::string& name, bool bUp);
     void UpdateMCS(const McsLink& mcs, const RefusedReports& refused);
     void UpdatePlans(const Planning::PlanEngine& engine, Core::Now now);
     void UpdateRobot(const RobotHost& robot, Core::Now now);
+    void UpdateLog(std::uint64_t dropped);
     void UpdateTrace(std::uint64_t lost);
 
 private:

@@ -37,7 +37,9 @@ TEST_CASE("A log level is one of four names")
 
 TEST_CASE("A sink writes lines of its level and of higher ones")
 {
-    const Apps::SpdlogSink sink(Core::ELogLevel::Warning);
+    const Apps::SpdlogSink sink(
+        Core::ELogLevel::Warning,
+        GENERATE(Apps::ELogWriting::Direct, Apps::ELogWriting::Queued));
     REQUIRE_FALSE(sink.ShouldWrite(Core::ELogLevel::Debug));
     REQUIRE_FALSE(sink.ShouldWrite(Core::ELogLevel::Info));
     REQUIRE(sink.ShouldWrite(Core::ELogLevel::Warning));
