@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
 """Faults of the network and of a foreign MCS: MCS-ACS test vectors 9 to 12 over the test's own sockets."""
 
+import contextlib
 import datetime
 import os
+import signal
+import socket
 import time
 import unittest
 import urllib.request
@@ -15,6 +18,9 @@ POSITION_SECONDS = 0.2
 BLOCKED_SECONDS = 10
 # Linux gives at least twice 1152 bytes, of which a part is its own: some of the messages of 330 bytes.
 SMALLEST_RECEIVE_BUFFER = 1
+ANSWER_SECONDS = 2
+REQUEST_PERIOD = 0.05
+STOP_SECONDS = 8
 MEMORY_MARGIN = 8 << 20
 FINAL = ("Completed", "Failed", "Cancelled", "Aborted")
 
@@ -180,6 +186,58 @@ class Network(ScenarioCase):
         self.assertEqual(times.count(report.body["transactionId"]), 1, "it was sent again")
         with urllib.request.urlopen(f"http://{acsd.addresses['http']}/metrics", timeout=20) as response:
             self.assertIn('acsd_mcs_notes_total{what="ack with a foreign transactionId"} 1\n', response.read().decode())
+
+    def assert_lively(self, address, requests=50):
+        """Each request is answered in time, and the link to the broker is down."""
+        for _ in range(requests):
+            with urllib.request.urlopen(f"http://{address}/livez", timeout=ANSWER_SECONDS) as response:
+                self.assertEqual(response.status, 200)
+            time.sleep(REQUEST_PERIOD)
+        self.assertFalse(self.read_status(address)["links"]["mqtt"])
+
+    def test_a_silent_name_server_does_not_stop_acsd(self):
+        library = self.line.bin_dir / "libscenario_held_resolver.so"
+        if not library.exists():
+            self.skipTest("not built with sanitizers")
+        gate = self.line.folder / "resolver"
+        os.mkfifo(gate)
+        stub = self.start_stub()
+        arm = self.start_robots()
+        url = f"mqtt.url=mqtt://broker.test:{self.line.broker_port}"
+        environment = os.environ | {"LD_PRELOAD": str(library), "ACS_HELD_RESOLVER": str(gate)}
+        acsd = self.line.start_acsd(stub.address, arm, url, environment=environment)
+        address = acsd.wait_ready()["http"]
+        self.assert_lively(address)
+        writer = os.open(gate, os.O_WRONLY)
+        os.close(writer)
+        self.wait_for_status(address, lambda status: status["links"]["mqtt"])
+        self.wait_for_idle(stub, "LR01")
+
+        # The next attempt hangs in the name server when acsd is to stop.
+        self.line.broker.stop()
+        self.line.forget(self.line.broker)
+        self.wait_for_status(address, lambda status: not status["links"]["mqtt"])
+        self.assert_lively(address)
+        acsd.send_signal(signal.SIGTERM)
+        self.assertEqual(acsd.wait(STOP_SECONDS), 0)
+
+    def test_a_broker_with_a_full_accept_queue_does_not_stop_acsd(self):
+        arm = self.start_robots()
+        stub = self.start_stub()
+        with socket.create_server(("127.0.0.1", 0), backlog=0) as server, contextlib.ExitStack() as stack:
+            port = server.getsockname()[1]
+            for _ in range(4):
+                client = stack.enter_context(socket.socket())
+                client.setblocking(False)
+                client.connect_ex(("127.0.0.1", port))
+            for host in ("127.0.0.1", "localhost"):
+                with self.subTest(host=host):
+                    acsd = self.line.start_acsd(stub.address, arm, f"mqtt.url=mqtt://{host}:{port}")
+                    self.assert_lively(acsd.wait_ready()["http"])
+                    acsd.send_signal(signal.SIGTERM)
+                    self.assertEqual(acsd.wait(STOP_SECONDS), 0)
+                    acsd.stop()
+                    self.line.forget(acsd)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,6 @@
 #include "MosquittoError.hpp"
 #include <acs/core/Overloaded.hpp>
 
-#include <boost/asio/ip/address.hpp>
 #include <boost/asio/post.hpp>
 #include <mosquitto.h>
 
@@ -44,19 +43,6 @@ public:
     }
 };
 
-const char* GetTextOrNull(const std::string& text)
-{
-    return text.empty() ? nullptr : text.c_str();
-}
-
-/// A refused or accepted connect there is known at once, so the blocking form costs nothing and tries ::1 and 127.0.0.1.
-bool IsLoopback(const std::string& host)
-{
-    boost::system::error_code noAddress;
-    const boost::asio::ip::address address = boost::asio::ip::make_address(host, noAddress);
-    return noAddress ? host == "localhost" : address.is_loopback();
-}
-
 } // namespace
 
 MosquittoConnection::MosquittoConnection(const boost::asio::any_io_executor& executor, IMosquittoConnectionOwner& owner)
@@ -74,43 +60,26 @@ mosquitto* MosquittoConnection::GetClientOrNull() const
     return _client.has_value() ? _client->GetHandleOrNull() : nullptr;
 }
 
-std::error_code MosquittoConnection::Open(const MosquittoOptions& options, std::optional<MosquittoClient> clientOrNull)
+std::error_code MosquittoConnection::Open(
+    const MosquittoOptions& options,
+    std::optional<MosquittoClient> clientOrNull,
+    MosquittoConnector& connector)
 {
     _bPersistent = !options.bCleanSession;
     _bGoesOn = clientOrNull.has_value();
-    if (_bGoesOn)
+    if (!_bGoesOn)
     {
-        _client = std::move(clientOrNull);
-        mosquitto_user_data_set(GetClientOrNull(), this);
-    }
-    else
-    {
+        const char* const idOrNull = options.clientID.empty() ? nullptr : options.clientID.c_str();
         errno = 0;
-        mosquitto* const made = mosquitto_new(GetTextOrNull(options.clientID), options.bCleanSession, this);
+        mosquitto* const made = mosquitto_new(idOrNull, options.bCleanSession, nullptr);
         if (made == nullptr)
         {
             return MakeMosquittoError(MOSQ_ERR_ERRNO, errno);
         }
-        _client.emplace(made);
+        clientOrNull.emplace(made);
     }
     _maxUnsent = options.maxUnsent;
     _maxPayloadBytes = options.maxPayloadBytes;
-    SetCallbacks();
-    int code = Configure(options);
-    if (code == MOSQ_ERR_SUCCESS)
-    {
-        code = Connect(options);
-    }
-    if (code != MOSQ_ERR_SUCCESS)
-    {
-        return MakeMosquittoError(code, errno);
-    }
-    // A duplicate, because libmosquitto closes its own descriptor whenever it likes.
-    const std::error_code refused = AssignDuplicate(_socket, mosquitto_socket(GetClientOrNull()));
-    if (refused)
-    {
-        return refused;
-    }
     _connectTimer.expires_after(options.connectTimeout);
     _connectTimer.async_wait([weak = weak_from_this()](const boost::system::error_code& error) {
         const std::shared_ptr<MosquittoConnection> self = weak.lock();
@@ -119,91 +88,38 @@ std::error_code MosquittoConnection::Open(const MosquittoOptions& options, std::
             self->Close(std::make_error_code(std::errc::timed_out));
         }
     });
-    WaitToRead();
-    WaitForHouseKeeping();
-    Settle(MOSQ_ERR_SUCCESS, 0);
+    connector.ConnectAsync(
+        std::move(*clientOrNull),
+        options,
+        [weak = weak_from_this()](MosquittoConnector::Outcome& outcome) {
+            const std::shared_ptr<MosquittoConnection> self = weak.lock();
+            if (self != nullptr && !self->_bClosed)
+            {
+                self->OnConnecting(outcome);
+            }
+        });
     return {};
 }
 
-int MosquittoConnection::Configure(const MosquittoOptions& options)
+void MosquittoConnection::OnConnecting(MosquittoConnector::Outcome& outcome)
 {
-    mosquitto* const client = GetClientOrNull();
-    int code = mosquitto_int_option(client, MOSQ_OPT_TCP_NODELAY, 1);
-    if (code == MOSQ_ERR_SUCCESS)
+    _client = std::exchange(outcome.clientOrNull, std::nullopt);
+    mosquitto_user_data_set(GetClientOrNull(), this);
+    SetCallbacks();
+    if (outcome.code != MOSQ_ERR_SUCCESS)
     {
-        const int version = options.version == EMqttVersion::Version5 ? MQTT_PROTOCOL_V5 : MQTT_PROTOCOL_V311;
-        code = mosquitto_int_option(client, MOSQ_OPT_PROTOCOL_VERSION, version);
+        Close(MakeMosquittoError(outcome.code, outcome.systemError));
+        return;
     }
-    if (code == MOSQ_ERR_SUCCESS && !options.username.empty())
+    // A duplicate, because libmosquitto closes its own descriptor whenever it likes.
+    if (const std::error_code refused = AssignDuplicate(_socket, mosquitto_socket(GetClientOrNull())))
     {
-        code = mosquitto_username_pw_set(client, options.username.c_str(), GetTextOrNull(options.password));
+        Close(refused);
+        return;
     }
-    if (code == MOSQ_ERR_SUCCESS && options.tls.has_value())
-    {
-        code = ConfigureTLS(*options.tls);
-    }
-    if (code == MOSQ_ERR_SUCCESS && options.will.has_value())
-    {
-        const MqttMessage& will = options.will->message;
-        code = mosquitto_will_set(
-            client,
-            will.topic.c_str(),
-            static_cast<int>(will.payload.size()),
-            will.payload.data(),
-            will.qos,
-            will.bRetained);
-    }
-    return code;
-}
-
-int MosquittoConnection::Connect(const MosquittoOptions& options)
-{
-    mosquitto_property* properties = nullptr;
-    int code = MOSQ_ERR_SUCCESS;
-    if (options.version == EMqttVersion::Version5 && !options.bCleanSession)
-    {
-        const auto expiry = static_cast<std::uint32_t>(options.sessionExpiry.count());
-        code = mosquitto_property_add_int32(&properties, MQTT_PROP_SESSION_EXPIRY_INTERVAL, expiry);
-    }
-    mosquitto* const client = GetClientOrNull();
-    const auto keepAlive = static_cast<int>(options.keepAlive.count());
-    const char* const host = options.host.c_str();
-    errno = 0;
-    if (code == MOSQ_ERR_SUCCESS && IsLoopback(options.host))
-    {
-        code = mosquitto_connect_bind_v5(client, host, options.port, keepAlive, nullptr, properties);
-    }
-    else if (code == MOSQ_ERR_SUCCESS)
-    {
-        if (properties != nullptr)
-        {
-            // Only the blocking form takes properties. Without a host it keeps them for the next connect, and fails.
-            mosquitto_connect_bind_v5(client, nullptr, 0, 0, nullptr, properties);
-        }
-        errno = 0;
-        code = mosquitto_connect_async(client, host, options.port, keepAlive);
-    }
-    mosquitto_property_free_all(&properties);
-    return code;
-}
-
-int MosquittoConnection::ConfigureTLS(const MosquittoTLS& tls)
-{
-    if (tls.caFile.empty())
-    {
-        const int code = mosquitto_int_option(GetClientOrNull(), MOSQ_OPT_TLS_USE_OS_CERTS, 1);
-        if (code != MOSQ_ERR_SUCCESS)
-        {
-            return code;
-        }
-    }
-    return mosquitto_tls_set(
-        GetClientOrNull(),
-        GetTextOrNull(tls.caFile),
-        nullptr,
-        GetTextOrNull(tls.certFile),
-        GetTextOrNull(tls.keyFile),
-        nullptr);
+    WaitToRead();
+    WaitForHouseKeeping();
+    Settle(MOSQ_ERR_SUCCESS, 0);
 }
 
 void MosquittoConnection::SetCallbacks()
@@ -218,14 +134,17 @@ void MosquittoConnection::SetCallbacks()
     {
         mosquitto_log_callback_set(client, [](mosquitto*, void* self, int, const char* line) {
             const std::optional<ReceivedPublish> publish = ReadPublishLineOrNull(line);
-            if (publish.has_value() && publish->qos == EXACTLY_ONCE)
+            if (self != nullptr && publish.has_value() && publish->qos == EXACTLY_ONCE)
             {
                 static_cast<MosquittoConnection*>(self)->_client->OnPublishCame(publish->messageID);
             }
         });
     }
     mosquitto_disconnect_callback_set(client, [](mosquitto*, void* self, int code) {
-        static_cast<MosquittoConnection*>(self)->_closeCode = code;
+        if (self != nullptr) // else while it is connected by its own thread
+        {
+            static_cast<MosquittoConnection*>(self)->_closeCode = code;
+        }
     });
     mosquitto_message_callback_set(client, [](mosquitto*, void* self, const mosquitto_message* message) {
         static_cast<MosquittoConnection*>(self)->HandleMessage(*message);

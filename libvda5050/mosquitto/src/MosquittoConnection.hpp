@@ -1,6 +1,7 @@
 #pragma once
 
 #include "MosquittoClient.hpp"
+#include "MosquittoConnector.hpp"
 #include <acs/core/Result.hpp>
 #include <acs/vda5050/IMqttLink.hpp>
 #include <acs/vda5050_mosquitto/MosquittoOptions.hpp>
@@ -95,9 +96,12 @@ class MosquittoConnection final : public std::enable_shared_from_this<MosquittoC
 public:
     MosquittoConnection(const boost::asio::any_io_executor& executor, IMosquittoConnectionOwner& owner);
 
-    /// Begins, with the client that a connection before has left or with a new one; an error means that nothing will
-    /// follow but TakeClientOrNull.
-    [[nodiscard]] std::error_code Open(const MosquittoOptions& options, std::optional<MosquittoClient> clientOrNull);
+    /// Begins, with the client that a connection before has left or with a new one; an error means that nothing will follow.
+    /// The connector is not busy.
+    [[nodiscard]] std::error_code Open(
+        const MosquittoOptions& options,
+        std::optional<MosquittoClient> clientOrNull,
+        MosquittoConnector& connector);
     /// After the end: the client for the next connection of a persistent session.
     [[nodiscard]] std::optional<MosquittoClient> TakeClientOrNull();
     /// After the end: whether the next connection needs a new client, also because the broker has forgotten the session.
@@ -121,9 +125,8 @@ public:
     [[nodiscard]] bool HasUnsent() const;
 
 private:
-    [[nodiscard]] int Configure(const MosquittoOptions& options);
-    [[nodiscard]] int ConfigureTLS(const MosquittoTLS& tls);
-    [[nodiscard]] int Connect(const MosquittoOptions& options);
+    /// Takes the client, whose connect has begun or failed.
+    void OnConnecting(MosquittoConnector::Outcome& outcome);
     void SetCallbacks();
     void WaitToRead();
     void WaitToWrite();
@@ -138,7 +141,7 @@ private:
     void Tell(const Event& event);
 
     void RenewWhenSpoilt();
-    /// Null before Open and after TakeClientOrNull.
+    /// Null while the connector has the client, and after TakeClientOrNull.
     [[nodiscard]] mosquitto* GetClientOrNull() const;
 
     void HandleConnect(int returnCode, bool bSessionPresent);

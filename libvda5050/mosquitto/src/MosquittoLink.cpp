@@ -25,6 +25,7 @@ class MosquittoLink::Impl final : public IMosquittoConnectionOwner, public std::
     Core::Backoff _backoff;
     boost::asio::steady_timer
         _timer; ///< Until the next attempt, until the backoff is forgotten, or until Stop is over.
+    MosquittoConnector _connector;
     std::shared_ptr<MosquittoConnection> _connectionOrNull;
     std::optional<MosquittoClient> _clientOrNull; ///< Of a persistent session, between two connections.
     std::vector<MqttSubscription> _subscriptions;
@@ -109,7 +110,8 @@ MosquittoLink::Impl::Impl(
       _listenerOrNull(&listener),
       _random(&random),
       _backoff(_options.backoff),
-      _timer(executor)
+      _timer(executor),
+      _connector(executor)
 {
 }
 
@@ -135,6 +137,7 @@ void MosquittoLink::Impl::Abandon()
         _connectionOrNull->Abandon();
         _connectionOrNull.reset();
     }
+    _connector.Abandon();
 }
 
 Core::Result<void> MosquittoLink::Impl::Publish(const MqttMessage& message)
@@ -207,6 +210,17 @@ std::string MosquittoLink::Impl::GetAddress() const
 
 void MosquittoLink::Impl::Connect()
 {
+    if (_connector.IsBusy())
+    {
+        Retry(_backoff.GetNextDelay(
+            *_random)); // the attempt that has timed out still hangs, for example in a name server
+        return;
+    }
+    std::optional<MosquittoClient> lateOrNull = _connector.TakeLateOrNull();
+    if (!_options.bCleanSession && !_clientOrNull.has_value())
+    {
+        _clientOrNull = std::move(lateOrNull);
+    }
     _unconfirmed.clear();
     _later.clear();
     _refusedFilter.clear();
@@ -219,10 +233,10 @@ void MosquittoLink::Impl::Connect()
     }
     _earlyDropped = 0;
     _connectionOrNull = std::make_shared<MosquittoConnection>(_executor, *this);
-    const std::error_code refused = _connectionOrNull->Open(_options, std::exchange(_clientOrNull, std::nullopt));
+    const std::error_code refused =
+        _connectionOrNull->Open(_options, std::exchange(_clientOrNull, std::nullopt), _connector);
     if (refused)
     {
-        _clientOrNull = _connectionOrNull->TakeClientOrNull();
         _connectionOrNull->Abandon();
         _connectionOrNull.reset();
         LogOutage(false, refused);
@@ -544,6 +558,7 @@ void MosquittoLink::Impl::FinishStop()
         _connectionOrNull->Abandon();
         _connectionOrNull.reset();
     }
+    _connector.Abandon();
     for (const StopHandler& handler : std::exchange(_stopHandlers, {}))
     {
         if (handler)

@@ -18,13 +18,13 @@
 namespace ACS::VDA5050
 {
 
-/// A connection to an MQTT 3.1.1 or 5 broker through libmosquitto, on the caller's executor and without a thread of its
-/// own. Reconnects indefinitely with exponential backoff; an outage is logged once, not per attempt. Without a connection
+/// A connection to an MQTT 3.1.1 or 5 broker through libmosquitto, on the caller's executor. Reconnects indefinitely with exponential backoff; an outage is logged once, not per attempt. Without a connection
 /// Publish fails, and the sessions resend.
 ///
-/// Runs on the single thread of the executor. Connecting blocks only while the system resolves a host name (several seconds
-/// if its name servers do not answer): use an address if that matters. Of a name with several addresses only the first one
-/// is tried, except for localhost.
+/// Runs on the single thread of the executor. Each attempt to connect has a thread of its own until the name of the host is
+/// resolved and connect() has begun, so that a name server or a broker that does not answer never blocks the executor. An
+/// attempt that hangs is abandoned after connectTimeout; the next one begins when its thread has ended. Of a
+/// name with several addresses only the first one is tried, except for localhost.
 class MosquittoLink final : public IMqttLink
 {
 public:
