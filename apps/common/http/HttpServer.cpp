@@ -1,8 +1,10 @@
 #include "common/http/HttpServer.hpp"
 
+#include "common/http/HttpPeer.hpp"
 #include "common/log/LogRateLimiter.hpp"
 #include <acs/net/TcpListener.hpp>
 
+#include <boost/asio/ip/address.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -12,6 +14,7 @@
 #include <boost/beast/http.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <list>
 #include <optional>
 #include <string>
@@ -73,6 +76,20 @@ std::optional<HttpResponse> MakeRefusalOrNull(const ErrorCode& error, const Http
 
 } // namespace
 
+namespace
+{
+
+/// What a connection does; in the order in which a further one replaces it, Answering never.
+enum class EConnectionState : std::uint8_t
+{
+    Reading,   ///< Waits for a complete request.
+    Writing,   ///< Waits until the peer has read the response.
+    Answering, ///< The handler has delayed the response.
+    Closed,
+};
+
+} // namespace
+
 struct HttpServer::Impl : std::enable_shared_from_this<Impl>
 {
     class Connection;
@@ -110,7 +127,8 @@ struct HttpServer::Impl : std::enable_shared_from_this<Impl>
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(
         const HttpRequest& request,
         const Http::fields& header) const;
-    [[nodiscard]] std::shared_ptr<Connection> FindWaitingOrNull() const;
+    [[nodiscard]] bool IsFull(const Asio::ip::address& peer) const;
+    [[nodiscard]] std::shared_ptr<Connection> FindReplaceableOrNull(const Asio::ip::address& peer) const;
     void OnAccepted(Tcp::socket socket);
     void TakeNext();
     void OnClosed(ConnectionList::iterator place);
@@ -129,36 +147,25 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
     std::optional<Http::response<Http::string_body>> _responseOrNull;
     std::optional<Http::response_serializer<Http::string_body>> _serializerOrNull;
     Asio::steady_timer _delay;
-    bool _bWaiting = false; ///< Waits for a complete request.
+    const Asio::ip::address _peer;
+    EConnectionState _state = EConnectionState::Reading;
 
 public:
-    ConnectionList::iterator place; ///< In the server's list.
+    ConnectionList::iterator
+        place; ///< In the server's list, whose first connection has had its state for the longest time.
 
     Connection(const std::shared_ptr<Impl>& server, Tcp::socket socket)
         : _server(server),
           _limits(server->limits),
           _stream(std::move(socket)),
-          _delay(_stream.get_executor())
+          _delay(_stream.get_executor()),
+          _peer(GetPeerGroup(_stream.socket()))
     {
     }
 
     void ReadAsync()
     {
-        _bWaiting = true;
-        if (const std::shared_ptr<Impl> server = _server.lock(); server != nullptr)
-        {
-            server->connections.splice(server->connections.end(), server->connections, place);
-            if (server->nextOrNull.has_value())
-            {
-                // Posted, because it may close this connection.
-                Asio::post(_stream.get_executor(), [weak = _server]() {
-                    if (const std::shared_ptr<Impl> owner = weak.lock(); owner != nullptr)
-                    {
-                        owner->TakeNext();
-                    }
-                });
-            }
-        }
+        Enter(EConnectionState::Reading);
         _parserOrNull.emplace();
         _parserOrNull->header_limit(_limits.maxHeaderBytes);
         _parserOrNull->body_limit(_limits.maxBodyBytes);
@@ -170,14 +177,19 @@ public:
             Beast::bind_front_handler(&Connection::OnHeader, shared_from_this()));
     }
 
-    [[nodiscard]] bool IsWaiting() const noexcept
+    [[nodiscard]] EConnectionState GetState() const noexcept
     {
-        return _bWaiting;
+        return _state;
+    }
+
+    [[nodiscard]] const Asio::ip::address& GetPeer() const noexcept
+    {
+        return _peer;
     }
 
     void Close()
     {
-        _bWaiting = false;
+        _state = EConnectionState::Closed;
         ErrorCode ignored;
         _delay.cancel(ignored);
         _stream.socket().shutdown(Tcp::socket::shutdown_both, ignored);
@@ -185,6 +197,28 @@ public:
     }
 
 private:
+    /// A state in which it can be replaced.
+    void Enter(EConnectionState state)
+    {
+        _state = state;
+        const std::shared_ptr<Impl> server = _server.lock();
+        if (server == nullptr || place == server->connections.end())
+        {
+            return;
+        }
+        server->connections.splice(server->connections.end(), server->connections, place);
+        if (server->nextOrNull.has_value())
+        {
+            // Posted, because it may close this connection.
+            Asio::post(_stream.get_executor(), [weak = _server]() {
+                if (const std::shared_ptr<Impl> owner = weak.lock(); owner != nullptr)
+                {
+                    owner->TakeNext();
+                }
+            });
+        }
+    }
+
     void OnHeader(const ErrorCode& error, std::size_t count)
     {
         if (error.failed() || _parserOrNull->is_done())
@@ -219,12 +253,12 @@ private:
 
     void OnRead(const ErrorCode& error, std::size_t /*count*/)
     {
-        _bWaiting = false;
         const std::shared_ptr<Impl> server = _server.lock();
         if (server == nullptr || !_stream.socket().is_open())
         {
             return Leave();
         }
+        _state = EConnectionState::Answering;
         if (error.failed())
         {
             const std::optional<HttpResponse> refusal = MakeRefusalOrNull(error, _limits);
@@ -262,7 +296,6 @@ private:
         }
         _delay.expires_after(response.delay);
         _delay.async_wait([self = shared_from_this(), bKeepAlive = request.keep_alive(), bHead](const ErrorCode&) {
-            // If the connection was closed since, the write fails immediately.
             self->WritePreparedAsync(bKeepAlive, bHead);
         });
     }
@@ -290,6 +323,11 @@ private:
 
     void WritePreparedAsync(bool bKeepAlive, bool bHead)
     {
+        if (_state == EConnectionState::Closed)
+        {
+            return Leave();
+        }
+        Enter(EConnectionState::Writing);
         _stream.expires_after(_limits.timeout);
         auto onWritten = Beast::bind_front_handler(&Connection::OnWritten, shared_from_this(), bKeepAlive);
         if (bHead)
@@ -386,25 +424,46 @@ std::optional<std::string> HttpServer::Impl::GetRejectionReasonOrNull(
         : std::nullopt;
 }
 
-/// The connection that has waited longest for a complete request; null if none waits.
-std::shared_ptr<HttpServer::Impl::Connection> HttpServer::Impl::FindWaitingOrNull() const
+/// Whether the peer has as many connections as it may have.
+bool HttpServer::Impl::IsFull(const Asio::ip::address& peer) const
 {
-    const auto found = std::ranges::find_if(connections, &Connection::IsWaiting);
-    return found != connections.end() ? *found : nullptr;
+    const auto isOpenToPeer = [&peer](const std::shared_ptr<Connection>& connection) {
+        return connection->GetState() != EConnectionState::Closed && connection->GetPeer() == peer;
+    };
+    return static_cast<std::size_t>(std::ranges::count_if(connections, isOpenToPeer)) >= limits.maxPerPeer;
 }
 
-/// Closes an idle connection if the limit is reached, so that idle peers cannot block requests of others.
+/// Of the peer if it has as many as it may have; null if all are being answered.
+std::shared_ptr<HttpServer::Impl::Connection> HttpServer::Impl::FindReplaceableOrNull(
+    const Asio::ip::address& peer) const
+{
+    const bool bOfPeer = IsFull(peer);
+    for (const EConnectionState state : {EConnectionState::Reading, EConnectionState::Writing})
+    {
+        const auto found = std::ranges::find_if(connections, [&](const std::shared_ptr<Connection>& connection) {
+            return connection->GetState() == state && (!bOfPeer || connection->GetPeer() == peer);
+        });
+        if (found != connections.end())
+        {
+            return *found;
+        }
+    }
+    return nullptr;
+}
+
+/// Closes a connection if a limit is reached, so that peers that send or read nothing cannot block requests of others.
 void HttpServer::Impl::OnAccepted(Tcp::socket socket)
 {
-    if (connections.size() >= limits.maxConnections)
+    const Asio::ip::address peer = GetPeerGroup(socket);
+    if (connections.size() >= limits.maxConnections || IsFull(peer))
     {
-        const std::shared_ptr<Connection> silent = FindWaitingOrNull();
-        if (silent == nullptr)
+        const std::shared_ptr<Connection> replaced = FindReplaceableOrNull(peer);
+        if (replaced == nullptr)
         {
             nextOrNull = std::move(socket);
             return;
         }
-        silent->Close();
+        replaced->Close();
     }
     const auto connection = std::make_shared<Connection>(shared_from_this(), std::move(socket));
     connections.push_back(connection);

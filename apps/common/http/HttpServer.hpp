@@ -24,9 +24,11 @@ struct HttpLimits
     std::uint32_t maxHeaderBytes = 16U * 1024U;
     std::uint64_t maxBodyBytes = 1024U * 1024U;
     std::chrono::milliseconds timeout{30'000}; ///< For a whole request, and for an idle connection.
-    /// A further connection replaces the one that has waited longest for a complete request. If all connections are being
-    /// answered, it waits until one is finished.
+    /// A further connection replaces the one that has waited longest for a complete request, else the one that has not read
+    /// its response for the longest time. While the handler's responses to all of them are delayed, it waits.
     std::size_t maxConnections = 64;
+    /// Of these, from one address (of IPv6, from one /64): a further one replaces a connection of the same peer.
+    std::size_t maxPerPeer = 32;
 };
 
 /// A small HTTP/1.1 server: status and metrics of a program, the Open API of the simulated controller. Keeps

@@ -1,6 +1,7 @@
 #include "common/http/HttpServer.hpp"
 
 #include "Catch.hpp"
+#include "common/http/HttpPeer.hpp"
 #include "common/log/LogRateLimiter.hpp"
 #include "RecordingLogSink.hpp"
 
@@ -42,9 +43,9 @@ class RawClient final
     bool _bClosed = false;
 
 public:
-    RawClient(boost::asio::io_context& context, std::uint16_t port)
+    RawClient(boost::asio::io_context& context, std::uint16_t port, const char* from = LOOPBACK)
         : _context(context),
-          _socket(context)
+          _socket(context, {boost::asio::ip::make_address(from), 0})
     {
         _socket.connect({boost::asio::ip::make_address(LOOPBACK), port});
         ReadAsync();
@@ -390,6 +391,55 @@ TEST_CASE("A peer beyond the limit replaces the one that has been silent longest
     static_cast<void>(idle.TakeReceived());
     idle.Send("GET /3 HTTP/1.1\r\nHost: x\r\n\r\n");
     REQUIRE(idle.HasReceived("<answer>"));
+}
+
+TEST_CASE("A peer that does not read its responses is replaced, and cannot take more than its share")
+{
+    Apps::HttpLimits limits;
+    limits.maxPerPeer = GENERATE(2U, 64U);
+    limits.maxConnections = 2;
+    Fixture fixture(limits);
+    fixture.answer.body.assign(32U * 1024U * 1024U, 'x');
+    std::vector<std::unique_ptr<Tcp::socket>> silent;
+    for (std::size_t number = 0; number < limits.maxConnections; ++number)
+    {
+        silent.push_back(std::make_unique<Tcp::socket>(fixture.context));
+        silent.back()->connect({boost::asio::ip::make_address(LOOPBACK), fixture.port});
+        boost::asio::write(*silent.back(), boost::asio::buffer(std::string("GET / HTTP/1.1\r\nHost: x\r\n\r\n")));
+        REQUIRE(fixture.IsReached([&]() { return fixture.requests.size() == number + 1; }));
+    }
+    fixture.answer.body = "<answer>";
+    RawClient client(fixture.context, fixture.port);
+    client.Send("GET /livez HTTP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(client.HasReceived("<answer>"));
+}
+
+TEST_CASE("A peer with its share of connections replaces its own and not those of others")
+{
+    Apps::HttpLimits limits;
+    limits.maxPerPeer = 1;
+    Fixture fixture(limits);
+    RawClient other(fixture.context, fixture.port, "127.0.0.2");
+    other.Send("GET / HT");
+    RawClient first(fixture.context, fixture.port);
+    first.Send("GET / HT");
+    RawClient second(fixture.context, fixture.port);
+    second.Send("GET / HTTP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(second.HasReceived("<answer>"));
+    REQUIRE(first.WasClosed());
+    other.Send("TP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(other.HasReceived("<answer>"));
+}
+
+TEST_CASE("One peer is an IPv4 address, mapped or not, or a /64 of IPv6")
+{
+    const auto group = [](const char* text) {
+        return Apps::GetPeerGroup(boost::asio::ip::make_address(text)).to_string();
+    };
+    CHECK(group("10.0.0.7") == "10.0.0.7");
+    CHECK(group("::ffff:10.0.0.7") == "10.0.0.7");
+    CHECK(group("2001:db8:1:2:3:4:5:6") == "2001:db8:1:2::");
+    CHECK(group("2001:db8:1:3::6") == "2001:db8:1:3::");
 }
 
 TEST_CASE("Peers beyond the limit wait while all others are being answered, and are then served in turn")
