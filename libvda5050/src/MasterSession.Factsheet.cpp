@@ -2,6 +2,7 @@
 #include "MasterSession.Impl.hpp"
 #include "OrderCapability.hpp"
 #include "OrderErrors.hpp"
+#include "StateRoom.hpp"
 #include <acs/vda5050/ActionMachine.hpp>
 #include <acs/vda5050/EVda5050Error.hpp>
 
@@ -40,12 +41,22 @@ void AddKept(const OrderMessage& update, const StateMessage& state, OrderContext
 {
     context.heldOrderID = update.orderID;
     const std::uint32_t stitch = update.nodes.front().sequenceID;
-    context.keptNodes = static_cast<std::size_t>(
-        std::ranges::count_if(state.nodeStates, [stitch](const NodeState& node) { return node.sequenceID <= stitch; }));
-    context.keptActions =
-        static_cast<std::size_t>(std::ranges::count_if(state.actionStates, [](const ActionState& action) {
-            return !IsTerminal(action.actionStatus);
-        }));
+    for (const NodeState& node : state.nodeStates)
+    {
+        const bool bKept = node.sequenceID <= stitch;
+        context.keptNodes += bKept ? 1U : 0U;
+        context.keptBytes += bKept ? MeasureNodeState(node) : 0;
+    }
+    for (const EdgeState& edge : state.edgeStates)
+    {
+        context.keptBytes += edge.sequenceID <= stitch ? MeasureEdgeState(edge) : 0;
+    }
+    for (const ActionState& action : state.actionStates)
+    {
+        const bool bKept = !IsTerminal(action.actionStatus);
+        context.keptActions += bKept ? 1U : 0U;
+        context.keptBytes += bKept ? MeasureActionState(action) : 0;
+    }
 }
 
 /// The order with its first nodes only.

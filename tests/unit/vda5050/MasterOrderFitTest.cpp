@@ -265,6 +265,34 @@ TEST_CASE("3.7 An update is checked together with the nodes that the vehicle has
     CHECK(bench.Check(update).empty());
 }
 
+TEST_CASE("3.7 An update is checked together with the bytes of what the vehicle has left")
+{
+    constexpr std::size_t BASE = 20;
+    const std::string text(60'000, 'x'); // 35 nodes fit
+    FitFixture bench;
+    bench.Deliver(MakeBareFactsheet());
+    OrderBuilder builder = MakeBuilder(2 * BASE);
+    const OrderMessage order = *builder.MakeOrder(BASE, 0);
+    REQUIRE(bench.Send(order).has_value());
+    const auto showLeft = [&bench, &order, &text](std::size_t nodesLeft) {
+        bench.Hold(order, nodesLeft);
+        for (NodeState& node : bench.state.nodeStates)
+        {
+            node.nodeDescription = text;
+        }
+        bench.SendState();
+    };
+    showLeft(BASE - 1);
+    OrderMessage update = *builder.MakeUpdate(2 * BASE, 0);
+    for (OrderNode& node : update.nodes)
+    {
+        node.nodeDescription = text;
+    }
+    CHECK(bench.Check(update) == "maximum length of the state");
+    showLeft(BASE / 2);
+    CHECK(bench.Check(update).empty());
+}
+
 TEST_CASE("3.7 An order whose horizon was left out continues after its base")
 {
     FitFixture bench;
