@@ -16,9 +16,10 @@ using Planning::RaiseEvent;
 
 } // namespace
 
-void OpenStreamRobotAdapter::DrainBase(AdapterActions& out)
+void OpenStreamRobotAdapter::DrainBase(Core::Now now, AdapterActions& out)
 {
-    for (Planning::AdapterAction& action : _baseActions)
+    // The end of a repetition may add more of them.
+    for (Planning::AdapterAction& action : std::exchange(_baseActions, {}))
     {
         const RaiseEvent* raiseOrNull = std::get_if<RaiseEvent>(&action);
         const Planning::LinkChanged* linkOrNull =
@@ -27,6 +28,10 @@ void OpenStreamRobotAdapter::DrainBase(AdapterActions& out)
             raiseOrNull == nullptr ? nullptr : std::get_if<Planning::StateChanged>(&raiseOrNull->event);
         const bool bJobCheck =
             raiseOrNull != nullptr && std::holds_alternative<Planning::JobCheckChanged>(raiseOrNull->event);
+        if (raiseOrNull != nullptr && TryEndRepetition(raiseOrNull->event, now, out))
+        {
+            continue;
+        }
         if (bJobCheck)
         {
             ReportOnline(out); // the factsheet is here; the base does no jobs
@@ -54,7 +59,6 @@ void OpenStreamRobotAdapter::DrainBase(AdapterActions& out)
             out.push_back(std::move(action));
         }
     }
-    _baseActions.clear();
 }
 
 Planning::StateChanged OpenStreamRobotAdapter::MakeState() const

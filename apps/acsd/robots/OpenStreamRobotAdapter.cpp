@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -17,14 +16,6 @@ namespace
 
 using Planning::AdapterActions;
 using Planning::RaiseEvent;
-
-/// The number that the job's program echoes; 0 if it receives none and cannot echo it.
-std::int32_t GetEchoedNumber(const Planning::StartJob& job, const ArmJob& made)
-{
-    const bool bGiven =
-        std::ranges::any_of(made.inputs, [&job](const ArmInput& input) { return input.value == job.jobNumber; });
-    return bGiven ? job.jobNumber : 0;
-}
 
 } // namespace
 
@@ -53,7 +44,7 @@ void OpenStreamRobotAdapter::Handle(const Planning::RobotCommand& command, Core:
     const Planning::CancelJob* cancelOrNull = std::get_if<Planning::CancelJob>(&command);
     if (jobOrNull != nullptr)
     {
-        StartJob(*jobOrNull, out);
+        StartJob(*jobOrNull, now, out);
     }
     else if (recoverOrNull != nullptr)
     {
@@ -66,8 +57,7 @@ void OpenStreamRobotAdapter::Handle(const Planning::RobotCommand& command, Core:
     }
     else if (cancelOrNull != nullptr)
     {
-        _program.Cancel(cancelOrNull->jobID, out);
-        Update(out);
+        CancelJob(cancelOrNull->jobID, now, out);
     }
     else
     {
@@ -78,7 +68,7 @@ void OpenStreamRobotAdapter::Handle(const Planning::RobotCommand& command, Core:
             Update(out);
         }
         _base.Handle(command, now, _baseActions);
-        DrainBase(out);
+        DrainBase(now, out);
     }
 }
 
@@ -109,7 +99,7 @@ void OpenStreamRobotAdapter::OnTimer(Planning::AdapterTimerID timer, Core::Now n
             break;
         default:
             _base.OnTimer(timer, now, _baseActions);
-            DrainBase(out);
+            DrainBase(now, out);
             return;
     }
     Update(out);
@@ -133,19 +123,19 @@ std::vector<VDA5050::MqttSubscription> OpenStreamRobotAdapter::GetSubscriptions(
 void OpenStreamRobotAdapter::OnLinkUp(Core::Now now, AdapterActions& out)
 {
     _base.OnLinkUp(now, _baseActions);
-    DrainBase(out);
+    DrainBase(now, out);
 }
 
 void OpenStreamRobotAdapter::OnLinkDown(Core::Now now, AdapterActions& out)
 {
     _base.OnLinkDown(now, _baseActions);
-    DrainBase(out);
+    DrainBase(now, out);
 }
 
 void OpenStreamRobotAdapter::OnMqttMessage(const VDA5050::MqttMessage& message, Core::Now now, AdapterActions& out)
 {
     _base.OnMqttMessage(message, now, _baseActions);
-    DrainBase(out);
+    DrainBase(now, out);
 }
 
 const VDA5050::MasterSession& OpenStreamRobotAdapter::GetSession() const noexcept
@@ -345,75 +335,6 @@ void OpenStreamRobotAdapter::OnProbeTimer(AdapterActions& out)
         wanted = EArmProbe::Playback;
     }
     OnFact(_monitor.OnProbeTimer(wanted, out), out);
-}
-
-void OpenStreamRobotAdapter::StartJob(const Planning::StartJob& job, AdapterActions& out)
-{
-    _recovery.reset();
-    tl::expected<ArmJob, std::string> made = MakeJob(job);
-    if (!made.has_value())
-    {
-        out.emplace_back(RaiseEvent{Planning::JobFailed{job.jobID, made.error()}});
-        return;
-    }
-    if (!_monitor.IsReady())
-    {
-        // The connection was lost while the job waited to be stored. The engine commands the job again when the robot is
-        // online.
-        out.emplace_back(RaiseEvent{Planning::JobUnknown{job.jobID}});
-        return;
-    }
-    if (!job.progressToken.empty() && job.progressToken != _evidence.MakeProgressToken())
-    {
-        // Another program has run since. After a restart it could not be distinguished from the program of this job.
-        out.emplace_back(RaiseEvent{MakeState()});
-        out.emplace_back(RaiseEvent{Planning::JobUnknown{job.jobID}});
-        return;
-    }
-    _evidence.Begin(GetEchoedNumber(job, *made));
-    _program.Start(std::move(*made));
-}
-
-tl::expected<ArmJob, std::string> OpenStreamRobotAdapter::MakeJob(const Planning::StartJob& job) const
-{
-    if (std::optional<std::string> rejection = GetRejectionReasonOrNull(job.action); rejection.has_value())
-    {
-        return tl::unexpected(std::move(*rejection));
-    }
-    ArmJob made{job.jobID, _methods.FindMethodOrNull(job.action, _methods.MakeData(job))->armProgram, {}};
-    if (_resolveInputs)
-    {
-        tl::expected<std::vector<ArmInput>, std::string> inputs = _resolveInputs(job);
-        if (!inputs.has_value())
-        {
-            return tl::unexpected(fmt::format("no inputs for the arm's program: {}", inputs.error()));
-        }
-        made.inputs = std::move(*inputs);
-    }
-    for (const ArmInput& input : made.inputs)
-    {
-        if (!CanHold(input.relay, input.value))
-        {
-            return tl::unexpected(
-                fmt::format("relay {} of the arm is too narrow for the value {}", input.relay.name, input.value));
-        }
-    }
-    return made;
-}
-
-/// A job that was commanded before a restart: the counters show whether its program has begun.
-void OpenStreamRobotAdapter::RecoverJob(AdapterActions& out)
-{
-    const Planning::StartJob job = *std::exchange(_recovery, std::nullopt);
-    const tl::expected<ArmJob, std::string> made = MakeJob(job);
-    const std::int32_t number = made.has_value() ? GetEchoedNumber(job, *made) : job.jobNumber;
-    const tl::expected<bool, std::string> begun = _evidence.Recover(job.progressToken, number);
-    if (!begun.has_value())
-    {
-        out.emplace_back(RaiseEvent{Planning::JobUnresolved{job.jobID, begun.error()}});
-        return;
-    }
-    _program.Recover({job.jobID, 0, {}}, *begun, out);
 }
 
 void OpenStreamRobotAdapter::ServeProgram(AdapterActions& out)

@@ -30,6 +30,13 @@ namespace ACS::Acsd
 /// (what the counters prove of the job).
 class OpenStreamRobotAdapter final : public IMqttRobotAdapter
 {
+    /// The base repeats actions of its node before the job.
+    struct Repetition
+    {
+        std::string driveID;
+        Planning::StartJob job;
+    };
+
     Vda5050RobotAdapter _base;
     ArmOptions _options;
     JobMethods _methods;
@@ -40,6 +47,8 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     ArmJobEvidence _evidence;
     Planning::AdapterActions _baseActions;
     std::optional<Planning::StartJob> _recovery; ///< A job of before a restart; the counters have not arrived yet.
+
+    std::optional<Repetition> _repetition;
 
     bool _bBaseOnline = false;
     bool _bBaseStateKnown = false;
@@ -73,7 +82,13 @@ public:
     void OnArmEvent(const OpenStream::ClientEvent& event, Core::Now now, Planning::AdapterActions& out);
 
 private:
-    void StartJob(const Planning::StartJob& job, Planning::AdapterActions& out);
+    void StartJob(const Planning::StartJob& job, Core::Now now, Planning::AdapterActions& out);
+    /// The repetition has ended: its job is started, or rejected because an action has failed. False: the event is another one.
+    [[nodiscard]] bool TryEndRepetition(
+        const Planning::RobotEvent& event,
+        Core::Now now,
+        Planning::AdapterActions& out);
+    void CancelJob(const std::string& jobID, Core::Now now, Planning::AdapterActions& out);
     [[nodiscard]] tl::expected<ArmJob, std::string> MakeJob(const Planning::StartJob& job) const;
     void RecoverJob(Planning::AdapterActions& out);
 
@@ -95,7 +110,7 @@ private:
     [[nodiscard]] bool IsFree() const;
     [[nodiscard]] bool IsProgramWatched() const;
 
-    void DrainBase(Planning::AdapterActions& out);
+    void DrainBase(Core::Now now, Planning::AdapterActions& out);
     [[nodiscard]] Planning::StateChanged MakeState() const;
     void ReportState(Planning::AdapterActions& out) const;
     void ReportArm(Planning::AdapterActions& out);

@@ -44,14 +44,18 @@ VehicleDrive Vda5050RobotAdapter::TakeDrive()
     return drive;
 }
 
-void Vda5050RobotAdapter::RepeatActions(const Planning::StartJob& job, Core::Now now, AdapterActions& out)
+std::optional<Planning::Drive> Vda5050RobotAdapter::MakeRepetitionOrNull(const std::string& commandID)
 {
+    const VDA5050::StateMessage* const stateOrNull = _session.GetStateOrNull();
+    if (!_openNode.has_value() || stateOrNull == nullptr || stateOrNull->lastNodeID != _openNode->nodeID)
+    {
+        return std::nullopt;
+    }
     Planning::Drive repetition;
-    repetition.driveID = MakeRepetitionID(job.commandID, ++_repetitionCount);
+    repetition.driveID = MakeRepetitionID(commandID, ++_repetitionCount);
     repetition.route.nodes.push_back(*_openNode);
     repetition.releasedCount = 1;
-    _job.Defer(job);
-    StartDrive(repetition, now, out);
+    return repetition;
 }
 
 bool Vda5050RobotAdapter::IsRepeating() const

@@ -47,9 +47,10 @@ void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now,
         ResumeJob(job, now, out);
         return;
     }
-    if (_openNode.has_value() && stateOrNull->lastNodeID == _openNode->nodeID)
+    if (const std::optional<Planning::Drive> repetition = MakeRepetitionOrNull(job.commandID); repetition.has_value())
     {
-        RepeatActions(job, now, out);
+        _job.Defer(job);
+        StartDrive(*repetition, now, out);
         return;
     }
     tl::expected<VDA5050::Action, std::string> action = _jobCheck->MakeAction(job);

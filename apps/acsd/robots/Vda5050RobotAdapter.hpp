@@ -90,6 +90,10 @@ public:
     /// The factsheet was requested and has not arrived: what may be sent is not known. JobCheckChanged is raised at the end.
     [[nodiscard]] bool IsFactsheetAwaited() const noexcept;
 
+    /// A drive with the vehicle's node only, which repeats the actions of the node that have not finished; nullopt if it has none. For
+    /// the caller to command before the job with this commandID. The engine does not know it.
+    [[nodiscard]] std::optional<Planning::Drive> MakeRepetitionOrNull(const std::string& commandID);
+
 private:
     void StartDrive(const Planning::Drive& drive, Core::Now now, Planning::AdapterActions& out);
     void StartJob(const Planning::StartJob& job, Core::Now now, Planning::AdapterActions& out);
@@ -121,9 +125,7 @@ private:
     [[nodiscard]] DriveContents MakeContents(const Planning::Route& route) const;
     /// The drive has ended. The next drive or job repeats the actions of the vehicle's node that have not finished.
     [[nodiscard]] VehicleDrive TakeDrive();
-    /// Performs the unfinished actions of the vehicle's node as a drive with this node only, which the engine does not know. The
-    /// deferred job follows when they have finished; otherwise it is rejected.
-    void RepeatActions(const Planning::StartJob& job, Core::Now now, Planning::AdapterActions& out);
+    /// The deferred job follows when the unfinished actions of the vehicle's node have been repeated; otherwise it is rejected.
     [[nodiscard]] bool IsRepeating() const;
     void ReportDriveRejected(const std::string& orderID, const std::string& reason, Planning::AdapterActions& out);
 
