@@ -49,8 +49,7 @@ void OpenStreamRobotAdapter::StartJob(const Planning::StartJob& job, Core::Now n
         out.emplace_back(RaiseEvent{Planning::JobUnknown{job.jobID}});
         return;
     }
-    if (const std::optional<Planning::Drive> repetition = _base.MakeRepetitionOrNull(job.commandID);
-        repetition.has_value())
+    if (const std::optional<Planning::Drive> repetition = _base.MakeRepetitionOrNull(job); repetition.has_value())
     {
         _repetition = Repetition{repetition->driveID, job};
         _base.Handle(*repetition, now, _baseActions);

@@ -44,15 +44,14 @@ VehicleDrive Vda5050RobotAdapter::TakeDrive()
     return drive;
 }
 
-std::optional<Planning::Drive> Vda5050RobotAdapter::MakeRepetitionOrNull(const std::string& commandID)
+std::optional<Planning::Drive> Vda5050RobotAdapter::MakeRepetitionOrNull(const Planning::StartJob& job)
 {
-    const VDA5050::StateMessage* const stateOrNull = _session.GetStateOrNull();
-    if (!_openNode.has_value() || stateOrNull == nullptr || stateOrNull->lastNodeID != _openNode->nodeID)
+    if (!_openNode.has_value() || FindNodeID(job) != _openNode->nodeID)
     {
         return std::nullopt;
     }
     Planning::Drive repetition;
-    repetition.driveID = MakeRepetitionID(commandID, ++_repetitionCount);
+    repetition.driveID = MakeRepetitionID(job.commandID, ++_repetitionCount);
     repetition.route.nodes.push_back(*_openNode);
     repetition.releasedCount = 1;
     return repetition;

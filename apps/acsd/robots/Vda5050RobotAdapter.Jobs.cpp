@@ -34,7 +34,7 @@ void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now,
         return;
     }
     const VDA5050::StateMessage* stateOrNull = _session.GetStateOrNull();
-    if (stateOrNull == nullptr || stateOrNull->lastNodeID.empty())
+    if (stateOrNull == nullptr || FindNodeID(job).empty())
     {
         out.emplace_back(RaiseEvent{Planning::JobRejected{job.jobID, "the vehicle does not report its node"}});
         return;
@@ -47,7 +47,7 @@ void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now,
         ResumeJob(job, now, out);
         return;
     }
-    if (const std::optional<Planning::Drive> repetition = MakeRepetitionOrNull(job.commandID); repetition.has_value())
+    if (const std::optional<Planning::Drive> repetition = MakeRepetitionOrNull(job); repetition.has_value())
     {
         _job.Defer(job);
         StartDrive(*repetition, now, out);
@@ -62,6 +62,13 @@ void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now,
     _pendingOrder = MakeJobOrder(job, std::move(*action));
     _job.Run(job);
     SendPendingOrder(now, out);
+}
+
+std::string Vda5050RobotAdapter::FindNodeID(const Planning::StartJob& job) const
+{
+    const VDA5050::StateMessage* const stateOrNull = _session.GetStateOrNull();
+    const bool bReported = stateOrNull != nullptr && !stateOrNull->lastNodeID.empty();
+    return bReported ? stateOrNull->lastNodeID : job.nodeID;
 }
 
 void Vda5050RobotAdapter::CancelJob(const std::string& jobID, Core::Now now, AdapterActions& out)
@@ -92,7 +99,7 @@ VDA5050::OrderMessage Vda5050RobotAdapter::MakeJobOrder(const Planning::StartJob
     // Not the jobID, which a later plan may use again: a vehicle treats a known orderId as a repetition.
     order.orderID = job.commandID;
     VDA5050::OrderNode& node = order.nodes.emplace_back();
-    node.nodeID = _session.GetStateOrNull()->lastNodeID;
+    node.nodeID = FindNodeID(job);
     node.bReleased = true;
     if (const Planning::RouteNode* const knownOrNull = _drives->GetMap().FindNodeOrNull(node.nodeID);
         knownOrNull != nullptr)

@@ -91,13 +91,15 @@ public:
     [[nodiscard]] bool IsFactsheetAwaited() const noexcept;
 
     /// A drive with the vehicle's node only, which repeats the actions of the node that have not finished; nullopt if it has none. For
-    /// the caller to command before the job with this commandID. The engine does not know it.
-    [[nodiscard]] std::optional<Planning::Drive> MakeRepetitionOrNull(const std::string& commandID);
+    /// the caller to command before the job. The engine does not know it.
+    [[nodiscard]] std::optional<Planning::Drive> MakeRepetitionOrNull(const Planning::StartJob& job);
 
 private:
     void StartDrive(const Planning::Drive& drive, Core::Now now, Planning::AdapterActions& out);
     void StartJob(const Planning::StartJob& job, Core::Now now, Planning::AdapterActions& out);
     void CancelJob(const std::string& jobID, Core::Now now, Planning::AdapterActions& out);
+    /// The node that the vehicle reports, or that of the job if it reports none; empty: unknown.
+    [[nodiscard]] std::string FindNodeID(const Planning::StartJob& job) const;
     [[nodiscard]] VDA5050::OrderMessage MakeJobOrder(const Planning::StartJob& job, VDA5050::Action action) const;
     void OnJobDone(Planning::AdapterActions& out);
     void VerifyLoads(Planning::AdapterActions& out);

@@ -166,7 +166,8 @@ struct JsonFields<Planning::StartJob>
         Optional("carrierId", &Planning::StartJob::carrierID),
         Required("commandId", &Planning::StartJob::commandID),
         Optional("mark", &Planning::StartJob::progressToken),
-        Optional("jobNumber", &Planning::StartJob::jobNumber));
+        Optional("jobNumber", &Planning::StartJob::jobNumber),
+        Optional("nodeId", &Planning::StartJob::nodeID));
 };
 
 template <>

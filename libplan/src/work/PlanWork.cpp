@@ -14,6 +14,7 @@ namespace ACS::Planning
 
 PlanWork::PlanWork(EngineState& engine, ControlAnswers& answers, LoadWatch& loads, StatusPublisher& status)
     : _options(engine.options),
+      _site(engine.site),
       _random(engine.random),
       _plans(engine.plans),
       _fleet(engine.fleet),
@@ -98,6 +99,7 @@ void PlanWork::BeginJob(Robot& robot)
     job.commandID = repeated.empty() ? Core::MakeUUID(_random) : repeated;
     job.jobNumber = robot.work.NumberJob(!repeated.empty(), _random);
     job.progressToken = robot.view.state.has_value() ? robot.view.state->restartEvidence.progressToken : std::string();
+    job.nodeID = robot.place.node.has_value() ? _site.GetNodes()[*robot.place.node].nodeID : std::string();
     robot.work.AddCommand(job.commandID);
     robot.job.Begin(job);
     _transaction.Command(robot, std::move(job));

@@ -20,6 +20,7 @@ namespace ACS::Planning
 class PlanWork
 {
     const EngineOptions& _options;
+    const SiteMap& _site;
     Core::IRandom& _random;
     PlanBook& _plans;
     Fleet& _fleet;

@@ -114,6 +114,9 @@ struct StartJob
     /// to 2^31 - 1, different from that of the robot's previous job, stored with the command. 0: unknown, because an older
     /// version commanded the job.
     std::int32_t jobNumber = 0;
+    /// The node on which the engine has placed the robot, for one that does not report its node. Empty: unknown, because an older
+    /// version commanded the job.
+    std::string nodeID = {};
 
     bool operator==(const StartJob&) const = default;
 };

@@ -87,6 +87,34 @@ TEST_CASE("A vehicle of four ports and the standard's factsheet receives the pla
     CHECK(send("A01.CP01", "LR01.CP03") == begin + R"("rear")");
 }
 
+TEST_CASE("A vehicle that reports no node receives its job on the node where the engine has placed it")
+{
+    VehicleFixture vehicle(MakeMethods());
+    vehicle.state.lastNodeID.clear();
+    vehicle.ComeOnline();
+    Planning::StartJob job = MakeLoad("A01.CP01", "LR01.CP01");
+    vehicle.Command(job);
+    CHECK(vehicle.TakeOrders().empty());
+    CHECK(vehicle.TakeEvents<Planning::JobRejected>().size() == 1);
+    job.nodeID = "N7";
+    vehicle.Command(job);
+    const auto orders = vehicle.TakeOrders();
+    REQUIRE(orders.size() == 1);
+    CHECK(orders[0].nodes.at(0).nodeID == "N7");
+
+    vehicle.state.lastNodeID = "A"; // what it reports takes precedence
+    vehicle.ShowState();
+    job.jobID = "K";
+    job.commandID = "U2";
+    vehicle.Command(job);
+    vehicle.ShowOrder(orders[0], {});
+    vehicle.state.actionStates = {{"U1", "pick", "", VDA5050::EActionStatus::Finished, ""}};
+    vehicle.ShowState();
+    const auto next = vehicle.TakeOrders();
+    REQUIRE(next.size() == 1);
+    CHECK(next[0].nodes.at(0).nodeID == "A");
+}
+
 TEST_CASE("A station may have a method of its own, which applies to the job's place, not to where the robot is docked")
 {
     VehicleFixture vehicle(MakeMethods());

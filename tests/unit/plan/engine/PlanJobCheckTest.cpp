@@ -149,6 +149,7 @@ TEST_CASE("Jobs are checked with the same command that the robot would receive")
         job.commandID.clear();
         job.progressToken.clear();
         job.jobNumber = 0;
+        job.nodeID.clear();
     }
     CHECK(checked == commanded);
 }

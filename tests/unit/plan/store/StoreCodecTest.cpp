@@ -29,8 +29,19 @@ TEST_CASE("Store texts: the work of a robot is decoded with its job, also from o
     RobotWorkChanged work;
     work.robotID = "CR01";
     work.commandID = "command";
-    work.job =
-        StartJob{"P1", 2, "J1", "TrayLoad", "A01.CP01", "A01.CP01.TP01", "CR01.TP01", "TRAY_01", "command", "m", 4711};
+    work.job = StartJob{
+        "P1",
+        2,
+        "J1",
+        "TrayLoad",
+        "A01.CP01",
+        "A01.CP01.TP01",
+        "CR01.TP01",
+        "TRAY_01",
+        "command",
+        "m",
+        4711,
+        "N1"};
     work.jobNumber = 4711;
     CHECK(DecodeRobotWork(EncodeRobotWork(work)) == work);
 
@@ -41,6 +52,7 @@ TEST_CASE("Store texts: the work of a robot is decoded with its job, also from o
     REQUIRE(old.has_value());
     work.jobNumber = 0;
     work.job->jobNumber = 0;
+    work.job->nodeID.clear();
     CHECK(*old == work);
 }
 

@@ -48,6 +48,19 @@ TEST_CASE("PlanWork: work begins with one arrival and the job's command, with it
     CHECK(GetJobState(plan) == EJobState::Instructed);
 }
 
+TEST_CASE("PlanWork: a job names the node where the robot was placed, which need not be reported")
+{
+    EngineParts parts;
+    parts.PutOn(parts.lr, "D-A01.CP01");
+    parts.lr.view.state->lastNodeID.clear();
+    parts.assignment.Offer(parts.AddLoad(), parts.lr);
+    parts.Discard();
+    parts.work.BeginWork(parts.lr);
+    const auto jobs = parts.Collect().ListCommands<StartJob>();
+    REQUIRE(jobs.size() == 1);
+    CHECK(jobs.front().nodeID == "D-A01.CP01");
+}
+
 TEST_CASE("PlanWork: no job begins before the plan is stored as begun, nor without its tray")
 {
     EngineParts parts;
