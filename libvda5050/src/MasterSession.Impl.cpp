@@ -120,6 +120,11 @@ bool MasterSession::Impl::IsForeign(ETopic topic, const Header& header, MasterAc
         Refuse(topic, std::move(*foreign), out);
         return true;
     }
+    if (!header.version.empty())
+    {
+        constexpr std::size_t LONGEST_VERSION = 32;
+        _statistics.lastVersion = header.version.substr(0, LONGEST_VERSION);
+    }
     if (!header.version.empty() && !ReadVersionOrNull(header.version).has_value())
     {
         Refuse(

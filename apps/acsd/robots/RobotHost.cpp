@@ -59,7 +59,8 @@ struct RobotHost::Impl
               *config.site,
               link.robotID,
               {surroundings.clock, surroundings.logger.MakeFor("robot"), surroundings.metrics},
-              link.methods.GetPositions()),
+              link.methods.GetPositions(),
+              link.protocolVersion),
           retained(
               {surroundings.mqtt, surroundings.logger.MakeFor("robot"), surroundings.metrics},
               link.robotID,

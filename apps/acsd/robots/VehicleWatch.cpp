@@ -45,19 +45,28 @@ bool IsBackwards(VDA5050::EActionStatus before, VDA5050::EActionStatus after)
     return GetProgress(after) < GetProgress(before) || (VDA5050::IsTerminal(before) && after != before);
 }
 
+/// "2.1" of "2.1.0"
+std::string_view GetMajorMinor(std::string_view version)
+{
+    const std::size_t dot = version.find('.');
+    return dot == std::string_view::npos ? version : version.substr(0, version.find('.', dot + 1));
+}
+
 } // namespace
 
 VehicleWatch::VehicleWatch(
     const Planning::SiteMap& site,
     std::string robotID,
     const Dependencies& dependencies,
-    LoadPositions positions)
+    LoadPositions positions,
+    std::string protocolVersion)
     : _site(site),
       _robotID(std::move(robotID)),
       _clock(dependencies.clock),
       _log(dependencies.logger),
       _metrics(dependencies.metrics),
       _positions(std::move(positions)),
+      _protocolVersion(std::move(protocolVersion)),
       _rangeX(FindRange(site, &Planning::SiteNode::x)),
       _rangeY(FindRange(site, &Planning::SiteNode::y))
 {
@@ -224,7 +233,42 @@ void VehicleWatch::OnStatistics(const VDA5050::MasterStatistics& statistics)
     count(_statistics.messagesRefused, statistics.messagesRefused, "unreadable_message", statistics.lastRefusal);
     count(_statistics.statesIgnored, statistics.statesIgnored, "state_out_of_order", "older than the one before");
     count(_statistics.retainedIgnored, statistics.retainedIgnored, "state_retained", "retained, of unknown age");
+    if (statistics.lastVersion != _statistics.lastVersion)
+    {
+        CheckVersion(statistics.lastVersion);
+    }
     _statistics = statistics;
+}
+
+std::string VehicleWatch::DescribeVersion(const std::string& version) const
+{
+    return fmt::format(
+        "its messages have the VDA5050 version {}, robots.{}.protocol is {}: correct one of them",
+        version,
+        _robotID,
+        _protocolVersion);
+}
+
+void VehicleWatch::CheckVersion(const std::string& version)
+{
+    constexpr std::size_t MOST_VERSIONS = 8;
+    if (GetMajorMinor(version) == GetMajorMinor(_protocolVersion) || _otherVersions.size() == MOST_VERSIONS
+        || std::ranges::count(_otherVersions, version) > 0)
+    {
+        return;
+    }
+    _otherVersions.push_back(version);
+    Note("version", DescribeVersion(version));
+}
+
+std::vector<std::string> VehicleWatch::ListWarnings() const
+{
+    std::vector<std::string> warnings;
+    for (const std::string& version : _otherVersions)
+    {
+        warnings.push_back(DescribeVersion(version));
+    }
+    return warnings;
 }
 
 void VehicleWatch::OnArmEvent(const OpenStream::ClientEvent& event)

@@ -16,6 +16,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace ACS::Acsd
 {
@@ -59,6 +60,8 @@ private:
     Apps::MetricsEndpoint& _metrics;
     std::map<std::string, std::uint64_t, std::less<>> _counts; ///< By kind; the number of kinds is fixed.
     LoadPositions _positions;
+    std::string _protocolVersion;
+    std::vector<std::string> _otherVersions; ///< As reported.
     std::optional<Shown> _shown;
     VDA5050::MasterStatistics _statistics; ///< At the last check.
     Range _rangeX;                         ///< Range of the site's nodes.
@@ -70,7 +73,8 @@ public:
         const Planning::SiteMap& site,
         std::string robotID,
         const Dependencies& dependencies,
-        LoadPositions positions);
+        LoadPositions positions,
+        std::string protocolVersion);
 
     /// A state that the session accepted as new.
     void OnState(const VDA5050::StateMessage& state);
@@ -80,13 +84,19 @@ public:
     /// The vehicle was disconnected: its sequence numbers may begin again.
     void OnAway();
 
-    /// Counts the messages that the session dropped since the last check.
+    /// Counts the messages that the session dropped since the last check, and notes a version of the protocol that the robot is not
+    /// configured for, once for each version.
     void OnStatistics(const VDA5050::MasterStatistics& statistics);
 
     void OnArmEvent(const OpenStream::ClientEvent& event);
 
+    /// Lasting contradictions, for the status page.
+    [[nodiscard]] std::vector<std::string> ListWarnings() const;
+
 private:
     [[nodiscard]] static Range FindRange(const Planning::SiteMap& site, double Planning::SiteNode::*coordinate);
+    [[nodiscard]] std::string DescribeVersion(const std::string& version) const;
+    void CheckVersion(const std::string& version);
     void CheckPosition(const VDA5050::StateMessage& state);
     void CheckDistance(const VDA5050::StateMessage& state);
     void CheckLoads(const VDA5050::StateMessage& state);

@@ -51,6 +51,31 @@ TEST_CASE("6 ONLINE requests the factsheet again, which may have changed")
 
 TEST_CASE("6.5 A will of an earlier connection with another client id that arrives after ONLINE is recognised as old")
 {
+TEST_CASE("13 State and factsheet are requested in one message where the factsheet allows two instant actions")
+{
+    for (const std::uint32_t most : {0U, 1U, 2U}) // 0: no limit
+    {
+        MasterOptions options = MakeMasterOptions();
+        options.factsheet.emplace().protocolLimits.maxArrayLengths.instantActions = most;
+        MasterSessionFixture bench(options);
+        bench.Connect(EConnectionState::Online);
+        CHECK(bench.GetSent(ETopic::InstantActions).size() == (most == 1 ? 2 : 1));
+    }
+}
+
+TEST_CASE("2 The version of the last message is recorded, also of one that is refused")
+{
+    MasterSessionFixture bench;
+    CHECK(bench.session.GetStatistics().lastVersion.empty());
+    bench.SendState();
+    CHECK(bench.session.GetStatistics().lastVersion == "2.0.0");
+    ConnectionMessage message;
+    message.header = Header{0, bench.GetNow().wall, "3.0.0" + std::string(100, 'x'), "ACS", "LR01"};
+    bench.Deliver(ETopic::Connection, Vda5050Codec().Encode(message, EVda5050Version::Version200));
+    CHECK(bench.session.GetStatistics().messagesRefused == 1);
+    CHECK(bench.session.GetStatistics().lastVersion == "3.0.0" + std::string(27, 'x'));
+}
+
     MasterSessionFixture bench;
     bench.BeReady();
     bench.Connect(EConnectionState::ConnectionBroken);

@@ -66,6 +66,8 @@ struct MasterStatistics
     std::uint64_t messagesSent = 0;
     std::uint64_t ordersResent = 0;
     std::string lastRefusal{}; ///< Topic and reason of the last refused message; empty: none was refused.
+    /// The version in the header of the vehicle's last message that has one, refused or not; at most 32 characters.
+    std::string lastVersion{};
 
     bool operator==(const MasterStatistics&) const = default;
 };

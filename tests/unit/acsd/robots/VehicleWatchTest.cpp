@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace ACS::Acsd::Test
 {
@@ -25,7 +26,8 @@ struct WatchFixture
         *config.site,
         "LR01",
         {clock, Core::Logger(sink, "robot"), metrics},
-        config.robots.back().methods.GetPositions()};
+        config.robots.back().methods.GetPositions(),
+        "2.0.0"};
     VDA5050::StateMessage state;
 
     WatchFixture()
@@ -88,6 +90,29 @@ TEST_CASE_METHOD(WatchFixture, "Consistent reports are not logged: states may be
     Show();
     CHECK(CountKinds() == 0);
     CHECK(sink.GetLines().empty());
+}
+
+TEST_CASE_METHOD(WatchFixture, "Another version of the protocol is noted once for each version, and stays a warning")
+{
+    VDA5050::MasterStatistics statistics;
+    for (const char* const version : {"2.0.0", "2.0.1", "2.0", "2.1.0", "2.0.0", "2.1.0", "3.0.0", "3.0.0"})
+    {
+        statistics.lastVersion = version;
+        watch.OnStatistics(statistics);
+    }
+    CHECK(CountOf("version") == 2);
+    CHECK(
+        watch.ListWarnings()
+        == std::vector<std::string>{
+            "its messages have the VDA5050 version 2.1.0, robots.LR01.protocol is 2.0.0: correct one of them",
+            "its messages have the VDA5050 version 3.0.0, robots.LR01.protocol is 2.0.0: correct one of them"});
+    CHECK(sink.ContainsField("what", "version"));
+    for (int i = 0; i < 100; ++i)
+    {
+        statistics.lastVersion = "9." + std::to_string(i);
+        watch.OnStatistics(statistics);
+    }
+    CHECK(watch.ListWarnings().size() == 8);
 }
 
 TEST_CASE_METHOD(WatchFixture, "A node that the map does not have is logged and counted")
