@@ -251,11 +251,11 @@ Core::Duration MasterSession::Impl::GetAllowedSilence() const
 std::size_t MasterSession::Impl::GetMaximumInstantActions() const
 {
     const FactsheetMessage* const rules = GetRulesOrNull();
-    if (rules != nullptr && rules->protocolLimits.maxStringLengths.message.value_or(0) != 0)
+    if (rules == nullptr || rules->protocolLimits.maxStringLengths.message.value_or(0) != 0)
     {
-        return 1; // each was measured alone
+        return 1; // the limit is unknown, or each was measured alone
     }
-    const std::uint32_t limit = rules == nullptr ? 0 : rules->protocolLimits.maxArrayLengths.instantActions.value_or(0);
+    const std::uint32_t limit = rules->protocolLimits.maxArrayLengths.instantActions.value_or(0);
     return limit == 0 ? std::string::npos : limit;
 }
 
