@@ -312,6 +312,7 @@ private:
             {
                 program.arms.emplace(robotID, figures.bArmReady);
             }
+            program.vehicles.emplace(robotID, VehicleStatus{robot->GetTopicPrefix(), robot->GetWarnings()});
         }
         return program;
     }

@@ -94,20 +94,24 @@ std::optional<Core::Error> FindForeignNameOrNull(const Header& header, const Veh
         header.manufacturer + "/" + header.serialNumber};
 }
 
-std::string BuildTopic(const VehicleAddress& address, ETopic topic)
+std::string BuildTopicPrefix(const VehicleAddress& address)
 {
     assert(IsValidAddress(address));
     std::string text = address.interfaceName;
-    const std::array<std::string_view, LEVEL_COUNT - 1> levels{
-        MAJOR_VERSION,
-        address.manufacturer,
-        address.serialNumber,
-        GetTopicName(topic)};
-    for (const std::string_view level : levels)
+    for (const std::string_view level :
+         {MAJOR_VERSION, std::string_view(address.manufacturer), std::string_view(address.serialNumber)})
     {
         text += '/';
         text += level;
     }
+    return text;
+}
+
+std::string BuildTopic(const VehicleAddress& address, ETopic topic)
+{
+    std::string text = BuildTopicPrefix(address);
+    text += '/';
+    text += GetTopicName(topic);
     return text;
 }
 

@@ -42,6 +42,7 @@ struct RobotLinkConfig
     std::optional<VDA5050::FactsheetMessage> factsheet = std::nullopt;   ///< Of factsheet_file.
     std::shared_ptr<DriveCheck> drives = std::make_shared<DriveCheck>(); ///< Shared by its vehicle type.
     std::vector<NeededMap> maps = {};                                    ///< How the vehicle gets maps.
+    std::string topicPrefix = {};                                        ///< "uagv/v2/ACME/0001"
 };
 
 /// acsd's complete and checked configuration.

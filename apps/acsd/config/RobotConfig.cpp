@@ -222,6 +222,14 @@ void ReadRobot(const ConfigSection& section, const std::string& name, const std:
             section.AddError(key, "is a level of a topic: not empty, without / + #");
         }
     }
+    const VDA5050::VehicleAddress address{config.mqtt.interfaceName, link.manufacturer, link.serialNumber};
+    if (VDA5050::IsValidAddress(address))
+    {
+        link.topicPrefix = VDA5050::BuildTopicPrefix(address);
+        options.connectionHint = fmt::format(
+            "The connection message of its vehicle is expected on {}.",
+            VDA5050::BuildTopic(address, VDA5050::ETopic::Connection));
+    }
     const auto twin = std::ranges::find_if(config.robots, [&link](const RobotLinkConfig& other) {
         return other.manufacturer == link.manufacturer && other.serialNumber == link.serialNumber;
     });

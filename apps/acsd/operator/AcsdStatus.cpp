@@ -111,10 +111,43 @@ void WriteRefusedReports(Json::JsonWriter& writer, const RefusedReports& refused
     writer.EndObject();
 }
 
+/// Both are null while the place of the robot is unknown, "nextNode" also while it is on "node".
+void WriteNode(Json::JsonWriter& writer, const std::vector<Planning::RobotDetail>& details, const std::string& robotID)
+{
+    const auto found = std::ranges::find(details, robotID, &Planning::RobotDetail::robotID);
+    const bool bKnown = found != details.end() && !found->nodeID.empty();
+    WriteMember(writer, "node", bKnown ? std::optional(found->nodeID) : std::nullopt);
+    WriteMember(writer, "nextNode", bKnown ? found->nextNodeID : std::nullopt);
+}
+
+/// "reason" is null for a robot that has a plan, which has a wait reason of its own, and for one that is available.
+void WriteVehicle(Json::JsonWriter& writer, const Planning::RobotStatus& robot, const ProgramStatus& program)
+{
+    const bool bReason = !robot.planID.has_value() && !robot.message.empty();
+    WriteMember(writer, "reason", bReason ? std::optional(robot.message) : std::nullopt);
+    const auto found = program.vehicles.find(robot.robotID);
+    const VehicleStatus vehicle = found == program.vehicles.end() ? VehicleStatus() : found->second;
+    WriteMember(writer, "topic", vehicle.topic.empty() ? std::nullopt : std::optional(vehicle.topic));
+    writer.Key("warnings");
+    writer.BeginArray();
+    for (const std::string& warning : vehicle.warnings)
+    {
+        writer.WriteString(warning);
+    }
+    writer.EndArray();
+}
+
+/// Of all robots, besides their status.
+struct FleetView
+{
+    std::vector<Planning::RobotPose> poses;
+    std::vector<Planning::RobotDetail> details;
+};
+
 void WriteRobot(
     Json::JsonWriter& writer,
     const Planning::RobotStatus& robot,
-    const std::vector<Planning::RobotPose>& poses,
+    const FleetView& fleet,
     const ProgramStatus& program)
 {
     writer.BeginObject();
@@ -122,9 +155,10 @@ void WriteRobot(
     WriteMember(writer, "type", GetText(robot.type));
     WriteMember(writer, "status", GetText(robot.status));
     WriteMember(writer, "position", std::string_view(robot.position));
+    WriteNode(writer, fleet.details, robot.robotID);
     WriteMember(writer, "planId", robot.planID);
     WriteMember(writer, "jobId", robot.jobID);
-    WriteBattery(writer, poses, robot.robotID);
+    WriteBattery(writer, fleet.poses, robot.robotID);
     WriteArm(writer, program, robot.robotID);
     writer.Key("maintenance");
     writer.WriteBoolean(robot.bInMaintenance);
@@ -142,6 +176,7 @@ void WriteRobot(
         }
     }
     writer.EndArray();
+    WriteVehicle(writer, robot, program);
     writer.EndObject();
 }
 
@@ -284,9 +319,9 @@ Apps::HttpResponse MakeStatusResponse(const ProgramStatus& program, const Planni
     WriteMember(writer, "tsc", GetText(engine.GetTscState()));
     WriteOutbox(writer, engine.GetOutboxSummary());
     WriteRefusedReports(writer, program.refusedReports);
-    const std::vector<Planning::RobotPose> poses = engine.GetRobotPoses();
+    const FleetView fleet{engine.GetRobotPoses(), engine.GetRobotDetails()};
     WriteList(writer, "robots", engine.GetRobotStatuses(), [&](Json::JsonWriter& list, const auto& robot) {
-        WriteRobot(list, robot, poses, program);
+        WriteRobot(list, robot, fleet, program);
     });
     WaitReasons waits;
     for (Planning::WaitReason& wait : engine.GetWaitReasons())

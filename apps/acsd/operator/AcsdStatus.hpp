@@ -23,6 +23,13 @@ struct LinkStatus
     std::string obstacle{}; ///< Why it is not up, as a line of /readyz; empty: there is no connection.
 };
 
+/// The vehicle of a robot, as the status page shows it.
+struct VehicleStatus
+{
+    std::string topic;                   ///< The begin of its MQTT topics: "uagv/v2/ACME/0001".
+    std::vector<std::string> warnings{}; ///< What its messages contradict, without an alarm.
+};
+
 /// What /status shows besides the engine's own state.
 struct ProgramStatus
 {
@@ -30,6 +37,7 @@ struct ProgramStatus
     std::vector<std::string> obstacles;            ///< Not-ready reasons besides the links.
     std::map<std::string, bool, std::less<>> arms; ///< By robotID, for robots with an arm: whether it can be commanded.
     RefusedReports refusedReports{};
+    std::map<std::string, VehicleStatus, std::less<>> vehicles{}; ///< By robotID.
 };
 
 /// GET /livez: the process is running.

@@ -279,6 +279,16 @@ RobotHost::Figures RobotHost::GetFigures() const
     return figures;
 }
 
+const std::string& RobotHost::GetTopicPrefix() const noexcept
+{
+    return _impl->robot.topicPrefix;
+}
+
+std::vector<std::string> RobotHost::GetWarnings() const
+{
+    return _impl->watch.ListWarnings();
+}
+
 const std::string& RobotHost::GetRobotID() const noexcept
 {
     return _impl->robot.robotID;

@@ -20,6 +20,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace ACS::Acsd
 {
@@ -82,7 +83,11 @@ public:
     void OnMqttMessage(const VDA5050::MqttMessage& message);
 
     [[nodiscard]] const std::string& GetRobotID() const noexcept;
+    /// The begin of the vehicle's MQTT topics.
+    [[nodiscard]] const std::string& GetTopicPrefix() const noexcept;
     [[nodiscard]] Figures GetFigures() const;
+    /// What the vehicle's messages contradict, for the status page.
+    [[nodiscard]] std::vector<std::string> GetWarnings() const;
 };
 
 } // namespace ACS::Acsd

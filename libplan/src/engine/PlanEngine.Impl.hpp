@@ -75,6 +75,7 @@ public:
     [[nodiscard]] OutboxSummary GetOutboxSummary() const;
     [[nodiscard]] std::vector<RobotStatus> GetRobotStatuses() const;
     [[nodiscard]] std::vector<RobotPose> GetRobotPoses() const;
+    [[nodiscard]] std::vector<RobotDetail> GetRobotDetails() const;
     [[nodiscard]] std::vector<PlanSummary> GetActivePlans() const;
     [[nodiscard]] std::optional<PlanSummary> GetPlanOrNull(std::string_view planID) const;
     [[nodiscard]] std::vector<WaitReason> GetWaitReasons() const;

@@ -75,6 +75,11 @@ std::vector<RobotPose> PlanEngine::GetRobotPoses() const
     return _impl->GetRobotPoses();
 }
 
+std::vector<RobotDetail> PlanEngine::GetRobotDetails() const
+{
+    return _impl->GetRobotDetails();
+}
+
 std::vector<PlanSummary> PlanEngine::GetActivePlans() const
 {
     return _impl->GetActivePlans();

@@ -330,6 +330,10 @@ void RestartRecovery::RaiseMissing()
             bHasWork
                 ? "The robot has unfinished work and has not connected since the start of the ACS. Check the robot and its network."
                 : "The robot has not connected since the start of the ACS. Check the robot and its network.");
+        if (!robot.options->connectionHint.empty())
+        {
+            alarm.message += " " + robot.options->connectionHint;
+        }
         if (!robot.place.possibleNodes.empty())
         {
             alarm.message +=

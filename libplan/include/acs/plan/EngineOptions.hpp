@@ -75,6 +75,9 @@ struct RobotOptions
     /// Where it charges (DispatchOptions). Not shared by robots; may be the home station. nullopt: its battery level is
     /// ignored.
     std::optional<std::string> chargingStationID = std::nullopt;
+    /// A sentence about where the robot is expected to connect. Ends the alarm of a robot that has not connected since the
+    /// start; may be empty.
+    std::string connectionHint = {};
 };
 
 /// Until when CancelPlan ends a plan (register D-14).

@@ -100,6 +100,9 @@ public:
     /// Only of robots that have reported their position.
     [[nodiscard]] std::vector<RobotPose> GetRobotPoses() const;
 
+    /// One for every robot.
+    [[nodiscard]] std::vector<RobotDetail> GetRobotDetails() const;
+
     /// In progress, then paused, then pending, each in the order of the queue.
     [[nodiscard]] std::vector<PlanSummary> GetActivePlans() const;
 

@@ -40,4 +40,16 @@ struct RobotPose
     bool operator==(const RobotPose&) const = default;
 };
 
+/// What no message to the MCS shows.
+struct RobotDetail
+{
+    std::string robotID;
+    std::string nodeID;                    ///< The node it is on or has passed last; empty: unknown.
+    std::optional<std::string> nextNodeID; ///< The node to which it is on the way; nullopt: it is on nodeID.
+    bool bHasDrive = false;                ///< Of its plan, or to its parking position.
+    bool bHasJob = false;                  ///< Also one whose plan has ended.
+
+    bool operator==(const RobotDetail&) const = default;
+};
+
 } // namespace ACS::Planning

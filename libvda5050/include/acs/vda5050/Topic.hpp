@@ -59,6 +59,9 @@ struct VehicleAddress
 /// senders omit them.
 [[nodiscard]] std::optional<Core::Error> FindForeignNameOrNull(const Header& header, const VehicleAddress& address);
 
+/// "uagv/v2/KIT/0001": the topics of the vehicle without their last level.
+[[nodiscard]] std::string BuildTopicPrefix(const VehicleAddress& address);
+
 /// "uagv/v2/KIT/0001/order"
 [[nodiscard]] std::string BuildTopic(const VehicleAddress& address, ETopic topic);
 

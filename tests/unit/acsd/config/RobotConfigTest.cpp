@@ -43,6 +43,18 @@ TEST_CASE("robot.* and robots.NAME.charge are read; a charging station is no oth
     CHECK(ReadSite({"mcs.position_while_moving=here"}).errors.size() == 1);
 }
 
+TEST_CASE("The topics of a robot's vehicle are named, also to the engine, for the alarm of one that does not connect")
+{
+    const AcsdConfig config =
+        ReadSite({"mqtt.interface_name=plant", "robots.LR01.manufacturer=ACME", "robots.LR01.serial=0007"});
+    REQUIRE(config.errors.empty());
+    CHECK(config.robots.back().topicPrefix == "plant/v2/ACME/0007");
+    CHECK(
+        config.engine.robots.back().connectionHint
+        == "The connection message of its vehicle is expected on plant/v2/ACME/0007/connection.");
+    CHECK(ReadSite({"robots.LR01.serial=a/b"}).robots.back().topicPrefix.empty());
+}
+
 TEST_CASE("The maps of a robot need a version, and may have a link and a hash")
 {
     const AcsdConfig config =

@@ -92,6 +92,36 @@ TEST_CASE("/status shows links, not-ready reasons, the outbox with its oldest ti
         R"("outbox":{"reports":)" + std::to_string(waiting.size()) + R"(,"oldest":")" + time + R"("})"));
 }
 
+TEST_CASE("/status shows where a robot is, why one without a plan is not available, and where it is expected")
+{
+    PlanWorld world{1, true};
+    const auto getStatus = [&world] {
+        Acsd::ProgramStatus program{{{"mcs", true}}, {}, {}};
+        program.vehicles.emplace("LR01", Acsd::VehicleStatus{"uagv/v2/ACS/LR01", {"wrong version"}});
+        return Acsd::MakeStatusResponse(program, *world.engine).body;
+    };
+    CHECK(HasText(getStatus(), R"("node":null,"nextNode":null)"));
+    CHECK(HasText(
+        getStatus(),
+        R"("reason":"LR01: no connection.","topic":"uagv/v2/ACS/LR01","warnings":["wrong version"])"));
+    CHECK(HasText(getStatus(), R"("reason":"LR02: no connection.","topic":null,"warnings":[])"));
+    world.Connect();
+    REQUIRE(world.TryRun());
+    CHECK(HasText(getStatus(), R"("node":"D-CHG01","nextNode":null)"));
+    CHECK(HasText(getStatus(), R"("reason":null,"topic":"uagv/v2/ACS/LR01")"));
+    CHECK_FALSE(HasText(getStatus(), "no connection"));
+
+    world.Submit(MakeLogisticsPlan("P1"));
+    REQUIRE(Testing::TryRunUntil(world, "P1", "Plan InProgress"));
+    Planning::StateChanged state;
+    state.bPoseKnown = true;
+    state.x = -1000;
+    state.lastNodeID = "D-CHG01";
+    state.bDriving = true;
+    world.Raise("LR01", state);
+    CHECK(HasText(getStatus(), R"("node":"D-CHG01","nextNode":"L)"));
+}
+
 TEST_CASE("/status shows a charge as a percentage, whatever a robot reports")
 {
     Operator user;

@@ -146,6 +146,25 @@ TEST_CASE("RestartRecovery: after the wait each missing robot has an alarm, and 
     CHECK(parts.places.GetTraffic().GetHolderOrNull(parts.FindNode("L03")) == parts.lr.index);
 }
 
+TEST_CASE("RestartRecovery: the alarm of a robot that has never connected states where it is expected")
+{
+    RecoveryParts parts;
+    parts.engine.options.robots[0].connectionHint = "It is expected on uagv/v2/ACS/LR01/connection.";
+    parts.recovery.Restore({});
+    parts.Discard();
+    parts.recovery.RaiseMissing();
+    static_cast<void>(parts.Collect());
+    const std::vector<Alarm>& alarms = parts.engine.alarms.GetAlarms();
+    REQUIRE(alarms.size() == 2);
+    CHECK(
+        alarms[0].message
+        == "The robot has not connected since the start of the ACS. Check the robot and its network. It is expected on "
+           "uagv/v2/ACS/LR01/connection.");
+    CHECK(
+        alarms[1].message
+        == "The robot has not connected since the start of the ACS. Check the robot and its network.");
+}
+
 TEST_CASE("RestartRecovery: alarms of robots that are gone and of drives are cleared")
 {
     RecoveryParts parts;

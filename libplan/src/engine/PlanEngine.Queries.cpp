@@ -1,0 +1,166 @@
+#include "engine/PlanEngine.Impl.hpp"
+#include "plan/PlanSummaries.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <iterator>
+#include <utility>
+
+// What the engine shows of its state.
+
+namespace ACS::Planning
+{
+
+namespace
+{
+
+/// The node to which the robot is on the way; nullopt if it is on its node, or if that is not known.
+std::optional<std::string> FindNextNodeOrNull(const Robot& robot, const SiteMap& site)
+{
+    if (!robot.drive.has_value())
+    {
+        return robot.place.heading.has_value() ? std::optional(site.GetNodes()[*robot.place.heading].nodeID)
+                                               : std::nullopt;
+    }
+    const ActiveDrive& drive = *robot.drive;
+    if (!drive.bTaken || !robot.view.state.has_value() || drive.passed + 1 >= drive.nodes.size())
+    {
+        return std::nullopt;
+    }
+    const StateChanged& state = *robot.view.state;
+    const RouteNode& own = drive.route.nodes[drive.passed];
+    const bool bOnNode =
+        state.bPoseKnown ? std::hypot(state.x - own.x, state.y - own.y) <= own.allowedDeviation : !state.bDriving;
+    return bOnNode ? std::nullopt : std::optional(drive.GetNextNodeID());
+}
+
+} // namespace
+
+std::vector<OutboxEntry> PlanEngine::Impl::GetUnacknowledged() const
+{
+    std::vector<OutboxEntry> entries;
+    std::ranges::copy_if(
+        _engine.outbox.GetUnacknowledged(),
+        std::back_inserter(entries),
+        [this](const OutboxEntry& entry) { return !_engine.backlog.IsHeldBack(entry); });
+    return entries;
+}
+
+OutboxSummary PlanEngine::Impl::GetOutboxSummary() const
+{
+    const std::deque<OutboxEntry>& outbox = _engine.outbox.GetUnacknowledged();
+    const auto oldest = std::ranges::find_if_not(outbox, [this](const OutboxEntry& entry) {
+        return _engine.backlog.IsHeldBack(entry);
+    });
+    OutboxSummary summary{outbox.size() - _engine.backlog.CountHeldBack(), std::nullopt};
+    if (oldest != outbox.end())
+    {
+        summary.oldest = oldest->time;
+    }
+    return summary;
+}
+
+std::vector<RobotPose> PlanEngine::Impl::GetRobotPoses() const
+{
+    std::vector<RobotPose> poses;
+    for (const Robot& robot : _engine.fleet)
+    {
+        if (robot.view.state.has_value() && robot.view.state->bPoseKnown)
+        {
+            const StateChanged& state = *robot.view.state;
+            poses.push_back({robot.GetID(), state.x, state.y, state.theta, state.batteryPercent});
+        }
+    }
+    return poses;
+}
+
+std::vector<RobotDetail> PlanEngine::Impl::GetRobotDetails() const
+{
+    std::vector<RobotDetail> details;
+    for (const Robot& robot : _engine.fleet)
+    {
+        RobotDetail& made = details.emplace_back();
+        made.robotID = robot.GetID();
+        made.bHasDrive = robot.drive.has_value();
+        made.bHasJob = robot.job.GetOrNull() != nullptr;
+        if (robot.place.bPlaced && robot.place.node.has_value())
+        {
+            made.nodeID = _engine.site.GetNodes()[*robot.place.node].nodeID;
+            made.nextNodeID = FindNextNodeOrNull(robot, _engine.site);
+        }
+    }
+    return details;
+}
+
+std::vector<PlanSummary> PlanEngine::Impl::GetActivePlans() const
+{
+    const auto rank = [](const ActivePlan* planOrNull) {
+        const EPlanState state = planOrNull->record.progress.state;
+        return state == EPlanState::InProgress ? 0 : (state == EPlanState::Paused ? 1 : 2);
+    };
+    std::vector<const ActivePlan*> ordered;
+    ordered.reserve(_engine.plans.GetActive().size());
+    for (const auto& [planID, plan] : _engine.plans.GetActive())
+    {
+        ordered.push_back(plan.get());
+    }
+    std::ranges::sort(ordered, [&rank](const ActivePlan* leftOrNull, const ActivePlan* rightOrNull) {
+        return std::pair(rank(leftOrNull), leftOrNull->key) < std::pair(rank(rightOrNull), rightOrNull->key);
+    });
+    std::vector<PlanSummary> summaries;
+    summaries.reserve(ordered.size());
+    for (const ActivePlan* plan : ordered)
+    {
+        summaries.push_back(MakeSummary(plan->record));
+    }
+    return summaries;
+}
+
+std::optional<PlanSummary> PlanEngine::Impl::GetPlanOrNull(std::string_view planID) const
+{
+    const PlanRecord* recordOrNull = _engine.plans.FindRecordOrNull(planID);
+    return recordOrNull == nullptr ? std::nullopt : std::optional(MakeSummary(*recordOrNull));
+}
+
+std::vector<RobotStatus> PlanEngine::Impl::GetRobotStatuses() const
+{
+    return _status.GetRobotStatuses();
+}
+
+std::vector<WaitReason> PlanEngine::Impl::GetWaitReasons() const
+{
+    return _waits.GetWaitReasons();
+}
+
+std::optional<WaitReason> PlanEngine::Impl::GetWaitReasonOrNull(std::string_view planID) const
+{
+    return _waits.GetWaitReasonOrNull(planID);
+}
+
+std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const SetCarriers& command) const
+{
+    return _operator.GetRejectionReasonOrNull(command);
+}
+
+std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const ResolveJob& command) const
+{
+    return _operator.GetRejectionReasonOrNull(command);
+}
+
+std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const SkipStep& command) const
+{
+    return _operator.GetRejectionReasonOrNull(command);
+}
+
+const std::vector<Alarm>& PlanEngine::Impl::GetActiveAlarms() const noexcept
+{
+    return _engine.alarms.GetAlarms();
+}
+
+ETscState PlanEngine::Impl::GetTscState() const noexcept
+{
+    return _tsc.GetTscState();
+}
+
+} // namespace ACS::Planning
