@@ -137,10 +137,10 @@ int RunAcsd(int argc, const char* const* argv)
     app.add_option(
            "--set",
            options.overrides,
-           "override one key, for example --set mcs.url=ws://10.0.0.1:9001/acs/; may be repeated")
+           "override one key, for example --set mcs.url=ws://10.0.0.1:9001/acs/; may be repeated, each time with one KEY=VALUE")
         ->type_name("KEY=VALUE")
         ->take_all()
-        ->allow_extra_args(false);
+        ->expected(1);
     app.add_option(
            "--trace",
            options.traceFolder,

@@ -36,7 +36,9 @@ class BadInput(ScenarioCase):
     def test_help_and_version_work_in_every_program(self):
         for name in ("acsd", "vda-sim", "openstream-sim", "mcs-sim"):
             with self.subTest(name):
-                self.assertEqual(self.run_program(name, "--help").returncode, 0)
+                usage = self.run_program(name, "--help")
+                self.assertEqual(usage.returncode, 0)
+                self.assertNotRegex(usage.stdout, "(?m)^ *--[a-z-]+ .*[A-Z] \\.\\.\\.")  # each value needs its own option
                 version = self.run_program(name, "--version")
                 self.assertEqual(version.returncode, 0)
                 self.assertTrue(version.stdout.startswith(name + " "), version.stdout)

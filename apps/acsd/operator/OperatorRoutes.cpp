@@ -133,6 +133,26 @@ HttpResponse RefuseRobot(const std::string& robotID)
     return Refuse(HTTP_NOT_FOUND, fmt::format("There is no robot {}; /status lists the robots.", robotID));
 }
 
+/// What the robot completes before it is out of service.
+std::string DescribeMaintenance(const Planning::PlanEngine& engine, const Planning::RobotStatus& robot)
+{
+    if (robot.planID.has_value())
+    {
+        return fmt::format("{} is taken out of service when plan {} has ended.", robot.robotID, *robot.planID);
+    }
+    const std::vector<Planning::RobotDetail> details = engine.GetRobotDetails();
+    const auto found = std::ranges::find(details, robot.robotID, &Planning::RobotDetail::robotID);
+    if (found != details.end() && found->bHasJob)
+    {
+        return fmt::format("{} is taken out of service. It completes the job of its ended plan.", robot.robotID);
+    }
+    if (found != details.end() && found->bHasDrive)
+    {
+        return fmt::format("{} is taken out of service when it has completed its drive.", robot.robotID);
+    }
+    return robot.robotID + " is taken out of service.";
+}
+
 HttpResponse Maintain(
     const Planning::PlanEngine& engine,
     const OperatorAccess& access,
@@ -144,12 +164,10 @@ HttpResponse Maintain(
     {
         return RefuseRobot(robotID);
     }
-    std::string message = robotID + (bOn ? " is taken out of service" : " is put back into service");
-    message += bOn && robot->planID.has_value() ? fmt::format(" when plan {} has ended.", *robot->planID) : ".";
     return Submit(
         access,
         Planning::SetMaintenance{robotID, bOn, 0},
-        std::move(message),
+        bOn ? DescribeMaintenance(engine, *robot) : robotID + " is put back into service.",
         bOn ? EUnstored::Accepted : EUnstored::Refused);
 }
 

@@ -210,6 +210,24 @@ TEST_CASE("POST /robots/ID/maintenance/on and off; /status shows it and why a pl
     CHECK(HasText(user.Post("/robots/LR01/maintenance/maybe"), "404 "));
 }
 
+TEST_CASE("POST /robots/ID/maintenance/on states what the robot completes first")
+{
+    Operator user;
+    user.world.Submit(MakeLogisticsPlan("P1"));
+    REQUIRE(Testing::TryRunUntil(user.world, "P1", "Plan InProgress"));
+    CHECK(
+        HasText(user.Post("/robots/LR01/maintenance/on"), "\"LR01 is taken out of service when plan P1 has ended.\""));
+    user.Post("/robots/LR01/maintenance/off");
+    REQUIRE(Testing::TryRunUntil(user.world, "P1", "Plan Completed"));
+    REQUIRE(user.world.engine->GetRobotDetails().front().bHasDrive); // to its parking position
+    CHECK(HasText(
+        user.Post("/robots/LR01/maintenance/on"),
+        "\"LR01 is taken out of service when it has completed its drive.\""));
+    REQUIRE(user.world.TryRun());
+    CHECK(HasText(user.GetStatus(), R"("robotId":"LR01","type":"LR","status":"Stopped")"));
+    CHECK(HasText(user.Post("/robots/LR01/maintenance/on"), "\"LR01 is taken out of service.\""));
+}
+
 TEST_CASE("POST /robots/ID/carriers corrects the record of the ports, in their order")
 {
     Operator user;
