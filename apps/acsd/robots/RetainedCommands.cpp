@@ -29,7 +29,19 @@ RetainedCommands::RetainedCommands(
 
 void RetainedCommands::OnLinkUp()
 {
-    for (const std::string& topic : _topics)
+    _ended.clear();
+    Subscribe(_topics);
+}
+
+/// Not to the others: their subscriptions are in effect, or the broker refuses them.
+void RetainedCommands::Renew()
+{
+    Subscribe(std::exchange(_ended, {}));
+}
+
+void RetainedCommands::Subscribe(const std::vector<std::string>& topics)
+{
+    for (const std::string& topic : topics)
     {
         _dependencies.mqtt.Subscribe({{topic, QOS}});
     }
@@ -38,6 +50,7 @@ void RetainedCommands::OnLinkUp()
 /// A broker that refuses these subscriptions must not prevent the next connection, as those made before it would.
 void RetainedCommands::OnLinkDown()
 {
+    _ended.clear();
     for (const std::string& topic : _topics)
     {
         _dependencies.mqtt.Unsubscribe(topic);
@@ -54,8 +67,9 @@ bool RetainedCommands::TryHandle(const VDA5050::MqttMessage& message)
     {
         Remove(message);
     }
-    else
+    else if (std::ranges::find(_ended, message.topic) == _ended.end())
     {
+        _ended.push_back(message.topic);
         _dependencies.mqtt.Unsubscribe(message.topic);
     }
     return true;

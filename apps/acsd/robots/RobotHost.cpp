@@ -23,6 +23,9 @@ namespace ACS::Acsd
 namespace
 {
 
+/// Of the host itself, not of its adapter.
+constexpr Planning::AdapterTimerID RENEWAL_TIMER = 1'000;
+
 OpenStreamAsio::OpenStreamClientOptions MakeArmOptions(const Apps::Url& arm)
 {
     OpenStreamAsio::OpenStreamClientOptions options;
@@ -70,6 +73,12 @@ struct RobotHost::Impl
         adapter = std::move(made.adapter);
         armAdapterOrNull = made.armOrNull;
         timers.emplace(surroundings.executor, [this](Planning::AdapterTimerID timer) {
+            if (timer == RENEWAL_TIMER)
+            {
+                retained.Renew();
+                timers->Start(RENEWAL_TIMER, RetainedCommands::RENEWAL);
+                return;
+            }
             Call([this, timer](Core::Now now, Planning::AdapterActions& out) { adapter->OnTimer(timer, now, out); });
         });
     }
@@ -229,12 +238,14 @@ void RobotHost::Handle(const Planning::RobotCommand& command)
 void RobotHost::OnLinkUp()
 {
     _impl->retained.OnLinkUp();
+    _impl->timers->Start(RENEWAL_TIMER, RetainedCommands::RENEWAL);
     _impl->Call([this](Core::Now now, Planning::AdapterActions& out) { _impl->adapter->OnLinkUp(now, out); });
 }
 
 void RobotHost::OnLinkDown()
 {
     _impl->retained.OnLinkDown();
+    _impl->timers->Cancel(RENEWAL_TIMER);
     _impl->Call([this](Core::Now now, Planning::AdapterActions& out) { _impl->adapter->OnLinkDown(now, out); });
 }
 

@@ -102,6 +102,27 @@ TEST_CASE_METHOD(
     CHECK(mqtt.filters.size() == 2);
 }
 
+TEST_CASE_METHOD(RetainedCommandsFixture, "A renewal subscribes again where the subscription has ended, and only there")
+{
+    retained.OnLinkUp();
+    retained.Renew();
+    CHECK(
+        mqtt.filters
+        == std::vector<std::string>{ORDER, INSTANT_ACTIONS}); // none again, which a broker may have refused
+    CHECK(retained.TryHandle({ORDER, R"({"orderId":"new"})", 2, false}));
+    CHECK(mqtt.filters == std::vector<std::string>{INSTANT_ACTIONS});
+    retained.Renew();
+    CHECK(mqtt.filters == std::vector<std::string>{INSTANT_ACTIONS, ORDER});
+    retained.Renew();
+    CHECK(mqtt.filters.size() == 2);
+    CHECK(retained.TryHandle({ORDER, R"({"orderId":"left"})", 1, true}));
+    CHECK(HasRemoved(1));
+    CHECK(retained.TryHandle({ORDER, "", 1, false}));
+    retained.OnLinkDown();
+    retained.Renew();
+    CHECK(mqtt.filters.empty());
+}
+
 TEST_CASE_METHOD(RetainedCommandsFixture, "Messages of other topics and of other vehicles are left alone")
 {
     CHECK_FALSE(retained.TryHandle({"uagv/v2/ACS/LR01/connection", "{}", 1, true}));
