@@ -28,6 +28,40 @@ tl::unexpected<Core::Error> Refuse(std::string path, std::string expected, std::
     return Core::Fail(EPlanningError::InvalidSite, std::move(path), std::move(expected), std::move(found));
 }
 
+/// Each type has one rule at most, and a vehicle performs all actions of a rule each time that it is there.
+template <typename TRule>
+Core::Result<void> CheckRules(const std::vector<TRule>& rules)
+{
+    std::unordered_set<std::string_view> vehicleTypeIDs;
+    for (std::size_t i = 0; i < rules.size(); ++i)
+    {
+        if (!vehicleTypeIDs.insert(rules[i].vehicleTypeID).second)
+        {
+            return Refuse(
+                fmt::format("[{}].vehicleTypeId", i),
+                "a vehicle type that no other entry of this list has",
+                rules[i].vehicleTypeID);
+        }
+        if (rules[i].actions.size() > MOST_ACTIONS)
+        {
+            return Refuse(
+                fmt::format("[{}].actions", i),
+                fmt::format("at most {} actions", MOST_ACTIONS),
+                fmt::format("{}", rules[i].actions.size()));
+        }
+    }
+    return {};
+}
+
+Core::Result<void> PutPath(Core::Result<void> checked, const std::string& path)
+{
+    if (!checked.has_value())
+    {
+        checked.error().path.insert(0, path);
+    }
+    return checked;
+}
+
 /// Nodes within this distance are at the same position.
 constexpr double SAME_PLACE = 0.01;
 
@@ -110,6 +144,12 @@ Core::Result<void> SiteMap::IndexNodes()
         {
             return Refuse(fmt::format("nodes[{}].nodeId", i), "an id that no other node has", _nodes[i].nodeID);
         }
+        Core::Result<void> checked =
+            PutPath(CheckRules(_nodes[i].rules), fmt::format("nodes[{}].vehicleTypeNodeProperties", i));
+        if (!checked.has_value())
+        {
+            return checked;
+        }
     }
     return {};
 }
@@ -132,15 +172,14 @@ Core::Result<void> SiteMap::CheckEdges() const
         {
             return Refuse(fmt::format("edges[{}].endNodeId", i), "the id of another node", edge.endNodeID);
         }
-        for (std::size_t rule = 0; rule < edge.rules.size(); ++rule)
+        Core::Result<void> checked = CheckRules(edge.rules);
+        for (std::size_t rule = 0; checked.has_value() && rule < edge.rules.size(); ++rule)
         {
-            Core::Result<void> checked = CheckRule(edge, edge.rules[rule]);
-            if (!checked.has_value())
-            {
-                checked.error().path =
-                    fmt::format("edges[{}].vehicleTypeEdgeProperties[{}].{}", i, rule, checked.error().path);
-                return checked;
-            }
+            checked = PutPath(CheckRule(edge, edge.rules[rule]), fmt::format("[{}].", rule));
+        }
+        if (!checked.has_value())
+        {
+            return PutPath(std::move(checked), fmt::format("edges[{}].vehicleTypeEdgeProperties", i));
         }
     }
     return {};
@@ -151,6 +190,17 @@ Core::Result<void> SiteMap::CheckRule(const SiteEdge& edge, const SiteEdgeRule& 
     if (rule.maxSpeed.has_value() && !(*rule.maxSpeed > 0))
     {
         return Refuse("maxSpeed", "a speed greater than 0", fmt::format("{}", *rule.maxSpeed));
+    }
+    if (rule.minHeight.has_value() && rule.maxHeight.has_value() && *rule.minHeight > *rule.maxHeight)
+    {
+        return Refuse(
+            "minHeight",
+            fmt::format("at most maxHeight, {}", *rule.maxHeight),
+            fmt::format("{}", *rule.minHeight));
+    }
+    if (!rule.orientationType.empty() && rule.orientationType != "GLOBAL" && rule.orientationType != "TANGENTIAL")
+    {
+        return Refuse("orientationType", "GLOBAL or TANGENTIAL", rule.orientationType);
     }
     if (const std::string fault =
             rule.trajectory.has_value() ? FindTrajectoryFault(*rule.trajectory, edge, *this) : std::string();

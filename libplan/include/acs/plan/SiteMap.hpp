@@ -16,6 +16,9 @@
 namespace ACS::Planning
 {
 
+/// Of one rule of a node or edge. A vehicle performs the required ones each time, so more of them are an error of the map.
+inline constexpr std::size_t MOST_ACTIONS = 100;
+
 /// How a vehicle type uses a node. A type without a rule may not use the node.
 struct SiteNodeRule
 {
@@ -111,7 +114,8 @@ struct SiteStation
 inline constexpr double LARGEST_DEVIATION = 0.5;
 
 /// Nodes, directed edges and stations of a site. Always valid: ids are unique among nodes, among edges and among stations,
-/// every referenced node exists, and there is at least one node. Immutable; a copy is independent.
+/// every referenced node exists, there is at least one node, and no rule contradicts itself or another one of the same node or
+/// edge. Immutable; a copy is independent.
 class SiteMap
 {
     struct TextHash

@@ -271,6 +271,53 @@ TEST_CASE("LIF: an invalid file is refused with the place of the error")
     CHECK_FALSE(DecodeLIF("[]").has_value());
 }
 
+TEST_CASE("LIF: rules of a node or edge that contradict themselves or each other are errors with their place")
+{
+    struct Case
+    {
+        std::string from;
+        std::string to;
+        std::string path;
+        std::string expected;
+    };
+
+    const auto makeActions = [](std::size_t count) {
+        std::string list;
+        for (std::size_t i = 0; i < count; ++i)
+        {
+            list += (i == 0 ? "" : ", ");
+            list += R"({"actionType": "a", "blockingType": "NONE", "requirementType": "REQUIRED"})";
+        }
+        return R"("actions": [)" + list + "]";
+    };
+    const std::string speed = R"("maxSpeed": 1.2)";
+    const std::string theta = R"("theta": 1.5)";
+    const std::string twice = R"(}, {"vehicleTypeId": "cr"}, {"vehicleTypeId": "lr")";
+    const std::string nodeRules = "layouts[0].nodes[0].vehicleTypeNodeProperties";
+    const std::string edgeRules = "layouts[0].edges[0].vehicleTypeEdgeProperties";
+    const std::vector<Case> cases{
+        {theta, makeActions(101), RULE_OF_NODE + ".actions", "at most 100 actions"},
+        {speed, makeActions(101), RULE_OF_EDGE + ".actions", "at most 100 actions"},
+        {theta, theta + twice, nodeRules + "[2].vehicleTypeId", "a vehicle type that no other entry of this list has"},
+        {speed, speed + twice, edgeRules + "[2].vehicleTypeId", "a vehicle type that no other entry of this list has"},
+        {speed, R"("minHeight": 2.5, "maxHeight": 2)", RULE_OF_EDGE + ".minHeight", "at most maxHeight, 2"},
+        {R"("TANGENTIAL")", R"("tangential")", RULE_OF_EDGE + ".orientationType", "GLOBAL or TANGENTIAL"},
+    };
+    for (const Case& wrong : cases)
+    {
+        INFO(wrong.path);
+        const Core::Result<SiteMap> site = DecodeLIF(Replace(GetLIF(), wrong.from, wrong.to));
+        REQUIRE_FALSE(site.has_value());
+        CHECK(site.error().code == EPlanningError::InvalidSite);
+        CHECK(site.error().path == wrong.path);
+        CHECK(site.error().expected == wrong.expected);
+    }
+    CHECK(DecodeLIF(Replace(GetLIF(), theta, makeActions(100))).has_value());
+    CHECK(DecodeLIF(Replace(GetLIF(), speed, R"("minHeight": 2, "maxHeight": 2)")).has_value());
+    CHECK(DecodeLIF(Replace(GetLIF(), R"("TANGENTIAL")", R"("GLOBAL")")).has_value());
+    CHECK(DecodeLIF(Replace(GetLIF(), R"("orientationType": "TANGENTIAL",)", "")).has_value());
+}
+
 TEST_CASE("LIF: an error in the second layout names that layout, and a map without nodes is refused")
 {
     const std::string second =
