@@ -117,23 +117,67 @@ LoadPositions ReadLoadPositions(const ConfigSection& robot, const std::vector<Co
     return {ports, names};
 }
 
+/// SCHEME://REST without blanks: the vehicle knows which schemes it supports.
+bool IsDownloadLink(std::string_view text)
+{
+    constexpr std::string_view SEPARATOR = "://";
+    const std::size_t end = text.find(SEPARATOR);
+    const auto isSchemeLetter = [](char letter) {
+        return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') || (letter >= '0' && letter <= '9')
+            || letter == '+' || letter == '-' || letter == '.';
+    };
+    const auto isVisible = [](char letter) {
+        return letter > ' ' && letter <= '~';
+    };
+    return end != std::string_view::npos && end > 0 && text.size() > end + SEPARATOR.size()
+        && std::ranges::all_of(text.substr(0, end), isSchemeLetter) && std::ranges::all_of(text, isVisible);
+}
+
+NeededMap ReadMap(const ConfigSection& section, const std::string& mapID, const AcsdConfig& config)
+{
+    const ConfigSection table = section.GetSection(mapID);
+    NeededMap map{
+        mapID,
+        table.GetString("version"),
+        table.GetStringOrNull("download").value_or(std::string()),
+        table.GetStringOrNull("hash").value_or(std::string())};
+    if (map.version.empty())
+    {
+        table.AddError("version", "expected the mapVersion that the vehicle is to enable");
+    }
+    if (table.HasKey("download") && !IsDownloadLink(map.downloadLink))
+    {
+        table.AddError(
+            "download",
+            fmt::format("expected a URL such as http://HOST/FILE, found {}", Core::QuoteForError(map.downloadLink)));
+    }
+    if (table.HasKey("hash") && !table.HasKey("download"))
+    {
+        table.AddError("hash", "is of the download, which is not given; add download, or remove hash");
+    }
+    const bool bKnown =
+        !config.site.has_value() || std::ranges::count(config.site->GetNodes(), mapID, &Planning::SiteNode::mapID) > 0;
+    if (!bKnown)
+    {
+        section.AddError(mapID, "no node of site.map has this mapId; correct the name, or remove the table");
+    }
+    return map;
+}
+
 /// How the vehicle gets the maps of its nodes: a table by mapId.
-std::vector<NeededMap> ReadMaps(const ConfigSection& robot)
+std::vector<NeededMap> ReadMaps(const ConfigSection& robot, const RobotLinkConfig& link, AcsdConfig& config)
 {
     std::vector<NeededMap> maps;
     const ConfigSection section = robot.GetSection("maps");
     for (const std::string& mapID : section.GetNames())
     {
-        const ConfigSection map = section.GetSection(mapID);
-        maps.push_back(
-            {mapID,
-             map.GetString("version"),
-             map.GetStringOrNull("download").value_or(std::string()),
-             map.GetStringOrNull("hash").value_or(std::string())});
-        if (maps.back().version.empty())
-        {
-            map.AddError("version", "expected the mapVersion that the vehicle is to enable");
-        }
+        maps.push_back(ReadMap(section, mapID, config));
+    }
+    if (!maps.empty() && link.protocolVersion == "2.0.0")
+    {
+        config.warnings.push_back(fmt::format(
+            "robots.{}.maps: has no effect, because VDA5050 has maps since 2.1; remove it, or set protocol",
+            link.robotID));
     }
     return maps;
 }
@@ -204,7 +248,7 @@ void ReadRobot(const ConfigSection& section, const std::string& name, const std:
     link.serialNumber = section.GetString("serial");
     link.protocolVersion = section.GetWord("protocol", {"2.0.0", "2.1.0"}, "2.0.0");
     link.factsheet = ReadFactsheetOrNull(section, fileName);
-    link.maps = ReadMaps(section);
+    link.maps = ReadMaps(section, link, config);
     link.armOrNull = ReadArmOrNull(section, options.type == Planning::ERobotType::CR, config.robots);
     if (link.armOrNull.has_value())
     {

@@ -55,14 +55,52 @@ TEST_CASE("The topics of a robot's vehicle are named, also to the engine, for th
     CHECK(ReadSite({"robots.LR01.serial=a/b"}).robots.back().topicPrefix.empty());
 }
 
-TEST_CASE("The maps of a robot need a version, and may have a link and a hash")
+TEST_CASE("The maps of a robot are maps of the site with a version; link and hash are optional")
 {
-    const AcsdConfig config =
-        ReadSite({R"(robots.LR01.maps.hall.version="2")", R"(robots.LR01.maps.hall.download="http://files/hall.zip")"});
+    const std::string map = "robots.LR01.maps.floor-1";
+    const AcsdConfig config = ReadSite(
+        {"robots.LR01.protocol=2.1.0", map + R"(.version="2")", map + R"(.download="http://files/floor.zip")"});
     CHECK(config.errors.empty());
+    CHECK(config.warnings.empty());
     const auto robot = std::ranges::find(config.robots, "LR01", &RobotLinkConfig::robotID);
-    CHECK(robot->maps == std::vector<NeededMap>{{"hall", "2", "http://files/hall.zip", {}}});
-    CHECK(ReadSite({R"(robots.LR01.maps.hall.hash="1")"}).errors.size() == 1);
+    CHECK(robot->maps == std::vector<NeededMap>{{"floor-1", "2", "http://files/floor.zip", {}}});
+    for (const char* const link :
+         {"https://files.example:8443/a/floor.zip?v=2", "file:///maps/floor.zip", "s3://bucket/floor"})
+    {
+        INFO(link);
+        CHECK(ReadSite({map + R"(.version="2")", map + ".download=" + link, map + ".hash=9f86"}).errors.empty());
+    }
+}
+
+TEST_CASE("A map that the site does not have, an invalid link, or a hash without a link is an error")
+{
+    const std::string map = "robots.LR01.maps.floor-1";
+    const std::string version = map + R"(.version="2")";
+    std::vector<ConfigErrorRow> rows{
+        {{R"(robots.LR01.maps.hall.version="2")"}, "robots.LR01.maps.hall: no node of site.map has this mapId"},
+        {{version, map + ".hash=9f86"}, map + ".hash: is of the download, which is not given"},
+        {{map + ".download=http://files/floor.zip"}, map + ".version: "},
+    };
+    for (const char* const link :
+         {"floor.zip", "http://", "://files/floor.zip", "http//files", "http://fi les", "ht tp://f"})
+    {
+        rows.push_back(
+            {{version, map + ".download='" + link + "'"}, map + ".download: expected a URL such as http://HOST/FILE"});
+    }
+    rows.push_back(
+        {{version, map + ".download=''"}, map + ".download: expected a URL such as http://HOST/FILE, found \"\""});
+    CheckErrors(rows);
+}
+
+TEST_CASE("Maps of a vehicle of 2.0 are a warning, because that version has none")
+{
+    const std::string map = "robots.LR01.maps.floor-1";
+    const AcsdConfig config = ReadSite({map + R"(.version="2")", "robots.LR01.protocol=2.0.0"});
+    CHECK(config.errors.empty());
+    CHECK(
+        config.warnings
+        == std::vector<std::string>{
+            "robots.LR01.maps: has no effect, because VDA5050 has maps since 2.1; remove it, or set protocol"});
 }
 
 TEST_CASE("A factsheet_file is read without a header, and an unreadable one is an error with path and reason")
