@@ -31,7 +31,6 @@ void TscControl::SwitchTSC(const ControlTSC& command)
     else if (!command.bPause && !bAuto)
     {
         ChangeTSC(ETscState::Auto);
-        _transaction.RequestDispatch();
     }
     _transaction.Emit(ReplyCommand{command.replyToken, true, fmt::format("The TSC is {}.", GetText(_tscState))});
 }
@@ -41,6 +40,7 @@ void TscControl::ChangeTSC(ETscState state)
     assert(CanChange(_tscState, state));
     const ETscState from = std::exchange(_tscState, state);
     _transaction.Store(TscChanged{state});
+    _transaction.RequestDispatch();
     if (GetTscState() == state)
     {
         PublishTscState(from);

@@ -246,7 +246,9 @@ void PlanEngine::Impl::Dispatch()
     while (_engine.transaction.TryBeginDispatch())
     {
         // The start of a plan must be stored before the plan is executed.
-        if (_tsc.GetState() == ETscState::Auto && !_engine.backlog.IsFailing())
+        const bool bAuto = _tsc.GetState() == ETscState::Auto;
+        _work.GetAssignment().WithdrawOffers(bAuto ? EOffers::Unavailable : EOffers::All);
+        if (bAuto && !_engine.backlog.IsFailing())
         {
             HandOverPlans();
             AssignPlans();
@@ -285,11 +287,6 @@ void PlanEngine::Impl::HandOverPlans()
             continue;
         }
         ActivePlan& plan = *robot.planOrNull;
-        if (IsOffered(plan) && !robot.IsUsable())
-        {
-            _work.GetAssignment().Withdraw(plan);
-            continue;
-        }
         if (!robot.IsUnfit() || !_work.GetAssignment().CanHandOver(plan))
         {
             continue;

@@ -49,6 +49,18 @@ void PlanAssignment::Withdraw(ActivePlan& plan)
     _transaction.RequestDispatch();
 }
 
+void PlanAssignment::WithdrawOffers(EOffers offers)
+{
+    for (Robot& robot : _fleet)
+    {
+        const bool bOffered = robot.planOrNull != nullptr && !robot.drive.has_value() && IsOffered(*robot.planOrNull);
+        if (bOffered && (offers == EOffers::All || !robot.IsUsable()))
+        {
+            Withdraw(*robot.planOrNull);
+        }
+    }
+}
+
 bool PlanAssignment::CanHandOver(const ActivePlan& plan) const
 {
     return plan.robot.has_value() && plan.resolved.candidates.size() > 1 && !plan.bJobBegun

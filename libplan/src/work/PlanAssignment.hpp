@@ -2,8 +2,17 @@
 
 #include "transaction/EngineState.hpp"
 
+#include <cstdint>
+
 namespace ACS::Planning
 {
+
+/// Offered plans that return to the queue.
+enum class EOffers : std::uint8_t
+{
+    Unavailable, ///< Those of robots that cannot begin them.
+    All,         ///< Those that would begin although the TSC is not Auto, and keep it from being Paused.
+};
 
 /// Which robot has a plan: offers plans to robots, starts them, and takes them back.
 class PlanAssignment
@@ -23,6 +32,8 @@ public:
     void Start(ActivePlan& plan);
     /// The plan returns to the queue. Its robot has no drive.
     void Withdraw(ActivePlan& plan);
+    /// Withdraws the offered plans whose robots have no drive.
+    void WithdrawOffers(EOffers offers);
     /// Another robot may take over the plan: it names no robot, none of its jobs was commanded or may be done, and no control is
     /// open.
     [[nodiscard]] bool CanHandOver(const ActivePlan& plan) const;

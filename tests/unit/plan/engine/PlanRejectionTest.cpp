@@ -201,6 +201,27 @@ TEST_CASE("A plan whose robot becomes unavailable before it has a drive is given
     CHECK(world.violations == Lines{});
 }
 
+TEST_CASE("While the TSC is not Auto, a plan whose robot waits for its first drive is in the queue again")
+{
+    PlanWorld world(1, true);
+    Plan control = MakeControlPlan("P2");
+    control.priority = 20;
+    BeginPlan(world, control, "Job 1 P2-cd InProgress");
+    world.Submit(MakeLogisticsPlan("P1")); // waits for the dock where CR01 works
+    REQUIRE(world.TryRun([&world] { return world.engine->GetRobotStatuses()[0].planID == "P1"; }));
+    world.SwitchTSC(true);
+    CHECK(world.engine->GetTscState() == ETscState::Pausing);
+    CHECK_FALSE(world.engine->GetRobotStatuses()[0].planID.has_value());
+    static_cast<void>(TryRunFor(world, 10min));
+    CHECK(world.engine->GetTscState() == ETscState::Paused);
+    CHECK(world.GetReportsOf("P1").empty());
+    world.SwitchTSC(false);
+    REQUIRE(world.TryRun());
+    CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
+    CHECK(std::ranges::count(world.GetReportsOf("P1"), "Plan InProgress") == 1);
+    CHECK(world.violations == Lines{});
+}
+
 TEST_CASE("A plan whose robot rejects its first drive is given to another robot, unless it names the robot")
 {
     PlanWorld world(1, true);
