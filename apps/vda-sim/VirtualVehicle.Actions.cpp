@@ -1,9 +1,9 @@
 #include "vda-sim/VirtualVehicle.hpp"
 
-#include "vda-sim/CutForLog.hpp"
 #include "vda-sim/OrderLimits.hpp"
 #include "vda-sim/VehicleFactsheet.hpp"
 #include "world/EWorldError.hpp"
+#include <acs/core/ShortText.hpp>
 #include <acs/vda5050/ActionMachine.hpp>
 
 #include <algorithm>
@@ -101,10 +101,10 @@ void VirtualVehicle::SetStatus(
     std::string result,
     Core::Now now)
 {
-    _logger.Debug("action", {{"actionId", CutForLog(actionID)}, {"status", VDA5050::GetStatusText(status)}});
+    _logger.Debug("action", {{"actionId", Core::ShortenText(actionID)}, {"status", VDA5050::GetStatusText(status)}});
     if (!_session.TrySetActionStatus(actionID, status, std::move(result), now, _sessionActions))
     {
-        _logger.Warning("the session rejected an action status", {{"actionId", CutForLog(actionID)}});
+        _logger.Warning("the session rejected an action status", {{"actionId", Core::ShortenText(actionID)}});
     }
 }
 
@@ -135,7 +135,10 @@ void VirtualVehicle::LogUnlisted(const std::string& actionID, Core::Now now)
                 keys += (keys.empty() ? "" : ", ") + reference.referenceValue;
             }
         }
-        LogWarning(now, error.errorDescription, {{"actionId", CutForLog(actionID)}, {"parameters", CutForLog(keys)}});
+        LogWarning(
+            now,
+            error.errorDescription,
+            {{"actionId", Core::ShortenText(actionID)}, {"parameters", Core::ShortenText(keys)}});
     }
 }
 
@@ -160,7 +163,7 @@ void VirtualVehicle::EndActions(Core::Now now, VirtualActions& out)
 
 void VirtualVehicle::LogFailure(const ActionOutcome& outcome, Core::Now now)
 {
-    LogWarning(now, "action failed", {{"actionId", CutForLog(outcome.actionID)}, {"reason", outcome.result}});
+    LogWarning(now, "action failed", {{"actionId", Core::ShortenText(outcome.actionID)}, {"reason", outcome.result}});
 }
 
 void VirtualVehicle::ReportLoads(Core::Now now)

@@ -1,10 +1,10 @@
 #include "vda-sim/VirtualVehicle.hpp"
 
-#include "vda-sim/CutForLog.hpp"
 #include "vda-sim/OrderLimits.hpp"
 #include "vda-sim/ProfileRules.hpp"
 #include "vda-sim/VehicleFactsheet.hpp"
 #include <acs/core/Overloaded.hpp>
+#include <acs/core/ShortText.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -368,11 +368,11 @@ void VirtualVehicle::CarryOut(VDA5050::VehicleAction& action, Core::Now now, Vir
             [&](const VDA5050::OrderTaken& taken) {
                 _orderErrors.clear();
                 _session.OnErrors(MakeErrors(), now, _sessionActions);
-                _logger.Info(taken.bUpdate ? "order update" : "order", {{"orderId", CutForLog(taken.orderID)}});
+                _logger.Info(taken.bUpdate ? "order update" : "order", {{"orderId", Core::ShortenText(taken.orderID)}});
             },
             [&](const VDA5050::OrderRefused& refused) { LogRefusal(refused, now); },
             [&](const VDA5050::OrderCompleted& completed) {
-                _logger.Info("order completed", {{"orderId", CutForLog(completed.orderID)}});
+                _logger.Info("order completed", {{"orderId", Core::ShortenText(completed.orderID)}});
             },
             [&](const VDA5050::OrderCleared& cleared) {
                 _leg.reset();
@@ -381,7 +381,7 @@ void VirtualVehicle::CarryOut(VDA5050::VehicleAction& action, Core::Now now, Vir
                 {
                     _motion.Abandon();
                 }
-                _logger.Info("order cancelled", {{"orderId", CutForLog(cleared.orderID)}});
+                _logger.Info("order cancelled", {{"orderId", Core::ShortenText(cleared.orderID)}});
             },
             [&](const VDA5050::MessageIgnored& ignored) {
                 LogIgnored(ignored, now);
@@ -394,15 +394,15 @@ void VirtualVehicle::LogRefusal(const VDA5050::OrderRefused& refused, Core::Now 
     LogWarning(
         now,
         "order refused",
-        {{"orderId", CutForLog(refused.orderID)},
-         {"error", CutForLog(refused.errorType)},
-         {"reason", CutForLog(refused.reason)}});
+        {{"orderId", Core::ShortenText(refused.orderID)},
+         {"error", Core::ShortenText(refused.errorType)},
+         {"reason", Core::ShortenText(refused.reason)}});
 }
 
 void VirtualVehicle::LogIgnored(const VDA5050::MessageIgnored& ignored, Core::Now now)
 {
     const std::string reason = Core::Describe(ignored.error);
-    LogWarning(now, "message ignored", {{"reason", CutForLog(reason)}});
+    LogWarning(now, "message ignored", {{"reason", Core::ShortenText(reason)}});
 }
 
 void VirtualVehicle::LogOverflow(std::size_t lost, Core::Now now)

@@ -1,6 +1,7 @@
 #include "traffic/PlaceTracker.hpp"
 
 #include "robot/NodesAhead.hpp"
+#include <acs/core/ShortText.hpp>
 
 #include <fmt/format.h>
 
@@ -140,7 +141,7 @@ void PlaceTracker::OnPositionLost(Robot& robot)
             ? "Robot position unknown: the robot reports no node. Move it to a free node of the map."
             : fmt::format(
                 "Robot is on node {}, which is not on the map. Move the robot to a free node, or correct the map.",
-                nodeID)));
+                Core::ShortenText(nodeID))));
 }
 
 std::optional<std::size_t> PlaceTracker::GetHeadingOrNull(const Robot& robot, std::span<const std::size_t> ahead)

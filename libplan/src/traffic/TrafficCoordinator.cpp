@@ -1,6 +1,7 @@
 #include "traffic/TrafficCoordinator.hpp"
 
 #include "robot/NodesAhead.hpp"
+#include <acs/core/ShortText.hpp>
 #include <acs/core/Uuid.hpp>
 
 #include <fmt/format.h>
@@ -395,7 +396,9 @@ void TrafficCoordinator::VerifyRoute(Robot& robot)
     {
         _transaction.RaiseAlarm(PlaceTracker::MakePlaceAlarm(
             robot,
-            fmt::format("Robot reports node {}, which is not on its route. Check where the robot is.", nodeID)));
+            fmt::format(
+                "Robot reports node {}, which is not on its route. Check where the robot is.",
+                Core::ShortenText(nodeID))));
     }
     else
     {

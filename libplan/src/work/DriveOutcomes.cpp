@@ -1,5 +1,7 @@
 #include "work/DriveOutcomes.hpp"
 
+#include <acs/core/ShortText.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -119,7 +121,9 @@ void DriveOutcomes::OnNodePassed(Robot& robot, const NodePassed& event)
     const auto routeIndex = static_cast<std::size_t>(found - nodes.begin());
     if (found == nodes.end())
     {
-        _transaction.Note(robot, fmt::format("reported node {}, which is not ahead on its route", event.nodeID));
+        _transaction.Note(
+            robot,
+            fmt::format("reported node {}, which is not ahead on its route", Core::ShortenText(event.nodeID)));
         return;
     }
     robot.drive->bTaken = true;

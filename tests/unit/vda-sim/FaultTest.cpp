@@ -1,6 +1,5 @@
 #include "Catch.hpp"
 #include "SeededRandom.hpp"
-#include "vda-sim/CutForLog.hpp"
 #include "vda-sim/FaultCommand.hpp"
 #include "vda-sim/MessageGate.hpp"
 #include "vda-sim/VehicleRandom.hpp"
@@ -412,19 +411,6 @@ TEST_CASE("A fault that ends as it begins leaves the others alone")
     CHECK(board.CountFaults() == 1);
     board.OnTime(START + 2s, changes);
     CHECK(TakeTexts(changes) == Texts{"+lost"});
-}
-
-TEST_CASE("A peer's text in the log is short and consists of whole characters")
-{
-    CHECK(VdaSim::CutForLog("short") == "short");
-    CHECK(VdaSim::CutForLog(std::string(300, 'x')).size() == 200);
-    CHECK(
-        VdaSim::CutForLog(
-            std::string(199, 'x')
-            + "\xC3\xBC"
-              "y")
-            .size()
-        == 199);
 }
 
 TEST_CASE("A silent vehicle publishes only its connection, or is silent on one topic, and still receives")

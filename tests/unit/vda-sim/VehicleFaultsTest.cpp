@@ -1,6 +1,7 @@
 #include "Catch.hpp"
 #include "vda-sim/VehicleFactsheet.hpp"
 #include "VehicleDriver.hpp"
+#include <acs/core/ShortText.hpp>
 
 #include <algorithm>
 #include <optional>
@@ -143,7 +144,7 @@ TEST_CASE("Of many bad messages the first ones are logged, each in a short line"
         for (const auto& [key, value] : line.fields)
         {
             CAPTURE(line.message, key);
-            CHECK(value.size() <= 200);
+            CHECK(value.size() <= Core::MOST_SHOWN + 3);
         }
     }
 }

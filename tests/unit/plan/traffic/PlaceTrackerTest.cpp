@@ -55,6 +55,19 @@ TEST_CASE("PlaceTracker: an unknown node is an alarm of a robot that had a posit
     CHECK(parts.places.GetTraffic().GetHolderOrNull(parts.FindNode("D-A01.CP01")) == 0U);
 }
 
+TEST_CASE("PlaceTracker: a very long unknown node is shortened in the alarm")
+{
+    EngineParts parts;
+    parts.PutOn(parts.lr, "D-A01.CP01");
+    parts.Discard();
+    parts.lr.view.state->lastNodeID = std::string(10'000, 'n');
+    parts.places.Place(parts.lr);
+    const std::vector<AlarmSet> alarms = parts.Collect().ListChanges<AlarmSet>();
+    REQUIRE(alarms.size() == 1);
+    CHECK(alarms.front().alarm.message.find(std::string(200, 'n') + "...") != std::string::npos);
+    CHECK(alarms.front().alarm.message.size() < 400);
+}
+
 TEST_CASE("PlaceTracker: a robot that forgets its node keeps it while it is on the node or on an edge of it")
 {
     EngineParts parts;

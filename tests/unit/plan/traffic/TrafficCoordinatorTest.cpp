@@ -110,6 +110,13 @@ TEST_CASE(
     CHECK(report("").ListSetAlarms().empty()); // it does not know
     CHECK(report("D-A02.CP01").ListSetAlarms() == std::vector<std::string>{"ACS-1003"});
     CHECK(report("D-A02.CP01").ListSetAlarms().empty()); // is set already
+    SECTION("it reports a very long one")
+    {
+        CHECK(report("L02").ListClearedAlarms() == std::vector<std::string>{"ACS-1003"});
+        const std::vector<AlarmSet> alarms = report(std::string(10'000, 'n')).ListChanges<AlarmSet>();
+        REQUIRE(alarms.size() == 1);
+        CHECK(alarms.front().alarm.message.size() < 400);
+    }
     SECTION("it is back")
     {
         CHECK(report("L02").ListClearedAlarms() == std::vector<std::string>{"ACS-1003"});

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace ACS::Core
+{
+
+/// Bytes of a text that a peer sent in a log line or an alarm.
+inline constexpr std::size_t MOST_SHOWN = 200;
+
+/// The text, at most MOST_SHOWN bytes of it: whole UTF-8 characters, followed by "..." where the rest is left out.
+[[nodiscard]] inline std::string ShortenText(std::string_view text)
+{
+    constexpr unsigned CONTINUATION_MASK = 0xC0;
+    constexpr unsigned CONTINUATION = 0x80;
+    if (text.size() <= MOST_SHOWN)
+    {
+        return std::string(text);
+    }
+    std::size_t size = MOST_SHOWN;
+    while (size > 0 && (static_cast<unsigned char>(text[size]) & CONTINUATION_MASK) == CONTINUATION)
+    {
+        --size;
+    }
+    return std::string(text.substr(0, size)) + "...";
+}
+
+} // namespace ACS::Core
