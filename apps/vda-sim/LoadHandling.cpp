@@ -110,6 +110,20 @@ Core::Result<bool> ReadParameter(std::string_view key, std::string_view value, L
     return true;
 }
 
+/// A key that changes pick or drop; empty: none does.
+std::string FindChangedKey(const LoadHandling& handling)
+{
+    if (handling.pickType != VDA5050::ActionTypes::PICK)
+    {
+        return std::string(VDA5050::ActionTypes::PICK);
+    }
+    if (handling.dropType != VDA5050::ActionTypes::DROP)
+    {
+        return std::string(VDA5050::ActionTypes::DROP);
+    }
+    return handling.parameters.empty() ? std::string() : handling.parameters.begin()->first;
+}
+
 } // namespace
 
 std::string_view LoadHandling::GetParameterName(std::string_view key) const
@@ -171,6 +185,14 @@ Core::Result<bool> TryReadHandlingKey(std::string_view key, std::string_view val
 Core::Result<void> CheckHandling(EVehicleType type, const LoadHandling& handling)
 {
     const std::vector<LoadPosition> positions = GetLoadPositions(type, handling);
+    const std::string unused = positions.empty() ? FindChangedKey(handling) : std::string();
+    if (!unused.empty())
+    {
+        return Core::Fail(
+            Core::ECoreError::UnknownWord,
+            unused,
+            "ports=N too, because the vehicle has no load positions and neither picks nor drops");
+    }
     std::set<std::string_view> names;
     for (const LoadPosition& position : positions)
     {

@@ -3,6 +3,7 @@
 #include "common/config/DurationText.hpp"
 #include "common/config/TextFile.hpp"
 #include "common/faults/FaultOptions.hpp"
+#include "vda-sim/VehicleFactsheet.hpp"
 #include <acs/core/RobotID.hpp>
 #include <acs/plan/LifReader.hpp>
 #include <acs/vda5050/PredefinedActions.hpp>
@@ -125,6 +126,40 @@ std::string ReadControlTopic(const std::string& text, std::string& topic)
         return fmt::format("expected a topic without + and #, found {}", Core::QuoteForError(text));
     }
     topic = text;
+    return {};
+}
+
+/// Whether the vehicle has the action; pick and drop also under names of its own.
+bool HasAction(const VehicleSpec& vehicle, std::string_view actionType, const VdaSimOptions& options)
+{
+    LoadHandling handling;
+    handling.ports = vehicle.handling.ports;
+    VDA5050::FactsheetMessage factsheet =
+        MakeFactsheet(vehicle.type, MotionLimits{}, vehicle.version.value_or(options.version), handling);
+    const VehicleProfile& profile = GetProfile(vehicle.profile.value_or(options.profile));
+    if (profile.adaptOrNull != nullptr)
+    {
+        profile.adaptOrNull(factsheet);
+    }
+    return std::ranges::count(factsheet.protocolFeatures.agvActions, actionType, &VDA5050::AgvAction::actionType) > 0;
+}
+
+/// A duration of an action that no vehicle has would have no effect.
+std::string CheckActionTimes(const VdaSimOptions& options)
+{
+    for (const auto& [actionType, seconds] : options.actionSeconds)
+    {
+        const bool bKnown =
+            std::ranges::any_of(options.vehicles, [&actionType = actionType, &options](const auto& vehicle) {
+                return HasAction(vehicle, actionType, options);
+            });
+        if (!bKnown)
+        {
+            return fmt::format(
+                "--action-time {}: no vehicle has this action; change type, ports or profile of one, or remove the option",
+                actionType);
+        }
+    }
     return {};
 }
 
@@ -344,6 +379,7 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
     options.controlTopic = bNoControl ? std::string() : options.controlTopic;
     std::string error = CheckBrokerOptions(options.link, options.broker.scheme);
     error = error.empty() ? AddVehicles(row, options.vehicles) : error;
+    error = error.empty() ? CheckActionTimes(options) : error;
     error = error.empty() ? CheckWorld(options) : error;
     error = error.empty() ? CheckFaults(options.faults, options.vehicles) : error;
     if (!error.empty())

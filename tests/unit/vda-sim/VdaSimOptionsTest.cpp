@@ -97,6 +97,10 @@ TEST_CASE("An invalid vehicle is refused with what is expected")
           "A,lhd=one two",
           "A,lhd=one:TEXT",
           "A,triggerType=one",
+          "A,type=CR,pick=grab",
+          "A,type=CR,drop=put",
+          "A,type=CR,lhd=arm",
+          "A,ports=0,side=",
           "A,,"})
     {
         CAPTURE(text);
@@ -113,6 +117,9 @@ TEST_CASE("An error in a vehicle's keys names the vehicle")
     };
     CHECK(describe("LR07,ports=100") == "LR07: ports: expected a number from 0 to 99, found \"100\"");
     CHECK_THAT(describe("LR07,load=CP05:front"), Catch::StartsWith("LR07: load: expected one of the 4 ports"));
+    CHECK(
+        describe("CR07,type=CR,pick=grab")
+        == "CR07: pick: expected ports=N too, because the vehicle has no load positions and neither picks nor drops");
     CHECK_THAT(describe("LR07,type=XR"), Catch::StartsWith("LR07: type: expected LR or CR"));
     CHECK_THAT(describe("LR07,speed=3"), Catch::StartsWith("LR07: expected type=LR|CR"));
 }
@@ -184,7 +191,7 @@ TEST_CASE("The command line counts vehicles, and takes faults, their files, acti
         "--seed",
         "42",
         "--action-time",
-        "pick=250ms",
+        "startCharging=250ms",
         "--no-control"};
     // C2* names no vehicle of C01 to C03.
     CHECK(ReadOptionsFrom(arguments).exitCode == 2);
@@ -198,7 +205,7 @@ TEST_CASE("The command line counts vehicles, and takes faults, their files, acti
     CHECK(good.options.faults[0].fault.percent == 5.0);
     CHECK(good.options.seed == 42);
     CHECK(good.options.controlTopic.empty());
-    CHECK(good.options.actionSeconds.at("pick") == 0.25);
+    CHECK(good.options.actionSeconds.at("startCharging") == 0.25);
 }
 
 TEST_CASE("A vehicle has its own profile, else that of the command line, else the standard one")
@@ -278,6 +285,19 @@ TEST_CASE("The command line has the settings of the broker: MQTT version, QoS pr
     CHECK(VdaSim::CheckBrokerOptions(half, Apps::EUrlScheme::Mqtts).empty());
 }
 
+TEST_CASE("An action time is accepted if one of the vehicles has the action, also under a name of its own")
+{
+    for (const std::vector<const char*>& arguments : std::vector<std::vector<const char*>>{
+             {"--vehicle", "A,type=CR", "--vehicle", "B", "--action-time", "pick=1s"},
+             {"--vehicle", "A,type=CR,ports=1,pick=grab", "--action-time", "pick=1s"},
+             {"--vehicle", "A,pick=grab,profile=partial-factsheet", "--action-time", "pick=1s"},
+             {"--vehicle", "A,profile=standard", "--profile", "line-guided", "--action-time", "initPosition=1s"}})
+    {
+        CAPTURE(arguments);
+        CHECK_FALSE(ReadOptionsFrom(arguments).exitCode.has_value());
+    }
+}
+
 TEST_CASE("A contradictory command line ends the program with 2")
 {
     for (const std::vector<const char*>& arguments : std::vector<std::vector<const char*>>{
@@ -294,6 +314,11 @@ TEST_CASE("A contradictory command line ends the program with 2")
              {"--vehicle", "A", "--action-time", "=1s"},
              {"--vehicle", "A", "--action-time", "foo=1s"},
              {"--vehicle", "A", "--action-time", "cancelOrder=1s"},
+             {"--vehicle", "A,type=CR", "--action-time", "pick=1s"},
+             {"--vehicle", "A,ports=0", "--action-time", "drop=1s"},
+             {"--count", "2", "--type", "CR", "--action-time", "pick=1s"},
+             {"--vehicle", "A,profile=line-guided", "--action-time", "initPosition=1s"},
+             {"--vehicle", "A", "--profile", "partial-factsheet", "--action-time", "startCharging=1s"},
              {"--vehicle", "A", "--control-topic", "a/#"},
              {"--vehicle", "A", "--control-topic", "x", "--no-control"},
              {"--vehicle", "A", "--seed", "-1"},
