@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <mqtt_protocol.h>
 #include <mutex>
-#include <pthread.h>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -244,6 +243,10 @@ void MosquittoConnector::Abandon() noexcept
 void MosquittoConnector::OnFinished()
 {
     const std::shared_ptr<Task> task = std::exchange(_taskOrNull, nullptr);
+    {
+        // The thread uses the executor until it unlocks; the loop may be destroyed after this call.
+        const std::lock_guard lock(task->mutex);
+    }
     task->handler(task->outcome);
     _lateOrNull = std::exchange(task->outcome.clientOrNull, std::nullopt);
 }
