@@ -4,6 +4,7 @@ Used by scripts/demo.py and by the tests that need real processes. Every child i
 that happens; should this process be killed, the kernel ends the children (PR_SET_PDEATHSIG).
 """
 
+import contextlib
 import ctypes
 import os
 import pathlib
@@ -20,6 +21,7 @@ READY_SECONDS = 30.0
 STOP_SECONDS = 10.0
 BROKER_TRIES = 5
 PR_SET_PDEATHSIG = 1
+INTERRUPTIONS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 class LineError(Exception):
@@ -30,8 +32,19 @@ class LineError(Exception):
         self.program = program
 
 
-def _die_with_parent():
+def _prepare_child():
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, INTERRUPTIONS)
+
+
+@contextlib.contextmanager
+def _interruptions_held():
+    """An interruption inside takes effect after it."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, INTERRUPTIONS)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 class Program:
@@ -49,7 +62,7 @@ class Program:
         try:
             self.process = subprocess.Popen(
                 argv, cwd=folder, env=environment, stdin=stdin, stdout=subprocess.PIPE, stderr=self._log_file if log_descriptor is None else log_descriptor,
-                bufsize=bufsize, start_new_session=True, preexec_fn=_die_with_parent)
+                bufsize=bufsize, start_new_session=True, preexec_fn=_prepare_child)
         except OSError as error:
             raise LineError(f"{name} cannot be started: {error.strerror}: {argv[0]}") from error
         self._reader = threading.Thread(target=self._read, daemon=True)
@@ -146,8 +159,9 @@ class Line:
         self.folder = None
 
     def start(self, name, *arguments, binary=None, **options):
-        program = Program(name, [str(binary or self.bin_dir / name), *map(str, arguments)], self.folder, **options)
-        self.programs.append(program)
+        with _interruptions_held():  # else one between the two would leave the process behind
+            program = Program(name, [str(binary or self.bin_dir / name), *map(str, arguments)], self.folder, **options)
+            self.programs.append(program)
         return program
 
     def forget(self, program):
