@@ -69,7 +69,7 @@ class VehicleRestarts(TracedLineCase):
         """The state that accepts the job comes 50 ms after the state of the arrival; it is lost, as all that follow."""
         self.hold(f"LR01 silence topic=state node={DOCK} at=30ms")
         self.wait_for(lambda: self.read_moves() == PICKED, "the carrier is picked")
-        self.assertEqual(self.find_last_state()["actionStates"], [])
+        self.assertNotIn("pick", [action["actionType"] for action in self.find_last_state()["actionStates"]])
         self.restart_vehicle(f"node={DOCK}")
         self.assertEqual(self.read_actions()[-1], "drop")
 
