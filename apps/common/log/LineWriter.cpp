@@ -7,7 +7,6 @@
 #include <csignal>
 #include <mutex>
 #include <poll.h>
-#include <pthread.h>
 #include <thread>
 #include <unistd.h>
 #include <utility>

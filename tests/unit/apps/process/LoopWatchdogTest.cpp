@@ -6,7 +6,6 @@
 #include <boost/asio/post.hpp>
 
 #include <chrono>
-#include <thread>
 #include <vector>
 
 namespace Apps = ACS::Apps;
@@ -26,7 +25,12 @@ TEST_CASE("A blocked loop is reported with the duration, as soon as it continues
          },
          nullptr});
     watchdog.Start();
-    boost::asio::post(context, [] { std::this_thread::sleep_for(Apps::LoopWatchdog::PERIOD + 400ms); });
+    boost::asio::post(context, [] {
+        const auto end = std::chrono::steady_clock::now() + Apps::LoopWatchdog::PERIOD + 400ms;
+        while (std::chrono::steady_clock::now() < end)
+        {
+        }
+    });
     context.run_for(10s);
     REQUIRE(stalls.size() == 1);
     CHECK(stalls.front() >= 300ms);
