@@ -4,9 +4,11 @@
 #include "config/ArmConfig.hpp"
 #include "config/CorridorConfig.hpp"
 #include "config/EngineConfig.hpp"
+#include "config/FactsheetFile.hpp"
 #include "config/JobConfig.hpp"
 #include "config/MapRestriction.hpp"
 #include "config/PlaceConfig.hpp"
+#include "config/ReachCheck.hpp"
 #include "config/RemovedKeys.hpp"
 #include "config/RobotConfig.hpp"
 #include "config/StationConfig.hpp"
@@ -19,9 +21,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,6 +37,9 @@ namespace
 {
 
 using Apps::ConfigSection;
+
+/// Part of each order. VDA5050 and factsheets have no limit of it.
+constexpr std::size_t MOST_ZONE_SET_BYTES = 128;
 
 void ReportUnusedMembers(const std::string& map, AcsdConfig& config)
 {
@@ -181,11 +188,12 @@ void SetMaps(AcsdConfig& config)
     }
 }
 
-/// What a received factsheet would be reported for by an alarm.
+/// What a received factsheet would be reported for, by the log or by an alarm.
 void WarnOfFactsheets(AcsdConfig& config)
 {
     for (const RobotLinkConfig& robot : config.robots)
     {
+        std::ranges::move(CheckFactsheetFile(robot), std::back_inserter(config.warnings));
         VDA5050::MasterOptions options;
         options.address = {config.mqtt.interfaceName, robot.manufacturer, robot.serialNumber};
         options.factsheet = robot.factsheet;
@@ -205,6 +213,12 @@ void ReadSite(const ConfigSection& root, const std::string& fileName, AcsdConfig
     const ConfigSection section = root.GetSection("site");
     const std::string map = section.GetString("map");
     config.zoneSetID = section.GetString("zone_set", "");
+    if (config.zoneSetID.size() > MOST_ZONE_SET_BYTES)
+    {
+        section.AddError(
+            "zone_set",
+            fmt::format("expected at most {} bytes, found {}", MOST_ZONE_SET_BYTES, config.zoneSetID.size()));
+    }
     config.siteFile = ResolvePath(fileName, map);
     config.engine.places = ReadPlaces(section, "ports", "");
     const std::string zone = section.GetString("timezone", "system");
@@ -283,8 +297,10 @@ AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& ove
     {
         RejectActions(root, config);
     }
+    std::optional<Planning::SiteMap> open; // before the factsheets close edges
     if (reader.GetErrors().empty() && config.site.has_value())
     {
+        open = config.site;
         CloseEdges(config);
         for (Core::Error& error : Planning::FindErrors(config.engine, *config.site))
         {
@@ -295,6 +311,9 @@ AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& ove
     if (reader.GetErrors().empty() && config.site.has_value())
     {
         WarnOfParking(config);
+        std::ranges::move(
+            FindUnreachableStations(config.engine, *open, *config.site),
+            std::back_inserter(config.warnings));
         SetMaps(config);
         WarnOfFactsheets(config);
         WarnOfCorridors(config);

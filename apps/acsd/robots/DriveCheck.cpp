@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 namespace ACS::Acsd
@@ -13,23 +14,64 @@ namespace ACS::Acsd
 namespace
 {
 
-std::string DescribeFault(const Planning::Route& route, const Core::Error& error)
+/// Of the length of all orderIds.
+constexpr std::string_view ORDER_ID = "01234567-89ab-4cde-8f01-23456789abcd";
+
+bool HasLongIDs(const Planning::Route& route, std::size_t most)
+{
+    const auto isLong = [most](const std::string& id) {
+        return id.size() > most;
+    };
+    return std::ranges::any_of(route.nodes, isLong, &Planning::RouteNode::nodeID)
+        || std::ranges::any_of(route.edges, isLong, &Planning::RouteEdge::edgeID);
+}
+
+/// What can be corrected instead of the factsheet, or why nothing else can.
+std::string AdviseOnFault(
+    const Planning::Route& route,
+    std::string_view member,
+    const VDA5050::FactsheetMessage& factsheet)
+{
+    constexpr std::string_view OWN_IDS = ": the ids of orders are those of acsd.";
+    if (member == "order.zoneSetId")
+    {
+        return " or site.zone_set.";
+    }
+    if (member == "maxStringLens.idNumericalOnly")
+    {
+        return std::string(OWN_IDS);
+    }
+    if (member == "maxStringLens.idLen")
+    {
+        const std::size_t most = factsheet.protocolLimits.maxStringLengths.identifier.value_or(0);
+        return most >= ORDER_ID.size() && HasLongIDs(route, most) ? " or the map, which has longer ids."
+                                                                  : std::string(OWN_IDS);
+    }
+    return " or the map.";
+}
+
+std::string DescribeFault(
+    const Planning::Route& route,
+    const Core::Error& error,
+    const VDA5050::FactsheetMessage& factsheet)
 {
     const bool bNamed = error.expected.find(error.path) != std::string::npos;
     return fmt::format(
-        "the drive from {} to {} cannot be ordered: {}{}.",
+        "the drive from {} to {} cannot be ordered: {}{}. Correct the factsheet (of the vehicle, or "
+        "robots.NAME.factsheet_file){}",
         route.nodes.front().nodeID,
         route.nodes.back().nodeID,
         error.expected,
-        bNamed ? "" : " (" + error.path + ")");
+        bNamed ? "" : " (" + error.path + ")",
+        AdviseOnFault(route, error.path, factsheet));
 }
 
 } // namespace
 
 Core::Result<void> CheckDrive(const VDA5050::MasterSession& session, const Planning::Route& route, Core::Now now)
 {
-    constexpr const char* ANY_UUID = "01234567-89ab-4cde-8f01-23456789abcd"; // of the length of all orderIds
-    Core::Result<VehicleDrive> drive = VehicleDrive::Create(Planning::Drive{ANY_UUID, route, route.nodes.size()});
+    Core::Result<VehicleDrive> drive =
+        VehicleDrive::Create(Planning::Drive{std::string(ORDER_ID), route, route.nodes.size()});
     if (!drive)
     {
         return tl::unexpected(std::move(drive.error()));
@@ -72,7 +114,7 @@ std::string DriveCheck::FindFault(const VDA5050::MasterSession& session, Core::N
         const Core::Result<void> checked = CheckDrive(session, route, now);
         if (!checked)
         {
-            fault = DescribeFault(route, checked.error());
+            fault = DescribeFault(route, checked.error(), *factsheetOrNull);
             break;
         }
     }

@@ -51,7 +51,7 @@ public:
 
     [[nodiscard]] const VehicleMap& GetMap() const noexcept;
 
-    /// Why the vehicle cannot be ordered to drive along one of the edges, as a sentence. Empty: it can drive along all, or has no
+    /// Why the vehicle cannot be ordered to drive along one of the edges, and what to correct; a sentence each. Empty: it can drive along all, or has no
     /// factsheet.
     [[nodiscard]] std::string FindFault(const VDA5050::MasterSession& session, Core::Now now);
 

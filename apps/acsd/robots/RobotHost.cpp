@@ -1,5 +1,6 @@
 #include "robots/RobotHost.hpp"
 
+#include "common/log/LogRateLimiter.hpp"
 #include "common/process/TimerSet.hpp"
 #include "robots/RetainedCommands.hpp"
 #include "robots/RobotAdapterFactory.hpp"
@@ -51,6 +52,7 @@ struct RobotHost::Impl
     std::optional<ArmTrace> armTrace;
     VehicleWatch watch;
     RetainedCommands retained;
+    Apps::LogRateLimiter unsent; ///< A vehicle that reconnects has messages each time.
     std::optional<Core::SteadyTime> seenAt;
     std::unique_ptr<OpenStreamAsio::OpenStreamClient> armClient;
 
@@ -67,7 +69,8 @@ struct RobotHost::Impl
           retained(
               {surroundings.mqtt, surroundings.logger.MakeFor("robot"), surroundings.metrics},
               link.robotID,
-              {config.mqtt.interfaceName, link.manufacturer, link.serialNumber})
+              {config.mqtt.interfaceName, link.manufacturer, link.serialNumber}),
+          unsent(surroundings.logger)
     {
         RobotAdapter made = MakeRobotAdapter(config, robot, outputs);
         adapter = std::move(made.adapter);
@@ -135,7 +138,10 @@ struct RobotHost::Impl
         if (!published)
         {
             // The session sends it again until the vehicle's state shows it.
-            surroundings.logger.Warning(
+            unsent.Write(
+                surroundings.clock.GetNow().steady,
+                Core::ELogLevel::Warning,
+                "unsent",
                 "a message to the vehicle could not be sent",
                 {{"robotId", robot.robotID}, {"topic", message.topic}, {"reason", Core::Describe(published.error())}});
         }

@@ -47,10 +47,10 @@ std::string FindIncompatibility(
     {
         return {};
     }
-    const std::string driveFault = drives.FindFault(session, now);
+    std::string driveFault = drives.FindFault(session, now);
     if (!driveFault.empty())
     {
-        return driveFault + " Correct the factsheet (of the vehicle, or robots.NAME.factsheet_file) or the map.";
+        return driveFault;
     }
     const std::optional<std::string> jobFault = FindJobFaultOrNull(*factsheetOrNull, methods);
     if (jobFault.has_value())

@@ -1,6 +1,7 @@
 #include "robots/VehicleWatch.hpp"
 
 #include <acs/core/Overloaded.hpp>
+#include <acs/core/ShortText.hpp>
 #include <acs/vda5050/ActionMachine.hpp>
 #include <acs/vda5050/FactsheetCheck.hpp>
 
@@ -89,7 +90,10 @@ void VehicleWatch::Note(std::string_view kind, std::string_view detail)
         Core::ELogLevel::Warning,
         kind,
         "the robot reports a contradiction",
-        {{"robotId", _robotID}, {"what", kind}, {"detail", detail}, {"count", std::to_string(total)}});
+        {{"robotId", _robotID},
+         {"what", kind},
+         {"detail", Core::ShortenText(detail)},
+         {"count", std::to_string(total)}});
 }
 
 void VehicleWatch::OnState(const VDA5050::StateMessage& state)

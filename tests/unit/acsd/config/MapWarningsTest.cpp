@@ -99,6 +99,13 @@ TEST_CASE("Corridors are put on the edges of the map, with a warning for vehicle
     CHECK(Acsd::Test::ReadSite({"site.zone_set=hall-2"}).warnings.empty());
 }
 
+TEST_CASE("A zone set has at most 128 bytes")
+{
+    CHECK(Acsd::Test::ReadSite({"site.zone_set=" + std::string(128, 'z')}).errors.empty());
+    Acsd::Test::CheckErrors(
+        {{{"site.zone_set=" + std::string(129, 'z')}, "site.zone_set: expected at most 128 bytes, found 129"}});
+}
+
 TEST_CASE("A corridor of an unknown edge, or a second one of an edge, is an error")
 {
     Acsd::Test::CheckErrors({

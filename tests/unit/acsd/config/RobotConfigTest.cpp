@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -103,17 +104,43 @@ TEST_CASE("Maps of a vehicle of 2.0 are a warning, because that version has none
             "robots.LR01.maps: has no effect, because VDA5050 has maps since 2.1; remove it, or set protocol"});
 }
 
+namespace
+{
+
+/// A factsheet; the header has its members, each followed by a comma.
+void WriteFactsheet(
+    const std::string& file,
+    const std::string& header,
+    const std::string& speeds,
+    const std::string& interval,
+    const std::string& features)
+{
+    std::ofstream(file)
+        << "{" << header
+        << R"("typeSpecification":{"seriesName":"LR","agvKinematic":"DIFF","agvClass":"CARRIER","maxLoadMass":1,)"
+        << R"("localizationTypes":[],"navigationTypes":[]},"physicalParameters":{)" << speeds
+        << R"(,"accelerationMax":1,"decelerationMax":1,"heightMax":1,"width":1,"length":1},"protocolLimits":{)"
+        << R"("maxStringLens":{},"maxArrayLens":{},"timing":{"minOrderInterval":)" << interval
+        << R"(,"minStateInterval":0}},"protocolFeatures":)" << features
+        << R"(,"agvGeometry":{},"loadSpecification":{}})";
+}
+
+std::vector<std::string> Sort(std::vector<std::string> lines)
+{
+    std::ranges::sort(lines);
+    return lines;
+}
+
+constexpr const char* SPEEDS = R"("speedMin":0,"speedMax":1)";
+
+} // namespace
+
 TEST_CASE("A factsheet_file is read without a header, and an unreadable one is an error with path and reason")
 {
     const Testing::TemporaryFolder folder;
     const std::string file = folder.GetPath() / "lr.json";
     const auto write = [&file](const std::string& features) {
-        std::ofstream(file)
-            << R"({"typeSpecification":{"seriesName":"LR","agvKinematic":"DIFF","agvClass":"CARRIER","maxLoadMass":1,)"
-            << R"("localizationTypes":[],"navigationTypes":[]},"physicalParameters":{"speedMin":0,"speedMax":1,)"
-            << R"("accelerationMax":1,"decelerationMax":1,"heightMax":1,"width":1,"length":1},"protocolLimits":{)"
-            << R"("maxStringLens":{},"maxArrayLens":{},"timing":{"minOrderInterval":0,"minStateInterval":0}},)"
-            << R"("protocolFeatures":)" << features << R"(,"agvGeometry":{},"loadSpecification":{}})";
+        WriteFactsheet(file, {}, SPEEDS, "0", features);
     };
     const std::vector<std::string> keys{"robots.LR01.factsheet_file=" + file};
     write(R"({"agvActions":[]})");
@@ -143,6 +170,59 @@ TEST_CASE("A factsheet_file is read without a header, and an unreadable one is a
     const AcsdConfig missing = ReadSite({"robots.LR01.factsheet_file=nowhere.json"});
     REQUIRE(missing.errors.size() == 1);
     CHECK(missing.errors[0].find(std::string(ACS_SITE) + "/nowhere.json cannot be read") != std::string::npos);
+}
+
+TEST_CASE("A factsheet_file that contradicts itself or is of another make or version is a warning for each")
+{
+    const Testing::TemporaryFolder folder;
+    const std::string file = folder.GetPath() / "lr.json";
+    const std::vector<std::string> keys{"robots.LR01.factsheet_file=" + file, "robots.LR01.protocol=2.1.0"};
+    const auto makeHeader = [](const std::string& manufacturer, const std::string& version) {
+        return R"("headerId":1,"timestamp":"2026-01-01T00:00:00.00Z","version":")" + version + R"(","manufacturer":")"
+            + manufacturer + R"(","serialNumber":"of another one",)";
+    };
+    const std::string begin = "robots.LR01.factsheet_file: ";
+    WriteFactsheet(file, makeHeader("ACS", "2.1.0"), SPEEDS, "0", R"({"agvActions":[]})");
+    CHECK(ReadSite(keys).warnings.empty());
+
+    WriteFactsheet(
+        file,
+        makeHeader("KUKA", "2.0.0"),
+        R"("speedMin":2,"speedMax":1)",
+        "86400",
+        R"({"agvActions":[{"actionType":"pick","actionScopes":["NODE"]},{"actionType":"pick","actionScopes":["NODE"]}]})");
+    const AcsdConfig config = ReadSite(keys);
+    CHECK(config.errors.empty());
+    const std::vector<std::string> expected{
+        begin + R"(the manufacturer is "KUKA", and ACS in the configuration; give the factsheet of this vehicle)",
+        begin
+            + R"(the version is "2.0.0", and protocol is 2.1.0; correct protocol, or give the factsheet of this vehicle)",
+        begin + "the action pick is listed twice",
+        begin + "speedMin 2 is above speedMax 1",
+        begin + "minOrderInterval is 86400 s, above 300 s: each order message waits this long after the one before"};
+    CHECK(std::ranges::includes(Sort(config.warnings), Sort(expected)));
+}
+
+TEST_CASE("Warnings of a factsheet_file are limited in number and in length")
+{
+    const Testing::TemporaryFolder folder;
+    const std::string file = folder.GetPath() / "lr.json";
+    const std::string row = R"({"actionType":")" + std::string(5'000, 'x') + R"(","actionScopes":["NODE"]})";
+    std::string rows = row;
+    for (int i = 0; i < 12; ++i)
+    {
+        rows += "," + row;
+    }
+    WriteFactsheet(file, {}, SPEEDS, "0", R"({"agvActions":[)" + rows + "]}");
+    const AcsdConfig config = ReadSite({"robots.LR01.factsheet_file=" + file});
+    CHECK(config.errors.empty());
+    std::vector<std::string> warnings;
+    std::ranges::copy_if(config.warnings, std::back_inserter(warnings), [](const std::string& warning) {
+        return warning.starts_with("robots.LR01.factsheet_file: ");
+    });
+    REQUIRE(warnings.size() == 10);
+    CHECK(warnings.front().size() < 300);
+    CHECK(warnings.back() == "robots.LR01.factsheet_file: 3 more contradictions");
 }
 
 } // namespace ACS::Acsd::Test

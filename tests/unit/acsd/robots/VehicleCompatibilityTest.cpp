@@ -193,15 +193,21 @@ TEST_CASE("A vehicle with limits that make driving impossible is incompatible, a
         limits.maxArrayLengths.orderNodes = 1;
         CHECK_THAT(vehicle.Send(factsheet), Catch::Contains("maxArrayLens.order.nodes is 1, found 2"));
     }
+    const std::string own =
+        "Correct the factsheet (of the vehicle, or robots.NAME.factsheet_file): the ids of orders are those of acsd.";
     SECTION("ids")
     {
         limits.maxStringLengths.identifier = 35;
-        CHECK_THAT(vehicle.Send(factsheet), Catch::Contains("maxStringLens.idLen is 35, found 36"));
+        const std::string reported = vehicle.Send(factsheet);
+        CHECK_THAT(reported, Catch::Contains("maxStringLens.idLen is 35, found 36"));
+        CHECK_THAT(reported, Catch::EndsWith(own));
     }
     SECTION("digits only")
     {
         limits.maxStringLengths.bIdentifierNumericalOnly = true;
-        CHECK_THAT(vehicle.Send(factsheet), Catch::Contains("maxStringLens.idNumericalOnly"));
+        const std::string reported = vehicle.Send(factsheet);
+        CHECK_THAT(reported, Catch::Contains("maxStringLens.idNumericalOnly"));
+        CHECK_THAT(reported, Catch::EndsWith(own));
     }
     SECTION("two nodes, and lengths of 0, are enough")
     {
@@ -210,6 +216,39 @@ TEST_CASE("A vehicle with limits that make driving impossible is incompatible, a
         limits.maxStringLengths.identifier = 0;
         CHECK(vehicle.Send(factsheet) == "none");
     }
+}
+
+TEST_CASE("Where ids of the map are too long for the vehicle, the map can be corrected too")
+{
+    const std::string nodeID(40, 'n');
+    const auto site = Planning::SiteMap::Create(
+        {{nodeID, 0.0, 0.0, "floor-1", {{"T", std::nullopt}}}, {"B", 2.0, 0.0, "floor-1", {{"T", std::nullopt}}}},
+        {{"E", nodeID, "B", {{"T", std::nullopt, std::nullopt, std::nullopt, {}, std::nullopt, std::nullopt}}}},
+        {});
+    REQUIRE(site);
+    CompatibilityFixture vehicle(
+        CompatibilityFixture::MakeOptions(),
+        std::make_shared<DriveCheck>(VehicleMap(*site, "T")));
+    vehicle.ComeOnline();
+    FactsheetMessage factsheet;
+    factsheet.protocolLimits.maxStringLengths.identifier = 39;
+    const std::string reported = vehicle.Send(factsheet);
+    CHECK_THAT(reported, Catch::Contains("maxStringLens.idLen is 39, found 40"));
+    CHECK_THAT(reported, Catch::EndsWith("robots.NAME.factsheet_file) or the map, which has longer ids."));
+}
+
+TEST_CASE("A vehicle without zone sets is incompatible with one in the configuration, whose key is named")
+{
+    VDA5050::MasterOptions options = CompatibilityFixture::MakeOptions();
+    options.zoneSetID = "hall-2";
+    CompatibilityFixture vehicle(std::move(options));
+    vehicle.ComeOnline();
+    FactsheetMessage factsheet;
+    List(factsheet, {"order.edges.maxSpeed"});
+    CHECK_THAT(
+        vehicle.Send(factsheet),
+        Catch::EndsWith("the vehicle does not support order.zoneSetId. Correct the factsheet (of the vehicle, or "
+                        "robots.NAME.factsheet_file) or site.zone_set."));
 }
 
 TEST_CASE("A vehicle that can do none of its jobs is incompatible; one that can do some is not")

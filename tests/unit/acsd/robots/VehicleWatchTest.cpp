@@ -124,6 +124,14 @@ TEST_CASE_METHOD(WatchFixture, "A node that the map does not have is logged and 
     CHECK(sink.ContainsField("detail", "nowhere"));
 }
 
+TEST_CASE_METHOD(WatchFixture, "A very long name that the vehicle reports is shortened in the log")
+{
+    state.lastNodeID = std::string(10'000, 'n');
+    Show();
+    CHECK(CountOf("unknown_node") == 1);
+    CHECK(sink.ContainsField("detail", std::string(200, 'n') + "..."));
+}
+
 TEST_CASE_METHOD(WatchFixture, "A position off the map is logged; one near its border or an unknown one is not")
 {
     VDA5050::AgvPosition& at = state.agvPosition.emplace();

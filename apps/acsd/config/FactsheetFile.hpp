@@ -1,0 +1,18 @@
+#pragma once
+
+#include "config/AcsdConfig.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+inline constexpr std::size_t MOST_FACTSHEET_WARNINGS = 10;
+
+/// Why the factsheet of the robot's factsheet_file may not be the vehicle's: contradictions, and a header of another manufacturer or
+/// version. A sentence each with the key, at most MOST_FACTSHEET_WARNINGS; the last one then states how many more there are.
+[[nodiscard]] std::vector<std::string> CheckFactsheetFile(const RobotLinkConfig& robot);
+
+} // namespace ACS::Acsd

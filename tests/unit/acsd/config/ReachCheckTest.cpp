@@ -1,0 +1,220 @@
+#include "config/ReachCheck.hpp"
+
+#include "Catch.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ACS::Acsd::Test
+{
+
+namespace
+{
+
+/// A map with a start S of the robot LR01 ("lr") and docks A, B and C, each of the station of its name.
+struct ReachFixture
+{
+    std::vector<Planning::SiteNode> nodes;
+    std::vector<Planning::SiteEdge> edges;
+    std::vector<Planning::SiteStation> stations;
+    Planning::EngineOptions options;
+
+    ReachFixture()
+    {
+        AddNode("S");
+        for (const char* const name : {"A", "B", "C"})
+        {
+            AddNode(name);
+            stations.push_back({std::string("st-") + name, {name}});
+            AddEdge("S", name);
+            AddEdge(name, "S");
+        }
+        AddRobot("LR01", "lr", "S");
+    }
+
+    void AddNode(const std::string& nodeID)
+    {
+        nodes.push_back({nodeID, 3.0 * static_cast<double>(nodes.size()), 0, "floor", {{"lr", std::nullopt}}});
+    }
+
+    void AddEdge(const std::string& from, const std::string& to)
+    {
+        Planning::SiteEdgeRule rule;
+        rule.vehicleTypeID = "lr";
+        edges.push_back({from + "-" + to, from, to, {rule}});
+    }
+
+    void AddRobot(const std::string& name, const std::string& vehicleTypeID, const std::string& nodeID)
+    {
+        Planning::RobotOptions robot{*Core::RobotID::Parse(name), {}, {}, {}, {}, {}, {}, {}};
+        robot.vehicleTypeID = vehicleTypeID;
+        robot.startNodeID = nodeID;
+        options.robots.push_back(std::move(robot));
+    }
+
+    Planning::SiteEdge& GetEdge(const std::string& edgeID)
+    {
+        return *std::ranges::find(edges, edgeID, &Planning::SiteEdge::edgeID);
+    }
+
+    void Restrict(const std::string& edgeID, bool bUnloaded, bool bLoaded)
+    {
+        GetEdge(edgeID).rules[0].loadRestriction = Planning::SiteLoadRestriction{bUnloaded, bLoaded};
+    }
+
+    [[nodiscard]] Planning::SiteMap MakeSite() const
+    {
+        return Planning::SiteMap::Create(nodes, edges, stations).value();
+    }
+
+    [[nodiscard]] std::vector<std::string> Find() const
+    {
+        const Planning::SiteMap site = MakeSite();
+        return FindUnreachableStations(options, site, site);
+    }
+};
+
+using Lines = std::vector<std::string>;
+
+} // namespace
+
+TEST_CASE_METHOD(ReachFixture, "A map on which robots reach all stations with and without a load has no warning")
+{
+    CHECK(Find().empty());
+    Restrict("S-A", true, false); // from B and C it is reached with a load too
+    AddEdge("B", "A");
+    CHECK(Find().empty());
+}
+
+TEST_CASE_METHOD(ReachFixture, "A station without edges for a vehicle type is reported with the type and the reason")
+{
+    GetEdge("S-A").rules[0].vehicleTypeID = "other";
+    CHECK(
+        Find()
+        == Lines{
+            "site.map: lr cannot reach the station st-A, because no edge with properties for this vehicle type ends "
+            "at its nodes"});
+    AddNode("X");
+    AddEdge("X", "A"); // and no edge to X
+    CHECK(
+        Find()
+        == Lines{
+            "site.map: lr cannot reach the station st-A, because no edges with properties for this vehicle type lead "
+            "there from the start_node of its robots"});
+}
+
+TEST_CASE_METHOD(ReachFixture, "A station that load restrictions close, or close for one load, is reported")
+{
+    Restrict("S-A", true, false);
+    Restrict("S-B", false, true);
+    Restrict("S-C", false, false);
+    CHECK(
+        Find()
+        == Lines{
+            "site.map: lr cannot reach the station st-A with a load, because edges have a loadRestriction",
+            "site.map: lr cannot reach the station st-B without a load, because edges have a loadRestriction",
+            "site.map: lr cannot reach the station st-C, because edges have a loadRestriction"});
+}
+
+TEST_CASE_METHOD(ReachFixture, "A station behind an edge for loaded vehicles is reached from where they are loaded")
+{
+    AddNode("D");
+    stations.push_back({"st-D", {"D"}});
+    AddEdge("A", "D");
+    AddEdge("D", "A");
+    Restrict("A-D", false, true); // and without a load from D itself, where the load is put down
+    CHECK(
+        Find()
+        == Lines{"site.map: lr cannot reach the station st-D without a load, because edges have a loadRestriction"});
+    AddEdge("D", "B");
+    AddNode("E");
+    stations.push_back({"st-E", {"E"}});
+    AddEdge("D", "E");
+    Restrict("D-E", true, false); // only after the load was put down on D
+    CHECK(Find().size() == 2);
+}
+
+TEST_CASE_METHOD(ReachFixture, "An edge that a factsheet closes is the reason why a station is not reached")
+{
+    const Planning::SiteMap open = MakeSite();
+    GetEdge("S-A").rules.clear();
+    CHECK(
+        FindUnreachableStations(options, open, MakeSite())
+        == Lines{
+            "site.map: lr cannot reach the station st-A, because the factsheet of a robot closes edges of the map, "
+            "see above"});
+}
+
+TEST_CASE_METHOD(
+    ReachFixture,
+    "Stations that are not meant for a vehicle type, or reached from a neighbour, are not reported")
+{
+    SECTION("the type may not use its nodes")
+    {
+        nodes[1].rules.clear();
+        CHECK(Find().empty());
+    }
+    SECTION("it is the parking position of another type")
+    {
+        for (Planning::SiteNode& node : nodes)
+        {
+            node.rules.push_back({"cr", std::nullopt});
+        }
+        AddRobot("CR01", "cr", "A");
+        options.robots.back().homeStationID = "st-A";
+        GetEdge("S-A").rules.clear();
+        const Lines lines = Find();
+        CHECK(std::ranges::none_of(lines, [](const std::string& line) { return line.find("lr cannot") != line.npos; }));
+        CHECK(lines.size() == 2); // cr has no edges: it stays on st-A
+    }
+    SECTION("a robot on a neighbour works there")
+    {
+        GetEdge("S-A").rules.clear();
+        options.reach["st-B"] = {"st-A"};
+        CHECK(Find().empty());
+    }
+}
+
+TEST_CASE_METHOD(ReachFixture, "Robots of a type that start in different places share the stations")
+{
+    edges.clear();
+    AddEdge("S", "A");
+    AddRobot("LR02", "lr", "B");
+    AddEdge("B", "C");
+    CHECK(Find().empty());
+}
+
+TEST_CASE_METHOD(ReachFixture, "The number of warnings and the time for a large map are limited")
+{
+    for (int i = 0; i < 1'000; ++i)
+    {
+        const std::string name = "N" + std::to_string(i);
+        AddNode(name);
+        stations.push_back({"st-" + name, {name}});
+        AddEdge(i % 2 == 0 ? "S" : "N" + std::to_string(i - 1), name);
+        AddEdge(name, "S");
+    }
+    for (int i = 0; i < 9; ++i)
+    {
+        const std::string type = "type-" + std::to_string(i);
+        for (Planning::SiteNode& node : nodes)
+        {
+            node.rules.push_back({type, std::nullopt});
+        }
+        AddRobot("LR1" + std::to_string(i), type, "N" + std::to_string(i));
+    }
+    const Planning::SiteMap site = MakeSite();
+    const auto begin = std::chrono::steady_clock::now();
+    const Lines lines = FindUnreachableStations(options, site, site);
+    CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(1));
+    REQUIRE(lines.size() == MOST_REACH_WARNINGS);
+    CHECK(lines.front().starts_with("site.map: type-0 cannot reach the station st-A, "));
+    // Each type has no edges and reaches the station of its start only.
+    CHECK(lines.back() == "site.map: " + std::to_string(9 * 1'002 - 19) + " more stations cannot be reached");
+}
+
+} // namespace ACS::Acsd::Test
