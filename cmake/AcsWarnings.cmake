@@ -1,5 +1,6 @@
-# The warnings of this project, linked PRIVATE and only at build time: a user's own flags are his own.
+# The warnings and the hardening of this project, linked PRIVATE and only at build time: a user's own flags are his own.
 add_library(acs_warnings INTERFACE)
+target_link_libraries(acs_warnings INTERFACE acs_hardening)
 target_compile_options(acs_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wnon-virtual-dtor
   -Woverloaded-virtual -Wformat=2 -Wswitch-enum -Wswitch-default -Wextra-semi -Wmissing-field-initializers
