@@ -283,7 +283,9 @@ ConfigDocument::ConfigError ConfigDocument::MakeConfigError(
     std::string where = bOverride ? std::string(OVERRIDE) : _fileName;
     where += line == 0 ? std::string() : fmt::format(":{}", line);
     where += path.empty() ? std::string() : fmt::format(": {}", path);
-    return {bOverride, line, fmt::format("{}: {}", where, text)};
+    std::string sentence = fmt::format("{}: {}", where, text);
+    std::ranges::replace_if(sentence, Core::IsControlCharacter, '?'); // in names and values, and in what the parser quotes
+    return {bOverride, line, std::move(sentence)};
 }
 
 bool ConfigDocument::IsInRefused(const std::string& path) const

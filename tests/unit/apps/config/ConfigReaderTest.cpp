@@ -205,6 +205,7 @@ TEST_CASE("An error in an override names the option and follows those of the fil
     CHECK_THAT(all, Contains("'nonsense': write table.key=value"));
     CHECK_THAT(all, Contains("'a..b=1': write table.key=value"));
     CHECK_THAT(all, Contains("'=1': write table.key=value"));
+    CHECK(Read("", {"a\nb"}).GetErrors() == Lines{"--set: 'a?b': write table.key=value"});
 }
 
 TEST_CASE("An override that replaces a table by a value, or a value by a table, is an error")
