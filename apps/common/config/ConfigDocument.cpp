@@ -284,7 +284,7 @@ ConfigDocument::ConfigError ConfigDocument::MakeConfigError(
     where += line == 0 ? std::string() : fmt::format(":{}", line);
     where += path.empty() ? std::string() : fmt::format(": {}", path);
     std::string sentence = fmt::format("{}: {}", where, text);
-    std::ranges::replace_if(sentence, Core::IsControlCharacter, '?'); // in names and values, and in what the parser quotes
+    std::ranges::replace_if(sentence, Core::IsControlCharacter, '?'); // in keys, values and quotations
     return {bOverride, line, std::move(sentence)};
 }
 
