@@ -1,8 +1,8 @@
-# acs_add_test(NAME core_test SOURCES … LINK … LABEL unit [TIMEOUT 60]): one Catch2 program, one ctest entry.
+# acs_add_test(NAME core_test SOURCES … LINK … LABEL unit [TIMEOUT 300]): one Catch2 program, one ctest entry.
 function(acs_add_test)
   cmake_parse_arguments(arg "" "NAME;LABEL;TIMEOUT" "SOURCES;LINK" ${ARGN})
   if(NOT arg_TIMEOUT)
-    set(arg_TIMEOUT 60)
+    set(arg_TIMEOUT 300)
   endif()
   add_executable(${arg_NAME} ${arg_SOURCES})
   target_include_directories(${arg_NAME} PRIVATE "${CMAKE_CURRENT_SOURCE_DIR}")
