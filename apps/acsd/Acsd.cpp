@@ -327,7 +327,7 @@ private:
         AddOperatorRoutes(
             _routes,
             _core.GetEngine(),
-            {[this](Planning::PlanCommand command) { return _core.TryPush(std::move(command)); },
+            {[this](Planning::PlanCommand command) { return _core.Offer(std::move(command)); },
              [this] {
                  return _core.GetStoreFaultOrNull();
              }});

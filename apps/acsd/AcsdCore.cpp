@@ -9,6 +9,19 @@
 namespace ACS::Acsd
 {
 
+namespace
+{
+
+/// More plans than the engine accepts would wait in vain.
+Planning::InputLimits MakeInputLimits(const Planning::EngineOptions& options)
+{
+    Planning::InputLimits limits;
+    limits.plans = options.maximumPlans;
+    return limits;
+}
+
+} // namespace
+
 AcsdCore::AcsdCore(Dependencies dependencies, const AcsdConfig& config)
     : _dependencies(std::move(dependencies)),
       _operations(config.operations),
@@ -26,7 +39,8 @@ AcsdCore::AcsdCore(Dependencies dependencies, const AcsdConfig& config)
                   Execute(action);
               }
           },
-          [this](const Planning::StoreBatch& batch) { Store(batch); }),
+          [this](const Planning::StoreBatch& batch) { Store(batch); },
+          MakeInputLimits(config.engine)),
       _gateway(
           _dependencies.clock,
           _dependencies.random,
@@ -169,9 +183,9 @@ void AcsdCore::OnLinksClosed()
     }
 }
 
-bool AcsdCore::TryPush(Planning::PlanCommand command)
+Planning::EInputAdmission AcsdCore::Offer(Planning::PlanCommand command)
 {
-    return _host.TryPush(std::move(command));
+    return _host.Offer(std::move(command));
 }
 
 const Planning::PlanEngine& AcsdCore::GetEngine() const noexcept

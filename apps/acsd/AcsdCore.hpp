@@ -11,6 +11,7 @@
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
+#include <acs/plan/EngineInput.hpp>
 #include <acs/plan/IPlanObserver.hpp>
 #include <acs/plan/PlanCommand.hpp>
 #include <acs/plan/PlanEngine.hpp>
@@ -112,8 +113,8 @@ public:
     void OnStoreLost(const Core::Error& error);
     void OnLinksClosed();
 
-    /// A command of the operator or of a test. False, and nothing done, after Close.
-    [[nodiscard]] bool TryPush(Planning::PlanCommand command);
+    /// A command of the operator or of a test. Unless Accepted, nothing is done.
+    [[nodiscard]] Planning::EInputAdmission Offer(Planning::PlanCommand command);
 
     [[nodiscard]] const Planning::PlanEngine& GetEngine() const noexcept;
     [[nodiscard]] const RefusedReports& GetRefusedReports() const noexcept;

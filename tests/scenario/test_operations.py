@@ -1,11 +1,15 @@
 #!/usr/bin/env python3
 """Operation of acsd as in docs/guide/operate.md: signals, the message trace, metrics."""
 
+import concurrent.futures
+import itertools
 import json
 import os
+import re
 import signal
 import socket
 import subprocess
+import threading
 import time
 import urllib.error
 import urllib.request
@@ -16,6 +20,11 @@ from scenario_case import SITE, TIME_SCALE, ScenarioCase, main
 
 DRAIN_SECONDS = 8
 LOG_SECONDS = 20
+SENDERS = 16
+COMMANDS = 16_000
+WAITING_COMMANDS = 1_000  # InputLimits::operatorCommands
+WAITING_PLANS = 100  # queue.max_plans of the example
+POSITIONS = 10
 
 
 class Operations(ScenarioCase):
@@ -98,6 +107,76 @@ class Operations(ScenarioCase):
         self.assertEqual(answer.body["result"], "Success")
         self.wait_for_log(acsd, "the disk has answered")
         self.wait_for_status(address, lambda status: not status["obstacles"])
+
+    def post_all(self, address, paths):
+        """The statuses of the answers, and the values of Retry-After; one connection, without waiting between requests."""
+        requests = b"".join(f"POST {path} HTTP/1.1\r\nHost: {address}\r\n\r\n".encode() for path in paths)
+        statuses, waits = [], set()
+        host, port = address.rsplit(":", 1)
+        with socket.create_connection((host, int(port)), LOG_SECONDS) as connection:
+            writer = threading.Thread(target=connection.sendall, args=(requests,))
+            writer.start()
+            with connection.makefile("rb") as reader:
+                for _ in paths:
+                    statuses.append(int(reader.readline().split()[1]))
+                    headers = dict(line.decode().strip().split(": ", 1) for line in iter(reader.readline, b"\r\n"))
+                    reader.read(int(headers["Content-Length"]))
+                    waits.add(headers.get("Retry-After"))
+            writer.join()
+        return statuses, waits
+
+    def count_commits(self, address):
+        with urllib.request.urlopen(f"http://{address}/metrics", timeout=LOG_SECONDS) as response:
+            text = response.read().decode()
+        return int(re.search(r"^acsd_store_commit_seconds_count (\d+)", text, re.MULTILINE).group(1))
+
+    def test_commands_of_the_operator_that_wait_for_a_hanging_disk_are_limited_and_share_one_commit(self):
+        library = self.line.bin_dir / "libscenario_held_disk.so"
+        if not library.exists():
+            self.skipTest("not built with sanitizers")
+        gate = self.line.folder / "held"
+        environment = os.environ | {"LD_PRELOAD": str(library), "ACS_HELD_DISK": str(gate)}
+        stub = self.start_stub()
+        acsd = self.line.start_acsd(stub.address, self.start_robots(), environment=environment)
+        address = acsd.wait_ready()["http"]
+        stub.wait_for("RobotStatusUpdate", lambda message: message.payload["robotStatus"] == "Idle"
+                      and message.payload["robotId"] == "LR01")
+        os.mkfifo(gate)
+        self.post(address, "/tsc/pause")
+        commits = self.count_commits(address)
+        begin = time.monotonic()
+        with concurrent.futures.ThreadPoolExecutor(SENDERS) as pool:
+            paths = [f"/robots/CR01/maintenance/{'on' if number % 2 == 0 else 'off'}" for number in range(COMMANDS // SENDERS)]
+            answers = list(pool.map(lambda _: self.post_all(address, paths), range(SENDERS)))
+        end = time.monotonic()
+        statuses = [status for answer, _ in answers for status in answer]
+        self.assertEqual(len(statuses), COMMANDS)
+        self.assertEqual(set(statuses), {202, 503})
+        self.assertEqual(statuses.count(202), WAITING_COMMANDS)
+        self.assertEqual(set.union(*(waits for _, waits in answers)), {None, "1"})
+        self.assertLess(end - begin, LOG_SECONDS)
+
+        # 101 plans wait, and one of them is refused. The positions continue.
+        start = stub.count()
+        for number in range(WAITING_PLANS + 1):
+            stub.send_request("ExecutionPlan", make_carrying_plan(f"P{number}"))
+        _, refused = stub.wait_for("ExecutionPlanAck", start=start)
+        self.assertEqual(refused.body["result"], "Fail")
+        self.assertIn("Send the request again later", refused.body["message"])
+        for _ in range(POSITIONS):
+            start, _ = stub.wait_for("RobotPositionUpdate", start=start)
+            start += 1
+        times = [message.time for message in stub.get() if message.command == "RobotPositionUpdate" and message.time > begin]
+        self.assertLess(max(after - before for before, after in itertools.pairwise(times)), 1)
+
+        writer = os.open(gate, os.O_WRONLY)
+        gate.unlink()
+        os.close(writer)
+        for number in range(WAITING_PLANS):
+            stub.wait_for("ExecutionPlanAck", lambda ack, number=number: ack.payload["planId"] == f"P{number}"
+                          and ack.body["result"] == "Success")
+        self.wait_for_status(address, lambda status: not status["obstacles"])
+        self.assertLess(self.count_commits(address) - commits, 100)
 
     def read_ready(self, address):
         try:

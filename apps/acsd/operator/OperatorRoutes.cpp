@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <optional>
 #include <set>
 #include <string>
@@ -54,6 +55,15 @@ HttpResponse Refuse(unsigned status, std::string_view sentence)
     return MakeAnswer(status, "error", sentence);
 }
 
+HttpResponse RefuseFull()
+{
+    constexpr std::chrono::seconds WAIT{1};
+    HttpResponse response =
+        Refuse(HTTP_UNAVAILABLE, "Refused, because acsd has not stored earlier commands yet. Retry in 1 s.");
+    response.retryAfter = WAIT;
+    return response;
+}
+
 /// How a command is handled while the store fails.
 enum class EUnstored
 {
@@ -81,8 +91,16 @@ HttpResponse Submit(
             "necessary.",
             *fault);
     }
-    return access.submit(std::move(command)) ? MakeAnswer(HTTP_ACCEPTED, "message", message)
-                                             : Refuse(HTTP_UNAVAILABLE, "acsd is stopping and accepts no requests.");
+    switch (access.submit(std::move(command)))
+    {
+        case Planning::EInputAdmission::Accepted:
+            return MakeAnswer(HTTP_ACCEPTED, "message", message);
+        case Planning::EInputAdmission::Full:
+            return RefuseFull();
+        case Planning::EInputAdmission::Closed:
+        default:
+            return Refuse(HTTP_UNAVAILABLE, "acsd is stopping and accepts no requests.");
+    }
 }
 
 /// Unknown and repeated parameters and a body. They are refused rather than ignored, because the command would do something

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/http/HttpRoutes.hpp"
+#include <acs/plan/EngineInput.hpp>
 #include <acs/plan/PlanEngine.hpp>
 
 #include <functional>
@@ -13,8 +14,8 @@ namespace ACS::Acsd
 /// The functions of acsd that the routes call.
 struct OperatorAccess
 {
-    /// Passes a command of the operator to the engine. Returns false if acsd is stopping and accepts none.
-    std::function<bool(Planning::PlanCommand command)> submit;
+    /// Passes a command of the operator to the engine.
+    std::function<Planning::EInputAdmission(Planning::PlanCommand command)> submit;
     /// Why nothing can be stored at present, as part of a sentence.
     std::function<std::optional<std::string>()> getStoreFaultOrNull;
 };
@@ -22,7 +23,8 @@ struct OperatorAccess
 /// The commands of the operator, each a POST. The answers are JSON: 202 with a message if the command was accepted (it may
 /// still wait for the store; /status shows its effect), otherwise an error as a sentence. 400: a parameter is missing,
 /// unknown or wrong. 404: the robot, alarm, job or plan does not exist. 409: its state does not allow the command. 503:
-/// acsd stops, or the store fails and the command would be lost in a crash. Commands that only stop work (maintenance on,
+/// acsd stops, too many commands wait for the store (with Retry-After), or the store fails and the command would be lost in a
+/// crash. Commands that only stop work (maintenance on,
 /// pause of the TSC) are accepted even then, and the message states that they are not stored. The engine must outlive the
 /// routes.
 void AddOperatorRoutes(Apps::HttpRoutes& routes, const Planning::PlanEngine& engine, const OperatorAccess& access);

@@ -3,6 +3,7 @@
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,8 +32,9 @@ struct HttpResponse
     unsigned status = 200;
     std::string contentType = "text/plain; charset=utf-8";
     std::string body;
-    Core::Duration delay{}; ///< Delay before it is sent; other connections are not delayed.
-    std::string allow{};    ///< Header Allow of a 405: the allowed methods; empty: no header.
+    Core::Duration delay{};            ///< Delay before it is sent; other connections are not delayed.
+    std::string allow{};               ///< Header Allow of a 405: the allowed methods; empty: no header.
+    std::chrono::seconds retryAfter{}; ///< Header Retry-After of a 503; 0: no header.
 };
 
 /// Splits the target of a request line into path and query and decodes both. Fails if the target is invalid.

@@ -315,6 +315,10 @@ private:
         {
             _responseOrNull->set(Http::field::allow, response.allow);
         }
+        if (response.retryAfter.count() > 0)
+        {
+            _responseOrNull->set(Http::field::retry_after, std::to_string(response.retryAfter.count()));
+        }
         _responseOrNull->body() = response.body;
         _responseOrNull->keep_alive(bKeepAlive);
         _responseOrNull->prepare_payload();

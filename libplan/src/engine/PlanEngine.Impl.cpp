@@ -9,6 +9,23 @@
 namespace ACS::Planning
 {
 
+namespace
+{
+
+/// If a batch cannot be stored, plans and controls are refused; commands of the operator stay in effect.
+[[maybe_unused]] bool CanShareTransaction(std::span<const PlanCommand> commands)
+{
+    const auto isPlan = [](const PlanCommand& command) {
+        return std::holds_alternative<SubmitPlan>(command);
+    };
+    const auto isOfMCS = [&isPlan](const PlanCommand& command) {
+        return isPlan(command) || std::holds_alternative<ControlPlan>(command);
+    };
+    return std::ranges::all_of(commands, isPlan) || std::ranges::none_of(commands, isOfMCS);
+}
+
+} // namespace
+
 PlanEngine::Impl::Impl(EngineOptions options, SiteMap site, Core::IRandom& random)
     : _engine(std::move(options), std::move(site), random),
       _tsc(_engine),
@@ -54,9 +71,23 @@ void PlanEngine::Impl::Restore(StoredState state, Core::Now now, EngineActions& 
     End(out);
 }
 
-void PlanEngine::Impl::HandleCommand(const PlanCommand& command, Core::Now now, EngineActions& out)
+void PlanEngine::Impl::HandleCommands(std::span<const PlanCommand> commands, Core::Now now, EngineActions& out)
 {
+    const auto isAcknowledgement = [](const PlanCommand& command) {
+        return std::holds_alternative<MessageAcknowledged>(command);
+    };
+    assert(commands.size() == 1 || CanShareTransaction(commands));
     Begin(now);
+    std::ranges::for_each(commands, [this](const PlanCommand& command) { HandleCommand(command); });
+    if (!std::ranges::all_of(commands, isAcknowledgement))
+    {
+        std::ranges::for_each(_engine.fleet, [this](const Robot& robot) { _places.NoteMovable(robot); });
+    }
+    End(out);
+}
+
+void PlanEngine::Impl::HandleCommand(const PlanCommand& command)
+{
     std::visit(
         Core::Overloaded{
             [this](const SubmitPlan& submit) { _submission.Submit(submit); },
@@ -71,18 +102,6 @@ void PlanEngine::Impl::HandleCommand(const PlanCommand& command, Core::Now now, 
                 _operator.Skip(skip);
             }},
         command);
-    if (!std::holds_alternative<MessageAcknowledged>(command))
-    {
-        std::ranges::for_each(_engine.fleet, [this](const Robot& robot) { _places.NoteMovable(robot); });
-    }
-    End(out);
-}
-
-void PlanEngine::Impl::SubmitAll(std::span<const SubmitPlan> plans, Core::Now now, EngineActions& out)
-{
-    Begin(now);
-    std::ranges::for_each(plans, [this](const SubmitPlan& plan) { _submission.Submit(plan); });
-    End(out);
 }
 
 void PlanEngine::Impl::HandleEvent(std::string_view robotID, const RobotEvent& event, Core::Now now, EngineActions& out)

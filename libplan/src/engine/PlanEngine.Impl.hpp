@@ -63,8 +63,7 @@ public:
 
     void SetObserver(IPlanObserver& observer);
     void Restore(StoredState state, Core::Now now, EngineActions& out);
-    void HandleCommand(const PlanCommand& command, Core::Now now, EngineActions& out);
-    void SubmitAll(std::span<const SubmitPlan> plans, Core::Now now, EngineActions& out);
+    void HandleCommands(std::span<const PlanCommand> commands, Core::Now now, EngineActions& out);
     void HandleEvent(std::string_view robotID, const RobotEvent& event, Core::Now now, EngineActions& out);
     void OnTimer(const EngineTimer& timer, Core::Now now, EngineActions& out);
     void OnStored(const Core::Result<void>& result, Core::Now now, EngineActions& out);
@@ -88,6 +87,7 @@ public:
 
 private:
     void Begin(Core::Now now);
+    void HandleCommand(const PlanCommand& command);
     void Dispatch();
     void AssignPlans();
     /// Gives plans of robots that reject their commands to other robots.

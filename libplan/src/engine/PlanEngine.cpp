@@ -22,12 +22,12 @@ void PlanEngine::Restore(StoredState state, Core::Now now, EngineActions& out)
 
 void PlanEngine::Handle(const PlanCommand& command, Core::Now now, EngineActions& out)
 {
-    _impl->HandleCommand(command, now, out);
+    _impl->HandleCommands({&command, 1}, now, out);
 }
 
-void PlanEngine::Submit(std::span<const SubmitPlan> plans, Core::Now now, EngineActions& out)
+void PlanEngine::Handle(std::span<const PlanCommand> commands, Core::Now now, EngineActions& out)
 {
-    _impl->SubmitAll(plans, now, out);
+    _impl->HandleCommands(commands, now, out);
 }
 
 void PlanEngine::Handle(std::string_view robotID, const RobotEvent& event, Core::Now now, EngineActions& out)

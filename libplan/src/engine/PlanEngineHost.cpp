@@ -1,10 +1,12 @@
+#include "engine/InputQueue.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/plan/PlanEngineHost.hpp>
 
 #include <algorithm>
-#include <cassert>
 #include <iterator>
+#include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace ACS::Planning
@@ -13,17 +15,8 @@ namespace ACS::Planning
 namespace
 {
 
-SubmitPlan* GetPlanOrNull(EngineInput& input)
-{
-    auto* const commandOrNull = std::get_if<PlanCommand>(&input);
-    return commandOrNull == nullptr ? nullptr : std::get_if<SubmitPlan>(commandOrNull);
-}
-
-const StateChanged* GetStateOrNull(const EngineInput& input)
-{
-    const auto* const robotOrNull = std::get_if<RobotInput>(&input);
-    return robotOrNull == nullptr ? nullptr : std::get_if<StateChanged>(&robotOrNull->event);
-}
+constexpr std::string_view CLOSED = "The ACS is shutting down.";
+constexpr std::string_view FULL = "The ACS has not stored earlier requests yet. Send the request again later.";
 
 } // namespace
 
@@ -31,13 +24,17 @@ PlanEngineHost::PlanEngineHost(
     PlanEngine& engine,
     const Core::IClock& clock,
     ExecuteHandler execute,
-    StoreHandler store)
+    StoreHandler store,
+    const InputLimits& limits)
     : _engine(engine),
       _clock(clock),
       _execute(std::move(execute)),
-      _store(std::move(store))
+      _store(std::move(store)),
+      _inputs(std::make_unique<InputQueue>(limits))
 {
 }
+
+PlanEngineHost::~PlanEngineHost() = default;
 
 void PlanEngineHost::Restore(StoredState state)
 {
@@ -49,48 +46,30 @@ void PlanEngineHost::Restore(StoredState state)
 
 void PlanEngineHost::Push(EngineInput input)
 {
-    if (_bClosed)
+    const bool bQueued = !_bClosed && _inputs->TryPush(input);
+    if (bQueued)
     {
-        Reject(input);
-        return;
+        Work();
     }
-    if (!TryMerge(input))
+    else if (const auto* const commandOrNull = std::get_if<PlanCommand>(&input); commandOrNull != nullptr)
     {
-        _inputs.push_back(std::move(input));
+        Reject(*commandOrNull, _bClosed ? CLOSED : FULL);
     }
-    Work();
 }
 
-/// Into the robot's latest input, if that is a state too and nothing but pose and battery has changed since: nothing that
-/// the engine decides on is lost, and no input changes its place in the queue.
-bool PlanEngineHost::TryMerge(const EngineInput& input)
+EInputAdmission PlanEngineHost::Offer(PlanCommand command)
 {
-    const StateChanged* const freshOrNull = GetStateOrNull(input);
-    if (freshOrNull == nullptr)
+    if (_bClosed)
     {
-        return false;
+        return EInputAdmission::Closed;
     }
-    const std::string& robotID = std::get<RobotInput>(input).robotID;
-    const auto latest = std::find_if(_inputs.rbegin(), _inputs.rend(), [&robotID](const EngineInput& waiting) {
-        const auto* const robotOrNull = std::get_if<RobotInput>(&waiting);
-        return robotOrNull != nullptr && robotOrNull->robotID == robotID;
-    });
-    const StateChanged* const oldOrNull = latest == _inputs.rend() ? nullptr : GetStateOrNull(*latest);
-    if (oldOrNull == nullptr)
+    EngineInput input = std::move(command);
+    if (!_inputs->TryPush(input))
     {
-        return false;
+        return EInputAdmission::Full;
     }
-    StateChanged moved = *oldOrNull;
-    moved.x = freshOrNull->x;
-    moved.y = freshOrNull->y;
-    moved.theta = freshOrNull->theta;
-    moved.batteryPercent = freshOrNull->batteryPercent;
-    if (moved != *freshOrNull)
-    {
-        return false;
-    }
-    std::get<RobotInput>(*latest).event = std::move(moved);
-    return true;
+    Work();
+    return EInputAdmission::Accepted;
 }
 
 void PlanEngineHost::OnStored(const Core::Result<void>& result)
@@ -113,22 +92,12 @@ void PlanEngineHost::OnStoreLost(const Core::Error& error)
     Work();
 }
 
-bool PlanEngineHost::TryPush(PlanCommand command)
-{
-    if (_bClosed)
-    {
-        return false;
-    }
-    Push(std::move(command));
-    return true;
-}
-
 void PlanEngineHost::Close()
 {
     _bClosed = true;
-    for (const EngineInput& input : std::exchange(_inputs, {}))
+    for (const PlanCommand& command : _inputs->Clear())
     {
-        Reject(input);
+        Reject(command, CLOSED);
     }
 }
 
@@ -139,24 +108,19 @@ bool PlanEngineHost::IsStoring() const noexcept
 
 std::size_t PlanEngineHost::GetWaitingCount() const noexcept
 {
-    return _inputs.size();
+    return _inputs->GetCount();
 }
 
 /// R1: every request is answered. Nothing was begun, so the MCS may repeat it.
-void PlanEngineHost::Reject(const EngineInput& input) const
+void PlanEngineHost::Reject(const PlanCommand& command, std::string_view reason) const
 {
-    const auto* const commandOrNull = std::get_if<PlanCommand>(&input);
-    if (commandOrNull == nullptr)
-    {
-        return;
-    }
     std::visit(
         Core::Overloaded{
             [](const MessageAcknowledged&) { /* has no reply */ },
-            [this](const auto& command) {
-                _execute(ReplyCommand{command.replyToken, false, "The ACS is shutting down."});
+            [this, reason](const auto& request) {
+                _execute(ReplyCommand{request.replyToken, false, std::string(reason)});
             }},
-        *commandOrNull);
+        command);
 }
 
 void PlanEngineHost::Work()
@@ -165,7 +129,7 @@ void PlanEngineHost::Work()
     {
         return; // an action or the store has called back: the loop below continues
     }
-    while (!_actions.empty() || (!IsStoring() && !_inputs.empty()))
+    while (!_actions.empty() || (!IsStoring() && !_inputs->IsEmpty()))
     {
         if (_actions.empty())
         {
@@ -197,29 +161,14 @@ void PlanEngineHost::CallEngine()
 {
     const Core::Now now = _clock.GetNow();
     EngineActions actions;
-    std::vector<SubmitPlan> plans;
-    while (!_inputs.empty() && GetPlanOrNull(_inputs.front()) != nullptr)
-    {
-        plans.push_back(std::move(*GetPlanOrNull(_inputs.front())));
-        _inputs.pop_front();
-    }
-    if (plans.empty())
-    {
-        const EngineInput input = std::move(_inputs.front());
-        _inputs.pop_front();
-        std::visit(
-            Core::Overloaded{
-                [&](const PlanCommand& command) { _engine.Handle(command, now, actions); },
-                [&](const RobotInput& robot) { _engine.Handle(robot.robotID, robot.event, now, actions); },
-                [&](const EngineTimer& timer) {
-                    _engine.OnTimer(timer, now, actions);
-                }},
-            input);
-    }
-    else
-    {
-        _engine.Submit(plans, now, actions);
-    }
+    std::visit(
+        Core::Overloaded{
+            [&](const std::vector<PlanCommand>& commands) { _engine.Handle(commands, now, actions); },
+            [&](const RobotInput& robot) { _engine.Handle(robot.robotID, robot.event, now, actions); },
+            [&](const EngineTimer& timer) {
+                _engine.OnTimer(timer, now, actions);
+            }},
+        _inputs->Pop());
     Append(std::move(actions));
 }
 

@@ -122,7 +122,7 @@ void AcsdProcess::CrashByChance(std::size_t permyriad, std::string_view where)
 
 void AcsdProcess::PushCommand(Planning::PlanCommand command)
 {
-    static_cast<void>(_core.TryPush(std::move(command)));
+    static_cast<void>(_core.Offer(std::move(command)));
 }
 
 const Planning::PlanEngine& AcsdProcess::GetEngine() const noexcept

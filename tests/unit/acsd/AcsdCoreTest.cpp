@@ -320,7 +320,29 @@ TEST_CASE_METHOD(AcsdCoreFixture, "A stop refuses plans and waits for the Acks o
     CHECK(_stops == 0);
     _core->OnLinksClosed();
     CHECK(_stops == 1);
-    CHECK_FALSE(_core->TryPush(Planning::ControlTSC{true, 0}));
+    CHECK(_core->Offer(Planning::ControlTSC{true, 0}) == Planning::EInputAdmission::Closed);
+}
+
+TEST_CASE_METHOD(
+    AcsdCoreFixture,
+    "4.1 While the disk hangs, plans beyond queue.max_plans are answered with Fail at once")
+{
+    _config.engine.maximumPlans = 3;
+    Begin();
+    Register();
+    _bDiskHangs = true;
+    for (const char* planID : {"P1", "P2", "P3", "P4", "P5", "P6"})
+    {
+        Submit(planID); // P1 is being stored, three wait
+    }
+    REQUIRE(_answers.size() == 2);
+    CHECK(_answers[0].transactionID == "T-P5");
+    CHECK(_answers[0].result == Protocol::EAckResult::Fail);
+    CHECK(_answers[0].message == "The ACS has not stored earlier requests yet. Send the request again later.");
+    CHECK(_answers[1].transactionID == "T-P6");
+    _bDiskHangs = false;
+    ServeDisk();
+    CHECK(_answers.size() == 6);
 }
 
 TEST_CASE_METHOD(

@@ -64,9 +64,9 @@ public:
     /// Handles a command. If it cannot be executed, it is rejected by ReplyCommand with the reason.
     void Handle(const PlanCommand& command, Core::Now now, EngineActions& out);
 
-    /// Handles several plans in this order with a single StorePlans, because a store on disk needs about the same time for
-    /// many plans as for one.
-    void Submit(std::span<const SubmitPlan> plans, Core::Now now, EngineActions& out);
+    /// Handles several commands in this order with a single StorePlans, because a store on disk needs about the same time for
+    /// many changes as for one. Either all are SubmitPlan, or none is SubmitPlan or ControlPlan.
+    void Handle(std::span<const PlanCommand> commands, Core::Now now, EngineActions& out);
 
     /// Handles an event of a robot. Ignored if the robot is not configured, or if the event belongs to another drive or job
     /// than the robot's current one.

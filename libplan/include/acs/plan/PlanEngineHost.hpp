@@ -2,35 +2,30 @@
 
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
+#include <acs/plan/EngineInput.hpp>
 #include <acs/plan/PlanEngine.hpp>
 
 #include <cstddef>
 #include <deque>
 #include <functional>
-#include <string>
-#include <variant>
+#include <memory>
+#include <string_view>
 
 namespace ACS::Planning
 {
 
-/// An event of a robot's adapter.
-struct RobotInput
-{
-    std::string robotID;
-    RobotEvent event;
-};
-
-/// An input of the engine.
-using EngineInput = std::variant<PlanCommand, RobotInput, EngineTimer>;
+class InputQueue;
 
 /// The loop around a PlanEngine: calls it for one input at a time and passes its actions to the handlers strictly in order.
-/// Inputs wait while a batch is being stored. Waiting plans are submitted together, in one transaction. Waiting states of a
-/// robot that differ only in pose or battery are merged into the latest one, so that a blocked disk does not fill the
-/// memory. Does no I/O: store, timers, robots and MCS belong to the caller. Called by one thread at a time.
+/// Inputs wait while a batch is being stored, at most InputLimits of them, so that a blocked disk does not fill the memory.
+/// Events of robots, timers and controls are handled before plans, and plans before commands of the operator; a class to which
+/// others were preferred 16 times has its turn. Plans that wait together share one transaction, and so do commands of the
+/// operator. Waiting states of a robot that differ only in pose or battery are merged into the latest one. Does no I/O: store,
+/// timers, robots and MCS belong to the caller. Called by one thread at a time.
 class PlanEngineHost
 {
 public:
-    /// Executes one action; never called with StorePlans. May call Push and TryPush.
+    /// Executes one action; never called with StorePlans. May call Push and Offer.
     using ExecuteHandler = std::function<void(const EngineAction& action)>;
     /// Stores the batch as one transaction and calls OnStored with the result, before it returns or later.
     using StoreHandler = std::function<void(const StoreBatch& batch)>;
@@ -40,23 +35,32 @@ private:
     const Core::IClock& _clock;
     ExecuteHandler _execute;
     StoreHandler _store;
-    std::deque<EngineInput> _inputs;
+    std::unique_ptr<InputQueue> _inputs;
     std::deque<EngineAction> _actions; ///< Still to be executed.
     bool _bWorking = false;
     bool _bClosed = false;
 
 public:
     /// Engine and clock must outlive the host.
-    PlanEngineHost(PlanEngine& engine, const Core::IClock& clock, ExecuteHandler execute, StoreHandler store);
+    PlanEngineHost(
+        PlanEngine& engine,
+        const Core::IClock& clock,
+        ExecuteHandler execute,
+        StoreHandler store,
+        const InputLimits& limits = {});
+    PlanEngineHost(const PlanEngineHost&) = delete;
+    PlanEngineHost& operator=(const PlanEngineHost&) = delete;
+    ~PlanEngineHost();
 
     /// Passes the content of the store to the engine. Call it once, before any other function.
     void Restore(StoredState state);
 
-    /// Handles the input, or queues it. After Close a command is rejected by its reply; other inputs are dropped.
+    /// Handles the input, or queues it. A command is rejected by its reply if it would exceed a limit, and after Close; other
+    /// inputs are dropped after Close.
     void Push(EngineInput input);
 
-    /// As Push, for a command whose sender waits for no reply. False after Close: the command is not handled.
-    [[nodiscard]] bool TryPush(PlanCommand command);
+    /// As Push, for a command whose sender waits for no reply. Unless Accepted, the command is not handled.
+    [[nodiscard]] EInputAdmission Offer(PlanCommand command);
 
     /// The result of the batch that was passed to the StoreHandler.
     void OnStored(const Core::Result<void>& result);
@@ -73,8 +77,7 @@ public:
     [[nodiscard]] std::size_t GetWaitingCount() const noexcept;
 
 private:
-    [[nodiscard]] bool TryMerge(const EngineInput& input);
-    void Reject(const EngineInput& input) const;
+    void Reject(const PlanCommand& command, std::string_view reason) const;
     void Work();
     void CallEngine();
     void ExecuteNext();

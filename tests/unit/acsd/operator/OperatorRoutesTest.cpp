@@ -22,7 +22,8 @@ class Operator
 
 public:
     PlanWorld world{1, true};
-    bool bStopping = false;
+    Planning::EInputAdmission admission = Planning::EInputAdmission::Accepted;
+    std::chrono::seconds retryAfter{}; ///< Of the last answer.
     std::optional<std::string> storeFault;
 
     Operator()
@@ -31,11 +32,11 @@ public:
             _routes,
             *world.engine,
             {[this](const Planning::PlanCommand& command) {
-                 if (!bStopping)
+                 if (admission == Planning::EInputAdmission::Accepted)
                  {
                      world.Ask(command);
                  }
-                 return !bStopping;
+                 return admission;
              },
              [this] {
                  return storeFault;
@@ -50,6 +51,7 @@ public:
         request.method = "POST";
         request.body = body;
         const Apps::HttpResponse response = _routes.Respond(request);
+        retryAfter = response.retryAfter;
         CHECK((response.status == 404 || response.contentType == "application/json"));
         return std::to_string(response.status) + " " + response.body;
     }
@@ -330,13 +332,25 @@ TEST_CASE("Unknown and repeated parameters and a body are refused by name")
 TEST_CASE("While acsd stops, commands of the operator are refused")
 {
     Operator user;
-    user.bStopping = true;
+    user.admission = Planning::EInputAdmission::Closed;
     for (const char* target :
          {"/tsc/pause", "/tsc/resume", "/robots/LR01/maintenance/on", "/robots/LR01/carriers?carrier="})
     {
         INFO(target);
         CHECK(HasText(user.Post(target), "503 {\"error\":\"acsd is stopping"));
+        CHECK(user.retryAfter.count() == 0);
     }
+}
+
+TEST_CASE("While too many commands wait for the store, further ones are refused, with the time to wait")
+{
+    Operator user;
+    user.admission = Planning::EInputAdmission::Full;
+    CHECK(
+        user.Post("/tsc/pause")
+        == "503 {\"error\":\"Refused, because acsd has not stored earlier commands yet. Retry in 1 s.\"}\n");
+    CHECK(user.retryAfter.count() == 1);
+    CHECK(user.world.engine->GetTscState() == Planning::ETscState::Auto);
 }
 
 TEST_CASE(

@@ -169,22 +169,134 @@ TEST_CASE_METHOD(
     CHECK(ListReplies() == Replies{{10, true}, {1, false}, {2, true}});
 }
 
-TEST_CASE_METHOD(HostTest, "An input between two plans is handled between them")
+TEST_CASE_METHOD(
+    HostTest,
+    "Waiting events of robots and controls are handled before plans, and plans before commands of the operator")
 {
     Submit("P1", 1);
-    Submit("P2", 2);
+    _host.Push(PlanCommand(SetMaintenance{"CR01", true, 2}));
+    Submit("P2", 3);
+    _host.Push(PlanCommand(ControlPlan{EPlanControl::Cancel, "P1", {}, 4}));
+    Submit("P3", 5);
     _host.Push(RobotInput{"LR01", LinkChanged{true}});
-    Submit("P3", 3);
     _host.OnStored({});
-    REQUIRE(ListAdded(_batches.back()) == Texts{"P2"});
-    CHECK(_engine.GetRobotStatuses().front().status == ERobotStatus::Disconnected);
-    _host.OnStored({});
-    CHECK(_engine.GetRobotStatuses().front().status != ERobotStatus::Disconnected);
-    while (_host.IsStoring())
+    while (_host.IsStoring() && _replies.size() < 2)
     {
         _host.OnStored({});
     }
+    CHECK(ListReplies() == Replies{{1, true}, {4, true}});
+    CHECK(ListAdded(_batches.back()) == Texts{"P2", "P3"});
+    CHECK(_engine.GetRobotStatuses().front().status != ERobotStatus::Disconnected);
+    REQUIRE(TryStoreAll());
+    CHECK(ListReplies() == Replies{{1, true}, {4, true}, {3, true}, {5, true}, {2, true}});
+}
+
+TEST_CASE_METHOD(HostTest, "6.5 A control of a plan that still waits is handled after the plan")
+{
+    Submit("P1", 1);
+    Submit("P2", 2);
+    _host.Push(PlanCommand(ControlPlan{EPlanControl::Cancel, "P2", {}, 3}));
+    Submit("P3", 4);
+    _host.OnStored({});
+    CHECK(ListAdded(_batches.back()) == Texts{"P2"});
+    REQUIRE(TryStoreAll());
+    CHECK(ListReplies() == Replies{{1, true}, {2, true}, {3, true}, {4, true}});
+    CHECK(_engine.GetPlanOrNull("P2")->state == EPlanState::Cancelled);
+    CHECK(_engine.GetPlanOrNull("P3")->state == EPlanState::Pending);
+}
+
+TEST_CASE_METHOD(
+    HostTest,
+    "Commands of the operator that wait together share one commit, and each is answered after it")
+{
+    constexpr ReplyToken COMMANDS = 500;
+    Submit("P1", 0);
+    for (ReplyToken token = 1; token <= COMMANDS; ++token)
+    {
+        _host.Push(PlanCommand(SetMaintenance{token % 3 == 0 ? "LR01" : "CR01", token % 2 == 0, token}));
+    }
+    _host.OnStored({});
+    REQUIRE(_batches.size() == 2);
+    CHECK(
+        std::ranges::count_if(
+            _batches[1].changes,
+            [](const StoreChange& change) { return std::holds_alternative<MaintenanceChanged>(change); })
+        > 300);
+    CHECK(_replies.size() == 1);
+    _host.OnStored({});
+    CHECK(_replies.size() == COMMANDS + 1);
+    CHECK(std::ranges::all_of(_replies, &ReplyCommand::bAccepted));
+}
+
+TEST_CASE_METHOD(
+    HostTest,
+    "Robots whose events never end do not keep plans and commands of the operator from being handled")
+{
+    Submit("P1", 1);
+    _host.Push(RobotInput{"LR01", LinkChanged{true}});
+    Submit("P2", 2);
+    _host.Push(PlanCommand(SetMaintenance{"CR01", true, 3}));
+    bool bOnline = true;
+    int commits = 0;
+    while (_replies.size() < 3 && commits < 100)
+    {
+        bOnline = !bOnline;
+        _host.Push(RobotInput{"LR01", LinkChanged{bOnline}}); // each is stored: it sets or clears an alarm
+        REQUIRE(_host.IsStoring());
+        _host.OnStored({});
+        ++commits;
+    }
     CHECK(ListReplies() == Replies{{1, true}, {2, true}, {3, true}});
+    CHECK(commits < 50);
+}
+
+TEST_CASE_METHOD(
+    HostTest,
+    "A million inputs during an hour in which the disk hangs wait in limited number; every request is answered")
+{
+    constexpr int ROUNDS = 100'000;
+    constexpr std::size_t LIMIT = 3'000;
+    Submit("P", 0);
+    REQUIRE(_host.IsStoring());
+    ReplyToken token = 0;
+    std::size_t longest = 0;
+    StateChanged state;
+    state.lastNodeID = "D-CHG01";
+    for (int i = 0; i < ROUNDS; ++i)
+    {
+        _clock.Advance(36ms);
+        const std::string number = std::to_string(i);
+        for (const std::string robotID : {"LR01", "CR01"})
+        {
+            _host.Push(RobotInput{robotID, LinkChanged{i % 2 == 0}});
+            state.errors = {{"AGV-" + number, EAlarmLevel::Light, "changes each time"}};
+            state.x = i;
+            _host.Push(RobotInput{robotID, state});
+            _host.Push(RobotInput{robotID, CompatibilityChanged{i % 2 == 0 ? "" : number}});
+            _host.Push(EngineTimer{EEngineTimer::HomeRetry, robotID});
+        }
+        _host.Push(PlanCommand(MessageAcknowledged{1}));
+        Submit("P" + number, ++token);
+        _host.Push(PlanCommand(ControlPlan{EPlanControl::Cancel, "unknown", {}, ++token, "T" + number}));
+        _host.Push(PlanCommand(ClearAlarms{"LR01", "AGV-1", {}, {}, ++token}));
+        longest = std::max(longest, _host.GetWaitingCount());
+    }
+    CHECK(longest < LIMIT);
+    REQUIRE(_replies.size() > token - LIMIT);
+    CHECK(_replies.front().message == "The ACS has not stored earlier requests yet. Send the request again later.");
+    CHECK(std::ranges::none_of(_replies, &ReplyCommand::bAccepted));
+
+    for (std::size_t i = 0; i < LIMIT && _host.IsStoring(); ++i)
+    {
+        _host.OnStored({});
+    }
+    REQUIRE_FALSE(_host.IsStoring());
+    CHECK(_replies.size() == token + 1);
+    std::ranges::sort(_replies, {}, &ReplyCommand::replyToken);
+    CHECK(std::ranges::adjacent_find(_replies, {}, &ReplyCommand::replyToken) == _replies.end());
+    // The latest of the robots: offline, in the last round.
+    CHECK(_engine.GetRobotStatuses().front().status == ERobotStatus::Disconnected);
+    CHECK(_host.GetWaitingCount() == 0);
 }
 
 TEST_CASE_METHOD(
@@ -267,7 +379,7 @@ TEST_CASE_METHOD(
     Submit("P3", 3);
     _host.Push(PlanCommand(ControlPlan{EPlanControl::Cancel, "P1", {}, 4}));
     _host.Push(PlanCommand(MessageAcknowledged{1}));
-    CHECK_FALSE(_host.TryPush(ControlTSC{true, 9}));
+    CHECK(_host.Offer(ControlTSC{true, 9}) == EInputAdmission::Closed);
     _host.OnStored({});
     CHECK(ListReplies() == Replies{{2, false}, {3, false}, {4, false}, {1, true}});
     CHECK(_batches.size() == 1);

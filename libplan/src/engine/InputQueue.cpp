@@ -1,0 +1,333 @@
+#include "engine/InputQueue.hpp"
+
+#include <acs/core/Overloaded.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+namespace ACS::Planning
+{
+
+namespace
+{
+
+/// A class is postponed at most this often before it has its turn.
+constexpr std::size_t LONGEST_POSTPONEMENT = 16;
+
+RobotEvent& GetEvent(EngineInput& input)
+{
+    return std::get<RobotInput>(input).event;
+}
+
+std::size_t CountBytes(const std::optional<std::string>& text)
+{
+    return text.has_value() ? text->size() : 0;
+}
+
+/// Memory of the plan, about.
+std::size_t CountBytes(const Plan& plan)
+{
+    std::size_t bytes = sizeof(Plan) + plan.planID.size() + plan.lotID.size();
+    for (const Step& step : plan.steps)
+    {
+        bytes += sizeof(Step) + step.action.size() + step.position.size();
+        for (const std::string& carrierID : step.carrierIDs)
+        {
+            bytes += sizeof(carrierID) + carrierID.size();
+        }
+        for (const Job& job : step.jobs)
+        {
+            bytes += sizeof(Job) + job.jobID.size() + CountBytes(job.from) + CountBytes(job.to);
+        }
+    }
+    return bytes;
+}
+
+/// Whether nothing but pose and battery differs.
+bool IsMove(const StateChanged& before, const StateChanged& after)
+{
+    StateChanged moved = before;
+    moved.x = after.x;
+    moved.y = after.y;
+    moved.theta = after.theta;
+    moved.batteryPercent = after.batteryPercent;
+    return moved == after;
+}
+
+} // namespace
+
+InputQueue::InputQueue(const InputLimits& limits)
+    : _limits(limits)
+{
+}
+
+bool InputQueue::TryPush(EngineInput& input)
+{
+    return std::visit(
+        Core::Overloaded{
+            [this](PlanCommand& command) { return TryPushCommand(command); },
+            [this](RobotInput& robot) {
+                PushRobot(std::move(robot));
+                return true;
+            },
+            [this](const EngineTimer& timer) {
+                if (_timers.insert(timer).second)
+                {
+                    _urgent.emplace_back(timer);
+                }
+                return true;
+            }},
+        input);
+}
+
+bool InputQueue::TryPushCommand(PlanCommand& command)
+{
+    return std::visit(
+        Core::Overloaded{
+            [this](const MessageAcknowledged& acknowledged) {
+                _acknowledged.insert(acknowledged.sequence);
+                return true;
+            },
+            [this, &command](const SubmitPlan&) { return TryPushPlan(command); },
+            [this, &command](const ControlPlan&) { return TryPushControl(command); },
+            [this, &command](const auto&) {
+                if (_operator.size() >= _limits.operatorCommands)
+                {
+                    return false;
+                }
+                _operator.push_back(std::move(command));
+                return true;
+            }},
+        command);
+}
+
+bool InputQueue::TryPushPlan(PlanCommand& command)
+{
+    if (_planCount >= _limits.plans || _planBytes >= _limits.planBytes)
+    {
+        return false;
+    }
+    ++_planCount;
+    _planBytes += CountBytes(std::get<SubmitPlan>(command).plan);
+    _plans.push_back(std::move(command));
+    return true;
+}
+
+bool InputQueue::TryPushControl(PlanCommand& command)
+{
+    if (_controlCount >= _limits.controls)
+    {
+        return false;
+    }
+    ++_controlCount;
+    const bool bPlanWaits =
+        std::ranges::any_of(_plans, [&planID = std::get<ControlPlan>(command).planID](const PlanCommand& waiting) {
+            const auto* const planOrNull = std::get_if<SubmitPlan>(&waiting);
+            return planOrNull != nullptr && planOrNull->plan.planID == planID;
+        });
+    if (bPlanWaits)
+    {
+        _plans.push_back(std::move(command));
+    }
+    else
+    {
+        _urgent.emplace_back(std::move(command));
+    }
+    return true;
+}
+
+void InputQueue::PushRobot(RobotInput input)
+{
+    RobotInputs& waiting = _robots[input.robotID];
+    const bool bFull = waiting.size() >= _limits.robotEvents;
+    if (!TryMerge(waiting, input.event) && !(bFull && TryReplace(waiting, input.event)))
+    {
+        waiting.push_back(_urgent.insert(_urgent.end(), std::move(input)));
+    }
+}
+
+bool InputQueue::TryMerge(const RobotInputs& waiting, const RobotEvent& event)
+{
+    if (std::holds_alternative<JobCheckChanged>(event) || std::holds_alternative<CompatibilityChanged>(event))
+    {
+        // What the robot can execute: the latest counts, in any order with other events.
+        const auto same = std::ranges::find_if(waiting, [&event](const Inputs::iterator input) {
+            return GetEvent(*input).index() == event.index();
+        });
+        if (same != waiting.end())
+        {
+            GetEvent(**same) = event;
+        }
+        return same != waiting.end();
+    }
+    const auto* const stateOrNull = std::get_if<StateChanged>(&event);
+    if (stateOrNull == nullptr || waiting.empty())
+    {
+        return false;
+    }
+    RobotEvent& latest = GetEvent(*waiting.back());
+    const auto* const beforeOrNull = std::get_if<StateChanged>(&latest);
+    if (beforeOrNull == nullptr || !IsMove(*beforeOrNull, *stateOrNull))
+    {
+        return false;
+    }
+    latest = *stateOrNull;
+    return true;
+}
+
+/// Events of drives and jobs stay: an adapter raises a limited number of them for each command, and no command is sent while
+/// they wait.
+bool InputQueue::TryReplace(RobotInputs& waiting, const RobotEvent& event)
+{
+    const auto isLatest = [&waiting](auto isMeant) {
+        return !waiting.empty() && isMeant(GetEvent(*waiting.back()));
+    };
+    const auto isState = [](const RobotEvent& latest) {
+        return std::holds_alternative<StateChanged>(latest);
+    };
+    if (isState(event) && isLatest(isState))
+    {
+        GetEvent(*waiting.back()) = event;
+        return true;
+    }
+    const auto* const linkOrNull = std::get_if<LinkChanged>(&event);
+    if (linkOrNull == nullptr)
+    {
+        return false;
+    }
+    const auto last = std::find_if(waiting.rbegin(), waiting.rend(), [](const Inputs::iterator input) {
+        return std::holds_alternative<LinkChanged>(GetEvent(*input));
+    });
+    if (last != waiting.rend() && GetEvent(**last) == event)
+    {
+        return true;
+    }
+    const auto dropLatest = [this, &waiting] {
+        _urgent.erase(waiting.back());
+        waiting.pop_back();
+    };
+    while (!linkOrNull->bOnline && isLatest(isState))
+    {
+        dropLatest(); // outdated by the disconnection
+    }
+    const auto isConnection = [](const RobotEvent& latest) {
+        return latest == RobotEvent(LinkChanged{true});
+    };
+    if (!linkOrNull->bOnline && isLatest(isConnection))
+    {
+        dropLatest();
+        return true;
+    }
+    return false;
+}
+
+InputQueue::Next InputQueue::Pop()
+{
+    assert(!IsEmpty());
+    if (!_acknowledged.empty())
+    {
+        return std::vector<PlanCommand>{MessageAcknowledged{_acknowledged.extract(_acknowledged.begin()).value()}};
+    }
+    switch (ChooseClass())
+    {
+        case EClass::Plans:
+            return PopPlans();
+        case EClass::Operator:
+            return std::exchange(_operator, {});
+        case EClass::Urgent:
+        default:
+            return PopUrgent();
+    }
+}
+
+InputQueue::EClass InputQueue::ChooseClass()
+{
+    const std::array<bool, CLASSES> bWaiting{!_urgent.empty(), !_plans.empty(), !_operator.empty()};
+    const auto due = std::ranges::find_if(_postponed, [](std::size_t count) { return count >= LONGEST_POSTPONEMENT; });
+    const auto chosen = static_cast<std::size_t>(
+        due != _postponed.end() ? std::distance(_postponed.begin(), due)
+                                : std::distance(bWaiting.begin(), std::ranges::find(bWaiting, true)));
+    _postponed.at(chosen) = 0;
+    for (std::size_t index = chosen + 1; index < CLASSES; ++index)
+    {
+        _postponed.at(index) += bWaiting.at(index) ? 1U : 0U;
+    }
+    return static_cast<EClass>(chosen);
+}
+
+InputQueue::Next InputQueue::PopUrgent()
+{
+    EngineInput input = std::move(_urgent.front());
+    _urgent.pop_front();
+    return std::visit(
+        Core::Overloaded{
+            [this](PlanCommand& command) -> Next {
+                --_controlCount;
+                return std::vector<PlanCommand>{std::move(command)};
+            },
+            [this](RobotInput& robot) -> Next {
+                _robots.find(robot.robotID)->second.pop_front();
+                return std::move(robot);
+            },
+            [this](EngineTimer& timer) -> Next {
+                _timers.erase(timer);
+                return std::move(timer);
+            }},
+        input);
+}
+
+/// The plans up to the next control, or that control.
+std::vector<PlanCommand> InputQueue::PopPlans()
+{
+    const auto isPlan = [](const PlanCommand& command) {
+        return std::holds_alternative<SubmitPlan>(command);
+    };
+    std::vector<PlanCommand> commands;
+    if (!isPlan(_plans.front()))
+    {
+        --_controlCount;
+        commands.push_back(std::move(_plans.front()));
+        _plans.pop_front();
+        return commands;
+    }
+    const auto end = std::ranges::find_if_not(_plans, isPlan);
+    std::move(_plans.begin(), end, std::back_inserter(commands));
+    _plans.erase(_plans.begin(), end);
+    for (const PlanCommand& command : commands)
+    {
+        --_planCount;
+        _planBytes -= CountBytes(std::get<SubmitPlan>(command).plan);
+    }
+    return commands;
+}
+
+std::vector<PlanCommand> InputQueue::Clear()
+{
+    std::vector<PlanCommand> commands;
+    for (EngineInput& input : _urgent)
+    {
+        if (auto* const controlOrNull = std::get_if<PlanCommand>(&input); controlOrNull != nullptr)
+        {
+            commands.push_back(std::move(*controlOrNull));
+        }
+    }
+    std::ranges::move(_plans, std::back_inserter(commands));
+    std::ranges::move(_operator, std::back_inserter(commands));
+    *this = InputQueue(_limits);
+    return commands;
+}
+
+bool InputQueue::IsEmpty() const noexcept
+{
+    return GetCount() == 0;
+}
+
+std::size_t InputQueue::GetCount() const noexcept
+{
+    return _acknowledged.size() + _urgent.size() + _plans.size() + _operator.size();
+}
+
+} // namespace ACS::Planning

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <acs/plan/EngineInput.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <list>
+#include <map>
+#include <set>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace ACS::Planning
+{
+
+/// The inputs that wait for the engine, limited in number (InputLimits). Order: acknowledgements, which are not stored at once;
+/// events, timers and controls; plans; commands of the operator. A class that others were preferred to 16 times has its turn.
+/// Within a class the order is that of arrival. A control of a plan that still waits stays after it.
+class InputQueue
+{
+public:
+    /// Inputs of one call of the engine. Several commands are all plans, or all of the operator.
+    using Next = std::variant<RobotInput, EngineTimer, std::vector<PlanCommand>>;
+
+private:
+    enum class EClass : std::uint8_t
+    {
+        Urgent,
+        Plans,
+        Operator,
+    };
+    static constexpr std::size_t CLASSES = 3;
+
+    using Inputs = std::list<EngineInput>;
+    using RobotInputs = std::deque<Inputs::iterator>; ///< Of one robot, oldest first.
+
+    InputLimits _limits;
+    std::set<std::uint64_t> _acknowledged; ///< Sequences of reports.
+    Inputs _urgent;
+    std::map<std::string, RobotInputs> _robots; ///< The events in _urgent.
+    std::set<EngineTimer> _timers;              ///< Those in _urgent.
+    std::deque<PlanCommand> _plans;             ///< With the controls that stay after a plan.
+    std::vector<PlanCommand> _operator;
+    std::size_t _planCount = 0;
+    std::size_t _planBytes = 0;
+    std::size_t _controlCount = 0;                 ///< In both classes.
+    std::array<std::size_t, CLASSES> _postponed{}; ///< How often another class was preferred.
+
+public:
+    explicit InputQueue(const InputLimits& limits);
+
+    /// Queues the input, or merges it into one that waits. False: its class is full, and the input is unchanged.
+    [[nodiscard]] bool TryPush(EngineInput& input);
+    /// Only if not empty.
+    [[nodiscard]] Next Pop();
+    /// Removes all inputs. Returns the commands among them, except acknowledgements.
+    [[nodiscard]] std::vector<PlanCommand> Clear();
+    [[nodiscard]] bool IsEmpty() const noexcept;
+    [[nodiscard]] std::size_t GetCount() const noexcept;
+
+private:
+    [[nodiscard]] bool TryPushCommand(PlanCommand& command);
+    [[nodiscard]] bool TryPushPlan(PlanCommand& command);
+    [[nodiscard]] bool TryPushControl(PlanCommand& command);
+    void PushRobot(RobotInput input);
+    /// Into a waiting event, without a loss: the engine decides on nothing that differs between them.
+    [[nodiscard]] static bool TryMerge(const RobotInputs& waiting, const RobotEvent& event);
+    /// Drops what a newer event makes obsolete.
+    [[nodiscard]] bool TryReplace(RobotInputs& waiting, const RobotEvent& event);
+    [[nodiscard]] EClass ChooseClass();
+    [[nodiscard]] Next PopUrgent();
+    [[nodiscard]] std::vector<PlanCommand> PopPlans();
+};
+
+} // namespace ACS::Planning
