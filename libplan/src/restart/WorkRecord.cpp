@@ -42,6 +42,20 @@ void WorkRecord::AddCommand(const std::string& commandID)
     _commandID = commandID;
 }
 
+void WorkRecord::ForgetCommand(const std::string& commandID)
+{
+    if (_commandID != commandID)
+    {
+        return;
+    }
+    _commandID.clear();
+    if (!_earlierIDs.empty())
+    {
+        _commandID = std::move(_earlierIDs.front());
+        _earlierIDs.erase(_earlierIDs.begin());
+    }
+}
+
 std::int32_t WorkRecord::NumberJob(bool bRepeated, Core::IRandom& random)
 {
     constexpr std::int32_t MAXIMUM = std::numeric_limits<std::int32_t>::max();

@@ -30,6 +30,9 @@ public:
     /// Stores what the robot shows at the start of a plan. Whatever it shows beyond that after a crash was done for the plan.
     void BeginPlan(const std::optional<std::string>& evidentCommandIDOrNull);
     void AddCommand(const std::string& commandID);
+    /// The robot never had the command. If it is sent again while the store fails, a robot that shows it after a crash has done
+    /// more than was stored.
+    void ForgetCommand(const std::string& commandID);
     /// 1 to 2^31 - 1, and not the previous one; a repeated job keeps its number.
     [[nodiscard]] std::int32_t NumberJob(bool bRepeated, Core::IRandom& random);
     void MarkCommandTaken() noexcept;

@@ -399,6 +399,7 @@ void PlanWork::RepeatJob(Robot& robot, std::string commandID)
 {
     StopJobTimer(robot);
     ReleaseJob(robot);
+    robot.work.ForgetCommand(commandID);
     robot.planOrNull->repetition.commandID = std::move(commandID);
     robot.activity = EActivity::Waits;
     robot.changes.bStatus = true;

@@ -48,6 +48,23 @@ TEST_CASE("WorkRecord: earlier commands are remembered, the latest first and eig
     CHECK(record.GetEarlierIDs() == std::vector<std::string>{"9", "8", "7", "6", "5", "4", "3", "2"});
 }
 
+TEST_CASE("WorkRecord: a command that the robot never had is unresolved if the robot shows it after a crash")
+{
+    WorkRecord record;
+    record.AddCommand("drive");
+    record.AddCommand("job");
+    record.ForgetCommand("job");
+    record.ForgetCommand("unknown");
+    CHECK_FALSE(IsUnresolvedAfter(record.Make("LR01"), MakeShown("drive")));
+    CHECK(IsUnresolvedAfter(record.Make("LR01"), MakeShown("job"))); // commanded again while the store failed
+    record.AddCommand("job");
+    CHECK(record.Make("LR01").commandID == "job");
+    CHECK(record.GetEarlierIDs() == std::vector<std::string>{"drive"});
+    record.ForgetCommand("job");
+    record.ForgetCommand("drive");
+    CHECK(record.Make("LR01").commandID.empty());
+}
+
 TEST_CASE("WorkRecord: a job has a number of its own, and a repeated job keeps it")
 {
     ACS::Testing::SeededRandom random(1);
