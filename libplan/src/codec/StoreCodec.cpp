@@ -56,6 +56,8 @@ struct ProgressText
     std::optional<EPlanControl> control;
     std::size_t controlCount = 0;
     std::vector<std::string> requestIDs;
+    std::int64_t queuedAt = 0;
+    std::int64_t storedAt = 0;
 };
 
 } // namespace
@@ -128,7 +130,9 @@ struct JsonFields<Planning::ProgressText>
         Optional("arrived", &Planning::ProgressText::bArrived),
         Optional("control", &Planning::ProgressText::control),
         Optional("controlCount", &Planning::ProgressText::controlCount),
-        Optional("requestIds", &Planning::ProgressText::requestIDs));
+        Optional("requestIds", &Planning::ProgressText::requestIDs),
+        Optional("queuedAt", &Planning::ProgressText::queuedAt),
+        Optional("storedAt", &Planning::ProgressText::storedAt));
 };
 
 template <>
@@ -368,7 +372,9 @@ std::string EncodeProgress(const PlanProgress& progress)
         progress.bArrived,
         progress.control,
         progress.controlCount,
-        progress.requestIDs});
+        progress.requestIDs,
+        progress.queuedAt.count(),
+        progress.storedAt.count()});
 }
 
 Core::Result<PlanProgress> DecodeProgress(std::string_view text)
@@ -384,7 +390,9 @@ Core::Result<PlanProgress> DecodeProgress(std::string_view text)
             read.bArrived,
             read.control,
             read.controlCount,
-            std::move(read.requestIDs)};
+            std::move(read.requestIDs),
+            std::chrono::milliseconds(read.queuedAt),
+            std::chrono::milliseconds(read.storedAt)};
     });
 }
 

@@ -240,7 +240,7 @@ void PlanEngine::Impl::Begin(Core::Now now)
 {
     assert(!_store.IsStoring());
     _engine.transaction.SetNow(now);
-    _engine.plans.BeginCall();
+    _engine.plans.BeginCall(now.steady);
     _store.CheckStoreRecovery();
     _engine.call.Begin();
 }

@@ -16,8 +16,10 @@ PlanBook::PlanBook(const EngineOptions& options)
 {
 }
 
-void PlanBook::BeginCall()
+void PlanBook::BeginCall(Core::SteadyTime now)
 {
+    _age += now - _calledAt.value_or(now);
+    _calledAt = now;
     _ended.clear();
     _replaced.clear();
     _lastStoredSequence = _lastSequence;
@@ -28,7 +30,9 @@ std::vector<PlanProgressed> PlanBook::CollectProgress()
     std::vector<PlanProgressed> changes;
     for (const std::string& planID : std::exchange(_progressed, {}))
     {
-        changes.push_back({planID, FindRecordOrNull(planID)->progress});
+        PlanRecord& record = _active.contains(planID) ? _active.find(planID)->second->record : _finished.at(planID);
+        record.progress.storedAt = GetAge();
+        changes.push_back({planID, record.progress});
     }
     return changes;
 }
@@ -38,6 +42,7 @@ std::vector<StoreChange> PlanBook::Accept(std::unique_ptr<ActivePlan> plan, Core
     PlanRecord& record = plan->record;
     record.sequence = ++_lastSequence;
     record.acceptedAt = now;
+    record.progress.queuedAt = GetAge();
     for (const Step& step : record.plan.steps)
     {
         record.progress.steps.push_back(
@@ -63,6 +68,7 @@ ActivePlan& PlanBook::RestoreActive(PlanRecord record)
 {
     _lastSequence = std::max(_lastSequence, record.sequence);
     _lastStoredSequence = _lastSequence;
+    RestoreAge(record.progress);
     auto plan = std::make_unique<ActivePlan>();
     plan->record = std::move(record);
     plan->key = MakeQueueKey(plan->record);
@@ -73,6 +79,7 @@ ActivePlan& PlanBook::RestoreActive(PlanRecord record)
 std::vector<StoreChange> PlanBook::RestoreFinished(PlanRecord record)
 {
     _lastSequence = std::max(_lastSequence, record.sequence);
+    RestoreAge(record.progress);
     return Remember(std::move(record));
 }
 
@@ -230,8 +237,17 @@ QueueKey PlanBook::MakeQueueKey(const PlanRecord& record) const
     {
         return {-priority, record.sequence};
     }
-    const auto acceptedAt = std::chrono::duration_cast<std::chrono::milliseconds>(record.acceptedAt.time_since_epoch());
-    return {acceptedAt.count() - priority * ageing, record.sequence};
+    return {record.progress.queuedAt.count() - priority * ageing, record.sequence};
+}
+
+std::chrono::milliseconds PlanBook::GetAge() const
+{
+    return std::chrono::duration_cast<std::chrono::milliseconds>(_age);
+}
+
+void PlanBook::RestoreAge(const PlanProgress& progress)
+{
+    _age = std::max<Core::Duration>({_age, progress.queuedAt, progress.storedAt});
 }
 
 std::vector<StoreChange> PlanBook::Remember(PlanRecord record)

@@ -5,11 +5,13 @@
 #include <acs/plan/EngineOptions.hpp>
 #include <acs/plan/IPlanStore.hpp>
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -38,13 +40,15 @@ private:
     std::set<std::string> _progressed; ///< By id; not stored yet.
     std::uint64_t _lastSequence = 0;
     std::uint64_t _lastStoredSequence = 0;
+    Core::Duration _age{}; ///< Of the queue (PlanProgress::queuedAt).
+    std::optional<Core::SteadyTime> _calledAt;
 
 public:
     /// The options must outlive the book.
     explicit PlanBook(const EngineOptions& options);
 
     /// Plans that the previous call added are stored, and those that it ended are history.
-    void BeginCall();
+    void BeginCall(Core::SteadyTime now);
     /// The progress of each plan that changed since the last time.
     [[nodiscard]] std::vector<PlanProgressed> CollectProgress();
 
@@ -88,6 +92,10 @@ public:
 
 private:
     [[nodiscard]] QueueKey MakeQueueKey(const PlanRecord& record) const;
+    /// Of the queue.
+    [[nodiscard]] std::chrono::milliseconds GetAge() const;
+    /// The queue is at least as old as the plan shows.
+    void RestoreAge(const PlanProgress& progress);
     [[nodiscard]] std::vector<StoreChange> Remember(PlanRecord record);
 };
 

@@ -7,6 +7,7 @@
 #include <acs/plan/EStepState.hpp>
 #include <acs/plan/Plan.hpp>
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -38,6 +39,10 @@ struct PlanProgress
     std::optional<EPlanControl> control; ///< The acknowledged control whose outcome is not known.
     std::size_t controlCount = 0;        ///< Number of requests for that control; each gets a result report.
     std::vector<std::string> requestIDs; ///< The latest controls, each with its transactionID ("Pause 4711").
+    /// Age of the queue when the plan was accepted, and when this was stored last: the time that the engine has run, restarts
+    /// included. Setting the wall clock does not change it.
+    std::chrono::milliseconds queuedAt{0};
+    std::chrono::milliseconds storedAt{0};
 
     bool operator==(const PlanProgress&) const = default;
 };

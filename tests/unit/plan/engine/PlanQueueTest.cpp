@@ -76,6 +76,32 @@ TEST_CASE("queue.ageing: a plan that has waited long enough begins before a late
     }
 }
 
+TEST_CASE("queue.ageing: setting the wall clock changes no order, also over a restart; only time that acsd ran counts")
+{
+    for (const auto jump : {std::chrono::hours(-24), std::chrono::hours(24 * 365)})
+    {
+        INFO(jump.count());
+        const auto change = [](EngineOptions& options) {
+            options.queueAgeing = std::chrono::minutes(5);
+        };
+        PlanWorld world = MakeWorld(change);
+        world.Submit(MakePlan("old", 1));
+        world.Submit(MakePlan("paused", 1));
+        world.JumpWall(jump);
+        world.Submit(MakePlan("same", 1));
+        world.Submit(MakePlan("urgent", 2));
+        CHECK(GetQueue(world) == Lines{"urgent", "old", "paused", "same"});
+
+        world.Advance(std::chrono::minutes(16));
+        world.Control(EPlanControl::Pause, "paused"); // the latest that the store has of the queue's age
+        world.JumpWall(-jump);
+        Restart(world, change);
+        world.JumpWall(jump);
+        world.Submit(MakePlan("later", 4)); // younger by 3.2 levels than "old", by 3 levels more urgent
+        CHECK(GetQueue(world) == Lines{"paused", "urgent", "old", "same", "later"});
+    }
+}
+
 TEST_CASE("D-23 A known planId is refused, unless plan.reuse_finished_id is set and its plan has ended")
 {
     for (const bool bReused : {false, true})

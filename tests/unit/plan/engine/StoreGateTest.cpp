@@ -37,7 +37,7 @@ struct GateParts : EngineParts
 
     void BeginCall()
     {
-        engine.plans.BeginCall();
+        engine.plans.BeginCall(engine.transaction.GetNow().steady);
         store.CheckStoreRecovery();
         engine.call.Begin();
     }

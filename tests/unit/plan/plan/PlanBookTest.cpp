@@ -96,10 +96,10 @@ TEST_CASE("PlanBook: only plans of earlier calls are stored")
 {
     const EngineOptions options;
     PlanBook book(options);
-    book.BeginCall();
+    book.BeginCall({});
     ActivePlan& plan = Accept(book, "P1");
     CHECK(book.ListStoredQueue().empty());
-    book.BeginCall();
+    book.BeginCall({});
     CHECK(book.ListStoredQueue() == std::vector<ActivePlan*>{&plan});
 }
 
@@ -156,7 +156,7 @@ TEST_CASE("PlanBook: a plan that cannot be stored leaves the finished plan of it
     PlanBook book(options);
     Accept(book, "P1");
     static_cast<void>(Cancel(book, "P1"));
-    book.BeginCall();
+    book.BeginCall({});
     const std::vector<StoreChange> changes = book.Accept(MakePlan("P1"), START);
     CHECK(changes.front() == StoreChange(PlanRemoved{1}));
     CHECK(book.IsReplaced(1));

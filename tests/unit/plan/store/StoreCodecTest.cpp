@@ -15,6 +15,8 @@ TEST_CASE("Store texts: plans, states, carriers and alarms are decoded as they w
     progress.robotID = "CR01";
     progress.startedAt = Testing::ManualClock().GetNow().wall + std::chrono::nanoseconds(1);
     progress.steps = {{EStepState::Completed, {EJobState::Completed}}, {EStepState::Dispatched, {}}};
+    progress.queuedAt = std::chrono::milliseconds(7);
+    progress.storedAt = std::chrono::hours(24 * 365);
     CHECK(DecodeProgress(EncodeProgress(progress)) == progress);
 
     const CarriersChanged carriers{"CR01", {std::nullopt, "TRAY_02", std::nullopt}};
