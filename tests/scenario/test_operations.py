@@ -330,6 +330,21 @@ class Operations(ScenarioCase):
         self.assertEqual(self.submit(stub, "P1")["result"], "Success")
         stub.wait_for("PlanReport", lambda message: message.payload["status"] == "Completed")
 
+    def test_an_encrypted_key_is_reported_and_acsd_asks_for_no_passphrase(self):
+        key, certificate = self.line.folder / "key.pem", self.line.folder / "certificate.pem"
+        subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-passout", "pass:secret", "-keyout", key,
+                        "-out", certificate, "-days", "2", "-subj", "/CN=acsd"], check=True, capture_output=True)
+        arm = self.start_robots()
+        acsd = self.line.start_acsd(
+            self.start_stub().address, arm, f"mqtt.url=mqtts://127.0.0.1:{self.line.broker_port}",
+            f"mqtt.ca_file={certificate}", f"mqtt.cert_file={certificate}", f"mqtt.key_file={key}", stdin=subprocess.PIPE)
+        self.addCleanup(acsd.process.stdin.close)
+        acsd.wait_ready()
+        self.wait_for_log(acsd, "cannot reach the MQTT broker")
+        self.assertNotIn("pass phrase", acsd.log.read_text())
+        acsd.send_signal(signal.SIGTERM)
+        self.assertEqual(acsd.wait(DRAIN_SECONDS), 0)
+
     def test_sigterm_brings_all_reports_to_the_mcs_and_takes_no_more_plans(self):
         stub = self.start_stub()
         acsd = self.line.start_acsd(stub.address, self.start_robots(), "mcs.ack_timeout=200ms", "mcs.ack_retries=100",

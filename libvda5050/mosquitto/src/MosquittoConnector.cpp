@@ -28,6 +28,12 @@ const char* GetTextOrNull(const std::string& text)
     return text.empty() ? nullptr : text.c_str();
 }
 
+/// An encrypted key fails to load. Without this function OpenSSL would ask at the terminal and wait for a person.
+int RefusePassphrase(char* /*buffer*/, int /*size*/, int /*rwflag*/, void* /*userdata*/)
+{
+    return -1;
+}
+
 int ConfigureTLS(mosquitto* client, const MosquittoTLS& tls)
 {
     if (tls.caFile.empty())
@@ -44,7 +50,7 @@ int ConfigureTLS(mosquitto* client, const MosquittoTLS& tls)
         nullptr,
         GetTextOrNull(tls.certFile),
         GetTextOrNull(tls.keyFile),
-        nullptr);
+        &RefusePassphrase);
 }
 
 int Configure(mosquitto* client, const MosquittoOptions& options)
