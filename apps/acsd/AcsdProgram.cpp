@@ -19,6 +19,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -100,7 +101,7 @@ int Serve(const ProgramOptions& options, AcsdConfig config)
             logger,
             trace.get(),
             [&sink] { return sink.GetDropped(); },
-            [&service] { service.TryNotify("WATCHDOG=1"); },
+            [&service] { std::ignore = service.TryNotify("WATCHDOG=1"); },
             Apps::GetWatchdogTimeoutOrNull().value_or(std::chrono::microseconds(0)) / 2},
         std::move(config));
     if (!acsd)
@@ -110,14 +111,14 @@ int Serve(const ProgramOptions& options, AcsdConfig config)
     }
     std::optional<Apps::SignalWaiter> signals;
     signals.emplace(context.get_executor(), [&](int) {
-        service.TryNotify("STOPPING=1");
+        std::ignore = service.TryNotify("STOPPING=1");
         (*acsd)->StopAsync([&context] { context.stop(); });
     });
     const Apps::HangUpWaiter hangUps(context.get_executor(), [&] { ReadAgain(options, logger, sink, **acsd); });
     (*acsd)->Start();
     sink.Flush();
     Apps::PrintReadyLine({{"http", (*acsd)->GetHttpEndpoint()}});
-    service.TryNotify("READY=1");
+    std::ignore = service.TryNotify("READY=1");
     context.run();
     return 0;
 }

@@ -23,7 +23,7 @@ public:
     ~ServiceNotifier();
 
     /// "READY=1", "STOPPING=1" or "WATCHDOG=1". Whether the receiver has taken it.
-    bool TryNotify(std::string_view state) const;
+    [[nodiscard]] bool TryNotify(std::string_view state) const;
 };
 
 /// Of the environment: empty without systemd.
