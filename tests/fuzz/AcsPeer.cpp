@@ -61,7 +61,7 @@ void AcsPeer::PassTime(std::chrono::milliseconds span)
     const Core::SteadyTime end = _now.steady + span;
     while (true)
     {
-        const auto next = std::ranges::min_element(_deadlines, {}, [](const auto& deadline) {
+        auto* const next = std::ranges::min_element(_deadlines, {}, [](const auto& deadline) {
             return deadline.value_or(Core::SteadyTime::max());
         });
         if (!next->has_value() || **next > end)
@@ -147,36 +147,39 @@ void AcsPeer::FinishReplay()
 
 void AcsPeer::Execute()
 {
-    // Answers to what is delivered are appended.
-    for (std::size_t index = 0; index < _actions.size(); ++index)
+    while (!_actions.empty()) // answers to what is delivered are appended
     {
-        const SessionAction action = std::move(_actions[index]);
-        std::visit(
-            Core::Overloaded{
-                [this](const SendText& text) { Carry(text); },
-                [this](const Protocol::Connect&) {
-                    Require(_connection == EConnection::None, "one connection at a time");
-                    Require(_bStarted, "no connection after Stopped");
-                    _connection = EConnection::Opening;
-                },
-                [this](const Close&) {
-                    Require(_connection != EConnection::None, "only a connection is closed");
-                    _connection = EConnection::Closing;
-                },
-                [this](const StartTimer& timer) {
-                    Require(timer.delay.count() >= 0, "no timer of the past");
-                    _deadlines.at(static_cast<std::size_t>(timer.timer)) = _now.steady + timer.delay;
-                },
-                [this](const CancelTimer& timer) { _deadlines.at(static_cast<std::size_t>(timer.timer)).reset(); },
-                [this](const Protocol::Deliver& event) {
-                    Deliver(event.event);
-                }},
-            action);
+        const SessionActions actions = std::exchange(_actions, {});
+        std::ranges::for_each(actions, [this](const SessionAction& action) { Carry(action); });
     }
-    _actions.clear();
 }
 
-void AcsPeer::Carry(const SendText& action)
+void AcsPeer::Carry(const SessionAction& action)
+{
+    std::visit(
+        Core::Overloaded{
+            [this](const SendText& text) { Send(text); },
+            [this](const Protocol::Connect&) {
+                Require(_connection == EConnection::None, "one connection at a time");
+                Require(_bStarted, "no connection after Stopped");
+                _connection = EConnection::Opening;
+            },
+            [this](const Close&) {
+                Require(_connection != EConnection::None, "only a connection is closed");
+                _connection = EConnection::Closing;
+            },
+            [this](const StartTimer& timer) {
+                Require(timer.delay.count() >= 0, "no timer of the past");
+                _deadlines.at(static_cast<std::size_t>(timer.timer)) = _now.steady + timer.delay;
+            },
+            [this](const CancelTimer& timer) { _deadlines.at(static_cast<std::size_t>(timer.timer)).reset(); },
+            [this](const Protocol::Deliver& event) {
+                Deliver(event.event);
+            }},
+        action);
+}
+
+void AcsPeer::Send(const SendText& action)
 {
     Require(_connection == EConnection::Open, "texts on an open connection only");
     const DecodeOutcome outcome = _codec.Decode(action.text);

@@ -65,7 +65,8 @@ public:
 
 private:
     void Execute();
-    void Carry(const Protocol::SendText& action);
+    void Carry(const Protocol::SessionAction& action);
+    void Send(const Protocol::SendText& action);
     void Deliver(const Protocol::SessionEvent& event);
 };
 
