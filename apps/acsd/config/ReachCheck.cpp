@@ -165,18 +165,8 @@ public:
           _unrestricted(closed, vehicleTypeID, false),
           _open(open, vehicleTypeID, true)
     {
-        for (const Planning::RobotOptions& robot : options.robots)
-        {
-            AddRobot(robot);
-        }
-        for (const Planning::SiteStation& station : _site.GetStations())
-        {
-            const Nodes docks = ListUsable(station);
-            _docks.insert(_docks.end(), docks.begin(), docks.end());
-        }
-        _closedReach = _closed.Find(_starts, _docks);
-        _unrestrictedReach = _unrestricted.Find(_starts, _docks);
-        _openReach = _open.Find(_starts, _docks);
+        FindPlaces();
+        FindReach();
     }
 
     /// Empty: the station is reached, or not meant for the type.
@@ -206,6 +196,26 @@ public:
     }
 
 private:
+    void FindPlaces()
+    {
+        for (const Planning::RobotOptions& robot : _options.robots)
+        {
+            AddRobot(robot);
+        }
+        for (const Planning::SiteStation& station : _site.GetStations())
+        {
+            const Nodes docks = ListUsable(station);
+            _docks.insert(_docks.end(), docks.begin(), docks.end());
+        }
+    }
+
+    void FindReach()
+    {
+        _closedReach = _closed.Find(_starts, _docks);
+        _unrestrictedReach = _unrestricted.Find(_starts, _docks);
+        _openReach = _open.Find(_starts, _docks);
+    }
+
     void AddRobot(const Planning::RobotOptions& robot)
     {
         const bool bOwn = robot.vehicleTypeID == _vehicleTypeID;

@@ -73,7 +73,8 @@ void LoopWatchdog::Start()
 void LoopWatchdog::Stop()
 {
     _impl->bStopped = true;
-    _impl->timer.cancel();
+    boost::system::error_code ignored;
+    _impl->timer.cancel(ignored);
 }
 
 } // namespace ACS::Apps

@@ -36,7 +36,7 @@ std::size_t CountBytes(const Plan& plan)
         bytes += sizeof(Step) + step.action.size() + step.position.size();
         for (const std::string& carrierID : step.carrierIDs)
         {
-            bytes += sizeof(carrierID) + carrierID.size();
+            bytes += sizeof(std::string) + carrierID.size();
         }
         for (const Job& job : step.jobs)
         {
@@ -246,10 +246,13 @@ InputQueue::Next InputQueue::Pop()
 InputQueue::EClass InputQueue::ChooseClass()
 {
     const std::array<bool, CLASSES> bWaiting{!_urgent.empty(), !_plans.empty(), !_operator.empty()};
-    const auto due = std::ranges::find_if(_postponed, [](std::size_t count) { return count >= LONGEST_POSTPONEMENT; });
-    const auto chosen = static_cast<std::size_t>(
-        due != _postponed.end() ? std::distance(_postponed.begin(), due)
-                                : std::distance(bWaiting.begin(), std::ranges::find(bWaiting, true)));
+    const auto isDue = [](std::size_t count) {
+        return count >= LONGEST_POSTPONEMENT;
+    };
+    const bool bDue = std::ranges::any_of(_postponed, isDue);
+    const std::ptrdiff_t position = bDue ? std::ranges::find_if(_postponed, isDue) - _postponed.begin()
+                                         : std::ranges::find(bWaiting, true) - bWaiting.begin();
+    const auto chosen = static_cast<std::size_t>(position);
     _postponed.at(chosen) = 0;
     for (std::size_t index = chosen + 1; index < CLASSES; ++index)
     {

@@ -217,7 +217,7 @@ void MosquittoConnector::ConnectAsync(MosquittoClient client, const MosquittoOpt
     _taskOrNull->outcome.clientOrNull = std::move(client);
     _taskOrNull->handler = std::move(handler);
     _taskOrNull->ownerOrNull = this;
-    _taskOrNull->executorOrNull = boost::asio::prefer(_executor, boost::asio::execution::outstanding_work.tracked);
+    _taskOrNull->executorOrNull = boost::asio::prefer(_executor, boost::asio::execution::outstanding_work_t::tracked);
     try
     {
         std::thread([task = _taskOrNull] { task->Run(); }).detach();
