@@ -229,6 +229,11 @@ private:
         }
     }
 
+    void OnStoreTaken() override
+    {
+        _dependencies.onStoreTaken();
+    }
+
     void ObserveCommit(Core::Duration duration) override
     {
         _metrics.ObserveCommit(duration);

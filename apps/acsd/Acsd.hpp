@@ -36,6 +36,9 @@ public:
         /// Called from the event loop at aliveInterval, which is 0 without a watchdog.
         std::function<void()> onAlive;
         Core::Duration aliveInterval{};
+        /// Another program has taken the place of the store. The owner must end the event loop.
+        std::function<void()> onStoreTaken = [] {
+        };
     };
 
 private:

@@ -1,6 +1,7 @@
 #include "AcsdCore.hpp"
 
 #include <acs/core/Overloaded.hpp>
+#include <acs/plan/EPlanningError.hpp>
 
 #include <cassert>
 #include <utility>
@@ -152,7 +153,7 @@ void AcsdCore::OnMqttDown()
 
 void AcsdCore::OnStored(const Core::Result<void>& result)
 {
-    if (_phase == EPhase::Stopped)
+    if (_phase == EPhase::Stopped || TryEndForTakenStore(result))
     {
         return; // the store was late
     }
@@ -168,7 +169,7 @@ void AcsdCore::OnStored(const Core::Result<void>& result)
 
 void AcsdCore::OnStoreLost(const Core::Error& error)
 {
-    if (!_host.IsStoring())
+    if (!TryEndForTakenStore(tl::unexpected(error)) && !_host.IsStoring())
     {
         _storeWatch.OnLost(error, _dependencies.clock.GetNow().steady);
         _host.OnStoreLost(error);
@@ -294,6 +295,25 @@ void AcsdCore::OnOwnTimer(EAcsdTimer timer)
             assert(false);
             break;
     }
+}
+
+/// Two acsd must not command the same robots. The rest of a transaction is not executed.
+bool AcsdCore::TryEndForTakenStore(const Core::Result<void>& result)
+{
+    if (result.has_value() || result.error().code != Planning::EPlanningError::StoreTaken)
+    {
+        return false;
+    }
+    if (_phase != EPhase::Stopped)
+    {
+        _phase = EPhase::Stopped;
+        _dependencies.logger.Error(
+            "another program has taken the path of the store: acsd ends now; its own store is where it was moved to",
+            {{"reason", Core::Describe(result.error())}});
+        _dependencies.output.CancelTimers();
+        _dependencies.output.OnStoreTaken();
+    }
+    return true;
 }
 
 /// Section 5.3: no work can be accepted while the broker or all robots are away; reported after a grace time.

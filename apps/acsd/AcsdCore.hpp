@@ -130,6 +130,7 @@ private:
     void Execute(const Planning::EngineAction& action);
     void OnStatusChanged(const Planning::RobotStatus& status);
     void OnOwnTimer(EAcsdTimer timer);
+    [[nodiscard]] bool TryEndForTakenStore(const Core::Result<void>& result);
     void UpdateWorking();
     void StartStatusTimer();
     void RepeatStatuses();

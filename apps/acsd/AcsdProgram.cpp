@@ -92,6 +92,7 @@ int Serve(const ProgramOptions& options, AcsdConfig config)
         trace = std::move(*created);
     }
     boost::asio::io_context context(1);
+    int exitCode = 0;
     const Apps::ServiceNotifier service(Apps::GetNotifyAddress());
     Core::Result<std::unique_ptr<Acsd>> acsd = Acsd::Create(
         Acsd::Dependencies{
@@ -102,7 +103,11 @@ int Serve(const ProgramOptions& options, AcsdConfig config)
             trace.get(),
             [&sink] { return sink.GetDropped(); },
             [&service] { std::ignore = service.TryNotify("WATCHDOG=1"); },
-            Apps::GetWatchdogTimeoutOrNull().value_or(std::chrono::microseconds(0)) / 2},
+            Apps::GetWatchdogTimeoutOrNull().value_or(std::chrono::microseconds(0)) / 2,
+            [&context, &exitCode] {
+                exitCode = 1;
+                context.stop();
+            }},
         std::move(config));
     if (!acsd)
     {
@@ -120,7 +125,7 @@ int Serve(const ProgramOptions& options, AcsdConfig config)
     Apps::PrintReadyLine({{"http", (*acsd)->GetHttpEndpoint()}});
     std::ignore = service.TryNotify("READY=1");
     context.run();
-    return 0;
+    return exitCode;
 }
 
 } // namespace

@@ -32,6 +32,8 @@ public:
     virtual void CloseLinks() = 0;
     /// The stop is complete. Last call.
     virtual void OnStopped() = 0;
+    /// Another program has taken the place of the store: end at once, as in a crash. Last call.
+    virtual void OnStoreTaken() = 0;
 
     /// Duration of a transaction of the store.
     virtual void ObserveCommit(Core::Duration duration) = 0;

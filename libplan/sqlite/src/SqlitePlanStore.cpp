@@ -47,7 +47,8 @@ std::string RemoveTrailingSlashes(std::string path)
 
 class SqlitePlanStore::Impl
 {
-    StoreDirectory _directory; ///< Declared first: the lock is released after the database is closed.
+    StoreDirectory _directory;   ///< Declared first: the lock is released after the database is closed.
+    StoreDirectory _placeholder; ///< The directory that has taken its place, locked too; else empty.
     std::string _path;
     bool _bLogFound;
     SQLite::Database _database;
@@ -133,6 +134,10 @@ public:
     /// SQLite writes to a removed file without an error, and the changes are lost when it is closed.
     [[nodiscard]] Core::Result<void> CheckFiles()
     {
+        if (Core::Result<void> kept = KeepPath(); !kept.has_value())
+        {
+            return kept;
+        }
         std::optional<StoreFileChange> change = _files.FindChangeOrNull();
         if (change.has_value())
         {
@@ -172,6 +177,23 @@ public:
     }
 
 private:
+    /// A directory that replaces the one that is open is locked too, so that no other program starts on the path.
+    [[nodiscard]] Core::Result<void> KeepPath()
+    {
+        const std::string path = StoreFiles::GetParent(_path);
+        if (_directory.IsAt(path) || _placeholder.IsAt(path) || !StoreFiles::IsThere(path))
+        {
+            return {};
+        }
+        Core::Result<StoreDirectory> locked = StoreDirectory::Lock(path);
+        if (!locked.has_value() && locked.error().code == EPlanningError::StoreTaken)
+        {
+            return tl::unexpected(std::move(locked.error()));
+        }
+        _placeholder = locked.has_value() ? std::move(*locked) : StoreDirectory();
+        return {};
+    }
+
     [[nodiscard]] Core::Result<void> Begin()
     {
         KeepLog(_database, true); // first, because it must stay in effect if the rest fails

@@ -90,7 +90,16 @@ Core::Result<StoreDirectory> StoreDirectory::Acquire(const std::string& path)
             DescribeErrno(errno));
     }
     static_cast<void>(StoreFiles::TrySynchroniseParent(path)); // not supported by every file system
-    return Lock(path);
+    return Lock(path).and_then([&path](StoreDirectory locked) -> Core::Result<StoreDirectory> {
+        if (!locked.IsAt(path))
+        {
+            return Refuse(
+                path,
+                "a directory that stays in place; start again",
+                "another directory than before the lock");
+        }
+        return locked;
+    });
 }
 
 Core::Result<StoreDirectory> StoreDirectory::Lock(const std::string& path)
@@ -101,11 +110,20 @@ Core::Result<StoreDirectory> StoreDirectory::Lock(const std::string& path)
     {
         const int reason = errno;
         return Refuse(
+            reason == EWOULDBLOCK ? EPlanningError::StoreTaken : EPlanningError::StoreFailed,
             path,
             "a store that only this program uses; stop the other program, or give another directory",
             reason == EWOULDBLOCK ? "a lock of another program" : DescribeErrno(reason));
     }
     return directory;
+}
+
+bool StoreDirectory::IsAt(const std::string& path) const
+{
+    struct stat own = {};
+    struct stat found = {};
+    return _descriptor >= 0 && ::fstat(_descriptor, &own) == 0 && ::stat(path.c_str(), &found) == 0
+        && own.st_dev == found.st_dev && own.st_ino == found.st_ino;
 }
 
 Core::Result<void> StoreDirectory::Check(const std::string& path)

@@ -34,11 +34,14 @@ public:
 
     ~StoreDirectory();
 
-    /// Creates the directory if it is missing, and locks it. EPlanningError::StoreFailed.
+    /// Creates the directory if it is missing, and locks it. EPlanningError::StoreFailed, StoreTaken.
     [[nodiscard]] static Core::Result<StoreDirectory> Acquire(const std::string& path);
 
-    /// Locks an existing directory or file. EPlanningError::StoreFailed.
+    /// Locks an existing directory or file. EPlanningError::StoreFailed; StoreTaken if another program has locked it.
     [[nodiscard]] static Core::Result<StoreDirectory> Lock(const std::string& path);
+
+    /// Whether the path leads to this directory.
+    [[nodiscard]] bool IsAt(const std::string& path) const;
 
     /// Checks that the directory can be used or created, and that its database, if there is one, can be opened.
     /// EPlanningError::StoreFailed.

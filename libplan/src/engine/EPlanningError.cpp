@@ -30,6 +30,8 @@ public:
                 return "the plan store is damaged or is no plan store";
             case EPlanningError::StoreTooNew:
                 return "the plan store was written by a newer version";
+            case EPlanningError::StoreTaken:
+                return "another program uses the plan store";
             default:
                 return "unknown planning error";
         }

@@ -154,7 +154,7 @@ TEST_CASE("Store: a store of the former layout that another program has open is 
     const auto refused = SqlitePlanStore::Open(path);
     ::close(lock);
     REQUIRE_FALSE(refused.has_value());
-    CHECK(refused.error().code == EPlanningError::StoreFailed);
+    CHECK(refused.error().code == EPlanningError::StoreTaken);
     CHECK(Contains(Core::Describe(refused.error()), "another program"));
     CHECK(folder.ListNames() == before);
     CHECK(LoadRobots(*OpenStore(path)) == std::vector<std::string>{"LR01"});

@@ -259,7 +259,7 @@ TEST_CASE("Store: a directory is used by one program at a time, and is free agai
         const std::unique_ptr<SqlitePlanStore> first = OpenStore(folder.GetStore());
         const Core::Result<std::unique_ptr<SqlitePlanStore>> second = SqlitePlanStore::Open(folder.GetStore());
         REQUIRE_FALSE(second.has_value());
-        CHECK(second.error().code == EPlanningError::StoreFailed);
+        CHECK(second.error().code == EPlanningError::StoreTaken);
         CHECK(second.error().path == folder.GetStore());
         CHECK(Core::Describe(second.error()).find("another program") != std::string::npos);
         const std::string link = folder.GetStore("link");

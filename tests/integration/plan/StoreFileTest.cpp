@@ -377,3 +377,40 @@ TEST_CASE("Store: an inspection creates, changes and locks nothing, also while a
     CHECK(Files::last_write_time(GetDatabase(directory)) == time);
     CHECK(OpenStore(directory)->GetOrigin() == StoreOrigin{false, false, NEWEST, NEWEST});
 }
+
+TEST_CASE("Store: an open store keeps its path for itself, and fails for good when another program has taken it")
+{
+    const StoreFolder folder;
+    const std::string directory = folder.GetStore();
+    const std::unique_ptr<SqlitePlanStore> store = OpenStore(directory);
+    REQUIRE(store->Append(MakeBatch("LR01")).has_value());
+    Files::rename(directory, folder.GetStore("away"));
+    CHECK(store->Check().error().code == EPlanningError::StoreFailed);
+    const auto openOther = [](const std::string& path) {
+        return SqlitePlanStore::Open(path).error().code;
+    };
+    SECTION("A directory in its place is locked")
+    {
+        MakeDirectory(directory);
+        CHECK(store->Check().error().code == EPlanningError::StoreFailed);
+        CHECK(openOther(directory) == EPlanningError::StoreTaken);
+        CHECK(openOther(folder.GetStore("away")) == EPlanningError::StoreTaken);
+        Files::remove_all(directory);
+        Files::rename(folder.GetStore("away"), directory);
+        CHECK(store->Append(MakeBatch("LR02")).has_value());
+        CHECK(openOther(directory) == EPlanningError::StoreTaken);
+    }
+    SECTION("Another program has the directory in its place")
+    {
+        const std::unique_ptr<SqlitePlanStore> other = OpenStore(directory);
+        for (const Core::Result<void>& result : {store->Check(), store->Append(MakeBatch("LR02"))})
+        {
+            REQUIRE_FALSE(result.has_value());
+            CHECK(result.error().code == EPlanningError::StoreTaken);
+        }
+        CHECK(
+            StoreFolder::ListNamesIn(directory)
+            == std::vector<std::string>{"acsd.db", "acsd.db-shm", "acsd.db-wal", "generation"});
+        CHECK(other->Append(MakeBatch("CR01")).has_value());
+    }
+}

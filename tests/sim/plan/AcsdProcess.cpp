@@ -252,6 +252,11 @@ void AcsdProcess::OnStopped()
     assert(false && "it only crashes");
 }
 
+void AcsdProcess::OnStoreTaken()
+{
+    assert(false && "its store is in memory");
+}
+
 void AcsdProcess::ObserveCommit(Core::Duration /*duration*/)
 {
 }

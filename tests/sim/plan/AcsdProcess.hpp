@@ -111,6 +111,7 @@ private:
     void CancelTimers() override;
     void CloseLinks() override;
     void OnStopped() override;
+    void OnStoreTaken() override;
     void ObserveCommit(Core::Duration duration) override;
     void ObserveAckWait(Core::Duration wait) override;
 

@@ -3,6 +3,7 @@
 #include "Catch.hpp"
 #include "fixtures/PlanWorld.hpp"
 #include <acs/core/ECoreError.hpp>
+#include <acs/plan/EPlanningError.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -53,6 +54,7 @@ protected:
     std::size_t _checks = 0;
     std::size_t _closes = 0;
     std::size_t _stops = 0;
+    std::size_t _takenStores = 0;
     AcsdCore::ActionFilter _filter;
     std::optional<AcsdCore> _core;
 
@@ -174,6 +176,11 @@ private:
     void OnStopped() override
     {
         ++_stops;
+    }
+
+    void OnStoreTaken() override
+    {
+        ++_takenStores;
     }
 
     void ObserveCommit(Core::Duration /*duration*/) override
@@ -458,6 +465,30 @@ TEST_CASE_METHOD(AcsdCoreFixture, "A store that hangs or fails is a not-ready re
     _bDiskHangs = false;
     ServeDisk();
     CHECK(_core->GetNotReadyReasons().empty());
+}
+
+TEST_CASE_METHOD(AcsdCoreFixture, "acsd ends at once, without further actions, if another program has taken its store")
+{
+    const Core::Error taken{Planning::EPlanningError::StoreTaken, "store", "a store of this program", "a lock"};
+    Begin();
+    Register();
+    SECTION("A check reports it")
+    {
+        _core->OnStoreLost(taken);
+    }
+    SECTION("A transaction reports it")
+    {
+        _bDiskHangs = true;
+        Submit("P1");
+        _core->OnStored(tl::unexpected(taken));
+    }
+    CHECK(_takenStores == 1);
+    _core->OnStoreLost(taken);
+    Advance(1h);
+    CHECK(_takenStores == 1);
+    CHECK(_stops == 0);
+    CHECK(_answers.empty());
+    CHECK(_core->IsClosed());
 }
 
 TEST_CASE_METHOD(AcsdCoreFixture, "A filter decides which actions of the engine are executed")

@@ -13,6 +13,7 @@ enum class EPlanningError
     StoreFailed = 3,    ///< The store could not be read or written (disk full, no permission, …).
     StoreCorrupt = 4,   ///< A file of the store is damaged or of another kind.
     StoreTooNew = 5,    ///< The store was written by a newer version.
+    StoreTaken = 6,     ///< Another program uses the store, or has taken the path of one that is open.
 };
 
 [[nodiscard]] std::error_code make_error_code(EPlanningError error) noexcept;

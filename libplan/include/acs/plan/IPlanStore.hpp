@@ -164,12 +164,12 @@ public:
     [[nodiscard]] virtual Core::Result<StoredState> Load() = 0;
 
     /// Stores all changes as one transaction: they are durable on return; on error none of them is stored. Errors:
-    /// EPlanningError::StoreFailed.
+    /// EPlanningError::StoreFailed; StoreTaken as of Check.
     [[nodiscard]] virtual Core::Result<void> Append(const StoreBatch& batch) = 0;
 
     /// Checks, without writing, that the stored data can still be found by the next process that opens the store, for example
     /// that its files were not removed. Call it periodically and pass a failure to PlanEngine::OnStoreLost. Errors:
-    /// EPlanningError::StoreFailed.
+    /// EPlanningError::StoreFailed; StoreTaken if another program uses the place of the store: end the program.
     [[nodiscard]] virtual Core::Result<void> Check() = 0;
 };
 

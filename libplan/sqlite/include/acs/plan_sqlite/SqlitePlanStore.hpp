@@ -28,7 +28,7 @@ public:
     /// Opens or creates the store; its parent directory must exist. An older schema is migrated. If the path is a database of
     /// the former layout (a file with `.lock` beside it), it is migrated to a directory, and the former files are kept with
     /// `.former` in their names.
-    /// Errors: EPlanningError::StoreFailed (no such directory, no permission, open in another program), StoreCorrupt
+    /// Errors: EPlanningError::StoreFailed (no such directory, no permission), StoreTaken (open in another program), StoreCorrupt
     /// (damaged, not a plan store, or its log is missing), StoreTooNew. Each names the file, the reason of the system or
     /// of SQLite, and the remedy. A refused database and its log are left unchanged.
     [[nodiscard]] static Core::Result<std::unique_ptr<SqlitePlanStore>> Open(const std::string& directory);
@@ -45,7 +45,8 @@ public:
     /// Fails if the database or its log was removed, moved or replaced while open; Append fails too, because its changes would
     /// be lost. The content of such a database is copied to `acsd.db.rescued` immediately; that of such a log is merged into the
     /// database. When the files are back, the store works again and the copy is deleted. Otherwise the next Open restores the
-    /// copy, or fails if there is another database.
+    /// copy, or fails if there is another database. A directory that replaces the one that was opened is locked too;
+    /// EPlanningError::StoreTaken if another program has locked it: the store must not be used any more.
     [[nodiscard]] Core::Result<void> Check() override;
 };
 

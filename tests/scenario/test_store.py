@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+"""The store of acsd as in docs/guide/operate.md: one program at a time, and no other user prevents a start."""
+
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import time
+
+from mcs_stub import McsStub
+from plan_samples import make_carrying_plan
+from scenario_case import ScenarioCase, main
+
+END_SECONDS = 20
+FOREIGN_USER = 65534
+# Locks what it can open, reports how many, and ends with its standard input.
+HOLDER = """
+import fcntl, os, sys
+os.setgid({user}); os.setuid({user})
+held = []
+for path in sys.argv[1:]:
+    try:
+        held.append(os.open(path, os.O_RDONLY))
+        fcntl.flock(held[-1], fcntl.LOCK_EX)
+    except OSError:
+        pass
+print(len(held), flush=True)
+sys.stdin.read()
+"""
+
+
+class Store(ScenarioCase):
+    def setUp(self):
+        super().setUp()
+        self.stub = McsStub()
+        self.addCleanup(self.stub.close)
+        self.directory = self.line.folder / "store"
+
+    def start_acsd(self, *overrides, **options):
+        acsd = self.line.start_acsd(self.stub.address, self.robots, *overrides, **options)
+        return acsd, acsd.wait_ready()["http"]
+
+    def end_acsd(self, acsd):
+        self.assertEqual(acsd.stop(), 0)
+        self.line.forget(acsd)
+
+    def wait_for_end(self, program):
+        code = program.wait(END_SECONDS)
+        self.line.forget(program)
+        return code
+
+    def assert_refused(self, *parts, overrides=()):
+        """A start ends with exit code 1 and these parts in its part of the log, which all acsd of a test share."""
+        begin = (self.line.folder / "acsd.log").stat().st_size
+        acsd = self.line.start_acsd(self.stub.address, self.robots, *overrides)
+        self.assertEqual(self.wait_for_end(acsd), 1, acsd.tail())
+        for part in parts:
+            self.assertIn(part, acsd.log.read_text()[begin:])
+
+    def wait_for_lock(self):
+        """An attempt to lock it would be one of another program."""
+        number = self.directory.stat().st_ino
+        deadline = time.monotonic() + END_SECONDS
+        while f":{number} " not in pathlib.Path("/proc/locks").read_text():
+            self.assertLess(time.monotonic(), deadline, "the directory was not locked")
+            time.sleep(0.02)
+
+    def submit(self, plan_id):
+        return self.stub.ask("ExecutionPlan", make_carrying_plan(plan_id))
+
+
+class OneProgram(Store):
+    def test_no_second_acsd_starts_whichever_file_of_the_store_is_removed(self):
+        self.robots = self.start_robots()
+        self.start_acsd()
+        for name in ("generation", "acsd.db-shm", "acsd.db-wal", "acsd.db", "acsd.db.rescued"):
+            with self.subTest(removed=name):
+                (self.directory / name).unlink(missing_ok=True)
+                self.assert_refused(f"{self.directory}: expected a store that only this program uses", "a lock of another program")
+
+    def test_acsd_keeps_the_path_of_a_directory_that_was_moved_away(self):
+        self.robots = self.start_robots()
+        acsd, address = self.start_acsd()
+        away = self.line.folder / "away"
+        self.directory.rename(away)
+        self.directory.mkdir(mode=0o700)
+        self.wait_for_status(address, lambda status: status["obstacles"])
+        self.wait_for_lock()
+        self.assert_refused(f"{self.directory}: expected a store that only this program uses")
+        self.assert_refused(f"{away}: expected a store that only this program uses", overrides=(f"store.directory={away}",))
+        self.assertTrue(acsd.is_running())
+
+    def test_acsd_ends_when_another_one_has_taken_its_path(self):
+        self.robots = self.start_robots()
+        first, address = self.start_acsd("tsc.initial=paused")
+        self.stub.wait_for("RobotStatusUpdate")
+        self.assertEqual(self.submit("P1")["result"], "Success")
+        away = self.line.folder / "away"
+        first.process.send_signal(signal.SIGSTOP)  # it checks its directory every 2 s
+        self.directory.rename(away)
+        second, _ = self.start_acsd()
+        first.process.send_signal(signal.SIGCONT)
+        self.assertEqual(self.wait_for_end(first), 1)
+        self.assertIn("ends now", first.log.read_text())
+        self.assertTrue(second.is_running())
+        # What it had is still there.
+        self.end_acsd(second)
+        for path in sorted(self.directory.iterdir()):
+            path.unlink()
+        self.directory.rmdir()
+        away.rename(self.directory)
+        _, address = self.start_acsd("tsc.initial=paused")
+        self.assertEqual([plan["planId"] for plan in self.read_status(address)["plans"]], ["P1"])
+
+    def test_a_user_without_permission_cannot_prevent_a_start_by_a_lock(self):
+        if os.geteuid() != 0:
+            self.skipTest("needs a process of another user: runs as root only")
+        self.robots = self.start_robots()
+        acsd, _ = self.start_acsd()
+        self.end_acsd(acsd)
+        self.line.folder.chmod(0o755)
+        readable = self.line.folder / "readable"
+        readable.touch(mode=0o644)
+        paths = [self.line.folder, readable, self.directory, *self.directory.iterdir()]
+        holder = subprocess.Popen([sys.executable, "-c", HOLDER.format(user=FOREIGN_USER), *map(str, paths)], text=True,
+                                  stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        self.addCleanup(holder.communicate)
+        self.assertEqual(holder.stdout.readline(), "2\n")  # the folder and the file, nothing of the store
+        self.start_acsd()
+        self.assertEqual(holder.poll(), None)
+
+
+if __name__ == "__main__":
+    main()
