@@ -16,7 +16,8 @@ TscControl::TscControl(EngineState& engine)
       _plans(engine.plans),
       _fleet(engine.fleet),
       _transaction(engine.transaction),
-      _startup(engine.startup)
+      _startup(engine.startup),
+      _hold(engine.hold)
 {
 }
 
@@ -30,6 +31,7 @@ void TscControl::SwitchTSC(const ControlTSC& command)
     }
     else if (!command.bPause && !bAuto)
     {
+        ReleaseHold();
         ChangeTSC(ETscState::Auto);
     }
     _transaction.Emit(ReplyCommand{command.replyToken, true, fmt::format("The TSC is {}.", GetText(_tscState))});
@@ -44,6 +46,22 @@ void TscControl::ChangeTSC(ETscState state)
     if (GetTscState() == state)
     {
         PublishTscState(from);
+    }
+}
+
+void TscControl::ReleaseHold()
+{
+    if (!_hold.IsActive())
+    {
+        return;
+    }
+    _hold.Release();
+    for (Robot& robot : _fleet)
+    {
+        if (robot.control.pause.IsResuming())
+        {
+            _transaction.Command(robot, Resume{});
+        }
     }
 }
 
@@ -76,6 +94,10 @@ void TscControl::RestoreTSC(ETscState stored)
     if (_options.bTscStartsPaused || stored != ETscState::Auto)
     {
         _tscState = _plans.IsAnyRunning() ? ETscState::Pausing : ETscState::Paused;
+    }
+    if (_hold.IsActive())
+    {
+        _tscState = ETscState::Paused;
     }
     if (_tscState != stored)
     {

@@ -17,9 +17,10 @@ class TscControl
 {
     const EngineOptions& _options;
     const PlanBook& _plans;
-    const Fleet& _fleet;
+    Fleet& _fleet;
     EngineTransaction& _transaction;
     const StartupBarrier& _startup;
+    RestartHold& _hold;
     ETscState _tscState = ETscState::Auto;
 
 public:
@@ -33,7 +34,7 @@ public:
     void FinishTscPause();
     /// Whether idle robots may drive. While the TSC is pausing they only clear the routes of running plans.
     [[nodiscard]] bool CanDriveHome() const;
-    /// Restores the stored state. A paused TSC stays paused; running plans are completed.
+    /// Restores the stored state. A paused TSC stays paused; running plans are completed, unless the restart holds them.
     void RestoreTSC(ETscState stored);
     /// The published state: Paused while the startup barrier holds work back (section 5.2).
     [[nodiscard]] ETscState GetTscState() const noexcept;
@@ -42,6 +43,8 @@ public:
 
 private:
     void ChangeTSC(ETscState state);
+    /// Ends the hold of the restart: robots that were to resume are commanded to.
+    void ReleaseHold();
 };
 
 } // namespace ACS::Planning

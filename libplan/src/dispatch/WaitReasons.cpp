@@ -20,6 +20,7 @@ WaitReasons::WaitReasons(
       _fleet(engine.fleet),
       _backlog(engine.backlog),
       _startup(engine.startup),
+      _hold(engine.hold),
       _tsc(tsc),
       _stalls(stalls),
       _waiting(waiting),
@@ -90,6 +91,11 @@ std::optional<std::string> WaitReasons::DescribeUnavailabilityOrNull(const Activ
             "robots that cannot move block the route to the station, or from there to its parking position");
 }
 
+std::string WaitReasons::DescribeHold() const
+{
+    return fmt::format("The TSC is Paused: {}", _hold.GetReason());
+}
+
 WaitReason WaitReasons::DescribeWaiting(const ActivePlan& plan, std::size_t position) const
 {
     WaitReason reason;
@@ -102,7 +108,11 @@ WaitReason WaitReasons::DescribeWaiting(const ActivePlan& plan, std::size_t posi
             reason.robots.push_back({_fleet[index].GetID(), std::move(*robotReason)});
         }
     }
-    if (_tsc.GetState() != ETscState::Auto)
+    if (_hold.IsActive())
+    {
+        reason.message = DescribeHold();
+    }
+    else if (_tsc.GetState() != ETscState::Auto)
     {
         reason.message = fmt::format("The TSC is {}: no plan is started.", GetText(_tsc.GetState()));
     }
@@ -143,6 +153,11 @@ std::optional<WaitReason> WaitReasons::DescribeBegunOrNull(const ActivePlan& pla
         return std::nullopt;
     }
     const Robot& robot = _fleet[*plan.robot];
+    if (_hold.IsActive() && !robot.job.IsUnresolved())
+    {
+        reason.message = DescribeHold();
+        return reason;
+    }
     if (const EUnavailability unavailability = robot.GetUnavailability(); unavailability != EUnavailability::None)
     {
         reason.message = fmt::format("{}: {}.", robot.GetID(), robot.Describe(unavailability));

@@ -26,6 +26,7 @@ class WaitReasons
     const Fleet& _fleet;
     const StoreBacklog& _backlog;
     const StartupBarrier& _startup;
+    const RestartHold& _hold;
     const TscControl& _tsc;
     const StallWatch& _stalls;
     const WaitingRobots& _waiting;
@@ -48,6 +49,7 @@ public:
     [[nodiscard]] std::optional<WaitReason> DescribeBegunOrNull(const ActivePlan& plan) const;
 
 private:
+    [[nodiscard]] std::string DescribeHold() const;
     /// Why the plan is not assigned to the robot now.
     [[nodiscard]] std::optional<std::string> DescribeUnavailabilityOrNull(const ActivePlan& plan, const Robot& robot)
         const;

@@ -248,7 +248,7 @@ void PlanEngine::Impl::Begin(Core::Now now)
 void PlanEngine::Impl::End(EngineActions& out)
 {
     _recovery.UpdateStartup();
-    if (_engine.transaction.IsDispatchNeeded() && !_engine.startup.IsHoldingWork())
+    if (_engine.transaction.IsDispatchNeeded() && !_engine.startup.IsHoldingWork() && !_engine.hold.IsActive())
     {
         Dispatch();
     }

@@ -84,6 +84,7 @@ public:
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SkipStep& command) const;
     [[nodiscard]] const std::vector<Alarm>& GetActiveAlarms() const noexcept;
     [[nodiscard]] ETscState GetTscState() const noexcept;
+    [[nodiscard]] const std::string& GetHoldReason() const noexcept;
 
 private:
     void Begin(Core::Now now);

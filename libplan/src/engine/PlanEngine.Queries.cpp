@@ -158,6 +158,11 @@ const std::vector<Alarm>& PlanEngine::Impl::GetActiveAlarms() const noexcept
     return _engine.alarms.GetAlarms();
 }
 
+const std::string& PlanEngine::Impl::GetHoldReason() const noexcept
+{
+    return _engine.hold.GetReason();
+}
+
 ETscState PlanEngine::Impl::GetTscState() const noexcept
 {
     return _tsc.GetTscState();

@@ -120,6 +120,11 @@ const std::vector<Alarm>& PlanEngine::GetActiveAlarms() const noexcept
     return _impl->GetActiveAlarms();
 }
 
+const std::string& PlanEngine::GetHoldReason() const noexcept
+{
+    return _impl->GetHoldReason();
+}
+
 ETscState PlanEngine::GetTscState() const noexcept
 {
     return _impl->GetTscState();

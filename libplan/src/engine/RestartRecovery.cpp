@@ -27,6 +27,7 @@ RestartRecovery::RestartRecovery(
       _transaction(engine.transaction),
       _backlog(engine.backlog),
       _startup(engine.startup),
+      _hold(engine.hold),
       _tsc(tsc),
       _answers(answers),
       _places(places),
@@ -37,6 +38,7 @@ RestartRecovery::RestartRecovery(
 
 void RestartRecovery::Restore(StoredState state)
 {
+    _hold.Restore(std::move(state.holdReason));
     _outbox.Restore(std::move(state.outbox), state.lastReportSequence);
     RestoreAlarms(std::move(state.alarms));
     for (const CarriersChanged& stored : state.carriers)

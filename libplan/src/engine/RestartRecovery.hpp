@@ -29,6 +29,7 @@ class RestartRecovery
     EngineTransaction& _transaction;
     StoreBacklog& _backlog;
     StartupBarrier& _startup;
+    RestartHold& _hold;
     TscControl& _tsc;
     ControlAnswers& _answers;
     PlaceTracker& _places;

@@ -2,6 +2,7 @@
 #include <acs/plan/MemoryPlanStore.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace ACS::Planning
 {
@@ -56,7 +57,13 @@ void ApplyChange(StoredState& state, const StoreChange& change)
                     state.robotsInMaintenance.push_back(changed.robotID);
                 }
             },
-            [&state](const TscChanged& changed) { state.tscState = changed.state; },
+            [&state](const TscChanged& changed) {
+                state.tscState = changed.state;
+                if (changed.state == ETscState::Auto)
+                {
+                    state.holdReason.clear();
+                }
+            },
             [&state](const AlarmSet& set) { state.alarms.push_back(set.alarm); },
             [&state](const AlarmCleared& cleared) {
                 std::erase_if(state.alarms, [&cleared](const Alarm& alarm) { return alarm.IsSameAs(cleared.alarm); });
@@ -83,6 +90,11 @@ Core::Result<void> MemoryPlanStore::Append(const StoreBatch& batch)
 Core::Result<void> MemoryPlanStore::Check()
 {
     return {};
+}
+
+void MemoryPlanStore::SetHoldReason(std::string reason)
+{
+    _state.holdReason = std::move(reason);
 }
 
 const StoredState& MemoryPlanStore::GetState() const noexcept

@@ -2,6 +2,7 @@
 
 #include "plan/PlanAdmission.hpp"
 #include "plan/PlanBook.hpp"
+#include "restart/RestartHold.hpp"
 #include "restart/StartupBarrier.hpp"
 #include "robot/Fleet.hpp"
 #include "transaction/AlarmBook.hpp"
@@ -30,6 +31,7 @@ struct EngineState
     ReportOutbox outbox;
     StoreBacklog backlog;
     StartupBarrier startup;
+    RestartHold hold;
     CallRecord call;
     EngineTransaction transaction{options, random, plans, alarms, outbox};
 

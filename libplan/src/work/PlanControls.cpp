@@ -22,6 +22,7 @@ PlanControls::PlanControls(
       _transaction(engine.transaction),
       _call(engine.call),
       _backlog(engine.backlog),
+      _hold(engine.hold),
       _tsc(tsc),
       _answers(answers),
       _waiting(waiting),
@@ -328,7 +329,7 @@ void PlanControls::UpdatePause(Robot& robot, bool bBack, bool bWasPaused)
     const StateChanged& state = *robot.view.state;
     const PauseTracker::ERepeat repeat =
         robot.control.pause.OnState(state.bPaused, bWasPaused, state.bAutomatic, bBack);
-    if (repeat == PauseTracker::ERepeat::Resume)
+    if (repeat == PauseTracker::ERepeat::Resume && !_hold.IsActive())
     {
         _transaction.Command(robot, Planning::Resume{});
     }

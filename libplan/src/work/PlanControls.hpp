@@ -26,6 +26,7 @@ class PlanControls
     EngineTransaction& _transaction;
     CallRecord& _call;
     const StoreBacklog& _backlog;
+    const RestartHold& _hold;
     const TscControl& _tsc;
     ControlAnswers& _answers;
     const WaitingRobots& _waiting;

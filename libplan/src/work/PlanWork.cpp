@@ -15,6 +15,7 @@ namespace ACS::Planning
 PlanWork::PlanWork(EngineState& engine, ControlAnswers& answers, LoadWatch& loads, StatusPublisher& status)
     : _options(engine.options),
       _site(engine.site),
+      _hold(engine.hold),
       _random(engine.random),
       _plans(engine.plans),
       _fleet(engine.fleet),
@@ -202,12 +203,12 @@ void PlanWork::BeginNext(Robot& robot)
         _assignment.BeginStep(*robot.planOrNull, robot);
         return;
     }
-    if (robot.IsUsable() && !PortCheck::DescribeMissingTrayOrNull(robot).has_value())
+    if (robot.IsUsable() && !PortCheck::DescribeMissingTrayOrNull(robot).has_value() && !_hold.IsActive())
     {
         BeginJob(robot);
         return;
     }
-    // Continues when the robot, or the tray, is available again.
+    // Continues when the robot, or the tray, is available again, or the hold of the restart ends.
     robot.activity = EActivity::Waits;
     robot.changes.bStatus = true;
 }

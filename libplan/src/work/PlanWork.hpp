@@ -21,6 +21,7 @@ class PlanWork
 {
     const EngineOptions& _options;
     const SiteMap& _site;
+    const RestartHold& _hold;
     Core::IRandom& _random;
     PlanBook& _plans;
     Fleet& _fleet;

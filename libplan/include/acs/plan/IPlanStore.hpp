@@ -146,6 +146,9 @@ struct StoredState
     std::vector<Alarm> alarms;
     std::vector<std::string> robotsInMaintenance;
     ETscState tscState = ETscState::Auto; ///< Auto if none was ever stored.
+    /// Why the content may be out of date, for example a restored backup; empty: it is not. The engine then starts with the TSC
+    /// Paused and commands no robot to move or work until the operator resumes it. TscChanged to Auto clears the reason.
+    std::string holdReason;
     std::vector<RobotWorkChanged> robotWorks;
 
     bool operator==(const StoredState&) const = default;

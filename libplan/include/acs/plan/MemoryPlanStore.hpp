@@ -2,6 +2,8 @@
 
 #include <acs/plan/IPlanStore.hpp>
 
+#include <string>
+
 namespace ACS::Planning
 {
 
@@ -14,6 +16,9 @@ public:
     [[nodiscard]] Core::Result<StoredState> Load() override;
     [[nodiscard]] Core::Result<void> Append(const StoreBatch& batch) override;
     [[nodiscard]] Core::Result<void> Check() override;
+
+    /// What the next Load returns as StoredState::holdReason, until the TSC is Auto.
+    void SetHoldReason(std::string reason);
 
     [[nodiscard]] const StoredState& GetState() const noexcept;
 };

@@ -124,6 +124,9 @@ public:
     [[nodiscard]] const std::vector<Alarm>& GetActiveAlarms() const noexcept;
 
     [[nodiscard]] ETscState GetTscState() const noexcept;
+
+    /// Why the TSC has been Paused since the start (StoredState::holdReason), until the operator resumes it; otherwise empty.
+    [[nodiscard]] const std::string& GetHoldReason() const noexcept;
 };
 
 } // namespace ACS::Planning
