@@ -9,6 +9,7 @@
 #include "common/process/SignalWaiter.hpp"
 #include "common/process/SystemClock.hpp"
 #include "common/process/SystemRandom.hpp"
+#include "store/StoreCommand.hpp"
 
 #include <boost/asio/io_context.hpp>
 #include <CLI/CLI.hpp>
@@ -19,6 +20,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <sys/stat.h>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -32,6 +35,7 @@ namespace
 constexpr const char* NAME = "acsd";
 
 constexpr const char* FOOTER =
+    "acsd store --help has the commands for its store.\n"
     "Signals: SIGTERM and SIGINT stop acsd after the MCS has acknowledged its reports (a second one stops it at once), "
     "SIGHUP reloads the configuration.\n"
     "Exit codes: 0 after a stop, --check-config without errors, --help or --version; 1 if acsd cannot run (store, port, "
@@ -132,6 +136,11 @@ int Serve(const ProgramOptions& options, AcsdConfig config)
 
 int RunAcsd(int argc, const char* const* argv)
 {
+    ::umask(S_IRWXG | S_IRWXO); // the store and the trace are for the user of acsd only
+    if (argc > 1 && std::string_view(argv[1]) == "store")
+    {
+        return RunStoreCommand(argc - 1, argv + 1);
+    }
     ProgramOptions options;
     CLI::App app{
         "Executes the ExecutionPlans of an MCS (MCS-ACS): drives robots over VDA5050, controls arms over Open Stream, and "

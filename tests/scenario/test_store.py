@@ -1,16 +1,20 @@
 #!/usr/bin/env python3
 """The store of acsd as in docs/guide/operate.md: one program at a time, and no other user prevents a start."""
 
+import json
 import os
 import pathlib
+import shutil
 import signal
+import sqlite3
 import subprocess
 import sys
 import time
+import urllib.request
 
 from mcs_stub import McsStub
 from plan_samples import make_carrying_plan
-from scenario_case import ScenarioCase, main
+from scenario_case import FINISH_SECONDS, ScenarioCase, main
 
 END_SECONDS = 20
 FOREIGN_USER = 65534
@@ -129,6 +133,75 @@ class OneProgram(Store):
         self.assertEqual(holder.stdout.readline(), "2\n")  # the folder and the file, nothing of the store
         self.start_acsd()
         self.assertEqual(holder.poll(), None)
+
+
+class Restored(Store):
+    def run_store(self, command, *arguments, code=0):
+        """Standard output, or standard error if the command is to fail."""
+        run = subprocess.run([str(self.line.bin_dir / "acsd"), "store", command, *map(str, arguments)], capture_output=True,
+                             text=True, timeout=END_SECONDS)
+        self.assertEqual(run.returncode, code, run.stdout + run.stderr)
+        return run.stdout if code == 0 else run.stderr
+
+    def read_commands(self, folder):
+        """Topics of the orders and instant actions that were sent to vehicles."""
+        entries = [json.loads(line) for path in folder.glob("*.ndjson") for line in path.read_text().splitlines()]
+        return [entry["text"] for entry in entries if entry["direction"] == "out" and entry.get("topic", "").endswith("/order")]
+
+    def test_a_restored_backup_moves_no_robot_until_it_is_accepted_and_the_tsc_is_resumed(self):
+        self.robots = self.start_robots()
+        acsd, address = self.start_acsd()
+        self.stub.wait_for("RobotStatusUpdate")
+        self.assertEqual(self.submit("P1")["result"], "Success")
+        self.wait_for_status(address, lambda status: status["plans"] and status["plans"][0]["status"] == "InProgress")
+
+        # A backup while acsd runs and a plan is in progress. A restore is refused.
+        backup = self.line.folder / "backup.db"
+        self.assertIn(f"copied to {backup}", self.run_store("backup", self.directory, backup))
+        self.assertEqual(backup.stat().st_mode & 0o777, 0o600)
+        database = sqlite3.connect(f"file:{backup}?mode=ro", uri=True)
+        self.assertEqual(database.execute("PRAGMA integrity_check").fetchone(), ("ok",))
+        self.assertEqual(database.execute("SELECT plan_id, state FROM plans").fetchall(), [("P1", "InProgress")])
+        database.close()
+        self.assertIn("1 open plan resumed", self.run_store("check", self.directory))
+        self.assertIn("a lock of another program", self.run_store("restore", self.directory, backup, code=1))
+        self.assertIn("nothing to accept", self.run_store("accept", self.directory))
+        self.wait_for_status(address, lambda status: not status["plans"], FINISH_SECONDS)
+        self.end_acsd(acsd)
+
+        self.run_store("restore", self.directory, backup)
+        sentence = f"run acsd store accept {self.directory}: the TSC is then paused"
+        self.assertIn(sentence, self.run_store("check", self.directory, code=1))
+        self.assert_refused(sentence)
+        self.run_store("accept", self.directory)
+
+        trace = self.line.folder / "trace"
+        acsd, address = self.start_acsd(arguments=("--trace", trace))
+        self.wait_for_status(address, lambda status: all(robot["node"] for robot in status["robots"]))
+        for _ in range(2):  # also after another start
+            status = self.read_status(address)
+            self.assertEqual(status["tsc"], "Paused")
+            self.assertRegex(status["tscReason"], "The store was restored, copied or incomplete, and was accepted at .* resume the TSC")
+            self.assertEqual([plan["planId"] for plan in status["plans"]], ["P1"])
+            self.assertIn(status["tscReason"], acsd.log.read_text())
+            self.end_acsd(acsd)
+            acsd, address = self.start_acsd(arguments=("--trace", trace))
+            self.wait_for_status(address, lambda status: all(robot["node"] for robot in status["robots"]))
+        self.assertEqual(self.read_commands(trace), [])
+        resume = urllib.request.Request(f"http://{address}/tsc/resume", method="POST")
+        with urllib.request.urlopen(resume, timeout=END_SECONDS) as response:
+            self.assertEqual(response.status, 202)
+        self.wait_for_status(address, lambda status: status["tsc"] == "Auto" and status["tscReason"] is None)
+
+    def test_a_copied_store_does_not_start(self):
+        self.robots = self.start_robots()
+        acsd, _ = self.start_acsd()
+        self.end_acsd(acsd)
+        copy = self.line.folder / "copy"
+        shutil.copytree(self.directory, copy)
+        self.assert_refused(f"run acsd store accept {copy}", "a copy of the database that was used last",
+                            overrides=(f"store.directory={copy}",))
+        acsd, _ = self.start_acsd()
 
 
 if __name__ == "__main__":

@@ -317,6 +317,8 @@ Apps::HttpResponse MakeStatusResponse(const ProgramStatus& program, const Planni
         list.WriteString(obstacle);
     });
     WriteMember(writer, "tsc", GetText(engine.GetTscState()));
+    const std::string& hold = engine.GetHoldReason();
+    WriteMember(writer, "tscReason", hold.empty() ? std::nullopt : std::optional(hold));
     WriteOutbox(writer, engine.GetOutboxSummary());
     WriteRefusedReports(writer, program.refusedReports);
     const FleetView fleet{engine.GetRobotPoses(), engine.GetRobotDetails()};

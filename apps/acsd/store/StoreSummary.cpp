@@ -49,6 +49,10 @@ std::string MakeStoreSummary(const Planning::StoreOrigin& origin, const Planning
     {
         text += fmt::format(", TSC {}", GetText(state.tscState));
     }
+    if (!state.holdReason.empty())
+    {
+        text += "; no robot is moved until the TSC is resumed: " + state.holdReason;
+    }
     if (origin.bRescued)
     {
         text += "; restored from the copy that was made when the database was removed while it was open";

@@ -19,7 +19,7 @@ namespace
 
 constexpr std::string_view PREFIX = "acsd-";
 constexpr std::string_view SUFFIX = ".ndjson";
-constexpr mode_t FILE_MODE = 0640; // messages may be confidential
+constexpr mode_t FILE_MODE = 0600; // messages may be confidential
 constexpr std::size_t FLUSH_BYTES = 256U * 1024U;
 
 /// 0 if the file is not one of this trace.

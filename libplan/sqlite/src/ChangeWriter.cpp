@@ -85,6 +85,10 @@ void ChangeWriter::Write(const StoreChange& change)
         },
         [this](const TscChanged& changed) {
             Run("INSERT OR REPLACE INTO settings VALUES ('tsc_state', ?)", std::string(GetText(changed.state)));
+            if (changed.state == ETscState::Auto)
+            {
+                Run("DELETE FROM settings WHERE name = 'hold_reason'");
+            }
         },
         [this](const RobotWorkChanged& changed) {
             Run("INSERT OR REPLACE INTO robot_works VALUES (?, ?)", changed.robotID, EncodeRobotWork(changed));

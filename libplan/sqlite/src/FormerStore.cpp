@@ -3,6 +3,7 @@
 #include "StoreDirectory.hpp"
 #include "StoreFault.hpp"
 #include "StoreFiles.hpp"
+#include "StoreGeneration.hpp"
 #include "StoreRescue.hpp"
 #include "StoreSchema.hpp"
 #include <acs/plan/EPlanningError.hpp>
@@ -115,6 +116,7 @@ Core::Result<std::unique_ptr<SQLite::Database>> OpenFormer(
         {
             const int flags = SQLite::OPEN_READONLY | SQLite::OPEN_URI;
             database = std::make_unique<SQLite::Database>(uri.value_or(source), flags);
+            RestrictSchema(*database);
             return CheckSchema(*database, source, bLogFound).and_then([&](StoreOrigin found) {
                 return (source == path ? CheckFormerLog(*database, path, bLogFound) : Core::Result<void>())
                     .map([found] { return found; });
@@ -154,7 +156,13 @@ Core::Result<void> Stage(const std::string& path, const std::string& source, Sto
     std::error_code ignored;
     std::filesystem::remove_all(GetStagingPath(path), ignored); // of a migration that was interrupted
     const Core::Result<StoreDirectory> directory = StoreDirectory::Acquire(GetStagingPath(path));
-    return directory.has_value() ? CopyDatabase(**former, GetStagedDatabase(path)) : tl::unexpected(directory.error());
+    if (!directory.has_value())
+    {
+        return tl::unexpected(directory.error());
+    }
+    return CopyDatabase(**former, GetStagedDatabase(path)).and_then([&] {
+        return ListGeneration(**former, GetStagedDatabase(path));
+    });
 }
 
 /// A log of the former layout whose database is missing is refused too.

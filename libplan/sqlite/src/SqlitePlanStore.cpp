@@ -15,6 +15,7 @@
 
 #include <cerrno>
 #include <exception>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -69,6 +70,7 @@ public:
           _writer(_database)
     {
         KeepLog(_database, _bLogFound); // a database that is refused is left unchanged
+        RestrictSchema(_database);
     }
 
     Impl(const Impl&) = delete;
@@ -102,23 +104,20 @@ public:
         return _systemError;
     }
 
-    /// Checks the database before anything is written.
-    [[nodiscard]] Core::Result<void> Check()
+    /// Checks the database before anything is written. A database that is accepted may be of another generation.
+    [[nodiscard]] Core::Result<void> Check(bool bAccepted)
     {
-        return CheckSchema(_database, _path, _bLogFound).and_then([this](const StoreOrigin& origin) {
+        return CheckSchema(_database, _path, _bLogFound).and_then([this, bAccepted](const StoreOrigin& origin) {
             _origin = origin;
-            return origin.bNew ? Core::Result<void>() : CheckGeneration(_database, _path, _bLogFound);
+            return origin.bNew || bAccepted ? Core::Result<void>() : CheckGeneration(_database, _path, _bLogFound);
         });
     }
 
-    [[nodiscard]] Core::Result<void> Prepare()
+    /// The reason to hold the work is stored before the generation: without it the database is not accepted.
+    [[nodiscard]] Core::Result<void> Prepare(const std::optional<std::string>& holdReasonOrNull)
     {
         _database.exec("PRAGMA synchronous = FULL");
         _database.exec("PRAGMA foreign_keys = ON");
-        if (_origin.bNew)
-        {
-            ForgetGeneration(_path); // of a database that was moved away
-        }
         // A new database gets its schema before its log: if it cannot be written, nothing is left of it.
         MigrateSchema(_database, _origin.foundVersion);
         _database.exec("PRAGMA journal_mode = WAL");
@@ -126,6 +125,12 @@ public:
         const SQLite::Statement allTables(
             _database,
             "SELECT 1 FROM plans, reports, carriers, alarms, settings, robot_works, maintenance");
+        if (holdReasonOrNull.has_value())
+        {
+            SQLite::Statement hold(_database, "INSERT OR REPLACE INTO settings VALUES ('hold_reason', ?)");
+            hold.bind(1, *holdReasonOrNull);
+            hold.exec();
+        }
         Core::Result<void> begun = Begin();
         _files = StoreFiles(_path);
         return begun;
@@ -249,6 +254,25 @@ SqlitePlanStore::~SqlitePlanStore() = default;
 
 Core::Result<std::unique_ptr<SqlitePlanStore>> SqlitePlanStore::Open(const std::string& directory)
 {
+    return OpenAs(directory, std::nullopt);
+}
+
+Core::Result<std::unique_ptr<SqlitePlanStore>> SqlitePlanStore::Accept(
+    const std::string& directory,
+    const std::string& holdReason)
+{
+    const std::string database = StoreDirectory::GetDatabasePath(RemoveTrailingSlashes(directory));
+    if (!StoreFiles::HasContent(database))
+    {
+        return Refuse(database, "a database to accept; give the directory of a store", "none");
+    }
+    return OpenAs(directory, holdReason);
+}
+
+Core::Result<std::unique_ptr<SqlitePlanStore>> SqlitePlanStore::OpenAs(
+    const std::string& directory,
+    const std::optional<std::string>& holdReasonOrNull)
+{
     const std::string path = RemoveTrailingSlashes(directory);
     const std::string database = StoreDirectory::GetDatabasePath(path);
     StoreOrigin origin;
@@ -276,7 +300,8 @@ Core::Result<std::unique_ptr<SqlitePlanStore>> SqlitePlanStore::Open(const std::
     {
         auto impl =
             std::make_unique<Impl>(std::move(locked), database, database, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
-        const Core::Result<void> opened = impl->Check().and_then([&impl] { return impl->Prepare(); });
+        const Core::Result<void> opened =
+            impl->Check(holdReasonOrNull.has_value()).and_then([&] { return impl->Prepare(holdReasonOrNull); });
         if (!opened.has_value())
         {
             return tl::unexpected(opened.error());
@@ -292,6 +317,26 @@ Core::Result<std::unique_ptr<SqlitePlanStore>> SqlitePlanStore::Open(const std::
 }
 
 Core::Result<StoreOrigin> SqlitePlanStore::Inspect(const std::string& directory)
+{
+    return InspectAs(directory, [](Impl& /*impl*/) { return Core::Result<void>(); });
+}
+
+Core::Result<StoredState> SqlitePlanStore::InspectState(const std::string& directory)
+{
+    StoredState state;
+    return InspectAs(
+               directory,
+               [&state](Impl& impl) {
+                   const bool bReadable = impl.GetOrigin().foundVersion == impl.GetOrigin().version;
+                   return bReadable ? impl.Load().map([&state](StoredState loaded) { state = std::move(loaded); })
+                                    : Core::Result<void>();
+               })
+        .map([&state](const StoreOrigin& /*origin*/) { return std::move(state); });
+}
+
+Core::Result<StoreOrigin> SqlitePlanStore::InspectAs(
+    const std::string& directory,
+    const std::function<Core::Result<void>(Impl&)>& read)
 {
     const std::string path = RemoveTrailingSlashes(directory);
     const std::string database = StoreDirectory::GetDatabasePath(path);
@@ -318,7 +363,7 @@ Core::Result<StoreOrigin> SqlitePlanStore::Inspect(const std::string& directory)
         const std::optional<std::string> uri = StoreFiles::MakeImmutableUriOrNull(database);
         const int flags = SQLite::OPEN_READONLY | (uri.has_value() ? SQLite::OPEN_URI : 0);
         Impl impl(StoreDirectory(), database, uri.value_or(database), flags);
-        return impl.Check().map([&impl] { return impl.GetOrigin(); });
+        return impl.Check(false).and_then([&] { return read(impl); }).map([&impl] { return impl.GetOrigin(); });
     }
     catch (const SQLite::Exception& exception)
     {

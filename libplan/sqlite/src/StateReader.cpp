@@ -120,6 +120,15 @@ Core::Result<void> ReadReports(SQLite::Database& database, const std::string& pa
     return {};
 }
 
+void ReadHoldReason(SQLite::Database& database, StoredState& state)
+{
+    SQLite::Statement query(database, "SELECT value FROM settings WHERE name = 'hold_reason'");
+    if (query.executeStep())
+    {
+        state.holdReason = query.getColumn(0).getString();
+    }
+}
+
 Core::Result<void> ReadTscState(SQLite::Database& database, const std::string& path, StoredState& state)
 {
     SQLite::Statement query(database, "SELECT value FROM settings WHERE name = 'tsc_state'");
@@ -144,6 +153,7 @@ Core::Result<void> ReadTscState(SQLite::Database& database, const std::string& p
 Core::Result<StoredState> ReadState(SQLite::Database& database, const std::string& path)
 {
     StoredState state;
+    ReadHoldReason(database, state);
     SQLite::Statement maintenance(database, "SELECT robot_id FROM maintenance ORDER BY robot_id");
     while (maintenance.executeStep())
     {

@@ -13,8 +13,8 @@ namespace ACS::Planning
 
 /// The remedy if the plans in a database cannot be read.
 inline constexpr std::string_view RESTORE_IT =
-    "move it away with the files beside it (-wal, -shm, generation), and put a backup there, or nothing to start with an empty "
-    "store";
+    "move it away with the files beside it (-wal, -shm, generation) to start with an empty store, or restore a backup with acsd "
+    "store restore";
 
 /// Makes an error of a store: its path, what is expected with the remedy ("expected …; …"), and what failed with the reason of
 /// the system or of SQLite ("found …").

@@ -81,6 +81,18 @@ std::string StoreFiles::GetParent(const std::string& path)
     return parent.empty() ? "." : parent;
 }
 
+std::string StoreFiles::DescribeIdentity(const std::string& path)
+{
+    struct statx status = {};
+    if (::statx(AT_FDCWD, path.c_str(), 0, STATX_INO | STATX_BTIME, &status) != 0)
+    {
+        return {};
+    }
+    const bool bTimed = (status.stx_mask & STATX_BTIME) != 0; // not every file system has it
+    return bTimed ? fmt::format("{}-{}.{:09}", status.stx_ino, status.stx_btime.tv_sec, status.stx_btime.tv_nsec)
+                  : fmt::format("{}", status.stx_ino);
+}
+
 bool StoreFiles::IsThere(const std::string& path)
 {
     return FindOrNull(path).has_value();

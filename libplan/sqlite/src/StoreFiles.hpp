@@ -50,6 +50,10 @@ public:
     [[nodiscard]] static std::string GetLogPath(const std::string& database);
 
     [[nodiscard]] static std::string GetParent(const std::string& path);
+    /// Identifies a file on its file system: inode number and time of creation. A copy of the file has another identity, also if it
+    /// gets the inode number; a file that is written or renamed keeps its own. Empty if there is no such file.
+    [[nodiscard]] static std::string DescribeIdentity(const std::string& path);
+
     [[nodiscard]] static bool IsThere(const std::string& path);
     [[nodiscard]] static bool HasContent(const std::string& path);
 

@@ -10,9 +10,9 @@
 #include <SQLiteCpp/Statement.h>
 #include <SQLiteCpp/Transaction.h>
 
-#include <filesystem>
+#include <cstdint>
 #include <fstream>
-#include <system_error>
+#include <sstream>
 
 namespace ACS::Planning
 {
@@ -44,34 +44,84 @@ void WriteSetting(SQLite::Database& database, const char* name, const std::strin
     statement.exec();
 }
 
-/// Each line of the file is a generation. While a start replaces the generation, the file has the previous one too.
-bool IsListed(const std::string& file, const std::string& generation)
+/// In the file, of a database that was never open in a directory.
+constexpr const char* NO_GENERATION = "-";
+/// Of a backup, in the database.
+constexpr const char* BACKUP_GENERATION = "backup";
+
+enum class EListing : std::uint8_t
 {
+    NoFile,    ///< The directory has no generation file.
+    Missing,   ///< The file does not list the generation.
+    OtherFile, ///< The file lists it for another database file.
+    Listed
+};
+
+std::string ReadGeneration(SQLite::Database& database)
+{
+    const bool bHasOne = database.execAndGet("PRAGMA user_version").getInt() >= FIRST_DIRECTORY_VERSION;
+    const std::string generation = bHasOne ? ReadSetting(database, GENERATION) : std::string();
+    return generation.empty() ? NO_GENERATION : generation;
+}
+
+std::string MakeLine(const std::string& generation, const std::string& path)
+{
+    return fmt::format("{} {}\n", generation, StoreFiles::DescribeIdentity(path));
+}
+
+/// Each line of the file is a generation and the identity of its database file, which earlier versions did not write. While a
+/// start replaces the generation, the file has the previous one too.
+EListing FindListing(const std::string& file, const std::string& generation, const std::string& path)
+{
+    if (!StoreFiles::IsThere(file))
+    {
+        return EListing::NoFile;
+    }
     std::ifstream in(file);
     std::string line;
+    EListing listing = EListing::Missing;
     while (std::getline(in, line))
     {
-        if (line == generation)
+        std::istringstream parts(line);
+        std::string listed;
+        std::string identity;
+        parts >> listed >> identity;
+        if (listed == generation)
         {
-            return true;
+            const bool bSame = identity.empty() || identity == StoreFiles::DescribeIdentity(path);
+            listing = bSame ? EListing::Listed : EListing::OtherFile;
         }
     }
-    return false;
+    return listing;
+}
+
+const char* Describe(EListing listing)
+{
+    switch (listing)
+    {
+        case EListing::NoFile:
+            return "a copied or restored database, without the file generation";
+        case EListing::OtherFile:
+            return "a copy of the database that was used last";
+        case EListing::Missing:
+            return "a database of another generation";
+        case EListing::Listed:
+        default:
+            return "a database that was not closed, without its log";
+    }
 }
 
 } // namespace
 
 Core::Result<void> CheckGeneration(SQLite::Database& database, const std::string& path, bool bLogFound)
 {
-    const std::string file = GetGenerationPath(path);
-    if (!StoreFiles::IsThere(file))
-    {
-        return {};
-    }
-    const bool bHasGeneration = database.execAndGet("PRAGMA user_version").getInt() >= FIRST_DIRECTORY_VERSION;
-    const bool bListed = IsListed(file, bHasGeneration ? ReadSetting(database, GENERATION) : std::string());
-    const bool bComplete = bLogFound || !bHasGeneration || ReadSetting(database, OPEN) != "1";
-    if (bListed && bComplete)
+    const std::string generation = ReadGeneration(database);
+    const EListing listing = FindListing(GetGenerationPath(path), generation, path);
+    const bool bNeverOpen = generation == NO_GENERATION;
+    const bool bComplete = bLogFound || bNeverOpen || ReadSetting(database, OPEN) != "1";
+    // The first start of a new store was killed before it had a generation.
+    const bool bUnused = bNeverOpen && database.execAndGet("SELECT count(*) FROM plans").getInt64() == 0;
+    if (bUnused || (listing == EListing::Listed && bComplete))
     {
         return {};
     }
@@ -80,10 +130,11 @@ Core::Result<void> CheckGeneration(SQLite::Database& database, const std::string
         path,
         fmt::format(
             "the database that was used last, with its log {}; put these files back; or, to continue with the database as it "
-            "is (a restored backup, or one into which another program has merged the log), remove {}",
+            "is (a restored backup, a copy, or one into which another program has merged the log), run acsd store accept {}: the "
+            "TSC is then paused",
             StoreFiles::GetLogPath(path),
-            file),
-        bListed ? "a database that was not closed, without its log" : "a database of another generation");
+            StoreFiles::GetParent(path)),
+        Describe(listing));
 }
 
 Core::Result<void> BeginGeneration(SQLite::Database& database, const std::string& path)
@@ -91,7 +142,7 @@ Core::Result<void> BeginGeneration(SQLite::Database& database, const std::string
     const std::string file = GetGenerationPath(path);
     const std::string generation = database.execAndGet("SELECT lower(hex(randomblob(16)))").getString();
     Core::Result<void> written =
-        StoreFiles::Write(file, fmt::format("{}\n{}\n", generation, ReadSetting(database, GENERATION)));
+        StoreFiles::Write(file, MakeLine(generation, path) + MakeLine(ReadGeneration(database), path));
     if (!written.has_value())
     {
         return written;
@@ -102,7 +153,7 @@ Core::Result<void> BeginGeneration(SQLite::Database& database, const std::string
     transaction.commit();
     // While another program reads, the database file keeps the previous generation: without its log it is refused then.
     static_cast<void>(TryCheckpoint(database));
-    return StoreFiles::Write(file, generation + "\n");
+    return ListGeneration(database, path);
 }
 
 void EndGeneration(SQLite::Database& database)
@@ -110,10 +161,17 @@ void EndGeneration(SQLite::Database& database)
     WriteSetting(database, OPEN, "0");
 }
 
-void ForgetGeneration(const std::string& path)
+Core::Result<void> ListGeneration(SQLite::Database& database, const std::string& path)
 {
-    std::error_code ignored;
-    std::filesystem::remove(GetGenerationPath(path), ignored);
+    return StoreFiles::Write(GetGenerationPath(path), MakeLine(ReadGeneration(database), path));
+}
+
+void MarkAsBackup(SQLite::Database& database)
+{
+    SQLite::Transaction transaction(database);
+    WriteSetting(database, GENERATION, BACKUP_GENERATION);
+    WriteSetting(database, OPEN, "0");
+    transaction.commit();
 }
 
 bool TryCheckpoint(SQLite::Database& database)

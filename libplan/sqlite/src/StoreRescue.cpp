@@ -3,6 +3,7 @@
 #include "StoreFault.hpp"
 #include "StoreFiles.hpp"
 #include "StoreGeneration.hpp"
+#include "StoreSchema.hpp"
 
 #include <fmt/format.h>
 #include <SQLiteCpp/Statement.h>
@@ -78,8 +79,20 @@ Core::Result<bool> RestoreRescued(const std::string& database)
     std::error_code ignored;
     std::filesystem::remove(StoreFiles::GetLogPath(database), ignored);
     std::filesystem::remove(database + "-shm", ignored);
-    ForgetGeneration(database); // the copy is marked as open, and has no log
-    return StoreFiles::Rename(GetRescuePath(database), database).map([] { return true; });
+    const std::string path = GetRescuePath(database);
+    try
+    {
+        // The copy is complete: it is marked as open, because it was made then, and has no log.
+        SQLite::Database copy(path, SQLite::OPEN_READWRITE);
+        RestrictSchema(copy);
+        EndGeneration(copy);
+        checked = ListGeneration(copy, path);
+    }
+    catch (const SQLite::Exception& exception)
+    {
+        return RefuseFor(exception, path, "restoring", 0);
+    }
+    return checked.and_then([&] { return StoreFiles::Rename(path, database); }).map([] { return true; });
 }
 
 } // namespace ACS::Planning

@@ -5,6 +5,7 @@
 #include <acs/plan/EPlanningError.hpp>
 
 #include <fmt/format.h>
+#include <sqlite3.h>
 #include <SQLiteCpp/Transaction.h>
 
 #include <array>
@@ -95,6 +96,14 @@ Core::Result<StoreOrigin> CheckSchema(SQLite::Database& database, const std::str
         return refuseAsCorrupt("an undamaged plan store", std::move(verdict));
     }
     return StoreOrigin{bEmpty, false, version, GetNewestSchemaVersion()};
+}
+
+void RestrictSchema(SQLite::Database& database)
+{
+    // NOLINTBEGIN(cppcoreguidelines-pro-type-vararg): the library's own signature
+    sqlite3_db_config(database.getHandle(), SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+    sqlite3_db_config(database.getHandle(), SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+    // NOLINTEND(cppcoreguidelines-pro-type-vararg)
 }
 
 void MigrateSchema(SQLite::Database& database, int fromVersion)

@@ -23,6 +23,10 @@ inline constexpr int FIRST_DIRECTORY_VERSION = 4;
     const std::string& path,
     bool bLogFound);
 
+/// Restricts what the schema of a file that others may have written can do: no statement changes the schema tables or the file
+/// directly, and no trigger or view calls functions or virtual tables with side effects. For each opened database.
+void RestrictSchema(SQLite::Database& database);
+
 /// Brings the schema from its version to the newest, one transaction per version. Throws SQLite::Exception.
 void MigrateSchema(SQLite::Database& database, int fromVersion);
 

@@ -161,6 +161,7 @@ TEST_CASE("Store: databases of the first and second schema are migrated without 
             }
             database.exec("PRAGMA application_id = 0x41435350; PRAGMA user_version = " + std::to_string(version));
         }
+        std::ofstream(GetGeneration(folder.GetStore())) << "-\n"; // as the migration of the former layout writes it
         const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetStore());
         const Core::Result<StoredState> loaded = store->Load();
         REQUIRE(loaded.has_value());

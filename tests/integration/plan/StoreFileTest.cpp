@@ -157,12 +157,14 @@ TEST_CASE("Store: a write-ahead log that is removed is detected, and its changes
         CHECK_FALSE(store->Append(MakeBatch("LR02")).has_value());
         Files::copy(directory, folder.GetStore("crashed")); // as a crash would leave it
         Files::permissions(folder.GetStore("crashed"), Files::perms::owner_all);
+        ForgetIdentity(folder.GetStore("crashed"));
         CHECK(LoadRobots(*OpenStore(folder.GetStore("crashed"))) == std::vector<std::string>{"LR01"});
         // Put back, the store works again, and the log is needed after a crash as before.
         Files::rename(folder.GetStore("log"), GetLog(directory));
         CHECK(store->Append(MakeBatch("LR02")).has_value());
         Files::copy(directory, folder.GetStore("later"));
         Files::permissions(folder.GetStore("later"), Files::perms::owner_all);
+        ForgetIdentity(folder.GetStore("later"));
         Files::remove(GetLog(folder.GetStore("later")));
         CHECK_FALSE(SqlitePlanStore::Open(folder.GetStore("later")).has_value());
     }
@@ -349,7 +351,7 @@ TEST_CASE("Store: a file that lacks its tables, or has an impossible version, is
         REQUIRE_FALSE(refused.has_value());
         CHECK(refused.error().code == EPlanningError::StoreCorrupt);
         CHECK(Contains(Core::Describe(refused.error()), row.found));
-        CHECK(Contains(Core::Describe(refused.error()), "put a backup there"));
+        CHECK(Contains(Core::Describe(refused.error()), "restore a backup with acsd store restore"));
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -70,6 +71,31 @@ inline std::unique_ptr<SqlitePlanStore> OpenStore(const std::string& directory)
     Core::Result<std::unique_ptr<SqlitePlanStore>> store = SqlitePlanStore::Open(directory);
     INFO((store.has_value() ? std::string() : Core::Describe(store.error())));
     REQUIRE(store.has_value());
+    return std::move(*store);
+}
+
+/// The copy of a directory is used as if it were the original: its generation file identifies no file, as one of an earlier
+/// version.
+inline void ForgetIdentity(const std::string& store)
+{
+    std::ifstream in(GetGeneration(store));
+    std::string text;
+    std::string line;
+    while (std::getline(in, line))
+    {
+        text += line.substr(0, line.find(' ')) + "\n";
+    }
+    std::ofstream(GetGeneration(store)) << text;
+}
+
+inline constexpr const char* HOLD_REASON = "It was accepted.";
+
+inline std::unique_ptr<SqlitePlanStore> AcceptStore(const std::string& directory)
+{
+    CHECK_FALSE(SqlitePlanStore::Open(directory).has_value());
+    Core::Result<std::unique_ptr<SqlitePlanStore>> store = SqlitePlanStore::Accept(directory, HOLD_REASON);
+    REQUIRE(store.has_value());
+    CHECK((*store)->Load()->holdReason == HOLD_REASON);
     return std::move(*store);
 }
 

@@ -3,6 +3,7 @@
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -34,6 +35,7 @@ void CopyAsKilled(const std::string& directory, const std::string& copy)
     {
         Files::copy_file(Files::path(directory) / name, Files::path(copy) / name);
     }
+    ForgetIdentity(copy);
 }
 
 /// A few transactions with more pages than SQLite keeps in a log.
@@ -57,7 +59,7 @@ void RequireRefused(const std::string& directory, const std::string& found)
     CHECK(refused.error().code == EPlanningError::StoreCorrupt);
     INFO(Core::Describe(refused.error()));
     CHECK(Contains(Core::Describe(refused.error()), "with its log " + log + "; put these files back"));
-    CHECK(Contains(Core::Describe(refused.error()), "remove " + GetGeneration(directory)));
+    CHECK(Contains(Core::Describe(refused.error()), "run acsd store accept " + directory));
     CHECK(Contains(Core::Describe(refused.error()), found));
     CHECK_FALSE(SqlitePlanStore::Inspect(directory).has_value());
     CHECK((Files::exists(log) ? ReadBytes(log) : std::string()) == text);
@@ -154,8 +156,7 @@ TEST_CASE("Store: a store that was not closed is opened with its log, and refuse
     {
         Files::remove(GetLog(copy));
         RequireRefused(copy, WITHOUT_LOG);
-        Files::remove(GetGeneration(copy));
-        CHECK_FALSE(OpenStore(copy)->GetOrigin().bNew);
+        CHECK_FALSE(AcceptStore(copy)->GetOrigin().bNew);
     }
     SECTION("The log is empty")
     {
@@ -167,8 +168,7 @@ TEST_CASE("Store: a store that was not closed is opened with its log, and refuse
         SQLite::Database(GetDatabase(copy), SQLite::OPEN_READWRITE).exec("VACUUM");
         REQUIRE_FALSE(Files::exists(GetLog(copy)));
         RequireRefused(copy, WITHOUT_LOG);
-        Files::remove(GetGeneration(copy));
-        CHECK(LoadRobots(*OpenStore(copy)).back() == "LR03");
+        CHECK(LoadRobots(*AcceptStore(copy)).back() == "LR03");
     }
     SECTION("It is there")
     {
@@ -202,8 +202,7 @@ TEST_CASE("Store: a store that was closed while another program read it is opene
     CHECK(LoadRobots(*OpenStore(directory)) == std::vector<std::string>{"LR01", "LR02"});
 }
 
-TEST_CASE(
-    "Store: an older database in the place of the one that was used last is refused until the generation is removed")
+TEST_CASE("Store: an older database in the place of the one that was used last is refused until it is accepted")
 {
     const StoreFolder folder;
     const std::string directory = folder.GetStore();
@@ -224,11 +223,10 @@ TEST_CASE(
     }
     Files::copy_file(backup, GetDatabase(copy), Files::copy_options::overwrite_existing);
     RequireRefused(copy, OTHER_GENERATION);
-    Files::remove(GetGeneration(copy));
-    CHECK(LoadRobots(*OpenStore(copy)).empty());
+    CHECK(LoadRobots(*AcceptStore(copy)).empty());
 }
 
-TEST_CASE("Store: a backup of an open store is a store in a directory of its own")
+TEST_CASE("Store: a copy of an open store by another program is a store in a directory of its own, once accepted")
 {
     const StoreFolder folder;
     const std::string backup = folder.GetStore("backup");
@@ -237,7 +235,7 @@ TEST_CASE("Store: a backup of an open store is a store in a directory of its own
     MakeDirectory(backup);
     SQLite::Database(GetDatabase(folder.GetStore()), SQLite::OPEN_READONLY)
         .exec("VACUUM INTO '" + GetDatabase(backup) + "'");
-    CHECK(LoadRobots(*OpenStore(backup)) == std::vector<std::string>{"LR01"});
+    CHECK(LoadRobots(*AcceptStore(backup)) == std::vector<std::string>{"LR01"});
 }
 
 TEST_CASE("Store: a start that is killed before it has stored its generation is repeated")
@@ -250,7 +248,7 @@ TEST_CASE("Store: a start that is killed before it has stored its generation is 
     CHECK(SqlitePlanStore::Inspect(directory).has_value());
     CHECK(LoadRobots(*OpenStore(directory)) == std::vector<std::string>{"LR01"});
     const std::string next = ReadBytes(GetGeneration(directory));
-    CHECK(next.size() == previous.size());
+    CHECK(std::ranges::count(next, '\n') == 1);
     CHECK(next != previous);
     for (const char* text : {"", "0123456789abcdef\n"})
     {
@@ -292,12 +290,12 @@ TEST_CASE("Store: a store that was not closed and is refused is left unchanged, 
     CHECK((ReadBytes(GetLog(copy)) == log));
 }
 
-TEST_CASE("Store: the database alone is a store, also while the store is open")
+TEST_CASE("Store: a copy of the database alone, also of an open store, is a store once it is accepted")
 {
     const StoreFolder folder;
     const std::string copy = folder.GetStore("copy");
     const auto store = OpenStore(folder.GetStore());
     MakeDirectory(copy);
     Files::copy_file(GetDatabase(folder.GetStore()), GetDatabase(copy));
-    CHECK_FALSE(OpenStore(copy)->GetOrigin().bNew);
+    CHECK_FALSE(AcceptStore(copy)->GetOrigin().bNew);
 }

@@ -4,7 +4,9 @@
 #include <acs/plan/IPlanStore.hpp>
 #include <acs/plan_sqlite/StoreOrigin.hpp>
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace ACS::Planning
@@ -29,13 +31,22 @@ public:
     /// the former layout (a file with `.lock` beside it), it is migrated to a directory, and the former files are kept with
     /// `.former` in their names.
     /// Errors: EPlanningError::StoreFailed (no such directory, no permission), StoreTaken (open in another program), StoreCorrupt
-    /// (damaged, not a plan store, or its log is missing), StoreTooNew. Each names the file, the reason of the system or
+    /// (damaged, not a plan store, its log is missing, or the database was not used last in this directory), StoreTooNew. Each names the file, the reason of the system or
     /// of SQLite, and the remedy. A refused database and its log are left unchanged.
     [[nodiscard]] static Core::Result<std::unique_ptr<SqlitePlanStore>> Open(const std::string& directory);
+
+    /// Opens a store that Open refuses because its database was restored or copied, or because its log is missing. Its work is
+    /// held for this reason (StoredState::holdReason). Errors as of Open; also if there is no database.
+    [[nodiscard]] static Core::Result<std::unique_ptr<SqlitePlanStore>> Accept(
+        const std::string& directory,
+        const std::string& holdReason);
 
     /// Checks what Open would find, without locking, creating or changing a file; another program may have the store open.
     /// Errors as of Open, except that of a locked store.
     [[nodiscard]] static Core::Result<StoreOrigin> Inspect(const std::string& directory);
+
+    /// Likewise, and reads the content; empty for a store that is new, rescued, or of an older schema.
+    [[nodiscard]] static Core::Result<StoredState> InspectState(const std::string& directory);
 
     [[nodiscard]] const StoreOrigin& GetOrigin() const noexcept;
 
@@ -48,6 +59,14 @@ public:
     /// copy, or fails if there is another database. A directory that replaces the one that was opened is locked too;
     /// EPlanningError::StoreTaken if another program has locked it: the store must not be used any more.
     [[nodiscard]] Core::Result<void> Check() override;
+
+private:
+    [[nodiscard]] static Core::Result<std::unique_ptr<SqlitePlanStore>> OpenAs(
+        const std::string& directory,
+        const std::optional<std::string>& holdReasonOrNull);
+    [[nodiscard]] static Core::Result<StoreOrigin> InspectAs(
+        const std::string& directory,
+        const std::function<Core::Result<void>(Impl&)>& read);
 };
 
 } // namespace ACS::Planning
