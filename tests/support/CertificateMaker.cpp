@@ -7,6 +7,7 @@
 #include <openssl/x509.h>
 #include <openssl/x509v3.h>
 
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <stdexcept>
@@ -122,6 +123,7 @@ CertificateFiles Write(
                               nullptr)
         == 1;
     Need(bWritten, files.key);
+    std::filesystem::permissions(files.key, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
     return files;
 }
 

@@ -11,6 +11,7 @@
 #include "config/ReachCheck.hpp"
 #include "config/RemovedKeys.hpp"
 #include "config/RobotConfig.hpp"
+#include "config/SecretCheck.hpp"
 #include "config/StationConfig.hpp"
 #include "robots/VehicleCompatibility.hpp"
 #include <acs/plan/LifReader.hpp>
@@ -279,6 +280,10 @@ AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& ove
     const ConfigSection root = reader.GetRoot();
     std::vector<std::string> otherErrors;
     ReadMcsConfig(root, fileName, config.mcs, otherErrors);
+    if (!config.mcs.headers.empty())
+    {
+        WarnOfPlainSecret("mcs.headers", config.mcs.url, "wss", config.warnings);
+    }
     ReadOperationsConfig(root, config.operations);
     ReadMqttConfig(root, fileName, config.mqtt, config.warnings);
     const ConfigSection arm = root.GetSection("arm");

@@ -1,6 +1,7 @@
 #include "config/McsConfig.hpp"
 
 #include "common/config/TextFile.hpp"
+#include "config/SecretCheck.hpp"
 #include <acs/core/Result.hpp>
 
 #include <fmt/format.h>
@@ -56,6 +57,10 @@ void ReadTLS(const ConfigSection& mcs, const std::string& fileName, McsConfig& c
         const std::string key = error.path.substr(error.path.find('.') + 1);
         error.path.clear();
         section.AddError(key, Core::Describe(error));
+    }
+    else if (!config.tls.keyFile.empty())
+    {
+        CheckSecretFile(section, "key", config.tls.keyFile);
     }
 }
 

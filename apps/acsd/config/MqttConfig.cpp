@@ -2,13 +2,12 @@
 
 #include "common/config/TextFile.hpp"
 #include "config/McsConfig.hpp"
+#include "config/SecretCheck.hpp"
 #include <acs/core/Uuid.hpp>
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 namespace ACS::Acsd
@@ -29,16 +28,6 @@ std::optional<std::string> ReadFileOrNull(const ConfigSection& mqtt, const std::
         return std::nullopt;
     }
     return std::move(*text);
-}
-
-void WarnOfReaders(const std::string& key, const std::string& path, std::vector<std::string>& warnings)
-{
-    std::error_code ignored;
-    const std::filesystem::perms permissions = std::filesystem::status(path, ignored).permissions();
-    if (!ignored && (permissions & std::filesystem::perms::others_read) != std::filesystem::perms::none)
-    {
-        warnings.push_back(fmt::format("{}: every user of this machine can read {}; run chmod o-r", key, path));
-    }
 }
 
 void ReadPassword(
@@ -69,15 +58,12 @@ void ReadPassword(
     {
         mqtt.AddError(key, path + " has no password in its first line");
     }
-    WarnOfReaders("mqtt." + key, path, warnings);
+    CheckSecretFile(mqtt, key, path);
+    WarnOfPlainSecret("mqtt." + key, config.url, "mqtts", warnings);
 }
 
 /// The files are read at each connect. They are checked here too, to report a missing one at the start.
-void ReadTLS(
-    const ConfigSection& mqtt,
-    const std::string& fileName,
-    MqttConfig& config,
-    std::vector<std::string>& warnings)
+void ReadTLS(const ConfigSection& mqtt, const std::string& fileName, MqttConfig& config)
 {
     const bool bPlain = config.url.scheme == EUrlScheme::Mqtt;
     const auto readPath = [&](const std::string& key) {
@@ -109,7 +95,7 @@ void ReadTLS(
     }
     if (!config.tls.keyFile.empty())
     {
-        WarnOfReaders("mqtt.key_file", config.tls.keyFile, warnings);
+        CheckSecretFile(mqtt, "key_file", config.tls.keyFile);
     }
 }
 
@@ -129,7 +115,7 @@ void ReadMqttConfig(
         mqtt.AddError("interface_name", "must be one level of a topic: not empty, without / + # $");
     }
     ReadPassword(mqtt, fileName, config, warnings);
-    ReadTLS(mqtt, fileName, config, warnings);
+    ReadTLS(mqtt, fileName, config);
 }
 
 VDA5050::MosquittoOptions MakeMqttOptions(const MqttConfig& config, Core::IRandom& random)

@@ -44,8 +44,7 @@ TEST_CASE("Without further keys the connection to the broker has neither TLS nor
     CHECK(config.warnings.empty());
 }
 
-TEST_CASE(
-    "mqtt.username and the first line of mqtt.password_file are sent to the broker; a readable file causes a warning")
+TEST_CASE("mqtt.username and the first line of mqtt.password_file are sent to the broker; a readable file is rejected")
 {
     const Testing::TemporaryFolder folder;
     const std::string file = WriteFile(folder, "password", "s3cret word\r\nsecond line\n");
@@ -63,9 +62,35 @@ TEST_CASE(
 
     std::filesystem::permissions(file, std::filesystem::perms::others_read, std::filesystem::perm_options::add);
     config = ReadMQTT({"mqtt.username=acs", "mqtt.password_file=" + file});
-    CHECK(config.errors.empty());
-    REQUIRE(config.warnings.size() == 1);
-    CHECK(config.warnings[0].find("mqtt.password_file: every user of this machine can read " + file) == 0);
+    REQUIRE(config.errors.size() == 1);
+    CHECK(
+        config.errors[0].find("mqtt.password_file: every user of this machine can read " + file + "; run chmod o-rwx")
+        != std::string::npos);
+}
+
+TEST_CASE("A password over mqtt://, or headers over ws://, to another machine cause a warning without the value")
+{
+    const Testing::TemporaryFolder folder;
+    const std::string password = "mqtt.password_file=" + WriteFile(folder, "password", "s3cret");
+    const auto warn = [](std::vector<std::string> overrides) {
+        return ReadMQTT(overrides).warnings;
+    };
+    for (const char* host : {"127.0.0.1", "localhost", "[::1]"})
+    {
+        INFO(host);
+        const std::string url = std::string("mqtt.url=mqtt://") + host + ":1883";
+        CHECK(warn({"mqtt.username=acs", password, url}).empty());
+    }
+    CHECK(warn({"mqtt.url=mqtt://10.0.0.5:1883"}).empty());
+    CHECK(
+        warn({"mqtt.username=acs", password, "mqtt.url=mqtt://10.0.0.5:1883"})
+        == std::vector<std::string>{"mqtt.password_file: it is sent to 10.0.0.5 unencrypted; use mqtts://"});
+    CHECK(warn({"mqtt.username=acs", password, "mqtt.url=mqtts://10.0.0.5:8883"}).empty());
+    CHECK(
+        warn({"mcs.headers.Authorization=Bearer secret", "mcs.url=ws://10.0.0.5:9001/acs/"})
+        == std::vector<std::string>{"mcs.headers: it is sent to 10.0.0.5 unencrypted; use wss://"});
+    CHECK(warn({"mcs.headers.Authorization=Bearer secret", "mcs.url=ws://127.0.0.1:9001/acs/"}).empty());
+    CHECK(warn({"mcs.headers.Authorization=Bearer secret", "mcs.url=wss://10.0.0.5:9001/acs/"}).empty());
 }
 
 TEST_CASE("A password file that is missing, empty or without a name is an error with its key")
