@@ -230,6 +230,7 @@ class Line:
             "mqtt.url": f"mqtt://127.0.0.1:{self.broker_port}",
             "store.directory": str(self.folder / "store"),
             "http.listen": "127.0.0.1:0",
+            "operator.listen": "127.0.0.1:0",
             "robots.CR01.arm.url": f"tcp://{arm_addresses['stream']}",
         }
         sets = [part for key, value in settings.items() for part in ("--set", f"{key}={value}")]

@@ -51,10 +51,12 @@ class Acsd::Impl final : private IAcsdOutput, private VDA5050::IMqttLinkListener
     std::map<std::pair<std::string, std::string>, RobotHost*> _vehicles;
     Apps::TimerSet<AcsdTimer> _timers;
     Apps::LoopWatchdog _watchdog;
-    Apps::HttpRoutes _routes;
-    Apps::HttpServer _http;
-    Apps::Endpoint _httpEndpoint;
-    std::size_t _openLinks = 0; ///< Of those that are being closed.
+    Apps::HttpRoutes _monitoringRoutes;
+    Apps::HttpRoutes _operatorRoutes;
+    Apps::HttpServer _monitoring;
+    Apps::HttpServer _operator;
+    std::vector<Apps::ReadyAddress> _addresses; ///< On which they listen.
+    std::size_t _openLinks = 0;                 ///< Of those that are being closed.
     StopHandler _stopHandler;
 
 public:
@@ -84,12 +86,18 @@ public:
               _dependencies.executor,
               {_config.operations.stallLimit, _dependencies.aliveInterval},
               {[this](Core::Duration stall) { OnStall(stall); }, _dependencies.onAlive}),
-          _http(
+          _monitoring(
               _dependencies.executor,
-              [this](const Apps::HttpRequest& request) { return _routes.Respond(request); },
+              [this](const Apps::HttpRequest& request) { return _monitoringRoutes.Respond(request); },
               _dependencies.logger.MakeFor("http"),
               {},
-              MakeHttpGuard(_config))
+              MakeHttpGuard(_config.http.monitoring)),
+          _operator(
+              _dependencies.executor,
+              [this](const Apps::HttpRequest& request) { return _operatorRoutes.Respond(request); },
+              _dependencies.logger.MakeFor("operator"),
+              {},
+              MakeHttpGuard(_config.http.control))
     {
         _core.SetObserver(_planLog);
         AddRoutes();
@@ -122,12 +130,15 @@ public:
         {
             return opened;
         }
-        const Core::Result<Apps::Endpoint> endpoint = _http.Listen(_config.httpListen);
-        if (!endpoint)
+        opened = Listen(_monitoring, "http", _config.http.monitoring);
+        if (opened)
         {
-            return tl::unexpected<Core::Error>(endpoint.error());
+            opened = Listen(_operator, "operator", _config.http.control);
         }
-        _httpEndpoint = *endpoint;
+        if (!opened)
+        {
+            return opened;
+        }
         _core.Restore(std::move(state));
         return {};
     }
@@ -162,12 +173,26 @@ public:
         }
     }
 
-    [[nodiscard]] const Apps::Endpoint& GetHttpEndpoint() const noexcept
+    [[nodiscard]] const std::vector<Apps::ReadyAddress>& GetAddresses() const noexcept
     {
-        return _httpEndpoint;
+        return _addresses;
     }
 
 private:
+    [[nodiscard]] Core::Result<void> Listen(
+        Apps::HttpServer& server,
+        const std::string& name,
+        const HttpListenConfig& config)
+    {
+        const Core::Result<Apps::Endpoint> endpoint = server.Listen(config.listen);
+        if (!endpoint)
+        {
+            return tl::unexpected<Core::Error>(endpoint.error());
+        }
+        _addresses.push_back({name, *endpoint});
+        return {};
+    }
+
     void Store(const Planning::StoreBatch& batch) override
     {
         _store.Append(batch);
@@ -221,7 +246,8 @@ private:
 
     void OnStopped() override
     {
-        _http.Stop();
+        _monitoring.Stop();
+        _operator.Stop();
         _watchdog.Stop();
         if (_stopHandler)
         {
@@ -324,13 +350,14 @@ private:
 
     void AddRoutes()
     {
-        AddStatusRoutes(_routes, _core.GetEngine(), [this] { return GetProgramStatus(); });
-        _routes.Add("GET", "/metrics", [this](const auto&, const auto&) {
+        AddHealthRoutes(_monitoringRoutes, [this] { return GetProgramStatus(); });
+        _monitoringRoutes.Add("GET", "/metrics", [this](const auto&, const auto&) {
             UpdateMetrics();
             return _metricsEndpoint.Respond();
         });
+        AddStatusRoute(_operatorRoutes, _core.GetEngine(), [this] { return GetProgramStatus(); });
         AddOperatorRoutes(
-            _routes,
+            _operatorRoutes,
             _core.GetEngine(),
             {[this](Planning::PlanCommand command) { return _core.Offer(std::move(command)); },
              [this] {
@@ -409,9 +436,9 @@ void Acsd::Reload(const AcsdConfig& fresh)
     _impl->Reload(fresh);
 }
 
-Apps::Endpoint Acsd::GetHttpEndpoint() const
+std::vector<Apps::ReadyAddress> Acsd::GetAddresses() const
 {
-    return _impl->GetHttpEndpoint();
+    return _impl->GetAddresses();
 }
 
 } // namespace ACS::Acsd

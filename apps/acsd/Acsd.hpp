@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/process/ReadyLine.hpp"
 #include "config/AcsdConfig.hpp"
 #include "trace/MessageTrace.hpp"
 #include <acs/core/IRandom.hpp>
@@ -12,6 +13,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace ACS::Acsd
 {
@@ -53,8 +55,8 @@ public:
     Acsd& operator=(const Acsd&) = delete;
     ~Acsd();
 
-    /// Opens the store, restores its contents and listens on the HTTP address; opens no connection. The configuration must
-    /// be without errors. Fails with a sentence about the store or the HTTP address and its remedy.
+    /// Opens the store, restores its contents and listens on its HTTP addresses; opens no connection. The configuration must
+    /// be without errors. Fails with a sentence about the store or an HTTP address and its remedy.
     [[nodiscard]] static Core::Result<std::unique_ptr<Acsd>> Create(Dependencies dependencies, AcsdConfig config);
 
     /// Connects to the MCS, the broker and the arms, and reconnects until it is stopped.
@@ -68,8 +70,8 @@ public:
     /// `shutdown.drain_timeout`), closes all links within AcsdCore::STOP_LIMIT, then calls back, once. Robots continue.
     void StopAsync(StopHandler handler);
 
-    /// The HTTP address in use, with its actual port.
-    [[nodiscard]] Apps::Endpoint GetHttpEndpoint() const;
+    /// The addresses in use, with their actual ports: "http" for monitoring, "operator".
+    [[nodiscard]] std::vector<Apps::ReadyAddress> GetAddresses() const;
 };
 
 } // namespace ACS::Acsd

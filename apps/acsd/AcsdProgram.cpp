@@ -126,7 +126,7 @@ int Serve(const ProgramOptions& options, AcsdConfig config)
     const Apps::HangUpWaiter hangUps(context.get_executor(), [&] { ReadAgain(options, logger, sink, **acsd); });
     (*acsd)->Start();
     sink.Flush();
-    Apps::PrintReadyLine({{"http", (*acsd)->GetHttpEndpoint()}});
+    Apps::PrintReadyLine((*acsd)->GetAddresses());
     std::ignore = service.TryNotify("READY=1");
     context.run();
     return exitCode;

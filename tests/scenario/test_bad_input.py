@@ -54,8 +54,10 @@ class BadInput(ScenarioCase):
                 "acsd": ["--config", SITE / "acsd.toml", "--set", f"http.listen={address}",
                          "--set", f"store.directory={store}"],
             }
-            for name, arguments in rows.items():
-                with self.subTest(name):
+            rows = [*rows.items(), ("acsd", [*rows["acsd"], "--set", "http.listen=127.0.0.1:0", "--set",
+                                             f"operator.listen={address}"])]
+            for name, arguments in rows:
+                with self.subTest(name, arguments=arguments):
                     result = self.run_program(name, *arguments)
                     self.assertNotEqual(result.returncode, 0)
                     self.assertIn(address, result.stderr)
@@ -110,14 +112,14 @@ class BadInput(ScenarioCase):
     def test_a_store_is_locked_by_one_acsd(self):
         arguments = ["--config", SITE / "acsd.toml", "--set", "mcs.url=ws://127.0.0.1:1/acs/", "--set",
                      "mqtt.url=mqtt://127.0.0.1:1", "--set", "http.listen=127.0.0.1:0", "--set",
-                     f"store.directory={self.line.folder / 'store'}"]
+                     "operator.listen=127.0.0.1:0", "--set", f"store.directory={self.line.folder / 'store'}"]
         first = self.line.start("acsd", *arguments)
         first.wait_ready()
         self.assert_refused(self.run_program("acsd", *arguments), 1, str(self.line.folder / "store"), "another program")
         self.line.forget(first)
         self.assertEqual(first.stop(), 0)
         second = self.line.start("acsd", *arguments)
-        self.assertIn("http", second.wait_ready())
+        self.assertIn("operator", second.wait_ready())
 
     def test_the_example_configuration_is_valid(self):
         result = self.run_program("acsd", "--config", SITE / "acsd.toml", "--check-config")
@@ -128,7 +130,7 @@ class BadInput(ScenarioCase):
     def test_acsd_is_ready_without_broker_and_mcs_and_ends_cleanly(self):
         acsd = self.line.start("acsd", "--config", SITE / "acsd.toml", "--set", "mcs.url=ws://127.0.0.1:1/acs/",
                                "--set", "mqtt.url=mqtt://127.0.0.1:1", "--set", "http.listen=127.0.0.1:0",
-                               "--set", "robots.CR01.arm.url=tcp://127.0.0.1:1",
+                               "--set", "operator.listen=127.0.0.1:0", "--set", "robots.CR01.arm.url=tcp://127.0.0.1:1",
                                "--set", f"store.directory={self.line.folder / 'store'}")
         self.assertIn("http", acsd.wait_ready())
         missing = ("cannot reach the MCS", "cannot reach the MQTT broker", "no Open Stream session")

@@ -83,7 +83,7 @@ class Contradictions(TracedLineCase):
     def test_a_vehicle_that_reports_the_node_of_another(self):
         self.start_held(vehicles=(VEHICLES[0], f"LR02,type=LR,node={OTHER_NODE}", VEHICLES[1]), tables=LR02)
         self.forge_state(lastNodeId=OTHER_NODE)
-        self.wait_for_status(self.http, lambda status: [
+        self.wait_for_status(self.operator, lambda status: [
             alarm["robotId"] for alarm in status["alarms"] if alarm["errorCode"] == "ACS-1003"] == ["LR01"])
         self.finish()
 

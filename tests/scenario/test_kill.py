@@ -152,7 +152,6 @@ class Kill(ScenarioCase):
     def setUp(self):
         super().setUp()
         self.random = random.Random(f"{SETTINGS.seed} {self.id()}")
-        self.http = None
         self.stopped = threading.Event()
         self.addCleanup(self.stopped.set)
 
@@ -200,7 +199,7 @@ class Kill(ScenarioCase):
     def start_acsd(self):
         # A killed vehicle loses its load, and no operator reports that to acsd.
         self.acsd = self.line.start_acsd(self.mcs_address, self.arm, "robot.taken_port=load")
-        self.http = self.acsd.wait_ready()["http"]
+        self.acsd.wait_ready()
 
     @staticmethod
     def post(url, body=None):

@@ -65,7 +65,7 @@ class Map(ScenarioCase):
         self.mcs = self.line.start_mcs([PLANS[0]])
         self.trace = self.line.folder / "trace"
         self.acsd = self.line.start_acsd(self.mcs.wait_ready()["ws"], arm, *overrides, arguments=("--trace", self.trace))
-        self.http = self.acsd.wait_ready()["http"]
+        self.operator = self.acsd.wait_ready()["operator"]
 
     def finish(self):
         self.assertEqual(self.mcs.wait(FINISH_SECONDS), 0)
@@ -134,10 +134,10 @@ class Map(ScenarioCase):
     def test_nothing_is_sent_to_a_vehicle_whose_factsheet_does_not_allow_what_the_map_demands(self):
         self.start_vehicles(LINE_GUIDED)
         self.start_acsd(f"site.map={self.write_map_with_short_cut()}")
-        self.wait_for_status(self.http, lambda status: [
+        self.wait_for_status(self.operator, lambda status: [
             (alarm["robotId"], alarm["level"]) for alarm in status["alarms"] if alarm["errorCode"] == "ACS-1013"
         ] == [("LR01", "heavy")] and status["plans"])
-        status = self.read_status(self.http)
+        status = self.read_status(self.operator)
         (alarm,) = [alarm for alarm in status["alarms"] if alarm["errorCode"] == "ACS-1013"]
         self.assertIn("the drive from N046 to N050 cannot be ordered: the vehicle does not support order.edges.trajectory",
                       alarm["message"])

@@ -190,7 +190,7 @@ class Scenarios(ScenarioCase):
         acsd = []
 
         def post(path):
-            with urllib.request.urlopen(f"http://{acsd[0].addresses['http']}{path}", data=b"", timeout=20) as response:
+            with urllib.request.urlopen(f"http://{acsd[0].addresses['operator']}{path}", data=b"", timeout=20) as response:
                 self.assertEqual(response.status, 202)
 
         mcs = self.line.start("mcs-sim", "--listen", "127.0.0.1:0", "--scenario", SCENARIOS / "tsc-paused.json",

@@ -187,13 +187,13 @@ class Network(ScenarioCase):
         with urllib.request.urlopen(f"http://{acsd.addresses['http']}/metrics", timeout=20) as response:
             self.assertIn('acsd_mcs_notes_total{what="ack with a foreign transactionId"} 1\n', response.read().decode())
 
-    def assert_lively(self, address, requests=50):
+    def assert_lively(self, acsd, requests=50):
         """Each request is answered in time, and the link to the broker is down."""
         for _ in range(requests):
-            with urllib.request.urlopen(f"http://{address}/livez", timeout=ANSWER_SECONDS) as response:
+            with urllib.request.urlopen(f"http://{acsd.addresses['http']}/livez", timeout=ANSWER_SECONDS) as response:
                 self.assertEqual(response.status, 200)
             time.sleep(REQUEST_PERIOD)
-        self.assertFalse(self.read_status(address)["links"]["mqtt"])
+        self.assertFalse(self.read_status(acsd.addresses["operator"])["links"]["mqtt"])
 
     def test_a_silent_name_server_does_not_stop_acsd(self):
         library = self.line.bin_dir / "libscenario_held_resolver.so"
@@ -206,8 +206,8 @@ class Network(ScenarioCase):
         url = f"mqtt.url=mqtt://broker.test:{self.line.broker_port}"
         environment = os.environ | {"LD_PRELOAD": str(library), "ACS_HELD_RESOLVER": str(gate)}
         acsd = self.line.start_acsd(stub.address, arm, url, environment=environment)
-        address = acsd.wait_ready()["http"]
-        self.assert_lively(address)
+        address = acsd.wait_ready()["operator"]
+        self.assert_lively(acsd)
         writer = os.open(gate, os.O_WRONLY)
         os.close(writer)
         self.wait_for_status(address, lambda status: status["links"]["mqtt"])
@@ -217,7 +217,7 @@ class Network(ScenarioCase):
         self.line.broker.stop()
         self.line.forget(self.line.broker)
         self.wait_for_status(address, lambda status: not status["links"]["mqtt"])
-        self.assert_lively(address)
+        self.assert_lively(acsd)
         acsd.send_signal(signal.SIGTERM)
         self.assertEqual(acsd.wait(STOP_SECONDS), 0)
 
@@ -233,7 +233,8 @@ class Network(ScenarioCase):
             for host in ("127.0.0.1", "localhost"):
                 with self.subTest(host=host):
                     acsd = self.line.start_acsd(stub.address, arm, f"mqtt.url=mqtt://{host}:{port}")
-                    self.assert_lively(acsd.wait_ready()["http"])
+                    acsd.wait_ready()
+                    self.assert_lively(acsd)
                     acsd.send_signal(signal.SIGTERM)
                     self.assertEqual(acsd.wait(STOP_SECONDS), 0)
                     acsd.stop()

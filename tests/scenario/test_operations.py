@@ -87,14 +87,15 @@ class Operations(ScenarioCase):
         environment = os.environ | {"LD_PRELOAD": str(library), "ACS_HELD_DISK": str(gate)}
         stub = self.start_stub()
         acsd = self.line.start_acsd(stub.address, self.start_robots(), environment=environment)
-        address = acsd.wait_ready()["http"]
+        addresses = acsd.wait_ready()
+        address = addresses["operator"]
         stub.wait_for("RobotStatusUpdate", lambda message: message.payload["robotStatus"] == "Idle")
         os.mkfifo(gate)
         start = stub.count()
         stub.send_request("ExecutionPlan", make_carrying_plan("P1"))
         self.wait_for_status(address, lambda status: "the store does not answer" in status["obstacles"])
         with self.assertRaises(urllib.error.HTTPError) as refused:
-            urllib.request.urlopen(f"http://{address}/readyz", timeout=LOG_SECONDS)
+            urllib.request.urlopen(f"http://{addresses['http']}/readyz", timeout=LOG_SECONDS)
         with refused.exception as answer:
             self.assertEqual((answer.code, answer.read()), (503, b"the store does not answer\n"))
         self.wait_for_log(acsd, "the disk does not answer")
@@ -237,7 +238,8 @@ class Operations(ScenarioCase):
         robots = self.start_robots()
         overrides = ("tsc.initial=paused",)
         acsd = self.line.start_acsd(stub.address, robots, *overrides)
-        address = acsd.wait_ready()["http"]
+        addresses = acsd.wait_ready()
+        address = addresses["operator"]
         directory = self.line.folder / "store"
         store = directory / "acsd.db"
         self.assertRegex(acsd.log.read_text(), rf"store: new, schema \d+ directory={directory}\n")
@@ -249,7 +251,7 @@ class Operations(ScenarioCase):
         away = self.line.folder / "away.db"
         store.rename(away)
         self.wait_for_status(address, lambda status: [alarm["errorCode"] for alarm in status["alarms"]] == ["ACS-1005"])
-        code, text = self.read_ready(address)
+        code, text = self.read_ready(addresses["http"])
         self.assertEqual(code, 503)
         self.assertRegex(text, rf"the store cannot be written: {store}: expected the file .* restart.*\.rescued.*, found")
         refusal = self.submit(stub, "P2")
@@ -271,7 +273,7 @@ class Operations(ScenarioCase):
         acsd.stop()
         self.line.forget(acsd)
         acsd = self.line.start_acsd(stub.address, robots, *overrides)
-        address = acsd.wait_ready()["http"]
+        address = acsd.wait_ready()["operator"]
         status = self.read_status(address)
         self.assertEqual({plan["planId"] for plan in status["plans"]}, {"P1", "P3"})
         self.assertEqual({robot["robotId"] for robot in status["robots"] if robot["maintenance"]}, {"LR01"})
@@ -291,7 +293,7 @@ class Operations(ScenarioCase):
             file.touch(mode=0o600)
             file.write_text("secret\n" if right else "guess\n")
             acsd = self.line.start_acsd(stub.address, arm, "mqtt.username=acsd", f"mqtt.password_file={file}")
-            address = acsd.wait_ready()["http"]
+            address = acsd.wait_ready()["operator"]
             if right:
                 self.wait_for_status(address, lambda status: status["links"]["mqtt"])
             else:
@@ -317,7 +319,7 @@ class Operations(ScenarioCase):
                         "--vehicle", "LR01,type=LR", "--vehicle", "CR01,type=CR").wait_ready()
         stub = self.start_stub()
         stranger = self.line.start_acsd(stub.address, arm, f"mqtt.url={url}")
-        address = stranger.wait_ready()["http"]
+        address = stranger.wait_ready()["operator"]
         self.wait_for_log(stranger, "certificate")
         self.assertFalse(self.read_status(address)["links"]["mqtt"])
         self.assertEqual(stranger.stop(), 0)

@@ -27,7 +27,7 @@ class Operator(ScenarioCase):
         self.acsd.wait_ready()
 
     def ask(self, path, method="GET"):
-        request = urllib.request.Request(f"http://{self.acsd.addresses['http']}{path}", method=method)
+        request = urllib.request.Request(f"http://{self.acsd.addresses['operator']}{path}", method=method)
         try:
             with urllib.request.urlopen(request, timeout=20) as response:
                 return response.status, json.loads(response.read())
@@ -56,6 +56,30 @@ class Operator(ScenarioCase):
             return waits[0] if robots and robots[0]["reason"].startswith(start) else None
 
         return self.wait_for(get, f"a plan that waits as {start}")
+
+    def test_monitoring_and_operators_have_an_address_each(self):
+        self.line.start_broker()
+        self.mcs_port = find_free_port()
+        self.arm, self.overrides = {"stream": "127.0.0.1:1"}, ()
+        self.start_acsd()
+        self.assertEqual([self.read_code(name, path) for name in ("http", "operator") for path in (
+            "/livez", "/metrics", "/status")], [200, 200, 404, 404, 404, 200])
+        self.assertEqual([self.read_code("http", path, "POST") for path in ("/tsc/pause", "/livez")], [404, 405])
+        self.assertEqual(self.read_code("operator", "/tsc/pause", "POST"), 202)
+        for name in ("http", "operator"):  # a page that has its own name resolved to this address (DNS rebinding)
+            self.assertEqual([self.read_code(name, path, host="evil.example") for path in ("/livez", "/metrics", "/status")],
+                             [403, 403, 403])
+
+    def read_code(self, name, path, method="GET", host=None):
+        request = urllib.request.Request(f"http://{self.acsd.addresses[name]}{path}", method=method)
+        if host is not None:
+            request.add_header("Host", host)
+        try:
+            with urllib.request.urlopen(request, timeout=20) as response:
+                return response.status
+        except urllib.error.HTTPError as error:
+            with error:
+                return error.code
 
     def test_maintenance_and_ports_block_a_plan_over_a_restart_until_cleared(self):
         self.start_line()

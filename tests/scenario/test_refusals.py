@@ -33,10 +33,10 @@ def make_vehicles(*names):
 
 class Refusals(TracedLineCase):
     def find_refusal_alarms(self):
-        return [alarm for alarm in self.read_status(self.http)["alarms"] if alarm["errorCode"] == "ACS-1012"]
+        return [alarm for alarm in self.read_status(self.operator)["alarms"] if alarm["errorCode"] == "ACS-1012"]
 
     def wait_for_refusal_alarm(self):
-        self.wait_for_status(self.http, lambda status: [
+        self.wait_for_status(self.operator, lambda status: [
             (alarm["robotId"], alarm["level"]) for alarm in status["alarms"] if alarm["errorCode"] == "ACS-1012"
         ] == [("LR01", "heavy")])
 
@@ -62,7 +62,7 @@ class Refusals(TracedLineCase):
     def test_a_vehicle_that_rejects_its_orders_is_unavailable_until_the_alarm_is_cleared(self):
         self.start_line("LR01 refuse count=3")
         self.wait_for_refusal_alarm()
-        (plan,) = self.read_status(self.http)["plans"]
+        (plan,) = self.read_status(self.operator)["plans"]
         self.assertEqual(plan["status"], "Pending")
         (robot,) = plan["waits"]["robots"]
         self.assertIn("rejects its commands: the vehicle rejected the order", robot["reason"])
@@ -77,7 +77,7 @@ class Refusals(TracedLineCase):
         self.wait_for(lambda: self.find_last_state()["operatingMode"] == "MANUAL", "MANUAL")
         self.assertEqual(len(self.find_refusal_alarms()), 1)
         self.command_vehicles("LR01 end mode")
-        self.wait_for_status(self.http, lambda status: all(
+        self.wait_for_status(self.operator, lambda status: all(
             alarm["errorCode"] != "ACS-1012" for alarm in status["alarms"]))
         self.finish()
 
@@ -93,11 +93,11 @@ class Refusals(TracedLineCase):
                         tables="".join(map(make_table, OTHER_NODES)), overrides=("tsc.initial=paused",),
                         world={"version": 1, "carriers": {carrier: ends[0] for carrier, ends in TRANSPORTS.items()}},
                         plans=[self.make_plan(carrier) for carrier in TRANSPORTS])
-        self.wait_for_status(self.http, lambda status: len(status["plans"]) == len(TRANSPORTS))
+        self.wait_for_status(self.operator, lambda status: len(status["plans"]) == len(TRANSPORTS))
         self.resume_with_all_vehicles()
-        self.wait_for_status(self.http, lambda status: [plan["planId"] for plan in status["plans"]] == ["PLAN-C5"],
+        self.wait_for_status(self.operator, lambda status: [plan["planId"] for plan in status["plans"]] == ["PLAN-C5"],
                              FINISH_SECONDS)
-        pinned = self.read_status(self.http)["plans"][0]
+        pinned = self.read_status(self.operator)["plans"][0]
         self.assertEqual(pinned["status"], "Pending")
         (robot,) = pinned["waits"]["robots"]
         self.assertEqual(robot["robotId"], "LR01")

@@ -64,7 +64,7 @@ class Vehicles(ScenarioCase):
         self.trace = self.line.folder / "trace"
         self.acsd = self.line.start_acsd(mcs.wait_ready()["ws"], arm, *overrides, config=config,
                                          arguments=("--trace", self.trace))
-        self.http = self.acsd.wait_ready()["http"]
+        self.operator = self.acsd.wait_ready()["operator"]
         return mcs
 
     @staticmethod
@@ -87,7 +87,7 @@ class Vehicles(ScenarioCase):
     def wait_for_reason(self, plan_id, reason):
         """Until only this plan is left, and waits with this reason."""
         message = f"No robot can execute the plan: {reason}."
-        self.wait_for_status(self.http, lambda status: [
+        self.wait_for_status(self.operator, lambda status: [
             (plan["planId"], (plan["waits"] or {}).get("message")) for plan in status["plans"]] == [(plan_id, message)],
             FINISH_SECONDS)
 

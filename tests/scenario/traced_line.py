@@ -14,7 +14,7 @@ VEHICLES = ("LR01,type=LR", "CR01,type=CR,node=D-CHG02")
 
 class TracedLineCase(ScenarioCase):
     def post(self, path):
-        request = urllib.request.Request(f"http://{self.http}{path}", method="POST")
+        request = urllib.request.Request(f"http://{self.operator}{path}", method="POST")
         with urllib.request.urlopen(request, timeout=STATUS_SECONDS) as response:
             self.assertEqual(response.status, 202)
 
@@ -43,11 +43,12 @@ class TracedLineCase(ScenarioCase):
     def start_acsd(self):
         self.acsd = self.line.start_acsd(self.mcs_address, self.arm, *self.overrides, config=self.config,
                                          arguments=("--trace", self.trace))
-        self.http = self.acsd.wait_ready()["http"]
+        addresses = self.acsd.wait_ready()
+        self.http, self.operator = addresses["http"], addresses["operator"]
 
     def resume_with_all_vehicles(self):
         """With tsc.initial=paused: the first plan goes to the nearest vehicle, LR01, not to the first one that connects."""
-        self.wait_for_status(self.http, lambda status: all(
+        self.wait_for_status(self.operator, lambda status: all(
             robot["status"] not in ("Init", "Disconnected") for robot in status["robots"]))
         self.post("/tsc/resume")
 

@@ -255,24 +255,6 @@ void ReadStore(const ConfigSection& root, const std::string& fileName, bool bSto
     }
 }
 
-void ReadHTTP(const ConfigSection& root, AcsdConfig& config)
-{
-    const ConfigSection http = root.GetSection("http");
-    config.httpListen = http.GetEndpoint("listen", config.httpListen);
-    config.httpHosts = http.GetStringList("hosts");
-    const auto wrong = std::ranges::find_if(config.httpHosts, [](const std::string& name) {
-        return !Apps::ParseEndpoint(name + ":0").has_value();
-    });
-    if (wrong != config.httpHosts.end())
-    {
-        http.AddError(
-            "hosts",
-            fmt::format(
-                R"(expected names without port, such as "acs.example", found {})",
-                Core::QuoteForError(*wrong)));
-    }
-}
-
 AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& overrides, bool bStoreInspected)
 {
     AcsdConfig config;
@@ -292,7 +274,7 @@ AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& ove
     config.relayIndex = bByte ? EArmRelayIndex::Byte : EArmRelayIndex::Value;
     ReadSite(root, fileName, config);
     ReadStore(root, fileName, bStoreInspected, config);
-    ReadHTTP(root, config);
+    ReadHttpConfig(root, config.http);
     ReadEngineConfig(root, config.engine);
     ReadStations(root, config);
     ReadRobots(root, fileName, config);

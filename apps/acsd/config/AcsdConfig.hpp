@@ -4,6 +4,7 @@
 #include "common/config/LocalOffset.hpp"
 #include "common/config/Url.hpp"
 #include "config/ArmOptions.hpp"
+#include "config/HttpConfig.hpp"
 #include "config/McsConfig.hpp"
 #include "config/MqttConfig.hpp"
 #include "config/OperationsConfig.hpp"
@@ -55,8 +56,7 @@ struct AcsdConfig
     std::string siteFile;
     std::string zoneSetID; ///< Of all orders; may be empty.
     std::string storePath;
-    Apps::Endpoint httpListen{"127.0.0.1", 8080};
-    std::vector<std::string> httpHosts; ///< Accepted host names, without port.
+    HttpConfig http;
     Apps::LocalOffset localOffset;
     std::vector<RobotLinkConfig> robots;
     std::shared_ptr<const StationTable> stations = std::make_shared<const StationTable>();

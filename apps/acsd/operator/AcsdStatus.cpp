@@ -339,26 +339,30 @@ Apps::HttpResponse MakeStatusResponse(const ProgramStatus& program, const Planni
     return response;
 }
 
-void AddStatusRoutes(
-    Apps::HttpRoutes& routes,
-    const Planning::PlanEngine& engine,
-    const std::function<ProgramStatus()>& getStatus)
+void AddHealthRoutes(Apps::HttpRoutes& routes, const std::function<ProgramStatus()>& getStatus)
 {
     routes.Add("GET", "/livez", [](const auto&, const auto&) { return MakeLiveResponse(); });
     routes.Add("GET", "/readyz", [getStatus](const auto&, const auto&) {
         const ProgramStatus program = getStatus();
         return MakeReadyResponse(program.links, program.obstacles);
     });
+}
+
+void AddStatusRoute(
+    Apps::HttpRoutes& routes,
+    const Planning::PlanEngine& engine,
+    const std::function<ProgramStatus()>& getStatus)
+{
     routes.Add("GET", "/status", [&engine, getStatus](const auto&, const auto&) {
         return MakeStatusResponse(getStatus(), engine);
     });
 }
 
-Apps::HttpGuard MakeHttpGuard(const AcsdConfig& config)
+Apps::HttpGuard MakeHttpGuard(const HttpListenConfig& config)
 {
-    std::vector<std::string> names = config.httpHosts;
-    names.push_back(config.httpListen.host);
-    return Apps::HttpGuard({std::move(names), false, {"/livez", "/readyz", "/metrics"}});
+    std::vector<std::string> names = config.hosts;
+    names.push_back(config.listen.host);
+    return Apps::HttpGuard({std::move(names), false});
 }
 
 } // namespace ACS::Acsd

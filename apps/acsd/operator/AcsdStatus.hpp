@@ -3,7 +3,7 @@
 #include "common/http/HttpGuard.hpp"
 #include "common/http/HttpMessage.hpp"
 #include "common/http/HttpRoutes.hpp"
-#include "config/AcsdConfig.hpp"
+#include "config/HttpConfig.hpp"
 #include "mcs/RefusedReports.hpp"
 #include <acs/plan/PlanEngine.hpp>
 
@@ -51,13 +51,16 @@ struct ProgramStatus
 /// GET /status: links, not-ready reasons, outbox, robots, active plans (with their wait reasons) and alarms as JSON.
 [[nodiscard]] Apps::HttpResponse MakeStatusResponse(const ProgramStatus& program, const Planning::PlanEngine& engine);
 
-/// Adds these three. The engine must outlive the routes.
-void AddStatusRoutes(
+/// Adds /livez and /readyz.
+void AddHealthRoutes(Apps::HttpRoutes& routes, const std::function<ProgramStatus()>& getStatus);
+
+/// Adds /status. The engine must outlive the routes.
+void AddStatusRoute(
     Apps::HttpRoutes& routes,
     const Planning::PlanEngine& engine,
     const std::function<ProgramStatus()>& getStatus);
 
-/// The host names under which acsd answers requests other than those for health and metrics.
-[[nodiscard]] Apps::HttpGuard MakeHttpGuard(const AcsdConfig& config);
+/// The host names under which acsd answers requests at this address.
+[[nodiscard]] Apps::HttpGuard MakeHttpGuard(const HttpListenConfig& config);
 
 } // namespace ACS::Acsd

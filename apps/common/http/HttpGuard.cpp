@@ -63,11 +63,6 @@ bool HttpGuard::IsOwnName(std::string_view host) const
 std::optional<std::string> HttpGuard::GetRejectionReasonOrNull(const HttpRequest& request, const HttpSource& source)
     const
 {
-    const bool bReads = request.method == "GET" || request.method == "HEAD";
-    if (bReads && std::ranges::find(_options.openPaths, request.path) != _options.openPaths.end())
-    {
-        return std::nullopt;
-    }
     // HTTP/1.0 needs no Host, but every browser sends one.
     if (!source.host.empty() && !IsOwnName(source.host))
     {
@@ -75,7 +70,7 @@ std::optional<std::string> HttpGuard::GetRejectionReasonOrNull(const HttpRequest
             "host name {} is not allowed: use the IP address, or add the name to the configuration",
             Core::QuoteForError(source.host));
     }
-    if (bReads)
+    if (request.method == "GET" || request.method == "HEAD")
     {
         return std::nullopt; // the browser hides the response from a page of another origin
     }

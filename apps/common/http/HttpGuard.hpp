@@ -29,8 +29,6 @@ public:
         /// Allowed host names, without port. localhost and IP addresses are always allowed: a page cannot spoof them.
         std::vector<std::string> names;
         bool bAnyName = false;
-        /// Paths whose GET and HEAD are allowed under any name, because their content is not confidential.
-        std::vector<std::string> openPaths;
     };
 
 private:

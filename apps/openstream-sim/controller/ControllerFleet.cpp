@@ -42,7 +42,7 @@ ControllerFleet::ControllerFleet(
           [this](const Apps::HttpRequest& request) { return Handle(request); },
           _logger,
           {},
-          Apps::HttpGuard({{}, true, {}}))
+          Apps::HttpGuard({{}, true}))
 {
     assert(_options.controllers > 0 && _options.controllers <= FleetOptions::MAX_CONTROLLERS);
     for (std::size_t i = 0; i < _options.controllers; ++i)

@@ -168,6 +168,8 @@ int Run(const Options& options)
         "--set",
         "http.listen=127.0.0.1:0",
         "--set",
+        "operator.listen=127.0.0.1:0",
+        "--set",
         fmt::format("queue.max_plans={}", 2 * options.plans)});
     if (!acsd.TryWaitForText("ready:", std::chrono::seconds(30)))
     {

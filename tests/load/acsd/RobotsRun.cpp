@@ -55,6 +55,8 @@ map = "cells.lif.json"
 directory = "store"
 [http]
 listen = "127.0.0.1:0"
+[operator]
+listen = "127.0.0.1:0"
 [queue]
 max_plans = {}
 [position]

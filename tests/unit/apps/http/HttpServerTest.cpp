@@ -304,7 +304,7 @@ TEST_CASE("A flood of invalid requests causes few log lines")
 
 TEST_CASE("A request that the guard refuses is answered with 403 and logged; the connection stays open")
 {
-    Fixture fixture({}, Apps::HttpGuard({{}, false, {"/metrics"}}));
+    Fixture fixture({}, Apps::HttpGuard({{"acs.example"}, false}));
     RawClient client(fixture.context, fixture.port);
     const std::string host = "Host: 127.0.0.1:" + std::to_string(fixture.port) + "\r\n";
     for (const std::string& header :
