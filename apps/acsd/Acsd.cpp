@@ -10,6 +10,7 @@
 #include "mcs/McsLink.hpp"
 #include "operator/AcsdMetrics.hpp"
 #include "operator/AcsdStatus.hpp"
+#include "operator/OperatorGate.hpp"
 #include "operator/OperatorRoutes.hpp"
 #include "operator/PlanLog.hpp"
 #include "robots/RobotHost.hpp"
@@ -52,7 +53,7 @@ class Acsd::Impl final : private IAcsdOutput, private VDA5050::IMqttLinkListener
     Apps::TimerSet<AcsdTimer> _timers;
     Apps::LoopWatchdog _watchdog;
     Apps::HttpRoutes _monitoringRoutes;
-    Apps::HttpRoutes _operatorRoutes;
+    OperatorGate _operatorGate;
     Apps::HttpServer _monitoring;
     Apps::HttpServer _operator;
     std::vector<Apps::ReadyAddress> _addresses; ///< On which they listen.
@@ -86,6 +87,10 @@ public:
               _dependencies.executor,
               {_config.operations.stallLimit, _dependencies.aliveInterval},
               {[this](Core::Duration stall) { OnStall(stall); }, _dependencies.onAlive}),
+          _operatorGate(
+              _dependencies.clock,
+              _dependencies.logger.MakeFor("operator"),
+              AccessPolicy(_config.http.control.access)),
           _monitoring(
               _dependencies.executor,
               [this](const Apps::HttpRequest& request) { return _monitoringRoutes.Respond(request); },
@@ -94,10 +99,10 @@ public:
               MakeHttpGuard(_config.http.monitoring)),
           _operator(
               _dependencies.executor,
-              [this](const Apps::HttpRequest& request) { return _operatorRoutes.Respond(request); },
+              [this](const Apps::HttpRequest& request) { return _operatorGate.Respond(request); },
               _dependencies.logger.MakeFor("operator"),
               {},
-              MakeHttpGuard(_config.http.control))
+              MakeHttpGuard(_config.http.control.http))
     {
         _core.SetObserver(_planLog);
         AddRoutes();
@@ -133,7 +138,7 @@ public:
         opened = Listen(_monitoring, "http", _config.http.monitoring);
         if (opened)
         {
-            opened = Listen(_operator, "operator", _config.http.control);
+            opened = Listen(_operator, "operator", _config.http.control.http);
         }
         if (!opened)
         {
@@ -167,6 +172,7 @@ public:
         ApplyLiveKeys(fresh, _config);
         _core.Reload(_config);
         _mcs.SetLimits(_config.mcs);
+        ReloadTokens(fresh.http.control);
         if (_dependencies.traceOrNull != nullptr)
         {
             _dependencies.traceOrNull->SetLimits(_config.operations.trace);
@@ -179,6 +185,19 @@ public:
     }
 
 private:
+    /// The tokens of the same file, so that a token can be withdrawn without a restart.
+    void ReloadTokens(const OperatorConfig& fresh)
+    {
+        OperatorConfig& present = _config.http.control;
+        if (fresh.tokensFile != present.tokensFile || fresh.access.tokens == present.access.tokens)
+        {
+            return;
+        }
+        present.access.tokens = fresh.access.tokens;
+        _operatorGate.SetPolicy(AccessPolicy(present.access));
+        _dependencies.logger.MakeFor("operator").Info("tokens reloaded", {{"file", present.tokensFile}});
+    }
+
     [[nodiscard]] Core::Result<void> Listen(
         Apps::HttpServer& server,
         const std::string& name,
@@ -355,9 +374,9 @@ private:
             UpdateMetrics();
             return _metricsEndpoint.Respond();
         });
-        AddStatusRoute(_operatorRoutes, _core.GetEngine(), [this] { return GetProgramStatus(); });
+        AddStatusRoute(_operatorGate.GetRoutes(), _core.GetEngine(), [this] { return GetProgramStatus(); });
         AddOperatorRoutes(
-            _operatorRoutes,
+            _operatorGate.GetRoutes(),
             _core.GetEngine(),
             {[this](Planning::PlanCommand command) { return _core.Offer(std::move(command)); },
              [this] {

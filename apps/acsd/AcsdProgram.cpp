@@ -9,6 +9,7 @@
 #include "common/process/SignalWaiter.hpp"
 #include "common/process/SystemClock.hpp"
 #include "common/process/SystemRandom.hpp"
+#include "operator/TokenCommand.hpp"
 #include "store/StoreCommand.hpp"
 
 #include <boost/asio/io_context.hpp>
@@ -35,7 +36,8 @@ namespace
 constexpr const char* NAME = "acsd";
 
 constexpr const char* FOOTER =
-    "acsd store --help has the commands for its store.\n"
+    "Commands: acsd token ROLE NAME makes a token for the operator interface; acsd token --help explains it.\n"
+    "          acsd store COMMAND checks, accepts, backs up or restores the store; acsd store --help explains it.\n"
     "Signals: SIGTERM and SIGINT stop acsd after the MCS has acknowledged its reports (a second one stops it at once), "
     "SIGHUP reloads the configuration.\n"
     "Exit codes: 0 after a stop, --check-config without errors, --help or --version; 1 if acsd cannot run (store, port, "
@@ -140,6 +142,10 @@ int RunAcsd(int argc, const char* const* argv)
     if (argc > 1 && std::string_view(argv[1]) == "store")
     {
         return RunStoreCommand(argc - 1, argv + 1);
+    }
+    if (argc > 1 && std::string_view(argv[1]) == "token")
+    {
+        return RunTokenCommand(argc - 1, argv + 1);
     }
     ProgramOptions options;
     CLI::App app{

@@ -2,6 +2,8 @@
 """What an operator does over HTTP, and what /status answers, with real processes."""
 
 import json
+import signal
+import subprocess
 import threading
 import time
 import urllib.error
@@ -70,10 +72,45 @@ class Operator(ScenarioCase):
             self.assertEqual([self.read_code(name, path, host="evil.example") for path in ("/livez", "/metrics", "/status")],
                              [403, 403, 403])
 
-    def read_code(self, name, path, method="GET", host=None):
+    def make_token(self, role, name):
+        """The token; its line is added to the file."""
+        result = subprocess.run([self.line.bin_dir / "acsd", "token", role, name], check=True, capture_output=True, text=True)
+        with open(self.line.folder / "tokens", "a", encoding="ascii") as file:
+            file.write(result.stdout)
+        return result.stderr.split()[-1]
+
+    def test_a_token_gives_its_role_until_it_is_withdrawn(self):
+        self.line.start_broker()
+        self.mcs_port = find_free_port()
+        viewer, operator = self.make_token("viewer", "grafana"), self.make_token("operator", "kim")
+        tokens = self.line.folder / "tokens"
+        self.assertNotIn(operator, tokens.read_text())
+        self.arm, self.overrides = {"stream": "127.0.0.1:1"}, (f"operator.tokens_file={tokens}",)
+        self.start_acsd()
+        rows = ((None, 401, 401), ("guess", 401, 401), (tokens.read_text().split()[-1], 401, 401), (viewer, 200, 403), (operator, 200, 202))
+        for token, read, changed in rows:
+            self.assertEqual(self.read_code("operator", "/status", token=token), read)
+            self.assertEqual(self.read_code("operator", "/tsc/pause", "POST", token=token), changed)
+        self.assertEqual(self.read_code("http", "/livez"), 200)
+
+        tokens.write_text("".join(line for line in tokens.read_text().splitlines(True) if "kim" not in line))
+        self.acsd.send_signal(signal.SIGHUP)
+        deadline = time.monotonic() + FINISH_SECONDS
+        while self.read_code("operator", "/tsc/resume", "POST", token=operator) != 401:
+            self.assertLess(time.monotonic(), deadline, "the token is still valid")
+        self.assertEqual(self.read_code("operator", "/status", token=viewer), 200)
+
+    def test_an_invalid_request_for_a_token_is_refused(self):
+        for arguments in ((), ("operator",), ("root", "kim"), ("viewer", "a b"), ("viewer", ""), ("viewer", "kim", "lee")):
+            result = subprocess.run([self.line.bin_dir / "acsd", "token", *arguments], capture_output=True, text=True)
+            self.assertEqual((result.returncode, result.stdout, result.stderr.count("\n")), (2, "", 1), arguments)
+
+    def read_code(self, name, path, method="GET", host=None, token=None):
         request = urllib.request.Request(f"http://{self.acsd.addresses[name]}{path}", method=method)
         if host is not None:
             request.add_header("Host", host)
+        if token is not None:
+            request.add_header("Authorization", f"Bearer {token}")
         try:
             with urllib.request.urlopen(request, timeout=20) as response:
                 return response.status

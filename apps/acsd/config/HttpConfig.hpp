@@ -2,6 +2,7 @@
 
 #include "common/config/ConfigSection.hpp"
 #include "common/config/Endpoint.hpp"
+#include "operator/AccessPolicy.hpp"
 
 #include <string>
 #include <vector>
@@ -16,14 +17,22 @@ struct HttpListenConfig
     std::vector<std::string> hosts{}; ///< Accepted host names, without port.
 };
 
+/// The table `operator`.
+struct OperatorConfig
+{
+    HttpListenConfig http{{"127.0.0.1", 8081}};
+    std::string tokensFile; ///< Empty: none.
+    AccessPolicy::Options access;
+};
+
 /// The two HTTP interfaces.
 struct HttpConfig
 {
     HttpListenConfig monitoring{{"127.0.0.1", 8080}};
-    HttpListenConfig control{{"127.0.0.1", 8081}};
+    OperatorConfig control;
 };
 
-/// Reads the tables `http` and `operator`.
-void ReadHttpConfig(const Apps::ConfigSection& root, HttpConfig& config);
+/// Reads the tables `http` and `operator`. Relative paths are relative to the folder of the file.
+void ReadHttpConfig(const Apps::ConfigSection& root, const std::string& fileName, HttpConfig& config);
 
 } // namespace ACS::Acsd

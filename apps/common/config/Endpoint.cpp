@@ -1,5 +1,6 @@
 #include "common/config/Endpoint.hpp"
 
+#include <boost/asio/ip/address.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -62,6 +63,21 @@ Core::Result<Endpoint> ParseEndpoint(std::string_view text)
         }
     }
     return Core::Fail(Core::ECoreError::OutOfRange, {}, std::string(ALLOWED), fmt::format("'{}'", text));
+}
+
+bool IsLoopback(const std::string& host)
+{
+    boost::system::error_code error;
+    const boost::asio::ip::address address = boost::asio::ip::make_address(host, error);
+    if (error.failed())
+    {
+        return host == "localhost";
+    }
+    if (address.is_v6() && address.to_v6().is_v4_mapped())
+    {
+        return boost::asio::ip::make_address_v4(boost::asio::ip::v4_mapped, address.to_v6()).is_loopback();
+    }
+    return address.is_loopback();
 }
 
 std::string MakeText(const Endpoint& endpoint)

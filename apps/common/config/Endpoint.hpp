@@ -21,6 +21,9 @@ struct Endpoint
 /// "HOST:PORT"; an IPv6 address is in brackets ("[::1]:80"). Port 0 is allowed.
 [[nodiscard]] Core::Result<Endpoint> ParseEndpoint(std::string_view text);
 
+/// Whether the host is this machine for sure: localhost, or an address of the loopback interface.
+[[nodiscard]] bool IsLoopback(const std::string& host);
+
 /// The endpoint as ParseEndpoint reads it.
 [[nodiscard]] std::string MakeText(const Endpoint& endpoint);
 

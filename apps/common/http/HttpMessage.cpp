@@ -100,6 +100,7 @@ Core::Result<HttpRequest> ParseHttpTarget(std::string_view target)
     }
     request.path = std::move(*path);
     request.segments = SplitPath(target.substr(0, question));
+    request.target = target;
     return request;
 }
 

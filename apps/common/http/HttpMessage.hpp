@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/config/Endpoint.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
 
@@ -13,6 +14,14 @@
 namespace ACS::Apps
 {
 
+/// Who sends a request, for handlers that decide by it.
+struct HttpSender
+{
+    Endpoint peer;
+    std::string authorization{};   ///< Header Authorization; empty if absent.
+    std::string certificateName{}; ///< CN of the verified client certificate; empty without one.
+};
+
 /// A request as it is passed to a handler.
 struct HttpRequest
 {
@@ -22,6 +31,8 @@ struct HttpRequest
     std::string body;                                       ///< At most 1 MiB.
     /// The segments of the path, each decoded separately: %2F is not a separator.
     std::vector<std::string> segments{};
+    std::string target{}; ///< As it was sent: path and query.
+    HttpSender sender{};
 
     /// The value of the first query parameter of that name; nullopt if there is none.
     [[nodiscard]] std::optional<std::string> GetQueryOrNull(std::string_view name) const;
@@ -35,6 +46,7 @@ struct HttpResponse
     Core::Duration delay{};            ///< Delay before it is sent; other connections are not delayed.
     std::string allow{};               ///< Header Allow of a 405: the allowed methods; empty: no header.
     std::chrono::seconds retryAfter{}; ///< Header Retry-After of a 503; 0: no header.
+    std::string challenge{};           ///< Header WWW-Authenticate of a 401; empty: no header.
 };
 
 /// Splits the target of a request line into path and query and decodes both. Fails if the target is invalid.

@@ -7,6 +7,13 @@
 namespace ACS::Apps
 {
 
+Endpoint GetPeer(const boost::asio::ip::tcp::socket& socket)
+{
+    boost::system::error_code error;
+    const boost::asio::ip::tcp::endpoint endpoint = socket.remote_endpoint(error);
+    return {endpoint.address().to_string(), endpoint.port()};
+}
+
 boost::asio::ip::address GetPeerGroup(const boost::asio::ip::tcp::socket& socket)
 {
     boost::system::error_code error;

@@ -147,7 +147,8 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
     std::optional<Http::response<Http::string_body>> _responseOrNull;
     std::optional<Http::response_serializer<Http::string_body>> _serializerOrNull;
     Asio::steady_timer _delay;
-    const Asio::ip::address _peer;
+    const Asio::ip::address _group;
+    const Endpoint _peer;
     EConnectionState _state = EConnectionState::Reading;
 
 public:
@@ -159,7 +160,8 @@ public:
           _limits(server->limits),
           _stream(std::move(socket)),
           _delay(_stream.get_executor()),
-          _peer(GetPeerGroup(_stream.socket()))
+          _group(GetPeerGroup(_stream.socket())),
+          _peer(GetPeer(_stream.socket()))
     {
     }
 
@@ -182,9 +184,9 @@ public:
         return _state;
     }
 
-    [[nodiscard]] const Asio::ip::address& GetPeer() const noexcept
+    [[nodiscard]] const Asio::ip::address& GetGroup() const noexcept
     {
-        return _peer;
+        return _group;
     }
 
     void Close()
@@ -281,6 +283,7 @@ private:
         }
         parsed->method = std::string(request.method_string());
         parsed->body = request.body();
+        parsed->sender = MakeSender(request);
         if (const std::optional<std::string> rejection = server->GetRejectionReasonOrNull(*parsed, request))
         {
             server->LogRefusal("forbidden", *rejection);
@@ -298,6 +301,12 @@ private:
         _delay.async_wait([self = shared_from_this(), bKeepAlive = request.keep_alive(), bHead](const ErrorCode&) {
             self->WritePreparedAsync(bKeepAlive, bHead);
         });
+    }
+
+    [[nodiscard]] HttpSender MakeSender(const Http::fields& header) const
+    {
+        const auto authorization = header[Http::field::authorization];
+        return {_peer, std::string(authorization.data(), authorization.size())};
     }
 
     void WriteAsync(const HttpResponse& response, bool bKeepAlive, bool bHead)
@@ -318,6 +327,10 @@ private:
         if (response.retryAfter.count() > 0)
         {
             _responseOrNull->set(Http::field::retry_after, std::to_string(response.retryAfter.count()));
+        }
+        if (!response.challenge.empty())
+        {
+            _responseOrNull->set(Http::field::www_authenticate, response.challenge);
         }
         _responseOrNull->body() = response.body;
         _responseOrNull->keep_alive(bKeepAlive);
@@ -432,7 +445,7 @@ std::optional<std::string> HttpServer::Impl::GetRejectionReasonOrNull(
 bool HttpServer::Impl::IsFull(const Asio::ip::address& peer) const
 {
     const auto isOpenToPeer = [&peer](const std::shared_ptr<Connection>& connection) {
-        return connection->GetState() != EConnectionState::Closed && connection->GetPeer() == peer;
+        return connection->GetState() != EConnectionState::Closed && connection->GetGroup() == peer;
     };
     return static_cast<std::size_t>(std::ranges::count_if(connections, isOpenToPeer)) >= limits.maxPerPeer;
 }
@@ -445,7 +458,7 @@ std::shared_ptr<HttpServer::Impl::Connection> HttpServer::Impl::FindReplaceableO
     for (const EConnectionState state : {EConnectionState::Reading, EConnectionState::Writing})
     {
         const auto found = std::ranges::find_if(connections, [&](const std::shared_ptr<Connection>& connection) {
-            return connection->GetState() == state && (!bOfPeer || connection->GetPeer() == peer);
+            return connection->GetState() == state && (!bOfPeer || connection->GetGroup() == peer);
         });
         if (found != connections.end())
         {

@@ -49,3 +49,17 @@ TEST_CASE("The ready line names each address")
         Apps::MakeReadyLine({{"stream", {"127.0.0.1", 49000}}, {"http", {"::1", 8888}}})
         == "ready: stream=127.0.0.1:49000 http=[::1]:8888");
 }
+
+TEST_CASE("Only localhost and addresses of the loopback interface are this machine for sure")
+{
+    for (const char* host : {"localhost", "127.0.0.1", "127.1.2.3", "::1", "::ffff:127.0.0.1"})
+    {
+        CAPTURE(host);
+        CHECK(Apps::IsLoopback(host));
+    }
+    for (const char* host : {"0.0.0.0", "::", "10.0.0.1", "::ffff:10.0.0.1", "acs.example", "localhost.example", ""})
+    {
+        CAPTURE(host);
+        CHECK_FALSE(Apps::IsLoopback(host));
+    }
+}

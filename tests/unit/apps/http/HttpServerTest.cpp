@@ -168,6 +168,23 @@ TEST_CASE("The handler gets the decoded request and the peer gets its response")
     REQUIRE(fixture.requests[0].path == "/tasks[0]/x");
     REQUIRE(fixture.requests[0].GetQueryOrNull("type") == "io");
     REQUIRE(fixture.requests[0].body == "body");
+    REQUIRE(fixture.requests[0].target == "/tasks%5B0%5D/x?type=io");
+}
+
+TEST_CASE("The handler gets the peer and its Authorization; a response can have a challenge")
+{
+    Fixture fixture;
+    fixture.answer.status = 401;
+    fixture.answer.challenge = "Bearer realm=\"test\"";
+    RawClient client(fixture.context, fixture.port, "127.0.0.5");
+    client.Send("GET / HTTP/1.1\r\nHost: x\r\nauthorization: Bearer abc\r\n\r\nGET / HTTP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(fixture.IsReached([&fixture] { return fixture.requests.size() == 2; }));
+    REQUIRE(client.HasReceived("WWW-Authenticate: Bearer realm=\"test\"\r\n"));
+    CHECK(fixture.requests[0].sender.peer.host == "127.0.0.5");
+    CHECK(fixture.requests[0].sender.peer.port != 0);
+    CHECK(fixture.requests[0].sender.authorization == "Bearer abc");
+    CHECK(fixture.requests[1].sender.authorization.empty());
+    CHECK(fixture.requests[1].sender.certificateName.empty());
 }
 
 TEST_CASE("A connection answers one request after the other, also if they arrive in pieces or together")
