@@ -3,6 +3,7 @@
 #include "AcsdCore.hpp"
 #include "common/http/HttpRoutes.hpp"
 #include "common/http/HttpServer.hpp"
+#include "common/http/HttpTls.hpp"
 #include "common/http/MetricsEndpoint.hpp"
 #include "common/process/LoopWatchdog.hpp"
 #include "common/process/TimerSet.hpp"
@@ -138,6 +139,10 @@ public:
         opened = Listen(_monitoring, "http", _config.http.monitoring);
         if (opened)
         {
+            opened = UseOperatorTLS();
+        }
+        if (opened)
+        {
             opened = Listen(_operator, "operator", _config.http.control.http);
         }
         if (!opened)
@@ -196,6 +201,21 @@ private:
         present.access.tokens = fresh.access.tokens;
         _operatorGate.SetPolicy(AccessPolicy(present.access));
         _dependencies.logger.MakeFor("operator").Info("tokens reloaded", {{"file", present.tokensFile}});
+    }
+
+    [[nodiscard]] Core::Result<void> UseOperatorTLS()
+    {
+        if (_config.http.control.tls.certificate.empty())
+        {
+            return {};
+        }
+        auto context = Apps::MakeHttpTlsContext(_config.http.control.tls);
+        if (!context)
+        {
+            return tl::unexpected<Core::Error>(context.error());
+        }
+        _operator.UseTLS(std::move(*context));
+        return {};
     }
 
     [[nodiscard]] Core::Result<void> Listen(

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 """What an operator does over HTTP, and what /status answers, with real processes."""
 
+import http.client
 import json
 import signal
+import ssl
 import subprocess
 import threading
 import time
@@ -104,6 +106,57 @@ class Operator(ScenarioCase):
         for arguments in ((), ("operator",), ("root", "kim"), ("viewer", "a b"), ("viewer", ""), ("viewer", "kim", "lee")):
             result = subprocess.run([self.line.bin_dir / "acsd", "token", *arguments], capture_output=True, text=True)
             self.assertEqual((result.returncode, result.stdout, result.stderr.count("\n")), (2, "", 1), arguments)
+
+    def make_certificate(self, name, *options):
+        """(certificate, key); of the CA "ca" if there is one."""
+        certificate, key = self.line.folder / f"{name}.pem", self.line.folder / f"{name}.key"
+        subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
+                        "-keyout", key, "-out", certificate, "-days", "2", "-subj", f"/CN={name}", *map(str, options)],
+                       check=True, capture_output=True)
+        return certificate, key
+
+    def test_other_machines_need_tls_and_a_token_or_a_certificate(self):
+        def check(*overrides):
+            sets = [part for override in overrides for part in ("--set", override)]
+            return subprocess.run([self.line.bin_dir / "acsd", "--config", self.line.site_dir / "acsd.toml", "--check-config",
+                                   *sets], capture_output=True, text=True)
+
+        ca, ca_key = self.make_certificate("ca")
+        of_ca = ("-CA", ca, "-CAkey", ca_key)
+        certificate, key = self.make_certificate("acsd", *of_ca, "-addext", "subjectAltName=IP:127.0.0.1")
+        operator, tokens = self.make_token("operator", "kim"), self.line.folder / "tokens"
+        tls = (f"operator.tls.certificate={certificate}", f"operator.tls.key={key}")
+        needs_tls = 'tls = { certificate = "acsd.pem", key = "acsd.key" }'
+        needs_tokens = 'tokens_file = "tokens"'
+        for overrides, missing in (((), f"{needs_tls} and {needs_tokens}"), (tls, needs_tokens),
+                                   ((f"operator.tokens_file={tokens}",), needs_tls)):
+            result = check("operator.listen=0.0.0.0:0", *overrides)
+            self.assertEqual(result.returncode, 2)
+            self.assertEqual(result.stderr, "--set: operator.listen: 0.0.0.0:0 can be reached from other machines; "
+                                            f"add to [operator]: {missing}\n")
+
+        self.line.start_broker()
+        self.mcs_port = find_free_port()
+        self.arm, self.overrides = {"stream": "127.0.0.1:1"}, (
+            *tls, "operator.listen=0.0.0.0:0", f"operator.tokens_file={tokens}", f"operator.tls.client_ca={ca}",
+            'operator.certificates={ "lee" = "viewer", "kim" = "operator" }')
+        self.start_acsd()
+        port = self.acsd.addresses["operator"].split(":")[1]
+        rows = [(None, None, 401, 401), (None, "guess", 401, 401), (None, operator, 200, 202)]
+        for name, read, changed in (("lee", 200, 403), ("kim", 200, 202), ("stranger", 403, 403)):
+            rows.append((self.make_certificate(name, *of_ca), None, read, changed))
+        for identity, token, read, changed in rows:
+            context = ssl.create_default_context(cafile=ca)
+            if identity is not None:
+                context.load_cert_chain(*identity)
+            headers = {} if token is None else {"Authorization": f"Bearer {token}"}
+            for method, path, expected in (("GET", "/status", read), ("POST", "/tsc/pause", changed)):
+                connection = http.client.HTTPSConnection("127.0.0.1", port, timeout=20, context=context)
+                connection.request(method, path, headers=headers)
+                self.assertEqual(connection.getresponse().status, expected, (identity, token, method))
+                connection.close()
+        with self.assertRaises(OSError):
+            urllib.request.urlopen(f"http://127.0.0.1:{port}/status", timeout=20)
 
     def read_code(self, name, path, method="GET", host=None, token=None):
         request = urllib.request.Request(f"http://{self.acsd.addresses[name]}{path}", method=method)

@@ -151,7 +151,8 @@ CertificateFiles CertificateMaker::Make(const CertificateFiles& ca, const Certif
     Need(issuer != nullptr && issuerKey != nullptr, ca.certificate);
     const std::string name = "peer" + std::to_string(++_count);
     const Key key = MakeKey(wish.bRSA);
-    const Certificate certificate = MakeBlank(key.get(), name, _count, wish);
+    const Certificate certificate =
+        MakeBlank(key.get(), wish.commonName.empty() ? name : wish.commonName, _count, wish);
     AddExtension(certificate.get(), NID_subject_alt_name, wish.alternativeName);
     Sign(certificate.get(), issuer.get(), issuerKey.get());
     return Write(_folder / name, certificate.get(), key.get(), wish.passphrase);
@@ -161,7 +162,8 @@ CertificateFiles CertificateMaker::MakeSelfSigned(const CertificateRequest& wish
 {
     const std::string name = "self" + std::to_string(++_count);
     const Key key = MakeKey(wish.bRSA);
-    const Certificate certificate = MakeBlank(key.get(), name, _count, wish);
+    const Certificate certificate =
+        MakeBlank(key.get(), wish.commonName.empty() ? name : wish.commonName, _count, wish);
     AddExtension(certificate.get(), NID_subject_alt_name, wish.alternativeName);
     Sign(certificate.get(), certificate.get(), key.get());
     return Write(_folder / name, certificate.get(), key.get(), wish.passphrase);

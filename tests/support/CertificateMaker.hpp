@@ -21,7 +21,8 @@ struct CertificateRequest
     std::chrono::hours validFrom{-24};                          ///< Relative to now.
     std::chrono::hours validTo{24};
     bool bRSA = false;
-    std::string passphrase; ///< Of the key file; empty: none.
+    std::string passphrase{}; ///< Of the key file; empty: none.
+    std::string commonName{}; ///< Empty: one with a number.
 };
 
 /// Makes certificates during a test in the given folder: none is kept in the repository, none expires.

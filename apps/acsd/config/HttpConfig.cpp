@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace ACS::Acsd
@@ -66,6 +68,77 @@ void ReadTokens(const ConfigSection& section, const std::string& fileName, Opera
     config.access.tokens = std::move(*tokens);
 }
 
+/// The files are read again when acsd listens. They are checked here to report their errors with those of the configuration.
+void ReadOperatorTLS(const ConfigSection& section, const std::string& fileName, OperatorConfig& config)
+{
+    if (!section.HasKey("tls"))
+    {
+        return;
+    }
+    const ConfigSection tls = section.GetSection("tls");
+    const auto readFile = [&](const std::string& key) {
+        const std::string path = tls.GetString(key, "");
+        return path.empty() ? path : ResolvePath(fileName, path);
+    };
+    config.tls = {readFile("certificate"), readFile("key"), readFile("client_ca")};
+    if (const auto context = Apps::MakeHttpTlsContext(config.tls); !context.has_value())
+    {
+        Core::Error error = context.error();
+        const std::string key = std::exchange(error.path, {});
+        tls.AddError(key, Core::Describe(error));
+    }
+}
+
+void ReadCertificates(const ConfigSection& section, OperatorConfig& config)
+{
+    const ConfigSection names = section.GetSection("certificates");
+    std::map<std::string, EOperatorRole> roles;
+    for (const std::string& name : names.GetNames())
+    {
+        const std::string role = names.GetWord(name, {"viewer", "operator"});
+        roles.emplace(name, ReadRoleOrNull(role).value_or(EOperatorRole::Viewer));
+    }
+    const bool bUsed = !config.tls.clientCA.empty();
+    if (bUsed && roles.empty())
+    {
+        section.AddError(
+            "certificates",
+            R"(missing; without it no certificate of operator.tls.client_ca has a role; add for example: )"
+            R"(certificates = { "kim" = "operator" })");
+    }
+    if (!bUsed && !roles.empty())
+    {
+        section.AddError("certificates", "is used with operator.tls.client_ca only");
+    }
+    if (bUsed)
+    {
+        config.access.certificates = std::move(roles);
+    }
+}
+
+/// Other machines reach the address: who sends a command must be known, and the token must not be readable on the way.
+void DemandIdentity(const ConfigSection& section, const OperatorConfig& config)
+{
+    std::vector<std::string_view> missing;
+    if (config.tls.certificate.empty())
+    {
+        missing.emplace_back(R"(tls = { certificate = "acsd.pem", key = "acsd.key" })");
+    }
+    if (config.tokensFile.empty() && config.tls.clientCA.empty())
+    {
+        missing.emplace_back(R"(tokens_file = "tokens")");
+    }
+    if (!Apps::IsLoopback(config.http.listen.host) && !missing.empty())
+    {
+        section.AddError(
+            "listen",
+            fmt::format(
+                "{} can be reached from other machines; add to [operator]: {}",
+                Apps::MakeText(config.http.listen),
+                fmt::join(missing, " and ")));
+    }
+}
+
 } // namespace
 
 void ReadHttpConfig(const ConfigSection& root, const std::string& fileName, HttpConfig& config)
@@ -74,6 +147,9 @@ void ReadHttpConfig(const ConfigSection& root, const std::string& fileName, Http
     ReadListen(root.GetSection("http"), config.monitoring);
     ReadListen(control, config.control.http);
     ReadTokens(control, fileName, config.control);
+    ReadOperatorTLS(control, fileName, config.control);
+    ReadCertificates(control, config.control);
+    DemandIdentity(control, config.control);
     const Apps::Endpoint& listen = config.control.http.listen;
     if (listen == config.monitoring.listen && listen.port != 0)
     {

@@ -2,6 +2,7 @@
 
 #include "common/config/ConfigSection.hpp"
 #include "common/config/Endpoint.hpp"
+#include "common/http/HttpTls.hpp"
 #include "operator/AccessPolicy.hpp"
 
 #include <string>
@@ -22,6 +23,7 @@ struct OperatorConfig
 {
     HttpListenConfig http{{"127.0.0.1", 8081}};
     std::string tokensFile; ///< Empty: none.
+    Apps::HttpTlsFiles tls; ///< Its files have been checked; without a certificate no TLS.
     AccessPolicy::Options access;
 };
 

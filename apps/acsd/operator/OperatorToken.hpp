@@ -13,8 +13,8 @@
 namespace ACS::Acsd
 {
 
-/// A line of the file of tokens: who has the token, and its SHA-256. The token itself is not kept anywhere: whoever reads the
-/// file cannot use it.
+/// A line of the file of tokens: who has the token, and its SHA-256. The token itself is not kept anywhere: a
+/// reader of the file cannot use it.
 struct OperatorToken
 {
     static constexpr std::size_t HASH_BYTES = 32;

@@ -1,17 +1,22 @@
 #include "common/http/HttpServer.hpp"
 
 #include "common/http/HttpPeer.hpp"
+#include "common/http/HttpStream.hpp"
+#include "common/http/HttpTls.hpp"
 #include "common/log/LogRateLimiter.hpp"
 #include <acs/net/TcpListener.hpp>
 
 #include <boost/asio/ip/address.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/ssl/stream_base.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http.hpp>
+#include <openssl/ssl.h>
+#include <openssl/x509_vfy.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -100,6 +105,7 @@ struct HttpServer::Impl : std::enable_shared_from_this<Impl>
     LogRateLimiter refusals; ///< Rate-limited, because any peer can cause these lines.
     HttpLimits limits;
     std::optional<HttpGuard> guardOrNull;
+    std::shared_ptr<Asio::ssl::context> tlsContextOrNull; ///< Of further connections.
     std::shared_ptr<Net::TcpListener> listener;
     ConnectionList connections;
     std::optional<Tcp::socket> nextOrNull; ///< Accepted while all connections were being answered.
@@ -141,7 +147,7 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
 {
     std::weak_ptr<Impl> _server;
     HttpLimits _limits;
-    Beast::tcp_stream _stream;
+    HttpStream _stream;
     Beast::flat_buffer _buffer{BUFFER_BYTES};
     std::optional<Http::request_parser<Http::string_body>> _parserOrNull;
     std::optional<Http::response<Http::string_body>> _responseOrNull;
@@ -149,6 +155,7 @@ class HttpServer::Impl::Connection : public std::enable_shared_from_this<Connect
     Asio::steady_timer _delay;
     const Asio::ip::address _group;
     const Endpoint _peer;
+    std::string _certificateName; ///< Of the client; empty without a certificate.
     EConnectionState _state = EConnectionState::Reading;
 
 public:
@@ -158,11 +165,26 @@ public:
     Connection(const std::shared_ptr<Impl>& server, Tcp::socket socket)
         : _server(server),
           _limits(server->limits),
-          _stream(std::move(socket)),
-          _delay(_stream.get_executor()),
-          _group(GetPeerGroup(_stream.socket())),
-          _peer(GetPeer(_stream.socket()))
+          _stream(std::move(socket), server->tlsContextOrNull),
+          _delay(_stream.GetTCP().get_executor()),
+          _group(GetPeerGroup(_stream.GetTCP().socket())),
+          _peer(GetPeer(_stream.GetTCP().socket()))
     {
+    }
+
+    /// Call once.
+    void StartAsync()
+    {
+        HttpStream::TlsStream* const tlsOrNull = _stream.GetTlsOrNull();
+        if (tlsOrNull == nullptr)
+        {
+            return ReadAsync();
+        }
+        Enter(EConnectionState::Reading);
+        _stream.GetTCP().expires_after(_limits.timeout);
+        tlsOrNull->async_handshake(
+            Asio::ssl::stream_base::server,
+            Beast::bind_front_handler(&Connection::OnHandshake, shared_from_this()));
     }
 
     void ReadAsync()
@@ -171,12 +193,14 @@ public:
         _parserOrNull.emplace();
         _parserOrNull->header_limit(_limits.maxHeaderBytes);
         _parserOrNull->body_limit(_limits.maxBodyBytes);
-        _stream.expires_after(_limits.timeout);
-        Http::async_read_header(
-            _stream,
-            _buffer,
-            *_parserOrNull,
-            Beast::bind_front_handler(&Connection::OnHeader, shared_from_this()));
+        _stream.GetTCP().expires_after(_limits.timeout);
+        _stream.Use([this](auto& stream) {
+            Http::async_read_header(
+                stream,
+                _buffer,
+                *_parserOrNull,
+                Beast::bind_front_handler(&Connection::OnHeader, shared_from_this()));
+        });
     }
 
     [[nodiscard]] EConnectionState GetState() const noexcept
@@ -194,8 +218,8 @@ public:
         _state = EConnectionState::Closed;
         ErrorCode ignored;
         _delay.cancel(ignored);
-        _stream.socket().shutdown(Tcp::socket::shutdown_both, ignored);
-        _stream.close();
+        _stream.GetTCP().socket().shutdown(Tcp::socket::shutdown_both, ignored);
+        _stream.GetTCP().close();
     }
 
 private:
@@ -212,13 +236,37 @@ private:
         if (server->nextOrNull.has_value())
         {
             // Posted, because it may close this connection.
-            Asio::post(_stream.get_executor(), [weak = _server]() {
+            Asio::post(_stream.GetTCP().get_executor(), [weak = _server]() {
                 if (const std::shared_ptr<Impl> owner = weak.lock(); owner != nullptr)
                 {
                     owner->TakeNext();
                 }
             });
         }
+    }
+
+    void OnHandshake(const ErrorCode& error)
+    {
+        const std::shared_ptr<Impl> server = _server.lock();
+        if (server == nullptr || !IsOpen())
+        {
+            return Leave();
+        }
+        if (error.failed())
+        {
+            const std::string reason = DescribeHandshakeError(error);
+            server->LogRefusal("handshake " + reason, reason);
+            return EndAsync(); // the peer reads the alert of TLS
+        }
+        _certificateName = GetClientName(_stream.GetTlsOrNull()->native_handle());
+        ReadAsync();
+    }
+
+    [[nodiscard]] std::string DescribeHandshakeError(const ErrorCode& error)
+    {
+        const long verified = SSL_get_verify_result(_stream.GetTlsOrNull()->native_handle());
+        return verified == X509_V_OK ? "TLS handshake: " + error.message()
+                                     : std::string("client certificate: ") + X509_verify_cert_error_string(verified);
     }
 
     void OnHeader(const ErrorCode& error, std::size_t count)
@@ -232,31 +280,35 @@ private:
             return ReadBodyAsync();
         }
         // The client sends the body only after this answer.
-        Asio::async_write(
-            _stream,
-            Asio::buffer(CONTINUE),
-            [self = shared_from_this()](const ErrorCode& writeError, std::size_t written) {
-                if (writeError.failed())
-                {
-                    return self->OnRead(writeError, written);
-                }
-                self->ReadBodyAsync();
-            });
+        _stream.Use([this](auto& stream) {
+            Asio::async_write(
+                stream,
+                Asio::buffer(CONTINUE),
+                [self = shared_from_this()](const ErrorCode& writeError, std::size_t written) {
+                    if (writeError.failed())
+                    {
+                        return self->OnRead(writeError, written);
+                    }
+                    self->ReadBodyAsync();
+                });
+        });
     }
 
     void ReadBodyAsync()
     {
-        Http::async_read(
-            _stream,
-            _buffer,
-            *_parserOrNull,
-            Beast::bind_front_handler(&Connection::OnRead, shared_from_this()));
+        _stream.Use([this](auto& stream) {
+            Http::async_read(
+                stream,
+                _buffer,
+                *_parserOrNull,
+                Beast::bind_front_handler(&Connection::OnRead, shared_from_this()));
+        });
     }
 
     void OnRead(const ErrorCode& error, std::size_t /*count*/)
     {
         const std::shared_ptr<Impl> server = _server.lock();
-        if (server == nullptr || !_stream.socket().is_open())
+        if (server == nullptr || !IsOpen())
         {
             return Leave();
         }
@@ -306,7 +358,7 @@ private:
     [[nodiscard]] HttpSender MakeSender(const Http::fields& header) const
     {
         const auto authorization = header[Http::field::authorization];
-        return {_peer, std::string(authorization.data(), authorization.size())};
+        return {_peer, std::string(authorization.data(), authorization.size()), _certificateName};
     }
 
     void WriteAsync(const HttpResponse& response, bool bKeepAlive, bool bHead)
@@ -345,42 +397,62 @@ private:
             return Leave();
         }
         Enter(EConnectionState::Writing);
-        _stream.expires_after(_limits.timeout);
-        auto onWritten = Beast::bind_front_handler(&Connection::OnWritten, shared_from_this(), bKeepAlive);
-        if (bHead)
-        {
-            Http::async_write_header(_stream, *_serializerOrNull, std::move(onWritten));
-        }
-        else
-        {
-            Http::async_write(_stream, *_serializerOrNull, std::move(onWritten));
-        }
+        _stream.GetTCP().expires_after(_limits.timeout);
+        _stream.Use([this, bKeepAlive, bHead](auto& stream) {
+            auto onWritten = Beast::bind_front_handler(&Connection::OnWritten, shared_from_this(), bKeepAlive);
+            if (bHead)
+            {
+                Http::async_write_header(stream, *_serializerOrNull, std::move(onWritten));
+            }
+            else
+            {
+                Http::async_write(stream, *_serializerOrNull, std::move(onWritten));
+            }
+        });
     }
 
     void OnWritten(bool bKeepAlive, const ErrorCode& error, std::size_t /*count*/)
     {
-        if (!error.failed() && bKeepAlive && !_server.expired() && _stream.socket().is_open())
+        if (error.failed() || !IsOpen())
         {
-            ReadAsync();
+            return Leave();
         }
-        else if (!error.failed() && _stream.socket().is_open())
+        if (bKeepAlive && !_server.expired())
         {
-            ErrorCode ignored;
-            _stream.socket().shutdown(Tcp::socket::shutdown_send, ignored);
-            _stream.expires_after(DRAIN_TIME);
-            DrainAsync();
+            return ReadAsync();
         }
-        else
+        HttpStream::TlsStream* const tlsOrNull = _stream.GetTlsOrNull();
+        if (tlsOrNull == nullptr)
         {
-            Leave();
+            return EndAsync();
         }
+        // Without this message of TLS the peer would take the end for an interruption.
+        _stream.GetTCP().expires_after(DRAIN_TIME);
+        tlsOrNull->async_shutdown([self = shared_from_this()](const ErrorCode&) { self->EndAsync(); });
+    }
+
+    [[nodiscard]] bool IsOpen() noexcept
+    {
+        return _stream.GetTCP().socket().is_open();
+    }
+
+    void EndAsync()
+    {
+        if (!IsOpen())
+        {
+            return Leave();
+        }
+        ErrorCode ignored;
+        _stream.GetTCP().socket().shutdown(Tcp::socket::shutdown_send, ignored);
+        _stream.GetTCP().expires_after(DRAIN_TIME);
+        DrainAsync();
     }
 
     /// Reads and drops data until the peer closes or DRAIN_TIME, which is not restarted, expires.
     void DrainAsync()
     {
         _buffer.clear();
-        _stream.async_read_some(
+        _stream.GetTCP().async_read_some(
             _buffer.prepare(DRAIN_BYTES),
             Beast::bind_front_handler(&Connection::OnDrained, shared_from_this()));
     }
@@ -485,7 +557,7 @@ void HttpServer::Impl::OnAccepted(Tcp::socket socket)
     const auto connection = std::make_shared<Connection>(shared_from_this(), std::move(socket));
     connections.push_back(connection);
     connection->place = std::prev(connections.end());
-    connection->ReadAsync();
+    connection->StartAsync();
 }
 
 void HttpServer::Impl::TakeNext()
@@ -533,6 +605,11 @@ HttpServer::HttpServer(
 HttpServer::~HttpServer()
 {
     _impl->Stop();
+}
+
+void HttpServer::UseTLS(std::shared_ptr<Asio::ssl::context> context)
+{
+    _impl->tlsContextOrNull = std::move(context);
 }
 
 Core::Result<Endpoint> HttpServer::Listen(const Endpoint& endpoint)

@@ -15,6 +15,11 @@
 #include <memory>
 #include <optional>
 
+namespace boost::asio::ssl // NOLINT(readability-identifier-naming): the name that Boost gives it
+{
+class context;
+} // namespace boost::asio::ssl
+
 namespace ACS::Apps
 {
 
@@ -57,6 +62,9 @@ public:
 
     /// Stops.
     ~HttpServer();
+
+    /// Connections that are accepted from now on use TLS.
+    void UseTLS(std::shared_ptr<boost::asio::ssl::context> context);
 
     /// Starts to listen. Returns the same host with the actual port. Fails if the address is not one of this machine or the
     /// port is in use; it may be called again then.

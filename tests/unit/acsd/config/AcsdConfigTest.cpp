@@ -100,6 +100,34 @@ TEST_CASE("A file for TLS that is missing or does not fit is an error with key, 
     CHECK(foreign[0].find("is the key of another certificate than " + own.certificate) != std::string::npos);
 }
 
+TEST_CASE("Client certificates of the operator interface have a CA and roles")
+{
+    const Testing::TemporaryFolder folder;
+    Testing::CertificateMaker maker(folder.GetPath());
+    const Testing::CertificateFiles ca = maker.MakeCA("ca");
+    const Testing::CertificateFiles own = maker.Make(ca, {});
+    std::vector<std::string> overrides{
+        "operator.listen=0.0.0.0:8081",
+        "operator.tls.certificate=" + own.certificate,
+        "operator.tls.key=" + own.key,
+        "operator.tls.client_ca=" + ca.certificate};
+    const std::vector<std::string> errors = Read(overrides).errors;
+    REQUIRE(errors.size() == 1);
+    CHECK(errors[0].find("operator.certificates: missing; ") != std::string::npos);
+
+    overrides.emplace_back(R"(operator.certificates={ "Kim Lee" = "operator", "grafana" = "viewer" })");
+    const Acsd::AcsdConfig config = Read(overrides);
+    CHECK(config.errors.empty());
+    const Acsd::OperatorConfig& control = config.http.control;
+    CHECK(control.tls == Apps::HttpTlsFiles{own.certificate, own.key, ca.certificate});
+    CHECK_FALSE(control.access.tokens.has_value());
+    CHECK(
+        control.access.certificates
+        == std::map<std::string, Acsd::EOperatorRole>{
+            {"Kim Lee", Acsd::EOperatorRole::Operator},
+            {"grafana", Acsd::EOperatorRole::Viewer}});
+}
+
 TEST_CASE("Each error is reported once, under its key, with the line of the file or the option that it comes from")
 {
     struct Row
@@ -132,6 +160,12 @@ TEST_CASE("Each error is reported once, under its key, with the line of the file
         {{"operator.tokens_file=/nowhere"}, {"--set: operator.tokens_file: /nowhere cannot be read (No such file"}},
         {{"operator.tokens_file=/dev/null"}, {"--set: operator.tokens_file: /dev/null cannot be read (it is a device"}},
         {{"operator.tokens_file=acsd.toml"}, {"--set: operator.tokens_file: *acsd.toml: expected ROLE NAME SHA256"}},
+        {{"operator.listen=acs.example:8081"},
+         {R"(--set: operator.listen: acs.example:8081 can be reached from other machines; add to [operator]: tls = {)"}},
+        {{"operator.tls.certificate=/nowhere"}, {"--set: operator.tls.certificate: expected a PEM file"}},
+        {{"operator.tls.key=/nowhere"}, {"--set: operator.tls.certificate: expected a PEM file*found none"}},
+        {{R"(operator.certificates={ "kim" = "operator" })"},
+         {"--set: operator.certificates: is used with operator.tls.client_ca only"}},
         {{"operator.listen=127.0.0.1:8080"},
          {"--set: operator.listen: 127.0.0.1:8080 is also the address of http.listen"}},
         {{R"(mcs.host="a b")"}, {"--set: mcs.host: expected HOST or HOST:PORT, found \"a b\""}},
