@@ -11,6 +11,7 @@
 #include "mcs/McsLink.hpp"
 #include "operator/AcsdMetrics.hpp"
 #include "operator/AcsdStatus.hpp"
+#include "operator/AuditLog.hpp"
 #include "operator/OperatorGate.hpp"
 #include "operator/OperatorRoutes.hpp"
 #include "operator/PlanLog.hpp"
@@ -54,6 +55,7 @@ class Acsd::Impl final : private IAcsdOutput, private VDA5050::IMqttLinkListener
     Apps::TimerSet<AcsdTimer> _timers;
     Apps::LoopWatchdog _watchdog;
     Apps::HttpRoutes _monitoringRoutes;
+    std::unique_ptr<AuditLog> _audit;
     OperatorGate _operatorGate;
     Apps::HttpServer _monitoring;
     Apps::HttpServer _operator;
@@ -62,7 +64,11 @@ class Acsd::Impl final : private IAcsdOutput, private VDA5050::IMqttLinkListener
     StopHandler _stopHandler;
 
 public:
-    Impl(Dependencies dependencies, AcsdConfig config, std::unique_ptr<Planning::IPlanStore> store)
+    Impl(
+        Dependencies dependencies,
+        AcsdConfig config,
+        std::unique_ptr<Planning::IPlanStore> store,
+        std::unique_ptr<AuditLog> audit)
         : _dependencies(std::move(dependencies)),
           _config(std::move(config)),
           _metrics(_metricsEndpoint),
@@ -88,10 +94,12 @@ public:
               _dependencies.executor,
               {_config.operations.stallLimit, _dependencies.aliveInterval},
               {[this](Core::Duration stall) { OnStall(stall); }, _dependencies.onAlive}),
+          _audit(std::move(audit)),
           _operatorGate(
               _dependencies.clock,
               _dependencies.logger.MakeFor("operator"),
-              AccessPolicy(_config.http.control.access)),
+              AccessPolicy(_config.http.control.access),
+              *_audit),
           _monitoring(
               _dependencies.executor,
               [this](const Apps::HttpRequest& request) { return _monitoringRoutes.Respond(request); },
@@ -417,6 +425,7 @@ private:
         {
             _metrics.UpdateRobot(*robot, now);
         }
+        _metrics.UpdateAudit(_audit->GetLost());
         if (_dependencies.countDroppedLines)
         {
             _metrics.UpdateLog(_dependencies.countDroppedLines());
@@ -451,7 +460,18 @@ Core::Result<std::unique_ptr<Acsd>> Acsd::Create(Dependencies dependencies, Acsd
     dependencies.logger.MakeFor("store").Info(
         MakeStoreSummary((*store)->GetOrigin(), *state),
         {{"directory", config.storePath}});
-    auto impl = std::make_unique<Impl>(std::move(dependencies), std::move(config), std::move(*store));
+    const OperatorConfig& control = config.http.control;
+    Core::Result<std::unique_ptr<AuditLog>> audit = AuditLog::Create(
+        control.auditDirectory,
+        control.auditLimits,
+        dependencies.clock,
+        dependencies.logger.MakeFor("audit"));
+    if (!audit)
+    {
+        return tl::unexpected<Core::Error>(audit.error());
+    }
+    auto impl =
+        std::make_unique<Impl>(std::move(dependencies), std::move(config), std::move(*store), std::move(*audit));
     const Core::Result<void> opened = impl->Open(std::move(*state));
     if (!opened)
     {

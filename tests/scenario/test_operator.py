@@ -89,11 +89,13 @@ class Operator(ScenarioCase):
         self.assertNotIn(operator, tokens.read_text())
         self.arm, self.overrides = {"stream": "127.0.0.1:1"}, (f"operator.tokens_file={tokens}",)
         self.start_acsd()
-        rows = ((None, 401, 401), ("guess", 401, 401), (tokens.read_text().split()[-1], 401, 401), (viewer, 200, 403), (operator, 200, 202))
+        rows = ((None, 401, 401), ("guess", 401, 401), (tokens.read_text().split()[-1], 401, 401),
+                (viewer, 200, 403), (operator, 200, 202))
         for token, read, changed in rows:
             self.assertEqual(self.read_code("operator", "/status", token=token), read)
             self.assertEqual(self.read_code("operator", "/tsc/pause", "POST", token=token), changed)
         self.assertEqual(self.read_code("http", "/livez"), 200)
+        self.assert_audited(operator, [("grafana", "viewer", 403), ("kim", "operator", 202)])
 
         tokens.write_text("".join(line for line in tokens.read_text().splitlines(True) if "kim" not in line))
         self.acsd.send_signal(signal.SIGHUP)
@@ -101,6 +103,26 @@ class Operator(ScenarioCase):
         while self.read_code("operator", "/tsc/resume", "POST", token=operator) != 401:
             self.assertLess(time.monotonic(), deadline, "the token is still valid")
         self.assertEqual(self.read_code("operator", "/status", token=viewer), 200)
+
+        self.line.forget(self.acsd)
+        self.assertEqual(self.acsd.stop(), 0)
+        self.start_acsd()
+        self.assert_audited(viewer, [("grafana", "viewer", 403), ("kim", "operator", 202)])
+
+    def assert_audited(self, token, commands):
+        """These commands to pause the TSC are in /audit."""
+        request = urllib.request.Request(f"http://{self.acsd.addresses['operator']}/audit?limit=1000",
+                                         headers={"Authorization": f"Bearer {token}"})
+        with urllib.request.urlopen(request, timeout=20) as response:
+            entries = [json.loads(line) for line in response.read().splitlines()]
+        entries = [entry for entry in entries if entry["request"] == "/tsc/pause"]
+        self.assertEqual([(entry["name"], entry["role"], entry["status"]) for entry in entries], commands)
+        for entry in entries:
+            self.assertEqual((entry["method"], entry["proof"]), ("POST", "token"))
+            self.assertEqual(list(entry["answer"]), ["message" if entry["status"] == 202 else "error"])
+            self.assertRegex(entry["peer"], r"127\.0\.0\.1:\d+")
+        (file,) = (self.line.folder / "store" / "audit").iterdir()
+        self.assertEqual(file.stat().st_mode & 0o777, 0o600)
 
     def test_an_invalid_request_for_a_token_is_refused(self):
         for arguments in ((), ("operator",), ("root", "kim"), ("viewer", "a b"), ("viewer", ""), ("viewer", "kim", "lee")):

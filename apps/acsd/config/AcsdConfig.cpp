@@ -274,7 +274,7 @@ AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& ove
     config.relayIndex = bByte ? EArmRelayIndex::Byte : EArmRelayIndex::Value;
     ReadSite(root, fileName, config);
     ReadStore(root, fileName, bStoreInspected, config);
-    ReadHttpConfig(root, fileName, config.http);
+    ReadHttpConfig(root, fileName, config.storePath, config.http);
     ReadEngineConfig(root, config.engine);
     ReadStations(root, config);
     ReadRobots(root, fileName, config);

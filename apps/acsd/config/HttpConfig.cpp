@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -22,6 +23,9 @@ namespace
 using Apps::ConfigSection;
 
 constexpr std::size_t LARGEST_TOKENS_FILE = 1024U * 1024U;
+constexpr std::int64_t SMALLEST_AUDIT_FILE = 4'096;
+constexpr std::int64_t LARGEST_AUDIT_FILE = 1'000'000'000'000;
+constexpr std::int64_t MOST_AUDIT_FILES = 10'000;
 
 void ReadListen(const ConfigSection& section, HttpListenConfig& config)
 {
@@ -139,9 +143,35 @@ void DemandIdentity(const ConfigSection& section, const OperatorConfig& config)
     }
 }
 
+void ReadAudit(
+    const ConfigSection& section,
+    const std::string& fileName,
+    const std::string& storePath,
+    OperatorConfig& config)
+{
+    const ConfigSection audit = section.GetSection("audit");
+    const std::optional<std::string> directory = audit.GetStringOrNull("directory");
+    config.auditDirectory = directory.has_value() ? ResolvePath(fileName, *directory) : storePath + "/audit";
+    if (directory.has_value() && directory->empty())
+    {
+        audit.AddError("directory", "is empty; give the path of a directory");
+    }
+    config.auditLimits.maxFileBytes = static_cast<std::uint64_t>(audit.GetInteger(
+        "max_file_bytes",
+        SMALLEST_AUDIT_FILE,
+        LARGEST_AUDIT_FILE,
+        static_cast<std::int64_t>(config.auditLimits.maxFileBytes)));
+    config.auditLimits.maxFiles = static_cast<std::size_t>(
+        audit.GetInteger("max_files", 1, MOST_AUDIT_FILES, static_cast<std::int64_t>(config.auditLimits.maxFiles)));
+}
+
 } // namespace
 
-void ReadHttpConfig(const ConfigSection& root, const std::string& fileName, HttpConfig& config)
+void ReadHttpConfig(
+    const ConfigSection& root,
+    const std::string& fileName,
+    const std::string& storePath,
+    HttpConfig& config)
 {
     const ConfigSection control = root.GetSection("operator");
     ReadListen(root.GetSection("http"), config.monitoring);
@@ -150,6 +180,7 @@ void ReadHttpConfig(const ConfigSection& root, const std::string& fileName, Http
     ReadOperatorTLS(control, fileName, config.control);
     ReadCertificates(control, config.control);
     DemandIdentity(control, config.control);
+    ReadAudit(control, fileName, storePath, config.control);
     const Apps::Endpoint& listen = config.control.http.listen;
     if (listen == config.monitoring.listen && listen.port != 0)
     {

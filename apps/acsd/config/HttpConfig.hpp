@@ -3,6 +3,7 @@
 #include "common/config/ConfigSection.hpp"
 #include "common/config/Endpoint.hpp"
 #include "common/http/HttpTls.hpp"
+#include "common/trace/TraceFiles.hpp"
 #include "operator/AccessPolicy.hpp"
 
 #include <string>
@@ -25,6 +26,8 @@ struct OperatorConfig
     std::string tokensFile; ///< Empty: none.
     Apps::HttpTlsFiles tls; ///< Its files have been checked; without a certificate no TLS.
     AccessPolicy::Options access;
+    std::string auditDirectory;
+    Apps::TraceLimits auditLimits{10U * 1024U * 1024U, 10};
 };
 
 /// The two HTTP interfaces.
@@ -34,7 +37,12 @@ struct HttpConfig
     OperatorConfig control;
 };
 
-/// Reads the tables `http` and `operator`. Relative paths are relative to the folder of the file.
-void ReadHttpConfig(const Apps::ConfigSection& root, const std::string& fileName, HttpConfig& config);
+/// Reads the tables `http` and `operator`. Relative paths are relative to the folder of the file; the audit log is by default
+/// in the directory of the store.
+void ReadHttpConfig(
+    const Apps::ConfigSection& root,
+    const std::string& fileName,
+    const std::string& storePath,
+    HttpConfig& config);
 
 } // namespace ACS::Acsd

@@ -47,6 +47,7 @@ constexpr const char* COMMITS = "acsd_store_commit_seconds";
 constexpr const char* LOOP_STALLS = "acsd_loop_stall_seconds";
 constexpr const char* LOG_DROPPED = "acsd_log_lines_dropped_total";
 constexpr const char* TRACE_LOST = "acsd_trace_lost_total";
+constexpr const char* AUDIT_LOST = "acsd_audit_lost_total";
 
 constexpr std::array ACTIVE_STATES{EPlanState::Pending, EPlanState::InProgress, EPlanState::Paused};
 constexpr std::array ROBOT_STATES_ALL{
@@ -116,6 +117,7 @@ AcsdMetrics::AcsdMetrics(Apps::MetricsEndpoint& metrics)
     _metrics.AddHistogram(LOOP_STALLS, "Times for which the event loop was blocked", {0.5, 1, 2, 5, 10, 30});
     _metrics.AddCounter(LOG_DROPPED, "Log lines dropped because standard error was not read in time");
     _metrics.AddCounter(TRACE_LOST, "Messages that are missing in the trace");
+    _metrics.AddCounter(AUDIT_LOST, "Commands that are missing in the files of the audit log");
 }
 
 void AcsdMetrics::ObserveAckWait(Core::Duration wait)
@@ -237,6 +239,11 @@ void AcsdMetrics::UpdateLog(std::uint64_t dropped)
 void AcsdMetrics::UpdateTrace(std::uint64_t lost)
 {
     _metrics.SetTotal(TRACE_LOST, {}, ToNumber(lost));
+}
+
+void AcsdMetrics::UpdateAudit(std::uint64_t lost)
+{
+    _metrics.SetTotal(AUDIT_LOST, {}, ToNumber(lost));
 }
 
 } // namespace ACS::Acsd

@@ -34,6 +34,7 @@ public:
     void UpdateRobot(const RobotHost& robot, Core::Now now);
     void UpdateLog(std::uint64_t dropped);
     void UpdateTrace(std::uint64_t lost);
+    void UpdateAudit(std::uint64_t lost);
 
 private:
     void UpdateRobotStatus(const Planning::RobotStatus& status);

@@ -4,6 +4,7 @@
 #include "common/http/HttpRoutes.hpp"
 #include "common/log/LogRateLimiter.hpp"
 #include "operator/AccessPolicy.hpp"
+#include "operator/AuditLog.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 
@@ -11,17 +12,18 @@ namespace ACS::Acsd
 {
 
 /// Passes the permitted requests of the operator interface to their routes and refuses the others: 401 without a valid token
-/// or certificate, 403 for a role that is not sufficient.
+/// or certificate, 403 for a role that is not sufficient. Records each command of an identified client in the audit log.
 class OperatorGate final
 {
     const Core::IClock& _clock;
     Apps::LogRateLimiter _refusals;
     AccessPolicy _policy;
+    AuditLog& _audit;
     Apps::HttpRoutes _routes;
 
 public:
-    /// The clock and the sink of the logger outlive the gate.
-    OperatorGate(const Core::IClock& clock, Core::Logger logger, AccessPolicy policy);
+    /// The clock, the sink of the logger and the audit log outlive the gate. Adds the route GET /audit.
+    OperatorGate(const Core::IClock& clock, Core::Logger logger, AccessPolicy policy, AuditLog& audit);
 
     /// To be filled before the first request.
     [[nodiscard]] Apps::HttpRoutes& GetRoutes() noexcept;
@@ -32,6 +34,7 @@ public:
     [[nodiscard]] Apps::HttpResponse Respond(const Apps::HttpRequest& request);
 
 private:
+    [[nodiscard]] Apps::HttpResponse ShowAudit(const Apps::HttpRequest& request) const;
     [[nodiscard]] Apps::HttpResponse Refuse(const Apps::HttpRequest& request, const AccessPolicy::Decision& decision);
 };
 

@@ -7,6 +7,9 @@
 #include <charconv>
 #include <fcntl.h>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
 #include <unistd.h>
 #include <utility>
 #include <vector>
@@ -17,33 +20,35 @@ namespace ACS::Apps
 namespace
 {
 
-constexpr std::string_view PREFIX = "acsd-";
 constexpr std::string_view SUFFIX = ".ndjson";
 constexpr mode_t FILE_MODE = 0600; // messages may be confidential
 constexpr std::size_t FLUSH_BYTES = 256U * 1024U;
+constexpr std::streamoff TAIL_BYTES = 4LL * 1024 * 1024;
 
 /// 0 if the file is not one of this trace.
-std::uint64_t ReadNumber(const std::string& name)
+std::uint64_t ReadNumber(const std::string& name, std::string_view prefix)
 {
-    if (name.size() <= PREFIX.size() + SUFFIX.size() || !name.starts_with(PREFIX) || !name.ends_with(SUFFIX))
+    if (name.size() <= prefix.size() + SUFFIX.size() || !name.starts_with(prefix) || !name.ends_with(SUFFIX))
     {
         return 0;
     }
     const std::string_view digits =
-        std::string_view(name).substr(PREFIX.size(), name.size() - PREFIX.size() - SUFFIX.size());
+        std::string_view(name).substr(prefix.size(), name.size() - prefix.size() - SUFFIX.size());
     std::uint64_t number = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
     return error == std::errc() && end == digits.data() + digits.size() ? number : 0;
 }
 
 /// Ascending.
-std::vector<std::pair<std::uint64_t, std::filesystem::path>> ListFiles(const std::string& folder)
+std::vector<std::pair<std::uint64_t, std::filesystem::path>> ListFiles(
+    const std::string& folder,
+    std::string_view prefix)
 {
     std::vector<std::pair<std::uint64_t, std::filesystem::path>> files;
     std::error_code error;
     for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
     {
-        const std::uint64_t number = ReadNumber(entry->path().filename().string());
+        const std::uint64_t number = ReadNumber(entry->path().filename().string(), prefix);
         if (number > 0)
         {
             files.emplace_back(number, entry->path());
@@ -53,6 +58,25 @@ std::vector<std::pair<std::uint64_t, std::filesystem::path>> ListFiles(const std
     return files;
 }
 
+/// The whole lines at the end of the file.
+std::vector<std::string> ReadTail(const std::filesystem::path& path)
+{
+    std::ifstream file(path, std::ios::binary | std::ios::ate);
+    const std::streamoff size = file.is_open() ? static_cast<std::streamoff>(file.tellg()) : 0;
+    file.seekg(std::max<std::streamoff>(size - TAIL_BYTES, 0));
+    std::vector<std::string> lines;
+    std::string line;
+    while (std::getline(file, line) && !file.eof()) // the last line may lack its end
+    {
+        lines.push_back(std::move(line));
+    }
+    if (size > TAIL_BYTES && !lines.empty())
+    {
+        lines.erase(lines.begin());
+    }
+    return lines;
+}
+
 std::error_code GetLastError()
 {
     return {errno, std::generic_category()};
@@ -60,8 +84,9 @@ std::error_code GetLastError()
 
 } // namespace
 
-TraceFiles::TraceFiles(std::string path)
-    : _path(std::move(path))
+TraceFiles::TraceFiles(std::string path, TraceFileStyle style)
+    : _path(std::move(path)),
+      _style(std::move(style))
 {
 }
 
@@ -78,7 +103,21 @@ std::error_code TraceFiles::Open(const TraceLimits& limits)
     }
     std::error_code error;
     std::filesystem::create_directories(_path, error);
-    return error ? error : OpenNext(limits);
+    return error ? error : OpenFirst(limits);
+}
+
+std::error_code TraceFiles::OpenFirst(const TraceLimits& limits)
+{
+    const auto files = ListFiles(_path, _style.prefix);
+    if (!_style.bContinued || files.empty())
+    {
+        return OpenNext(limits);
+    }
+    std::ifstream newest(files.back().second, std::ios::binary | std::ios::ate);
+    const bool bEmpty = newest.tellg() == std::ifstream::pos_type(0);
+    newest.seekg(-1, std::ios::end);
+    const bool bWhole = bEmpty || newest.get() == '\n'; // else a crash of the machine has cut the last line
+    return bWhole ? OpenFile(files.back().second, 0) : OpenNext(limits);
 }
 
 std::error_code TraceFiles::OpenNext(const TraceLimits& limits)
@@ -87,7 +126,7 @@ std::error_code TraceFiles::OpenNext(const TraceLimits& limits)
     {
         return OpenFile(_path, 0);
     }
-    auto files = ListFiles(_path);
+    auto files = ListFiles(_path, _style.prefix);
     const std::uint64_t number = files.empty() ? 1 : files.back().first + 1;
     // Deletes the oldest files before the new one needs their space.
     for (std::size_t i = 0; i + limits.maxFiles <= files.size(); ++i)
@@ -95,14 +134,14 @@ std::error_code TraceFiles::OpenNext(const TraceLimits& limits)
         std::error_code ignored;
         std::filesystem::remove(files[i].second, ignored);
     }
-    return OpenFile(std::filesystem::path(_path) / fmt::format("{}{:06}{}", PREFIX, number, SUFFIX), O_EXCL);
+    return OpenFile(std::filesystem::path(_path) / fmt::format("{}{:06}{}", _style.prefix, number, SUFFIX), O_EXCL);
 }
 
 std::error_code TraceFiles::OpenFile(const std::string& path, int flags)
 {
     Close();
     // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): POSIX has no other
-    _file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | flags, FILE_MODE);
+    _file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | flags, _style.mode);
     if (_file < 0)
     {
         return GetLastError();
@@ -189,6 +228,22 @@ std::error_code TraceFiles::WriteBuffer()
         done += static_cast<std::size_t>(count);
     }
     return {};
+}
+
+std::vector<std::string> ReadNewestLines(const std::string& folder, const std::string& prefix, std::size_t maximum)
+{
+    std::vector<std::string> newest;
+    const auto files = ListFiles(folder, prefix);
+    for (auto file = files.rbegin(); file != files.rend() && newest.size() < maximum; ++file)
+    {
+        std::vector<std::string> lines = ReadTail(file->second);
+        const auto missing = static_cast<std::ptrdiff_t>(std::min(maximum - newest.size(), lines.size()));
+        newest.insert(
+            newest.begin(),
+            std::make_move_iterator(lines.end() - missing),
+            std::make_move_iterator(lines.end()));
+    }
+    return newest;
 }
 
 } // namespace ACS::Apps

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 namespace ACS::Apps
 {
@@ -18,12 +19,21 @@ struct TraceLimits
     bool operator==(const TraceLimits&) const = default;
 };
 
+/// How the files of a folder are named and opened.
+struct TraceFileStyle
+{
+    std::string prefix = "acsd-";
+    std::uint32_t mode = 0640; ///< Messages may be confidential.
+    bool bContinued = false;   ///< The newest file is continued at a start; otherwise a start begins a new one.
+};
+
 /// The files of a trace: either numbered files in a folder ("acsd-000001.ndjson" and up), of which the oldest are deleted, or
 /// one file, which is replaced at the start. A file never ends with a partial line, even if the disk is full. Used by one
 /// thread.
 class TraceFiles final
 {
     std::string _path;
+    TraceFileStyle _style;
     std::string _buffer;
     std::uint64_t _written = 0; ///< Bytes of the file, all of whole lines.
     std::size_t _bufferedLines = 0;
@@ -31,7 +41,7 @@ class TraceFiles final
     int _file = -1;
 
 public:
-    explicit TraceFiles(std::string path);
+    explicit TraceFiles(std::string path, TraceFileStyle style = {});
     TraceFiles(const TraceFiles&) = delete;
     TraceFiles& operator=(const TraceFiles&) = delete;
     ~TraceFiles();
@@ -48,10 +58,18 @@ public:
     [[nodiscard]] std::size_t GetLostLines() const noexcept;
 
 private:
+    [[nodiscard]] std::error_code OpenFirst(const TraceLimits& limits);
     [[nodiscard]] std::error_code OpenNext(const TraceLimits& limits);
     [[nodiscard]] std::error_code OpenFile(const std::string& path, int flags);
     [[nodiscard]] std::error_code WriteBuffer();
     void Close() noexcept;
 };
+
+/// The newest lines in the files of the folder with this prefix, the oldest of them first, without their ends. Of each file
+/// only its last 4 MiB are read.
+[[nodiscard]] std::vector<std::string> ReadNewestLines(
+    const std::string& folder,
+    const std::string& prefix,
+    std::size_t maximum);
 
 } // namespace ACS::Apps

@@ -1,5 +1,7 @@
 #include "common/trace/TraceWriter.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -54,7 +56,7 @@ struct TraceWriter::Impl
         : clock(writerClock),
           logger(std::move(writerLogger)),
           options(std::move(writerOptions)),
-          files(options.path)
+          files(options.path, options.files)
     {
     }
 
@@ -204,12 +206,16 @@ void TraceWriter::Write(std::string line, Core::Now now)
     if (failure.has_value())
     {
         _impl->logger.Error(
-            "the trace cannot be written; retrying every 10 s, messages are lost meanwhile",
+            fmt::format(
+                "the {} cannot be written; retrying every 10 s, lines are lost meanwhile",
+                _impl->options.subject),
             {{"path", _impl->options.path}, {"reason", *failure}});
     }
     if (bRecovered)
     {
-        _impl->logger.Info("the trace is written again", {{"path", _impl->options.path}});
+        _impl->logger.Info(
+            fmt::format("the {} is written again", _impl->options.subject),
+            {{"path", _impl->options.path}});
     }
 }
 

@@ -31,6 +31,8 @@ public:
         TraceLimits limits;
         LossFormat makeLossLine; ///< Called on the writer's thread.
         std::size_t maxQueuedBytes = DEFAULT_QUEUE_BYTES;
+        TraceFileStyle files{};
+        std::string subject = "trace"; ///< In log lines.
     };
 
 private:

@@ -3,7 +3,10 @@
 #include "Catch.hpp"
 #include "ManualClock.hpp"
 #include "RecordingLogSink.hpp"
+#include "TemporaryFolder.hpp"
 
+#include <algorithm>
+#include <memory>
 #include <string>
 
 using namespace ACS; // NOLINT(google-build-using-namespace)
@@ -17,13 +20,17 @@ struct GateFixture
 {
     Testing::ManualClock clock;
     Testing::RecordingLogSink log;
+    Testing::TemporaryFolder folder;
+    std::unique_ptr<Acsd::AuditLog> audit =
+        std::move(*Acsd::AuditLog::Create(folder.GetPath() / "audit", {}, clock, Core::Logger(log, "audit")));
     Acsd::OperatorGate gate{
         clock,
         Core::Logger(log, "operator"),
         AccessPolicy(
             {{{{EOperatorRole::Viewer, "grafana", Acsd::HashToken("read")},
                {EOperatorRole::Operator, "kim", Acsd::HashToken("write")}}},
-             std::nullopt})};
+             std::nullopt}),
+        *audit};
     int commands = 0;
 
     GateFixture()
@@ -36,8 +43,13 @@ struct GateFixture
 
     Apps::HttpResponse Post(const std::string& token, const std::string& target = "/tsc/pause")
     {
+        return Ask("POST", token, target);
+    }
+
+    Apps::HttpResponse Ask(const std::string& method, const std::string& token, const std::string& target)
+    {
         Apps::HttpRequest request = *Apps::ParseHttpTarget(target);
-        request.method = "POST";
+        request.method = method;
         request.sender = {{"10.0.0.7", 40'000}, token.empty() ? token : "Bearer " + token};
         return gate.Respond(request);
     }
@@ -71,4 +83,45 @@ TEST_CASE("A token that was withdrawn is refused from then on")
     CHECK(fixture.Post("write").status == 202);
     fixture.gate.SetPolicy(AccessPolicy({std::vector<Acsd::OperatorToken>{}, std::nullopt}));
     CHECK(fixture.Post("write").status == 401);
+}
+
+TEST_CASE("Each command of an identified client is in the audit log with its outcome, and no other request")
+{
+    GateFixture fixture;
+    CHECK(fixture.Post("write").status == 202);
+    CHECK(fixture.Post("read").status == 403);
+    CHECK(fixture.Post("write", "/unknown").status == 404);
+    CHECK(fixture.Post("guess").status == 401);
+    CHECK(fixture.Ask("GET", "write", "/tsc/pause").status == 405);
+    const Apps::HttpResponse audit = fixture.Ask("GET", "read", "/audit");
+    CHECK(audit.status == 200);
+    CHECK(audit.contentType == "application/x-ndjson");
+    CHECK(std::ranges::count(audit.body, '\n') == 3);
+    const std::size_t first = audit.body.find(
+        R"("name":"kim","role":"operator","method":"POST","request":"/tsc/pause","status":202,"answer":{"message":"paused"}})");
+    const std::size_t second = audit.body.find(R"("name":"grafana","role":"viewer","method":"POST",)");
+    const std::size_t third = audit.body.find(R"("request":"/unknown","status":404,)");
+    CHECK(first < second);
+    CHECK(second < third);
+    CHECK(third != std::string::npos);
+}
+
+TEST_CASE("GET /audit has the number of lines that is asked for, from 1 to 1000")
+{
+    GateFixture fixture;
+    for (int i = 0; i < 150; ++i)
+    {
+        static_cast<void>(fixture.Post("write"));
+    }
+    const auto count = [&fixture](const std::string& target) {
+        return std::ranges::count(fixture.Ask("GET", "read", target).body, '\n');
+    };
+    CHECK(count("/audit") == 100);
+    CHECK(count("/audit?limit=1") == 1);
+    CHECK(count("/audit?limit=1000") == 150);
+    for (const char* limit : {"0", "1001", "-1", "1x", "", "99999999999999999999"})
+    {
+        CAPTURE(limit);
+        CHECK(fixture.Ask("GET", "read", std::string("/audit?limit=") + limit).status == 400);
+    }
 }

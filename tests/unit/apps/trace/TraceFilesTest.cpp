@@ -85,4 +85,26 @@ TEST_CASE("A trace of one file replaces the file at the start and continues it a
     CHECK(TraceFiles(place.GetPath().string()).Open(limits) == std::errc::is_a_directory);
 }
 
+TEST_CASE("The newest file is continued at a start if that is wanted, and the newest lines of all files can be read")
+{
+    const Testing::TemporaryFolder place;
+    const Apps::TraceLimits limits{20, 3};
+    const Apps::TraceFileStyle style{"audit-", 0600, true};
+    for (const char* line : {"one", "two", "three", "four", "five", "six"})
+    {
+        TraceFiles files(place.GetPath().string(), style);
+        REQUIRE_FALSE(files.Open(limits));
+        REQUIRE_FALSE(files.Append(line, limits));
+        REQUIRE_FALSE(files.Flush());
+    }
+    const std::string folder = place.GetPath().string();
+    CHECK(Apps::ReadNewestLines(folder, "audit-", 2) == std::vector<std::string>{"five", "six"});
+    CHECK(
+        Apps::ReadNewestLines(folder, "audit-", 9)
+        == std::vector<std::string>{"one", "two", "three", "four", "five", "six"});
+    CHECK(Apps::ReadNewestLines(folder, "acsd-", 9).empty());
+    CHECK(std::filesystem::file_size(place.GetPath() / "audit-000001.ndjson") == 19);
+    CHECK(std::filesystem::file_size(place.GetPath() / "audit-000002.ndjson") == 9);
+}
+
 } // namespace ACS::Testing

@@ -1,0 +1,71 @@
+#pragma once
+
+#include "common/config/Endpoint.hpp"
+#include "common/http/HttpMessage.hpp"
+#include "common/trace/TraceWriter.hpp"
+#include "operator/AccessPolicy.hpp"
+#include <acs/core/Logger.hpp>
+#include <acs/core/Now.hpp>
+#include <acs/core/Result.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+
+namespace ACS::Acsd
+{
+
+/// A command of an operator and its outcome.
+struct AuditEntry
+{
+    const Apps::HttpRequest& request;
+    const OperatorIdentity& identity;
+    const Apps::HttpResponse& response;
+};
+
+/// The entry as one line of JSON, without its end. Long texts of the client are cut.
+[[nodiscard]] std::string MakeAuditLine(const AuditEntry& entry, Core::Now now);
+
+/// Records every command of an operator in files of bounded size and number, mode 0600, and keeps the newest lines in memory.
+/// The files are written on a thread of their own. Used on one thread, the executor's.
+class AuditLog final
+{
+public:
+    /// Lines in memory.
+    static constexpr std::size_t MOST_LINES = 1'000;
+
+private:
+    const Core::IClock& _clock;
+    std::deque<std::string> _newest; ///< The oldest first.
+    Apps::TraceWriter _writer;
+
+    AuditLog(
+        const std::string& directory,
+        const Apps::TraceLimits& limits,
+        const Core::IClock& clock,
+        Core::Logger logger);
+
+public:
+    /// Opens a file in the directory, which is created with mode 0700 if necessary, and reads the newest lines. The error is a
+    /// sentence. Clock and the logger's sink outlive the log.
+    [[nodiscard]] static Core::Result<std::unique_ptr<AuditLog>> Create(
+        const std::string& directory,
+        const Apps::TraceLimits& limits,
+        const Core::IClock& clock,
+        Core::Logger logger);
+
+    void Write(const AuditEntry& entry);
+
+    /// The newest lines, the oldest of them first, each with its end.
+    [[nodiscard]] std::string GetNewest(std::size_t lines) const;
+
+    /// Lines that are missing in the files.
+    [[nodiscard]] std::uint64_t GetLost() const;
+
+private:
+    void Keep(std::string line);
+};
+
+} // namespace ACS::Acsd
