@@ -62,7 +62,7 @@ void LoadWatch::UpdateLoadAlarm(Robot& robot)
     if (!_alarms.Contains(alarm) && robot.ports.TryBeginReportInterval())
     {
         _transaction.StartTimer(EEngineTimer::LoadAlarm, robot.GetID(), LOAD_ALARM_INTERVAL);
-        _transaction.ReportAlarms(_alarms.Update(std::move(alarm)));
+        _transaction.ReportAlarms(_alarms.Update(std::move(alarm), _transaction.GetNow().steady));
     }
 }
 

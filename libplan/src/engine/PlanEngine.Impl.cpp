@@ -1,5 +1,6 @@
 #include "engine/PlanEngine.Impl.hpp"
 
+#include "control/ErrorWatch.hpp"
 #include <acs/core/Overloaded.hpp>
 
 #include <algorithm>
@@ -156,6 +157,9 @@ void PlanEngine::Impl::OnTimer(const EngineTimer& timer, Core::Now now, EngineAc
         case EEngineTimer::Acknowledged:
             _store.StoreAcknowledged();
             break;
+        case EEngineTimer::AlarmQuiet:
+            _engine.transaction.OnAlarmQuiet();
+            break;
         case EEngineTimer::Startup:
             _recovery.EndStartup();
             _recovery.RaiseMissing();
@@ -215,6 +219,7 @@ void PlanEngine::Impl::OnRobotTimer(EEngineTimer kind, Robot& robot)
         case EEngineTimer::StoreRetry:
         case EEngineTimer::Acknowledged:
         case EEngineTimer::Startup:
+        case EEngineTimer::AlarmQuiet:
         default:
             assert(false && "not a timer of a robot");
             break;
@@ -256,6 +261,7 @@ void PlanEngine::Impl::End(EngineActions& out)
     std::ranges::for_each(_engine.fleet, [this](Robot& robot) { _stalls.UpdateStall(robot); });
     _status.PublishStatusChanges();
     _engine.transaction.WatchOutbox();
+    _engine.transaction.WatchAlarms();
     _store.Commit(out);
 }
 
@@ -351,7 +357,7 @@ void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
     const bool bBack = bFirst || (!robot.view.state->bAutomatic && event.bAutomatic);
     const bool bErrorsChanged = !bFirst && robot.view.state->errors != event.errors;
     robot.view.state = event;
-    CompareErrors(robot);
+    ErrorWatch(_engine).CompareErrors(robot);
     if (bBack || bErrorsChanged)
     {
         _rejections.OnRobotChanged(robot);
@@ -377,28 +383,6 @@ void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
     {
         robot.parking.refusals = 0;
         _engine.transaction.RequestDispatch();
-    }
-}
-
-/// Sets and clears an alarm for each error that came or went.
-void PlanEngine::Impl::CompareErrors(const Robot& robot)
-{
-    const std::string& robotID = robot.GetID();
-    const std::vector<RobotError>& errors = robot.view.state->errors;
-    _engine.transaction.ReportAlarms(_engine.alarms.ClearIf([&errors, &robotID](const Alarm& alarm) {
-        return alarm.robotID == robotID && !alarm.errorCode.starts_with(ALARM_PREFIX)
-            && std::ranges::count(errors, alarm.errorCode, &RobotError::errorCode) == 0;
-    }));
-    for (const RobotError& error : errors)
-    {
-        const bool bOutweighed = std::ranges::any_of(errors, [&error](const RobotError& other) {
-            return other.errorCode == error.errorCode && other.level == EAlarmLevel::Heavy
-                && error.level != EAlarmLevel::Heavy;
-        });
-        if (!bOutweighed)
-        {
-            _engine.transaction.RaiseAlarm(MakeAlarm(robotID, error.errorCode, error.level, error.message));
-        }
     }
 }
 

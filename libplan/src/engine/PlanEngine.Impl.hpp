@@ -97,7 +97,6 @@ private:
     void OnRobotTimer(EEngineTimer kind, Robot& robot);
     void OnLink(Robot& robot, const LinkChanged& event);
     void OnState(Robot& robot, const StateChanged& event);
-    void CompareErrors(const Robot& robot);
 };
 
 } // namespace ACS::Planning

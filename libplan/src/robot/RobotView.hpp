@@ -1,5 +1,6 @@
 #pragma once
 
+#include "robot/ErrorBudget.hpp"
 #include "robot/RejectionTracker.hpp"
 #include <acs/plan/IJobCheck.hpp>
 #include <acs/plan/RobotEvent.hpp>
@@ -20,6 +21,7 @@ struct RobotView
     bool bInMaintenance = false;
     std::string incompatibility; ///< Empty: the robot can carry out what it is commanded.
     RejectionTracker rejections;
+    ErrorBudget errors; ///< How many of its errors became alarms lately.
 };
 
 } // namespace ACS::Planning

@@ -214,12 +214,28 @@ void EngineTransaction::ReportAlarms(const std::vector<ErrorReport>& reports)
 
 void EngineTransaction::RaiseAlarm(Alarm alarm)
 {
-    ReportAlarms(_alarms.Raise(std::move(alarm)));
+    ReportAlarms(_alarms.Raise(std::move(alarm), _now.steady));
 }
 
 void EngineTransaction::ClearAlarm(const Alarm& alarm)
 {
-    ReportAlarms(_alarms.Clear(alarm));
+    ReportAlarms(_alarms.Clear(alarm, _now.steady));
+}
+
+void EngineTransaction::WatchAlarms()
+{
+    const std::optional<Core::SteadyTime> next = _alarms.GetNextDelayedOrNull();
+    if (next.has_value() && (!_alarmQuietAt.has_value() || *next < *_alarmQuietAt))
+    {
+        _alarmQuietAt = next;
+        StartTimer(EEngineTimer::AlarmQuiet, {}, *next - _now.steady);
+    }
+}
+
+void EngineTransaction::OnAlarmQuiet()
+{
+    _alarmQuietAt.reset();
+    ReportAlarms(_alarms.ApplyDelayed(_now.steady));
 }
 
 void EngineTransaction::Reply(ReplyToken token, bool bAccepted, std::string message)

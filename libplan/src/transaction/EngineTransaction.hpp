@@ -11,6 +11,7 @@
 #include <acs/plan/ReportOutbox.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,7 @@ class EngineTransaction
     std::vector<StoreChange> _changes;
     EngineActions _actions;
     bool _bDispatchNeeded = false;
+    std::optional<Core::SteadyTime> _alarmQuietAt; ///< The timer AlarmQuiet runs.
 
 public:
     EngineTransaction(
@@ -69,6 +71,9 @@ public:
     void ClearAlarm(const Alarm& alarm);
     /// Reports that AlarmBook returned.
     void ReportAlarms(const std::vector<ErrorReport>& reports);
+    /// Starts the timer AlarmQuiet for what AlarmBook has delayed.
+    void WatchAlarms();
+    void OnAlarmQuiet();
     /// Sets ACS-1020 while EngineOptions::maximumReports is reached. Running plans continue and are reported.
     void WatchOutbox();
 

@@ -17,7 +17,8 @@
 namespace ACS::Planning
 {
 
-/// What the engine does when the timer expires. The first three and Startup belong to the engine, the others to a robot.
+/// What the engine does when the timer expires. The first three, Startup and AlarmQuiet belong to the engine, the others to a
+/// robot.
 enum class EEngineTimer : std::uint8_t
 {
     Dispatch,       ///< Assign plans and drives to robots.
@@ -33,6 +34,7 @@ enum class EEngineTimer : std::uint8_t
     DriveStall,     ///< The robot has passed no node for EngineOptions::stallTimeout.
     RejectionRetry, ///< Send a command again to the robot that rejected one.
     LoadAlarm,      ///< The alarm about reported loads may be set or updated again.
+    AlarmQuiet,     ///< An alarm that came and went too often may be cleared.
 };
 
 /// A timer of a robot, or of the engine if robotID is empty.

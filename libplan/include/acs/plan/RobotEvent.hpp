@@ -3,6 +3,7 @@
 #include <acs/plan/EAlarmLevel.hpp>
 #include <acs/plan/IJobCheck.hpp>
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -70,7 +71,8 @@ struct StateChanged
     bool bAutomatic = true;   ///< The ACS controls it: VDA5050 AUTOMATIC or SEMIAUTOMATIC, Hi6 remote and automatic.
     bool bSafetyStop = false; ///< Emergency stop, or the protective field is violated.
     bool bOccupied = false;   ///< Executes work of another controller, or work commanded before a restart.
-    std::vector<RobotError> errors; ///< All active errors.
+    std::vector<RobotError> errors; ///< All active errors, or the most severe of them.
+    std::size_t omittedErrors = 0;  ///< Number of active errors that are not in errors.
     /// Nodes ahead that the robot may still enter without a further command, because of an order from before a restart or of
     /// another controller. The engine reserves them for it.
     std::vector<std::string> heldNodeIDs;
