@@ -1,9 +1,14 @@
 #include "robots/VehicleReport.hpp"
 
+#include <acs/core/ShortText.hpp>
 #include <acs/vda5050/PredefinedActions.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <functional>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
 
 namespace ACS::Acsd
@@ -17,13 +22,42 @@ constexpr double FULL_BATTERY = 100;
 /// Metres. No site is as large: a vehicle that reports a greater coordinate is not localised.
 constexpr double FARTHEST = 1e7;
 
+using ErrorList = std::vector<std::reference_wrapper<const VDA5050::VehicleError>>;
+
+/// Errors that are kept of one state: more than the engine sets alarms for.
+constexpr std::size_t MOST_ERRORS = 100;
+
+bool IsFatal(const VDA5050::VehicleError& error)
+{
+    return error.errorLevel == VDA5050::EErrorLevel::Fatal;
+}
+
 Planning::RobotError MakeError(const VDA5050::VehicleError& error)
 {
-    const bool bFatal = error.errorLevel == VDA5050::EErrorLevel::Fatal;
     return {
-        "AGV-" + error.errorType,
-        bFatal ? Planning::EAlarmLevel::Heavy : Planning::EAlarmLevel::Light,
-        error.errorDescription.empty() ? error.errorType : error.errorDescription};
+        "AGV-" + Core::ShortenText(error.errorType),
+        IsFatal(error) ? Planning::EAlarmLevel::Heavy : Planning::EAlarmLevel::Light,
+        Core::ShortenText(error.errorDescription.empty() ? error.errorType : error.errorDescription)};
+}
+
+/// One error for each type, the most severe one, in the order of the state.
+ErrorList ListErrors(const VDA5050::StateMessage& state)
+{
+    ErrorList errors;
+    std::unordered_map<std::string_view, std::size_t> positions; // in the list, by type
+    for (const VDA5050::VehicleError& error : state.errors)
+    {
+        const auto [found, bNew] = positions.try_emplace(error.errorType, errors.size());
+        if (bNew)
+        {
+            errors.emplace_back(error);
+        }
+        else if (IsFatal(error) && !IsFatal(errors[found->second]))
+        {
+            errors[found->second] = error;
+        }
+    }
+    return errors;
 }
 
 } // namespace
@@ -81,8 +115,15 @@ void VehicleReport::UpdatePause(const VDA5050::StateMessage& state, bool bJobRun
 
 void VehicleReport::UpdateErrors(const VDA5050::StateMessage& state)
 {
+    ErrorList errors = ListErrors(state);
+    _state.omittedErrors = errors.size() - std::min(errors.size(), MOST_ERRORS);
+    if (_state.omittedErrors > 0)
+    {
+        std::ranges::stable_partition(errors, IsFatal);
+        errors.erase(errors.begin() + MOST_ERRORS, errors.end());
+    }
     _state.errors.clear();
-    for (const VDA5050::VehicleError& error : state.errors)
+    for (const VDA5050::VehicleError& error : errors)
     {
         _state.errors.push_back(MakeError(error));
     }

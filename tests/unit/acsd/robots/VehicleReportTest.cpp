@@ -120,4 +120,30 @@ TEST_CASE("A fatal error of a vehicle is a heavy one, and the list is that of th
     CHECK(vehicle.report.GetState().errors.empty());
 }
 
+TEST_CASE("19.5 of 10,000 errors 100 are kept, the fatal ones first, one of each type; the others are counted")
+{
+    constexpr std::size_t FLOOD = 10'000;
+    constexpr std::size_t KEPT = 100;
+    ReportFixture vehicle;
+    for (std::size_t i = 0; i < FLOOD; ++i)
+    {
+        vehicle.state.errors.push_back({"e" + std::to_string(i), {}, "", "", VDA5050::EErrorLevel::Warning});
+    }
+    vehicle.state.errors.push_back({"e9", {}, "the same again", "", VDA5050::EErrorLevel::Fatal});
+    vehicle.state.errors.push_back({"last", {}, std::string(FLOOD, 'x'), "", VDA5050::EErrorLevel::Fatal});
+    vehicle.Update();
+    const Planning::StateChanged& state = vehicle.report.GetState();
+    REQUIRE(state.errors.size() == KEPT);
+    CHECK(state.omittedErrors == FLOOD + 1 - KEPT);
+    CHECK(state.errors[0] == Planning::RobotError{"AGV-e9", Planning::EAlarmLevel::Heavy, "the same again"});
+    CHECK(state.errors[1].errorCode == "AGV-last");
+    CHECK(state.errors[1].message.size() < 300);
+    CHECK(state.errors[2].errorCode == "AGV-e0");
+
+    vehicle.state.errors.resize(2);
+    vehicle.Update();
+    CHECK(state.errors.size() == 2);
+    CHECK(state.omittedErrors == 0);
+}
+
 } // namespace ACS::Acsd::Test

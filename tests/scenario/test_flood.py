@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""A vehicle that floods acsd with errors: acsd answers, and what it stores is limited."""
+
+import datetime
+import json
+import shutil
+import sqlite3
+import subprocess
+import time
+import urllib.request
+
+from scenario_case import FINISH_SECONDS, ScenarioCase, main
+
+ERRORS = 10_000  # of one state
+STATES = 20
+LAST_CHARGE = 42.0
+ANSWER_SECONDS = 1
+REQUEST_PERIOD = 0.02
+MOST_ALARMS = 21  # of one robot about its errors: 20 of their own, and the one that has the number of the others
+MOST_REPORTS = 150  # in the first minute: 60 errors set and cleared, the one above, and those of the lost connections
+
+
+def make_message(header_id, **members):
+    now = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%S.%f")[:-3] + "Z"
+    return json.dumps({"headerId": header_id, "timestamp": now, "version": "2.0.0", "manufacturer": "ACS",
+                       "serialNumber": "LR01"} | members)
+
+
+def make_state(number):
+    """Each with errors that no other state has."""
+    errors = [{"errorType": f"fault-{number}-{i}", "errorLevel": "WARNING", "errorDescription": f"fault {i} of the test"}
+              for i in range(ERRORS)]
+    charge = LAST_CHARGE if number == STATES - 1 else LAST_CHARGE + 1
+    return make_message(
+        number + 1, orderId="", orderUpdateId=0, lastNodeId="", lastNodeSequenceId=0, nodeStates=[], edgeStates=[],
+        actionStates=[], driving=False, operatingMode="AUTOMATIC", errors=errors,
+        agvPosition={"x": 0.0, "y": 0.0, "theta": 0.0, "mapId": "hall", "positionInitialized": True},
+        batteryState={"batteryCharge": charge, "charging": False},
+        safetyState={"eStop": "NONE", "fieldViolation": False})
+
+
+class Flood(ScenarioCase):
+    def publish(self, topic, messages, *options):
+        binary = shutil.which("mosquitto_pub")
+        self.assertIsNotNone(binary, "mosquitto_pub is missing; run scripts/setup")
+        subprocess.run([binary, "-p", str(self.line.broker_port), "-q", "1", "-t", f"uagv/v2/ACS/LR01/{topic}", *options, "-l"],
+                       input="".join(message + "\n" for message in messages), text=True, check=True, timeout=FINISH_SECONDS)
+
+    def measure_live(self, address):
+        """Seconds until the answer."""
+        begin = time.monotonic()
+        with urllib.request.urlopen(f"http://{address}/livez", timeout=FINISH_SECONDS) as response:
+            self.assertEqual(response.status, 200)
+        return time.monotonic() - begin
+
+    def test_19_5_a_vehicle_with_10000_other_errors_in_each_state(self):
+        self.line.start_broker()
+        acsd = self.line.start_acsd("127.0.0.1:1", {"stream": "127.0.0.1:1"})  # no MCS takes the reports
+        address = acsd.wait_ready()["http"]
+        self.wait_for_status(address, lambda status: status["links"]["mqtt"])
+        self.publish("connection", [make_message(1, connectionState="ONLINE")], "-r")
+        self.publish("state", map(make_state, range(STATES)))
+
+        def is_last_state_read(status):
+            return any(robot["robotId"] == "LR01" and robot["battery"] == LAST_CHARGE for robot in status["robots"])
+
+        waits = []
+        deadline = time.monotonic() + FINISH_SECONDS
+        while not is_last_state_read(self.read_status(address)):
+            self.assertLess(time.monotonic(), deadline, f"not all states were read; /livez took {waits} s")
+            waits.append(self.measure_live(address))
+            time.sleep(REQUEST_PERIOD)
+        self.assertLess(max(waits, default=0), ANSWER_SECONDS)
+        status = self.read_status(address)
+        self.assertLessEqual(status["outbox"]["reports"], MOST_REPORTS)
+        codes = [alarm["errorCode"] for alarm in status["alarms"] if alarm["robotId"] == "LR01"]
+        self.assertIn("ACS-1014", codes)
+        self.assertLessEqual(sum(code.startswith("AGV-") or code == "ACS-1014" for code in codes), MOST_ALARMS)
+
+        self.line.forget(acsd)
+        self.assertEqual(acsd.stop(), 0)
+        with sqlite3.connect(f"file:{self.line.folder}/store/acsd.db?mode=ro", uri=True) as store:
+            (reports,), = store.execute("SELECT count(*) FROM reports")
+        store.close()
+        self.assertLessEqual(reports, MOST_REPORTS)
+
+
+if __name__ == "__main__":
+    main()
