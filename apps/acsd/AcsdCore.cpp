@@ -241,7 +241,7 @@ void AcsdCore::Execute(const Planning::EngineAction& action)
         Core::Overloaded{
             [](const Planning::StorePlans&) { assert(false && "executed by the host"); },
             [this](const Planning::ReplyCommand& reply) { _gateway.Reply(reply); },
-            [this](const Planning::SendReport& report) { _gateway.Report(report.entry); },
+            [this](const Planning::SendReport& report) { _gateway.Report(report); },
             [this](const Planning::CommandRobot& command) { _dependencies.output.CommandRobot(command); },
             [this](const Planning::RobotStatusChanged& changed) { OnStatusChanged(changed.status); },
             [this](const Planning::TscStateChanged& changed) { _gateway.PublishTscState(changed.state); },

@@ -46,6 +46,15 @@ void DurableOutbox::Queue(DurableRequest request)
     _requests.push_back(std::move(request));
 }
 
+void DurableOutbox::Drop(std::uint64_t sequence)
+{
+    const auto found = std::ranges::lower_bound(_requests, sequence, {}, &DurableRequest::sequence);
+    if (found != _requests.end() && found->sequence == sequence)
+    {
+        Erase(found);
+    }
+}
+
 Core::Result<std::size_t> DurableOutbox::Discard(const std::function<bool(const DurableRequest& request)>& predicate)
 {
     std::vector<std::uint64_t> dropped;
@@ -103,6 +112,15 @@ const std::deque<DurableRequest>& DurableOutbox::GetRequests() const noexcept
     return _requests;
 }
 
+void DurableOutbox::Erase(std::deque<DurableRequest>::const_iterator request)
+{
+    if (std::cmp_less(request - _requests.cbegin(), _sent))
+    {
+        --_sent;
+    }
+    _requests.erase(request);
+}
+
 Core::Result<void> DurableOutbox::Remove(std::string_view transactionID)
 {
     const auto found = std::ranges::find(_requests, transactionID, [](const DurableRequest& request) {
@@ -113,11 +131,7 @@ Core::Result<void> DurableOutbox::Remove(std::string_view transactionID)
         return {}; // a second Ack
     }
     const std::uint64_t sequence = found->sequence;
-    if (std::cmp_less(found - _requests.begin(), _sent))
-    {
-        --_sent;
-    }
-    _requests.erase(found);
+    Erase(found);
     return _store.Remove(sequence);
 }
 

@@ -184,9 +184,13 @@ void McsGateway::Reply(const Planning::ReplyCommand& reply)
         Protocol::PlanAck{request.planID});
 }
 
-void McsGateway::Report(const Planning::OutboxEntry& entry)
+void McsGateway::Report(const Planning::SendReport& report)
 {
-    _outbox.Queue(MakeRequest(entry));
+    if (report.replaced.has_value())
+    {
+        _outbox.Drop(*report.replaced);
+    }
+    _outbox.Queue(MakeRequest(report.entry));
     Feed();
 }
 

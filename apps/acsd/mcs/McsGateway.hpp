@@ -9,6 +9,7 @@
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
+#include <acs/plan/EngineAction.hpp>
 #include <acs/plan/PlanCommand.hpp>
 #include <acs/plan/PlanEngine.hpp>
 #include <acs/plan/Report.hpp>
@@ -104,7 +105,7 @@ public:
     void OnSessionEvent(const Protocol::SessionEvent& event);
 
     void Reply(const Planning::ReplyCommand& reply);
-    void Report(const Planning::OutboxEntry& entry);
+    void Report(const Planning::SendReport& report);
     void PublishStatus(const Planning::RobotStatus& status);
     void PublishWorking(bool bWorking);
     void PublishTscState(Planning::ETscState state);

@@ -22,7 +22,8 @@ bool IsHeavy(const RobotError& error)
 } // namespace
 
 ErrorWatch::ErrorWatch(EngineState& engine)
-    : _alarms(engine.alarms),
+    : _room(engine.room),
+      _alarms(engine.alarms),
       _transaction(engine.transaction)
 {
 }
@@ -50,9 +51,12 @@ void ErrorWatch::CompareErrors(Robot& robot)
     {
         std::ranges::stable_partition(fresh, IsHeavy);
     }
+    const auto canSet = [this, &robot, &set] {
+        return set < MOST_ALARMS && !_room.IsAlarmShareUsed()
+            && robot.view.errors.TryCount(_transaction.GetNow().steady);
+    };
     auto next = fresh.begin();
-    for (; next != fresh.end() && set < MOST_ALARMS && robot.view.errors.TryCount(_transaction.GetNow().steady);
-         ++next, ++set)
+    for (; next != fresh.end() && canSet(); ++next, ++set)
     {
         const RobotError& error = *next;
         _transaction.RaiseAlarm(MakeAlarm(robot.GetID(), error.errorCode, error.level, error.message));

@@ -10,8 +10,8 @@
 namespace ACS::Planning
 {
 
-/// Sets and clears an alarm for each error that a robot reports. A robot may report any number of errors: beyond a limit they
-/// are one alarm together (ACS-1014), which has their number. It has no data of its own: ErrorBudget has.
+/// Sets and clears an alarm for each error that a robot reports. A robot may report any number of errors: beyond a limit, and
+/// while the outbox has no more room for alarms, they are one alarm together (ACS-1014), which has their number. It has no data of its own: ErrorBudget has.
 class ErrorWatch
 {
 public:
@@ -21,6 +21,7 @@ private:
     /// By code, the most severe one.
     using Errors = std::unordered_map<std::string_view, const RobotError*>;
 
+    const OutboxRoom& _room;
     AlarmBook& _alarms;
     EngineTransaction& _transaction;
 

@@ -1,6 +1,7 @@
 #include "engine/PlanSubmission.hpp"
 
 #include "dispatch/Dispatcher.hpp"
+#include "plan/ReportForecast.hpp"
 #include <acs/core/ECoreError.hpp>
 
 #include <fmt/format.h>
@@ -17,6 +18,7 @@ PlanSubmission::PlanSubmission(EngineState& engine, const TscControl& tsc, const
       _plans(engine.plans),
       _fleet(engine.fleet),
       _outbox(engine.outbox),
+      _room(engine.room),
       _transaction(engine.transaction),
       _call(engine.call),
       _tsc(tsc),
@@ -70,7 +72,7 @@ void PlanSubmission::ReportAccepted()
     }
 }
 
-Core::Result<ResolvedPlan> PlanSubmission::Admit(const Plan& plan) const
+Core::Result<ResolvedPlan> PlanSubmission::Admit(const Plan& plan)
 {
     const bool bKnown = _plans.FindActiveOrNull(plan.planID) != nullptr
         || (!_options.bFinishedIDsReused && _plans.FindFinishedOrNull(plan.planID) != nullptr);
@@ -91,14 +93,6 @@ Core::Result<ResolvedPlan> PlanSubmission::Admit(const Plan& plan) const
             fmt::format("fewer than {} unfinished plans (Queue Full)", _options.maximumPlans),
             fmt::format("{}", _plans.GetActive().size()));
     }
-    if (resolved.has_value() && _outbox.GetUnacknowledged().size() >= _options.maximumReports)
-    {
-        return Core::Fail(
-            make_error_code(Core::ECoreError::QueueFull),
-            {},
-            fmt::format("fewer than {} unacknowledged reports (Outbox Full)", _options.maximumReports),
-            fmt::format("{}", _outbox.GetUnacknowledged().size()));
-    }
     if (resolved.has_value() && _tsc.GetTscState() != ETscState::Auto && !_options.bTscPausedAcceptsPlans)
     {
         return Core::Fail(
@@ -106,6 +100,20 @@ Core::Result<ResolvedPlan> PlanSubmission::Admit(const Plan& plan) const
             {},
             "TSC state Auto",
             std::string(GetText(_tsc.GetTscState())));
+    }
+    if (resolved.has_value() && !_room.TryReserve(plan)) // last: what is reserved is accepted
+    {
+        return Core::Fail(
+            make_error_code(Core::ECoreError::QueueFull),
+            {},
+            fmt::format(
+                "room for {} reports of the plan among {} (Outbox Full)",
+                CountReportsAhead(plan),
+                _options.maximumReports),
+            fmt::format(
+                "{} unacknowledged reports and {} that accepted plans can cause",
+                _outbox.GetUnacknowledged().size(),
+                _plans.GetReportsAhead()));
     }
     return resolved;
 }

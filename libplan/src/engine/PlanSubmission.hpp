@@ -21,6 +21,7 @@ class PlanSubmission
     PlanBook& _plans;
     const Fleet& _fleet;
     const ReportOutbox& _outbox;
+    OutboxRoom& _room;
     EngineTransaction& _transaction;
     CallRecord& _call;
     const TscControl& _tsc;
@@ -37,7 +38,7 @@ public:
     void ReportAccepted();
 
 private:
-    [[nodiscard]] Core::Result<ResolvedPlan> Admit(const Plan& plan) const;
+    [[nodiscard]] Core::Result<ResolvedPlan> Admit(const Plan& plan);
     /// Register D-23: a repeated request whose Ack was lost in a crash. The steps of the plan must be sorted.
     [[nodiscard]] bool IsRepetition(const Plan& plan, const std::string& transactionID) const;
 };

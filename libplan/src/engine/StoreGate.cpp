@@ -71,9 +71,9 @@ void StoreGate::Commit(EngineActions& out)
             StartStoreRetry(dependent);
         }
     }
-    for (OutboxEntry& entry : _backlog.CollectReports())
+    for (SendReport& report : _backlog.CollectReports())
     {
-        dependent.emplace_back(SendReport{std::move(entry)});
+        dependent.emplace_back(std::move(report));
     }
     Append(dependent, _transaction.CollectActions());
     if (changes.empty())
@@ -181,7 +181,7 @@ void StoreGate::ReleaseActions(EngineActions& out)
     {
         if (auto* reportOrNull = std::get_if<SendReport>(&action); reportOrNull != nullptr)
         {
-            _backlog.HoldBack(std::move(reportOrNull->entry));
+            _backlog.HoldBack(std::move(*reportOrNull));
             continue;
         }
         out.push_back(std::move(action));
@@ -241,7 +241,7 @@ void StoreGate::ReleaseWithoutStore(
         std::visit(
             Core::Overloaded{
                 [this](const StorePlans& typed) { _backlog.Add(typed.batch.changes); },
-                [this](const SendReport& typed) { _backlog.HoldBack(typed.entry); },
+                [this](const SendReport& typed) { _backlog.HoldBack(typed); },
                 [this, &out, &refusal, bPlanRefused](const ReplyCommand& typed) {
                     const auto repeated = _call.repeatedPlanIDs.find(typed.replyToken);
                     const bool bKnown =

@@ -1,5 +1,6 @@
 #include "plan/PlanBook.hpp"
 
+#include "plan/ReportForecast.hpp"
 #include <acs/plan/PlanTransitions.hpp>
 
 #include <algorithm>
@@ -49,6 +50,7 @@ std::vector<StoreChange> PlanBook::Accept(std::unique_ptr<ActivePlan> plan, Core
             {EStepState::Pending, std::vector<EJobState>(step.jobs.size(), EJobState::Pending)});
     }
     plan->key = MakeQueueKey(record);
+    _reportsAhead += CountReportsAhead(record.progress);
     std::vector<StoreChange> changes;
     if (const auto finished = _finished.find(record.plan.planID); finished != _finished.end())
     {
@@ -72,6 +74,7 @@ ActivePlan& PlanBook::RestoreActive(PlanRecord record)
     auto plan = std::make_unique<ActivePlan>();
     plan->record = std::move(record);
     plan->key = MakeQueueKey(plan->record);
+    _reportsAhead += CountReportsAhead(plan->record.progress);
     std::string planID = plan->record.plan.planID;
     return *_active.emplace(std::move(planID), std::move(plan)).first->second;
 }
@@ -89,6 +92,7 @@ void PlanBook::Withdraw(std::string_view planID)
     {
         assert(!found->second->robot.has_value());
         Dequeue(*found->second);
+        _reportsAhead -= CountReportsAhead(found->second->record.progress);
         _active.erase(found);
     }
 }
@@ -132,6 +136,7 @@ EPlanState PlanBook::Change(ActivePlan& plan, EPlanState state, std::string mess
     }
     progress.message = std::move(message);
     MarkProgressed(plan.record.plan.planID);
+    _reportsAhead = _reportsAhead + CountReportsAhead(state) - CountReportsAhead(progress.state);
     return std::exchange(progress.state, state);
 }
 
@@ -140,6 +145,7 @@ EStepState PlanBook::ChangeStep(ActivePlan& plan, std::size_t index, EStepState 
     EStepState& current = plan.record.progress.steps[index].state;
     assert(CanChange(current, state));
     MarkProgressed(plan.record.plan.planID);
+    _reportsAhead = _reportsAhead + CountReportsAhead(state) - CountReportsAhead(current);
     return std::exchange(current, state);
 }
 
@@ -148,6 +154,7 @@ EJobState PlanBook::ChangeJob(ActivePlan& plan, EJobState state)
     EJobState& current = plan.record.progress.steps[plan.step].jobs[plan.job];
     assert(CanChange(current, state));
     MarkProgressed(plan.record.plan.planID);
+    _reportsAhead = _reportsAhead + CountReportsAhead(state) - CountReportsAhead(current);
     return std::exchange(current, state);
 }
 
@@ -165,6 +172,7 @@ std::vector<StoreChange> PlanBook::End(ActivePlan& plan)
 {
     assert(IsFinal(plan.record.progress.state));
     Dequeue(plan);
+    _reportsAhead -= CountReportsAhead(plan.record.progress); // of steps that were not begun
     std::vector<StoreChange> changes = Remember(plan.record);
     const auto found = _active.find(plan.record.plan.planID);
     assert(found != _active.end());
@@ -218,6 +226,11 @@ const PlanRecord* PlanBook::FindRecordOrNull(std::string_view planID) const
 {
     const ActivePlan* activeOrNull = FindActiveOrNull(planID);
     return activeOrNull != nullptr ? &activeOrNull->record : FindFinishedOrNull(planID);
+}
+
+std::size_t PlanBook::GetReportsAhead() const noexcept
+{
+    return _reportsAhead;
 }
 
 bool PlanBook::IsAnyRunning() const

@@ -42,6 +42,7 @@ private:
     std::uint64_t _lastStoredSequence = 0;
     Core::Duration _age{}; ///< Of the queue (PlanProgress::queuedAt).
     std::optional<Core::SteadyTime> _calledAt;
+    std::size_t _reportsAhead = 0; ///< Of all active plans.
 
 public:
     /// The options must outlive the book.
@@ -89,6 +90,8 @@ public:
     /// Of an active or a finished plan.
     [[nodiscard]] const PlanRecord* FindRecordOrNull(std::string_view planID) const;
     [[nodiscard]] bool IsAnyRunning() const;
+    /// The maximum number of reports that the active plans still allow (ReportForecast).
+    [[nodiscard]] std::size_t GetReportsAhead() const noexcept;
 
 private:
     [[nodiscard]] QueueKey MakeQueueKey(const PlanRecord& record) const;

@@ -8,6 +8,7 @@
 #include "transaction/AlarmBook.hpp"
 #include "transaction/CallRecord.hpp"
 #include "transaction/EngineTransaction.hpp"
+#include "transaction/OutboxRoom.hpp"
 #include "transaction/StoreBacklog.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/plan/ReportOutbox.hpp>
@@ -33,7 +34,8 @@ struct EngineState
     StartupBarrier startup;
     RestartHold hold;
     CallRecord call;
-    EngineTransaction transaction{options, random, plans, alarms, outbox};
+    OutboxRoom room{options, plans, outbox};
+    EngineTransaction transaction{random, plans, alarms, outbox, room};
 
     EngineState(EngineOptions engineOptions, SiteMap siteMap, Core::IRandom& randomSource)
         : options(std::move(engineOptions)),

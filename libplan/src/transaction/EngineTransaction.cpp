@@ -10,16 +10,16 @@ namespace ACS::Planning
 {
 
 EngineTransaction::EngineTransaction(
-    const EngineOptions& options,
     Core::IRandom& random,
     PlanBook& plans,
     AlarmBook& alarms,
-    ReportOutbox& outbox)
-    : _options(options),
-      _random(random),
+    ReportOutbox& outbox,
+    const OutboxRoom& room)
+    : _random(random),
       _plans(plans),
       _alarms(alarms),
-      _outbox(outbox)
+      _outbox(outbox),
+      _room(room)
 {
 }
 
@@ -93,27 +93,57 @@ EngineActions EngineTransaction::CollectActions()
 
 std::string_view EngineTransaction::AddReport(Report report)
 {
+    return AddReport(std::move(report), std::nullopt);
+}
+
+std::string_view EngineTransaction::AddReport(Report report, std::optional<std::uint64_t> replacedOrNull)
+{
     const OutboxEntry& entry = _outbox.Add(std::move(report), _now.wall, _random);
     _changes.emplace_back(ReportAdded{entry});
-    _actions.emplace_back(SendReport{entry});
+    _actions.emplace_back(SendReport{entry, replacedOrNull});
     return entry.transactionID;
+}
+
+std::optional<std::uint64_t> EngineTransaction::RemoveReportOrNull(const Alarm& alarm)
+{
+    const std::optional<std::uint64_t> former = _outbox.FindAlarmOrNull(alarm);
+    if (!former.has_value() || !_outbox.TryRemove(*former))
+    {
+        return std::nullopt;
+    }
+    const auto ofThisCall = std::ranges::find_if(_actions, [&former](const EngineAction& action) {
+        const auto* sendOrNull = std::get_if<SendReport>(&action);
+        return sendOrNull != nullptr && sendOrNull->entry.sequence == *former;
+    });
+    if (ofThisCall == _actions.end())
+    {
+        _changes.emplace_back(ReportRemoved{*former});
+        return former;
+    }
+    const std::optional<std::uint64_t> replaced = std::get<SendReport>(*ofThisCall).replaced;
+    _actions.erase(ofThisCall);
+    std::erase_if(_changes, [&former](const StoreChange& change) {
+        const auto* addedOrNull = std::get_if<ReportAdded>(&change);
+        return addedOrNull != nullptr && addedOrNull->entry.sequence == *former;
+    });
+    return replaced;
 }
 
 void EngineTransaction::WatchOutbox()
 {
-    constexpr std::size_t TENTH = 10;
-    const std::size_t count = _outbox.GetUnacknowledged().size();
-    if (count >= _options.maximumReports)
+    if (_room.IsFull())
     {
         RaiseAlarm(MakeAlarm(
             OWN_ROBOT_ID,
             ALARM_OUTBOX,
             EAlarmLevel::Heavy,
             fmt::format(
-                "Outbox full: {} reports are not acknowledged, and new plans are refused. Check the MCS and its connection.",
-                _options.maximumReports)));
+                "Outbox full: {} reports are not acknowledged, accepted plans can cause {} more, and new plans are refused. "
+                "Check the MCS and its connection.",
+                _outbox.GetUnacknowledged().size(),
+                _plans.GetReportsAhead())));
     }
-    else if (count < _options.maximumReports - _options.maximumReports / TENTH)
+    else if (_room.IsFree())
     {
         ClearAlarm(MakeAlarm(OWN_ROBOT_ID, ALARM_OUTBOX, EAlarmLevel::Heavy, {}));
     }
@@ -204,7 +234,8 @@ void EngineTransaction::ReportAlarms(const std::vector<ErrorReport>& reports)
     {
         const Alarm& alarm = report.alarm;
         _changes.push_back(report.bSet ? StoreChange(AlarmSet{alarm}) : StoreChange(AlarmCleared{alarm}));
-        const std::string_view transactionID = AddReport(report);
+        const std::string_view transactionID =
+            AddReport(report, _room.AreAlarmsMerged() ? RemoveReportOrNull(alarm) : std::nullopt);
         if (_observerOrNull != nullptr)
         {
             _observerOrNull->OnAlarmChanged(alarm, report.bSet, transactionID, _now);

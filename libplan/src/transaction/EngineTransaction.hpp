@@ -4,6 +4,7 @@
 #include "robot/Robot.hpp"
 #include "transaction/AlarmBook.hpp"
 #include "transaction/EngineAlarm.hpp"
+#include "transaction/OutboxRoom.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/plan/EngineAction.hpp>
@@ -11,6 +12,7 @@
 #include <acs/plan/ReportOutbox.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,11 +26,11 @@ namespace ACS::Planning
 /// dispatch again in the same call, which every part may make.
 class EngineTransaction
 {
-    const EngineOptions& _options;
     Core::IRandom& _random;
     PlanBook& _plans;
     AlarmBook& _alarms;
     ReportOutbox& _outbox;
+    const OutboxRoom& _room;
     IPlanObserver* _observerOrNull = nullptr;
     Core::Now _now;
     std::vector<StoreChange> _changes;
@@ -38,11 +40,11 @@ class EngineTransaction
 
 public:
     EngineTransaction(
-        const EngineOptions& options,
         Core::IRandom& random,
         PlanBook& plans,
         AlarmBook& alarms,
-        ReportOutbox& outbox);
+        ReportOutbox& outbox,
+        const OutboxRoom& room);
 
     void SetObserver(IPlanObserver& observer);
     void SetNow(Core::Now now);
@@ -74,7 +76,7 @@ public:
     /// Starts the timer AlarmQuiet for what AlarmBook has delayed.
     void WatchAlarms();
     void OnAlarmQuiet();
-    /// Sets ACS-1020 while EngineOptions::maximumReports is reached. Running plans continue and are reported.
+    /// Sets ACS-1020 while plans are refused for want of room. Running plans continue and are reported.
     void WatchOutbox();
 
     /// Something has changed that may let a plan or a robot continue.
@@ -86,6 +88,12 @@ public:
     /// Returns the collected changes and forgets them.
     [[nodiscard]] std::vector<StoreChange> CollectChanges();
     [[nodiscard]] EngineActions CollectActions();
+
+private:
+    /// Adds the report to the outbox; the replaced one need not be sent.
+    std::string_view AddReport(Report report, std::optional<std::uint64_t> replacedOrNull);
+    /// Removes the latest report of the alarm. Returns its sequence if the host may have it.
+    [[nodiscard]] std::optional<std::uint64_t> RemoveReportOrNull(const Alarm& alarm);
 };
 
 } // namespace ACS::Planning

@@ -59,12 +59,20 @@ std::vector<StoreChange> StoreBacklog::CollectChanges()
     return std::exchange(_changes, {});
 }
 
-void StoreBacklog::HoldBack(OutboxEntry report)
+void StoreBacklog::HoldBack(SendReport report)
 {
+    const auto replaced = std::ranges::find_if(_reports, [&report](const SendReport& other) {
+        return report.replaced == other.entry.sequence;
+    });
+    if (replaced != _reports.end())
+    {
+        report.replaced = replaced->replaced;
+        _reports.erase(replaced);
+    }
     _reports.push_back(std::move(report));
 }
 
-std::vector<OutboxEntry> StoreBacklog::CollectReports()
+std::vector<SendReport> StoreBacklog::CollectReports()
 {
     return std::exchange(_reports, {});
 }
@@ -76,7 +84,9 @@ bool StoreBacklog::IsFailing() const noexcept
 
 bool StoreBacklog::IsHeldBack(const OutboxEntry& report) const
 {
-    return std::ranges::binary_search(_reports, report.sequence, {}, &OutboxEntry::sequence);
+    return std::ranges::binary_search(_reports, report.sequence, {}, [](const SendReport& held) {
+        return held.entry.sequence;
+    });
 }
 
 std::size_t StoreBacklog::CountHeldBack() const noexcept

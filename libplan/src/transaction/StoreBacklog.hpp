@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/plan/EngineAction.hpp>
 #include <acs/plan/IPlanStore.hpp>
 #include <acs/plan/Report.hpp>
 
@@ -24,7 +25,7 @@ class StoreBacklog
 
     EState _state = EState::Working;
     std::vector<StoreChange> _changes;
-    std::vector<OutboxEntry> _reports;
+    std::vector<SendReport> _reports;
 
 public:
     void OnFailed() noexcept;
@@ -40,8 +41,9 @@ public:
 
     void Add(std::vector<StoreChange> changes);
     [[nodiscard]] std::vector<StoreChange> CollectChanges();
-    void HoldBack(OutboxEntry report);
-    [[nodiscard]] std::vector<OutboxEntry> CollectReports();
+    /// Drops the report that it replaces, if that is held back too.
+    void HoldBack(SendReport report);
+    [[nodiscard]] std::vector<SendReport> CollectReports();
 
     [[nodiscard]] bool IsFailing() const noexcept;
     /// Reports that are held back are also in the outbox, in the same order.

@@ -23,6 +23,7 @@ PlanControls::PlanControls(
       _call(engine.call),
       _backlog(engine.backlog),
       _hold(engine.hold),
+      _room(engine.room),
       _tsc(tsc),
       _answers(answers),
       _waiting(waiting),
@@ -48,6 +49,14 @@ void PlanControls::Control(const ControlPlan& command)
     if (bRepeated)
     {
         _transaction.Emit(ReplyCommand{command.replyToken, true, "Received."});
+        return;
+    }
+    if (!_room.HasRoomForControl())
+    {
+        _transaction.Emit(ReplyCommand{
+            command.replyToken,
+            false,
+            "Outbox Full: the request has no room for its result. Acknowledge reports, then send it again."});
         return;
     }
     _call.controlID = ControlAnswers::MakeRequestID(command);

@@ -27,6 +27,7 @@ class PlanControls
     CallRecord& _call;
     const StoreBacklog& _backlog;
     const RestartHold& _hold;
+    const OutboxRoom& _room;
     const TscControl& _tsc;
     ControlAnswers& _answers;
     const WaitingRobots& _waiting;

@@ -209,7 +209,7 @@ void AcsdProcess::OnReport(const Planning::SendReport& report, const Acsd::AcsdC
     _around.trace.Add("acsd: report {}: {}", report.entry.sequence, Describe(report.entry.report));
     if (std::optional<Planning::OutboxEntry> entry = _mutator.PassReportOrNull(report.entry))
     {
-        execute(Planning::SendReport{std::move(*entry)});
+        execute(Planning::SendReport{std::move(*entry), report.replaced});
     }
     else
     {

@@ -145,6 +145,27 @@ TEST_CASE("A report is stored before it is sent, and removed with its Ack")
     CHECK(fixture.session.sent.size() == 1);
 }
 
+TEST_CASE("A dropped report is not sent any more, whether or not it was sent before, and its Ack is ignored")
+{
+    OutboxFixture fixture;
+    fixture.Register();
+    fixture.session.room = 2;
+    for (const char* planID : {"A", "B", "C", "D"})
+    {
+        fixture.Add(planID);
+    }
+    const std::string sentID = fixture.GetTransactionID(0);
+    fixture.outbox.Drop(1);
+    fixture.outbox.Drop(3);
+    fixture.outbox.Drop(3);
+    CHECK(fixture.outbox.GetRequests().size() == 2);
+    fixture.Acknowledge(sentID);
+    CHECK(fixture.store.requests.size() == 4); // removed by the caller
+    fixture.session.room = 5;
+    fixture.On(Protocol::WindowOpened{});
+    CHECK(fixture.session.sent == std::vector<std::string>{"A", "B", "D"});
+}
+
 TEST_CASE("After a reconnect everything without an Ack is sent again in order, then ReplayDone is called once")
 {
     OutboxFixture fixture;

@@ -55,6 +55,9 @@ public:
     /// is higher than that of all requests before it.
     void Queue(DurableRequest request);
 
+    /// Drops a request that the caller has removed from the store itself; no effect if there is none. Its Ack is ignored.
+    void Drop(std::uint64_t sequence);
+
     /// Drops the requests for which the predicate is true, in the store as well: they are not sent again. Returns their
     /// number. An error is that of IOutboxStore::Remove; the outbox has dropped them nevertheless.
     [[nodiscard]] Core::Result<std::size_t> Discard(
@@ -89,6 +92,7 @@ public:
     [[nodiscard]] const std::deque<DurableRequest>& GetRequests() const noexcept;
 
 private:
+    void Erase(std::deque<DurableRequest>::const_iterator request);
     [[nodiscard]] Core::Result<void> Remove(std::string_view transactionID);
 };
 

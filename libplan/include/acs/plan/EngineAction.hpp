@@ -9,6 +9,7 @@
 #include <acs/plan/RobotStatus.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <variant>
@@ -76,6 +77,8 @@ struct ReplyCommand
 struct SendReport
 {
     OutboxEntry entry;
+    /// Sequence of an earlier report of the same alarm, which need not be sent any more: the engine has removed it.
+    std::optional<std::uint64_t> replaced{};
 
     bool operator==(const SendReport&) const = default;
 };

@@ -136,7 +136,8 @@ struct EngineOptions
     /// By station: the other stations at whose places a robot that is docked there can work too.
     std::map<std::string, std::vector<std::string>, std::less<>> reach;
     std::size_t maximumPlans = 100; ///< Maximum number of unfinished plans; further ones are rejected.
-    /// Maximum number of unacknowledged reports; plans are rejected while it is reached.
+    /// Maximum number of unacknowledged reports. A plan is rejected while it, and the plans before it, could exceed eight tenths of
+    /// it: each plan, step and job causes up to three reports. A tenth is left to alarms, a tenth to results of controls.
     std::size_t maximumReports = 100'000;
     std::int32_t defaultPriority = 0; ///< Priority of plans without one.
     bool bLowerPriorityFirst = false; ///< Lower values are more urgent.

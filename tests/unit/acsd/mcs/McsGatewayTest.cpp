@@ -38,7 +38,7 @@ protected:
         [this](const EngineAction& action) {
             if (const auto* const reportOrNull = std::get_if<SendReport>(&action))
             {
-                _gateway.Report(reportOrNull->entry);
+                _gateway.Report(*reportOrNull);
             }
             if (const auto* const replyOrNull = std::get_if<ReplyCommand>(&action))
             {
@@ -233,6 +233,16 @@ TEST_CASE_METHOD(
 
     _host.OnStored({});
     CHECK(_engine.GetUnacknowledged().front().transactionID == second);
+}
+
+TEST_CASE_METHOD(GatewayTest, "A report that another one replaces is not sent")
+{
+    const Planning::Alarm alarm{"LR01", "AGV-1", EAlarmLevel::Light, "blocked", {}, {}, {}};
+    _gateway.Report(SendReport{{7, "T7", _clock.GetNow().wall, ErrorReport{alarm, true}}, std::nullopt});
+    _gateway.Report(SendReport{{8, "T8", _clock.GetNow().wall, ErrorReport{alarm, false}}, 7});
+    Register();
+    REQUIRE(_sent.size() == 1);
+    CHECK(_sent.front().transactionID == "T8");
 }
 
 TEST_CASE_METHOD(GatewayTest, "The reports in the store are replayed after a restart")

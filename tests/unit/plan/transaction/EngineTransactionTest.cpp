@@ -57,10 +57,11 @@ TEST_CASE("EngineTransaction: an alarm is reported when it is set and when it is
     CHECK(outcome.ListChanges<AlarmCleared>().size() == 1);
 }
 
-TEST_CASE("EngineTransaction: the outbox alarm is set at the limit and cleared below nine tenths of it")
+TEST_CASE(
+    "EngineTransaction: the outbox alarm is set when no plan has room, and cleared below nine tenths of this limit")
 {
     EngineOptions options = MakeTestOptions(false);
-    options.maximumReports = 10;
+    options.maximumReports = 100;
     EngineParts parts(options);
     const auto acknowledge = [&parts](std::size_t count) {
         while (parts.engine.outbox.GetUnacknowledged().size() > count)
@@ -69,7 +70,7 @@ TEST_CASE("EngineTransaction: the outbox alarm is set at the limit and cleared b
         }
         parts.engine.transaction.WatchOutbox();
     };
-    for (int i = 0; i < 9; ++i)
+    for (int i = 0; i < 79; ++i)
     {
         parts.engine.transaction.AddReport(PlanReport{});
     }
@@ -78,9 +79,9 @@ TEST_CASE("EngineTransaction: the outbox alarm is set at the limit and cleared b
     parts.engine.transaction.AddReport(PlanReport{});
     parts.engine.transaction.WatchOutbox();
     CHECK(parts.Collect().ListSetAlarms() == std::vector<std::string>{"ACS-1020"});
-    acknowledge(9);
+    acknowledge(73); // one of them is the alarm
     CHECK(parts.Collect().ListClearedAlarms().empty());
-    acknowledge(8);
+    acknowledge(72);
     CHECK(parts.Collect().ListClearedAlarms() == std::vector<std::string>{"ACS-1020"});
 }
 

@@ -2,6 +2,10 @@
 
 #include "Catch.hpp"
 
+#include <cstdint>
+#include <optional>
+#include <vector>
+
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 
 namespace
@@ -13,11 +17,12 @@ const std::vector<StoreChange>& GetChanges()
     return CHANGES;
 }
 
-OutboxEntry MakeReport(std::uint64_t sequence)
+SendReport MakeReport(std::uint64_t sequence, std::optional<std::uint64_t> replacedOrNull = std::nullopt)
 {
-    OutboxEntry entry;
-    entry.sequence = sequence;
-    return entry;
+    SendReport report;
+    report.entry.sequence = sequence;
+    report.replaced = replacedOrNull;
+    return report;
 }
 
 } // namespace
@@ -77,9 +82,19 @@ TEST_CASE("StoreBacklog: changes and reports wait in their order")
 
     backlog.HoldBack(MakeReport(3));
     backlog.HoldBack(MakeReport(5));
-    CHECK(backlog.IsHeldBack(MakeReport(5)));
-    CHECK_FALSE(backlog.IsHeldBack(MakeReport(4)));
+    CHECK(backlog.IsHeldBack(MakeReport(5).entry));
+    CHECK_FALSE(backlog.IsHeldBack(MakeReport(4).entry));
     CHECK(backlog.CountHeldBack() == 2);
-    CHECK(backlog.CollectReports() == std::vector<OutboxEntry>{MakeReport(3), MakeReport(5)});
+    CHECK(backlog.CollectReports() == std::vector<SendReport>{MakeReport(3), MakeReport(5)});
     CHECK(backlog.CountHeldBack() == 0);
+}
+
+TEST_CASE(
+    "StoreBacklog: a report that is replaced before it was sent is dropped, and its successor replaces what it replaced")
+{
+    StoreBacklog backlog;
+    backlog.HoldBack(MakeReport(3, 1));
+    backlog.HoldBack(MakeReport(4));
+    backlog.HoldBack(MakeReport(5, 3));
+    CHECK(backlog.CollectReports() == std::vector<SendReport>{MakeReport(4), MakeReport(5, 1)});
 }
