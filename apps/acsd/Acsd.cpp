@@ -1,9 +1,6 @@
 #include "Acsd.hpp"
 
 #include "AcsdCore.hpp"
-#include "common/http/HttpRoutes.hpp"
-#include "common/http/HttpServer.hpp"
-#include "common/http/HttpTls.hpp"
 #include "common/http/MetricsEndpoint.hpp"
 #include "common/process/LoopWatchdog.hpp"
 #include "common/process/TimerSet.hpp"
@@ -12,7 +9,7 @@
 #include "operator/AcsdMetrics.hpp"
 #include "operator/AcsdStatus.hpp"
 #include "operator/AuditLog.hpp"
-#include "operator/OperatorGate.hpp"
+#include "operator/HttpInterfaces.hpp"
 #include "operator/OperatorRoutes.hpp"
 #include "operator/PlanLog.hpp"
 #include "robots/RobotHost.hpp"
@@ -54,13 +51,8 @@ class Acsd::Impl final : private IAcsdOutput, private VDA5050::IMqttLinkListener
     std::map<std::pair<std::string, std::string>, RobotHost*> _vehicles;
     Apps::TimerSet<AcsdTimer> _timers;
     Apps::LoopWatchdog _watchdog;
-    Apps::HttpRoutes _monitoringRoutes;
-    std::unique_ptr<AuditLog> _audit;
-    OperatorGate _operatorGate;
-    Apps::HttpServer _monitoring;
-    Apps::HttpServer _operator;
-    std::vector<Apps::ReadyAddress> _addresses; ///< On which they listen.
-    std::size_t _openLinks = 0;                 ///< Of those that are being closed.
+    HttpInterfaces _http;
+    std::size_t _openLinks = 0; ///< Of those that are being closed.
     StopHandler _stopHandler;
 
 public:
@@ -94,24 +86,7 @@ public:
               _dependencies.executor,
               {_config.operations.stallLimit, _dependencies.aliveInterval},
               {[this](Core::Duration stall) { OnStall(stall); }, _dependencies.onAlive}),
-          _audit(std::move(audit)),
-          _operatorGate(
-              _dependencies.clock,
-              _dependencies.logger.MakeFor("operator"),
-              AccessPolicy(_config.http.control.access),
-              *_audit),
-          _monitoring(
-              _dependencies.executor,
-              [this](const Apps::HttpRequest& request) { return _monitoringRoutes.Respond(request); },
-              _dependencies.logger.MakeFor("http"),
-              {},
-              MakeHttpGuard(_config.http.monitoring)),
-          _operator(
-              _dependencies.executor,
-              [this](const Apps::HttpRequest& request) { return _operatorGate.Respond(request); },
-              _dependencies.logger.MakeFor("operator"),
-              {},
-              MakeHttpGuard(_config.http.control.http))
+          _http({_dependencies.executor, _dependencies.clock, _dependencies.logger}, _config.http, std::move(audit))
     {
         _core.SetObserver(_planLog);
         AddRoutes();
@@ -144,15 +119,7 @@ public:
         {
             return opened;
         }
-        opened = Listen(_monitoring, "http", _config.http.monitoring);
-        if (opened)
-        {
-            opened = UseOperatorTLS();
-        }
-        if (opened)
-        {
-            opened = Listen(_operator, "operator", _config.http.control.http);
-        }
+        opened = _http.Listen(_config.http);
         if (!opened)
         {
             return opened;
@@ -185,7 +152,7 @@ public:
         ApplyLiveKeys(fresh, _config);
         _core.Reload(_config);
         _mcs.SetLimits(_config.mcs);
-        ReloadTokens(fresh.http.control);
+        _http.ReloadTokens(fresh.http.control, _config.http.control);
         if (_dependencies.traceOrNull != nullptr)
         {
             _dependencies.traceOrNull->SetLimits(_config.operations.trace);
@@ -194,52 +161,10 @@ public:
 
     [[nodiscard]] const std::vector<Apps::ReadyAddress>& GetAddresses() const noexcept
     {
-        return _addresses;
+        return _http.GetAddresses();
     }
 
 private:
-    /// The tokens of the same file, so that a token can be withdrawn without a restart.
-    void ReloadTokens(const OperatorConfig& fresh)
-    {
-        OperatorConfig& present = _config.http.control;
-        if (fresh.tokensFile != present.tokensFile || fresh.access.tokens == present.access.tokens)
-        {
-            return;
-        }
-        present.access.tokens = fresh.access.tokens;
-        _operatorGate.SetPolicy(AccessPolicy(present.access));
-        _dependencies.logger.MakeFor("operator").Info("tokens reloaded", {{"file", present.tokensFile}});
-    }
-
-    [[nodiscard]] Core::Result<void> UseOperatorTLS()
-    {
-        if (_config.http.control.tls.certificate.empty())
-        {
-            return {};
-        }
-        auto context = Apps::MakeHttpTlsContext(_config.http.control.tls);
-        if (!context)
-        {
-            return tl::unexpected<Core::Error>(context.error());
-        }
-        _operator.UseTLS(std::move(*context));
-        return {};
-    }
-
-    [[nodiscard]] Core::Result<void> Listen(
-        Apps::HttpServer& server,
-        const std::string& name,
-        const HttpListenConfig& config)
-    {
-        const Core::Result<Apps::Endpoint> endpoint = server.Listen(config.listen);
-        if (!endpoint)
-        {
-            return tl::unexpected<Core::Error>(endpoint.error());
-        }
-        _addresses.push_back({name, *endpoint});
-        return {};
-    }
-
     void Store(const Planning::StoreBatch& batch) override
     {
         _store.Append(batch);
@@ -293,8 +218,7 @@ private:
 
     void OnStopped() override
     {
-        _monitoring.Stop();
-        _operator.Stop();
+        _http.Stop();
         _watchdog.Stop();
         if (_stopHandler)
         {
@@ -397,14 +321,16 @@ private:
 
     void AddRoutes()
     {
-        AddHealthRoutes(_monitoringRoutes, [this] { return GetProgramStatus(); });
-        _monitoringRoutes.Add("GET", "/metrics", [this](const auto&, const auto&) {
+        Apps::HttpRoutes& monitoring = _http.GetMonitoringRoutes();
+        AddHealthRoutes(monitoring, [this] { return GetProgramStatus(); });
+        monitoring.Add("GET", "/metrics", [this](const auto&, const auto&) {
             UpdateMetrics();
             return _metricsEndpoint.Respond();
         });
-        AddStatusRoute(_operatorGate.GetRoutes(), _core.GetEngine(), [this] { return GetProgramStatus(); });
+        Apps::HttpRoutes& commands = _http.GetOperatorRoutes();
+        AddStatusRoute(commands, _core.GetEngine(), [this] { return GetProgramStatus(); });
         AddOperatorRoutes(
-            _operatorGate.GetRoutes(),
+            commands,
             _core.GetEngine(),
             {[this](Planning::PlanCommand command) { return _core.Offer(std::move(command)); },
              [this] {
@@ -425,7 +351,7 @@ private:
         {
             _metrics.UpdateRobot(*robot, now);
         }
-        _metrics.UpdateAudit(_audit->GetLost());
+        _metrics.UpdateAudit(_http.GetLostAudit());
         if (_dependencies.countDroppedLines)
         {
             _metrics.UpdateLog(_dependencies.countDroppedLines());

@@ -21,7 +21,6 @@ namespace
 {
 
 constexpr std::string_view SUFFIX = ".ndjson";
-constexpr mode_t FILE_MODE = 0600; // messages may be confidential
 constexpr std::size_t FLUSH_BYTES = 256U * 1024U;
 constexpr std::streamoff TAIL_BYTES = 4LL * 1024 * 1024;
 

@@ -23,7 +23,7 @@ struct TraceLimits
 struct TraceFileStyle
 {
     std::string prefix = "acsd-";
-    std::uint32_t mode = 0640; ///< Messages may be confidential.
+    std::uint32_t mode = 0600; ///< Messages may be confidential.
     bool bContinued = false;   ///< The newest file is continued at a start; otherwise a start begins a new one.
 };
 

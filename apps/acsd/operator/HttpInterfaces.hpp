@@ -1,0 +1,73 @@
+#pragma once
+
+#include "common/http/HttpRoutes.hpp"
+#include "common/http/HttpServer.hpp"
+#include "common/http/HttpTls.hpp"
+#include "common/process/ReadyLine.hpp"
+#include "config/HttpConfig.hpp"
+#include "operator/AuditLog.hpp"
+#include "operator/OperatorGate.hpp"
+#include <acs/core/Logger.hpp>
+#include <acs/core/Now.hpp>
+#include <acs/core/Result.hpp>
+
+#include <boost/asio/any_io_executor.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+/// The two HTTP addresses of acsd: one for monitoring, which only reads, and one for operators behind the OperatorGate. Used on
+/// the executor's thread.
+class HttpInterfaces final
+{
+public:
+    struct Dependencies
+    {
+        boost::asio::any_io_executor executor;
+        const Core::IClock& clock;
+        Core::Logger logger;
+    };
+
+private:
+    Dependencies _dependencies;
+    std::unique_ptr<AuditLog> _audit;
+    Apps::HttpRoutes _monitoringRoutes;
+    OperatorGate _gate;
+    Apps::HttpServer _monitoring;
+    Apps::HttpServer _operator;
+    std::vector<Apps::ReadyAddress> _addresses;
+
+public:
+    /// The clock and the sink of the logger outlive the interfaces.
+    HttpInterfaces(Dependencies dependencies, const HttpConfig& config, std::unique_ptr<AuditLog> audit);
+
+    /// To be filled before Listen, as GetOperatorRoutes.
+    [[nodiscard]] Apps::HttpRoutes& GetMonitoringRoutes() noexcept;
+    [[nodiscard]] Apps::HttpRoutes& GetOperatorRoutes() noexcept;
+
+    [[nodiscard]] Core::Result<void> Listen(const HttpConfig& config);
+    void Stop();
+
+    /// Takes the tokens of the same file into `present`, so that a token can be withdrawn without a restart.
+    void ReloadTokens(const OperatorConfig& fresh, OperatorConfig& present);
+
+    /// On which they listen, by name.
+    [[nodiscard]] const std::vector<Apps::ReadyAddress>& GetAddresses() const noexcept;
+
+    /// Lines that are missing in the audit log.
+    [[nodiscard]] std::uint64_t GetLostAudit() const;
+
+private:
+    [[nodiscard]] Core::Result<void> UseTLS(const Apps::HttpTlsFiles& files);
+    [[nodiscard]] Core::Result<void> ListenOn(
+        Apps::HttpServer& server,
+        const std::string& name,
+        const HttpListenConfig& config);
+};
+
+} // namespace ACS::Acsd
