@@ -13,6 +13,7 @@ namespace
 using VDA5050::MqttMessage;
 
 constexpr const char* ORDER = "uagv/v2/ACS/LR01/order";
+constexpr const char* ECHO_TOPIC = "test/echo";
 
 /// A link with its own listener, and a way to see what a new subscriber receives.
 struct RetainedBroker
@@ -34,6 +35,16 @@ struct RetainedBroker
             REQUIRE(TryRunUntil(context, [started] { return started->listener.ups == 1; }));
         }
         retained.OnLinkUp();
+        AwaitSubscriptions();
+    }
+
+    /// The broker handles the packets of one connection in their order: the echo shows that earlier subscriptions are in effect.
+    void AwaitSubscriptions()
+    {
+        acsd.link.Subscribe({{ECHO_TOPIC, 1}});
+        REQUIRE(acsd.link.Publish({ECHO_TOPIC, {}, 1, false}).has_value());
+        REQUIRE(TryRunUntil(context, [this] { return acsd.listener.CountTopic(ECHO_TOPIC) == 1; }));
+        acsd.listener.messages.clear();
     }
 
     void Publish(const MqttMessage& message)
