@@ -152,7 +152,8 @@ public:
         ApplyLiveKeys(fresh, _config);
         _core.Reload(_config);
         _mcs.SetLimits(_config.mcs);
-        _http.ReloadTokens(fresh.http.control, _config.http.control);
+        _mcs.ReloadTLS();
+        _http.Reload(fresh.http.control, _config.http.control);
         if (_dependencies.traceOrNull != nullptr)
         {
             _dependencies.traceOrNull->SetLimits(_config.operations.trace);

@@ -4,6 +4,7 @@
 import http.client
 import json
 import signal
+import socket
 import ssl
 import subprocess
 import threading
@@ -77,7 +78,9 @@ class Operator(ScenarioCase):
     def make_token(self, role, name):
         """The token; its line is added to the file."""
         result = subprocess.run([self.line.bin_dir / "acsd", "token", role, name], check=True, capture_output=True, text=True)
-        with open(self.line.folder / "tokens", "a", encoding="ascii") as file:
+        tokens = self.line.folder / "tokens"
+        tokens.touch(0o600)
+        with open(tokens, "a", encoding="ascii") as file:
             file.write(result.stdout)
         return result.stderr.split()[-1]
 
@@ -179,6 +182,39 @@ class Operator(ScenarioCase):
                 connection.close()
         with self.assertRaises(OSError):
             urllib.request.urlopen(f"http://127.0.0.1:{port}/status", timeout=20)
+
+    def test_a_certificate_is_renewed_without_a_restart(self):
+        def read_certificate():
+            with socket.create_connection(("127.0.0.1", port), timeout=20) as plain:
+                with context.wrap_socket(plain, server_hostname="127.0.0.1") as stream:
+                    return ssl.DER_cert_to_PEM_cert(stream.getpeercert(binary_form=True))
+
+        def make(name):
+            return self.make_certificate(name, "-CA", ca, "-CAkey", ca_key, "-addext", "subjectAltName=IP:127.0.0.1")
+
+        ca, ca_key = self.make_certificate("ca")
+        certificate, key = make("acsd")
+        context = ssl.create_default_context(cafile=ca)
+        self.line.start_broker()
+        self.mcs_port = find_free_port()
+        self.arm = {"stream": "127.0.0.1:1"}
+        self.overrides = (f"operator.tls.certificate={certificate}", f"operator.tls.key={key}")
+        self.start_acsd()
+        port = int(self.acsd.addresses["operator"].split(":")[1])
+        self.assertEqual(read_certificate(), certificate.read_text())
+
+        renewed, renewed_key = make("renewed")
+        key.chmod(0o644)
+        self.acsd.send_signal(signal.SIGHUP)
+        refusal = f"every user of this machine can read {key}; run chmod o-rwx {key}"
+        self.wait_for(lambda: refusal in self.acsd.log.read_text(), "the refused key in the log")
+        self.assertEqual(read_certificate(), certificate.read_text())
+        renewed.replace(certificate)
+        renewed_key.replace(key)
+        self.acsd.send_signal(signal.SIGHUP)
+        deadline = time.monotonic() + FINISH_SECONDS
+        while read_certificate() != certificate.read_text():
+            self.assertLess(time.monotonic(), deadline, "the former certificate is still used")
 
     def read_code(self, name, path, method="GET", host=None, token=None):
         request = urllib.request.Request(f"http://{self.acsd.addresses[name]}{path}", method=method)

@@ -11,7 +11,6 @@
 #include "config/ReachCheck.hpp"
 #include "config/RemovedKeys.hpp"
 #include "config/RobotConfig.hpp"
-#include "config/SecretCheck.hpp"
 #include "config/StationConfig.hpp"
 #include "robots/VehicleCompatibility.hpp"
 #include <acs/plan/LifReader.hpp>
@@ -261,11 +260,7 @@ AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& ove
     const Apps::ConfigReader reader = Apps::ConfigReader::ReadFile(fileName, overrides);
     const ConfigSection root = reader.GetRoot();
     std::vector<std::string> otherErrors;
-    ReadMcsConfig(root, fileName, config.mcs, otherErrors);
-    if (!config.mcs.headers.empty())
-    {
-        WarnOfPlainSecret("mcs.headers", config.mcs.url, "wss", config.warnings);
-    }
+    ReadMcsConfig(root, fileName, config.mcs, otherErrors, config.warnings);
     ReadOperationsConfig(root, config.operations);
     ReadMqttConfig(root, fileName, config.mqtt, config.warnings);
     const ConfigSection arm = root.GetSection("arm");

@@ -2,6 +2,7 @@
 
 #include "common/config/TextFile.hpp"
 #include "config/McsConfig.hpp"
+#include "config/SecretCheck.hpp"
 #include <acs/core/Result.hpp>
 
 #include <fmt/format.h>
@@ -63,6 +64,7 @@ void ReadTokens(const ConfigSection& section, const std::string& fileName, Opera
                 text.error()));
         return;
     }
+    CheckSecretFile(section, "tokens_file", config.tokensFile);
     Core::Result<std::vector<OperatorToken>> tokens = ParseTokens(*text);
     if (!tokens.has_value())
     {
@@ -90,6 +92,10 @@ void ReadOperatorTLS(const ConfigSection& section, const std::string& fileName, 
         Core::Error error = context.error();
         const std::string key = std::exchange(error.path, {});
         tls.AddError(key, Core::Describe(error));
+    }
+    else if (!config.tls.key.empty())
+    {
+        CheckSecretFile(tls, "key", config.tls.key);
     }
 }
 

@@ -6,9 +6,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <string_view>
+#include <utility>
 
 namespace ACS::Acsd
 {
@@ -24,6 +29,8 @@ constexpr std::int64_t MOST_RETRIES = 100;
 constexpr std::int64_t LARGEST_WINDOW = 1'000;
 constexpr std::int64_t SMALLEST_TEXT = 1'024;
 constexpr std::int64_t LARGEST_TEXT = 1024LL * 1024 * 1024;
+constexpr std::size_t LARGEST_HEADERS_FILE = 64U * 1024U;
+constexpr std::string_view CREDENTIALS = "${CREDENTIALS_DIRECTORY}";
 
 /// Certificates are read when the client is created. They are checked here too, to report their errors with those of the
 /// configuration.
@@ -64,7 +71,7 @@ void ReadTLS(const ConfigSection& mcs, const std::string& fileName, McsConfig& c
     }
 }
 
-void ReadHeaders(const ConfigSection& mcs, McsConfig& config)
+void ReadHostHeader(const ConfigSection& mcs, McsConfig& config)
 {
     config.host = mcs.GetString("host", "");
     const Core::Result<void> host = ProtocolBeast::CheckHostHeader(config.host);
@@ -76,6 +83,10 @@ void ReadHeaders(const ConfigSection& mcs, McsConfig& config)
     {
         mcs.AddError("host", fmt::format("expected HOST or HOST:PORT, found {}", Core::QuoteForError(config.host)));
     }
+}
+
+void ReadHeaders(const ConfigSection& mcs, McsConfig& config)
+{
     if (!mcs.HasKey("headers"))
     {
         return;
@@ -93,6 +104,87 @@ void ReadHeaders(const ConfigSection& mcs, McsConfig& config)
         {
             section.AddError(name, "expected " + checked.error().expected);
         }
+    }
+}
+
+std::string_view Trim(std::string_view text)
+{
+    constexpr std::string_view SPACE = " \t\r";
+    const std::size_t begin = text.find_first_not_of(SPACE);
+    return begin == std::string_view::npos ? std::string_view()
+                                           : text.substr(begin, text.find_last_not_of(SPACE) + 1 - begin);
+}
+
+/// Why the line of a file with headers is invalid, without its value; empty if it is valid or has none.
+std::string AddHeader(std::string_view line, ProtocolBeast::HttpHeaders& headers)
+{
+    line = Trim(line);
+    if (line.empty() || line.front() == '#')
+    {
+        return {};
+    }
+    const std::size_t colon = line.find(':');
+    if (colon == std::string_view::npos)
+    {
+        return "expected NAME: VALUE";
+    }
+    ProtocolBeast::HttpHeaders header{
+        {std::string(Trim(line.substr(0, colon))), std::string(Trim(line.substr(colon + 1)))}};
+    const Core::Result<void> checked = ProtocolBeast::CheckHttpHeaders(header);
+    if (!checked.has_value())
+    {
+        return "expected " + checked.error().expected;
+    }
+    headers.push_back(std::move(header[0]));
+    return {};
+}
+
+void ReadHeadersFile(const ConfigSection& mcs, const std::string& fileName, McsConfig& config)
+{
+    const std::string key = "headers_file";
+    const std::string file = mcs.GetString(key, "");
+    if (file.empty())
+    {
+        return;
+    }
+    const std::string path = ResolvePath(fileName, file);
+    const tl::expected<std::string, std::string> text = Apps::ReadTextFileUpTo(path, LARGEST_HEADERS_FILE);
+    if (!text.has_value())
+    {
+        mcs.AddError(key, fmt::format("{} cannot be read ({})", path, text.error()));
+        return;
+    }
+    std::string_view rest = *text;
+    for (std::size_t line = 1; !rest.empty(); ++line)
+    {
+        const std::size_t end = std::min(rest.find('\n'), rest.size());
+        if (const std::string reason = AddHeader(rest.substr(0, end), config.headers); !reason.empty())
+        {
+            mcs.AddError(key, fmt::format("{} line {}: {}", path, line, reason));
+        }
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    CheckSecretFile(mcs, key, path);
+}
+
+void ReadAllHeaders(
+    const ConfigSection& mcs,
+    const std::string& fileName,
+    McsConfig& config,
+    std::vector<std::string>& warnings)
+{
+    ReadHostHeader(mcs, config);
+    ReadHeaders(mcs, config);
+    if (!config.headers.empty())
+    {
+        WarnOfReadableConfig("mcs.headers", fileName, warnings);
+        WarnOfPlainSecret("mcs.headers", config.url, "wss", warnings);
+    }
+    const std::size_t given = config.headers.size();
+    ReadHeadersFile(mcs, fileName, config);
+    if (config.headers.size() > given)
+    {
+        WarnOfPlainSecret("mcs.headers_file", config.url, "wss", warnings);
     }
 }
 
@@ -181,6 +273,12 @@ void ReadErrors(
 
 std::string ResolvePath(const std::string& configFile, const std::string& path)
 {
+    if (path.starts_with(CREDENTIALS))
+    {
+        // NOLINTNEXTLINE(concurrency-mt-unsafe): the environment is never changed
+        const char* const directoryOrNull = std::getenv("CREDENTIALS_DIRECTORY");
+        return directoryOrNull == nullptr ? path : directoryOrNull + path.substr(CREDENTIALS.size());
+    }
     const std::filesystem::path target(path);
     return target.is_absolute() ? path : (std::filesystem::path(configFile).parent_path() / target).string();
 }
@@ -189,12 +287,13 @@ void ReadMcsConfig(
     const ConfigSection& root,
     const std::string& fileName,
     McsConfig& config,
-    std::vector<std::string>& errors)
+    std::vector<std::string>& errors,
+    std::vector<std::string>& warnings)
 {
     const ConfigSection mcs = root.GetSection("mcs");
     config.url = mcs.GetURL("url", {EUrlScheme::Ws, EUrlScheme::Wss});
     ReadTLS(mcs, fileName, config);
-    ReadHeaders(mcs, config);
+    ReadAllHeaders(mcs, fileName, config, warnings);
     ReadPing(mcs, config);
     ReadSession(mcs, config.session);
     ReadStyle(mcs, config);

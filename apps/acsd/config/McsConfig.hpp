@@ -29,14 +29,16 @@ struct McsConfig
 };
 
 /// Reads the tables `mcs`, `position`, `outbox`, `errors` and `ext`. Relative paths are relative to the folder of the file.
-/// Errors in the files that they name are added to the vector.
+/// Errors in the files that they name are added to `errors`, valid settings that are not advisable to `warnings`.
 void ReadMcsConfig(
     const Apps::ConfigSection& root,
     const std::string& fileName,
     McsConfig& config,
-    std::vector<std::string>& errors);
+    std::vector<std::string>& errors,
+    std::vector<std::string>& warnings);
 
-/// Relative paths in the configuration are relative to its own folder.
+/// Relative paths in the configuration are relative to its own folder. At the begin of a path, `${CREDENTIALS_DIRECTORY}` is the
+/// folder where systemd puts the credentials of the service.
 [[nodiscard]] std::string ResolvePath(const std::string& configFile, const std::string& path);
 
 } // namespace ACS::Acsd

@@ -15,14 +15,28 @@ bool IsOfThisMachine(const std::string& host)
     return host == "localhost" || host == "::1" || host.starts_with("127.");
 }
 
+bool IsReadableByAll(const std::string& path)
+{
+    struct stat status = {};
+    return ::stat(path.c_str(), &status) == 0 && (status.st_mode & S_IROTH) != 0;
+}
+
 } // namespace
 
 void CheckSecretFile(const Apps::ConfigSection& section, const std::string& key, const std::string& path)
 {
-    struct stat status = {};
-    if (::stat(path.c_str(), &status) == 0 && (status.st_mode & S_IROTH) != 0)
+    if (IsReadableByAll(path))
     {
         section.AddError(key, fmt::format("every user of this machine can read {}; run chmod o-rwx {}", path, path));
+    }
+}
+
+void WarnOfReadableConfig(const std::string& key, const std::string& fileName, std::vector<std::string>& warnings)
+{
+    if (IsReadableByAll(fileName))
+    {
+        warnings.push_back(
+            fmt::format("{}: every user of this machine can read {}; run chmod o-rwx {}", key, fileName, fileName));
     }
 }
 

@@ -77,6 +77,16 @@ void McsLink::SetLimits(const McsConfig& config)
     _warnBytes = config.warnBytes;
 }
 
+void McsLink::ReloadTLS()
+{
+    if (const Core::Result<void> reloaded = _client->ReloadTLS(); !reloaded)
+    {
+        _logger.Error(
+            "TLS files not read again: the former ones stay in use",
+            {{"reason", Core::Describe(reloaded.error())}});
+    }
+}
+
 /// Section 12: a message longer than the MCS's buffer is lost without an Ack. Each new length is logged once.
 void McsLink::WatchWire(ProtocolBeast::EWireDirection direction, std::string_view text)
 {

@@ -78,6 +78,9 @@ public:
     /// Applies the keys that may change while acsd runs (see LiveConfig).
     void SetLimits(const McsConfig& config);
 
+    /// Reads the TLS files again, for the next connection.
+    void ReloadTLS();
+
     /// Reports the end to the MCS, closes the connection, then calls back.
     void StopAsync(StopHandler handler);
 

@@ -60,6 +60,16 @@ void HttpInterfaces::Stop()
     _operator.Stop();
 }
 
+void HttpInterfaces::Reload(const OperatorConfig& fresh, OperatorConfig& present)
+{
+    ReloadTokens(fresh, present);
+    if (const Core::Result<void> used = UseTLS(present.tls); !used)
+    {
+        _dependencies.logger.MakeFor("operator")
+            .Error("TLS files not read again: the former ones stay in use", {{"reason", Core::Describe(used.error())}});
+    }
+}
+
 void HttpInterfaces::ReloadTokens(const OperatorConfig& fresh, OperatorConfig& present)
 {
     if (fresh.tokensFile != present.tokensFile || fresh.access.tokens == present.access.tokens)

@@ -53,8 +53,9 @@ public:
     [[nodiscard]] Core::Result<void> Listen(const HttpConfig& config);
     void Stop();
 
-    /// Takes the tokens of the same file into `present`, so that a token can be withdrawn without a restart.
-    void ReloadTokens(const OperatorConfig& fresh, OperatorConfig& present);
+    /// Takes the tokens of the same file into `present`, and reads the TLS files of `present` again, for later connections: a
+    /// token can be withdrawn and a certificate renewed without a restart.
+    void Reload(const OperatorConfig& fresh, OperatorConfig& present);
 
     /// On which they listen, by name.
     [[nodiscard]] const std::vector<Apps::ReadyAddress>& GetAddresses() const noexcept;
@@ -63,6 +64,7 @@ public:
     [[nodiscard]] std::uint64_t GetLostAudit() const;
 
 private:
+    void ReloadTokens(const OperatorConfig& fresh, OperatorConfig& present);
     [[nodiscard]] Core::Result<void> UseTLS(const Apps::HttpTlsFiles& files);
     [[nodiscard]] Core::Result<void> ListenOn(
         Apps::HttpServer& server,

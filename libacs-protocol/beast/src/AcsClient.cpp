@@ -22,6 +22,29 @@ using ErrorCode = boost::beast::error_code;
 
 using SessionTimers = Net::TimerArray<Protocol::ESessionTimer, Protocol::TIMER_COUNT>;
 
+namespace
+{
+
+Core::Result<std::unique_ptr<ITransport>> MakeTransport(const ClientOptions& options, const WebSocketURL& url)
+{
+    if (url.bSecure)
+    {
+        return MakeTlsClientTransport(options.tls, url.host);
+    }
+    if (options.tls != TlsOptions())
+    {
+        // TLS options with a ws URL: the connection would not be encrypted.
+        return Core::Fail(
+            Core::ECoreError::OutOfRange,
+            "url",
+            "wss://…, because options for TLS are given",
+            Core::QuoteForError(options.url));
+    }
+    return MakePlainTransport();
+}
+
+} // namespace
+
 class AcsClient::Impl : public std::enable_shared_from_this<AcsClient::Impl>
 {
     boost::asio::any_io_executor _executor;
@@ -91,6 +114,17 @@ public:
     void SetSiteOffset(std::chrono::minutes offset)
     {
         _session.SetSiteOffset(offset);
+    }
+
+    Core::Result<void> ReloadTLS()
+    {
+        Core::Result<std::unique_ptr<ITransport>> transport = MakeTransport(_options, _url);
+        if (!transport.has_value())
+        {
+            return tl::unexpected<Core::Error>(std::move(transport.error()));
+        }
+        _transport = std::move(*transport);
+        return {};
     }
 
 private:
@@ -203,29 +237,6 @@ private:
     }
 };
 
-namespace
-{
-
-Core::Result<std::unique_ptr<ITransport>> MakeTransport(const ClientOptions& options, const WebSocketURL& url)
-{
-    if (url.bSecure)
-    {
-        return MakeTlsClientTransport(options.tls, url.host);
-    }
-    if (options.tls != TlsOptions())
-    {
-        // TLS options with a ws URL: the connection would not be encrypted.
-        return Core::Fail(
-            Core::ECoreError::OutOfRange,
-            "url",
-            "wss://…, because options for TLS are given",
-            Core::QuoteForError(options.url));
-    }
-    return MakePlainTransport();
-}
-
-} // namespace
-
 AcsClient::AcsClient(std::shared_ptr<Impl> impl)
     : _impl(std::move(impl))
 {
@@ -314,6 +325,11 @@ void AcsClient::Answer(
 void AcsClient::SetSiteOffset(std::chrono::minutes offset)
 {
     _impl->SetSiteOffset(offset);
+}
+
+Core::Result<void> AcsClient::ReloadTLS()
+{
+    return _impl->ReloadTLS();
 }
 
 bool AcsClient::IsRegistered() const

@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -257,6 +258,23 @@ TEST_CASE("1 wss: a server with a client CA accepts only clients with its certif
         CHECK(Contains(rig.ConnectInVain(), "the other side reports that our certificate has expired"));
         CHECK(rig.WasLogged(start + "the client's certificate has expired (or this machine's clock is wrong)"));
     }
+}
+
+TEST_CASE("1 wss: a renewed certificate is used by the next connection after ReloadTLS; a wrong one is not")
+{
+    TLSFixture rig;
+    rig.serverOptions.tls->caFile = rig.ca.certificate;
+    const CertificateFiles used = rig.maker.Make(rig.ca, MakeCertificateRequest(-48h));
+    const CertificateFiles valid = rig.maker.Make(rig.ca, {});
+    rig.UseOnClient(used);
+    CHECK(Contains(rig.ConnectInVain(), "our certificate has expired"));
+    std::filesystem::copy_file(valid.certificate, used.certificate, std::filesystem::copy_options::overwrite_existing);
+    const Core::Result<void> wrong = rig.client->ReloadTLS(); // the key is that of the former certificate
+    REQUIRE_FALSE(wrong.has_value());
+    CHECK(wrong.error().path == "tls.key");
+    std::filesystem::copy_file(valid.key, used.key, std::filesystem::copy_options::overwrite_existing);
+    REQUIRE(rig.client->ReloadTLS().has_value());
+    CHECK(rig.WasRegistered());
 }
 
 TEST_CASE("1 wss against ws, and ws against wss, fail with a clear error")

@@ -5,6 +5,8 @@
 #include "TemporaryFolder.hpp"
 
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -16,6 +18,8 @@ namespace
 {
 
 using namespace std::chrono_literals;
+
+constexpr std::filesystem::perms PRIVATE = std::filesystem::perms::owner_read | std::filesystem::perms::owner_write;
 
 AcsdConfig ReadMCS(const std::vector<std::string>& overrides)
 {
@@ -107,6 +111,72 @@ TEST_CASE("The keys about messages are read")
     CHECK(config.operations.drainTimeout == 7s);
     CHECK(config.operations.trace == Apps::TraceLimits{4096, 2});
     CHECK(ReadMCS({"outbox.replay=none"}).mcs.style.replay == EOutboxReplay::None);
+}
+
+TEST_CASE("Headers in a configuration that every user can read, or that are sent unencrypted, are a warning")
+{
+    const Testing::TemporaryFolder folder;
+    std::filesystem::copy(ACS_SITE, folder.GetPath(), std::filesystem::copy_options::recursive);
+    const std::filesystem::path file = folder.GetPath() / "acsd.toml";
+    const auto warn = [&file](const std::string& url) {
+        return ReadAcsdConfig(file.string(), {"mcs.headers.Authorization=Bearer secret", "mcs.url=" + url}).warnings;
+    };
+    std::filesystem::permissions(file, PRIVATE);
+    CHECK(warn("ws://127.0.0.1:9001/acs/").empty());
+    CHECK(warn("wss://10.0.0.5:9001/acs/").empty());
+    CHECK(
+        warn("ws://10.0.0.5:9001/acs/")
+        == std::vector<std::string>{"mcs.headers: it is sent to 10.0.0.5 unencrypted; use wss://"});
+    std::filesystem::permissions(file, std::filesystem::perms::others_read, std::filesystem::perm_options::add);
+    CHECK(
+        warn("wss://10.0.0.5:9001/acs/")
+        == std::vector<std::string>{
+            "mcs.headers: every user of this machine can read " + file.string() + "; run chmod o-rwx "
+            + file.string()});
+    CHECK(ReadAcsdConfig(file.string(), {}).warnings.empty());
+}
+
+TEST_CASE(
+    "mcs.headers_file has a header per line; a line that is none, or a file that every user can read, is an error")
+{
+    const Testing::TemporaryFolder folder;
+    const std::string file = (folder.GetPath() / "headers").string();
+    const auto write = [&file](const std::string& text) {
+        std::ofstream(file) << text;
+        std::filesystem::permissions(file, PRIVATE);
+    };
+    const std::string override = "mcs.headers_file=" + file;
+    write("# of the MCS\n\nAuthorization: Bearer a:b \r\n X-Site:7");
+    AcsdConfig config = ReadMCS({override});
+    REQUIRE(config.errors.empty());
+    CHECK(config.mcs.headers == ProtocolBeast::HttpHeaders{{"Authorization", "Bearer a:b"}, {"X-Site", "7"}});
+    CHECK(
+        ReadMCS({override, "mcs.url=ws://10.0.0.5:9001/acs/"}).warnings
+        == std::vector<std::string>{"mcs.headers_file: it is sent to 10.0.0.5 unencrypted; use wss://"});
+
+    write("A: b\nsecret");
+    CHECK(FindError(override) == "--set: mcs.headers_file: " + file + " line 2: expected NAME: VALUE");
+    write("Upgrade: secret");
+    CHECK(FindError(override).starts_with("--set: mcs.headers_file: " + file + " line 1: expected "));
+    CHECK(FindError(override).find("secret") == std::string::npos);
+    write("A: b");
+    std::filesystem::permissions(file, std::filesystem::perms::others_read, std::filesystem::perm_options::add);
+    CHECK(
+        FindError(override)
+        == "--set: mcs.headers_file: every user of this machine can read " + file + "; run chmod o-rwx " + file);
+    CHECK(
+        FindError("mcs.headers_file=/nowhere/headers")
+        == "--set: mcs.headers_file: /nowhere/headers cannot be read (No such file or directory)");
+}
+
+TEST_CASE("A path that begins with ${CREDENTIALS_DIRECTORY} is a credential of systemd")
+{
+    const std::string path = "${CREDENTIALS_DIRECTORY}/mqtt";
+    ::setenv("CREDENTIALS_DIRECTORY", "/run/credentials/acsd.service", 1); // NOLINT(concurrency-mt-unsafe): one thread
+    CHECK(ResolvePath("/etc/acsd/acsd.toml", path) == "/run/credentials/acsd.service/mqtt");
+    ::unsetenv("CREDENTIALS_DIRECTORY");                     // NOLINT(concurrency-mt-unsafe): one thread
+    CHECK(ResolvePath("/etc/acsd/acsd.toml", path) == path); // named by the error
+    CHECK(ResolvePath("/etc/acsd/acsd.toml", "mqtt") == "/etc/acsd/mqtt");
 }
 
 TEST_CASE("A value that the register does not have, or that cannot take effect, is an error with its key")

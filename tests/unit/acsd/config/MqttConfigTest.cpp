@@ -86,11 +86,6 @@ TEST_CASE("A password over mqtt://, or headers over ws://, to another machine ca
         warn({"mqtt.username=acs", password, "mqtt.url=mqtt://10.0.0.5:1883"})
         == std::vector<std::string>{"mqtt.password_file: it is sent to 10.0.0.5 unencrypted; use mqtts://"});
     CHECK(warn({"mqtt.username=acs", password, "mqtt.url=mqtts://10.0.0.5:8883"}).empty());
-    CHECK(
-        warn({"mcs.headers.Authorization=Bearer secret", "mcs.url=ws://10.0.0.5:9001/acs/"})
-        == std::vector<std::string>{"mcs.headers: it is sent to 10.0.0.5 unencrypted; use wss://"});
-    CHECK(warn({"mcs.headers.Authorization=Bearer secret", "mcs.url=ws://127.0.0.1:9001/acs/"}).empty());
-    CHECK(warn({"mcs.headers.Authorization=Bearer secret", "mcs.url=wss://10.0.0.5:9001/acs/"}).empty());
 }
 
 TEST_CASE("A password file that is missing, empty or without a name is an error with its key")

@@ -60,6 +60,10 @@ public:
         const Protocol::AckPayload& payload);
     void SetSiteOffset(std::chrono::minutes offset);
 
+    /// Reads the files of ClientOptions::tls again, for later connections; without TLS it does nothing. After an error, which
+    /// is one of Create, the former ones stay in use.
+    [[nodiscard]] Core::Result<void> ReloadTLS();
+
     [[nodiscard]] bool IsRegistered() const;
     [[nodiscard]] std::size_t GetRoom() const;
     [[nodiscard]] const Protocol::SessionStatistics& GetStatistics() const;

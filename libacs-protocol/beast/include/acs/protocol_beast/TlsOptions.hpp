@@ -8,7 +8,8 @@
 namespace ACS::ProtocolBeast
 {
 
-/// TLS 1.2 or newer. All files are PEM files, read once, by Create; an empty name means none.
+/// TLS 1.2 or newer. All files are PEM files, read by Create and AcsClient::ReloadTLS; an empty name means
+/// none.
 struct TlsOptions
 {
     /// Client: the CA of the server's certificate; none: the system's CAs. Server: the CA of the certificates that clients
