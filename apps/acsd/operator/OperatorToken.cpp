@@ -49,7 +49,7 @@ std::optional<OperatorToken::Hash> ReadHashOrNull(std::string_view word)
     return hash;
 }
 
-std::optional<OperatorToken> ReadTokenOrNull(std::string_view line)
+std::optional<OperatorToken> ReadTokenLineOrNull(std::string_view line)
 {
     const std::optional<EOperatorRole> role = ReadRoleOrNull(Apps::TakeWord(line));
     const std::string_view name = Apps::TakeWord(line);
@@ -122,7 +122,7 @@ Core::Result<std::vector<OperatorToken>> ParseTokens(std::string_view text)
         {
             continue;
         }
-        std::optional<OperatorToken> token = ReadTokenOrNull(line);
+        std::optional<OperatorToken> token = ReadTokenLineOrNull(line);
         if (!token.has_value())
         {
             return Core::Fail(
