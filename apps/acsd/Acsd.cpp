@@ -10,6 +10,7 @@
 #include "operator/AcsdStatus.hpp"
 #include "operator/AuditLog.hpp"
 #include "operator/HttpInterfaces.hpp"
+#include "operator/LinesRoute.hpp"
 #include "operator/OperatorRoutes.hpp"
 #include "operator/PlanLog.hpp"
 #include "robots/RobotHost.hpp"
@@ -34,6 +35,13 @@
 
 namespace ACS::Acsd
 {
+
+namespace
+{
+
+constexpr unsigned NOT_FOUND = 404;
+
+} // namespace
 
 class Acsd::Impl final : private IAcsdOutput, private VDA5050::IMqttLinkListener
 {
@@ -330,6 +338,11 @@ private:
         });
         Apps::HttpRoutes& commands = _http.GetOperatorRoutes();
         AddStatusRoute(commands, _core.GetEngine(), [this] { return GetProgramStatus(); });
+        commands.Add("GET", "/trace", [this](const Apps::HttpRequest& request, const auto&) {
+            return _dependencies.traceOrNull == nullptr
+                ? MakeOperatorError(NOT_FOUND, "Messages are not traced: start acsd with --trace DIR.")
+                : RespondWithLines(request, _dependencies.traceOrNull->GetNewest());
+        });
         AddOperatorRoutes(
             commands,
             _core.GetEngine(),

@@ -382,17 +382,22 @@ class Operations(ScenarioCase):
         stub = self.start_stub()
         folder = self.line.folder / "trace"
         acsd = self.line.start_acsd(stub.address, self.start_robots(), arguments=("--trace", folder))
-        http = acsd.wait_ready()["http"]
+        addresses = acsd.wait_ready()
+        http, commands = addresses["http"], addresses["operator"]
         stub.wait_for("RobotStatusUpdate", lambda message: message.payload["robotStatus"] == "Idle"
                       and message.payload["robotId"] == "LR01")
         self.assertEqual(self.submit(stub, "P1")["result"], "Success")
         stub.wait_for("PlanReport", lambda message: message.payload["status"] == "Completed")
         with urllib.request.urlopen(f"http://{http}/metrics", timeout=10) as response:
             metrics = response.read().decode()
+        with urllib.request.urlopen(f"http://{commands}/trace?limit=2", timeout=10) as response:
+            newest = response.read().decode().splitlines()
         self.line.forget(acsd)
         self.assertEqual(acsd.stop(), 0)
 
         lines = [json.loads(line) for file in sorted(folder.iterdir()) for line in file.read_text().splitlines()]
+        self.assertEqual([line for line in lines if line in map(json.loads, newest)], [json.loads(line) for line in newest])
+        self.assertEqual(len(newest), 2)
         self.assertEqual([line["mono_us"] for line in lines], sorted(line["mono_us"] for line in lines))
         to_mcs = [json.loads(line["text"])["command"] for line in lines
                   if line["link"] == "mcs" and line["direction"] == "out"]

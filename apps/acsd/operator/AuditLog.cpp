@@ -1,11 +1,11 @@
 #include "operator/AuditLog.hpp"
 
+#include "operator/LinesRoute.hpp"
 #include <acs/core/JsonText.hpp>
 #include <acs/core/Timestamp.hpp>
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <iterator>
 #include <string_view>
@@ -21,6 +21,8 @@ namespace
 
 /// Bytes of a text of the client.
 constexpr std::size_t LONGEST_AUDIT_TEXT = 1'024;
+/// In memory.
+constexpr std::size_t MOST_BYTES = 8U * 1024U * 1024U;
 constexpr mode_t AUDIT_MODE = 0600;
 constexpr std::size_t AUDIT_QUEUE_BYTES = 4U * 1024U * 1024U;
 
@@ -86,6 +88,7 @@ AuditLog::AuditLog(
     const Core::IClock& clock,
     Core::Logger logger)
     : _clock(clock),
+      _newest(MOST_SHOWN_LINES, MOST_BYTES),
       _writer(
           {directory, limits, MakeAuditLossLine, AUDIT_QUEUE_BYTES, {"audit-", AUDIT_MODE, true}, "audit log"},
           clock,
@@ -108,9 +111,9 @@ Core::Result<std::unique_ptr<AuditLog>> AuditLog::Create(
     std::unique_ptr<AuditLog> log(new AuditLog(directory, limits, clock, std::move(logger)));
     if (!error)
     {
-        for (std::string& line : Apps::ReadNewestLines(directory, "audit-", MOST_LINES))
+        for (std::string& line : Apps::ReadNewestLines(directory, "audit-", MOST_SHOWN_LINES))
         {
-            log->Keep(std::move(line));
+            log->_newest.Add(std::move(line));
         }
         error = log->_writer.Open();
     }
@@ -129,33 +132,18 @@ void AuditLog::Write(const AuditEntry& entry)
 {
     const Core::Now now = _clock.GetNow();
     std::string line = MakeAuditLine(entry, now);
-    Keep(line);
+    _newest.Add(line);
     _writer.Write(std::move(line), now);
 }
 
-std::string AuditLog::GetNewest(std::size_t lines) const
+const Apps::NewestLines& AuditLog::GetNewest() const noexcept
 {
-    std::string text;
-    for (std::size_t i = _newest.size() - std::min(lines, _newest.size()); i < _newest.size(); ++i)
-    {
-        text += _newest[i];
-        text += '\n';
-    }
-    return text;
+    return _newest;
 }
 
 std::uint64_t AuditLog::GetLost() const
 {
     return _writer.GetLost();
-}
-
-void AuditLog::Keep(std::string line)
-{
-    if (_newest.size() == MOST_LINES)
-    {
-        _newest.pop_front();
-    }
-    _newest.push_back(std::move(line));
 }
 
 } // namespace ACS::Acsd

@@ -2,6 +2,7 @@
 
 #include "common/config/Endpoint.hpp"
 #include "common/http/HttpMessage.hpp"
+#include "common/trace/NewestLines.hpp"
 #include "common/trace/TraceWriter.hpp"
 #include "operator/AccessPolicy.hpp"
 #include <acs/core/Logger.hpp>
@@ -10,7 +11,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <string>
 
@@ -32,13 +32,8 @@ struct AuditEntry
 /// The files are written on a thread of their own. Used on one thread, the executor's.
 class AuditLog final
 {
-public:
-    /// Lines in memory.
-    static constexpr std::size_t MOST_LINES = 1'000;
-
-private:
     const Core::IClock& _clock;
-    std::deque<std::string> _newest; ///< The oldest first.
+    Apps::NewestLines _newest;
     Apps::TraceWriter _writer;
 
     AuditLog(
@@ -58,14 +53,10 @@ public:
 
     void Write(const AuditEntry& entry);
 
-    /// The newest lines, the oldest of them first, each with its end.
-    [[nodiscard]] std::string GetNewest(std::size_t lines) const;
+    [[nodiscard]] const Apps::NewestLines& GetNewest() const noexcept;
 
     /// Lines that are missing in the files.
     [[nodiscard]] std::uint64_t GetLost() const;
-
-private:
-    void Keep(std::string line);
 };
 
 } // namespace ACS::Acsd

@@ -1,16 +1,8 @@
 #include "operator/OperatorGate.hpp"
 
 #include "common/config/Endpoint.hpp"
-#include <acs/core/JsonText.hpp>
-#include <acs/core/Result.hpp>
+#include "operator/LinesRoute.hpp"
 
-#include <fmt/format.h>
-
-#include <charconv>
-#include <cstddef>
-#include <string>
-#include <string_view>
-#include <system_error>
 #include <utility>
 
 namespace ACS::Acsd
@@ -19,20 +11,8 @@ namespace ACS::Acsd
 namespace
 {
 
-constexpr unsigned STATUS_OK = 200;
-constexpr unsigned STATUS_BAD_REQUEST = 400;
 constexpr unsigned STATUS_UNAUTHORIZED = 401;
 constexpr unsigned STATUS_FORBIDDEN = 403;
-/// Of GET /audit without a limit.
-constexpr std::size_t DEFAULT_AUDIT_LINES = 100;
-
-Apps::HttpResponse MakeGateError(unsigned status, std::string_view sentence)
-{
-    Apps::HttpResponse response{status, "application/json", R"({"error":)"};
-    Core::JsonText::AppendString(sentence, response.body);
-    response.body += "}\n";
-    return response;
-}
 
 } // namespace
 
@@ -42,7 +22,9 @@ OperatorGate::OperatorGate(const Core::IClock& clock, Core::Logger logger, Acces
       _policy(std::move(policy)),
       _audit(audit)
 {
-    _routes.Add("GET", "/audit", [this](const Apps::HttpRequest& request, const auto&) { return ShowAudit(request); });
+    _routes.Add("GET", "/audit", [this](const Apps::HttpRequest& request, const auto&) {
+        return RespondWithLines(request, _audit.GetNewest());
+    });
 }
 
 Apps::HttpRoutes& OperatorGate::GetRoutes() noexcept
@@ -66,20 +48,6 @@ Apps::HttpResponse OperatorGate::Respond(const Apps::HttpRequest& request)
         _audit.Write({request, *decision.identity, response});
     }
     return response;
-}
-
-Apps::HttpResponse OperatorGate::ShowAudit(const Apps::HttpRequest& request) const
-{
-    const std::string text = request.GetQueryOrNull("limit").value_or(std::to_string(DEFAULT_AUDIT_LINES));
-    std::size_t lines = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), lines);
-    if (error != std::errc() || end != text.data() + text.size() || lines == 0 || lines > AuditLog::MOST_LINES)
-    {
-        return MakeGateError(
-            STATUS_BAD_REQUEST,
-            fmt::format("Expected limit from 1 to {}, found {}.", AuditLog::MOST_LINES, Core::QuoteForError(text)));
-    }
-    return {STATUS_OK, "application/x-ndjson", _audit.GetNewest(lines)};
 }
 
 Apps::HttpResponse OperatorGate::Refuse(const Apps::HttpRequest& request, const AccessPolicy::Decision& decision)

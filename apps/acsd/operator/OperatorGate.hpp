@@ -34,7 +34,6 @@ public:
     [[nodiscard]] Apps::HttpResponse Respond(const Apps::HttpRequest& request);
 
 private:
-    [[nodiscard]] Apps::HttpResponse ShowAudit(const Apps::HttpRequest& request) const;
     [[nodiscard]] Apps::HttpResponse Refuse(const Apps::HttpRequest& request, const AccessPolicy::Decision& decision);
 };
 

@@ -18,6 +18,10 @@ namespace ACS::Acsd
 namespace
 {
 
+/// In memory.
+constexpr std::size_t NEWEST_LINES = 1'000;
+constexpr std::size_t NEWEST_BYTES = 4U * 1024U * 1024U;
+
 /// Bytes of the character that begins here; 0: none does.
 std::size_t GetCharacterLength(std::string_view text)
 {
@@ -110,6 +114,7 @@ MessageTrace::MessageTrace(
     Core::Logger logger,
     std::size_t maxQueuedBytes)
     : _clock(clock),
+      _newest(NEWEST_LINES, NEWEST_BYTES),
       _writer({folder, limits, MakeLossLine, maxQueuedBytes}, clock, std::move(logger))
 {
 }
@@ -133,12 +138,19 @@ Core::Result<std::unique_ptr<MessageTrace>> MessageTrace::Create(
 void MessageTrace::Write(const TraceEntry& entry)
 {
     const Core::Now now = _clock.GetNow();
-    _writer.Write(MakeTraceLine(entry, now), now);
+    std::string line = MakeTraceLine(entry, now);
+    _newest.Add(line);
+    _writer.Write(std::move(line), now);
 }
 
 void MessageTrace::SetLimits(const Apps::TraceLimits& limits)
 {
     _writer.SetLimits(limits);
+}
+
+const Apps::NewestLines& MessageTrace::GetNewest() const noexcept
+{
+    return _newest;
 }
 
 std::uint64_t MessageTrace::GetLost() const

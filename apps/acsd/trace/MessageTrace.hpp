@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/trace/NewestLines.hpp"
 #include "common/trace/TraceWriter.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
@@ -33,6 +34,7 @@ struct TraceEntry
 class MessageTrace final
 {
     const Core::IClock& _clock;
+    Apps::NewestLines _newest;
     Apps::TraceWriter _writer;
 
     MessageTrace(
@@ -56,6 +58,8 @@ public:
 
     /// For the next file.
     void SetLimits(const Apps::TraceLimits& limits);
+
+    [[nodiscard]] const Apps::NewestLines& GetNewest() const noexcept;
 
     /// Messages that are missing in the trace.
     [[nodiscard]] std::uint64_t GetLost() const;

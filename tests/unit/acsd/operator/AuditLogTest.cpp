@@ -2,6 +2,7 @@
 
 #include "Catch.hpp"
 #include "ManualClock.hpp"
+#include "operator/LinesRoute.hpp"
 #include "RecordingLogSink.hpp"
 #include "TemporaryFolder.hpp"
 #include <acs/core/JsonText.hpp>
@@ -103,10 +104,10 @@ TEST_CASE("The audit log is readable by its owner only, and continues over a res
     CHECK(fixture.CountFiles() == 1);
     CHECK(GetMode(fixture.directory) == 0700);
     CHECK(GetMode(fixture.directory + "/audit-000001.ndjson") == 0600);
-    const std::string newest = fixture.audit->GetNewest(10);
+    const std::string newest = fixture.audit->GetNewest().GetText(10);
     CHECK(newest.find("/tsc/pause") < newest.find("/tsc/resume"));
     CHECK(std::ranges::count(newest, '\n') == 2);
-    CHECK(fixture.audit->GetNewest(1).find("/tsc/pause") == std::string::npos);
+    CHECK(fixture.audit->GetNewest().GetText(1).find("/tsc/pause") == std::string::npos);
     CHECK(fixture.audit->GetLost() == 0);
 }
 
@@ -114,12 +115,12 @@ TEST_CASE("The audit log is bounded: in its files by size and number, in memory 
 {
     AuditFixture fixture;
     fixture.Open();
-    for (std::size_t i = 0; i < AuditLog::MOST_LINES + 5; ++i)
+    for (std::size_t i = 0; i < Acsd::MOST_SHOWN_LINES + 5; ++i)
     {
         fixture.Write("/plans/" + std::to_string(i));
     }
-    const std::string newest = fixture.audit->GetNewest(AuditLog::MOST_LINES + 5);
-    CHECK(std::ranges::count(newest, '\n') == static_cast<std::ptrdiff_t>(AuditLog::MOST_LINES));
+    const std::string newest = fixture.audit->GetNewest().GetText(Acsd::MOST_SHOWN_LINES + 5);
+    CHECK(std::ranges::count(newest, '\n') == static_cast<std::ptrdiff_t>(Acsd::MOST_SHOWN_LINES));
     CHECK(newest.find("/plans/4\"") == std::string::npos);
     CHECK(newest.find("/plans/5\"") != std::string::npos);
     fixture.Open();
@@ -128,7 +129,7 @@ TEST_CASE("The audit log is bounded: in its files by size and number, in memory 
     {
         CHECK(file.file_size() <= 4'096);
     }
-    CHECK(fixture.audit->GetNewest(1).find("/plans/1004\"") != std::string::npos);
+    CHECK(fixture.audit->GetNewest().GetText(1).find("/plans/1004\"") != std::string::npos);
 }
 
 TEST_CASE("A line that a crash has cut is neither shown nor continued")
@@ -138,7 +139,7 @@ TEST_CASE("A line that a crash has cut is neither shown nor continued")
     std::ofstream(fixture.directory + "/audit-000007.ndjson") << "{\"whole\":1}\n{\"cu";
     fixture.Open();
     fixture.Write("/tsc/pause");
-    CHECK(fixture.audit->GetNewest(10).starts_with("{\"whole\":1}\n{\"time\":"));
+    CHECK(fixture.audit->GetNewest().GetText(10).starts_with("{\"whole\":1}\n{\"time\":"));
     fixture.Open();
     CHECK(std::filesystem::exists(fixture.directory + "/audit-000008.ndjson"));
 }

@@ -1,0 +1,46 @@
+#include "operator/LinesRoute.hpp"
+
+#include <acs/core/JsonText.hpp>
+#include <acs/core/Result.hpp>
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <string>
+#include <system_error>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+constexpr unsigned STATUS_LINES = 200;
+constexpr unsigned STATUS_WRONG_LIMIT = 400;
+constexpr std::size_t DEFAULT_LINES = 100;
+
+} // namespace
+
+Apps::HttpResponse MakeOperatorError(unsigned status, std::string_view sentence)
+{
+    Apps::HttpResponse response{status, "application/json", R"({"error":)"};
+    Core::JsonText::AppendString(sentence, response.body);
+    response.body += "}\n";
+    return response;
+}
+
+Apps::HttpResponse RespondWithLines(const Apps::HttpRequest& request, const Apps::NewestLines& lines)
+{
+    const std::string text = request.GetQueryOrNull("limit").value_or(std::to_string(DEFAULT_LINES));
+    std::size_t limit = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), limit);
+    if (error != std::errc() || end != text.data() + text.size() || limit == 0 || limit > MOST_SHOWN_LINES)
+    {
+        return MakeOperatorError(
+            STATUS_WRONG_LIMIT,
+            fmt::format("Expected limit from 1 to {}, found {}.", MOST_SHOWN_LINES, Core::QuoteForError(text)));
+    }
+    return {STATUS_LINES, "application/x-ndjson", lines.GetText(limit)};
+}
+
+} // namespace ACS::Acsd
