@@ -43,7 +43,7 @@ bool EndsWith(std::string_view text, std::string_view end)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
     static const Apps::HttpRoutes ROUTES = MakeRoutes();
-    static const Apps::HttpGuard GUARD({{"acsd.example"}, false, {"/livez"}});
+    static const Apps::HttpGuard GUARD({{"acsd.example"}, false});
     const std::string_view text = Fuzz::AsText(data, size);
     std::array<std::string_view, 4> parts;
     std::size_t begin = 0;
