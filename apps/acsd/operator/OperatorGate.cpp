@@ -60,7 +60,7 @@ Apps::HttpResponse OperatorGate::Refuse(const Apps::HttpRequest& request, const 
         {{"peer", Apps::MakeText(request.sender.peer)}, {"method", request.method}, {"reason", decision.reason}});
     const bool bUnidentified = decision.access == AccessPolicy::EAccess::Unidentified;
     Apps::HttpResponse response =
-        MakeGateError(bUnidentified ? STATUS_UNAUTHORIZED : STATUS_FORBIDDEN, decision.reason);
+        MakeOperatorError(bUnidentified ? STATUS_UNAUTHORIZED : STATUS_FORBIDDEN, decision.reason);
     if (bUnidentified)
     {
         response.challenge = R"(Bearer realm="acsd")";
