@@ -56,7 +56,8 @@ class Flood(ScenarioCase):
     def test_19_5_a_vehicle_with_10000_other_errors_in_each_state(self):
         self.line.start_broker()
         acsd = self.line.start_acsd("127.0.0.1:1", {"stream": "127.0.0.1:1"})  # no MCS takes the reports
-        address = acsd.wait_ready()["http"]
+        addresses = acsd.wait_ready()
+        address = addresses["operator"]
         self.wait_for_status(address, lambda status: status["links"]["mqtt"])
         self.publish("connection", [make_message(1, connectionState="ONLINE")], "-r")
         self.publish("state", map(make_state, range(STATES)))
@@ -68,7 +69,7 @@ class Flood(ScenarioCase):
         deadline = time.monotonic() + FINISH_SECONDS
         while not is_last_state_read(self.read_status(address)):
             self.assertLess(time.monotonic(), deadline, f"not all states were read; /livez took {waits} s")
-            waits.append(self.measure_live(address))
+            waits.append(self.measure_live(addresses["http"]))
             time.sleep(REQUEST_PERIOD)
         self.assertLess(max(waits, default=0), ANSWER_SECONDS)
         status = self.read_status(address)

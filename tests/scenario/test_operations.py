@@ -139,12 +139,13 @@ class Operations(ScenarioCase):
         environment = os.environ | {"LD_PRELOAD": str(library), "ACS_HELD_DISK": str(gate)}
         stub = self.start_stub()
         acsd = self.line.start_acsd(stub.address, self.start_robots(), environment=environment)
-        address = acsd.wait_ready()["http"]
+        addresses = acsd.wait_ready()
+        address = addresses["operator"]
         stub.wait_for("RobotStatusUpdate", lambda message: message.payload["robotStatus"] == "Idle"
                       and message.payload["robotId"] == "LR01")
         os.mkfifo(gate)
         self.post(address, "/tsc/pause")
-        commits = self.count_commits(address)
+        commits = self.count_commits(addresses["http"])
         begin = time.monotonic()
         with concurrent.futures.ThreadPoolExecutor(SENDERS) as pool:
             paths = [f"/robots/CR01/maintenance/{'on' if number % 2 == 0 else 'off'}" for number in range(COMMANDS // SENDERS)]
@@ -177,7 +178,7 @@ class Operations(ScenarioCase):
             stub.wait_for("ExecutionPlanAck", lambda ack, number=number: ack.payload["planId"] == f"P{number}"
                           and ack.body["result"] == "Success")
         self.wait_for_status(address, lambda status: not status["obstacles"])
-        self.assertLess(self.count_commits(address) - commits, 100)
+        self.assertLess(self.count_commits(addresses["http"]) - commits, 100)
 
     def read_ready(self, address):
         try:
