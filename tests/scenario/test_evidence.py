@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """docs/protocols/mcs-acs.md, "Conformance": a row for each sequence, rule, decision and vector of the specification, and in
-each row evidence that exists. With ACS_SPEC_DIR the list of rows is compared with the specification itself."""
+each row evidence that exists. With ACS_SPEC_DIR the list of rows is compared with the specification itself. SECURITY.md,
+"Promises": in each row evidence that exists."""
 
 import os
 import pathlib
@@ -11,6 +12,7 @@ REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 SCENARIOS = REPOSITORY / "examples" / "scenarios"
 TESTS = REPOSITORY / "tests"
 TITLE = "## Conformance"
+PROMISES = "## Promises"
 
 SEQUENCES = ("Connect", "Plan", "Job failure", "Cancel", "Abort", "Pause", "Resume", "Comm loss")
 EXPECTED = [*[f"6 {name}" for name in SEQUENCES], *[f"R{number}" for number in range(1, 20)],
@@ -18,11 +20,11 @@ EXPECTED = [*[f"6 {name}" for name in SEQUENCES], *[f"R{number}" for number in r
             *[f"13.{number}" for number in range(1, 13)]]
 
 
-def read_rows(text):
-    """(row's name, its evidence), in the order of the table."""
-    lines = text.split(TITLE, 1)[1].split("\n## ", 1)[0].splitlines()
+def read_rows(text, title=TITLE):
+    """(row's name, its evidence in the last column), in the order of the table."""
+    lines = text.split(title, 1)[1].split("\n## ", 1)[0].splitlines()
     cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if line.startswith("| ")]
-    return [(row[0], re.findall(r"`([^`]+)`", row[2])) for row in cells if row[0]]
+    return [(row[0], re.findall(r"`([^`]+)`", row[-1])) for row in cells if row[0]]
 
 
 class Evidence:
@@ -31,7 +33,9 @@ class Evidence:
     def __init__(self):
         self._sources = {path.name: path.read_text() for folder in ("unit", "integration")
                          for path in (TESTS / folder).rglob("*.cpp")}
-        self._scripts = {path.name: path.read_text() for path in (TESTS / "scenario").glob("*.py")}
+        self._scripts = {path.name: path.read_text() for folder in ("scenario", "hardening")
+                         for path in (TESTS / folder).glob("*.py")}
+        self._fuzzers = (TESTS / "fuzz" / "CMakeLists.txt").read_text()
 
     def find_error_or_none(self, name):
         if "::" in name:
@@ -45,6 +49,8 @@ class Evidence:
         elif ".cpp: " in name:
             file, title = name.split(": ", 1)
             found = re.search(rf'TEST_CASE[A-Z_]*\([^"]*"{re.escape(title)}', self._sources.get(file, ""))
+        elif name.endswith("Fuzz.cpp"):
+            found = re.search(rf"SOURCE {re.escape(name)}\b", self._fuzzers)
         else:
             found = re.fullmatch(r"[a-z0-9-]+", name) and (SCENARIOS / f"{name}.json").is_file()
         return None if found else f"there is no {name}"
@@ -55,6 +61,10 @@ class Evidence:
         errors = [f"{name} is missing" for name in EXPECTED if name not in names]
         errors += [f"{name} is there {names.count(name)} times" for name in set(names) if names.count(name) > 1]
         errors += [f"{name} is no row of the specification" for name in names if name not in EXPECTED]
+        return errors + self.find_missing(rows)
+
+    def find_missing(self, rows):
+        errors = []
         for name, things in rows:
             errors += [] if things else [f"{name} names nothing"]
             found = [self.find_error_or_none(thing) for thing in things]
@@ -97,6 +107,30 @@ class Table(unittest.TestCase):
         found += re.findall(r"^\| (D-\d+) \|", sections["11"], re.MULTILINE)
         found += [f"13.{number}" for number in re.findall(r"^(\d+)\. ", sections["13"], re.MULTILINE)]
         self.assertEqual(found, EXPECTED)
+
+
+class Promises(unittest.TestCase):
+    def setUp(self):
+        self.evidence = Evidence()
+        self.text = (REPOSITORY / "SECURITY.md").read_text()
+
+    def find_errors(self, text):
+        _, *rows = read_rows(text, PROMISES)  # without the head
+        self.assertGreater(len(rows), 10)
+        return self.evidence.find_missing(rows)
+
+    def test_each_promise_names_tests_that_exist(self):
+        self.assertEqual(self.find_errors(self.text), [])
+
+    def test_a_promise_without_a_test_that_exists_is_found(self):
+        rows = {
+            "All is well names nothing": "| All is well | of course |",
+            "All is well: there is no NoneFuzz.cpp": "| All is well | `NoneFuzz.cpp` |",
+            "All is well: there is no test_hardening.py::test_x": "| All is well | `test_hardening.py::test_x` |",
+        }
+        for error, row in rows.items():
+            with self.subTest(error):
+                self.assertEqual(self.find_errors(f"{self.text}{row}\n"), [error])
 
 
 if __name__ == "__main__":

@@ -75,6 +75,22 @@ class Operator(ScenarioCase):
             self.assertEqual([self.read_code(name, path, host="evil.example") for path in ("/livez", "/metrics", "/status")],
                              [403, 403, 403])
 
+    def test_no_other_origin_may_read_an_answer(self):
+        """A browser shows a page the answer of another origin only if a header permits it."""
+        self.line.start_broker()
+        self.mcs_port = find_free_port()
+        self.arm, self.overrides = {"stream": "127.0.0.1:1"}, ()
+        self.start_acsd()
+        for name, path in (("http", "/livez"), ("http", "/metrics"), ("operator", "/status"), ("operator", "/audit")):
+            for method in ("GET", "OPTIONS"):  # OPTIONS asks for the permission
+                connection = http.client.HTTPConnection(self.acsd.addresses[name], timeout=20)
+                connection.request(method, path, headers={
+                    "Origin": "http://evil.example", "Access-Control-Request-Method": "GET", "Sec-Fetch-Site": "cross-site"})
+                response = connection.getresponse()
+                self.assertEqual(response.status, 200 if method == "GET" else 403, path)
+                self.assertEqual([key for key in response.headers if key.lower().startswith("access-control-")], [])
+                connection.close()
+
     def make_token(self, role, name):
         """The token; its line is added to the file."""
         result = subprocess.run([self.line.bin_dir / "acsd", "token", role, name], check=True, capture_output=True, text=True)
