@@ -136,8 +136,7 @@ TEST_CASE("Headers in a configuration that every user can read, or that are sent
     CHECK(ReadAcsdConfig(file.string(), {}).warnings.empty());
 }
 
-TEST_CASE(
-    "mcs.headers_file has a header per line; a line that is none, or a file that every user can read, is an error")
+TEST_CASE("mcs.headers_file has a header per line; an invalid line, or a file that every user can read, is an error")
 {
     const Testing::TemporaryFolder folder;
     const std::string file = (folder.GetPath() / "headers").string();
