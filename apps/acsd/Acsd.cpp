@@ -78,7 +78,7 @@ public:
               _dependencies.executor,
               std::move(store),
               [this](const Core::Result<void>& result) { _core.OnStored(result); },
-              [this](const Core::Error& error) { _core.OnStoreLost(error); }),
+              [this](const Core::Result<Planning::StoreLog>& checked) { OnStoreChecked(checked); }),
           _mcs(
               _dependencies.clock,
               _dependencies.logger.MakeFor("mcs"),
@@ -182,6 +182,17 @@ private:
     void CheckStore() override
     {
         _store.CheckAsync();
+    }
+
+    void OnStoreChecked(const Core::Result<Planning::StoreLog>& checked)
+    {
+        if (!checked.has_value())
+        {
+            _core.OnStoreLost(checked.error());
+            return;
+        }
+        _metrics.UpdateStoreLog(*checked);
+        _core.OnStoreLog(*checked);
     }
 
     void CommandRobot(const Planning::CommandRobot& command) override

@@ -176,6 +176,11 @@ void AcsdCore::OnStoreLost(const Core::Error& error)
     }
 }
 
+void AcsdCore::OnStoreLog(const Planning::StoreLog& log)
+{
+    _host.Push(log);
+}
+
 void AcsdCore::OnLinksClosed()
 {
     if (_phase == EPhase::Leaving)
@@ -357,10 +362,11 @@ void AcsdCore::RepeatStatuses()
     StartStatusTimer();
 }
 
-/// While the store fails, the engine retries its writes, which is a check as well.
+/// While the store fails, the engine retries its writes, which is a check as well. A check does not wait for a pause between two
+/// writes: the log of a store that is always written grows fastest.
 void AcsdCore::CheckStore()
 {
-    if (!_host.IsStoring() && !_storeWatch.GetFaultOrNull().has_value())
+    if (!_storeWatch.GetFaultOrNull().has_value())
     {
         _dependencies.output.CheckStore();
     }

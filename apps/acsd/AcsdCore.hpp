@@ -16,6 +16,7 @@
 #include <acs/plan/PlanCommand.hpp>
 #include <acs/plan/PlanEngine.hpp>
 #include <acs/plan/PlanEngineHost.hpp>
+#include <acs/plan/StoreLog.hpp>
 #include <acs/protocol/SessionEvent.hpp>
 
 #include <chrono>
@@ -111,6 +112,7 @@ public:
     void OnMqttDown();
     void OnStored(const Core::Result<void>& result);
     void OnStoreLost(const Core::Error& error);
+    void OnStoreLog(const Planning::StoreLog& log);
     void OnLinksClosed();
 
     /// A command of the operator or of a test. Unless Accepted, nothing is done.

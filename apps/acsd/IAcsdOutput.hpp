@@ -18,7 +18,7 @@ public:
 
     /// Stores the batch as one transaction and reports the outcome to AcsdCore::OnStored.
     virtual void Store(const Planning::StoreBatch& batch) = 0;
-    /// Checks the store without writing and reports a failure to AcsdCore::OnStoreLost.
+    /// Checks the files of the store and its log, and reports to AcsdCore::OnStoreLost or OnStoreLog.
     virtual void CheckStore() = 0;
     /// The robot reports to AcsdCore::OnRobotEvent, later or from within.
     virtual void CommandRobot(const Planning::CommandRobot& command) = 0;

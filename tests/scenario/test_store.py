@@ -4,6 +4,7 @@
 import json
 import os
 import pathlib
+import re
 import shutil
 import signal
 import sqlite3
@@ -13,11 +14,14 @@ import time
 import urllib.request
 
 from mcs_stub import McsStub
-from plan_samples import make_carrying_plan
+from plan_samples import make_carrying_plan, make_tray_memory_plan
 from scenario_case import FINISH_SECONDS, ScenarioCase, main
 
 END_SECONDS = 20
 FOREIGN_USER = 65534
+LARGE_LOG = 8 << 20  # acsd merges a larger log itself
+MOST_PLANS = 3000
+TRAY_JOBS = 75
 # Locks what it can open, reports how many, and ends with its standard input.
 HOLDER = """
 import fcntl, os, sys
@@ -131,6 +135,54 @@ class OneProgram(Store):
         self.assertEqual(holder.stdout.readline(), "2\n")  # the folder and the file, nothing of the store
         self.start_acsd()
         self.assertEqual(holder.poll(), None)
+
+
+class Log(Store):
+    """The write-ahead log grows while another program reads an older state of the database."""
+
+    def read_log_size(self, address):
+        with urllib.request.urlopen(f"http://{address}/metrics", timeout=END_SECONDS) as response:
+            text = response.read().decode()
+        return int(float(re.search(r"^acsd_store_log_bytes (\S+)", text, re.MULTILINE).group(1)))
+
+    def find_alarms(self, address):
+        return [alarm["errorCode"] for alarm in self.read_status(address)["alarms"] if alarm["errorCode"] == "ACS-1021"]
+
+    def wait_for_report(self, is_set, start=0):
+        return self.stub.wait_for("ErrorReport", lambda message: message.payload["errorCode"] == "ACS-1021"
+                                  and message.payload["state"] == is_set, start)
+
+    def test_a_log_that_a_reader_keeps_from_being_merged_raises_an_alarm_until_the_reader_has_ended(self):
+        self.robots = self.start_robots()
+        acsd = self.line.start_acsd(self.stub.address, self.robots, "tsc.initial=paused", "queue.max_plans=5000",
+                                    "outbox.max=1000000", f"store.max_log_bytes={LARGE_LOG}")
+        addresses = acsd.wait_ready()
+        self.stub.wait_for("RobotStatusUpdate")
+        database = self.directory / "acsd.db"
+        log = self.directory / "acsd.db-wal"
+        reader = sqlite3.connect(database, isolation_level=None)
+        self.addCleanup(reader.close)
+        reader.execute("BEGIN")
+        reader.execute("SELECT count(*) FROM plans").fetchone()
+        number = 0
+        while log.stat().st_size <= LARGE_LOG:
+            number += 1
+            self.assertLess(number, MOST_PLANS, "the log does not grow")
+            plan = make_tray_memory_plan(f"P{number}", TRAY_JOBS)
+            self.assertEqual(self.stub.ask("ExecutionPlan", plan)["result"], "Success")
+        index, report = self.wait_for_report(True)
+        self.assertEqual(self.find_alarms(addresses["operator"]), ["ACS-1021"])
+        self.assertIn(f"{database} has 8 MiB and cannot be merged", report.payload["message"])
+        self.assertIn(f"fuser -v {database}", report.payload["message"])
+        self.assertGreater(self.read_log_size(addresses["http"]), LARGE_LOG)
+        self.assertEqual(self.submit("LAST")["result"], "Success")  # a light alarm refuses nothing
+
+        reader.close()
+        self.wait_for_report(False, index)
+        self.assertIn(f"The log of the store {database} has 8 MiB", acsd.log.read_text())
+        self.assertEqual(self.find_alarms(addresses["operator"]), [])
+        self.assertEqual(self.submit("AFTER")["result"], "Success")
+        self.assertLessEqual(log.stat().st_size, LARGE_LOG)
 
 
 class Restored(Store):

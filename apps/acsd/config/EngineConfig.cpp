@@ -22,6 +22,8 @@ constexpr std::int64_t MOST_REJECTIONS = 1'000;
 constexpr std::int64_t MOST_PLANS = 100'000;
 constexpr std::int64_t FEWEST_REPORTS = 100;
 constexpr std::int64_t MOST_REPORTS = 10'000'000;
+constexpr std::int64_t FEWEST_LOG_BYTES = 8LL * 1024 * 1024; // the store merges a smaller log later
+constexpr std::int64_t MOST_LOG_BYTES = 1LL << 40U;
 
 void ReadQueue(const ConfigSection& root, Planning::EngineOptions& engine)
 {
@@ -116,6 +118,11 @@ void ReadEngineConfig(const ConfigSection& root, Planning::EngineOptions& engine
     engine.maximumReports = static_cast<std::size_t>(
         root.GetSection("outbox")
             .GetInteger("max", FEWEST_REPORTS, MOST_REPORTS, static_cast<std::int64_t>(engine.maximumReports)));
+    engine.maximumLogBytes = static_cast<std::uint64_t>(root.GetSection("store").GetInteger(
+        "max_log_bytes",
+        FEWEST_LOG_BYTES,
+        MOST_LOG_BYTES,
+        static_cast<std::int64_t>(engine.maximumLogBytes)));
 }
 
 } // namespace ACS::Acsd

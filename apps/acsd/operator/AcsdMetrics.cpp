@@ -44,6 +44,8 @@ constexpr const char* ARM_UP = "acsd_arm_up";
 constexpr const char* ARM_CONNECTS = "acsd_arm_connects_total";
 constexpr const char* ARM_MISSING = "acsd_arm_samples_missing_total";
 constexpr const char* COMMITS = "acsd_store_commit_seconds";
+constexpr const char* STORE_LOG = "acsd_store_log_bytes";
+constexpr const char* STORE_FREE = "acsd_store_free_bytes";
 constexpr const char* LOOP_STALLS = "acsd_loop_stall_seconds";
 constexpr const char* LOG_DROPPED = "acsd_log_lines_dropped_total";
 constexpr const char* TRACE_LOST = "acsd_trace_lost_total";
@@ -114,6 +116,8 @@ AcsdMetrics::AcsdMetrics(Apps::MetricsEndpoint& metrics)
         COMMITS,
         "Time from a batch of changes to its commit",
         {0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 5});
+    _metrics.AddGauge(STORE_LOG, "Size of the store's write-ahead log");
+    _metrics.AddGauge(STORE_FREE, "Free space on the file system of the store");
     _metrics.AddHistogram(LOOP_STALLS, "Times for which the event loop was blocked", {0.5, 1, 2, 5, 10, 30});
     _metrics.AddCounter(LOG_DROPPED, "Log lines dropped because standard error was not read in time");
     _metrics.AddCounter(TRACE_LOST, "Messages that are missing in the trace");
@@ -229,6 +233,12 @@ void AcsdMetrics::UpdateRobot(const RobotHost& robot, Core::Now now)
         _metrics.SetTotal(ARM_CONNECTS, labels, ToNumber(figures.arm->connects));
         _metrics.SetTotal(ARM_MISSING, labels, ToNumber(figures.arm->missingLines));
     }
+}
+
+void AcsdMetrics::UpdateStoreLog(const Planning::StoreLog& log)
+{
+    _metrics.SetGauge(STORE_LOG, {}, ToNumber(log.bytes));
+    _metrics.SetGauge(STORE_FREE, {}, ToNumber(log.freeBytes));
 }
 
 void AcsdMetrics::UpdateLog(std::uint64_t dropped)

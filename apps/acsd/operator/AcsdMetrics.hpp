@@ -7,6 +7,7 @@
 #include <acs/core/Now.hpp>
 #include <acs/plan/PlanEngine.hpp>
 #include <acs/plan/RobotStatus.hpp>
+#include <acs/plan/StoreLog.hpp>
 
 #include <cstdint>
 #include <string>
@@ -32,6 +33,7 @@ public:
     void UpdateMCS(const McsLink& mcs, const RefusedReports& refused);
     void UpdatePlans(const Planning::PlanEngine& engine, Core::Now now);
     void UpdateRobot(const RobotHost& robot, Core::Now now);
+    void UpdateStoreLog(const Planning::StoreLog& log);
     void UpdateLog(std::uint64_t dropped);
     void UpdateTrace(std::uint64_t lost);
     void UpdateAudit(std::uint64_t lost);

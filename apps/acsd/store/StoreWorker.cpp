@@ -13,7 +13,7 @@ struct StoreWorker::Impl
     boost::asio::any_io_executor executor;
     std::unique_ptr<Planning::IPlanStore> store;
     StoredHandler handler;
-    LostHandler lostHandler;
+    CheckedHandler checkedHandler;
     bool bChecking = false;
     boost::asio::thread_pool thread{1};
 };
@@ -22,19 +22,19 @@ StoreWorker::StoreWorker(
     const boost::asio::any_io_executor& executor,
     std::unique_ptr<Planning::IPlanStore> store,
     StoredHandler handler,
-    LostHandler lostHandler)
+    CheckedHandler checkedHandler)
     : _impl(std::make_shared<Impl>())
 {
     _impl->executor = executor;
     _impl->store = std::move(store);
     _impl->handler = std::move(handler);
-    _impl->lostHandler = std::move(lostHandler);
+    _impl->checkedHandler = std::move(checkedHandler);
 }
 
 StoreWorker::~StoreWorker()
 {
     _impl->handler = nullptr;
-    _impl->lostHandler = nullptr;
+    _impl->checkedHandler = nullptr;
     _impl->thread.join();
 }
 
@@ -43,7 +43,7 @@ template <typename TWork, typename TAnswer>
 void StoreWorker::Do(TWork work, TAnswer answer)
 {
     boost::asio::post(_impl->thread, [weak = std::weak_ptr(_impl), &store = *_impl->store, work, answer]() {
-        Core::Result<void> result = work(store);
+        auto result = work(store);
         const std::shared_ptr<Impl> self = weak.lock();
         if (self == nullptr)
         {
@@ -75,12 +75,12 @@ void StoreWorker::CheckAsync()
     {
         return;
     }
-    Do([](Planning::IPlanStore& store) { return store.Check(); },
-       [](Impl& owner, const Core::Result<void>& result) {
+    Do([](Planning::IPlanStore& store) { return store.Check().map([&store] { return store.CheckLog(); }); },
+       [](Impl& owner, const Core::Result<Planning::StoreLog>& result) {
            owner.bChecking = false;
-           if (!result.has_value() && owner.lostHandler)
+           if (owner.checkedHandler)
            {
-               owner.lostHandler(result.error());
+               owner.checkedHandler(result);
            }
        });
 }

@@ -2,6 +2,7 @@
 
 #include <acs/core/Result.hpp>
 #include <acs/plan/IPlanStore.hpp>
+#include <acs/plan/StoreLog.hpp>
 
 #include <boost/asio/any_io_executor.hpp>
 
@@ -17,7 +18,7 @@ class StoreWorker final
 {
 public:
     using StoredHandler = std::function<void(const Core::Result<void>& result)>;
-    using LostHandler = std::function<void(const Core::Error& error)>;
+    using CheckedHandler = std::function<void(const Core::Result<Planning::StoreLog>& result)>;
 
 private:
     struct Impl;
@@ -25,12 +26,12 @@ private:
     std::shared_ptr<Impl> _impl;
 
 public:
-    /// The second handler is called for each check that has failed.
+    /// The second handler is called after each check.
     StoreWorker(
         const boost::asio::any_io_executor& executor,
         std::unique_ptr<Planning::IPlanStore> store,
         StoredHandler handler,
-        LostHandler lostHandler);
+        CheckedHandler checkedHandler);
     StoreWorker(const StoreWorker&) = delete;
     StoreWorker& operator=(const StoreWorker&) = delete;
 
@@ -40,7 +41,7 @@ public:
     /// Batches are written one after the other. Each is answered by one call of the handler, never from within this call.
     void Append(const Planning::StoreBatch& batch);
 
-    /// Checks whether a restart would find the stored data. Does nothing while the previous check is not answered.
+    /// Checks whether a restart would find the stored data, and then the log of the store. Does nothing while the previous check is not answered.
     void CheckAsync();
 
 private:

@@ -14,9 +14,13 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <cerrno>
+#include <cstdint>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
+#include <system_error>
 #include <utility>
 
 namespace ACS::Planning
@@ -26,6 +30,9 @@ namespace
 {
 
 constexpr int BUSY_MILLISECONDS = 1'000;
+
+/// A log that is larger has not been merged by SQLite, which does so with each commit from 1,000 pages (4 MiB) on.
+constexpr std::uint64_t LARGE_LOG_BYTES = 8ULL * 1024 * 1024;
 
 /// Sets whether SQLite keeps the log when the database is closed, instead of merging and deleting it.
 void KeepLog(SQLite::Database& database, bool bKept)
@@ -42,6 +49,20 @@ std::string RemoveTrailingSlashes(std::string path)
         path.pop_back();
     }
     return path;
+}
+
+/// Merges the log into the database, so that the next commit begins a new log. Returns why it could not, or an empty text.
+std::string MergeLog(SQLite::Database& database, const std::string& path)
+{
+    const int code =
+        sqlite3_wal_checkpoint_v2(database.getHandle(), "main", SQLITE_CHECKPOINT_RESTART, nullptr, nullptr);
+    if (code == SQLITE_OK)
+    {
+        return {};
+    }
+    return code == SQLITE_BUSY
+        ? fmt::format("another program reads the database. Find it with fuser -v {} and end it", path)
+        : fmt::format("{}. Check the disk", sqlite3_errmsg(database.getHandle()));
 }
 
 } // namespace
@@ -121,6 +142,8 @@ public:
         // A new database gets its schema before its log: if it cannot be written, nothing is left of it.
         MigrateSchema(_database, _origin.foundVersion);
         _database.exec("PRAGMA journal_mode = WAL");
+        // A log that could not be merged for a while gets small again.
+        _database.exec(fmt::format("PRAGMA journal_size_limit = {}", LARGE_LOG_BYTES));
         // A missing table is reported now, not at the first change.
         const SQLite::Statement allTables(
             _database,
@@ -174,6 +197,22 @@ public:
             throw;
         }
         return {};
+    }
+
+    [[nodiscard]] StoreLog CheckLog()
+    {
+        std::error_code ignored;
+        StoreLog log;
+        log.path = _path;
+        log.bytes = StoreFiles::GetSize(StoreFiles::GetLogPath(_path));
+        log.freeBytes = std::filesystem::space(StoreFiles::GetParent(_path), ignored).available;
+        if (log.bytes > LARGE_LOG_BYTES)
+        {
+            sqlite3_busy_timeout(_database.getHandle(), 0);
+            log.blockReason = MergeLog(_database, _path);
+            sqlite3_busy_timeout(_database.getHandle(), BUSY_MILLISECONDS);
+        }
+        return log;
     }
 
     [[nodiscard]] Core::Result<StoredState> Load()
@@ -414,6 +453,11 @@ Core::Result<void> SqlitePlanStore::Check()
     {
         return RefuseFor(exception, _impl->GetPath(), "saving what was in a lost log", 0);
     }
+}
+
+StoreLog SqlitePlanStore::CheckLog()
+{
+    return _impl->CheckLog();
 }
 
 } // namespace ACS::Planning

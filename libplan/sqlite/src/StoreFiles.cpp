@@ -100,8 +100,13 @@ bool StoreFiles::IsThere(const std::string& path)
 
 bool StoreFiles::HasContent(const std::string& path)
 {
+    return GetSize(path) > 0;
+}
+
+std::uint64_t StoreFiles::GetSize(const std::string& path)
+{
     struct stat status = {};
-    return ::stat(path.c_str(), &status) == 0 && status.st_size > 0;
+    return ::stat(path.c_str(), &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
 }
 
 std::optional<std::string> StoreFiles::MakeImmutableUriOrNull(const std::string& database)

@@ -2,6 +2,7 @@
 
 #include <acs/core/Result.hpp>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -56,6 +57,8 @@ public:
 
     [[nodiscard]] static bool IsThere(const std::string& path);
     [[nodiscard]] static bool HasContent(const std::string& path);
+    /// 0 if there is no such file.
+    [[nodiscard]] static std::uint64_t GetSize(const std::string& path);
 
     /// The URI with which SQLite reads a database without locking it and without creating files. nullopt if the database has a
     /// log: such a database can be read by its path only.

@@ -79,6 +79,14 @@ bool InputQueue::TryPush(EngineInput& input)
                     _urgent.emplace_back(timer);
                 }
                 return true;
+            },
+            [this](StoreLog& log) {
+                if (!_storeLog.has_value())
+                {
+                    _urgent.emplace_back(StoreLog());
+                }
+                _storeLog = std::move(log);
+                return true;
             }},
         input);
 }
@@ -278,6 +286,9 @@ InputQueue::Next InputQueue::PopUrgent()
             [this](EngineTimer& timer) -> Next {
                 _timers.erase(timer);
                 return std::move(timer);
+            },
+            [this](const StoreLog&) -> Next {
+                return *std::exchange(_storeLog, std::nullopt);
             }},
         input);
 }

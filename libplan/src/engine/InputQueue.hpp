@@ -8,6 +8,7 @@
 #include <deque>
 #include <list>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <variant>
@@ -23,7 +24,7 @@ class InputQueue
 {
 public:
     /// Inputs of one call of the engine. Several commands are all plans, or all of the operator.
-    using Next = std::variant<RobotInput, EngineTimer, std::vector<PlanCommand>>;
+    using Next = std::variant<RobotInput, EngineTimer, StoreLog, std::vector<PlanCommand>>;
 
 private:
     enum class EClass : std::uint8_t
@@ -42,6 +43,7 @@ private:
     Inputs _urgent;
     std::map<std::string, RobotInputs> _robots; ///< The events in _urgent.
     std::set<EngineTimer> _timers;              ///< Those in _urgent.
+    std::optional<StoreLog> _storeLog;          ///< The latest; an empty one in _urgent has its place.
     std::deque<PlanCommand> _plans;             ///< With the controls that stay after a plan.
     std::vector<PlanCommand> _operator;
     std::size_t _planCount = 0;

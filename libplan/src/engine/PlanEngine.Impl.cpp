@@ -1,6 +1,7 @@
 #include "engine/PlanEngine.Impl.hpp"
 
 #include "control/ErrorWatch.hpp"
+#include "control/StoreLogWatch.hpp"
 #include <acs/core/Overloaded.hpp>
 
 #include <algorithm>
@@ -239,6 +240,13 @@ bool PlanEngine::Impl::IsStoring() const noexcept
 void PlanEngine::Impl::OnStoreLost(std::string_view reason, Core::Now now, EngineActions& out)
 {
     _store.OnStoreLost(reason, now, out);
+}
+
+void PlanEngine::Impl::OnStoreLog(const StoreLog& log, Core::Now now, EngineActions& out)
+{
+    Begin(now);
+    StoreLogWatch(_engine).OnStoreLog(log);
+    End(out);
 }
 
 void PlanEngine::Impl::Begin(Core::Now now)

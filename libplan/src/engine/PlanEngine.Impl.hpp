@@ -69,6 +69,7 @@ public:
     void OnStored(const Core::Result<void>& result, Core::Now now, EngineActions& out);
     [[nodiscard]] bool IsStoring() const noexcept;
     void OnStoreLost(std::string_view reason, Core::Now now, EngineActions& out);
+    void OnStoreLog(const StoreLog& log, Core::Now now, EngineActions& out);
 
     [[nodiscard]] std::vector<OutboxEntry> GetUnacknowledged() const;
     [[nodiscard]] OutboxSummary GetOutboxSummary() const;

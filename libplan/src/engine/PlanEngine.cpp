@@ -55,6 +55,11 @@ void PlanEngine::OnStoreLost(std::string_view reason, Core::Now now, EngineActio
     _impl->OnStoreLost(reason, now, out);
 }
 
+void PlanEngine::OnStoreLog(const StoreLog& log, Core::Now now, EngineActions& out)
+{
+    _impl->OnStoreLog(log, now, out);
+}
+
 std::vector<OutboxEntry> PlanEngine::GetUnacknowledged() const
 {
     return _impl->GetUnacknowledged();

@@ -165,8 +165,9 @@ void PlanEngineHost::CallEngine()
         Core::Overloaded{
             [&](const std::vector<PlanCommand>& commands) { _engine.Handle(commands, now, actions); },
             [&](const RobotInput& robot) { _engine.Handle(robot.robotID, robot.event, now, actions); },
-            [&](const EngineTimer& timer) {
-                _engine.OnTimer(timer, now, actions);
+            [&](const EngineTimer& timer) { _engine.OnTimer(timer, now, actions); },
+            [&](const StoreLog& log) {
+                _engine.OnStoreLog(log, now, actions);
             }},
         _inputs->Pop());
     Append(std::move(actions));

@@ -92,6 +92,11 @@ Core::Result<void> MemoryPlanStore::Check()
     return {};
 }
 
+StoreLog MemoryPlanStore::CheckLog()
+{
+    return {};
+}
+
 void MemoryPlanStore::SetHoldReason(std::string reason)
 {
     _state.holdReason = std::move(reason);

@@ -4,12 +4,14 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace ACS::Planning;       // NOLINT(google-build-using-namespace): a test of that namespace
@@ -68,7 +70,66 @@ void RequireRefused(const std::string& directory, const std::string& found)
 constexpr const char* WITHOUT_LOG = "found a database that was not closed, without its log";
 constexpr const char* OTHER_GENERATION = "found a database of another generation";
 
+/// More than 10 MiB.
+void WriteLargeLog(SqlitePlanStore& store)
+{
+    const std::string longText(3'600'000, 'C');
+    for (int count = 0; count < 3; ++count)
+    {
+        REQUIRE(store.Append({{CarriersChanged{"LR01", {longText}}}}).has_value());
+    }
+}
+
 } // namespace
+
+TEST_CASE("Store: a log that another program keeps from being merged is reported, and gets small when it has ended")
+{
+    constexpr std::uint64_t LARGE = 8ULL * 1024 * 1024;
+    const StoreFolder folder;
+    const std::string directory = folder.GetStore();
+    const auto store = OpenStore(directory);
+    REQUIRE(store->Append(MakeBatch("LR01")).has_value());
+    StoreLog log = store->CheckLog();
+    CHECK(log.path == GetDatabase(directory));
+    CHECK(log.bytes == Files::file_size(GetLog(directory)));
+    CHECK(log.freeBytes > 0);
+    CHECK(log.blockReason.empty());
+
+    std::optional<SQLite::Database> reader(std::in_place, GetDatabase(directory), SQLite::OPEN_READONLY);
+    reader->exec("BEGIN");
+    if (GENERATE(false, true)) // a log that is merged completely: the reader then uses the database file only
+    {
+        WriteLargeLog(*store);
+        REQUIRE(store->CheckLog().blockReason.empty());
+    }
+    CHECK(reader->execAndGet("SELECT count(*) FROM plans").getInt() == 0); // from here on it keeps this state
+    WriteLargeLog(*store);
+    REQUIRE(store->Append(MakeBatch("LR02")).has_value());
+    log = store->CheckLog();
+    CHECK(log.bytes > LARGE);
+    CHECK(Contains(log.blockReason, "Find it with fuser -v " + GetDatabase(directory) + " and end it"));
+    REQUIRE(store->Append(MakeBatch("CR01")).has_value()); // it can still be written
+    CHECK_FALSE(store->CheckLog().blockReason.empty());
+
+    reader.reset();
+    CHECK(store->CheckLog().blockReason.empty());
+    REQUIRE(store->Append(MakeBatch("CR02")).has_value());
+    CHECK(store->CheckLog().bytes <= LARGE);
+    // A crash at this moment leaves a store that a start accepts.
+    CopyAsKilled(directory, folder.GetStore("copy"));
+    OpenStore(folder.GetStore("copy"));
+}
+
+TEST_CASE("Store: a large log that no program reads is merged by a check")
+{
+    const StoreFolder folder;
+    const auto store = OpenStore(folder.GetStore());
+    REQUIRE(store->Append(MakeBatch("LR01")).has_value());
+    WriteLargeLog(*store);
+    CHECK(store->CheckLog().blockReason.empty());
+    CopyAsKilled(folder.GetStore(), folder.GetStore("copy"));
+    CHECK(LoadRobots(*OpenStore(folder.GetStore("copy"))) == std::vector<std::string>{"LR01"});
+}
 
 TEST_CASE("Store: a log without its database is not deleted for a new database")
 {

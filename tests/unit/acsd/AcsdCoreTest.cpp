@@ -467,6 +467,26 @@ TEST_CASE_METHOD(AcsdCoreFixture, "A store that hangs or fails is a not-ready re
     CHECK(_core->GetNotReadyReasons().empty());
 }
 
+TEST_CASE_METHOD(
+    AcsdCoreFixture,
+    "A log of the store that cannot be merged is an alarm, also while a transaction is under way")
+{
+    Begin();
+    Register();
+    _bDiskHangs = true;
+    Submit("P1");
+    const std::size_t checks = _checks;
+    Advance(2s);
+    CHECK(_checks > checks); // a store that is always written is checked too
+    _core->OnStoreLog({"acsd.db", std::uint64_t{1} << 30U, 0, "another program reads the database"});
+    CHECK(_core->GetEngine().GetActiveAlarms().empty());
+    _bDiskHangs = false;
+    ServeDisk();
+    REQUIRE(_core->GetEngine().GetActiveAlarms().size() == 1);
+    CHECK(_core->GetEngine().GetActiveAlarms().front().errorCode == "ACS-1021");
+    CHECK(_core->GetNotReadyReasons().empty());
+}
+
 TEST_CASE_METHOD(AcsdCoreFixture, "acsd ends at once, without further actions, if another program has taken its store")
 {
     const Core::Error taken{Planning::EPlanningError::StoreTaken, "store", "a store of this program", "a lock"};

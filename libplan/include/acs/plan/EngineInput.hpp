@@ -3,6 +3,7 @@
 #include <acs/plan/EngineAction.hpp>
 #include <acs/plan/PlanCommand.hpp>
 #include <acs/plan/RobotEvent.hpp>
+#include <acs/plan/StoreLog.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +21,7 @@ struct RobotInput
 };
 
 /// An input of the engine.
-using EngineInput = std::variant<PlanCommand, RobotInput, EngineTimer>;
+using EngineInput = std::variant<PlanCommand, RobotInput, EngineTimer, StoreLog>;
 
 /// Maximum number of inputs that wait for the store. A command beyond a limit is refused. Events, timers and
 /// acknowledgements are never refused; those that a later one replaces do not wait twice.

@@ -168,6 +168,8 @@ struct EngineOptions
     std::chrono::milliseconds restartWait{30'000};
     std::chrono::milliseconds storeRetry{1'000};      ///< Delay before a failed batch is stored again.
     std::chrono::milliseconds acknowledgedDelay{200}; ///< Acknowledgements of this period are stored in one batch.
+    /// Bytes of a log of the store that cannot be merged, and of space left on its file system, beyond which ACS-1021 is raised.
+    std::uint64_t maximumLogBytes = 64ULL * 1024 * 1024;
     std::size_t finishedPlansKept = 1'000; ///< Finished plans in memory and in the store; their planIDs stay known.
 };
 

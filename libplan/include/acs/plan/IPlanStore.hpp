@@ -5,6 +5,7 @@
 #include <acs/plan/PlanRecord.hpp>
 #include <acs/plan/Report.hpp>
 #include <acs/plan/RobotCommand.hpp>
+#include <acs/plan/StoreLog.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -174,6 +175,10 @@ public:
     /// that its files were not removed. Call it periodically and pass a failure to PlanEngine::OnStoreLost. Errors:
     /// EPlanningError::StoreFailed; StoreTaken if another program uses the place of the store: end the program.
     [[nodiscard]] virtual Core::Result<void> Check() = 0;
+
+    /// Measures the log of the store; merges it first if it is large. Call it periodically and pass the result to
+    /// PlanEngine::OnStoreLog.
+    [[nodiscard]] virtual StoreLog CheckLog() = 0;
 };
 
 } // namespace ACS::Planning

@@ -16,6 +16,7 @@ public:
     [[nodiscard]] Core::Result<StoredState> Load() override;
     [[nodiscard]] Core::Result<void> Append(const StoreBatch& batch) override;
     [[nodiscard]] Core::Result<void> Check() override;
+    [[nodiscard]] StoreLog CheckLog() override;
 
     /// What the next Load returns as StoredState::holdReason, until the TSC is Auto.
     void SetHoldReason(std::string reason);

@@ -12,6 +12,7 @@
 #include <acs/plan/RobotEvent.hpp>
 #include <acs/plan/RobotStatus.hpp>
 #include <acs/plan/SiteMap.hpp>
+#include <acs/plan/StoreLog.hpp>
 #include <acs/plan/WaitReason.hpp>
 
 #include <deque>
@@ -86,6 +87,10 @@ public:
     /// IPlanStore::Check has failed. Handled as a failed batch: storing is retried until it succeeds. Not allowed while
     /// IsStoring.
     void OnStoreLost(std::string_view reason, Core::Now now, EngineActions& out);
+
+    /// The result of IPlanStore::CheckLog. Raises ACS-1021 if the log cannot be merged and is longer than
+    /// EngineOptions::maximumLogBytes, or less than this is free on its file system; clears it when the log was merged.
+    void OnStoreLog(const StoreLog& log, Core::Now now, EngineActions& out);
 
     /// The reports that the MCS has not acknowledged, oldest first: those to replay after a registration. Reports that are
     /// withheld because the store fails are not included.

@@ -50,6 +50,11 @@ public:
         return _word.get() ? Core::Result<void>()
                            : Core::Fail(make_error_code(EPlanningError::StoreFailed), "acsd.db", "the file", "nothing");
     }
+
+    [[nodiscard]] StoreLog CheckLog() override
+    {
+        return {"acsd.db", 4'096, 1'000'000, {}};
+    }
 };
 
 } // namespace
@@ -95,7 +100,7 @@ TEST_CASE("The destructor of a worker waits for the write under way and calls no
             context.get_executor(),
             std::make_unique<SlowStore>(word.get_future(), written),
             [&](const Core::Result<void>&) { bTold = true; },
-            [&](const Core::Error&) { bTold = true; });
+            [&](const Core::Result<StoreLog>&) { bTold = true; });
         worker.Append({{ReportRemoved{1}}});
         word.set_value(true);
     }
@@ -104,28 +109,30 @@ TEST_CASE("The destructor of a worker waits for the write under way and calls no
     CHECK_FALSE(bTold);
 }
 
-TEST_CASE("A check runs in another thread, one at a time; the handler is called if it fails")
+TEST_CASE("A check runs in another thread, one at a time; the handler receives the failure, or the state of the log")
 {
+    const bool bWorks = GENERATE(true, false);
     boost::asio::io_context context;
     const auto guard = boost::asio::make_work_guard(context);
     std::promise<bool> word;
     std::atomic<std::size_t> written{0};
-    std::optional<Core::Error> fault;
+    std::optional<Core::Result<StoreLog>> checked;
     Acsd::StoreWorker worker(
         context.get_executor(),
         std::make_unique<SlowStore>(word.get_future(), written),
         [](const Core::Result<void>&) { FAIL("nothing was stored"); },
-        [&](const Core::Error& error) { fault = error; });
+        [&](const Core::Result<StoreLog>& result) { checked = result; });
     worker.CheckAsync();
     worker.CheckAsync(); // the answer is set once: a second check would throw
     context.poll();
-    CHECK_FALSE(fault.has_value());
-    word.set_value(false);
-    while (!fault.has_value())
+    CHECK_FALSE(checked.has_value());
+    word.set_value(bWorks);
+    while (!checked.has_value())
     {
         REQUIRE(context.run_one_for(std::chrono::seconds(10)) == 1);
     }
-    CHECK(fault->path == "acsd.db");
+    REQUIRE(checked->has_value() == bWorks);
+    CHECK((bWorks ? checked->value().path : checked->error().path) == "acsd.db");
 }
 
 } // namespace ACS::Testing

@@ -127,6 +127,22 @@ TEST_CASE_METHOD(InputQueueTest, "Other robots, timers and acknowledgements are 
     CHECK(std::get<std::vector<PlanCommand>>(_queue.Pop()) == std::vector<PlanCommand>{MessageAcknowledged{7}});
 }
 
+TEST_CASE_METHOD(InputQueueTest, "Of the states of the store's log, only the latest waits")
+{
+    static_cast<void>(PopEvents());
+    for (std::uint64_t bytes = 1; bytes <= 3; ++bytes)
+    {
+        EngineInput input = StoreLog{"acsd.db", bytes, 0, {}};
+        REQUIRE(_queue.TryPush(input));
+    }
+    CHECK(_queue.GetCount() == 1);
+    CHECK(std::get<StoreLog>(_queue.Pop()).bytes == 3);
+    EngineInput input = StoreLog{"acsd.db", 4, 0, {}};
+    REQUIRE(_queue.TryPush(input));
+    CHECK(std::get<StoreLog>(_queue.Pop()).bytes == 4);
+    REQUIRE(_queue.IsEmpty());
+}
+
 TEST_CASE_METHOD(
     InputQueueTest,
     "Each class of commands has its own limit, which is free again when they have been handled")

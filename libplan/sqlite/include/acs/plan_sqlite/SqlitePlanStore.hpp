@@ -60,6 +60,10 @@ public:
     /// EPlanningError::StoreTaken if another program has locked it: the store must not be used any more.
     [[nodiscard]] Core::Result<void> Check() override;
 
+    /// A log of more than 8 MiB is merged into the database, without waiting for other programs; SQLite itself does so from
+    /// 4 MiB on, with each commit. It cannot be merged while another program reads an older state of the database.
+    [[nodiscard]] StoreLog CheckLog() override;
+
 private:
     [[nodiscard]] static Core::Result<std::unique_ptr<SqlitePlanStore>> OpenAs(
         const std::string& directory,
