@@ -57,6 +57,7 @@ class McsStub:
         self._changed = threading.Condition()
         self._messages = []
         self._socket = None
+        self._sending = threading.Lock()  # a message of one thread is not inside that of another
         self._reading = threading.Event()
         self._reading.set()
         self._upgrades_to_refuse = 0
@@ -109,10 +110,11 @@ class McsStub:
         data = text.encode()
         size = -(-len(data) // fragments)
         parts = [data[begin:begin + size] for begin in range(0, len(data), size)]
-        for number, part in enumerate(parts):
-            if number > 0:
-                self._socket.sendall(make_frame(PING, b"between"))
-            self._socket.sendall(make_frame(CONTINUATION if number else TEXT, part, number == len(parts) - 1))
+        with self._sending:
+            for number, part in enumerate(parts):
+                if number > 0:
+                    self._socket.sendall(make_frame(PING, b"between"))
+                self._socket.sendall(make_frame(CONTINUATION if number else TEXT, part, number == len(parts) - 1))
 
     def send_request(self, command, payload, fragments=1, envelope=None):
         """Returns the transactionId. `envelope` has members that replace the usual ones."""
@@ -178,11 +180,15 @@ class McsStub:
                         peer.sendall(make_frame(CLOSE, payload))
                         return
                     if opcode == PING:
-                        peer.sendall(make_frame(PONG, payload))
+                        self._send(peer, make_frame(PONG, payload))
                     elif opcode == TEXT:
                         self._take(peer, connection, payload)
         except (OSError, EOFError):
             pass
+
+    def _send(self, peer, frame):
+        with self._sending:
+            peer.sendall(frame)
 
     def _upgrade(self, peer, stream):
         head = b""
@@ -236,7 +242,7 @@ class McsStub:
             if self._is_acknowledged(message.command):
                 ack = {"command": message.command + "Ack", "transactionId": message.body["transactionId"],
                        "timestamp": make_timestamp(), "result": "Success", "message": "", "payload": {}}
-                peer.sendall(make_frame(TEXT, json.dumps(ack).encode()))
+                self._send(peer, make_frame(TEXT, json.dumps(ack).encode()))
 
     def _is_acknowledged(self, command):
         if command.endswith("Ack") or command == "RobotPositionUpdate":

@@ -1,8 +1,6 @@
 #!/usr/bin/env python3
 """A vehicle that floods acsd with errors: acsd answers, and what it stores is limited."""
 
-import datetime
-import json
 import shutil
 import sqlite3
 import subprocess
@@ -10,6 +8,7 @@ import time
 import urllib.request
 
 from scenario_case import FINISH_SECONDS, ScenarioCase, main
+from vehicle_samples import make_idle_state, make_vehicle_message
 
 ERRORS = 10_000  # of one state
 STATES = 20
@@ -20,23 +19,10 @@ MOST_ALARMS = 21  # of one robot about its errors: 20 of their own, and the one 
 MOST_REPORTS = 150  # in the first minute: 60 errors set and cleared, the one above, and those of the lost connections
 
 
-def make_message(header_id, **members):
-    now = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%S.%f")[:-3] + "Z"
-    return json.dumps({"headerId": header_id, "timestamp": now, "version": "2.0.0", "manufacturer": "ACS",
-                       "serialNumber": "LR01"} | members)
-
-
 def make_state(number):
     """Each with errors that no other state has."""
-    errors = [{"errorType": f"fault-{number}-{i}", "errorLevel": "WARNING", "errorDescription": f"fault {i} of the test"}
-              for i in range(ERRORS)]
-    charge = LAST_CHARGE if number == STATES - 1 else LAST_CHARGE + 1
-    return make_message(
-        number + 1, orderId="", orderUpdateId=0, lastNodeId="", lastNodeSequenceId=0, nodeStates=[], edgeStates=[],
-        actionStates=[], driving=False, operatingMode="AUTOMATIC", errors=errors,
-        agvPosition={"x": 0.0, "y": 0.0, "theta": 0.0, "mapId": "hall", "positionInitialized": True},
-        batteryState={"batteryCharge": charge, "charging": False},
-        safetyState={"eStop": "NONE", "fieldViolation": False})
+    errors = [(f"fault-{number}-{i}", f"fault {i} of the test") for i in range(ERRORS)]
+    return make_idle_state("LR01", number, errors, LAST_CHARGE if number == STATES - 1 else LAST_CHARGE + 1)
 
 
 class Flood(ScenarioCase):
@@ -59,7 +45,7 @@ class Flood(ScenarioCase):
         addresses = acsd.wait_ready()
         address = addresses["operator"]
         self.wait_for_status(address, lambda status: status["links"]["mqtt"])
-        self.publish("connection", [make_message(1, connectionState="ONLINE")], "-r")
+        self.publish("connection", [make_vehicle_message("LR01", 1, connectionState="ONLINE")], "-r")
         self.publish("state", map(make_state, range(STATES)))
 
         def is_last_state_read(status):

@@ -41,7 +41,8 @@ public:
     /// Batches are written one after the other. Each is answered by one call of the handler, never from within this call.
     void Append(const Planning::StoreBatch& batch);
 
-    /// Checks whether a restart would find the stored data, and then the log of the store. Does nothing while the previous check is not answered.
+    /// Checks whether a restart would find the stored data, and then the log of the store. Does nothing while the previous check
+    /// is not answered.
     void CheckAsync();
 
 private:

@@ -9,6 +9,7 @@
 #include <boost/asio/ip/address.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/socket_base.hpp>
 #include <boost/asio/ssl/stream_base.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/write.hpp>
@@ -45,6 +46,10 @@ constexpr std::size_t DRAIN_BYTES = 16U * 1024U;
 
 /// Limit of bytes that were read but not parsed. Beast itself has no limit for the extension after the size of a chunk.
 constexpr std::size_t BUFFER_BYTES = 64U * 1024U;
+
+/// Limit of what the system keeps for a peer that does not read. By default it may be some megabytes: then a peer that sends
+/// requests without a pause and reads nothing would have hundreds of them answered.
+constexpr int SEND_BUFFER_BYTES = 16 * 1024;
 
 constexpr std::string_view CONTINUE = "HTTP/1.1 100 Continue\r\n\r\n";
 
@@ -554,6 +559,8 @@ void HttpServer::Impl::OnAccepted(Tcp::socket socket)
         }
         replaced->Close();
     }
+    ErrorCode ignored;
+    static_cast<void>(socket.set_option(Asio::socket_base::send_buffer_size(SEND_BUFFER_BYTES), ignored));
     const auto connection = std::make_shared<Connection>(shared_from_this(), std::move(socket));
     connections.push_back(connection);
     connection->place = std::prev(connections.end());

@@ -49,6 +49,35 @@ bool HasHalfSurrogate(std::string_view text)
     return false;
 }
 
+/// Whether a text has more values than the limit, if it is JSON: each comma outside of a string precedes one. Such a text is
+/// refused before it is copied and parsed. Other texts are counted exactly by the parse.
+bool HasTooManyCommas(std::string_view text, std::size_t maximumValues)
+{
+    if (text.size() / 2 <= maximumValues) // a value and its comma
+    {
+        return false;
+    }
+    std::size_t commas = 0;
+    bool bString = false;
+    for (std::size_t at = 0; at < text.size() && commas < maximumValues; ++at)
+    {
+        const char sign = text[at];
+        if (sign == '"')
+        {
+            bString = !bString;
+        }
+        else if (sign == '\\' && bString)
+        {
+            ++at;
+        }
+        else if (sign == ',' && !bString)
+        {
+            ++commas;
+        }
+    }
+    return commas >= maximumValues;
+}
+
 /// Passes the parser's events on to the document, and ends the parse at a limit and at half a surrogate pair.
 class StrictHandler
 {
@@ -234,6 +263,11 @@ std::string DescribePosition(std::string_view text, std::size_t offset)
     return fmt::format("line {}, column {}", 1 + std::ranges::count(before, '\n'), offset - lineStart + 1);
 }
 
+tl::unexpected<Core::Error> FailTooManyValues(const ParseLimits& limits)
+{
+    return Core::Fail(Core::ECoreError::TooLarge, {}, fmt::format("at most {} values", limits.values));
+}
+
 bool IsUtf8Continuation(char byte)
 {
     return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
@@ -274,6 +308,10 @@ Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const Pars
             fmt::format("{} bytes", text.size()));
     }
     const std::string_view body = SkipByteOrderMark(text);
+    if (!bLenient && HasTooManyCommas(body, limits.values)) // a comment may have commas
+    {
+        return FailTooManyValues(limits);
+    }
     if (!Core::JsonText::IsUtf8(body))
     {
         return Core::Fail(Core::ECoreError::InvalidJSON, {}, "JSON", "invalid UTF-8");
@@ -303,7 +341,7 @@ Core::Result<const Value*> JsonDocument::Parse(std::string_view text, const Pars
     }
     if (handler.HasTooManyValues())
     {
-        return Core::Fail(Core::ECoreError::TooLarge, {}, fmt::format("at most {} values", limits.values));
+        return FailTooManyValues(limits);
     }
     if (outcome.Code() == rapidjson::kParseErrorTermination)
     {

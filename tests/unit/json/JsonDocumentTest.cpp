@@ -93,6 +93,15 @@ TEST_CASE("Four megabytes of numbers are refused after 250,000 of them")
     CHECK(GetParseError(text.substr(0, 2 * 249'999) + "]") == std::error_code());
 }
 
+TEST_CASE("Commas inside a string are no values")
+{
+    ParseLimits limits;
+    limits.values = 2;
+    CHECK_FALSE(GetParseError(R"([",,,,,,\",,,,,,"])", limits));
+    CHECK(GetParseError(R"(["","",""])", limits) == Core::ECoreError::TooLarge);
+    CHECK(GetParseError(R"(["\\",0,0,0,0,0])", limits) == Core::ECoreError::TooLarge);
+}
+
 TEST_CASE("A text longer than the limit is refused before it is parsed")
 {
     CHECK(GetParseError("[1,2,3]", {6, 3}) == Core::ECoreError::TooLarge);

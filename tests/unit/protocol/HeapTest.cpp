@@ -130,6 +130,21 @@ TEST_CASE("Decoding allocates only the strings and vectors of the result")
     CheckDecode<Protocol::RobotPositionUpdate>(Encode(Testing::MakeFiftyPositions()));
 }
 
+TEST_CASE("A message of too many values is refused before it takes memory")
+{
+    std::string text = "[0";
+    while (text.size() < 4U * 1024U * 1024U - 8)
+    {
+        text += ",0";
+    }
+    text += "]";
+    AcsCodec codec;
+    const std::int64_t bytes = HeapProbe::GetLiveBytes();
+    const DecodeOutcome outcome = codec.Decode(text);
+    CHECK_FALSE(outcome.message.has_value());
+    CHECK(HeapProbe::GetLiveBytes() - bytes < MOST_SESSION_BYTES);
+}
+
 TEST_CASE("Encoding into a reused text allocates nothing")
 {
     AcsCodec codec;

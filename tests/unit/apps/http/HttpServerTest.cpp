@@ -10,8 +10,10 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/read.hpp>
 #include <boost/asio/read_until.hpp>
+#include <boost/asio/socket_base.hpp>
 #include <boost/asio/write.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -429,6 +431,35 @@ TEST_CASE("A peer that does not read its responses is replaced, and cannot take 
     RawClient client(fixture.context, fixture.port);
     client.Send("GET /livez HTTP/1.1\r\nHost: x\r\n\r\n");
     REQUIRE(client.HasReceived("<answer>"));
+}
+
+TEST_CASE("A peer that sends requests and reads nothing has only a few of them answered")
+{
+    constexpr int REQUESTS = 500;
+    constexpr int MOST_ANSWERED = 20;
+    Fixture fixture(Apps::HttpLimits{});
+    fixture.answer.body = std::string(16U * 1024U, 'x') + "<answer>";
+    Tcp::socket silent(fixture.context, Tcp::v4());
+    silent.set_option(boost::asio::socket_base::receive_buffer_size(1));
+    silent.connect({boost::asio::ip::make_address(LOOPBACK), fixture.port});
+    std::string requests;
+    for (int number = 0; number < REQUESTS; ++number)
+    {
+        requests += "GET /silent HTTP/1.1\r\nHost: x\r\n\r\n";
+    }
+    boost::asio::write(silent, boost::asio::buffer(requests));
+    RawClient client(fixture.context, fixture.port);
+    for (int number = 0; number < REQUESTS; ++number) // each takes at least one round of the loop
+    {
+        client.Send("GET /read HTTP/1.1\r\nHost: x\r\n\r\n");
+        REQUIRE(client.HasReceived("<answer>"));
+        static_cast<void>(client.TakeReceived());
+    }
+    const auto isSilent = [](const Apps::HttpRequest& request) {
+        return request.path == "/silent";
+    };
+    CHECK(std::ranges::count_if(fixture.requests, isSilent) > 0);
+    CHECK(std::ranges::count_if(fixture.requests, isSilent) <= MOST_ANSWERED);
 }
 
 TEST_CASE("A peer with its share of connections replaces its own and not those of others")
