@@ -77,7 +77,7 @@ void ClientSession::Impl::SendControlInTurn(PendingControl control, ClientAction
     _bControlConfirmed = false;
     _inFlight = EInFlight::Control;
     OpenStreamCodec::EncodeRequest(_control.call.request, _outbox.GetLines());
-    _controlMark = _outbox.GetMark();
+    _inFlightMark = _outbox.GetMark();
     Flush(out);
 }
 
@@ -114,9 +114,9 @@ void ClientSession::Impl::Confirm(const DataLine& sample, ClientActions& out)
 /// Ends what has waited for too long: for the socket, for its turn, for its confirmation.
 void ClientSession::Impl::CheckControls(Core::Now now, ClientActions& out)
 {
-    if (_state == EClientState::Ready && now.steady >= GetSendDeadline())
+    if (now.steady >= GetSendDeadline())
     {
-        HandleLoss(
+        Disconnect(
             EClientLossReason::SendTimeout,
             "timeout: a CONTROL could not be written to the connection",
             now,
@@ -212,7 +212,7 @@ void ClientSession::Impl::RefuseControl(
     std::string detail,
     ClientActions& out)
 {
-    if (_inFlight != EInFlight::Control)
+    if (!IsAwaited(EInFlight::Control))
     {
         Report(ClientControlFault{status, std::move(bodyOrNull), std::move(detail)}, out);
         return;

@@ -140,6 +140,7 @@ void ClientSession::Impl::Handle(HandshakeAck& ack, Core::Now now, ClientActions
     _backoff.Reset();
     _state = EClientState::Ready;
     _bMonitorOn = false;
+    _startedMonitorNumber = 0;
     _bMonitorStopFirst = false;
     _bMonitorDue = _monitor.has_value();
     Report(ClientReady{std::move(ack.version)}, out);
@@ -153,7 +154,11 @@ void ClientSession::Impl::Handle(StopAck& ack, Core::Now now, ClientActions& out
         End(out);
         return;
     }
-    if (_inFlight == EInFlight::StopMonitor && ack.target == EStopTarget::Monitor)
+    if (_state != EClientState::Ready)
+    {
+        return;
+    }
+    if (IsAwaited(EInFlight::StopMonitor) && ack.target == EStopTarget::Monitor)
     {
         FinishInFlight(out);
         _bMonitorOn = false;
@@ -195,11 +200,11 @@ void ClientSession::Impl::HandleErrorWhenReady(ErrorLine& error, Core::Now now, 
         HandleLoss(EClientLossReason::SessionEnded, Describe(error), now, out);
         return;
     }
-    if (_inFlight == EInFlight::Monitor && (bOfRequest || scope == EErrorScope::Monitor))
+    if (IsAwaited(EInFlight::Monitor) && (bOfRequest || scope == EErrorScope::Monitor))
     {
         HandleMonitorError(error, out);
     }
-    else if (scope == EErrorScope::Stop || (bOfRequest && _inFlight == EInFlight::StopMonitor))
+    else if (scope == EErrorScope::Stop || (bOfRequest && IsAwaited(EInFlight::StopMonitor)))
     {
         HandleStopError(error, out);
     }
@@ -216,7 +221,7 @@ void ClientSession::Impl::HandleErrorWhenReady(ErrorLine& error, Core::Now now, 
 
 void ClientSession::Impl::HandleStopError(ErrorLine& error, ClientActions& out)
 {
-    const bool bOfMonitor = _inFlight == EInFlight::StopMonitor;
+    const bool bOfMonitor = IsAwaited(EInFlight::StopMonitor);
     if (bOfMonitor)
     {
         FinishInFlight(out);
@@ -258,6 +263,11 @@ void ClientSession::Impl::SendNow(const OpenStreamRequest& request, ClientAction
     Flush(out);
 }
 
+bool ClientSession::Impl::IsAwaited(EInFlight kind) const noexcept
+{
+    return _inFlight == kind && _outbox.WasTaken(_inFlightMark);
+}
+
 void ClientSession::Impl::SendAwaited(
     const OpenStreamRequest& request,
     EInFlight kind,
@@ -267,6 +277,7 @@ void ClientSession::Impl::SendAwaited(
     _inFlight = kind;
     out.emplace_back(ClientStartTimer{EClientTimer::Answer, now.steady + _options.answerTimeout});
     SendNow(request, out);
+    _inFlightMark = _outbox.GetMark();
 }
 
 void ClientSession::Impl::Flush(ClientActions& out)
@@ -286,7 +297,7 @@ void ClientSession::Impl::OnSendCompleted(Core::Now now, ClientActions& out)
     }
     static_cast<void>(_outbox.CompleteSend());
     _sendingDue = Core::SteadyTime::max();
-    if (_inFlight == EInFlight::Control && !_bControlLeft && _outbox.WasSent(_controlMark))
+    if (_inFlight == EInFlight::Control && !_bControlLeft && _outbox.WasSent(_inFlightMark))
     {
         _bControlLeft = true;
         _controlLeftAt = now.steady;
@@ -400,7 +411,7 @@ void ClientSession::Impl::HandleLoss(
 
 void ClientSession::Impl::DropConnection(std::string_view detail, ClientActions& out)
 {
-    const bool bLeft = _outbox.WasTaken(_controlMark);
+    const bool bLeft = _outbox.WasTaken(_inFlightMark);
     SettleInFlight(bLeft ? EControlOutcome::Unknown : EControlOutcome::NotSent, detail, out);
     SettleConfirmations(detail, out);
     SettleWaiting(detail, out);

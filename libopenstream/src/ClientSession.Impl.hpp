@@ -55,8 +55,8 @@ class ClientSession::Impl
     EClientState _state = EClientState::Stopped;
 
     EInFlight _inFlight = EInFlight::Nothing;
-    PendingControl _control;        ///< The one in flight.
-    std::uint64_t _controlMark = 0; ///< Position of its last byte in the outbox.
+    std::uint64_t _inFlightMark = 0; ///< Position of its last byte in the outbox.
+    PendingControl _control;         ///< The one in flight.
     Core::SteadyTime _controlLeftAt;
     bool _bControlLeft = false;
     bool _bControlConfirmed = false;
@@ -68,12 +68,13 @@ class ClientSession::Impl
     bool _bControlTimerArmed = false;
 
     std::optional<MonitorRequest> _monitor;
-    std::uint64_t _monitorNumber = 0;     ///< Of the last SetMonitor call.
-    std::uint64_t _sentMonitorNumber = 0; ///< Of the last MONITOR sent.
-    std::string _sentMonitorURL;          ///< Likewise.
-    bool _bMonitorDue = false;            ///< SetMonitor was called and nothing was sent yet.
-    bool _bMonitorOn = false;             ///< The server streams, as far as known.
-    bool _bMonitorStopFirst = false;      ///< The server answered monitor_already_active.
+    std::uint64_t _monitorNumber = 0;        ///< Of the last SetMonitor call.
+    std::uint64_t _sentMonitorNumber = 0;    ///< Of the last MONITOR sent.
+    std::uint64_t _startedMonitorNumber = 0; ///< Of the last MONITOR that the server accepted in this session; 0: none.
+    std::string _sentMonitorURL;             ///< Likewise.
+    bool _bMonitorDue = false;               ///< SetMonitor was called and nothing was sent yet.
+    bool _bMonitorOn = false;                ///< The server streams, as far as known.
+    bool _bMonitorStopFirst = false;         ///< The server answered monitor_already_active.
     bool _bStale = false;
     bool _bDataAgeArmed = false;
     Core::SteadyTime _dataAgeAt;
@@ -139,6 +140,11 @@ private:
     void ArmControlTimer(ClientActions& out);
     void SettleConfirmations(std::string_view detail, ClientActions& out);
     void SendControlInTurn(PendingControl control, ClientActions& out);
+    /// Whether a command of this kind has been given to the socket and has no answer. What has not left has no answer
+    /// either: a server that does not read could otherwise fill the outbox.
+    [[nodiscard]] bool IsAwaited(EInFlight kind) const noexcept;
+    /// Whether the server streams the MONITOR of the last SetMonitor call.
+    [[nodiscard]] bool IsMonitorCurrent() const noexcept;
     [[nodiscard]] bool IsConnected() const noexcept;
     [[nodiscard]] std::chrono::milliseconds GetDataLimit() const noexcept;
     void ArmDataAge(ClientActions& out);

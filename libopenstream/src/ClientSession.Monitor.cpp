@@ -24,12 +24,13 @@ void ClientSession::Impl::SetMonitor(std::optional<MonitorRequest> monitorOrNull
 
 void ClientSession::Impl::Handle(MonitorAck& /*ack*/, Core::Now now, ClientActions& out)
 {
-    if (_inFlight != EInFlight::Monitor)
+    if (!IsAwaited(EInFlight::Monitor))
     {
         return;
     }
     FinishInFlight(out);
     _bMonitorOn = true;
+    _startedMonitorNumber = _sentMonitorNumber;
     _bStale = false;
     _meter.Begin(_monitor.has_value() ? _monitor->period : MINIMUM_PERIOD);
     _lastDataAt = now.steady;
@@ -40,9 +41,9 @@ void ClientSession::Impl::Handle(MonitorAck& /*ack*/, Core::Now now, ClientActio
 
 void ClientSession::Impl::Handle(DataLine& line, Core::Now now, ClientActions& out)
 {
-    if (_state != EClientState::Ready || !_monitor.has_value())
+    if (_state != EClientState::Ready || !_monitor.has_value() || (_bMonitorOn && !IsMonitorCurrent()))
     {
-        return; // still on its way when the stream was stopped
+        return; // still on its way when the stream was stopped or replaced
     }
     ++_stats.dataLines;
     _stats.missingLines += _meter.Add(line.ts, now.steady);
@@ -96,14 +97,20 @@ bool ClientSession::Impl::TrySendMonitor(Core::Now now, ClientActions& out)
 std::chrono::milliseconds ClientSession::Impl::GetDataLimit() const noexcept
 {
     const bool bWaitsForStale = !_bStale && _options.staleAfter.count() > 0;
-    return bWaitsForStale ? _options.staleAfter : _options.lostAfter;
+    const bool bLostFirst = _options.lostAfter.count() > 0 && _options.lostAfter < _options.staleAfter;
+    return bWaitsForStale && !bLostFirst ? _options.staleAfter : _options.lostAfter;
+}
+
+bool ClientSession::Impl::IsMonitorCurrent() const noexcept
+{
+    return _bMonitorOn && _monitor.has_value() && _startedMonitorNumber == _monitorNumber;
 }
 
 /// Started forward only, and again where it fires early: see the watchdog of ServerSession.
 void ClientSession::Impl::ArmDataAge(ClientActions& out)
 {
     const std::chrono::milliseconds limit = GetDataLimit();
-    if (!_bMonitorOn || !_monitor.has_value() || limit.count() <= 0)
+    if (!IsMonitorCurrent() || limit.count() <= 0)
     {
         return;
     }
@@ -118,7 +125,7 @@ void ClientSession::Impl::ArmDataAge(ClientActions& out)
 
 void ClientSession::Impl::CheckDataAge(Core::Now now, ClientActions& out)
 {
-    if (_state != EClientState::Ready || !_bMonitorOn || !_monitor.has_value())
+    if (_state != EClientState::Ready || !IsMonitorCurrent())
     {
         return;
     }

@@ -290,8 +290,8 @@ void MasterSession::Impl::OnState(std::string_view payload, Core::Now now, Maste
         out.emplace_back(PositionReceived{*_state->agvPosition, _state->velocity});
     }
     SettleInFlight(now, out);
-    ReportDifferences(previous, out);
     const ActionIndex shown(_state->actionStates);
+    ReportDifferences(previous, shown, out);
     SettlePendingActions(shown, out);
     UpdateActions(shown, out);
     UpdateOrder(out);
@@ -338,7 +338,11 @@ void MasterSession::Impl::OnFactsheet(std::string_view payload, MasterActions& o
     out.emplace_back(FactsheetReceived{});
 }
 
-void MasterSession::Impl::ReportDifferences(const std::optional<StateMessage>& previousOrNull, MasterActions& out) const
+/// Of a repeated action or error, only the first is reported: otherwise each state would report a change again.
+void MasterSession::Impl::ReportDifferences(
+    const std::optional<StateMessage>& previousOrNull,
+    const ActionIndex& shown,
+    MasterActions& out) const
 {
     const StateMessage none;
     const StateMessage& before = previousOrNull.has_value() ? *previousOrNull : none;
@@ -348,24 +352,25 @@ void MasterSession::Impl::ReportDifferences(const std::optional<StateMessage>& p
         const ActionState* const known = actionsBefore.FindOrNull(action.actionID);
         const bool bSame = known != nullptr && known->actionStatus == action.actionStatus
             && known->resultDescription == action.resultDescription;
-        if (!bSame)
+        if (!bSame && shown.FindOrNull(action.actionID) == &action)
         {
             out.emplace_back(
                 ActionChanged{action.actionID, action.actionType, action.actionStatus, action.resultDescription});
         }
     }
-    const auto tell = [&out](const StateMessage& from, const StateMessage& other, bool bActive) {
-        const SortedIndex<VehicleError> known(other.errors);
-        for (const VehicleError& error : from.errors)
+    const SortedIndex<VehicleError> errorsBefore(before.errors);
+    const SortedIndex<VehicleError> errorsNow(_state->errors);
+    const auto report = [&out](const auto& errors, const auto& own, const auto& other, bool bActive) {
+        for (const VehicleError& error : errors)
         {
-            if (known.FindOrNull(error) == nullptr)
+            if (other.FindOrNull(error) == nullptr && own.FindOrNull(error) == &error)
             {
                 out.emplace_back(VehicleErrorChanged{error, bActive});
             }
         }
     };
-    tell(*_state, before, true);
-    tell(before, *_state, false);
+    report(_state->errors, errorsNow, errorsBefore, true);
+    report(before.errors, errorsBefore, errorsNow, false);
 }
 
 EVehicleLink MasterSession::Impl::GetLink() const noexcept

@@ -131,7 +131,10 @@ private:
     /// Whether the last known mode allows orders and instant actions.
     [[nodiscard]] bool IsUnderMasterControl() const;
 
-    void ReportDifferences(const std::optional<StateMessage>& previousOrNull, MasterActions& out) const;
+    void ReportDifferences(
+        const std::optional<StateMessage>& previousOrNull,
+        const ActionIndex& shown,
+        MasterActions& out) const;
     /// The cancelOrder was for an order of another master, which has ended: sent again it would end the next order.
     [[nodiscard]] bool IsCancelLate(const PendingAction& pending) const;
     void SettlePendingActions(const ActionIndex& shown, MasterActions& out);

@@ -166,6 +166,12 @@ void MasterSession::Impl::AcceptInFlight(Core::Now now, MasterActions& out)
     // A master that takes an order up again may know less of it than the vehicle has.
     _acceptedUpdateID = std::max(_inFlight->orderUpdateID, _state->orderUpdateID);
     _lastSentUpdateID = std::max(_lastSentUpdateID, _acceptedUpdateID);
+    if (_queued.has_value() && _queued->orderUpdateID <= _acceptedUpdateID)
+    {
+        // With its old number it would count as accepted at once, and the vehicle would ignore it.
+        const std::uint32_t previousID = std::exchange(_queued->orderUpdateID, ++_lastSentUpdateID);
+        std::ranges::replace(_continuedUpdateIDs, previousID, _queued->orderUpdateID);
+    }
     std::erase_if(_continuedUpdateIDs, [this](std::uint32_t updateID) { return updateID < _acceptedUpdateID; });
     _inFlight.reset();
     out.emplace_back(CancelMasterTimer{EMasterTimer::ResendOrder});

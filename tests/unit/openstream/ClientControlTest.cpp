@@ -337,3 +337,19 @@ TEST_CASE("11 Quality restarts with each MONITOR, the counts of the session do n
     CHECK(client.session.GetStats().missingLines == 2);
     CHECK(client.session.GetStats().dataLines == 4);
 }
+
+TEST_CASE("3 Stop ends at the time limit of a streamed CONTROL that the socket does not accept")
+{
+    ClientSessionOptions options;
+    options.controlTimeout = 100ms;
+    ClientFixture client(options);
+    MakeReady(client);
+    client.bSocketTakes = false;
+    client.Control("/a", EControlTracking::Streamed);
+    client.session.Stop(client.GetNow(), client.actions);
+    client.Execute();
+    client.Pass(99ms);
+    REQUIRE(client.Take<ClientEnded>().empty());
+    client.Pass(1ms);
+    REQUIRE(client.Take<ClientEnded>().size() == 1);
+}

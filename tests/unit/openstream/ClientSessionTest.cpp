@@ -354,3 +354,62 @@ TEST_CASE("8 A connect has a time limit and is retried indefinitely")
     client.Pass(600s);
     REQUIRE(client.connects > 30);
 }
+
+TEST_CASE("3 Answers to a command that has not left do not make the session send more")
+{
+    ClientFixture client;
+    client.SetMonitor(2ms);
+    MakeReady(client);
+    client.Receive(MONITOR_ACK);
+    client.bSocketTakes = false;
+    client.Control("/a", EControlTracking::Streamed);
+    client.SetMonitor(4ms);
+    client.lines.clear();
+    for (int count = 0; count < 100; ++count)
+    {
+        client.Receive("{\"error\":\"monitor_already_active\"}\n{\"type\":\"stop_ack\",\"target\":\"monitor\"}\n");
+    }
+    client.CompleteSend();
+    REQUIRE(client.lines.size() == 1);
+}
+
+TEST_CASE("3 A sample of an earlier MONITOR is not the latest one of the present MONITOR")
+{
+    ClientFixture client;
+    client.SetMonitor(2ms);
+    MakeReady(client);
+    client.Receive(MONITOR_ACK);
+    client.Receive(MakeData(2));
+    REQUIRE(client.session.GetLatestOrNull() != nullptr);
+    client.SetMonitor(4ms);
+    client.Receive(MakeData(4));
+    REQUIRE(client.session.GetLatestOrNull() == nullptr);
+    client.Receive(MONITOR_ACK);
+    client.Receive(MakeData(6));
+    REQUIRE(client.session.GetLatestOrNull() != nullptr);
+}
+
+TEST_CASE("8 Data is lost in time where it counts as stale only later")
+{
+    ClientSessionOptions options;
+    options.staleAfter = 500ms;
+    options.lostAfter = 200ms;
+    ClientFixture client(options);
+    client.SetMonitor(2ms);
+    MakeReady(client);
+    client.Receive(MONITOR_ACK);
+    client.Pass(201ms);
+    REQUIRE(client.Take<ClientLost>().empty());
+    client.Pass(1ms);
+    REQUIRE(client.Take<ClientLost>().size() == 1);
+}
+
+TEST_CASE("3 A stop_ack before the handshake is not reported")
+{
+    ClientFixture client;
+    client.Start();
+    client.session.OnConnected(client.GetNow(), client.actions);
+    client.Execute();
+    client.Receive("{\"type\":\"stop_ack\",\"target\":\"control\"}\n");
+    REQUIRE(client.Take<ClientStopped>().empty());
+}

@@ -310,6 +310,51 @@ TEST_CASE("4.2 An error that names the header of another master's message is no 
     CHECK(Pick<OrderRejected>(bench.GetOutput()).size() == 1);
 }
 
+TEST_CASE("13 An update that waits gets a number above the one that the vehicle shows")
+{
+    MasterSessionFixture bench;
+    bench.BeReady();
+    OrderBuilder builder = MakeBuilder(4);
+    const OrderMessage order = *builder.MakeOrder(2);
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(3), bench.GetNow(), bench.Clear()).has_value());
+    bench.Hold(order, 1);
+    bench.state.orderUpdateID = 7;
+    bench.SendState();
+    CHECK(Pick<OrderAccepted>(bench.GetOutput()) == std::vector{OrderAccepted{"order-1", 7}});
+    CHECK(bench.GetSentOrder().orderUpdateID == 8);
+    bench.Clear();
+    bench.SendState();
+    CHECK(Pick<OrderAccepted>(bench.GetOutput()).empty());
+    bench.state.orderUpdateID = 8;
+    bench.SendState();
+    CHECK(Pick<OrderAccepted>(bench.GetOutput()) == std::vector{OrderAccepted{"order-1", 8}});
+    CHECK(Pick<OrderFinished>(bench.GetOutput()).empty()); // its horizon is left
+}
+
+TEST_CASE("5.5 An action or error that a state repeats is reported once, and not again by the next state")
+{
+    MasterSessionFixture bench;
+    bench.BeReady();
+    bench.state.actionStates = {
+        ActionState{"a1", "pick", {}, EActionStatus::Running, {}},
+        ActionState{"a1", "pick", {}, EActionStatus::Finished, {}}};
+    VehicleError error;
+    error.errorType = "lost";
+    bench.state.errors = {error, error};
+    bench.Clear();
+    bench.SendState();
+    CHECK(Pick<ActionChanged>(bench.GetOutput()).size() == 1);
+    CHECK(Pick<VehicleErrorChanged>(bench.GetOutput()).size() == 1);
+    bench.Clear();
+    bench.SendState();
+    CHECK(Pick<ActionChanged>(bench.GetOutput()).empty());
+    bench.state.errors.clear();
+    bench.Clear();
+    bench.SendState();
+    CHECK(Pick<VehicleErrorChanged>(bench.GetOutput()).size() == 1);
+}
+
 TEST_CASE("5.5 Each change of thousands of actions and errors is reported once, in the order of the state")
 {
     constexpr std::size_t COUNT = 5'000;
