@@ -112,7 +112,7 @@ const std::deque<DurableRequest>& DurableOutbox::GetRequests() const noexcept
     return _requests;
 }
 
-void DurableOutbox::Erase(std::deque<DurableRequest>::const_iterator request)
+void DurableOutbox::Erase(const std::deque<DurableRequest>::const_iterator& request)
 {
     if (std::cmp_less(request - _requests.cbegin(), _sent))
     {

@@ -92,7 +92,7 @@ public:
     [[nodiscard]] const std::deque<DurableRequest>& GetRequests() const noexcept;
 
 private:
-    void Erase(std::deque<DurableRequest>::const_iterator request);
+    void Erase(const std::deque<DurableRequest>::const_iterator& request);
     [[nodiscard]] Core::Result<void> Remove(std::string_view transactionID);
 };
 
