@@ -41,9 +41,9 @@ void ClientSession::Impl::Handle(MonitorAck& /*ack*/, Core::Now now, ClientActio
 
 void ClientSession::Impl::Handle(DataLine& line, Core::Now now, ClientActions& out)
 {
-    if (_state != EClientState::Ready || !_monitor.has_value() || (_bMonitorOn && !IsMonitorCurrent()))
+    if (_state != EClientState::Ready || !_monitor.has_value())
     {
-        return; // still on its way when the stream was stopped or replaced
+        return; // still on its way when the stream was stopped
     }
     ++_stats.dataLines;
     _stats.missingLines += _meter.Add(line.ts, now.steady);
@@ -55,7 +55,10 @@ void ClientSession::Impl::Handle(DataLine& line, Core::Now now, ClientActions& o
     {
         Report(ClientData{line, now}, out);
     }
-    _latest = ClientData{std::move(line), now};
+    if (!_bMonitorOn || IsMonitorCurrent()) // otherwise it was on its way when the stream was replaced
+    {
+        _latest = ClientData{std::move(line), now};
+    }
 }
 
 void ClientSession::Impl::HandleMonitorError(ErrorLine& error, ClientActions& out)
