@@ -589,7 +589,7 @@ void ClientPeer::On(const ClientControlFault& /*event*/)
 {
 }
 
-void ClientPeer::On(const ClientStopped& /*event*/)
+void ClientPeer::On(const ClientStopped& /*event*/) const
 {
     Require(_bReady, "nothing is stopped before the session is ready");
 }

@@ -134,7 +134,7 @@ private:
     void On(const OpenStream::ClientMonitorStale& event);
     void On(const OpenStream::ClientControlSettled& event);
     void On(const OpenStream::ClientControlFault& event);
-    void On(const OpenStream::ClientStopped& event);
+    void On(const OpenStream::ClientStopped& event) const;
     void On(const OpenStream::ClientErrorReported& event);
     void On(const OpenStream::ClientBadLine& event);
     void On(const OpenStream::ClientLost& event);

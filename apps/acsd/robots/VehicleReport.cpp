@@ -119,7 +119,7 @@ void VehicleReport::UpdateErrors(const VDA5050::StateMessage& state)
     _state.omittedErrors = errors.size() - std::min(errors.size(), MOST_ERRORS);
     if (_state.omittedErrors > 0)
     {
-        std::ranges::stable_partition(errors, IsFatal);
+        std::stable_partition(errors.begin(), errors.end(), IsFatal);
         errors.erase(errors.begin() + MOST_ERRORS, errors.end());
     }
     _state.errors.clear();

@@ -49,7 +49,7 @@ void ErrorWatch::CompareErrors(Robot& robot)
     }
     if (fresh.size() + set > MOST_ALARMS)
     {
-        std::ranges::stable_partition(fresh, IsHeavy);
+        std::stable_partition(fresh.begin(), fresh.end(), IsHeavy);
     }
     const auto canSet = [this, &robot, &set] {
         return set < MOST_ALARMS && !_room.IsAlarmShareUsed()

@@ -72,7 +72,7 @@ TEST_CASE("A password over mqtt://, or headers over ws://, to another machine ca
 {
     const Testing::TemporaryFolder folder;
     const std::string password = "mqtt.password_file=" + WriteFile(folder, "password", "s3cret");
-    const auto warn = [](std::vector<std::string> overrides) {
+    const auto warn = [](const std::vector<std::string>& overrides) {
         return ReadMQTT(overrides).warnings;
     };
     for (const char* host : {"127.0.0.1", "localhost", "[::1]"})

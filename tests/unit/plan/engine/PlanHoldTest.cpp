@@ -15,7 +15,6 @@ using ACS::Testing::PausePlan;
 using ACS::Testing::PlanWorld;
 using ACS::Testing::RestartEngine;
 using ACS::Testing::TryRunFor;
-using ACS::Testing::TryRunUntil;
 
 namespace
 {
