@@ -13,6 +13,8 @@
 #include <cstdint>
 #include <fstream>
 #include <sstream>
+#include <string>
+#include <string_view>
 
 namespace ACS::Planning
 {
@@ -95,7 +97,7 @@ EListing FindListing(const std::string& file, const std::string& generation, con
     return listing;
 }
 
-const char* Describe(EListing listing)
+std::string_view Describe(EListing listing)
 {
     switch (listing)
     {
@@ -134,7 +136,7 @@ Core::Result<void> CheckGeneration(SQLite::Database& database, const std::string
             "TSC is then paused",
             StoreFiles::GetLogPath(path),
             StoreFiles::GetParent(path)),
-        Describe(listing));
+        std::string(Describe(listing)));
 }
 
 Core::Result<void> BeginGeneration(SQLite::Database& database, const std::string& path)

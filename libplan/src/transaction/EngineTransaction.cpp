@@ -235,7 +235,7 @@ void EngineTransaction::ReportAlarms(const std::vector<ErrorReport>& reports)
         const Alarm& alarm = report.alarm;
         _changes.push_back(report.bSet ? StoreChange(AlarmSet{alarm}) : StoreChange(AlarmCleared{alarm}));
         const std::string_view transactionID =
-            AddReport(report, _room.AreAlarmsMerged() ? RemoveReportOrNull(alarm) : std::nullopt);
+            AddReport(report, _room.ShouldMergeAlarms() ? RemoveReportOrNull(alarm) : std::nullopt);
         if (_observerOrNull != nullptr)
         {
             _observerOrNull->OnAlarmChanged(alarm, report.bSet, transactionID, _now);

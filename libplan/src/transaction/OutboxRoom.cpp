@@ -57,7 +57,7 @@ bool OutboxRoom::IsFree() const
         || (_outbox.GetUnacknowledged().empty() && _plans.GetReportsAhead() == 0);
 }
 
-bool OutboxRoom::AreAlarmsMerged() const
+bool OutboxRoom::ShouldMergeAlarms() const
 {
     return _outbox.CountAlarms() >= GetShare() / 2;
 }

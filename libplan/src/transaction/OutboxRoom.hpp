@@ -31,7 +31,7 @@ public:
     [[nodiscard]] bool IsFree() const;
 
     /// Whether only the latest report of each alarm is kept.
-    [[nodiscard]] bool AreAlarmsMerged() const;
+    [[nodiscard]] bool ShouldMergeAlarms() const;
     /// Whether the share of the alarms is used: no more errors of robots become alarms of their own.
     [[nodiscard]] bool IsAlarmShareUsed() const;
 

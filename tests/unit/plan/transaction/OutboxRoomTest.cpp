@@ -115,9 +115,9 @@ TEST_CASE("OutboxRoom: alarms are merged from half of their tenth on, and leave 
     RoomParts parts;
     const OutboxRoom& room = parts.engine.room;
     parts.AddAlarms(4);
-    CHECK_FALSE(room.AreAlarmsMerged());
+    CHECK_FALSE(room.ShouldMergeAlarms());
     parts.AddAlarms(1);
-    CHECK(room.AreAlarmsMerged());
+    CHECK(room.ShouldMergeAlarms());
     CHECK_FALSE(room.IsAlarmShareUsed());
     parts.AddAlarms(5);
     CHECK(room.IsAlarmShareUsed());
