@@ -594,12 +594,12 @@ void ClientPeer::On(const ClientStopped& /*event*/) const
     Require(_bReady, "nothing is stopped before the session is ready");
 }
 
-void ClientPeer::On(const ClientErrorReported& /*event*/)
+void ClientPeer::On(const ClientErrorReported& /*event*/) const
 {
     Require(_bReady, "an error is reported by a session");
 }
 
-void ClientPeer::On(const ClientBadLine& /*event*/)
+void ClientPeer::On(const ClientBadLine& /*event*/) const
 {
     Require(_bHostile, "a valid line is read");
 }

@@ -135,8 +135,8 @@ private:
     void On(const OpenStream::ClientControlSettled& event);
     void On(const OpenStream::ClientControlFault& event);
     void On(const OpenStream::ClientStopped& event) const;
-    void On(const OpenStream::ClientErrorReported& event);
-    void On(const OpenStream::ClientBadLine& event);
+    void On(const OpenStream::ClientErrorReported& event) const;
+    void On(const OpenStream::ClientBadLine& event) const;
     void On(const OpenStream::ClientLost& event);
     void On(const OpenStream::ClientEnded& event);
     void CheckSentLine(const OpenStream::OpenStreamRequest& request);
