@@ -205,7 +205,7 @@ class Restored(Store):
         self.assertEqual(self.submit("P1")["result"], "Success")
         self.wait_for_status(address, lambda status: status["plans"] and status["plans"][0]["status"] == "InProgress")
 
-        # A backup while acsd runs and a plan is in progress: its vehicle stands still meanwhile. A restore is refused.
+        # A backup while acsd runs and a plan is in progress: its vehicle is stopped meanwhile. A restore is refused.
         self.vehicles.send_signal(signal.SIGSTOP)
         self.addCleanup(self.vehicles.send_signal, signal.SIGCONT)
         backup = self.line.folder / "backup.db"
