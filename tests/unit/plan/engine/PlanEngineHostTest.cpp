@@ -10,6 +10,7 @@ namespace
 {
 
 using namespace Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using namespace std::chrono_literals;
 
 /// The host with an engine, and a disk that answers when the test lets it.
 class HostTest
