@@ -3,6 +3,7 @@
 #include <acs/plan/PlanEngineHost.hpp>
 
 #include <algorithm>
+#include <chrono>
 
 namespace ACS::Testing
 {
