@@ -192,7 +192,12 @@ void ClientSession::Impl::StopControl(Core::Now now, ClientActions& out)
     SettleInFlight(EControlOutcome::Unknown, "STOP control followed it", out);
     SettleConfirmations("STOP control followed it", out);
     SettleWaiting("STOP control went before it", out);
-    SendUntil(StopRequest{EStopTarget::Control}, GetControlDeadline({}, now), out);
+    // One that waits and that nothing follows suffices: repeated for a socket that does not take it, it would fill the outbox.
+    if (_outbox.WasTaken(_stopMark) || _outbox.GetMark() != _stopMark)
+    {
+        SendUntil(StopRequest{EStopTarget::Control}, GetControlDeadline({}, now), out);
+        _stopMark = _outbox.GetMark();
+    }
     SendNext(now, out);
 }
 

@@ -46,6 +46,7 @@ void ClientSession::Impl::Connect(Core::Now now, ClientActions& out)
 {
     _framer.Reset();
     _outbox.Reset();
+    _stopMark = 0;
     _waitingDue = Core::SteadyTime::max();
     _sendingDue = Core::SteadyTime::max();
     _state = EClientState::Connecting;

@@ -82,6 +82,7 @@ class ClientSession::Impl
     StreamMeter _meter;
     std::optional<ClientData> _latest;
 
+    std::uint64_t _stopMark = 0; ///< Position of the last byte of the last STOP control in the outbox.
     Core::BoundedQueue<PendingControl> _controls;
     std::uint64_t _lastToken = 0;
 

@@ -267,6 +267,30 @@ TEST_CASE("3 STOP control has a time limit too; a session that ends does not rec
     }
 }
 
+TEST_CASE("3 A STOP control that waits for the socket is not repeated unless a CONTROL follows it")
+{
+    ClientFixture client;
+    MakeReady(client);
+    client.lines.clear();
+    client.bSocketTakes = false;
+    const auto stop = [&client](int times) {
+        for (int count = 0; count < times; ++count)
+        {
+            client.session.StopControl(client.GetNow(), client.actions);
+            client.Execute();
+        }
+    };
+    stop(1'000); // the first one is given to the socket
+    client.Control("/a", EControlTracking::Streamed);
+    stop(1'000);
+    client.bSocketTakes = true;
+    client.CompleteSend();
+    CHECK(client.CountLines("CONTROL") == 1);
+    CHECK(client.CountLines("STOP") == 3);
+    stop(2);
+    CHECK(client.CountLines("STOP") == 5);
+}
+
 TEST_CASE("3 Without a time limit a CONTROL waits indefinitely")
 {
     ClientSessionOptions options;
