@@ -42,6 +42,13 @@ class MasterSession::Impl
         bool bRejected = false; ///< Rejected or never shown; otherwise cancelled.
     };
 
+    /// Whether the vehicle can show the message in flight.
+    enum class EEcho : std::uint8_t
+    {
+        Impossible, ///< It was never sent.
+        Possible,   ///< It was sent, perhaps before a restart of the master.
+    };
+
     struct RouteNode
     {
         std::string nodeID;
@@ -74,6 +81,7 @@ class MasterSession::Impl
     std::optional<OrderMessage> _queued;   ///< Waits until the one in flight is shown.
     /// The messages that were built with a horizon, from the accepted one on: more nodes follow, whether or not it was sent.
     std::vector<std::uint32_t> _continuedUpdateIDs;
+    EEcho _echo = EEcho::Impossible;
     std::uint32_t _sendCount = 0;
     std::optional<Core::SteadyTime> _lastOrderTime; ///< Of the last published message.
     std::optional<OrderMessage> _withdrawn;         ///< In flight when the cancel was sent; the vehicle may receive it.
@@ -139,6 +147,10 @@ private:
     [[nodiscard]] bool IsCancelLate(const PendingAction& pending) const;
     void SettlePendingActions(const ActionIndex& shown, MasterActions& out);
     void SettleInFlight(Core::Now now, MasterActions& out);
+    /// Keeps the numbers of what was not sent above the one that the vehicle shows.
+    void RenumberUnsent(MasterActions& out);
+    /// False: no orderUpdateId is left for the update.
+    [[nodiscard]] bool TryRenumber(OrderMessage& update);
     void AcceptInFlight(Core::Now now, MasterActions& out);
     /// Whether the vehicle may have executed the order in flight without showing it, and forgotten it by a restart.
     [[nodiscard]] bool IsInFlightDoubtful() const;
@@ -159,8 +171,10 @@ private:
     /// Changes the order to what the vehicle takes. True: it continues with nodes that are not in its base.
     [[nodiscard]] Core::Result<bool> Prepare(OrderMessage& order, Core::Now now) const;
     void NoteContinuation(std::uint32_t orderUpdateID, bool bContinues);
+    /// The next orderUpdateId, above what was numbered and what the vehicle shows; empty after the last one.
+    [[nodiscard]] std::optional<std::uint32_t> TakeUpdateIDOrNull();
     /// The message is in flight until the vehicle shows it.
-    void StartWaitingForEcho(OrderMessage order, Core::Now now, MasterActions& out);
+    void StartWaitingForEcho(OrderMessage order, EEcho echo, Core::Now now, MasterActions& out);
     /// The start of an update: the last released node of the last message.
     [[nodiscard]] std::pair<std::string, std::uint32_t> GetDecisionPoint() const;
     [[nodiscard]] bool IsPending(std::string_view actionID) const;

@@ -22,6 +22,8 @@ constexpr std::array ORDER_ERROR_TYPES{
     ErrorTypes::ORDER_UPDATE_ERROR,
     ErrorTypes::NO_ROUTE_ERROR};
 
+constexpr const char* NO_UPDATE_ID = "no orderUpdateId is left for an update: the vehicle shows the last one";
+
 } // namespace
 
 bool MasterSession::Impl::IsPending(std::string_view actionID) const
@@ -91,6 +93,11 @@ void MasterSession::Impl::SettleInFlight(Core::Now now, MasterActions& out)
     {
         return;
     }
+    if (_echo == EEcho::Impossible)
+    {
+        RenumberUnsent(out);
+        return; // nothing that the vehicle shows is an answer
+    }
     if (_state->orderID == _inFlight->orderID && _state->orderUpdateID >= _inFlight->orderUpdateID)
     {
         AcceptInFlight(now, out);
@@ -110,6 +117,34 @@ void MasterSession::Impl::SettleInFlight(Core::Now now, MasterActions& out)
     {
         ResendOrder(now, out);
     }
+}
+
+void MasterSession::Impl::RenumberUnsent(MasterActions& out)
+{
+    if (_state->orderID != _inFlight->orderID || _state->orderUpdateID < _inFlight->orderUpdateID)
+    {
+        return;
+    }
+    if (!_bAccepted)
+    {
+        RejectInFlight({}, "before the order was sent, the vehicle showed another one with its orderId", out);
+    }
+    else if (!TryRenumber(*_inFlight) || (_queued.has_value() && !TryRenumber(*_queued)))
+    {
+        RejectInFlight({}, NO_UPDATE_ID, out);
+    }
+}
+
+/// With its old number it would count as accepted at once, and the vehicle would ignore it.
+bool MasterSession::Impl::TryRenumber(OrderMessage& update)
+{
+    const std::optional<std::uint32_t> updateID = TakeUpdateIDOrNull();
+    if (updateID.has_value())
+    {
+        std::ranges::replace(_continuedUpdateIDs, update.orderUpdateID, *updateID);
+        update.orderUpdateID = *updateID;
+    }
+    return updateID.has_value();
 }
 
 bool MasterSession::Impl::IsInFlightDoubtful() const
@@ -166,19 +201,20 @@ void MasterSession::Impl::AcceptInFlight(Core::Now now, MasterActions& out)
     // A master that takes an order up again may know less of it than the vehicle has.
     _acceptedUpdateID = std::max(_inFlight->orderUpdateID, _state->orderUpdateID);
     _lastSentUpdateID = std::max(_lastSentUpdateID, _acceptedUpdateID);
-    if (_queued.has_value() && _queued->orderUpdateID <= _acceptedUpdateID)
-    {
-        // With its old number it would count as accepted at once, and the vehicle would ignore it.
-        const std::uint32_t previousID = std::exchange(_queued->orderUpdateID, ++_lastSentUpdateID);
-        std::ranges::replace(_continuedUpdateIDs, previousID, _queued->orderUpdateID);
-    }
+    const bool bRenumbered =
+        !_queued.has_value() || _queued->orderUpdateID > _acceptedUpdateID || TryRenumber(*_queued);
     std::erase_if(_continuedUpdateIDs, [this](std::uint32_t updateID) { return updateID < _acceptedUpdateID; });
     _inFlight.reset();
     out.emplace_back(CancelMasterTimer{EMasterTimer::ResendOrder});
     out.emplace_back(OrderAccepted{_orderID, _acceptedUpdateID});
-    if (_queued.has_value())
+    std::optional<OrderMessage> next = std::exchange(_queued, std::nullopt);
+    if (!bRenumbered)
     {
-        StartWaitingForEcho(*std::exchange(_queued, std::nullopt), now, out);
+        out.emplace_back(OrderRejected{_orderID, next->orderUpdateID, {}, NO_UPDATE_ID});
+    }
+    else if (next.has_value())
+    {
+        StartWaitingForEcho(*std::move(next), EEcho::Impossible, now, out);
     }
 }
 
@@ -191,7 +227,7 @@ void MasterSession::Impl::RejectInFlight(const std::string& errorType, const std
     {
         out.emplace_back(OrderRejected{_orderID, _queued->orderUpdateID, errorType, reason});
     }
-    if (!_bAccepted)
+    if (!_bAccepted && _echo == EEcho::Possible)
     {
         Withdraw(&*_inFlight, true);
     }

@@ -5,6 +5,7 @@
 #include <acs/vda5050/OrderValidator.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace ACS::VDA5050
@@ -135,6 +136,7 @@ void MasterSession::Impl::PublishOrder(Core::Now now, MasterActions& out)
     _lastOrderTime = now.steady;
     _inFlight->header = MakeHeader(ETopic::Order, now);
     PublishPayload(ETopic::Order, _codec.Encode(*_inFlight, _options.version), out);
+    _echo = EEcho::Possible;
     _firstHeaderID = _sendCount == 0 ? _inFlight->header.headerID : _firstHeaderID;
     ++_sendCount;
     out.emplace_back(StartMasterTimer{EMasterTimer::ResendOrder, _options.resendInterval});
@@ -203,12 +205,25 @@ void MasterSession::Impl::SetHorizonOmitted(bool bOmitted) noexcept
     _bHorizonOmitted = bOmitted;
 }
 
-void MasterSession::Impl::StartWaitingForEcho(OrderMessage order, Core::Now now, MasterActions& out)
+std::optional<std::uint32_t> MasterSession::Impl::TakeUpdateIDOrNull()
+{
+    const std::uint32_t shownID = _state.has_value() && _state->orderID == _orderID ? _state->orderUpdateID : 0;
+    const std::uint32_t lastID = std::max(_lastSentUpdateID, shownID);
+    if (lastID == std::numeric_limits<std::uint32_t>::max())
+    {
+        return std::nullopt;
+    }
+    _lastSentUpdateID = lastID + 1;
+    return _lastSentUpdateID;
+}
+
+void MasterSession::Impl::StartWaitingForEcho(OrderMessage order, EEcho echo, Core::Now now, MasterActions& out)
 {
     _errorsBeforeSend = _state->errors;
     std::ranges::sort(_errorsBeforeSend);
     _orderIDBeforeSend = _state->orderID;
     _bAwaySinceSend = false;
+    _echo = echo;
     _sendCount = 0;
     _inFlight = std::move(order);
     PublishOrder(now, out);
@@ -255,7 +270,7 @@ Core::Result<void> MasterSession::Impl::SendOrder(OrderMessage order, Core::Now 
     }
     BeginOrder(order.orderID, order.orderUpdateID);
     NoteContinuation(order.orderUpdateID, *prepared);
-    StartWaitingForEcho(std::move(order), now, out);
+    StartWaitingForEcho(std::move(order), EEcho::Impossible, now, out);
     return {};
 }
 
@@ -294,14 +309,23 @@ Core::Result<void> MasterSession::Impl::SendOrderUpdate(OrderMessage update, Cor
     {
         return check;
     }
-    update.orderUpdateID = ++_lastSentUpdateID;
+    const std::optional<std::uint32_t> updateID = TakeUpdateIDOrNull();
+    if (!updateID.has_value())
+    {
+        return Core::Fail(
+            EVda5050Error::InvalidOrder,
+            "orderUpdateId",
+            "a new order: the last orderUpdateId of this one was used",
+            _orderID);
+    }
+    update.orderUpdateID = *updateID;
     NoteContinuation(update.orderUpdateID, *prepared);
     if (_inFlight.has_value())
     {
         _queued = std::move(update);
         return {};
     }
-    StartWaitingForEcho(std::move(update), now, out);
+    StartWaitingForEcho(std::move(update), EEcho::Impossible, now, out);
     return {};
 }
 
@@ -373,7 +397,7 @@ Core::Result<void> MasterSession::Impl::ResumeOrder(OrderRecord record, Core::No
     }
     if (open != messages.end())
     {
-        StartWaitingForEcho(std::move(*open), now, out);
+        StartWaitingForEcho(std::move(*open), EEcho::Possible, now, out);
     }
     UpdateActions(ActionIndex(_state->actionStates), out);
     UpdateOrder(out);

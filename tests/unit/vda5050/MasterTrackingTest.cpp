@@ -2,6 +2,10 @@
 #include <acs/vda5050/EVda5050Error.hpp>
 
 #include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <limits>
+#include <vector>
 
 namespace ACS::VDA5050::Test
 {
@@ -330,6 +334,83 @@ TEST_CASE("13 An update that waits gets a number above the one that the vehicle 
     bench.SendState();
     CHECK(Pick<OrderAccepted>(bench.GetOutput()) == std::vector{OrderAccepted{"order-1", 8}});
     CHECK(Pick<OrderFinished>(bench.GetOutput()).empty()); // its horizon is left
+}
+
+TEST_CASE("13 After the last orderUpdateId no update is sent")
+{
+    MasterSessionFixture bench;
+    bench.BeReady();
+    OrderBuilder builder = MakeBuilder(5);
+    const OrderMessage order = *builder.MakeOrder(2);
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    const bool bWaiting = GENERATE(true, false);
+    if (bWaiting)
+    {
+        REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(3), bench.GetNow(), bench.Clear()).has_value());
+    }
+    bench.Clear();
+    bench.Hold(order, 1);
+    bench.state.orderUpdateID = std::numeric_limits<std::uint32_t>::max();
+    bench.SendState();
+    CHECK(Pick<OrderAccepted>(bench.GetOutput()).size() == 1);
+    CHECK(Pick<OrderRejected>(bench.GetOutput()).size() == (bWaiting ? 1 : 0));
+    CHECK(bench.GetSent(ETopic::Order).empty());
+    const auto sent = bench.session.SendOrderUpdate(*builder.MakeUpdate(3), bench.GetNow(), bench.Clear());
+    REQUIRE_FALSE(sent.has_value());
+    CHECK(sent.error().code == EVda5050Error::InvalidOrder);
+    CHECK(bench.session.GetOrderPhase() == EOrderPhase::Active);
+}
+
+TEST_CASE("13 An update that was not sent yet is not accepted, and is sent with a number above the one shown")
+{
+    MasterOptions options = MakeMasterOptions();
+    options.factsheet.emplace().protocolLimits.timing.minOrderInterval = 5.0;
+    MasterSessionFixture bench(options);
+    bench.BeReady();
+    OrderBuilder builder = MakeBuilder(5);
+    const OrderMessage order = *builder.MakeOrder(2);
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    bench.Hold(order, 1);
+    bench.SendState();
+    REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(3), bench.GetNow(), bench.Clear()).has_value());
+    REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(4), bench.GetNow(), bench.Clear()).has_value());
+    REQUIRE(bench.GetSent(ETopic::Order).empty()); // it is delayed
+    bench.state.orderUpdateID = 7;
+    bench.SendState();
+    CHECK(Pick<OrderAccepted>(bench.GetOutput()).empty());
+    bench.Clear();
+    bench.Wait(std::chrono::seconds(5), EMasterTimer::ResendOrder);
+    CHECK(bench.GetSentOrder().orderUpdateID == 8);
+    bench.Clear();
+    bench.state.orderUpdateID = 8;
+    bench.SendState();
+    CHECK(Pick<OrderAccepted>(bench.GetOutput()) == std::vector{OrderAccepted{"order-1", 8}});
+    bench.Clear();
+    bench.Wait(std::chrono::seconds(5), EMasterTimer::ResendOrder);
+    CHECK(bench.GetSentOrder().orderUpdateID == 9);
+}
+
+TEST_CASE("13 An update that was not sent yet is rejected when the vehicle shows the last orderUpdateId")
+{
+    MasterOptions options = MakeMasterOptions();
+    options.factsheet.emplace().protocolLimits.timing.minOrderInterval = 5.0;
+    MasterSessionFixture bench(options);
+    bench.BeReady();
+    OrderBuilder builder = MakeBuilder(5);
+    const OrderMessage order = *builder.MakeOrder(2);
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    bench.Hold(order, 1);
+    bench.SendState();
+    REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(3), bench.GetNow(), bench.Clear()).has_value());
+    REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(4), bench.GetNow(), bench.Clear()).has_value());
+    bench.state.orderUpdateID = std::numeric_limits<std::uint32_t>::max();
+    bench.SendState();
+    CHECK(Pick<OrderAccepted>(bench.GetOutput()).empty());
+    CHECK(Pick<OrderRejected>(bench.GetOutput()).size() == 2);
+    CHECK(bench.session.GetOrderPhase() == EOrderPhase::Active);
+    bench.Clear();
+    bench.Wait(std::chrono::seconds(5), EMasterTimer::ResendOrder);
+    CHECK(bench.GetSent(ETopic::Order).empty());
 }
 
 TEST_CASE("5.5 An action or error that a state repeats is reported once, and not again by the next state")
