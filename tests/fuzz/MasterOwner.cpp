@@ -262,7 +262,7 @@ void MasterOwner::SendOrder(Choices& choices)
     }
     Require(bPossible && bValid && !_order.has_value(), "an order is sent only to a vehicle that can take it");
     _stored.reset();
-    order.messages.push_back(Given{std::move(message), end > released, false, EAnswer::Open});
+    order.messages.push_back(Given{message, message, end > released, ESent::No, EAnswer::Open});
     _order = std::move(order);
     Execute();
 }
@@ -295,7 +295,7 @@ void MasterOwner::SendUpdate(Choices& choices)
         return;
     }
     Require(open < 2 && !order.bCancelling, "at most one update waits");
-    order.messages.push_back(Given{message, end > released, false, EAnswer::Open});
+    order.messages.push_back(Given{message, message, end > released, ESent::No, EAnswer::Open});
     Execute();
 }
 
@@ -392,11 +392,11 @@ void MasterOwner::Resume()
     record.acceptedUpdateID = _stored->acceptedUpdateID;
     for (Given& given : _stored->messages)
     {
-        if (!given.bPublished && !record.messages.empty())
+        if (given.sent == ESent::No && !record.messages.empty())
         {
-            given.message.orderUpdateID = record.messages.back().orderUpdateID + 1;
+            given.given.orderUpdateID = record.messages.back().orderUpdateID + 1;
         }
-        record.messages.push_back(given.message);
+        record.messages.push_back(given.given);
     }
     const Core::Result<void> resumed = _session.ResumeOrder(record, _now, _out);
     if (!resumed)
@@ -410,19 +410,27 @@ void MasterOwner::Resume()
     _stored.reset();
     order.reachedSequenceID.reset();
     bool bFirst = true;
+    bool bFirstOpen = true;
     for (Given& given : order.messages)
     {
-        const bool bShown = state->orderID == order.orderID && state->orderUpdateID >= given.message.orderUpdateID;
+        const bool bShown = state->orderID == order.orderID && state->orderUpdateID >= given.given.orderUpdateID;
+        given.message = given.given;
         given.answer = bShown ? EAnswer::Accepted : EAnswer::Open;
-        given.bPublished = bShown;
+        given.sent = ESent::Yes;
         if (bShown)
         {
             Track(given.message, std::exchange(bFirst, false));
         }
+        else
+        {
+            given.sent = std::exchange(bFirstOpen, false) ? ESent::Perhaps : ESent::No;
+        }
     }
     _order = std::move(order);
     ResolveShown();
+    _bResuming = true;
     Execute();
+    _bResuming = false;
 }
 
 void MasterOwner::Execute()
@@ -559,25 +567,27 @@ void MasterOwner::Track(const OrderMessage& message, bool bFirst)
 void MasterOwner::On(const OrderAccepted& event)
 {
     Require(_order.has_value() && _order->orderID == event.orderID, "an order that was sent is accepted");
+    const auto isAccepted = [](const Given& given) {
+        return given.answer == EAnswer::Accepted;
+    };
+    const bool bFirst = std::ranges::none_of(_order->messages, isAccepted);
+    if (_bResuming)
+    {
+        Require(!bFirst, "an order that is resumed is accepted where the vehicle shows a message of it");
+        _order->acceptedUpdateID = event.orderUpdateID;
+        return;
+    }
     const auto given = std::ranges::find(_order->messages, EAnswer::Open, &Given::answer);
-    const bool bResumed = _order->acceptedUpdateID == event.orderUpdateID || !_order->acceptedUpdateID.has_value();
-    if (given == _order->messages.end() || !given->bPublished)
-    {
-        Require(bResumed && !_order->messages.empty(), "a message is accepted after it was sent");
-    }
-    else
-    {
-        Require(given->message.orderUpdateID <= event.orderUpdateID, "the vehicle has shown what is accepted");
-        Require(
-            !_order->acceptedUpdateID.has_value() || event.orderUpdateID > *_order->acceptedUpdateID,
-            "each acceptance is of a later message");
-        const bool bFirst = std::ranges::none_of(_order->messages, [](const Given& other) {
-            return other.answer == EAnswer::Accepted;
-        });
-        given->answer = EAnswer::Accepted;
-        Track(given->message, bFirst);
-        ResolveShown();
-    }
+    Require(
+        given != _order->messages.end() && given->sent != ESent::No,
+        "a message is accepted once, after it was sent");
+    Require(given->message.orderUpdateID <= event.orderUpdateID, "the vehicle has shown what is accepted");
+    Require(
+        !_order->acceptedUpdateID.has_value() || event.orderUpdateID > *_order->acceptedUpdateID,
+        "each acceptance is of a later message");
+    given->answer = EAnswer::Accepted;
+    Track(given->message, bFirst);
+    ResolveShown();
     _order->acceptedUpdateID = event.orderUpdateID;
 }
 
@@ -587,7 +597,7 @@ void MasterOwner::On(const OrderRejected& event)
     const auto given = std::ranges::find(_order->messages, EAnswer::Open, &Given::answer);
     Require(given != _order->messages.end(), "a message has one answer");
     Require(
-        !given->bPublished || given->message.orderUpdateID == event.orderUpdateID,
+        given->sent != ESent::Yes || given->message.orderUpdateID == event.orderUpdateID,
         "the message without an answer is rejected");
     given->answer = EAnswer::Rejected;
     if (!_order->acceptedUpdateID.has_value() && CountOpen(*_order) == 0)
@@ -709,7 +719,7 @@ void MasterOwner::CheckOrderMessage(const OrderMessage& message)
     Require(given != _order->messages.end(), "a message is not sent after its answer");
     const std::string& mark = given->message.nodes.front().nodeDescription;
     Require(message.nodes.front().nodeDescription == mark, "one message without an answer is sent at a time, in order");
-    if (given->bPublished)
+    if (given->sent == ESent::Yes)
     {
         OrderMessage again = message;
         again.header = given->message.header;
@@ -719,7 +729,7 @@ void MasterOwner::CheckOrderMessage(const OrderMessage& message)
     std::size_t base = 0;
     for (const Given& other : _order->messages)
     {
-        if (other.bPublished)
+        if (other.sent == ESent::Yes)
         {
             Require(message.orderUpdateID > other.message.orderUpdateID, "orderUpdateId rises");
         }
@@ -741,7 +751,8 @@ void MasterOwner::CheckOrderMessage(const OrderMessage& message)
         Require(index >= message.nodes.size() || message.nodes[index] == node, "a node is sent as it was given");
     }
     given->message = message;
-    given->bPublished = true;
+    given->given.orderUpdateID = message.orderUpdateID;
+    given->sent = ESent::Yes;
 }
 
 void MasterOwner::CheckInstant(const Action& action)
@@ -823,7 +834,7 @@ void MasterOwner::CheckReserved() const
         const Given& given = _order->messages[index];
         const bool bUnderWay =
             given.answer == EAnswer::Open || (given.answer == EAnswer::Dropped && _order->bCancelling);
-        if (!given.bPublished || !bUnderWay)
+        if (given.sent != ESent::Yes || !bUnderWay)
         {
             continue;
         }

@@ -35,12 +35,20 @@ class MasterOwner
         Dropped, ///< By a cancel.
     };
 
+    enum class ESent : std::uint8_t
+    {
+        No,
+        Perhaps, ///< By the session before a restart.
+        Yes,
+    };
+
     /// A message of an order.
     struct Given
     {
-        VDA5050::OrderMessage message; ///< As given to the session, and then as published.
+        VDA5050::OrderMessage given;   ///< As given to the session, with the number of the published message.
+        VDA5050::OrderMessage message; ///< Likewise, and then as published.
         bool bContinues = false;       ///< Was given with a horizon.
-        bool bPublished = false;
+        ESent sent = ESent::No;
         EAnswer answer = EAnswer::Open;
     };
 
@@ -98,6 +106,7 @@ class MasterOwner
     bool _bLed = true; ///< According to the last state.
     bool _bSilent = false;
     bool _bStateSeen = false; ///< In the present batch.
+    bool _bResuming = false;  ///< The present batch is of ResumeOrder.
 
 public:
     explicit MasterOwner(VDA5050::MasterOptions options);
