@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <utility>
 
 namespace ACS::Fuzz
@@ -89,7 +90,7 @@ bool ClientPeer::IsConfirmed(std::size_t index, const DataLine& sample)
     Control& control = _controls.at(index);
     Require(control.writtenAt.has_value(), "only a sample after the CONTROL was sent confirms it");
     Require(!control.outcome.has_value(), "a CONTROL with an outcome is not confirmed again");
-    control.bConfirmed = control.bConfirmed || static_cast<std::uint64_t>(sample.ts) % 3 == 0;
+    control.bConfirmed = control.bConfirmed || std::fmod(sample.ts, 3.0) == 0.0;
     return control.bConfirmed;
 }
 

@@ -386,7 +386,7 @@ void MasterOwner::Resume()
         return;
     }
     std::erase_if(_stored->messages, [](const Given& given) {
-        return given.answer == EAnswer::Rejected || given.answer == EAnswer::Dropped;
+        return given.answer != EAnswer::Open && given.answer != EAnswer::Accepted;
     });
     OrderRecord record;
     record.acceptedUpdateID = _stored->acceptedUpdateID;
@@ -494,6 +494,10 @@ void MasterOwner::Do(const MasterAction& action)
                 Require(_order.has_value() && _order->orderID == event.orderID, "the cancel was of this order");
                 Require(_order->bCancelling, "a cancel fails once");
                 _order->bCancelling = false;
+                for (Given& given : _order->messages)
+                {
+                    given.answer = given.answer == EAnswer::Dropped ? EAnswer::Gone : given.answer;
+                }
             },
             [this](const OrderLost& event) {
                 _withdrawn.insert(event.orderID);

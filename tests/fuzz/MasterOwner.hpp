@@ -32,7 +32,8 @@ class MasterOwner
         Open,
         Accepted,
         Rejected,
-        Dropped, ///< By a cancel.
+        Dropped, ///< By a cancel that runs.
+        Gone,    ///< Dropped by a cancel that failed: the vehicle has answered what was sent after it.
     };
 
     enum class ESent : std::uint8_t
