@@ -541,7 +541,9 @@ void ClientPeer::On(const ClientData& event)
 void ClientPeer::On(const ClientMonitorStale& event)
 {
     Require(_bReady && _startedMonitor != 0, "data is stale only where a MONITOR was started");
-    Require(!_bStale, "stale data is reported once");
+    const std::uint64_t lines = _session.GetStats().dataLines; // also those that are no events
+    Require(!_bStale || lines > _linesAtStale, "stale data is reported once");
+    _linesAtStale = lines;
     Require(
         event.age >= _options.staleAfter && _options.staleAfter.count() > 0,
         "stale data has the age of the options");

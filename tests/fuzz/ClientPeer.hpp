@@ -90,6 +90,7 @@ private:
     double _ts = 0.0;
     Core::SteadyTime _lastSampleAt;
     bool _bStale = false;
+    std::uint64_t _linesAtStale = 0; ///< Number of data lines when stale data was reported last.
     std::uint64_t _samples = 0;
     std::uint64_t _connects = 0;
 
