@@ -296,6 +296,7 @@ void MasterSession::Impl::OnState(std::string_view payload, Core::Now now, Maste
     UpdateActions(shown, out);
     UpdateOrder(out);
     UpdateCancel(out);
+    SendQueued(now, out);
     CancelReappeared(now, out);
     if (!bWasLed && IsUnderMasterControl())
     {

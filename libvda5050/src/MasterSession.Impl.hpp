@@ -151,7 +151,9 @@ private:
     void RenumberUnsent(MasterActions& out);
     /// False: no orderUpdateId is left for the update.
     [[nodiscard]] bool TryRenumber(OrderMessage& update);
-    void AcceptInFlight(Core::Now now, MasterActions& out);
+    void AcceptInFlight(MasterActions& out);
+    /// The update that waits, once the vehicle has shown the message before it and still holds the order.
+    void SendQueued(Core::Now now, MasterActions& out);
     /// Whether the vehicle may have executed the order in flight without showing it, and forgotten it by a restart.
     [[nodiscard]] bool IsInFlightDoubtful() const;
     void DropInFlight(MasterActions& out);

@@ -100,7 +100,7 @@ void MasterSession::Impl::SettleInFlight(Core::Now now, MasterActions& out)
     }
     if (_state->orderID == _inFlight->orderID && _state->orderUpdateID >= _inFlight->orderUpdateID)
     {
-        AcceptInFlight(now, out);
+        AcceptInFlight(out);
         return;
     }
     const VehicleError* rejectionOrNull = FindRejectionOrNull();
@@ -195,7 +195,7 @@ void MasterSession::Impl::AddToRoute(const OrderMessage& order)
     _phase = EOrderPhase::Active;
 }
 
-void MasterSession::Impl::AcceptInFlight(Core::Now now, MasterActions& out)
+void MasterSession::Impl::AcceptInFlight(MasterActions& out)
 {
     AddToRoute(*_inFlight);
     // A master that takes an order up again may know less of it than the vehicle has.
@@ -207,14 +207,18 @@ void MasterSession::Impl::AcceptInFlight(Core::Now now, MasterActions& out)
     _inFlight.reset();
     out.emplace_back(CancelMasterTimer{EMasterTimer::ResendOrder});
     out.emplace_back(OrderAccepted{_orderID, _acceptedUpdateID});
-    std::optional<OrderMessage> next = std::exchange(_queued, std::nullopt);
     if (!bRenumbered)
     {
-        out.emplace_back(OrderRejected{_orderID, next->orderUpdateID, {}, NO_UPDATE_ID});
+        out.emplace_back(OrderRejected{_orderID, _queued->orderUpdateID, {}, NO_UPDATE_ID});
+        _queued.reset();
     }
-    else if (next.has_value())
+}
+
+void MasterSession::Impl::SendQueued(Core::Now now, MasterActions& out)
+{
+    if (_phase == EOrderPhase::Active && !_inFlight.has_value() && _queued.has_value())
     {
-        StartWaitingForEcho(*std::move(next), EEcho::Impossible, now, out);
+        StartWaitingForEcho(*std::exchange(_queued, std::nullopt), EEcho::Impossible, now, out);
     }
 }
 
@@ -309,8 +313,8 @@ void MasterSession::Impl::ReportReachedNodes(MasterActions& out)
 bool MasterSession::Impl::IsOrderDone() const
 {
     const bool bContinues = std::ranges::count(_continuedUpdateIDs, _acceptedUpdateID) > 0;
-    if (bContinues || _inFlight.has_value() || _reachedNodes != _route.size() || !_state->nodeStates.empty()
-        || !_state->edgeStates.empty())
+    if (bContinues || _inFlight.has_value() || _queued.has_value() || _reachedNodes != _route.size()
+        || !_state->nodeStates.empty() || !_state->edgeStates.empty())
     {
         return false;
     }
@@ -349,6 +353,10 @@ void MasterSession::Impl::UpdateOrder(MasterActions& out)
     if (bEmpty && _reachedNodes != _route.size())
     {
         // A base that is done leaves its horizon in nodeStates; nothing left means that it was dropped.
+        if (_inFlight.has_value() && _echo == EEcho::Possible)
+        {
+            Withdraw(&*_inFlight, false);
+        }
         out.emplace_back(OrderLost{_orderID, "the vehicle cleared the order"});
         EndOrder(out);
     }

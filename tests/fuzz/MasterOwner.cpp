@@ -917,7 +917,7 @@ void MasterOwner::End()
             Require(_session.SendInstantAction(action, _now, _out).has_value(), "any order can be cancelled");
             Execute();
         }
-        else if (!_order.has_value() && !bHeld && _open.empty() && _session.CanTakeOrder())
+        else if (!_order.has_value() && !bHeld && _underWay.empty() && _open.empty() && _session.CanTakeOrder())
         {
             break;
         }

@@ -336,6 +336,44 @@ TEST_CASE("13 An update that waits gets a number above the one that the vehicle 
     CHECK(Pick<OrderFinished>(bench.GetOutput()).empty()); // its horizon is left
 }
 
+TEST_CASE("5.4 An update that waits is not sent when the vehicle has cleared the order")
+{
+    MasterSessionFixture bench;
+    bench.BeReady();
+    OrderBuilder builder = MakeBuilder(4);
+    REQUIRE(bench.session.SendOrder(*builder.MakeOrder(2), bench.GetNow(), bench.Clear()).has_value());
+    REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(3), bench.GetNow(), bench.Clear()).has_value());
+    bench.Clear();
+    bench.state.orderID = "order-1"; // cancelled by another master as soon as it came
+    bench.SendState();
+    CHECK(Pick<OrderAccepted>(bench.GetOutput()) == std::vector{OrderAccepted{"order-1", 0}});
+    CHECK(Pick<OrderLost>(bench.GetOutput()).size() == 1);
+    CHECK(bench.GetSent(ETopic::Order).empty());
+}
+
+TEST_CASE("5.4 An update that reaches the vehicle after it cleared the order is cancelled")
+{
+    MasterSessionFixture bench;
+    bench.BeReady();
+    OrderBuilder builder = MakeBuilder(4);
+    const OrderMessage order = *builder.MakeOrder(2);
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    bench.Hold(order, 1);
+    bench.SendState();
+    const OrderMessage update = *builder.MakeUpdate(3);
+    REQUIRE(bench.session.SendOrderUpdate(update, bench.GetNow(), bench.Clear()).has_value());
+    bench.state.nodeStates.clear();
+    bench.state.edgeStates.clear();
+    bench.SendState();
+    CHECK(Pick<OrderLost>(bench.GetOutput()).size() == 1);
+    bench.Clear();
+    bench.Hold(update, 1);
+    bench.state.orderUpdateID = 1;
+    bench.SendState();
+    CHECK(Pick<OrderReappeared>(bench.GetOutput()) == std::vector{OrderReappeared{"order-1"}});
+    CHECK(bench.GetSent(ETopic::InstantActions).size() == 1);
+}
+
 TEST_CASE("13 After the last orderUpdateId no update is sent")
 {
     MasterSessionFixture bench;
