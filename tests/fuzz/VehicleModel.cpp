@@ -134,7 +134,9 @@ void VehicleModel::Receive(const InstantActionsMessage& message)
     constexpr std::size_t MOST_ENDED = 16;
     for (const Action& action : message.actions)
     {
-        if (!_instantActions.insert(action.actionID).second)
+        const bool bNew = _instantActions.insert(action.actionID).second;
+        const bool bShown = std::ranges::count(_state.actionStates, action.actionID, &ActionState::actionID) > 0;
+        if (!bNew && bShown)
         {
             continue;
         }
@@ -148,10 +150,11 @@ void VehicleModel::Receive(const InstantActionsMessage& message)
                 _state.actionStates.erase(ended);
             }
         }
-        const bool bRequest = action.actionType.ends_with("Request");
-        const EActionStatus status = bRequest ? EActionStatus::Finished : EActionStatus::Waiting;
+        // One that is sent again after it was removed as an old one is shown again, and not executed again.
+        const bool bEnded = !bNew || action.actionType.ends_with("Request");
+        const EActionStatus status = bEnded ? EActionStatus::Finished : EActionStatus::Waiting;
         _state.actionStates.push_back(ActionState{action.actionID, action.actionType, {}, status, {}});
-        if (action.actionType == ActionTypes::CANCEL_ORDER)
+        if (bNew && action.actionType == ActionTypes::CANCEL_ORDER)
         {
             Cancel(action.actionID);
         }
