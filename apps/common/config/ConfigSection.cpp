@@ -66,7 +66,8 @@ std::string JoinWords(std::initializer_list<std::string_view> words)
 ConfigSection::ConfigSection(std::shared_ptr<ConfigDocument> document, const toml::table* tableOrNull, std::string path)
     : _document(std::move(document)),
       _tableOrNull(tableOrNull),
-      _path(std::move(path))
+      _path(std::move(path)),
+      _placeOrNull(tableOrNull)
 {
 }
 
@@ -216,7 +217,12 @@ ConfigSection ConfigSection::GetSection(const std::string& name) const
     {
         _document->RefuseTable(nodeOrNull, path, MakeWrongText(A_TABLE, *nodeOrNull));
     }
-    return {_document, nodeOrNull == nullptr ? nullptr : nodeOrNull->as_table(), path};
+    ConfigSection section(_document, nodeOrNull == nullptr ? nullptr : nodeOrNull->as_table(), path);
+    if (section._tableOrNull == nullptr && !_path.empty())
+    {
+        section._placeOrNull = _placeOrNull;
+    }
+    return section;
 }
 
 std::vector<ConfigSection> ConfigSection::GetSectionList(const std::string& name) const
@@ -269,7 +275,7 @@ void ConfigSection::AddError(const std::string& key, const std::string& text) co
 {
     const toml::node* const nodeOrNull = key.empty() ? nullptr : FindOrNull(key);
     const std::string path = key.empty() ? _path : ConfigDocument::JoinPath(_path, key);
-    _document->AddError(nodeOrNull != nullptr ? nodeOrNull : _tableOrNull, path, text);
+    _document->AddError(nodeOrNull != nullptr ? nodeOrNull : _placeOrNull, path, text);
 }
 
 void ConfigSection::ReportRemoved(const std::string& key, std::string_view replacement) const

@@ -29,6 +29,7 @@ class ConfigSection final
     std::shared_ptr<ConfigDocument> _document;
     const toml::table* _tableOrNull = nullptr;
     std::string _path;
+    const toml::table* _placeOrNull = nullptr; ///< Of errors: the table, or the one around it, but not the root.
 
 public:
     /// For ConfigReader. nullptr: the table is absent.
