@@ -27,6 +27,7 @@ FOLDERS = {
     "libplan/": "plan",
     "libplan/sqlite/": "plan_sqlite",
     "apps/common/": "apps/common",
+    "apps/acsd/include/": "drivers",
     "examples/": "examples",
     "tests/support/": "tests/support",
     "tests/": "tests",
@@ -48,6 +49,7 @@ THIRD_PARTY = {
     "plan_sqlite": ("fmt/", "tl/", "SQLiteCpp/", "sqlite3.h", "fcntl.h", "sys/file.h", "sys/stat.h", "unistd.h"),
 }
 PUBLIC_THIRD_PARTY = ("fmt/", "tl/", "boost/asio/any_io_executor.hpp")
+THIRD_PARTY["drivers"] = PUBLIC_THIRD_PARTY  # the public headers of acsd
 IMPURE_STANDARD = ("thread", "mutex", "shared_mutex", "condition_variable", "future", "semaphore", "latch", "barrier",
                    "stop_token", "filesystem", "fstream", "iostream", "ctime")
 IMPURE_TOKENS = (
@@ -82,6 +84,12 @@ def explain_refusal(path, layer, used):
         return None if layer.startswith("tests") else "belongs to the tests; only tests/ may include it"
     if layer == "tests":
         return None
+    if used == "drivers":
+        if layer in ("apps/acsd", "examples"):
+            return None
+        return "is for programs with robot drivers; only apps/acsd and examples/ may include it"
+    if layer == "drivers":
+        return None if used in ("core", "plan") else "is hidden from robot drivers: they see acs/core and acs/plan only"
     if used.startswith("apps/"):
         if layer.startswith("apps/") and used == "apps/common":
             return None

@@ -5,6 +5,7 @@
 #include "common/process/LoopWatchdog.hpp"
 #include "common/process/TimerSet.hpp"
 #include "config/LiveConfig.hpp"
+#include "drivers/DrivenRobots.hpp"
 #include "mcs/McsLink.hpp"
 #include "operator/AcsdMetrics.hpp"
 #include "operator/AcsdStatus.hpp"
@@ -53,8 +54,9 @@ class Acsd::Impl final : private IAcsdOutput, private VDA5050::IMqttLinkListener
     AcsdCore _core;
     StoreWorker _store;
     McsLink _mcs;
-    VDA5050::MosquittoLink _mqtt;
+    std::optional<VDA5050::MosquittoLink> _mqtt; ///< Set if a robot needs the broker.
     std::map<std::string, std::unique_ptr<RobotHost>, std::less<>> _robots;
+    DrivenRobots _drivenRobots;
     /// By manufacturer and serial number: a message costs one look-up, however many robots there are.
     std::map<std::pair<std::string, std::string>, RobotHost*> _vehicles;
     Apps::TimerSet<AcsdTimer> _timers;
@@ -83,12 +85,17 @@ public:
               _dependencies.clock,
               _dependencies.logger.MakeFor("mcs"),
               [this](const Protocol::SessionEvent& event) { _core.OnSessionEvent(event); }),
-          _mqtt(
-              _dependencies.executor,
-              _dependencies.random,
-              _dependencies.logger.MakeFor("mqtt"),
-              MakeMqttOptions(_config.mqtt, _dependencies.random),
-              *this),
+          _drivenRobots(
+              {_dependencies.executor,
+               _dependencies.clock,
+               _dependencies.random,
+               _dependencies.logger,
+               _metricsEndpoint,
+               _dependencies.traceOrNull},
+              _config.robots,
+              [this](const std::string& robotID, const Planning::RobotEvent& event) {
+                  _core.OnRobotEvent(robotID, event);
+              }),
           _timers(_dependencies.executor, [this](const AcsdTimer& timer) { _core.OnTimer(timer); }),
           _watchdog(
               _dependencies.executor,
@@ -98,24 +105,21 @@ public:
     {
         _core.SetObserver(_planLog);
         AddRoutes();
+        if (_config.mqtt.has_value())
+        {
+            _mqtt.emplace(
+                _dependencies.executor,
+                _dependencies.random,
+                _dependencies.logger.MakeFor("mqtt"),
+                MakeMqttOptions(*_config.mqtt, _dependencies.random),
+                static_cast<VDA5050::IMqttLinkListener&>(*this)); // its base is private
+        }
         for (const RobotLinkConfig& robot : _config.robots)
         {
-            auto host = std::make_unique<RobotHost>(
-                RobotHost::Dependencies{
-                    _dependencies.executor,
-                    _dependencies.clock,
-                    _dependencies.random,
-                    _mqtt,
-                    _dependencies.logger,
-                    _metricsEndpoint,
-                    _dependencies.traceOrNull},
-                _config,
-                robot,
-                [this](const std::string& robotID, const Planning::RobotEvent& event) {
-                    _core.OnRobotEvent(robotID, event);
-                });
-            _vehicles[{robot.manufacturer, robot.serialNumber}] = host.get();
-            _robots.emplace(robot.robotID, std::move(host));
+            if (!robot.bDriven)
+            {
+                AddRobot(robot);
+            }
         }
     }
 
@@ -143,8 +147,12 @@ public:
         {
             robot->Start();
         }
+        _drivenRobots.Start();
         _core.Start();
-        _mqtt.Start();
+        if (_mqtt.has_value())
+        {
+            _mqtt->Start();
+        }
         _mcs.Start();
     }
 
@@ -174,6 +182,26 @@ public:
     }
 
 private:
+    void AddRobot(const RobotLinkConfig& robot)
+    {
+        auto host = std::make_unique<RobotHost>(
+            RobotHost::Dependencies{
+                _dependencies.executor,
+                _dependencies.clock,
+                _dependencies.random,
+                *_mqtt,
+                _dependencies.logger,
+                _metricsEndpoint,
+                _dependencies.traceOrNull},
+            _config,
+            robot,
+            [this](const std::string& robotID, const Planning::RobotEvent& event) {
+                _core.OnRobotEvent(robotID, event);
+            });
+        _vehicles[{robot.manufacturer, robot.serialNumber}] = host.get();
+        _robots.emplace(robot.robotID, std::move(host));
+    }
+
     void Store(const Planning::StoreBatch& batch) override
     {
         _store.Append(batch);
@@ -197,6 +225,10 @@ private:
 
     void CommandRobot(const Planning::CommandRobot& command) override
     {
+        if (_drivenRobots.TryHandle(command))
+        {
+            return;
+        }
         const auto found = _robots.find(command.robotID);
         assert(found != _robots.end());
         found->second->Handle(command.command);
@@ -219,12 +251,16 @@ private:
 
     void CloseLinks() override
     {
-        _openLinks = 2;
+        _openLinks = _mqtt.has_value() ? 2 : 1;
         for (const auto& [robotID, robot] : _robots)
         {
             robot->Stop();
         }
-        _mqtt.StopAsync(std::nullopt, VDA5050::MosquittoLink::DEFAULT_STOP_TIMEOUT, [this] { OnLinkClosed(); });
+        _drivenRobots.Stop();
+        if (_mqtt.has_value())
+        {
+            _mqtt->StopAsync(std::nullopt, VDA5050::MosquittoLink::DEFAULT_STOP_TIMEOUT, [this] { OnLinkClosed(); });
+        }
         _mcs.StopAsync([this] { OnLinkClosed(); });
     }
 
@@ -322,7 +358,12 @@ private:
 
     [[nodiscard]] std::vector<LinkStatus> GetLinks() const
     {
-        return {_mcs.GetLink(), {"mqtt", _core.IsMqttUp()}};
+        std::vector<LinkStatus> links{_mcs.GetLink()};
+        if (_mqtt.has_value())
+        {
+            links.push_back({"mqtt", _core.IsMqttUp()});
+        }
+        return links;
     }
 
     [[nodiscard]] ProgramStatus GetProgramStatus() const
@@ -376,6 +417,7 @@ private:
         {
             _metrics.UpdateRobot(*robot, now);
         }
+        _drivenRobots.UpdateMetrics();
         _metrics.UpdateAudit(_http.GetLostAudit());
         if (_dependencies.countDroppedLines)
         {

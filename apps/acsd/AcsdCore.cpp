@@ -3,6 +3,7 @@
 #include <acs/core/Overloaded.hpp>
 #include <acs/plan/EPlanningError.hpp>
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 #include <variant>
@@ -53,7 +54,8 @@ AcsdCore::AcsdCore(Dependencies dependencies, const AcsdConfig& config)
               _host.Push(std::move(command));
               UpdateDrain();
           }),
-      _storeWatch(_dependencies.logger.MakeFor("store"))
+      _storeWatch(_dependencies.logger.MakeFor("store")),
+      _bBrokerNeeded(std::ranges::none_of(config.robots, &RobotLinkConfig::bDriven))
 {
     _gateway.SetStyle(config.mcs.style);
     _gateway.SetAckObserver([this](Core::Duration wait) { _dependencies.output.ObserveAckWait(wait); });
@@ -321,10 +323,11 @@ bool AcsdCore::TryEndForTakenStore(const Core::Result<void>& result)
     return true;
 }
 
-/// Section 5.3: no work can be accepted while the broker or all robots are away; reported after a grace time.
+/// Section 5.3: no work can be accepted while all robots are away, or the broker that each of them needs; reported after a grace
+/// time.
 void AcsdCore::UpdateWorking()
 {
-    const bool bWorking = _bMqttUp && !_reachable.empty();
+    const bool bWorking = (_bMqttUp || !_bBrokerNeeded) && !_reachable.empty();
     if (_phase != EPhase::Running || bWorking == std::exchange(_bWorking, bWorking))
     {
         return;

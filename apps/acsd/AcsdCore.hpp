@@ -75,6 +75,7 @@ private:
     StoreWatch _storeWatch;
     std::set<std::string> _reachable; ///< Robots that are not Disconnected.
     EPhase _phase = EPhase::Running;
+    bool _bBrokerNeeded; ///< By every robot.
     bool _bMqttUp = false;
     bool _bWorking = false; ///< Work can be accepted at this moment.
 

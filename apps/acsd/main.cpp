@@ -1,7 +1,6 @@
-#include "AcsdProgram.hpp"
-#include "common/config/CommandLine.hpp"
+#include <acs/acsd/RunAcsd.hpp>
 
 int main(int argc, char** argv)
 {
-    return ACS::Apps::RunProgram("acsd", [argc, argv] { return ACS::Acsd::RunAcsd(argc, argv); });
+    return ACS::Acsd::RunAcsd(argc, argv, {});
 }

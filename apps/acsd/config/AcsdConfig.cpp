@@ -3,6 +3,7 @@
 #include "common/config/TextFile.hpp"
 #include "config/ArmConfig.hpp"
 #include "config/CorridorConfig.hpp"
+#include "config/DriverConfig.hpp"
 #include "config/EngineConfig.hpp"
 #include "config/FactsheetFile.hpp"
 #include "config/JobConfig.hpp"
@@ -115,7 +116,7 @@ void CloseEdges(AcsdConfig& config)
             continue;
         }
         VDA5050::MasterOptions options;
-        options.address = {config.mqtt.interfaceName, robot.manufacturer, robot.serialNumber};
+        options.address = {GetInterfaceName(config), robot.manufacturer, robot.serialNumber};
         options.version = VDA5050::ReadVersionOrNull(robot.protocolVersion).value_or(options.version);
         options.factsheet = robot.factsheet;
         vehicles.push_back({robot.robotID, config.engine.robots[i].vehicleTypeID, std::move(options)});
@@ -193,9 +194,13 @@ void WarnOfFactsheets(AcsdConfig& config)
 {
     for (const RobotLinkConfig& robot : config.robots)
     {
+        if (robot.bDriven)
+        {
+            continue;
+        }
         std::ranges::move(CheckFactsheetFile(robot), std::back_inserter(config.warnings));
         VDA5050::MasterOptions options;
-        options.address = {config.mqtt.interfaceName, robot.manufacturer, robot.serialNumber};
+        options.address = {GetInterfaceName(config), robot.manufacturer, robot.serialNumber};
         options.factsheet = robot.factsheet;
         options.version = VDA5050::ReadVersionOrNull(robot.protocolVersion).value_or(options.version);
         options.zoneSetID = config.zoneSetID;
@@ -254,7 +259,33 @@ void ReadStore(const ConfigSection& root, const std::string& fileName, bool bSto
     }
 }
 
-AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& overrides, bool bStoreInspected)
+void ReadBroker(const ConfigSection& root, const std::string& fileName, AcsdConfig& config)
+{
+    const bool bNeeded = IsBrokerNeeded(root);
+    if (!bNeeded && !root.HasKey("mqtt"))
+    {
+        return;
+    }
+    MqttConfig mqtt;
+    ReadMqttConfig(root, fileName, mqtt, config.warnings);
+    if (bNeeded)
+    {
+        config.mqtt = std::move(mqtt);
+    }
+    else
+    {
+        config.warnings.push_back(fmt::format(
+            "mqtt: has no effect, because no robot has the driver {} or {}; remove it",
+            VDA5050_DRIVER,
+            OPEN_STREAM_DRIVER));
+    }
+}
+
+AcsdConfig Read(
+    const std::string& fileName,
+    const std::vector<std::string>& overrides,
+    const RobotDrivers& drivers,
+    bool bStoreInspected)
 {
     AcsdConfig config;
     const Apps::ConfigReader reader = Apps::ConfigReader::ReadFile(fileName, overrides);
@@ -262,7 +293,7 @@ AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& ove
     std::vector<std::string> otherErrors;
     ReadMcsConfig(root, fileName, config.mcs, otherErrors, config.warnings);
     ReadOperationsConfig(root, config.operations);
-    ReadMqttConfig(root, fileName, config.mqtt, config.warnings);
+    ReadBroker(root, fileName, config);
     const ConfigSection arm = root.GetSection("arm");
     config.arm = ReadArmOptions(arm, config.arm);
     const bool bByte = arm.GetWord("relay_index", {"value", "byte"}, "value") == "byte";
@@ -272,8 +303,9 @@ AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& ove
     ReadHttpConfig(root, fileName, config.storePath, config.http);
     ReadEngineConfig(root, config.engine);
     ReadStations(root, config);
-    ReadRobots(root, fileName, config);
+    ReadRobots(root, fileName, drivers, config);
     ReadJobs(root, config);
+    ReadDrivenRobots(reader, drivers, config);
     ReportRemovedKeys(root);
     if (reader.GetErrors().empty())
     {
@@ -308,14 +340,25 @@ AcsdConfig Read(const std::string& fileName, const std::vector<std::string>& ove
 
 } // namespace
 
-AcsdConfig ReadAcsdConfig(const std::string& fileName, const std::vector<std::string>& overrides)
+AcsdConfig ReadAcsdConfig(
+    const std::string& fileName,
+    const std::vector<std::string>& overrides,
+    const RobotDrivers& drivers)
 {
-    return Read(fileName, overrides, false);
+    return Read(fileName, overrides, drivers, false);
 }
 
-AcsdConfig CheckAcsdConfig(const std::string& fileName, const std::vector<std::string>& overrides)
+AcsdConfig CheckAcsdConfig(
+    const std::string& fileName,
+    const std::vector<std::string>& overrides,
+    const RobotDrivers& drivers)
 {
-    return Read(fileName, overrides, true);
+    return Read(fileName, overrides, drivers, true);
+}
+
+std::string GetInterfaceName(const AcsdConfig& config)
+{
+    return config.mqtt.value_or(MqttConfig()).interfaceName;
 }
 
 } // namespace ACS::Acsd

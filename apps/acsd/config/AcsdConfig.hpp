@@ -13,6 +13,8 @@
 #include "robots/JobData.hpp"
 #include "robots/JobMethods.hpp"
 #include "robots/VehicleMaps.hpp"
+#include <acs/acsd/IRobotDriver.hpp>
+#include <acs/acsd/IRobotSetup.hpp>
 #include <acs/plan/EngineOptions.hpp>
 #include <acs/plan/SiteMap.hpp>
 #include <acs/vda5050/FactsheetMessage.hpp>
@@ -30,7 +32,11 @@
 namespace ACS::Acsd
 {
 
-/// The links to the vehicle and the arm of one robot. The engine's settings of the robot are in EngineOptions::robots.
+/// The drivers that are built in: a vehicle, and a vehicle with an arm.
+inline constexpr std::string_view VDA5050_DRIVER = "vda5050";
+inline constexpr std::string_view OPEN_STREAM_DRIVER = "vda5050_openstream";
+
+/// How one robot is connected: the links to its vehicle and its arm, or its driver. The engine's settings of the robot are in EngineOptions::robots.
 struct RobotLinkConfig
 {
     std::string robotID;
@@ -44,14 +50,17 @@ struct RobotLinkConfig
     std::shared_ptr<DriveCheck> drives = std::make_shared<DriveCheck>(); ///< Shared by its vehicle type.
     std::vector<NeededMap> maps = {};                                    ///< How the vehicle gets maps.
     std::string topicPrefix = {};                                        ///< "uagv/v2/ACME/0001"
+    std::string driver = std::string(VDA5050_DRIVER);
+    bool bDriven = false; ///< By a driver that is not built in: of the members above it has robotID and drives only.
+    std::shared_ptr<const IRobotSetup> setupOrNull = nullptr; ///< Set if bDriven and there are no errors.
 };
 
 /// acsd's complete and checked configuration.
 struct AcsdConfig
 {
     McsConfig mcs;
-    MqttConfig mqtt;
-    ArmOptions arm; ///< Defaults of all arms.
+    std::optional<MqttConfig> mqtt; ///< Set if a robot has a built-in driver.
+    ArmOptions arm;                 ///< Defaults of all arms.
     EArmRelayIndex relayIndex = EArmRelayIndex::Value;
     std::string siteFile;
     std::string zoneSetID; ///< Of all orders; may be empty.
@@ -71,9 +80,19 @@ struct AcsdConfig
 };
 
 /// Reads the file and its map. The overrides of the command line ("table.key=value") take precedence.
-[[nodiscard]] AcsdConfig ReadAcsdConfig(const std::string& fileName, const std::vector<std::string>& overrides);
+/// The drivers are those besides the built-in ones.
+[[nodiscard]] AcsdConfig ReadAcsdConfig(
+    const std::string& fileName,
+    const std::vector<std::string>& overrides,
+    const RobotDrivers& drivers = {});
 
 /// Likewise, and checks whether a start could open the store. Does not create, change or lock it.
-[[nodiscard]] AcsdConfig CheckAcsdConfig(const std::string& fileName, const std::vector<std::string>& overrides);
+[[nodiscard]] AcsdConfig CheckAcsdConfig(
+    const std::string& fileName,
+    const std::vector<std::string>& overrides,
+    const RobotDrivers& drivers = {});
+
+/// First level of the topics of the vehicles.
+[[nodiscard]] std::string GetInterfaceName(const AcsdConfig& config);
 
 } // namespace ACS::Acsd

@@ -168,6 +168,15 @@ bool MethodKeys::IsOfArm() const noexcept
     return armProgram.has_value() || armInputs.has_value();
 }
 
+std::string MethodKeys::FindFirstKey() const
+{
+    if (IsOfArm())
+    {
+        return armProgram.has_value() ? "arm_program" : "arm_inputs";
+    }
+    return vehicleAction.has_value() ? "vehicle_action" : "parameters";
+}
+
 Planning::ActionRule ReadActionRule(const ConfigSection& section, const std::string& name)
 {
     const Planning::ActionTable standard = Planning::MakeStandardActions();

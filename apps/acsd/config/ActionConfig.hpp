@@ -25,6 +25,8 @@ struct MethodKeys
 
     [[nodiscard]] bool IsOfVehicle() const noexcept;
     [[nodiscard]] bool IsOfArm() const noexcept;
+    /// Name of the first key that is given; one of them is.
+    [[nodiscard]] std::string FindFirstKey() const;
 };
 
 /// Reads `robot`, `timeout`, `from`, `to` and `effect`. Places and effect of an action of MCS-ACS are fixed.

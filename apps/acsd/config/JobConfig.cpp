@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <set>
@@ -60,8 +61,37 @@ MethodTables ReadOverrides(
     return tables;
 }
 
-MethodTables ReadActions(const ConfigSection& root, const TemplateCheck& check, Planning::ActionTable& rules)
+bool HasRobot(const AcsdConfig& config, Planning::ERobotType type, bool bDriven)
 {
+    for (std::size_t i = 0; i < config.robots.size(); ++i)
+    {
+        if (config.engine.robots[i].type == type && config.robots[i].bDriven == bDriven)
+        {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Robots of other drivers do an action by its `options`.
+void CheckKeys(const ConfigSection& section, const MethodKeys& keys, bool bVehicles, bool bDriven)
+{
+    const bool bGiven = keys.IsOfVehicle() || keys.IsOfArm();
+    if (bGiven && bDriven && !bVehicles)
+    {
+        section.AddError(
+            keys.FindFirstKey(),
+            "has no effect: no robot of this type has the driver vda5050 or vda5050_openstream; give options instead");
+    }
+    else if ((bGiven || !bDriven) && keys.vehicleAction.has_value() == keys.armProgram.has_value())
+    {
+        section.AddError("", "needs exactly one of vehicle_action and arm_program");
+    }
+}
+
+MethodTables ReadActions(const ConfigSection& root, const TemplateCheck& check, AcsdConfig& config)
+{
+    Planning::ActionTable& rules = config.engine.actions;
     MethodTables tables;
     const ConfigSection actions = root.GetSection("actions");
     rules.clear();
@@ -70,10 +100,7 @@ MethodTables ReadActions(const ConfigSection& root, const TemplateCheck& check, 
         const ConfigSection section = actions.GetSection(name);
         const Planning::ActionRule rule = ReadActionRule(section, name);
         MethodKeys keys = ReadMethodKeys(section, rule, check);
-        if (keys.vehicleAction.has_value() == keys.armProgram.has_value())
-        {
-            section.AddError("", "needs exactly one of vehicle_action and arm_program");
-        }
+        CheckKeys(section, keys, HasRobot(config, rule.robotType, false), HasRobot(config, rule.robotType, true));
         rules.insert_or_assign(name, rule);
         tables.emplace(name, MethodTable{section, std::move(keys)});
     }
@@ -104,11 +131,16 @@ StationTables ReadStationTables(const ConfigSection& root, const AcsdConfig& con
 void ReadJobs(const ConfigSection& root, AcsdConfig& config)
 {
     const TemplateCheck check(*config.stations, config.engine, config.relayIndex);
-    const MethodTables actions = ReadActions(root, check, config.engine.actions);
+    const MethodTables actions = ReadActions(root, check, config);
     const StationTables stations = ReadStationTables(root, config, check);
     std::vector<MethodTables> overrides;
     for (std::size_t i = 0; i < config.robots.size(); ++i)
     {
+        if (config.robots[i].bDriven)
+        {
+            overrides.emplace_back();
+            continue;
+        }
         const ConfigSection section = root.GetSection("robots").GetSection(config.robots[i].robotID);
         overrides.push_back(ReadOverrides(section, config.engine.actions, &config.engine.robots[i].type, check));
     }
@@ -119,7 +151,7 @@ void ReadJobs(const ConfigSection& root, AcsdConfig& config)
         for (std::size_t i = 0; i < config.robots.size(); ++i)
         {
             const Planning::RobotOptions& options = config.engine.robots[i];
-            if (rule.robotType == options.type)
+            if (rule.robotType == options.type && !config.robots[i].bDriven)
             {
                 const auto own = overrides[i].find(name);
                 resolver.SetMethods(
@@ -139,7 +171,10 @@ void RejectActions(const ConfigSection& root, AcsdConfig& config)
     for (std::size_t i = 0; i < config.robots.size(); ++i)
     {
         Planning::RobotOptions& robot = config.engine.robots[i];
-        robot.rejectedActions = RobotHost::FindRejectedActions(config, config.robots[i], robot.type);
+        if (!config.robots[i].bDriven) // else its setup has stated them
+        {
+            robot.rejectedActions = RobotHost::FindRejectedActions(config, config.robots[i], robot.type);
+        }
         for (const auto& [name, rule] : config.engine.actions)
         {
             const auto rejected = robot.rejectedActions.find(name);
@@ -153,6 +188,7 @@ void RejectActions(const ConfigSection& root, AcsdConfig& config)
             }
         }
     }
+    const bool bDriven = std::ranges::any_of(config.robots, &RobotLinkConfig::bDriven);
     for (const auto& [name, reason] : reasons)
     {
         if (!possible.contains(name))
@@ -160,8 +196,9 @@ void RejectActions(const ConfigSection& root, AcsdConfig& config)
             root.GetSection("actions").GetSection(name).AddError(
                 "",
                 fmt::format(
-                    "no robot can do it, {}; give arm_program for robots with an arm, vehicle_action for those without",
-                    reason));
+                    "no robot can do it, {}; give arm_program for robots with an arm, vehicle_action for those without{}",
+                    reason,
+                    bDriven ? ", options for those of other drivers" : ""));
         }
     }
 }

@@ -2,6 +2,7 @@
 
 #include "common/config/TextFile.hpp"
 #include "config/ArmConfig.hpp"
+#include "config/DriverConfig.hpp"
 #include "config/McsConfig.hpp"
 #include "config/PlaceConfig.hpp"
 #include "mcs/MessageValue.hpp"
@@ -218,41 +219,30 @@ std::optional<VDA5050::FactsheetMessage> ReadFactsheetOrNull(const ConfigSection
     return std::move(*factsheet);
 }
 
-void ReadRobot(const ConfigSection& section, const std::string& name, const std::string& fileName, AcsdConfig& config)
+void ReadVehicle(
+    const ConfigSection& section,
+    const std::string& fileName,
+    Planning::RobotOptions& options,
+    RobotLinkConfig& link,
+    AcsdConfig& config)
 {
-    const Core::Result<Core::RobotID> robotID = Core::RobotID::Parse(name);
-    if (!robotID)
-    {
-        section.Refuse(Core::Describe(robotID.error()));
-        return;
-    }
-    if (!HasRobotKey(section))
-    {
-        section.Refuse(
-            "describes no robot; correct the name, or give type, manufacturer, serial, vehicle_type and start_node");
-        return;
-    }
-    Planning::RobotOptions options{*robotID, {}, {}, {}, {}, {}, {}, {}};
-    options.type = section.GetWord("type", {"LR", "CR"}) == "CR" ? Planning::ERobotType::CR : Planning::ERobotType::LR;
-    options.vehicleTypeID = section.GetString("vehicle_type");
-    options.startNodeID = section.GetString("start_node");
-    options.homeStationID = section.GetStringOrNull("home");
-    options.chargingStationID = section.GetStringOrNull("charge");
-    options.ports = ReadPlaces(section, "ports", name + ".");
-    options.childPorts = ReadPlaces(section, "child_ports", name + ".");
-    CheckPorts(section, options);
-
-    RobotLinkConfig link;
-    link.robotID = name;
     link.manufacturer = section.GetString("manufacturer");
     link.serialNumber = section.GetString("serial");
     link.protocolVersion = section.GetWord("protocol", {"2.0.0", "2.1.0"}, "2.0.0");
     link.factsheet = ReadFactsheetOrNull(section, fileName);
     link.maps = ReadMaps(section, link, config);
-    link.armOrNull = ReadArmOrNull(section, options.type == Planning::ERobotType::CR, config.robots);
+    link.armOrNull = ReadArmOrNull(
+        section,
+        options.type == Planning::ERobotType::CR || link.driver == OPEN_STREAM_DRIVER,
+        config.robots);
     if (link.armOrNull.has_value())
     {
         link.armOptions = ReadArmOptions(section.GetSection("arm"), config.arm);
+        if (section.HasKey("driver") && link.driver != OPEN_STREAM_DRIVER)
+        {
+            section.AddError("driver", fmt::format("a robot with an arm has the driver {}", OPEN_STREAM_DRIVER));
+        }
+        link.driver = OPEN_STREAM_DRIVER;
     }
     // The vehicle of a robot with an arm does not see what the arm carries, unless its positions are named.
     const bool bLoadsShown = !link.armOrNull.has_value() || section.HasKey("load_positions");
@@ -266,7 +256,7 @@ void ReadRobot(const ConfigSection& section, const std::string& name, const std:
             section.AddError(key, "is a level of a topic: not empty, without / + #");
         }
     }
-    const VDA5050::VehicleAddress address{config.mqtt.interfaceName, link.manufacturer, link.serialNumber};
+    const VDA5050::VehicleAddress address{GetInterfaceName(config), link.manufacturer, link.serialNumber};
     if (VDA5050::IsValidAddress(address))
     {
         link.topicPrefix = VDA5050::BuildTopicPrefix(address);
@@ -283,18 +273,56 @@ void ReadRobot(const ConfigSection& section, const std::string& name, const std:
             "serial",
             fmt::format("{} has the same manufacturer and serial: one vehicle cannot be two robots", twin->robotID));
     }
+}
+
+void ReadRobot(
+    const ConfigSection& section,
+    const std::string& name,
+    const std::string& fileName,
+    const RobotDrivers& drivers,
+    AcsdConfig& config)
+{
+    const Core::Result<Core::RobotID> robotID = Core::RobotID::Parse(name);
+    if (!robotID)
+    {
+        section.Refuse(Core::Describe(robotID.error()));
+        return;
+    }
+    if (!HasRobotKey(section))
+    {
+        section.Refuse(
+            "describes no robot; correct the name, or give type, manufacturer, serial, vehicle_type and start_node");
+        return;
+    }
+    RobotLinkConfig link;
+    link.robotID = name;
+    link.driver = ReadDriver(section, drivers);
+    Planning::RobotOptions options{*robotID, {}, {}, {}, {}, {}, {}, {}};
+    options.type = section.GetWord("type", {"LR", "CR"}) == "CR" ? Planning::ERobotType::CR : Planning::ERobotType::LR;
+    options.vehicleTypeID = section.GetString("vehicle_type");
+    options.startNodeID = section.GetString("start_node");
+    options.homeStationID = section.GetStringOrNull("home");
+    options.chargingStationID = section.GetStringOrNull("charge");
+    options.ports = ReadPlaces(section, "ports", name + ".");
+    options.childPorts = ReadPlaces(section, "child_ports", name + ".");
+    CheckPorts(section, options);
+    link.bDriven = !IsBuiltInDriver(link.driver);
+    if (!link.bDriven)
+    {
+        ReadVehicle(section, fileName, options, link, config);
+    }
     config.engine.robots.push_back(std::move(options));
     config.robots.push_back(std::move(link));
 }
 
 } // namespace
 
-void ReadRobots(const ConfigSection& root, const std::string& fileName, AcsdConfig& config)
+void ReadRobots(const ConfigSection& root, const std::string& fileName, const RobotDrivers& drivers, AcsdConfig& config)
 {
     const ConfigSection robots = root.GetSection("robots");
     for (const std::string& name : robots.GetNames())
     {
-        ReadRobot(robots.GetSection(name), name, fileName, config);
+        ReadRobot(robots.GetSection(name), name, fileName, drivers, config);
     }
     if (config.robots.empty())
     {

@@ -17,16 +17,6 @@ namespace
 constexpr const char* ARM_INPUTS = "arm_inputs";
 constexpr std::size_t METHOD_WORD_BYTES = 4;
 
-/// The first of the keys that are given.
-std::string FindCause(const MethodKeys& given)
-{
-    if (given.IsOfArm())
-    {
-        return given.armProgram.has_value() ? "arm_program" : ARM_INPUTS;
-    }
-    return given.vehicleAction.has_value() ? "vehicle_action" : "parameters";
-}
-
 /// The part of a URL of val_s32 that names the relays: "m", "fb0_do".
 std::string_view GetArea(std::string_view url)
 {
@@ -82,7 +72,7 @@ std::optional<MethodFault> FindMethodFaultOrNull(
     {
         return MethodFault{
             robot.robotID,
-            FindCause(given),
+            given.FindFirstKey(),
             fmt::format("the arm has no program for {}", action),
             fmt::format("give arm_program, because {} has an arm", robot.robotID)};
     }
@@ -90,7 +80,7 @@ std::optional<MethodFault> FindMethodFaultOrNull(
     {
         return MethodFault{
             robot.robotID,
-            FindCause(given),
+            given.FindFirstKey(),
             fmt::format("the vehicle has no action for {}", action),
             fmt::format("give vehicle_action, because {} has no arm", robot.robotID)};
     }

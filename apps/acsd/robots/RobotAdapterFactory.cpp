@@ -21,7 +21,7 @@ constexpr std::chrono::milliseconds CONTROL_WINDOW = 100ms;
 VDA5050::MasterOptions MakeMasterOptions(const AcsdConfig& config, const RobotLinkConfig& robot)
 {
     VDA5050::MasterOptions options;
-    options.address = {config.mqtt.interfaceName, robot.manufacturer, robot.serialNumber};
+    options.address = {GetInterfaceName(config), robot.manufacturer, robot.serialNumber};
     // Longer where the factsheet announces a longer interval between states.
     options.stateMargin = std::min(options.stateMargin, config.operations.offlineAfter / 3);
     options.stateInterval = config.operations.offlineAfter - options.stateMargin;

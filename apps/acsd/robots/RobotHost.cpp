@@ -69,7 +69,7 @@ struct RobotHost::Impl
           retained(
               {surroundings.mqtt, surroundings.logger.MakeFor("robot"), surroundings.metrics},
               link.robotID,
-              {config.mqtt.interfaceName, link.manufacturer, link.serialNumber}),
+              {GetInterfaceName(config), link.manufacturer, link.serialNumber}),
           unsent(surroundings.logger)
     {
         RobotAdapter made = MakeRobotAdapter(config, robot, outputs);

@@ -34,13 +34,13 @@ TEST_CASE("Without further keys the connection to the broker has neither TLS nor
 {
     Testing::SeededRandom random{1};
     const AcsdConfig config = ReadMQTT({});
-    const VDA5050::MosquittoOptions options = MakeMqttOptions(config.mqtt, random);
+    const VDA5050::MosquittoOptions options = MakeMqttOptions(config.mqtt.value(), random);
     CHECK(options.host == "127.0.0.1");
     CHECK(options.port == 1883);
     CHECK(options.username.empty());
     CHECK(options.password.empty());
     CHECK_FALSE(options.tls.has_value());
-    CHECK(MakeMqttOptions(config.mqtt, random).clientID != options.clientID);
+    CHECK(MakeMqttOptions(config.mqtt.value(), random).clientID != options.clientID);
     CHECK(config.warnings.empty());
 }
 
@@ -52,7 +52,7 @@ TEST_CASE("mqtt.username and the first line of mqtt.password_file are sent to th
     REQUIRE(config.errors.empty());
     CHECK(config.warnings.empty());
     Testing::SeededRandom random{1};
-    const VDA5050::MosquittoOptions options = MakeMqttOptions(config.mqtt, random);
+    const VDA5050::MosquittoOptions options = MakeMqttOptions(config.mqtt.value(), random);
     CHECK(options.username == "acs");
     CHECK(options.password == "s3cret word");
     for (const auto& [key, value] : config.values) // which are logged when they change
@@ -125,12 +125,12 @@ TEST_CASE("With mqtts the files of CA, certificate and key must exist; with mqtt
     Testing::SeededRandom random{1};
     const AcsdConfig config = with("mqtts://broker:8883", 3);
     REQUIRE(config.errors.empty());
-    const VDA5050::MosquittoOptions options = MakeMqttOptions(config.mqtt, random);
+    const VDA5050::MosquittoOptions options = MakeMqttOptions(config.mqtt.value(), random);
     REQUIRE(options.tls.has_value());
     CHECK(options.tls->caFile == ca.certificate);
     CHECK(options.tls->certFile == own.certificate);
     CHECK(options.tls->keyFile == own.key);
-    CHECK(MakeMqttOptions(with("mqtts://broker:8883", 0).mqtt, random).tls.has_value());
+    CHECK(MakeMqttOptions(with("mqtts://broker:8883", 0).mqtt.value(), random).tls.has_value());
 
     const auto plain = with("mqtt://broker:1883", 1).errors;
     REQUIRE(plain.size() == 1);
@@ -143,7 +143,7 @@ TEST_CASE("With mqtts the files of CA, certificate and key must exist; with mqtt
     REQUIRE(wrong.size() == 1);
     CHECK_THAT(wrong[0], Catch::Contains("mqtt.ca_file: "));
     const AcsdConfig relative = ReadMQTT({"mqtt.url=mqtts://broker:8883", "mqtt.ca_file=nowhere.pem"});
-    CHECK(relative.mqtt.tls.caFile == std::string(ACS_SITE) + "/nowhere.pem");
+    CHECK(relative.mqtt.value().tls.caFile == std::string(ACS_SITE) + "/nowhere.pem");
 }
 
 } // namespace ACS::Acsd::Test

@@ -1,5 +1,3 @@
-#include "AcsdProgram.hpp"
-
 #include "Acsd.hpp"
 #include "common/config/CommandLine.hpp"
 #include "common/log/SpdlogSink.hpp"
@@ -9,8 +7,10 @@
 #include "common/process/SignalWaiter.hpp"
 #include "common/process/SystemClock.hpp"
 #include "common/process/SystemRandom.hpp"
+#include "config/DriverConfig.hpp"
 #include "operator/TokenCommand.hpp"
 #include "store/StoreCommand.hpp"
+#include <acs/acsd/RunAcsd.hpp>
 
 #include <boost/asio/io_context.hpp>
 #include <CLI/CLI.hpp>
@@ -54,9 +54,14 @@ struct ProgramOptions
 };
 
 /// For SIGHUP. A file with errors changes nothing.
-void ReadAgain(const ProgramOptions& options, const Core::Logger& logger, Apps::SpdlogSink& sink, Acsd& acsd)
+void ReadAgain(
+    const ProgramOptions& options,
+    const RobotDrivers& drivers,
+    const Core::Logger& logger,
+    Apps::SpdlogSink& sink,
+    Acsd& acsd)
 {
-    const AcsdConfig fresh = ReadAcsdConfig(options.configFile, options.overrides);
+    const AcsdConfig fresh = ReadAcsdConfig(options.configFile, options.overrides, drivers);
     if (!fresh.errors.empty())
     {
         for (const std::string& error : fresh.errors)
@@ -73,7 +78,7 @@ void ReadAgain(const ProgramOptions& options, const Core::Logger& logger, Apps::
     acsd.Reload(fresh);
 }
 
-int Serve(const ProgramOptions& options, AcsdConfig config)
+int Serve(const ProgramOptions& options, const RobotDrivers& drivers, AcsdConfig config)
 {
     Apps::SystemClock clock;
     Apps::SystemRandom random;
@@ -125,7 +130,9 @@ int Serve(const ProgramOptions& options, AcsdConfig config)
         std::ignore = service.TryNotify("STOPPING=1");
         (*acsd)->StopAsync([&context] { context.stop(); });
     });
-    const Apps::HangUpWaiter hangUps(context.get_executor(), [&] { ReadAgain(options, logger, sink, **acsd); });
+    const Apps::HangUpWaiter hangUps(context.get_executor(), [&] {
+        ReadAgain(options, drivers, logger, sink, **acsd);
+    });
     (*acsd)->Start();
     sink.Flush();
     Apps::PrintReadyLine((*acsd)->GetAddresses());
@@ -134,9 +141,7 @@ int Serve(const ProgramOptions& options, AcsdConfig config)
     return exitCode;
 }
 
-} // namespace
-
-int RunAcsd(int argc, const char* const* argv)
+int Run(int argc, const char* const* argv, const RobotDrivers& drivers)
 {
     ::umask(S_IRWXG | S_IRWXO); // the store and the trace are for the user of acsd only
     if (argc > 1 && std::string_view(argv[1]) == "store")
@@ -146,6 +151,11 @@ int RunAcsd(int argc, const char* const* argv)
     if (argc > 1 && std::string_view(argv[1]) == "token")
     {
         return RunTokenCommand(argc - 1, argv + 1);
+    }
+    if (const std::optional<std::string> fault = FindDriverFaultOrNull(drivers))
+    {
+        Apps::PrintError(NAME, *fault);
+        return 1;
     }
     ProgramOptions options;
     CLI::App app{
@@ -177,8 +187,8 @@ int RunAcsd(int argc, const char* const* argv)
     }
 
     options.bLogLevelGiven = app.count("--log-level") > 0;
-    AcsdConfig config = options.bCheckOnly ? CheckAcsdConfig(options.configFile, options.overrides)
-                                           : ReadAcsdConfig(options.configFile, options.overrides);
+    AcsdConfig config = options.bCheckOnly ? CheckAcsdConfig(options.configFile, options.overrides, drivers)
+                                           : ReadAcsdConfig(options.configFile, options.overrides, drivers);
     if (!config.errors.empty())
     {
         for (const std::string& error : config.errors)
@@ -200,7 +210,14 @@ int RunAcsd(int argc, const char* const* argv)
         fmt::print("{}: no errors\n", options.configFile);
         return 0;
     }
-    return Serve(options, std::move(config));
+    return Serve(options, drivers, std::move(config));
+}
+
+} // namespace
+
+int RunAcsd(int argc, char** argv, RobotDrivers drivers)
+{
+    return Apps::RunProgram(NAME, [argc, argv, &drivers] { return Run(argc, argv, drivers); });
 }
 
 } // namespace ACS::Acsd

@@ -1,0 +1,203 @@
+#include "config/DriverConfig.hpp"
+
+#include "drivers/OptionTableImpl.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+using Apps::ConfigSection;
+
+constexpr std::size_t MOST_DRIVER_NAME_BYTES = 32;
+
+bool IsDriverName(std::string_view name)
+{
+    const auto isLetter = [](char letter) {
+        return letter >= 'a' && letter <= 'z';
+    };
+    return !name.empty() && name.size() <= MOST_DRIVER_NAME_BYTES && isLetter(name.front())
+        && std::ranges::all_of(name, [&isLetter](char letter) {
+               return isLetter(letter) || (letter >= '0' && letter <= '9') || letter == '_';
+           });
+}
+
+const IRobotDriver* FindDriverOrNull(const RobotDrivers& drivers, std::string_view name)
+{
+    const auto found = std::ranges::find_if(drivers, [name](const auto& driver) { return driver->GetName() == name; });
+    return found == drivers.end() ? nullptr : found->get();
+}
+
+std::string_view GetTypeName(Planning::ERobotType type)
+{
+    return type == Planning::ERobotType::CR ? "CR" : "LR";
+}
+
+DrivenRobotConfig MakeDrivenConfig(
+    const Apps::ConfigReader& reader,
+    const Planning::RobotOptions& robot,
+    const Planning::ActionTable& rules)
+{
+    const ConfigSection root = reader.GetRoot();
+    const std::string robotID(robot.robotID.GetText());
+    DrivenRobotConfig config{
+        robotID,
+        robot.type,
+        robot.ports,
+        MakeOptionTable(reader, root.GetSection("robots").GetSection(robotID).GetSection("options")),
+        {}};
+    for (const auto& [name, rule] : rules)
+    {
+        if (rule.robotType == robot.type)
+        {
+            const ConfigSection action = root.GetSection("actions").GetSection(name);
+            config.actions.emplace(name, MakeOptionTable(reader, action.GetSection("options")));
+        }
+    }
+    return config;
+}
+
+void ReadDrivenRobot(
+    const Apps::ConfigReader& reader,
+    const IRobotDriver& driver,
+    const Planning::ActionTable& rules,
+    RobotLinkConfig& link,
+    Planning::RobotOptions& options)
+{
+    link.setupOrNull = driver.MakeSetupOrNull(MakeDrivenConfig(reader, options, rules));
+    const ConfigSection section = reader.GetRoot().GetSection("robots").GetSection(link.robotID);
+    if (link.setupOrNull == nullptr)
+    {
+        if (reader.GetErrors().empty())
+        {
+            section.AddError("options", fmt::format("the driver {} refuses the robot without a reason", link.driver));
+        }
+        return;
+    }
+    RobotCapabilities capabilities = link.setupOrNull->GetCapabilities();
+    if (std::ranges::count(capabilities.types, options.type) == 0)
+    {
+        std::vector<std::string_view> types;
+        std::ranges::transform(capabilities.types, std::back_inserter(types), GetTypeName);
+        section.AddError(
+            "type",
+            fmt::format(
+                "the driver {} has robots of type {} only, found {}",
+                link.driver,
+                fmt::join(types, " or "),
+                GetTypeName(options.type)));
+    }
+    options.rejectedActions = std::move(capabilities.rejectedActions);
+    std::erase_if(options.rejectedActions, [&rules, &options](const auto& rejected) {
+        const auto rule = rules.find(rejected.first);
+        return rule == rules.end() || rule->second.robotType != options.type;
+    });
+    options.connectionHint = std::move(capabilities.connectionHint);
+}
+
+/// Which keys a robot of an unknown driver has is unknown too.
+void AcceptKeys(
+    const ConfigSection& root,
+    const std::string& robotID,
+    Planning::ERobotType type,
+    const Planning::ActionTable& rules)
+{
+    const ConfigSection robot = root.GetSection("robots").GetSection(robotID);
+    for (const std::string& key : robot.GetNames())
+    {
+        static_cast<void>(robot.FindValueOrNull(key));
+    }
+    for (const auto& [name, rule] : rules)
+    {
+        if (rule.robotType == type)
+        {
+            static_cast<void>(root.GetSection("actions").GetSection(name).FindValueOrNull("options"));
+        }
+    }
+}
+
+} // namespace
+
+std::optional<std::string> FindDriverFaultOrNull(const RobotDrivers& drivers)
+{
+    std::set<std::string_view> names{VDA5050_DRIVER, OPEN_STREAM_DRIVER};
+    for (const auto& driver : drivers)
+    {
+        if (driver == nullptr)
+        {
+            return "a robot driver is null";
+        }
+        const std::string_view name = driver->GetName();
+        if (!IsDriverName(name))
+        {
+            return fmt::format(
+                "the robot driver {} needs a name of 1 to {} of a-z, 0-9 and _, the first one a letter",
+                Core::QuoteForError(name),
+                MOST_DRIVER_NAME_BYTES);
+        }
+        if (!names.insert(name).second)
+        {
+            return fmt::format("two robot drivers have the name {}; rename one", name);
+        }
+    }
+    return std::nullopt;
+}
+
+bool IsBuiltInDriver(std::string_view name)
+{
+    return name == VDA5050_DRIVER || name == OPEN_STREAM_DRIVER;
+}
+
+std::string ReadDriver(const ConfigSection& robot, const RobotDrivers& drivers)
+{
+    std::string name = robot.GetString("driver", std::string(VDA5050_DRIVER));
+    if (IsBuiltInDriver(name) || FindDriverOrNull(drivers, name) != nullptr)
+    {
+        return name;
+    }
+    std::string known = fmt::format("{}, {}", VDA5050_DRIVER, OPEN_STREAM_DRIVER);
+    for (const auto& driver : drivers)
+    {
+        known += fmt::format(", {}", driver->GetName());
+    }
+    robot.AddError("driver", fmt::format("this acsd has no driver {}; it has {}", Core::QuoteForError(name), known));
+    return name;
+}
+
+bool IsBrokerNeeded(const ConfigSection& root)
+{
+    const ConfigSection robots = root.GetSection("robots");
+    return std::ranges::any_of(robots.GetNames(), [&robots](const std::string& name) {
+        return IsBuiltInDriver(robots.GetSection(name).GetString("driver", std::string(VDA5050_DRIVER)));
+    });
+}
+
+void ReadDrivenRobots(const Apps::ConfigReader& reader, const RobotDrivers& drivers, AcsdConfig& config)
+{
+    for (std::size_t i = 0; i < config.robots.size(); ++i)
+    {
+        RobotLinkConfig& link = config.robots[i];
+        Planning::RobotOptions& options = config.engine.robots[i];
+        const IRobotDriver* const driverOrNull = FindDriverOrNull(drivers, link.driver);
+        if (driverOrNull != nullptr)
+        {
+            ReadDrivenRobot(reader, *driverOrNull, config.engine.actions, link, options);
+        }
+        else if (link.bDriven)
+        {
+            AcceptKeys(reader.GetRoot(), link.robotID, options.type, config.engine.actions);
+        }
+    }
+}
+
+} // namespace ACS::Acsd

@@ -1,0 +1,165 @@
+#include "drivers/DrivenRobot.hpp"
+
+#include "common/process/TimerSet.hpp"
+#include "drivers/DriverMetrics.hpp"
+#include <acs/acsd/IRobot.hpp>
+#include <acs/acsd/IRobotSetup.hpp>
+#include <acs/acsd/RobotServices.hpp>
+#include <acs/core/Overloaded.hpp>
+#include <acs/protocol_beast/EWireDirection.hpp>
+
+#include <algorithm>
+#include <deque>
+#include <iterator>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+namespace ACS::Acsd
+{
+
+class DrivenRobot::Impl final
+{
+    Dependencies _dependencies;
+    const std::string _robotID;
+    const std::string _driver;
+    EventHandler _handler;
+    DriverMetrics _metrics;
+    std::unique_ptr<IRobot> _robot;
+    std::deque<Planning::AdapterAction> _actions; ///< Not executed yet.
+    bool _bExecuting = false;
+    bool _bStopped = false;
+    Apps::TimerSet<Planning::AdapterTimerID> _timers;
+
+public:
+    Impl(Dependencies dependencies, const RobotLinkConfig& link, EventHandler handler)
+        : _dependencies(std::move(dependencies)),
+          _robotID(link.robotID),
+          _driver(link.driver),
+          _handler(std::move(handler)),
+          _metrics(_dependencies.metrics, link.driver, link.robotID),
+          _robot(link.setupOrNull->MakeRobot(MakeServices())),
+          _timers(_dependencies.executor, [this](Planning::AdapterTimerID timer) {
+              Call([this, timer](Core::Now now, Planning::AdapterActions& out) {
+                  _robot->GetAdapter().OnTimer(timer, now, out);
+              });
+          })
+    {
+    }
+
+    void Start()
+    {
+        _robot->Start();
+    }
+
+    void Stop()
+    {
+        _bStopped = true;
+        _timers.CancelAll();
+        _robot->Stop();
+    }
+
+    void Handle(const Planning::RobotCommand& command)
+    {
+        Call([this, &command](Core::Now now, Planning::AdapterActions& out) {
+            _robot->GetAdapter().Handle(command, now, out);
+        });
+    }
+
+    void UpdateMetrics()
+    {
+        _robot->UpdateMetrics();
+    }
+
+private:
+    [[nodiscard]] RobotServices MakeServices()
+    {
+        return {
+            _dependencies.executor,
+            _dependencies.clock,
+            _dependencies.random,
+            _dependencies.logger.MakeFor("robot." + _robotID),
+            _metrics,
+            [this](const RobotServices::AdapterCall& adapterCall) { Call(adapterCall); },
+            [this](ETraceDirection direction, std::string_view text) {
+                Trace(direction, text);
+            }};
+    }
+
+    /// Calls the adapter and executes its actions. An event may lead to another call of the adapter: its actions are executed
+    /// after the rest of these, which may for instance cancel a timer that the new call starts.
+    template <typename TCall>
+    void Call(const TCall& adapterCall)
+    {
+        if (_bStopped)
+        {
+            return;
+        }
+        Planning::AdapterActions wanted;
+        adapterCall(_dependencies.clock.GetNow(), wanted);
+        std::ranges::move(wanted, std::back_inserter(_actions));
+        if (std::exchange(_bExecuting, true))
+        {
+            return;
+        }
+        while (!_actions.empty())
+        {
+            const Planning::AdapterAction action = std::move(_actions.front());
+            _actions.pop_front();
+            Execute(action);
+        }
+        _bExecuting = false;
+        _robot->OnAdapterCalled();
+    }
+
+    void Execute(const Planning::AdapterAction& action)
+    {
+        std::visit(
+            Core::Overloaded{
+                [this](const Planning::RaiseEvent& raise) { _handler(_robotID, raise.event); },
+                [this](const Planning::StartAdapterTimer& start) { _timers.Start(start.timer, start.delay); },
+                [this](const Planning::CancelAdapterTimer& cancel) {
+                    _timers.Cancel(cancel.timer);
+                }},
+            action);
+    }
+
+    void Trace(ETraceDirection direction, std::string_view text) const
+    {
+        if (_dependencies.traceOrNull != nullptr)
+        {
+            const auto wire = direction == ETraceDirection::In ? ProtocolBeast::EWireDirection::In
+                                                               : ProtocolBeast::EWireDirection::Out;
+            _dependencies.traceOrNull->Write({_driver, wire, _robotID, {}, text});
+        }
+    }
+};
+
+DrivenRobot::DrivenRobot(Dependencies dependencies, const RobotLinkConfig& link, EventHandler handler)
+    : _impl(std::make_unique<Impl>(std::move(dependencies), link, std::move(handler)))
+{
+}
+
+DrivenRobot::~DrivenRobot() = default;
+
+void DrivenRobot::Start()
+{
+    _impl->Start();
+}
+
+void DrivenRobot::Stop()
+{
+    _impl->Stop();
+}
+
+void DrivenRobot::Handle(const Planning::RobotCommand& command)
+{
+    _impl->Handle(command);
+}
+
+void DrivenRobot::UpdateMetrics()
+{
+    _impl->UpdateMetrics();
+}
+
+} // namespace ACS::Acsd

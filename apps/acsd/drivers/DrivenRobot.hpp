@@ -1,0 +1,59 @@
+#pragma once
+
+#include "common/http/MetricsEndpoint.hpp"
+#include "config/AcsdConfig.hpp"
+#include "trace/MessageTrace.hpp"
+#include <acs/core/IRandom.hpp>
+#include <acs/core/Logger.hpp>
+#include <acs/core/Now.hpp>
+#include <acs/plan/RobotCommand.hpp>
+#include <acs/plan/RobotEvent.hpp>
+
+#include <boost/asio/any_io_executor.hpp>
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace ACS::Acsd
+{
+
+/// Runs the robot of a driver: passes commands and timers to its adapter, and its events to the engine. Decides nothing. Runs on
+/// one thread, the executor's.
+class DrivenRobot final
+{
+public:
+    /// Called from within the calls of the host and from the robot; may call Handle.
+    using EventHandler = std::function<void(const std::string& robotID, const Planning::RobotEvent& event)>;
+
+    /// All of these must outlive it.
+    struct Dependencies
+    {
+        boost::asio::any_io_executor executor;
+        Core::IClock& clock;
+        Core::IRandom& random;
+        Core::Logger logger;
+        Apps::MetricsEndpoint& metrics;
+        MessageTrace* traceOrNull = nullptr;
+    };
+
+private:
+    class Impl;
+
+    std::unique_ptr<Impl> _impl;
+
+public:
+    /// Makes the robot by its setup, which is set.
+    DrivenRobot(Dependencies dependencies, const RobotLinkConfig& link, EventHandler handler);
+    DrivenRobot(const DrivenRobot&) = delete;
+    DrivenRobot& operator=(const DrivenRobot&) = delete;
+    ~DrivenRobot();
+
+    void Start();
+    void Stop();
+    /// Possible before Start: the engine asks for jobs from before a restart as soon as they are restored.
+    void Handle(const Planning::RobotCommand& command);
+    void UpdateMetrics();
+};
+
+} // namespace ACS::Acsd

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "common/http/MetricsEndpoint.hpp"
+#include <acs/acsd/IRobotMetrics.hpp>
+
+#include <string>
+
+namespace ACS::Acsd
+{
+
+/// The metrics of one robot of a driver.
+class DriverMetrics final : public IRobotMetrics
+{
+    Apps::MetricsEndpoint& _endpoint;
+    const std::string _prefix; ///< Of all names of the driver.
+    const Apps::MetricsEndpoint::Labels _labels;
+
+public:
+    /// The endpoint must outlive it.
+    DriverMetrics(Apps::MetricsEndpoint& endpoint, const std::string& driver, const std::string& robotID);
+
+    void AddCounter(const std::string& name, const std::string& help) override;
+    void AddGauge(const std::string& name, const std::string& help) override;
+    void SetTotal(const std::string& name, double total) override;
+    void SetGauge(const std::string& name, double value) override;
+};
+
+} // namespace ACS::Acsd

@@ -1,0 +1,124 @@
+#include "drivers/OptionTableImpl.hpp"
+#include <acs/acsd/OptionTable.hpp>
+
+#include <utility>
+
+namespace ACS::Acsd
+{
+
+OptionTable::OptionTable(std::shared_ptr<const Impl> impl) noexcept
+    : _impl(std::move(impl))
+{
+}
+
+OptionTable OptionTable::ReadText(std::string_view text, const std::string& fileName)
+{
+    const Apps::ConfigReader reader = Apps::ConfigReader::ReadText(text, fileName, {});
+    return MakeOptionTable(reader, reader.GetRoot());
+}
+
+std::string OptionTable::GetString(const std::string& key) const
+{
+    return _impl->section.GetString(key);
+}
+
+std::string OptionTable::GetString(const std::string& key, const std::string& fallback) const
+{
+    return _impl->section.GetString(key, fallback);
+}
+
+std::string OptionTable::GetWord(const std::string& key, std::initializer_list<std::string_view> words) const
+{
+    return _impl->section.GetWord(key, words);
+}
+
+std::string OptionTable::GetWord(
+    const std::string& key,
+    std::initializer_list<std::string_view> words,
+    const std::string& fallback) const
+{
+    return _impl->section.GetWord(key, words, fallback);
+}
+
+std::int64_t OptionTable::GetInteger(const std::string& key, std::int64_t min, std::int64_t max) const
+{
+    return _impl->section.GetInteger(key, min, max);
+}
+
+std::int64_t OptionTable::GetInteger(const std::string& key, std::int64_t min, std::int64_t max, std::int64_t fallback)
+    const
+{
+    return _impl->section.GetInteger(key, min, max, fallback);
+}
+
+double OptionTable::GetNumber(const std::string& key, double min, double max) const
+{
+    return _impl->section.GetNumber(key, min, max);
+}
+
+double OptionTable::GetNumber(const std::string& key, double min, double max, double fallback) const
+{
+    return _impl->section.GetNumber(key, min, max, fallback);
+}
+
+bool OptionTable::IsEnabled(const std::string& key, bool bFallback) const
+{
+    return _impl->section.IsEnabled(key, bFallback);
+}
+
+std::chrono::milliseconds OptionTable::GetDuration(
+    const std::string& key,
+    std::chrono::milliseconds min,
+    std::chrono::milliseconds max,
+    std::chrono::milliseconds fallback) const
+{
+    return _impl->section.GetDuration(key, min, max, fallback);
+}
+
+TcpAddress OptionTable::GetTcpAddress(const std::string& key) const
+{
+    const Apps::Url url = _impl->section.GetURL(key, {Apps::EUrlScheme::Tcp});
+    return {url.peer.host, url.peer.port};
+}
+
+std::vector<std::string> OptionTable::GetStringList(const std::string& key) const
+{
+    return _impl->section.GetStringList(key);
+}
+
+OptionTable OptionTable::GetTable(const std::string& name) const
+{
+    return MakeOptionTable(_impl->reader, _impl->section.GetSection(name));
+}
+
+std::vector<std::string> OptionTable::GetNames() const
+{
+    return _impl->section.GetNames();
+}
+
+bool OptionTable::HasKey(const std::string& key) const
+{
+    return _impl->section.HasKey(key);
+}
+
+void OptionTable::AddError(const std::string& key, const std::string& text) const
+{
+    _impl->section.AddError(key, text);
+}
+
+const std::string& OptionTable::GetPath() const noexcept
+{
+    return _impl->section.GetPath();
+}
+
+std::vector<std::string> OptionTable::GetErrors() const
+{
+    return _impl->reader.GetErrors();
+}
+
+OptionTable MakeOptionTable(const Apps::ConfigReader& reader, Apps::ConfigSection section)
+{
+    return OptionTable(std::make_shared<const OptionTable::Impl>(reader, std::move(section)));
+}
+
+} // namespace ACS::Acsd

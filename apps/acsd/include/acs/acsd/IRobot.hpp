@@ -1,0 +1,35 @@
+#pragma once
+
+#include <acs/plan/IRobotAdapter.hpp>
+
+namespace ACS::Acsd
+{
+
+/// One robot: its connection, and the pure adapter that decides. acsd calls both on the executor's thread only. It calls the
+/// adapter's Handle and OnTimer, runs its timers and passes its events to the engine.
+class IRobot
+{
+public:
+    IRobot() = default;
+    IRobot(const IRobot&) = delete;
+    IRobot& operator=(const IRobot&) = delete;
+    virtual ~IRobot() = default;
+
+    /// Owned by the robot, which passes its messages to it by RobotServices::call.
+    [[nodiscard]] virtual Planning::IRobotAdapter& GetAdapter() noexcept = 0;
+
+    /// Connects, and reconnects until it is stopped. Called once. The adapter may have been called before: after a restart it
+    /// receives RecoverJob first.
+    virtual void Start() = 0;
+
+    /// Closes the connection at once. The robot itself is not commanded. The last call.
+    virtual void Stop() = 0;
+
+    /// Sends what the adapter wants to send. Called after every call of the adapter, when its actions have been executed.
+    virtual void OnAdapterCalled() = 0;
+
+    /// Sets the robot's metrics to their current values. Called before metrics are served.
+    virtual void UpdateMetrics() = 0;
+};
+
+} // namespace ACS::Acsd

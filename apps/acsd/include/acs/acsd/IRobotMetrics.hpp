@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+namespace ACS::Acsd
+{
+
+/// The metrics of one robot at /metrics. A name has a-z and _ only. acsd serves it as `acsd_driver_DRIVER_NAME` with the label
+/// `robot`; the name of a counter ends in `_total`.
+class IRobotMetrics
+{
+public:
+    IRobotMetrics() = default;
+    IRobotMetrics(const IRobotMetrics&) = delete;
+    IRobotMetrics& operator=(const IRobotMetrics&) = delete;
+    virtual ~IRobotMetrics() = default;
+
+    /// Adds a metric with its help text. Further calls for the same name are ignored.
+    virtual void AddCounter(const std::string& name, const std::string& help) = 0;
+    virtual void AddGauge(const std::string& name, const std::string& help) = 0;
+
+    // The metrics must have been added.
+
+    /// Raises a counter to a total that is counted elsewhere; a smaller total is ignored.
+    virtual void SetTotal(const std::string& name, double total) = 0;
+    virtual void SetGauge(const std::string& name, double value) = 0;
+};
+
+} // namespace ACS::Acsd

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <acs/acsd/IRobotMetrics.hpp>
+#include <acs/core/IRandom.hpp>
+#include <acs/core/Logger.hpp>
+#include <acs/core/Now.hpp>
+#include <acs/plan/IRobotAdapter.hpp>
+
+#include <boost/asio/any_io_executor.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <string_view>
+
+namespace ACS::Acsd
+{
+
+enum class ETraceDirection : std::uint8_t
+{
+    In, ///< From the robot.
+    Out,
+};
+
+/// What acsd provides to a robot. Everything referred to outlives the robot. All calls are made on the executor's thread.
+struct RobotServices
+{
+    using AdapterCall = std::function<void(Core::Now now, Planning::AdapterActions& out)>;
+
+    boost::asio::any_io_executor executor; ///< Runs on one thread, which must never be blocked.
+    Core::IClock& clock;
+    Core::IRandom& random;
+    Core::Logger logger; ///< Adds nothing: name the robot in the fields.
+    IRobotMetrics& metrics;
+    /// Calls the function with the current time and executes the actions that it appends, then calls IRobot::OnAdapterCalled.
+    /// Every call of the adapter goes through it, except those of acsd itself. Has no effect after Stop.
+    std::function<void(const AdapterCall& adapterCall)> call;
+    /// Adds a message as it was on the wire to the trace of acsd (--trace). Never empty; has no effect without a trace.
+    std::function<void(ETraceDirection direction, std::string_view text)> trace;
+};
+
+} // namespace ACS::Acsd
