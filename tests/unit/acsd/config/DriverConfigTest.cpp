@@ -4,12 +4,14 @@
 #include "config/AcsdConfig.hpp"
 #include "config/ExampleSite.hpp"
 #include "TemporaryFolder.hpp"
+#include <acs/acsd/LineRobotSetup.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstddef>
+#include <chrono>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -260,6 +262,29 @@ TEST_CASE("The name of a driver is valid, not built in and used once")
     RobotDrivers drivers;
     drivers.push_back(nullptr);
     CHECK(FindDriverFaultOrNull(drivers) == "a robot driver is null");
+}
+
+TEST_CASE("The options of a robot that speaks lines are its address and the time limit of its silence")
+{
+    using namespace std::chrono_literals;
+    const LineClientOptions fallback = ReadLineOptions(OptionTable::ReadText("url = 'tcp://cart:4700'\n", "x.toml"));
+    CHECK(fallback.host == "cart");
+    CHECK(fallback.port == 4700);
+    CHECK(fallback.receiveTimeout == 5s);
+    const auto read = [](const std::string& timeout) {
+        const OptionTable table =
+            OptionTable::ReadText("url = 'tcp://cart:4700'\nreceive_timeout = '" + timeout + "'\n", "x.toml");
+        const std::chrono::milliseconds limit = ReadLineOptions(table).receiveTimeout;
+        return std::pair(limit, table.GetErrors());
+    };
+    CHECK(read("0s") == std::pair(std::chrono::milliseconds(0), Errors{}));
+    CHECK(read("100ms") == std::pair(std::chrono::milliseconds(100), Errors{}));
+    CHECK(read("99ms").second == Errors{"x.toml:2: receive_timeout: expected '0s' or a duration from '100ms' to '1h'"});
+    CHECK_THAT(read("2h").second.at(0), Catch::StartsWith("x.toml:2: receive_timeout: expected a duration from '"));
+
+    const LineRobotSetup setup({{Planning::ERobotType::CR}, {}, {}}, fallback, {});
+    CHECK(setup.GetCapabilities().connectionHint == "It is expected at cart:4700.");
+    CHECK(LineRobotSetup({{}, {}, "Look."}, fallback, {}).GetCapabilities().connectionHint == "Look.");
 }
 
 TEST_CASE("A driver's own test reads its options from a text")
