@@ -129,15 +129,33 @@ public:
     }
 
 private:
+    [[nodiscard]] bool IsCurrent(std::uint64_t connection) const noexcept
+    {
+        return _connection == connection && _state != EState::Stopped;
+    }
+
     /// Wraps the handler of an operation: it is called only while its connection exists.
     template <typename THandler>
     [[nodiscard]] auto Guard(THandler handler)
     {
         return [weak = weak_from_this(), connection = _connection, handler](const auto&... results) {
             const std::shared_ptr<Impl> self = weak.lock();
-            if (self != nullptr && self->_connection == connection && self->_state != EState::Stopped)
+            if (self != nullptr && self->IsCurrent(connection))
             {
                 handler(*self, results...);
+            }
+        };
+    }
+
+    /// The same for a method. By a pointer, because the handler of one write starts the next one, which is not a recursion.
+    template <typename... TResults>
+    [[nodiscard]] auto Guard(void (Impl::*method)(TResults...))
+    {
+        return [weak = weak_from_this(), connection = _connection, method](TResults... results) {
+            const std::shared_ptr<Impl> self = weak.lock();
+            if (self != nullptr && self->IsCurrent(connection))
+            {
+                (self.get()->*method)(results...);
             }
         };
     }
@@ -152,12 +170,7 @@ private:
                 self.Lose("the peer does not answer");
             }
         });
-        _resolver.async_resolve(
-            _options.host,
-            std::to_string(_options.port),
-            Guard([](Impl& self, const boost::system::error_code& error, const auto& found) {
-                self.OnResolved(error, found);
-            }));
+        _resolver.async_resolve(_options.host, std::to_string(_options.port), Guard(&Impl::OnResolved));
     }
 
     void OnResolved(const boost::system::error_code& error, const boost::asio::ip::tcp::resolver::results_type& found)
@@ -167,15 +180,10 @@ private:
             Lose(error.message());
             return;
         }
-        boost::asio::async_connect(
-            _socket,
-            found,
-            Guard([](Impl& self, const boost::system::error_code& failure, const auto& /*endpoint*/) {
-                self.OnConnectDone(failure);
-            }));
+        boost::asio::async_connect(_socket, found, Guard(&Impl::OnConnectDone));
     }
 
-    void OnConnectDone(const boost::system::error_code& error)
+    void OnConnectDone(const boost::system::error_code& error, const boost::asio::ip::tcp::endpoint& /*endpoint*/)
     {
         if (error)
         {
@@ -197,11 +205,7 @@ private:
 
     void ReadMore()
     {
-        _socket.async_read_some(
-            boost::asio::buffer(_input),
-            Guard([](Impl& self, const boost::system::error_code& error, std::size_t size) {
-                self.OnRead(error, size);
-            }));
+        _socket.async_read_some(boost::asio::buffer(_input), Guard(&Impl::OnRead));
     }
 
     void OnRead(const boost::system::error_code& error, std::size_t size)
@@ -262,15 +266,10 @@ private:
 
     void WriteFirst()
     {
-        boost::asio::async_write(
-            _socket,
-            boost::asio::buffer(_queue.front()),
-            Guard([](Impl& self, const boost::system::error_code& error, std::size_t /*size*/) {
-                self.OnWritten(error);
-            }));
+        boost::asio::async_write(_socket, boost::asio::buffer(_queue.front()), Guard(&Impl::OnWritten));
     }
 
-    void OnWritten(const boost::system::error_code& error)
+    void OnWritten(const boost::system::error_code& error, std::size_t /*size*/)
     {
         if (error)
         {
@@ -327,9 +326,9 @@ private:
     {
         ++_connection;
         _state = next;
-        _timer.cancel();
-        _resolver.cancel();
         boost::system::error_code ignored;
+        _timer.cancel(ignored);
+        _resolver.cancel();
         static_cast<void>(_socket.close(ignored));
         _line.clear();
         _stats.linesDropped += _queue.size();
