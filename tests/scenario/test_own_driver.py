@@ -104,7 +104,7 @@ class OwnDriver(ScenarioCase):
         self.assertEqual(list(self.read_status(self.addresses["operator"])["links"]), ["mcs"])  # and no broker
 
     def test_acsd_is_killed_during_a_job(self):
-        self.seconds = 0.5
+        self.seconds = 2
         self.start_line()
         for done in range(len(MOVES)):
             self.wait_for_line("out", "job ")
@@ -116,7 +116,7 @@ class OwnDriver(ScenarioCase):
 
     def test_acsd_is_killed_when_the_job_is_done(self):
         """It learns after its restart that the job was done meanwhile."""
-        self.seconds = 0.5
+        self.seconds = 2
         self.start_line()
         self.wait_for_line("in", "job ")
         self.kill(self.acsd)
@@ -152,7 +152,7 @@ class OwnDriver(ScenarioCase):
 
     def test_the_cart_is_restarted(self):
         """During a job, which it has not executed then and is commanded again, and while it is stationary."""
-        self.seconds = 0.5
+        self.seconds = 2
         self.start_line()
         self.wait_for_line("in", "job ")
         position = [line.split()[1] for line in self.read_lines("in") if line.startswith("state ")][-1]
