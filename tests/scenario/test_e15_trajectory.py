@@ -47,12 +47,13 @@ class Trajectory(ScenarioCase):
 
     def test_stop_discards_the_points_and_stops_the_arm_on_the_way(self):
         self.start_controller("--playing")
-        code, lines = self.run_lesson(TARGET, 15)
+        target = 90  # Far beyond the STOP: a busy machine sends it late.
+        code, lines = self.run_lesson(target, 15)
         self.assertEqual(code, 0, lines)
         where = [float(re.fullmatch(pattern, line)[1]) for pattern, line in
                  zip((r"STOP at ([\d.]+) degrees", r"stopped at ([\d.]+) degrees"), lines, strict=True)]
         self.assertGreaterEqual(where[0], 15)
-        self.assertLess(where[1], TARGET - 1)
+        self.assertLess(where[1], target - 1)
         self.assertAlmostEqual(self.get("/joints/joint_states")["position"][0], where[1], delta=0.1)
         self.assert_stationary_and_empty()
 
