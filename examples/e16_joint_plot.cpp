@@ -5,7 +5,7 @@
 //
 // Each sample is a line of the file, with the controller's time in ms. The terminal is redrawn ten times a second from the
 // newest sample, however fast the samples arrive: GetLatestOrNull needs no event. The last line counts the periods without
-// a sample, according to the controller's time.
+// a sample, according to the controller's time. The lesson is longer than 150 lines because it writes, plots and counts.
 
 #include "ExampleArm.hpp"
 #include "ExampleClock.hpp"
