@@ -14,9 +14,11 @@ function(acs_add_library)
   target_compile_features(${arg_NAME} PUBLIC cxx_std_20)
   set_target_properties(${arg_NAME} PROPERTIES EXPORT_NAME ${arg_EXPORT} CXX_EXTENSIONS OFF
     POSITION_INDEPENDENT_CODE ON VERIFY_INTERFACE_HEADER_SETS ON)
-  install(TARGETS ${arg_NAME} EXPORT acs${arg_EXPORT}Targets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
-    FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
-  install(EXPORT acs${arg_EXPORT}Targets NAMESPACE ACS:: DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/acs")
+  if(ACS_INSTALL)
+    install(TARGETS ${arg_NAME} EXPORT acs${arg_EXPORT}Targets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+      FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+    install(EXPORT acs${arg_EXPORT}Targets NAMESPACE ACS:: DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/acs")
+  endif()
 endfunction()
 
 # acs_add_internal_library(NAME acs_json EXPORT Json …): archive installed and exported because static libraries link
@@ -29,8 +31,10 @@ function(acs_add_internal_library)
   target_link_libraries(${arg_NAME} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:acs_warnings>)
   target_compile_features(${arg_NAME} PUBLIC cxx_std_20)
   set_target_properties(${arg_NAME} PROPERTIES EXPORT_NAME ${arg_EXPORT} POSITION_INDEPENDENT_CODE ON)
-  install(TARGETS ${arg_NAME} EXPORT acs${arg_EXPORT}Targets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
-  install(EXPORT acs${arg_EXPORT}Targets NAMESPACE ACS:: DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/acs")
+  if(ACS_INSTALL)
+    install(TARGETS ${arg_NAME} EXPORT acs${arg_EXPORT}Targets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+    install(EXPORT acs${arg_EXPORT}Targets NAMESPACE ACS:: DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/acs")
+  endif()
 endfunction()
 
 # acs_add_program(NAME acsd SOURCES … LINK …): a thin program over its own library.
@@ -39,5 +43,7 @@ function(acs_add_program)
   add_executable(${arg_NAME} ${arg_SOURCES})
   target_link_libraries(${arg_NAME} PRIVATE ${arg_LINK} acs_warnings)
   acs_harden_program(${arg_NAME})
-  install(TARGETS ${arg_NAME} RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  if(ACS_INSTALL)
+    install(TARGETS ${arg_NAME} RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  endif()
 endfunction()

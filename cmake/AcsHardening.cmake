@@ -23,7 +23,10 @@ if(ACS_HARDENING AND NOT ACS_SANITIZE)
     $<${optimised}:-U_FORTIFY_SOURCE> $<${optimised}:-D_FORTIFY_SOURCE=3> $<${optimised}:-D_GLIBCXX_ASSERTIONS>
     $<${optimised}:-UNDEBUG>)
 
-  check_pie_supported(LANGUAGES CXX)
+  # Its result applies to every program of the build, so not to those of a project around this one.
+  if(PROJECT_IS_TOP_LEVEL)
+    check_pie_supported(LANGUAGES CXX)
+  endif()
   foreach(flag IN ITEMS relro now noexecstack)
     string(TOUPPER "ACS_HAS_Z_${flag}" variable)
     check_linker_flag(CXX "LINKER:-z,${flag}" ${variable})
