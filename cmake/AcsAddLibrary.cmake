@@ -18,6 +18,7 @@ function(acs_add_library)
     install(TARGETS ${arg_NAME} EXPORT acs${arg_EXPORT}Targets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
       FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
     install(EXPORT acs${arg_EXPORT}Targets NAMESPACE ACS:: DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/acs")
+    acs_install_pkg_config(${arg_NAME} ${arg_PUBLIC} ${arg_PRIVATE})
   endif()
 endfunction()
 
@@ -34,6 +35,7 @@ function(acs_add_internal_library)
   if(ACS_INSTALL)
     install(TARGETS ${arg_NAME} EXPORT acs${arg_EXPORT}Targets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
     install(EXPORT acs${arg_EXPORT}Targets NAMESPACE ACS:: DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/acs")
+    acs_install_pkg_config(${arg_NAME} ${arg_PUBLIC} ${arg_PRIVATE})
   endif()
 endfunction()
 
