@@ -1,5 +1,10 @@
 // needs: nothing
 #include <acs/core/Result.hpp>
+#include <acs/core/Version.hpp>
+
+#if ACS_VERSION_MAJOR == 0 && ACS_VERSION_MINOR < 1
+#error "the version is older than 0.1"
+#endif
 
 #include <cstdio>
 
