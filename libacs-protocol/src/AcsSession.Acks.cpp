@@ -53,7 +53,8 @@ void AcsSession::Impl::Abandon(const InFlight& entry, SessionActions& out)
     _recent.Remember(entry.command, entry.transactionID, entry.bDurable);
     if (entry.bDurable)
     {
-        out.emplace_back(Deliver{RequestUnanswered{entry.command, entry.transactionID}});
+        out.emplace_back(Deliver{
+            RequestUnanswered{entry.command, entry.transactionID, EUnansweredReason::Timeout, entry.resends + 1}});
     }
     else if (const auto status = _statuses.find(entry.statusKey); status != _statuses.end())
     {

@@ -150,6 +150,7 @@ void AcsSession::Impl::OnTimer(ESessionTimer timer, Core::Now now, SessionAction
         case ESessionTimer::Shutdown:
             Leave(EState::Stopping, CLOSE_NORMAL, "shutting down", out);
             break;
+        case ESessionTimer::Answer:
         default:
             assert(false && "not a timer of this side");
             break;

@@ -50,17 +50,25 @@ void SimulatedMcsSession::OnText(
     }
     SessionActions actions;
     _session.OnText(connection, text, now, actions);
-    const bool bConnectionRefused = std::ranges::any_of(actions, [connection](const Protocol::SessionAction& action) {
-        const auto* const closeOrNull = std::get_if<Protocol::Close>(&action);
-        return closeOrNull != nullptr && closeOrNull->connection == connection;
-    });
-    for (Protocol::SessionAction& action : actions)
-    {
-        if (ShouldKeep(action, bConnectionRefused, now))
-        {
-            out.push_back(std::move(action));
-        }
-    }
+    Filter(actions, now, out);
+}
+
+bool SimulatedMcsSession::TryAnswer(
+    Protocol::AnswerToken token,
+    EAckResult result,
+    std::string_view message,
+    Core::Now now,
+    SessionActions& out)
+{
+    SessionActions actions;
+    const bool bTaken = _session.TryAnswer(token, result, message, now, actions);
+    Filter(actions, now, out);
+    return bTaken;
+}
+
+std::size_t SimulatedMcsSession::GetUnansweredCount() const noexcept
+{
+    return _session.GetUnansweredCount();
 }
 
 void SimulatedMcsSession::OnClosed(
@@ -254,6 +262,28 @@ bool SimulatedMcsSession::ShouldIntercept(
     delayed.deadline += *holdOrNull->delay;
     Delay(std::move(delayed), now);
     return true;
+}
+
+void SimulatedMcsSession::Filter(SessionActions& actions, Core::Now now, SessionActions& out)
+{
+    std::vector<Protocol::ConnectionID> closed;
+    for (const Protocol::SessionAction& action : actions)
+    {
+        if (const auto* const closeOrNull = std::get_if<Protocol::Close>(&action); closeOrNull != nullptr)
+        {
+            closed.push_back(closeOrNull->connection);
+        }
+    }
+    for (Protocol::SessionAction& action : actions)
+    {
+        const auto* const sendOrNull = std::get_if<Protocol::SendText>(&action);
+        const bool bConnectionRefused =
+            sendOrNull != nullptr && std::find(closed.begin(), closed.end(), sendOrNull->connection) != closed.end();
+        if (ShouldKeep(action, bConnectionRefused, now))
+        {
+            out.push_back(std::move(action));
+        }
+    }
 }
 
 bool SimulatedMcsSession::ShouldKeep(Protocol::SessionAction& action, bool bConnectionRefused, Core::Now now)

@@ -77,6 +77,13 @@ public:
         Core::Now now,
         Protocol::SessionActions& out) override;
     void OnTimer(Protocol::ESessionTimer timer, Core::Now now, Protocol::SessionActions& out) override;
+    [[nodiscard]] bool TryAnswer(
+        Protocol::AnswerToken token,
+        Protocol::EAckResult result,
+        std::string_view message,
+        Core::Now now,
+        Protocol::SessionActions& out) override;
+    [[nodiscard]] std::size_t GetUnansweredCount() const noexcept override;
     [[nodiscard]] Protocol::AcsRequest MakeRequest(Protocol::AcsPayload payload, Core::Now now) override;
     [[nodiscard]] bool TrySend(const Protocol::AcsRequest& request, Core::Now now, Protocol::SessionActions& out)
         override;
@@ -112,7 +119,9 @@ private:
         std::string_view text,
         Core::Now now,
         Protocol::SessionActions& out);
-    /// Whether the action, one of a call of OnText, is carried out now.
+    /// Moves what is carried out now from the actions of one call to out.
+    void Filter(Protocol::SessionActions& actions, Core::Now now, Protocol::SessionActions& out);
+    /// Whether the action, one of a call of OnText or TryAnswer, is carried out now.
     [[nodiscard]] bool ShouldKeep(Protocol::SessionAction& action, bool bConnectionRefused, Core::Now now);
     void Delay(DelayedText delayed, Core::Now now);
     void RequestDelay(Core::Now now) const;

@@ -339,6 +339,14 @@ void McsServer::Stop()
     _impl->Stop();
 }
 
+bool McsServer::TryAnswer(Protocol::AnswerToken token, Protocol::EAckResult result, std::string_view message)
+{
+    bool bTaken = false;
+    _impl->Run(
+        [&](auto& session, Core::Now now, auto& out) { bTaken = session.TryAnswer(token, result, message, now, out); });
+    return bTaken;
+}
+
 Protocol::AcsRequest McsServer::MakeRequest(Protocol::AcsPayload payload)
 {
     Protocol::AcsRequest request;
@@ -373,6 +381,11 @@ bool McsServer::IsRegistered() const
 std::size_t McsServer::GetPendingCount() const
 {
     return _impl->GetSession().GetPendingCount();
+}
+
+std::size_t McsServer::GetUnansweredCount() const
+{
+    return _impl->GetSession().GetUnansweredCount();
 }
 
 const Protocol::SessionStatistics& McsServer::GetStatistics() const

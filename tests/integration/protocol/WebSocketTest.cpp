@@ -4,6 +4,7 @@
 #include "WebSocketFixture.hpp"
 
 #include <chrono>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <variant>
@@ -11,6 +12,7 @@
 using namespace ACS; // NOLINT(google-build-using-namespace)
 using namespace std::chrono_literals;
 using Protocol::EAckResult;
+using Protocol::EAcsCommand;
 using Testing::MakePlan;
 using Testing::MakeReport;
 using Testing::PATIENCE;
@@ -85,6 +87,36 @@ TEST_CASE("6 Over a real socket, ws and wss: register, plan, Ack, reports, isCon
     CHECK(rig.mcsEvents.GetAll<Protocol::LinkLost>()[0].reason.find("1000") != std::string::npos);
     const auto reports = rig.mcsEvents.GetAll<Protocol::RequestReceived>();
     CHECK(reports.back().request.payload == Protocol::AcsPayload(Protocol::AcsCommStateUpdate{false}));
+}
+
+TEST_CASE("6 Over a real socket the application accepts the registration, then refuses a report")
+{
+    LinkWireFixture rig(false);
+    for (const EAcsCommand command : {EAcsCommand::Registration, EAcsCommand::PlanReport})
+    {
+        rig.serverOptions.session.answeredByApplication.set(static_cast<std::size_t>(command));
+    }
+    rig.Listen();
+    rig.Connect();
+    const auto getToken = [&rig](std::size_t index) {
+        REQUIRE(
+            rig.WasReached([&rig, index] { return rig.mcsEvents.GetAll<Protocol::RequestReceived>().size() > index; }));
+        return rig.mcsEvents.GetAll<Protocol::RequestReceived>()[index].token;
+    };
+    const Protocol::AnswerToken registration = getToken(0);
+    CHECK_FALSE(rig.server->IsRegistered());
+    CHECK(rig.server->GetUnansweredCount() == 1);
+    REQUIRE(rig.server->TryAnswer(registration, EAckResult::Success, "Welcome."));
+    REQUIRE(rig.WasReached([&rig] { return rig.client->IsRegistered(); }));
+
+    REQUIRE(rig.client->TrySendDurable(MakeReport("rep-1")));
+    const Protocol::AnswerToken report = getToken(1);
+    CHECK(rig.acsEvents.GetAll<Protocol::Acked>().empty());
+    REQUIRE(rig.server->TryAnswer(report, EAckResult::Fail, "Unknown plan."));
+    REQUIRE(rig.WasReached([&rig] { return !rig.acsEvents.GetAll<Protocol::Acked>().empty(); }));
+    CHECK(rig.acsEvents.GetAll<Protocol::Acked>()[0].result == EAckResult::Fail);
+    CHECK(rig.acsEvents.GetAll<Protocol::Acked>()[0].message == "Unknown plan.");
+    CHECK_FALSE(rig.server->TryAnswer(report, EAckResult::Success, ""));
 }
 
 TEST_CASE("1 After a lost link, ws and wss, the client registers again and unacknowledged reports are sent again")

@@ -2,6 +2,7 @@
 #include "Catch.hpp"
 #include "Fixture.hpp"
 #include "ManualClock.hpp"
+#include "McsSessionFixture.hpp"
 #include "SeededRandom.hpp"
 #include <acs/protocol/AcsCodec.hpp>
 #include <acs/protocol/AcsSession.hpp>
@@ -19,49 +20,12 @@ using Protocol::EAcsCommand;
 using Protocol::EProtocolNote;
 using Testing::MakeAckText;
 using Testing::MakeRequestText;
+using Testing::McsSessionFixture;
 
 namespace
 {
 
 const std::string PLAN_REPORT = R"({"planId":"P","status":"Completed","message":""})";
-
-class McsSessionFixture
-{
-public:
-    Testing::ManualClock clock;
-    Testing::SeededRandom random;
-    Protocol::McsSession session;
-    Testing::ActionRecorder recorder;
-
-    explicit McsSessionFixture(bool bSecondRefused = false)
-        : McsSessionFixture(MakeOptions(bSecondRefused))
-    {
-    }
-
-    explicit McsSessionFixture(const Protocol::McsSessionOptions& options)
-        : session(options, random)
-    {
-    }
-
-    static Protocol::McsSessionOptions MakeOptions(bool bSecondRefused)
-    {
-        Protocol::McsSessionOptions options;
-        options.bSecondRefused = bSecondRefused;
-        return options;
-    }
-
-    void Text(Protocol::ConnectionID connection, const std::string& text)
-    {
-        recorder.Clear();
-        session.OnText(connection, text, clock.GetNow(), recorder.out);
-    }
-
-    void Register(Protocol::ConnectionID connection)
-    {
-        session.OnConnected(connection, clock.GetNow(), recorder.out);
-        Text(connection, MakeRequestText("Registration", "{}", "r-" + std::to_string(connection)));
-    }
-};
 
 } // namespace
 

@@ -29,21 +29,40 @@ public:
     virtual void OnConnected(ConnectionID connection, Core::Now now, SessionActions& out) = 0;
 
     /// SendText (Acks), Close (a connection that is replaced, or the second one where that is refused), CancelTimer,
-    /// StartTimer, Deliver of Registered, LinkLost, RequestReceived, AckReceived, ProtocolNoted.
+    /// StartTimer, Deliver of Registered, LinkLost, RequestReceived, RequestGivenUp, RequestUnanswered, AckReceived,
+    /// ProtocolNoted.
     virtual void OnText(ConnectionID connection, std::string_view text, Core::Now now, SessionActions& out) = 0;
 
     /// If it was the registered connection: Deliver RequestUnanswered for each pending request, then LinkLost;
     /// CancelTimer.
     virtual void OnClosed(ConnectionID connection, std::string_view reason, Core::Now now, SessionActions& out) = 0;
 
-    /// Deliver RequestUnanswered, Close (no Registration in time), StartTimer. A timer that is not running is ignored.
+    /// SendText (resends, Fail for what the application has not answered), Close (no Registration in time, or none
+    /// accepted), StartTimer, Deliver of RequestUnanswered, RequestGivenUp. A timer that is not running is ignored.
     virtual void OnTimer(ESessionTimer timer, Core::Now now, SessionActions& out) = 0;
+
+    /// Answers a RequestReceived that has a token: SendText if its connection is still registered; the answer is kept for a
+    /// repeated report. For a Registration: Success registers the connection (Close of the one that it replaces,
+    /// RequestUnanswered, LinkLost, Registered), Fail closes it with 1008 after the Ack. Returns false and does nothing if
+    /// the request waits no longer: answered, abandoned, or a Registration whose connection was closed. StartTimer,
+    /// CancelTimer.
+    /// @param message For the operator of the ACS; may be empty.
+    [[nodiscard]] virtual bool TryAnswer(
+        AnswerToken token,
+        EAckResult result,
+        std::string_view message,
+        Core::Now now,
+        SessionActions& out) = 0;
+
+    /// Number of requests that wait for TryAnswer.
+    [[nodiscard]] virtual std::size_t GetUnansweredCount() const noexcept = 0;
 
     /// A request with a new transactionID and the current time as its timestamp, to be sent once or more often.
     [[nodiscard]] virtual AcsRequest MakeRequest(AcsPayload payload, Core::Now now) = 0;
 
-    /// SendText, StartTimer. Returns false and does nothing if no ACS is registered, if too many requests are pending,
-    /// or for a plan while IsTakingPlans is false and the option bPlansWithheld is set.
+    /// SendText, StartTimer. Ends in one AckReceived or RequestUnanswered with this transactionID. Returns false and does
+    /// nothing if no ACS is registered, if too many requests are pending, or for a plan while IsTakingPlans is false and
+    /// the option bPlansWithheld is set. Returns true and does nothing if the request is pending already.
     [[nodiscard]] virtual bool TrySend(const AcsRequest& request, Core::Now now, SessionActions& out) = 0;
 
     /// Whether an ACS is registered and its last AcsCommStateUpdate on this connection, if any, reported

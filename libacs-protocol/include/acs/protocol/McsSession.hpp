@@ -11,7 +11,8 @@ namespace ACS::Protocol
 {
 
 /// The MCS side of the protocol as a pure state machine over all connections of a server; at most one ACS is registered
-/// at a time. Built like AcsSession. Every report is acknowledged at once with Success, a repeated one again.
+/// at a time. Built like AcsSession. Every report is acknowledged with Success at once, or with the answer of the
+/// application for a command in McsSessionOptions::answeredByApplication; a repeated one gets the same Ack.
 class McsSession final : public IMcsSession
 {
     class Impl;
@@ -29,6 +30,13 @@ public:
     void OnText(ConnectionID connection, std::string_view text, Core::Now now, SessionActions& out) override;
     void OnClosed(ConnectionID connection, std::string_view reason, Core::Now now, SessionActions& out) override;
     void OnTimer(ESessionTimer timer, Core::Now now, SessionActions& out) override;
+    [[nodiscard]] bool TryAnswer(
+        AnswerToken token,
+        EAckResult result,
+        std::string_view message,
+        Core::Now now,
+        SessionActions& out) override;
+    [[nodiscard]] std::size_t GetUnansweredCount() const noexcept override;
     [[nodiscard]] AcsRequest MakeRequest(AcsPayload payload, Core::Now now) override;
     [[nodiscard]] bool TrySend(const AcsRequest& request, Core::Now now, SessionActions& out) override;
     [[nodiscard]] bool IsTakingPlans() const noexcept override;

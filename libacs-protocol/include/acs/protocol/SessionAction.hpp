@@ -12,9 +12,6 @@
 namespace ACS::Protocol
 {
 
-/// A connection of a server. An AcsSession has only one and always uses 0.
-using ConnectionID = std::uint64_t;
-
 enum class ESessionTimer : std::uint8_t
 {
     Registration, ///< ACS side: the Ack of Registration. MCS side: the earliest deadline of a Registration.
@@ -22,9 +19,10 @@ enum class ESessionTimer : std::uint8_t
     Reconnect,    ///< ACS side.
     Position,     ///< ACS side.
     Shutdown,     ///< ACS side.
+    Answer,       ///< MCS side: the earliest deadline of an answer of the application.
 };
 
-inline constexpr std::size_t TIMER_COUNT = 5;
+inline constexpr std::size_t TIMER_COUNT = 6;
 
 /// Close codes of RFC 6455.
 inline constexpr std::uint16_t CLOSE_NORMAL = 1000;

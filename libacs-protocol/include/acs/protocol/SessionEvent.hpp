@@ -11,6 +11,14 @@
 namespace ACS::Protocol
 {
 
+/// A connection of a server. An AcsSession has only one and always uses 0.
+using ConnectionID = std::uint64_t;
+
+/// A request of the ACS that waits for the answer of the application of an McsSession. Never used twice by a session.
+using AnswerToken = std::uint64_t;
+
+inline constexpr AnswerToken NO_ANSWER = 0; ///< The session has answered, or the command has no Ack.
+
 /// Both sides: registration succeeded. The ACS replays its outbox, then calls ReplayDone.
 struct Registered
 {
@@ -29,7 +37,9 @@ struct RegistrationRefused
 struct RequestReceived
 {
     AcsRequest request;
-    bool bDuplicate = false; ///< MCS side only: a report with this transactionID was received before.
+    bool bDuplicate = false;       ///< MCS side only: a report with this transactionID was delivered before.
+    ConnectionID connection = 0;   ///< MCS side only: where it came from.
+    AnswerToken token = NO_ANSWER; ///< MCS side only: to be passed to IMcsSession::TryAnswer unless it is NO_ANSWER.
 
     bool operator==(const RequestReceived&) const = default;
 };
@@ -58,20 +68,42 @@ struct Acked
     bool operator==(const Acked&) const = default;
 };
 
+/// MCS side: a request of the ACS has got no answer of the application: not within McsSessionOptions::answerTimeout, or
+/// because McsSessionOptions::maximumUnanswered requests were waiting. McsSessionOptions::unansweredPolicy was applied.
+struct RequestGivenUp
+{
+    EAcsCommand command = EAcsCommand::PlanReport;
+    std::string transactionID;
+    AnswerToken token = NO_ANSWER; ///< No longer valid; NO_ANSWER: the request was not delivered.
+
+    bool operator==(const RequestGivenUp&) const = default;
+};
+
 /// MCS side: the ACS has answered a request.
 struct AckReceived
 {
     AcsAck ack;
+    bool bLate = false; ///< RequestUnanswered was delivered for this request before.
 
     bool operator==(const AckReceived&) const = default;
 };
 
+/// Why a request has no Ack.
+enum class EUnansweredReason : std::uint8_t
+{
+    Timeout,  ///< After all resends.
+    LinkLost, ///< MCS side: the connection was lost.
+    Replaced, ///< MCS side: another connection has registered.
+};
+
 /// No Ack in time. ACS side: after all resends; the caller keeps the request and sends it again after the next Registered.
-/// MCS side: after the ack timeout, or because the link was lost; a late Ack is still delivered as AckReceived.
+/// MCS side: it is unknown whether the ACS has received the request; a late Ack is still delivered as AckReceived.
 struct RequestUnanswered
 {
     EAcsCommand command = EAcsCommand::PlanReport;
     std::string transactionID;
+    EUnansweredReason reason = EUnansweredReason::Timeout;
+    std::size_t attempts = 0; ///< How often the request was sent on this connection.
 
     bool operator==(const RequestUnanswered&) const = default;
 };
@@ -140,6 +172,7 @@ using SessionEvent = std::variant<
     RequestReceived,
     RequestRefused,
     Acked,
+    RequestGivenUp,
     AckReceived,
     RequestUnanswered,
     LinkLost,

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string_view>
 
 namespace ACS::ProtocolBeast
 {
@@ -69,6 +70,7 @@ public:
 
     /// These call the session's function of the same name and carry out its actions; events reach the handler after
     /// the call has returned.
+    [[nodiscard]] bool TryAnswer(Protocol::AnswerToken token, Protocol::EAckResult result, std::string_view message);
     [[nodiscard]] Protocol::AcsRequest MakeRequest(Protocol::AcsPayload payload);
     [[nodiscard]] bool TrySend(const Protocol::AcsRequest& request);
     /// Carries out the actions that the call adds.
@@ -77,6 +79,7 @@ public:
     [[nodiscard]] bool IsRegistered() const;
     [[nodiscard]] bool IsTakingPlans() const;
     [[nodiscard]] std::size_t GetPendingCount() const;
+    [[nodiscard]] std::size_t GetUnansweredCount() const;
     [[nodiscard]] const Protocol::SessionStatistics& GetStatistics() const;
 };
 
