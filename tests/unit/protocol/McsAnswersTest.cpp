@@ -17,7 +17,6 @@ using Protocol::EAckResult;
 using Protocol::EAcsCommand;
 using Protocol::ESessionTimer;
 using Protocol::EUnansweredPolicy;
-using Testing::MakeAckText;
 using Testing::MakeRequestText;
 
 namespace
@@ -28,7 +27,7 @@ class AskingMCS : public Testing::McsSessionFixture
 {
 public:
     explicit AskingMCS(const std::vector<EAcsCommand>& commands, Protocol::McsSessionOptions options = {})
-        : McsSessionFixture(MakeOptions(commands, std::move(options)))
+        : McsSessionFixture(MakeOptions(commands, options))
     {
     }
 
