@@ -465,6 +465,7 @@ def check_key_table(config, text, document):
     def make_general(keys):
         names = {re.sub(r"^(robots|actions)\.[^.]+", r"\1.NAME", key) for key in keys}
         names = {re.sub(r"\.maps\.[^.]+", ".maps.MAPID", name) for name in names}
+        names = {re.sub(r"\.NAME\.options\..+", ".NAME.options", name) for name in names}  # whose keys each driver defines
         return {re.sub(r"^stations\..+\.", "stations.NAME.", name) for name in names}
     used = make_general(list_keys_recursive(config))
     listed = set(re.findall(r"^\| `([a-zA-Z_.]+)` \|", document, re.MULTILINE))
