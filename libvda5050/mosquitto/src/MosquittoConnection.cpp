@@ -43,6 +43,16 @@ public:
     }
 };
 
+/// Reads a packet. What libmosquitto sends meanwhile is queued and not written at once: it drops a message of QoS 2 that the
+/// broker has released if it cannot write the PUBCOMP.
+int ReadPacket(mosquitto* client)
+{
+    mosquitto_threaded_set(client, true);
+    const int code = mosquitto_loop_read(client, PACKETS_PER_CALL);
+    mosquitto_threaded_set(client, false);
+    return code;
+}
+
 } // namespace
 
 MosquittoConnection::MosquittoConnection(const boost::asio::any_io_executor& executor, IMosquittoConnectionOwner& owner)
@@ -359,7 +369,7 @@ void MosquittoConnection::ReadAll()
     {
         const std::size_t before = _events.size();
         errno = 0;
-        const int code = mosquitto_loop_read(GetClientOrNull(), PACKETS_PER_CALL);
+        const int code = ReadPacket(GetClientOrNull());
         Settle(code, errno);
         if (_events.size() == before)
         {

@@ -117,6 +117,32 @@ TEST_CASE("2 A payload that is longer than allowed is dropped and reported; late
     CHECK(std::ranges::any_of(lines, [](const RecordedLine& line) { return line.HasField("bytes", "21"); }));
 }
 
+TEST_CASE("2 A QoS 2 message whose PUBCOMP cannot be sent any more is delivered")
+{
+    boost::asio::io_context context;
+    RawBroker broker(context);
+    broker.answerSubscribe = [](std::string_view packetID) {
+        return "\x90\x03" + std::string(packetID) + "\x02";
+    };
+    auto options = MakeOptions(broker.GetPort(), "once");
+    options.bCleanSession = false;
+    TestLink link(context, options);
+    link.link.Subscribe({{"topic", 2}});
+    link.link.Start();
+    REQUIRE(TryRunUntil(context, [&]() { return link.listener.ups == 1; }));
+    const std::string packetID("\x00\x07", 2);
+    broker.Send(RawBroker::MakePublishOnce("topic", packetID, "kept"));
+    const std::string pubrec = "\x50\x02" + packetID;
+    REQUIRE(TryRunUntil(context, [&]() { return broker.received.find(pubrec) != std::string::npos; }));
+    CHECK(link.listener.messages.empty()); // the broker has not released it
+    const std::string pubrel = "\x62\x02" + packetID;
+    broker.Send(pubrel);
+    broker.Reset();
+    REQUIRE(TryRunUntil(context, [&]() { return link.listener.downs == 1; }));
+    REQUIRE(link.listener.messages.size() == 1);
+    CHECK(link.listener.messages.front().payload == "kept");
+}
+
 TEST_CASE("2 A link with a refused subscription does not come up; the filter is logged once and tried again")
 {
     boost::asio::io_context context;

@@ -65,6 +65,26 @@ public:
         return packet + topic + payload;
     }
 
+    /// A PUBLISH with QoS 2, limited like the one of MakePublish.
+    [[nodiscard]] static std::string MakePublishOnce(
+        const std::string& topic,
+        const std::string& packetID,
+        const std::string& payload)
+    {
+        std::string packet(1, '\x34');
+        packet += static_cast<char>(2 + topic.size() + packetID.size() + payload.size());
+        packet += '\0';
+        packet += static_cast<char>(topic.size());
+        return packet + topic + packetID + payload;
+    }
+
+    /// Resets the connection of the client that came last. What was sent before can still be read there.
+    void Reset()
+    {
+        _lastClient->socket.set_option(boost::asio::socket_base::linger(true, 0));
+        _lastClient->socket.close();
+    }
+
     /// To the client that came last.
     void Send(const std::string& bytes)
     {
