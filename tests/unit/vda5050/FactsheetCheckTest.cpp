@@ -1,8 +1,6 @@
 #include "Catch.hpp"
 #include <acs/vda5050/FactsheetCheck.hpp>
 
-#include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -59,29 +57,18 @@ TEST_CASE("Intervals beyond reason are reported with their value and their effec
             "defaultStateInterval is 86400 s, above 300 s: a vehicle that has failed counts as connected this long"});
 }
 
-TEST_CASE("A factsheet of 10 times the actions and members is checked in about 10 times the time")
+TEST_CASE("A factsheet of 300'000 actions and members is checked; compared with each other they would take minutes")
 {
-    const auto measure = [](std::size_t count) {
-        FactsheetMessage factsheet;
-        factsheet.protocolFeatures.optionalParameters.emplace();
-        for (std::size_t i = 0; i < count; ++i)
-        {
-            factsheet.protocolFeatures.agvActions.emplace_back().actionType = "action-" + std::to_string(i);
-            factsheet.protocolFeatures.optionalParameters->push_back(
-                {"order.member-" + std::to_string(i), EParameterSupport::Required, {}});
-        }
-        auto best = std::chrono::steady_clock::duration::max();
-        for (int run = 0; run < 5; ++run) // the machine may do something else meanwhile
-        {
-            const auto begin = std::chrono::steady_clock::now();
-            CHECK(FindContradictions(factsheet).size() == count);
-            best = std::min(best, std::chrono::steady_clock::now() - begin);
-        }
-        return best;
-    };
-    const auto few = measure(3'000);
-    const auto many = measure(30'000);
-    CHECK(many < 40 * few); // 100 times in quadratic time
+    constexpr std::size_t COUNT = 300'000;
+    FactsheetMessage factsheet;
+    factsheet.protocolFeatures.optionalParameters.emplace();
+    for (std::size_t i = 0; i < COUNT; ++i)
+    {
+        factsheet.protocolFeatures.agvActions.emplace_back().actionType = "action-" + std::to_string(i);
+        factsheet.protocolFeatures.optionalParameters->push_back(
+            {"order.member-" + std::to_string(i), EParameterSupport::Required, {}});
+    }
+    CHECK(FindContradictions(factsheet).size() == COUNT);
 }
 
 } // namespace ACS::VDA5050::Test

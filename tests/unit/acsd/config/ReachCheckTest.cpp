@@ -3,7 +3,6 @@
 #include "Catch.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -188,7 +187,7 @@ TEST_CASE_METHOD(ReachFixture, "Robots of a type that start in different places 
     CHECK(Find().empty());
 }
 
-TEST_CASE_METHOD(ReachFixture, "The number of warnings and the time for a large map are limited")
+TEST_CASE_METHOD(ReachFixture, "The number of warnings about a large map is limited")
 {
     for (int i = 0; i < 1'000; ++i)
     {
@@ -208,9 +207,7 @@ TEST_CASE_METHOD(ReachFixture, "The number of warnings and the time for a large 
         AddRobot("LR1" + std::to_string(i), type, "N" + std::to_string(i));
     }
     const Planning::SiteMap site = MakeSite();
-    const auto begin = std::chrono::steady_clock::now();
     const Lines lines = FindUnreachableStations(options, site, site);
-    CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(1));
     REQUIRE(lines.size() == MOST_REACH_WARNINGS);
     CHECK(lines.front().starts_with("site.map: type-0 cannot reach the station st-A, "));
     // Each type has no edges and reaches the station of its start only.
