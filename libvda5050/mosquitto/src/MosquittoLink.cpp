@@ -318,7 +318,7 @@ void MosquittoLink::Impl::LogRefusal(const std::string& filter)
         return;
     }
     _logger.Warning(fmt::format(
-        "the MQTT broker {} does not take the subscription {}: check its access rules; trying again until it does",
+        "the MQTT broker {} refuses the subscription {}: check its access rules; trying again until it accepts it",
         GetAddress(),
         filter));
 }
