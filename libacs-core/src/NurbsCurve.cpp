@@ -48,7 +48,7 @@ std::string_view FindCurveFault(const Nurbs& curve)
     });
     if (!bFinite || !HasUsableWeights(curve))
     {
-        return "a trajectory's control points have a place, and weights that leave a curve";
+        return "a trajectory needs finite control points, and weights that are not negative and not 0 throughout";
     }
     return {};
 }

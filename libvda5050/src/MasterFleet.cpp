@@ -154,16 +154,18 @@ Core::Result<EVda5050Version> MasterFleet::ReadVersion(const MqttMessage& messag
 void MasterFleet::Discover(const MqttMessage& message, Core::Now now, FleetActions& out)
 {
     const Core::Result<ParsedTopic> topic = ParseTopic(message.topic);
-    const bool bTells = topic
+    const bool bShowsVehicle = topic
         && (topic->topic == ETopic::Connection || (topic->topic == ETopic::State && !message.bRetained))
         && topic->address.interfaceName == _options.vehicle.address.interfaceName;
-    if (!bTells)
+    if (!bShowsVehicle)
     {
         return; // a factsheet or a visualization: its connection message comes as well
     }
-    if (_options.bDiscovery && _options.isWelcome && !_options.isWelcome(topic->address))
+    if (_options.bDiscovery && _options.isAccepted && !_options.isAccepted(topic->address))
     {
-        Ignore(message, Core::Error{EVda5050Error::InvalidTopic, {}, "a vehicle that is welcome", message.topic});
+        Ignore(
+            message,
+            Core::Error{EVda5050Error::InvalidTopic, {}, "a vehicle that the application accepts", message.topic});
         return;
     }
     const Core::Result<EVda5050Version> version = ReadVersion(message);

@@ -220,7 +220,7 @@ TEST_CASE("13 Only vehicles that pass the filter are discovered; one that is add
 {
     FleetOptions options;
     options.maxVehicles = 1;
-    options.isWelcome = [](const VehicleAddress& address) {
+    options.isAccepted = [](const VehicleAddress& address) {
         return address.serialNumber != "LR1";
     };
     MasterFleetFixture bench(options);

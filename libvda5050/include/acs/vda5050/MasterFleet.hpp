@@ -24,7 +24,7 @@ struct FleetOptions
     bool bDiscovery = true;
     /// Decides whether an unknown vehicle is accepted; empty: all are. Any client of a broker can publish to the topics of
     /// vehicles that do not exist and so use up maxVehicles.
-    std::function<bool(const VehicleAddress&)> isWelcome;
+    std::function<bool(const VehicleAddress&)> isAccepted;
     /// Maximum number of vehicles for discovery; more are ignored and counted. Add is not limited.
     std::size_t maxVehicles = 1'000;
 };
@@ -101,7 +101,7 @@ public:
     [[nodiscard]] MasterSession& GetSession(std::size_t vehicle);
     [[nodiscard]] const MasterSession& GetSession(std::size_t vehicle) const;
     [[nodiscard]] std::optional<std::size_t> FindOrNull(const VehicleAddress& address) const;
-    /// Number of messages of vehicles that were not accepted: too many vehicles, rejected by isWelcome, unreadable, another
+    /// Number of messages of vehicles that were not accepted: too many vehicles, rejected by isAccepted, unreadable, another
     /// vehicle or major version than the topic, or no discovery.
     [[nodiscard]] std::uint64_t GetLeftOutCount() const noexcept;
     /// The last of them, for the log; null if there was none.

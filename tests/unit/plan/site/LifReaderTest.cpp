@@ -161,7 +161,7 @@ TEST_CASE("LIF: an invalid trajectory closes the edge for its vehicle type only,
         {MakeCurve("1", "0, 1, 1, 2", "3"), "the curve is empty, because the knots 2 and 3 are equal"},
         {MakeCurve("1", "0, 0, 1, 1", "9"), "it ends 6.000 m from the node N2, allowed are 0.500 m"},
         {Replace(MakeCurve("1", "0, 0, 1, 1", "3"), R"("y": 0)", R"("y": 0, "weight": -1)"),
-         "a trajectory's control points have a place, and weights that leave a curve"},
+         "a trajectory needs finite control points, and weights that are not negative and not 0 throughout"},
         // Not clamped: its control points begin and end at the nodes, the curve itself does not.
         {R"("trajectory": {"degree": 2, "knotVector": [0, 1, 2, 3, 4, 5], "controlPoints":
             [{"x": 0, "y": 0}, {"x": 1.5, "y": 2}, {"x": 3, "y": 4}]})",
