@@ -1,13 +1,20 @@
 #pragma once
 
 #include <acs/acsd/ILineAdapter.hpp>
-#include <acs/core/Overloaded.hpp>
+#include <acs/acsd/NodeByNodeDrive.hpp>
+#include <acs/acsd/RobotJob.hpp>
 #include <acs/core/Result.hpp>
 
 #include <array>
+#include <functional>
 #include <map>
+#include <optional>
 #include <sstream>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <variant>
+#include <vector>
 
 // NOLINTNEXTLINE(google-build-using-namespace,google-global-names-in-headers): an example reads better without the prefix
 using namespace ACS::Planning;
@@ -25,12 +32,8 @@ private:
     std::vector<std::string> _lines;
     StateChanged _state; ///< As the cart reported last.
     std::string _next;   ///< The node ahead; empty: it is stationary.
-    std::optional<Drive> _drive;
-    std::size_t _passed = 0; ///< Nodes of the drive.
-    bool _bCancelling = false;
-    bool _bPaused = false;
-    std::optional<StartJob> _job;
-    bool _bStarted = false; ///< It was reported that the cart has begun the job.
+    ACS::Acsd::NodeByNodeDrive _drive;
+    ACS::Acsd::RobotJob _job;
 
 public:
     explicit CartAdapter(Commands commands)
@@ -39,37 +42,20 @@ public:
         _state.batteryPercent = 100;
     }
 
+    // It does not charge, and it finishes a job that it has begun: other commands have no effect.
     void Handle(const RobotCommand& command, Core::Now /*now*/, AdapterActions& out) override
     {
-        std::visit(
-            Core::Overloaded{
-                [this](const Drive& drive) {
-                    _drive = drive;
-                    _passed = 0;
-                    _bCancelling = false;
-                },
-                [this](const ExtendDrive& extend) {
-                    if (_drive.has_value()) // it may just have been rejected
-                    {
-                        _drive->releasedCount = extend.releasedCount;
-                    }
-                },
-                [this](const CancelDrive& /*cancel*/) { _bCancelling = true; },
-                [this](const Pause& /*pause*/) { _bPaused = true; },
-                [this](const Resume& /*resume*/) { _bPaused = false; },
-                [this](const StartJob& job) {
-                    _job = job;
-                    _bStarted = false;
-                    const std::string places = job.from.value_or("-") + " " + job.to.value_or("-");
-                    _lines.push_back("job " + job.commandID + " " + _commands.at(job.action) + " " + places);
-                },
-                [this](const RecoverJob& recover) {
-                    _job = recover.job;
-                    AskForJob();
-                },
-                [](const auto& /*other*/) {
-                }}, // it does not charge, and it finishes a job that it has begun
-            command);
+        _drive.Handle(command);
+        _job.Handle(command);
+        if (const auto* job = std::get_if<StartJob>(&command))
+        {
+            const std::string places = job->from.value_or("-") + " " + job->to.value_or("-");
+            _lines.push_back("job " + job->commandID + " " + _commands.at(job->action) + " " + places);
+        }
+        else if (std::holds_alternative<RecoverJob>(command))
+        {
+            AskForJob();
+        }
         Continue(out);
     }
 
@@ -116,13 +102,13 @@ public:
 private:
     void AskForJob()
     {
-        if (_job.has_value())
+        if (const StartJob* job = _job.GetJobOrNull())
         {
-            _lines.push_back("ask " + _job->commandID);
+            _lines.push_back("ask " + job->commandID);
         }
     }
 
-    /// Reports the state, and the progress of the drive when the cart is stationary on a node.
+    /// Reports the state, and continues the drive when the cart is stationary on a node.
     void Continue(AdapterActions& out)
     {
         if (_state.lastNodeID.empty())
@@ -130,53 +116,34 @@ private:
             return; // not known since the connection
         }
         _state.bDriving = !_next.empty();
-        _state.bPaused = _bPaused && !_state.bDriving;
-        _state.bOccupied = _state.bDriving && !_drive.has_value(); // it ends an edge from before a restart
+        _state.bPaused = _drive.IsPaused() && !_state.bDriving;
+        _state.bOccupied = _state.bDriving && !_drive.HasDrive(); // it ends an edge from before a restart
         _state.heldNodeIDs.assign(_state.bOccupied ? 1 : 0, _next);
         out.emplace_back(RaiseEvent{_state});
-        if (!_drive.has_value() || _state.bDriving)
+        if (_state.bDriving)
         {
             return;
         }
-        const std::vector<RouteNode>& nodes = _drive->route.nodes;
-        if (nodes[_passed].nodeID == _state.lastNodeID)
+        _drive.OnStationary(_state.lastNodeID, out);
+        if (const auto step = _drive.GetStepOrNull())
         {
-            out.emplace_back(RaiseEvent{NodePassed{_drive->driveID, nodes[_passed++].nodeID}});
+            _lines.push_back("go " + step->driveID + " " + step->nodeID);
         }
-        if (_passed == nodes.size())
-        {
-            EndDrive(Arrived{_drive->driveID}, out);
-        }
-        else if (_passed == 0 || nodes[_passed - 1].nodeID != _state.lastNodeID)
-        {
-            EndDrive(DriveRejected{_drive->driveID, "the cart is at " + Core::QuoteForError(_state.lastNodeID)}, out);
-        }
-        else if (_bCancelling)
-        {
-            EndDrive(DriveCancelled{_drive->driveID, _state.lastNodeID}, out);
-        }
-        else if (!_bPaused && _passed < _drive->releasedCount)
-        {
-            _lines.push_back("go " + _drive->driveID + " " + nodes[_passed].nodeID);
-        }
-    }
-
-    void EndDrive(const RobotEvent& event, AdapterActions& out)
-    {
-        out.emplace_back(RaiseEvent{event});
-        _drive.reset();
     }
 
     void OnAnswer(const std::string& commandID, const std::string& answer, AdapterActions& out)
     {
-        if (!_job.has_value() || _job->commandID != commandID)
-        {
-            return;
-        }
         if (answer == "running")
         {
-            _bStarted = true;
-            out.emplace_back(RaiseEvent{JobStarted{_job->jobID}});
+            _job.OnRunning(commandID, out);
+        }
+        else if (answer == "done")
+        {
+            _job.OnDone(commandID, out);
+        }
+        else if (answer == "unknown")
+        {
+            _job.OnNotExecuted(commandID, "the cart was restarted", out); // before it had moved anything
         }
         else if (answer == "known") // the command has come twice
         {
@@ -184,22 +151,7 @@ private:
         }
         else
         {
-            out.emplace_back(RaiseEvent{MakeEnd(_job->jobID, answer)});
-            _job.reset();
+            _job.OnRejected(commandID, "the cart answers " + Core::QuoteForError(answer), out);
         }
-    }
-
-    [[nodiscard]] RobotEvent MakeEnd(const std::string& jobID, const std::string& answer) const
-    {
-        if (answer == "done")
-        {
-            return JobFinished{jobID};
-        }
-        if (answer != "unknown")
-        {
-            return JobRejected{jobID, "the cart answers " + Core::QuoteForError(answer)};
-        }
-        // It was restarted before it had moved anything.
-        return _bStarted ? RobotEvent(JobInterrupted{jobID, "the cart was restarted"}) : RobotEvent(JobUnknown{jobID});
     }
 };

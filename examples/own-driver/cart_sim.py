@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""The cart. cart_sim.py PORT JOURNAL NODE SECONDS (for an edge, for a job). Port 0 selects a free one."""
+"""The cart. cart_sim.py PORT JOURNAL NODE SECONDS [JOB_SECONDS]: for an edge, for a job. Port 0 selects a free one."""
 import asyncio
 import os
 import sys
 
 
 class Cart:
-    def __init__(self, journal, node, seconds):
+    def __init__(self, journal, node, seconds, job_seconds=None):
         self.journal, self.node, self.seconds = open(journal, "a+"), node, float(seconds)
+        self.job_seconds = float(job_seconds or seconds)
         self.journal.seek(0)
         jobs = [line.split()[0] for line in self.journal]  # executed, also before a restart
         self.done, self.last = set(jobs), jobs[-1] if jobs else "-"
@@ -61,7 +62,7 @@ class Cart:
 
     async def work(self, job, what):
         self.on_ask(job)
-        await asyncio.sleep(self.seconds)
+        await asyncio.sleep(self.job_seconds)
         self.journal.write(" ".join((job, *what)) + "\n")
         self.journal.flush()
         os.fsync(self.journal.fileno())

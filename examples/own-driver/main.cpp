@@ -35,7 +35,5 @@ public:
 
 int main(int argc, char** argv)
 {
-    RobotDrivers drivers;
-    drivers.push_back(std::make_unique<CartDriver>());
-    return RunAcsd(argc, argv, std::move(drivers));
+    return RunAcsd(argc, argv, MakeDrivers<CartDriver>());
 }

@@ -2,8 +2,10 @@
 """The lesson examples/own-driver with real processes: acsd with a driver of its own, the cart, and mcs-sim. Whatever is killed, the
 cart's journal has each job once."""
 
+import argparse
 import itertools
 import json
+import pathlib
 import signal
 import subprocess
 import sys
@@ -13,17 +15,20 @@ import urllib.request
 from scenario_case import FINISH_SECONDS, PLANS, REPOSITORY, ScenarioCase, main
 
 LESSON = REPOSITORY / "examples" / "own-driver"
-CONFIG = LESSON / "acsd.toml"
+MAXIMUM_LINES = 250
 SECONDS = 0.2  # of the cart, for an edge and for a job
+LONG_SECONDS = 2  # for a job during which a program is killed
 MOVES = [["pick", "A01.CP01", "LR01.CP01"], ["drop", "LR01.CP01", "A02.CP03"]]  # of the plan
 
 
 class OwnDriver(ScenarioCase):
-    seconds = SECONDS
+    job_seconds = SECONDS
+    lesson = LESSON
+    program = None  # cart_acsd, if it is not among the programs of --bin
 
     def start_cart(self, port=0):
-        cart = self.line.start("cart_sim", LESSON / "cart_sim.py", port, self.line.folder / "journal", self.node,
-                               self.seconds, binary=sys.executable)
+        cart = self.line.start("cart_sim", self.lesson / "cart_sim.py", port, self.line.folder / "journal", self.node,
+                               SECONDS, self.job_seconds, binary=sys.executable)
         self.cart_address = cart.wait_ready()["cart"]
         return cart
 
@@ -46,7 +51,8 @@ class OwnDriver(ScenarioCase):
         }
         sets = [part for key, value in settings.items() for part in ("--set", f"{key}={value}")]
         self.acsd_trace = self.line.folder / f"trace{next(self.names)}"
-        self.acsd = self.line.start("cart_acsd", "--config", CONFIG, *sets, "--trace", self.acsd_trace)
+        self.acsd = self.line.start("cart_acsd", "--config", self.lesson / "acsd.toml", *sets, "--trace", self.acsd_trace,
+                                    binary=self.program)
         self.addresses = self.acsd.wait_ready()
 
     def kill(self, program):
@@ -104,7 +110,7 @@ class OwnDriver(ScenarioCase):
         self.assertEqual(list(self.read_status(self.addresses["operator"])["links"]), ["mcs"])  # and no broker
 
     def test_acsd_is_killed_during_a_job(self):
-        self.seconds = 2
+        self.job_seconds = LONG_SECONDS
         self.start_line()
         for done in range(len(MOVES)):
             self.wait_for_line("out", "job ")
@@ -116,7 +122,7 @@ class OwnDriver(ScenarioCase):
 
     def test_acsd_is_killed_when_the_job_is_done(self):
         """It learns after its restart that the job was done meanwhile."""
-        self.seconds = 2
+        self.job_seconds = LONG_SECONDS
         self.start_line()
         self.wait_for_line("in", "job ")
         self.kill(self.acsd)
@@ -152,7 +158,7 @@ class OwnDriver(ScenarioCase):
 
     def test_the_cart_is_restarted(self):
         """During a job, which it has not executed then and is commanded again, and while it is stationary."""
-        self.seconds = 2
+        self.job_seconds = LONG_SECONDS
         self.start_line()
         self.wait_for_line("in", "job ")
         position = [line.split()[1] for line in self.read_lines("in") if line.startswith("state ")][-1]
@@ -163,8 +169,14 @@ class OwnDriver(ScenarioCase):
         self.wait_for_line("in", f"job {self.read_lines('out')[-1].split()[1]} unknown")
         self.judge()
 
+    def test_the_project_is_small(self):
+        """Every line of its C++ files counts: comments, blank lines and lone braces too. cart_sim.py is the robot, not the project."""
+        lines = {path.name: len(path.read_text().splitlines()) for path in self.lesson.glob("**/*.[ch]pp")}
+        self.assertEqual(sorted(lines), ["CartAdapter.hpp", "main.cpp"])
+        self.assertLessEqual(sum(lines.values()), MAXIMUM_LINES, lines)
+
     def test_errors_of_the_configuration_have_lines(self):
-        lines = CONFIG.read_text().splitlines()
+        lines = (self.lesson / "acsd.toml").read_text().splitlines()
         number = {key: 1 + next(i for i, line in enumerate(lines) if line.startswith(key))
                   for key in ("driver", "options.url", "CassetteLoad")}
 
@@ -172,8 +184,8 @@ class OwnDriver(ScenarioCase):
             changed = list(lines)
             change(changed)
             path = self.line.folder / "acsd.toml"
-            path.write_text("\n".join(changed).replace("../site", str(LESSON.parent / "site")) + "\n")
-            run = subprocess.run([self.line.bin_dir / "cart_acsd", "--config", path, "--check-config"],
+            path.write_text("\n".join(changed).replace("../site", str(self.lesson.parent / "site")) + "\n")
+            run = subprocess.run([self.program or self.line.bin_dir / "cart_acsd", "--config", path, "--check-config"],
                                  capture_output=True, text=True, timeout=60, check=False)
             text = run.stderr.replace(str(path), "FILE")
             return run.returncode, [line for line in text.splitlines() if not line.startswith("note: site.map: ")]
@@ -201,4 +213,9 @@ class OwnDriver(ScenarioCase):
 
 
 if __name__ == "__main__":
+    parser = argparse.ArgumentParser(add_help=False)
+    parser.add_argument("--lesson", type=pathlib.Path, default=LESSON, help="the folder of the lesson")
+    parser.add_argument("--program", type=pathlib.Path, help="cart_acsd, built elsewhere")
+    arguments, sys.argv[1:] = parser.parse_known_args()
+    OwnDriver.lesson, OwnDriver.program = arguments.lesson, arguments.program
     main()

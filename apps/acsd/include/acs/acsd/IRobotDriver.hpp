@@ -46,4 +46,13 @@ public:
 
 using RobotDrivers = std::vector<std::unique_ptr<const IRobotDriver>>;
 
+/// One driver of each type, for RunAcsd.
+template <typename... TDrivers>
+[[nodiscard]] RobotDrivers MakeDrivers()
+{
+    RobotDrivers drivers;
+    (drivers.push_back(std::make_unique<const TDrivers>()), ...);
+    return drivers;
+}
+
 } // namespace ACS::Acsd
