@@ -22,13 +22,16 @@ function(acs_add_library)
   endif()
 endfunction()
 
-# acs_add_internal_library(NAME acs_json EXPORT Json …): archive installed and exported because static libraries link
+# acs_add_internal_library(NAME acs_json EXPORT Json … [BASE_DIR dir]): archive installed and exported because static libraries link
 # it, headers never.
 function(acs_add_internal_library)
-  cmake_parse_arguments(arg "" "NAME;EXPORT" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "" "NAME;EXPORT;BASE_DIR" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  if(NOT arg_BASE_DIR)
+    set(arg_BASE_DIR "${CMAKE_CURRENT_SOURCE_DIR}/include")
+  endif()
   add_library(${arg_NAME} STATIC ${arg_SOURCES})
   add_library(ACS::${arg_EXPORT} ALIAS ${arg_NAME})
-  target_include_directories(${arg_NAME} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>)
+  target_include_directories(${arg_NAME} PUBLIC $<BUILD_INTERFACE:${arg_BASE_DIR}>)
   target_link_libraries(${arg_NAME} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:acs_warnings>)
   target_compile_features(${arg_NAME} PUBLIC cxx_std_20)
   set_target_properties(${arg_NAME} PROPERTIES EXPORT_NAME ${arg_EXPORT} POSITION_INDEPENDENT_CODE ON)
