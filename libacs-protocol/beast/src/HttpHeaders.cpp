@@ -75,6 +75,24 @@ Core::Result<void> CheckHttpHeaders(const HttpHeaders& headers)
     return {};
 }
 
+const std::string* FindHeaderOrNull(const HttpHeaders& headers, std::string_view name)
+{
+    const std::string* found = nullptr;
+    for (const auto& [other, value] : headers)
+    {
+        if (MakeLower(other) != MakeLower(name))
+        {
+            continue;
+        }
+        if (found != nullptr)
+        {
+            return nullptr;
+        }
+        found = &value;
+    }
+    return found;
+}
+
 Core::Result<void> CheckHostHeader(std::string_view host)
 {
     if (!IsFieldValue(host))

@@ -1,34 +1,22 @@
 #pragma once
 
 #include "ILink.hpp"
+#include <acs/protocol_beast/UpgradeRefusal.hpp>
+#include <acs/protocol_beast/UpgradeRequest.hpp>
 
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 
 namespace ACS::ProtocolBeast
 {
 
-/// The HTTP request at the start of a connection.
-struct UpgradeRequest
-{
-    std::string_view target;
-    bool bWebSocket = false;
-};
-
-/// Why a request is refused.
-struct UpgradeRefusal
-{
-    unsigned status = 0; ///< HTTP status.
-    std::string text;
-};
-
 /// The owner of a gate. Called on the executor, never during a call of the owner, and not after onAccepted, onEnded or Kill.
 struct GateOwner
 {
-    std::function<std::optional<UpgradeRefusal>(const UpgradeRequest& request)> judge;
+    /// The request has neither connection nor peer, which the owner knows.
+    std::function<std::optional<UpgradeRefusal>(UpgradeRequest request, bool bWebSocket)> judge;
     std::function<void(const std::string& reason)> onRefused;    ///< To be logged; onEnded follows.
     std::function<void(std::shared_ptr<ILink> link)> onAccepted; ///< The link opens next.
     std::function<void()> onEnded;                               ///< Without a link.

@@ -8,11 +8,14 @@
 #include <acs/protocol/McsSession.hpp>
 #include <acs/protocol_beast/McsServer.hpp>
 
+#include <boost/asio/ip/address.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/system/error_code.hpp>
 
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 namespace ACS::ProtocolBeast
@@ -37,6 +40,15 @@ std::string_view StripTarget(std::string_view target)
         target.remove_suffix(1);
     }
     return target;
+}
+
+/// An IPv4 address in its own form, also on a socket for both kinds.
+std::string GetText(const boost::asio::ip::address& address)
+{
+    namespace ip = boost::asio::ip;
+    return address.is_v6() && address.to_v6().is_v4_mapped()
+        ? ip::make_address_v4(ip::v4_mapped, address.to_v6()).to_string()
+        : address.to_string();
 }
 
 } // namespace
@@ -149,19 +161,33 @@ private:
             return;
         }
         const Protocol::ConnectionID connection = ++_lastID;
+        boost::system::error_code unknown;
+        const Tcp::endpoint peer = socket.remote_endpoint(unknown);
+        GateOwner gateOwner = MakeGateOwner(connection, unknown ? std::nullopt : std::optional(peer));
         const std::shared_ptr<IGate> gate =
-            _transport->MakeGate(std::move(socket), _options.link, MakeGateOwner(connection), MakeOwner(connection));
+            _transport->MakeGate(std::move(socket), _options.link, std::move(gateOwner), MakeOwner(connection));
         _gates.emplace(connection, gate);
         gate->RunAsync();
     }
 
-    GateOwner MakeGateOwner(Protocol::ConnectionID connection)
+    GateOwner MakeGateOwner(Protocol::ConnectionID connection, const std::optional<Tcp::endpoint>& peerOrNull)
     {
         const std::weak_ptr<Impl> weak = weak_from_this();
         GateOwner owner;
-        owner.judge = [weak](const UpgradeRequest& request) -> std::optional<UpgradeRefusal> {
+        owner.judge =
+            [weak, connection, peerOrNull](UpgradeRequest request, bool bWebSocket) -> std::optional<UpgradeRefusal> {
             const auto self = weak.lock();
-            return self == nullptr ? UpgradeRefusal{HTTP_UNAVAILABLE, {}} : self->JudgeOrNull(request);
+            if (self == nullptr)
+            {
+                return UpgradeRefusal{HTTP_UNAVAILABLE, {}, {}};
+            }
+            request.connection = connection;
+            if (peerOrNull.has_value())
+            {
+                request.peerAddress = GetText(peerOrNull->address());
+                request.peerPort = peerOrNull->port();
+            }
+            return self->JudgeOrNull(request, bWebSocket);
         };
         owner.onAccepted = [weak, connection](std::shared_ptr<ILink> link) {
             if (const auto self = weak.lock())
@@ -185,19 +211,30 @@ private:
         return owner;
     }
 
-    [[nodiscard]] std::optional<UpgradeRefusal> JudgeOrNull(const UpgradeRequest& request) const
+    [[nodiscard]] std::optional<UpgradeRefusal> JudgeOrNull(const UpgradeRequest& request, bool bWebSocket) const
     {
-        if (StripTarget(request.target) != StripTarget(_options.path))
+        if (!_options.path.empty() && StripTarget(request.target) != StripTarget(_options.path))
         {
-            return UpgradeRefusal{HTTP_NOT_FOUND, "The ACS connects at " + _options.path + ".\n"};
+            return UpgradeRefusal{HTTP_NOT_FOUND, "The ACS connects at " + _options.path + ".\n", {}};
         }
-        if (!request.bWebSocket)
+        if (!bWebSocket)
         {
-            return UpgradeRefusal{HTTP_UPGRADE_REQUIRED, "This is the MCS end of MCS-ACS: connect with a WebSocket.\n"};
+            return UpgradeRefusal{
+                HTTP_UPGRADE_REQUIRED,
+                "This is the MCS end of MCS-ACS: connect with a WebSocket.\n",
+                {}};
+        }
+        if (_options.checkUpgrade)
+        {
+            std::optional<UpgradeRefusal> refusal = _options.checkUpgrade(request);
+            if (refusal.has_value())
+            {
+                return refusal;
+            }
         }
         if (_session->ShouldRefuseUpgrade())
         {
-            return UpgradeRefusal{HTTP_FORBIDDEN, "An ACS is connected already.\n"};
+            return UpgradeRefusal{HTTP_FORBIDDEN, "An ACS is connected already.\n", {}};
         }
         return std::nullopt;
     }

@@ -3,6 +3,7 @@
 #include "BeastLink.hpp"
 #include "UpgradeGate.hpp"
 
+#include <string>
 #include <utility>
 
 namespace ACS::ProtocolBeast
@@ -25,6 +26,11 @@ struct PlainLayer
     [[nodiscard]] static std::string Describe(Stream& /*stream*/, ErrorCode error)
     {
         return error.message();
+    }
+
+    [[nodiscard]] static std::string GetPeerSubject(Stream& /*stream*/)
+    {
+        return {};
     }
 };
 

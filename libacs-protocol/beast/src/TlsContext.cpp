@@ -6,8 +6,10 @@
 #include <openssl/x509v3.h>
 
 #include <cerrno>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -225,6 +227,21 @@ void SetRequestedName(SSL* stream, const std::string& name)
             TLSEXT_NAMETYPE_host_name,
             const_cast<char*>(name.c_str()))); // NOLINT(cppcoreguidelines-pro-type-const-cast): it is copied
     }
+}
+
+std::string GetPeerSubject(SSL* stream)
+{
+    const std::unique_ptr<X509, decltype(&X509_free)> certificate(SSL_get1_peer_certificate(stream), &X509_free);
+    const std::unique_ptr<BIO, decltype(&BIO_free)> text(BIO_new(BIO_s_mem()), &BIO_free);
+    const bool bPrinted = certificate != nullptr && text != nullptr && SSL_get_verify_result(stream) == X509_V_OK
+        && X509_NAME_print_ex(text.get(), X509_get_subject_name(certificate.get()), 0, XN_FLAG_RFC2253) >= 0;
+    if (!bPrinted)
+    {
+        return {};
+    }
+    char* begin = nullptr;
+    const long size = BIO_get_mem_data(text.get(), &begin);
+    return {begin, static_cast<std::size_t>(size)};
 }
 
 Core::Result<void> CheckClientTLS(const TlsOptions& options, std::string_view host)

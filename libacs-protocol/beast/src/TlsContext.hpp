@@ -26,4 +26,7 @@ namespace ACS::ProtocolBeast
 /// Before the handshake; nothing where the name is empty.
 void SetRequestedName(SSL* stream, const std::string& name);
 
+/// After the handshake: the subject of the other side's verified certificate (RFC 2253); empty: it has shown none.
+[[nodiscard]] std::string GetPeerSubject(SSL* stream);
+
 } // namespace ACS::ProtocolBeast

@@ -35,6 +35,11 @@ struct TlsLayer
     {
         return DescribeTlsFailure(stream.native_handle(), error);
     }
+
+    [[nodiscard]] static std::string GetPeerSubject(Stream& stream)
+    {
+        return ProtocolBeast::GetPeerSubject(stream.native_handle());
+    }
 };
 
 class TlsTransport final : public ITransport

@@ -21,7 +21,7 @@ namespace ACS::ProtocolBeast
 {
 
 /// Reads the HTTP request at the start of a connection and creates a link for a valid WebSocket upgrade; otherwise answers
-/// and closes. Exists while it has work. TLayer: see BeastLink.
+/// and closes. Exists while it has work. TLayer: see BeastLink; it also defines GetPeerSubject(stream).
 template <typename TLayer>
 class UpgradeGate final : public IGate, public std::enable_shared_from_this<UpgradeGate<TLayer>>
 {
@@ -97,13 +97,13 @@ private:
         {
             RefuseAsync(
                 {static_cast<unsigned>(http::status::bad_request),
-                 "This is no HTTP request: " + error.message() + ".\n"});
+                 "This is no HTTP request: " + error.message() + ".\n",
+                 {}});
             return;
         }
         const auto& request = _parser.get();
-        const std::optional<UpgradeRefusal> refusal = _owner.judge(
-            {std::string_view(request.target().data(), request.target().size()),
-             boost::beast::websocket::is_upgrade(request)});
+        const std::optional<UpgradeRefusal> refusal =
+            _owner.judge(MakeRequest(), boost::beast::websocket::is_upgrade(request));
         if (refusal.has_value())
         {
             RefuseAsync(*refusal);
@@ -115,10 +115,33 @@ private:
         link->AcceptAsync(request);
     }
 
+    [[nodiscard]] UpgradeRequest MakeRequest()
+    {
+        const auto& message = _parser.get();
+        UpgradeRequest request;
+        request.target.assign(message.target().data(), message.target().size());
+        for (const auto& field : message)
+        {
+            request.headers.emplace_back(field.name_string(), field.value());
+        }
+        request.certificateSubject = TLayer::GetPeerSubject(_stream);
+        return request;
+    }
+
     void RefuseAsync(const UpgradeRefusal& refusal)
     {
         namespace http = boost::beast::http;
-        _response.result(refusal.status);
+        constexpr unsigned LAST_STATUS = 599;
+        const bool bRefusal =
+            refusal.status >= static_cast<unsigned>(http::status::bad_request) && refusal.status <= LAST_STATUS;
+        _response.result(bRefusal ? refusal.status : static_cast<unsigned>(http::status::forbidden));
+        if (CheckHttpHeaders(refusal.headers).has_value())
+        {
+            for (const auto& [name, value] : refusal.headers)
+            {
+                _response.insert(name, value);
+            }
+        }
         _response.set(http::field::content_type, "text/plain");
         if (refusal.status == static_cast<unsigned>(http::status::upgrade_required))
         {
