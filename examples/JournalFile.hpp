@@ -1,18 +1,26 @@
 #pragma once
 
+#include <cerrno>
+#include <csignal>
+#include <cstddef>
 #include <fcntl.h>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
 #include <vector>
 
-/// Lines that are on the disk when TryAppend returns. The last one may be torn by a kill: it counts as never written.
+/// Lines that are on the disk when TryAppend returns. The last one may be torn by a kill: it counts as never written. A
+/// second program cannot open the same file.
 class JournalFile
 {
     int _file = -1;
+    off_t _wholeBytes = 0; ///< Of the lines that were written whole.
 
 public:
     JournalFile() = default;
@@ -27,23 +35,63 @@ public:
     /// The lines of the file; nullopt if it cannot be used (see errno).
     [[nodiscard]] std::optional<std::vector<std::string>> OpenOrNull(const std::string& path)
     {
+        std::signal(SIGXFSZ, SIG_IGN); // A limit of the file size is an error of write, like a full disk.
+        _file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, S_IRUSR | S_IWUSR);
+        if (_file < 0 || ::flock(_file, LOCK_EX | LOCK_NB) != 0)
+        {
+            return std::nullopt;
+        }
         std::vector<std::string> lines;
-        off_t wholeBytes = 0;
         std::ifstream old(path);
         for (std::string line; std::getline(old, line) && !old.eof();)
         {
-            wholeBytes += static_cast<off_t>(line.size() + 1);
+            _wholeBytes += static_cast<off_t>(line.size() + 1);
             lines.push_back(std::move(line));
         }
-        _file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, S_IRUSR | S_IWUSR);
-        const bool bUsable = _file >= 0 && ::ftruncate(_file, wholeBytes) == 0;
+        const bool bUsable = ::ftruncate(_file, _wholeBytes) == 0 && TrySyncFolder(path);
         return bUsable ? std::optional(std::move(lines)) : std::nullopt;
     }
 
-    /// False if the line cannot be written (see errno).
-    [[nodiscard]] bool TryAppend(std::string line) const
+    /// False if the line cannot be written (see errno); nothing of it remains in the file.
+    [[nodiscard]] bool TryAppend(std::string line)
     {
         line += '\n';
-        return ::write(_file, line.data(), line.size()) == static_cast<ssize_t>(line.size()) && ::fdatasync(_file) == 0;
+        if (TryWrite(line) && ::fdatasync(_file) == 0)
+        {
+            _wholeBytes += static_cast<off_t>(line.size());
+            return true;
+        }
+        const int cause = errno;
+        if (::ftruncate(_file, _wholeBytes) != 0) // The next line would continue this one.
+        {
+            ::close(std::exchange(_file, -1));
+        }
+        errno = cause;
+        return false;
+    }
+
+private:
+    /// A new file survives the loss of power only if its folder is on the disk, too.
+    [[nodiscard]] static bool TrySyncFolder(const std::string& path)
+    {
+        const std::string folder = std::filesystem::path(path).parent_path().string();
+        const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        const bool bSynced = file >= 0 && ::fsync(file) == 0;
+        ::close(file);
+        return bSynced;
+    }
+
+    [[nodiscard]] bool TryWrite(std::string_view text) const
+    {
+        while (!text.empty())
+        {
+            const ssize_t count = ::write(_file, text.data(), text.size());
+            if (count < 0 && errno != EINTR)
+            {
+                return false;
+            }
+            text.remove_prefix(count < 0 ? 0 : static_cast<std::size_t>(count));
+        }
+        return true;
     }
 };
