@@ -6,20 +6,28 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
+#include <variant>
 
 namespace ACS::ProtocolBeast
 {
+
+/// What becomes of an accepted client.
+struct GateAcceptance
+{
+    LinkOwner linkOwner;
+    std::function<void(std::shared_ptr<ILink> link)> onAccepted; ///< The link opens next.
+};
+
+using GateDecision = std::variant<UpgradeRefusal, GateAcceptance>;
 
 /// The owner of a gate. Called on the executor, never during a call of the owner, and not after onAccepted, onEnded or Kill.
 struct GateOwner
 {
     /// The request has neither connection nor peer, which the owner knows.
-    std::function<std::optional<UpgradeRefusal>(UpgradeRequest request, bool bWebSocket)> judge;
-    std::function<void(const std::string& reason)> onRefused;    ///< To be logged; onEnded follows.
-    std::function<void(std::shared_ptr<ILink> link)> onAccepted; ///< The link opens next.
-    std::function<void()> onEnded;                               ///< Without a link.
+    std::function<GateDecision(UpgradeRequest request, bool bWebSocket)> decide;
+    std::function<void(const std::string& reason)> onRefused; ///< To be logged; onEnded follows.
+    std::function<void()> onEnded;                            ///< Without a link.
 };
 
 /// The start of a connection to a server: TLS if configured, then the HTTP request.

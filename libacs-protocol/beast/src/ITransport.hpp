@@ -26,12 +26,10 @@ public:
         const LinkOptions& options,
         LinkOwner owner) = 0;
 
-    /// The link that comes of it has that owner.
     [[nodiscard]] virtual std::shared_ptr<IGate> MakeGate(
         boost::asio::ip::tcp::socket socket,
         const LinkOptions& options,
-        GateOwner gateOwner,
-        LinkOwner linkOwner) = 0;
+        GateOwner owner) = 0;
 };
 
 } // namespace ACS::ProtocolBeast

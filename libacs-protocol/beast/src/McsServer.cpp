@@ -1,16 +1,11 @@
 #include "ActionPump.hpp"
 #include "EventQueue.hpp"
-#include "PlainTransport.hpp"
-#include "TlsTransport.hpp"
+#include "IPortUser.hpp"
+#include "McsPort.Impl.hpp"
 #include <acs/core/Overloaded.hpp>
-#include <acs/net/TcpListener.hpp>
 #include <acs/net/TimerArray.hpp>
 #include <acs/protocol/McsSession.hpp>
 #include <acs/protocol_beast/McsServer.hpp>
-
-#include <boost/asio/ip/address.hpp>
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/system/error_code.hpp>
 
 #include <map>
 #include <memory>
@@ -24,36 +19,13 @@ namespace ACS::ProtocolBeast
 namespace
 {
 
-using Tcp = boost::asio::ip::tcp;
 using SessionTimers = Net::TimerArray<Protocol::ESessionTimer, Protocol::TIMER_COUNT>;
 
 constexpr unsigned HTTP_FORBIDDEN = 403;
-constexpr unsigned HTTP_NOT_FOUND = 404;
-constexpr unsigned HTTP_UPGRADE_REQUIRED = 426;
-constexpr unsigned HTTP_UNAVAILABLE = 503;
-
-std::string_view StripTarget(std::string_view target)
-{
-    target = target.substr(0, target.find_first_of("?#"));
-    while (!target.empty() && target.back() == '/')
-    {
-        target.remove_suffix(1);
-    }
-    return target;
-}
-
-/// An IPv4 address in its own form, also on a socket for both kinds.
-std::string GetText(const boost::asio::ip::address& address)
-{
-    namespace ip = boost::asio::ip;
-    return address.is_v6() && address.to_v6().is_v4_mapped()
-        ? ip::make_address_v4(ip::v4_mapped, address.to_v6()).to_string()
-        : address.to_string();
-}
 
 } // namespace
 
-class McsServer::Impl : public std::enable_shared_from_this<McsServer::Impl>
+class McsServer::Impl final : public IPortUser, public std::enable_shared_from_this<McsServer::Impl>
 {
     const Core::IClock& _clock;
     Core::Logger _logger;
@@ -61,11 +33,9 @@ class McsServer::Impl : public std::enable_shared_from_this<McsServer::Impl>
     std::unique_ptr<Protocol::IMcsSession> _session;
     std::shared_ptr<EventQueue> _events;
     std::shared_ptr<SessionTimers> _timers;
-    std::unique_ptr<ITransport> _transport;
-    std::shared_ptr<Net::TcpListener> _listener;
-    std::map<Protocol::ConnectionID, std::shared_ptr<IGate>> _gates;
+    std::unique_ptr<McsPort> _ownPortOrNull; ///< Unless it shares one.
+    std::shared_ptr<McsPort::Impl> _port;
     std::map<Protocol::ConnectionID, std::shared_ptr<ILink>> _links;
-    Protocol::ConnectionID _lastID = 0;
     ActionPump _pump;
 
 public:
@@ -74,7 +44,6 @@ public:
         const Core::IClock& clock,
         const Core::Logger& logger,
         const ServerOptions& options,
-        std::unique_ptr<ITransport> transport,
         std::unique_ptr<Protocol::IMcsSession> ownedSession,
         ISessionHandler& handler)
         : _clock(clock),
@@ -82,39 +51,24 @@ public:
           _options(options),
           _session(std::move(ownedSession)),
           _events(std::make_shared<EventQueue>(executor, handler)),
-          _timers(std::make_shared<SessionTimers>(
-              executor,
-              [this](Protocol::ESessionTimer timer) {
-                  Run([timer](auto& session, Core::Now now, auto& out) { session.OnTimer(timer, now, out); });
-              })),
-          _transport(std::move(transport)),
-          _listener(std::make_shared<Net::TcpListener>(executor, logger, [this](Tcp::socket socket) {
-              OnAccepted(std::move(socket));
-              return true;
+          _timers(std::make_shared<SessionTimers>(executor, [this](Protocol::ESessionTimer timer) {
+              Run([timer](auto& session, Core::Now now, auto& out) { session.OnTimer(timer, now, out); });
           }))
     {
     }
 
-    Core::Result<void> Listen()
+    void Join(const std::shared_ptr<McsPort::Impl>& port, std::unique_ptr<McsPort> ownPortOrNull)
     {
-        const Core::Result<std::uint16_t> port = _listener->Listen(_options.address, _options.port);
-        if (!port.has_value())
-        {
-            return tl::make_unexpected(port.error());
-        }
-        _options.port = *port;
-        return {};
+        _port = port;
+        _ownPortOrNull = std::move(ownPortOrNull);
+        _port->Add(shared_from_this());
     }
 
     void Detach()
     {
         _events->Detach();
         _timers->CancelAll();
-        _listener->Stop();
-        for (const auto& [connection, gate] : std::exchange(_gates, {}))
-        {
-            gate->Kill();
-        }
+        LeavePort();
         for (const auto& [connection, link] : std::exchange(_links, {}))
         {
             link->Kill();
@@ -123,11 +77,7 @@ public:
 
     void Stop()
     {
-        _listener->Stop();
-        for (const auto& [connection, gate] : std::exchange(_gates, {}))
-        {
-            gate->Kill();
-        }
+        LeavePort();
         for (const auto& [connection, link] : _links)
         {
             link->Close(Protocol::CLOSE_NORMAL, "shutting down");
@@ -144,7 +94,7 @@ public:
 
     [[nodiscard]] std::uint16_t GetPort() const
     {
-        return _options.port;
+        return _port->GetPort();
     }
 
     [[nodiscard]] const Protocol::IMcsSession& GetSession() const
@@ -152,78 +102,13 @@ public:
         return *_session;
     }
 
-private:
-    void OnAccepted(Tcp::socket socket)
+    [[nodiscard]] const std::string& GetPath() const override
     {
-        if (_gates.size() + _links.size() >= _options.maximumClients)
-        {
-            _logger.Warning("refused a connection: too many clients", {});
-            return;
-        }
-        const Protocol::ConnectionID connection = ++_lastID;
-        boost::system::error_code unknown;
-        const Tcp::endpoint peer = socket.remote_endpoint(unknown);
-        GateOwner gateOwner = MakeGateOwner(connection, unknown ? std::nullopt : std::optional(peer));
-        const std::shared_ptr<IGate> gate =
-            _transport->MakeGate(std::move(socket), _options.link, std::move(gateOwner), MakeOwner(connection));
-        _gates.emplace(connection, gate);
-        gate->RunAsync();
+        return _options.path;
     }
 
-    GateOwner MakeGateOwner(Protocol::ConnectionID connection, const std::optional<Tcp::endpoint>& peerOrNull)
+    [[nodiscard]] std::optional<UpgradeRefusal> JudgeOrNull(const UpgradeRequest& request) const override
     {
-        const std::weak_ptr<Impl> weak = weak_from_this();
-        GateOwner owner;
-        owner.judge =
-            [weak, connection, peerOrNull](UpgradeRequest request, bool bWebSocket) -> std::optional<UpgradeRefusal> {
-            const auto self = weak.lock();
-            if (self == nullptr)
-            {
-                return UpgradeRefusal{HTTP_UNAVAILABLE, {}, {}};
-            }
-            request.connection = connection;
-            if (peerOrNull.has_value())
-            {
-                request.peerAddress = GetText(peerOrNull->address());
-                request.peerPort = peerOrNull->port();
-            }
-            return self->JudgeOrNull(request, bWebSocket);
-        };
-        owner.onAccepted = [weak, connection](std::shared_ptr<ILink> link) {
-            if (const auto self = weak.lock())
-            {
-                self->_gates.erase(connection);
-                self->_links.emplace(connection, std::move(link));
-            }
-        };
-        owner.onRefused = [weak](const std::string& reason) {
-            if (const auto self = weak.lock())
-            {
-                self->_logger.Warning("a connection did not become a WebSocket", {{"reason", reason}});
-            }
-        };
-        owner.onEnded = [weak, connection] {
-            if (const auto self = weak.lock())
-            {
-                self->_gates.erase(connection);
-            }
-        };
-        return owner;
-    }
-
-    [[nodiscard]] std::optional<UpgradeRefusal> JudgeOrNull(const UpgradeRequest& request, bool bWebSocket) const
-    {
-        if (!_options.path.empty() && StripTarget(request.target) != StripTarget(_options.path))
-        {
-            return UpgradeRefusal{HTTP_NOT_FOUND, "The ACS connects at " + _options.path + ".\n", {}};
-        }
-        if (!bWebSocket)
-        {
-            return UpgradeRefusal{
-                HTTP_UPGRADE_REQUIRED,
-                "This is the MCS end of MCS-ACS: connect with a WebSocket.\n",
-                {}};
-        }
         if (_options.checkUpgrade)
         {
             std::optional<UpgradeRefusal> refusal = _options.checkUpgrade(request);
@@ -239,7 +124,17 @@ private:
         return std::nullopt;
     }
 
-    LinkOwner MakeOwner(Protocol::ConnectionID connection)
+    void OnAccepted(Protocol::ConnectionID connection, std::shared_ptr<ILink> link) override
+    {
+        _links.emplace(connection, std::move(link));
+    }
+
+    [[nodiscard]] std::size_t CountLinks() const override
+    {
+        return _links.size();
+    }
+
+    [[nodiscard]] LinkOwner MakeLinkOwner(Protocol::ConnectionID connection) override
     {
         const std::weak_ptr<Impl> weak = weak_from_this();
         LinkOwner owner;
@@ -271,6 +166,13 @@ private:
             }
         };
         return owner;
+    }
+
+private:
+    void LeavePort()
+    {
+        _port->Remove(*this);
+        _ownPortOrNull.reset(); // which closes the connections before the upgrade
     }
 
     void Observe(EWireDirection direction, Protocol::ConnectionID connection, std::string_view text) const
@@ -350,19 +252,28 @@ Core::Result<std::unique_ptr<McsServer>> McsServer::Create(
     std::unique_ptr<Protocol::IMcsSession> session,
     ISessionHandler& handler)
 {
-    Core::Result<std::unique_ptr<ITransport>> transport =
-        options.tls.has_value() ? MakeTlsServerTransport(*options.tls) : MakePlainTransport();
-    if (!transport.has_value())
+    const PortOptions portOptions{options.address, options.port, options.maximumClients, options.tls, options.link};
+    Core::Result<std::unique_ptr<McsPort>> port = McsPort::Create(executor, logger, portOptions);
+    if (!port.has_value())
     {
-        return tl::unexpected<Core::Error>(std::move(transport.error()));
+        return tl::unexpected<Core::Error>(std::move(port.error()));
     }
-    auto impl =
-        std::make_shared<Impl>(executor, clock, logger, options, std::move(*transport), std::move(session), handler);
-    Core::Result<void> listened = impl->Listen();
-    if (!listened.has_value())
-    {
-        return tl::unexpected<Core::Error>(std::move(listened.error()));
-    }
+    auto impl = std::make_shared<Impl>(executor, clock, logger, options, std::move(session), handler);
+    const std::shared_ptr<McsPort::Impl> shared = (*port)->_impl;
+    impl->Join(shared, std::move(*port));
+    return std::unique_ptr<McsServer>(new McsServer(std::move(impl))); // the constructor is private
+}
+
+std::unique_ptr<McsServer> McsServer::Create(
+    McsPort& port,
+    const Core::IClock& clock,
+    const Core::Logger& logger,
+    const ServerOptions& options,
+    std::unique_ptr<Protocol::IMcsSession> session,
+    ISessionHandler& handler)
+{
+    auto impl = std::make_shared<Impl>(port._impl->GetExecutor(), clock, logger, options, std::move(session), handler);
+    impl->Join(port._impl, nullptr);
     return std::unique_ptr<McsServer>(new McsServer(std::move(impl))); // the constructor is private
 }
 

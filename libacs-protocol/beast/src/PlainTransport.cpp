@@ -48,14 +48,12 @@ public:
     [[nodiscard]] std::shared_ptr<IGate> MakeGate(
         boost::asio::ip::tcp::socket socket,
         const LinkOptions& options,
-        GateOwner gateOwner,
-        LinkOwner linkOwner) override
+        GateOwner owner) override
     {
         return std::make_shared<UpgradeGate<PlainLayer>>(
             boost::beast::tcp_stream(std::move(socket)),
             options,
-            std::move(gateOwner),
-            std::move(linkOwner));
+            std::move(owner));
     }
 };
 

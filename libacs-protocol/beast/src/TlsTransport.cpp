@@ -67,15 +67,10 @@ public:
     [[nodiscard]] std::shared_ptr<IGate> MakeGate(
         boost::asio::ip::tcp::socket socket,
         const LinkOptions& options,
-        GateOwner gateOwner,
-        LinkOwner linkOwner) override
+        GateOwner owner) override
     {
         TlsLayer::Stream stream(boost::beast::tcp_stream(std::move(socket)), _context);
-        return std::make_shared<UpgradeGate<TlsLayer>>(
-            std::move(stream),
-            options,
-            std::move(gateOwner),
-            std::move(linkOwner));
+        return std::make_shared<UpgradeGate<TlsLayer>>(std::move(stream), options, std::move(owner));
     }
 };
 

@@ -13,9 +13,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 
 namespace ACS::ProtocolBeast
 {
@@ -33,18 +33,16 @@ class UpgradeGate final : public IGate, public std::enable_shared_from_this<Upgr
     Stream _stream;
     LinkOptions _options;
     GateOwner _owner;
-    LinkOwner _linkOwner;
     boost::beast::flat_buffer _buffer;
     boost::beast::http::request_parser<boost::beast::http::empty_body> _parser;
     boost::beast::http::response<boost::beast::http::string_body> _response;
     std::array<char, 4096> _scrap{};
 
 public:
-    UpgradeGate(Stream&& stream, const LinkOptions& options, GateOwner owner, LinkOwner linkOwner)
+    UpgradeGate(Stream&& stream, const LinkOptions& options, GateOwner owner)
         : _stream(std::move(stream)),
           _options(options),
-          _owner(std::move(owner)),
-          _linkOwner(std::move(linkOwner))
+          _owner(std::move(owner))
     {
         _parser.header_limit(LONGEST_HEADER);
     }
@@ -64,7 +62,7 @@ public:
 private:
     void OnSecured(ErrorCode error)
     {
-        if (!_owner.judge)
+        if (!_owner.decide)
         {
             return;
         }
@@ -83,7 +81,7 @@ private:
     void OnRead(ErrorCode error)
     {
         namespace http = boost::beast::http;
-        if (!_owner.judge)
+        if (!_owner.decide)
         {
             return;
         }
@@ -102,16 +100,17 @@ private:
             return;
         }
         const auto& request = _parser.get();
-        const std::optional<UpgradeRefusal> refusal =
-            _owner.judge(MakeRequest(), boost::beast::websocket::is_upgrade(request));
-        if (refusal.has_value())
+        GateDecision decision = _owner.decide(MakeRequest(), boost::beast::websocket::is_upgrade(request));
+        if (const auto* const refusalOrNull = std::get_if<UpgradeRefusal>(&decision); refusalOrNull != nullptr)
         {
-            RefuseAsync(*refusal);
+            RefuseAsync(*refusalOrNull);
             return;
         }
-        const GateOwner owner = std::exchange(_owner, {});
-        const auto link = std::make_shared<BeastLink<TLayer>>(std::move(_stream), _options, std::move(_linkOwner));
-        owner.onAccepted(link);
+        _owner = {};
+        auto& accepted = std::get<GateAcceptance>(decision);
+        const auto link =
+            std::make_shared<BeastLink<TLayer>>(std::move(_stream), _options, std::move(accepted.linkOwner));
+        accepted.onAccepted(link);
         link->AcceptAsync(request);
     }
 

@@ -8,6 +8,7 @@
 #include <acs/protocol/IMcsSession.hpp>
 #include <acs/protocol/SessionStatistics.hpp>
 #include <acs/protocol_beast/ISessionHandler.hpp>
+#include <acs/protocol_beast/McsPort.hpp>
 #include <acs/protocol_beast/ServerOptions.hpp>
 
 #include <boost/asio/any_io_executor.hpp>
@@ -61,11 +62,20 @@ public:
         std::unique_ptr<Protocol::IMcsSession> session,
         ISessionHandler& handler);
 
+    /// Likewise, at a port that it shares with other servers. Of options only path, checkUpgrade and onWire have an effect.
+    [[nodiscard]] static std::unique_ptr<McsServer> Create(
+        McsPort& port,
+        const Core::IClock& clock,
+        const Core::Logger& logger,
+        const ServerOptions& options,
+        std::unique_ptr<Protocol::IMcsSession> session,
+        ISessionHandler& handler);
+
     /// The port that the server listens on.
     [[nodiscard]] std::uint16_t GetPort() const;
 
-    /// Accepts no new connections and starts the closing handshake of the open ones. Its end is not reported: destroy the
-    /// server when the executor has run out of work, or after a time limit.
+    /// Accepts no new connections (a shared port answers them with 404) and starts the closing handshake of the open ones.
+    /// Its end is not reported: destroy the server when the executor has run out of work, or after a time limit.
     void Stop();
 
     /// These call the session's function of the same name and carry out its actions; events reach the handler after
