@@ -1,12 +1,14 @@
 """A line whose MCS is e20_mcs_journal and whose acsd writes a message trace: for tests that no report is lost or doubled."""
 
 import json
+import resource
 import subprocess
 import time
 
 from scenario_case import FINISH_SECONDS, ScenarioCase
 from test_kill import make_expected
 
+FULL = "the journal cannot be used: File too large"
 MOST_OPEN = 2  # plans of each kind
 FINAL = ("Completed", "Failed", "Aborted", "Cancelled")
 # Robot, actions, position, carrier, its two places, the port of the robot.
@@ -108,6 +110,11 @@ class JournalCase(ScenarioCase):
     def end_mcs(self):
         self.line.forget(self.mcs)
         return self.mcs.stop()
+
+    def limit_journal(self, room):
+        """The file does not grow by more bytes than that, as on a full disk. Returns the former limit."""
+        limit = (self.journal_file.stat().st_size + room, resource.RLIM_INFINITY)
+        return resource.prlimit(self.mcs.process.pid, resource.RLIMIT_FSIZE, limit)
 
     def write_plan(self, kind):
         plan = make_plan(kind, len(self.journal.plans[kind]))

@@ -16,7 +16,7 @@ import subprocess
 import sys
 import time
 
-from journal_line import JournalCase, get_key, is_report
+from journal_line import FULL, JournalCase, get_key, is_report
 from scenario_case import FINISH_SECONDS
 from scenario_case import main as run_tests
 from test_kill import make_expected
@@ -54,27 +54,24 @@ class McsJournal(JournalCase):
         print(f"{len(self.journal.reports)} reports, {again} of them again ...", end=" ", file=sys.stderr)
 
     def test_a_full_disk_is_answered_with_fail_and_the_reason(self):
-        reason = "the journal cannot be used: File too large"
         self.start_line()
         self.write_plan("LR")
         self.wait_until(lambda: self.journal.reports, "a first report is written")
-        pid = self.mcs.process.pid
-        before = resource.prlimit(pid, resource.RLIMIT_FSIZE)
-        resource.prlimit(pid, resource.RLIMIT_FSIZE, (self.journal_file.stat().st_size + len(HALF_A_LINE), before[1]))
+        before = self.limit_journal(len(HALF_A_LINE))
         self.wait_for_status(self.operator, lambda status: status["refusedReports"]["count"] > 0)
         last = self.read_status(self.operator)["refusedReports"]["last"]
-        self.assertEqual((last["planId"], last["message"]), ("LR-0000", reason))
-        self.assertIn(f'reason="{reason}"', "".join(line for line in self.acsd.tail(1000) if "the MCS refuses a report" in line))
+        self.assertEqual((last["planId"], last["message"]), ("LR-0000", FULL))
+        self.assertIn(f'reason="{FULL}"', "".join(line for line in self.acsd.tail(1000) if "the MCS refuses a report" in line))
         self.wait_for_status(self.operator, lambda status: not status["plans"] and not status["outbox"]["reports"],
                              FINISH_SECONDS)
 
-        resource.prlimit(pid, resource.RLIMIT_FSIZE, before)
+        resource.prlimit(self.mcs.process.pid, resource.RLIMIT_FSIZE, before)
         self.write_plan("LR")
         self.wait_until(lambda: len(self.journal.plans["LR"]) == 2, "the next plan is written")
         self.wait_until(lambda: self.journal.count_open("LR") == 1, "the next plan ends")
         self.assertEqual(self.end_mcs(), 0)
         self.start_mcs()  # on a journal without half lines
-        refused = {tuple(line.split(": ")[0].split()) for line in self.mcs.tail(1000) if f"Fail {reason}" in line}
+        refused = {tuple(line.split(": ")[0].split()) for line in self.mcs.tail(1000) if f"Fail {FULL}" in line}
         sent = {get_key(message) for direction, message in self.read_trace() if direction == "out" and is_report(message)}
         self.assertEqual(set(map(get_key, self.journal.reports)), sent - refused)
         self.assertEqual(self.journal.get_reports("LR-0001"), make_expected(self.journal.plans["LR"][1]))
