@@ -12,6 +12,8 @@ from source_tree import (CPP_SUFFIXES, IncludeResolver, list_files, list_include
 PURE = ("protocol", "vda5050", "openstream", "plan")
 IO = {"protocol_beast": "protocol", "vda5050_mosquitto": "vda5050", "openstream_asio": "openstream",
       "plan_sqlite": "plan"}
+# Pure, for the tests of users.
+KITS = {"adapter_test": "plan"}
 
 # The longest matching folder decides.
 FOLDERS = {
@@ -25,6 +27,7 @@ FOLDERS = {
     "libopenstream/": "openstream",
     "libopenstream/asio/": "openstream_asio",
     "libplan/": "plan",
+    "libplan/adapter-test/": "adapter_test",
     "libplan/sqlite/": "plan_sqlite",
     "apps/common/": "apps/common",
     "apps/acsd/include/": "drivers",
@@ -33,13 +36,13 @@ FOLDERS = {
     "tests/": "tests",
 }
 
-LIBRARIES = {"core", *PURE, *IO}
+LIBRARIES = {"core", *PURE, *IO, *KITS}
 SIMULATORS = ("apps/mcs-sim", "apps/openstream-sim", "apps/vda-sim")
 THIRD_PARTY = {
     "core": ("fmt/", "tl/"),
     "json": ("fmt/", "tl/", "rapidjson/"),
     "net": ("fmt/", "tl/", "boost/asio", "boost/system/"),
-    **{layer: ("fmt/", "tl/") for layer in PURE},
+    **{layer: ("fmt/", "tl/") for layer in (*PURE, *KITS)},
     "protocol_beast": ("fmt/", "tl/", "boost/", "openssl/", "linux/sockios.h", "sys/ioctl.h"),
     "vda5050_mosquitto": (
         "fmt/", "tl/", "boost/asio", "boost/system/", "mosquitto.h", "mqtt_protocol.h", "openssl/", "unistd.h"),
@@ -116,6 +119,10 @@ def explain_refusal(path, layer, used):
         if used == "core":
             return None
         return "is another library; the pure libraries see only acs/core: join them in apps/acsd"
+    if layer in KITS:
+        if used in ("core", KITS[layer]):
+            return None
+        return f"is out of reach of a test kit: it sees acs/core and acs/{KITS[layer]} only"
     if layer in IO:
         if used in ("core", IO[layer]):
             return None
@@ -128,7 +135,7 @@ def explain_refusal(path, layer, used):
 def explain_foreign(path, layer, name):
     """Why a header that is not of this tree must not be included here; None where it may."""
     bStandard = "/" not in name and "." not in name
-    if layer in ("core", "json", *PURE) and (name in IMPURE_STANDARD or name in ("time.h", "pthread.h")):
+    if layer in ("core", "json", *PURE, *KITS) and (name in IMPURE_STANDARD or name in ("time.h", "pthread.h")):
         return "is not for a pure library: no threads, files or clocks below the I/O libraries"
     if bStandard or layer not in THIRD_PARTY:
         return None
@@ -150,7 +157,7 @@ def check_cpp(root, path, layer, resolver):
             reason = explain_foreign(path, layer, name)
         if reason is not None:
             yield line, f"<{name}> {reason}"
-    pure = layer in ("core", "json", *PURE)
+    pure = layer in ("core", "json", *PURE, *KITS)
     for line, content in enumerate(code.splitlines(), 1):
         if SLEEP.search(content):
             yield line, "sleeps; wait for the event with a timer or a bounded wait"

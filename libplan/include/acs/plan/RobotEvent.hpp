@@ -203,8 +203,8 @@ struct CompatibilityChanged
     bool operator==(const CompatibilityChanged&) const = default;
 };
 
-/// What an adapter reports about its robot. Events of another drive or job than the current one are ignored, so that an
-/// adapter may repeat an event.
+/// What an adapter reports about its robot. Events of another drive or job than the current one are ignored. An event that
+/// ends a drive or job is raised once (one-end in docs/guide/write-an-adapter.md); others may be repeated.
 using RobotEvent = std::variant<
     LinkChanged,
     StateChanged,

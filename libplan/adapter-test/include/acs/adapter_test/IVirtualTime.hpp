@@ -1,0 +1,20 @@
+#pragma once
+
+#include <acs/core/Now.hpp>
+
+#include <functional>
+
+namespace ACS::AdapterTest
+{
+
+/// The virtual time of a scenario. It advances only from task to task.
+class IVirtualTime : public Core::IClock
+{
+public:
+    using Task = std::function<void()>;
+
+    /// Runs the task after the delay, and never within this call. Tasks that are left at the end of the scenario are dropped.
+    virtual void Post(Core::Duration delay, Task task) = 0;
+};
+
+} // namespace ACS::AdapterTest

@@ -1,0 +1,116 @@
+#include "StateChecker.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <variant>
+
+namespace ACS::AdapterTest
+{
+
+StateChecker::StateChecker(FindingSink sink)
+    : _sink(std::move(sink))
+{
+}
+
+void StateChecker::OnCommand(const Planning::RobotCommand& command)
+{
+    if (const auto* const driveOrNull = std::get_if<Planning::Drive>(&command))
+    {
+        _lastSentID = driveOrNull->driveID;
+        _sentIDs.insert(_lastSentID);
+    }
+    else if (const auto* const jobOrNull = std::get_if<Planning::StartJob>(&command))
+    {
+        _lastSentID = jobOrNull->commandID;
+        _sentIDs.insert(_lastSentID);
+    }
+    _bPauseAsked = std::holds_alternative<Planning::Pause>(command)
+        || (_bPauseAsked && !std::holds_alternative<Planning::Resume>(command));
+}
+
+void StateChecker::OnLink(const Planning::LinkChanged& event)
+{
+    if (_bOnline != event.bOnline)
+    {
+        _bOnline = event.bOnline;
+        _state.reset();
+    }
+}
+
+void StateChecker::OnState(const Planning::StateChanged& event, const RobotTruth& truth)
+{
+    if (!_bOnline)
+    {
+        return; // ignored, as by the engine
+    }
+    _state = event;
+    const std::string shownID = event.restartEvidence.commandID.value_or(std::string());
+    if (!shownID.empty() && !_sentIDs.contains(shownID))
+    {
+        _sink(ERule::RestartEvidenceTrue, fmt::format("the state shows '{}', which was never commanded.", shownID));
+    }
+    if (event.bPaused && _bPauseAsked && (truth.bDriving || truth.bWorking))
+    {
+        _sink(ERule::PauseObeyed, "bPaused is reported while the robot drives or works.");
+    }
+    if (event.batteryPercent < 0 || event.batteryPercent > 100)
+    {
+        _sink(ERule::StateTrue, fmt::format("the battery is reported at {} %.", event.batteryPercent));
+    }
+}
+
+void StateChecker::OnRestart()
+{
+    _bOnline = false;
+    _state.reset();
+}
+
+void StateChecker::VerifyAtRest(const RobotTruth& truth)
+{
+    if (!_state.has_value())
+    {
+        _sink(ERule::StateAfterConnection, "no state was raised since the connection.");
+        return;
+    }
+    if (!_state->lastNodeID.empty() && _state->lastNodeID != truth.nodeID)
+    {
+        _sink(
+            ERule::StateTrue,
+            fmt::format("the robot is on node '{}', and '{}' is reported.", truth.nodeID, _state->lastNodeID));
+    }
+    if (_state->bDriving && !truth.bDriving)
+    {
+        _sink(ERule::StateTrue, "bDriving is reported, and the robot is stopped.");
+    }
+    if (_state->bPaused && !_bPauseAsked)
+    {
+        _sink(ERule::StateTrue, "bPaused is reported, and the robot was not commanded to pause.");
+    }
+}
+
+void StateChecker::VerifyEvidence()
+{
+    if (_state.has_value() && _state->restartEvidence.commandID.has_value()
+        && *_state->restartEvidence.commandID != _lastSentID)
+    {
+        _sink(
+            ERule::RestartEvidenceTrue,
+            fmt::format(
+                "the robot has executed '{}', and the state shows '{}'.",
+                _lastSentID,
+                *_state->restartEvidence.commandID));
+    }
+}
+
+bool StateChecker::IsOnline() const noexcept
+{
+    return _bOnline;
+}
+
+const Planning::StateChanged* StateChecker::GetStateOrNull() const noexcept
+{
+    return _state.has_value() ? &*_state : nullptr;
+}
+
+} // namespace ACS::AdapterTest

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "FindingSink.hpp"
+#include <acs/adapter_test/IAdapterBench.hpp>
+#include <acs/plan/RobotEvent.hpp>
+
+#include <optional>
+#include <set>
+#include <string>
+
+namespace ACS::AdapterTest
+{
+
+/// Compares what the adapter reports about its robot with what the robot does.
+class StateChecker
+{
+    FindingSink _sink;
+    bool _bOnline = false;
+    std::optional<Planning::StateChanged> _state; ///< Since the connection.
+    std::set<std::string> _sentIDs;               ///< Drives and jobs that were commanded.
+    std::string _lastSentID;
+    bool _bPauseAsked = false;
+
+public:
+    explicit StateChecker(FindingSink sink);
+
+    void OnCommand(const Planning::RobotCommand& command);
+    void OnLink(const Planning::LinkChanged& event);
+    void OnState(const Planning::StateChanged& event, const RobotTruth& truth);
+    /// A new adapter, which has reported nothing.
+    void OnRestart();
+
+    /// The robot is at rest, and the adapter has had time to report it.
+    void VerifyAtRest(const RobotTruth& truth);
+    /// The robot has received its last drive or job, and the adapter has had time to report it.
+    void VerifyEvidence();
+
+    [[nodiscard]] bool IsOnline() const noexcept;
+    /// Null before the first state since the connection.
+    [[nodiscard]] const Planning::StateChanged* GetStateOrNull() const noexcept;
+};
+
+} // namespace ACS::AdapterTest
