@@ -32,6 +32,7 @@ private:
     std::vector<std::string> _lines;
     StateChanged _state; ///< As the cart reported last.
     std::string _next;   ///< The node ahead; empty: it is stationary.
+    std::string _sent;   ///< The node of a "go" that the cart has not shown yet: it may drive already.
     ACS::Acsd::NodeByNodeDrive _drive;
     ACS::Acsd::RobotJob _job;
 
@@ -68,6 +69,7 @@ public:
     void OnLinkDown(Core::Now /*now*/, AdapterActions& out) override
     {
         _state.lastNodeID.clear();
+        _sent.clear(); // the cart has received it and shows it, or never will
         out.emplace_back(RaiseEvent{LinkChanged{false}});
     }
 
@@ -80,6 +82,7 @@ public:
         {
             _state.lastNodeID = word[1];
             _next = word[2] == "-" ? std::string() : word[2];
+            _sent = _sent == word[1] || _sent == word[2] ? std::string() : _sent;
             // Without a job in its journal there is no evidence, and none is needed.
             _state.restartEvidence.commandID = word[3] == "-" ? std::nullopt : std::optional(word[3]);
             Continue(out);
@@ -87,6 +90,7 @@ public:
         else if ((word[0] == "job" || word[0] == "refused") && !word[2].empty())
         {
             OnAnswer(word[1], word[2], out);
+            _sent = word[0] == "refused" ? std::string() : _sent; // a "go" is then sent again
         }
         else
         {
@@ -115,7 +119,7 @@ private:
         {
             return; // not known since the connection
         }
-        _state.bDriving = !_next.empty();
+        _state.bDriving = !_next.empty() || !_sent.empty();
         _state.bPaused = _drive.IsPaused() && !_state.bDriving;
         _state.bOccupied = _state.bDriving && !_drive.HasDrive(); // it ends an edge from before a restart
         _state.heldNodeIDs.assign(_state.bOccupied ? 1 : 0, _next);
@@ -127,7 +131,8 @@ private:
         _drive.OnStationary(_state.lastNodeID, out);
         if (const auto step = _drive.GetStepOrNull())
         {
-            _lines.push_back("go " + step->driveID + " " + step->nodeID);
+            _sent = step->nodeID;
+            _lines.push_back("go " + step->driveID + " " + _sent);
         }
     }
 
