@@ -114,4 +114,14 @@ bool ArmRobot::IsWorkUnderWay() const
     return _arm.IsWorkUnderWay();
 }
 
+bool ArmRobot::IsPlaying() const
+{
+    return _arm.IsPlaying();
+}
+
+bool ArmRobot::IsDriving() const
+{
+    return _base.IsDriving();
+}
+
 } // namespace ACS::Simulation

@@ -52,6 +52,9 @@ public:
     [[nodiscard]] std::string GetNodeID() const override;
     [[nodiscard]] bool IsAtRest() const override;
     [[nodiscard]] bool IsWorkUnderWay() const override;
+    /// A program of the arm runs.
+    [[nodiscard]] bool IsPlaying() const;
+    [[nodiscard]] bool IsDriving() const;
 };
 
 } // namespace ACS::Simulation

@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 namespace
 {
 
-constexpr std::uint64_t SCENARIO_PART = 201;
+constexpr std::uint64_t MCS_PART = 201;
 constexpr std::uint64_t ID_DICE_PART = 202;
 
 Protocol::AcsPayload MakeControl(Planning::EPlanControl control, const std::string& planID)
@@ -76,7 +76,7 @@ McsSide::McsSide(
       _judge(judge),
       _workChecker(workChecker),
       _scenario(scenario),
-      _chance({scenario.seed, SCENARIO_PART}),
+      _chance({scenario.seed, MCS_PART}),
       _idChance({scenario.seed, ID_DICE_PART}),
       _session(
           Protocol::McsSessionOptions{},

@@ -22,6 +22,11 @@ void Timeline::Withdraw(const Ticket& ticket)
     _tasks.erase(ticket);
 }
 
+std::optional<Core::SteadyTime> Timeline::GetNextTimeOrNull() const
+{
+    return _tasks.empty() ? std::nullopt : std::optional(_tasks.begin()->first.first);
+}
+
 bool Timeline::TryStep()
 {
     if (_tasks.empty())

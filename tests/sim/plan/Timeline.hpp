@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace ACS::Simulation
@@ -36,6 +37,9 @@ public:
 
     /// A used ticket is ignored.
     void Withdraw(const Ticket& ticket);
+
+    /// When the next task is due; nullopt: none is left.
+    [[nodiscard]] std::optional<Core::SteadyTime> GetNextTimeOrNull() const;
 
     /// Runs the next task, at its time. False: none is left.
     [[nodiscard]] bool TryStep();

@@ -125,12 +125,12 @@ struct ShowsSentCommand final : ReferenceAdapter
 /// Remembers a cancellation that has come too late, for the next drive.
 struct CancelsNextDrive final : ReferenceAdapter
 {
-    void On(const Planning::CancelDrive& /*command*/, Out& out) override
+    void OnCancelDrive(const Planning::CancelDrive& /*command*/, Out& out) override
     {
         _bCancelsDrive = true;
         ContinueDrive(out);
     }
-    void On(const Planning::Drive& command, Out& out) override
+    void OnDrive(const Planning::Drive& command, Out& out) override
     {
         _drive = command;
         _passedCount = 0;
@@ -141,29 +141,29 @@ struct CancelsNextDrive final : ReferenceAdapter
 
 struct LosesOfflineJob final : ReferenceAdapter
 {
-    void On(const Planning::StartJob& command, Out& out) override
+    void OnStartJob(const Planning::StartJob& command, Out& out) override
     {
         if (_bOnline)
         {
-            ReferenceAdapter::On(command, out);
+            ReferenceAdapter::OnStartJob(command, out);
         }
     }
 };
 
 struct IgnoresExtension final : ReferenceAdapter
 {
-    void On(const Planning::ExtendDrive& /*command*/, Out& /*out*/) override
+    void OnExtendDrive(const Planning::ExtendDrive& /*command*/, Out& /*out*/) override
     {
     }
 };
 
 struct DrivesBeyondBase final : ReferenceAdapter
 {
-    void On(const Planning::Drive& command, Out& out) override
+    void OnDrive(const Planning::Drive& command, Out& out) override
     {
         Planning::Drive whole = command;
         whole.releasedCount = whole.route.nodes.size();
-        ReferenceAdapter::On(whole, out);
+        ReferenceAdapter::OnDrive(whole, out);
     }
 };
 
@@ -190,14 +190,14 @@ private:
 
 struct IgnoresCancel final : ReferenceAdapter
 {
-    void On(const Planning::CancelDrive& /*command*/, Out& /*out*/) override
+    void OnCancelDrive(const Planning::CancelDrive& /*command*/, Out& /*out*/) override
     {
     }
 };
 
 struct CancelsBeforeStop final : ReferenceAdapter
 {
-    void On(const Planning::CancelDrive& command, Out& out) override
+    void OnCancelDrive(const Planning::CancelDrive& command, Out& out) override
     {
         if (_drive.has_value() && _state.has_value())
         {
@@ -208,7 +208,7 @@ struct CancelsBeforeStop final : ReferenceAdapter
 
 struct RejectsBeforeStop final : ReferenceAdapter
 {
-    void On(const Planning::CancelDrive& command, Out& out) override
+    void OnCancelDrive(const Planning::CancelDrive& command, Out& out) override
     {
         if (_drive.has_value())
         {
@@ -234,7 +234,7 @@ struct RepeatsJobAfterReconnect final : ReferenceAdapter
 /// Concludes from the request that the job was commanded, and from the silence that it is done.
 struct RecoversWithoutAsking final : ReferenceAdapter
 {
-    void On(const Planning::RecoverJob& command, Out& out) override
+    void OnRecoverJob(const Planning::RecoverJob& command, Out& out) override
     {
         Raise(Planning::JobFinished{command.job.jobID}, out);
     }
@@ -250,17 +250,16 @@ struct AnswersUnknownWithDone final : ReferenceAdapter
 
 struct RecoversByStarting final : ReferenceAdapter
 {
-    void On(const Planning::RecoverJob& command, Out& out) override
+    void OnRecoverJob(const Planning::RecoverJob& command, Out& out) override
     {
-        On(command.job, out);
+        OnStartJob(command.job, out);
     }
-    using ReferenceAdapter::On;
 };
 
 /// Reports an unknown job, although a StartJob of this adapter's predecessor may be in transit.
 struct RecoversAsUnknown final : ReferenceAdapter
 {
-    void On(const Planning::RecoverJob& command, Out& out) override
+    void OnRecoverJob(const Planning::RecoverJob& command, Out& out) override
     {
         Raise(Planning::JobUnknown{command.job.jobID}, out);
     }
@@ -268,7 +267,7 @@ struct RecoversAsUnknown final : ReferenceAdapter
 
 struct IgnoresJobCancel final : ReferenceAdapter
 {
-    void On(const Planning::CancelJob& /*command*/, Out& /*out*/) override
+    void OnCancelJob(const Planning::CancelJob& /*command*/, Out& /*out*/) override
     {
     }
 };
@@ -276,23 +275,23 @@ struct IgnoresJobCancel final : ReferenceAdapter
 /// Forgets the pause when the drive is extended.
 struct ForgetsPause final : ReferenceAdapter
 {
-    void On(const Planning::ExtendDrive& command, Out& out) override
+    void OnExtendDrive(const Planning::ExtendDrive& command, Out& out) override
     {
         Send({EKind::Resume});
-        ReferenceAdapter::On(command, out);
+        ReferenceAdapter::OnExtendDrive(command, out);
     }
 };
 
 struct IgnoresResume final : ReferenceAdapter
 {
-    void On(const Planning::Resume& /*command*/, Out& /*out*/) override
+    void OnResume(const Planning::Resume& /*command*/, Out& /*out*/) override
     {
     }
 };
 
 struct IgnoresStopCharging final : ReferenceAdapter
 {
-    void On(const Planning::StopCharging& /*command*/, Out& /*out*/) override
+    void OnStopCharging(const Planning::StopCharging& /*command*/, Out& /*out*/) override
     {
     }
 };

@@ -36,7 +36,21 @@ protected:
 public:
     void Handle(const Planning::RobotCommand& command, Core::Now /*now*/, Out& out) override
     {
-        std::visit([this, &out](const auto& typed) { On(typed, out); }, command);
+        std::visit(
+            Core::Overloaded{
+                [this, &out](const Planning::Drive& typed) { OnDrive(typed, out); },
+                [this, &out](const Planning::ExtendDrive& typed) { OnExtendDrive(typed, out); },
+                [this, &out](const Planning::CancelDrive& typed) { OnCancelDrive(typed, out); },
+                [this, &out](const Planning::StartJob& typed) { OnStartJob(typed, out); },
+                [this, &out](const Planning::RecoverJob& typed) { OnRecoverJob(typed, out); },
+                [this, &out](const Planning::CancelJob& typed) { OnCancelJob(typed, out); },
+                [this, &out](const Planning::Pause& typed) { OnPause(typed, out); },
+                [this, &out](const Planning::Resume& typed) { OnResume(typed, out); },
+                [this, &out](const Planning::StartCharging& typed) { OnStartCharging(typed, out); },
+                [this, &out](const Planning::StopCharging& typed) {
+                    OnStopCharging(typed, out);
+                }},
+            command);
     }
 
     void OnTimer(Planning::AdapterTimerID /*timer*/, Core::Now /*now*/, Out& /*out*/) override
@@ -106,7 +120,7 @@ protected:
         _messages.push_back(std::move(message));
     }
 
-    virtual void On(const Planning::Drive& command, Out& out)
+    virtual void OnDrive(const Planning::Drive& command, Out& out)
     {
         _drive = command;
         _passedCount = 0;
@@ -114,7 +128,7 @@ protected:
         ContinueDrive(out);
     }
 
-    virtual void On(const Planning::ExtendDrive& command, Out& out)
+    virtual void OnExtendDrive(const Planning::ExtendDrive& command, Out& out)
     {
         if (_drive.has_value() && _drive->driveID == command.driveID)
         {
@@ -123,7 +137,7 @@ protected:
         }
     }
 
-    virtual void On(const Planning::CancelDrive& command, Out& out)
+    virtual void OnCancelDrive(const Planning::CancelDrive& command, Out& out)
     {
         if (_drive.has_value() && _drive->driveID == command.driveID)
         {
@@ -132,21 +146,21 @@ protected:
         }
     }
 
-    virtual void On(const Planning::StartJob& command, Out& /*out*/)
+    virtual void OnStartJob(const Planning::StartJob& command, Out& /*out*/)
     {
         _job = command;
         _bCancelsJob = false;
         Send({EKind::Do, _job->commandID});
     }
 
-    virtual void On(const Planning::RecoverJob& command, Out& /*out*/)
+    virtual void OnRecoverJob(const Planning::RecoverJob& command, Out& /*out*/)
     {
         _job = command.job;
         _bCancelsJob = false;
         Send({EKind::Ask, _job->commandID});
     }
 
-    virtual void On(const Planning::CancelJob& command, Out& /*out*/)
+    virtual void OnCancelJob(const Planning::CancelJob& command, Out& /*out*/)
     {
         if (_job.has_value() && _job->jobID == command.jobID)
         {
@@ -155,24 +169,24 @@ protected:
         }
     }
 
-    virtual void On(const Planning::Pause& /*command*/, Out& /*out*/)
+    virtual void OnPause(const Planning::Pause& /*command*/, Out& /*out*/)
     {
         _bPauseAsked = true;
         Send({EKind::Pause});
     }
 
-    virtual void On(const Planning::Resume& /*command*/, Out& /*out*/)
+    virtual void OnResume(const Planning::Resume& /*command*/, Out& /*out*/)
     {
         _bPauseAsked = false;
         Send({EKind::Resume});
     }
 
-    virtual void On(const Planning::StartCharging& /*command*/, Out& /*out*/)
+    virtual void OnStartCharging(const Planning::StartCharging& /*command*/, Out& /*out*/)
     {
         Send({EKind::Charge});
     }
 
-    virtual void On(const Planning::StopCharging& /*command*/, Out& /*out*/)
+    virtual void OnStopCharging(const Planning::StopCharging& /*command*/, Out& /*out*/)
     {
         Send({EKind::StopCharging});
     }
