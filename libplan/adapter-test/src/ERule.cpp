@@ -26,7 +26,7 @@ constexpr std::array<RuleRow, ALL_RULES.size()> RULES{{
     {"state-true", "`StateChanged` shows what the robot does, also after its last change."},
     {"held-nodes", "After a restart `heldNodeIDs` lists each node that the robot may enter without a further command."},
     {"restart-evidence-true",
-     "`RestartEvidence::commandID` is the last drive or job that the robot has received, and never one that it has not."},
+     "`RestartEvidence::commandID` is the last drive or job that the robot has received; with a `progressToken` it may be empty."},
     {"known-ids", "Events name only drives and jobs that were commanded."},
     {"late-commands-ignored", "A command for a drive or job that has just ended changes nothing."},
     {"one-end", "Each drive and each job is ended by one event, and no event of it follows."},

@@ -91,8 +91,12 @@ void StateChecker::VerifyAtRest(const RobotTruth& truth)
 
 void StateChecker::VerifyEvidence()
 {
-    if (_state.has_value() && _state->restartEvidence.commandID.has_value()
-        && *_state->restartEvidence.commandID != _lastSentID)
+    if (!_state.has_value() || !_state->restartEvidence.commandID.has_value()
+        || !_state->restartEvidence.progressToken.empty())
+    {
+        return;
+    }
+    if (*_state->restartEvidence.commandID != _lastSentID)
     {
         _sink(
             ERule::RestartEvidenceTrue,

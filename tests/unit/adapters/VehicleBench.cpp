@@ -207,7 +207,7 @@ void VehicleBench::SetConduct(AdapterTest::EConduct conduct)
     switch (conduct)
     {
         case AdapterTest::EConduct::Slow:
-            Inject("delay hold=4s");
+            Inject("delay time=4s");
             break;
         case AdapterTest::EConduct::Refuses:
             Inject("refuse");
