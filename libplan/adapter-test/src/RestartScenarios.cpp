@@ -1,6 +1,7 @@
 #include "EngineSteps.hpp"
 #include "Scenarios.hpp"
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,7 +19,7 @@ void RecoverUnknownJob(ScenarioRun& run)
 {
     run.Crash();
     run.Restart();
-    run.Command(Planning::RecoverJob{run.MakeJob(0), {}});
+    run.Command(run.MakeRecovery(run.MakeJob(0)));
     if (run.TryConnect() && TryAwaitJobEnd(run, ERule::JobAnswered))
     {
         run.PassTime(run.GetOptions().answerLimit);
@@ -33,7 +34,7 @@ void RecoverUnknownJobOnline(ScenarioRun& run)
     {
         return;
     }
-    run.Command(Planning::RecoverJob{run.MakeJob(0), {}});
+    run.Command(run.MakeRecovery(run.MakeJob(0)));
     if (TryAwaitJobEnd(run, ERule::JobAnswered))
     {
         run.PassTime(run.GetOptions().answerLimit);
@@ -41,16 +42,16 @@ void RecoverUnknownJobOnline(ScenarioRun& run)
 }
 
 /// The robot was disconnected when the job was commanded, so it has certainly not received it.
-void RecoverUnsentJob(ScenarioRun& run)
+void RecoverUnsentJobAfter(ScenarioRun& run, std::size_t earlierJobs)
 {
     run.SetLink(false);
     static_cast<void>(run.TryAwait([&run] { return !run.GetStates().IsOnline(); }, run.GetOptions().answerLimit));
-    const Planning::StartJob job = run.MakeJob(0);
+    const Planning::StartJob job = run.MakeJob(earlierJobs);
     run.Command(job);
     run.PassTime(run.GetOptions().answerLimit / 10);
     run.Crash();
     run.Restart();
-    run.Command(Planning::RecoverJob{job, {}});
+    run.Command(run.MakeRecovery(job));
     run.PassTime(run.GetOptions().answerLimit / 10);
     run.SetLink(true);
     if (!run.TryConnect() || !TryAwaitJobEnd(run, ERule::JobAnswered))
@@ -58,7 +59,7 @@ void RecoverUnsentJob(ScenarioRun& run)
         return;
     }
     run.PassTime(run.GetOptions().answerLimit);
-    if (run.GetTruth().doneJobs > 0)
+    if (run.GetTruth().doneJobs > earlierJobs)
     {
         run.AddFinding(ERule::RecoveryStartsNothing, "the robot has done a job that was only asked for.");
         return;
@@ -67,6 +68,22 @@ void RecoverUnsentJob(ScenarioRun& run)
     {
         run.Command(job);
         static_cast<void>(TryFinishJob(run, job, ERule::JobAnswered));
+    }
+}
+
+void RecoverUnsentJob(ScenarioRun& run)
+{
+    RecoverUnsentJobAfter(run, 0);
+}
+
+/// The robot shows the job before.
+void RecoverUnsentSecondJob(ScenarioRun& run)
+{
+    const Planning::StartJob first = run.MakeJob(0);
+    run.Command(first);
+    if (TryFinishJob(run, first, ERule::JobAnswered))
+    {
+        RecoverUnsentJobAfter(run, 1);
     }
 }
 
@@ -87,7 +104,7 @@ void RecoverEarlierJob(ScenarioRun& run)
     }
     run.Crash();
     run.Restart();
-    run.Command(Planning::RecoverJob{first, {}});
+    run.Command(run.MakeRecovery(first));
     if (run.TryConnect())
     {
         static_cast<void>(TryAwaitJobEnd(run, ERule::JobAnswered));
@@ -104,7 +121,7 @@ void CrashInJob(ScenarioRun& run, const Disturbance& disturbance)
     run.Crash();
     run.PassTime(disturbance.lasts);
     run.Restart();
-    run.Command(Planning::RecoverJob{job, {}}); // it comes before the connection
+    run.Command(run.MakeRecovery(job)); // it comes before the connection
     if (!run.TryConnect() || !TryAwaitJobEnd(run, ERule::JobAnswered))
     {
         return;
@@ -151,6 +168,7 @@ void AddRestartScenarios(std::vector<Scenario>& scenarios)
     scenarios.push_back({"recovery of a job that was never commanded", RecoverUnknownJob});
     scenarios.push_back({"recovery of such a job while connected", RecoverUnknownJobOnline});
     scenarios.push_back({"recovery of a job that was commanded while disconnected", RecoverUnsentJob});
+    scenarios.push_back({"recovery of a second job that was commanded while disconnected", RecoverUnsentSecondJob});
     scenarios.push_back({"recovery of an earlier job", RecoverEarlierJob});
 }
 

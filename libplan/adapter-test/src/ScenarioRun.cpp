@@ -67,10 +67,16 @@ void ScenarioRun::Command(const Planning::RobotCommand& command)
     _states.OnCommand(command);
     std::visit(
         Core::Overloaded{
-            [this, &truth](const Planning::Drive& drive) { _drives.OnDrive(drive, truth); },
+            [this, &truth](const Planning::Drive& drive) {
+                _sentIDs.push_back(drive.driveID);
+                _drives.OnDrive(drive, truth);
+            },
             [this](const Planning::ExtendDrive& extend) { _drives.OnExtend(extend); },
             [this](const Planning::CancelDrive& cancel) { _drives.OnCancel(cancel); },
-            [this, &truth](const Planning::StartJob& job) { _jobs.OnStart(job, truth); },
+            [this, &truth](const Planning::StartJob& job) {
+                _sentIDs.push_back(job.commandID);
+                _jobs.OnStart(job, truth);
+            },
             [this, &truth](const Planning::RecoverJob& recover) { _jobs.OnRecover(recover, truth); },
             [](const auto& /*other*/) {
             }},
@@ -174,6 +180,13 @@ Planning::StartJob ScenarioRun::MakeJob(std::size_t number)
     const Planning::StateChanged* const stateOrNull = _states.GetStateOrNull();
     job.progressToken = stateOrNull == nullptr ? std::string() : stateOrNull->restartEvidence.progressToken;
     return job;
+}
+
+Planning::RecoverJob ScenarioRun::MakeRecovery(const Planning::StartJob& job) const
+{
+    Planning::RecoverJob recover{job, {_sentIDs.begin(), std::ranges::find(_sentIDs, job.commandID)}};
+    std::ranges::reverse(recover.earlierIDs);
+    return recover;
 }
 
 std::string ScenarioRun::MakeID()

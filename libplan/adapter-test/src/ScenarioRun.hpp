@@ -55,7 +55,8 @@ private:
         _outs; ///< Of all calls: emptied after the call, and not changed by the adapter later.
     std::vector<Core::SteadyTime> _callTimes; ///< When the adapter was called.
     bool _bLinkUp = true;
-    std::uint32_t _lastNumber = 0; ///< Of the IDs that were made.
+    std::uint32_t _lastNumber = 0;     ///< Of the IDs that were made.
+    std::vector<std::string> _sentIDs; ///< Of drives and jobs, in order.
     AnswerChecker _answers;
 
 public:
@@ -82,6 +83,8 @@ public:
     [[nodiscard]] Planning::Drive MakeDrive(std::size_t releasedCount);
     /// The job of this number on the robot's node, under a new commandID.
     [[nodiscard]] Planning::StartJob MakeJob(std::size_t number);
+    /// With the IDs of what was commanded before the job.
+    [[nodiscard]] Planning::RecoverJob MakeRecovery(const Planning::StartJob& job) const;
     [[nodiscard]] std::string MakeID();
 
     [[nodiscard]] const BenchOptions& GetOptions() const noexcept;

@@ -11,6 +11,7 @@ TEST_CASE("The adapter of a vehicle with an arm over Open Stream breaks no rule"
     const AdapterTest::ContractReport report = AdapterTest::CheckAdapter(bench);
     INFO(report.Describe());
     CHECK(report.findings.empty());
+    CHECK(report.scenarios.size() > 60);
 }
 
 } // namespace ACS::Testing

@@ -11,6 +11,7 @@ TEST_CASE("The adapter of examples/own-driver breaks no rule")
     const AdapterTest::ContractReport report = AdapterTest::CheckAdapter(bench);
     INFO(report.Describe());
     CHECK(report.findings.empty());
+    CHECK(report.scenarios.size() > 120);
 }
 
 } // namespace ACS::Testing

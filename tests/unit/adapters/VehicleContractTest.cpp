@@ -11,6 +11,7 @@ TEST_CASE("The adapter of a VDA5050 vehicle breaks no rule when its own connecti
     const AdapterTest::ContractReport report = AdapterTest::CheckAdapter(bench);
     INFO(report.Describe());
     CHECK(report.findings.empty());
+    CHECK(report.scenarios.size() > 150);
 }
 
 TEST_CASE("The adapter of a VDA5050 vehicle breaks no rule when the vehicle's connection to the broker is lost")
@@ -19,6 +20,7 @@ TEST_CASE("The adapter of a VDA5050 vehicle breaks no rule when the vehicle's co
     const AdapterTest::ContractReport report = AdapterTest::CheckAdapter(bench);
     INFO(report.Describe());
     CHECK(report.findings.empty());
+    CHECK(report.scenarios.size() > 150);
 }
 
 } // namespace ACS::Testing
