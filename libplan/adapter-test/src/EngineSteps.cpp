@@ -51,7 +51,9 @@ bool TryFinishJob(ScenarioRun& run, Planning::StartJob job, ERule rule)
         job.commandID = answer == EAnswer::Interrupted ? run.MakeID() : job.commandID;
         run.Command(job);
     }
-    run.AddFinding(rule, "the job is rejected, unknown or interrupted each time that it is commanded.");
+    run.AddFinding(
+        rule,
+        "the job is not executed, however often it is commanded: " + run.GetJobs().GetLastText() + ".");
     return false;
 }
 

@@ -113,6 +113,11 @@ bool JobChecker::HasEnded() const
     return IsEnd(GetAnswer());
 }
 
+const std::string& JobChecker::GetLastText() const noexcept
+{
+    return _lastText;
+}
+
 std::size_t JobChecker::CountDone(const Record& record, const RobotTruth& truth)
 {
     return record.doneEnd.value_or(truth.doneJobs) - record.doneBefore;
@@ -147,6 +152,7 @@ void JobChecker::Begin(const Planning::StartJob& job, bool bSent, const RobotTru
 
 JobChecker::Record* JobChecker::FindOpenOrNull(const std::string& jobID, const Planning::RobotEvent& event)
 {
+    _lastText = DescribeEvent(event);
     const auto found = _records.find(jobID);
     if (found == _records.end())
     {

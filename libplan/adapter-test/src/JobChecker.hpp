@@ -44,6 +44,7 @@ private:
     FindingSink _sink;
     std::map<std::string, Record> _records; ///< By jobID.
     std::string _currentID;                 ///< The job that was commanded last.
+    std::string _lastText;                  ///< The last event of a job, for findings.
 
 public:
     explicit JobChecker(FindingSink sink);
@@ -64,6 +65,7 @@ public:
     /// Of the job that was commanded last.
     [[nodiscard]] EAnswer GetAnswer() const;
     [[nodiscard]] bool HasEnded() const;
+    [[nodiscard]] const std::string& GetLastText() const noexcept;
 
 private:
     [[nodiscard]] static std::size_t CountDone(const Record& record, const RobotTruth& truth);

@@ -49,6 +49,10 @@ void RecoverUnsentJobAfter(ScenarioRun& run, std::size_t earlierJobs)
     const Planning::StartJob job = run.MakeJob(earlierJobs);
     run.Command(job);
     run.PassTime(run.GetOptions().answerLimit / 10);
+    if (run.GetTruth().bWorking || run.GetTruth().doneJobs > earlierJobs)
+    {
+        return; // a robot with several links, one of which is not lost
+    }
     run.Crash();
     run.Restart();
     run.Command(run.MakeRecovery(job));

@@ -68,6 +68,11 @@ void StateChecker::OnRestart()
 
 void StateChecker::VerifyAtRest(const RobotTruth& truth)
 {
+    if (!_bOnline)
+    {
+        _sink(ERule::LinkReported, "the link works, and the robot is reported as disconnected.");
+        return;
+    }
     if (!_state.has_value())
     {
         _sink(ERule::StateAfterConnection, "no state was raised since the connection.");

@@ -28,8 +28,11 @@ Planning::SiteMap MakeArmSite()
     Planning::SiteEdgeRule rule;
     rule.vehicleTypeID = "any";
     auto site = Planning::SiteMap::Create(
-        {node("N0", 0.0), node("N1", 4.0)},
-        {{"N0-N1", "N0", "N1", {rule}}},
+        {node("N0", 0.0), node("N1", 4.0), node("N2", 8.0), node("N3", 12.0), node("N4", 16.0)},
+        {{"N0>N1", "N0", "N1", {rule}},
+         {"N1>N2", "N1", "N2", {rule}},
+         {"N2>N3", "N2", "N3", {rule}},
+         {"N3>N4", "N3", "N4", {rule}}},
         {{"A01.CP01", {"N0"}}});
     if (!site.has_value())
     {
@@ -154,10 +157,17 @@ AdapterTest::BenchOptions ArmBench::GetOptions() const
     options.bRefuses = false;
     options.bFails = false;
     options.bRepeats = false;
-    options.bPausesDrives = false;
     options.bCancelsJobs = false; // a stopped program may have moved something
     options.bCharges = false;
-    options.bDrives = false; // as the vehicle without an arm
+    for (const Planning::SiteNode& node : _site.GetNodes())
+    {
+        options.route.nodes.push_back({node.nodeID, node.x, node.y, std::nullopt, node.mapID});
+    }
+    for (const Planning::SiteEdge& edge : _site.GetEdges())
+    {
+        options.route.edges.push_back(
+            {edge.edgeID, edge.startNodeID, edge.endNodeID, 4.0, 1.0, std::nullopt, std::nullopt, "", std::nullopt});
+    }
     return options;
 }
 
@@ -177,6 +187,7 @@ void ArmBench::MakeRobot(AdapterTest::IVirtualTime& time)
     _timeOrNull = &time;
     _wakeAt.reset();
     _world = std::make_unique<World>(_site, _robotOptions, _seed);
+    _world->robot.Calm(); // no slow network
     WakeLater();
 }
 
@@ -218,7 +229,10 @@ AdapterTest::RobotTruth ArmBench::GetTruth() const
 {
     const bool bPlaying = _world->robot.IsPlaying();
     static_cast<void>(_world->robot.IsWorkUnderWay()); // counts what was done
-    AdapterTest::RobotTruth truth{_world->robot.GetNodeID(), _world->robot.IsDriving(), bPlaying, 0};
+    const std::string nodeID = _world->robot.GetNodeID();
+    const bool bOnNode = _site.FindNodeOrNull(nodeID) != nullptr; // otherwise between two
+    AdapterTest::RobotTruth truth{bOnNode ? nodeID : _nodeID, _world->robot.IsDriving(), bPlaying, 0};
+    _nodeID = truth.nodeID;
     for (const Protocol::ExecutionPlan& plan : MakePlans())
     {
         for (const Protocol::PlanJob& job : plan.steps.front().jobs)

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace ACS::Testing
@@ -42,6 +43,7 @@ class ArmBench final : public AdapterTest::IAdapterBench
     std::unique_ptr<World> _world;
     std::unique_ptr<Forwarder> _adapter;
     std::uint64_t _connection = 0;
+    mutable std::string _nodeID;             ///< On which the robot was last.
     std::optional<Core::SteadyTime> _wakeAt; ///< When the simulation continues.
 
 public:

@@ -74,7 +74,6 @@ TEST_CASE("Defects of an arm's adapter are found")
 {
     ArmBench bench(1);
     CHECK(IsFound(bench, HidePause, ERule::PauseObeyed));
-    CHECK(IsFound(bench, ReportUnknownAsFinished, ERule::OutcomeTrue));
     CHECK(IsFound(bench, ReportStartedAsFinished, ERule::OutcomeTrue));
 }
 
