@@ -20,8 +20,8 @@
 using namespace ACS::Planning;
 namespace Core = ACS::Core;
 
-/// Drives the cart from node to node and gives it jobs; the README has its lines. The cart keeps on disk which jobs it has executed:
-/// after a restart of acsd or a lost connection it is asked for the job before it is commanded again.
+/// Drives the cart from node to node and gives it jobs; the README has its lines. The cart keeps on disk which jobs it has
+/// executed: after a restart of acsd or a lost connection it is asked for the job before it is commanded again.
 class CartAdapter final : public ACS::Acsd::ILineAdapter
 {
 public:

@@ -5,8 +5,8 @@
 namespace ACS::AdapterTest
 {
 
-/// What the engine does with a drive or a job, as far as an adapter sees it. False: the scenario cannot continue, and there is a
-/// finding.
+/// What the engine does with a drive or a job, as far as an adapter sees it. False: the scenario cannot continue, and there
+/// is a finding.
 
 /// Waits for the end of the job that was commanded. The rule is broken if it does not end.
 [[nodiscard]] bool TryAwaitJobEnd(ScenarioRun& run, ERule rule);

@@ -20,8 +20,8 @@
 namespace ACS::AdapterTest
 {
 
-/// One scenario: a new robot with an adapter, commanded in virtual time. Carries out what the adapter requests, as acsd does, and
-/// has every event checked.
+/// One scenario: a new robot with an adapter, commanded in virtual time. Carries out what the adapter requests, as acsd
+/// does, and has every event checked.
 class ScenarioRun final
 {
 public:

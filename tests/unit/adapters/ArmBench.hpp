@@ -17,8 +17,8 @@
 namespace ACS::Testing
 {
 
-/// A simulated control robot: acsd's adapter of a vehicle with an arm over Open Stream. The link is the robot's radio, over which
-/// the base or the arm or both are lost.
+/// A simulated control robot: acsd's adapter of a vehicle with an arm over Open Stream. The link is the robot's radio, over
+/// which the base or the arm or both are lost.
 class ArmBench final : public AdapterTest::IAdapterBench
 {
     /// Passes commands to the adapter of a simulated robot, which has its own host, and events back.

@@ -10,8 +10,8 @@
 namespace ACS::Acsd
 {
 
-/// The drive of a robot that is sent from node to node: keeps what the engine has commanded, and raises the events of the drive. Pure;
-/// an adapter owns one for its robot.
+/// The drive of a robot that is sent from node to node: keeps what the engine has commanded, and raises the events of the
+/// drive. Pure; an adapter owns one for its robot.
 class NodeByNodeDrive final
 {
 public:
@@ -31,16 +31,16 @@ private:
     bool _bPaused = false;
 
 public:
-    /// Keeps Drive, ExtendDrive, CancelDrive, Pause and Resume; other commands have no effect. Call OnStationary next if the robot is
-    /// stationary on a node.
+    /// Keeps Drive, ExtendDrive, CancelDrive, Pause and Resume; other commands have no effect. Call OnStationary next if the
+    /// robot is stationary on a node.
     void Handle(const Planning::RobotCommand& command);
 
-    /// The robot is stationary on the node. Raises NodePassed if that is the next node of the drive, and the end of the drive: Arrived,
-    /// DriveCancelled, or DriveRejected if the robot is elsewhere than the drive.
+    /// The robot is stationary on the node. Raises NodePassed if that is the next node of the drive, and the end of the
+    /// drive: Arrived, DriveCancelled, or DriveRejected if the robot is elsewhere than the drive.
     void OnStationary(const std::string& nodeID, Planning::AdapterActions& out);
 
-    /// The step that the robot may make, after OnStationary; nullopt while it must wait. The same step until the robot is stationary on
-    /// its node: sent again after a lost connection.
+    /// The step that the robot may make, after OnStationary; nullopt while it must wait. The same step until the robot is
+    /// stationary on its node: sent again after a lost connection.
     [[nodiscard]] std::optional<Step> GetStepOrNull() const;
 
     [[nodiscard]] bool HasDrive() const noexcept;

@@ -30,7 +30,8 @@ public:
     void OnRunning(std::string_view commandID, Planning::AdapterActions& out);
     void OnDone(std::string_view commandID, Planning::AdapterActions& out);
 
-    /// The robot has moved nothing for the job, and will not: JobUnknown, or JobInterrupted with the reason if it had begun the job.
+    /// The robot has moved nothing for the job, and will not: JobUnknown, or JobInterrupted with the reason if it had begun
+    /// the job.
     void OnNotExecuted(std::string_view commandID, const std::string& reason, Planning::AdapterActions& out);
 
     /// The robot refuses the job: JobRejected.

@@ -52,8 +52,9 @@ struct BenchOptions
     bool bDrives = true;      ///< False: only jobs are commanded.
 };
 
-/// An adapter and the robot to which it is connected, in virtual time: what CheckAdapter needs of the author of an adapter. The
-/// robot may be a simple model. It is not part of the adapter: it continues while the link is cut and while there is no adapter.
+/// An adapter and the robot to which it is connected, in virtual time: what CheckAdapter needs of the author of an adapter.
+/// The robot may be a simple model. It is not part of the adapter: it continues while the link is cut and while there is no
+/// adapter.
 class IAdapterBench
 {
 public:
@@ -64,8 +65,8 @@ public:
 
     [[nodiscard]] virtual BenchOptions GetOptions() const = 0;
 
-    /// A job that the robot can execute on the first node, after it has executed those with lower numbers (from 0). The suite sets
-    /// planID, stepNo, jobID, commandID, progressToken, jobNumber and nodeID.
+    /// A job that the robot can execute on the first node, after it has executed those with lower numbers (from 0). The
+    /// suite sets planID, stepNo, jobID, commandID, progressToken, jobNumber and nodeID.
     [[nodiscard]] virtual Planning::StartJob MakeJob(std::size_t number) const = 0;
 
     /// A new robot on the first node of the route, which obeys, and a working link; no adapter. The time is valid until

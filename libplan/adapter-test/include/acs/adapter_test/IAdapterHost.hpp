@@ -19,9 +19,9 @@ public:
     IAdapterHost& operator=(const IAdapterHost&) = delete;
     virtual ~IAdapterHost() = default;
 
-    /// Calls the function with the current time and executes the actions that it appends. Every call of the adapter goes through it,
-    /// except Handle and OnTimer, which the suite calls. The function is not called when the adapter is destroyed: that is a
-    /// finding.
+    /// Calls the function with the current time and executes the actions that it appends. Every call of the adapter goes
+    /// through it, except Handle and OnTimer, which the suite calls. The function is not called when the adapter is
+    /// destroyed: that is a finding.
     virtual void Call(const AdapterCall& adapterCall) = 0;
 };
 
