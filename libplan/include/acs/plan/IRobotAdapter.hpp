@@ -48,7 +48,7 @@ using AdapterActions = std::vector<AdapterAction>;
 
 /// Connects one robot to the engine: executes its commands and reports its events. An implementation does no I/O and reads
 /// no clock; it has its own outputs for messages to its robot. Calls append to out, which the caller owns. Called by one
-/// thread at a time.
+/// thread at a time. docs/guide/write-an-adapter.md lists the rules, which ACS::AdapterTest checks.
 class IRobotAdapter
 {
 public:
