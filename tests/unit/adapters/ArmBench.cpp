@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -55,7 +56,7 @@ Planning::RobotOptions MakeArmOptions()
 }
 
 /// Both jobs in one plan, and the second one under the jobID of the first in another plan.
-std::array<Protocol::ExecutionPlan, 2> MakePlans()
+const std::array<Protocol::ExecutionPlan, 2>& GetPlans()
 {
     const auto make = [](const char* planID, std::vector<Protocol::PlanJob> jobs, std::vector<std::string> trays) {
         Protocol::ExecutionPlan plan;
@@ -63,9 +64,10 @@ std::array<Protocol::ExecutionPlan, 2> MakePlans()
         plan.steps.push_back({1, "TrayLoad", "A01.CP01", std::move(trays), std::move(jobs)});
         return plan;
     };
-    return {
+    static const std::array<Protocol::ExecutionPlan, 2> PLANS{
         make("plan-1", {{"job-1", SOURCES[0], TARGETS[0]}, {"job-2", SOURCES[1], TARGETS[1]}}, {TRAYS[0], TRAYS[1]}),
         make("plan-2", {{"job-1", SOURCES[1], TARGETS[1]}}, {TRAYS[1]})};
+    return PLANS;
 }
 
 } // namespace
@@ -135,7 +137,7 @@ ArmBench::World::World(const Planning::SiteMap& site, const Planning::RobotOptio
           "N0",
           false)
 {
-    for (const Protocol::ExecutionPlan& plan : MakePlans())
+    for (const Protocol::ExecutionPlan& plan : GetPlans())
     {
         workChecker.NotePlan(plan);
     }
@@ -153,6 +155,7 @@ ArmBench::~ArmBench() = default;
 AdapterTest::BenchOptions ArmBench::GetOptions() const
 {
     AdapterTest::BenchOptions options;
+    options.answerLimit = std::chrono::seconds(40); // the broker publishes a will after up to 20 s
     options.bSlow = false;
     options.bRefuses = false;
     options.bFails = false;
@@ -233,7 +236,7 @@ AdapterTest::RobotTruth ArmBench::GetTruth() const
     const bool bOnNode = _site.FindNodeOrNull(nodeID) != nullptr; // otherwise between two
     AdapterTest::RobotTruth truth{bOnNode ? nodeID : _nodeID, _world->robot.IsDriving(), bPlaying, 0};
     _nodeID = truth.nodeID;
-    for (const Protocol::ExecutionPlan& plan : MakePlans())
+    for (const Protocol::ExecutionPlan& plan : GetPlans())
     {
         for (const Protocol::PlanJob& job : plan.steps.front().jobs)
         {
