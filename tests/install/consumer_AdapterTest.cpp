@@ -1,8 +1,11 @@
 // needs: nothing
 #include <acs/adapter_test/CheckAdapter.hpp>
 
+#include <cstddef>
 #include <cstdio>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace
 {
