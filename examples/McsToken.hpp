@@ -2,6 +2,8 @@
 
 #include <acs/protocol_beast/HttpHeaders.hpp>
 #include <acs/protocol_beast/ServerOptions.hpp>
+#include <acs/protocol_beast/UpgradeRefusal.hpp>
+#include <acs/protocol_beast/UpgradeRequest.hpp>
 
 #include <fmt/core.h>
 
@@ -25,15 +27,15 @@
 /// Accepts clients with "Authorization: Bearer TOKEN"; nullptr accepts every client.
 [[nodiscard]] inline ACS::ProtocolBeast::UpgradeCheck MakeTokenCheck(const char* tokenOrNull)
 {
-    using namespace ACS::
-        ProtocolBeast; // NOLINT(google-build-using-namespace): an example reads better without the prefix
+    using ACS::ProtocolBeast::UpgradeRefusal;
+    using ACS::ProtocolBeast::UpgradeRequest;
     if (tokenOrNull == nullptr)
     {
         return {};
     }
     return [expected =
                 std::string("Bearer ") + tokenOrNull](const UpgradeRequest& request) -> std::optional<UpgradeRefusal> {
-        const std::string* const givenOrNull = FindHeaderOrNull(request.headers, "Authorization");
+        const std::string* const givenOrNull = ACS::ProtocolBeast::FindHeaderOrNull(request.headers, "Authorization");
         if (givenOrNull != nullptr && IsSameSecret(*givenOrNull, expected))
         {
             return std::nullopt;

@@ -72,7 +72,7 @@ public:
     std::unique_ptr<ProtocolBeast::McsServer> server; ///< For the ACS.
     std::unique_ptr<ProtocolBeast::AcsClient> client; ///< Of the MCS.
 
-    void Start()
+    void Start() const
     {
         client->SendStatus(TscStateUpdate{ETscState::Paused});
         client->SendStatus(AcsCommStateUpdate{false}); // No ACS yet: no plans.
