@@ -13,6 +13,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace ACS::ProtocolBeast
@@ -54,6 +55,8 @@ private:
         Protocol::ConnectionID connection,
         const std::optional<Tcp::endpoint>& peerOrNull);
     [[nodiscard]] GateDecision Decide(const UpgradeRequest& request, bool bWebSocket);
+    /// For a client at another path. A server that shares the port with others is not named.
+    [[nodiscard]] std::string DescribePath() const;
     [[nodiscard]] std::size_t CountLinks() const;
 };
 

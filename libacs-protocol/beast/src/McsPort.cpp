@@ -136,10 +136,11 @@ GateOwner McsPort::Impl::MakeGateOwner(
         }
         return self->Decide(request, bWebSocket);
     };
-    owner.onRefused = [weak](const std::string& reason) {
+    const std::string peer = peerOrNull.has_value() ? GetText(peerOrNull->address()) : std::string();
+    owner.onRefused = [weak, peer](const std::string& reason) {
         if (const auto self = weak.lock())
         {
-            self->_logger.Warning("a connection did not become a WebSocket", {{"reason", reason}});
+            self->_logger.Warning("a connection did not become a WebSocket", {{"peer", peer}, {"reason", reason}});
         }
     };
     owner.onEnded = [weak, connection] {
@@ -153,7 +154,7 @@ GateOwner McsPort::Impl::MakeGateOwner(
 
 GateDecision McsPort::Impl::Decide(const UpgradeRequest& request, bool bWebSocket)
 {
-    UpgradeRefusal refusal{HTTP_NOT_FOUND, "No ACS connects at this path.\n", {}};
+    UpgradeRefusal refusal{HTTP_NOT_FOUND, DescribePath(), {}};
     for (const std::weak_ptr<IPortUser>& weak : _users)
     {
         const std::shared_ptr<IPortUser> user = weak.lock();
@@ -187,6 +188,12 @@ GateDecision McsPort::Impl::Decide(const UpgradeRequest& request, bool bWebSocke
             }};
     }
     return refusal;
+}
+
+std::string McsPort::Impl::DescribePath() const
+{
+    const std::shared_ptr<IPortUser> user = _users.size() == 1 ? _users.front().lock() : nullptr;
+    return user == nullptr ? "No ACS connects at this path.\n" : "The ACS connects at " + user->GetPath() + ".\n";
 }
 
 std::size_t McsPort::Impl::CountLinks() const

@@ -192,7 +192,9 @@ TEST_CASE("1 A wrong path is answered with 404, plain HTTP with 426, garbage wit
 {
     LinkWireFixture rig;
     rig.Listen();
-    CHECK(rig.TalkRaw("GET /other HTTP/1.1\r\nHost: x\r\n\r\n").find("HTTP/1.1 404") == 0);
+    const std::string other = rig.TalkRaw("GET /other HTTP/1.1\r\nHost: x\r\n\r\n");
+    CHECK(other.find("HTTP/1.1 404") == 0);
+    CHECK(other.find("The ACS connects at /acs/.") != std::string::npos);
     const std::string plain = rig.TalkRaw("GET /acs/ HTTP/1.1\r\nHost: x\r\n\r\n");
     CHECK(plain.find("HTTP/1.1 426") == 0);
     CHECK(plain.find("connect with a WebSocket") != std::string::npos);
