@@ -209,8 +209,8 @@ class Line:
     def _world_options(self):
         return () if self.world is None else ("--world", self.world)
 
-    def start_vehicles(self, time_scale, vehicles=("LR01,type=LR", "CR01,type=CR"), port=None, faults=()):
-        options = [part for vehicle in vehicles for part in ("--vehicle", vehicle)]
+    def start_vehicles(self, time_scale, vehicles=("LR01,type=LR", "CR01,type=CR"), port=None, faults=(), options=()):
+        options = [*options, *[part for vehicle in vehicles for part in ("--vehicle", vehicle)]]
         options += [part for fault in faults for part in ("--fault", fault)]
         return self.start("vda-sim", "--broker", f"mqtt://127.0.0.1:{port or self.broker_port}", "--site",
                           self.site_dir / "site.lif.json", "--time-scale", time_scale, *options, *self._world_options())

@@ -26,9 +26,11 @@ class Batch:
     acsd: tuple = ()
     mcs: tuple = ()
     vehicles: tuple = ("LR01,type=LR", "CR01,type=CR")
+    vda: tuple = ()
 
 
-# All are played at the same time. Scenarios that change the state of the ACS come last.
+# All are played at the same time. Scenarios that change the state of the ACS come last. Those that pause a robot during a
+# job have jobs that last long enough on a busy machine.
 BATCHES = [
     Batch(["lr-plan", "robot-status", "abort-while-driving", "cancel-before-arrival", "cancel-after-arrival",
            "cancel-waiting", "abort-waiting", "control-finished-plan", "pinned-robot", "priority", "location-spelling"]),
@@ -41,7 +43,7 @@ BATCHES = [
     Batch(["lost-ack", "late-acks", "wrong-ack-id", "loose-acks", "job-failure", "abort-failing-job"],
           arm=("--program", "12=20s,fail")),
     Batch(["pause-resume", "pause-refused", "pause-driving", "pause-waiting", "pause-repeated", "cancel-paused",
-           "controls-race", "abort-paused"]),
+           "controls-race", "abort-paused"], vda=("--action-time", "pick=40s")),
     Batch(["pause-cr", "abort-paused-cr", "abort-second-of-five", "abort-last-job"],
           arm=("--program", "11=40s", "--program", "12=20s")),
     Batch(["pinned-robots"], vehicles=("LR01,type=LR", "CR01,type=CR", "RBT01,type=LR,node=D-A02.CP06"),
@@ -65,7 +67,7 @@ class Scenarios(ScenarioCase):
     def start_play(self, line, *arguments, batch=Batch([])):
         """mcs-sim, and a whole line for it."""
         line.start_broker()
-        vehicles = line.start_vehicles(TIME_SCALE, batch.vehicles)
+        vehicles = line.start_vehicles(TIME_SCALE, batch.vehicles, options=batch.vda)
         arm = line.start_arm(TIME_SCALE, *batch.arm)
         vehicles.wait_ready()
         mcs = line.start("mcs-sim", "--listen", "127.0.0.1:0", *batch.mcs, *arguments)
