@@ -7,7 +7,7 @@
 namespace ACS::Testing
 {
 
-TEST_CASE("The adapter of a vehicle with an arm over Open Stream breaks no rule")
+TEST_CASE("The adapter of a vehicle with an arm over Open Stream breaks no rule", "[.long]")
 {
     // Which of the two connections are lost depends on the seed.
     for (const std::uint64_t seed : {1U, 3U})

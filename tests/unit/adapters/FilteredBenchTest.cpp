@@ -61,7 +61,7 @@ bool IsFound(AdapterTest::IAdapterBench& bench, FilteredBench::Change change, ER
 
 } // namespace
 
-TEST_CASE("Defects of a vehicle's adapter are found")
+TEST_CASE("Defects of a vehicle's adapter are found", "[.long]")
 {
     VehicleBench bench(VehicleBench::ELink::OfAdapter);
     CHECK(IsFound(bench, HideHeldNodes, ERule::HeldNodes));
