@@ -16,6 +16,8 @@ FREE_NAMES = (
     re.compile(r"^tests/install/consumer_[A-Za-z0-9]+\.cpp$"),
     re.compile(r"^tests/unit/compile_fail/"),
 )
+# The C interface and its tests.
+C_FOLDERS = ("libacs-protocol/c/include/", "tests/unit/protocol-c/")
 # What one reads first: e09 and later are whole programs.
 FIRST_EXAMPLE = re.compile(r"^examples/e0[1-8]_[a-z0-9_]+\.cpp$")
 FIRST_EXAMPLE_LINES = 150
@@ -135,7 +137,7 @@ def check_file(root, path):
         yield from check_cpp_name(path, text)
     if path.endswith(".hpp") and not path.startswith("tests/style/bad/"):
         yield from check_header(path, text)
-    if path.endswith((".h", ".cc", ".cxx", ".hh", ".ipp", ".inl")):
+    if path.endswith((".h", ".cc", ".cxx", ".hh", ".ipp", ".inl")) and not path.startswith(C_FOLDERS):
         yield 1, "C++ files end in .hpp or .cpp"
 
 

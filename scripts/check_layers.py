@@ -14,6 +14,8 @@ IO = {"protocol_beast": "protocol", "vda5050_mosquitto": "vda5050", "openstream_
       "plan_sqlite": "plan"}
 # Pure, for the tests of users.
 KITS = {"adapter_test": "plan"}
+# For other languages: pure but for a random source, which their users need not supply.
+BINDINGS = {"protocol_c": "protocol"}
 
 # The longest matching folder decides.
 FOLDERS = {
@@ -22,6 +24,7 @@ FOLDERS = {
     "libacs-core/net/": "net",
     "libacs-protocol/": "protocol",
     "libacs-protocol/beast/": "protocol_beast",
+    "libacs-protocol/c/": "protocol_c",
     "libvda5050/": "vda5050",
     "libvda5050/mosquitto/": "vda5050_mosquitto",
     "libopenstream/": "openstream",
@@ -36,13 +39,14 @@ FOLDERS = {
     "tests/": "tests",
 }
 
-LIBRARIES = {"core", *PURE, *IO, *KITS}
+LIBRARIES = {"core", *PURE, *IO, *KITS, *BINDINGS}
 SIMULATORS = ("apps/mcs-sim", "apps/openstream-sim", "apps/vda-sim")
 THIRD_PARTY = {
     "core": ("fmt/", "tl/"),
     "json": ("fmt/", "tl/", "rapidjson/"),
     "net": ("fmt/", "tl/", "boost/asio", "boost/system/"),
     **{layer: ("fmt/", "tl/") for layer in (*PURE, *KITS)},
+    **{layer: ("fmt/", "tl/", "acs/c/") for layer in BINDINGS},
     "protocol_beast": ("fmt/", "tl/", "boost/", "openssl/", "linux/sockios.h", "sys/ioctl.h"),
     "vda5050_mosquitto": (
         "fmt/", "tl/", "boost/asio", "boost/system/", "mosquitto.h", "mqtt_protocol.h", "openssl/", "unistd.h"),
@@ -55,9 +59,10 @@ PUBLIC_THIRD_PARTY = ("fmt/", "tl/", "boost/asio/any_io_executor.hpp")
 THIRD_PARTY["drivers"] = PUBLIC_THIRD_PARTY  # the public headers of acsd
 IMPURE_STANDARD = ("thread", "mutex", "shared_mutex", "condition_variable", "future", "semaphore", "latch", "barrier",
                    "stop_token", "filesystem", "fstream", "iostream", "ctime")
+RANDOM_SOURCE = re.compile(r"\brandom_device\b")
 IMPURE_TOKENS = (
     (re.compile(r"_clock\s*::\s*now\b"), "reads a clock; take Core::Now as an argument"),
-    (re.compile(r"\brandom_device\b"), "draws random numbers; take Core::IRandom& as an argument"),
+    (RANDOM_SOURCE, "draws random numbers; take Core::IRandom& as an argument"),
     (re.compile(r"\bstd\s*::\s*(?:jthread|thread|mutex|async)\b"), "uses threads; a machine runs on its caller's thread"),
     (re.compile(r"\b(?:getenv|system)\s*\("), "reaches for the operating system; take the value as an argument"),
 )
@@ -123,6 +128,10 @@ def explain_refusal(path, layer, used):
         if used in ("core", KITS[layer]):
             return None
         return f"is out of reach of a test kit: it sees acs/core and acs/{KITS[layer]} only"
+    if layer in BINDINGS:
+        if used in ("core", BINDINGS[layer]):
+            return None
+        return f"is out of reach of a C interface: it sees acs/core and acs/{BINDINGS[layer]} only"
     if layer in IO:
         if used in ("core", IO[layer]):
             return None
@@ -135,7 +144,7 @@ def explain_refusal(path, layer, used):
 def explain_foreign(path, layer, name):
     """Why a header that is not of this tree must not be included here; None where it may."""
     bStandard = "/" not in name and "." not in name
-    if layer in ("core", "json", *PURE, *KITS) and (name in IMPURE_STANDARD or name in ("time.h", "pthread.h")):
+    if layer in ("core", "json", *PURE, *KITS, *BINDINGS) and (name in IMPURE_STANDARD or name in ("time.h", "pthread.h")):
         return "is not for a pure library: no threads, files or clocks below the I/O libraries"
     if bStandard or layer not in THIRD_PARTY:
         return None
@@ -157,12 +166,12 @@ def check_cpp(root, path, layer, resolver):
             reason = explain_foreign(path, layer, name)
         if reason is not None:
             yield line, f"<{name}> {reason}"
-    pure = layer in ("core", "json", *PURE, *KITS)
+    pure = layer in ("core", "json", *PURE, *KITS, *BINDINGS)
     for line, content in enumerate(code.splitlines(), 1):
         if SLEEP.search(content):
             yield line, "sleeps; wait for the event with a timer or a bounded wait"
         for pattern, reason in IMPURE_TOKENS if pure else ():
-            if pattern.search(content):
+            if pattern.search(content) and not (layer in BINDINGS and pattern is RANDOM_SOURCE):
                 yield line, reason
     if path.startswith("apps/") and os.path.basename(path) == "main.cpp":
         count = text.count("\n")

@@ -31,6 +31,9 @@ RIGHT = {
     "libacs-protocol/beast/include/acs/protocol_beast/Client.hpp":
         "#pragma once\n#include <acs/protocol/Codec.hpp>\n#include <boost/asio/any_io_executor.hpp>\n",
     "libacs-protocol/beast/src/Client.cpp": "#include <boost/beast/websocket.hpp>\n#include <thread>\n",
+    "libacs-protocol/c/include/acs/c/codec.h": "struct codec;\n",
+    "libacs-protocol/c/src/Codec.cpp":
+        "#include <acs/c/codec.h>\n#include <acs/protocol/Codec.hpp>\nstd::random_device device;\n",
     "libvda5050/include/acs/vda5050/Header.hpp": "#pragma once\n#include <acs/core/Location.hpp>\n",
     "libvda5050/mosquitto/src/Link.cpp": "#include <acs/vda5050/Header.hpp>\n#include <mosquitto.h>\n",
     "libplan/src/traffic/Router.hpp": "#pragma once\n#include \"../engine/EngineFacts.hpp\"\n",
@@ -73,6 +76,10 @@ PLANTED = [
     ("layers", "libacs-protocol/src/Session.cpp", "#include <acs/vda5050/Header.hpp>\n", 1, "another library"),
     ("layers", "libacs-protocol/src/Session.cpp", "#include <acs/protocol_beast/Client.hpp>\n", 1, "another library"),
     ("layers", "libacs-protocol/src/Session.cpp", "#include \"../../apps/acsd/Acsd.hpp\"\n", 1, "program"),
+    ("layers", "libacs-protocol/src/Session.cpp", "#include <acs/c/codec.h>\n", 1, "layer 'protocol'"),
+    ("layers", "libacs-protocol/c/src/Handle.cpp", "#include <acs/vda5050/Header.hpp>\n", 1, "out of reach of a C interface"),
+    ("layers", "libacs-protocol/c/src/Handle.cpp", "#include <mutex>\n", 1, "pure"),
+    ("layers", "libacs-protocol/c/src/Handle.cpp", "auto now = std::chrono::steady_clock::now();\n", 1, "clock"),
     ("layers", "libvda5050/src/Session.cpp", "#include <boost/asio/steady_timer.hpp>\n", 1, "layer 'vda5050'"),
     ("layers", "libvda5050/src/Session.cpp", "#include <mosquitto.h>\n", 1, "layer 'vda5050'"),
     ("layers", "libvda5050/src/Session.cpp", "\n/* two\nlines */ auto now = system_clock :: now();\n", 3, "clock"),
