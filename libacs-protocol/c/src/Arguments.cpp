@@ -83,6 +83,13 @@ Protocol::EAckResult Arguments::ReadAckResult(std::int32_t value)
     return value == ACS_RESULT_SUCCESS ? Protocol::EAckResult::Success : Protocol::EAckResult::Fail;
 }
 
+Protocol::ESessionTimer Arguments::ReadTimer(std::int32_t value)
+{
+    const bool bValid = value >= 0 && value < static_cast<std::int32_t>(Protocol::TIMER_COUNT);
+    Add(bValid ? ACS_OK : ACS_ERROR_ARGUMENT);
+    return static_cast<Protocol::ESessionTimer>(bValid ? value : 0);
+}
+
 Protocol::CodecOptions Arguments::ReadCodecOptions(const acs_codec_options& options)
 {
     Add(CheckStruct(&options));

@@ -4,11 +4,11 @@
 #include <acs/core/Now.hpp>
 #include <acs/protocol/CodecOptions.hpp>
 #include <acs/protocol/EAckResult.hpp>
+#include <acs/protocol/SessionAction.hpp>
 
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string_view>
 
 namespace ACS::CInterface
@@ -48,6 +48,7 @@ public:
     [[nodiscard]] Core::WallTime ReadWallTime(std::int64_t milliseconds);
     [[nodiscard]] Core::SteadyTime ReadSteadyTime(std::int64_t milliseconds);
     [[nodiscard]] Protocol::EAckResult ReadAckResult(std::int32_t value);
+    [[nodiscard]] Protocol::ESessionTimer ReadTimer(std::int32_t value);
     [[nodiscard]] Protocol::CodecOptions ReadCodecOptions(const acs_codec_options& options);
 
     [[nodiscard]] bool IsValid() const noexcept;

@@ -1,7 +1,7 @@
 #include "Arguments.hpp"
 #include "Guard.hpp"
+#include "HandleRandom.hpp"
 #include "ShownMessage.hpp"
-#include "SystemRandom.hpp"
 #include <acs/c/acs_protocol.h>
 #include <acs/core/JsonText.hpp>
 #include <acs/core/Timestamp.hpp>
@@ -22,7 +22,7 @@
 
 struct acs_codec
 {
-    ACS::CInterface::SystemRandom random;
+    ACS::CInterface::HandleRandom random{nullptr, nullptr};
     std::chrono::minutes siteOffset;
     ACS::Protocol::AcsCodec codec;
     ACS::CInterface::ShownMessage shown;

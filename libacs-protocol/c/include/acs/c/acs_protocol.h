@@ -143,8 +143,8 @@ ACS_C_EXPORT int32_t acs_codec_make_request(
     int64_t wall_ms,
     acs_message* message);
 
-/* Makes the Ack of a request. result: ACS_RESULT_. text: for the operator, at most ACS_MAX_NOTE_BYTES. payload: a JSON object; may be
- * null for an empty one. */
+/* Makes the Ack of a request. result: ACS_RESULT_. text: for the operator, at most ACS_MAX_NOTE_BYTES. payload: a JSON object; may
+ * be null for an empty one. */
 ACS_C_EXPORT int32_t acs_codec_make_ack(
     acs_codec* codec,
     const char* command,
@@ -158,6 +158,273 @@ ACS_C_EXPORT int32_t acs_codec_make_ack(
     size_t payload_length,
     int64_t wall_ms,
     acs_message* message);
+
+/* ---- Actions of both sessions ------------------------------------------------------------------------------------------- */
+
+/* A random source: 64 uniformly distributed bits. It must neither throw nor call the library, and is used until the handle is
+ * destroyed. */
+typedef uint64_t (*acs_random)(void* context);
+
+#define ACS_ACTION_NONE 0         /* No action waits. */
+#define ACS_ACTION_SEND_TEXT 1    /* Send text as one unfragmented text message. flag: may be dropped if the other side is slow. */
+#define ACS_ACTION_CONNECT 2      /* ACS side. Open the connection, then report connected or closed. */
+#define ACS_ACTION_CLOSE 3        /* Close the connection after what was sent before, with close_code and message; report closed. */
+#define ACS_ACTION_START_TIMER 4  /* Report timer_elapsed after delay_ms. Replaces a running timer of the same name. */
+#define ACS_ACTION_CANCEL_TIMER 5 /* A timer that elapses nevertheless is ignored. */
+#define ACS_ACTION_EVENT 6        /* event has happened. */
+
+#define ACS_TIMER_REGISTRATION 0
+#define ACS_TIMER_ACK 1
+#define ACS_TIMER_RECONNECT 2
+#define ACS_TIMER_POSITION 3
+#define ACS_TIMER_SHUTDOWN 4
+#define ACS_TIMER_ANSWER 5
+
+#define ACS_EVENT_NONE 0
+#define ACS_EVENT_REGISTERED 1           /* ACS side: send stored reports with acs_acs_send, then call acs_acs_replay_done. */
+#define ACS_EVENT_REGISTRATION_REFUSED 2 /* ACS side: message. The session tries again. */
+#define ACS_EVENT_REQUEST_RECEIVED 3     /* text, command, transaction_id; MCS side: connection, token, flag: repeated. */
+#define ACS_EVENT_REQUEST_REFUSED 4      /* ACS side: command, transaction_id, path and message of an invalid request. */
+#define ACS_EVENT_ACKED 5                /* ACS side: command, transaction_id, result, message. The report may be forgotten. */
+#define ACS_EVENT_REQUEST_ABANDONED 6    /* MCS side: command, transaction_id. The token was not answered in time. */
+#define ACS_EVENT_ACK_RECEIVED 7         /* MCS side: text, command, transaction_id, result, message; flag: late. */
+#define ACS_EVENT_REQUEST_UNANSWERED 8   /* command, transaction_id, reason, count: attempts. */
+#define ACS_EVENT_LINK_LOST 9            /* message: the reason; flag: it was registered. */
+#define ACS_EVENT_WINDOW_OPENED 10       /* ACS side: after ACS_ERROR_NOT_READY, acs_acs_send has room again. */
+#define ACS_EVENT_POSITION_DUE 11        /* ACS side: send a RobotPositionUpdate. */
+#define ACS_EVENT_STOPPED 12             /* ACS side: acs_acs_stop is complete. */
+#define ACS_EVENT_NOTED 13 /* For the log: text names a deviation ("UnknownMember"), count, message: one sentence or empty. */
+
+#define ACS_UNANSWERED_TIMEOUT 0
+#define ACS_UNANSWERED_LINK_LOST 1
+#define ACS_UNANSWERED_REPLACED 2 /* Another connection has registered. */
+
+/* One action. Fields that its type does not use are 0 or empty. Its texts live until the next call of the next_action function with
+ * the same handle, or until the handle is destroyed. */
+typedef struct acs_action
+{
+    uint32_t struct_size; /* Set by the caller. */
+    int32_t type;         /* ACS_ACTION_ */
+    int32_t event;        /* ACS_EVENT_ */
+    int32_t timer;        /* ACS_TIMER_ */
+    int32_t result;       /* ACS_RESULT_ */
+    int32_t reason;       /* ACS_UNANSWERED_ */
+    uint32_t close_code;  /* Of RFC 6455; 1006: end the connection at once, without a closing handshake. */
+    uint32_t flag;        /* 0 or 1 */
+    uint64_t connection;  /* MCS side; the ACS side has one connection, 0. */
+    uint64_t token;       /* For acs_mcs_answer; 0: no answer is expected. */
+    uint64_t count;
+    int64_t delay_ms;
+    acs_text text;
+    acs_text command; /* Of the request, without Ack. */
+    acs_text transaction_id;
+    acs_text path;
+    acs_text message;
+} acs_action;
+
+/* ---- MCS side ----------------------------------------------------------------------------------------------------------- */
+
+typedef struct acs_mcs_options
+{
+    uint32_t struct_size;
+    uint32_t ack_retries;            /* Resends of a request, only for an ACS that recognises a repeated one (0). */
+    int64_t ack_timeout_ms;          /* Maximum time to wait for an Ack (5000). All times: 1 to ACS_DURATION_MAX_MS. */
+    int64_t answer_timeout_ms;       /* Maximum time of the caller to answer (10000). */
+    int64_t registration_timeout_ms; /* A connection without Registration is closed (10000). */
+    uint64_t answer_bytes;           /* Size of the answers that are kept for repeated reports (4 MiB). */
+    uint32_t max_pending;            /* Requests without an Ack (1024). */
+    uint32_t duplicate_memory;       /* Transactions that are kept for repeated reports (4096). */
+    uint32_t max_unanswered;         /* Reports that wait for the caller (256). */
+    uint8_t silent_if_unanswered;    /* A report without an answer in time gets 0: Fail, 1: no Ack, so that it comes again (0). */
+    uint8_t withhold_plans;          /* Send no ExecutionPlan while the ACS reports isConnected=false (1). */
+    uint8_t refuse_second;           /* Refuse a second client instead of replacing the first (0). */
+    uint8_t reserved;                /* 0 */
+    /* The commands that the caller answers with acs_mcs_answer, separated by one space each ("Registration PlanReport"); data may
+     * be null. The session answers all others with Success. Read by acs_mcs_create only. */
+    acs_text answered_commands;
+    acs_random random; /* Null: the source of the operating system. */
+    void* random_context;
+    acs_codec_options codec;
+} acs_mcs_options;
+
+typedef struct acs_mcs_state
+{
+    uint32_t struct_size; /* Set by the caller. */
+    uint8_t registered;
+    uint8_t takes_plans;     /* Otherwise acs_mcs_send refuses an ExecutionPlan, if withhold_plans is set. */
+    uint8_t refuses_upgrade; /* Answer a WebSocket upgrade with HTTP 403 now. */
+    uint8_t reserved;
+    uint64_t connection;      /* The registered one; 0: none. */
+    uint64_t pending;         /* Requests without an Ack. */
+    uint64_t unanswered;      /* Requests that wait for acs_mcs_answer. */
+    uint64_t waiting_actions; /* Take them with acs_mcs_next_action. */
+} acs_mcs_state;
+
+typedef struct acs_mcs acs_mcs;
+
+/* Writes the defaults. options_size is sizeof of the caller's structure. */
+ACS_C_EXPORT int32_t acs_mcs_options_init(acs_mcs_options* options, size_t options_size);
+
+/* As acs_codec_create. */
+ACS_C_EXPORT int32_t acs_mcs_create(uint32_t abi_version, const acs_mcs_options* options, acs_mcs** mcs);
+
+/* Null is allowed and does nothing. */
+ACS_C_EXPORT void acs_mcs_destroy(acs_mcs* mcs);
+
+/* A client has connected. connection: a number above that of every earlier connection, from 1. */
+ACS_C_EXPORT int32_t acs_mcs_connected(acs_mcs* mcs, uint64_t connection, int64_t steady_ms, int64_t wall_ms);
+
+/* A whole message has come, any bytes. A text of an unknown connection is ignored. */
+ACS_C_EXPORT int32_t acs_mcs_received(
+    acs_mcs* mcs,
+    uint64_t connection,
+    const char* text,
+    size_t length,
+    int64_t steady_ms,
+    int64_t wall_ms);
+
+/* The connection was closed or lost. reason: for the log, at most ACS_MAX_NOTE_BYTES. */
+ACS_C_EXPORT int32_t acs_mcs_closed(
+    acs_mcs* mcs,
+    uint64_t connection,
+    const char* reason,
+    size_t reason_length,
+    int64_t steady_ms,
+    int64_t wall_ms);
+
+/* timer: ACS_TIMER_. A timer that is not running is ignored. */
+ACS_C_EXPORT int32_t acs_mcs_timer_elapsed(acs_mcs* mcs, int32_t timer, int64_t steady_ms, int64_t wall_ms);
+
+/* Sends a request of the MCS, a whole message with a new transactionId (acs_codec_make_request makes one). A missing timestamp is
+ * replaced by wall_ms. ACS_OK: ends in one ACS_EVENT_ACK_RECEIVED or ACS_EVENT_REQUEST_UNANSWERED with this transactionId; no
+ * effect if it is pending already. ACS_ERROR_MESSAGE, ACS_ERROR_DIRECTION, ACS_ERROR_NOT_READY: not sent. message may be null;
+ * otherwise the message that was read, or why it is invalid. */
+ACS_C_EXPORT int32_t acs_mcs_send(
+    acs_mcs* mcs,
+    const char* text,
+    size_t length,
+    int64_t steady_ms,
+    int64_t wall_ms,
+    acs_message* message);
+
+/* Answers an ACS_EVENT_REQUEST_RECEIVED that has a token. result: ACS_RESULT_. text: for the operator, may be empty.
+ * ACS_ERROR_NOT_WAITING: answered already, abandoned, or a Registration whose connection was closed. */
+ACS_C_EXPORT int32_t acs_mcs_answer(
+    acs_mcs* mcs,
+    uint64_t token,
+    int32_t result,
+    const char* text,
+    size_t text_length,
+    int64_t steady_ms,
+    int64_t wall_ms);
+
+/* Takes the oldest action from the queue; ACS_ACTION_NONE: none waits. To be called after each function above, until none waits.
+ * Carrying an action out may call the session again. */
+ACS_C_EXPORT int32_t acs_mcs_next_action(acs_mcs* mcs, acs_action* action);
+
+ACS_C_EXPORT int32_t acs_mcs_get_state(acs_mcs* mcs, acs_mcs_state* state);
+
+/* UTC offset of the timestamps that are sent from now on; -1439 to 1439. */
+ACS_C_EXPORT int32_t acs_mcs_set_site_offset(acs_mcs* mcs, int32_t minutes);
+
+/* ---- ACS side ----------------------------------------------------------------------------------------------------------- */
+
+typedef struct acs_acs_options
+{
+    uint32_t struct_size;
+    uint32_t ack_retries;         /* Resends of one message per connection (3). */
+    uint32_t ack_dead_after;      /* Consecutive messages without an Ack after which the connection is renewed; from 1 (5). */
+    uint32_t window;              /* Maximum number of messages without an Ack; from 1 (16). */
+    int64_t ack_timeout_ms;       /* Maximum time to wait for an Ack (5000). All times: 1 to ACS_DURATION_MAX_MS. */
+    int64_t position_interval_ms; /* Interval of ACS_EVENT_POSITION_DUE (200); 0 disables it. */
+    int64_t answer_memory_ms;     /* How long an Ack is kept for repeated requests (600000). */
+    int64_t shutdown_grace_ms;    /* Maximum time that acs_acs_stop waits for its last Ack (2000). */
+    int64_t reconnect_initial_ms; /* Delay before the second attempt to connect (500). */
+    int64_t reconnect_max_ms;     /* Maximum delay; at least the initial one (10000). */
+    uint64_t answer_bytes;        /* Maximum size of the Acks that are kept (4 MiB). */
+    uint32_t answer_count;        /* Maximum number of Acks that are kept; from 1 (1024). */
+    uint8_t match_acks_by_command; /* Match an Ack with an unknown transactionId to the oldest message of its command (1). */
+    uint8_t reserved[3];           /* 0 */
+    acs_random random;             /* Null: the source of the operating system. */
+    void* random_context;
+    acs_codec_options codec;
+} acs_acs_options;
+
+typedef struct acs_acs_state
+{
+    uint32_t struct_size; /* Set by the caller. */
+    uint8_t registered;
+    uint8_t reserved[3];
+    uint64_t room;            /* Reports that acs_acs_send would accept now. */
+    uint64_t waiting_actions; /* Take them with acs_acs_next_action. */
+} acs_acs_state;
+
+typedef struct acs_acs acs_acs;
+
+/* Writes the defaults. options_size is sizeof of the caller's structure. */
+ACS_C_EXPORT int32_t acs_acs_options_init(acs_acs_options* options, size_t options_size);
+
+/* As acs_codec_create. */
+ACS_C_EXPORT int32_t acs_acs_create(uint32_t abi_version, const acs_acs_options* options, acs_acs** acs);
+
+/* Null is allowed and does nothing. */
+ACS_C_EXPORT void acs_acs_destroy(acs_acs* acs);
+
+/* Connects; no effect if the session is started already. It reconnects by itself. */
+ACS_C_EXPORT int32_t acs_acs_start(acs_acs* acs, int64_t steady_ms, int64_t wall_ms);
+
+/* Ends in ACS_EVENT_STOPPED. If registered, the ACS reports isConnected=false first. */
+ACS_C_EXPORT int32_t acs_acs_stop(acs_acs* acs, int64_t steady_ms, int64_t wall_ms);
+
+/* ACS_ACTION_CONNECT has succeeded. */
+ACS_C_EXPORT int32_t acs_acs_connected(acs_acs* acs, int64_t steady_ms, int64_t wall_ms);
+
+/* A whole message has come, any bytes. */
+ACS_C_EXPORT int32_t acs_acs_received(acs_acs* acs, const char* text, size_t length, int64_t steady_ms, int64_t wall_ms);
+
+/* The connection was closed, was lost or could not be opened. reason: for the log, at most ACS_MAX_NOTE_BYTES. */
+ACS_C_EXPORT int32_t acs_acs_closed(acs_acs* acs, const char* reason, size_t reason_length, int64_t steady_ms, int64_t wall_ms);
+
+/* timer: ACS_TIMER_. A timer that is not running is ignored. */
+ACS_C_EXPORT int32_t acs_acs_timer_elapsed(acs_acs* acs, int32_t timer, int64_t steady_ms, int64_t wall_ms);
+
+/* Sends a request of the ACS, a whole message. A missing timestamp is replaced by wall_ms. ACS_ERROR_MESSAGE, ACS_ERROR_DIRECTION:
+ * not sent. message may be null; otherwise the message that was read, or why it is invalid.
+ * - A report, with its own transactionId: ACS_OK: sent, or in flight already. ACS_ERROR_NOT_READY: not sent; keep it until
+ *   ACS_EVENT_REGISTERED or ACS_EVENT_WINDOW_OPENED. Keep each report until ACS_EVENT_ACKED, and send it again after
+ *   ACS_EVENT_REGISTERED with the same transactionId.
+ * - TscStateUpdate, AcsCommStateUpdate, RobotStatusUpdate: the latest of each kind and robot is kept, and sent as soon as possible
+ *   and after each registration. The session chooses the transactionId.
+ * - RobotPositionUpdate: sent if a position was due on this connection, otherwise dropped. The session chooses the
+ *   transactionId. */
+ACS_C_EXPORT int32_t acs_acs_send(
+    acs_acs* acs,
+    const char* text,
+    size_t length,
+    int64_t steady_ms,
+    int64_t wall_ms,
+    acs_message* message);
+
+/* Ends the replay after ACS_EVENT_REGISTERED, once for each connection, also if no report was stored. */
+ACS_C_EXPORT int32_t acs_acs_replay_done(acs_acs* acs, int64_t steady_ms, int64_t wall_ms);
+
+/* Answers an ACS_EVENT_REQUEST_RECEIVED with its Ack, a whole message (acs_codec_make_ack makes one). The first answer is kept for
+ * repeated requests; a second one is ignored. message may be null. */
+ACS_C_EXPORT int32_t acs_acs_answer(
+    acs_acs* acs,
+    const char* text,
+    size_t length,
+    int64_t steady_ms,
+    int64_t wall_ms,
+    acs_message* message);
+
+/* As acs_mcs_next_action. */
+ACS_C_EXPORT int32_t acs_acs_next_action(acs_acs* acs, acs_action* action);
+
+ACS_C_EXPORT int32_t acs_acs_get_state(acs_acs* acs, acs_acs_state* state);
+
+/* UTC offset of the timestamps that are sent from now on; -1439 to 1439. */
+ACS_C_EXPORT int32_t acs_acs_set_site_offset(acs_acs* acs, int32_t minutes);
 
 #ifdef __cplusplus
 }
