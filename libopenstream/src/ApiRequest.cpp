@@ -38,7 +38,7 @@ void AppendEncoded(std::string_view text, std::string& out)
     }
 }
 
-std::string_view GetName(const rapidjson::Value::Member& member)
+std::string_view GetName(const Json::Value::Member& member)
 {
     return {member.name.GetString(), member.name.GetStringLength()};
 }

@@ -1,8 +1,10 @@
-// Fails every allocation of the C interface once: each call returns ACS_ERROR_MEMORY or succeeds, no exception leaves it, and a session
-// whose call has failed refuses all later ones.
+// Fails every allocation of the C interface once: each call returns ACS_ERROR_MEMORY or succeeds, no exception leaves it, a codec can be
+// used afterwards, and a session refuses all later calls.
 
 #include <acs/c/acs_protocol.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -13,6 +15,7 @@ namespace
 {
 
 constexpr std::uint64_t NEVER = UINT64_MAX;
+constexpr std::size_t LONG_TEXT = 99'999;
 constexpr std::string_view REGISTRATION = R"({"command":"Registration","transactionId":"t-1","payload":{}})";
 constexpr std::string_view CANCEL = R"({"command":"CancelPlan","transactionId":"t-2","payload":{"planId":"P-1"}})";
 
@@ -27,6 +30,24 @@ std::uint64_t allocationsLeft = NEVER;
     }
     allocationsLeft -= allocationsLeft == NEVER ? 0U : 1U;
     return std::malloc(size == 0 ? 1 : size); // NOLINT(cppcoreguidelines-no-malloc): replaces operator new
+}
+
+/// Longer than the buffers that the parser begins with; without a message.
+std::int32_t DecodeLongText(acs_codec* codec, acs_message& message)
+{
+    static const std::array<char, LONG_TEXT> TEXT = [] {
+        std::array<char, LONG_TEXT> text{};
+        text.fill(' ');
+        for (std::size_t i = 0; i < LONG_TEXT - 1; i += 2)
+        {
+            text[i] = i == 0 ? '[' : ',';
+            text[i + 1] = '1';
+        }
+        text.back() = ']';
+        return text;
+    }();
+    const std::int32_t result = acs_codec_decode(codec, TEXT.data(), TEXT.size(), &message);
+    return result == ACS_ERROR_MESSAGE ? ACS_OK : result;
 }
 
 /// The first call that fails: ACS_OK if none does.
@@ -47,10 +68,20 @@ std::int32_t RunCodec()
     }
     if (result == ACS_OK)
     {
+        result = DecodeLongText(codec, message);
+    }
+    if (result == ACS_OK)
+    {
         constexpr std::string_view COMMAND = "CancelPlan";
         constexpr std::string_view PAYLOAD = R"({"planId":"a plan"})";
         result =
             acs_codec_make_request(codec, COMMAND.data(), COMMAND.size(), PAYLOAD.data(), PAYLOAD.size(), 0, &message);
+    }
+    if (result != ACS_OK && codec != nullptr)
+    {
+        allocationsLeft = NEVER; // a codec can be used after a failure
+        const std::int32_t later = acs_codec_decode(codec, CANCEL.data(), CANCEL.size(), &message);
+        result = later == ACS_OK ? result : ACS_ERROR_INTERNAL;
     }
     acs_codec_destroy(codec);
     return result;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/core/Result.hpp>
+#include <acs/json/PoolMemory.hpp>
 
 #include <rapidjson/document.h>
 
@@ -13,7 +14,7 @@
 namespace ACS::Json
 {
 
-using PoolAllocator = rapidjson::MemoryPoolAllocator<>;
+using PoolAllocator = rapidjson::MemoryPoolAllocator<PoolMemory>;
 using Document = rapidjson::GenericDocument<rapidjson::UTF8<>, PoolAllocator, PoolAllocator>;
 using Value = Document::ValueType;
 
@@ -27,7 +28,7 @@ struct ParseLimits
 
 /// Parses JSON text into RapidJSON's document: iterative (no stack overflow), encoding checked, full precision.
 /// Works on a copy of the text, in which the strings of the document stay. Keeps its buffers between calls, so that a
-/// message that fits allocates nothing. Not shared between threads.
+/// message that fits allocates nothing. Throws std::bad_alloc. Not shared between threads.
 class JsonDocument
 {
     std::unique_ptr<char[]> _valueBuffer; // NOLINT(modernize-avoid-c-arrays)
