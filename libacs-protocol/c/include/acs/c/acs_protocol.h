@@ -76,7 +76,7 @@ ACS_C_EXPORT int32_t acs_c_describe(int32_t result, acs_text* text);
 
 /* ---- Codec ---------------------------------------------------------------------------------------------------------------- */
 
-/* What is accepted from the other side. */
+/* What is accepted from the other side. A text has at most 250000 values in any case. */
 typedef struct acs_codec_options
 {
     uint32_t struct_size;
