@@ -327,6 +327,13 @@ void AcsClient::SetSiteOffset(std::chrono::minutes offset)
     _impl->SetSiteOffset(offset);
 }
 
+void AcsClient::SendText(std::string_view text)
+{
+    _impl->Run([text](auto& /*session*/, Core::Now /*now*/, auto& out) {
+        out.emplace_back(Protocol::SendText{0, std::string(text), false});
+    });
+}
+
 Core::Result<void> AcsClient::ReloadTLS()
 {
     return _impl->ReloadTLS();

@@ -60,6 +60,10 @@ public:
         const Protocol::AckPayload& payload);
     void SetSiteOffset(std::chrono::minutes offset);
 
+    /// Sends a text past the session, for example an invalid message in a test of an MCS; no effect without a connection. The
+    /// session ignores an Ack of it, except one that it matches by its command (SessionOptions::bAcksMatchedByCommand).
+    void SendText(std::string_view text);
+
     /// Reads the files of ClientOptions::tls again, for later connections; without TLS it does nothing. After an error, which
     /// is one of Create, the former ones stay in use.
     [[nodiscard]] Core::Result<void> ReloadTLS();
