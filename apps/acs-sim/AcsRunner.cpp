@@ -35,7 +35,7 @@ AcsRunner::AcsRunner(
       _options(std::move(options)),
       _out(out),
       _onDone(std::move(onDone)),
-      _judge(_options.patience),
+      _judge(_options.ackTimeout),
       _timers(executor, [this](ETimer timer) { OnTimer(timer); }),
       _acs(_options.acs, *this, _judge, random, [this](const std::string& line) { Print(line); })
 {
@@ -154,7 +154,9 @@ void AcsRunner::Finish()
     {
         Print(line);
     }
-    Print(wanted > 0 ? fmt::format("{} of {} plans have ended", ended, wanted) : fmt::format("{} plans have ended", ended));
+    Print(
+        wanted > 0 ? fmt::format("{} of {} plans have ended", ended, wanted)
+                   : fmt::format("{} plans have ended", ended));
     if (!_acs.WasRegistered())
     {
         Print("the MCS has not accepted a registration");

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "IAcsLink.hpp"
-#include "SimulatedAcs.hpp"
 #include "common/process/TimerSet.hpp"
+#include "IAcsLink.hpp"
 #include "judge/McsJudge.hpp"
+#include "SimulatedACS.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
@@ -26,7 +26,7 @@
 namespace ACS::AcsSim
 {
 
-/// Runs a SimulatedAcs with an AcsClient and real time, prints what happens, and the table at the end. One thread: the
+/// Runs a SimulatedACS with an AcsClient and real time, prints what happens, and the table at the end. One thread: the
 /// executor's.
 class AcsRunner final : public ProtocolBeast::ISessionHandler, private IAcsLink
 {
@@ -34,9 +34,9 @@ public:
     struct Options
     {
         ProtocolBeast::ClientOptions client;
-        SimulatedAcs::Options acs;
-        std::chrono::milliseconds patience{5'000}; ///< To an Ack.
-        std::chrono::milliseconds duration{0};     ///< 0: no limit.
+        SimulatedACS::Options acs;
+        std::chrono::milliseconds ackTimeout{5'000}; ///< Maximum time to an Ack.
+        std::chrono::milliseconds duration{0};       ///< 0: no limit.
     };
 
     /// Called once, after the table was printed.
@@ -60,7 +60,7 @@ private:
     McsJudge _judge;
     Apps::TimerSet<ETimer> _timers;
     std::unique_ptr<ProtocolBeast::AcsClient> _client;
-    SimulatedAcs _acs;
+    SimulatedACS _acs;
     bool _bStopping = false;
 
 public:

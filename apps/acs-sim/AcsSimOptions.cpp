@@ -88,11 +88,19 @@ void AddLinkOptions(CLI::App& app, AcsSimOptions& options)
         [&options](const std::string& text) { return ReadHeader(text, options.headers); },
         "Additional header of the upgrade, for example 'Authorization: Bearer TOKEN'; may be repeated")
         .type_name("'NAME: VALUE'");
-    Apps::AddFileOption(app, "--tls-ca", options.tls.caFile, "With wss: the CA of the server's certificate (default: those of the system)")
+    Apps::AddFileOption(
+        app,
+        "--tls-ca",
+        options.tls.caFile,
+        "With wss: the CA of the server's certificate (default: those of the system)")
         .type_name("FILE.pem");
     Apps::AddFileOption(app, "--tls-certificate", options.tls.certificateFile, "With wss: the certificate of the ACS")
         .type_name("FILE.pem");
-    Apps::AddFileOption(app, "--tls-key", options.tls.keyFile, "The private key of --tls-certificate, without a passphrase")
+    Apps::AddFileOption(
+        app,
+        "--tls-key",
+        options.tls.keyFile,
+        "The private key of --tls-certificate, without a passphrase")
         .type_name("FILE.pem");
 }
 
@@ -128,7 +136,10 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, AcsSimO
         [&options](const std::string& text) { return ReadFault(text, options.faults); },
         "Error of the ACS, once, COUNT times or always; may be repeated. Names: " + ListFaults())
         .type_name("NAME[=COUNT]");
-    app.add_option("--plans", options.plans, "End when this number of plans have ended and all faults have occurred (default 0: no limit)")
+    app.add_option(
+           "--plans",
+           options.plans,
+           "End when this number of plans have ended and all faults have occurred (default 0: no limit)")
         ->check(CLI::Range(std::size_t{0}, MAX_PLANS));
     AddDuration(app, "--for", options.duration, "End after this time, for example 30s (default: at SIGINT or SIGTERM)");
     AddDuration(app, "--ack-timeout", options.ackTimeout, "Maximum time of the MCS to an Ack (default 5s)");

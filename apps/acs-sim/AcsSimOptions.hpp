@@ -27,8 +27,8 @@ struct AcsSimOptions
     ProtocolBeast::TlsOptions tls;
     std::vector<std::string> robots; ///< Empty: LR01 and CR01.
     std::vector<FaultOrder> faults;
-    std::size_t plans = 0;                    ///< 0: the number does not end the run.
-    std::chrono::milliseconds duration{0};    ///< 0: the time does not end the run.
+    std::size_t plans = 0;                 ///< 0: the number does not end the run.
+    std::chrono::milliseconds duration{0}; ///< 0: the time does not end the run.
     std::chrono::milliseconds ackTimeout{5'000};
     std::size_t queue = 100;
     double timeScale = 1.0;

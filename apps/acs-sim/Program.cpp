@@ -22,7 +22,7 @@ namespace ACS::AcsSim
 namespace
 {
 
-/// Above the patience of the judge: it sees that an Ack is missing before the session closes the connection.
+/// Above the time limit of the judge: it sees that an Ack is missing before the session closes the connection.
 constexpr std::chrono::milliseconds SESSION_EXTRA{500};
 constexpr std::chrono::milliseconds ACTIVITY{1'000};
 constexpr std::chrono::milliseconds FAULT_INTERVAL{500};
@@ -54,7 +54,7 @@ AcsRunner::Options MakeRunnerOptions(const AcsSimOptions& options, std::chrono::
     made.acs.faultInterval = Scale(FAULT_INTERVAL, options.timeScale);
     made.acs.faultTime = Scale(FAULT_TIME, options.timeScale);
     made.acs.plans = options.plans;
-    made.patience = options.ackTimeout;
+    made.ackTimeout = options.ackTimeout;
     made.duration = options.duration;
     return made;
 }

@@ -1,6 +1,6 @@
 #include "AcsSimOptions.hpp"
-#include "Program.hpp"
 #include "common/config/CommandLine.hpp"
+#include "Program.hpp"
 
 #include <optional>
 

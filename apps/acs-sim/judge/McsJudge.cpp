@@ -95,8 +95,8 @@ void Remember(std::deque<std::string>& order, const std::string& key, TMap& map)
 
 } // namespace
 
-McsJudge::McsJudge(Core::Duration patience)
-    : _patience(patience)
+McsJudge::McsJudge(Core::Duration ackTimeout)
+    : _ackTimeout(ackTimeout)
 {
 }
 
@@ -225,11 +225,17 @@ void McsJudge::OnSent(std::string_view text, Core::SteadyTime now)
         made.expected = EExpectedAnswer::Any;
         sent = made;
     }
-    sent.bReconnected = sent.bReconnected || (sent.sends > 0 && sent.connection != _connection);
+    if (sent.sends > 0 && sent.connection != _connection)
+    {
+        // What was sent on a lost connection gets no Ack.
+        sent.bReconnected = true;
+        sent.sends = 0;
+        sent.acks = 0;
+    }
     ++sent.sends;
     sent.order = _order;
     sent.connection = _connection;
-    sent.deadline = now + _patience;
+    sent.deadline = now + _ackTimeout;
     sent.bOpen = true;
     sent.bOverdue = false;
     if (!made.bConnected)
@@ -249,8 +255,8 @@ SentRequest McsJudge::MakeSent(const std::string& command, const Protocol::Decod
     sent.command = command;
     if (!outcome.message.has_value())
     {
-        sent.expected = outcome.message.error().command.has_value() ? EExpectedAnswer::FailPayload
-                                                                    : EExpectedAnswer::FailCommand;
+        sent.expected =
+            outcome.message.error().command.has_value() ? EExpectedAnswer::FailPayload : EExpectedAnswer::FailCommand;
         return sent;
     }
     const Protocol::AcsPayload& payload = std::get<Protocol::AcsRequest>(*outcome.message).payload;
@@ -325,7 +331,8 @@ void McsJudge::OnReceived(std::string_view text, Core::SteadyTime now)
 void McsJudge::OnAck(const MessageEnvelope& envelope, Core::SteadyTime now)
 {
     const std::optional<EAckResult> result = ReadResultOrNull(envelope.result);
-    const std::string name = fmt::format("{} for {}", QuoteForError(envelope.command), QuoteForError(envelope.transactionID));
+    const std::string name =
+        fmt::format("{} for {}", QuoteForError(envelope.command), QuoteForError(envelope.transactionID));
     Judge(ERule::AckResult, result.has_value(), fmt::format("{}: {}", name, QuoteForError(envelope.result)));
     if (envelope.GetRequestCommand() == POSITION)
     {
@@ -382,7 +389,10 @@ SentRequest* McsJudge::FindSentOrNull(const MessageEnvelope& envelope)
     }
     _book.Violate(
         ERule::AckTransaction,
-        fmt::format("{} for {}: no request has it", QuoteForError(envelope.command), QuoteForError(envelope.transactionID)));
+        fmt::format(
+            "{} for {}: no request has it",
+            QuoteForError(envelope.command),
+            QuoteForError(envelope.transactionID)));
     SentRequest* oldestOrNull = nullptr;
     for (auto& [transactionID, sent] : _sent)
     {
@@ -434,7 +444,7 @@ void McsJudge::JudgeResult(SentRequest& sent, EAckResult result, const std::stri
 void McsJudge::Close(SentRequest& sent, const std::string& transactionID)
 {
     sent.bOpen = sent.acks < sent.sends && sent.bOpen;
-    if (sent.acks == 1)
+    if (!std::exchange(sent.bRemembered, true))
     {
         Remember(_answered, transactionID, _sent);
     }
@@ -463,7 +473,10 @@ void McsJudge::OnRequest(const MessageEnvelope& envelope, Protocol::DecodeOutcom
             [&](const Protocol::ExecutionPlan& plan) { OnPlan(plan, request.transactionID); },
             [&](const auto& other) {
                 _book.Keep(ERule::RequestPayload);
-                if constexpr (requires { other.planID.size(); other.reason; })
+                if constexpr (requires {
+                                  other.planID.size();
+                                  other.reason;
+                              })
                 {
                     OnControl(envelope.command, other.planID);
                 }
@@ -551,7 +564,10 @@ void McsJudge::OnControl(std::string_view command, const std::string& planID)
 {
     const auto found = _plans.find(planID);
     const bool bKnown = found != _plans.end() && found->second.answer != EAckResult::Fail;
-    Judge(ERule::ControlOfKnownPlan, bKnown, fmt::format("{} of plan {}", QuoteForError(command), QuoteForError(planID)));
+    Judge(
+        ERule::ControlOfKnownPlan,
+        bKnown,
+        fmt::format("{} of plan {}", QuoteForError(command), QuoteForError(planID)));
 }
 
 } // namespace ACS::AcsSim

@@ -27,14 +27,14 @@ public:
     static constexpr std::size_t MOST_REMEMBERED = 4096; ///< Answered requests, and requests of the MCS.
 
 private:
-    Core::Duration _patience;
+    Core::Duration _ackTimeout;
     RuleBook _book;
     Protocol::AcsCodec _codec;
     Json::JsonDocument _document;
     std::map<std::string, SentRequest, std::less<>> _sent; ///< By transactionID, like the next.
     std::map<std::string, Protocol::AcsPayload, std::less<>> _received;
     std::map<std::string, ReceivedPlan, std::less<>> _plans; ///< By planID.
-    std::deque<std::string> _answered; ///< transactionIDs, oldest first, like the next.
+    std::deque<std::string> _answered;                       ///< transactionIDs, oldest first, like the next.
     std::deque<std::string> _requests;
     std::uint64_t _order = 0;
     std::uint64_t _connection = 0;
@@ -43,8 +43,8 @@ private:
     bool _bWithheld = false; ///< The MCS has acknowledged isConnected=false.
 
 public:
-    /// @param patience Maximum time to an Ack.
-    explicit McsJudge(Core::Duration patience = std::chrono::seconds(5));
+    /// @param ackTimeout Maximum time to an Ack.
+    explicit McsJudge(Core::Duration ackTimeout = std::chrono::seconds(5));
 
     /// @param bByACS The ACS has closed or broken the connection. A Registration that is sent begins the next one.
     void OnClosed(bool bByACS);

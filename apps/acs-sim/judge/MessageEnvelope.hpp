@@ -14,7 +14,7 @@ struct MessageEnvelope
 {
     std::string command;
     std::string transactionID;
-    std::string result; ///< Of an Ack.
+    std::string result;  ///< Of an Ack.
     std::string missing; ///< The names of the members that are absent or of another type, separated by ", ".
 
     [[nodiscard]] bool IsAck() const;

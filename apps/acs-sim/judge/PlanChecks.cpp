@@ -143,7 +143,9 @@ private:
         const Core::Result<Core::Location> place = Core::Location::Parse(text);
         if (place.has_value() && place->WasNormalised())
         {
-            Add(ERule::PlanLocation, step, fmt::format("{} instead of {}", Core::QuoteForError(text), place->GetText()));
+            Add(ERule::PlanLocation,
+                step,
+                fmt::format("{} instead of {}", Core::QuoteForError(text), place->GetText()));
         }
     }
 };

@@ -60,12 +60,17 @@ std::vector<std::string> RuleBook::ExtractNews()
 
 std::vector<std::string> RuleBook::MakeTable() const
 {
-    std::vector<std::string> lines{fmt::format("{:<20} {:<9} {:<20} {}", "rule", "section", "result", "first violation")};
+    std::vector<std::string> lines{
+        fmt::format("{:<20} {:<9} {:<20} {}", "rule", "section", "result", "first violation")};
     for (std::size_t i = 0; i < RULE_COUNT; ++i)
     {
         const auto rule = static_cast<ERule>(i);
-        std::string line =
-            fmt::format("{:<20} {:<9} {:<20} {}", GetName(rule), GetSection(rule), MakeResult(_rows.at(i)), _rows.at(i).first);
+        std::string line = fmt::format(
+            "{:<20} {:<9} {:<20} {}",
+            GetName(rule),
+            GetSection(rule),
+            MakeResult(_rows.at(i)),
+            _rows.at(i).first);
         line.erase(line.find_last_not_of(' ') + 1);
         lines.push_back(std::move(line));
     }

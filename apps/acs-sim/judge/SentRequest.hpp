@@ -26,14 +26,15 @@ struct SentRequest
 {
     std::string command;
     EExpectedAnswer expected = EExpectedAnswer::Success;
-    bool bConnected = true;        ///< Of AcsCommStateUpdate.
-    std::size_t sends = 0;
+    bool bConnected = true; ///< Of AcsCommStateUpdate.
+    std::size_t sends = 0;  ///< On this connection, like the next.
     std::size_t acks = 0;
-    std::uint64_t order = 0;       ///< Of the last sending.
-    std::uint64_t connection = 0;  ///< Of the last sending.
-    bool bReconnected = false;     ///< Sent on more than one connection.
-    bool bOpen = false;            ///< It waits for its Ack on this connection.
-    bool bOverdue = false;         ///< Reported as unanswered.
+    std::uint64_t order = 0;      ///< Of the last sending.
+    std::uint64_t connection = 0; ///< Of the last sending.
+    bool bReconnected = false;    ///< Sent on more than one connection.
+    bool bRemembered = false;     ///< It is among the answered requests.
+    bool bOpen = false;           ///< It waits for its Ack on this connection.
+    bool bOverdue = false;        ///< Reported as unanswered.
     Core::SteadyTime deadline;
     std::optional<Protocol::EAckResult> result; ///< Of the first Ack.
 };

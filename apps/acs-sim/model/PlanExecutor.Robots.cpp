@@ -183,7 +183,8 @@ RobotModel* PlanExecutor::FindRobotOrNull(std::string_view planID)
 
 bool PlanExecutor::TryForgetWaiting(const std::string& planID)
 {
-    return std::erase_if(_waiting, [&planID](const Protocol::ExecutionPlan& plan) { return plan.planID == planID; }) > 0;
+    return std::erase_if(_waiting, [&planID](const Protocol::ExecutionPlan& plan) { return plan.planID == planID; })
+        > 0;
 }
 
 void PlanExecutor::Leave(const std::string& planID, Core::Now now, ExecutorActions& out)

@@ -42,8 +42,7 @@ std::optional<ERobotType> GetTypeOrNull(std::string_view action)
          {"CloseSetCover", ERobotType::Control},
          {"OpenSetCover", ERobotType::Control},
          {"Start", ERobotType::Control}}};
-    const auto* const found =
-        std::ranges::find(ACTIONS, action, &std::pair<std::string_view, ERobotType>::first);
+    const auto* const found = std::ranges::find(ACTIONS, action, &std::pair<std::string_view, ERobotType>::first);
     return found == ACTIONS.end() ? std::nullopt : std::optional(found->second);
 }
 
@@ -196,7 +195,8 @@ std::optional<std::string> PlanExecutor::GetRejectionReasonOrNull(const Protocol
     std::set<std::string_view> jobs;
     for (const Protocol::PlanStep& step : plan.steps)
     {
-        if (GetTypeOrNull(step.action) != GetTypeOrNull(plan.steps.front().action) || !GetTypeOrNull(step.action).has_value())
+        if (GetTypeOrNull(step.action) != GetTypeOrNull(plan.steps.front().action)
+            || !GetTypeOrNull(step.action).has_value())
         {
             return "unknown action, or actions of both robot types";
         }
@@ -216,9 +216,8 @@ std::optional<std::string> PlanExecutor::GetRejectionReasonOrNull(const Protocol
     {
         return "Duplicated Plan";
     }
-    const bool bExecutable = std::ranges::any_of(_robots, [this, &plan](const RobotModel& robot) {
-        return CanExecute(robot, plan);
-    });
+    const bool bExecutable =
+        std::ranges::any_of(_robots, [this, &plan](const RobotModel& robot) { return CanExecute(robot, plan); });
     return bExecutable ? std::nullopt : std::optional<std::string>("no robot can execute the plan");
 }
 
@@ -307,8 +306,10 @@ void PlanExecutor::Cancel(const std::string& planID, Core::Now now, ExecutorActi
         robotOrNull != nullptr && robotOrNull->work->step == 0 && !robotOrNull->work->job.has_value();
     if (!bBeforeArrival && !TryForgetWaiting(planID))
     {
-        out.emplace_back(SendReport{
-            Protocol::CancelResultReport{planID, EReportResult::Failed, "the robot has arrived, or there is no such plan"}});
+        out.emplace_back(SendReport{Protocol::CancelResultReport{
+            planID,
+            EReportResult::Failed,
+            "the robot has arrived, or there is no such plan"}});
         return;
     }
     SetPlan(planID, EPlanStatus::Cancelled, now, out);
@@ -347,7 +348,8 @@ void PlanExecutor::Pause(const std::string& planID, Core::Now now, ExecutorActio
     RobotModel* const robotOrNull = FindRobotOrNull(planID);
     if (robotOrNull == nullptr || robotOrNull->work->bPaused || robotOrNull->work->bAborting)
     {
-        out.emplace_back(SendReport{Protocol::PauseResultReport{planID, EReportResult::Failed, "the plan does not run"}});
+        out.emplace_back(
+            SendReport{Protocol::PauseResultReport{planID, EReportResult::Failed, "the plan does not run"}});
         return;
     }
     RobotWork& work = *robotOrNull->work;

@@ -69,7 +69,10 @@ private:
         Control control,
         Core::Now now,
         ExecutorActions& out);
-    void OnHistory(const Protocol::AcsRequest& request, const Protocol::RequestAcsPlanHistory& query, ExecutorActions& out) const;
+    void OnHistory(
+        const Protocol::AcsRequest& request,
+        const Protocol::RequestAcsPlanHistory& query,
+        ExecutorActions& out) const;
     void OnPlansQuery(const Protocol::AcsRequest& request, ExecutorActions& out) const;
 
     void Cancel(const std::string& planID, Core::Now now, ExecutorActions& out);

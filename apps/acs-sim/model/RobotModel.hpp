@@ -19,8 +19,8 @@ struct RobotWork
     std::size_t step = 0;
     std::optional<std::size_t> job{}; ///< None: it drives to the position of the step.
     bool bPaused = false;
-    bool bAborting = false; ///< The job in progress is its last.
-    Core::SteadyTime due{}; ///< When the drive or the job ends.
+    bool bAborting = false;     ///< The job in progress is its last.
+    Core::SteadyTime due{};     ///< When the drive or the job ends.
     Core::Duration remaining{}; ///< While it is paused.
 
     [[nodiscard]] const Protocol::PlanStep& GetStep() const

@@ -1,4 +1,4 @@
-#include "SimulatedAcs.hpp"
+#include "SimulatedACS.hpp"
 
 #include <acs/core/Overloaded.hpp>
 #include <acs/core/Result.hpp>
@@ -32,7 +32,7 @@ bool HasSuccessor(const Protocol::AcsPayload& payload)
 
 } // namespace
 
-SimulatedAcs::SimulatedAcs(Options options, IAcsLink& link, McsJudge& judge, Core::IRandom& random, Printer print)
+SimulatedACS::SimulatedACS(Options options, IAcsLink& link, McsJudge& judge, Core::IRandom& random, Printer print)
     : _options(std::move(options)),
       _link(link),
       _judge(judge),
@@ -44,12 +44,12 @@ SimulatedAcs::SimulatedAcs(Options options, IAcsLink& link, McsJudge& judge, Cor
 {
 }
 
-void SimulatedAcs::Start()
+void SimulatedACS::Start()
 {
     SendStates();
 }
 
-void SimulatedAcs::SendStates()
+void SimulatedACS::SendStates()
 {
     ExecutorActions actions;
     _executor.Report(actions);
@@ -62,7 +62,7 @@ void SimulatedAcs::SendStates()
     }
 }
 
-void SimulatedAcs::Feed()
+void SimulatedACS::Feed()
 {
     if (!_heldUntil.has_value())
     {
@@ -72,7 +72,7 @@ void SimulatedAcs::Feed()
 
 // ---- events of the session
 
-void SimulatedAcs::OnEvent(const Protocol::SessionEvent& event, Core::Now now)
+void SimulatedACS::OnEvent(const Protocol::SessionEvent& event, Core::Now now)
 {
     std::visit(
         Core::Overloaded{
@@ -93,7 +93,8 @@ void SimulatedAcs::OnEvent(const Protocol::SessionEvent& event, Core::Now now)
             [&](const Protocol::Acked& acked) { OnAcked(acked, now); },
             [&](const Protocol::RequestReceived& received) { OnRequest(received.request, now); },
             [&](const Protocol::RequestRefused& refused) {
-                _print(fmt::format("{} refused: {}", QuoteForError(refused.commandName), QuoteForError(refused.reason)));
+                _print(
+                    fmt::format("{} refused: {}", QuoteForError(refused.commandName), QuoteForError(refused.reason)));
             },
             [&](const Protocol::PositionDue& /*due*/) { _link.SendPosition(_executor.MakePositions()); },
             [](const auto& /*other*/) {
@@ -102,14 +103,14 @@ void SimulatedAcs::OnEvent(const Protocol::SessionEvent& event, Core::Now now)
     Feed();
 }
 
-void SimulatedAcs::OnRegistered(Core::Now now)
+void SimulatedACS::OnRegistered(Core::Now now)
 {
     ++_registrations;
     _nextFault = now.steady + _options.faultInterval;
     _print("registered");
 }
 
-void SimulatedAcs::OnAcked(const Protocol::Acked& acked, Core::Now now)
+void SimulatedACS::OnAcked(const Protocol::Acked& acked, Core::Now now)
 {
     const auto& requests = _outbox.GetRequests();
     const auto found = std::ranges::find_if(requests, [&acked](const Protocol::DurableRequest& durable) {
@@ -133,8 +134,14 @@ void SimulatedAcs::OnAcked(const Protocol::Acked& acked, Core::Now now)
     }
 }
 
-void SimulatedAcs::OnRequest(const Protocol::AcsRequest& request, Core::Now now)
+void SimulatedACS::OnRequest(const Protocol::AcsRequest& request, Core::Now now)
 {
+    const auto answered = _answers.find(request.transactionID);
+    if (answered != _answers.end())
+    {
+        SendAnswerNow(answered->second);
+        return;
+    }
     if (std::holds_alternative<Protocol::ExecutionPlan>(request.payload) && TryUse(EFault::RefusePlan))
     {
         _executor.RefuseNextPlan();
@@ -146,7 +153,7 @@ void SimulatedAcs::OnRequest(const Protocol::AcsRequest& request, Core::Now now)
 
 // ---- what the executor wants
 
-void SimulatedAcs::Execute(const ExecutorActions& actions, Core::Now now)
+void SimulatedACS::Execute(const ExecutorActions& actions, Core::Now now)
 {
     for (const ExecutorAction& action : actions)
     {
@@ -163,7 +170,7 @@ void SimulatedAcs::Execute(const ExecutorActions& actions, Core::Now now)
     Feed();
 }
 
-void SimulatedAcs::Report(const Protocol::AcsPayload& payload, Core::Now now)
+void SimulatedACS::Report(const Protocol::AcsPayload& payload, Core::Now now)
 {
     const Core::Timestamp time{now.wall, _options.executor.siteOffset};
     if (!_heldUntil.has_value() && TryUse(EFault::LateReport))
@@ -183,7 +190,7 @@ void SimulatedAcs::Report(const Protocol::AcsPayload& payload, Core::Now now)
     }
 }
 
-void SimulatedAcs::AddReport(const Protocol::AcsPayload& payload, const Core::Timestamp& time, bool bExcused)
+void SimulatedACS::AddReport(const Protocol::AcsPayload& payload, const Core::Timestamp& time, bool bExcused)
 {
     static_cast<void>(_outbox.Add(payload, time)); // This store has no errors.
     if (bExcused)
@@ -192,8 +199,9 @@ void SimulatedAcs::AddReport(const Protocol::AcsPayload& payload, const Core::Ti
     }
 }
 
-void SimulatedAcs::Answer(const SendAnswer& answer, Core::Now now)
+void SimulatedACS::Answer(const SendAnswer& answer, Core::Now now)
 {
+    _answers.insert_or_assign(answer.transactionID, answer);
     if (TryUse(EFault::LateAck))
     {
         _lateAnswers.emplace_back(now.steady + _options.faultTime, answer);
@@ -202,7 +210,7 @@ void SimulatedAcs::Answer(const SendAnswer& answer, Core::Now now)
     SendAnswerNow(answer);
 }
 
-void SimulatedAcs::SendAnswerNow(const SendAnswer& answer)
+void SimulatedACS::SendAnswerNow(const SendAnswer& answer)
 {
     _print(fmt::format("{}: {} {}", GetText(answer.command), GetText(answer.result), answer.message));
     _link.Answer(answer.command, answer.transactionID, answer.result, answer.message, answer.payload);
@@ -210,13 +218,13 @@ void SimulatedAcs::SendAnswerNow(const SendAnswer& answer)
 
 // ---- time
 
-std::optional<Core::SteadyTime> SimulatedAcs::GetNextDueOrNull() const
+std::optional<Core::SteadyTime> SimulatedACS::GetNextDueOrNull() const
 {
     std::optional<Core::SteadyTime> next = _executor.GetNextDueOrNull();
-    const auto consider = [&next](const std::optional<Core::SteadyTime>& due) {
-        if (due.has_value() && (!next.has_value() || *due < *next))
+    const auto consider = [&next](const std::optional<Core::SteadyTime>& dueOrNull) {
+        if (dueOrNull.has_value() && (!next.has_value() || *dueOrNull < *next))
         {
-            next = due;
+            next = dueOrNull;
         }
     };
     consider(_heldUntil);
@@ -230,10 +238,10 @@ std::optional<Core::SteadyTime> SimulatedAcs::GetNextDueOrNull() const
     return next;
 }
 
-void SimulatedAcs::OnTimer(Core::Now now)
+void SimulatedACS::OnTimer(Core::Now now)
 {
-    const auto isDue = [&now](const std::optional<Core::SteadyTime>& due) {
-        return due.has_value() && *due <= now.steady;
+    const auto isDue = [&now](const std::optional<Core::SteadyTime>& dueOrNull) {
+        return dueOrNull.has_value() && *dueOrNull <= now.steady;
     };
     if (isDue(_cutAt))
     {
@@ -272,7 +280,7 @@ void SimulatedAcs::OnTimer(Core::Now now)
 
 // ---- faults
 
-bool SimulatedAcs::TryUse(EFault fault)
+bool SimulatedACS::TryUse(EFault fault)
 {
     const auto found = _armed.find(fault);
     if (found == _armed.end())
@@ -287,7 +295,7 @@ bool SimulatedAcs::TryUse(EFault fault)
     return true;
 }
 
-std::string SimulatedAcs::MakeText(const std::string& command, const std::string& payload, Core::Now now)
+std::string SimulatedACS::MakeText(const std::string& command, const std::string& payload, Core::Now now)
 {
     return fmt::format(
         R"({{"command":"{}","transactionId":"{}","timestamp":"{}","payload":{}}})",
@@ -297,7 +305,7 @@ std::string SimulatedAcs::MakeText(const std::string& command, const std::string
         payload);
 }
 
-void SimulatedAcs::BeginFault(EFault fault, Core::Now now)
+void SimulatedACS::BeginFault(EFault fault, Core::Now now)
 {
     switch (fault)
     {
@@ -344,11 +352,12 @@ void SimulatedAcs::BeginFault(EFault fault, Core::Now now)
     _print(fmt::format("fault: {}", GetName(fault)));
 }
 
-void SimulatedAcs::Cut()
+void SimulatedACS::Cut()
 {
     _cutAt.reset();
     _nextFault.reset();
     _connectedAgain.reset();
+    _lateAnswers.clear();
     _judge.OnClosed(true);
     static_cast<void>(_outbox.OnEvent(Protocol::LinkLost{"cut", true}));
     _link.Cut();
@@ -357,24 +366,24 @@ void SimulatedAcs::Cut()
 
 // ---- the end
 
-bool SimulatedAcs::IsDone() const
+bool SimulatedACS::IsDone() const
 {
     const bool bPending = _schedule.HasCounted() || !_outbox.GetRequests().empty() || _heldUntil.has_value()
         || _connectedAgain.has_value() || _cutAt.has_value() || !_lateAnswers.empty() || _judge.HasOpenRequests();
     return _options.plans > 0 && _executor.CountEnded() >= _options.plans && !bPending;
 }
 
-bool SimulatedAcs::WasRegistered() const
+bool SimulatedACS::WasRegistered() const
 {
     return _registrations > 0;
 }
 
-std::size_t SimulatedAcs::CountEndedPlans() const
+std::size_t SimulatedACS::CountEndedPlans() const
 {
     return _executor.CountEnded();
 }
 
-std::vector<EFault> SimulatedAcs::ListArmedFaults() const
+std::vector<EFault> SimulatedACS::ListArmedFaults() const
 {
     std::vector<EFault> faults;
     faults.reserve(_armed.size());

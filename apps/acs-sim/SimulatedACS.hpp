@@ -1,10 +1,10 @@
 #pragma once
 
-#include "IAcsLink.hpp"
-#include "NoOutboxStore.hpp"
 #include "faults/FaultSchedule.hpp"
+#include "IAcsLink.hpp"
 #include "judge/McsJudge.hpp"
 #include "model/PlanExecutor.hpp"
+#include "NoOutboxStore.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/protocol/DurableOutbox.hpp>
@@ -24,7 +24,7 @@ namespace ACS::AcsSim
 
 /// The ACS of a run: executes the plans of the MCS, and makes the errors of the command line. Pure: it runs on the times that
 /// its caller passes.
-class SimulatedAcs
+class SimulatedACS
 {
 public:
     struct Options
@@ -33,7 +33,7 @@ public:
         std::vector<FaultOrder> faults;
         Core::Duration faultInterval = std::chrono::milliseconds(500); ///< Between two faults, while registered.
         Core::Duration faultTime = std::chrono::seconds(3);            ///< Of faults that last.
-        std::size_t plans = 0;                                         ///< It is done when so many have ended; 0: never.
+        std::size_t plans = 0; ///< It is done when this number has ended; 0: never.
     };
 
     using Printer = std::function<void(const std::string& line)>;
@@ -53,14 +53,15 @@ private:
     std::map<EFault, std::size_t> _armed; ///< Faults that wait for their moment.
     std::optional<KeptReport> _kept;      ///< The report that is sent after its successor.
     std::vector<std::pair<Core::SteadyTime, SendAnswer>> _lateAnswers;
-    std::optional<Core::SteadyTime> _heldUntil;       ///< Reports are held.
-    std::optional<Core::SteadyTime> _connectedAgain;  ///< When isConnected becomes true again.
-    std::optional<Core::SteadyTime> _nextFault;       ///< While registered.
+    std::map<std::string, SendAnswer> _answers;      ///< By transactionID: a request may be repeated after a cut.
+    std::optional<Core::SteadyTime> _heldUntil;      ///< Reports are held.
+    std::optional<Core::SteadyTime> _connectedAgain; ///< When isConnected becomes true again.
+    std::optional<Core::SteadyTime> _nextFault;      ///< While registered.
     std::optional<Core::SteadyTime> _cutAt;
     std::size_t _registrations = 0;
 
 public:
-    SimulatedAcs(Options options, IAcsLink& link, McsJudge& judge, Core::IRandom& random, Printer print);
+    SimulatedACS(Options options, IAcsLink& link, McsJudge& judge, Core::IRandom& random, Printer print);
 
     /// Sets the states; the link connects after this.
     void Start();
