@@ -106,7 +106,7 @@ class AcsSim(unittest.TestCase):
         self.assertEqual(process.wait(FINISH_SECONDS), 0)
 
     def test_without_an_mcs_the_exit_code_is_1(self):
-        with socket.socket() as closed:  # bound, and nobody listens
+        with socket.socket() as closed:  # bound, not listening
             closed.bind(("127.0.0.1", 0))
             process = self.start(f"127.0.0.1:{closed.getsockname()[1]}", "--for", "100ms")
             process.wait(FINISH_SECONDS)
