@@ -204,8 +204,13 @@ void AcsRunner::SendText(const std::string& text)
 
 void AcsRunner::Cut()
 {
-    _client.reset();
-    static_cast<void>(Connect()); // The same options were accepted before; without a client the run would end at once.
+    const Core::Result<void> connected = Connect(); // Replaces the client.
+    if (!connected.has_value())
+    {
+        Print("cannot connect again: " + Describe(connected.error()));
+        Stop();
+        return;
+    }
     _client->Start();
 }
 

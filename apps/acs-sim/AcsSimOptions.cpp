@@ -143,7 +143,10 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, AcsSimO
         ->check(CLI::Range(std::size_t{0}, MAX_PLANS));
     AddDuration(app, "--for", options.duration, "End after this time, for example 30s (default: at SIGINT or SIGTERM)");
     AddDuration(app, "--ack-timeout", options.ackTimeout, "Maximum time of the MCS to an Ack (default 5s)");
-    app.add_option("--queue", options.queue, "Maximum number of plans that wait; others are refused with Queue Full")
+    app.add_option(
+           "--queue",
+           options.queue,
+           "Maximum number of plans that wait; others are refused with Queue Full; 0 refuses all")
         ->check(CLI::Range(std::size_t{0}, MAX_PLANS))
         ->capture_default_str();
     Apps::AddTimeScaleOption(app, options.timeScale);

@@ -21,7 +21,7 @@ enum class EFault : std::uint8_t
     BadPayload,      ///< A report without its planId.
     Malformed,       ///< A text that is not JSON.
     UnknownAck,      ///< An Ack of nothing that was asked.
-    LateAck,         ///< The next answer to the MCS is sent two seconds late.
+    LateAck,         ///< The next answer to the MCS is sent three seconds late.
     RefusePlan,      ///< The next plan is refused: the queue is full.
     FailJob,         ///< The next job fails.
     NotConnected,    ///< isConnected is false for three seconds.

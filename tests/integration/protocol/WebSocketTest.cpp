@@ -3,11 +3,13 @@
 #include "TemporaryFolder.hpp"
 #include "WebSocketFixture.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <memory>
 #include <string>
 #include <variant>
+#include <vector>
 
 using namespace ACS; // NOLINT(google-build-using-namespace)
 using namespace std::chrono_literals;
@@ -294,4 +296,25 @@ TEST_CASE("An observer gets every text of both directions before the session han
         };
     rig.RegisterBoth();
     CHECK(seen == std::vector<std::string>{"in 1 Registration", "out 1 RegistrationAck"});
+}
+
+TEST_CASE("A text that the client sends past its session arrives as it is, and without a connection it has no effect")
+{
+    LinkWireFixture rig;
+    rig.Listen();
+    rig.Connect();
+    rig.client->SendText("{"); // Not connected yet.
+    REQUIRE(rig.WasRegistered());
+    rig.client->ReplayDone();
+    rig.client->SendText(R"({"command":"Dance","transactionId":"d-1","payload":{}})");
+    REQUIRE(rig.client->TrySendDurable(Testing::MakeReport("r-1")));
+    REQUIRE(rig.WasReached([&rig] { return !rig.acsEvents.GetAll<Protocol::Acked>().empty(); }));
+    CHECK(rig.acsEvents.GetAll<Protocol::LinkLost>().empty());
+    std::vector<Protocol::EProtocolNote> notes;
+    for (const Protocol::ProtocolNoted& noted : rig.mcsEvents.GetAll<Protocol::ProtocolNoted>())
+    {
+        notes.push_back(noted.what);
+    }
+    CHECK(std::ranges::count(notes, Protocol::EProtocolNote::UnknownCommand) == 1);
+    CHECK(std::ranges::count(notes, Protocol::EProtocolNote::Undecodable) == 0);
 }
