@@ -344,6 +344,7 @@ void SimulatedACS::BeginFault(EFault fault, Core::Now now)
             break;
         case EFault::NotConnected:
             _connectedAgain = now.steady + _options.faultTime;
+            _nextFault = *_connectedAgain + _options.faultInterval;
             _link.SendStatus(Protocol::AcsCommStateUpdate{false});
             break;
         default:

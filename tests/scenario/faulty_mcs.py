@@ -42,7 +42,7 @@ DEFECTS = {
     "load-from-a-robot": ("plan-action", ()),
     "carriers-of-memories": ("plan-carriers", ()),
     "duplicate-plan-id": ("plan-id", ()),
-    "plan-while-not-connected": ("plan-withheld", ("not-connected",)),
+    "plan-while-not-connected": ("plan-withheld", ("not-connected=always",)),
     "control-of-unknown-plan": ("control", ()),
     "control-of-refused-plan": ("control", ("refuse-plan=2",)),
 }
@@ -87,6 +87,7 @@ class FaultyMcs(McsStub):
         self._plans = {}  # transactionId: plan
         self._open = None  # the transactionId of the plan that is executed
         self._is_answered = False  # the plan that is executed
+        self._controls = {}  # transactionId: command and planId of what has no Ack yet
         self._seen = set()  # transactionIds of the ACS
         self._registrations = 0
         self._is_connected = True
@@ -108,6 +109,9 @@ class FaultyMcs(McsStub):
         self._open = self._request(peer, "ExecutionPlan", plan)
         self._plans[self._open] = plan
         self._is_answered = False
+
+    def _control(self, peer, command, plan):
+        self._controls[self._request(peer, command, {"planId": plan})] = command, plan
 
     def _begin(self, peer):
         if self._open is None and self._is_connected:
@@ -147,13 +151,17 @@ class FaultyMcs(McsStub):
             return
         self._acknowledge(peer, body, "Fail" if self.defect == "registration-refused" else "Success")
         self._is_connected = True
-        self._misbehave_after_registration(peer)
+        self._ask_after_registration(peer)
         if self._open is not None and not self._is_answered and self.defect != "plan-before-registration":
             self._request(peer, "ExecutionPlan", self._plans[self._open], transactionId=self._open)
         self._begin(peer)
 
-    def _misbehave_after_registration(self, peer):
-        if self.defect == "not-json":
+    def _ask_after_registration(self, peer):
+        if self.defect is None:
+            self._request(peer, "RequestAcsPlans", {})
+            for transaction, (command, plan) in self._controls.items():
+                self._request(peer, command, {"planId": plan}, transactionId=transaction)
+        elif self.defect == "not-json":
             self._send(peer, make_frame(TEXT, b"hello"))
         elif self.defect == "no-payload":
             self._say(peer, {"command": "RequestAcsPlans", "transactionId": str(uuid.uuid4()), "timestamp": make_timestamp()})
@@ -172,6 +180,7 @@ class FaultyMcs(McsStub):
             self._request(peer, "PausePlan", {"planId": "PLAN-UNKNOWN", "reason": ""})
 
     def _take_ack(self, peer, body):
+        self._controls.pop(body["transactionId"], None)
         plan = self._plans.get(body["transactionId"])
         if plan is None or body["command"] != "ExecutionPlanAck":
             return
@@ -189,6 +198,7 @@ class FaultyMcs(McsStub):
         if command == "InventedCommand" and self.defect == "no-answer-to-unknown-command":
             return
         is_bad = command == "InventedCommand" or (command == "ErrorReport" and "robotId" not in payload)
+        is_new = body["transactionId"] not in self._seen
         self._answer(peer, body, "Fail" if is_bad and self.defect != "accepts-bad-payload" else "Success")
         if command == "AcsCommStateUpdate":
             self._is_connected = payload["isConnected"]
@@ -197,7 +207,16 @@ class FaultyMcs(McsStub):
         elif command == "PlanReport" and payload.get("status") in FINAL and self._open is not None:
             if payload["planId"] == self._plans[self._open]["planId"]:
                 self._open = None
+        if self.defect is None and is_new:
+            self._pause_and_resume(peer, command, payload)
         self._begin(peer)
+
+    def _pause_and_resume(self, peer, command, payload):
+        """In the first step of each plan."""
+        if command == "StepReport" and (payload["stepNo"], payload["status"]) == (1, "InProgress"):
+            self._control(peer, "PausePlan", payload["planId"])
+        elif command == "PauseResultReport" and payload["result"] == "Success":
+            self._control(peer, "ResumePlan", payload["planId"])
 
     def _answer(self, peer, body, result):
         is_report = body["command"].endswith("Report")

@@ -238,13 +238,13 @@ void McsJudge::OnSent(std::string_view text, Core::SteadyTime now)
     sent.deadline = now + _ackTimeout;
     sent.bOpen = true;
     sent.bOverdue = false;
-    if (!made.bConnected)
+    if (made.expected != EExpectedAnswer::SuccessConnected)
     {
         return;
     }
-    if (made.expected == EExpectedAnswer::SuccessConnected && _bWithheld)
+    _lastCommState = _order;
+    if (made.bConnected && std::exchange(_bWithheld, false))
     {
-        _bWithheld = false;
         _book.Keep(ERule::PlansWithheld);
     }
 }
@@ -437,7 +437,7 @@ void McsJudge::JudgeResult(SentRequest& sent, EAckResult result, const std::stri
     }
     if (sent.expected == EExpectedAnswer::SuccessConnected && !sent.bConnected && bSuccess)
     {
-        _bWithheld = true;
+        _bWithheld = sent.order == _lastCommState; // Otherwise it is true again.
     }
 }
 
@@ -464,7 +464,7 @@ void McsJudge::OnRequest(const MessageEnvelope& envelope, Protocol::DecodeOutcom
     const auto& request = std::get<Protocol::AcsRequest>(*outcome.message);
     const EAcsCommand command = GetCommand(request);
     Judge(ERule::KnownCommand, IsSentByMCS(command), QuoteForError(envelope.command));
-    if (!IsSentByMCS(command) || !JudgeTransaction(request))
+    if (!IsSentByMCS(command) || !IsNewRequest(request))
     {
         return;
     }
@@ -513,7 +513,7 @@ void McsJudge::OnRequestFailure(const Protocol::DecodeFailure& failure)
     }
 }
 
-bool McsJudge::JudgeTransaction(const Protocol::AcsRequest& request)
+bool McsJudge::IsNewRequest(const Protocol::AcsRequest& request)
 {
     const std::string quoted = QuoteForError(request.transactionID);
     const auto found = _received.find(request.transactionID);

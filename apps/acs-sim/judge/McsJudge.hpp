@@ -38,6 +38,7 @@ private:
     std::deque<std::string> _requests;
     std::uint64_t _order = 0;
     std::uint64_t _connection = 0;
+    std::uint64_t _lastCommState = 0;        ///< The order of the last AcsCommStateUpdate.
     std::optional<std::uint64_t> _malformed; ///< The order of a malformed text after which nothing was answered yet.
     bool _bRegistered = false;
     bool _bWithheld = false; ///< The MCS has acknowledged isConnected=false.
@@ -73,7 +74,7 @@ private:
     void OnRequest(const MessageEnvelope& envelope, Protocol::DecodeOutcome outcome);
     void OnRequestFailure(const Protocol::DecodeFailure& failure);
     /// False: it is a repetition.
-    [[nodiscard]] bool JudgeTransaction(const Protocol::AcsRequest& request);
+    [[nodiscard]] bool IsNewRequest(const Protocol::AcsRequest& request);
     void OnPlan(const Protocol::ExecutionPlan& plan, const std::string& transactionID);
     void OnControl(std::string_view command, const std::string& planID);
 

@@ -361,6 +361,14 @@ TEST_CASE("6.21 No plan comes after the Ack of isConnected=false")
         fixture.Received(fixture.MakeRequest("ExecutionPlan", 4, other));
         CHECK(fixture.GetViolated() == Rules{ERule::PlansWithheld});
     }
+    SECTION("the Ack of false comes after true was sent")
+    {
+        fixture.Sent(fixture.MakeRequest("AcsCommStateUpdate", 5, R"({"isConnected":false})"));
+        fixture.Sent(fixture.MakeRequest("AcsCommStateUpdate", 6, R"({"isConnected":true})"));
+        fixture.Received(fixture.MakeAck("AcsCommStateUpdate", 5));
+        fixture.Received(fixture.MakeRequest("ExecutionPlan", 4, other));
+        CHECK(fixture.GetViolated().empty());
+    }
     SECTION("after it is true again")
     {
         fixture.Ask("AcsCommStateUpdate", 5, R"({"isConnected":true})");
