@@ -26,7 +26,7 @@ void PlanExecutor::StartPlans(Core::Now now, ExecutorActions& out)
         {
             continue;
         }
-        const auto found = std::ranges::find_if(_waiting, [this, &robot](const Protocol::ExecutionPlan& plan) {
+        const auto found = std::ranges::find_if(_waiting, [&robot](const Protocol::ExecutionPlan& plan) {
             return CanExecute(robot, plan);
         });
         if (found == _waiting.end())

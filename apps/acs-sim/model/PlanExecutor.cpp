@@ -182,7 +182,7 @@ void PlanExecutor::OnRequest(const Protocol::AcsRequest& request, Core::Now now,
         request.payload);
 }
 
-bool PlanExecutor::CanExecute(const RobotModel& robot, const Protocol::ExecutionPlan& plan) const
+bool PlanExecutor::CanExecute(const RobotModel& robot, const Protocol::ExecutionPlan& plan)
 {
     const std::set<std::string> named = FindNamedRobots(plan);
     return GetTypeOrNull(plan.steps.front().action) == robot.type
@@ -217,7 +217,7 @@ std::optional<std::string> PlanExecutor::GetRejectionReasonOrNull(const Protocol
         return "Duplicated Plan";
     }
     const bool bExecutable =
-        std::ranges::any_of(_robots, [this, &plan](const RobotModel& robot) { return CanExecute(robot, plan); });
+        std::ranges::any_of(_robots, [&plan](const RobotModel& robot) { return CanExecute(robot, plan); });
     return bExecutable ? std::nullopt : std::optional<std::string>("no robot can execute the plan");
 }
 

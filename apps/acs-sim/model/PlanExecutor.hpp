@@ -61,7 +61,7 @@ private:
     using Control = void (PlanExecutor::*)(const std::string& planID, Core::Now now, ExecutorActions& out);
 
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const Protocol::ExecutionPlan& plan) const;
-    [[nodiscard]] bool CanExecute(const RobotModel& robot, const Protocol::ExecutionPlan& plan) const;
+    [[nodiscard]] static bool CanExecute(const RobotModel& robot, const Protocol::ExecutionPlan& plan);
     void OnPlan(const Protocol::AcsRequest& request, Core::Now now, ExecutorActions& out);
     void OnControl(
         const Protocol::AcsRequest& request,
