@@ -27,8 +27,8 @@ TEST_CASE("A correct MCS violates nothing, and what was seen is ok in the table"
     fixture.Begin();
     fixture.Ask("PlanReport", 3, JudgeFixture::REPORT);
     fixture.Ask("TscStateUpdate", 4, JudgeFixture::STATE);
-    fixture.Received(fixture.MakeRequest("PausePlan", 5, R"({"planId":"P","reason":""})"));
-    fixture.Received(fixture.MakeRequest("RequestAcsPlans", 6, "{}"));
+    fixture.Received(JudgeFixture::MakeRequest("PausePlan", 5, R"({"planId":"P","reason":""})"));
+    fixture.Received(JudgeFixture::MakeRequest("RequestAcsPlans", 6, "{}"));
     fixture.Wait(LONG);
     CHECK(fixture.GetViolated().empty());
     CHECK_FALSE(fixture.judge.GetBook().IsViolated());
@@ -54,7 +54,7 @@ TEST_CASE("Each rule has a name of its own, a section and a sentence")
 TEST_CASE("6.2 A Registration without an answer, and one that is refused")
 {
     JudgeFixture fixture;
-    fixture.Sent(fixture.MakeRequest("Registration", 1, "{}"));
+    fixture.Sent(JudgeFixture::MakeRequest("Registration", 1, "{}"));
     fixture.Wait(seconds(5));
     CHECK(fixture.GetViolated().empty());
     SECTION("time passes")
@@ -67,7 +67,7 @@ TEST_CASE("6.2 A Registration without an answer, and one that is refused")
     }
     SECTION("Fail")
     {
-        fixture.Received(fixture.MakeAck("Registration", 1, "Fail"));
+        fixture.Received(JudgeFixture::MakeAck("Registration", 1, "Fail"));
     }
     CHECK(fixture.GetViolated() == Rules{ERule::RegistrationAnswered});
 }
@@ -75,8 +75,8 @@ TEST_CASE("6.2 A Registration without an answer, and one that is refused")
 TEST_CASE("5 A request before the RegistrationAck")
 {
     JudgeFixture fixture;
-    fixture.Sent(fixture.MakeRequest("Registration", 1, "{}"));
-    fixture.Received(fixture.MakeRequest("RequestAcsPlans", 2, "{}"));
+    fixture.Sent(JudgeFixture::MakeRequest("Registration", 1, "{}"));
+    fixture.Received(JudgeFixture::MakeRequest("RequestAcsPlans", 2, "{}"));
     CHECK(fixture.GetViolated() == Rules{ERule::NothingBeforeRegistration});
 }
 
@@ -118,14 +118,14 @@ TEST_CASE("6.1 A transactionId is a UUID and is used for one request; the same r
 {
     JudgeFixture fixture;
     fixture.Begin();
-    const std::string query = fixture.MakeRequest("RequestAcsPlanHistory", 7, R"({"planIds":["A"]})");
+    const std::string query = JudgeFixture::MakeRequest("RequestAcsPlanHistory", 7, R"({"planIds":["A"]})");
     fixture.Received(query);
     fixture.Received(query);
-    fixture.Received(fixture.MakeRequest("ExecutionPlan", 2, JudgeFixture::PLAN));
+    fixture.Received(JudgeFixture::MakeRequest("ExecutionPlan", 2, JudgeFixture::PLAN));
     CHECK(fixture.GetViolated().empty());
     SECTION("two requests")
     {
-        fixture.Received(fixture.MakeRequest("RequestAcsPlanHistory", 7, R"({"planIds":["B"]})"));
+        fixture.Received(JudgeFixture::MakeRequest("RequestAcsPlanHistory", 7, R"({"planIds":["B"]})"));
     }
     SECTION("no UUID")
     {
@@ -164,18 +164,18 @@ TEST_CASE("6.1 A report without an Ack, and one whose Ack comes late")
 {
     JudgeFixture fixture;
     fixture.Begin();
-    fixture.Sent(fixture.MakeRequest("PlanReport", 3, JudgeFixture::REPORT));
+    fixture.Sent(JudgeFixture::MakeRequest("PlanReport", 3, JudgeFixture::REPORT));
     CHECK(fixture.judge.HasOpenRequests());
     SECTION("none")
     {
         fixture.Wait(LONG);
         fixture.Wait(LONG);
-        fixture.Received(fixture.MakeAck("PlanReport", 3));
+        fixture.Received(JudgeFixture::MakeAck("PlanReport", 3));
     }
     SECTION("late")
     {
         fixture.clock.Advance(LONG);
-        fixture.Received(fixture.MakeAck("PlanReport", 3));
+        fixture.Received(JudgeFixture::MakeAck("PlanReport", 3));
     }
     CHECK(fixture.GetViolated() == Rules{ERule::Acknowledged});
     CHECK(fixture.judge.GetBook().GetRow(ERule::Acknowledged).violated == 1);
@@ -186,32 +186,32 @@ TEST_CASE("6.1 Acks that are not as specified")
 {
     JudgeFixture fixture;
     fixture.Begin();
-    fixture.Sent(fixture.MakeRequest("PlanReport", 3, JudgeFixture::REPORT));
+    fixture.Sent(JudgeFixture::MakeRequest("PlanReport", 3, JudgeFixture::REPORT));
     ERule expected = ERule::AcknowledgedOnce;
     SECTION("twice")
     {
-        fixture.Received(fixture.MakeAck("PlanReport", 3));
-        fixture.Received(fixture.MakeAck("PlanReport", 3));
+        fixture.Received(JudgeFixture::MakeAck("PlanReport", 3));
+        fixture.Received(JudgeFixture::MakeAck("PlanReport", 3));
     }
     SECTION("foreign transactionId: the report counts as answered")
     {
         expected = ERule::AckTransaction;
-        fixture.Received(fixture.MakeAck("PlanReport", 99));
+        fixture.Received(JudgeFixture::MakeAck("PlanReport", 99));
     }
     SECTION("another command")
     {
         expected = ERule::AckCommand;
-        fixture.Received(fixture.MakeAck("StepReport", 3));
+        fixture.Received(JudgeFixture::MakeAck("StepReport", 3));
     }
     SECTION("unknown result")
     {
         expected = ERule::AckResult;
-        fixture.Received(fixture.MakeAck("PlanReport", 3, "Done"));
+        fixture.Received(JudgeFixture::MakeAck("PlanReport", 3, "Done"));
     }
     SECTION("a valid report is refused")
     {
         expected = ERule::ReportAccepted;
-        fixture.Received(fixture.MakeAck("PlanReport", 3, "Fail"));
+        fixture.Received(JudgeFixture::MakeAck("PlanReport", 3, "Fail"));
     }
     fixture.Wait(LONG);
     CHECK(fixture.GetViolated() == Rules{expected});
@@ -252,7 +252,7 @@ TEST_CASE("6.1, 6.2 After a reconnect the Registration and repeated reports are 
 {
     JudgeFixture fixture;
     fixture.Begin();
-    fixture.Sent(fixture.MakeRequest("PlanReport", 3, JudgeFixture::REPORT));
+    fixture.Sent(JudgeFixture::MakeRequest("PlanReport", 3, JudgeFixture::REPORT));
     fixture.judge.OnClosed(false);
     CHECK_FALSE(fixture.judge.HasOpenRequests());
     fixture.Wait(LONG);
@@ -274,7 +274,7 @@ TEST_CASE("6.1, 6.2 After a reconnect the Registration and repeated reports are 
     }
     SECTION("the Registration is not answered")
     {
-        fixture.Sent(fixture.MakeRequest("Registration", 10, "{}"));
+        fixture.Sent(JudgeFixture::MakeRequest("Registration", 10, "{}"));
         fixture.Wait(LONG);
         CHECK(fixture.GetViolated() == Rules{ERule::Reconnected});
     }
@@ -296,7 +296,7 @@ TEST_CASE("6.1 Undefined payloads and unknown commands are answered with Fail")
     }
     SECTION("nothing")
     {
-        fixture.Sent(fixture.MakeRequest(command, 4, "{}"));
+        fixture.Sent(JudgeFixture::MakeRequest(command, 4, "{}"));
         fixture.Wait(LONG);
     }
     CHECK(fixture.GetViolated() == Rules{rule});
@@ -306,14 +306,14 @@ TEST_CASE("6.1 After a text that is not JSON the connection stays and the MCS an
 {
     JudgeFixture fixture;
     fixture.Begin();
-    fixture.Sent(fixture.MakeRequest("TscStateUpdate", 3, JudgeFixture::STATE));
+    fixture.Sent(JudgeFixture::MakeRequest("TscStateUpdate", 3, JudgeFixture::STATE));
     fixture.Sent("{");
-    fixture.Received(fixture.MakeAck("TscStateUpdate", 3)); // Sent before the malformed text: proves nothing.
+    fixture.Received(JudgeFixture::MakeAck("TscStateUpdate", 3)); // Sent before the malformed text: proves nothing.
     CHECK_FALSE(fixture.WasKept(ERule::MalformedText));
-    fixture.Sent(fixture.MakeRequest("PlanReport", 4, JudgeFixture::REPORT));
+    fixture.Sent(JudgeFixture::MakeRequest("PlanReport", 4, JudgeFixture::REPORT));
     SECTION("correct")
     {
-        fixture.Received(fixture.MakeAck("PlanReport", 4));
+        fixture.Received(JudgeFixture::MakeAck("PlanReport", 4));
         fixture.judge.OnClosed(false);
         CHECK(fixture.GetViolated().empty());
         CHECK(fixture.WasKept(ERule::MalformedText));
@@ -339,10 +339,10 @@ TEST_CASE("6.19 A position is not answered")
 {
     JudgeFixture fixture;
     fixture.Begin();
-    fixture.Sent(fixture.MakeRequest("RobotPositionUpdate", 3, R"({"robots":[]})"));
+    fixture.Sent(JudgeFixture::MakeRequest("RobotPositionUpdate", 3, R"({"robots":[]})"));
     fixture.Wait(LONG);
     CHECK(fixture.GetViolated().empty());
-    fixture.Received(fixture.MakeAck("RobotPositionUpdate", 3));
+    fixture.Received(JudgeFixture::MakeAck("RobotPositionUpdate", 3));
     CHECK(fixture.GetViolated() == Rules{ERule::PositionUnanswered});
 }
 
@@ -350,29 +350,29 @@ TEST_CASE("6.21 No plan comes after the Ack of isConnected=false")
 {
     JudgeFixture fixture;
     fixture.Register();
-    fixture.Sent(fixture.MakeRequest("AcsCommStateUpdate", 3, R"({"isConnected":false})"));
-    fixture.Received(fixture.MakeRequest("ExecutionPlan", 2, JudgeFixture::PLAN)); // Under way before.
-    fixture.Received(fixture.MakeAck("AcsCommStateUpdate", 3));
+    fixture.Sent(JudgeFixture::MakeRequest("AcsCommStateUpdate", 3, R"({"isConnected":false})"));
+    fixture.Received(JudgeFixture::MakeRequest("ExecutionPlan", 2, JudgeFixture::PLAN)); // Under way before.
+    fixture.Received(JudgeFixture::MakeAck("AcsCommStateUpdate", 3));
     CHECK(fixture.GetViolated().empty());
     std::string other(JudgeFixture::PLAN);
     other.replace(other.find("\"P\""), 3, "\"Q\"");
     SECTION("while it is false")
     {
-        fixture.Received(fixture.MakeRequest("ExecutionPlan", 4, other));
+        fixture.Received(JudgeFixture::MakeRequest("ExecutionPlan", 4, other));
         CHECK(fixture.GetViolated() == Rules{ERule::PlansWithheld});
     }
     SECTION("the Ack of false comes after true was sent")
     {
-        fixture.Sent(fixture.MakeRequest("AcsCommStateUpdate", 5, R"({"isConnected":false})"));
-        fixture.Sent(fixture.MakeRequest("AcsCommStateUpdate", 6, R"({"isConnected":true})"));
-        fixture.Received(fixture.MakeAck("AcsCommStateUpdate", 5));
-        fixture.Received(fixture.MakeRequest("ExecutionPlan", 4, other));
+        fixture.Sent(JudgeFixture::MakeRequest("AcsCommStateUpdate", 5, R"({"isConnected":false})"));
+        fixture.Sent(JudgeFixture::MakeRequest("AcsCommStateUpdate", 6, R"({"isConnected":true})"));
+        fixture.Received(JudgeFixture::MakeAck("AcsCommStateUpdate", 5));
+        fixture.Received(JudgeFixture::MakeRequest("ExecutionPlan", 4, other));
         CHECK(fixture.GetViolated().empty());
     }
     SECTION("after it is true again")
     {
         fixture.Ask("AcsCommStateUpdate", 5, R"({"isConnected":true})");
-        fixture.Received(fixture.MakeRequest("ExecutionPlan", 4, other));
+        fixture.Received(JudgeFixture::MakeRequest("ExecutionPlan", 4, other));
         CHECK(fixture.GetViolated().empty());
         CHECK(fixture.WasKept(ERule::PlansWithheld));
     }
@@ -382,16 +382,16 @@ TEST_CASE("6.4 A refused plan may come again, and has no controls")
 {
     JudgeFixture fixture;
     fixture.Register();
-    fixture.Received(fixture.MakeRequest("ExecutionPlan", 2, JudgeFixture::PLAN));
-    fixture.Sent(fixture.MakeAck("ExecutionPlan", 2, "Fail"));
+    fixture.Received(JudgeFixture::MakeRequest("ExecutionPlan", 2, JudgeFixture::PLAN));
+    fixture.Sent(JudgeFixture::MakeAck("ExecutionPlan", 2, "Fail"));
     SECTION("again")
     {
-        fixture.Received(fixture.MakeRequest("ExecutionPlan", 3, JudgeFixture::PLAN));
+        fixture.Received(JudgeFixture::MakeRequest("ExecutionPlan", 3, JudgeFixture::PLAN));
         CHECK(fixture.GetViolated().empty());
     }
     SECTION("control")
     {
-        fixture.Received(fixture.MakeRequest("CancelPlan", 3, R"({"planId":"P","reason":""})"));
+        fixture.Received(JudgeFixture::MakeRequest("CancelPlan", 3, R"({"planId":"P","reason":""})"));
         CHECK(fixture.GetViolated() == Rules{ERule::ControlOfKnownPlan});
     }
 }
@@ -415,7 +415,7 @@ TEST_CASE("The judge survives any bytes of the MCS and forgets old transactions"
     JudgeFixture fixture;
     fixture.Begin();
     ACS::Testing::SeededRandom random;
-    const std::string valid = fixture.MakeRequest("ExecutionPlan", 9, JudgeFixture::PLAN);
+    const std::string valid = JudgeFixture::MakeRequest("ExecutionPlan", 9, JudgeFixture::PLAN);
     for (int round = 0; round < 5000; ++round)
     {
         std::string text = valid;
