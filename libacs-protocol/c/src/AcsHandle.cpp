@@ -1,3 +1,4 @@
+#include "SessionCalls.hpp"
 #include "SessionHandle.hpp"
 #include <acs/c/acs_protocol.h>
 #include <acs/protocol/AcsSession.hpp>
@@ -15,6 +16,8 @@
 
 struct acs_acs : ACS::CInterface::SessionHandle
 {
+    using Options = acs_acs_options;
+
     ACS::Protocol::AcsSession session;
 
     acs_acs(const ACS::Protocol::SessionOptions& options, acs_random randomOrNull, void* contextOrNull)
@@ -22,6 +25,11 @@ struct acs_acs : ACS::CInterface::SessionHandle
           session(options, _random)
     {
     }
+
+    static void WriteDefaults(Options& options);
+    [[nodiscard]] static ACS::Protocol::SessionOptions ReadOptions(
+        const Options& options,
+        ACS::CInterface::Arguments& arguments);
 };
 
 namespace ACS::CInterface
@@ -30,9 +38,52 @@ namespace ACS::CInterface
 namespace
 {
 
-void WriteDefaults(acs_acs_options& options)
+std::int32_t SendRequest(
+    Protocol::AcsSession& session,
+    const Protocol::AcsRequest& request,
+    Core::Now now,
+    Protocol::SessionActions& out)
 {
-    const Protocol::SessionOptions defaults;
+    const Protocol::EAcsCommand command = Protocol::GetCommand(request);
+    if (Protocol::IsSentByMCS(command) || command == Protocol::EAcsCommand::Registration)
+    {
+        return ACS_ERROR_DIRECTION;
+    }
+    if (command == Protocol::EAcsCommand::TscStateUpdate || command == Protocol::EAcsCommand::AcsCommStateUpdate
+        || command == Protocol::EAcsCommand::RobotStatusUpdate)
+    {
+        session.SendStatus(request.payload, now, out);
+        return ACS_OK;
+    }
+    if (const auto* const positionsOrNull = std::get_if<Protocol::RobotPositionUpdate>(&request.payload))
+    {
+        session.SendPosition(*positionsOrNull, now, out);
+        return session.IsRegistered() ? ACS_OK : ACS_ERROR_NOT_READY;
+    }
+    return session.TrySendDurable(request, now, out) ? ACS_OK : ACS_ERROR_NOT_READY;
+}
+
+std::int32_t SendAnswer(
+    Protocol::AcsSession& session,
+    const Protocol::AcsAck& ack,
+    Core::Now now,
+    Protocol::SessionActions& out)
+{
+    if (!Protocol::IsSentByMCS(ack.command))
+    {
+        return ACS_ERROR_DIRECTION;
+    }
+    session.Answer(ack.command, ack.transactionID, ack.result, ack.message, ack.payload, now, out);
+    return ACS_OK;
+}
+
+} // namespace
+
+} // namespace ACS::CInterface
+
+void acs_acs::WriteDefaults(Options& options)
+{
+    const ACS::Protocol::SessionOptions defaults;
     options = {};
     options.struct_size = sizeof(options);
     options.ack_retries = static_cast<std::uint32_t>(defaults.ackRetries);
@@ -47,13 +98,13 @@ void WriteDefaults(acs_acs_options& options)
     options.answer_bytes = defaults.answerBytes;
     options.answer_count = static_cast<std::uint32_t>(defaults.answerCount);
     options.match_acks_by_command = defaults.bAcksMatchedByCommand ? 1 : 0;
-    WriteCodecDefaults(options.codec);
+    ACS::CInterface::WriteCodecDefaults(options.codec);
 }
 
-Protocol::SessionOptions ReadOptions(const acs_acs_options& options, Arguments& arguments)
+ACS::Protocol::SessionOptions acs_acs::ReadOptions(const Options& options, ACS::CInterface::Arguments& arguments)
 {
-    Protocol::SessionOptions result;
-    arguments.Add(CheckStruct(&options));
+    ACS::Protocol::SessionOptions result;
+    arguments.Add(ACS::CInterface::CheckStruct(&options));
     if (!arguments.IsValid())
     {
         return result;
@@ -76,75 +127,10 @@ Protocol::SessionOptions ReadOptions(const acs_acs_options& options, Arguments& 
     return result;
 }
 
-std::int32_t SendRequest(
-    acs_acs& acs,
-    const Protocol::AcsRequest& request,
-    Core::Now now,
-    Protocol::SessionActions& out)
-{
-    const Protocol::EAcsCommand command = Protocol::GetCommand(request);
-    if (Protocol::IsSentByMCS(command) || command == Protocol::EAcsCommand::Registration)
-    {
-        return ACS_ERROR_DIRECTION;
-    }
-    if (command == Protocol::EAcsCommand::TscStateUpdate || command == Protocol::EAcsCommand::AcsCommStateUpdate
-        || command == Protocol::EAcsCommand::RobotStatusUpdate)
-    {
-        acs.session.SendStatus(request.payload, now, out);
-        return ACS_OK;
-    }
-    if (const auto* const positionsOrNull = std::get_if<Protocol::RobotPositionUpdate>(&request.payload))
-    {
-        acs.session.SendPosition(*positionsOrNull, now, out);
-        return acs.session.IsRegistered() ? ACS_OK : ACS_ERROR_NOT_READY;
-    }
-    return acs.session.TrySendDurable(request, now, out) ? ACS_OK : ACS_ERROR_NOT_READY;
-}
-
-std::int32_t Send(
-    acs_acs& acs,
-    std::string_view text,
-    acs_message* messageOrNull,
-    Core::Now now,
-    Protocol::SessionActions& out)
-{
-    const Protocol::DecodeOutcome outcome = acs.Decode(text, now);
-    if (const std::int32_t result = acs.Show(outcome, messageOrNull); result != ACS_OK)
-    {
-        return result;
-    }
-    const auto* const requestOrNull = std::get_if<Protocol::AcsRequest>(&*outcome.message);
-    return requestOrNull == nullptr ? ACS_ERROR_DIRECTION : SendRequest(acs, *requestOrNull, now, out);
-}
-
-std::int32_t Answer(
-    acs_acs& acs,
-    std::string_view text,
-    acs_message* messageOrNull,
-    Core::Now now,
-    Protocol::SessionActions& out)
-{
-    const Protocol::DecodeOutcome outcome = acs.Decode(text, now);
-    if (const std::int32_t result = acs.Show(outcome, messageOrNull); result != ACS_OK)
-    {
-        return result;
-    }
-    const auto* const ackOrNull = std::get_if<Protocol::AcsAck>(&*outcome.message);
-    if (ackOrNull == nullptr || !Protocol::IsSentByMCS(ackOrNull->command))
-    {
-        return ACS_ERROR_DIRECTION;
-    }
-    const Protocol::AcsAck& ack = *ackOrNull;
-    acs.session.Answer(ack.command, ack.transactionID, ack.result, ack.message, ack.payload, now, out);
-    return ACS_OK;
-}
-
-} // namespace
-
-} // namespace ACS::CInterface
-
 using ACS::CInterface::Arguments;
-using ACS::CInterface::CheckStruct;
+using ACS::CInterface::CallSession;
+using ACS::CInterface::FillStruct;
+using ACS::CInterface::SendMessage;
 using ACS::Core::Now;
 using ACS::Protocol::SessionActions;
 
@@ -152,41 +138,12 @@ extern "C"
 {
     std::int32_t acs_acs_options_init(acs_acs_options* options, std::size_t options_size)
     {
-        if (options == nullptr)
-        {
-            return ACS_ERROR_ARGUMENT;
-        }
-        if (options_size != sizeof(*options))
-        {
-            return ACS_ERROR_VERSION;
-        }
-        ACS::CInterface::WriteDefaults(*options);
-        return ACS_OK;
+        return ACS::CInterface::InitOptions(options, options_size, acs_acs::WriteDefaults);
     }
 
     std::int32_t acs_acs_create(std::uint32_t abi_version, const acs_acs_options* options, acs_acs** acs)
     {
-        if (acs == nullptr)
-        {
-            return ACS_ERROR_ARGUMENT;
-        }
-        *acs = nullptr;
-        if (abi_version != ACS_C_ABI_VERSION)
-        {
-            return ACS_ERROR_VERSION;
-        }
-        return ACS::CInterface::Guard([&]() -> std::int32_t {
-            Arguments arguments;
-            acs_acs_options defaults;
-            ACS::CInterface::WriteDefaults(defaults);
-            const acs_acs_options& used = options == nullptr ? defaults : *options;
-            const ACS::Protocol::SessionOptions sessionOptions = ACS::CInterface::ReadOptions(used, arguments);
-            if (arguments.IsValid())
-            {
-                *acs = std::make_unique<acs_acs>(sessionOptions, used.random, used.random_context).release();
-            }
-            return arguments.GetResult();
-        });
+        return ACS::CInterface::CreateHandle(abi_version, options, acs);
     }
 
     void acs_acs_destroy(acs_acs* acs)
@@ -196,37 +153,22 @@ extern "C"
 
     std::int32_t acs_acs_start(acs_acs* acs, std::int64_t steady_ms, std::int64_t wall_ms)
     {
-        if (acs == nullptr)
-        {
-            return ACS_ERROR_ARGUMENT;
-        }
-        return acs->Run({}, {steady_ms, wall_ms}, [&](Now now, SessionActions& out) -> std::int32_t {
-            acs->session.Start(now, out);
-            return ACS_OK;
+        return CallSession(acs, {}, {steady_ms, wall_ms}, [&](auto& session, Now now, SessionActions& out) {
+            session.Start(now, out);
         });
     }
 
     std::int32_t acs_acs_stop(acs_acs* acs, std::int64_t steady_ms, std::int64_t wall_ms)
     {
-        if (acs == nullptr)
-        {
-            return ACS_ERROR_ARGUMENT;
-        }
-        return acs->Run({}, {steady_ms, wall_ms}, [&](Now now, SessionActions& out) -> std::int32_t {
-            acs->session.Stop(now, out);
-            return ACS_OK;
+        return CallSession(acs, {}, {steady_ms, wall_ms}, [&](auto& session, Now now, SessionActions& out) {
+            session.Stop(now, out);
         });
     }
 
     std::int32_t acs_acs_connected(acs_acs* acs, std::int64_t steady_ms, std::int64_t wall_ms)
     {
-        if (acs == nullptr)
-        {
-            return ACS_ERROR_ARGUMENT;
-        }
-        return acs->Run({}, {steady_ms, wall_ms}, [&](Now now, SessionActions& out) -> std::int32_t {
-            acs->session.OnConnected(now, out);
-            return ACS_OK;
+        return CallSession(acs, {}, {steady_ms, wall_ms}, [&](auto& session, Now now, SessionActions& out) {
+            session.OnConnected(now, out);
         });
     }
 
@@ -237,15 +179,10 @@ extern "C"
         std::int64_t steady_ms,
         std::int64_t wall_ms)
     {
-        if (acs == nullptr)
-        {
-            return ACS_ERROR_ARGUMENT;
-        }
         Arguments arguments;
         const std::string_view bytes = arguments.ReadBytes(text, length);
-        return acs->Run(arguments, {steady_ms, wall_ms}, [&](Now now, SessionActions& out) -> std::int32_t {
-            acs->session.OnText(bytes, now, out);
-            return ACS_OK;
+        return CallSession(acs, arguments, {steady_ms, wall_ms}, [&](auto& session, Now now, SessionActions& out) {
+            session.OnText(bytes, now, out);
         });
     }
 
@@ -256,29 +193,19 @@ extern "C"
         std::int64_t steady_ms,
         std::int64_t wall_ms)
     {
-        if (acs == nullptr)
-        {
-            return ACS_ERROR_ARGUMENT;
-        }
         Arguments arguments;
         const std::string_view reasonText = arguments.ReadText(reason, reason_length);
-        return acs->Run(arguments, {steady_ms, wall_ms}, [&](Now now, SessionActions& out) -> std::int32_t {
-            acs->session.OnClosed(reasonText, now, out);
-            return ACS_OK;
+        return CallSession(acs, arguments, {steady_ms, wall_ms}, [&](auto& session, Now now, SessionActions& out) {
+            session.OnClosed(reasonText, now, out);
         });
     }
 
     std::int32_t acs_acs_timer_elapsed(acs_acs* acs, std::int32_t timer, std::int64_t steady_ms, std::int64_t wall_ms)
     {
-        if (acs == nullptr)
-        {
-            return ACS_ERROR_ARGUMENT;
-        }
         Arguments arguments;
         const ACS::Protocol::ESessionTimer name = arguments.ReadTimer(timer);
-        return acs->Run(arguments, {steady_ms, wall_ms}, [&](Now now, SessionActions& out) -> std::int32_t {
-            acs->session.OnTimer(name, now, out);
-            return ACS_OK;
+        return CallSession(acs, arguments, {steady_ms, wall_ms}, [&](auto& session, Now now, SessionActions& out) {
+            session.OnTimer(name, now, out);
         });
     }
 
@@ -290,27 +217,21 @@ extern "C"
         std::int64_t wall_ms,
         acs_message* message)
     {
-        if (acs == nullptr)
-        {
-            return ACS_ERROR_ARGUMENT;
-        }
         Arguments arguments;
         const std::string_view bytes = arguments.ReadBytes(text, length);
-        arguments.Add(message == nullptr ? ACS_OK : CheckStruct(message));
-        return acs->Run(arguments, {steady_ms, wall_ms}, [&](Now now, SessionActions& out) -> std::int32_t {
-            return ACS::CInterface::Send(*acs, bytes, message, now, out);
-        });
+        return SendMessage<ACS::Protocol::AcsRequest>(
+            acs,
+            bytes,
+            arguments,
+            {steady_ms, wall_ms},
+            message,
+            ACS::CInterface::SendRequest);
     }
 
     std::int32_t acs_acs_replay_done(acs_acs* acs, std::int64_t steady_ms, std::int64_t wall_ms)
     {
-        if (acs == nullptr)
-        {
-            return ACS_ERROR_ARGUMENT;
-        }
-        return acs->Run({}, {steady_ms, wall_ms}, [&](Now now, SessionActions& out) -> std::int32_t {
-            acs->session.ReplayDone(now, out);
-            return ACS_OK;
+        return CallSession(acs, {}, {steady_ms, wall_ms}, [&](auto& session, Now now, SessionActions& out) {
+            session.ReplayDone(now, out);
         });
     }
 
@@ -322,62 +243,37 @@ extern "C"
         std::int64_t wall_ms,
         acs_message* message)
     {
-        if (acs == nullptr)
-        {
-            return ACS_ERROR_ARGUMENT;
-        }
         Arguments arguments;
         const std::string_view bytes = arguments.ReadBytes(text, length);
-        arguments.Add(message == nullptr ? ACS_OK : CheckStruct(message));
-        return acs->Run(arguments, {steady_ms, wall_ms}, [&](Now now, SessionActions& out) -> std::int32_t {
-            return ACS::CInterface::Answer(*acs, bytes, message, now, out);
-        });
+        return SendMessage<ACS::Protocol::AcsAck>(
+            acs,
+            bytes,
+            arguments,
+            {steady_ms, wall_ms},
+            message,
+            ACS::CInterface::SendAnswer);
     }
 
     std::int32_t acs_acs_next_action(acs_acs* acs, acs_action* action)
     {
-        if (const std::int32_t result = CheckStruct(action); result != ACS_OK || acs == nullptr)
-        {
-            return result == ACS_OK ? ACS_ERROR_ARGUMENT : result;
-        }
-        return acs->Use([&]() -> std::int32_t {
-            acs->TakeAction(*action);
-            return ACS_OK;
-        });
+        return FillStruct(acs, action, [&](acs_action& filled) { acs->TakeAction(filled); });
     }
 
     std::int32_t acs_acs_get_state(acs_acs* acs, acs_acs_state* state)
     {
-        if (const std::int32_t result = CheckStruct(state); result != ACS_OK || acs == nullptr)
-        {
-            return result == ACS_OK ? ACS_ERROR_ARGUMENT : result;
-        }
-        return acs->Use([&]() -> std::int32_t {
-            state->registered = acs->session.IsRegistered() ? 1 : 0;
-            state->room = acs->session.GetRoom();
-            state->waiting_actions = acs->GetWaitingCount();
-            return ACS_OK;
+        return FillStruct(acs, state, [&](acs_acs_state& filled) {
+            filled.registered = acs->session.IsRegistered() ? 1 : 0;
+            filled.room = acs->session.GetRoom();
+            filled.waiting_actions = acs->GetWaitingCount();
         });
     }
 
     std::int32_t acs_acs_set_site_offset(acs_acs* acs, std::int32_t minutes)
     {
-        if (acs == nullptr)
-        {
-            return ACS_ERROR_ARGUMENT;
-        }
-        return acs->Use([&]() -> std::int32_t {
-            Arguments arguments;
-            const std::chrono::minutes offset = arguments.ReadOffset(minutes);
-            if (arguments.IsValid())
-            {
-                acs->session.SetSiteOffset(offset);
-                acs->SetSiteOffset(offset);
-            }
-            return arguments.GetResult();
-        });
+        return ACS::CInterface::SetSiteOffset(acs, minutes);
     }
 
 } // extern "C"
 
 // NOLINTEND(readability-identifier-naming)
+

@@ -25,6 +25,22 @@ template <typename TStruct>
     return valueOrNull->struct_size == sizeof(TStruct) ? ACS_OK : ACS_ERROR_VERSION;
 }
 
+/// Calls write(options) if the caller declares the structure as the library does.
+template <typename TOptions, typename TWrite>
+[[nodiscard]] std::int32_t InitOptions(TOptions* optionsOrNull, std::size_t size, TWrite write)
+{
+    if (optionsOrNull == nullptr)
+    {
+        return ACS_ERROR_ARGUMENT;
+    }
+    if (size != sizeof(TOptions))
+    {
+        return ACS_ERROR_VERSION;
+    }
+    write(*optionsOrNull);
+    return ACS_OK;
+}
+
 /// Reads and checks the arguments of one call; the first error remains.
 class Arguments
 {

@@ -135,16 +135,7 @@ extern "C"
 
     std::int32_t acs_codec_options_init(acs_codec_options* options, std::size_t options_size)
     {
-        if (options == nullptr)
-        {
-            return ACS_ERROR_ARGUMENT;
-        }
-        if (options_size != sizeof(*options))
-        {
-            return ACS_ERROR_VERSION;
-        }
-        ACS::CInterface::WriteCodecDefaults(*options);
-        return ACS_OK;
+        return ACS::CInterface::InitOptions(options, options_size, ACS::CInterface::WriteCodecDefaults);
     }
 
     std::int32_t acs_codec_create(std::uint32_t abi_version, const acs_codec_options* options, acs_codec** codec)
@@ -244,7 +235,7 @@ extern "C"
             const ACS::Protocol::EAckResult ackResult = arguments.ReadAckResult(result);
             const std::string_view note = arguments.ReadText(text, text_length);
             const std::string_view payloadText =
-                payload == nullptr ? std::string_view("{}") : std::string_view(payload, payload_length);
+                payload == nullptr && payload_length == 0 ? "{}" : arguments.ReadBytes(payload, payload_length);
             const ACS::Core::WallTime wall = arguments.ReadWallTime(wall_ms);
             if (!arguments.IsValid())
             {

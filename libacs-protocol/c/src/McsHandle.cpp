@@ -1,3 +1,4 @@
+#include "SessionCalls.hpp"
 #include "SessionHandle.hpp"
 #include <acs/c/acs_protocol.h>
 #include <acs/protocol/McsSession.hpp>
@@ -17,6 +18,8 @@
 
 struct acs_mcs : ACS::CInterface::SessionHandle
 {
+    using Options = acs_mcs_options;
+
     ACS::Protocol::McsSession session;
     ACS::Protocol::ConnectionID lastConnection = 0;
 
@@ -25,6 +28,11 @@ struct acs_mcs : ACS::CInterface::SessionHandle
           session(options, _random)
     {
     }
+
+    static void WriteDefaults(Options& options);
+    [[nodiscard]] static ACS::Protocol::McsSessionOptions ReadOptions(
+        const Options& options,
+        ACS::CInterface::Arguments& arguments);
 };
 
 namespace ACS::CInterface
@@ -32,25 +40,6 @@ namespace ACS::CInterface
 
 namespace
 {
-
-void WriteDefaults(acs_mcs_options& options)
-{
-    const Protocol::McsSessionOptions defaults;
-    options = {};
-    options.struct_size = sizeof(options);
-    options.ack_timeout_ms = defaults.ackTimeout.count();
-    options.answer_timeout_ms = defaults.answerTimeout.count();
-    options.registration_timeout_ms = defaults.registrationTimeout.count();
-    options.answer_bytes = defaults.answerBytes;
-    options.ack_retries = static_cast<std::uint32_t>(defaults.ackRetries);
-    options.max_pending = static_cast<std::uint32_t>(defaults.maximumPending);
-    options.duplicate_memory = static_cast<std::uint32_t>(defaults.duplicateMemory);
-    options.max_unanswered = static_cast<std::uint32_t>(defaults.maximumUnanswered);
-    options.silent_if_unanswered = defaults.unansweredPolicy == Protocol::EUnansweredPolicy::Silence ? 1 : 0;
-    options.withhold_plans = defaults.bPlansWithheld ? 1 : 0;
-    options.refuse_second = defaults.bSecondRefused ? 1 : 0;
-    WriteCodecDefaults(options.codec);
-}
 
 std::optional<Protocol::EAcsCommand> FindCommandOrNull(std::string_view name)
 {
@@ -87,10 +76,46 @@ std::bitset<Protocol::COMMAND_COUNT> ReadCommands(const acs_text& names, Argumen
     return commands;
 }
 
-Protocol::McsSessionOptions ReadOptions(const acs_mcs_options& options, Arguments& arguments)
+std::int32_t SendRequest(
+    Protocol::McsSession& session,
+    const Protocol::AcsRequest& request,
+    Core::Now now,
+    Protocol::SessionActions& out)
 {
-    Protocol::McsSessionOptions result;
-    arguments.Add(CheckStruct(&options));
+    if (!Protocol::IsSentByMCS(Protocol::GetCommand(request)))
+    {
+        return ACS_ERROR_DIRECTION;
+    }
+    return session.TrySend(request, now, out) ? ACS_OK : ACS_ERROR_NOT_READY;
+}
+
+} // namespace
+
+} // namespace ACS::CInterface
+
+void acs_mcs::WriteDefaults(Options& options)
+{
+    const ACS::Protocol::McsSessionOptions defaults;
+    options = {};
+    options.struct_size = sizeof(options);
+    options.ack_timeout_ms = defaults.ackTimeout.count();
+    options.answer_timeout_ms = defaults.answerTimeout.count();
+    options.registration_timeout_ms = defaults.registrationTimeout.count();
+    options.answer_bytes = defaults.answerBytes;
+    options.ack_retries = static_cast<std::uint32_t>(defaults.ackRetries);
+    options.max_pending = static_cast<std::uint32_t>(defaults.maximumPending);
+    options.duplicate_memory = static_cast<std::uint32_t>(defaults.duplicateMemory);
+    options.max_unanswered = static_cast<std::uint32_t>(defaults.maximumUnanswered);
+    options.silent_if_unanswered = defaults.unansweredPolicy == ACS::Protocol::EUnansweredPolicy::Silence ? 1 : 0;
+    options.withhold_plans = defaults.bPlansWithheld ? 1 : 0;
+    options.refuse_second = defaults.bSecondRefused ? 1 : 0;
+    ACS::CInterface::WriteCodecDefaults(options.codec);
+}
+
+ACS::Protocol::McsSessionOptions acs_mcs::ReadOptions(const Options& options, ACS::CInterface::Arguments& arguments)
+{
+    ACS::Protocol::McsSessionOptions result;
+    arguments.Add(ACS::CInterface::CheckStruct(&options));
     if (!arguments.IsValid())
     {
         return result;
@@ -103,42 +128,20 @@ Protocol::McsSessionOptions ReadOptions(const acs_mcs_options& options, Argument
     result.maximumPending = arguments.ReadCount(options.max_pending, 1, ACS_COUNT_MAX);
     result.duplicateMemory = arguments.ReadCount(options.duplicate_memory, 1, ACS_COUNT_MAX);
     result.maximumUnanswered = arguments.ReadCount(options.max_unanswered, 1, ACS_COUNT_MAX);
-    result.unansweredPolicy =
-        options.silent_if_unanswered != 0 ? Protocol::EUnansweredPolicy::Silence : Protocol::EUnansweredPolicy::Fail;
+    result.unansweredPolicy = options.silent_if_unanswered != 0 ? ACS::Protocol::EUnansweredPolicy::Silence
+                                                                : ACS::Protocol::EUnansweredPolicy::Fail;
     result.bPlansWithheld = options.withhold_plans != 0;
     result.bSecondRefused = options.refuse_second != 0;
-    result.answeredByApplication = ReadCommands(options.answered_commands, arguments);
+    result.answeredByApplication = ACS::CInterface::ReadCommands(options.answered_commands, arguments);
     result.codec = arguments.ReadCodecOptions(options.codec);
     arguments.Add(options.reserved == 0 ? ACS_OK : ACS_ERROR_ARGUMENT);
     return result;
 }
 
-std::int32_t Send(
-    acs_mcs& mcs,
-    std::string_view text,
-    acs_message* messageOrNull,
-    Core::Now now,
-    Protocol::SessionActions& out)
-{
-    const Protocol::DecodeOutcome outcome = mcs.Decode(text, now);
-    if (const std::int32_t result = mcs.Show(outcome, messageOrNull); result != ACS_OK)
-    {
-        return result;
-    }
-    const auto* const requestOrNull = std::get_if<Protocol::AcsRequest>(&*outcome.message);
-    if (requestOrNull == nullptr || !Protocol::IsSentByMCS(Protocol::GetCommand(*requestOrNull)))
-    {
-        return ACS_ERROR_DIRECTION;
-    }
-    return mcs.session.TrySend(*requestOrNull, now, out) ? ACS_OK : ACS_ERROR_NOT_READY;
-}
-
-} // namespace
-
-} // namespace ACS::CInterface
-
 using ACS::CInterface::Arguments;
-using ACS::CInterface::CheckStruct;
+using ACS::CInterface::CallSession;
+using ACS::CInterface::FillStruct;
+using ACS::CInterface::SendMessage;
 using ACS::Core::Now;
 using ACS::Protocol::SessionActions;
 
@@ -146,41 +149,12 @@ extern "C"
 {
     std::int32_t acs_mcs_options_init(acs_mcs_options* options, std::size_t options_size)
     {
-        if (options == nullptr)
-        {
-            return ACS_ERROR_ARGUMENT;
-        }
-        if (options_size != sizeof(*options))
-        {
-            return ACS_ERROR_VERSION;
-        }
-        ACS::CInterface::WriteDefaults(*options);
-        return ACS_OK;
+        return ACS::CInterface::InitOptions(options, options_size, acs_mcs::WriteDefaults);
     }
 
     std::int32_t acs_mcs_create(std::uint32_t abi_version, const acs_mcs_options* options, acs_mcs** mcs)
     {
-        if (mcs == nullptr)
-        {
-            return ACS_ERROR_ARGUMENT;
-        }
-        *mcs = nullptr;
-        if (abi_version != ACS_C_ABI_VERSION)
-        {
-            return ACS_ERROR_VERSION;
-        }
-        return ACS::CInterface::Guard([&]() -> std::int32_t {
-            Arguments arguments;
-            acs_mcs_options defaults;
-            ACS::CInterface::WriteDefaults(defaults);
-            const acs_mcs_options& used = options == nullptr ? defaults : *options;
-            const ACS::Protocol::McsSessionOptions sessionOptions = ACS::CInterface::ReadOptions(used, arguments);
-            if (arguments.IsValid())
-            {
-                *mcs = std::make_unique<acs_mcs>(sessionOptions, used.random, used.random_context).release();
-            }
-            return arguments.GetResult();
-        });
+        return ACS::CInterface::CreateHandle(abi_version, options, mcs);
     }
 
     void acs_mcs_destroy(acs_mcs* mcs)
@@ -190,18 +164,11 @@ extern "C"
 
     std::int32_t acs_mcs_connected(acs_mcs* mcs, std::uint64_t connection, std::int64_t steady_ms, std::int64_t wall_ms)
     {
-        if (mcs == nullptr)
-        {
-            return ACS_ERROR_ARGUMENT;
-        }
-        return mcs->Run({}, {steady_ms, wall_ms}, [&](Now now, SessionActions& out) -> std::int32_t {
-            if (connection <= mcs->lastConnection)
-            {
-                return ACS_ERROR_ARGUMENT;
-            }
+        Arguments arguments;
+        arguments.Add(mcs == nullptr || connection <= mcs->lastConnection ? ACS_ERROR_ARGUMENT : ACS_OK);
+        return CallSession(mcs, arguments, {steady_ms, wall_ms}, [&](auto& session, Now now, SessionActions& out) {
             mcs->lastConnection = connection;
-            mcs->session.OnConnected(connection, now, out);
-            return ACS_OK;
+            session.OnConnected(connection, now, out);
         });
     }
 
@@ -213,15 +180,10 @@ extern "C"
         std::int64_t steady_ms,
         std::int64_t wall_ms)
     {
-        if (mcs == nullptr)
-        {
-            return ACS_ERROR_ARGUMENT;
-        }
         Arguments arguments;
         const std::string_view bytes = arguments.ReadBytes(text, length);
-        return mcs->Run(arguments, {steady_ms, wall_ms}, [&](Now now, SessionActions& out) -> std::int32_t {
-            mcs->session.OnText(connection, bytes, now, out);
-            return ACS_OK;
+        return CallSession(mcs, arguments, {steady_ms, wall_ms}, [&](auto& session, Now now, SessionActions& out) {
+            session.OnText(connection, bytes, now, out);
         });
     }
 
@@ -233,29 +195,19 @@ extern "C"
         std::int64_t steady_ms,
         std::int64_t wall_ms)
     {
-        if (mcs == nullptr)
-        {
-            return ACS_ERROR_ARGUMENT;
-        }
         Arguments arguments;
         const std::string_view reasonText = arguments.ReadText(reason, reason_length);
-        return mcs->Run(arguments, {steady_ms, wall_ms}, [&](Now now, SessionActions& out) -> std::int32_t {
-            mcs->session.OnClosed(connection, reasonText, now, out);
-            return ACS_OK;
+        return CallSession(mcs, arguments, {steady_ms, wall_ms}, [&](auto& session, Now now, SessionActions& out) {
+            session.OnClosed(connection, reasonText, now, out);
         });
     }
 
     std::int32_t acs_mcs_timer_elapsed(acs_mcs* mcs, std::int32_t timer, std::int64_t steady_ms, std::int64_t wall_ms)
     {
-        if (mcs == nullptr)
-        {
-            return ACS_ERROR_ARGUMENT;
-        }
         Arguments arguments;
         const ACS::Protocol::ESessionTimer name = arguments.ReadTimer(timer);
-        return mcs->Run(arguments, {steady_ms, wall_ms}, [&](Now now, SessionActions& out) -> std::int32_t {
-            mcs->session.OnTimer(name, now, out);
-            return ACS_OK;
+        return CallSession(mcs, arguments, {steady_ms, wall_ms}, [&](auto& session, Now now, SessionActions& out) {
+            session.OnTimer(name, now, out);
         });
     }
 
@@ -267,16 +219,15 @@ extern "C"
         std::int64_t wall_ms,
         acs_message* message)
     {
-        if (mcs == nullptr)
-        {
-            return ACS_ERROR_ARGUMENT;
-        }
         Arguments arguments;
         const std::string_view bytes = arguments.ReadBytes(text, length);
-        arguments.Add(message == nullptr ? ACS_OK : CheckStruct(message));
-        return mcs->Run(arguments, {steady_ms, wall_ms}, [&](Now now, SessionActions& out) -> std::int32_t {
-            return ACS::CInterface::Send(*mcs, bytes, message, now, out);
-        });
+        return SendMessage<ACS::Protocol::AcsRequest>(
+            mcs,
+            bytes,
+            arguments,
+            {steady_ms, wall_ms},
+            message,
+            ACS::CInterface::SendRequest);
     }
 
     std::int32_t acs_mcs_answer(
@@ -288,67 +239,43 @@ extern "C"
         std::int64_t steady_ms,
         std::int64_t wall_ms)
     {
-        if (mcs == nullptr)
-        {
-            return ACS_ERROR_ARGUMENT;
-        }
         Arguments arguments;
         const ACS::Protocol::EAckResult ackResult = arguments.ReadAckResult(result);
         const std::string_view note = arguments.ReadText(text, text_length);
-        return mcs->Run(arguments, {steady_ms, wall_ms}, [&](Now now, SessionActions& out) -> std::int32_t {
-            return mcs->session.TryAnswer(token, ackResult, note, now, out) ? ACS_OK : ACS_ERROR_NOT_WAITING;
-        });
+        return CallSession(
+            mcs,
+            arguments,
+            {steady_ms, wall_ms},
+            [&](auto& session, Now now, SessionActions& out) -> std::int32_t {
+                return session.TryAnswer(token, ackResult, note, now, out) ? ACS_OK : ACS_ERROR_NOT_WAITING;
+            });
     }
 
     std::int32_t acs_mcs_next_action(acs_mcs* mcs, acs_action* action)
     {
-        if (const std::int32_t result = CheckStruct(action); result != ACS_OK || mcs == nullptr)
-        {
-            return result == ACS_OK ? ACS_ERROR_ARGUMENT : result;
-        }
-        return mcs->Use([&]() -> std::int32_t {
-            mcs->TakeAction(*action);
-            return ACS_OK;
-        });
+        return FillStruct(mcs, action, [&](acs_action& filled) { mcs->TakeAction(filled); });
     }
 
     std::int32_t acs_mcs_get_state(acs_mcs* mcs, acs_mcs_state* state)
     {
-        if (const std::int32_t result = CheckStruct(state); result != ACS_OK || mcs == nullptr)
-        {
-            return result == ACS_OK ? ACS_ERROR_ARGUMENT : result;
-        }
-        return mcs->Use([&]() -> std::int32_t {
+        return FillStruct(mcs, state, [&](acs_mcs_state& filled) {
             const ACS::Protocol::McsSession& session = mcs->session;
-            state->registered = session.IsRegistered() ? 1 : 0;
-            state->takes_plans = session.IsTakingPlans() ? 1 : 0;
-            state->refuses_upgrade = session.ShouldRefuseUpgrade() ? 1 : 0;
-            state->connection = session.GetRegisteredOrNull().value_or(0);
-            state->pending = session.GetPendingCount();
-            state->unanswered = session.GetUnansweredCount();
-            state->waiting_actions = mcs->GetWaitingCount();
-            return ACS_OK;
+            filled.registered = session.IsRegistered() ? 1 : 0;
+            filled.takes_plans = session.IsTakingPlans() ? 1 : 0;
+            filled.refuses_upgrade = session.ShouldRefuseUpgrade() ? 1 : 0;
+            filled.connection = session.GetRegisteredOrNull().value_or(0);
+            filled.pending = session.GetPendingCount();
+            filled.unanswered = session.GetUnansweredCount();
+            filled.waiting_actions = mcs->GetWaitingCount();
         });
     }
 
     std::int32_t acs_mcs_set_site_offset(acs_mcs* mcs, std::int32_t minutes)
     {
-        if (mcs == nullptr)
-        {
-            return ACS_ERROR_ARGUMENT;
-        }
-        return mcs->Use([&]() -> std::int32_t {
-            Arguments arguments;
-            const std::chrono::minutes offset = arguments.ReadOffset(minutes);
-            if (arguments.IsValid())
-            {
-                mcs->session.SetSiteOffset(offset);
-                mcs->SetSiteOffset(offset);
-            }
-            return arguments.GetResult();
-        });
+        return ACS::CInterface::SetSiteOffset(mcs, minutes);
     }
 
 } // extern "C"
 
 // NOLINTEND(readability-identifier-naming)
+

@@ -198,6 +198,7 @@ static void test_null_arguments(void)
     CHECK(acs_codec_make_ack(codec, "PlanReport", 10, NULL, 1, 0, "", 0, NULL, 0, 0, &message) == ACS_ERROR_ARGUMENT);
     CHECK(acs_codec_make_ack(codec, "PlanReport", 10, "t", 1, 0, NULL, 0, NULL, 0, 0, &message) == ACS_ERROR_ARGUMENT);
     CHECK(acs_codec_make_ack(codec, "PlanReport", 10, "t", 1, 0, "", 0, NULL, 0, 0, NULL) == ACS_ERROR_ARGUMENT);
+    CHECK(acs_codec_make_ack(codec, "PlanReport", 10, "t", 1, 0, "", 0, NULL, 2, 0, &message) == ACS_ERROR_ARGUMENT);
     message.struct_size = 0;
     CHECK(acs_codec_decode(codec, CANCEL, sizeof CANCEL - 1, &message) == ACS_ERROR_VERSION);
     CHECK(message.text.data == NULL);
