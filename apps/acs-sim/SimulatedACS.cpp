@@ -136,10 +136,9 @@ void SimulatedACS::OnAcked(const Protocol::Acked& acked, Core::Now now)
 
 void SimulatedACS::OnRequest(const Protocol::AcsRequest& request, Core::Now now)
 {
-    const auto answered = _answers.find(request.transactionID);
-    if (answered != _answers.end())
+    if (const SendAnswer* const answeredOrNull = _answers.FindOrNull(request.transactionID); answeredOrNull != nullptr)
     {
-        SendAnswerNow(answered->second);
+        SendAnswerNow(*answeredOrNull);
         return;
     }
     if (std::holds_alternative<Protocol::ExecutionPlan>(request.payload) && TryUse(EFault::RefusePlan))
@@ -201,7 +200,7 @@ void SimulatedACS::AddReport(const Protocol::AcsPayload& payload, const Core::Ti
 
 void SimulatedACS::Answer(const SendAnswer& answer, Core::Now now)
 {
-    _answers.insert_or_assign(answer.transactionID, answer);
+    _answers.Add(answer.transactionID, answer);
     if (TryUse(EFault::LateAck))
     {
         _lateAnswers.emplace_back(now.steady + _options.faultTime, answer);

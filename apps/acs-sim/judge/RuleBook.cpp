@@ -43,6 +43,18 @@ void RuleBook::Violate(ERule rule, std::string text)
     }
 }
 
+void RuleBook::Judge(ERule rule, bool bKept, const std::string& text)
+{
+    if (bKept)
+    {
+        Keep(rule);
+    }
+    else
+    {
+        Violate(rule, text);
+    }
+}
+
 const RuleBook::Row& RuleBook::GetRow(ERule rule) const
 {
     return _rows.at(static_cast<std::size_t>(rule));

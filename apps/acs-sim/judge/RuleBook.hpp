@@ -30,6 +30,8 @@ private:
 public:
     void Keep(ERule rule);
     void Violate(ERule rule, std::string text);
+    /// Keeps or violates.
+    void Judge(ERule rule, bool bKept, const std::string& text);
 
     [[nodiscard]] const Row& GetRow(ERule rule) const;
     [[nodiscard]] bool IsViolated() const;

@@ -32,7 +32,6 @@ struct SentRequest
     std::uint64_t order = 0;      ///< Of the last sending.
     std::uint64_t connection = 0; ///< Of the last sending.
     bool bReconnected = false;    ///< Sent on more than one connection.
-    bool bRemembered = false;     ///< It is among the answered requests.
     bool bOpen = false;           ///< It waits for its Ack on this connection.
     bool bOverdue = false;        ///< Reported as unanswered.
     Core::SteadyTime deadline;

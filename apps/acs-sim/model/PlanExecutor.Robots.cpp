@@ -197,6 +197,12 @@ void PlanExecutor::Leave(const std::string& planID, Core::Now now, ExecutorActio
     }
     ++_ended;
     out.emplace_back(PlanEnded{planID, _entries.at(planID).status});
+    _endedPlans.push_back(planID);
+    if (_endedPlans.size() > MOST_ENDED)
+    {
+        _entries.erase(_endedPlans.front());
+        _endedPlans.pop_front();
+    }
     StartPlans(now, out);
 }
 

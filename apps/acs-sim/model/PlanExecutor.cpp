@@ -33,7 +33,7 @@ ERobotType GetType(std::string_view robotName)
 
 std::optional<ERobotType> GetTypeOrNull(std::string_view action)
 {
-    constexpr std::array<std::pair<std::string_view, ERobotType>, 8> ACTIONS{
+    constexpr std::array<std::pair<std::string_view, ERobotType>, 8> TYPES{
         {{"CassetteLoad", ERobotType::Logistics},
          {"CassetteUnload", ERobotType::Logistics},
          {"TrayLoad", ERobotType::Control},
@@ -42,8 +42,8 @@ std::optional<ERobotType> GetTypeOrNull(std::string_view action)
          {"CloseSetCover", ERobotType::Control},
          {"OpenSetCover", ERobotType::Control},
          {"Start", ERobotType::Control}}};
-    const auto* const found = std::ranges::find(ACTIONS, action, &std::pair<std::string_view, ERobotType>::first);
-    return found == ACTIONS.end() ? std::nullopt : std::optional(found->second);
+    const auto* const found = std::ranges::find(TYPES, action, &std::pair<std::string_view, ERobotType>::first);
+    return found == TYPES.end() ? std::nullopt : std::optional(found->second);
 }
 
 /// The robot that a location names; nullopt: it is fixed, or names the alias.

@@ -22,6 +22,8 @@ namespace ACS::AcsSim
 class PlanExecutor
 {
 public:
+    static constexpr std::size_t MOST_ENDED = 4096; ///< Ended plans that it remembers.
+
     struct Options
     {
         std::vector<std::string> robots{"LR01", "CR01"}; ///< LR…: cassettes, CR…: trays and memories.
@@ -36,6 +38,7 @@ private:
     std::vector<RobotModel> _robots;
     std::deque<Protocol::ExecutionPlan> _waiting;
     std::map<std::string, Protocol::PlanEntry, std::less<>> _entries; ///< By planID, ended plans included.
+    std::deque<std::string> _endedPlans;                              ///< Whose entries are kept, oldest first.
     std::size_t _ended = 0;
     bool _bRefuseNext = false;
     bool _bFailNext = false;

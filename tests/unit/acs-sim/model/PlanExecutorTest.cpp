@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <utility>
@@ -285,6 +286,22 @@ TEST_CASE("6.10, 6.11 Queries are answered with the present state")
     REQUIRE(plans.size() == 1);
     CHECK((plans[0].status == EPlanStatus::Completed && plans[0].stepNo == 0 && !plans[0].jobID.has_value()));
     CHECK(plans[0].endTime.has_value());
+}
+
+TEST_CASE("The oldest of many ended plans are forgotten")
+{
+    ExecutorFixture fixture;
+    for (std::size_t i = 0; i <= PlanExecutor::MOST_ENDED; ++i)
+    {
+        const std::string planID = fmt::format("P{}", i);
+        fixture.Ask(MakeCassettePlan(planID));
+        fixture.Ask(CancelPlan{planID, ""});
+    }
+    fixture.Ask(RequestAcsPlanHistory{{"P0", "P1"}});
+    const auto& plans = std::get<PlanListAck>(fixture.answer->payload).plans;
+    REQUIRE(plans.size() == 1);
+    CHECK(plans.front().planID == "P1");
+    CHECK(fixture.executor.CountEnded() == PlanExecutor::MOST_ENDED + 1);
 }
 
 TEST_CASE("D-19 A control of an unknown plan gets Fail and a result")
