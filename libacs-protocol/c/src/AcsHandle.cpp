@@ -276,4 +276,3 @@ extern "C"
 } // extern "C"
 
 // NOLINTEND(readability-identifier-naming)
-

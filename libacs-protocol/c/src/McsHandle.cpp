@@ -278,4 +278,3 @@ extern "C"
 } // extern "C"
 
 // NOLINTEND(readability-identifier-naming)
-
