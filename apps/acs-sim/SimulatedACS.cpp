@@ -101,6 +101,7 @@ void SimulatedACS::OnEvent(const Protocol::SessionEvent& event, Core::Now now)
             }},
         event);
     Feed();
+    NoteGoal();
 }
 
 void SimulatedACS::OnRegistered(Core::Now now)
@@ -275,6 +276,7 @@ void SimulatedACS::OnTimer(Core::Now now)
     ExecutorActions actions;
     _executor.OnTimer(now, actions);
     Execute(actions, now);
+    NoteGoal();
 }
 
 // ---- faults
@@ -366,11 +368,40 @@ void SimulatedACS::Cut()
 
 // ---- the end
 
+std::set<std::string> SimulatedACS::ListWaiting() const
+{
+    std::set<std::string> waiting = _judge.ListOpenRequests();
+    for (const Protocol::DurableRequest& durable : _outbox.GetRequests())
+    {
+        waiting.insert(durable.request.transactionID);
+    }
+    for (const auto& [due, answer] : _lateAnswers)
+    {
+        waiting.insert(answer.transactionID);
+    }
+    return waiting;
+}
+
+void SimulatedACS::NoteGoal()
+{
+    if (_options.plans > 0 && _executor.CountEnded() >= _options.plans && !_schedule.HasCounted()
+        && !_lastWaiting.has_value())
+    {
+        _lastWaiting = ListWaiting();
+    }
+}
+
 bool SimulatedACS::IsDone() const
 {
-    const bool bPending = _schedule.HasCounted() || !_outbox.GetRequests().empty() || _heldUntil.has_value()
-        || _connectedAgain.has_value() || _cutAt.has_value() || !_lateAnswers.empty() || _judge.HasOpenRequests();
-    return _options.plans > 0 && _executor.CountEnded() >= _options.plans && !bPending;
+    if (!_lastWaiting.has_value() || _connectedAgain.has_value() || _cutAt.has_value())
+    {
+        return false;
+    }
+    // An MCS may go on sending plans: what came later does not count.
+    const std::set<std::string> waiting = ListWaiting();
+    return std::ranges::none_of(*_lastWaiting, [&waiting](const std::string& transactionID) {
+        return waiting.contains(transactionID);
+    });
 }
 
 bool SimulatedACS::WasRegistered() const

@@ -16,6 +16,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -59,6 +60,8 @@ private:
     std::optional<Core::SteadyTime> _connectedAgain; ///< When isConnected becomes true again.
     std::optional<Core::SteadyTime> _nextFault;      ///< While registered.
     std::optional<Core::SteadyTime> _cutAt;
+    /// When the wanted number of plans has ended: the transactionIDs of what is not answered yet, in both directions.
+    std::optional<std::set<std::string>> _lastWaiting;
     std::size_t _registrations = 0;
 
 public:
@@ -70,7 +73,7 @@ public:
     void OnTimer(Core::Now now);
     [[nodiscard]] std::optional<Core::SteadyTime> GetNextDueOrNull() const;
 
-    /// All plans have ended, all faults have occurred, and everything is answered.
+    /// The wanted number of plans has ended, all faults have occurred, and all requests up to then are answered.
     [[nodiscard]] bool IsDone() const;
     [[nodiscard]] bool WasRegistered() const;
     [[nodiscard]] std::size_t CountEndedPlans() const;
@@ -85,6 +88,9 @@ private:
     void SendAnswerNow(const SendAnswer& answer);
     void SendStates();
     void Feed();
+    /// The transactionIDs of the requests of both directions that are not answered.
+    [[nodiscard]] std::set<std::string> ListWaiting() const;
+    void NoteGoal();
 
     void OnRegistered(Core::Now now);
     void OnAcked(const Protocol::Acked& acked, Core::Now now);

@@ -66,11 +66,17 @@ AckJudge::AckJudge(RuleBook& book, Core::Duration ackTimeout)
 {
 }
 
-bool AckJudge::HasOpenRequests() const
+std::set<std::string> AckJudge::ListOpenRequests() const
 {
-    return std::ranges::any_of(_sent.GetEntries(), [](const auto& entry) {
-        return entry.second.bOpen && !entry.second.bOverdue;
-    });
+    std::set<std::string> open;
+    for (const auto& [transactionID, sent] : _sent.GetEntries())
+    {
+        if (sent.bOpen && !sent.bOverdue)
+        {
+            open.insert(transactionID);
+        }
+    }
+    return open;
 }
 
 bool AckJudge::IsRegistered() const noexcept

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace ACS::AcsSim
@@ -47,8 +48,8 @@ public:
     /// The MCS may answer this request as it likes: the ACS has sent it at a wrong time. Call before OnRequestSent.
     void Excuse(const std::string& transactionID);
 
-    /// Whether requests wait for their Ack.
-    [[nodiscard]] bool HasOpenRequests() const;
+    /// The transactionIDs of requests that wait for their Ack.
+    [[nodiscard]] std::set<std::string> ListOpenRequests() const;
     [[nodiscard]] bool IsRegistered() const noexcept;
     [[nodiscard]] bool IsWithholdingPlans() const noexcept;
 

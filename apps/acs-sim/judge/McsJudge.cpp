@@ -120,9 +120,9 @@ void McsJudge::Excuse(const std::string& transactionID)
     _acks.Excuse(transactionID);
 }
 
-bool McsJudge::HasOpenRequests() const
+std::set<std::string> McsJudge::ListOpenRequests() const
 {
-    return _acks.HasOpenRequests();
+    return _acks.ListOpenRequests();
 }
 
 RuleBook& McsJudge::GetBook()

@@ -8,6 +8,7 @@
 #include <acs/protocol/AcsCodec.hpp>
 
 #include <chrono>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -39,8 +40,8 @@ public:
     /// The MCS may answer this request as it likes: the ACS has sent it at a wrong time. Call before OnSent.
     void Excuse(const std::string& transactionID);
 
-    /// Whether requests wait for their Ack.
-    [[nodiscard]] bool HasOpenRequests() const;
+    /// The transactionIDs of requests that wait for their Ack.
+    [[nodiscard]] std::set<std::string> ListOpenRequests() const;
     [[nodiscard]] RuleBook& GetBook();
 };
 

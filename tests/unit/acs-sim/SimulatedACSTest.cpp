@@ -113,12 +113,19 @@ public:
         acs.OnEvent(RequestReceived{{transactionID, {}, plan}}, clock.GetNow());
     }
 
-    /// Acknowledges everything that was sent since the last call.
-    void Acknowledge()
+    /// Acknowledges everything that was sent since the last call, except the newest ones.
+    void Acknowledge(std::size_t newest = 0)
     {
-        while (_acknowledged < link.reports.size())
+        while (_acknowledged + newest < link.reports.size())
         {
             const AcsRequest request = link.reports[_acknowledged++];
+            AcsAck ack;
+            ack.command = GetCommand(request);
+            ack.transactionID = request.transactionID;
+            ack.timestamp = request.timestamp;
+            std::string text;
+            AcsCodec::EncodeAck(ack, text);
+            judge.OnReceived(text, clock.GetNow().steady);
             acs.OnEvent(Acked{GetCommand(request), request.transactionID, EAckResult::Success, ""}, clock.GetNow());
         }
     }
@@ -230,6 +237,34 @@ TEST_CASE("not-connected: isConnected is false, and later true")
     CHECK(std::get<AcsCommStateUpdate>(fixture.link.states.back()) == AcsCommStateUpdate{false});
     fixture.Advance(std::chrono::seconds(3));
     CHECK(std::get<AcsCommStateUpdate>(fixture.link.states.back()) == AcsCommStateUpdate{true});
+}
+
+TEST_CASE("A run ends although the MCS goes on sending plans")
+{
+    AcsFixture fixture;
+    fixture.SendPlan("P0", "T0");
+    fixture.Advance(A_PLAN);
+    CHECK(fixture.acs.IsDone());
+    const std::size_t before = fixture.link.reports.size();
+    fixture.SendPlan("P1", "T1");
+    REQUIRE(fixture.link.reports.size() > before); // which have no Ack
+    CHECK(fixture.acs.IsDone());
+}
+
+TEST_CASE("A run does not end before its last report is acknowledged")
+{
+    AcsFixture fixture;
+    fixture.SendPlan("P", "T");
+    while (fixture.acs.CountEndedPlans() == 0)
+    {
+        fixture.clock.Advance(std::chrono::milliseconds(100));
+        fixture.acs.OnTimer(fixture.clock.GetNow());
+        fixture.Acknowledge(1);
+    }
+    fixture.SendPlan("P1", "T1");
+    CHECK_FALSE(fixture.acs.IsDone());
+    fixture.Acknowledge();
+    CHECK(fixture.acs.IsDone());
 }
 
 TEST_CASE("late-ack: an answer is late, refuse-plan: a plan is refused")

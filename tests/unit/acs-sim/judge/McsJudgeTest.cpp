@@ -32,7 +32,7 @@ TEST_CASE("A correct MCS violates nothing, and what was seen is ok in the table"
     fixture.Wait(LONG);
     CHECK(fixture.GetViolated().empty());
     CHECK_FALSE(fixture.judge.GetBook().IsViolated());
-    CHECK_FALSE(fixture.judge.HasOpenRequests());
+    CHECK(fixture.judge.ListOpenRequests().empty());
     const std::vector<std::string> table = fixture.judge.GetBook().MakeTable();
     REQUIRE(table.size() == ACS::AcsSim::RULE_COUNT + 1);
     CHECK(table[1].find("registration         6.2       ok (1)") == 0);
@@ -165,7 +165,7 @@ TEST_CASE("6.1 A report without an Ack, and one whose Ack comes late")
     JudgeFixture fixture;
     fixture.Begin();
     fixture.Sent(JudgeFixture::MakeRequest("PlanReport", 3, JudgeFixture::REPORT));
-    CHECK(fixture.judge.HasOpenRequests());
+    CHECK(fixture.judge.ListOpenRequests().size() == 1);
     SECTION("none")
     {
         fixture.Wait(LONG);
@@ -179,7 +179,7 @@ TEST_CASE("6.1 A report without an Ack, and one whose Ack comes late")
     }
     CHECK(fixture.GetViolated() == Rules{ERule::Acknowledged});
     CHECK(fixture.judge.GetBook().GetRow(ERule::Acknowledged).violated == 1);
-    CHECK_FALSE(fixture.judge.HasOpenRequests());
+    CHECK(fixture.judge.ListOpenRequests().empty());
 }
 
 TEST_CASE("6.1 Acks that are not as specified")
@@ -231,7 +231,7 @@ TEST_CASE("6.1 A report about an unknown plan, and one that is excused, may be r
     fixture.Begin();
     fixture.Ask("PlanReport", 3, R"({"planId":"Q","status":"InProgress","message":""})", "Fail");
     fixture.judge.Excuse(JudgeFixture::MakeID(4));
-    CHECK_FALSE(fixture.judge.HasOpenRequests());
+    CHECK(fixture.judge.ListOpenRequests().empty());
     fixture.Ask("PlanReport", 4, JudgeFixture::REPORT, "Fail");
     CHECK(fixture.GetViolated().empty());
 }
@@ -254,7 +254,7 @@ TEST_CASE("6.1, 6.2 After a reconnect the Registration and repeated reports are 
     fixture.Begin();
     fixture.Sent(JudgeFixture::MakeRequest("PlanReport", 3, JudgeFixture::REPORT));
     fixture.judge.OnClosed(false);
-    CHECK_FALSE(fixture.judge.HasOpenRequests());
+    CHECK(fixture.judge.ListOpenRequests().empty());
     fixture.Wait(LONG);
     CHECK(fixture.GetViolated().empty());
     SECTION("correct")
@@ -428,5 +428,5 @@ TEST_CASE("The judge survives any bytes of the MCS and forgets old transactions"
     }
     CHECK(fixture.judge.GetBook().IsViolated());
     CHECK(fixture.judge.GetBook().ExtractNews().size() <= 20 * ACS::AcsSim::RULE_COUNT);
-    CHECK_FALSE(fixture.judge.HasOpenRequests());
+    CHECK(fixture.judge.ListOpenRequests().empty());
 }
