@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs clang-tidy 14 (warnings as errors) and the house rules over the sources of build/tidy's compilation database.
-What passed is remembered by a hash of all that can change the answer: the source, the headers of this tree that it
-includes, its compile command and the rules."""
+What passed is remembered by a hash of all that can change the answer: the source and the headers of this tree that it
+includes, without their comments, its compile command and the rules."""
 
 import argparse
 import hashlib
@@ -33,6 +33,8 @@ WITHOUT_ANALYZER = "-clang-analyzer-*"
 ONLY_ANALYZER = "-*,clang-analyzer-*,-clang-analyzer-optin.cplusplus.VirtualCall"
 ANALYZED = ("lib",)
 ANALYZED_DEEP = ("lib", "apps/", "examples/")
+# Lines that change no answer.
+COMMENT = re.compile(r"^[ \t]*//(?!.*(?:NOLINT|TODO)).*\n", re.MULTILINE)
 BROKEN_QUERY = re.compile(r"Error (?:parsing|building)|Matcher not found|Invalid token|unknown command", re.IGNORECASE)
 
 
@@ -63,7 +65,7 @@ class Fingerprints:
         words = " ".join(shlex.split(command)).replace(ROOT, "")
         digest = hashlib.sha256((self._rules + "\0" + words).encode())
         for name in sorted(seen):
-            digest.update((name + "\0" + read_text(ROOT, name)).encode())
+            digest.update((name + "\0" + COMMENT.sub("", read_text(ROOT, name))).encode())
         return digest.hexdigest()
 
 
