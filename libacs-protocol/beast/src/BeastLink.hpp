@@ -3,6 +3,7 @@
 #include "CutText.hpp"
 #include "ILink.hpp"
 #include "SocketQueue.hpp"
+#include <acs/core/Result.hpp>
 #include <acs/protocol_beast/ClientOptions.hpp>
 
 #include <boost/asio/ip/tcp.hpp>
@@ -222,8 +223,7 @@ private:
             [self = this->shared_from_this(), response](ErrorCode handshakeError) {
                 if (handshakeError == websocket::error::upgrade_declined)
                 {
-                    self->Finish(
-                        "the server refused the connection with HTTP " + std::to_string(response->result_int()));
+                    self->Finish(DescribeRefusal(response->result_int(), response->body()));
                     return;
                 }
                 if (handshakeError == boost::beast::http::error::end_of_stream)
@@ -233,6 +233,17 @@ private:
                 }
                 self->OnOpen(handshakeError);
             });
+    }
+
+    [[nodiscard]] static std::string DescribeRefusal(unsigned status, std::string_view body)
+    {
+        std::string text = "the server refused the connection with HTTP " + std::to_string(status);
+        const std::size_t end = body.find_last_not_of(" \t\r\n");
+        if (end != std::string_view::npos)
+        {
+            text += ": " + Core::QuoteForError(body.substr(0, end + 1));
+        }
+        return text;
     }
 
     [[nodiscard]] std::string Describe(ErrorCode error)

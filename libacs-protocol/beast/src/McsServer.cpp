@@ -316,6 +316,13 @@ void McsServer::Run(const SessionCall& call)
     _impl->Run([&call](auto& /*session*/, Core::Now now, auto& out) { call(now, out); });
 }
 
+void McsServer::Close(Protocol::ConnectionID connection, std::string_view reason)
+{
+    Run([connection, reason](Core::Now /*now*/, Protocol::SessionActions& out) {
+        out.emplace_back(Protocol::Close{connection, Protocol::CLOSE_POLICY, std::string(reason)});
+    });
+}
+
 bool McsServer::IsTakingPlans() const
 {
     return _impl->GetSession().IsTakingPlans();
@@ -323,7 +330,12 @@ bool McsServer::IsTakingPlans() const
 
 bool McsServer::IsRegistered() const
 {
-    return _impl->GetSession().GetRegisteredOrNull().has_value();
+    return GetRegisteredOrNull().has_value();
+}
+
+std::optional<Protocol::ConnectionID> McsServer::GetRegisteredOrNull() const
+{
+    return _impl->GetSession().GetRegisteredOrNull();
 }
 
 std::size_t McsServer::GetPendingCount() const

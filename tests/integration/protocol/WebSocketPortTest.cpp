@@ -132,7 +132,9 @@ TEST_CASE("Two ACSs at one port by path: each has its own session, and the end o
 
     rig.ConnectTo(rig.GetURL("/line-1/"));
     REQUIRE(rig.WasLost());
-    CHECK(rig.acsEvents.GetFirstLoss() == "the server refused the connection with HTTP 404");
+    CHECK(
+        rig.acsEvents.GetFirstLoss()
+        == "the server refused the connection with HTTP 404: \"The ACS connects at /line-2/.\"");
 }
 
 TEST_CASE("Two ACSs at one path by header: the first server whose application accepts a client gets it")
@@ -150,7 +152,7 @@ TEST_CASE("Two ACSs at one path by header: the first server whose application ac
     rig.clientOptions.headers = {{"X-ACS", "three"}};
     rig.Connect();
     REQUIRE(rig.WasLost());
-    CHECK(rig.acsEvents.GetFirstLoss() == "the server refused the connection with HTTP 401");
+    CHECK(rig.acsEvents.GetFirstLoss() == "the server refused the connection with HTTP 401: \"not two\"");
     CHECK(rig.pairs[0].acsEvents.GetAll<LinkLost>().empty());
 }
 

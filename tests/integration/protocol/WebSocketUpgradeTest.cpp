@@ -115,7 +115,7 @@ TEST_CASE("A refused client gets status, reason and headers, and the session has
 
     rig.Connect();
     REQUIRE(rig.WasLost(2));
-    CHECK(rig.acsEvents.GetFirstLoss() == "the server refused the connection with HTTP 401");
+    CHECK(rig.acsEvents.GetFirstLoss() == "the server refused the connection with HTTP 401: \"A token is required.\"");
     CHECK(rig.mcsEvents.events.empty());
     CHECK_FALSE(rig.server->IsRegistered());
 
@@ -288,4 +288,25 @@ TEST_CASE("wss: without a client CA no certificate is demanded, and there is no 
     rig.ConnectTo(rig.GetURL("/acs/", "localhost"));
     REQUIRE(rig.WasRegistered());
     CHECK(rig.requests.at(0).certificateSubject.empty());
+}
+
+TEST_CASE("An application closes the connection of the registered ACS, which may connect again")
+{
+    GuardedFixture rig;
+    rig.clientOptions.headers = {{"Authorization", TOKEN}};
+    rig.Listen();
+    CHECK_FALSE(rig.server->GetRegisteredOrNull().has_value());
+    rig.Connect();
+    REQUIRE(rig.WasRegistered());
+    const std::optional<Protocol::ConnectionID> registered = rig.server->GetRegisteredOrNull();
+    REQUIRE(registered.has_value());
+    rig.server->Close(*registered + 1, "a connection that does not exist");
+    rig.server->Close(*registered, "the token was withdrawn");
+    rig.server->Close(*registered, "again");
+    REQUIRE(rig.WasLost());
+    CHECK(HasPart(rig.acsEvents.GetFirstLoss(), "the token was withdrawn"));
+    CHECK(rig.WasReached([&rig, &registered] {
+        const std::optional<Protocol::ConnectionID> next = rig.server->GetRegisteredOrNull();
+        return next.has_value() && *next != *registered;
+    }));
 }

@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 namespace ACS::ProtocolBeast
@@ -78,6 +79,11 @@ public:
     /// Its end is not reported: destroy the server when the executor has run out of work, or after a time limit.
     void Stop();
 
+    /// Starts the closing handshake of one connection with code 1008 (policy violation), for example of an ACS whose token was
+    /// withdrawn; an ACS connects again, see ServerOptions::checkUpgrade. Has no effect on a connection that is closed already.
+    /// @param reason At most 123 bytes reach the client.
+    void Close(Protocol::ConnectionID connection, std::string_view reason);
+
     /// These call the session's function of the same name and carry out its actions; events reach the handler after
     /// the call has returned.
     [[nodiscard]] bool TryAnswer(Protocol::AnswerToken token, Protocol::EAckResult result, std::string_view message);
@@ -87,6 +93,8 @@ public:
     void Run(const SessionCall& call);
 
     [[nodiscard]] bool IsRegistered() const;
+    /// The connection of the registered ACS.
+    [[nodiscard]] std::optional<Protocol::ConnectionID> GetRegisteredOrNull() const;
     [[nodiscard]] bool IsTakingPlans() const;
     [[nodiscard]] std::size_t GetPendingCount() const;
     [[nodiscard]] std::size_t GetUnansweredCount() const;
