@@ -26,7 +26,7 @@ UNFINISHED = re.compile(r"\b(?:" + "|".join(("TO" "DO", "FIX" "ME", "X" "XX", "H
                         + "|filled in by its " + "own change")
 MACHINE_PATH = re.compile(r"(?<![\w.$})/~-])/(?:work|home|root|Users)/\w" + r"|/tm" + r"p/(?:w|h)/")
 TYPE = re.compile(r"^(?:template\s*<.*>\s*)?(class|struct|union|enum\s+class|enum|concept|using)\s+"
-                  r"(?:\[\[[^\]]*\]\]\s*)?(?:alignas\([^)]*\)\s*)?([A-Za-z_]\w*)(?!\w)(?!\s*::)(?!\w*;)")
+                  r"(?:ACS_[A-Z]+\s+|\[\[[^\]]*\]\]\s*)?(?:alignas\([^)]*\)\s*)?([A-Za-z_]\w*)(?!\w)(?!\s*::)(?!\w*;)")
 
 
 # A fenced or inline piece of a document that is code; a link to a file or a heading, not to another site.

@@ -17,7 +17,8 @@ LIMITS = {METHODS: 60, MEMBERS: 20, FIELDS: 15, LINES: 500}
 # Options and messages are values: they have as many fields as their document has.
 VALUE_NAME = re.compile(r"(?:Options|Config|Spec|Message|Record|Summary|Event|Job|Status|State|Limits)$")
 EXCEEDED = "scripts/sizes-exceeded.txt"
-TYPE = re.compile(r"\b(class|struct)\s+(?:\[\[[^\]]*\]\]\s*|alignas\([^)]*\)\s*)?((?:\w+::)*\w+)\s*(?:final\s*)?(?::(?!:)[^;{}()]*)?\{")
+TYPE = re.compile(r"\b(class|struct)\s+(?:ACS_[A-Z]+\s+|\[\[[^\]]*\]\]\s*|alignas\([^)]*\)\s*)?((?:\w+::)*\w+)\s*(?:final\s*)?"
+                  r"(?::(?!:)[^;{}()]*)?\{")
 LABEL = re.compile(r"\b(?:public|private|protected)\s*:(?!:)")
 NO_MEMBER = re.compile(r"^(?:using|friend|typedef|static_assert|enum|class|struct|union|static\s+constexpr|"
                        r"static\s+inline\s+const|inline\s+static)\b")

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/IRandom.hpp>
 
 #include <chrono>
@@ -17,7 +18,7 @@ struct BackoffOptions
 };
 
 /// Exponential backoff with jitter, which spreads the reconnects of many clients. A value, not a timer.
-class Backoff
+class ACS_API Backoff
 {
     BackoffOptions _options;
     std::chrono::milliseconds _next;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <system_error>
 
 namespace ACS::Core
@@ -21,7 +23,7 @@ enum class ECoreError
     UnhandledEnum = 11,    ///< An enumerator without a case: a defect of this library.
 };
 
-[[nodiscard]] std::error_code make_error_code(ECoreError error) noexcept;
+[[nodiscard]] ACS_API std::error_code make_error_code(ECoreError error) noexcept;
 
 } // namespace ACS::Core
 

@@ -1,12 +1,14 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <cstdint>
 
 namespace ACS::Core
 {
 
 /// A source of random numbers: the system's in programs, a seeded one in tests. Not shared between threads.
-class IRandom
+class ACS_API IRandom
 {
 public:
     IRandom() = default;

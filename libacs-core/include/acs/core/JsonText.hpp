@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Result.hpp>
 
 #include <cstdint>
@@ -12,7 +13,7 @@ namespace ACS::Core
 
 /// Any JSON value as compact text, for values that a protocol passes through (the result of a GET, the value of an action
 /// parameter). Valid JSON by construction.
-class JsonText
+class ACS_API JsonText
 {
     std::string _text = "null";
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/ESegmentKind.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/core/RobotID.hpp>
@@ -29,7 +30,7 @@ struct LocationSegment
 
 /// A place of MCS-ACS (section 10) such as "A01.CP02.TP01", "ST01", "SET02.MP15", "AMR.CP01" or "LR01.CP01". Valid by
 /// construction. Comparing and hashing use the canonical text, so two spellings of one place are equal.
-class Location
+class ACS_API Location
 {
 public:
     static constexpr std::size_t MAX_LENGTH = 64;
@@ -111,7 +112,7 @@ public:
 
 /// Reads a location or a range over its last number, as the configuration writes them: "A01.CP01.TP01-04" is TP01, TP02,
 /// TP03 and TP04 of A01.CP01. Between 1 and 999 locations, in ascending order. Fails with ECoreError::InvalidLocation.
-[[nodiscard]] Result<std::vector<Location>> ParseLocationRange(std::string_view text);
+[[nodiscard]] ACS_API Result<std::vector<Location>> ParseLocationRange(std::string_view text);
 
 } // namespace ACS::Core
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Location.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/core/RobotID.hpp>
@@ -15,7 +16,7 @@ namespace ACS::Core
 {
 
 /// The places of a site: fixed places and the ports of its robots (section 10). Any site size and numbering is possible.
-class LocationMap
+class ACS_API LocationMap
 {
     /// The place of a set's short form, and whether another area has a set of the same number.
     struct ShortForm

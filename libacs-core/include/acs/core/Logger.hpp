@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <cstdint>
 #include <initializer_list>
 #include <string>
@@ -24,7 +26,7 @@ struct LogField
 };
 
 /// The destination of log lines, for example spdlog. Called on the thread that logs; must not throw.
-class ILogSink
+class ACS_API ILogSink
 {
 public:
     ILogSink() = default;
@@ -42,7 +44,7 @@ public:
 
 /// A sink and the name of the component that logs. Cheap to copy; the sink must outlive all copies. There is no global
 /// logger.
-class Logger
+class ACS_API Logger
 {
     ILogSink* _sinkOrNull = nullptr;
     std::string _component;

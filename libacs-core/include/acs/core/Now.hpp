@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <chrono>
 
 namespace ACS::Core
@@ -17,7 +19,7 @@ struct Now
 };
 
 /// Returns the current time: from the system's clocks in programs, from a manual clock in tests.
-class IClock
+class ACS_API IClock
 {
 public:
     IClock() = default;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <cstddef>
 #include <optional>
 #include <string_view>
@@ -38,10 +40,10 @@ struct Nurbs
 };
 
 /// Which rule the description breaks; empty where it keeps all. One that keeps them has a point everywhere.
-[[nodiscard]] std::string_view FindCurveFault(const Nurbs& curve);
+[[nodiscard]] ACS_API std::string_view FindCurveFault(const Nurbs& curve);
 
 /// A NURBS, evaluated by de Boor's rule. Pure.
-class NurbsCurve
+class ACS_API NurbsCurve
 {
     struct Weighted
     {

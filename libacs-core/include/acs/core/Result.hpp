@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/ECoreError.hpp>
 
 #include <tl/expected.hpp>
@@ -23,14 +24,14 @@ struct Error
 };
 
 /// One sentence for a log line or for the message of an acknowledgement.
-[[nodiscard]] std::string Describe(const Error& error);
+[[nodiscard]] ACS_API std::string Describe(const Error& error);
 
 /// A value or an error; to be replaced by std::expected.
 template <typename TValue>
 using Result = tl::expected<TValue, Error>;
 
 /// Creates the error of a Result: `return Fail(ECoreError::OutOfRange, "payload.x", "…", "…");`
-[[nodiscard]] tl::unexpected<Error> Fail(
+[[nodiscard]] ACS_API tl::unexpected<Error> Fail(
     std::error_code code,
     std::string path = {},
     std::string expected = {},
@@ -38,6 +39,6 @@ using Result = tl::expected<TValue, Error>;
 
 /// Text from outside for Error::found: in quotes, truncated to 64 characters, '?' for characters that are not printable
 /// ASCII.
-[[nodiscard]] std::string QuoteForError(std::string_view text);
+[[nodiscard]] ACS_API std::string QuoteForError(std::string_view text);
 
 } // namespace ACS::Core

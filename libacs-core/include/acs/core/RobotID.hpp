@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Result.hpp>
 
 #include <compare>
@@ -13,7 +14,7 @@ namespace ACS::Core
 
 /// The name of a robot ("LR01"), valid by construction: 1 to 64 of the characters A-Z a-z 0-9 _ -, and nothing that
 /// is a segment of a location (A01, ST1, SET12, T01, CP01 …, in any case). Case-sensitive.
-class RobotID
+class ACS_API RobotID
 {
 public:
     static constexpr std::size_t MAX_LENGTH = 64;

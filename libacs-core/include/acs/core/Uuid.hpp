@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/IRandom.hpp>
 
 #include <string>
@@ -9,6 +10,6 @@ namespace ACS::Core
 
 /// A random UUID (version 4) in its canonical lower-case form, for example for a transactionId. Its uniqueness
 /// depends on the random source.
-[[nodiscard]] std::string MakeUUID(IRandom& random);
+[[nodiscard]] ACS_API std::string MakeUUID(IRandom& random);
 
 } // namespace ACS::Core

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/protocol/AcsMessage.hpp>
 #include <acs/protocol/CodecOptions.hpp>
 #include <acs/protocol/DecodeOutcome.hpp>
@@ -13,9 +14,9 @@ namespace ACS::Protocol
 
 /// Converts texts to messages and back. Reuses its buffers: a message costs no allocations except for its own strings and
 /// vectors. Not shared between threads.
-class AcsCodec
+class ACS_API AcsCodec
 {
-    class Impl;
+    class ACS_HIDDEN Impl;
     std::unique_ptr<Impl> _impl;
 
 public:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/protocol/AcsMessage.hpp>
@@ -23,9 +24,9 @@ namespace ACS::Protocol
 /// by SendStatus, and requests positions. The caller keeps a durable request until `Acked`: see DurableOutbox.
 ///
 /// Any function that receives or answers a text may deliver ProtocolNoted.
-class AcsSession
+class ACS_API AcsSession
 {
-    class Impl;
+    class ACS_HIDDEN Impl;
     std::unique_ptr<Impl> _impl;
 
 public:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/core/Timestamp.hpp>
@@ -24,7 +25,7 @@ namespace ACS::Protocol
 ///
 ///     outbox.Add(report, timestamp);           // or: outbox.OnEvent(event), for each event of the session
 ///     outbox.Feed(client);
-class DurableOutbox
+class ACS_API DurableOutbox
 {
     enum class EPhase : std::uint8_t
     {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <cstdint>
 #include <string_view>
 
@@ -13,6 +15,6 @@ enum class EAckResult : std::uint8_t
     Fail,
 };
 
-[[nodiscard]] std::string_view GetText(EAckResult result);
+[[nodiscard]] ACS_API std::string_view GetText(EAckResult result);
 
 } // namespace ACS::Protocol

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -38,12 +40,12 @@ enum class EAcsCommand : std::uint8_t
 inline constexpr std::size_t COMMAND_COUNT = 22;
 
 /// The name on the wire, without `Ack`.
-[[nodiscard]] std::string_view GetText(EAcsCommand command);
+[[nodiscard]] ACS_API std::string_view GetText(EAcsCommand command);
 
 /// Whether the MCS sends this command; otherwise the ACS does.
-[[nodiscard]] bool IsSentByMCS(EAcsCommand command) noexcept;
+[[nodiscard]] ACS_API bool IsSentByMCS(EAcsCommand command) noexcept;
 
 /// Whether the receiver answers with an Ack: every command but RobotPositionUpdate (sections 6.1 and 6.19).
-[[nodiscard]] bool HasAck(EAcsCommand command) noexcept;
+[[nodiscard]] ACS_API bool HasAck(EAcsCommand command) noexcept;
 
 } // namespace ACS::Protocol

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/protocol/AcsMessage.hpp>
 #include <acs/protocol/SessionAction.hpp>
@@ -14,7 +15,7 @@ namespace ACS::Protocol
 
 /// The MCS side of the protocol as a server drives it: McsSession, or a decorator around one (a simulated MCS that
 /// loses Acks, for example). Not shared between threads.
-class IMcsSession
+class ACS_API IMcsSession
 {
 public:
     IMcsSession() = default;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/protocol/DurableRequest.hpp>
 
@@ -9,7 +10,7 @@ namespace ACS::Protocol
 {
 
 /// Stable storage of a DurableOutbox.
-class IOutboxStore
+class ACS_API IOutboxStore
 {
 public:
     IOutboxStore() = default;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/IRandom.hpp>
 #include <acs/protocol/IMcsSession.hpp>
 #include <acs/protocol/SessionOptions.hpp>
@@ -13,9 +14,9 @@ namespace ACS::Protocol
 /// The MCS side of the protocol as a pure state machine over all connections of a server; at most one ACS is registered
 /// at a time. Built like AcsSession. Every report is acknowledged with Success at once, or with the answer of the
 /// application for a command in McsSessionOptions::answeredByApplication; a repeated one gets the same Ack.
-class McsSession final : public IMcsSession
+class ACS_API McsSession final : public IMcsSession
 {
-    class Impl;
+    class ACS_HIDDEN Impl;
     std::unique_ptr<Impl> _impl;
 
 public:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/protocol/AcsMessage.hpp>
 
 #include <cstddef>
@@ -155,7 +156,7 @@ enum class EProtocolNote : std::uint8_t
 
 inline constexpr std::size_t NOTE_COUNT = 13;
 
-[[nodiscard]] std::string_view GetText(EProtocolNote note);
+[[nodiscard]] ACS_API std::string_view GetText(EProtocolNote note);
 
 struct ProtocolNoted
 {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/JsonText.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/openstream/EApiMethod.hpp>
@@ -22,7 +23,7 @@ struct QueryParameter
 };
 
 /// A call of the controller's Open API, the same whether it came over HTTP or in a MONITOR or CONTROL.
-struct ApiRequest
+struct ACS_API ApiRequest
 {
     EApiMethod method = EApiMethod::Get;
     std::string path; ///< For example "/project/robot/po_cur"; as received, without percent-decoding.
@@ -36,7 +37,7 @@ struct ApiRequest
 };
 
 /// The answer to an ApiRequest.
-struct ApiResponse
+struct ACS_API ApiResponse
 {
     int status = 200; ///< HTTP; every 2xx is a success.
     std::optional<Core::JsonText> body;
@@ -57,13 +58,13 @@ struct ApiResponse
 };
 
 /// Parses "/path?name=value&name2=value2" into path and query of the request.
-void SplitURL(std::string_view url, ApiRequest& request);
+ACS_API void SplitURL(std::string_view url, ApiRequest& request);
 
 /// Adds the arguments (a JSON object, as in MONITOR and CONTROL) to the query. An argument replaces a parameter of the same
 /// name.
-void AddArguments(const Core::JsonText& args, ApiRequest& request);
+ACS_API void AddArguments(const Core::JsonText& args, ApiRequest& request);
 
 /// Path and query as an HTTP target, with percent-encoded names and values.
-[[nodiscard]] std::string BuildURL(const ApiRequest& request);
+[[nodiscard]] ACS_API std::string BuildURL(const ApiRequest& request);
 
 } // namespace ACS::OpenStream

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/openstream/ClientSessionActions.hpp>
@@ -35,9 +36,9 @@ enum class EClientState : std::uint8_t
 /// order to match a refusal to its command: the next one follows the ack of the previous one or, for a CONTROL, the end of
 /// its window (ClientSessionOptions::controlWindow) without a refusal. A Streamed CONTROL does not wait; do not mix both
 /// kinds, because the refusal of a streamed one would be matched to the tracked one in flight.
-class ClientSession
+class ACS_API ClientSession
 {
-    class Impl;
+    class ACS_HIDDEN Impl;
     std::unique_ptr<Impl> _impl;
 
 public:

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <cstdint>
 #include <string_view>
 
@@ -16,6 +18,6 @@ enum class EApiMethod : std::uint8_t
 };
 
 /// "GET"
-[[nodiscard]] std::string_view GetMethodText(EApiMethod method) noexcept;
+[[nodiscard]] ACS_API std::string_view GetMethodText(EApiMethod method) noexcept;
 
 } // namespace ACS::OpenStream

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <cstdint>
 #include <string_view>
 #include <system_error>
@@ -59,14 +61,14 @@ enum class EErrorScope : std::uint8_t
 };
 
 /// The code on the wire ("handshake_required").
-[[nodiscard]] std::string_view GetErrorText(EOpenStreamErrorCode code) noexcept;
+[[nodiscard]] ACS_API std::string_view GetErrorText(EOpenStreamErrorCode code) noexcept;
 /// The HTTP status of the code in the manual, or a suitable one. Error lines do not carry it.
-[[nodiscard]] int GetErrorStatus(EOpenStreamErrorCode code) noexcept;
-[[nodiscard]] EErrorScope GetErrorScope(EOpenStreamErrorCode code) noexcept;
+[[nodiscard]] ACS_API int GetErrorStatus(EOpenStreamErrorCode code) noexcept;
+[[nodiscard]] ACS_API EErrorScope GetErrorScope(EOpenStreamErrorCode code) noexcept;
 /// Unknown if the text is not in the table.
-[[nodiscard]] EOpenStreamErrorCode GetErrorCode(std::string_view text) noexcept;
+[[nodiscard]] ACS_API EOpenStreamErrorCode GetErrorCode(std::string_view text) noexcept;
 
-[[nodiscard]] std::error_code make_error_code(EOpenStreamErrorCode code) noexcept;
+[[nodiscard]] ACS_API std::error_code make_error_code(EOpenStreamErrorCode code) noexcept;
 
 } // namespace ACS::OpenStream
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/openstream/ApiRequest.hpp>
 
@@ -8,7 +9,7 @@ namespace ACS::OpenStream
 
 /// The controller's Open API, for both the Open Stream and HTTP. Called on the thread of the server; must not throw, and
 /// should answer within a fraction of the shortest period in use.
-class IOpenApiService
+class ACS_API IOpenApiService
 {
 public:
     IOpenApiService() = default;

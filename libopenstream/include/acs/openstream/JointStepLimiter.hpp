@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -11,7 +13,7 @@ namespace ACS::OpenStream
 /// before sending it in a CONTROL. Limits the step, not the speed: the speed is step by interval, so the limits apply to one
 /// interval. A limited point lags behind the requested one until later points let it catch up; no additional points are
 /// sent. Not a substitute for the robot's own limits.
-class JointStepLimiter
+class ACS_API JointStepLimiter
 {
     std::vector<double> _largestSteps;
     std::vector<double> _last;

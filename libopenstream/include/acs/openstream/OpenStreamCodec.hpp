@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/openstream/ApiRequest.hpp>
 #include <acs/openstream/OpenStreamLines.hpp>
@@ -16,9 +17,9 @@ namespace ACS::OpenStream
 
 /// Encodes and decodes lines of one JSON object each. Any bytes result in a message or an Error. Reuses its buffers; not
 /// shared between threads. Encoding appends a whole line, with its end, to a string that the caller reuses.
-class OpenStreamCodec
+class ACS_API OpenStreamCodec
 {
-    struct Scratch;
+    struct ACS_HIDDEN Scratch;
 
     std::unique_ptr<Scratch> _scratch;
 
@@ -58,6 +59,6 @@ public:
 };
 
 /// Whether a url is valid in MONITOR or CONTROL: begins with '/', no blank or control character. Ignores its length.
-[[nodiscard]] bool IsURL(std::string_view url) noexcept;
+[[nodiscard]] ACS_API bool IsURL(std::string_view url) noexcept;
 
 } // namespace ACS::OpenStream

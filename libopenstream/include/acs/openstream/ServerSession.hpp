@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/openstream/ApiRequest.hpp>
 #include <acs/openstream/ServerSessionActions.hpp>
@@ -23,9 +24,9 @@ enum class EServerState : std::uint8_t
 /// The controller side of one Open Stream connection, without I/O: events and the time go in, actions come out, appended
 /// to a vector that the caller reuses. The caller carries out each batch of actions, in order, before the next event;
 /// events that result from them (OnServiceAnswer, OnSendCompleted) append to the same batch.
-class ServerSession
+class ACS_API ServerSession
 {
-    class Impl;
+    class ACS_HIDDEN Impl;
     std::unique_ptr<Impl> _impl;
 
 public:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/openstream/ApiRequest.hpp>
 #include <acs/openstream/OpenStreamRequests.hpp>
@@ -124,7 +125,7 @@ using ServerAction = std::variant<
 using ServerActions = std::vector<ServerAction>;
 
 /// Counters of a session.
-struct ServerSessionStats
+struct ACS_API ServerSessionStats
 {
     std::uint64_t dataLines = 0;     ///< Data lines that were sent.
     std::uint64_t replacedLines = 0; ///< Data lines that a newer one replaced before they were sent.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <cstdint>
 #include <string_view>
 
@@ -15,6 +17,6 @@ enum class EJobResolution : std::uint8_t
 };
 
 /// "Done"
-[[nodiscard]] std::string_view GetText(EJobResolution value) noexcept;
+[[nodiscard]] ACS_API std::string_view GetText(EJobResolution value) noexcept;
 
 } // namespace ACS::Planning

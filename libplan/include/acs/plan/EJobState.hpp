@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <cstdint>
 #include <string_view>
 
@@ -17,6 +19,6 @@ enum class EJobState : std::uint8_t
 };
 
 /// The value of section 3 ("Instructed").
-[[nodiscard]] std::string_view GetText(EJobState value) noexcept;
+[[nodiscard]] ACS_API std::string_view GetText(EJobState value) noexcept;
 
 } // namespace ACS::Planning

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <cstdint>
 #include <string_view>
 
@@ -16,6 +18,6 @@ enum class EPlanControl : std::uint8_t
 };
 
 /// "Cancel"
-[[nodiscard]] std::string_view GetText(EPlanControl value) noexcept;
+[[nodiscard]] ACS_API std::string_view GetText(EPlanControl value) noexcept;
 
 } // namespace ACS::Planning

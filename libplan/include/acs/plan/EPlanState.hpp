@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <cstdint>
 #include <string_view>
 
@@ -19,6 +21,6 @@ enum class EPlanState : std::uint8_t
 };
 
 /// The value of section 3 ("InProgress").
-[[nodiscard]] std::string_view GetText(EPlanState value) noexcept;
+[[nodiscard]] ACS_API std::string_view GetText(EPlanState value) noexcept;
 
 } // namespace ACS::Planning

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <system_error>
 
 namespace ACS::Planning
@@ -16,7 +18,7 @@ enum class EPlanningError
     StoreTaken = 6,     ///< Another program uses the store, or has taken the path of one that is open.
 };
 
-[[nodiscard]] std::error_code make_error_code(EPlanningError error) noexcept;
+[[nodiscard]] ACS_API std::error_code make_error_code(EPlanningError error) noexcept;
 
 } // namespace ACS::Planning
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <cstdint>
 #include <string_view>
 
@@ -24,6 +26,6 @@ enum class ERobotStatus : std::uint8_t
 };
 
 /// The value of section 3 ("UnDocking").
-[[nodiscard]] std::string_view GetText(ERobotStatus value) noexcept;
+[[nodiscard]] ACS_API std::string_view GetText(ERobotStatus value) noexcept;
 
 } // namespace ACS::Planning

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <cstdint>
 #include <string_view>
 
@@ -14,6 +16,6 @@ enum class ERobotType : std::uint8_t
 };
 
 /// The value of section 3 ("LR").
-[[nodiscard]] std::string_view GetText(ERobotType value) noexcept;
+[[nodiscard]] ACS_API std::string_view GetText(ERobotType value) noexcept;
 
 } // namespace ACS::Planning

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <cstdint>
 #include <string_view>
 
@@ -18,6 +20,6 @@ enum class EStepState : std::uint8_t
 };
 
 /// The value of section 3 ("Dispatched").
-[[nodiscard]] std::string_view GetText(EStepState value) noexcept;
+[[nodiscard]] ACS_API std::string_view GetText(EStepState value) noexcept;
 
 } // namespace ACS::Planning

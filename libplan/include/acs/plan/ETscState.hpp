@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <cstdint>
 #include <string_view>
 
@@ -15,6 +17,6 @@ enum class ETscState : std::uint8_t
 };
 
 /// The value of section 3 ("Pausing").
-[[nodiscard]] std::string_view GetText(ETscState value) noexcept;
+[[nodiscard]] ACS_API std::string_view GetText(ETscState value) noexcept;
 
 } // namespace ACS::Planning

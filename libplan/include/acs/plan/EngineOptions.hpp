@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Location.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
@@ -56,7 +57,7 @@ struct ActionRule
 using ActionTable = std::map<std::string, ActionRule, std::less<>>;
 
 /// The eight actions of section 4.1 of MCS-ACS.
-[[nodiscard]] ActionTable MakeStandardActions();
+[[nodiscard]] ACS_API ActionTable MakeStandardActions();
 
 /// Actions that a robot cannot execute, each with the reason that is reported to the MCS (FindRejectedActions).
 using RejectedActions = std::map<std::string, std::string, std::less<>>;
@@ -175,6 +176,6 @@ struct EngineOptions
 
 /// All errors of the options, each with a path ("robots.LR01.home"); empty if the options are valid. PlanEngine requires
 /// valid options.
-[[nodiscard]] std::vector<Core::Error> FindErrors(const EngineOptions& options, const SiteMap& site);
+[[nodiscard]] ACS_API std::vector<Core::Error> FindErrors(const EngineOptions& options, const SiteMap& site);
 
 } // namespace ACS::Planning

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/plan/RobotCommand.hpp>
 
 #include <optional>
@@ -10,7 +11,7 @@ namespace ACS::Planning
 
 /// Checks whether a robot can execute a job, with what its adapter knows before the job is commanded. Immutable: when that
 /// changes, the adapter raises JobCheckChanged with a new object.
-class IJobCheck
+class ACS_API IJobCheck
 {
 public:
     IJobCheck() = default;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/plan/ETscState.hpp>
 #include <acs/plan/PlanRecord.hpp>
@@ -15,7 +16,7 @@ namespace ACS::Planning
 /// Called once for every change of state, for logs, metrics and audits. Called inside the engine's calls, in the order of the
 /// changes; must not call the engine. transactionID is that of the report of the change, with which its Ack and its replays
 /// can be found. References and string views are valid during the call only.
-class IPlanObserver
+class ACS_API IPlanObserver
 {
 public:
     IPlanObserver() = default;

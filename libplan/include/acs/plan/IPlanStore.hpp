@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/plan/ETscState.hpp>
 #include <acs/plan/PlanRecord.hpp>
@@ -156,7 +157,7 @@ struct StoredState
 };
 
 /// Persistent storage of the engine's state. Used by one thread; calls block until the data is read or written.
-class IPlanStore
+class ACS_API IPlanStore
 {
 public:
     IPlanStore() = default;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/plan/EngineOptions.hpp>
 #include <acs/plan/ERobotType.hpp>
@@ -49,7 +50,7 @@ using AdapterActions = std::vector<AdapterAction>;
 /// Connects one robot to the engine: executes its commands and reports its events. An implementation does no I/O and reads
 /// no clock; it has its own outputs for messages to its robot. Calls append to out, which the caller owns. Called by one
 /// thread at a time. docs/guide/write-an-adapter.md lists the rules, which ACS::AdapterTest checks.
-class IRobotAdapter
+class ACS_API IRobotAdapter
 {
 public:
     IRobotAdapter() = default;
@@ -70,9 +71,7 @@ public:
 };
 
 /// The actions of the robot's type that its adapter rejects, for RobotOptions::rejectedActions.
-[[nodiscard]] RejectedActions FindRejectedActions(
-    const IRobotAdapter& adapter,
-    ERobotType type,
-    const ActionTable& actions);
+[[nodiscard]] ACS_API RejectedActions
+FindRejectedActions(const IRobotAdapter& adapter, ERobotType type, const ActionTable& actions);
 
 } // namespace ACS::Planning

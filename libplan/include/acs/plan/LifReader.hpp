@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/plan/SiteMap.hpp>
 
@@ -16,7 +17,7 @@ namespace ACS::Planning
 ///
 /// LIF gives no range for knots: those of a trajectory are scaled to 0 to 1. An invalid trajectory closes its edge for the
 /// vehicle type: the edge loses its rules for that type, and `warnings` receives a line with the type, the edge and the reason.
-[[nodiscard]] Core::Result<SiteMap> DecodeLIF(std::string_view text, std::vector<std::string>& warnings);
-[[nodiscard]] Core::Result<SiteMap> DecodeLIF(std::string_view text); ///< Without the warnings.
+[[nodiscard]] ACS_API Core::Result<SiteMap> DecodeLIF(std::string_view text, std::vector<std::string>& warnings);
+[[nodiscard]] ACS_API Core::Result<SiteMap> DecodeLIF(std::string_view text); ///< Without the warnings.
 
 } // namespace ACS::Planning

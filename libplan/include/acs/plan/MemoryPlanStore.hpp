@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/plan/IPlanStore.hpp>
 
 #include <string>
@@ -8,7 +9,7 @@ namespace ACS::Planning
 {
 
 /// Stores in memory only: for tests, examples and engines whose state need not survive a restart. Never fails.
-class MemoryPlanStore final : public IPlanStore
+class ACS_API MemoryPlanStore final : public IPlanStore
 {
     StoredState _state;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
@@ -39,9 +40,9 @@ namespace ACS::Planning
 /// the state stays safe: all robots that could drive to their parking positions one after another still can. A reservation
 /// ends when the robot has reported the next node. A deadlock is resolved by a detour of one robot or by sending it to its
 /// parking position. A robot without a plan drives to its parking position, and yields if it blocks another robot.
-class PlanEngine
+class ACS_API PlanEngine
 {
-    class Impl;
+    class ACS_HIDDEN Impl;
     std::unique_ptr<Impl> _impl;
 
 public:

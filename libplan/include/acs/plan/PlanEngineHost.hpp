@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/plan/EngineInput.hpp>
@@ -22,7 +23,7 @@ class InputQueue;
 /// others were preferred 16 times has its turn. Plans that wait together share one transaction, and so do commands of the
 /// operator. Waiting states of a robot that differ only in pose or battery are merged into the latest one. Does no I/O: store,
 /// timers, robots and MCS belong to the caller. Called by one thread at a time.
-class PlanEngineHost
+class ACS_API PlanEngineHost
 {
 public:
     /// Executes one action; never called with StorePlans. May call Push and Offer.

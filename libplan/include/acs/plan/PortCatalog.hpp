@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Location.hpp>
 #include <acs/core/LocationMap.hpp>
 #include <acs/plan/SiteMap.hpp>
@@ -11,7 +12,7 @@ namespace ACS::Planning
 {
 
 /// All places that plans may name: the stations of the map, their ports, the ports of the robots.
-class PortCatalog
+class ACS_API PortCatalog
 {
     Core::LocationMap _places;
 

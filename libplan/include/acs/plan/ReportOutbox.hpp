@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/plan/Report.hpp>
@@ -17,7 +18,7 @@ namespace ACS::Planning
 {
 
 /// The durable reports that the MCS has not acknowledged, oldest first.
-class ReportOutbox
+class ACS_API ReportOutbox
 {
     /// As Alarm::IsSameAs.
     using AlarmKey = std::tuple<std::string, std::string, std::optional<std::string>, std::optional<std::string>>;

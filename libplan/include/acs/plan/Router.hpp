@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/plan/ELoad.hpp>
 #include <acs/plan/RobotCommand.hpp>
 #include <acs/plan/SiteMap.hpp>
@@ -28,14 +29,14 @@ struct QuickestStart
 
 /// Finds routes of shortest travel time, for each vehicle type over the nodes and edges that it may use with its load. The map
 /// must outlive the router. Not thread-safe.
-class Router
+class ACS_API Router
 {
 public:
     /// Whether routes must avoid the node of this index in SiteMap::GetNodes. Must not call the router.
     using NodeFilter = std::function<bool(std::size_t nodeIndex)>;
 
 private:
-    class Impl;
+    class ACS_HIDDEN Impl;
 
     std::unique_ptr<Impl> _impl;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/NurbsCurve.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/plan/ELoad.hpp>
@@ -29,7 +30,7 @@ struct SiteNodeRule
     bool operator==(const SiteNodeRule&) const = default;
 };
 
-struct SiteNode
+struct ACS_API SiteNode
 {
     std::string nodeID;
     double x = 0;      ///< Metres.
@@ -64,7 +65,7 @@ struct SiteCorridor
 };
 
 /// How a vehicle type uses an edge. A type without a rule may not use the edge.
-struct SiteEdgeRule
+struct ACS_API SiteEdgeRule
 {
     std::string vehicleTypeID;
     std::optional<double> maxSpeed;         ///< Metres per second, > 0.
@@ -85,7 +86,7 @@ struct SiteEdgeRule
 };
 
 /// A directed connection of two nodes.
-struct SiteEdge
+struct ACS_API SiteEdge
 {
     std::string edgeID;
     std::string startNodeID;
@@ -116,7 +117,7 @@ inline constexpr double LARGEST_DEVIATION = 0.5;
 /// Nodes, directed edges and stations of a site. Always valid: ids are unique among nodes, among edges and among stations,
 /// every referenced node exists, there is at least one node, and no rule contradicts itself or another one of the same node or
 /// edge. Immutable; a copy is independent.
-class SiteMap
+class ACS_API SiteMap
 {
     struct TextHash
     {
@@ -181,6 +182,6 @@ private:
 };
 
 /// Straight-line distance of two nodes in metres. Their maps are not compared.
-[[nodiscard]] double GetDistance(const SiteNode& from, const SiteNode& to) noexcept;
+[[nodiscard]] ACS_API double GetDistance(const SiteNode& from, const SiteNode& to) noexcept;
 
 } // namespace ACS::Planning

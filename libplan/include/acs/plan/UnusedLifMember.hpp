@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -29,6 +31,6 @@ struct UnusedLifMember
 
 /// Finds the unused members of a file that DecodeLIF accepts, by kind, then by path. Members that are null count as absent.
 /// Accepts any text: empty if it is not JSON.
-[[nodiscard]] std::vector<UnusedLifMember> FindUnusedMembers(std::string_view text);
+[[nodiscard]] ACS_API std::vector<UnusedLifMember> FindUnusedMembers(std::string_view text);
 
 } // namespace ACS::Planning

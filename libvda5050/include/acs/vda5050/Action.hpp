@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/JsonText.hpp>
 
 #include <cstdint>
@@ -39,7 +40,7 @@ struct Action
 };
 
 /// The parameter with this key; null if there is none.
-[[nodiscard]] const ActionParameter* FindParameterOrNull(const Action& action, std::string_view key);
+[[nodiscard]] ACS_API const ActionParameter* FindParameterOrNull(const Action& action, std::string_view key);
 
 /// The predefined actions of 2.x (section 6.8.2); PredefinedActions.hpp has their scopes and parameters.
 namespace ActionTypes

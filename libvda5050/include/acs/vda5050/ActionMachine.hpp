@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/vda5050/StateMessage.hpp>
 
 #include <string>
@@ -10,19 +11,19 @@ namespace ACS::VDA5050
 
 /// Whether 2.x allows the change of an action's status (section 6.11; Paused to Failed is allowed because a cancel
 /// needs it). No status changes to itself.
-[[nodiscard]] bool CanChangeStatus(EActionStatus from, EActionStatus to);
+[[nodiscard]] ACS_API bool CanChangeStatus(EActionStatus from, EActionStatus to);
 
 /// Whether this status is allowed as the first one of an action.
-[[nodiscard]] bool CanBeginWith(EActionStatus status);
+[[nodiscard]] ACS_API bool CanBeginWith(EActionStatus status);
 
 /// Finished or Failed.
-[[nodiscard]] bool IsTerminal(EActionStatus status);
+[[nodiscard]] ACS_API bool IsTerminal(EActionStatus status);
 
 /// The name on the wire, for example "RUNNING".
-[[nodiscard]] std::string_view GetStatusText(EActionStatus status);
+[[nodiscard]] ACS_API std::string_view GetStatusText(EActionStatus status);
 
 /// The reported state of one action; rejects transitions that the table forbids.
-class ActionMachine
+class ACS_API ActionMachine
 {
     ActionState _state;
 

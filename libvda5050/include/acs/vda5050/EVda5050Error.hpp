@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <system_error>
 
 namespace ACS::VDA5050
@@ -18,7 +20,7 @@ enum class EVda5050Error
     NotSupported = 8,       ///< The vehicle's factsheet has no such action, optional member or size; it was not sent.
 };
 
-[[nodiscard]] std::error_code make_error_code(EVda5050Error error) noexcept;
+[[nodiscard]] ACS_API std::error_code make_error_code(EVda5050Error error) noexcept;
 
 } // namespace ACS::VDA5050
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/JsonText.hpp>
 #include <acs/vda5050/Action.hpp>
 #include <acs/vda5050/Header.hpp>
@@ -330,11 +331,14 @@ struct FactsheetMessage
 };
 
 /// Whether the factsheet lists the action type with this scope.
-[[nodiscard]] bool CanPerform(const FactsheetMessage& factsheet, std::string_view actionType, EActionScope scope);
+[[nodiscard]] ACS_API bool CanPerform(
+    const FactsheetMessage& factsheet,
+    std::string_view actionType,
+    EActionScope scope);
 
 /// Whether an optional member may be sent to the vehicle. The parameter is its full path, such as "order.edges.trajectory".
 /// True where optionalParameters is absent, or lists the parameter or one inside it. A listed parameter does not imply those
 /// inside it.
-[[nodiscard]] bool IsSupported(const FactsheetMessage& factsheet, std::string_view parameter);
+[[nodiscard]] ACS_API bool IsSupported(const FactsheetMessage& factsheet, std::string_view parameter);
 
 } // namespace ACS::VDA5050

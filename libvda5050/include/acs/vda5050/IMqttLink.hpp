@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Result.hpp>
 
 #include <cstdint>
@@ -45,7 +46,7 @@ struct MqttSubscription
 };
 
 /// Events of a link, on the owner's thread. The owner forwards them to its sessions.
-class IMqttLinkListener
+class ACS_API IMqttLinkListener
 {
 public:
     IMqttLinkListener() = default;
@@ -60,7 +61,7 @@ public:
 };
 
 /// A connection to a broker, without any logic of the protocol. All calls on the owner's thread.
-class IMqttLink
+class ACS_API IMqttLink
 {
 public:
     IMqttLink() = default;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/vda5050/MasterSession.hpp>
 #include <acs/vda5050/Vda5050Codec.hpp>
 
@@ -50,13 +51,13 @@ struct LeftOutMessage
 };
 
 /// Moves the actions of one vehicle's session to the end of out and clears them.
-void AppendActions(std::size_t vehicle, MasterActions& actions, FleetActions& out);
+ACS_API void AppendActions(std::size_t vehicle, MasterActions& actions, FleetActions& out);
 
 /// A MasterSession for each vehicle on a broker, added by its address or discovered by its connection message (which is
 /// retained, so that all vehicles are known at once) or by a live state. Vehicles are numbered from 0; a number is never
 /// reused. Pure like its sessions. Four subscriptions serve all vehicles; a message costs one look-up, regardless of their
 /// number. Not shared between threads. Calls append to out: do not call while iterating over it.
-class MasterFleet
+class ACS_API MasterFleet
 {
     FleetOptions _options;
     std::vector<std::unique_ptr<MasterSession>> _sessionsOrNull; ///< By number; null: removed.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/vda5050/FactsheetMessage.hpp>
@@ -76,9 +77,9 @@ struct MasterStatistics
 /// and derives their progress from its states. Pure: no clock, no I/O; all output is appended to out, which the caller
 /// reuses. The vehicle's state is authoritative: lost states, repeated retained messages and old wills are harmless. Not
 /// shared between threads. Calls append to out: do not call while iterating over it.
-class MasterSession
+class ACS_API MasterSession
 {
-    class Impl;
+    class ACS_HIDDEN Impl;
     std::unique_ptr<Impl> _impl;
 
 public:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/vda5050/OrderMessage.hpp>
 
@@ -14,7 +15,7 @@ namespace ACS::VDA5050
 
 /// Creates an order and its updates from a route: sets sequence ids, released flags and the start and end nodes of edges; an
 /// update begins at the decision point (the last released node). The caller sets ids, positions, actions and limits.
-class OrderBuilder
+class ACS_API OrderBuilder
 {
 public:
     static constexpr std::size_t WHOLE_ROUTE = std::numeric_limits<std::size_t>::max();

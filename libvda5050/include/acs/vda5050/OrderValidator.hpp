@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/vda5050/EParameterCheck.hpp>
 #include <acs/vda5050/FactsheetMessage.hpp>
 #include <acs/vda5050/OrderMessage.hpp>
@@ -27,14 +28,12 @@ struct OrderViolation
 
 /// A violation as a vehicle reports it: a warning that refers to topic, headerId, orderId and orderUpdateId. For an
 /// OrderCheck.
-[[nodiscard]] OrderViolation MakeOrderViolation(
-    const OrderMessage& order,
-    std::string_view errorType,
-    std::string rule);
+[[nodiscard]] ACS_API OrderViolation
+MakeOrderViolation(const OrderMessage& order, std::string_view errorType, std::string rule);
 
 /// Checks an order by itself: counts, sequence ids, base before horizon, neighbours of edges, unique action ids, curve
 /// and angle ranges. Empty if the order is valid.
-[[nodiscard]] std::vector<OrderViolation> ValidateOrder(const OrderMessage& order);
+[[nodiscard]] ACS_API std::vector<OrderViolation> ValidateOrder(const OrderMessage& order);
 
 struct OrderContext;
 
@@ -85,6 +84,6 @@ struct OrderJudgement
 };
 
 /// The acceptance rules of 2.x (section 6.6.4) for an order that was decoded.
-[[nodiscard]] OrderJudgement JudgeOrder(const OrderMessage& order, const OrderContext& context);
+[[nodiscard]] ACS_API OrderJudgement JudgeOrder(const OrderMessage& order, const OrderContext& context);
 
 } // namespace ACS::VDA5050

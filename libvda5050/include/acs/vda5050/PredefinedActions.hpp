@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/vda5050/FactsheetMessage.hpp>
 
 #include <string_view>
@@ -10,9 +11,9 @@ namespace ACS::VDA5050
 
 /// The predefined actions of 2.0 and 2.1 (section 6.8.2) with their scopes and parameters, in the form of a factsheet. A
 /// vehicle copies the entries that it supports.
-[[nodiscard]] const std::vector<AgvAction>& GetPredefinedActions();
+[[nodiscard]] ACS_API const std::vector<AgvAction>& GetPredefinedActions();
 
 /// Null for a vendor-specific action.
-[[nodiscard]] const AgvAction* FindPredefinedActionOrNull(std::string_view actionType);
+[[nodiscard]] ACS_API const AgvAction* FindPredefinedActionOrNull(std::string_view actionType);
 
 } // namespace ACS::VDA5050

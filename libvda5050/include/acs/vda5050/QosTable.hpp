@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/vda5050/Topic.hpp>
 
 #include <array>
@@ -9,7 +10,7 @@ namespace ACS::VDA5050
 {
 
 /// The quality of service per topic: a profile, with changes for single topics.
-class QosTable
+class ACS_API QosTable
 {
     std::array<std::uint8_t, TOPIC_COUNT> _levels{};
 

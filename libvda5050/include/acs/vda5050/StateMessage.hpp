@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/vda5050/Header.hpp>
 #include <acs/vda5050/OrderMessage.hpp>
 
@@ -163,7 +164,7 @@ enum class EOperatingMode : std::uint8_t
 };
 
 /// Whether orders and instant actions are accepted in this mode (section 6.10.6).
-[[nodiscard]] bool IsLedByMaster(EOperatingMode mode);
+[[nodiscard]] ACS_API bool IsLedByMaster(EOperatingMode mode);
 
 enum class EErrorLevel : std::uint8_t
 {
@@ -208,7 +209,7 @@ inline constexpr std::string_view UNLISTED_PARAMETER = "unlistedParameter"; ///<
 } // namespace ErrorTypes
 
 /// The value of the reference with this key; null if there is none.
-[[nodiscard]] const std::string* FindReferenceOrNull(const VehicleError& error, std::string_view key);
+[[nodiscard]] ACS_API const std::string* FindReferenceOrNull(const VehicleError& error, std::string_view key);
 
 enum class EInformationLevel : std::uint8_t
 {

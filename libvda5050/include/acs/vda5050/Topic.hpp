@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/vda5050/Header.hpp>
 
@@ -33,13 +34,13 @@ enum class EQosProfile : std::uint8_t
 };
 
 /// The last level of a topic: "order", "instantActions", …
-[[nodiscard]] std::string_view GetTopicName(ETopic topic);
+[[nodiscard]] ACS_API std::string_view GetTopicName(ETopic topic);
 
 /// Whether messages of this topic are published retained (connection and factsheet).
-[[nodiscard]] bool IsRetained(ETopic topic);
+[[nodiscard]] ACS_API bool IsRetained(ETopic topic);
 
 /// The quality of service of a profile; QosTable changes single topics of it.
-[[nodiscard]] std::uint8_t GetQos(ETopic topic, EQosProfile profile);
+[[nodiscard]] ACS_API std::uint8_t GetQos(ETopic topic, EQosProfile profile);
 
 /// The address of a vehicle on the broker. A level has no `/`, `+`, `#` and no control characters, does not begin with `$`,
 /// and is not empty.
@@ -53,20 +54,22 @@ struct VehicleAddress
 };
 
 /// Whether each level is allowed in a topic.
-[[nodiscard]] bool IsValidAddress(const VehicleAddress& address);
+[[nodiscard]] ACS_API bool IsValidAddress(const VehicleAddress& address);
 
 /// Why the header does not belong to the vehicle of the topic; nullopt if it does. Empty names are accepted, because some
 /// senders omit them.
-[[nodiscard]] std::optional<Core::Error> FindForeignNameOrNull(const Header& header, const VehicleAddress& address);
+[[nodiscard]] ACS_API std::optional<Core::Error> FindForeignNameOrNull(
+    const Header& header,
+    const VehicleAddress& address);
 
 /// "uagv/v2/KIT/0001": the topics of the vehicle without their last level.
-[[nodiscard]] std::string BuildTopicPrefix(const VehicleAddress& address);
+[[nodiscard]] ACS_API std::string BuildTopicPrefix(const VehicleAddress& address);
 
 /// "uagv/v2/KIT/0001/order"
-[[nodiscard]] std::string BuildTopic(const VehicleAddress& address, ETopic topic);
+[[nodiscard]] ACS_API std::string BuildTopic(const VehicleAddress& address, ETopic topic);
 
 /// The filter for one topic of all vehicles: "uagv/v2/+/+/connection".
-[[nodiscard]] std::string BuildTopicFilter(std::string_view interfaceName, ETopic topic);
+[[nodiscard]] ACS_API std::string BuildTopicFilter(std::string_view interfaceName, ETopic topic);
 
 struct ParsedTopic
 {
@@ -77,6 +80,6 @@ struct ParsedTopic
 };
 
 /// Fails with InvalidTopic, or with UnsupportedVersion if only the major version is not 2.
-[[nodiscard]] Core::Result<ParsedTopic> ParseTopic(std::string_view text);
+[[nodiscard]] ACS_API Core::Result<ParsedTopic> ParseTopic(std::string_view text);
 
 } // namespace ACS::VDA5050

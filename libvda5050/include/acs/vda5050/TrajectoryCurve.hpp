@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/NurbsCurve.hpp>
 #include <acs/vda5050/OrderMessage.hpp>
 
@@ -7,7 +8,7 @@ namespace ACS::VDA5050
 {
 
 /// The curve of a trajectory, and back.
-[[nodiscard]] Core::Nurbs MakeNurbs(const Trajectory& trajectory);
-[[nodiscard]] Trajectory MakeTrajectory(const Core::Nurbs& curve);
+[[nodiscard]] ACS_API Core::Nurbs MakeNurbs(const Trajectory& trajectory);
+[[nodiscard]] ACS_API Trajectory MakeTrajectory(const Core::Nurbs& curve);
 
 } // namespace ACS::VDA5050

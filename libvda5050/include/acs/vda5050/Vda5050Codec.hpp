@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/vda5050/ConnectionMessage.hpp>
 #include <acs/vda5050/EVda5050Version.hpp>
@@ -52,7 +53,7 @@ struct MessageIdentity
 /// (allowedDeviationXy, actionName, instantActions); writes exactly one version, without members of other versions. Invalid
 /// input results in an error with its JSON path. Keeps no buffers between calls, so that a codec per session is cheap. Not
 /// shared between threads.
-class Vda5050Codec
+class ACS_API Vda5050Codec
 {
     CodecLimits _limits;
     DecodeTolerance _tolerance;
@@ -84,26 +85,36 @@ public:
     }
 };
 
-extern template Core::Result<OrderMessage> Vda5050Codec::Decode(std::string_view payload);
-extern template Core::Result<InstantActionsMessage> Vda5050Codec::Decode(std::string_view payload);
-extern template Core::Result<StateMessage> Vda5050Codec::Decode(std::string_view payload);
-extern template Core::Result<VisualizationMessage> Vda5050Codec::Decode(std::string_view payload);
-extern template Core::Result<ConnectionMessage> Vda5050Codec::Decode(std::string_view payload);
-extern template Core::Result<FactsheetMessage> Vda5050Codec::Decode(std::string_view payload);
+extern template ACS_API Core::Result<OrderMessage> Vda5050Codec::Decode(std::string_view payload);
+extern template ACS_API Core::Result<InstantActionsMessage> Vda5050Codec::Decode(std::string_view payload);
+extern template ACS_API Core::Result<StateMessage> Vda5050Codec::Decode(std::string_view payload);
+extern template ACS_API Core::Result<VisualizationMessage> Vda5050Codec::Decode(std::string_view payload);
+extern template ACS_API Core::Result<ConnectionMessage> Vda5050Codec::Decode(std::string_view payload);
+extern template ACS_API Core::Result<FactsheetMessage> Vda5050Codec::Decode(std::string_view payload);
 
-extern template void Vda5050Codec::Encode(const OrderMessage& message, EVda5050Version version, std::string& out) const;
-extern template void Vda5050Codec::Encode(
+extern template ACS_API void Vda5050Codec::Encode(
+    const OrderMessage& message,
+    EVda5050Version version,
+    std::string& out) const;
+extern template ACS_API void Vda5050Codec::Encode(
     const InstantActionsMessage& message,
     EVda5050Version version,
     std::string& out) const;
-extern template void Vda5050Codec::Encode(const StateMessage& message, EVda5050Version version, std::string& out) const;
-extern template void Vda5050Codec::Encode(
+extern template ACS_API void Vda5050Codec::Encode(
+    const StateMessage& message,
+    EVda5050Version version,
+    std::string& out) const;
+extern template ACS_API void Vda5050Codec::Encode(
     const VisualizationMessage& message,
     EVda5050Version version,
     std::string& out) const;
-extern template void Vda5050Codec::Encode(const ConnectionMessage& message, EVda5050Version version, std::string& out)
-    const;
-extern template void Vda5050Codec::Encode(const FactsheetMessage& message, EVda5050Version version, std::string& out)
-    const;
+extern template ACS_API void Vda5050Codec::Encode(
+    const ConnectionMessage& message,
+    EVda5050Version version,
+    std::string& out) const;
+extern template ACS_API void Vda5050Codec::Encode(
+    const FactsheetMessage& message,
+    EVda5050Version version,
+    std::string& out) const;
 
 } // namespace ACS::VDA5050

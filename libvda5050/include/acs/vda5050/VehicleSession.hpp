@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/vda5050/IMqttLink.hpp>
 #include <acs/vda5050/NodeArrival.hpp>
@@ -23,9 +24,9 @@ namespace ACS::VDA5050
 /// appended to out, which the caller reuses. Not shared between threads. Calls append to out: move the actions out of it
 /// before carrying them out. The owner reports changes with the On… functions. One state has all consequences of a call;
 /// states are at least minimumStateInterval apart, and changes in between are merged into the next one.
-class VehicleSession
+class ACS_API VehicleSession
 {
-    class Impl;
+    class ACS_HIDDEN Impl;
     std::unique_ptr<Impl> _impl;
 
 public:

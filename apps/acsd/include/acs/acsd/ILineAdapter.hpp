@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/plan/IRobotAdapter.hpp>
 
@@ -12,7 +13,7 @@ namespace ACS::Acsd
 {
 
 /// The pure adapter of a robot that speaks lines over TCP: no I/O, no clock. LineRobot connects it.
-class ILineAdapter : public Planning::IRobotAdapter
+class ACS_API ILineAdapter : public Planning::IRobotAdapter
 {
 public:
     /// The connection is open. The robot may have missed the last lines of the previous connection, and acsd those of the robot.

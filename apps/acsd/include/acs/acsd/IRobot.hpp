@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/plan/IRobotAdapter.hpp>
 
 namespace ACS::Acsd
@@ -7,7 +8,7 @@ namespace ACS::Acsd
 
 /// One robot: its connection, and the pure adapter that decides. acsd calls both on the executor's thread only. It calls the
 /// adapter's Handle and OnTimer, runs its timers and passes its events to the engine.
-class IRobot
+class ACS_API IRobot
 {
 public:
     IRobot() = default;

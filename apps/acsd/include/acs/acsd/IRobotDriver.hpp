@@ -2,6 +2,7 @@
 
 #include <acs/acsd/IRobotSetup.hpp>
 #include <acs/acsd/OptionTable.hpp>
+#include <acs/core/Api.hpp>
 #include <acs/core/Location.hpp>
 #include <acs/plan/EngineOptions.hpp>
 #include <acs/plan/ERobotType.hpp>
@@ -28,7 +29,7 @@ struct DrivenRobotConfig
 };
 
 /// A kind of robot that acsd can command: the integrator's entry point. Has no state; used by one thread.
-class IRobotDriver
+class ACS_API IRobotDriver
 {
 public:
     IRobotDriver() = default;

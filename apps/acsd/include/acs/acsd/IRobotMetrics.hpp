@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <string>
 
 namespace ACS::Acsd
@@ -7,7 +9,7 @@ namespace ACS::Acsd
 
 /// The metrics of one robot at /metrics. A name has a-z and _ only. acsd serves it as `acsd_driver_DRIVER_NAME` with the label
 /// `robot`; the name of a counter ends in `_total`.
-class IRobotMetrics
+class ACS_API IRobotMetrics
 {
 public:
     IRobotMetrics() = default;

@@ -2,6 +2,7 @@
 
 #include <acs/acsd/IRobot.hpp>
 #include <acs/acsd/RobotServices.hpp>
+#include <acs/core/Api.hpp>
 #include <acs/plan/EngineOptions.hpp>
 #include <acs/plan/ERobotType.hpp>
 
@@ -24,7 +25,7 @@ struct RobotCapabilities
 };
 
 /// The valid settings of one robot.
-class IRobotSetup
+class ACS_API IRobotSetup
 {
 public:
     IRobotSetup() = default;

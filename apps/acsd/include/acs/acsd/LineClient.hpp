@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/acsd/LineClientOptions.hpp>
+#include <acs/core/Api.hpp>
 #include <acs/core/IRandom.hpp>
 
 #include <boost/asio/any_io_executor.hpp>
@@ -34,7 +35,7 @@ enum class ELineSend : std::uint8_t
 /// A TCP client that exchanges lines (UTF-8, ended by LF or CR LF) and reconnects with backoff until it is stopped. A line that is too
 /// long, is not valid UTF-8 or has a control character other than a tab ends the connection. The handlers are called on the
 /// executor's thread, never from within a call of the client; they may call the client. Used on that thread only.
-class LineClient final
+class ACS_API LineClient final
 {
 public:
     struct Handlers
@@ -46,7 +47,7 @@ public:
     };
 
 private:
-    class Impl;
+    class ACS_HIDDEN Impl;
 
     std::shared_ptr<Impl> _impl;
 

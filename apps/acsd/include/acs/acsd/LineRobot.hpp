@@ -5,6 +5,7 @@
 #include <acs/acsd/LineClient.hpp>
 #include <acs/acsd/LineClientOptions.hpp>
 #include <acs/acsd/RobotServices.hpp>
+#include <acs/core/Api.hpp>
 
 #include <memory>
 #include <string>
@@ -15,7 +16,7 @@ namespace ACS::Acsd
 
 /// A robot that speaks lines over TCP: connects a pure ILineAdapter. Metrics: connected, connects_total, lines_received_total,
 /// lines_sent_total, lines_dropped_total.
-class LineRobot final : public IRobot
+class ACS_API LineRobot final : public IRobot
 {
     RobotServices _services;
     std::string _peer; ///< "HOST:PORT"

@@ -4,6 +4,7 @@
 #include <acs/acsd/IRobotSetup.hpp>
 #include <acs/acsd/LineClientOptions.hpp>
 #include <acs/acsd/OptionTable.hpp>
+#include <acs/core/Api.hpp>
 
 #include <functional>
 #include <memory>
@@ -12,7 +13,7 @@ namespace ACS::Acsd
 {
 
 /// The setup of a robot that speaks lines over TCP: makes a LineRobot.
-class LineRobotSetup final : public IRobotSetup
+class ACS_API LineRobotSetup final : public IRobotSetup
 {
 public:
     using AdapterMaker = std::function<std::unique_ptr<ILineAdapter>()>;
@@ -32,6 +33,6 @@ public:
 
 /// Reads the keys that every such robot has: `url` (tcp://HOST:PORT, required) and `receive_timeout` (from "100ms" to "1h", default
 /// "5s"; "0s" disables), the maximum time between two lines of the robot.
-[[nodiscard]] LineClientOptions ReadLineOptions(const OptionTable& options);
+[[nodiscard]] ACS_API LineClientOptions ReadLineOptions(const OptionTable& options);
 
 } // namespace ACS::Acsd

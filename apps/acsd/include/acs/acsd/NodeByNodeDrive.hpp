@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/plan/IRobotAdapter.hpp>
 #include <acs/plan/RobotCommand.hpp>
 
@@ -12,7 +13,7 @@ namespace ACS::Acsd
 
 /// The drive of a robot that is sent from node to node: keeps what the engine has commanded, and raises the events of the
 /// drive. Pure; an adapter owns one for its robot.
-class NodeByNodeDrive final
+class ACS_API NodeByNodeDrive final
 {
 public:
     /// The next movement of the robot.

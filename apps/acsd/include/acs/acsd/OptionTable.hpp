@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <chrono>
 #include <cstdint>
 #include <initializer_list>
@@ -25,10 +27,10 @@ struct TcpAddress
 /// ("FILE:LINE: KEY: what is wrong and what is allowed") and returns the default, or an empty value if the key is required.
 /// Getters with a default read an optional key, those without one a required key. A key that nothing reads is an error too.
 /// Cheap to copy.
-class OptionTable final
+class ACS_API OptionTable final
 {
 public:
-    class Impl;
+    class ACS_HIDDEN Impl;
 
 private:
     std::shared_ptr<const Impl> _impl;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/plan/IRobotAdapter.hpp>
 #include <acs/plan/RobotCommand.hpp>
 #include <acs/plan/RobotEvent.hpp>
@@ -15,7 +16,7 @@ namespace ACS::Acsd
 /// the events of the job. Pure; an adapter owns one for its robot. Each job is executed once if the adapter
 /// - sends the job on StartJob, and asks for it on RecoverJob and after each connect;
 /// - passes each answer of the robot on. One about another commandID than that of the job has no effect.
-class RobotJob final
+class ACS_API RobotJob final
 {
     std::optional<Planning::StartJob> _job;
     bool _bStarted = false; ///< Since it was commanded, or since the restart of acsd.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
@@ -20,9 +21,9 @@ namespace ACS::ProtocolBeast
 
 /// An AcsSession over a WebSocket: connects, registers and reconnects indefinitely. Runs entirely on the given executor,
 /// which must be single-threaded (or a strand), and is called from there only.
-class AcsClient
+class ACS_API AcsClient
 {
-    class Impl;
+    class ACS_HIDDEN Impl;
 
     std::shared_ptr<Impl> _impl;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/protocol/SessionEvent.hpp>
 
 namespace ACS::ProtocolBeast
@@ -7,7 +8,7 @@ namespace ACS::ProtocolBeast
 
 /// Receives the events of an AcsClient or an McsServer. Called on the executor and never during a call of the client or
 /// server, so that it may call them; not called after their destruction.
-class ISessionHandler
+class ACS_API ISessionHandler
 {
 public:
     ISessionHandler() = default;

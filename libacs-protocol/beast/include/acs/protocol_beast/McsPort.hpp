@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/protocol_beast/ClientOptions.hpp>
@@ -30,11 +31,11 @@ struct PortOptions
 /// A TCP port that several McsServers share: an MCS with several ACSs, each with a session of its own. A client gets the
 /// first server, in the order of their Create, that has its path and whose checkUpgrade accepts it. Runs entirely on the
 /// given executor, which must be single-threaded (or a strand), and is called from there only.
-class McsPort
+class ACS_API McsPort
 {
     friend class McsServer;
 
-    class Impl;
+    class ACS_HIDDEN Impl;
 
     std::shared_ptr<Impl> _impl;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
@@ -25,14 +26,14 @@ namespace ACS::ProtocolBeast
 
 /// An McsSession behind a WebSocket server. Runs entirely on the given executor, which must be single-threaded (or a
 /// strand), and is called from there only.
-class McsServer
+class ACS_API McsServer
 {
 public:
     /// Adds actions to be carried out, for example by calling a session of one's own.
     using SessionCall = std::function<void(Core::Now now, Protocol::SessionActions& out)>;
 
 private:
-    class Impl;
+    class ACS_HIDDEN Impl;
 
     std::shared_ptr<Impl> _impl;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Result.hpp>
 
 #include <string>
@@ -25,6 +26,6 @@ struct TlsOptions
 
 /// Checks what AcsClient::Create would reject for a server of that host; reads the files. The error's path is "tls.ca",
 /// "tls.certificate", "tls.key" or "tls.server_name"; the error names the file and what is wrong with it.
-[[nodiscard]] Core::Result<void> CheckClientTLS(const TlsOptions& options, std::string_view host);
+[[nodiscard]] ACS_API Core::Result<void> CheckClientTLS(const TlsOptions& options, std::string_view host);
 
 } // namespace ACS::ProtocolBeast

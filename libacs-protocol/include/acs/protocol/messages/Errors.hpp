@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -15,7 +17,7 @@ enum class EErrorLevel : std::uint8_t
     Light,
 };
 
-[[nodiscard]] std::string_view GetText(EErrorLevel level);
+[[nodiscard]] ACS_API std::string_view GetText(EErrorLevel level);
 
 /// ACS to MCS: an error or warning came or went (section 6.15). Also an entry of ErrorListAck, there always set.
 /// What does not apply is left out, never null: an MCS exists that cannot read a null stepNo.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/protocol/EAcsCommand.hpp>
 
 #include <cstdint>
@@ -17,7 +18,7 @@ enum class EReportResult : std::uint8_t
     Fail, ///< Written only, for an MCS that has the word of Acks here too (D-1); read as Failed.
 };
 
-[[nodiscard]] std::string_view GetText(EReportResult result);
+[[nodiscard]] ACS_API std::string_view GetText(EReportResult result);
 
 /// MCS to ACS: what to do with a plan. Acknowledged with PlanAck at once; the outcome follows as a result report.
 template <EAcsCommand COMMAND>

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -47,9 +49,9 @@ enum class EJobStatus : std::uint8_t
     Failed,
 };
 
-[[nodiscard]] std::string_view GetText(EPlanStatus status);
-[[nodiscard]] std::string_view GetText(EStepStatus status);
-[[nodiscard]] std::string_view GetText(EJobStatus status);
+[[nodiscard]] ACS_API std::string_view GetText(EPlanStatus status);
+[[nodiscard]] ACS_API std::string_view GetText(EStepStatus status);
+[[nodiscard]] ACS_API std::string_view GetText(EJobStatus status);
 
 /// ACS to MCS: the status of a plan changed (section 6.12).
 struct PlanReport

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -33,8 +35,8 @@ enum class ERobotStatus : std::uint8_t
     Stopped,
 };
 
-[[nodiscard]] std::string_view GetText(ERobotType type);
-[[nodiscard]] std::string_view GetText(ERobotStatus status);
+[[nodiscard]] ACS_API std::string_view GetText(ERobotType type);
+[[nodiscard]] ACS_API std::string_view GetText(ERobotStatus status);
 
 /// ACS to MCS: status, position or load of a robot changed (section 6.16). What does not apply is written as null.
 struct RobotStatusUpdate

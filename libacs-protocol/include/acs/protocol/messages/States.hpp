@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <cstdint>
 #include <string_view>
 
@@ -14,7 +16,7 @@ enum class ETscState : std::uint8_t
     Pausing,
 };
 
-[[nodiscard]] std::string_view GetText(ETscState state);
+[[nodiscard]] ACS_API std::string_view GetText(ETscState state);
 
 /// ACS to MCS: whether plans are being executed (section 6.20).
 struct TscStateUpdate

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
@@ -30,14 +31,14 @@ struct OpenStreamClientOptions
 
 /// Runs a ClientSession over TCP (no delay, keep-alive) on a single-threaded executor. After destruction no handler is
 /// called. Clock and random source must outlive the client.
-class OpenStreamClient
+class ACS_API OpenStreamClient
 {
 public:
     /// May call the client, but must not destroy it.
     using EventHandler = std::function<void(const OpenStream::ClientEvent& event, Core::Now now)>;
 
 private:
-    class Impl;
+    class ACS_HIDDEN Impl;
 
     std::shared_ptr<Impl> _impl;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
@@ -28,9 +29,9 @@ struct OpenStreamServerOptions
 
 /// Serves the Open Stream over TCP on a single-threaded executor: a ServerSession for each connection, and one service for
 /// all. After destruction or Stop no handler is called. Clock and service must outlive the server.
-class OpenStreamServer
+class ACS_API OpenStreamServer
 {
-    class Impl;
+    class ACS_HIDDEN Impl;
 
     std::shared_ptr<Impl> _impl;
 

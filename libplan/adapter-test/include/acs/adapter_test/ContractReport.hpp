@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/adapter_test/ERule.hpp>
+#include <acs/core/Api.hpp>
 #include <acs/core/Now.hpp>
 
 #include <string>
@@ -21,10 +22,10 @@ struct Finding
 };
 
 /// One line: rule, scenario, time, what happened and what was expected.
-[[nodiscard]] std::string Describe(const Finding& finding);
+[[nodiscard]] ACS_API std::string Describe(const Finding& finding);
 
 /// The result of CheckAdapter.
-struct ContractReport
+struct ACS_API ContractReport
 {
     /// At most one of each rule in each scenario.
     std::vector<Finding> findings;

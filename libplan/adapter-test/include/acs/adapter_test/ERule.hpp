@@ -1,5 +1,7 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
+
 #include <array>
 #include <cstdint>
 #include <string_view>
@@ -71,9 +73,9 @@ inline constexpr std::array<ERule, 27> ALL_RULES{
 };
 
 /// The name on the page: "job-once".
-[[nodiscard]] std::string_view GetRuleName(ERule rule);
+[[nodiscard]] ACS_API std::string_view GetRuleName(ERule rule);
 
 /// What the contract demands, in a sentence.
-[[nodiscard]] std::string_view GetRuleText(ERule rule);
+[[nodiscard]] ACS_API std::string_view GetRuleText(ERule rule);
 
 } // namespace ACS::AdapterTest

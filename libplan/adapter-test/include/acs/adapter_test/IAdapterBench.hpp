@@ -2,6 +2,7 @@
 
 #include <acs/adapter_test/IAdapterHost.hpp>
 #include <acs/adapter_test/IVirtualTime.hpp>
+#include <acs/core/Api.hpp>
 #include <acs/plan/IRobotAdapter.hpp>
 #include <acs/plan/RobotCommand.hpp>
 
@@ -55,7 +56,7 @@ struct BenchOptions
 /// An adapter and the robot to which it is connected, in virtual time: what CheckAdapter needs of the author of an adapter.
 /// The robot may be a simple model. It is not part of the adapter: it continues while the link is cut and while there is no
 /// adapter.
-class IAdapterBench
+class ACS_API IAdapterBench
 {
 public:
     IAdapterBench() = default;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/plan/IRobotAdapter.hpp>
 
@@ -9,7 +10,7 @@ namespace ACS::AdapterTest
 {
 
 /// The host of one adapter.
-class IAdapterHost
+class ACS_API IAdapterHost
 {
 public:
     using AdapterCall = std::function<void(Core::Now now, Planning::AdapterActions& out)>;

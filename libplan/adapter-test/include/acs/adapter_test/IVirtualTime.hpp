@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Now.hpp>
 
 #include <functional>
@@ -8,7 +9,7 @@ namespace ACS::AdapterTest
 {
 
 /// The virtual time of a scenario. It advances only from task to task.
-class IVirtualTime : public Core::IClock
+class ACS_API IVirtualTime : public Core::IClock
 {
 public:
     using Task = std::function<void()>;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/plan/IPlanStore.hpp>
 #include <acs/plan_sqlite/StoreOrigin.hpp>
@@ -15,9 +16,9 @@ namespace ACS::Planning
 /// Plan store in a SQLite database with a write-ahead log and full synchronisation: changes are on disk when Append returns.
 /// The store has a directory of its own with mode 0700 and the database `acsd.db`. The directory is locked while the store is
 /// open. Used by one thread.
-class SqlitePlanStore final : public IPlanStore
+class ACS_API SqlitePlanStore final : public IPlanStore
 {
-    class Impl;
+    class ACS_HIDDEN Impl;
     std::unique_ptr<Impl> _impl;
 
     explicit SqlitePlanStore(std::unique_ptr<Impl> impl);

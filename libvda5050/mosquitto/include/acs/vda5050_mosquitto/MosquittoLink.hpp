@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Result.hpp>
@@ -25,7 +26,7 @@ namespace ACS::VDA5050
 /// resolved and connect() has begun, so that a name server or a broker that does not answer never blocks the executor. An
 /// attempt that hangs is abandoned after connectTimeout; the next one begins when its thread has ended. Of a
 /// name with several addresses only the first one is tried, except for localhost.
-class MosquittoLink final : public IMqttLink
+class ACS_API MosquittoLink final : public IMqttLink
 {
 public:
     using StopHandler = std::function<void()>;
@@ -33,7 +34,7 @@ public:
     static constexpr std::chrono::milliseconds DEFAULT_STOP_TIMEOUT{2'000};
 
 private:
-    class Impl;
+    class ACS_HIDDEN Impl;
 
     std::shared_ptr<Impl> _impl;
 
