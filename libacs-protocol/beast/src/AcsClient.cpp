@@ -1,10 +1,10 @@
-#include "ActionPump.hpp"
-#include "EventQueue.hpp"
 #include "PlainTransport.hpp"
 #include "TlsTransport.hpp"
 #include "WebSocketURL.hpp"
 #include <acs/core/ECoreError.hpp>
 #include <acs/core/Overloaded.hpp>
+#include <acs/net/ActionPump.hpp>
+#include <acs/net/EventQueue.hpp>
 #include <acs/net/TimerArray.hpp>
 #include <acs/protocol/AcsSession.hpp>
 #include <acs/protocol_beast/AcsClient.hpp>
@@ -20,6 +20,7 @@ namespace ACS::ProtocolBeast
 using Tcp = boost::asio::ip::tcp;
 using ErrorCode = boost::beast::error_code;
 
+using SessionEvents = Net::EventQueue<Protocol::SessionEvent>;
 using SessionTimers = Net::TimerArray<Protocol::ESessionTimer, Protocol::TIMER_COUNT>;
 
 namespace
@@ -53,12 +54,12 @@ class AcsClient::Impl : public std::enable_shared_from_this<AcsClient::Impl>
     ClientOptions _options;
     WebSocketURL _url;
     Protocol::AcsSession _session;
-    std::shared_ptr<EventQueue> _events;
+    std::shared_ptr<SessionEvents> _events;
     std::shared_ptr<SessionTimers> _timers;
     Tcp::resolver _resolver;
     std::unique_ptr<ITransport> _transport;
     std::shared_ptr<ILink> _linkOrNull;
-    ActionPump _pump;
+    Net::ActionPump<Protocol::SessionAction> _pump;
 
 public:
     Impl(
@@ -76,7 +77,9 @@ public:
           _options(options),
           _url(std::move(url)),
           _session(options.session, random),
-          _events(std::make_shared<EventQueue>(executor, handler)),
+          _events(std::make_shared<SessionEvents>(
+              executor,
+              [&handler](const Protocol::SessionEvent& event) { handler.OnSessionEvent(event); })),
           _timers(std::make_shared<SessionTimers>(
               executor,
               [this](Protocol::ESessionTimer timer) {

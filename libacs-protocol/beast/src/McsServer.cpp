@@ -1,8 +1,8 @@
-#include "ActionPump.hpp"
-#include "EventQueue.hpp"
 #include "IPortUser.hpp"
 #include "McsPort.Impl.hpp"
 #include <acs/core/Overloaded.hpp>
+#include <acs/net/ActionPump.hpp>
+#include <acs/net/EventQueue.hpp>
 #include <acs/net/TimerArray.hpp>
 #include <acs/protocol/McsSession.hpp>
 #include <acs/protocol_beast/McsServer.hpp>
@@ -19,6 +19,7 @@ namespace ACS::ProtocolBeast
 namespace
 {
 
+using SessionEvents = Net::EventQueue<Protocol::SessionEvent>;
 using SessionTimers = Net::TimerArray<Protocol::ESessionTimer, Protocol::TIMER_COUNT>;
 
 constexpr unsigned HTTP_FORBIDDEN = 403;
@@ -31,12 +32,12 @@ class McsServer::Impl final : public IPortUser, public std::enable_shared_from_t
     Core::Logger _logger;
     ServerOptions _options;
     std::unique_ptr<Protocol::IMcsSession> _session;
-    std::shared_ptr<EventQueue> _events;
+    std::shared_ptr<SessionEvents> _events;
     std::shared_ptr<SessionTimers> _timers;
     std::unique_ptr<McsPort> _ownPortOrNull; ///< Unless it shares one.
     std::shared_ptr<McsPort::Impl> _port;
     std::map<Protocol::ConnectionID, std::shared_ptr<ILink>> _links;
-    ActionPump _pump;
+    Net::ActionPump<Protocol::SessionAction> _pump;
 
 public:
     Impl(
@@ -50,7 +51,9 @@ public:
           _logger(logger),
           _options(options),
           _session(std::move(ownedSession)),
-          _events(std::make_shared<EventQueue>(executor, handler)),
+          _events(std::make_shared<SessionEvents>(
+              executor,
+              [&handler](const Protocol::SessionEvent& event) { handler.OnSessionEvent(event); })),
           _timers(std::make_shared<SessionTimers>(executor, [this](Protocol::ESessionTimer timer) {
               Run([timer](auto& session, Core::Now now, auto& out) { session.OnTimer(timer, now, out); });
           }))

@@ -1,18 +1,17 @@
 #pragma once
 
-#include <acs/core/Now.hpp>
-#include <acs/protocol/SessionAction.hpp>
-
 #include <cstddef>
 #include <utility>
+#include <vector>
 
-namespace ACS::ProtocolBeast
+namespace ACS::Net
 {
 
 /// Carries out what a session returns, in order, also where that runs the session again.
+template <typename TAction>
 class ActionPump
 {
-    Protocol::SessionActions _actions;
+    std::vector<TAction> _actions;
     std::size_t _done = 0;
     bool _bActing = false;
 
@@ -30,7 +29,7 @@ public:
         for (; _done < _actions.size(); ++_done)
         {
             // Taken out: what follows may make the vector grow.
-            const Protocol::SessionAction action = std::exchange(_actions[_done], {});
+            const TAction action = std::exchange(_actions[_done], {});
             act(action);
         }
         _actions.clear();
@@ -39,4 +38,4 @@ public:
     }
 };
 
-} // namespace ACS::ProtocolBeast
+} // namespace ACS::Net
