@@ -1,0 +1,81 @@
+#pragma once
+
+#include <acs/core/Api.hpp>
+#include <acs/core/IRandom.hpp>
+#include <acs/core/Logger.hpp>
+#include <acs/core/Now.hpp>
+#include <acs/core/Result.hpp>
+#include <acs/vda5050/MasterFleet.hpp>
+#include <acs/vda5050_mosquitto/IMasterHandler.hpp>
+#include <acs/vda5050_mosquitto/MosquittoOptions.hpp>
+
+#include <boost/asio/any_io_executor.hpp>
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace ACS::VDA5050
+{
+
+/// A MasterFleet on a broker: publishes what its sessions request, runs their timers and passes their events on. Runs on the single
+/// thread of the executor, and is called from there only. Other messages of the broker need a MosquittoLink of your own.
+class ACS_API MasterClient final
+{
+public:
+    /// Calls the session of a vehicle; the client carries out what it adds to out.
+    using SessionCall = std::function<void(MasterSession& session, Core::Now now, MasterActions& out)>;
+    using StopHandler = std::function<void()>;
+
+private:
+    class ACS_HIDDEN Impl;
+
+    std::unique_ptr<Impl> _impl;
+
+    explicit MasterClient(std::unique_ptr<Impl> impl);
+
+public:
+    MasterClient(const MasterClient&) = delete;
+    MasterClient& operator=(const MasterClient&) = delete;
+    /// Closes the connection at once; the handler is not called any more.
+    ~MasterClient();
+
+    /// Does not connect before Start. Fails with InvalidTopic if the interfaceName is not allowed in a topic. Clock, random source,
+    /// log sink and handler must outlive the client.
+    [[nodiscard]] static Core::Result<std::unique_ptr<MasterClient>> Create(
+        const boost::asio::any_io_executor& executor,
+        const Core::IClock& clock,
+        Core::IRandom& random,
+        const Core::Logger& logger,
+        MosquittoOptions broker,
+        FleetOptions options,
+        IMasterHandler& handler);
+
+    /// Connects, and reconnects until it is stopped. Called once.
+    void Start();
+
+    /// Waits until the broker has acknowledged what was published, at most for MosquittoLink::DEFAULT_STOP_TIMEOUT, disconnects,
+    /// and calls the handler once on the executor. The vehicles are not commanded. No event follows.
+    void StopAsync(StopHandler handler);
+
+    [[nodiscard]] bool IsConnected() const;
+
+    /// For GetSession, FindOrNull and the statistics. The reference is valid as long as the client.
+    [[nodiscard]] const MasterFleet& GetFleet() const;
+
+    // These call the function of the same name of the fleet or of the vehicle's session, and carry out its actions; their events
+    // follow after the call has returned. The vehicle must be in the fleet.
+
+    [[nodiscard]] Core::Result<std::size_t> Add(const VehicleAddress& address);
+    /// The events of the vehicle that were not delivered yet are dropped.
+    bool TryRemove(std::size_t vehicle);
+    [[nodiscard]] Core::Result<void> SendOrder(std::size_t vehicle, OrderMessage order);
+    [[nodiscard]] Core::Result<void> SendOrderUpdate(std::size_t vehicle, OrderMessage update);
+    [[nodiscard]] Core::Result<std::string> SendInstantAction(std::size_t vehicle, Action action);
+    [[nodiscard]] Core::Result<void> Cancel(std::size_t vehicle);
+    /// For all other functions of the session.
+    void Run(std::size_t vehicle, const SessionCall& call);
+};
+
+} // namespace ACS::VDA5050
