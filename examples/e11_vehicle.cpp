@@ -1,15 +1,15 @@
-// Lesson 11: a VDA5050 vehicle of your own on a real MQTT broker. The session keeps the protocol's rules; what is yours is
-// the class Hardware, which here needs a second for each edge and half of one for each action.
+// Lesson 11: a VDA5050 vehicle of your own on a real MQTT broker. The session keeps the protocol's rules, and VehicleClient has the
+// connection and the timers; what is yours is the hardware, which here needs a second for each edge and half of one for each action.
 //
 //     mosquitto -p 1883
 //     e11_vehicle 127.0.0.1 1883 V1        (VDA5050 2.0, uagv/v2/Example/V1/...; Ctrl-C ends it)
 
 #include "ExampleBroker.hpp"
+#include "ExampleClock.hpp"
 #include "ExampleRandom.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/vda5050/PredefinedActions.hpp>
-#include <acs/vda5050/VehicleSession.hpp>
-#include <acs/vda5050_mosquitto/MosquittoLink.hpp>
+#include <acs/vda5050_mosquitto/VehicleClient.hpp>
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/signal_set.hpp>
@@ -27,6 +27,7 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <variant>
 
 using namespace ACS;          // NOLINT(google-build-using-namespace): an example reads better without the prefix
 using namespace ACS::VDA5050; // NOLINT(google-build-using-namespace)
@@ -36,11 +37,6 @@ namespace
 {
 
 constexpr const char* MAP = "floor";
-
-Core::Now ReadClock()
-{
-    return {std::chrono::steady_clock::now(), std::chrono::system_clock::now()};
-}
 
 VehicleOptions MakeVehicleOptions(std::string serialNumber)
 {
@@ -93,16 +89,14 @@ public:
     }
 };
 
-class ExampleVehicle final : public IMqttLinkListener
+class ExampleVehicle final : public IVehicleHandler
 {
     boost::asio::io_context& _io;
-    VehicleSession _session;
-    VehicleActions _actions; ///< Asked for, and not yet carried out.
-    std::map<EVehicleTimer, Wait> _timers;
     Wait _leg;                         ///< Runs while the vehicle drives.
     std::map<std::string, Wait> _work; ///< For each action that is performed.
     AgvPosition _position;
-    MosquittoLink _link;
+    ExampleClock _clock;
+    VehicleClient _client;
 
 public:
     ExampleVehicle(
@@ -111,181 +105,112 @@ public:
         const MosquittoOptions& broker,
         const VehicleOptions& vehicle)
         : _io(io),
-          _session(vehicle),
           _leg(io),
-          _link(io.get_executor(), random, Core::Logger(), broker, *this)
+          _client(io.get_executor(), _clock, random, Core::Logger(), broker, vehicle, *this)
     {
         _position.bPositionInitialized = true;
         _position.mapID = MAP;
-        _session.OnPosition(_position, {});
         BatteryState battery;
         battery.batteryCharge = 80.0;
-        _session.OnBattery(battery, ReadClock(), _actions);
-        _link.Subscribe(_session.GetSubscriptions());
-        _link.SetWill(_session.MakeWill(ReadClock()));
-        _link.Start();
+        _client.Run([this, &battery](VehicleSession& session, Core::Now now, VehicleActions& out) {
+            session.OnPosition(_position, {});
+            session.OnBattery(battery, now, out);
+        });
+        _client.Start();
     }
 
-    /// OFFLINE is the last word, and the broker sends no will.
     void Stop()
     {
-        _session.Leave(ReadClock(), _actions);
-        Execute();
-        _link.StopAsync(std::nullopt, MosquittoLink::DEFAULT_STOP_TIMEOUT, [this]() { _io.stop(); });
+        _client.StopAsync([this] { _io.stop(); });
     }
 
-    void OnLinkUp() override
+    void OnBrokerUp() override
     {
         fmt::print("connected\n");
-        _link.SetWill(_session.MakeWill(ReadClock())); // for the next connection: each will has its own time
-        _session.OnLinkUp(ReadClock(), _actions);
-        Execute();
     }
 
-    void OnLinkDown(std::error_code reason) override
+    void OnBrokerDown(std::error_code reason) override
     {
         fmt::print("no broker: {}; trying again\n", reason.message());
-        _session.OnLinkDown(ReadClock(), _actions); // the vehicle drives on to the end of what is released
-        Execute();
     }
 
-    void OnMqttMessage(const MqttMessage& message) override
+    void OnVehicleAction(const VehicleAction& action) override
     {
-        _session.OnMessage(message.topic, message.payload, message.bRetained, ReadClock(), _actions);
-        Execute();
+        std::visit(
+            Core::Overloaded{
+                // ---- the hardware: put yours here
+                [this](const DriveTo& drive) { Drive(drive); },
+                [this](const StopDriving& /*stop*/) {
+                    _leg.Stop();
+                    SetDriving(false);
+                },
+                [this](const StartAction& start) {
+                    fmt::print("{} begins\n", start.action.actionType);
+                    BeginWork(start.action.actionID);
+                },
+                [this](const PauseAction& pause) { EndWork(pause.actionID, EActionStatus::Paused); },
+                [this](const ResumeAction& resume) { BeginWork(resume.actionID); },
+                [this](const StopAction& stop) { EndWork(stop.actionID, EActionStatus::Failed); },
+                // ---- what has become of orders
+                [](const OrderTaken& taken) {
+                    fmt::print("order {} update {} taken\n", taken.orderID, taken.orderUpdateID);
+                },
+                [](const OrderRefused& refused) {
+                    fmt::print("order {} refused: {}\n", refused.orderID, refused.reason);
+                },
+                [](const OrderCompleted& completed) { fmt::print("order {} completed\n", completed.orderID); },
+                [](const OrderCleared& cleared) { fmt::print("order {} cancelled\n", cleared.orderID); },
+                [](const MessageIgnored& ignored) {
+                    fmt::print("{} ignored: {}\n", GetTopicName(ignored.topic), Core::Describe(ignored.error));
+                },
+                [](const auto& /*other*/) {
+                }},
+            action);
     }
 
 private:
-    /// Carries out a batch, which may ask for another one. A session must not be called while its batch is read: hence
-    /// the swap.
-    void Execute()
+    void SetDriving(bool bDriving)
     {
-        while (!_actions.empty())
-        {
-            for (const VehicleAction& action : std::exchange(_actions, {}))
-            {
-                std::visit([this](const auto& content) { this->Do(content); }, action);
-            }
-        }
-    }
-
-    template <typename TFunction>
-    void Later(Wait& wait, Core::Duration delay, TFunction function)
-    {
-        wait.Start(delay, [this, function]() {
-            function();
-            Execute();
+        _client.Run([bDriving](VehicleSession& session, Core::Now now, VehicleActions& out) {
+            session.OnDrivingChanged(bDriving, now, out);
         });
     }
 
-    // ---- what every vehicle does in the same way
-
-    void Do(const PublishMessage& publish)
+    void Drive(const DriveTo& drive)
     {
-        if (const Core::Result<void> done = _link.Publish(publish.message); !done)
-        {
-            fmt::print("not published: {}\n", Core::Describe(done.error())); // the next state contains everything
-        }
-    }
-
-    void Do(const StartVehicleTimer& start)
-    {
-        const auto [found, bNew] = _timers.try_emplace(start.timer, _io);
-        Later(found->second, start.delay, [this, timer = start.timer]() {
-            _session.OnTimer(timer, ReadClock(), _actions);
-        });
-    }
-
-    void Do(const CancelVehicleTimer& cancel)
-    {
-        _timers.erase(cancel.timer);
-    }
-
-    static void Do(const OrderTaken& taken)
-    {
-        fmt::print("order {} update {} taken\n", taken.orderID, taken.orderUpdateID);
-    }
-
-    static void Do(const OrderRefused& refused)
-    {
-        fmt::print("order {} refused: {}\n", refused.orderID, refused.reason);
-    }
-
-    static void Do(const OrderCompleted& completed)
-    {
-        fmt::print("order {} completed\n", completed.orderID);
-    }
-
-    static void Do(const OrderCleared& cleared)
-    {
-        fmt::print("order {} cancelled\n", cleared.orderID);
-    }
-
-    static void Do(const MessageIgnored& ignored)
-    {
-        fmt::print("{} ignored: {}\n", GetTopicName(ignored.topic), Core::Describe(ignored.error));
-    }
-
-    // ---- the hardware: put yours here
-
-    void Do(const DriveTo& drive)
-    {
-        _session.OnDrivingChanged(true, ReadClock(), _actions);
-        Later(_leg, 1s, [this, drive]() {
+        SetDriving(true);
+        _leg.Start(1s, [this, drive] {
             if (drive.node.nodePosition.has_value())
             {
                 _position.x = drive.node.nodePosition->x;
                 _position.y = drive.node.nodePosition->y;
-                _session.OnPosition(_position, {});
             }
-            const NodeArrival arrival{drive.node.sequenceID, drive.bStopAtNode};
-            static_cast<void>(_session.TryReachNode(arrival, ReadClock(), _actions));
+            _client.Run([this, &drive](VehicleSession& session, Core::Now now, VehicleActions& out) {
+                session.OnPosition(_position, {});
+                session.TryReachNode({drive.node.sequenceID, drive.bStopAtNode}, now, out);
+            });
         });
     }
 
-    void Do(const StopDriving& /*stop*/)
+    void BeginWork(const std::string& actionID)
     {
-        _leg.Stop();
-        _session.OnDrivingChanged(false, ReadClock(), _actions);
-    }
-
-    void Do(const StartAction& start)
-    {
-        fmt::print("{} begins\n", start.action.actionType);
-        Tell(start.action.actionID, EActionStatus::Running);
-        FinishLater(start.action.actionID);
-    }
-
-    void Do(const PauseAction& pause)
-    {
-        _work.erase(pause.actionID);
-        Tell(pause.actionID, EActionStatus::Paused);
-    }
-
-    void Do(const ResumeAction& resume)
-    {
-        Tell(resume.actionID, EActionStatus::Running);
-        FinishLater(resume.actionID);
-    }
-
-    void Do(const StopAction& stop)
-    {
-        _work.erase(stop.actionID);
-        Tell(stop.actionID, EActionStatus::Failed);
-    }
-
-    void FinishLater(const std::string& actionID)
-    {
-        const auto [found, bNew] = _work.try_emplace(actionID, _io);
-        Later(found->second, 500ms, [this, actionID]() {
-            Tell(actionID, EActionStatus::Finished);
-            _work.erase(actionID);
+        SetStatus(actionID, EActionStatus::Running);
+        _work.try_emplace(actionID, _io).first->second.Start(500ms, [this, actionID] {
+            EndWork(actionID, EActionStatus::Finished);
         });
     }
 
-    void Tell(const std::string& actionID, EActionStatus status)
+    void EndWork(const std::string& actionID, EActionStatus status)
     {
-        static_cast<void>(_session.TrySetActionStatus(actionID, status, {}, ReadClock(), _actions));
+        SetStatus(actionID, status);
+        _work.erase(actionID);
+    }
+
+    void SetStatus(const std::string& actionID, EActionStatus status)
+    {
+        _client.Run([&actionID, status](VehicleSession& session, Core::Now now, VehicleActions& out) {
+            session.TrySetActionStatus(actionID, status, {}, now, out);
+        });
     }
 };
 

@@ -1,14 +1,15 @@
 // Lesson 14: a small master control on a real broker. It discovers the vehicles, sends one order to the first vehicle that
-// can accept it, prints the progress, and ends with the order. ExampleFleet has the broker and the timers.
+// can accept it, prints the progress, and ends with the order. MasterClient has the connection and the timers.
 //
 //     vda-sim --broker mqtt://127.0.0.1:1883 --site examples/site/site.lif.json --vehicle LR01
 //     e14_progress 127.0.0.1 1883 order.json      (an order message of VDA5050 with its whole route)
 
 #include "ExampleBroker.hpp"
-#include "ExampleFleet.hpp"
+#include "ExampleClock.hpp"
 #include "ExampleRandom.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/vda5050/Vda5050Codec.hpp>
+#include <acs/vda5050_mosquitto/MasterClient.hpp>
 
 #include <boost/asio/io_context.hpp>
 #include <fmt/core.h>
@@ -17,9 +18,11 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <variant>
 
@@ -29,30 +32,32 @@ using namespace ACS::VDA5050; // NOLINT(google-build-using-namespace)
 namespace
 {
 
-class ProgressMaster
+class ProgressMaster final : public IMasterHandler
 {
     std::optional<OrderMessage> _order; ///< Empty once it was sent.
-    ExampleFleet _fleet;
 
 public:
+    std::unique_ptr<MasterClient> client;
     bool bFailed = false; ///< The order, or one of its actions.
 
-    ProgressMaster(
-        boost::asio::io_context& io,
-        Core::IRandom& random,
-        const MosquittoOptions& broker,
-        OrderMessage order)
-        : _order(std::move(order)),
-          _fleet(io, random, broker, [this](std::size_t vehicle, const MasterAction& event) {
-              OnEvent(vehicle, event);
-          })
+    explicit ProgressMaster(OrderMessage order)
+        : _order(std::move(order))
     {
     }
 
-private:
-    void OnEvent(std::size_t vehicle, const MasterAction& event)
+    void OnBrokerUp() override
     {
-        const std::string& name = _fleet.GetSession(vehicle).GetOptions().address.serialNumber;
+        fmt::print("connected\n");
+    }
+
+    void OnBrokerDown(std::error_code reason) override
+    {
+        fmt::print("no broker: {}; trying again\n", reason.message());
+    }
+
+    void OnVehicleEvent(std::size_t vehicle, const MasterAction& event) override
+    {
+        const std::string& name = client->GetFleet().GetSession(vehicle).GetOptions().address.serialNumber;
         std::visit(
             Core::Overloaded{
                 [&](const VehicleOnline&) { fmt::print("{}: online\n", name); },
@@ -69,12 +74,13 @@ private:
             event);
     }
 
+private:
     /// The state shows whether the vehicle can accept an order: its mode, and whether another master's order runs.
     void SendOrderOnce(std::size_t vehicle)
     {
-        if (_order.has_value() && _fleet.GetSession(vehicle).CanTakeOrder())
+        if (_order.has_value() && client->GetFleet().GetSession(vehicle).CanTakeOrder())
         {
-            const Core::Result<void> sent = _fleet.SendOrder(vehicle, *std::exchange(_order, std::nullopt));
+            const Core::Result<void> sent = client->SendOrder(vehicle, *std::exchange(_order, std::nullopt));
             if (!sent.has_value())
             {
                 End("the order", Core::Describe(sent.error()), true);
@@ -84,7 +90,7 @@ private:
 
     void OnAction(std::size_t vehicle, const ActionChanged& action)
     {
-        const MasterOptions& options = _fleet.GetSession(vehicle).GetOptions();
+        const MasterOptions& options = client->GetFleet().GetSession(vehicle).GetOptions();
         if (action.actionID.starts_with(options.actionIDPrefix))
         {
             return; // A request of the session itself, for example for a factsheet.
@@ -102,7 +108,7 @@ private:
     {
         fmt::print("{}: {}\n", name, how);
         bFailed = bWithFailure;
-        _fleet.Stop();
+        client->StopAsync([] {}); // Nothing is left to do for the io_context then.
     }
 };
 
@@ -129,7 +135,11 @@ int main(int argc, char** argv) // NOLINT(bugprone-exception-escape): nothing th
     }
     boost::asio::io_context io;
     ExampleRandom random;
-    const ProgressMaster master(io, random, *brokerOrNull, std::move(*order));
+    const ExampleClock clock;
+    ProgressMaster master(std::move(*order));
+    auto client = MasterClient::Create(io.get_executor(), clock, random, Core::Logger(), *brokerOrNull, {}, master);
+    master.client = std::move(*client); // The standard's interfaceName, "uagv", is valid.
+    master.client->Start();
     io.run();
     return master.bFailed ? 1 : 0;
 }

@@ -12,12 +12,13 @@
 // The lesson is longer than 150 lines because a bridge has two sides.
 
 #include "ExampleBroker.hpp"
+#include "ExampleClock.hpp"
 #include "ExampleRandom.hpp"
 #include "MakerLink.hpp"
-#include "VehicleOnBroker.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/vda5050/OrderValidator.hpp>
 #include <acs/vda5050/PredefinedActions.hpp>
+#include <acs/vda5050_mosquitto/VehicleClient.hpp>
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/address.hpp>
@@ -37,6 +38,7 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -79,7 +81,7 @@ VehicleOptions MakeVehicleOptions(std::string serialNumber)
     return options;
 }
 
-class Bridge
+class Bridge final : public IVehicleHandler
 {
     struct Command
     {
@@ -91,7 +93,8 @@ class Bridge
 
     std::map<std::uint64_t, Command> _commands; ///< Those that have not ended, by number.
     std::uint64_t _lastNumber = 0;
-    VehicleOnBroker _vehicle;
+    ExampleClock _clock;
+    VehicleClient _vehicle;
     MakerLink _maker;
 
 public:
@@ -101,7 +104,7 @@ public:
         const MosquittoOptions& broker,
         const VehicleOptions& vehicle,
         const boost::asio::ip::tcp::endpoint& maker)
-        : _vehicle(io, random, broker, vehicle, [this](const VehicleAction& action) { OnAction(action); }),
+        : _vehicle(io.get_executor(), _clock, random, Core::Logger(), broker, vehicle, *this),
           _maker(
               io,
               maker,
@@ -109,17 +112,27 @@ public:
               [this](bool bConnected) { OnMakerLink(bConnected); })
     {
         OnMakerLink(false);
+        _vehicle.Start();
     }
 
-    void Stop()
+    void StopAsync(VehicleClient::StopHandler handler)
     {
-        _vehicle.Stop();
+        _vehicle.StopAsync(std::move(handler));
     }
 
-private:
+    void OnBrokerUp() override
+    {
+        fmt::print("connected\n");
+    }
+
+    void OnBrokerDown(std::error_code reason) override
+    {
+        fmt::print("no broker: {}; trying again\n", reason.message());
+    }
+
     // ---- from VDA5050 to the maker
 
-    void OnAction(const VehicleAction& action)
+    void OnVehicleAction(const VehicleAction& action) override
     {
         std::visit(
             Core::Overloaded{
@@ -141,6 +154,7 @@ private:
             action);
     }
 
+private:
     void Drive(const DriveTo& drive)
     {
         const bool bUnderWay = std::ranges::any_of(_commands, [&drive](const auto& command) {
@@ -178,7 +192,7 @@ private:
         else if (verb == "moving")
         {
             const bool bDriving = words.get() == ' ' && words.get() == '1';
-            _vehicle.Do(
+            _vehicle.Run(
                 [bDriving](auto& session, Core::Now now, auto& out) { session.OnDrivingChanged(bDriving, now, out); });
         }
         else if (verb == "started" || verb == "done" || verb == "failed")
@@ -201,7 +215,7 @@ private:
         {
             position.bPositionInitialized = true;
             position.mapID = MAP;
-            _vehicle.Do([&position, &battery](auto& session, Core::Now now, auto& out) {
+            _vehicle.Run([&position, &battery](auto& session, Core::Now now, auto& out) {
                 session.OnPosition(position, {});
                 session.OnBattery(battery, now, out);
             });
@@ -224,7 +238,7 @@ private:
         if (command.actionID.empty() && bDone)
         {
             const NodeArrival arrival{command.sequenceID, true};
-            _vehicle.Do(
+            _vehicle.Run(
                 [&arrival](auto& session, Core::Now now, auto& out) { session.TryReachNode(arrival, now, out); });
         }
         else if (!command.actionID.empty())
@@ -232,7 +246,7 @@ private:
             const EActionStatus status = verb == "started" ? EActionStatus::Running
                 : bDone                                    ? EActionStatus::Finished
                                                            : EActionStatus::Failed;
-            _vehicle.Do([&command, status](auto& session, Core::Now now, auto& out) {
+            _vehicle.Run([&command, status](auto& session, Core::Now now, auto& out) {
                 session.TrySetActionStatus(command.actionID, status, {}, now, out);
             });
         }
@@ -247,7 +261,7 @@ private:
             errors.back().errorType = "vehicleUnreachable";
             errors.back().errorLevel = EErrorLevel::Fatal;
         }
-        _vehicle.Do([&errors](auto& session, Core::Now now, auto& out) { session.OnErrors(errors, now, out); });
+        _vehicle.Run([&errors](auto& session, Core::Now now, auto& out) { session.OnErrors(errors, now, out); });
         for (const auto& [number, command] : _commands)
         {
             Send(number, command);
@@ -277,10 +291,10 @@ int main(int argc, char** argv) // NOLINT(bugprone-exception-escape): nothing th
     ExampleRandom random;
     Bridge bridge(io, random, *brokerOrNull, MakeVehicleOptions(arguments[3]), {address, makerOrNull->port});
     boost::asio::signal_set signals(io, SIGINT, SIGTERM);
-    signals.async_wait([&bridge](const boost::system::error_code& cancelled, int /*number*/) {
+    signals.async_wait([&bridge, &io](const boost::system::error_code& cancelled, int /*number*/) {
         if (!cancelled)
         {
-            bridge.Stop();
+            bridge.StopAsync([&io] { io.stop(); });
         }
     });
     io.run();

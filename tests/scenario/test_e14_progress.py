@@ -64,8 +64,8 @@ class Progress(ScenarioCase):
         lesson = self.start_lesson("A01.CP01")
         self.assertEqual(lesson.wait(FINISH_SECONDS), 0)
         reached = [f"LR01: node {node} reached" for node in self.route]
-        self.assertEqual(self.read_lines(lesson), ["LR01: online", "LR01: order-1 accepted", *reached, "LR01: pick finished",
-                                                   "LR01: order-1 finished"])
+        self.assertEqual(self.read_lines(lesson), ["connected", "LR01: online", "LR01: order-1 accepted", *reached,
+                                                   "LR01: pick finished", "LR01: order-1 finished"])
         self.states.stop()
         seen = [state["lastNodeId"] for state in map(json.loads, self.read_lines(self.states)) if state["orderId"] == "order-1"]
         self.assertEqual([node for node in self.route if node in seen], list(dict.fromkeys(seen)))
