@@ -34,7 +34,7 @@ ONLY_ANALYZER = "-*,clang-analyzer-*,-clang-analyzer-optin.cplusplus.VirtualCall
 ANALYZED = ("lib",)
 ANALYZED_DEEP = ("lib", "apps/", "examples/")
 # Lines that change no answer.
-COMMENT = re.compile(r"^[ \t]*//(?!.*(?:NOLINT|TODO)).*\n", re.MULTILINE)
+COMMENT = re.compile(r"^[ \t]*//(?!.*NOLINT).*\n", re.MULTILINE)
 BROKEN_QUERY = re.compile(r"Error (?:parsing|building)|Matcher not found|Invalid token|unknown command", re.IGNORECASE)
 
 

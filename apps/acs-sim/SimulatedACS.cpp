@@ -397,7 +397,7 @@ bool SimulatedACS::IsDone() const
     {
         return false;
     }
-    // An MCS may go on sending plans: what came later does not count.
+    // An MCS may send more plans: what came later does not count.
     const std::set<std::string> waiting = ListWaiting();
     return std::ranges::none_of(*_lastWaiting, [&waiting](const std::string& transactionID) {
         return waiting.contains(transactionID);

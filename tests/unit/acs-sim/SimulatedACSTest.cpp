@@ -239,7 +239,7 @@ TEST_CASE("not-connected: isConnected is false, and later true")
     CHECK(std::get<AcsCommStateUpdate>(fixture.link.states.back()) == AcsCommStateUpdate{true});
 }
 
-TEST_CASE("A run ends although the MCS goes on sending plans")
+TEST_CASE("A run ends although the MCS sends more plans")
 {
     AcsFixture fixture;
     fixture.SendPlan("P0", "T0");

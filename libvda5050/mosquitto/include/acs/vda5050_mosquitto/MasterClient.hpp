@@ -61,7 +61,7 @@ public:
 
     [[nodiscard]] bool IsConnected() const;
 
-    /// For GetSession, FindOrNull and the statistics. The reference is valid as long as the client.
+    /// For GetSession, FindOrNull and the statistics. The reference is valid while the client exists.
     [[nodiscard]] const MasterFleet& GetFleet() const;
 
     // These call the function of the same name of the fleet or of the vehicle's session, and carry out its actions; their events

@@ -55,7 +55,7 @@ public:
 
     [[nodiscard]] bool IsConnected() const;
 
-    /// The reference is valid as long as the client.
+    /// The reference is valid while the client exists.
     [[nodiscard]] const VehicleSession& GetSession() const;
 
     /// Reports position, battery, loads, arrivals and the progress of actions to the session. The actions that follow from it come
