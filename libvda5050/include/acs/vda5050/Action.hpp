@@ -19,15 +19,16 @@ enum class EBlockingType : std::uint8_t
     Hard,
 };
 
+/// A parameter of an action (section 6.8).
 struct ActionParameter
 {
-    std::string key;
+    std::string key;      ///< Unique in the action.
     Core::JsonText value; ///< Any JSON value but null.
 
     bool operator==(const ActionParameter&) const = default;
 };
 
-/// An action on a node, on an edge, or an instant action.
+/// An action on a node, on an edge, or an instant action (section 6.8).
 struct Action
 {
     std::string actionType;

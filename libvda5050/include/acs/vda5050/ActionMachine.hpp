@@ -28,9 +28,12 @@ class ACS_API ActionMachine
     ActionState _state;
 
 public:
+    /// The action begins in this state; CanBeginWith lists what is allowed.
     explicit ActionMachine(ActionState initial);
 
+    /// As it is reported in the vehicle's state.
     [[nodiscard]] const ActionState& GetState() const noexcept;
+    /// The status of GetState.
     [[nodiscard]] EActionStatus GetStatus() const noexcept;
 
     /// Returns false and changes nothing if the table forbids the transition. Before the end, a new result description alone

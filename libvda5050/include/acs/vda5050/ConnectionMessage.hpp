@@ -7,6 +7,7 @@
 namespace ACS::VDA5050
 {
 
+/// Whether the vehicle is connected to the broker (section 6.14).
 enum class EConnectionState : std::uint8_t
 {
     Online,

@@ -20,6 +20,7 @@ enum class EVda5050Error
     NotSupported = 8,       ///< The vehicle's factsheet has no such action, optional member or size; it was not sent.
 };
 
+/// Makes the enumerators convertible to std::error_code.
 [[nodiscard]] ACS_API std::error_code make_error_code(EVda5050Error error) noexcept;
 
 } // namespace ACS::VDA5050

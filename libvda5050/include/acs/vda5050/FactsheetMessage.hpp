@@ -15,6 +15,7 @@
 namespace ACS::VDA5050
 {
 
+/// Kinematics of a vehicle type (section 7): differential drive, omnidirectional, or like a car.
 enum class EAgvKinematic : std::uint8_t
 {
     Diff,
@@ -22,6 +23,7 @@ enum class EAgvKinematic : std::uint8_t
     ThreeWheel,
 };
 
+/// What a vehicle type is made for (section 7).
 enum class EAgvClass : std::uint8_t
 {
     Forklift,
@@ -30,6 +32,7 @@ enum class EAgvClass : std::uint8_t
     Carrier,
 };
 
+/// The vehicle type (section 7).
 struct TypeSpecification
 {
     std::string seriesName;
@@ -44,7 +47,7 @@ struct TypeSpecification
     bool operator==(const TypeSpecification&) const = default;
 };
 
-/// m/s, m/s², m, rad/s.
+/// Limits and size of the vehicle type (section 7) in m/s, m/s², m and rad/s.
 struct PhysicalParameters
 {
     double speedMin = 0.0;
@@ -61,7 +64,7 @@ struct PhysicalParameters
     bool operator==(const PhysicalParameters&) const = default;
 };
 
-/// Absent or 0: no stated limit.
+/// Maximum lengths of texts in characters (section 7). Absent or 0: no stated limit.
 struct MaximumStringLengths
 {
     std::optional<std::uint32_t> message;
@@ -75,7 +78,7 @@ struct MaximumStringLengths
     bool operator==(const MaximumStringLengths&) const = default;
 };
 
-/// Absent or 0: no stated limit.
+/// Maximum numbers of elements (section 7). Absent or 0: no stated limit.
 struct MaximumArrayLengths
 {
     std::optional<std::uint32_t> orderNodes;
@@ -101,7 +104,7 @@ struct MaximumArrayLengths
 /// Maximum interval of ProtocolTiming that is accepted, in seconds: one day.
 inline constexpr double LONGEST_INTERVAL = 86'400.0;
 
-/// Seconds, 0 to LONGEST_INTERVAL.
+/// Times of the protocol in seconds, 0 to LONGEST_INTERVAL (section 7).
 struct ProtocolTiming
 {
     double minOrderInterval = 0.0;
@@ -112,6 +115,7 @@ struct ProtocolTiming
     bool operator==(const ProtocolTiming&) const = default;
 };
 
+/// Limits of the protocol that the vehicle states (section 7).
 struct ProtocolLimits
 {
     MaximumStringLengths maxStringLengths;
@@ -121,12 +125,14 @@ struct ProtocolLimits
     bool operator==(const ProtocolLimits&) const = default;
 };
 
+/// Whether an optional member may be sent to the vehicle, or must be.
 enum class EParameterSupport : std::uint8_t
 {
     Supported,
     Required,
 };
 
+/// An optional member of the protocol that the vehicle supports or requires (section 7).
 struct OptionalParameter
 {
     std::string parameter; ///< Full path: order.nodes.nodePosition.allowedDeviationTheta
@@ -136,6 +142,7 @@ struct OptionalParameter
     bool operator==(const OptionalParameter&) const = default;
 };
 
+/// Where an action may be performed (section 7).
 enum class EActionScope : std::uint8_t
 {
     Instant,
@@ -143,6 +150,7 @@ enum class EActionScope : std::uint8_t
     Edge,
 };
 
+/// JSON type of a parameter's value (section 7).
 enum class EValueDataType : std::uint8_t
 {
     Bool,
@@ -154,6 +162,7 @@ enum class EValueDataType : std::uint8_t
     Array,
 };
 
+/// A parameter of an action of the vehicle (section 7).
 struct AgvActionParameter
 {
     std::string key;
@@ -164,7 +173,7 @@ struct AgvActionParameter
     bool operator==(const AgvActionParameter&) const = default;
 };
 
-/// An action that the vehicle can perform, and where.
+/// An action that the vehicle can perform, and where (section 7).
 struct AgvAction
 {
     std::string actionType;
@@ -177,6 +186,7 @@ struct AgvAction
     bool operator==(const AgvAction&) const = default;
 };
 
+/// Optional members and actions that the vehicle supports (section 7).
 struct ProtocolFeatures
 {
     /// Unlisted parameters are not supported; an empty list supports none. Absent, against the schema: all are allowed.
@@ -186,6 +196,7 @@ struct ProtocolFeatures
     bool operator==(const ProtocolFeatures&) const = default;
 };
 
+/// Kind of a wheel (section 7).
 enum class EWheelType : std::uint8_t
 {
     Drive,
@@ -194,6 +205,7 @@ enum class EWheelType : std::uint8_t
     Mecanum,
 };
 
+/// Position of a wheel in the frame of the vehicle (section 7), in metres and radians.
 struct WheelPosition
 {
     double x = 0.0;
@@ -203,6 +215,7 @@ struct WheelPosition
     bool operator==(const WheelPosition&) const = default;
 };
 
+/// A wheel of the vehicle (section 7); lengths in metres.
 struct WheelDefinition
 {
     EWheelType type = EWheelType::Drive;
@@ -217,6 +230,7 @@ struct WheelDefinition
     bool operator==(const WheelDefinition&) const = default;
 };
 
+/// A point in the frame of the vehicle (section 7), in metres.
 struct PolygonPoint
 {
     double x = 0.0;
@@ -225,6 +239,7 @@ struct PolygonPoint
     bool operator==(const PolygonPoint&) const = default;
 };
 
+/// A contour of the vehicle in two dimensions, named by its set (section 7).
 struct Envelope2D
 {
     std::string set;
@@ -234,6 +249,7 @@ struct Envelope2D
     bool operator==(const Envelope2D&) const = default;
 };
 
+/// A contour of the vehicle in three dimensions, named by its set (section 7).
 struct Envelope3D
 {
     std::string set;
@@ -246,6 +262,7 @@ struct Envelope3D
     bool operator==(const Envelope3D&) const = default;
 };
 
+/// Wheels and contours of the vehicle (section 7).
 struct AgvGeometry
 {
     std::vector<WheelDefinition> wheelDefinitions;
@@ -255,6 +272,8 @@ struct AgvGeometry
     bool operator==(const AgvGeometry&) const = default;
 };
 
+/// What the vehicle can do with one kind of load (section 7). Lengths in metres, masses in kilograms, tilts in radians, speeds
+/// in m/s, accelerations in m/s².
 struct LoadSet
 {
     std::string setName;
@@ -279,6 +298,7 @@ struct LoadSet
     bool operator==(const LoadSet&) const = default;
 };
 
+/// Loads that the vehicle can carry (section 7).
 struct LoadSpecification
 {
     std::vector<std::string> loadPositions; ///< Empty: no load handling device.
@@ -287,6 +307,7 @@ struct LoadSpecification
     bool operator==(const LoadSpecification&) const = default;
 };
 
+/// The version of a piece of software or hardware of the vehicle (2.1, section 7).
 struct VersionEntry
 {
     std::string key;
@@ -295,6 +316,7 @@ struct VersionEntry
     bool operator==(const VersionEntry&) const = default;
 };
 
+/// The vehicle's network configuration (2.1, section 7).
 struct NetworkConfig
 {
     std::vector<std::string> dnsServers;
@@ -306,6 +328,7 @@ struct NetworkConfig
     bool operator==(const NetworkConfig&) const = default;
 };
 
+/// Software, hardware and network of the vehicle (2.1, section 7).
 struct VehicleConfig
 {
     std::vector<VersionEntry> versions;

@@ -13,10 +13,10 @@ namespace ACS::VDA5050
 /// A message to publish, or one from the broker.
 struct MqttMessage
 {
-    std::string topic;
-    std::string payload;
-    std::uint8_t qos = 0; ///< 0, 1 or 2.
-    bool bRetained = false;
+    std::string topic;      ///< Without wildcards.
+    std::string payload;    ///< Any bytes; JSON in VDA5050.
+    std::uint8_t qos = 0;   ///< 0, 1 or 2.
+    bool bRetained = false; ///< The broker keeps it for later subscribers; of a received message: it was kept.
 
     bool operator==(const MqttMessage&) const = default;
 };
@@ -24,7 +24,7 @@ struct MqttMessage
 /// Action of a session: pass the message to the link.
 struct PublishMessage
 {
-    MqttMessage message;
+    MqttMessage message; ///< To be published with its qos and bRetained.
 
     bool operator==(const PublishMessage&) const = default;
 };
@@ -32,15 +32,16 @@ struct PublishMessage
 /// The last will: the broker publishes it if the client's connection breaks. Set before connecting.
 struct MqttWill
 {
-    MqttMessage message;
+    MqttMessage message; ///< Of VDA5050: a ConnectionMessage with ConnectionBroken, retained.
 
     bool operator==(const MqttWill&) const = default;
 };
 
+/// Which messages the broker delivers, and how.
 struct MqttSubscription
 {
-    std::string topicFilter;
-    std::uint8_t qos = 0;
+    std::string topicFilter; ///< May contain the wildcards `+` and `#`.
+    std::uint8_t qos = 0;    ///< Maximum quality of service of delivered messages: 0, 1 or 2.
 
     bool operator==(const MqttSubscription&) const = default;
 };
@@ -56,7 +57,10 @@ public:
 
     /// Connected, and all subscriptions are confirmed.
     virtual void OnLinkUp() = 0;
+    /// The connection was lost; the link reconnects by itself. Called once after each OnLinkUp, unless the owner stops the
+    /// link.
     virtual void OnLinkDown(std::error_code reason) = 0;
+    /// A message of one of the subscriptions. The reference is valid during the call only.
     virtual void OnMqttMessage(const MqttMessage& message) = 0;
 };
 

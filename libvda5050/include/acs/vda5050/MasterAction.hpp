@@ -15,11 +15,12 @@
 namespace ACS::VDA5050
 {
 
+/// Timers of a MasterSession.
 enum class EMasterTimer : std::uint8_t
 {
-    ResendOrder,
-    ResendInstantActions,
-    Silence,
+    ResendOrder,          ///< The vehicle has not shown the order, or the update, yet: send it again.
+    ResendInstantActions, ///< The vehicle has not shown the instant actions yet: send them again.
+    Silence,              ///< No state for longer than MasterOptions::stateInterval and its margin.
 };
 
 /// Call OnTimer after the delay. Replaces a running timer of the same name.
@@ -31,6 +32,7 @@ struct StartMasterTimer
     bool operator==(const StartMasterTimer&) const = default;
 };
 
+/// Do not call OnTimer for this timer.
 struct CancelMasterTimer
 {
     EMasterTimer timer = EMasterTimer::ResendOrder;
@@ -59,7 +61,7 @@ struct VehicleBroken
 /// No state for longer than MasterOptions allows, while the vehicle is online. Reported once, until the next state.
 struct VehicleSilent
 {
-    Core::Duration age{};
+    Core::Duration age{}; ///< Time since the last state.
 
     bool operator==(const VehicleSilent&) const = default;
 };
@@ -79,8 +81,8 @@ struct FactsheetReceived
 /// From a visualization or a state.
 struct PositionReceived
 {
-    AgvPosition position;
-    std::optional<Velocity> velocity;
+    AgvPosition position;             ///< Only meaningful with bPositionInitialized.
+    std::optional<Velocity> velocity; ///< Absent: not reported.
 
     bool operator==(const PositionReceived&) const = default;
 };
@@ -129,7 +131,7 @@ struct ActionChanged
 {
     std::string actionID;
     std::string actionType;
-    EActionStatus status = EActionStatus::Waiting;
+    EActionStatus status = EActionStatus::Waiting; ///< The new one.
     std::string resultDescription;
 
     bool operator==(const ActionChanged&) const = default;
@@ -203,8 +205,8 @@ struct OrderLost
 /// An error that is new in the state, or no longer in it.
 struct VehicleErrorChanged
 {
-    VehicleError error;
-    bool bActive = false;
+    VehicleError error;   ///< As in the state. An error that differs in any member is another one.
+    bool bActive = false; ///< False: the state no longer has it.
 
     bool operator==(const VehicleErrorChanged&) const = default;
 };
@@ -212,8 +214,8 @@ struct VehicleErrorChanged
 /// An unreadable payload, which is counted and ignored.
 struct MessageRefused
 {
-    ETopic topic = ETopic::State;
-    Core::Error error;
+    ETopic topic = ETopic::State; ///< That of the payload.
+    Core::Error error;            ///< What is invalid, with its JSON path.
 
     bool operator==(const MessageRefused&) const = default;
 };
@@ -245,6 +247,7 @@ using MasterAction = std::variant<
     VehicleErrorChanged,
     MessageRefused>;
 
+/// To be carried out in order, before the next call.
 using MasterActions = std::vector<MasterAction>;
 
 } // namespace ACS::VDA5050

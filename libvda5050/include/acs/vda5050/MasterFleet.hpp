@@ -17,6 +17,7 @@
 namespace ACS::VDA5050
 {
 
+/// Which vehicles a MasterFleet accepts, and the options of their sessions.
 struct FleetOptions
 {
     /// For every vehicle. Of its address only interfaceName is used; its version applies to vehicles that report none.
@@ -33,18 +34,19 @@ struct FleetOptions
 /// An action of the session of one vehicle, see MasterFleet::GetSession.
 struct FleetAction
 {
-    std::size_t vehicle = 0;
-    MasterAction action;
+    std::size_t vehicle = 0; ///< Number of the vehicle in the fleet.
+    MasterAction action;     ///< Of its session.
 
     bool operator==(const FleetAction&) const = default;
 };
 
+/// To be carried out in order, before the next call.
 using FleetActions = std::vector<FleetAction>;
 
 /// A message of an unknown vehicle that was not accepted, and the reason.
 struct LeftOutMessage
 {
-    std::string topic;
+    std::string topic; ///< As received.
     Core::Error reason;
 
     bool operator==(const LeftOutMessage&) const = default;
@@ -86,7 +88,9 @@ public:
     /// OnLinkUp. False if there is no vehicle with this number.
     bool TryRemove(std::size_t vehicle, FleetActions& out);
 
+    /// The broker is connected and the subscriptions are made. As MasterSession::OnLinkUp, for every vehicle.
     void OnLinkUp(Core::Now now, FleetActions& out);
+    /// The own link is down. As MasterSession::OnLinkDown, for every vehicle.
     void OnLinkDown(Core::Now now, FleetActions& out);
     /// Discovers an unknown vehicle. Its first FleetAction has a new number.
     void OnMessage(const MqttMessage& message, Core::Now now, FleetActions& out);
@@ -100,7 +104,9 @@ public:
     /// The session of a vehicle. Pass the actions of its calls to AppendActions. The reference is valid until the vehicle is
     /// removed. Requires Contains(vehicle).
     [[nodiscard]] MasterSession& GetSession(std::size_t vehicle);
+    /// As above, for reading.
     [[nodiscard]] const MasterSession& GetSession(std::size_t vehicle) const;
+    /// The number of the vehicle with this address; nullopt if there is none.
     [[nodiscard]] std::optional<std::size_t> FindOrNull(const VehicleAddress& address) const;
     /// Number of messages of vehicles that were not accepted: too many vehicles, rejected by isAccepted, unreadable, another
     /// vehicle or major version than the topic, or no discovery.

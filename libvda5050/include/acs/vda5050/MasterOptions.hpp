@@ -13,11 +13,12 @@
 namespace ACS::VDA5050
 {
 
+/// Address, times and behaviour of a MasterSession.
 struct MasterOptions
 {
-    VehicleAddress address;
+    VehicleAddress address;                                ///< Of the vehicle; must be valid (IsValidAddress).
     EVda5050Version version = EVda5050Version::Version200; ///< Of sent messages; both versions are read.
-    QosTable qos;
+    QosTable qos;                                          ///< Of published messages and subscriptions.
 
     /// Interval of resends of an order or instant action until the vehicle shows it.
     std::chrono::milliseconds resendInterval{2'000};
@@ -25,6 +26,7 @@ struct MasterOptions
     std::uint32_t resendCount = 0;
     /// Maximum interval of states (30 s in the standard); VehicleSilent after this and the margin.
     std::chrono::milliseconds stateInterval{30'000};
+    /// Additional time for a late state.
     std::chrono::milliseconds stateMargin{5'000};
     /// Request the factsheet when the vehicle comes online, unless the retained one was received.
     bool bFactsheetRequested = true;

@@ -19,6 +19,7 @@
 namespace ACS::VDA5050
 {
 
+/// Whether the vehicle is connected to the broker, according to its connection messages.
 enum class EVehicleLink : std::uint8_t
 {
     Unknown, ///< No connection message yet, or the own link is down.
@@ -39,9 +40,9 @@ enum class EOrderPhase : std::uint8_t
 /// A node or an edge on which the vehicle may drive without a further message.
 struct ReservedElement
 {
-    std::string elementID;
+    std::string elementID; ///< nodeId or edgeId.
     std::uint32_t sequenceID = 0;
-    bool bEdge = false;
+    bool bEdge = false;  ///< An edge; otherwise a node.
     bool bShown = false; ///< Shown by the vehicle's state; otherwise sent and not shown yet.
 
     bool operator==(const ReservedElement&) const = default;
@@ -52,7 +53,7 @@ struct ReservedElement
 struct OrderRecord
 {
     std::vector<OrderMessage> messages; ///< All messages of the order, oldest first, each with its orderUpdateID.
-    std::optional<std::uint32_t> acceptedUpdateID;
+    std::optional<std::uint32_t> acceptedUpdateID; ///< The last one of OrderAccepted; nullopt: none was accepted.
 
     bool operator==(const OrderRecord&) const = default;
 };
@@ -60,13 +61,13 @@ struct OrderRecord
 /// Counters of a session since it was created.
 struct MasterStatistics
 {
-    std::uint64_t statesReceived = 0;
+    std::uint64_t statesReceived = 0;  ///< Valid states, without ignored ones.
     std::uint64_t statesIgnored = 0;   ///< Older than the latest state.
     std::uint64_t retainedIgnored = 0; ///< Retained states and visualizations, whose age is unknown.
-    std::uint64_t messagesRefused = 0;
-    std::uint64_t messagesSent = 0;
-    std::uint64_t ordersResent = 0;
-    std::string lastRefusal{}; ///< Topic and reason of the last refused message; empty: none was refused.
+    std::uint64_t messagesRefused = 0; ///< Unreadable payloads, and those of another vehicle or major version.
+    std::uint64_t messagesSent = 0;    ///< Orders, updates and instant actions, including resent ones.
+    std::uint64_t ordersResent = 0;    ///< Orders and updates that the vehicle had not shown in time.
+    std::string lastRefusal{};         ///< Topic and reason of the last refused message; empty: none was refused.
     /// The version in the header of the vehicle's last message that has one, refused or not; at most 32 characters.
     std::string lastVersion{};
 
@@ -106,6 +107,7 @@ public:
     void OnMessage(const MqttMessage& message, Core::Now now, MasterActions& out);
     /// A message that was not retained.
     void OnMessage(std::string_view topic, std::string_view payload, Core::Now now, MasterActions& out);
+    /// Requested by StartMasterTimer.
     void OnTimer(EMasterTimer timer, Core::Now now, MasterActions& out);
 
     /// Sends an order (with orderID and route, without header) and resends it until the vehicle shows it. The
@@ -146,8 +148,11 @@ public:
     /// the order's sender and the state's age, followed by the base of the message that is not shown yet.
     [[nodiscard]] std::vector<ReservedElement> ListReserved() const;
 
+    /// According to the last connection message; Unknown while the own link is down.
     [[nodiscard]] EVehicleLink GetLink() const noexcept;
+    /// Progress of the order of GetOrderID.
     [[nodiscard]] EOrderPhase GetOrderPhase() const noexcept;
+    /// The order of this session; empty if the phase is None.
     [[nodiscard]] const std::string& GetOrderID() const noexcept;
     /// Online, a state was received, mode AUTOMATIC or SEMIAUTOMATIC, and no order of any master runs.
     [[nodiscard]] bool CanTakeOrder() const;
@@ -157,7 +162,9 @@ public:
     [[nodiscard]] const StateMessage* GetStateOrNull() const noexcept;
     /// The last one received, or else MasterOptions::factsheet; null without either.
     [[nodiscard]] const FactsheetMessage* GetFactsheetOrNull() const noexcept;
+    /// Counters since the session was created.
     [[nodiscard]] const MasterStatistics& GetStatistics() const noexcept;
+    /// As they were passed to the constructor.
     [[nodiscard]] const MasterOptions& GetOptions() const noexcept;
 };
 

@@ -18,6 +18,7 @@ namespace ACS::VDA5050
 class ACS_API OrderBuilder
 {
 public:
+    /// As horizonNodes: the rest of the route.
     static constexpr std::size_t WHOLE_ROUTE = std::numeric_limits<std::size_t>::max();
 
 private:
@@ -57,9 +58,13 @@ public:
     /// node.
     [[nodiscard]] Core::Result<void> Append(std::vector<OrderNode> nodes, std::vector<OrderEdge> edges);
 
+    /// As it was passed to Create.
     [[nodiscard]] const std::string& GetOrderID() const noexcept;
+    /// All nodes of the route, with their sequence ids.
     [[nodiscard]] const std::vector<OrderNode>& GetNodes() const noexcept;
+    /// Number of nodes that the messages so far have released, from the first one; 0 before MakeOrder.
     [[nodiscard]] std::size_t GetReleasedNodes() const noexcept;
+    /// Whether no further update is needed.
     [[nodiscard]] bool IsWholeRouteReleased() const noexcept;
 
 private:

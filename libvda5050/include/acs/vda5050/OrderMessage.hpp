@@ -11,7 +11,7 @@
 namespace ACS::VDA5050
 {
 
-/// Metres and radians in the project's map frame, counter-clockwise, theta in [-pi, pi].
+/// Metres and radians in the project's map frame (section 6.6), counter-clockwise, theta in [-pi, pi].
 struct NodePosition
 {
     double x = 0.0;
@@ -25,6 +25,7 @@ struct NodePosition
     bool operator==(const NodePosition&) const = default;
 };
 
+/// A node of an order (section 6.6).
 struct OrderNode
 {
     std::string nodeID;
@@ -37,6 +38,7 @@ struct OrderNode
     bool operator==(const OrderNode&) const = default;
 };
 
+/// A control point of a trajectory (section 6.6), in metres.
 struct ControlPoint
 {
     double x = 0.0;
@@ -46,7 +48,7 @@ struct ControlPoint
     bool operator==(const ControlPoint&) const = default;
 };
 
-/// A NURBS: as many knots as control points + degree + 1, each in [0, 1].
+/// A NURBS (section 6.6): as many knots as control points + degree + 1, each in [0, 1].
 struct Trajectory
 {
     std::uint32_t degree = 1;
@@ -56,13 +58,14 @@ struct Trajectory
     bool operator==(const Trajectory&) const = default;
 };
 
+/// What must stay inside a corridor: the vehicle's kinematic center, or its contour with the load.
 enum class ECorridorReferencePoint : std::uint8_t
 {
     KinematicCenter,
     Contour,
 };
 
-/// How far a vehicle may leave its trajectory, left and right of the driving direction, in metres (2.1).
+/// How far a vehicle may leave its trajectory, left and right of the driving direction, in metres (2.1, section 6.6).
 struct Corridor
 {
     double leftWidth = 0.0;
@@ -72,24 +75,26 @@ struct Corridor
     bool operator==(const Corridor&) const = default;
 };
 
+/// What the orientation of an edge refers to: the map, or the tangent of the edge.
 enum class EOrientationType : std::uint8_t
 {
     Global,
     Tangential,
 };
 
+/// An edge of an order, from one node to the next (section 6.6).
 struct OrderEdge
 {
     std::string edgeID;
     std::uint32_t sequenceID = 0; ///< Odd.
     std::string edgeDescription;
-    bool bReleased = false;
+    bool bReleased = false; ///< Base; otherwise horizon.
     std::string startNodeID;
     std::string endNodeID;
-    std::optional<double> maxSpeed;  ///< m/s
-    std::optional<double> maxHeight; ///< m
-    std::optional<double> minHeight; ///< m
-    std::optional<double> orientation;
+    std::optional<double> maxSpeed;                  ///< m/s
+    std::optional<double> maxHeight;                 ///< m
+    std::optional<double> minHeight;                 ///< m
+    std::optional<double> orientation;               ///< Radians; see orientationType.
     std::optional<EOrientationType> orientationType; ///< Absent: Tangential.
     std::string direction;
     std::optional<bool> bRotationAllowed;

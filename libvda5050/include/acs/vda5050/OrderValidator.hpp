@@ -20,8 +20,8 @@ namespace ACS::VDA5050
 /// A broken rule, with the error that a vehicle reports for it.
 struct OrderViolation
 {
-    std::string rule; ///< One sentence.
-    VehicleError error;
+    std::string rule;   ///< One sentence.
+    VehicleError error; ///< To be reported in the state.
 
     bool operator==(const OrderViolation&) const = default;
 };
@@ -43,24 +43,24 @@ using OrderCheck = std::function<std::vector<OrderViolation>(const OrderMessage&
 /// State of a vehicle when an order arrives.
 struct OrderContext
 {
-    std::string heldOrderID;
-    std::uint32_t heldOrderUpdateID = 0;
+    std::string heldOrderID;             ///< Of the current or last order; empty: none yet.
+    std::uint32_t heldOrderUpdateID = 0; ///< Of the last message that was accepted for it.
     bool bExecuting = false;  ///< Nodes left (horizon included), order actions not ended, or a cancel running.
     bool bCancelling = false; ///< Updates are refused while a cancel runs.
-    EOperatingMode operatingMode = EOperatingMode::Automatic;
-    std::string decisionNodeID; ///< Last released node; lastNode where no order runs.
-    std::uint32_t decisionSequenceID = 0;
-    std::size_t keptNodes = 0;   ///< Released nodes that are not reached yet: an update adds to them.
-    std::size_t keptActions = 0; ///< Order actions that an update keeps, and instant actions.
-    std::size_t keptBytes = 0;   ///< Maximum size of the kept nodes, edges and order actions in a state.
-    std::string lastNodeID;
-    std::optional<AgvPosition> position;
-    double defaultDeviationXY = 0.5;             ///< Metres, if the first node states none or 0.
-    std::vector<std::string> mapIDs;             ///< Maps on the vehicle; empty: not checked.
-    bool bMapsKnown = false;                     ///< mapIDs is checked even if it is empty.
-    std::vector<std::string> zoneSetIDs;         ///< Zone sets on the vehicle; empty: not checked.
+    EOperatingMode operatingMode = EOperatingMode::Automatic; ///< Orders are accepted where IsLedByMaster.
+    std::string decisionNodeID;                               ///< Last released node; lastNode where no order runs.
+    std::uint32_t decisionSequenceID = 0;                     ///< sequenceId of decisionNodeID.
+    std::size_t keptNodes = 0;           ///< Released nodes that are not reached yet: an update adds to them.
+    std::size_t keptActions = 0;         ///< Order actions that an update keeps, and instant actions.
+    std::size_t keptBytes = 0;           ///< Maximum size of the kept nodes, edges and order actions in a state.
+    std::string lastNodeID;              ///< The last node that was reached; empty: on none.
+    std::optional<AgvPosition> position; ///< Absent: unknown.
+    double defaultDeviationXY = 0.5;     ///< Metres, if the first node states none or 0.
+    std::vector<std::string> mapIDs;     ///< Maps on the vehicle; empty: not checked.
+    bool bMapsKnown = false;             ///< mapIDs is checked even if it is empty.
+    std::vector<std::string> zoneSetIDs; ///< Zone sets on the vehicle; empty: not checked.
     const FactsheetMessage* factsheet = nullptr; ///< Supported actions, optional members and sizes; null: all.
-    EParameterCheck parameterCheck = EParameterCheck::Tolerant;
+    EParameterCheck parameterCheck = EParameterCheck::Tolerant; ///< How unlisted parameters of actions are handled.
     std::size_t payloadBytes = 0;              ///< Of the message, compared with the factsheet's msgLen.
     bool bCleared = false;                     ///< The last order was cancelled; the vehicle may have left lastNodeID.
     std::vector<std::string> actionIDs;        ///< Reported actions that an update does not remove.
@@ -68,19 +68,21 @@ struct OrderContext
     OrderCheck orderCheck;                     ///< Called last; empty: none.
 };
 
+/// What a vehicle does with an order message.
 enum class EOrderVerdict : std::uint8_t
 {
-    NewOrder,
-    Update,
-    Discard, ///< An update that the vehicle has already accepted.
-    Reject,
+    NewOrder, ///< Accept it in place of the last order, which has ended.
+    Update,   ///< Add its nodes and edges to the current order.
+    Discard,  ///< An update that the vehicle has already accepted.
+    Reject,   ///< Report the violations.
 };
 
+/// The verdict of JudgeOrder and its reasons.
 struct OrderJudgement
 {
-    EOrderVerdict verdict = EOrderVerdict::Reject;
-    std::vector<OrderViolation> violations; ///< Of a rejected order: at least one.
-    bool bUntilMode = false;                ///< Rejected only because of the operating mode.
+    EOrderVerdict verdict = EOrderVerdict::Reject; ///< What the vehicle does with the message.
+    std::vector<OrderViolation> violations;        ///< Of a rejected order: at least one.
+    bool bUntilMode = false;                       ///< Rejected only because of the operating mode.
 };
 
 /// The acceptance rules of 2.x (section 6.6.4) for an order that was decoded.

@@ -17,8 +17,10 @@ class ACS_API QosTable
 public:
     /// The default profile.
     QosTable();
+    /// The levels of this profile (GetQos).
     explicit QosTable(EQosProfile profile);
 
+    /// 0, 1 or 2.
     [[nodiscard]] std::uint8_t Get(ETopic topic) const;
     /// Requires qos 0, 1 or 2.
     void Set(ETopic topic, std::uint8_t qos);

@@ -14,12 +14,14 @@
 namespace ACS::VDA5050
 {
 
+/// Whether the vehicle uses the map (section 6.10). At most one version of a map is enabled.
 enum class EMapStatus : std::uint8_t
 {
     Enabled,
     Disabled,
 };
 
+/// A map that is stored on the vehicle (section 6.10).
 struct MapState
 {
     std::string mapID;
@@ -30,7 +32,7 @@ struct MapState
     bool operator==(const MapState&) const = default;
 };
 
-/// The position of a node in a state. Members that exist only in the schema of 2.0.0 are written in 2.0 only.
+/// The position of a node in a state (section 6.10). Members that exist only in the schema of 2.0.0 are written in 2.0 only.
 struct NodeStatePosition
 {
     double x = 0.0;
@@ -44,6 +46,7 @@ struct NodeStatePosition
     bool operator==(const NodeStatePosition&) const = default;
 };
 
+/// A node of the order that is not reached yet (section 6.10).
 struct NodeState
 {
     std::string nodeID;
@@ -55,6 +58,7 @@ struct NodeState
     bool operator==(const NodeState&) const = default;
 };
 
+/// An edge of the order that is not traversed yet (section 6.10).
 struct EdgeState
 {
     std::string edgeID;
@@ -66,6 +70,7 @@ struct EdgeState
     bool operator==(const EdgeState&) const = default;
 };
 
+/// The pose of a vehicle on its map (section 6.10), in metres and radians.
 struct AgvPosition
 {
     bool bPositionInitialized = false;
@@ -80,7 +85,7 @@ struct AgvPosition
     bool operator==(const AgvPosition&) const = default;
 };
 
-/// In the vehicle's frame.
+/// The velocity of a vehicle in its own frame (section 6.10).
 struct Velocity
 {
     std::optional<double> vx;    ///< m/s
@@ -90,6 +95,7 @@ struct Velocity
     bool operator==(const Velocity&) const = default;
 };
 
+/// The reference point of a load's bounding box in the frame of the vehicle (section 6.10), in metres and radians.
 struct BoundingBoxReference
 {
     double x = 0.0;
@@ -100,6 +106,7 @@ struct BoundingBoxReference
     bool operator==(const BoundingBoxReference&) const = default;
 };
 
+/// The size of a load's bounding box (section 6.10), in metres.
 struct LoadDimensions
 {
     double length = 0.0;
@@ -109,6 +116,7 @@ struct LoadDimensions
     bool operator==(const LoadDimensions&) const = default;
 };
 
+/// A load on the vehicle (section 6.10).
 struct Load
 {
     std::optional<std::string> loadID; ///< "": can be identified, but is not yet.
@@ -132,6 +140,7 @@ enum class EActionStatus : std::uint8_t
     Failed,
 };
 
+/// The state of an order action or an instant action (section 6.11).
 struct ActionState
 {
     std::string actionID;
@@ -143,17 +152,19 @@ struct ActionState
     bool operator==(const ActionState&) const = default;
 };
 
+/// The battery of a vehicle (section 6.10).
 struct BatteryState
 {
     double batteryCharge = 0.0;           ///< %
     std::optional<double> batteryVoltage; ///< V
     std::optional<double> batteryHealth;  ///< %; written as an integer in 2.0.
-    bool bCharging = false;
-    std::optional<double> reach; ///< m
+    bool bCharging = false;               ///< The vehicle is charging.
+    std::optional<double> reach;          ///< m
 
     bool operator==(const BatteryState&) const = default;
 };
 
+/// Who controls the vehicle (section 6.10.6).
 enum class EOperatingMode : std::uint8_t
 {
     Automatic,
@@ -166,12 +177,14 @@ enum class EOperatingMode : std::uint8_t
 /// Whether orders and instant actions are accepted in this mode (section 6.10.6).
 [[nodiscard]] ACS_API bool IsLedByMaster(EOperatingMode mode);
 
+/// Warning: the vehicle continues without help. Fatal: it needs help.
 enum class EErrorLevel : std::uint8_t
 {
     Warning,
     Fatal,
 };
 
+/// What an error or an information refers to (section 6.10): the name of a member, such as "orderId", and its value.
 struct ErrorReference
 {
     std::string referenceKey;
@@ -181,7 +194,7 @@ struct ErrorReference
     std::strong_ordering operator<=>(const ErrorReference&) const = default; // NOLINT(modernize-use-nullptr)
 };
 
-/// An active error of a vehicle.
+/// An active error of a vehicle (section 6.10).
 struct VehicleError
 {
     std::string errorType;
@@ -211,13 +224,14 @@ inline constexpr std::string_view UNLISTED_PARAMETER = "unlistedParameter"; ///<
 /// The value of the reference with this key; null if there is none.
 [[nodiscard]] ACS_API const std::string* FindReferenceOrNull(const VehicleError& error, std::string_view key);
 
+/// What an information is for: display or debugging (section 6.10).
 enum class EInformationLevel : std::uint8_t
 {
     Info,
     Debug,
 };
 
-/// For the operator only; must not be evaluated by programs.
+/// For the operator only; must not be evaluated by programs (section 6.10).
 struct Information
 {
     std::string infoType;
@@ -228,6 +242,8 @@ struct Information
     bool operator==(const Information&) const = default;
 };
 
+/// How an active emergency stop is acknowledged (section 6.10): by itself, at the vehicle, or remotely. None: no emergency stop
+/// is active.
 enum class EEmergencyStop : std::uint8_t
 {
     AutoAcknowledge,
@@ -236,10 +252,11 @@ enum class EEmergencyStop : std::uint8_t
     None,
 };
 
+/// The state of the vehicle's safety functions (section 6.10).
 struct SafetyState
 {
     EEmergencyStop emergencyStop = EEmergencyStop::None;
-    bool bFieldViolation = false;
+    bool bFieldViolation = false; ///< A protective field is violated.
 
     bool operator==(const SafetyState&) const = default;
 };

@@ -24,6 +24,7 @@ enum class ETopic : std::uint8_t
     Factsheet,
 };
 
+/// Number of enumerators of ETopic.
 inline constexpr std::size_t TOPIC_COUNT = 6;
 
 /// Project: order and instantActions 2, state and connection 1, others 0. Standard: connection 1, others 0.
@@ -46,9 +47,9 @@ enum class EQosProfile : std::uint8_t
 /// and is not empty.
 struct VehicleAddress
 {
-    std::string interfaceName = "uagv";
-    std::string manufacturer;
-    std::string serialNumber;
+    std::string interfaceName = "uagv"; ///< First level of the topic.
+    std::string manufacturer;           ///< Third level, as in the header; the second one is the major version.
+    std::string serialNumber;           ///< Fourth level, as in the header.
 
     bool operator==(const VehicleAddress&) const = default;
 };
@@ -71,10 +72,11 @@ struct VehicleAddress
 /// The filter for one topic of all vehicles: "uagv/v2/+/+/connection".
 [[nodiscard]] ACS_API std::string BuildTopicFilter(std::string_view interfaceName, ETopic topic);
 
+/// The parts of a topic name.
 struct ParsedTopic
 {
-    VehicleAddress address;
-    ETopic topic = ETopic::Order;
+    VehicleAddress address;       ///< Valid (IsValidAddress).
+    ETopic topic = ETopic::Order; ///< According to the last level.
 
     bool operator==(const ParsedTopic&) const = default;
 };

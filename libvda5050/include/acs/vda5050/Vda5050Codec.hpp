@@ -22,8 +22,8 @@ namespace ACS::VDA5050
 /// Limits of a payload.
 struct CodecLimits
 {
-    std::size_t payloadBytes = 4U * 1024U * 1024U;
-    std::size_t depth = 64;
+    std::size_t payloadBytes = 4U * 1024U * 1024U; ///< Maximum size of a payload in bytes.
+    std::size_t depth = 64;                        ///< Maximum nesting of objects and arrays.
 
     bool operator==(const CodecLimits&) const = default;
 };
@@ -31,9 +31,9 @@ struct CodecLimits
 /// Deviations that the last Decode tolerated.
 struct DecodeTolerance
 {
-    std::uint32_t unknownMembers = 0;
-    std::uint32_t nullOptionals = 0; ///< null in an optional member, read as absent.
-    std::uint32_t lenientWords = 0;  ///< An enumeration name with different upper or lower case.
+    std::uint32_t unknownMembers = 0; ///< Members of no version, which are ignored.
+    std::uint32_t nullOptionals = 0;  ///< null in an optional member, read as absent.
+    std::uint32_t lenientWords = 0;   ///< An enumeration name with different upper or lower case.
 
     bool operator==(const DecodeTolerance&) const = default;
 };
@@ -41,8 +41,8 @@ struct DecodeTolerance
 /// The sender of a message and its order.
 struct MessageIdentity
 {
-    Header header; ///< Without its timestamp; members of another type are empty.
-    bool bHeaderIDGiven = false;
+    Header header;               ///< Without its timestamp; members of another type are empty.
+    bool bHeaderIDGiven = false; ///< Whether Header::headerID was readable.
     std::string orderID;
     std::optional<std::uint32_t> orderUpdateID;
 
@@ -59,6 +59,7 @@ class ACS_API Vda5050Codec
     DecodeTolerance _tolerance;
 
 public:
+    /// A payload beyond the limits is an error of Decode.
     explicit Vda5050Codec(const CodecLimits& limits = {});
 
     /// TMessage is one of the six messages. Errors are Core::ECoreError with the path, expected and found.
@@ -76,6 +77,7 @@ public:
     template <typename TMessage>
     void Encode(const TMessage& message, EVda5050Version version, std::string& out) const;
 
+    /// As above, into a new string.
     template <typename TMessage>
     [[nodiscard]] std::string Encode(const TMessage& message, EVda5050Version version) const
     {

@@ -17,11 +17,12 @@
 namespace ACS::VDA5050
 {
 
+/// Timers of a VehicleSession.
 enum class EVehicleTimer : std::uint8_t
 {
     MinimumStateInterval, ///< A change waits until a state may be sent again.
     MaximumStateInterval, ///< A state is due although nothing changed.
-    Visualization,
+    Visualization,        ///< The next visualization is due.
 };
 
 /// Call OnTimer after the delay. Replaces a running timer of the same name.
@@ -33,6 +34,7 @@ struct StartVehicleTimer
     bool operator==(const StartVehicleTimer&) const = default;
 };
 
+/// Do not call OnTimer for this timer.
 struct CancelVehicleTimer
 {
     EVehicleTimer timer = EVehicleTimer::MaximumStateInterval;
@@ -43,8 +45,8 @@ struct CancelVehicleTimer
 /// The leg after a node that is passed without a stop.
 struct NextLeg
 {
-    OrderEdge edge;
-    OrderNode node;
+    OrderEdge edge; ///< From the node to the next one.
+    OrderNode node; ///< The end of the edge.
 
     bool operator==(const NextLeg&) const = default;
 };
@@ -54,8 +56,8 @@ struct NextLeg
 /// StopDriving.
 struct DriveTo
 {
-    OrderEdge edge;
-    OrderNode node;
+    OrderEdge edge;          ///< With its limits, corridor and trajectory.
+    OrderNode node;          ///< The end of the edge.
     bool bStopAtNode = true; ///< False: the next leg is released and the node has no actions: do not brake.
     /// Set if the vehicle does not stop: gives the speed and heading it needs at the node. The DriveTo of this leg follows
     /// at the node.
@@ -73,9 +75,9 @@ struct StopDriving
 /// Perform the action and report with TrySetActionStatus: Initializing or Running, then Finished or Failed.
 struct StartAction
 {
-    Action action;
-    EActionScope scope = EActionScope::Node;
-    std::string elementID; ///< The node's or the edge's id; empty for an instant action.
+    Action action;                           ///< With its parameters, as in the order or the instantActions message.
+    EActionScope scope = EActionScope::Node; ///< Whether it belongs to a node, to an edge, or is an instant action.
+    std::string elementID;                   ///< The node's or the edge's id; empty for an instant action.
     std::uint32_t sequenceID = 0;
 
     bool operator==(const StartAction&) const = default;
@@ -112,7 +114,7 @@ struct OrderTaken
 {
     std::string orderID;
     std::uint32_t orderUpdateID = 0;
-    bool bUpdate = false;
+    bool bUpdate = false; ///< It extends the current order.
 
     bool operator==(const OrderTaken&) const = default;
 };
@@ -147,8 +149,8 @@ struct OrderCleared
 /// Event: a message was ignored (another vehicle's name in its header, retained, unreadable).
 struct MessageIgnored
 {
-    ETopic topic = ETopic::Order;
-    Core::Error error;
+    ETopic topic = ETopic::Order; ///< That of the message.
+    Core::Error error;            ///< Why, with the JSON path.
 
     bool operator==(const MessageIgnored&) const = default;
 };
@@ -170,6 +172,7 @@ using VehicleAction = std::variant<
     OrderCleared,
     MessageIgnored>;
 
+/// To be carried out in order.
 using VehicleActions = std::vector<VehicleAction>;
 
 } // namespace ACS::VDA5050

@@ -15,16 +15,17 @@
 namespace ACS::VDA5050
 {
 
+/// Address, capabilities and behaviour of a VehicleSession.
 struct VehicleOptions
 {
-    VehicleAddress address;
-    EVda5050Version version = EVda5050Version::Version200;
-    QosTable qos;
+    VehicleAddress address;                                ///< Of this vehicle; must be valid (IsValidAddress).
+    EVda5050Version version = EVda5050Version::Version200; ///< Of sent messages; both versions are read.
+    QosTable qos;                                          ///< Of published messages and subscriptions.
     /// Capabilities of the vehicle; the session sets header and timing. Orders are checked against it: an action, a
     /// parameter, an optional member or a size that it does not list is refused. An empty list of actions allows all.
     /// Without a list of optional parameters all are supported, and listed in what is published.
     FactsheetMessage factsheet;
-    EParameterCheck parameterCheck = EParameterCheck::Tolerant;
+    EParameterCheck parameterCheck = EParameterCheck::Tolerant; ///< Of parameters that the factsheet does not list.
 
     /// Minimum interval of states, without exception: changes within it are merged into the next one.
     std::chrono::milliseconds minimumStateInterval{50};

@@ -30,6 +30,7 @@ class ACS_API VehicleSession
     std::unique_ptr<Impl> _impl;
 
 public:
+    /// Publishes nothing before OnLinkUp.
     explicit VehicleSession(VehicleOptions options);
     VehicleSession(const VehicleSession&) = delete;
     VehicleSession& operator=(const VehicleSession&) = delete;
@@ -49,6 +50,8 @@ public:
     void OnLinkDown(Core::Now now, VehicleActions& out);
     /// Publishes OFFLINE. The owner disconnects after it was sent.
     void Leave(Core::Now now, VehicleActions& out);
+    /// A message of one of the subscriptions. Retained and empty messages and those of other vehicles are ignored
+    /// (MessageIgnored).
     void OnMessage(
         std::string_view topic,
         std::string_view payload,
@@ -57,6 +60,7 @@ public:
         VehicleActions& out);
     /// A message as IMqttLink delivers it.
     void OnMessage(const MqttMessage& message, Core::Now now, VehicleActions& out);
+    /// Requested by StartVehicleTimer. Ignored while the link is down.
     void OnTimer(EVehicleTimer timer, Core::Now now, VehicleActions& out);
 
     /// The vehicle has reached the node of the last DriveTo. Returns false and does nothing for any other sequenceID.
@@ -90,12 +94,16 @@ public:
     /// A state is sent when charging begins or ends; a new charge alone waits for the next state. If the charge is not
     /// finite, the previous value stays in effect.
     void OnBattery(const BatteryState& battery, Core::Now now, VehicleActions& out);
+    /// The loads on the vehicle; nullopt: unknown. A change sends a state.
     void OnLoads(std::optional<std::vector<Load>> loadsOrNull, Core::Now now, VehicleActions& out);
+    /// The maps on the vehicle; nullopt: unknown. A change sends a state.
     void OnMaps(std::optional<std::vector<MapState>> mapsOrNull, Core::Now now, VehicleActions& out);
     /// All active errors of the vehicle itself; the session manages errors about orders. An error without a reference to a
     /// topic gets a reference to the state topic.
     void OnErrors(std::vector<VehicleError> errors, Core::Now now, VehicleActions& out);
+    /// All active information; part of the next state.
     void OnInformation(std::vector<Information> information);
+    /// A change sends a state.
     void OnSafetyState(const SafetyState& safety, Core::Now now, VehicleActions& out);
     /// A pause at the vehicle itself. If its switch overrides master control, startPause and stopPause fail; otherwise
     /// stopPause ends the pause.
@@ -107,6 +115,7 @@ public:
     [[nodiscard]] StateMessage GetState() const;
     /// Whether a pause was requested. The state reports paused once the vehicle is stationary.
     [[nodiscard]] bool IsPaused() const noexcept;
+    /// Whether nodes are left, the horizon included, order actions have not ended, or a cancel is running.
     [[nodiscard]] bool IsOrderRunning() const noexcept;
 };
 

@@ -29,8 +29,10 @@ namespace ACS::VDA5050
 class ACS_API MosquittoLink final : public IMqttLink
 {
 public:
+    /// Called once, on the executor, after the connection was closed.
     using StopHandler = std::function<void()>;
 
+    /// A time limit for StopAsync that suits a broker on the local network.
     static constexpr std::chrono::milliseconds DEFAULT_STOP_TIMEOUT{2'000};
 
 private:

@@ -20,22 +20,24 @@ struct MosquittoTLS
     std::string keyFile;  ///< Its private key, without a passphrase; required with certFile.
 };
 
+/// Version of MQTT.
 enum class EMqttVersion : std::uint8_t
 {
     Version311,
     Version5,
 };
 
+/// Broker, session and limits of a MosquittoLink.
 struct MosquittoOptions
 {
-    EMqttVersion version = EMqttVersion::Version311;
-    std::string host = "127.0.0.1"; ///< A name or an address (IPv6 without brackets).
-    std::uint16_t port = 1883;
-    std::string clientID;               ///< Unique on the broker; empty: generated (clean session only).
-    std::chrono::seconds keepAlive{15}; ///< At least 5 s. The broker sends the will after 1.5 times this.
-    std::string username;               ///< Empty: none.
-    std::string password;
-    std::optional<MosquittoTLS> tls;
+    EMqttVersion version = EMqttVersion::Version311; ///< What the link speaks; the broker must too.
+    std::string host = "127.0.0.1";                  ///< A name or an address (IPv6 without brackets).
+    std::uint16_t port = 1883;                       ///< 8883 is usual with TLS.
+    std::string clientID;                            ///< Unique on the broker; empty: generated (clean session only).
+    std::chrono::seconds keepAlive{15};              ///< At least 5 s. The broker sends the will after 1.5 times this.
+    std::string username;                            ///< Empty: none.
+    std::string password;                            ///< Without effect if username is empty.
+    std::optional<MosquittoTLS> tls;                 ///< Absent: a connection without encryption.
     /// False: a persistent session, which needs a clientID. While there is no connection, the broker keeps the subscriptions
     /// and their messages of QoS 1 and 2. Published messages of QoS 1 and 2 are resent until they are acknowledged; those of
     /// QoS 2 are delivered exactly once in both directions, for the lifetime of the link and of the broker's session.
@@ -49,7 +51,7 @@ struct MosquittoOptions
     /// Maximum number of messages before all subscriptions are confirmed, and of the bytes of their topics and payloads; more
     /// are dropped and logged.
     std::size_t maxEarly = 10'000;
-    std::size_t maxEarlyBytes = 64U << 20U;
+    std::size_t maxEarlyBytes = 64U << 20U; ///< See maxEarly.
     /// Longer received payloads are dropped and logged.
     std::size_t maxPayloadBytes = 4U << 20U;
 };
