@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-/// The version of the SDK for #if. Semantic versioning; before 1.0 a minor version may break a user's code.
+/// The version of the SDK, for the preprocessor. Semantic versioning; before 1.0 a minor version may break a user's code.
 #define ACS_VERSION_MAJOR 0
 #define ACS_VERSION_MINOR 1
 #define ACS_VERSION_PATCH 0

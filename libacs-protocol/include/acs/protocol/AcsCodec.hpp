@@ -20,6 +20,7 @@ class ACS_API AcsCodec
     std::unique_ptr<Impl> _impl;
 
 public:
+    /// The options apply to Decode only.
     explicit AcsCodec(const CodecOptions& options = {});
     AcsCodec(const AcsCodec&) = delete;
     AcsCodec& operator=(const AcsCodec&) = delete;
@@ -31,7 +32,9 @@ public:
 
     /// Replaces out by the compact JSON of the message, with members in the order of the specification.
     static void Encode(const AcsMessage& message, std::string& out);
+    /// As Encode, without a variant around the message.
     static void EncodeRequest(const AcsRequest& request, std::string& out);
+    /// As Encode, without a variant around the message.
     static void EncodeAck(const AcsAck& ack, std::string& out);
 
     /// Fail for a command that is not an EAcsCommand: `commandName` + Ack, empty payload.

@@ -48,6 +48,7 @@ using AcsPayload = std::variant<
 
 static_assert(std::variant_size_v<AcsPayload> == COMMAND_COUNT);
 
+/// The payload of an Ack. AckPayloads.hpp states which command has which alternative.
 using AckPayload = std::variant<EmptyAck, PlanAck, PlanListAck, ErrorListAck>;
 
 /// A request, in either direction (section 6.1).
@@ -74,13 +75,16 @@ struct AcsAck
     bool operator==(const AcsAck&) const = default;
 };
 
+/// Any text of the protocol: a request or a response.
 using AcsMessage = std::variant<AcsRequest, AcsAck>;
 
+/// The command that has this payload.
 [[nodiscard]] inline EAcsCommand GetCommand(const AcsPayload& payload) noexcept
 {
     return static_cast<EAcsCommand>(payload.index());
 }
 
+/// The command of the request, according to its payload.
 [[nodiscard]] inline EAcsCommand GetCommand(const AcsRequest& request) noexcept
 {
     return GetCommand(request.payload);

@@ -87,6 +87,7 @@ public:
         Core::Now now,
         SessionActions& out);
 
+    /// Whether the MCS has accepted the Registration of the current connection.
     [[nodiscard]] bool IsRegistered() const noexcept;
 
     /// Number of requests that TrySendDurable would accept now.
@@ -95,6 +96,7 @@ public:
     /// UTC offset of the timestamps that are sent from now on (daylight saving).
     void SetSiteOffset(std::chrono::minutes offset) noexcept;
 
+    /// Counters since the session was created, over all connections.
     [[nodiscard]] const SessionStatistics& GetStatistics() const noexcept;
 };
 

@@ -15,6 +15,7 @@ enum class EAckResult : std::uint8_t
     Fail,
 };
 
+/// The name on the wire.
 [[nodiscard]] ACS_API std::string_view GetText(EAckResult result);
 
 } // namespace ACS::Protocol

@@ -37,6 +37,7 @@ enum class EAcsCommand : std::uint8_t
     RobotPositionUpdate,
 };
 
+/// Number of enumerators of EAcsCommand.
 inline constexpr std::size_t COMMAND_COUNT = 22;
 
 /// The name on the wire, without `Ack`.

@@ -46,8 +46,7 @@ public:
     /// repeated report. For a Registration: Success registers the connection (Close of the one that it replaces,
     /// RequestUnanswered, LinkLost, Registered), Fail closes it with 1008 after the Ack. Returns false and does nothing if
     /// the request waits no longer: answered, abandoned, or a Registration whose connection was closed. StartTimer,
-    /// CancelTimer.
-    /// @param message For the operator of the ACS; may be empty.
+    /// CancelTimer. The message is for the operator of the ACS and may be empty.
     [[nodiscard]] virtual bool TryAnswer(
         AnswerToken token,
         EAckResult result,
@@ -77,6 +76,7 @@ public:
     /// Number of requests without an Ack.
     [[nodiscard]] virtual std::size_t GetPendingCount() const noexcept = 0;
 
+    /// Counters since the session was created, over all connections.
     [[nodiscard]] virtual const SessionStatistics& GetStatistics() const noexcept = 0;
 };
 

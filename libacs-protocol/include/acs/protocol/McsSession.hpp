@@ -45,6 +45,7 @@ public:
     [[nodiscard]] std::size_t GetPendingCount() const noexcept override;
     [[nodiscard]] const SessionStatistics& GetStatistics() const noexcept override;
 
+    /// Whether an ACS is registered.
     [[nodiscard]] bool IsRegistered() const noexcept;
 
     /// UTC offset of the timestamps that are sent from now on.

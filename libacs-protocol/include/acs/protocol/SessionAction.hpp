@@ -12,6 +12,7 @@
 namespace ACS::Protocol
 {
 
+/// Timers of a session.
 enum class ESessionTimer : std::uint8_t
 {
     Registration, ///< ACS side: the Ack of Registration. MCS side: the earliest deadline of a Registration.
@@ -22,19 +23,20 @@ enum class ESessionTimer : std::uint8_t
     Answer,       ///< MCS side: the earliest deadline of an answer of the application.
 };
 
+/// Number of enumerators of ESessionTimer.
 inline constexpr std::size_t TIMER_COUNT = 6;
 
-/// Close codes of RFC 6455.
+/// Normal closure: a close code of RFC 6455, like the next two.
 inline constexpr std::uint16_t CLOSE_NORMAL = 1000;
 inline constexpr std::uint16_t CLOSE_ABNORMAL = 1006; ///< Never sent: the connection ends without a closing handshake.
-inline constexpr std::uint16_t CLOSE_POLICY = 1008;
+inline constexpr std::uint16_t CLOSE_POLICY = 1008;   ///< Policy violation: the client was refused or replaced.
 
 /// Send one unfragmented text message.
 struct SendText
 {
-    ConnectionID connection = 0;
-    std::string text;
-    bool bDroppable = false; ///< May be dropped if the other side does not keep up (positions).
+    ConnectionID connection = 0; ///< As OnConnected named it; 0 on the ACS side.
+    std::string text;            ///< Valid UTF-8.
+    bool bDroppable = false;     ///< May be dropped if the other side does not keep up (positions).
 
     bool operator==(const SendText&) const = default;
 };
@@ -49,9 +51,9 @@ struct Connect
 /// within a bounded time.
 struct Close
 {
-    ConnectionID connection = 0;
-    std::uint16_t code = CLOSE_NORMAL;
-    std::string reason; ///< At most 123 bytes.
+    ConnectionID connection = 0;       ///< As OnConnected named it; 0 on the ACS side.
+    std::uint16_t code = CLOSE_NORMAL; ///< Close code of RFC 6455.
+    std::string reason;                ///< At most 123 bytes.
 
     bool operator==(const Close&) const = default;
 };
@@ -59,15 +61,16 @@ struct Close
 /// Call OnTimer after the delay. Replaces a running timer of the same name.
 struct StartTimer
 {
-    ESessionTimer timer = ESessionTimer::Ack;
-    std::chrono::milliseconds delay{0};
+    ESessionTimer timer = ESessionTimer::Ack; ///< To be passed to OnTimer.
+    std::chrono::milliseconds delay{0};       ///< From the time that was passed to the call.
 
     bool operator==(const StartTimer&) const = default;
 };
 
+/// Do not call OnTimer for this timer. One that expires nevertheless is ignored.
 struct CancelTimer
 {
-    ESessionTimer timer = ESessionTimer::Ack;
+    ESessionTimer timer = ESessionTimer::Ack; ///< As in StartTimer.
 
     bool operator==(const CancelTimer&) const = default;
 };
@@ -75,13 +78,14 @@ struct CancelTimer
 /// Pass the event to the user of the session.
 struct Deliver
 {
-    SessionEvent event;
+    SessionEvent event; ///< What has happened.
 
     bool operator==(const Deliver&) const = default;
 };
 
 /// To be carried out in order. Carrying an action out may call the session again; the actions of that call are appended.
 using SessionAction = std::variant<SendText, Connect, Close, StartTimer, CancelTimer, Deliver>;
+/// Actions of one or several calls; the caller clears and reuses it.
 using SessionActions = std::vector<SessionAction>;
 
 } // namespace ACS::Protocol

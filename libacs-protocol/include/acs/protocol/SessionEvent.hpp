@@ -29,7 +29,7 @@ struct Registered
 /// ACS side: the MCS refused the registration. The session retries indefinitely; the operator should be informed.
 struct RegistrationRefused
 {
-    std::string message;
+    std::string message; ///< Of the Ack; may be empty.
 
     bool operator==(const RegistrationRefused&) const = default;
 };
@@ -37,7 +37,7 @@ struct RegistrationRefused
 /// A request of the MCS (at the ACS), or a report of the ACS (at the MCS).
 struct RequestReceived
 {
-    AcsRequest request;
+    AcsRequest request;            ///< Valid: the codec has checked it.
     bool bDuplicate = false;       ///< MCS side only: a report with this transactionID was delivered before.
     ConnectionID connection = 0;   ///< MCS side only: where it came from.
     AnswerToken token = NO_ANSWER; ///< MCS side only: to be passed to IMcsSession::TryAnswer unless it is NO_ANSWER.
@@ -50,9 +50,9 @@ struct RequestRefused
 {
     std::string commandName;   ///< As sent.
     std::string transactionID; ///< This and planID are empty if unreadable.
-    std::string planID;
-    std::string path;   ///< Of the invalid member, for example "payload.steps[0].action"; may be empty.
-    std::string reason; ///< The message of the Ack.
+    std::string planID;        ///< Of the payload; empty if it has none.
+    std::string path;          ///< Of the invalid member, for example "payload.steps[0].action"; may be empty.
+    std::string reason;        ///< The message of the Ack.
 
     bool operator==(const RequestRefused&) const = default;
 };
@@ -61,10 +61,10 @@ struct RequestRefused
 /// request.
 struct Acked
 {
-    EAcsCommand command = EAcsCommand::PlanReport;
-    std::string transactionID; ///< Of the request, even if the Ack carried another one (D-4).
-    EAckResult result = EAckResult::Success;
-    std::string message;
+    EAcsCommand command = EAcsCommand::PlanReport; ///< Of the request.
+    std::string transactionID;                     ///< Of the request, even if the Ack carried another one (D-4).
+    EAckResult result = EAckResult::Success;       ///< Fail: the MCS has refused the content.
+    std::string message;                           ///< Of the Ack; may be empty.
 
     bool operator==(const Acked&) const = default;
 };
@@ -73,7 +73,7 @@ struct Acked
 /// because McsSessionOptions::maximumUnanswered requests were waiting. McsSessionOptions::unansweredPolicy was applied.
 struct RequestGivenUp
 {
-    EAcsCommand command = EAcsCommand::PlanReport;
+    EAcsCommand command = EAcsCommand::PlanReport; ///< Of the request.
     std::string transactionID;
     AnswerToken token = NO_ANSWER; ///< No longer valid; NO_ANSWER: the request was not delivered.
 
@@ -83,7 +83,7 @@ struct RequestGivenUp
 /// MCS side: the ACS has answered a request.
 struct AckReceived
 {
-    AcsAck ack;
+    AcsAck ack;         ///< Its command and transactionID are those of the request.
     bool bLate = false; ///< RequestUnanswered was delivered for this request before.
 
     bool operator==(const AckReceived&) const = default;
@@ -101,10 +101,10 @@ enum class EUnansweredReason : std::uint8_t
 /// MCS side: it is unknown whether the ACS has received the request; a late Ack is still delivered as AckReceived.
 struct RequestUnanswered
 {
-    EAcsCommand command = EAcsCommand::PlanReport;
+    EAcsCommand command = EAcsCommand::PlanReport; ///< Of the request.
     std::string transactionID;
-    EUnansweredReason reason = EUnansweredReason::Timeout;
-    std::size_t attempts = 0; ///< How often the request was sent on this connection.
+    EUnansweredReason reason = EUnansweredReason::Timeout; ///< Why no Ack will come.
+    std::size_t attempts = 0;                              ///< How often the request was sent on this connection.
 
     bool operator==(const RequestUnanswered&) const = default;
 };
@@ -112,8 +112,8 @@ struct RequestUnanswered
 /// The connection was lost or could not be opened. The ACS side reconnects by itself.
 struct LinkLost
 {
-    std::string reason;
-    bool bWasRegistered = false;
+    std::string reason;          ///< Of the connection, for the log.
+    bool bWasRegistered = false; ///< False: the connection was lost before a successful registration.
 
     bool operator==(const LinkLost&) const = default;
 };
@@ -154,19 +154,23 @@ enum class EProtocolNote : std::uint8_t
     RegistrationUnanswered, ///< The session reconnects.
 };
 
+/// Number of enumerators of EProtocolNote.
 inline constexpr std::size_t NOTE_COUNT = 13;
 
+/// The name of the enumerator, for logs and metrics.
 [[nodiscard]] ACS_API std::string_view GetText(EProtocolNote note);
 
+/// A session has tolerated or discarded something.
 struct ProtocolNoted
 {
-    EProtocolNote what = EProtocolNote::UnknownMember;
-    std::uint32_t count = 1; ///< Occurrences in this text.
-    std::string detail;      ///< One sentence, may be empty.
+    EProtocolNote what = EProtocolNote::UnknownMember; ///< Which kind of deviation.
+    std::uint32_t count = 1;                           ///< Occurrences in this text.
+    std::string detail;                                ///< One sentence, may be empty.
 
     bool operator==(const ProtocolNoted&) const = default;
 };
 
+/// What a session delivers (Deliver). Sides and conditions are stated at each alternative.
 using SessionEvent = std::variant<
     Registered,
     RegistrationRefused,

@@ -49,7 +49,7 @@ struct McsSessionOptions
     std::chrono::milliseconds registrationTimeout{10'000}; ///< A connection without Registration is closed (1008).
     bool bPlansWithheld = true;  ///< Send no ExecutionPlan while the ACS reports isConnected=false (section 6.21).
     bool bSecondRefused = false; ///< Refuse a second client (403, 1008) instead of replacing the first.
-    CodecOptions codec{};
+    CodecOptions codec{};        ///< Its siteOffset also applies to the timestamps that are sent.
 };
 
 } // namespace ACS::Protocol

@@ -31,26 +31,31 @@ struct CommandCounters
     bool operator==(const CommandCounters&) const = default;
 };
 
+/// Counters of a session since it was created, over all connections.
 struct SessionStatistics
 {
-    std::array<CommandCounters, COMMAND_COUNT> commands{};
-    std::array<std::uint64_t, NOTE_COUNT> notes{};
-    std::uint64_t connects = 0;      ///< Opened connections.
-    std::uint64_t registrations = 0; ///< Successful ones.
+    std::array<CommandCounters, COMMAND_COUNT> commands{}; ///< By EAcsCommand; see Of.
+    std::array<std::uint64_t, NOTE_COUNT> notes{};         ///< By EProtocolNote; see CountOf.
+    std::uint64_t connects = 0;                            ///< Opened connections.
+    std::uint64_t registrations = 0;                       ///< Successful ones.
+    /// ACS side: connections that were lost or could not be opened. MCS side: registered ones that were lost or replaced.
     std::uint64_t linkLosses = 0;
     std::uint64_t positionTicksMissed =
         0; ///< ACS side: PositionDue events that were skipped because OnTimer was called too late.
 
+    /// The counters of one command, for the session to change.
     [[nodiscard]] CommandCounters& Of(EAcsCommand command)
     {
         return commands[static_cast<std::size_t>(command)];
     }
 
+    /// The counters of one command.
     [[nodiscard]] const CommandCounters& Of(EAcsCommand command) const
     {
         return commands[static_cast<std::size_t>(command)];
     }
 
+    /// How often the deviation was noted.
     [[nodiscard]] std::uint64_t CountOf(EProtocolNote note) const
     {
         return notes[static_cast<std::size_t>(note)];

@@ -45,20 +45,27 @@ public:
         const ClientOptions& options,
         ISessionHandler& handler);
 
-    /// These call AcsSession's function of the same name and carry out its actions; events reach the handler after the
-    /// call has returned.
+    /// AcsSession::Start: connects, and reconnects until Stop. This and the following calls run AcsSession's function of the
+    /// same name and carry out its actions; events reach the handler after the call has returned.
     void Start();
+    /// AcsSession::Stop: reports isConnected=false, then closes. The last event is Stopped.
     void Stop();
+    /// AcsSession::TrySendDurable: sends a report. False: keep it and send it after Registered or WindowOpened.
     [[nodiscard]] bool TrySendDurable(const Protocol::AcsRequest& request);
+    /// AcsSession::ReplayDone: ends the replay after Registered, once per connection.
     void ReplayDone();
+    /// AcsSession::SendStatus: a TscStateUpdate, AcsCommStateUpdate or RobotStatusUpdate, whose latest value is kept and sent.
     void SendStatus(const Protocol::AcsPayload& status);
+    /// AcsSession::SendPosition: positions that may be dropped.
     void SendPosition(const Protocol::RobotPositionUpdate& positions);
+    /// AcsSession::Answer: the Ack of a RequestReceived.
     void Answer(
         Protocol::EAcsCommand command,
         std::string_view transactionID,
         Protocol::EAckResult result,
         std::string_view message,
         const Protocol::AckPayload& payload);
+    /// AcsSession::SetSiteOffset: UTC offset of the timestamps that are sent from now on.
     void SetSiteOffset(std::chrono::minutes offset);
 
     /// Sends a text past the session, for example an invalid message in a test of an MCS; no effect without a connection. The
@@ -69,8 +76,11 @@ public:
     /// is one of Create, the former ones stay in use.
     [[nodiscard]] Core::Result<void> ReloadTLS();
 
+    /// Whether the MCS has accepted the Registration of the current connection.
     [[nodiscard]] bool IsRegistered() const;
+    /// Number of requests that TrySendDurable would accept now.
     [[nodiscard]] std::size_t GetRoom() const;
+    /// Counters since the client was created, over all connections.
     [[nodiscard]] const Protocol::SessionStatistics& GetStatistics() const;
 };
 

@@ -31,12 +31,12 @@ struct LinkOptions
 /// Where and how an AcsClient connects.
 struct ClientOptions
 {
-    std::string url;     ///< ws://host[:port][/path] or wss://…
-    std::string host;    ///< Host header, if it must differ from the URL's host.
-    HttpHeaders headers; ///< Additional headers, for example Authorization.
-    TlsOptions tls{};    ///< For wss; must be empty for ws.
-    LinkOptions link{};
-    Protocol::SessionOptions session{};
+    std::string url;                    ///< ws://host[:port][/path] or wss://…
+    std::string host;                   ///< Host header, if it must differ from the URL's host.
+    HttpHeaders headers;                ///< Additional headers, for example Authorization.
+    TlsOptions tls{};                   ///< For wss; must be empty for ws.
+    LinkOptions link{};                 ///< Times and limits of the connection.
+    Protocol::SessionOptions session{}; ///< Of the AcsSession.
     /// Called with every text: received ones before the session handles them, sent ones when they are passed to the
     /// connection. May be empty. The view is valid during the call, which is made on the executor and must not call the
     /// client.

@@ -16,6 +16,7 @@ public:
     ISessionHandler& operator=(const ISessionHandler&) = delete;
     virtual ~ISessionHandler() = default;
 
+    /// Each event once, in order. The reference is valid during the call only.
     virtual void OnSessionEvent(const Protocol::SessionEvent& event) = 0;
 };
 

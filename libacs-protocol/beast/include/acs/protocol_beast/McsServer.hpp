@@ -82,23 +82,31 @@ public:
 
     /// Starts the closing handshake of one connection with code 1008 (policy violation), for example of an ACS whose token was
     /// withdrawn; an ACS connects again, see ServerOptions::checkUpgrade. Has no effect on a connection that is closed already.
-    /// @param reason At most 123 bytes reach the client.
+    /// At most 123 bytes of the reason reach the client.
     void Close(Protocol::ConnectionID connection, std::string_view reason);
 
-    /// These call the session's function of the same name and carry out its actions; events reach the handler after
-    /// the call has returned.
+    /// IMcsSession::TryAnswer: the Ack of a RequestReceived with a token. This and the following calls run the session's
+    /// function of the same name and carry out its actions; events reach the handler after the call has returned.
     [[nodiscard]] bool TryAnswer(Protocol::AnswerToken token, Protocol::EAckResult result, std::string_view message);
+    /// IMcsSession::MakeRequest: a request with a new transactionID and the current time. Not sent.
     [[nodiscard]] Protocol::AcsRequest MakeRequest(Protocol::AcsPayload payload);
+    /// IMcsSession::TrySend: sends a request. False: no ACS is registered, too many requests are pending, or plans are
+    /// withheld.
     [[nodiscard]] bool TrySend(const Protocol::AcsRequest& request);
     /// Carries out the actions that the call adds.
     void Run(const SessionCall& call);
 
+    /// Whether an ACS is registered.
     [[nodiscard]] bool IsRegistered() const;
-    /// The connection of the registered ACS.
+    /// The connection of the registered ACS; nullopt: none.
     [[nodiscard]] std::optional<Protocol::ConnectionID> GetRegisteredOrNull() const;
+    /// Whether an ACS is registered and has not reported isConnected=false (section 6.21).
     [[nodiscard]] bool IsTakingPlans() const;
+    /// Number of requests without an Ack.
     [[nodiscard]] std::size_t GetPendingCount() const;
+    /// Number of requests of the ACS that wait for TryAnswer.
     [[nodiscard]] std::size_t GetUnansweredCount() const;
+    /// Counters since the session was created, over all connections.
     [[nodiscard]] const Protocol::SessionStatistics& GetStatistics() const;
 };
 

@@ -32,12 +32,12 @@ struct ServerOptions
     std::uint16_t port = 0;            ///< 0: a free port, see GetPort.
     /// With or without the trailing slash; other paths are answered with 404. Empty: every path, for a checkUpgrade.
     std::string path = "/acs/";
-    std::size_t maximumClients = 16; ///< Maximum number of connections, including those before the upgrade.
-    std::optional<TlsOptions> tls{}; ///< If set: wss only, with certificate and key.
-    LinkOptions link{};
-    Protocol::McsSessionOptions session{};
-    UpgradeCheck checkUpgrade; ///< May be empty: every client is accepted.
-    WireObserver onWire;       ///< May be empty.
+    std::size_t maximumClients = 16;       ///< Maximum number of connections, including those before the upgrade.
+    std::optional<TlsOptions> tls{};       ///< If set: wss only, with certificate and key.
+    LinkOptions link{};                    ///< Times and limits of each connection.
+    Protocol::McsSessionOptions session{}; ///< Of the McsSession that the server creates.
+    UpgradeCheck checkUpgrade;             ///< May be empty: every client is accepted.
+    WireObserver onWire;                   ///< May be empty.
 };
 
 } // namespace ACS::ProtocolBeast

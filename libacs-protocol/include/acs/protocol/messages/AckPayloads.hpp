@@ -26,7 +26,7 @@ struct PlanAck
 /// Of RequestAcsPlans and RequestAcsPlanHistory.
 struct PlanListAck
 {
-    std::vector<PlanEntry> plans;
+    std::vector<PlanEntry> plans; ///< Empty: there is none.
 
     bool operator==(const PlanListAck&) const = default;
 };
@@ -34,7 +34,7 @@ struct PlanListAck
 /// Of RequestAcsErrorList.
 struct ErrorListAck
 {
-    std::vector<ErrorReport> errors;
+    std::vector<ErrorReport> errors; ///< Errors that are set; empty: none.
 
     bool operator==(const ErrorListAck&) const = default;
 };

@@ -17,6 +17,7 @@ enum class EErrorLevel : std::uint8_t
     Light,
 };
 
+/// The name on the wire.
 [[nodiscard]] ACS_API std::string_view GetText(EErrorLevel level);
 
 /// ACS to MCS: an error or warning came or went (section 6.15). Also an entry of ErrorListAck, there always set.

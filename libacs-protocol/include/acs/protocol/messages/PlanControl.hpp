@@ -18,13 +18,14 @@ enum class EReportResult : std::uint8_t
     Fail, ///< Written only, for an MCS that has the word of Acks here too (D-1); read as Failed.
 };
 
+/// The name on the wire.
 [[nodiscard]] ACS_API std::string_view GetText(EReportResult result);
 
 /// MCS to ACS: what to do with a plan. Acknowledged with PlanAck at once; the outcome follows as a result report.
 template <EAcsCommand COMMAND>
 struct PlanControl
 {
-    std::string planID;
+    std::string planID; ///< Of a plan that the ACS has accepted.
     std::string reason; ///< Left out when empty; ResumePlan has none in the document.
 
     bool operator==(const PlanControl&) const = default;
@@ -46,9 +47,9 @@ struct ResultReport
     bool operator==(const ResultReport&) const = default;
 };
 
-using CancelResultReport = ResultReport<EAcsCommand::CancelResultReport>;
-using AbortResultReport = ResultReport<EAcsCommand::AbortResultReport>;
-using PauseResultReport = ResultReport<EAcsCommand::PauseResultReport>;
-using ResumeResultReport = ResultReport<EAcsCommand::ResumeResultReport>;
+using CancelResultReport = ResultReport<EAcsCommand::CancelResultReport>; ///< Section 6.5.A.
+using AbortResultReport = ResultReport<EAcsCommand::AbortResultReport>;   ///< Section 6.6.A.
+using PauseResultReport = ResultReport<EAcsCommand::PauseResultReport>;   ///< Section 6.7.A.
+using ResumeResultReport = ResultReport<EAcsCommand::ResumeResultReport>; ///< Section 6.8.A.
 
 } // namespace ACS::Protocol

@@ -25,7 +25,7 @@ struct RequestAcsPlanHistory
     bool operator==(const RequestAcsPlanHistory&) const = default;
 };
 
-/// One plan in an answer. Missing values are written as null.
+/// One plan in an answer (sections 6.10, 6.11). Missing values are written as null.
 struct PlanEntry
 {
     std::string planID;

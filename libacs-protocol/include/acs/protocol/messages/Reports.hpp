@@ -49,8 +49,11 @@ enum class EJobStatus : std::uint8_t
     Failed,
 };
 
+/// The name on the wire.
 [[nodiscard]] ACS_API std::string_view GetText(EPlanStatus status);
+/// The name on the wire.
 [[nodiscard]] ACS_API std::string_view GetText(EStepStatus status);
+/// The name on the wire.
 [[nodiscard]] ACS_API std::string_view GetText(EJobStatus status);
 
 /// ACS to MCS: the status of a plan changed (section 6.12).

@@ -6,7 +6,7 @@
 namespace ACS::Protocol
 {
 
-/// Where a robot is; the document names no units, this is what its examples look like.
+/// Where a robot is (section 6.19). The document states no units; these are the ones of its examples.
 struct RobotPosition
 {
     std::string robotID;

@@ -35,7 +35,9 @@ enum class ERobotStatus : std::uint8_t
     Stopped,
 };
 
+/// The name on the wire.
 [[nodiscard]] ACS_API std::string_view GetText(ERobotType type);
+/// The name on the wire.
 [[nodiscard]] ACS_API std::string_view GetText(ERobotStatus status);
 
 /// ACS to MCS: status, position or load of a robot changed (section 6.16). What does not apply is written as null.

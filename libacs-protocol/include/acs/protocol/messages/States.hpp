@@ -16,6 +16,7 @@ enum class ETscState : std::uint8_t
     Pausing,
 };
 
+/// The name on the wire.
 [[nodiscard]] ACS_API std::string_view GetText(ETscState state);
 
 /// ACS to MCS: whether plans are being executed (section 6.20).
