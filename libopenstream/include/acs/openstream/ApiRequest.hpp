@@ -16,7 +16,7 @@ namespace ACS::OpenStream
 /// One parameter of a query, as received, without decoding.
 struct QueryParameter
 {
-    std::string name;
+    std::string name;  ///< May occur more than once.
     std::string value; ///< A string's text, or the JSON text of any other value.
 
     bool operator==(const QueryParameter&) const = default;
@@ -25,9 +25,9 @@ struct QueryParameter
 /// A call of the controller's Open API, the same whether it came over HTTP or in a MONITOR or CONTROL.
 struct ACS_API ApiRequest
 {
-    EApiMethod method = EApiMethod::Get;
-    std::string path; ///< For example "/project/robot/po_cur"; as received, without percent-decoding.
-    std::vector<QueryParameter> query;
+    EApiMethod method = EApiMethod::Get; ///< As in HTTP.
+    std::string path;                   ///< For example "/project/robot/po_cur"; as received, without percent-decoding.
+    std::vector<QueryParameter> query;  ///< In the order of the URL.
     std::optional<Core::JsonText> body; ///< None for a GET; `{}` for a CONTROL without one.
 
     /// The value of the first parameter of this name; null if there is none.
@@ -39,8 +39,8 @@ struct ACS_API ApiRequest
 /// The answer to an ApiRequest.
 struct ACS_API ApiResponse
 {
-    int status = 200; ///< HTTP; every 2xx is a success.
-    std::optional<Core::JsonText> body;
+    int status = 200;                   ///< HTTP; every 2xx is a success.
+    std::optional<Core::JsonText> body; ///< Absent: an answer without content.
     /// The server delays the answer by this time, as if the call had taken that long: a service that is deliberately slow
     /// does not block the server's thread. The call itself is complete.
     Core::Duration delay{};
@@ -48,6 +48,7 @@ struct ACS_API ApiResponse
     /// its mode. Otherwise ignored.
     bool bNoSample = false;
 
+    /// Whether the status is 2xx.
     [[nodiscard]] bool IsSuccess() const noexcept;
 
     /// Resets this to 200 without a body, and returns the emptied buffer of the former body for reuse without an

@@ -15,14 +15,15 @@
 namespace ACS::OpenStream
 {
 
+/// How far a ClientSession is.
 enum class EClientState : std::uint8_t
 {
-    Stopped,
+    Stopped, ///< Not started, or Stop is complete.
     Connecting,
-    Handshaking,
-    Ready,
-    Waiting, ///< For the next connection attempt.
-    Ending,  ///< STOP session was sent.
+    Handshaking, ///< Connected; waits for the ack of HANDSHAKE.
+    Ready,       ///< CONTROLs are accepted.
+    Waiting,     ///< For the next connection attempt.
+    Ending,      ///< STOP session was sent.
 };
 
 /// The client side of an Open Stream, without I/O: events and the time go in, actions and events come out, appended to a
@@ -90,7 +91,9 @@ public:
     /// Requested by ClientStartTimer. → any action.
     void OnTimer(EClientTimer timer, Core::Now now, ClientActions& out);
 
+    /// After the last call.
     [[nodiscard]] EClientState GetState() const noexcept;
+    /// Counters since the session was created.
     [[nodiscard]] const ClientSessionStats& GetStats() const noexcept;
 
     /// The newest sample of the current MONITOR; null before the first one and without a connection. Valid until the next

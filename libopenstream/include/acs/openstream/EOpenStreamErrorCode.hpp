@@ -64,10 +64,12 @@ enum class EErrorScope : std::uint8_t
 [[nodiscard]] ACS_API std::string_view GetErrorText(EOpenStreamErrorCode code) noexcept;
 /// The HTTP status of the code in the manual, or a suitable one. Error lines do not carry it.
 [[nodiscard]] ACS_API int GetErrorStatus(EOpenStreamErrorCode code) noexcept;
+/// What an error line with this code refers to.
 [[nodiscard]] ACS_API EErrorScope GetErrorScope(EOpenStreamErrorCode code) noexcept;
 /// Unknown if the text is not in the table.
 [[nodiscard]] ACS_API EOpenStreamErrorCode GetErrorCode(std::string_view text) noexcept;
 
+/// Makes the enumerators convertible to std::error_code.
 [[nodiscard]] ACS_API std::error_code make_error_code(EOpenStreamErrorCode code) noexcept;
 
 } // namespace ACS::OpenStream

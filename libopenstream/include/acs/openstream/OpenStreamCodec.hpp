@@ -46,7 +46,9 @@ public:
     /// Reads a line of a server: the member `error` first, then `type`. Errors are those of ACS::Core.
     [[nodiscard]] Core::Result<OpenStreamLine> DecodeLine(std::string_view line);
 
+    /// Appends the line of a client. The request must be valid: the codec does not check it.
     static void EncodeRequest(const OpenStreamRequest& request, std::string& out);
+    /// Appends the line of a server.
     static void EncodeLine(const OpenStreamLine& line, std::string& out);
 
     /// Encodes a data line from the answer of a service without copying it.

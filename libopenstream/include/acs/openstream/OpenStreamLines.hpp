@@ -11,14 +11,16 @@
 namespace ACS::OpenStream
 {
 
+/// The answer to HANDSHAKE.
 struct HandshakeAck
 {
-    bool bOk = true;
+    bool bOk = true;     ///< False: the server has refused the client.
     std::string version; ///< "MAJOR.MINOR.PATCH"; empty if the server sent none.
 
     bool operator==(const HandshakeAck&) const = default;
 };
 
+/// The MONITOR is accepted; data lines follow.
 struct MonitorAck
 {
     bool operator==(const MonitorAck&) const = default;
@@ -36,9 +38,10 @@ struct DataLine
     bool operator==(const DataLine&) const = default;
 };
 
+/// The answer to STOP.
 struct StopAck
 {
-    EStopTarget target = EStopTarget::Monitor;
+    EStopTarget target = EStopTarget::Monitor; ///< As in the request.
 
     bool operator==(const StopAck&) const = default;
 };
@@ -46,8 +49,8 @@ struct StopAck
 /// The service refused a CONTROL (`control_err`). The line does not identify it.
 struct ControlError
 {
-    int status = 0; ///< HTTP.
-    std::optional<Core::JsonText> body;
+    int status = 0;                     ///< HTTP.
+    std::optional<Core::JsonText> body; ///< Of the answer of the service; absent: none.
 
     bool operator==(const ControlError&) const = default;
 };
@@ -55,10 +58,10 @@ struct ControlError
 /// A command is invalid, or the session ends (`error`). The line does not identify the command.
 struct ErrorLine
 {
-    EOpenStreamErrorCode code = EOpenStreamErrorCode::Unknown;
-    std::string codeText; ///< As received; not used for encoding.
-    std::string message;
-    std::string hint; ///< Omitted if empty.
+    EOpenStreamErrorCode code = EOpenStreamErrorCode::Unknown; ///< Unknown: see codeText.
+    std::string codeText;                                      ///< As received; not used for encoding.
+    std::string message;                                       ///< For the operator.
+    std::string hint;                                          ///< Omitted if empty.
 
     bool operator==(const ErrorLine&) const = default;
 };

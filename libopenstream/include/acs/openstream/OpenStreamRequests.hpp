@@ -15,13 +15,13 @@
 namespace ACS::OpenStream
 {
 
-inline constexpr std::int64_t PROTOCOL_MAJOR = 1;
-inline constexpr std::chrono::milliseconds MINIMUM_PERIOD{2};
-inline constexpr std::chrono::milliseconds MAXIMUM_PERIOD{30'000};
-inline constexpr std::size_t LONGEST_URL = 2048;           ///< Bytes, after JSON decoding.
+inline constexpr std::int64_t PROTOCOL_MAJOR = 1;             ///< The version of the protocol that the library speaks.
+inline constexpr std::chrono::milliseconds MINIMUM_PERIOD{2}; ///< Of a MONITOR.
+inline constexpr std::chrono::milliseconds MAXIMUM_PERIOD{30'000}; ///< Of a MONITOR.
+inline constexpr std::size_t LONGEST_URL = 2048;                   ///< Bytes, after JSON decoding.
 inline constexpr std::size_t LONGEST_LINE = 1024U * 1024U; ///< Bytes of a line without its end, in both directions.
 inline constexpr std::size_t LONGEST_ID = 256;             ///< Bytes of a MONITOR's id as JSON: each line repeats it.
-inline constexpr std::size_t DEEPEST_NESTING = 64;
+inline constexpr std::size_t DEEPEST_NESTING = 64;         ///< Objects and arrays of a line within each other.
 
 /// HANDSHAKE: the first command of a session.
 struct HandshakeRequest
@@ -54,9 +54,10 @@ struct ControlRequest
     bool operator==(const ControlRequest&) const = default;
 };
 
+/// STOP: ends a MONITOR, the control of the robot, or the session.
 struct StopRequest
 {
-    EStopTarget target = EStopTarget::Monitor;
+    EStopTarget target = EStopTarget::Monitor; ///< What is stopped.
 
     bool operator==(const StopRequest&) const = default;
 };

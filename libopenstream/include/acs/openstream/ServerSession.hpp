@@ -12,10 +12,11 @@
 namespace ACS::OpenStream
 {
 
+/// How far a ServerSession is.
 enum class EServerState : std::uint8_t
 {
     Connected, ///< Waits for HANDSHAKE.
-    Ready,
+    Ready,     ///< The handshake succeeded; no MONITOR is active.
     Streaming, ///< A MONITOR is active.
     Closing,   ///< The last lines are sent; commands are answered with handshake_required.
     Closed,
@@ -30,6 +31,7 @@ class ACS_API ServerSession
     std::unique_ptr<Impl> _impl;
 
 public:
+    /// Sends nothing before Start.
     explicit ServerSession(const ServerSessionOptions& options = {});
     ServerSession(const ServerSession&) = delete;
     ServerSession& operator=(const ServerSession&) = delete;
@@ -63,7 +65,9 @@ public:
     /// The connection was lost. → CancelTimer, Close.
     void OnSocketError(ServerActions& out);
 
+    /// After the last call.
     [[nodiscard]] EServerState GetState() const noexcept;
+    /// Counters since the session was created.
     [[nodiscard]] const ServerSessionStats& GetStats() const noexcept;
 };
 

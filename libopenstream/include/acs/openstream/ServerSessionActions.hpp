@@ -24,21 +24,23 @@ struct ServerSessionOptions
     std::chrono::milliseconds serviceTimeout{1'000};   ///< Of a call; a MONITOR then reports an internal error.
     std::chrono::milliseconds controlBusyAfter{1'000}; ///< Full queue of CONTROLs for this time: control_busy.
     std::chrono::milliseconds closeTimeout{1'000};     ///< To send the last lines and for the client to close.
-    std::size_t longestLine = LONGEST_LINE;
-    std::size_t maximumOutput = 1024U * 1024U; ///< Unsent bytes (without data) above which the session closes.
-    std::size_t maximumControls = 256;         ///< Queued CONTROLs; if full, the session stops reading.
+    std::size_t longestLine = LONGEST_LINE;            ///< Bytes of a received line; a longer one ends the session.
+    std::size_t maximumOutput = 1024U * 1024U;         ///< Unsent bytes (without data) above which the session closes.
+    std::size_t maximumControls = 256;                 ///< Queued CONTROLs; if full, the session stops reading.
     std::size_t maximumControlBytes = 4U * 1024U * 1024U; ///< Size of all queued CONTROLs; likewise.
     std::size_t commandsPerTurn = 64;                     ///< Lines processed before a due timer is served.
 };
 
+/// Timers of a ServerSession.
 enum class EServerTimer : std::uint8_t
 {
-    MonitorTick,
-    Watchdog, ///< handshakeTimeout, idleTimeout or streamingTimeout.
-    ControlBusy,
-    Close,
+    MonitorTick, ///< The next sample is due.
+    Watchdog,    ///< handshakeTimeout, idleTimeout or streamingTimeout.
+    ControlBusy, ///< controlBusyAfter.
+    Close,       ///< closeTimeout.
 };
 
+/// Number of enumerators of EServerTimer.
 inline constexpr std::size_t SERVER_TIMER_COUNT = 4;
 
 /// Why a session ended.
@@ -58,14 +60,14 @@ enum class EServerCloseReason : std::uint8_t
 /// Write the text, then call OnSendCompleted. One is in flight at a time; the text is valid until that call.
 struct ServerSend
 {
-    std::string_view text;
+    std::string_view text; ///< One or more whole lines.
 };
 
 /// Call the service, then call OnServiceAnswer with the token: at once, or later with a copy of the request, which is valid
 /// only until the next event.
 struct ServerCall
 {
-    std::uint64_t token = 0;
+    std::uint64_t token = 0;             ///< To be passed to OnServiceAnswer.
     const ApiRequest* request = nullptr; ///< Never null.
 };
 
@@ -81,6 +83,7 @@ struct ServerStartTimer
     Core::SteadyTime deadline;
 };
 
+/// Do not call OnTimer for this timer.
 struct ServerCancelTimer
 {
     EServerTimer timer = EServerTimer::MonitorTick;
@@ -91,6 +94,7 @@ struct ServerPauseReading
 {
 };
 
+/// Continue to read after ServerPauseReading.
 struct ServerResumeReading
 {
 };
@@ -108,9 +112,10 @@ struct ServerShutdownSend
 /// The last action: close the connection. No event may follow.
 struct ServerClose
 {
-    EServerCloseReason reason = EServerCloseReason::PeerClosed;
+    EServerCloseReason reason = EServerCloseReason::PeerClosed; ///< For the log.
 };
 
+/// What the caller of a ServerSession carries out.
 using ServerAction = std::variant<
     ServerSend,
     ServerCall,
@@ -122,6 +127,7 @@ using ServerAction = std::variant<
     ServerContinue,
     ServerShutdownSend,
     ServerClose>;
+/// To be carried out in order, before the next event.
 using ServerActions = std::vector<ServerAction>;
 
 /// Counters of a session.
@@ -135,6 +141,7 @@ struct ACS_API ServerSessionStats
     std::uint64_t controlErrors = 0; ///< control_err lines.
 
     bool operator==(const ServerSessionStats&) const = default;
+    /// Adds each counter, for totals over sessions.
     ServerSessionStats& operator+=(const ServerSessionStats& other) noexcept;
 };
 

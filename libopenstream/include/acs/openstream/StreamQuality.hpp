@@ -9,12 +9,12 @@ namespace ACS::OpenStream
 /// of its value.
 struct GapStatistics
 {
-    std::uint64_t count = 0;
-    double mean = 0.0;
-    double p50 = 0.0;
-    double p99 = 0.0;
-    double p999 = 0.0;
-    double largest = 0.0;
+    std::uint64_t count = 0; ///< Number of gaps.
+    double mean = 0.0;       ///< 0 without gaps, like the following.
+    double p50 = 0.0;        ///< Median.
+    double p99 = 0.0;        ///< 99 of 100 gaps are at most this long.
+    double p999 = 0.0;       ///< 999 of 1000 gaps are at most this long.
+    double largest = 0.0;    ///< The longest gap.
 
     bool operator==(const GapStatistics&) const = default;
 };
@@ -22,7 +22,7 @@ struct GapStatistics
 /// Quality of a MONITOR since its ack.
 struct StreamQuality
 {
-    std::uint64_t samples = 0;
+    std::uint64_t samples = 0; ///< Data lines that were received.
     std::uint64_t missing = 0; ///< Periods without a sample, according to `ts`.
     GapStatistics byServer;    ///< Differences between consecutive `ts`: the sampling of the controller. Whole ms.
     GapStatistics byArrival;   ///< Differences between arrivals: includes the network and this machine.

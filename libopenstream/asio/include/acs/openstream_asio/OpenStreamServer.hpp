@@ -17,6 +17,7 @@
 namespace ACS::OpenStreamAsio
 {
 
+/// Where an OpenStreamServer listens, and the options of its sessions.
 struct OpenStreamServerOptions
 {
     std::string host = "127.0.0.1"; ///< An address, or a name that resolves to one.
@@ -24,7 +25,7 @@ struct OpenStreamServerOptions
     /// Maximum number of connections. One more replaces the oldest connection without a HANDSHAKE, or is rejected with
     /// handshake_rejected if there is none.
     std::size_t maximumSessions = 8;
-    OpenStream::ServerSessionOptions session;
+    OpenStream::ServerSessionOptions session; ///< Times and limits of each ServerSession.
 };
 
 /// Serves the Open Stream over TCP on a single-threaded executor: a ServerSession for each connection, and one service for
@@ -36,6 +37,7 @@ class ACS_API OpenStreamServer
     std::shared_ptr<Impl> _impl;
 
 public:
+    /// Does not listen before Start.
     OpenStreamServer(
         const boost::asio::any_io_executor& executor,
         Core::IClock& clock,
@@ -57,6 +59,7 @@ public:
 
     /// The port that the server listens on; 0 if it does not listen.
     [[nodiscard]] std::uint16_t GetPort() const noexcept;
+    /// Number of open connections.
     [[nodiscard]] std::size_t GetSessionCount() const noexcept;
 
     /// Counters of all sessions since the server was created, including ended ones.
