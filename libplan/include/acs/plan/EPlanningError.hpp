@@ -18,6 +18,7 @@ enum class EPlanningError
     StoreTaken = 6,     ///< Another program uses the store, or has taken the path of one that is open.
 };
 
+/// Makes the enumerators convertible to std::error_code.
 [[nodiscard]] ACS_API std::error_code make_error_code(EPlanningError error) noexcept;
 
 } // namespace ACS::Planning

@@ -41,11 +41,12 @@ enum class EEngineTimer : std::uint8_t
 /// A timer of a robot, or of the engine if robotID is empty.
 struct EngineTimer
 {
-    EEngineTimer kind = EEngineTimer::Dispatch;
-    std::string robotID;
+    EEngineTimer kind = EEngineTimer::Dispatch; ///< There is one timer of each kind, or of each kind and robot.
+    std::string robotID;                        ///< Empty: a timer of the engine.
 
     bool operator==(const EngineTimer&) const = default;
 
+    /// An order for use as a key.
     bool operator<(const EngineTimer& other) const noexcept
     {
         return std::tie(kind, robotID) < std::tie(other.kind, other.robotID);
@@ -56,7 +57,7 @@ struct EngineTimer
 /// its call: actions that depend on the batch are withheld until OnStored.
 struct StorePlans
 {
-    StoreBatch batch;
+    StoreBatch batch; ///< For IPlanStore::Append.
 
     bool operator==(const StorePlans&) const = default;
 };
@@ -65,9 +66,9 @@ struct StorePlans
 /// commands.
 struct ReplyCommand
 {
-    ReplyToken replyToken = 0;
-    bool bAccepted = false;
-    std::string message;
+    ReplyToken replyToken = 0; ///< As in the command.
+    bool bAccepted = false;    ///< Whether the command is executed.
+    std::string message;       ///< Why it was rejected, for the MCS or the operator; may be empty if it was accepted.
 
     bool operator==(const ReplyCommand&) const = default;
 };
@@ -76,17 +77,18 @@ struct ReplyCommand
 /// has acknowledged the report; until then it is in PlanEngine::GetUnacknowledged too.
 struct SendReport
 {
-    OutboxEntry entry;
+    OutboxEntry entry; ///< Its transactionID and time are the same in every replay.
     /// Sequence of an earlier report of the same alarm, which need not be sent any more: the engine has removed it.
     std::optional<std::uint64_t> replaced{};
 
     bool operator==(const SendReport&) const = default;
 };
 
+/// Pass the command to the robot's adapter (IRobotAdapter::Handle).
 struct CommandRobot
 {
     std::string robotID;
-    RobotCommand command;
+    RobotCommand command; ///< Not repeated by the engine.
 
     bool operator==(const CommandRobot&) const = default;
 };
@@ -94,7 +96,7 @@ struct CommandRobot
 /// Publish the robot's status (RobotStatusUpdate). Not stored; a newer status replaces an unsent one.
 struct RobotStatusChanged
 {
-    RobotStatus status;
+    RobotStatus status; ///< The whole status, not only what changed.
 
     bool operator==(const RobotStatusChanged&) const = default;
 };
@@ -102,7 +104,7 @@ struct RobotStatusChanged
 /// Publish the TSC state (TscStateUpdate). A newer state replaces an unsent one.
 struct TscStateChanged
 {
-    ETscState state = ETscState::Auto;
+    ETscState state = ETscState::Auto; ///< The new one.
 
     bool operator==(const TscStateChanged&) const = default;
 };
@@ -117,6 +119,7 @@ struct StartEngineTimer
     bool operator==(const StartEngineTimer&) const = default;
 };
 
+/// Do not call OnTimer for this timer.
 struct CancelEngineTimer
 {
     EngineTimer timer;
@@ -124,6 +127,7 @@ struct CancelEngineTimer
     bool operator==(const CancelEngineTimer&) const = default;
 };
 
+/// What the engine requests of its host. Each alternative states what to do.
 using EngineAction = std::variant<
     StorePlans,
     ReplyCommand,
@@ -133,6 +137,7 @@ using EngineAction = std::variant<
     TscStateChanged,
     StartEngineTimer,
     CancelEngineTimer>;
+/// To be executed strictly in order, before the next call of the engine.
 using EngineActions = std::vector<EngineAction>;
 
 } // namespace ACS::Planning

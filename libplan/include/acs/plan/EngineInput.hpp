@@ -17,7 +17,7 @@ namespace ACS::Planning
 struct RobotInput
 {
     std::string robotID;
-    RobotEvent event;
+    RobotEvent event; ///< What the adapter has raised.
 };
 
 /// An input of the engine.
@@ -36,6 +36,7 @@ struct InputLimits
     std::size_t robotEvents = 16;
 };
 
+/// What PlanEngineHost::Offer did with a command.
 enum class EInputAdmission : std::uint8_t
 {
     Accepted,

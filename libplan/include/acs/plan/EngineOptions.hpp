@@ -54,6 +54,7 @@ struct ActionRule
     bool operator==(const ActionRule&) const = default;
 };
 
+/// The actions of a site, by the name that a step has (Step::action).
 using ActionTable = std::map<std::string, ActionRule, std::less<>>;
 
 /// The eight actions of section 4.1 of MCS-ACS.
@@ -62,11 +63,12 @@ using ActionTable = std::map<std::string, ActionRule, std::less<>>;
 /// Actions that a robot cannot execute, each with the reason that is reported to the MCS (FindRejectedActions).
 using RejectedActions = std::map<std::string, std::string, std::less<>>;
 
+/// The configuration of one robot.
 struct RobotOptions
 {
     Core::RobotID robotID;
-    ERobotType type = ERobotType::LR;
-    std::string vehicleTypeID; ///< Vehicle type of the map: selects the nodes and edges that the robot may use.
+    ERobotType type = ERobotType::LR; ///< Only steps with actions of this type are given to it.
+    std::string vehicleTypeID;        ///< Vehicle type of the map: selects the nodes and edges that the robot may use.
     std::optional<std::string> startNodeID; ///< Reserved for the robot until it reports its position.
     /// Preferred parking position: the robot drives there when it has no plan or blocks another robot. Not shared by robots.
     std::optional<std::string> homeStationID;
@@ -131,8 +133,8 @@ struct DispatchOptions
 /// The configuration of the engine.
 struct EngineOptions
 {
-    std::vector<RobotOptions> robots;
-    ActionTable actions = MakeStandardActions();
+    std::vector<RobotOptions> robots;            ///< Their robotIDs differ.
+    ActionTable actions = MakeStandardActions(); ///< A plan with another action is rejected.
     std::vector<Core::Location> places; ///< Ports of stations ("A01.CP01.TP01"); the stations are those of the map.
     /// By station: the other stations at whose places a robot that is docked there can work too.
     std::map<std::string, std::vector<std::string>, std::less<>> reach;
@@ -151,10 +153,10 @@ struct EngineOptions
     std::size_t baseLength = 3;           ///< Number of nodes released ahead of a robot; at least 1.
     /// Metres. Nodes of a map at this distance or less exclude each other, because two vehicles would not have room.
     double clearance = 0;
-    ControlOptions controls;
-    DispatchOptions dispatch;
-    EMovingPosition movingPosition = EMovingPosition::Last;
-    std::chrono::milliseconds extensionDelay{2'000}; ///< Delay after which an unconfirmed drive is extended.
+    ControlOptions controls;                                ///< How controls of plans are executed.
+    DispatchOptions dispatch;                               ///< How plans are assigned, and charging.
+    EMovingPosition movingPosition = EMovingPosition::Last; ///< What a driving robot reports as its position.
+    std::chrono::milliseconds extensionDelay{2'000};        ///< Delay after which an unconfirmed drive is extended.
     /// Time without a passed node after which a connected robot with released nodes ahead, not paused by a control, raises
     /// ACS-1009; at least three times the travel time of its next edge. 0 disables the alarm.
     std::chrono::milliseconds stallTimeout{60'000};

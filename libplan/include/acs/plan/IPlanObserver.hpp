@@ -30,12 +30,14 @@ public:
         EPlanState from,
         std::string_view transactionID,
         Core::Now now) = 0;
+    /// A step of the plan has changed. stepIndex is that of record.plan.steps.
     virtual void OnStepChanged(
         const PlanRecord& record,
         std::size_t stepIndex,
         EStepState from,
         std::string_view transactionID,
         Core::Now now) = 0;
+    /// A job of the plan has changed. jobIndex is that of the step's jobs.
     virtual void OnJobChanged(
         const PlanRecord& record,
         std::size_t stepIndex,
@@ -43,8 +45,11 @@ public:
         EJobState from,
         std::string_view transactionID,
         Core::Now now) = 0;
+    /// An alarm was set (bSet) or cleared.
     virtual void OnAlarmChanged(const Alarm& alarm, bool bSet, std::string_view transactionID, Core::Now now) = 0;
+    /// The status of a robot has changed. It has no report that is stored, so no transactionID.
     virtual void OnRobotStatusChanged(const RobotStatus& status, Core::Now now) = 0;
+    /// The TSC has changed to state.
     virtual void OnTscChanged(ETscState state, ETscState from, Core::Now now) = 0;
     /// An event without a state of its own, for the log: a tolerated deviation, or a decision of the engine.
     virtual void OnNote(std::string_view robotID, std::string_view text, Core::Now now) = 0;

@@ -20,7 +20,7 @@ namespace ACS::Planning
 /// A plan was accepted.
 struct PlanAdded
 {
-    PlanRecord record;
+    PlanRecord record; ///< With the plan as received and its first progress.
 
     bool operator==(const PlanAdded&) const = default;
 };
@@ -29,7 +29,7 @@ struct PlanAdded
 struct PlanProgressed
 {
     std::string planID;
-    PlanProgress progress;
+    PlanProgress progress; ///< Replaces the former one.
 
     bool operator==(const PlanProgressed&) const = default;
 };
@@ -45,7 +45,7 @@ struct PlanRemoved
 /// A durable report was created and waits for its acknowledgement.
 struct ReportAdded
 {
-    OutboxEntry entry;
+    OutboxEntry entry; ///< Its sequence is higher than all before.
 
     bool operator==(const ReportAdded&) const = default;
 };
@@ -53,7 +53,7 @@ struct ReportAdded
 /// A report was acknowledged.
 struct ReportRemoved
 {
-    std::uint64_t sequence = 0;
+    std::uint64_t sequence = 0; ///< OutboxEntry::sequence.
 
     bool operator==(const ReportRemoved&) const = default;
 };
@@ -87,13 +87,15 @@ struct RobotWorkChanged
     bool operator==(const RobotWorkChanged&) const = default;
 };
 
+/// An alarm was set or its content changed; it replaces one that is the same (Alarm::IsSameAs).
 struct AlarmSet
 {
-    Alarm alarm;
+    Alarm alarm; ///< As it is reported.
 
     bool operator==(const AlarmSet&) const = default;
 };
 
+/// An alarm was cleared.
 struct AlarmCleared
 {
     Alarm alarm; ///< Identifies the alarm (Alarm::IsSameAs).
@@ -101,9 +103,10 @@ struct AlarmCleared
     bool operator==(const AlarmCleared&) const = default;
 };
 
+/// The TSC has changed.
 struct TscChanged
 {
-    ETscState state = ETscState::Auto;
+    ETscState state = ETscState::Auto; ///< To be in StoredState::tscState.
 
     bool operator==(const TscChanged&) const = default;
 };
@@ -112,11 +115,12 @@ struct TscChanged
 struct MaintenanceChanged
 {
     std::string robotID;
-    bool bOn = false;
+    bool bOn = false; ///< The robot is in maintenance.
 
     bool operator==(const MaintenanceChanged&) const = default;
 };
 
+/// One change of what a store has. StoredState is the result of all changes.
 using StoreChange = std::variant<
     PlanAdded,
     PlanProgressed,
@@ -133,7 +137,7 @@ using StoreChange = std::variant<
 /// Changes that are stored as one transaction.
 struct StoreBatch
 {
-    std::vector<StoreChange> changes;
+    std::vector<StoreChange> changes; ///< In order; a later one may concern the same plan, robot or alarm.
 
     bool operator==(const StoreBatch&) const = default;
 };
@@ -141,17 +145,17 @@ struct StoreBatch
 /// The content of a store.
 struct StoredState
 {
-    std::vector<PlanRecord> plans;        ///< By ascending sequence, finished ones included.
-    std::vector<OutboxEntry> outbox;      ///< By ascending sequence.
-    std::uint64_t lastReportSequence = 0; ///< The highest ever assigned, acknowledged reports included.
-    std::vector<CarriersChanged> carriers;
-    std::vector<Alarm> alarms;
-    std::vector<std::string> robotsInMaintenance;
-    ETscState tscState = ETscState::Auto; ///< Auto if none was ever stored.
+    std::vector<PlanRecord> plans;                ///< By ascending sequence, finished ones included.
+    std::vector<OutboxEntry> outbox;              ///< By ascending sequence.
+    std::uint64_t lastReportSequence = 0;         ///< The highest ever assigned, acknowledged reports included.
+    std::vector<CarriersChanged> carriers;        ///< The last one of each robot.
+    std::vector<Alarm> alarms;                    ///< Those that are set.
+    std::vector<std::string> robotsInMaintenance; ///< Their robotIDs.
+    ETscState tscState = ETscState::Auto;         ///< Auto if none was ever stored.
     /// Why the content may be out of date, for example a restored backup; empty: it is not. The engine then starts with the TSC
     /// Paused and commands no robot to move or work until the operator resumes it. TscChanged to Auto clears the reason.
     std::string holdReason;
-    std::vector<RobotWorkChanged> robotWorks;
+    std::vector<RobotWorkChanged> robotWorks; ///< The last one of each robot.
 
     bool operator==(const StoredState&) const = default;
 };

@@ -23,7 +23,7 @@ using AdapterTimerID = std::uint32_t;
 /// Pass the event to the engine.
 struct RaiseEvent
 {
-    RobotEvent event;
+    RobotEvent event; ///< Of the adapter's own robot.
 
     bool operator==(const RaiseEvent&) const = default;
 };
@@ -37,6 +37,7 @@ struct StartAdapterTimer
     bool operator==(const StartAdapterTimer&) const = default;
 };
 
+/// Do not call OnTimer for this timer.
 struct CancelAdapterTimer
 {
     AdapterTimerID timer = 0;
@@ -44,7 +45,9 @@ struct CancelAdapterTimer
     bool operator==(const CancelAdapterTimer&) const = default;
 };
 
+/// What an adapter requests of its host.
 using AdapterAction = std::variant<RaiseEvent, StartAdapterTimer, CancelAdapterTimer>;
+/// To be executed in order.
 using AdapterActions = std::vector<AdapterAction>;
 
 /// Connects one robot to the engine: executes its commands and reports its events. An implementation does no I/O and reads

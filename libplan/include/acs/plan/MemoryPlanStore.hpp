@@ -22,6 +22,7 @@ public:
     /// What the next Load returns as StoredState::holdReason, until the TSC is Auto.
     void SetHoldReason(std::string reason);
 
+    /// What Load would return.
     [[nodiscard]] const StoredState& GetState() const noexcept;
 };
 

@@ -30,7 +30,7 @@ struct Step
     std::string position;    ///< Where the robot works, as received: a station or a place inside one.
     /// Of a load or an unload: entry i belongs to job i. May be shorter than jobs.
     std::vector<std::string> carrierIDs;
-    std::vector<Job> jobs;
+    std::vector<Job> jobs; ///< Executed in this order; may be empty (ActionRule::bJobsRequired).
 
     bool operator==(const Step&) const = default;
 };

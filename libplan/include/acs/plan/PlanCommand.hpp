@@ -19,7 +19,7 @@ using ReplyToken = std::uint64_t;
 /// Submit a plan (ExecutionPlan). Answered by one ReplyCommand.
 struct SubmitPlan
 {
-    Plan plan;
+    Plan plan; ///< As received.
     ReplyToken replyToken = 0;
     /// The transactionId of the request. The same plan with the same transactionId is answered as the first time and not
     /// accepted twice, also after a restart (register D-23). Empty: a repetition is rejected as a duplicate.
@@ -32,7 +32,7 @@ struct SubmitPlan
 /// the outcome is known.
 struct ControlPlan
 {
-    EPlanControl control = EPlanControl::Cancel;
+    EPlanControl control = EPlanControl::Cancel; ///< What to do with the plan.
     std::string planID;
     std::string reason; ///< May be empty.
     ReplyToken replyToken = 0;
@@ -44,7 +44,7 @@ struct ControlPlan
 /// The MCS has acknowledged the report of this number (OutboxEntry::sequence), with Success or Fail.
 struct MessageAcknowledged
 {
-    std::uint64_t sequence = 0;
+    std::uint64_t sequence = 0; ///< OutboxEntry::sequence.
 
     bool operator==(const MessageAcknowledged&) const = default;
 };
@@ -53,7 +53,7 @@ struct MessageAcknowledged
 /// already. Answered by one ReplyCommand.
 struct ControlTSC
 {
-    bool bPause = false;
+    bool bPause = false; ///< False: return to Auto.
     ReplyToken replyToken = 0;
 
     bool operator==(const ControlTSC&) const = default;
@@ -64,8 +64,8 @@ struct ControlTSC
 struct ResolveJob
 {
     std::string planID;
-    std::string jobID; ///< As in the alarm.
-    EJobResolution resolution = EJobResolution::Done;
+    std::string jobID;                                ///< As in the alarm.
+    EJobResolution resolution = EJobResolution::Done; ///< What the operator has found.
     ReplyToken replyToken = 0;
 
     bool operator==(const ResolveJob&) const = default;
@@ -76,7 +76,7 @@ struct ResolveJob
 struct SetMaintenance
 {
     std::string robotID;
-    bool bOn = false;
+    bool bOn = false; ///< False: return it to service.
     ReplyToken replyToken = 0;
 
     bool operator==(const SetMaintenance&) const = default;
@@ -85,8 +85,8 @@ struct SetMaintenance
 /// Operator: clear these alarms. An alarm whose cause persists is set again. Answered by one ReplyCommand.
 struct ClearAlarms
 {
-    std::string robotID;
-    std::string errorCode;
+    std::string robotID;               ///< As in the alarm.
+    std::string errorCode;             ///< As in the alarm.
     std::optional<std::string> planID; ///< nullopt: alarms with and without a plan.
     std::optional<std::string> jobID;  ///< nullopt: alarms with and without a job.
     ReplyToken replyToken = 0;
@@ -116,6 +116,7 @@ struct SkipStep
     bool operator==(const SkipStep&) const = default;
 };
 
+/// Commands of the MCS and of the operator.
 using PlanCommand = std::variant<
     SubmitPlan,
     ControlPlan,

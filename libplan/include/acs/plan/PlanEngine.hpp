@@ -121,14 +121,18 @@ public:
 
     /// Why the engine would reject the command now; nullopt if it would accept it.
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SetCarriers& command) const;
+    /// Likewise.
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const ResolveJob& command) const;
+    /// Likewise.
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SkipStep& command) const;
 
     /// nullopt if the plan is unknown, is finished or makes progress.
     [[nodiscard]] std::optional<WaitReason> GetWaitReasonOrNull(std::string_view planID) const;
 
+    /// The alarms that are set.
     [[nodiscard]] const std::vector<Alarm>& GetActiveAlarms() const noexcept;
 
+    /// Whether plans are executed.
     [[nodiscard]] ETscState GetTscState() const noexcept;
 
     /// Why the TSC has been Paused since the start (StoredState::holdReason), until the operator resumes it; otherwise empty.

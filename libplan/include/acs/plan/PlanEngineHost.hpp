@@ -72,6 +72,7 @@ public:
     /// Rejects all further and waiting commands and drops all other inputs. A batch that is being stored is still completed.
     void Close();
 
+    /// Whether a batch that was passed to the StoreHandler has no OnStored yet.
     [[nodiscard]] bool IsStoring() const noexcept;
 
     /// Number of inputs that wait for the store.

@@ -20,8 +20,8 @@ namespace ACS::Planning
 /// The states of a step and of its jobs.
 struct StepProgress
 {
-    EStepState state = EStepState::Pending;
-    std::vector<EJobState> jobs; ///< One per job of the step.
+    EStepState state = EStepState::Pending; ///< The current one.
+    std::vector<EJobState> jobs;            ///< One per job of the step.
 
     bool operator==(const StepProgress&) const = default;
 };
@@ -29,20 +29,20 @@ struct StepProgress
 /// The part of a plan record that changes during execution.
 struct PlanProgress
 {
-    EPlanState state = EPlanState::Pending;
-    std::string robotID; ///< Empty until the plan is assigned to a robot.
-    std::string message; ///< Message of the last PlanReport.
-    std::optional<Core::WallTime> startedAt;
-    std::optional<Core::WallTime> endedAt;
-    std::vector<StepProgress> steps;     ///< One per step of the plan, in ascending stepNo.
-    bool bArrived = false;               ///< The last node before the position of the first step was reached.
-    std::optional<EPlanControl> control; ///< The acknowledged control whose outcome is not known.
-    std::size_t controlCount = 0;        ///< Number of requests for that control; each gets a result report.
-    std::vector<std::string> requestIDs; ///< The latest controls, each with its transactionID ("Pause 4711").
+    EPlanState state = EPlanState::Pending;  ///< The current one.
+    std::string robotID;                     ///< Empty until the plan is assigned to a robot.
+    std::string message;                     ///< Message of the last PlanReport.
+    std::optional<Core::WallTime> startedAt; ///< nullopt: not started.
+    std::optional<Core::WallTime> endedAt;   ///< nullopt: not ended.
+    std::vector<StepProgress> steps;         ///< One per step of the plan, in ascending stepNo.
+    bool bArrived = false;                   ///< The last node before the position of the first step was reached.
+    std::optional<EPlanControl> control;     ///< The acknowledged control whose outcome is not known.
+    std::size_t controlCount = 0;            ///< Number of requests for that control; each gets a result report.
+    std::vector<std::string> requestIDs;     ///< The latest controls, each with its transactionID ("Pause 4711").
     /// Age of the queue when the plan was accepted, and when this was stored last: the time that the engine has run, restarts
     /// included. Setting the wall clock does not change it.
     std::chrono::milliseconds queuedAt{0};
-    std::chrono::milliseconds storedAt{0};
+    std::chrono::milliseconds storedAt{0}; ///< See queuedAt.
 
     bool operator==(const PlanProgress&) const = default;
 };
@@ -51,10 +51,10 @@ struct PlanProgress
 struct PlanRecord
 {
     std::uint64_t sequence = 0; ///< Order of acceptance, from 1.
-    Core::WallTime acceptedAt;
-    Plan plan; ///< With its steps in ascending stepNo.
-    PlanProgress progress;
-    std::string transactionID; ///< Of the request that submitted it; may be empty.
+    Core::WallTime acceptedAt;  ///< Time of the submission.
+    Plan plan;                  ///< With its steps in ascending stepNo.
+    PlanProgress progress;      ///< The current one.
+    std::string transactionID;  ///< Of the request that submitted it; may be empty.
 
     bool operator==(const PlanRecord&) const = default;
 };

@@ -12,11 +12,12 @@
 namespace ACS::Planning
 {
 
+/// An allowed change of a state.
 template <typename TState>
 struct Transition
 {
-    TState from;
-    TState to;
+    TState from; ///< The state before.
+    TState to;   ///< The state after.
 };
 
 /// The transitions that section 7 of MCS-ACS allows, the one that section 6.13 requires, and those of a plan that another robot
@@ -36,6 +37,7 @@ inline constexpr std::array PLAN_TRANSITIONS{
     Transition<EPlanState>{EPlanState::Paused, EPlanState::Aborted},
 };
 
+/// Those of a step.
 inline constexpr std::array STEP_TRANSITIONS{
     Transition<EStepState>{EStepState::Pending, EStepState::Dispatched},
     Transition<EStepState>{EStepState::Pending, EStepState::Skipped},
@@ -48,6 +50,7 @@ inline constexpr std::array STEP_TRANSITIONS{
     Transition<EStepState>{EStepState::InProgress, EStepState::Skipped}, // SkipStep of a step with an unresolved job
 };
 
+/// Those of a job.
 inline constexpr std::array JOB_TRANSITIONS{
     Transition<EJobState>{EJobState::Pending, EJobState::Instructed},
     Transition<EJobState>{EJobState::Instructed, EJobState::InProgress},
@@ -56,6 +59,7 @@ inline constexpr std::array JOB_TRANSITIONS{
     Transition<EJobState>{EJobState::InProgress, EJobState::Failed},
 };
 
+/// Those of the TSC.
 inline constexpr std::array TSC_TRANSITIONS{
     Transition<ETscState>{ETscState::Auto, ETscState::Pausing},
     Transition<ETscState>{ETscState::Pausing, ETscState::Paused},
@@ -63,6 +67,7 @@ inline constexpr std::array TSC_TRANSITIONS{
     Transition<ETscState>{ETscState::Paused, ETscState::Auto},
 };
 
+/// Whether one of the transitions leads from the first state to the second.
 template <typename TState>
 [[nodiscard]] constexpr bool ContainsTransition(
     std::span<const Transition<TState>> transitions,
@@ -74,21 +79,25 @@ template <typename TState>
     });
 }
 
+/// Whether PLAN_TRANSITIONS allows the change. No state changes to itself.
 [[nodiscard]] constexpr bool CanChange(EPlanState from, EPlanState to) noexcept
 {
     return ContainsTransition<EPlanState>(PLAN_TRANSITIONS, from, to);
 }
 
+/// Whether STEP_TRANSITIONS allows the change.
 [[nodiscard]] constexpr bool CanChange(EStepState from, EStepState to) noexcept
 {
     return ContainsTransition<EStepState>(STEP_TRANSITIONS, from, to);
 }
 
+/// Whether JOB_TRANSITIONS allows the change.
 [[nodiscard]] constexpr bool CanChange(EJobState from, EJobState to) noexcept
 {
     return ContainsTransition<EJobState>(JOB_TRANSITIONS, from, to);
 }
 
+/// Whether TSC_TRANSITIONS allows the change.
 [[nodiscard]] constexpr bool CanChange(ETscState from, ETscState to) noexcept
 {
     return ContainsTransition<ETscState>(TSC_TRANSITIONS, from, to);
@@ -102,6 +111,7 @@ template <typename TState>
     });
 }
 
+/// Whether the state has no further transition.
 [[nodiscard]] constexpr bool IsFinal(EStepState state) noexcept
 {
     return std::ranges::none_of(STEP_TRANSITIONS, [state](const Transition<EStepState>& transition) {
@@ -109,6 +119,7 @@ template <typename TState>
     });
 }
 
+/// Whether the state has no further transition.
 [[nodiscard]] constexpr bool IsFinal(EJobState state) noexcept
 {
     return std::ranges::none_of(JOB_TRANSITIONS, [state](const Transition<EJobState>& transition) {

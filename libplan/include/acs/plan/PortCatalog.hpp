@@ -18,11 +18,15 @@ class ACS_API PortCatalog
 
 public:
     PortCatalog() = default;
+    /// The stations of the map whose ids are locations.
     explicit PortCatalog(const SiteMap& site);
 
+    /// No effect for a place that was added before.
     void Add(const Core::Location& location);
+    /// Adds each of them.
     void Add(std::span<const Core::Location> locations);
 
+    /// Whether exactly this place was added, in any spelling.
     [[nodiscard]] bool Contains(const Core::Location& location) const;
 
     /// Adds the area to a set without one (SET02, SET02.MP15); nullopt if no area or several have this set.

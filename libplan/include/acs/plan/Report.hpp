@@ -55,14 +55,15 @@ struct JobReport
 /// that set it.
 struct Alarm
 {
-    std::string robotID;
-    std::string errorCode;
-    EAlarmLevel level = EAlarmLevel::Light;
-    std::string message;
+    std::string robotID;                    ///< As RobotOptions::robotID, or "ACS" for an alarm of the engine itself.
+    std::string errorCode;                  ///< "ACS-1008", or as RobotError::errorCode of a robot.
+    EAlarmLevel level = EAlarmLevel::Light; ///< Heavy: something waits until the cause is removed.
+    std::string message;                    ///< For the operator.
     std::optional<std::string> planID;
     std::optional<std::int32_t> stepNo;
     std::optional<std::string> jobID;
 
+    /// Whether both have the same identity; level, message and stepNo may differ.
     [[nodiscard]] bool IsSameAs(const Alarm& other) const noexcept
     {
         return robotID == other.robotID && errorCode == other.errorCode && planID == other.planID
@@ -99,9 +100,9 @@ using Report = std::variant<PlanReport, StepReport, JobReport, ErrorReport, Cont
 struct OutboxEntry
 {
     std::uint64_t sequence = 0; ///< Ascending, from 1; never used twice in a store.
-    std::string transactionID;
-    Core::WallTime time;
-    Report report;
+    std::string transactionID;  ///< A UUID; the same in every replay.
+    Core::WallTime time;        ///< When the report was created.
+    Report report;              ///< What is sent to the MCS.
 
     bool operator==(const OutboxEntry&) const = default;
 };
@@ -109,7 +110,7 @@ struct OutboxEntry
 /// Number and age of the reports that wait for their acknowledgement.
 struct OutboxSummary
 {
-    std::size_t count = 0;
+    std::size_t count = 0;                ///< Number of reports.
     std::optional<Core::WallTime> oldest; ///< Creation time of the oldest one; nullopt if none waits.
 };
 

@@ -38,6 +38,7 @@ public:
     /// Replaces all entries by those that a store returned.
     void Restore(std::vector<OutboxEntry> entries, std::uint64_t lastSequence);
 
+    /// By ascending sequence, so oldest first.
     [[nodiscard]] const std::deque<OutboxEntry>& GetUnacknowledged() const noexcept;
     /// Number of entries that are ErrorReports.
     [[nodiscard]] std::size_t CountAlarms() const noexcept;

@@ -18,7 +18,7 @@ struct RobotError
 {
     std::string errorCode;                  ///< As it is reported to the MCS ("AGV-…", "ARM-…").
     EAlarmLevel level = EAlarmLevel::Light; ///< Heavy: the robot is given no work while the error is active.
-    std::string message;
+    std::string message;                    ///< For the operator, as the robot states it.
 
     bool operator==(const RobotError&) const = default;
 };
@@ -26,7 +26,7 @@ struct RobotError
 /// The robot was connected or disconnected. A new connection does not make its position known: StateChanged does.
 struct LinkChanged
 {
-    bool bOnline = false;
+    bool bOnline = false; ///< Whether commands can reach the robot.
 
     bool operator==(const LinkChanged&) const = default;
 };
@@ -65,18 +65,18 @@ struct StateChanged
     bool bPoseKnown = false;   ///< Whether x, y and theta are valid (the robot is localised).
     double batteryPercent = 0; ///< 0 to 100.
     std::string lastNodeID;    ///< The current or last passed node; empty: unknown.
-    bool bDriving = false;
-    bool bCharging = false;
-    bool bPaused = false;
-    bool bAutomatic = true;   ///< The ACS controls it: VDA5050 AUTOMATIC or SEMIAUTOMATIC, Hi6 remote and automatic.
-    bool bSafetyStop = false; ///< Emergency stop, or the protective field is violated.
-    bool bOccupied = false;   ///< Executes work of another controller, or work commanded before a restart.
+    bool bDriving = false;     ///< Whether it moves.
+    bool bCharging = false;    ///< Whether its battery is being charged.
+    bool bPaused = false;      ///< Whether it has stopped on Pause, or was paused at the robot.
+    bool bAutomatic = true;    ///< The ACS controls it: VDA5050 AUTOMATIC or SEMIAUTOMATIC, Hi6 remote and automatic.
+    bool bSafetyStop = false;  ///< Emergency stop, or the protective field is violated.
+    bool bOccupied = false;    ///< Executes work of another controller, or work commanded before a restart.
     std::vector<RobotError> errors; ///< All active errors, or the most severe of them.
     std::size_t omittedErrors = 0;  ///< Number of active errors that are not in errors.
     /// Nodes ahead that the robot may still enter without a further command, because of an order from before a restart or of
     /// another controller. The engine reserves them for it.
     std::vector<std::string> heldNodeIDs;
-    RestartEvidence restartEvidence;
+    RestartEvidence restartEvidence; ///< As of this state.
     /// One entry per carrier port, in the order of RobotOptions::ports. nullopt if the robot reports no loads.
     std::optional<std::vector<PortLoad>> loads;
 
@@ -121,6 +121,7 @@ struct DriveCancelled
     bool operator==(const DriveCancelled&) const = default;
 };
 
+/// The robot has begun the job.
 struct JobStarted
 {
     std::string jobID;
@@ -128,7 +129,7 @@ struct JobStarted
     bool operator==(const JobStarted&) const = default;
 };
 
-/// May be raised without a JobStarted before.
+/// The job is done. May be raised without a JobStarted before.
 struct JobFinished
 {
     std::string jobID;
@@ -136,6 +137,7 @@ struct JobFinished
     bool operator==(const JobFinished&) const = default;
 };
 
+/// The robot has ended the job with a fault, or because of CancelJob, and will not continue it.
 struct JobFailed
 {
     std::string jobID;

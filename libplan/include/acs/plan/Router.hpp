@@ -41,6 +41,7 @@ private:
     std::unique_ptr<Impl> _impl;
 
 public:
+    /// The map must outlive the router.
     explicit Router(const SiteMap& site);
     Router(const Router&) = delete;
     Router& operator=(const Router&) = delete;

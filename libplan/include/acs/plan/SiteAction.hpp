@@ -26,9 +26,10 @@ enum class EActionBlocking : std::uint8_t
     Hard,
 };
 
+/// A parameter of an action of the map.
 struct SiteActionParameter
 {
-    std::string key;
+    std::string key;      ///< As vehicles know it.
     Core::JsonText value; ///< Any JSON value but null.
 
     bool operator==(const SiteActionParameter&) const = default;
@@ -37,11 +38,11 @@ struct SiteActionParameter
 /// An action of the map on a node or an edge.
 struct SiteAction
 {
-    std::string actionType;
-    std::string description; ///< May be empty.
-    EActionRequirement requirement = EActionRequirement::Optional;
-    EActionBlocking blocking = EActionBlocking::None;
-    std::vector<SiteActionParameter> parameters;
+    std::string actionType;                                        ///< As vehicles know it.
+    std::string description;                                       ///< May be empty.
+    EActionRequirement requirement = EActionRequirement::Optional; ///< Only required ones are commanded.
+    EActionBlocking blocking = EActionBlocking::None;              ///< blockingType of LIF.
+    std::vector<SiteActionParameter> parameters;                   ///< In the order of the file.
 
     bool operator==(const SiteAction&) const = default;
 };

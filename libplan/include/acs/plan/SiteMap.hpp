@@ -24,19 +24,20 @@ inline constexpr std::size_t MOST_ACTIONS = 100;
 struct SiteNodeRule
 {
     std::string vehicleTypeID;
-    std::optional<double> theta; ///< Radians; absent: any.
-    std::vector<SiteAction> actions = {};
+    std::optional<double> theta;          ///< Radians; absent: any.
+    std::vector<SiteAction> actions = {}; ///< What the vehicle may or must do on the node.
 
     bool operator==(const SiteNodeRule&) const = default;
 };
 
+/// A point where a vehicle can be, and where routes begin, end and branch.
 struct ACS_API SiteNode
 {
     std::string nodeID;
-    double x = 0;      ///< Metres.
-    double y = 0;      ///< Metres.
-    std::string mapID; ///< May be empty.
-    std::vector<SiteNodeRule> rules;
+    double x = 0;                    ///< Metres.
+    double y = 0;                    ///< Metres.
+    std::string mapID;               ///< May be empty.
+    std::vector<SiteNodeRule> rules; ///< At most one for each vehicle type.
 
     /// Null if the type may not use the node.
     [[nodiscard]] const SiteNodeRule* FindRuleOrNull(std::string_view vehicleTypeID) const noexcept;
@@ -47,8 +48,8 @@ struct ACS_API SiteNode
 /// Which vehicles may use an edge.
 struct SiteLoadRestriction
 {
-    bool bUnloaded = true;
-    bool bLoaded = true;
+    bool bUnloaded = true; ///< Vehicles without a load may.
+    bool bLoaded = true;   ///< Vehicles with a load may.
 
     bool operator==(const SiteLoadRestriction&) const = default;
 };
@@ -72,12 +73,12 @@ struct ACS_API SiteEdgeRule
     std::optional<double> maxRotationSpeed; ///< Radians per second.
     std::optional<double> orientation;      ///< Radians (degrees in LIF).
     std::string orientationType;            ///< "TANGENTIAL", "GLOBAL" or empty.
-    std::optional<bool> bRotationAllowed;
+    std::optional<bool> bRotationAllowed;   ///< Whether the vehicle may rotate on the edge; absent: not stated.
     std::optional<SiteLoadRestriction> loadRestriction; ///< Absent: with and without a load.
     std::optional<double> minHeight = {};               ///< Metres; of the load handling device at least.
     std::optional<double> maxHeight = {};               ///< Metres; of the vehicle with its load at most.
     std::optional<Core::Nurbs> trajectory = {}; ///< Without a fault, from node to node; absent: a straight line.
-    std::vector<SiteAction> actions = {};
+    std::vector<SiteAction> actions = {};       ///< What the vehicle may or must do on the edge.
 
     /// Whether a vehicle of the type with this load may use the edge.
     [[nodiscard]] bool IsPermitted(ELoad load) const noexcept;
@@ -91,7 +92,7 @@ struct ACS_API SiteEdge
     std::string edgeID;
     std::string startNodeID;
     std::string endNodeID;
-    std::vector<SiteEdgeRule> rules;
+    std::vector<SiteEdgeRule> rules;                     ///< At most one for each vehicle type.
     std::optional<SiteCorridor> corridor = std::nullopt; ///< Absent: the vehicle stays on the edge.
 
     /// Null if the type may not use the edge.
@@ -104,7 +105,7 @@ struct ACS_API SiteEdge
 /// parking position.
 struct SiteStation
 {
-    std::string stationID;
+    std::string stationID;                       ///< Unique among the stations of the map.
     std::vector<std::string> nodeIDs;            ///< The docks; at least one.
     std::optional<double> height = std::nullopt; ///< Metres.
 
@@ -148,8 +149,11 @@ public:
         std::vector<SiteEdge> edges,
         std::vector<SiteStation> stations);
 
+    /// In the order of Create; an index of it is a nodeIndex.
     [[nodiscard]] const std::vector<SiteNode>& GetNodes() const noexcept;
+    /// In the order of Create; an index of it is an edgeIndex.
     [[nodiscard]] const std::vector<SiteEdge>& GetEdges() const noexcept;
+    /// In the order of Create.
     [[nodiscard]] const std::vector<SiteStation>& GetStations() const noexcept;
 
     /// Null if there is no node of this id.

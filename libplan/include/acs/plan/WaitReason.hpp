@@ -22,7 +22,7 @@ struct RobotUnavailability
 struct WaitReason
 {
     std::string planID;
-    std::string message;
+    std::string message;                      ///< What the plan waits for.
     std::optional<std::size_t> queuePosition; ///< From 1; nullopt if a robot has the plan.
     /// The robots that are able to execute the plan but are unavailable now; empty if a robot has the plan.
     std::vector<RobotUnavailability> robots;

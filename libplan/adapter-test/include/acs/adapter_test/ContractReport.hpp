@@ -13,7 +13,7 @@ namespace ACS::AdapterTest
 /// The adapter, or the robot that it commands, has broken a rule.
 struct Finding
 {
-    ERule rule{};
+    ERule rule{};          ///< The rule that was broken.
     std::string scenario;  ///< What was done with the robot.
     Core::Duration when{}; ///< Virtual time since the start of the scenario.
     std::string happened;  ///< In a sentence. GetRuleText has what was expected.
@@ -32,6 +32,7 @@ struct ACS_API ContractReport
     std::vector<std::string> scenarios; ///< Those that were run.
     std::vector<std::string> omitted;   ///< Those that the bench cannot do, each with the reason.
 
+    /// Whether the rule was broken in any scenario.
     [[nodiscard]] bool HasFinding(ERule rule) const;
     /// Each finding in a line of its own; empty without findings.
     [[nodiscard]] std::string Describe() const;

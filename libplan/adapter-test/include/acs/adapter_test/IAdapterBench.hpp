@@ -42,15 +42,15 @@ struct BenchOptions
     Planning::Route route;
     /// Maximum time for each answer, and for one edge of the route. Virtual time costs little: allow for a slow robot.
     std::chrono::milliseconds answerLimit{60'000};
-    bool bSlow = true; ///< SetConduct accepts EConduct::Slow; likewise the following.
-    bool bRefuses = true;
-    bool bFails = true;
-    bool bRepeats = true;
-    bool bPausesDrives = true;
-    bool bPausesJobs = true;
-    bool bCancelsJobs = true; ///< It ends a running job on CancelJob; otherwise it finishes the job.
-    bool bCharges = true;     ///< It charges on the first node.
-    bool bDrives = true;      ///< False: only jobs are commanded.
+    bool bSlow = true;         ///< SetConduct accepts EConduct::Slow; likewise the following.
+    bool bRefuses = true;      ///< EConduct::Refuses.
+    bool bFails = true;        ///< EConduct::Fails.
+    bool bRepeats = true;      ///< EConduct::Repeats.
+    bool bPausesDrives = true; ///< It stops on Pause while it drives.
+    bool bPausesJobs = true;   ///< It stops on Pause while it works.
+    bool bCancelsJobs = true;  ///< It ends a running job on CancelJob; otherwise it finishes the job.
+    bool bCharges = true;      ///< It charges on the first node.
+    bool bDrives = true;       ///< False: only jobs are commanded.
 };
 
 /// An adapter and the robot to which it is connected, in virtual time: what CheckAdapter needs of the author of an adapter.
@@ -64,6 +64,7 @@ public:
     IAdapterBench& operator=(const IAdapterBench&) = delete;
     virtual ~IAdapterBench() = default;
 
+    /// The same in each call.
     [[nodiscard]] virtual BenchOptions GetOptions() const = 0;
 
     /// A job that the robot can execute on the first node, after it has executed those with lower numbers (from 0). The
@@ -90,8 +91,10 @@ public:
     /// Cuts the link, with what is in transit, or restores it. Not called twice with the same value; the link works at first.
     virtual void SetLink(bool bUp) = 0;
 
+    /// How the robot behaves from its next command on. Called only with what the options allow.
     virtual void SetConduct(EConduct conduct) = 0;
 
+    /// What the robot does at the current virtual time.
     [[nodiscard]] virtual RobotTruth GetTruth() const = 0;
 };
 

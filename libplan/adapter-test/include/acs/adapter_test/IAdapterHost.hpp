@@ -13,6 +13,7 @@ namespace ACS::AdapterTest
 class ACS_API IAdapterHost
 {
 public:
+    /// Calls functions of the adapter, and appends what they append to out.
     using AdapterCall = std::function<void(Core::Now now, Planning::AdapterActions& out)>;
 
     IAdapterHost() = default;

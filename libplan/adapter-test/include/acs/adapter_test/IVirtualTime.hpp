@@ -12,6 +12,7 @@ namespace ACS::AdapterTest
 class ACS_API IVirtualTime : public Core::IClock
 {
 public:
+    /// What the robot, its link or the adapter does at a time.
     using Task = std::function<void()>;
 
     /// Runs the task after the delay, and never within this call. Tasks that are left at the end of the scenario are dropped.

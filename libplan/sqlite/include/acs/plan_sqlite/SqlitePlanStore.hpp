@@ -49,6 +49,7 @@ public:
     /// Likewise, and reads the content; empty for a store that is new, rescued, or of an older schema.
     [[nodiscard]] static Core::Result<StoredState> InspectState(const std::string& directory);
 
+    /// What Open or Accept has found.
     [[nodiscard]] const StoreOrigin& GetOrigin() const noexcept;
 
     [[nodiscard]] Core::Result<StoredState> Load() override;
