@@ -24,6 +24,7 @@ class ACS_API Backoff
     std::chrono::milliseconds _next;
 
 public:
+    /// The first delay is the initial one.
     explicit Backoff(const BackoffOptions& options = {});
 
     /// The delay before the next attempt; increases with every call, up to the maximum.

@@ -13,15 +13,16 @@ template <typename TElement>
 class BoundedQueue
 {
 public:
-    using value_type = TElement;
-    using iterator = typename std::deque<TElement>::iterator;
-    using const_iterator = typename std::deque<TElement>::const_iterator;
+    using value_type = TElement;                              ///< As in the standard containers, like the iterators.
+    using iterator = typename std::deque<TElement>::iterator; ///< From the oldest element to the newest.
+    using const_iterator = typename std::deque<TElement>::const_iterator; ///< From the oldest element to the newest.
 
 private:
     std::size_t _capacity;
     std::deque<TElement> _elements;
 
 public:
+    /// An empty queue for at most this number of elements. 0: it is always full.
     explicit BoundedQueue(std::size_t capacity)
         : _capacity(capacity)
     {
@@ -38,6 +39,7 @@ public:
         return true;
     }
 
+    /// As above, with a copy of the element.
     [[nodiscard]] bool TryPush(const TElement& element)
     {
         if (IsFull())
@@ -54,6 +56,7 @@ public:
         return _elements.empty() ? nullptr : &_elements.front();
     }
 
+    /// As above, for reading.
     [[nodiscard]] const TElement* GetFrontOrNull() const noexcept
     {
         return _elements.empty() ? nullptr : &_elements.front();
@@ -78,26 +81,31 @@ public:
         return std::erase_if(_elements, std::move(predicate));
     }
 
+    /// Removes all elements. The capacity stays.
     void Clear() noexcept
     {
         _elements.clear();
     }
 
+    /// Whether PopFrontOrNull would return nullopt.
     [[nodiscard]] bool IsEmpty() const noexcept
     {
         return _elements.empty();
     }
 
+    /// Whether TryPush would return false.
     [[nodiscard]] bool IsFull() const noexcept
     {
         return _elements.size() >= _capacity;
     }
 
+    /// Number of elements.
     [[nodiscard]] std::size_t GetSize() const noexcept
     {
         return _elements.size();
     }
 
+    /// Maximum number of elements, as it was passed to the constructor.
     [[nodiscard]] std::size_t GetCapacity() const noexcept
     {
         return _capacity;
@@ -109,16 +117,19 @@ public:
         return _elements.begin();
     }
 
+    /// After the newest element.
     [[nodiscard]] iterator end() noexcept
     {
         return _elements.end();
     }
 
+    /// From the oldest to the newest, for reading.
     [[nodiscard]] const_iterator begin() const noexcept
     {
         return _elements.begin();
     }
 
+    /// After the newest element.
     [[nodiscard]] const_iterator end() const noexcept
     {
         return _elements.end();

@@ -15,6 +15,7 @@ namespace ACS::Core
     return byte < FIRST_PRINTABLE || byte == DELETE_CHARACTER;
 }
 
+/// Whether IsControlCharacter is true of any byte. Bytes of UTF-8 sequences are none.
 [[nodiscard]] constexpr bool HasControlCharacter(std::string_view text) noexcept
 {
     return std::any_of(text.begin(), text.end(), IsControlCharacter);

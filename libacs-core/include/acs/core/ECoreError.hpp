@@ -23,6 +23,7 @@ enum class ECoreError
     UnhandledEnum = 11,    ///< An enumerator without a case: a defect of this library.
 };
 
+/// Makes the enumerators convertible to std::error_code.
 [[nodiscard]] ACS_API std::error_code make_error_code(ECoreError error) noexcept;
 
 } // namespace ACS::Core

@@ -23,10 +23,13 @@ public:
     /// null
     JsonText() = default;
 
-    /// A JSON string (invalid UTF-8 becomes U+FFFD), number (null if not finite) or boolean with this value.
+    /// A JSON string. Invalid UTF-8 becomes U+FFFD.
     [[nodiscard]] static JsonText FromString(std::string_view value);
+    /// A JSON number with this value; null if the value is not finite.
     [[nodiscard]] static JsonText FromNumber(double value);
+    /// A JSON number without a fraction.
     [[nodiscard]] static JsonText FromInteger(std::int64_t value);
+    /// true or false
     [[nodiscard]] static JsonText FromBoolean(bool bValue);
 
     /// Appends the text of FromString. All JSON strings are written here.
@@ -39,6 +42,7 @@ public:
     /// for texts from outside.
     [[nodiscard]] static JsonText FromTrusted(std::string text);
 
+    /// Valid JSON in UTF-8 without blanks between its parts, unless FromTrusted had others.
     [[nodiscard]] const std::string& GetText() const noexcept;
 
     /// Moves the text out with its buffer; the value becomes null.
@@ -47,7 +51,9 @@ public:
     /// The text of a JSON string without quotes and escapes, with lone surrogates replaced by U+FFFD; nullopt if this is not a
     /// string.
     [[nodiscard]] std::optional<std::string> GetStringOrNull() const;
+    /// The value of a JSON number; nullopt if this is not a number.
     [[nodiscard]] std::optional<double> GetNumberOrNull() const;
+    /// true or false; nullopt if this is neither.
     [[nodiscard]] std::optional<bool> GetBooleanOrNull() const;
 
     bool operator==(const JsonText&) const = default;

@@ -22,8 +22,8 @@ namespace ACS::Core
 /// One segment of a location: "CP02" is cassette port 2.
 struct LocationSegment
 {
-    ESegmentKind kind = ESegmentKind::Area;
-    std::uint16_t number = 0; ///< 1 to 9999; 0 for a robot.
+    ESegmentKind kind = ESegmentKind::Area; ///< According to the letters before the number.
+    std::uint16_t number = 0;               ///< 1 to 9999; 0 for a robot.
 
     bool operator==(const LocationSegment&) const = default;
 };
@@ -33,9 +33,9 @@ struct LocationSegment
 class ACS_API Location
 {
 public:
-    static constexpr std::size_t MAX_LENGTH = 64;
-    static constexpr std::size_t MAX_SEGMENTS = 4;
-    static constexpr std::uint16_t MAX_NUMBER = 9999;
+    static constexpr std::size_t MAX_LENGTH = 64;     ///< Of the canonical text, in bytes.
+    static constexpr std::size_t MAX_SEGMENTS = 4;    ///< A robot counts as one.
+    static constexpr std::uint16_t MAX_NUMBER = 9999; ///< Of a segment.
 
 private:
     std::string _text;
@@ -70,8 +70,11 @@ public:
 
     /// The kind of the innermost segment, and so of the location.
     [[nodiscard]] ESegmentKind GetKind() const noexcept;
+    /// Whether the innermost segment is a cassette port (CP).
     [[nodiscard]] bool IsCassettePort() const noexcept;
+    /// Whether the innermost segment is a tray port (TP).
     [[nodiscard]] bool IsTrayPort() const noexcept;
+    /// Whether the innermost segment is a memory port (MP).
     [[nodiscard]] bool IsMemoryPort() const noexcept;
 
     /// Whether this is a port on a robot, not a fixed place.

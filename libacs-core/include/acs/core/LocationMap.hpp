@@ -37,8 +37,10 @@ public:
 
     /// No effect for a place that was added before.
     void Add(const Location& location);
+    /// Adds each of them.
     void Add(std::span<const Location> locations);
 
+    /// Number of different places.
     [[nodiscard]] std::size_t GetCount() const noexcept;
 
     /// Whether exactly this place was added, in any spelling; a port does not include the ports inside it.

@@ -10,19 +10,20 @@
 namespace ACS::Core
 {
 
+/// Severity of a log line, ascending.
 enum class ELogLevel : std::uint8_t
 {
-    Debug,
-    Info,
-    Warning,
-    Error,
+    Debug,   ///< For the developer.
+    Info,    ///< A change of state that an operator may want to follow.
+    Warning, ///< A disturbance that the component handles by itself.
+    Error,   ///< Something that an operator has to correct.
 };
 
 /// One named value of a log line, for example {"planId", "PLAN-1"}. Views: valid during the call only.
 struct LogField
 {
-    std::string_view key;
-    std::string_view value;
+    std::string_view key;   ///< For a structured log, such as "planId".
+    std::string_view value; ///< UTF-8; may contain text of a peer.
 };
 
 /// The destination of log lines, for example spdlog. Called on the thread that logs; must not throw.
@@ -34,7 +35,10 @@ public:
     ILogSink& operator=(const ILogSink&) = delete;
     virtual ~ILogSink() = default;
 
+    /// Whether lines of this level are written. Called before each Write.
     [[nodiscard]] virtual bool ShouldWrite(ELogLevel level) const = 0;
+    /// Writes one line. The component is that of the logger, the message a fixed text. All views are valid during the call
+    /// only.
     virtual void Write(
         ELogLevel level,
         std::string_view component,
@@ -52,12 +56,18 @@ class ACS_API Logger
 public:
     /// Discards everything.
     Logger() = default;
+    /// Logs to the sink, which must outlive this logger and its copies.
     Logger(ILogSink& sink, std::string component);
 
+    /// Logs with ELogLevel::Debug.
     void Debug(std::string_view message, std::initializer_list<LogField> fields = {}) const;
+    /// Logs with ELogLevel::Info.
     void Info(std::string_view message, std::initializer_list<LogField> fields = {}) const;
+    /// Logs with ELogLevel::Warning.
     void Warning(std::string_view message, std::initializer_list<LogField> fields = {}) const;
+    /// Logs with ELogLevel::Error.
     void Error(std::string_view message, std::initializer_list<LogField> fields = {}) const;
+    /// Logs with a level that is known at run time only.
     void Write(ELogLevel level, std::string_view message, std::initializer_list<LogField> fields) const;
 
     /// A logger for the same sink with another component name.

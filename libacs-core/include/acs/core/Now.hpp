@@ -7,8 +7,11 @@
 namespace ACS::Core
 {
 
+/// A time that never goes back, for deadlines.
 using SteadyTime = std::chrono::steady_clock::time_point;
+/// A time of the calendar in UTC, for timestamps.
 using WallTime = std::chrono::system_clock::time_point;
+/// A difference of two SteadyTimes.
 using Duration = std::chrono::steady_clock::duration;
 
 /// The current time, which the caller passes to every call of a state machine. No library reads a clock.
@@ -27,6 +30,7 @@ public:
     IClock& operator=(const IClock&) = delete;
     virtual ~IClock() = default;
 
+    /// Both times, read together.
     [[nodiscard]] virtual Now GetNow() const = 0;
 };
 

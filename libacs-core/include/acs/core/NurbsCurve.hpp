@@ -13,8 +13,8 @@ namespace ACS::Core
 /// Metres in the frame of a map.
 struct MapPoint
 {
-    double x = 0.0;
-    double y = 0.0;
+    double x = 0.0; ///< Metres.
+    double y = 0.0; ///< Metres.
 
     bool operator==(const MapPoint&) const = default;
 };
@@ -22,8 +22,8 @@ struct MapPoint
 /// A control point of a curve, in metres.
 struct CurvePoint
 {
-    double x = 0.0;
-    double y = 0.0;
+    double x = 0.0;               ///< Metres.
+    double y = 0.0;               ///< Metres.
     std::optional<double> weight; ///< Absent: 1.
 
     bool operator==(const CurvePoint&) const = default;
@@ -32,9 +32,9 @@ struct CurvePoint
 /// A NURBS as maps and orders describe it: as many knots as points + degree + 1, each in [0, 1].
 struct Nurbs
 {
-    std::size_t degree = 1;
-    std::vector<double> knots;
-    std::vector<CurvePoint> points;
+    std::size_t degree = 1;         ///< At least 1.
+    std::vector<double> knots;      ///< In ascending order.
+    std::vector<CurvePoint> points; ///< Control points: more than the degree.
 
     bool operator==(const Nurbs&) const = default;
 };
@@ -62,7 +62,9 @@ public:
 
     /// The point at the parameter, which is clamped to GetBegin and GetEnd.
     [[nodiscard]] MapPoint GetPoint(double parameter) const;
+    /// The parameter of the first point.
     [[nodiscard]] double GetBegin() const;
+    /// The parameter of the last point.
     [[nodiscard]] double GetEnd() const;
 
     /// Points along the curve, about `spacing` metres apart, both ends included. At most `maxPoints`, which is two or more

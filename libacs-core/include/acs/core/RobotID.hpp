@@ -17,7 +17,7 @@ namespace ACS::Core
 class ACS_API RobotID
 {
 public:
-    static constexpr std::size_t MAX_LENGTH = 64;
+    static constexpr std::size_t MAX_LENGTH = 64; ///< Of the text, in bytes.
     /// Stands for the robot that executes the plan (section 10 of MCS-ACS).
     static constexpr std::string_view ALIAS = "AMR";
 
@@ -38,6 +38,7 @@ public:
     /// Fails with ECoreError::InvalidIdentifier.
     [[nodiscard]] static Result<RobotID> Parse(std::string_view text);
 
+    /// As it was parsed.
     [[nodiscard]] const std::string& GetText() const noexcept;
 
     /// Whether this is the alias, which is not a valid name for a robot of a fleet.

@@ -16,8 +16,8 @@ namespace ACS::Core
 /// A point in time and the sender's UTC offset.
 struct Timestamp
 {
-    WallTime time;
-    std::chrono::minutes offset{0};
+    WallTime time;                  ///< In UTC.
+    std::chrono::minutes offset{0}; ///< Local time minus UTC.
 
     bool operator==(const Timestamp&) const = default;
 };
@@ -31,7 +31,9 @@ struct Timestamp
 /// The offset is that of the site, less than 24 hours either way.
 [[nodiscard]] ACS_API std::string FormatLocal(WallTime time, std::chrono::minutes offset);
 
+/// Length of a text of FormatLocal in bytes.
 inline constexpr std::size_t LOCAL_TIME_LENGTH = 29;
+/// A text of FormatLocal, without a zero byte at its end.
 using LocalTimeText = std::array<char, LOCAL_TIME_LENGTH>;
 
 /// Like FormatLocal, without a heap allocation.

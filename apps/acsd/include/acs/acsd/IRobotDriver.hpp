@@ -21,7 +21,8 @@ namespace ACS::Acsd
 struct DrivenRobotConfig
 {
     std::string robotID;
-    Planning::ERobotType type = Planning::ERobotType::LR;
+    Planning::ERobotType type =
+        Planning::ERobotType::LR;      ///< One of RobotCapabilities::types, or the configuration is invalid.
     std::vector<Core::Location> ports; ///< Its carrier ports ("LR01.CP01"), in the order of carrierIds.
     OptionTable options;               ///< `robots.NAME.options`
     /// `actions.ACTION.options` by action, for every action of the robot's type.
@@ -45,6 +46,7 @@ public:
     [[nodiscard]] virtual std::unique_ptr<IRobotSetup> MakeSetupOrNull(const DrivenRobotConfig& config) const = 0;
 };
 
+/// The drivers of a program, for RunAcsd. Of several with one name only the first is used.
 using RobotDrivers = std::vector<std::unique_ptr<const IRobotDriver>>;
 
 /// One driver of each type, for RunAcsd.

@@ -19,12 +19,14 @@ public:
 
     /// Adds a metric with its help text. Further calls for the same name are ignored.
     virtual void AddCounter(const std::string& name, const std::string& help) = 0;
+    /// Likewise, for a value that goes up and down.
     virtual void AddGauge(const std::string& name, const std::string& help) = 0;
 
     // The metrics must have been added.
 
     /// Raises a counter to a total that is counted elsewhere; a smaller total is ignored.
     virtual void SetTotal(const std::string& name, double total) = 0;
+    /// Sets a gauge to the value.
     virtual void SetGauge(const std::string& name, double value) = 0;
 };
 

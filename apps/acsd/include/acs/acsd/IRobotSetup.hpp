@@ -33,6 +33,7 @@ public:
     IRobotSetup& operator=(const IRobotSetup&) = delete;
     virtual ~IRobotSetup() = default;
 
+    /// The same in each call: depends on the configuration only.
     [[nodiscard]] virtual RobotCapabilities GetCapabilities() const = 0;
 
     /// Called once at a start of acsd. Never null. The services outlive the robot, the setup may not.

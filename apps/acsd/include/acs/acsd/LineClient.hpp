@@ -18,12 +18,13 @@ namespace ACS::Acsd
 /// Totals of a LineClient since its creation.
 struct LineClientStats
 {
-    std::uint64_t connects = 0;
-    std::uint64_t linesReceived = 0;
-    std::uint64_t linesSent = 0;    ///< Passed to the system.
-    std::uint64_t linesDropped = 0; ///< Waiting when a connection was lost, or refused by Send.
+    std::uint64_t connects = 0;      ///< Connections that were opened.
+    std::uint64_t linesReceived = 0; ///< Valid lines, passed to onLine.
+    std::uint64_t linesSent = 0;     ///< Passed to the system.
+    std::uint64_t linesDropped = 0;  ///< Waiting when a connection was lost, or refused by Send.
 };
 
+/// What LineClient::Send did with a line.
 enum class ELineSend : std::uint8_t
 {
     Accepted,     ///< It is sent, unless the connection is lost first.
@@ -38,10 +39,12 @@ enum class ELineSend : std::uint8_t
 class ACS_API LineClient final
 {
 public:
+    /// What the client reports. None of the handlers may be empty.
     struct Handlers
     {
-        std::function<void()> onConnected;
-        std::function<void(std::string_view line)> onLine;
+        std::function<void()> onConnected; ///< A connection is open.
+        std::function<void(std::string_view line)>
+            onLine; ///< A line without its end. The view is valid during the call only.
         /// Once for each onConnected unless stopped, and for each attempt to connect that failed.
         std::function<void(std::string_view reason)> onLost;
     };
@@ -62,6 +65,7 @@ public:
     LineClient& operator=(const LineClient&) = delete;
     ~LineClient();
 
+    /// Connects, and reconnects until Stop. Call it once.
     void Start();
 
     /// Closes the connection and drops the lines that wait. No handler is called any more.
@@ -70,7 +74,9 @@ public:
     /// Sends the line, which has no line end.
     [[nodiscard]] ELineSend Send(std::string line);
 
+    /// Whether a line can be sent now.
     [[nodiscard]] bool IsConnected() const noexcept;
+    /// Totals since the client was created.
     [[nodiscard]] const LineClientStats& GetStats() const noexcept;
 };
 

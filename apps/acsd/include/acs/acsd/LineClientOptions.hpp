@@ -10,10 +10,11 @@
 namespace ACS::Acsd
 {
 
+/// Address, limits and times of a LineClient.
 struct LineClientOptions
 {
-    std::string host; ///< A name or an address.
-    std::uint16_t port = 0;
+    std::string host;       ///< A name or an address.
+    std::uint16_t port = 0; ///< Of the peer; 1 to 65535.
     std::size_t maximumLineBytes =
         std::size_t{64} * 1024;                      ///< Without the end of the line, in both directions; at least 1.
     std::size_t maximumQueuedLines = 256;            ///< Lines that the peer has not accepted; at least 1.

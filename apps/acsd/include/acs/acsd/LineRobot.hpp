@@ -26,6 +26,7 @@ class ACS_API LineRobot final : public IRobot
     bool _bLossLogged = false; ///< Of the current outage.
 
 public:
+    /// The adapter must not be null. Connects after Start.
     LineRobot(RobotServices services, LineClientOptions options, std::unique_ptr<ILineAdapter> adapter);
 
     [[nodiscard]] Planning::IRobotAdapter& GetAdapter() noexcept override;

@@ -16,6 +16,7 @@ namespace ACS::Acsd
 class ACS_API LineRobotSetup final : public IRobotSetup
 {
 public:
+    /// Makes the adapter of a robot; never null. Called by MakeRobot.
     using AdapterMaker = std::function<std::unique_ptr<ILineAdapter>()>;
 
 private:

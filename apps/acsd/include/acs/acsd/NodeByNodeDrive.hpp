@@ -19,8 +19,8 @@ public:
     /// The next movement of the robot.
     struct Step
     {
-        std::string driveID;
-        std::string nodeID;
+        std::string driveID; ///< Drive::driveID of the current drive.
+        std::string nodeID;  ///< The node to which the robot moves next.
 
         bool operator==(const Step&) const = default;
     };
@@ -44,7 +44,9 @@ public:
     /// stationary on its node: sent again after a lost connection.
     [[nodiscard]] std::optional<Step> GetStepOrNull() const;
 
+    /// Whether a drive was commanded and has not ended.
     [[nodiscard]] bool HasDrive() const noexcept;
+    /// Whether Pause was commanded last, and not Resume.
     [[nodiscard]] bool IsPaused() const noexcept;
 };
 

@@ -17,8 +17,8 @@ namespace ACS::Acsd
 /// A host name or address, and a port that is not 0.
 struct TcpAddress
 {
-    std::string host;
-    std::uint16_t port = 0;
+    std::string host;       ///< A name, an IPv4 address, or an IPv6 address.
+    std::uint16_t port = 0; ///< 1 to 65535 if the address is valid.
 
     bool operator==(const TcpAddress&) const = default;
 };
@@ -42,11 +42,14 @@ public:
     /// The whole text as one table, for tests of a driver.
     [[nodiscard]] static OptionTable ReadText(std::string_view text, const std::string& fileName);
 
+    /// A string; may be empty.
     [[nodiscard]] std::string GetString(const std::string& key) const;
+    /// Likewise; the fallback if the key is absent.
     [[nodiscard]] std::string GetString(const std::string& key, const std::string& fallback) const;
 
     /// One of the words.
     [[nodiscard]] std::string GetWord(const std::string& key, std::initializer_list<std::string_view> words) const;
+    /// Likewise; the fallback if the key is absent.
     [[nodiscard]] std::string GetWord(
         const std::string& key,
         std::initializer_list<std::string_view> words,
@@ -54,6 +57,7 @@ public:
 
     /// An integer from min to max, both allowed.
     [[nodiscard]] std::int64_t GetInteger(const std::string& key, std::int64_t min, std::int64_t max) const;
+    /// Likewise; the fallback if the key is absent.
     [[nodiscard]] std::int64_t GetInteger(
         const std::string& key,
         std::int64_t min,
@@ -62,6 +66,7 @@ public:
 
     /// A number (integers too) from min to max, both allowed.
     [[nodiscard]] double GetNumber(const std::string& key, double min, double max) const;
+    /// Likewise; the fallback if the key is absent.
     [[nodiscard]] double GetNumber(const std::string& key, double min, double max, double fallback) const;
 
     /// true or false

@@ -28,7 +28,9 @@ public:
     /// The job whose outcome is not known; nullptr without one.
     [[nodiscard]] const Planning::StartJob* GetJobOrNull() const noexcept;
 
+    /// The robot executes the job: JobStarted, once.
     void OnRunning(std::string_view commandID, Planning::AdapterActions& out);
+    /// The robot has executed the job: JobFinished.
     void OnDone(std::string_view commandID, Planning::AdapterActions& out);
 
     /// The robot has moved nothing for the job, and will not: JobUnknown, or JobInterrupted with the reason if it had begun

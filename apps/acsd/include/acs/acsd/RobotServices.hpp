@@ -15,22 +15,24 @@
 namespace ACS::Acsd
 {
 
+/// Direction of a message in the trace.
 enum class ETraceDirection : std::uint8_t
 {
-    In, ///< From the robot.
-    Out,
+    In,  ///< From the robot.
+    Out, ///< To the robot.
 };
 
 /// What acsd provides to a robot. Everything referred to outlives the robot. All calls are made on the executor's thread.
 struct RobotServices
 {
+    /// Calls functions of the adapter, and appends what they append to out.
     using AdapterCall = std::function<void(Core::Now now, Planning::AdapterActions& out)>;
 
     boost::asio::any_io_executor executor; ///< Runs on one thread, which must never be blocked.
-    Core::IClock& clock;
-    Core::IRandom& random;
-    Core::Logger logger; ///< Adds nothing: name the robot in the fields.
-    IRobotMetrics& metrics;
+    Core::IClock& clock;                   ///< The system's clocks.
+    Core::IRandom& random;                 ///< For the jitter of reconnects; not for secrets.
+    Core::Logger logger;                   ///< Adds nothing: name the robot in the fields.
+    IRobotMetrics& metrics;                ///< Those of this robot alone.
     /// Calls the function with the current time and executes the actions that it appends, then calls IRobot::OnAdapterCalled.
     /// Every call of the adapter goes through it, except those of acsd itself. Has no effect after Stop.
     std::function<void(const AdapterCall& adapterCall)> call;
