@@ -36,8 +36,9 @@ extern "C"
 /* The version of this interface. It changes when a structure, a constant or a function changes; so does the soversion. */
 #define ACS_C_ABI_VERSION 1u
 
-/* Results. */
-#define ACS_OK 0
+/* ---- Results ------------------------------------------------------------------------------------------------------------- */
+
+#define ACS_OK 0              /* The call has done what it is for. */
 #define ACS_ERROR_ARGUMENT 1  /* A null pointer, or a number out of range. */
 #define ACS_ERROR_VERSION 2   /* Another ABI version or struct_size than that of the library. */
 #define ACS_ERROR_MEMORY 3    /* Out of memory. A session cannot be used afterwards. */
@@ -51,7 +52,8 @@ extern "C"
 #define ACS_ERROR_QUEUE_FULL 10 /* ACS_MAX_ACTIONS actions wait: take them first. */
 #define ACS_ERROR_UTF8 11       /* A text that is not a message is not valid UTF-8. */
 
-/* Limits. */
+/* ---- Limits -------------------------------------------------------------------------------------------------------------- */
+
 #define ACS_TIME_MAX_MS 8000000000000 /* Of a time: year 2223. */
 #define ACS_DURATION_MAX_MS 86400000  /* Of a duration: one day. */
 #define ACS_COUNT_MAX 1048576u        /* Of a count in the options. */
@@ -59,10 +61,11 @@ extern "C"
 #define ACS_MAX_ACTIONS 65536u        /* Actions that wait in a handle; one call may exceed it. */
 #define ACS_MAX_NOTE_BYTES 65536u     /* Of a reason or of the message of an answer. */
 
+/* A text in UTF-8. */
 typedef struct acs_text
 {
-    const char* data;
-    size_t length;
+    const char* data; /* Of a returned text: never null, and a zero byte follows it. */
+    size_t length;    /* Bytes, without that zero byte. */
 } acs_text;
 
 /* Writes ACS_C_ABI_VERSION of the library. */
@@ -79,7 +82,7 @@ ACS_C_EXPORT int32_t acs_c_describe(int32_t result, acs_text* text);
 /* What is accepted from the other side. A text has at most 250000 values in any case. */
 typedef struct acs_codec_options
 {
-    uint32_t struct_size;
+    uint32_t struct_size; /* Set by the caller. */
     int32_t site_offset_minutes; /* UTC offset of the site, also for timestamps without one; -1439 to 1439 (0). */
     uint64_t max_bytes;          /* Of a text; 1 to ACS_SIZE_MAX (4 MiB). */
     uint64_t max_string;         /* Bytes of a string; 1 to ACS_SIZE_MAX (64 KiB). */
@@ -92,12 +95,12 @@ typedef struct acs_codec_options
     uint32_t reserved;              /* 0 */
 } acs_codec_options;
 
-#define ACS_KIND_INVALID 0
-#define ACS_KIND_REQUEST 1
-#define ACS_KIND_ACK 2
+#define ACS_KIND_INVALID 0 /* Not a valid message. */
+#define ACS_KIND_REQUEST 1 /* Of the MCS or of the ACS; a report is one too. */
+#define ACS_KIND_ACK 2     /* The answer to a request. */
 
-#define ACS_RESULT_SUCCESS 0
-#define ACS_RESULT_FAIL 1
+#define ACS_RESULT_SUCCESS 0 /* The request is accepted. */
+#define ACS_RESULT_FAIL 1    /* The request is refused; the message of the Ack has the reason. */
 
 /* A message, or why a text is not one. Its texts live until the next call of a function that writes an acs_message with the
  * same handle, or until the handle is destroyed. */
@@ -117,6 +120,7 @@ typedef struct acs_message
     acs_text error_found;    /* The received value, shortened. */
 } acs_message;
 
+/* Handle of a codec. It has no session and no queue of actions. */
 typedef struct acs_codec acs_codec;
 
 /* Writes the defaults. options_size is sizeof of the caller's structure. */
@@ -173,14 +177,14 @@ typedef uint64_t (*acs_random)(void* context);
 #define ACS_ACTION_CANCEL_TIMER 5 /* A timer that elapses nevertheless is ignored. */
 #define ACS_ACTION_EVENT 6        /* event has happened. */
 
-#define ACS_TIMER_REGISTRATION 0
-#define ACS_TIMER_ACK 1
-#define ACS_TIMER_RECONNECT 2
-#define ACS_TIMER_POSITION 3
-#define ACS_TIMER_SHUTDOWN 4
-#define ACS_TIMER_ANSWER 5
+#define ACS_TIMER_REGISTRATION 0 /* ACS side: the Ack of Registration. MCS side: the Registration of a connection. */
+#define ACS_TIMER_ACK 1          /* The earliest deadline of an Ack. */
+#define ACS_TIMER_RECONNECT 2    /* ACS side: the next attempt to connect. */
+#define ACS_TIMER_POSITION 3     /* ACS side: the next position. */
+#define ACS_TIMER_SHUTDOWN 4     /* ACS side: the end of acs_acs_stop. */
+#define ACS_TIMER_ANSWER 5       /* MCS side: the earliest deadline of an answer of the caller. */
 
-#define ACS_EVENT_NONE 0
+#define ACS_EVENT_NONE 0                 /* The action is not an event. */
 #define ACS_EVENT_REGISTERED 1           /* ACS side: send stored reports with acs_acs_send, then call acs_acs_replay_done. */
 #define ACS_EVENT_REGISTRATION_REFUSED 2 /* ACS side: message. The session tries again. */
 #define ACS_EVENT_REQUEST_RECEIVED 3     /* text, command, transaction_id; MCS side: connection, token, flag: repeated. */
@@ -195,38 +199,39 @@ typedef uint64_t (*acs_random)(void* context);
 #define ACS_EVENT_STOPPED 12             /* ACS side: acs_acs_stop is complete. */
 #define ACS_EVENT_NOTED 13 /* For the log: text names a deviation ("UnknownMember"), count, message: one sentence or empty. */
 
-#define ACS_UNANSWERED_TIMEOUT 0
-#define ACS_UNANSWERED_LINK_LOST 1
-#define ACS_UNANSWERED_REPLACED 2 /* Another connection has registered. */
+#define ACS_UNANSWERED_TIMEOUT 0   /* No Ack in time, after all resends. */
+#define ACS_UNANSWERED_LINK_LOST 1 /* MCS side: the connection was lost. */
+#define ACS_UNANSWERED_REPLACED 2  /* Another connection has registered. */
 
 /* One action. Fields that its type does not use are 0 or empty. Its texts live until the next call of the next_action function with
  * the same handle, or until the handle is destroyed. */
 typedef struct acs_action
 {
-    uint32_t struct_size; /* Set by the caller. */
-    int32_t type;         /* ACS_ACTION_ */
-    int32_t event;        /* ACS_EVENT_ */
-    int32_t timer;        /* ACS_TIMER_ */
-    int32_t result;       /* ACS_RESULT_ */
-    int32_t reason;       /* ACS_UNANSWERED_ */
-    uint32_t close_code;  /* Of RFC 6455; 1006: end the connection at once, without a closing handshake. */
-    uint32_t flag;        /* 0 or 1 */
-    uint64_t connection;  /* MCS side; the ACS side has one connection, 0. */
-    uint64_t token;       /* For acs_mcs_answer; 0: no answer is expected. */
-    uint64_t count;
-    int64_t delay_ms;
-    acs_text text;
-    acs_text command; /* Of the request, without Ack. */
-    acs_text transaction_id;
-    acs_text path;
-    acs_text message;
+    uint32_t struct_size;    /* Set by the caller. */
+    int32_t type;            /* ACS_ACTION_ */
+    int32_t event;           /* ACS_EVENT_ */
+    int32_t timer;           /* ACS_TIMER_ */
+    int32_t result;          /* ACS_RESULT_ */
+    int32_t reason;          /* ACS_UNANSWERED_ */
+    uint32_t close_code;     /* Of RFC 6455; 1006: end the connection at once, without a closing handshake. */
+    uint32_t flag;           /* 0 or 1 */
+    uint64_t connection;     /* MCS side; the ACS side has one connection, 0. */
+    uint64_t token;          /* For acs_mcs_answer; 0: no answer is expected. */
+    uint64_t count;          /* Attempts to send a request, or number of deviations. */
+    int64_t delay_ms;        /* Of ACS_ACTION_START_TIMER, from the time of the call. */
+    acs_text text;           /* To send; of an event the whole message, or the name of a deviation. */
+    acs_text command;        /* Of the request, without Ack. */
+    acs_text transaction_id; /* Of the request. */
+    acs_text path;           /* JSON path of an invalid member; may be empty. */
+    acs_text message;        /* For the operator or the log; may be empty. */
 } acs_action;
 
 /* ---- MCS side ----------------------------------------------------------------------------------------------------------- */
 
+/* Times, limits and behaviour of an MCS side. The defaults are in brackets. */
 typedef struct acs_mcs_options
 {
-    uint32_t struct_size;
+    uint32_t struct_size; /* Set by the caller. */
     uint32_t ack_retries;            /* Resends of a request, only for an ACS that recognises a repeated one (0). */
     int64_t ack_timeout_ms;          /* Maximum time to wait for an Ack (5000). All times: 1 to ACS_DURATION_MAX_MS. */
     int64_t answer_timeout_ms;       /* Maximum time of the caller to answer (10000). */
@@ -242,24 +247,26 @@ typedef struct acs_mcs_options
     /* The commands that the caller answers with acs_mcs_answer, separated by one space each ("Registration PlanReport"); data may
      * be null. The session answers all others with Success. Read by acs_mcs_create only. */
     acs_text answered_commands;
-    acs_random random; /* Null: the source of the operating system. */
-    void* random_context;
-    acs_codec_options codec;
+    acs_random random;       /* Null: the source of the operating system. */
+    void* random_context;    /* Passed to each call of random; may be null. */
+    acs_codec_options codec; /* Of the codec of the session. */
 } acs_mcs_options;
 
+/* The state of an MCS side. */
 typedef struct acs_mcs_state
 {
-    uint32_t struct_size; /* Set by the caller. */
-    uint8_t registered;
-    uint8_t takes_plans;     /* Otherwise acs_mcs_send refuses an ExecutionPlan, if withhold_plans is set. */
-    uint8_t refuses_upgrade; /* Answer a WebSocket upgrade with HTTP 403 now. */
-    uint8_t reserved;
+    uint32_t struct_size;     /* Set by the caller. */
+    uint8_t registered;       /* Whether an ACS is registered: 0 or 1. */
+    uint8_t takes_plans;      /* Otherwise acs_mcs_send refuses an ExecutionPlan, if withhold_plans is set. */
+    uint8_t refuses_upgrade;  /* Answer a WebSocket upgrade with HTTP 403 now. */
+    uint8_t reserved;         /* 0 */
     uint64_t connection;      /* The registered one; 0: none. */
     uint64_t pending;         /* Requests without an Ack. */
     uint64_t unanswered;      /* Requests that wait for acs_mcs_answer. */
     uint64_t waiting_actions; /* Take them with acs_mcs_next_action. */
 } acs_mcs_state;
 
+/* Handle of an MCS side. */
 typedef struct acs_mcs acs_mcs;
 
 /* Writes the defaults. options_size is sizeof of the caller's structure. */
@@ -322,6 +329,7 @@ ACS_C_EXPORT int32_t acs_mcs_answer(
  * Carrying an action out may call the session again. */
 ACS_C_EXPORT int32_t acs_mcs_next_action(acs_mcs* mcs, acs_action* action);
 
+/* Writes the current state; the caller has set state->struct_size. */
 ACS_C_EXPORT int32_t acs_mcs_get_state(acs_mcs* mcs, acs_mcs_state* state);
 
 /* UTC offset of the timestamps that are sent from now on; -1439 to 1439. */
@@ -329,36 +337,39 @@ ACS_C_EXPORT int32_t acs_mcs_set_site_offset(acs_mcs* mcs, int32_t minutes);
 
 /* ---- ACS side ----------------------------------------------------------------------------------------------------------- */
 
+/* Times, limits and behaviour of an ACS side. The defaults are in brackets. */
 typedef struct acs_acs_options
 {
-    uint32_t struct_size;
-    uint32_t ack_retries;         /* Resends of one message per connection (3). */
-    uint32_t ack_dead_after;      /* Consecutive messages without an Ack after which the connection is renewed; from 1 (5). */
-    uint32_t window;              /* Maximum number of messages without an Ack; from 1 (16). */
-    int64_t ack_timeout_ms;       /* Maximum time to wait for an Ack (5000). All times: 1 to ACS_DURATION_MAX_MS. */
-    int64_t position_interval_ms; /* Interval of ACS_EVENT_POSITION_DUE (200); 0 disables it. */
-    int64_t answer_memory_ms;     /* How long an Ack is kept for repeated requests (600000). */
-    int64_t shutdown_grace_ms;    /* Maximum time that acs_acs_stop waits for its last Ack (2000). */
-    int64_t reconnect_initial_ms; /* Delay before the second attempt to connect (500). */
-    int64_t reconnect_max_ms;     /* Maximum delay; at least the initial one (10000). */
-    uint64_t answer_bytes;        /* Maximum size of the Acks that are kept (4 MiB). */
-    uint32_t answer_count;        /* Maximum number of Acks that are kept; from 1 (1024). */
+    uint32_t struct_size;          /* Set by the caller. */
+    uint32_t ack_retries;          /* Resends of one message per connection (3). */
+    uint32_t ack_dead_after;       /* Consecutive messages without an Ack after which the connection is renewed; from 1 (5). */
+    uint32_t window;               /* Maximum number of messages without an Ack; from 1 (16). */
+    int64_t ack_timeout_ms;        /* Maximum time to wait for an Ack (5000). All times: 1 to ACS_DURATION_MAX_MS. */
+    int64_t position_interval_ms;  /* Interval of ACS_EVENT_POSITION_DUE (200); 0 disables it. */
+    int64_t answer_memory_ms;      /* How long an Ack is kept for repeated requests (600000). */
+    int64_t shutdown_grace_ms;     /* Maximum time that acs_acs_stop waits for its last Ack (2000). */
+    int64_t reconnect_initial_ms;  /* Delay before the second attempt to connect (500). */
+    int64_t reconnect_max_ms;      /* Maximum delay; at least the initial one (10000). */
+    uint64_t answer_bytes;         /* Maximum size of the Acks that are kept (4 MiB). */
+    uint32_t answer_count;         /* Maximum number of Acks that are kept; from 1 (1024). */
     uint8_t match_acks_by_command; /* Match an Ack with an unknown transactionId to the oldest message of its command (1). */
     uint8_t reserved[3];           /* 0 */
     acs_random random;             /* Null: the source of the operating system. */
-    void* random_context;
-    acs_codec_options codec;
+    void* random_context;          /* Passed to each call of random; may be null. */
+    acs_codec_options codec;       /* Of the codec of the session. */
 } acs_acs_options;
 
+/* The state of an ACS side. */
 typedef struct acs_acs_state
 {
-    uint32_t struct_size; /* Set by the caller. */
-    uint8_t registered;
-    uint8_t reserved[3];
+    uint32_t struct_size;     /* Set by the caller. */
+    uint8_t registered;       /* Whether the MCS has accepted the Registration: 0 or 1. */
+    uint8_t reserved[3];      /* 0 */
     uint64_t room;            /* Reports that acs_acs_send would accept now. */
     uint64_t waiting_actions; /* Take them with acs_acs_next_action. */
 } acs_acs_state;
 
+/* Handle of an ACS side. */
 typedef struct acs_acs acs_acs;
 
 /* Writes the defaults. options_size is sizeof of the caller's structure. */
@@ -421,6 +432,7 @@ ACS_C_EXPORT int32_t acs_acs_answer(
 /* As acs_mcs_next_action. */
 ACS_C_EXPORT int32_t acs_acs_next_action(acs_acs* acs, acs_action* action);
 
+/* Writes the current state; the caller has set state->struct_size. */
 ACS_C_EXPORT int32_t acs_acs_get_state(acs_acs* acs, acs_acs_state* state);
 
 /* UTC offset of the timestamps that are sent from now on; -1439 to 1439. */
