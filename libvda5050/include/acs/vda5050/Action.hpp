@@ -11,7 +11,7 @@
 namespace ACS::VDA5050
 {
 
-/// What an action blocks (section 6.11): None nothing, Soft driving, Hard driving and all other actions.
+/// What an action blocks (section 6.12): None nothing, Soft driving, Hard driving and all other actions.
 enum class EBlockingType : std::uint8_t
 {
     None,
@@ -19,16 +19,16 @@ enum class EBlockingType : std::uint8_t
     Hard,
 };
 
-/// A parameter of an action (section 6.8).
+/// A parameter of an action (section 6.6.6).
 struct ActionParameter
 {
-    std::string key;      ///< Unique in the action.
+    std::string key;
     Core::JsonText value; ///< Any JSON value but null.
 
     bool operator==(const ActionParameter&) const = default;
 };
 
-/// An action on a node, on an edge, or an instant action (section 6.8).
+/// An action on a node, on an edge, or an instant action (section 6.6.6).
 struct Action
 {
     std::string actionType;
@@ -43,7 +43,7 @@ struct Action
 /// The parameter with this key; null if there is none.
 [[nodiscard]] ACS_API const ActionParameter* FindParameterOrNull(const Action& action, std::string_view key);
 
-/// The predefined actions of 2.x (section 6.8.2); PredefinedActions.hpp has their scopes and parameters.
+/// The predefined actions of 2.x (section 6.8.1); PredefinedActions.hpp has their scopes and parameters.
 namespace ActionTypes
 {
 inline constexpr std::string_view CANCEL_ORDER = "cancelOrder";

@@ -10,7 +10,7 @@ namespace ACS::VDA5050
 /// Whether the vehicle is connected to the broker (section 6.14).
 enum class EConnectionState : std::uint8_t
 {
-    Online,
+    Online,           ///< Connected.
     Offline,          ///< Orderly disconnect of the vehicle.
     ConnectionBroken, ///< The last will, published by the broker.
 };

@@ -12,8 +12,8 @@ namespace ACS::VDA5050
 /// The protocol versions that the codec writes. It reads both.
 enum class EVda5050Version : std::uint8_t
 {
-    Version200,
-    Version210,
+    Version200, ///< 2.0.0
+    Version210, ///< 2.1.0
 };
 
 /// The version in the header of a message: "2.0.0", "2.1.0".

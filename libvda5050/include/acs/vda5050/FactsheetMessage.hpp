@@ -15,15 +15,15 @@
 namespace ACS::VDA5050
 {
 
-/// Kinematics of a vehicle type (section 7): differential drive, omnidirectional, or like a car.
+/// Kinematics of a vehicle type (section 6.15.1).
 enum class EAgvKinematic : std::uint8_t
 {
-    Diff,
-    Omni,
-    ThreeWheel,
+    Diff,       ///< Differential drive.
+    Omni,       ///< Omnidirectional.
+    ThreeWheel, ///< Like a car.
 };
 
-/// What a vehicle type is made for (section 7).
+/// What a vehicle type is made for (section 6.15.1).
 enum class EAgvClass : std::uint8_t
 {
     Forklift,
@@ -32,7 +32,7 @@ enum class EAgvClass : std::uint8_t
     Carrier,
 };
 
-/// The vehicle type (section 7).
+/// The vehicle type (section 6.15.1).
 struct TypeSpecification
 {
     std::string seriesName;
@@ -47,7 +47,7 @@ struct TypeSpecification
     bool operator==(const TypeSpecification&) const = default;
 };
 
-/// Limits and size of the vehicle type (section 7) in m/s, m/s², m and rad/s.
+/// Limits and size of the vehicle type (section 6.15.1) in m/s, m/s², m and rad/s.
 struct PhysicalParameters
 {
     double speedMin = 0.0;
@@ -64,7 +64,7 @@ struct PhysicalParameters
     bool operator==(const PhysicalParameters&) const = default;
 };
 
-/// Maximum lengths of texts in characters (section 7). Absent or 0: no stated limit.
+/// Maximum lengths of texts in characters (section 6.15.1). Absent or 0: no stated limit.
 struct MaximumStringLengths
 {
     std::optional<std::uint32_t> message;
@@ -78,7 +78,7 @@ struct MaximumStringLengths
     bool operator==(const MaximumStringLengths&) const = default;
 };
 
-/// Maximum numbers of elements (section 7). Absent or 0: no stated limit.
+/// Maximum numbers of elements (section 6.15.1). Absent or 0: no stated limit.
 struct MaximumArrayLengths
 {
     std::optional<std::uint32_t> orderNodes;
@@ -104,7 +104,7 @@ struct MaximumArrayLengths
 /// Maximum interval of ProtocolTiming that is accepted, in seconds: one day.
 inline constexpr double LONGEST_INTERVAL = 86'400.0;
 
-/// Times of the protocol in seconds, 0 to LONGEST_INTERVAL (section 7).
+/// Times of the protocol in seconds, 0 to LONGEST_INTERVAL (section 6.15.1).
 struct ProtocolTiming
 {
     double minOrderInterval = 0.0;
@@ -115,7 +115,7 @@ struct ProtocolTiming
     bool operator==(const ProtocolTiming&) const = default;
 };
 
-/// Limits of the protocol that the vehicle states (section 7).
+/// Limits of the protocol that the vehicle states (section 6.15.1).
 struct ProtocolLimits
 {
     MaximumStringLengths maxStringLengths;
@@ -132,7 +132,7 @@ enum class EParameterSupport : std::uint8_t
     Required,
 };
 
-/// An optional member of the protocol that the vehicle supports or requires (section 7).
+/// An optional member of the protocol that the vehicle supports or requires (section 6.15.1).
 struct OptionalParameter
 {
     std::string parameter; ///< Full path: order.nodes.nodePosition.allowedDeviationTheta
@@ -142,7 +142,7 @@ struct OptionalParameter
     bool operator==(const OptionalParameter&) const = default;
 };
 
-/// Where an action may be performed (section 7).
+/// Where an action may be performed (section 6.15.1).
 enum class EActionScope : std::uint8_t
 {
     Instant,
@@ -150,7 +150,7 @@ enum class EActionScope : std::uint8_t
     Edge,
 };
 
-/// JSON type of a parameter's value (section 7).
+/// JSON type of a parameter's value (section 6.15.1).
 enum class EValueDataType : std::uint8_t
 {
     Bool,
@@ -162,7 +162,7 @@ enum class EValueDataType : std::uint8_t
     Array,
 };
 
-/// A parameter of an action of the vehicle (section 7).
+/// A parameter of an action of the vehicle (section 6.15.1).
 struct AgvActionParameter
 {
     std::string key;
@@ -173,20 +173,20 @@ struct AgvActionParameter
     bool operator==(const AgvActionParameter&) const = default;
 };
 
-/// An action that the vehicle can perform, and where (section 7).
+/// An action that the vehicle can perform, and where (section 6.15.1).
 struct AgvAction
 {
     std::string actionType;
     std::string actionDescription;
     std::vector<EActionScope> actionScopes;
     std::vector<AgvActionParameter> actionParameters;
-    std::string resultDescription;
+    std::string resultDescription;            ///< What results of this action mean, in words.
     std::vector<EBlockingType> blockingTypes; ///< Written from 2.1 on.
 
     bool operator==(const AgvAction&) const = default;
 };
 
-/// Optional members and actions that the vehicle supports (section 7).
+/// Optional members and actions that the vehicle supports (section 6.15.1).
 struct ProtocolFeatures
 {
     /// Unlisted parameters are not supported; an empty list supports none. Absent, against the schema: all are allowed.
@@ -196,7 +196,7 @@ struct ProtocolFeatures
     bool operator==(const ProtocolFeatures&) const = default;
 };
 
-/// Kind of a wheel (section 7).
+/// Kind of a wheel (section 6.15.1).
 enum class EWheelType : std::uint8_t
 {
     Drive,
@@ -205,7 +205,7 @@ enum class EWheelType : std::uint8_t
     Mecanum,
 };
 
-/// Position of a wheel in the frame of the vehicle (section 7), in metres and radians.
+/// Position of a wheel in the frame of the vehicle (section 6.15.1), in metres and radians.
 struct WheelPosition
 {
     double x = 0.0;
@@ -215,7 +215,7 @@ struct WheelPosition
     bool operator==(const WheelPosition&) const = default;
 };
 
-/// A wheel of the vehicle (section 7); lengths in metres.
+/// A wheel of the vehicle (section 6.15.1); lengths in metres.
 struct WheelDefinition
 {
     EWheelType type = EWheelType::Drive;
@@ -230,7 +230,7 @@ struct WheelDefinition
     bool operator==(const WheelDefinition&) const = default;
 };
 
-/// A point in the frame of the vehicle (section 7), in metres.
+/// A point in the frame of the vehicle (section 6.15.1), in metres.
 struct PolygonPoint
 {
     double x = 0.0;
@@ -239,7 +239,7 @@ struct PolygonPoint
     bool operator==(const PolygonPoint&) const = default;
 };
 
-/// A contour of the vehicle in two dimensions, named by its set (section 7).
+/// A contour of the vehicle in two dimensions, named by its set (section 6.15.1).
 struct Envelope2D
 {
     std::string set;
@@ -249,7 +249,7 @@ struct Envelope2D
     bool operator==(const Envelope2D&) const = default;
 };
 
-/// A contour of the vehicle in three dimensions, named by its set (section 7).
+/// A contour of the vehicle in three dimensions, named by its set (section 6.15.1).
 struct Envelope3D
 {
     std::string set;
@@ -262,7 +262,7 @@ struct Envelope3D
     bool operator==(const Envelope3D&) const = default;
 };
 
-/// Wheels and contours of the vehicle (section 7).
+/// Wheels and contours of the vehicle (section 6.15.1).
 struct AgvGeometry
 {
     std::vector<WheelDefinition> wheelDefinitions;
@@ -272,7 +272,7 @@ struct AgvGeometry
     bool operator==(const AgvGeometry&) const = default;
 };
 
-/// What the vehicle can do with one kind of load (section 7). Lengths in metres, masses in kilograms, tilts in radians, speeds
+/// What the vehicle can do with one kind of load (section 6.15.1). Lengths in metres, masses in kilograms, tilts in radians, speeds
 /// in m/s, accelerations in m/s².
 struct LoadSet
 {
@@ -298,7 +298,7 @@ struct LoadSet
     bool operator==(const LoadSet&) const = default;
 };
 
-/// Loads that the vehicle can carry (section 7).
+/// Loads that the vehicle can carry (section 6.15.1).
 struct LoadSpecification
 {
     std::vector<std::string> loadPositions; ///< Empty: no load handling device.
@@ -307,7 +307,7 @@ struct LoadSpecification
     bool operator==(const LoadSpecification&) const = default;
 };
 
-/// The version of a piece of software or hardware of the vehicle (2.1, section 7).
+/// The version of a piece of software or hardware of the vehicle (2.1, section 6.15.1).
 struct VersionEntry
 {
     std::string key;
@@ -316,7 +316,7 @@ struct VersionEntry
     bool operator==(const VersionEntry&) const = default;
 };
 
-/// The vehicle's network configuration (2.1, section 7).
+/// The vehicle's network configuration (2.1, section 6.15.1).
 struct NetworkConfig
 {
     std::vector<std::string> dnsServers;
@@ -328,7 +328,7 @@ struct NetworkConfig
     bool operator==(const NetworkConfig&) const = default;
 };
 
-/// Software, hardware and network of the vehicle (2.1, section 7).
+/// Software, hardware and network of the vehicle (2.1, section 6.15.1).
 struct VehicleConfig
 {
     std::vector<VersionEntry> versions;
@@ -337,7 +337,7 @@ struct VehicleConfig
     bool operator==(const VehicleConfig&) const = default;
 };
 
-/// Topic factsheet (section 7), retained.
+/// Topic factsheet (section 6.15), retained.
 struct FactsheetMessage
 {
     Header header;

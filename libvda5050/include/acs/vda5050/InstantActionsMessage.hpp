@@ -8,7 +8,7 @@
 namespace ACS::VDA5050
 {
 
-/// Topic instantActions (section 6.8): executed at once, in parallel to the order.
+/// Topic instantActions (section 6.9): executed at once, in parallel to the order.
 struct InstantActionsMessage
 {
     Header header;

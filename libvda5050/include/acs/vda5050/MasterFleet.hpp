@@ -46,8 +46,8 @@ using FleetActions = std::vector<FleetAction>;
 /// A message of an unknown vehicle that was not accepted, and the reason.
 struct LeftOutMessage
 {
-    std::string topic; ///< As received.
-    Core::Error reason;
+    std::string topic;  ///< As received.
+    Core::Error reason; ///< With the values that would have been accepted.
 
     bool operator==(const LeftOutMessage&) const = default;
 };

@@ -23,9 +23,9 @@ namespace ACS::VDA5050
 enum class EVehicleLink : std::uint8_t
 {
     Unknown, ///< No connection message yet, or the own link is down.
-    Online,
-    Offline,
-    Broken,
+    Online,  ///< Connected, or a state was received.
+    Offline, ///< Disconnected in an orderly way.
+    Broken,  ///< The connection broke.
 };
 
 /// Progress of the order, according to the vehicle's states.

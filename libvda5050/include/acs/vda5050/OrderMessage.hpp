@@ -11,7 +11,7 @@
 namespace ACS::VDA5050
 {
 
-/// Metres and radians in the project's map frame (section 6.6), counter-clockwise, theta in [-pi, pi].
+/// Metres and radians in the project's map frame (section 6.6.6), counter-clockwise, theta in [-pi, pi].
 struct NodePosition
 {
     double x = 0.0;
@@ -25,7 +25,7 @@ struct NodePosition
     bool operator==(const NodePosition&) const = default;
 };
 
-/// A node of an order (section 6.6).
+/// A node of an order (section 6.6.6).
 struct OrderNode
 {
     std::string nodeID;
@@ -38,7 +38,7 @@ struct OrderNode
     bool operator==(const OrderNode&) const = default;
 };
 
-/// A control point of a trajectory (section 6.6), in metres.
+/// A control point of a trajectory (section 6.6.6), in metres.
 struct ControlPoint
 {
     double x = 0.0;
@@ -48,7 +48,7 @@ struct ControlPoint
     bool operator==(const ControlPoint&) const = default;
 };
 
-/// A NURBS (section 6.6): as many knots as control points + degree + 1, each in [0, 1].
+/// A NURBS (section 6.6.6): as many knots as control points + degree + 1, each in [0, 1].
 struct Trajectory
 {
     std::uint32_t degree = 1;
@@ -65,7 +65,7 @@ enum class ECorridorReferencePoint : std::uint8_t
     Contour,
 };
 
-/// How far a vehicle may leave its trajectory, left and right of the driving direction, in metres (2.1, section 6.6).
+/// How far a vehicle may leave its trajectory, left and right of the driving direction, in metres (2.1, section 6.6.6).
 struct Corridor
 {
     double leftWidth = 0.0;
@@ -82,7 +82,7 @@ enum class EOrientationType : std::uint8_t
     Tangential,
 };
 
-/// An edge of an order, from one node to the next (section 6.6).
+/// An edge of an order, from one node to the next (section 6.6.6).
 struct OrderEdge
 {
     std::string edgeID;

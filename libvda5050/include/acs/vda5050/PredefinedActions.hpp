@@ -9,7 +9,7 @@
 namespace ACS::VDA5050
 {
 
-/// The predefined actions of 2.0 and 2.1 (section 6.8.2) with their scopes and parameters, in the form of a factsheet. A
+/// The predefined actions of 2.0 and 2.1 (section 6.8.1) with their scopes and parameters, in the form of a factsheet. A
 /// vehicle copies the entries that it supports.
 [[nodiscard]] ACS_API const std::vector<AgvAction>& GetPredefinedActions();
 

@@ -14,17 +14,17 @@
 namespace ACS::VDA5050
 {
 
-/// Whether the vehicle uses the map (section 6.10). At most one version of a map is enabled.
+/// Whether the vehicle uses the map (section 6.10.6). At most one version of a map is enabled.
 enum class EMapStatus : std::uint8_t
 {
     Enabled,
     Disabled,
 };
 
-/// A map that is stored on the vehicle (section 6.10).
+/// A map that is stored on the vehicle (section 6.10.6).
 struct MapState
 {
-    std::string mapID;
+    std::string mapID; ///< As in positions on this map.
     std::string mapVersion;
     EMapStatus mapStatus = EMapStatus::Disabled;
     std::string mapDescription;
@@ -32,7 +32,7 @@ struct MapState
     bool operator==(const MapState&) const = default;
 };
 
-/// The position of a node in a state (section 6.10). Members that exist only in the schema of 2.0.0 are written in 2.0 only.
+/// The position of a node in a state (section 6.10.6). Members that exist only in the schema of 2.0.0 are written in 2.0 only.
 struct NodeStatePosition
 {
     double x = 0.0;
@@ -46,7 +46,7 @@ struct NodeStatePosition
     bool operator==(const NodeStatePosition&) const = default;
 };
 
-/// A node of the order that is not reached yet (section 6.10).
+/// A node of the order that is not reached yet (section 6.10.6).
 struct NodeState
 {
     std::string nodeID;
@@ -58,7 +58,7 @@ struct NodeState
     bool operator==(const NodeState&) const = default;
 };
 
-/// An edge of the order that is not traversed yet (section 6.10).
+/// An edge of the order that is not traversed yet (section 6.10.6).
 struct EdgeState
 {
     std::string edgeID;
@@ -70,7 +70,7 @@ struct EdgeState
     bool operator==(const EdgeState&) const = default;
 };
 
-/// The pose of a vehicle on its map (section 6.10), in metres and radians.
+/// The pose of a vehicle on its map (section 6.10.6), in metres and radians.
 struct AgvPosition
 {
     bool bPositionInitialized = false;
@@ -85,7 +85,7 @@ struct AgvPosition
     bool operator==(const AgvPosition&) const = default;
 };
 
-/// The velocity of a vehicle in its own frame (section 6.10).
+/// The velocity of a vehicle in its own frame (section 6.10.6).
 struct Velocity
 {
     std::optional<double> vx;    ///< m/s
@@ -95,7 +95,7 @@ struct Velocity
     bool operator==(const Velocity&) const = default;
 };
 
-/// The reference point of a load's bounding box in the frame of the vehicle (section 6.10), in metres and radians.
+/// The reference point of a load's bounding box in the frame of the vehicle (section 6.10.6), in metres and radians.
 struct BoundingBoxReference
 {
     double x = 0.0;
@@ -106,7 +106,7 @@ struct BoundingBoxReference
     bool operator==(const BoundingBoxReference&) const = default;
 };
 
-/// The size of a load's bounding box (section 6.10), in metres.
+/// The size of a load's bounding box (section 6.10.6), in metres.
 struct LoadDimensions
 {
     double length = 0.0;
@@ -116,7 +116,7 @@ struct LoadDimensions
     bool operator==(const LoadDimensions&) const = default;
 };
 
-/// A load on the vehicle (section 6.10).
+/// A load on the vehicle (section 6.10.6).
 struct Load
 {
     std::optional<std::string> loadID; ///< "": can be identified, but is not yet.
@@ -140,7 +140,7 @@ enum class EActionStatus : std::uint8_t
     Failed,
 };
 
-/// The state of an order action or an instant action (section 6.11).
+/// The state of an order action or an instant action (section 6.10.6).
 struct ActionState
 {
     std::string actionID;
@@ -152,7 +152,7 @@ struct ActionState
     bool operator==(const ActionState&) const = default;
 };
 
-/// The battery of a vehicle (section 6.10).
+/// The battery of a vehicle (section 6.10.6).
 struct BatteryState
 {
     double batteryCharge = 0.0;           ///< %
@@ -184,7 +184,7 @@ enum class EErrorLevel : std::uint8_t
     Fatal,
 };
 
-/// What an error or an information refers to (section 6.10): the name of a member, such as "orderId", and its value.
+/// What an error or an information refers to (section 6.10.6): the name of a member, such as "orderId", and its value.
 struct ErrorReference
 {
     std::string referenceKey;
@@ -194,10 +194,10 @@ struct ErrorReference
     std::strong_ordering operator<=>(const ErrorReference&) const = default; // NOLINT(modernize-use-nullptr)
 };
 
-/// An active error of a vehicle (section 6.10).
+/// An active error of a vehicle (section 6.10.6).
 struct VehicleError
 {
-    std::string errorType;
+    std::string errorType; ///< One of ErrorTypes, or specific to the vehicle.
     std::vector<ErrorReference> errorReferences;
     std::string errorDescription;
     std::string errorHint; ///< Written from 2.1 on.
@@ -224,14 +224,14 @@ inline constexpr std::string_view UNLISTED_PARAMETER = "unlistedParameter"; ///<
 /// The value of the reference with this key; null if there is none.
 [[nodiscard]] ACS_API const std::string* FindReferenceOrNull(const VehicleError& error, std::string_view key);
 
-/// What an information is for: display or debugging (section 6.10).
+/// What an information is for: display or debugging (section 6.10.6).
 enum class EInformationLevel : std::uint8_t
 {
     Info,
     Debug,
 };
 
-/// For the operator only; must not be evaluated by programs (section 6.10).
+/// For the operator only; must not be evaluated by programs (section 6.10.6).
 struct Information
 {
     std::string infoType;
@@ -242,7 +242,7 @@ struct Information
     bool operator==(const Information&) const = default;
 };
 
-/// How an active emergency stop is acknowledged (section 6.10): by itself, at the vehicle, or remotely. None: no emergency stop
+/// How an active emergency stop is acknowledged (section 6.10.6): by itself, at the vehicle, or remotely. None: no emergency stop
 /// is active.
 enum class EEmergencyStop : std::uint8_t
 {
@@ -252,7 +252,7 @@ enum class EEmergencyStop : std::uint8_t
     None,
 };
 
-/// The state of the vehicle's safety functions (section 6.10).
+/// The state of the vehicle's safety functions (section 6.10.6).
 struct SafetyState
 {
     EEmergencyStop emergencyStop = EEmergencyStop::None;

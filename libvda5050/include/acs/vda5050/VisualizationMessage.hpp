@@ -8,7 +8,7 @@
 namespace ACS::VDA5050
 {
 
-/// Topic visualization (section 6.12): position and velocity at a higher rate than the state, for display.
+/// Topic visualization (section 6.13): position and velocity at a higher rate than the state, for display.
 struct VisualizationMessage
 {
     Header header;
