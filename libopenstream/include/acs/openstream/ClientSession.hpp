@@ -18,8 +18,8 @@ namespace ACS::OpenStream
 /// How far a ClientSession is.
 enum class EClientState : std::uint8_t
 {
-    Stopped, ///< Not started, or Stop is complete.
-    Connecting,
+    Stopped,     ///< Not started, or Stop is complete.
+    Connecting,  ///< A connection attempt is under way.
     Handshaking, ///< Connected; waits for the ack of HANDSHAKE.
     Ready,       ///< CONTROLs are accepted.
     Waiting,     ///< For the next connection attempt.

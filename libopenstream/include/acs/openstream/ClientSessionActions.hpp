@@ -86,16 +86,16 @@ enum class EControlOutcome : std::uint8_t
 /// Why a connection ended or was not opened.
 enum class EClientLossReason : std::uint8_t
 {
-    ConnectFailed,
-    ConnectTimeout,
+    ConnectFailed,   ///< OnConnectFailed.
+    ConnectTimeout,  ///< ClientSessionOptions::connectTimeout.
     AnswerTimeout,   ///< No ack in time.
     HandshakeFailed, ///< The server refused: another version, no room, …
-    PeerClosed,
-    SocketError,
-    SessionEnded, ///< An error line that ends the session, such as session_timeout.
-    DataSilent,   ///< ClientSessionOptions::lostAfter.
-    SendTimeout,  ///< The socket did not accept a CONTROL in time.
-    LineTooLong,
+    PeerClosed,      ///< OnPeerClosed.
+    SocketError,     ///< OnSocketError.
+    SessionEnded,    ///< An error line that ends the session, such as session_timeout.
+    DataSilent,      ///< ClientSessionOptions::lostAfter.
+    SendTimeout,     ///< The socket did not accept a CONTROL in time.
+    LineTooLong,     ///< ClientSessionOptions::longestLine.
 };
 
 /// Connect, then call OnConnected or OnConnectFailed.

@@ -13,40 +13,40 @@ namespace ACS::OpenStream
 /// text of GetErrorText.
 enum class EOpenStreamErrorCode
 {
-    InvalidNdjson = 1,
-    RxBufOverflow = 2,
-    HandshakeRequired = 3,
-    VersionMismatch = 4,
-    BusySessionActive = 5,
-    HandshakeRejected = 6,
-    SessionTimeout = 7,
-    InvalidCmd = 8,
-    InvalidPayload = 9,
-    MissingField = 10, ///< Generic form: read, but never sent; ServerSession sends the specific codes.
-    InvalidType = 11,
-    InvalidValue = 12,
-    MissingMajor = 13,
-    InvalidMajorType = 14,
-    InvalidVersion = 15,
-    MissingURL = 16,
-    InvalidURL = 17,
-    UrlTooLong = 18,
-    MissingMethod = 19,
-    InvalidMethod = 20,
-    MissingPeriodMs = 21,
-    InvalidPeriod = 22,
-    InvalidArgs = 23,
-    InvalidBody = 24,
-    MonitorAlreadyActive = 25,
-    MonitorInternalError = 26,
-    MethodNotAllowed = 27, ///< Synonym of InvalidMethod in CONTROL: read, but never sent.
-    ControlBusy = 28,
-    ControlErr = 29, ///< Has its own line type (ControlError); as an error code read, but never sent.
-    MissingTarget = 30,
-    InvalidTarget = 31,
-    NothingToStop = 32,
-    StopFailed = 33,
-    Unknown = 34, ///< A code that is not in this table; never sent.
+    InvalidNdjson = 1,     ///< The line is not a JSON object, not UTF-8, too deep, or repeats a member.
+    RxBufOverflow = 2,     ///< The line is longer than the limit of the server, which then closes.
+    HandshakeRequired = 3, ///< A command before HANDSHAKE.
+    VersionMismatch = 4,   ///< The server has another major version.
+    BusySessionActive = 5, ///< HANDSHAKE while a MONITOR or a CONTROL is active.
+    HandshakeRejected = 6, ///< The server has no room or ends; it then closes.
+    SessionTimeout = 7,    ///< No command or no data line in time; the server then closes.
+    InvalidCmd = 8,        ///< `cmd` is missing or not a command.
+    InvalidPayload = 9,    ///< `payload` is missing or not an object.
+    MissingField = 10,     ///< Generic form: read, but never sent; ServerSession sends the specific codes.
+    InvalidType = 11,      ///< Generic form, as MissingField.
+    InvalidValue = 12,     ///< Generic form, as MissingField.
+    MissingMajor = 13,     ///< HANDSHAKE without `major`.
+    InvalidMajorType = 14, ///< `major` is not an integer.
+    InvalidVersion = 15,   ///< `major` is negative.
+    MissingURL = 16,       ///< MONITOR or CONTROL without `url`.
+    InvalidURL = 17,       ///< `url` is not a string, does not begin with '/', or has a blank or a control character.
+    UrlTooLong = 18,       ///< `url` is longer than LONGEST_URL.
+    MissingMethod = 19,    ///< MONITOR or CONTROL without `method`.
+    InvalidMethod = 20,    ///< Not GET for a MONITOR; not POST, PUT or DELETE for a CONTROL.
+    MissingPeriodMs = 21,  ///< MONITOR without `period_ms`.
+    InvalidPeriod = 22,    ///< `period_ms` is not an integer.
+    InvalidArgs = 23,      ///< `args` is not an object.
+    InvalidBody = 24,      ///< `body` is neither an object nor an array.
+    MonitorAlreadyActive = 25, ///< A server that does not replace its MONITOR got another one.
+    MonitorInternalError = 26, ///< The service failed; the MONITOR continues.
+    MethodNotAllowed = 27,     ///< Synonym of InvalidMethod in CONTROL: read, but never sent.
+    ControlBusy = 28,          ///< The queue of CONTROLs is full.
+    ControlErr = 29,           ///< Has its own line type (ControlError); as an error code read, but never sent.
+    MissingTarget = 30,        ///< STOP without `target`.
+    InvalidTarget = 31,        ///< `target` is not an EStopTarget.
+    NothingToStop = 32,        ///< No MONITOR is active, or no CONTROL was sent.
+    StopFailed = 33,           ///< The service could not stop; the session has ended.
+    Unknown = 34,              ///< A code that is not in this table; never sent.
 };
 
 /// What an error line refers to.

@@ -19,7 +19,7 @@ enum class EServerState : std::uint8_t
     Ready,     ///< The handshake succeeded; no MONITOR is active.
     Streaming, ///< A MONITOR is active.
     Closing,   ///< The last lines are sent; commands are answered with handshake_required.
-    Closed,
+    Closed,    ///< ServerClose was requested.
 };
 
 /// The controller side of one Open Stream connection, without I/O: events and the time go in, actions come out, appended

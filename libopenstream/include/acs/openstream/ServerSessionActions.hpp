@@ -46,15 +46,15 @@ inline constexpr std::size_t SERVER_TIMER_COUNT = 4;
 /// Why a session ended.
 enum class EServerCloseReason : std::uint8_t
 {
-    PeerClosed,
-    StopSession,
-    HandshakeTimeout,
-    IdleTimeout,
-    StreamingTimeout,
-    LineTooLong,
-    OutputFull,
-    Rejected,
-    SocketError,
+    PeerClosed,       ///< The client closed the connection.
+    StopSession,      ///< The client sent STOP session.
+    HandshakeTimeout, ///< ServerSessionOptions::handshakeTimeout.
+    IdleTimeout,      ///< ServerSessionOptions::idleTimeout.
+    StreamingTimeout, ///< ServerSessionOptions::streamingTimeout.
+    LineTooLong,      ///< ServerSessionOptions::longestLine.
+    OutputFull,       ///< ServerSessionOptions::maximumOutput.
+    Rejected,         ///< ServerSession::Reject.
+    SocketError,      ///< OnSocketError.
 };
 
 /// Write the text, then call OnSendCompleted. One is in flight at a time; the text is valid until that call.

@@ -9,8 +9,8 @@ namespace ACS::Planning
 enum class ELoad : std::uint8_t
 {
     Unknown, ///< Uses only edges that vehicles with and without a load may use.
-    Empty,
-    Loaded,
+    Empty,   ///< Uses edges that vehicles without a load may use.
+    Loaded,  ///< Uses edges that vehicles with a load may use.
 };
 
 } // namespace ACS::Planning

@@ -13,8 +13,8 @@ enum class EPlanControl : std::uint8_t
 {
     Cancel, ///< End the plan; fails after ControlOptions::cancelUntil.
     Abort,  ///< End the plan; a running job finishes first, unless ControlOptions::bAbortStopsJob.
-    Pause,
-    Resume,
+    Pause,  ///< Interrupt the plan; the robot keeps it.
+    Resume, ///< Continue a paused plan.
 };
 
 /// "Cancel"

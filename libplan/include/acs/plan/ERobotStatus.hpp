@@ -20,9 +20,9 @@ enum class ERobotStatus : std::uint8_t
     Docking,      ///< On the last edge of its route, which leads into a station.
     UnDocking,    ///< On the first edge of its route, which leads out of a station.
     Working,      ///< Executes a job, or waits at the position of its step.
-    Charging,
-    Error,   ///< Fatal error, emergency stop or protective stop.
-    Stopped, ///< Paused.
+    Charging,     ///< Its battery is being charged.
+    Error,        ///< Fatal error, emergency stop or protective stop.
+    Stopped,      ///< Paused.
 };
 
 /// The value of section 3 ("UnDocking").

@@ -39,9 +39,9 @@ struct InputLimits
 /// What PlanEngineHost::Offer did with a command.
 enum class EInputAdmission : std::uint8_t
 {
-    Accepted,
-    Full,  ///< InputLimits. Repeat it later.
-    Closed ///< After PlanEngineHost::Close.
+    Accepted, ///< It is handled in its turn.
+    Full,     ///< InputLimits. Repeat it later.
+    Closed    ///< After PlanEngineHost::Close.
 };
 
 } // namespace ACS::Planning

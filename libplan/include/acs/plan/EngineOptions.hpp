@@ -35,7 +35,7 @@ enum class EPlaceRule : std::uint8_t
 /// How a finished job changes the record of the robot's ports.
 enum class EActionEffect : std::uint8_t
 {
-    None,
+    None,   ///< The record stays as it is.
     Load,   ///< The port in `to` has the carrier.
     Unload, ///< The port in `from` is empty.
     Move,   ///< Both, as far as `from` and `to` are carrier ports of the robot.
@@ -66,7 +66,7 @@ using RejectedActions = std::map<std::string, std::string, std::less<>>;
 /// The configuration of one robot.
 struct RobotOptions
 {
-    Core::RobotID robotID;
+    Core::RobotID robotID;            ///< Its name at the MCS; unique in the site.
     ERobotType type = ERobotType::LR; ///< Only steps with actions of this type are given to it.
     std::string vehicleTypeID;        ///< Vehicle type of the map: selects the nodes and edges that the robot may use.
     std::optional<std::string> startNodeID; ///< Reserved for the robot until it reports its position.

@@ -51,8 +51,8 @@ struct JobReport
     bool operator==(const JobReport&) const = default;
 };
 
-/// An alarm, identified by robotID, errorCode, planID and jobID. The report that clears it repeats the content of the report
-/// that set it.
+/// An alarm, identified by robotID, errorCode, planID and jobID; of the last three members those without a value do not apply.
+/// The report that clears it repeats the content of the report that set it.
 struct Alarm
 {
     std::string robotID;                    ///< As RobotOptions::robotID, or "ACS" for an alarm of the engine itself.

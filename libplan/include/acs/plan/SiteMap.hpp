@@ -33,7 +33,7 @@ struct SiteNodeRule
 /// A point where a vehicle can be, and where routes begin, end and branch.
 struct ACS_API SiteNode
 {
-    std::string nodeID;
+    std::string nodeID;              ///< Unique among the nodes of the map.
     double x = 0;                    ///< Metres.
     double y = 0;                    ///< Metres.
     std::string mapID;               ///< May be empty.

@@ -17,7 +17,7 @@ namespace ACS::AdapterTest
 /// What the robot does with the next commands.
 enum class EConduct : std::uint8_t
 {
-    Obeys,
+    Obeys,   ///< Executes each command.
     Slow,    ///< Drives and works several times slower, and answers late.
     Refuses, ///< Refuses each new drive and job. A refused job is not executed.
     Fails,   ///< A job ends without having been done.
