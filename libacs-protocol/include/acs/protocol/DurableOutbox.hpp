@@ -31,7 +31,7 @@ class ACS_API DurableOutbox
     {
         Closed,    ///< No session is registered: nothing is sent.
         Replaying, ///< From Registered until everything was sent once.
-        Open
+        Open       ///< Reports are sent as they are added.
     };
 
     IOutboxStore& _store;
