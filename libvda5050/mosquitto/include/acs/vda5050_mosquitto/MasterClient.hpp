@@ -26,6 +26,7 @@ class ACS_API MasterClient final
 public:
     /// Calls the session of a vehicle; the client carries out what it adds to out.
     using SessionCall = std::function<void(MasterSession& session, Core::Now now, MasterActions& out)>;
+    /// Called once, on the executor, after the connection was closed.
     using StopHandler = std::function<void()>;
 
 private:
@@ -59,20 +60,26 @@ public:
     /// and calls the handler once on the executor. The vehicles are not commanded. No event follows.
     void StopAsync(StopHandler handler);
 
+    /// Whether the broker is connected and all subscriptions are confirmed.
     [[nodiscard]] bool IsConnected() const;
 
-    /// For GetSession, FindOrNull and the statistics. The reference is valid while the client exists.
+    /// For GetSession, FindOrNull and the statistics. The reference is valid for the lifetime of the client.
     [[nodiscard]] const MasterFleet& GetFleet() const;
 
     // These call the function of the same name of the fleet or of the vehicle's session, and carry out its actions; their events
     // follow after the call has returned. The vehicle must be in the fleet.
 
+    /// MasterFleet::Add: a vehicle before its first message. Returns its number.
     [[nodiscard]] Core::Result<std::size_t> Add(const VehicleAddress& address);
-    /// The events of the vehicle that were not delivered yet are dropped.
+    /// MasterFleet::TryRemove. The events of the vehicle that were not delivered yet are dropped.
     bool TryRemove(std::size_t vehicle);
+    /// MasterSession::SendOrder: resent until the vehicle shows the order.
     [[nodiscard]] Core::Result<void> SendOrder(std::size_t vehicle, OrderMessage order);
+    /// MasterSession::SendOrderUpdate: sent once the vehicle shows the previous message.
     [[nodiscard]] Core::Result<void> SendOrderUpdate(std::size_t vehicle, OrderMessage update);
+    /// MasterSession::SendInstantAction: resent until the vehicle shows the action. Returns its id.
     [[nodiscard]] Core::Result<std::string> SendInstantAction(std::size_t vehicle, Action action);
+    /// MasterSession::Cancel: cancels the order.
     [[nodiscard]] Core::Result<void> Cancel(std::size_t vehicle);
     /// For all other functions of the session.
     void Run(std::size_t vehicle, const SessionCall& call);

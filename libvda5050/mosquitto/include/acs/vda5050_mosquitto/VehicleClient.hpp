@@ -23,6 +23,7 @@ class ACS_API VehicleClient final
 public:
     /// Calls the session; the client carries out what it adds to out.
     using SessionCall = std::function<void(VehicleSession& session, Core::Now now, VehicleActions& out)>;
+    /// Called once, on the executor, after the connection was closed.
     using StopHandler = std::function<void()>;
 
 private:
@@ -53,9 +54,10 @@ public:
     /// MosquittoLink::DEFAULT_STOP_TIMEOUT, disconnects without a will, and calls the handler once on the executor. No action follows.
     void StopAsync(StopHandler handler);
 
+    /// Whether the broker is connected and all subscriptions are confirmed.
     [[nodiscard]] bool IsConnected() const;
 
-    /// The reference is valid while the client exists.
+    /// The reference is valid for the lifetime of the client.
     [[nodiscard]] const VehicleSession& GetSession() const;
 
     /// Reports position, battery, loads, arrivals and the progress of actions to the session. The actions that follow from it come
