@@ -33,8 +33,8 @@ WITHOUT_ANALYZER = "-clang-analyzer-*"
 ONLY_ANALYZER = "-*,clang-analyzer-*,-clang-analyzer-optin.cplusplus.VirtualCall"
 ANALYZED = ("lib",)
 ANALYZED_DEEP = ("lib", "apps/", "examples/")
-# Lines that change no answer.
-COMMENT = re.compile(r"^[ \t]*//(?!.*NOLINT).*\n", re.MULTILINE)
+# What changes no answer.
+COMMENT = re.compile(r"^[ \t]*//(?!.*NOLINT).*\n|[ \t]*///<(?!.*NOLINT).*", re.MULTILINE)
 BROKEN_QUERY = re.compile(r"Error (?:parsing|building)|Matcher not found|Invalid token|unknown command", re.IGNORECASE)
 
 
