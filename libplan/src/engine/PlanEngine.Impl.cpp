@@ -2,6 +2,7 @@
 
 #include "control/ErrorWatch.hpp"
 #include "control/StoreLogWatch.hpp"
+#include "robot/ValidState.hpp"
 #include <acs/core/Overloaded.hpp>
 
 #include <algorithm>
@@ -364,7 +365,7 @@ void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
     // A robot in manual mode may ignore commands.
     const bool bBack = bFirst || (!robot.view.state->bAutomatic && event.bAutomatic);
     const bool bErrorsChanged = !bFirst && robot.view.state->errors != event.errors;
-    robot.view.state = event;
+    robot.view.state = MakeValidState(event, robot.view.state);
     ErrorWatch(_engine).CompareErrors(robot);
     if (bBack || bErrorsChanged)
     {

@@ -73,7 +73,12 @@ std::string Robot::Describe(EUnavailability unavailability) const
         case EUnavailability::Link:
             return "no connection";
         case EUnavailability::Place:
-            return "position unknown";
+            if (!view.state.has_value())
+            {
+                return "no state received";
+            }
+            return view.state->lastNodeID.empty() ? "position unknown: it reports no node"
+                                                  : "position unknown, see ACS-1003";
         case EUnavailability::Maintenance:
             return "in maintenance";
         case EUnavailability::Error:

@@ -130,11 +130,12 @@ std::optional<std::size_t> PlaceTracker::FindNodeOrNull(const Robot& robot) cons
 
 void PlaceTracker::OnPositionLost(Robot& robot)
 {
-    if (!std::exchange(robot.place.bPlaced, false))
-    {
-        return;
-    }
+    const bool bWasPlaced = std::exchange(robot.place.bPlaced, false);
     const std::string& nodeID = robot.view.state->lastNodeID;
+    if (!bWasPlaced && nodeID.empty())
+    {
+        return; // It has been switched on, and has not found its position yet.
+    }
     _transaction.RaiseAlarm(MakePlaceAlarm(
         robot,
         nodeID.empty()

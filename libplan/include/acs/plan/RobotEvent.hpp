@@ -56,7 +56,8 @@ struct RestartEvidence
     bool operator==(const RestartEvidence&) const = default;
 };
 
-/// The current state of the robot. Raised on every change and for every state message of the robot.
+/// The current state of the robot. Raised on every change and for every state message of the robot. A pose with a number that is not
+/// finite counts as unknown; batteryPercent that is not finite leaves the former value, and is limited to its range.
 struct StateChanged
 {
     double x = 0;              ///< Metres.
@@ -77,7 +78,8 @@ struct StateChanged
     /// another controller. The engine reserves them for it.
     std::vector<std::string> heldNodeIDs;
     RestartEvidence restartEvidence; ///< As of this state.
-    /// One entry per carrier port, in the order of RobotOptions::ports. nullopt if the robot reports no loads.
+    /// One entry per carrier port of RobotOptions::ports, by its name; others are ignored. nullopt if the robot reports no loads. The
+    /// state with the loads after a job precedes its JobFinished.
     std::optional<std::vector<PortLoad>> loads;
 
     bool operator==(const StateChanged&) const = default;

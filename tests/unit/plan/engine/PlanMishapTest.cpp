@@ -1,5 +1,8 @@
 #include "fixtures/PlanWorldSteps.hpp"
 
+#include <limits>
+#include <utility>
+
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 using ACS::Testing::BeginPlan;
 using ACS::Testing::Contains;
@@ -176,11 +179,57 @@ TEST_CASE("A robot at an unknown place is not used, keeps its nodes, and continu
         world.Submit(MakeLogisticsPlan("P1"));
         REQUIRE(world.TryRun());
         CHECK(world.GetReportsOf("P1").empty());
-        CHECK(world.engine->GetWaitReasonOrNull("P1")->robots.front().reason == "position unknown");
+        CHECK(
+            world.engine->GetWaitReasonOrNull("P1")->robots.front().reason
+            == (nodeID.empty() ? "position unknown: it reports no node" : "position unknown, see ACS-1003"));
         world.Raise("LR01", MakeState("D-CHG01"));
         CHECK(GetAlarmOrNull(world, "LR01", "ACS-1003") == std::nullopt);
         REQUIRE(world.TryRun());
         CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
+    }
+}
+
+TEST_CASE("A robot whose first state has an unknown node raises the alarm")
+{
+    PlanWorld world;
+    world.Raise("LR01", LinkChanged{true});
+    world.Submit(MakeLogisticsPlan("P1"));
+    CHECK(world.engine->GetWaitReasonOrNull("P1")->robots.front().reason == "no state received");
+    world.Raise("LR01", MakeState("X99"));
+    CHECK(GetAlarmOrNull(world, "LR01", "ACS-1003") == EAlarmLevel::Heavy);
+    CHECK(world.engine->GetWaitReasonOrNull("P1")->robots.front().reason == "position unknown, see ACS-1003");
+    world.Raise("LR01", MakeState("D-CHG01"));
+    CHECK(GetAlarmOrNull(world, "LR01", "ACS-1003") == std::nullopt);
+}
+
+TEST_CASE("Numbers of a state that are not finite have no effect")
+{
+    PlanWorld world;
+    world.Raise("LR01", LinkChanged{true});
+    StateChanged state = MakeState("D-CHG01");
+    state.bPoseKnown = true;
+    state.batteryPercent = 70;
+    world.Raise("LR01", state);
+    REQUIRE(world.engine->GetRobotPoses().size() == 1);
+    for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+    {
+        for (double StateChanged::*const member : {&StateChanged::x, &StateChanged::y, &StateChanged::theta})
+        {
+            StateChanged broken = state;
+            broken.*member = bad;
+            world.Raise("LR01", broken);
+            CHECK(world.engine->GetRobotPoses().empty());
+        }
+        StateChanged broken = state;
+        broken.batteryPercent = bad;
+        world.Raise("LR01", broken);
+        CHECK(world.engine->GetRobotPoses().at(0).batteryPercent == 70);
+    }
+    for (const auto& [reported, expected] : {std::pair{-1e6, 0.0}, {250.0, 100.0}})
+    {
+        state.batteryPercent = reported;
+        world.Raise("LR01", state);
+        CHECK(world.engine->GetRobotPoses().at(0).batteryPercent == expected);
     }
 }
 
