@@ -1,4 +1,4 @@
-// Lesson 21: which rule of the contract an adapter of one's own breaks. ACS::AdapterTest commands the adapter in virtual time, loses
+// Lesson 22: which rule of the contract an adapter of one's own breaks. ACS::AdapterTest commands the adapter in virtual time, loses
 // the link and crashes the ACS at each point of a job. A bench joins the adapter to a model of the robot. The robot here does jobs only.
 
 #include <acs/adapter_test/CheckAdapter.hpp>

@@ -87,6 +87,7 @@ void ScenarioRun::Command(const Planning::RobotCommand& command)
 
 void ScenarioRun::SetConduct(EConduct conduct)
 {
+    _states.OnConduct(conduct);
     _bench.SetConduct(conduct);
 }
 
@@ -317,14 +318,18 @@ void ScenarioRun::OnEvent(const Planning::RobotEvent& event)
             [this, &truth](const Planning::DriveRejected& rejected) { _drives.OnRejected(rejected, truth); },
             [this, &truth](const Planning::DriveCancelled& cancelled) { _drives.OnCancelled(cancelled, truth); },
             [this](const Planning::JobStarted& job) { _jobs.OnStarted(job); },
-            [this, &truth](const Planning::JobFinished& job) { _jobs.OnFinished(job, truth); },
+            [this, &truth](const Planning::JobFinished& job) {
+                _states.OnJobFinished(truth);
+                _jobs.OnFinished(job, truth);
+            },
             [this, &truth](const Planning::JobFailed& job) { _jobs.OnFailed(job, truth); },
             [this, &truth](const Planning::JobRejected& job) { _jobs.OnRejected(job, truth); },
             [this, &truth](const Planning::JobInterrupted& job) { _jobs.OnInterrupted(job, truth); },
             [this, &truth](const Planning::JobUnknown& job) { _jobs.OnUnknown(job, truth); },
             [this](const Planning::JobUnresolved& job) { _jobs.OnUnresolved(job); },
             [this](const Planning::JobCheckChanged& changed) { _answers.OnJobCheck(changed.jobCheck); },
-            [](const Planning::CompatibilityChanged& /*compatibility*/) {
+            [this](const Planning::CompatibilityChanged& changed) {
+                _states.OnCompatibility(changed);
             }},
         event);
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -25,6 +27,7 @@ void StateChecker::OnCommand(const Planning::RobotCommand& command)
         _lastSentID = jobOrNull->commandID;
         _sentIDs.insert(_lastSentID);
     }
+    _bErrorsExpected = _bErrorsExpected || std::holds_alternative<Planning::CancelJob>(command);
     _bPauseAsked = std::holds_alternative<Planning::Pause>(command)
         || (_bPauseAsked && !std::holds_alternative<Planning::Resume>(command));
 }
@@ -54,16 +57,36 @@ void StateChecker::OnState(const Planning::StateChanged& event, const RobotTruth
     {
         _sink(ERule::PauseObeyed, "bPaused is reported while the robot drives or works.");
     }
-    if (event.batteryPercent < 0 || event.batteryPercent > 100)
+    if (event.bPoseKnown && !(std::isfinite(event.x) && std::isfinite(event.y) && std::isfinite(event.theta)))
+    {
+        _sink(ERule::StateTrue, fmt::format("the pose {} {} {} is reported.", event.x, event.y, event.theta));
+    }
+    if (!(event.batteryPercent >= 0 && event.batteryPercent <= 100)) // Also not a number.
     {
         _sink(ERule::StateTrue, fmt::format("the battery is reported at {} %.", event.batteryPercent));
     }
+}
+
+void StateChecker::OnCompatibility(const Planning::CompatibilityChanged& event)
+{
+    _incompatibility = event.incompatibility;
+}
+
+void StateChecker::OnJobFinished(const RobotTruth& truth)
+{
+    VerifyLoads(truth, "when JobFinished is raised");
+}
+
+void StateChecker::OnConduct(EConduct conduct)
+{
+    _bErrorsExpected = _bErrorsExpected || conduct == EConduct::Fails || conduct == EConduct::Refuses;
 }
 
 void StateChecker::OnRestart()
 {
     _bOnline = false;
     _state.reset();
+    _incompatibility.clear();
 }
 
 void StateChecker::VerifyAtRest(const RobotTruth& truth)
@@ -91,6 +114,57 @@ void StateChecker::VerifyAtRest(const RobotTruth& truth)
     if (_state->bPaused && !_bPauseAsked)
     {
         _sink(ERule::StateTrue, "bPaused is reported, and the robot was not commanded to pause.");
+    }
+    VerifyUsable();
+    VerifyLoads(truth, "at rest");
+}
+
+void StateChecker::VerifyUsable()
+{
+    if (!_state->bAutomatic)
+    {
+        _sink(ERule::Usable, "bAutomatic is false.");
+    }
+    if (_state->bOccupied)
+    {
+        _sink(ERule::Usable, "bOccupied is reported.");
+    }
+    if (!_incompatibility.empty())
+    {
+        _sink(ERule::Usable, fmt::format("it is reported as incompatible: '{}'.", _incompatibility));
+    }
+    const auto heavy = std::ranges::find(_state->errors, Planning::EAlarmLevel::Heavy, &Planning::RobotError::level);
+    if (heavy != _state->errors.end() && !_bErrorsExpected)
+    {
+        _sink(ERule::Usable, fmt::format("the heavy error '{}' is reported.", heavy->errorCode));
+    }
+}
+
+void StateChecker::VerifyLoads(const RobotTruth& truth, std::string_view when)
+{
+    if (!truth.loads.has_value() || !_state.has_value() || !_state->loads.has_value())
+    {
+        return;
+    }
+    for (const Planning::PortLoad& load : *_state->loads)
+    {
+        const auto real = std::ranges::find(*truth.loads, load.port, &Planning::PortLoad::port);
+        if (real == truth.loads->end())
+        {
+            _sink(
+                ERule::LoadsTrue,
+                fmt::format("the port '{}' is reported, which the robot does not have.", load.port));
+        }
+        else if (real->bLoaded != load.bLoaded)
+        {
+            _sink(
+                ERule::LoadsTrue,
+                fmt::format("'{}' is reported as {} {}.", load.port, load.bLoaded ? "loaded" : "empty", when));
+        }
+    }
+    if (_state->loads->size() < truth.loads->size())
+    {
+        _sink(ERule::LoadsTrue, "a port of the robot is not reported.");
     }
 }
 

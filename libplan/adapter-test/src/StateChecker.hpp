@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 
 namespace ACS::AdapterTest
 {
@@ -20,6 +21,8 @@ class StateChecker
     std::set<std::string> _sentIDs;               ///< Drives and jobs that were commanded.
     std::string _lastSentID;
     bool _bPauseAsked = false;
+    bool _bErrorsExpected = false; ///< The robot was made to fail, or its job was cancelled.
+    std::string _incompatibility;
 
 public:
     explicit StateChecker(FindingSink sink);
@@ -27,6 +30,9 @@ public:
     void OnCommand(const Planning::RobotCommand& command);
     void OnLink(const Planning::LinkChanged& event);
     void OnState(const Planning::StateChanged& event, const RobotTruth& truth);
+    void OnCompatibility(const Planning::CompatibilityChanged& event);
+    void OnJobFinished(const RobotTruth& truth);
+    void OnConduct(EConduct conduct);
     /// A new adapter, which has reported nothing.
     void OnRestart();
 
@@ -38,6 +44,11 @@ public:
     [[nodiscard]] bool IsOnline() const noexcept;
     /// Null before the first state since the connection.
     [[nodiscard]] const Planning::StateChanged* GetStateOrNull() const noexcept;
+
+private:
+    void VerifyUsable();
+    /// @param when Appended to the finding.
+    void VerifyLoads(const RobotTruth& truth, std::string_view when);
 };
 
 } // namespace ACS::AdapterTest

@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <set>
@@ -296,6 +297,32 @@ struct IgnoresStopCharging final : ReferenceAdapter
     }
 };
 
+/// Shows the loads after a job only when it has ended the job.
+struct ShowsLoadsLate final : ReferenceAdapter
+{
+    void Raise(Planning::RobotEvent event, Out& out) override
+    {
+        if (auto* const stateOrNull = std::get_if<Planning::StateChanged>(&event))
+        {
+            _shown = _job.has_value() && _shown.has_value() ? _shown : stateOrNull->loads;
+            stateOrNull->loads = _shown;
+        }
+        ReferenceAdapter::Raise(std::move(event), out);
+    }
+
+private:
+    std::optional<std::vector<Planning::PortLoad>> _shown;
+};
+
+struct IsIncompatible final : ReferenceAdapter
+{
+    void OnLinkUp(Out& out) override
+    {
+        Raise(Planning::CompatibilityChanged{"it is too wide"}, out);
+        ReferenceAdapter::OnLinkUp(out);
+    }
+};
+
 /// Its transport still calls it when it is destroyed.
 class ForgetfulBench final : public ReferenceBench
 {
@@ -356,6 +383,20 @@ PlantedDefect PlantEvents(
             }};
 }
 
+PlantedDefect PlantState(const char* name, ERule rule, void (*change)(Planning::StateChanged& state))
+{
+    return {name, rule, [change] {
+                return std::make_unique<EventFilter>([change](const Planning::RobotEvent& event) {
+                    std::vector<Planning::RobotEvent> events{event};
+                    if (auto* const stateOrNull = std::get_if<Planning::StateChanged>(&events.front()))
+                    {
+                        change(*stateOrNull);
+                    }
+                    return events;
+                });
+            }};
+}
+
 std::vector<PlantedDefect> PlantAll()
 {
     using Events = std::vector<Planning::RobotEvent>;
@@ -379,17 +420,39 @@ std::vector<PlantedDefect> PlantAll()
                     ? Events()
                     : Events{event};
             }),
-        PlantEvents(
+        PlantState(
+            "reports a pose that is not a number",
+            ERule::StateTrue,
+            [](Planning::StateChanged& state) {
+                state.bPoseKnown = true;
+                state.theta = std::numeric_limits<double>::quiet_NaN();
+            }),
+        PlantState(
+            "reports a battery that is not a number",
+            ERule::StateTrue,
+            [](Planning::StateChanged& state) { state.batteryPercent = std::numeric_limits<double>::quiet_NaN(); }),
+        PlantState(
+            "is never automatic",
+            ERule::Usable,
+            [](Planning::StateChanged& state) { state.bAutomatic = false; }),
+        PlantState("is always occupied", ERule::Usable, [](Planning::StateChanged& state) { state.bOccupied = true; }),
+        PlantState(
+            "always has an error",
+            ERule::Usable,
+            [](Planning::StateChanged& state) {
+                state.errors.push_back({"AGV-1", Planning::EAlarmLevel::Heavy, "it is broken"});
+            }),
+        Plant<IsIncompatible>("is incompatible", ERule::Usable),
+        Plant<ShowsLoadsLate>("shows the loads after a job too late", ERule::LoadsTrue),
+        PlantState(
+            "reports a port of another robot",
+            ERule::LoadsTrue,
+            [](Planning::StateChanged& state) { state.loads->front().port = "CP99"; }),
+        PlantState("reports no port", ERule::LoadsTrue, [](Planning::StateChanged& state) { state.loads->clear(); }),
+        PlantState(
             "does not list the node that the robot may enter after a restart",
             ERule::HeldNodes,
-            [](const RobotEvent& event) {
-                Events events{event};
-                if (auto* const stateOrNull = std::get_if<Planning::StateChanged>(&events.front()))
-                {
-                    stateOrNull->heldNodeIDs.clear();
-                }
-                return events;
-            }),
+            [](Planning::StateChanged& state) { state.heldNodeIDs.clear(); }),
         Plant<ShowsSentCommand>("shows a command that the robot did not receive", ERule::RestartEvidenceTrue),
         PlantEvents(
             "names the job by another ID",

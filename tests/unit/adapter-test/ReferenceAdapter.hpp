@@ -232,6 +232,7 @@ protected:
         report.bOccupied = !_state->nextID.empty() && !_drive.has_value(); // it ends an edge from before a restart
         report.heldNodeIDs.assign(report.bOccupied ? 1 : 0, _state->nextID);
         report.restartEvidence.commandID = _state->id;
+        report.loads = std::vector<Planning::PortLoad>{{"CP01", _state->bLoaded, ""}};
         Raise(std::move(report), out);
     }
 

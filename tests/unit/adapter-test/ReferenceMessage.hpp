@@ -34,6 +34,7 @@ struct ReferenceMessage
     std::string text = {};   ///< JobState.
     bool bPaused = false;
     bool bCharging = false;
+    bool bLoaded = false;
 };
 
 } // namespace ACS::Testing

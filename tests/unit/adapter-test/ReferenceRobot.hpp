@@ -9,6 +9,7 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace ACS::Testing
 {
@@ -90,7 +91,12 @@ public:
     [[nodiscard]] AdapterTest::RobotTruth GetTruth() const
     {
         const bool bActive = !_state.bPaused;
-        return {_state.nodeID, bActive && !_state.nextID.empty(), bActive && !_jobID.empty(), _doneJobs};
+        return {
+            _state.nodeID,
+            bActive && !_state.nextID.empty(),
+            bActive && !_jobID.empty(),
+            _doneJobs,
+            std::vector<Planning::PortLoad>{{"CP01", _state.bLoaded, ""}}};
     }
 
 private:
@@ -154,7 +160,12 @@ private:
         _jobID.clear();
         ++_motion;
         _journal[commandID] = outcome;
-        _doneJobs += outcome == "done" ? 1U : 0U;
+        if (outcome == "done")
+        {
+            ++_doneJobs;
+            _state.bLoaded = !_state.bLoaded;
+            ShowState();
+        }
         AnswerJob(commandID);
     }
 

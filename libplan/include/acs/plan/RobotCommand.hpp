@@ -156,13 +156,13 @@ struct Resume
 
 /// Start charging. Sent only to a robot that is docked at its charging station and has no drive and no job. Answered by
 /// StateChanged with bCharging. Until then the command is repeated every DispatchOptions::chargeRetry, with an alarm if its
-/// battery is low.
+/// battery is low; also after a lost connection, so that an adapter need not keep it.
 struct StartCharging
 {
     bool operator==(const StartCharging&) const = default;
 };
 
-/// Stop charging. A Drive may follow immediately.
+/// Stop charging. A Drive may follow immediately. Not repeated after a lost connection: a Drive ends charging too.
 struct StopCharging
 {
     bool operator==(const StopCharging&) const = default;

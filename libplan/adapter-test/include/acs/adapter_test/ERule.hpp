@@ -19,6 +19,8 @@ enum class ERule : std::uint8_t
     LinkReported,
     StateAfterConnection,
     StateTrue,
+    Usable,
+    LoadsTrue,
     HeldNodes,
     RestartEvidenceTrue,
     KnownIDs,
@@ -42,7 +44,7 @@ enum class ERule : std::uint8_t
 };
 
 /// Every rule, in the order of the page.
-inline constexpr std::array<ERule, 27> ALL_RULES{
+inline constexpr std::array<ERule, 29> ALL_RULES{
     ERule::OutputInCall,
     ERule::SilentAfterDestruction,
     ERule::TimeAdvances,
@@ -50,6 +52,8 @@ inline constexpr std::array<ERule, 27> ALL_RULES{
     ERule::LinkReported,
     ERule::StateAfterConnection,
     ERule::StateTrue,
+    ERule::Usable,
+    ERule::LoadsTrue,
     ERule::HeldNodes,
     ERule::RestartEvidenceTrue,
     ERule::KnownIDs,

@@ -5,11 +5,14 @@
 #include <acs/core/Api.hpp>
 #include <acs/plan/IRobotAdapter.hpp>
 #include <acs/plan/RobotCommand.hpp>
+#include <acs/plan/RobotEvent.hpp>
 
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace ACS::AdapterTest
 {
@@ -31,6 +34,8 @@ struct RobotTruth
     bool bDriving = false;    ///< It moves.
     bool bWorking = false;    ///< It executes a job, and is not paused.
     std::size_t doneJobs = 0; ///< How often it has done a job, since MakeRobot.
+    /// What is at its ports. nullopt: loads are not compared.
+    std::optional<std::vector<Planning::PortLoad>> loads{};
 
     bool operator==(const RobotTruth&) const = default;
 };
