@@ -1,12 +1,20 @@
 # acs_add_library(NAME acs_protocol EXPORT Protocol SOURCES … HEADERS … [PUBLIC ACS::Core] [PRIVATE …] [BASE_DIR dir])
-# One static library: its public headers as a file set (installed, each compiled alone by
-# all_verify_interface_header_sets), its export, and the warnings of this project at build time only.
+# One library: its public headers as a file set (installed, each compiled alone by all_verify_interface_header_sets), its export,
+# and the warnings of this project at build time only.
 function(acs_add_library)
   cmake_parse_arguments(arg "" "NAME;EXPORT;BASE_DIR" "SOURCES;HEADERS;PUBLIC;PRIVATE" ${ARGN})
   if(NOT arg_BASE_DIR)
     set(arg_BASE_DIR "${CMAKE_CURRENT_SOURCE_DIR}/include")
   endif()
-  add_library(${arg_NAME} STATIC)
+  if(ACS_BUILD_SHARED)
+    add_library(${arg_NAME} SHARED)
+    acs_make_shared(${arg_NAME})
+    # No public header includes it, so only the libraries link it.
+    list(REMOVE_ITEM arg_PUBLIC fmt::fmt)
+    list(APPEND arg_PRIVATE fmt::fmt)
+  else()
+    add_library(${arg_NAME} STATIC)
+  endif()
   add_library(ACS::${arg_EXPORT} ALIAS ${arg_NAME})
   target_sources(${arg_NAME} PRIVATE ${arg_SOURCES}
     PUBLIC FILE_SET HEADERS BASE_DIRS "${arg_BASE_DIR}" FILES ${arg_HEADERS})
@@ -14,20 +22,25 @@ function(acs_add_library)
   target_compile_features(${arg_NAME} PUBLIC cxx_std_20)
   set_target_properties(${arg_NAME} PROPERTIES EXPORT_NAME ${arg_EXPORT} CXX_EXTENSIONS OFF
     POSITION_INDEPENDENT_CODE ON VERIFY_INTERFACE_HEADER_SETS ON)
+  acs_hide_symbols(${arg_NAME})
   if(ACS_INSTALL)
-    install(TARGETS ${arg_NAME} EXPORT acs${arg_EXPORT}Targets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+    install(TARGETS ${arg_NAME} EXPORT acs${arg_EXPORT}Targets
+      ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
       FILE_SET HEADERS DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
     install(EXPORT acs${arg_EXPORT}Targets NAMESPACE ACS:: DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/acs")
-    acs_install_pkg_config(${arg_NAME} ${arg_PUBLIC} ${arg_PRIVATE})
+    acs_install_pkg_config(${arg_NAME} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   endif()
 endfunction()
 
-# acs_add_internal_library(NAME acs_json EXPORT Json … [BASE_DIR dir]): archive installed and exported because static libraries link
-# it, headers never.
+# acs_add_internal_library(NAME acs_json EXPORT Json … [BASE_DIR dir]): a static library; archive installed and exported if static
+# libraries link it, headers never. A shared library has it inside, hidden.
 function(acs_add_internal_library)
   cmake_parse_arguments(arg "" "NAME;EXPORT;BASE_DIR" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   if(NOT arg_BASE_DIR)
     set(arg_BASE_DIR "${CMAKE_CURRENT_SOURCE_DIR}/include")
+  endif()
+  if(ACS_BUILD_SHARED)
+    list(APPEND arg_PRIVATE fmt::fmt)
   endif()
   add_library(${arg_NAME} STATIC ${arg_SOURCES})
   add_library(ACS::${arg_EXPORT} ALIAS ${arg_NAME})
@@ -35,10 +48,11 @@ function(acs_add_internal_library)
   target_link_libraries(${arg_NAME} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:acs_warnings>)
   target_compile_features(${arg_NAME} PUBLIC cxx_std_20)
   set_target_properties(${arg_NAME} PROPERTIES EXPORT_NAME ${arg_EXPORT} POSITION_INDEPENDENT_CODE ON)
-  if(ACS_INSTALL)
+  acs_hide_symbols(${arg_NAME})
+  if(ACS_INSTALL AND NOT ACS_BUILD_SHARED)
     install(TARGETS ${arg_NAME} EXPORT acs${arg_EXPORT}Targets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
     install(EXPORT acs${arg_EXPORT}Targets NAMESPACE ACS:: DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/acs")
-    acs_install_pkg_config(${arg_NAME} ${arg_PUBLIC} ${arg_PRIVATE})
+    acs_install_pkg_config(${arg_NAME} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
   endif()
 endfunction()
 
@@ -48,6 +62,7 @@ function(acs_add_program)
   add_executable(${arg_NAME} ${arg_SOURCES})
   target_link_libraries(${arg_NAME} PRIVATE ${arg_LINK} acs_warnings)
   acs_harden_program(${arg_NAME})
+  acs_set_run_path(${arg_NAME})
   if(ACS_INSTALL)
     install(TARGETS ${arg_NAME} RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
   endif()

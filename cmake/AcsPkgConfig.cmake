@@ -1,11 +1,24 @@
-# acs_install_pkg_config(NAME PUBLIC… PRIVATE…): a file for pkg-config beside the archive, from what the library links:
-# acs_core becomes acs-core.pc. The archives are static, so everything that a program must link is in Requires and Libs,
-# with and without --static. The prefix is relative to the file: an installed tree can be moved.
+# acs_install_pkg_config(NAME [PUBLIC …] [PRIVATE …]): a file for pkg-config beside the library, from what the library links:
+# acs_core becomes acs-core.pc. What a program must link is in Requires and Libs, with and without --static: for an archive all that
+# it uses, for a shared library only what its headers use. The prefix is relative to the file: an installed tree can be moved.
 function(acs_install_pkg_config name)
+  cmake_parse_arguments(arg "" "" "PUBLIC;PRIVATE" ${ARGN})
   set(requires "")
   set(libs "")
   set(folders "")
-  foreach(link IN LISTS ARGN)
+  if(ACS_BUILD_SHARED)
+    # So that the linker finds the libraries of the SDK that this one uses and its headers do not.
+    foreach(link IN LISTS arg_PRIVATE)
+      if(link MATCHES "^ACS::" AND TARGET ${link})
+        get_target_property(type ${link} TYPE)
+        if(type STREQUAL "SHARED_LIBRARY")
+          set(libs "-Wl,-rpath-link,\${libdir}")
+        endif()
+      endif()
+    endforeach()
+    set(arg_PRIVATE "")
+  endif()
+  foreach(link IN LISTS arg_PUBLIC arg_PRIVATE)
     if(TARGET ${link})
       get_target_property(aliased ${link} ALIASED_TARGET)
       if(aliased)

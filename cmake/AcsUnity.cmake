@@ -1,11 +1,12 @@
 # acs_unite_sources(): with ACS_UNITY_BATCH greater than 1 the sources of each target are compiled in groups of that size.
 # CMake's own unity builds include sources by absolute paths, so an object cache never serves another clone; these files
-# include them by paths relative to their own place. Call once, after all targets exist.
+# include them by paths relative to their own place. Call once, after all targets exist. UNITY_BUILD OFF leaves a target out.
 set(ACS_UNITY_BATCH 0 CACHE STRING "Number of sources that are compiled as one; 0 compiles each alone")
 
 function(acs_unite_target target)
   get_target_property(type ${target} TYPE)
-  if(NOT type MATCHES "^(STATIC_LIBRARY|OBJECT_LIBRARY|EXECUTABLE)$")
+  get_target_property(unity ${target} UNITY_BUILD)
+  if(unity STREQUAL "OFF" OR NOT type MATCHES "^(STATIC_LIBRARY|SHARED_LIBRARY|OBJECT_LIBRARY|EXECUTABLE)$")
     return()
   endif()
   get_target_property(sources ${target} SOURCES)
