@@ -19,9 +19,10 @@ if(ACS_BUILD_SHARED)
   endforeach()
 endif()
 
-# The linker finds libraries below /usr and /usr/local by itself. Elsewhere, what is installed says where its libraries are.
+# The dynamic linker searches /usr and /usr/local. What is installed elsewhere has a run path to its libraries.
 function(acs_set_run_path target)
-  if(ACS_BUILD_SHARED AND ACS_INSTALL AND NOT DEFINED CMAKE_INSTALL_RPATH AND NOT CMAKE_INSTALL_PREFIX MATCHES "^/(usr(/local)?/?)?$")
+  if(ACS_BUILD_SHARED AND ACS_INSTALL AND NOT DEFINED CMAKE_INSTALL_RPATH AND
+      NOT CMAKE_INSTALL_PREFIX MATCHES "^/(usr(/local)?/?)?$")
     set_target_properties(${target} PROPERTIES INSTALL_RPATH "${CMAKE_INSTALL_FULL_LIBDIR}")
   endif()
 endfunction()

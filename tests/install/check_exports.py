@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""check_exports.py PREFIX SOVERSION FORBIDDEN_FOLDER...: what the shared libraries and the programs that are installed in PREFIX export,
-need and are called. Each exported symbol must belong to a class or a function that an installed header marks with ACS_API, and each
+"""check_exports.py PREFIX SOVERSION FORBIDDEN_FOLDER...: names, exports and needs of the shared libraries and programs that are
+installed in PREFIX. Each exported symbol must belong to a class or a function that an installed header marks with ACS_API, and each
 marked function must be exported. No file may have a run path in a forbidden folder."""
 
 import pathlib
@@ -12,7 +12,7 @@ COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
 MARKED_TYPE = re.compile(r"\b(?:class|struct)\s+ACS_API\s+(\w+)")
 MARKED_FUNCTION = re.compile(r"(?<!class )(?<!struct )\bACS_API(?=\s)[^;{}(]*?[\s*&](\w+)\s*\(")
 NAMESPACE = re.compile(r"^namespace (ACS::\w+)", re.MULTILINE)
-# "vtable for ACS::Core::Logger", "non-virtual thunk to ACS::...", "ACS::Core::Result<...> ACS::VDA5050::Vda5050Codec::Decode<...>(...)"
+# "vtable for ACS::Core::Logger", "ACS::Core::Result<...> ACS::VDA5050::Vda5050Codec::Decode<...>(...)"
 OF_SYMBOL = re.compile(r"^(?:vtable for |VTT for |typeinfo for |typeinfo name for |non-virtual thunk to |virtual thunk to )?(.*)$")
 C_LIBRARY = "libacs_protocol_c.so"
 PRIVATE = re.compile(r"libacs_(?:json|apps_common|net|world)\b")
@@ -70,7 +70,7 @@ def check_exports(library, types, functions, used):
 
 
 def check_dynamic(path, forbidden):
-    entries = re.findall(r"\((\w+)\)\s+(?:Shared library|Library soname|Library r(?:un)?path): \[(.*)\]", run("readelf", "-dW", str(path)))
+    entries = re.findall(r"\((\w+)\)\s+(?:Shared library|Library r(?:un)?path): \[(.*)\]", run("readelf", "-dW", str(path)))
     for kind, value in entries:
         if kind in ("RPATH", "RUNPATH") and any(value.startswith(folder) for folder in forbidden):
             yield f"has the run path {value}"
