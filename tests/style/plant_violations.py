@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Plants one violation after another in an otherwise right tree, and requires that scripts/check_layers.py,
+"""Plants one violation after another in an otherwise right tree, and requires that scripts/check_api.py, scripts/check_layers.py,
 scripts/check_files.py, scripts/check_members.py, scripts/check_references.py, scripts/check_sizes.py and
 scripts/check_words.py report it at its line; the tree without it must pass."""
 
@@ -11,6 +11,7 @@ import tempfile
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
 sys.dont_write_bytecode = True
+import check_api  # noqa: E402
 import check_files  # noqa: E402
 import check_layers  # noqa: E402
 import check_members  # noqa: E402
@@ -18,8 +19,8 @@ import check_references  # noqa: E402
 import check_sizes  # noqa: E402
 import check_words  # noqa: E402
 
-CHECKS = {"layers": check_layers, "files": check_files, "members": check_members, "references": check_references,
-          "sizes": check_sizes, "words": check_words}
+CHECKS = {"api": check_api, "layers": check_layers, "files": check_files, "members": check_members,
+          "references": check_references, "sizes": check_sizes, "words": check_words}
 
 RIGHT = {
     "libacs-core/include/acs/core/Location.hpp": "#pragma once\n#include <fmt/core.h>\nclass Location\n{\n};\n",
@@ -62,6 +63,13 @@ RIGHT = {
 
 # check, file, content, line that must be named, what the sentence must hold
 PLANTED = [
+    ("api", "libplan/include/acs/plan/Box.hpp", "#pragma once\nclass Box final : public IBox\n{\npublic:\n    Box();\n};\n", 2,
+     "mark it with ACS_API"),
+    ("api", "libplan/include/acs/plan/IBox.hpp", "#pragma once\nclass IBox\n{\n    virtual ~IBox() = default;\n};\n", 2, "virtual"),
+    ("api", "libplan/include/acs/plan/Box.hpp",
+     "#pragma once\nnamespace ACS::Planning\n{\n\nclass ACS_API Box\n{\n    class Impl;\n    void Run();\n};\n\n}\n", 7, "ACS_HIDDEN"),
+    ("api", "apps/acsd/include/acs/acsd/Run.hpp", "#pragma once\n[[nodiscard]] int Run(int count = Get({1}));\n", 2, "this function"),
+    ("api", "libplan/include/acs/plan/Box.hpp", "#pragma once\nextern template void Box::Run<int>(int size);\n", 2, "this function"),
     ("layers", "libacs-core/src/Location.cpp", "#include <string>\n#include <boost/asio.hpp>\n", 2, "layer 'core'"),
     ("layers", "libacs-core/src/Location.cpp", "#include <rapidjson/document.h>\n", 1, "layer 'core'"),
     ("layers", "libacs-core/src/Location.cpp", "#include <mutex>\n", 1, "pure"),
@@ -191,6 +199,13 @@ PLANTED = [
 ]
 
 ACCEPTED = [
+    ("api", "libplan/include/acs/plan/Box.hpp",
+     "#pragma once\n#define BOX(a) \\\n    Use(a)\nclass Other;\nenum class EBox\n{\n    One,\n};\n\nstruct Box\n{\n"
+     "    std::function<void(int)> run;\n    int operators = 1;\n    Box() = default;\n    bool operator==(const Box&) const = default;\n"
+     "    int Get() const { return Use(1); }\n};\n\ntemplate <typename T>\nvoid Run(T one);\ninline int Two();\n"
+     "using Call = int (*)(int);\nPair(int) -> Pair<int>;\n[[nodiscard]] ACS_API Box MakeBox();\n"
+     "class ACS_API Shown\n{\n    class ACS_HIDDEN Impl;\n    class Inner;\n    class Inner\n    {\n    };\n    void Run();\n};\n"),
+    ("api", "libplan/src/Box.hpp", "#pragma once\nclass Box\n{\n    void Run();\n};\n"),
     ("sizes", "apps/acsd/RobotOptions.hpp",
      "#pragma once\nstruct RobotOptions\n{\n" + "    int a = 0;\n" * 30 + "};\n"),
     ("sizes", "apps/acsd/Robot.hpp", "#pragma once\nclass Robot\n{\n    static constexpr int A = 1;\n    using B = int;\n"
