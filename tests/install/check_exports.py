@@ -71,8 +71,8 @@ def check_exports(library, types, functions, used):
 
 def check_dynamic(path, forbidden):
     entries = re.findall(r"\((\w+)\)\s+(?:Shared library|Library r(?:un)?path): \[(.*)\]", run("readelf", "-dW", str(path)))
-    for kind, value in entries:
-        if kind in ("RPATH", "RUNPATH") and any(value.startswith(folder) for folder in forbidden):
+    for kind, value in ((kind, part) for kind, value in entries for part in value.split(":")):
+        if kind in ("RPATH", "RUNPATH") and value.startswith(tuple(forbidden)):
             yield f"has the run path {value}"
         elif kind == "NEEDED" and PRIVATE.search(value):
             yield f"needs {value}, which is internal"
@@ -107,7 +107,8 @@ def check_prefix(prefix, soversion, forbidden):
 
 def main():
     findings = list(check_prefix(pathlib.Path(sys.argv[1]), sys.argv[2], sys.argv[3:]))
-    print(*findings, sep="\n")
+    for finding in findings:
+        print(finding)
     return 1 if findings else 0
 
 
