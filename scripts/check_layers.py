@@ -56,6 +56,7 @@ THIRD_PARTY = {
     "plan_sqlite": ("fmt/", "tl/", "SQLiteCpp/", "sqlite3.h", "fcntl.h", "sys/file.h", "sys/stat.h", "unistd.h"),
 }
 PUBLIC_THIRD_PARTY = ("fmt/", "tl/", "boost/asio/any_io_executor.hpp")
+DRIVER_LIBRARIES = ("core", "plan", "vda5050")
 THIRD_PARTY["drivers"] = PUBLIC_THIRD_PARTY  # the public headers of acsd
 IMPURE_STANDARD = ("thread", "mutex", "shared_mutex", "condition_variable", "future", "semaphore", "latch", "barrier",
                    "stop_token", "filesystem", "fstream", "iostream", "ctime")
@@ -97,7 +98,9 @@ def explain_refusal(path, layer, used):
             return None
         return "is for programs with robot drivers; only apps/acsd and examples/ may include it"
     if layer == "drivers":
-        return None if used in ("core", "plan") else "is hidden from robot drivers: they see acs/core and acs/plan only"
+        if used in DRIVER_LIBRARIES:
+            return None
+        return f"is hidden from robot drivers: they see acs/{', acs/'.join(DRIVER_LIBRARIES)} only"
     if used.startswith("apps/"):
         if layer.startswith("apps/") and used == "apps/common":
             return None

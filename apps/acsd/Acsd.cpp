@@ -6,6 +6,7 @@
 #include "common/process/TimerSet.hpp"
 #include "config/LiveConfig.hpp"
 #include "drivers/DrivenRobots.hpp"
+#include "drivers/MqttRouter.hpp"
 #include "mcs/McsLink.hpp"
 #include "operator/AcsdMetrics.hpp"
 #include "operator/AcsdStatus.hpp"
@@ -18,7 +19,6 @@
 #include "store/StoreSummary.hpp"
 #include "store/StoreWorker.hpp"
 #include <acs/plan_sqlite/SqlitePlanStore.hpp>
-#include <acs/vda5050/Topic.hpp>
 #include <acs/vda5050_mosquitto/MosquittoLink.hpp>
 
 #include <fmt/format.h>
@@ -29,8 +29,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -44,7 +42,7 @@ constexpr unsigned NOT_FOUND = 404;
 
 } // namespace
 
-class Acsd::Impl final : private IAcsdOutput, private VDA5050::IMqttLinkListener
+class Acsd::Impl final : private IAcsdOutput
 {
     Dependencies _dependencies;
     AcsdConfig _config;
@@ -54,11 +52,11 @@ class Acsd::Impl final : private IAcsdOutput, private VDA5050::IMqttLinkListener
     AcsdCore _core;
     StoreWorker _store;
     McsLink _mcs;
-    std::optional<VDA5050::MosquittoLink> _mqtt; ///< Set if a robot needs the broker.
+    MqttRouter _mqttRouter;
+    std::optional<VDA5050::MosquittoLink> _mqtt;              ///< Set if a robot needs the broker.
+    std::vector<std::unique_ptr<IMqttService>> _mqttServices; ///< Of the robots below.
     std::map<std::string, std::unique_ptr<RobotHost>, std::less<>> _robots;
     DrivenRobots _drivenRobots;
-    /// By manufacturer and serial number: a message costs one look-up, however many robots there are.
-    std::map<std::pair<std::string, std::string>, RobotHost*> _vehicles;
     Apps::TimerSet<AcsdTimer> _timers;
     Apps::LoopWatchdog _watchdog;
     HttpInterfaces _http;
@@ -85,13 +83,21 @@ public:
               _dependencies.clock,
               _dependencies.logger.MakeFor("mcs"),
               [this](const Protocol::SessionEvent& event) { _core.OnSessionEvent(event); }),
+          _mqttRouter(
+              {_dependencies.logger.MakeFor("mqtt"),
+               _dependencies.traceOrNull,
+               [this](bool bUp) { bUp ? _core.OnMqttUp() : _core.OnMqttDown(); },
+               [this] {
+                   return _core.IsClosed();
+               }}),
           _drivenRobots(
               {_dependencies.executor,
                _dependencies.clock,
                _dependencies.random,
                _dependencies.logger,
                _metricsEndpoint,
-               _dependencies.traceOrNull},
+               _dependencies.traceOrNull,
+               &_mqttRouter},
               _config.robots,
               [this](const std::string& robotID, const Planning::RobotEvent& event) {
                   _core.OnRobotEvent(robotID, event);
@@ -112,7 +118,8 @@ public:
                 _dependencies.random,
                 _dependencies.logger.MakeFor("mqtt"),
                 MakeMqttOptions(*_config.mqtt, _dependencies.random),
-                static_cast<VDA5050::IMqttLinkListener&>(*this)); // its base is private
+                _mqttRouter);
+            _mqttRouter.SetLink(*_mqtt);
         }
         for (const RobotLinkConfig& robot : _config.robots)
         {
@@ -184,12 +191,13 @@ public:
 private:
     void AddRobot(const RobotLinkConfig& robot)
     {
+        _mqttServices.push_back(_mqttRouter.MakeService(robot.robotID, robot.topicPrefix));
         auto host = std::make_unique<RobotHost>(
             RobotHost::Dependencies{
                 _dependencies.executor,
                 _dependencies.clock,
                 _dependencies.random,
-                *_mqtt,
+                *_mqttServices.back(),
                 _dependencies.logger,
                 _metricsEndpoint,
                 _dependencies.traceOrNull},
@@ -198,7 +206,6 @@ private:
             [this](const std::string& robotID, const Planning::RobotEvent& event) {
                 _core.OnRobotEvent(robotID, event);
             });
-        _vehicles[{robot.manufacturer, robot.serialNumber}] = host.get();
         _robots.emplace(robot.robotID, std::move(host));
     }
 
@@ -303,57 +310,6 @@ private:
         _dependencies.logger.Warning(
             "the event loop was blocked",
             {{"seconds", fmt::format("{:.3f}", std::chrono::duration<double>(stall).count())}});
-    }
-
-    void OnLinkUp() override
-    {
-        _core.OnMqttUp();
-        if (_core.IsClosed())
-        {
-            return;
-        }
-        for (const auto& [robotID, robot] : _robots)
-        {
-            robot->OnLinkUp();
-        }
-    }
-
-    void OnLinkDown(std::error_code /*reason*/) override
-    {
-        _core.OnMqttDown();
-        if (_core.IsClosed())
-        {
-            return;
-        }
-        for (const auto& [robotID, robot] : _robots)
-        {
-            robot->OnLinkDown();
-        }
-    }
-
-    void OnMqttMessage(const VDA5050::MqttMessage& message) override
-    {
-        if (_core.IsClosed())
-        {
-            return;
-        }
-        const Core::Result<VDA5050::ParsedTopic> topic = VDA5050::ParseTopic(message.topic);
-        const auto found =
-            topic ? _vehicles.find({topic->address.manufacturer, topic->address.serialNumber}) : _vehicles.end();
-        if (_dependencies.traceOrNull != nullptr)
-        {
-            std::string_view robotID;
-            if (found != _vehicles.end())
-            {
-                robotID = found->second->GetRobotID();
-            }
-            _dependencies.traceOrNull->Write(
-                {"mqtt", ProtocolBeast::EWireDirection::In, robotID, message.topic, message.payload});
-        }
-        if (found != _vehicles.end())
-        {
-            found->second->OnMqttMessage(message);
-        }
     }
 
     [[nodiscard]] std::vector<LinkStatus> GetLinks() const

@@ -55,7 +55,8 @@ AcsdCore::AcsdCore(Dependencies dependencies, const AcsdConfig& config)
               UpdateDrain();
           }),
       _storeWatch(_dependencies.logger.MakeFor("store")),
-      _bBrokerNeeded(std::ranges::none_of(config.robots, &RobotLinkConfig::bDriven))
+      _bBrokerNeeded(
+          std::ranges::none_of(config.robots, [](const RobotLinkConfig& robot) { return robot.topicPrefix.empty(); }))
 {
     _gateway.SetStyle(config.mcs.style);
     _gateway.SetAckObserver([this](Core::Duration wait) { _dependencies.output.ObserveAckWait(wait); });

@@ -259,25 +259,30 @@ void ReadStore(const ConfigSection& root, const std::string& fileName, bool bSto
     }
 }
 
+/// Of a broker that is given. The interface is a part of the topics of vehicles, which are read later.
 void ReadBroker(const ConfigSection& root, const std::string& fileName, AcsdConfig& config)
 {
-    const bool bNeeded = IsBrokerNeeded(root);
-    if (!bNeeded && !root.HasKey("mqtt"))
+    if (root.HasKey("mqtt"))
     {
-        return;
+        ReadMqttConfig(root, fileName, config.mqtt.emplace(), config.warnings);
     }
-    MqttConfig mqtt;
-    ReadMqttConfig(root, fileName, mqtt, config.warnings);
-    if (bNeeded)
+}
+
+/// Whether the broker is given and used, when it is known which robots use it.
+void CheckBroker(const ConfigSection& root, const std::string& fileName, AcsdConfig& config)
+{
+    const bool bNeeded = std::ranges::any_of(config.robots, [](const RobotLinkConfig& robot) {
+        return !robot.bDriven || !robot.topicPrefix.empty();
+    });
+    if (bNeeded && !config.mqtt.has_value())
     {
-        config.mqtt = std::move(mqtt);
+        ReadMqttConfig(root, fileName, config.mqtt.emplace(), config.warnings); // what is missing
     }
-    else
+    else if (!bNeeded && config.mqtt.has_value())
     {
-        config.warnings.push_back(fmt::format(
-            "mqtt: has no effect, because no robot has the driver {} or {}; remove it",
-            VDA5050_DRIVER,
-            OPEN_STREAM_DRIVER));
+        config.mqtt.reset();
+        config.warnings.emplace_back(
+            "mqtt: has no effect, because no robot has a driver that uses the broker; remove it");
     }
 }
 
@@ -306,6 +311,7 @@ AcsdConfig Read(
     ReadRobots(root, fileName, drivers, config);
     ReadJobs(root, config);
     ReadDrivenRobots(reader, drivers, config);
+    CheckBroker(root, fileName, config);
     ReportRemovedKeys(root);
     if (reader.GetErrors().empty())
     {

@@ -49,9 +49,11 @@ struct RobotLinkConfig
     std::optional<VDA5050::FactsheetMessage> factsheet = std::nullopt;   ///< Of factsheet_file.
     std::shared_ptr<DriveCheck> drives = std::make_shared<DriveCheck>(); ///< Shared by its vehicle type.
     std::vector<NeededMap> maps = {};                                    ///< How the vehicle gets maps.
-    std::string topicPrefix = {};                                        ///< "uagv/v2/ACME/0001"
+    /// The begin of its topics on the broker ("uagv/v2/ACME/0001"); empty: it does not use the broker.
+    std::string topicPrefix = {};
     std::string driver = std::string(VDA5050_DRIVER);
-    bool bDriven = false; ///< By a driver that is not built in: of the members above it has robotID and drives only.
+    /// By a driver that is not built in: of the members above it has robotID, drives and topicPrefix only.
+    bool bDriven = false;
     std::shared_ptr<const IRobotSetup> setupOrNull = nullptr; ///< Set if bDriven and there are no errors.
 };
 
@@ -59,7 +61,7 @@ struct RobotLinkConfig
 struct AcsdConfig
 {
     McsConfig mcs;
-    std::optional<MqttConfig> mqtt; ///< Set if a robot has a built-in driver.
+    std::optional<MqttConfig> mqtt; ///< Set if a robot uses the broker.
     ArmOptions arm;                 ///< Defaults of all arms.
     EArmRelayIndex relayIndex = EArmRelayIndex::Value;
     std::string siteFile;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -103,6 +104,38 @@ void ReadDrivenRobot(
         return rule == rules.end() || rule->second.robotType != options.type;
     });
     options.connectionHint = std::move(capabilities.connectionHint);
+    link.topicPrefix = std::move(capabilities.topicPrefix);
+    if (link.topicPrefix.find_first_of("+#") != std::string::npos)
+    {
+        section.AddError(
+            "options",
+            fmt::format("the driver {} declares the topics {}, with a wildcard", link.driver, link.topicPrefix));
+    }
+}
+
+/// Messages on a topic are passed to one robot.
+void RefuseSharedTopics(const ConfigSection& root, const std::vector<RobotLinkConfig>& links)
+{
+    std::map<std::string_view, std::string_view> robots; ///< By topic prefix.
+    for (const RobotLinkConfig& link : links)
+    {
+        if (link.topicPrefix.empty())
+        {
+            continue;
+        }
+        const auto [other, bNew] = robots.emplace(link.topicPrefix, link.robotID);
+        if (!bNew)
+        {
+            root.GetSection("robots")
+                .GetSection(link.robotID)
+                .AddError(
+                    "",
+                    fmt::format(
+                        "{} has the same topics on the broker ({}): give each robot its own",
+                        other->second,
+                        link.topicPrefix));
+        }
+    }
 }
 
 /// Which keys a robot of an unknown driver has is unknown too.
@@ -174,14 +207,6 @@ std::string ReadDriver(const ConfigSection& robot, const RobotDrivers& drivers)
     return name;
 }
 
-bool IsBrokerNeeded(const ConfigSection& root)
-{
-    const ConfigSection robots = root.GetSection("robots");
-    return std::ranges::any_of(robots.GetNames(), [&robots](const std::string& name) {
-        return IsBuiltInDriver(robots.GetSection(name).GetString("driver", std::string(VDA5050_DRIVER)));
-    });
-}
-
 void ReadDrivenRobots(const Apps::ConfigReader& reader, const RobotDrivers& drivers, AcsdConfig& config)
 {
     for (std::size_t i = 0; i < config.robots.size(); ++i)
@@ -197,6 +222,10 @@ void ReadDrivenRobots(const Apps::ConfigReader& reader, const RobotDrivers& driv
         {
             AcceptKeys(reader.GetRoot(), link.robotID, options.type, config.engine.actions);
         }
+    }
+    if (reader.GetErrors().empty())
+    {
+        RefuseSharedTopics(reader.GetRoot(), config.robots);
     }
 }
 

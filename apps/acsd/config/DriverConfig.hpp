@@ -20,9 +20,6 @@ namespace ACS::Acsd
 /// The key `driver` of a robot; VDA5050_DRIVER without it. An unknown driver is an error.
 [[nodiscard]] std::string ReadDriver(const Apps::ConfigSection& robot, const RobotDrivers& drivers);
 
-/// Whether a robot has a built-in driver.
-[[nodiscard]] bool IsBrokerNeeded(const Apps::ConfigSection& root);
-
 /// Has the drivers read the options of their robots and actions. Call after the actions have been read.
 void ReadDrivenRobots(const Apps::ConfigReader& reader, const RobotDrivers& drivers, AcsdConfig& config);
 

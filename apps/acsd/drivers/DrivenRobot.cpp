@@ -18,6 +18,22 @@
 namespace ACS::Acsd
 {
 
+namespace
+{
+
+std::unique_ptr<IMqttService> MakeMqttService(
+    const DrivenRobot::Dependencies& dependencies,
+    const RobotLinkConfig& link)
+{
+    if (link.topicPrefix.empty() || dependencies.mqttOrNull == nullptr)
+    {
+        return nullptr;
+    }
+    return dependencies.mqttOrNull->MakeService(link.robotID, link.topicPrefix);
+}
+
+} // namespace
+
 class DrivenRobot::Impl final
 {
     Dependencies _dependencies;
@@ -25,6 +41,7 @@ class DrivenRobot::Impl final
     const std::string _driver;
     EventHandler _handler;
     DriverMetrics _metrics;
+    const std::unique_ptr<IMqttService> _mqtt; ///< Null if the robot does not use the broker.
     std::unique_ptr<IRobot> _robot;
     std::deque<Planning::AdapterAction> _actions; ///< Not executed yet.
     bool _bExecuting = false;
@@ -38,6 +55,7 @@ public:
           _driver(link.driver),
           _handler(std::move(handler)),
           _metrics(_dependencies.metrics, link.driver, link.robotID),
+          _mqtt(MakeMqttService(_dependencies, link)),
           _robot(link.setupOrNull->MakeRobot(MakeServices())),
           _timers(_dependencies.executor, [this](Planning::AdapterTimerID timer) {
               Call([this, timer](Core::Now now, Planning::AdapterActions& out) {
@@ -56,6 +74,10 @@ public:
     {
         _bStopped = true;
         _timers.CancelAll();
+        if (_mqtt != nullptr)
+        {
+            _mqtt->SetListener(nullptr);
+        }
         _robot->Stop();
     }
 
@@ -81,9 +103,8 @@ private:
             _dependencies.logger.MakeFor("robot." + _robotID),
             _metrics,
             [this](const RobotServices::AdapterCall& adapterCall) { Call(adapterCall); },
-            [this](ETraceDirection direction, std::string_view text) {
-                Trace(direction, text);
-            }};
+            [this](ETraceDirection direction, std::string_view text) { Trace(direction, text); },
+            _mqtt.get()};
     }
 
     /// Calls the adapter and executes its actions. An event may lead to another call of the adapter: its actions are executed

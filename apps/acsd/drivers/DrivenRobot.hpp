@@ -2,6 +2,7 @@
 
 #include "common/http/MetricsEndpoint.hpp"
 #include "config/AcsdConfig.hpp"
+#include "drivers/MqttRouter.hpp"
 #include "trace/MessageTrace.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
@@ -35,6 +36,7 @@ public:
         Core::Logger logger;
         Apps::MetricsEndpoint& metrics;
         MessageTrace* traceOrNull = nullptr;
+        MqttRouter* mqttOrNull = nullptr; ///< Set if a robot has a topic prefix.
     };
 
 private:

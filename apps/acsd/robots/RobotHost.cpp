@@ -145,11 +145,6 @@ struct RobotHost::Impl
                 "a message to the vehicle could not be sent",
                 {{"robotId", robot.robotID}, {"topic", message.topic}, {"reason", Core::Describe(published.error())}});
         }
-        else if (surroundings.traceOrNull != nullptr)
-        {
-            surroundings.traceOrNull->Write(
-                {"mqtt", ProtocolBeast::EWireDirection::Out, robot.robotID, message.topic, message.payload});
-        }
     }
 
     void Send(const ArmRequest& request) const
@@ -219,6 +214,7 @@ RobotHost::~RobotHost() = default;
 
 void RobotHost::Start()
 {
+    _impl->surroundings.mqtt.SetListener(this);
     _impl->surroundings.mqtt.Subscribe(_impl->adapter->GetSubscriptions());
     if (_impl->robot.armOrNull.has_value())
     {
@@ -228,6 +224,7 @@ void RobotHost::Start()
 
 void RobotHost::Stop()
 {
+    _impl->surroundings.mqtt.SetListener(nullptr);
     _impl->timers->CancelAll();
     if (_impl->armClient != nullptr)
     {
@@ -248,7 +245,7 @@ void RobotHost::OnLinkUp()
     _impl->Call([this](Core::Now now, Planning::AdapterActions& out) { _impl->adapter->OnLinkUp(now, out); });
 }
 
-void RobotHost::OnLinkDown()
+void RobotHost::OnLinkDown(std::error_code /*reason*/)
 {
     _impl->retained.OnLinkDown();
     _impl->timers->Cancel(RENEWAL_TIMER);

@@ -3,6 +3,7 @@
 #include "common/http/MetricsEndpoint.hpp"
 #include "config/AcsdConfig.hpp"
 #include "trace/MessageTrace.hpp"
+#include <acs/acsd/IMqttService.hpp>
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
@@ -20,6 +21,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace ACS::Acsd
@@ -27,7 +29,7 @@ namespace ACS::Acsd
 
 /// Runs the adapter of one robot: passes messages and timers to it, sends its messages, and passes its events to the engine.
 /// Decides nothing. Runs on one thread, the executor's.
-class RobotHost final
+class RobotHost final : private VDA5050::IMqttLinkListener
 {
 public:
     /// Called from within the host's calls and from its timers; may call Handle.
@@ -48,7 +50,7 @@ public:
         boost::asio::any_io_executor executor;
         Core::IClock& clock;
         Core::IRandom& random;
-        VDA5050::IMqttLink& mqtt;
+        IMqttService& mqtt;
         Core::Logger logger;
         Apps::MetricsEndpoint& metrics;
         MessageTrace* traceOrNull = nullptr;
@@ -63,7 +65,7 @@ public:
     RobotHost(Dependencies surroundings, const AcsdConfig& config, const RobotLinkConfig& robot, EventHandler handler);
     RobotHost(const RobotHost&) = delete;
     RobotHost& operator=(const RobotHost&) = delete;
-    ~RobotHost();
+    ~RobotHost() override;
 
     /// The actions that the robot's adapter rejects.
     [[nodiscard]] static Planning::RejectedActions FindRejectedActions(
@@ -78,9 +80,6 @@ public:
     void Stop();
 
     void Handle(const Planning::RobotCommand& command);
-    void OnLinkUp();
-    void OnLinkDown();
-    void OnMqttMessage(const VDA5050::MqttMessage& message);
 
     [[nodiscard]] const std::string& GetRobotID() const noexcept;
     /// The begin of the vehicle's MQTT topics.
@@ -88,6 +87,11 @@ public:
     [[nodiscard]] Figures GetFigures() const;
     /// What the vehicle's messages contradict, for the status page.
     [[nodiscard]] std::vector<std::string> GetWarnings() const;
+
+private:
+    void OnLinkUp() override;
+    void OnLinkDown(std::error_code reason) override;
+    void OnMqttMessage(const VDA5050::MqttMessage& message) override;
 };
 
 } // namespace ACS::Acsd

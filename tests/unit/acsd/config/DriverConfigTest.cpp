@@ -60,6 +60,7 @@ public:
     {
         auto setup = std::make_unique<SledgeSetup>();
         setup->capabilities.types = {Planning::ERobotType::LR};
+        setup->capabilities.topicPrefix = config.options.GetString("topics", "");
         const TcpAddress address = config.options.GetTcpAddress("url");
         setup->capabilities.connectionHint = fmt::format("{} at {}:{}", config.robotID, address.host, address.port);
         if (config.options.GetInteger("dogs", 1, 12, 6) == 7)
@@ -167,7 +168,7 @@ TEST_CASE("Unknown, missing and wrong options are errors with line and key")
     const std::string robot = ROBOT; // lines 8 to 13
     CHECK(
         ReadDriven(robot + "options.url = \"tcp://h:1\"\noptions.colour = \"red\"\n").errors
-        == Errors{"FILE:15: robots.LR01.options.colour: unknown key; allowed here: dogs, url"});
+        == Errors{"FILE:15: robots.LR01.options.colour: unknown key; allowed here: dogs, topics, url"});
     CHECK(
         ReadDriven(robot + OPTIONS + "options.dogs = \"six\"\n").errors
         == Errors{"FILE:15: robots.LR01.options.dogs: expected an integer from 1 to 12, found the string 'six'"});
@@ -241,7 +242,31 @@ TEST_CASE("mqtt is required with a vehicle, and without effect otherwise")
     CHECK_FALSE(needless.mqtt.has_value());
     CHECK(
         needless.warnings
-        == Errors{"mqtt: has no effect, because no robot has the driver vda5050 or vda5050_openstream; remove it"});
+        == Errors{"mqtt: has no effect, because no robot has a driver that uses the broker; remove it"});
+}
+
+TEST_CASE("mqtt is required with a driver that declares topics, and each robot has its own")
+{
+    const std::string robot = std::string(ROBOT) + OPTIONS + "options.topics = \"sledges/1\"\n";
+    const Errors missing = ReadDriven(robot).errors;
+    REQUIRE(missing.size() == 1);
+    CHECK_THAT(missing[0], Catch::StartsWith("FILE: mqtt.url: missing; give "));
+
+    const std::vector<std::string> broker{"mqtt.url=mqtt://127.0.0.1:1883"};
+    const AcsdConfig config = ReadDriven(robot, {}, broker);
+    CHECK(config.errors == Errors{});
+    CHECK(config.warnings == Errors{});
+    CHECK(config.mqtt.has_value());
+    CHECK(config.robots.at(0).topicPrefix == "sledges/1");
+
+    const std::string second = "[robots.LR02]\ndriver = \"sledge\"\ntype = \"LR\"\nvehicle_type = \"lr-base\"\n"
+                               "start_node = \"N001\"\nports = [\"CP01\"]\n";
+    CHECK(
+        ReadDriven(robot + second + OPTIONS + "options.topics = \"sledges/1\"\n", {}, broker).errors
+        == Errors{"FILE:16: robots.LR02: LR01 has the same topics on the broker (sledges/1): give each robot its own"});
+    CHECK(
+        ReadDriven(robot + second + OPTIONS + "options.topics = \"sledges/+\"\n", {}, broker).errors
+        == Errors{"FILE:22: robots.LR02.options: the driver sledge declares the topics sledges/+, with a wildcard"});
 }
 
 TEST_CASE("The name of a driver is valid, not built in and used once")

@@ -1,11 +1,11 @@
 #include "robots/RetainedCommands.hpp"
 
 #include "Catch.hpp"
+#include "drivers/RecordingLink.hpp"
 #include "RecordingLogSink.hpp"
 
 #include <algorithm>
 #include <string>
-#include <system_error>
 #include <vector>
 
 namespace ACS::Acsd::Test
@@ -16,38 +16,6 @@ namespace
 
 constexpr const char* ORDER = "uagv/v2/ACS/LR01/order";
 constexpr const char* INSTANT_ACTIONS = "uagv/v2/ACS/LR01/instantActions";
-
-/// Records the calls.
-class RecordingLink final : public VDA5050::IMqttLink
-{
-public:
-    std::vector<VDA5050::MqttMessage> published;
-    std::vector<std::string> filters; ///< Of the subscriptions that have not ended.
-    bool bFails = false;
-
-    [[nodiscard]] Core::Result<void> Publish(const VDA5050::MqttMessage& message) override
-    {
-        if (bFails)
-        {
-            return Core::Fail(std::make_error_code(std::errc::not_connected));
-        }
-        published.push_back(message);
-        return {};
-    }
-
-    void Subscribe(const std::vector<VDA5050::MqttSubscription>& subscriptions) override
-    {
-        for (const VDA5050::MqttSubscription& subscription : subscriptions)
-        {
-            filters.push_back(subscription.topicFilter);
-        }
-    }
-
-    void Unsubscribe(const std::string& topicFilter) override
-    {
-        std::erase(filters, topicFilter);
-    }
-};
 
 struct RetainedCommandsFixture
 {

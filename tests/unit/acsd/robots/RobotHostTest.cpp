@@ -2,6 +2,7 @@
 
 #include "common/log/LogRateLimiter.hpp"
 #include "config/ExampleSite.hpp"
+#include "drivers/RecordingLink.hpp"
 #include "ManualClock.hpp"
 #include "RecordingLogSink.hpp"
 #include "SeededRandom.hpp"
@@ -11,35 +12,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <string_view>
-#include <system_error>
-#include <vector>
 
 namespace ACS::Acsd::Test
 {
 
 namespace
 {
-
-/// Cannot send anything.
-class BrokenLink final : public VDA5050::IMqttLink
-{
-public:
-    std::size_t attempts = 0;
-
-    [[nodiscard]] Core::Result<void> Publish(const VDA5050::MqttMessage& /*message*/) override
-    {
-        ++attempts;
-        return Core::Fail(std::make_error_code(std::errc::no_buffer_space));
-    }
-
-    void Subscribe(const std::vector<VDA5050::MqttSubscription>& /*subscriptions*/) override
-    {
-    }
-
-    void Unsubscribe(const std::string& /*topicFilter*/) override
-    {
-    }
-};
 
 /// The robot LR01 of the example site, whose vehicle goes online and offline.
 struct RobotHostFixture
@@ -49,7 +27,7 @@ struct RobotHostFixture
     boost::asio::io_context context;
     Testing::ManualClock clock;
     Testing::SeededRandom random;
-    BrokenLink mqtt;
+    RecordingLink mqtt;
     Testing::RecordingLogSink log;
     Apps::MetricsEndpoint metrics;
     AcsdConfig config = ReadSite({});
@@ -60,11 +38,17 @@ struct RobotHostFixture
         [](const std::string&, const Planning::RobotEvent&) {
         }};
 
+    RobotHostFixture()
+    {
+        mqtt.bFails = true;
+        host.Start();
+    }
+
     void Connect()
     {
-        host.OnLinkDown();
-        host.OnLinkUp();
-        host.OnMqttMessage(
+        mqtt.listenerOrNull->OnLinkDown({});
+        mqtt.listenerOrNull->OnLinkUp();
+        mqtt.listenerOrNull->OnMqttMessage(
             {"uagv/v2/ACS/LR01/connection",
              R"({"headerId":1,"timestamp":"2025-07-02T12:00:00.00Z","version":"2.0.0","manufacturer":"ACS",)"
              R"("serialNumber":"LR01","connectionState":"ONLINE"})",
