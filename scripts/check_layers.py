@@ -56,7 +56,7 @@ THIRD_PARTY = {
     "plan_sqlite": ("fmt/", "tl/", "SQLiteCpp/", "sqlite3.h", "fcntl.h", "sys/file.h", "sys/stat.h", "unistd.h"),
 }
 PUBLIC_THIRD_PARTY = ("fmt/", "tl/", "boost/asio/any_io_executor.hpp")
-DRIVER_LIBRARIES = ("core", "plan", "vda5050")
+DRIVER_LIBRARIES = ("core", "plan", "vda5050", "openstream", "openstream_asio")
 THIRD_PARTY["drivers"] = PUBLIC_THIRD_PARTY  # the public headers of acsd
 IMPURE_STANDARD = ("thread", "mutex", "shared_mutex", "condition_variable", "future", "semaphore", "latch", "barrier",
                    "stop_token", "filesystem", "fstream", "iostream", "ctime")

@@ -5,8 +5,8 @@
 #include "common/process/LoopWatchdog.hpp"
 #include "common/process/TimerSet.hpp"
 #include "config/LiveConfig.hpp"
-#include "drivers/DrivenRobots.hpp"
 #include "drivers/MqttRouter.hpp"
+#include "drivers/RobotRunners.hpp"
 #include "mcs/McsLink.hpp"
 #include "operator/AcsdMetrics.hpp"
 #include "operator/AcsdStatus.hpp"
@@ -15,7 +15,6 @@
 #include "operator/LinesRoute.hpp"
 #include "operator/OperatorRoutes.hpp"
 #include "operator/PlanLog.hpp"
-#include "robots/RobotHost.hpp"
 #include "store/StoreSummary.hpp"
 #include "store/StoreWorker.hpp"
 #include <acs/plan_sqlite/SqlitePlanStore.hpp>
@@ -26,7 +25,6 @@
 #include <cassert>
 #include <chrono>
 #include <cstddef>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -53,10 +51,8 @@ class Acsd::Impl final : private IAcsdOutput
     StoreWorker _store;
     McsLink _mcs;
     MqttRouter _mqttRouter;
-    std::optional<VDA5050::MosquittoLink> _mqtt;              ///< Set if a robot needs the broker.
-    std::vector<std::unique_ptr<IMqttService>> _mqttServices; ///< Of the robots below.
-    std::map<std::string, std::unique_ptr<RobotHost>, std::less<>> _robots;
-    DrivenRobots _drivenRobots;
+    std::optional<VDA5050::MosquittoLink> _mqtt; ///< Set if a robot needs the broker.
+    RobotRunners _robots;
     Apps::TimerSet<AcsdTimer> _timers;
     Apps::LoopWatchdog _watchdog;
     HttpInterfaces _http;
@@ -90,7 +86,7 @@ public:
                [this] {
                    return _core.IsClosed();
                }}),
-          _drivenRobots(
+          _robots(
               {_dependencies.executor,
                _dependencies.clock,
                _dependencies.random,
@@ -121,13 +117,6 @@ public:
                 _mqttRouter);
             _mqttRouter.SetLink(*_mqtt);
         }
-        for (const RobotLinkConfig& robot : _config.robots)
-        {
-            if (!robot.bDriven)
-            {
-                AddRobot(robot);
-            }
-        }
     }
 
     [[nodiscard]] Core::Result<void> Open(Planning::StoredState state)
@@ -150,11 +139,7 @@ public:
     void Start()
     {
         _watchdog.Start();
-        for (const auto& [robotID, robot] : _robots)
-        {
-            robot->Start();
-        }
-        _drivenRobots.Start();
+        _robots.Start();
         _core.Start();
         if (_mqtt.has_value())
         {
@@ -189,26 +174,6 @@ public:
     }
 
 private:
-    void AddRobot(const RobotLinkConfig& robot)
-    {
-        _mqttServices.push_back(_mqttRouter.MakeService(robot.robotID, robot.topicPrefix));
-        auto host = std::make_unique<RobotHost>(
-            RobotHost::Dependencies{
-                _dependencies.executor,
-                _dependencies.clock,
-                _dependencies.random,
-                *_mqttServices.back(),
-                _dependencies.logger,
-                _metricsEndpoint,
-                _dependencies.traceOrNull},
-            _config,
-            robot,
-            [this](const std::string& robotID, const Planning::RobotEvent& event) {
-                _core.OnRobotEvent(robotID, event);
-            });
-        _robots.emplace(robot.robotID, std::move(host));
-    }
-
     void Store(const Planning::StoreBatch& batch) override
     {
         _store.Append(batch);
@@ -232,13 +197,7 @@ private:
 
     void CommandRobot(const Planning::CommandRobot& command) override
     {
-        if (_drivenRobots.TryHandle(command))
-        {
-            return;
-        }
-        const auto found = _robots.find(command.robotID);
-        assert(found != _robots.end());
-        found->second->Handle(command.command);
+        _robots.Handle(command);
     }
 
     void StartTimer(const AcsdTimer& timer, Core::Duration delay) override
@@ -259,11 +218,7 @@ private:
     void CloseLinks() override
     {
         _openLinks = _mqtt.has_value() ? 2 : 1;
-        for (const auto& [robotID, robot] : _robots)
-        {
-            robot->Stop();
-        }
-        _drivenRobots.Stop();
+        _robots.Stop();
         if (_mqtt.has_value())
         {
             _mqtt->StopAsync(std::nullopt, VDA5050::MosquittoLink::DEFAULT_STOP_TIMEOUT, [this] { OnLinkClosed(); });
@@ -325,13 +280,14 @@ private:
     [[nodiscard]] ProgramStatus GetProgramStatus() const
     {
         ProgramStatus program{GetLinks(), _core.GetNotReadyReasons(), {}, _core.GetRefusedReports()};
-        for (const auto& [robotID, robot] : _robots)
+        for (const RobotLinkConfig& robot : _config.robots)
         {
-            if (const RobotHost::Figures figures = robot->GetFigures(); figures.arm.has_value())
+            DriverDetails details = _robots.GetDetails(robot.robotID);
+            if (details.bArmUp.has_value())
             {
-                program.arms.emplace(robotID, figures.bArmReady);
+                program.arms.emplace(robot.robotID, *details.bArmUp);
             }
-            program.vehicles.emplace(robotID, VehicleStatus{robot->GetTopicPrefix(), robot->GetWarnings()});
+            program.vehicles.emplace(robot.robotID, VehicleStatus{robot.topicPrefix, std::move(details.warnings)});
         }
         return program;
     }
@@ -362,18 +318,13 @@ private:
 
     void UpdateMetrics()
     {
-        const Core::Now now = _dependencies.clock.GetNow();
         for (const LinkStatus& link : GetLinks())
         {
             _metrics.UpdateLink(link.name, link.bUp);
         }
         _metrics.UpdateMCS(_mcs, _core.GetRefusedReports());
-        _metrics.UpdatePlans(_core.GetEngine(), now);
-        for (const auto& [robotID, robot] : _robots)
-        {
-            _metrics.UpdateRobot(*robot, now);
-        }
-        _drivenRobots.UpdateMetrics();
+        _metrics.UpdatePlans(_core.GetEngine(), _dependencies.clock.GetNow());
+        _robots.UpdateMetrics();
         _metrics.UpdateAudit(_http.GetLostAudit());
         if (_dependencies.countDroppedLines)
         {

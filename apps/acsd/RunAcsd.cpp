@@ -8,6 +8,7 @@
 #include "common/process/SystemClock.hpp"
 #include "common/process/SystemRandom.hpp"
 #include "config/DriverConfig.hpp"
+#include "drivers/BuiltInDrivers.hpp"
 #include "operator/TokenCommand.hpp"
 #include "store/StoreCommand.hpp"
 #include <acs/acsd/RunAcsd.hpp>
@@ -16,8 +17,10 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -217,7 +220,11 @@ int Run(int argc, const char* const* argv, const RobotDrivers& drivers)
 
 int RunAcsd(int argc, char** argv, RobotDrivers drivers)
 {
-    return Apps::RunProgram(NAME, [argc, argv, &drivers] { return Run(argc, argv, drivers); });
+    return Apps::RunProgram(NAME, [argc, argv, &drivers] {
+        RobotDrivers all = MakeBuiltInDrivers();
+        std::ranges::move(drivers, std::back_inserter(all));
+        return Run(argc, argv, all);
+    });
 }
 
 } // namespace ACS::Acsd

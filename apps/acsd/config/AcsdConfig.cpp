@@ -13,7 +13,9 @@
 #include "config/RemovedKeys.hpp"
 #include "config/RobotConfig.hpp"
 #include "config/StationConfig.hpp"
+#include "robots/RobotAdapterFactory.hpp"
 #include "robots/VehicleCompatibility.hpp"
+#include "robots/VehicleMap.hpp"
 #include <acs/plan/LifReader.hpp>
 #include <acs/plan/Router.hpp>
 #include <acs/plan/UnusedLifMember.hpp>
@@ -108,18 +110,12 @@ void WarnOfParking(AcsdConfig& config)
 void CloseEdges(AcsdConfig& config)
 {
     std::vector<KnownVehicle> vehicles;
-    for (std::size_t i = 0; i < config.robots.size(); ++i)
+    for (const std::shared_ptr<VehicleConfig>& vehicle : config.vehicles)
     {
-        const RobotLinkConfig& robot = config.robots[i];
-        if (!robot.factsheet.has_value())
+        if (vehicle->factsheet.has_value())
         {
-            continue;
+            vehicles.push_back({vehicle->robotID, vehicle->vehicleTypeID, MakeMasterOptions(*vehicle)});
         }
-        VDA5050::MasterOptions options;
-        options.address = {GetInterfaceName(config), robot.manufacturer, robot.serialNumber};
-        options.version = VDA5050::ReadVersionOrNull(robot.protocolVersion).value_or(options.version);
-        options.factsheet = robot.factsheet;
-        vehicles.push_back({robot.robotID, config.engine.robots[i].vehicleTypeID, std::move(options)});
     }
     std::ranges::move(RestrictMap(vehicles, *config.site), std::back_inserter(config.warnings));
 }
@@ -130,13 +126,13 @@ void WarnOfCorridors(AcsdConfig& config)
     const bool bCorridors = std::ranges::any_of(config.site->GetEdges(), [](const Planning::SiteEdge& edge) {
         return edge.corridor.has_value();
     });
-    for (const RobotLinkConfig& robot : config.robots)
+    for (const std::shared_ptr<VehicleConfig>& vehicle : config.vehicles)
     {
-        if (bCorridors && robot.protocolVersion == "2.0.0")
+        if (bCorridors && vehicle->protocolVersion == "2.0.0")
         {
             config.warnings.push_back(fmt::format(
                 "site.corridors: robots.{} gets none, because VDA5050 has corridors since 2.1",
-                robot.robotID));
+                vehicle->robotID));
         }
     }
 }
@@ -173,42 +169,38 @@ void ReadMap(const ConfigSection& section, const std::string& map, AcsdConfig& c
     }
 }
 
-/// Robots of one vehicle type share its part of the map.
+/// Vehicles of one type share its part of the map.
 void SetMaps(AcsdConfig& config)
 {
-    std::map<std::string, std::shared_ptr<DriveCheck>> checks;
-    for (std::size_t i = 0; i < config.robots.size(); ++i)
+    if (config.vehicles.empty())
     {
-        const std::string& vehicleTypeID = config.engine.robots[i].vehicleTypeID;
-        std::shared_ptr<DriveCheck>& drives = checks[vehicleTypeID];
+        return;
+    }
+    const auto site = std::make_shared<const Planning::SiteMap>(*config.site);
+    std::map<std::string, std::shared_ptr<DriveCheck>> checks;
+    for (const std::shared_ptr<VehicleConfig>& vehicle : config.vehicles)
+    {
+        std::shared_ptr<DriveCheck>& drives = checks[vehicle->vehicleTypeID];
         if (drives == nullptr)
         {
-            drives = std::make_shared<DriveCheck>(VehicleMap(*config.site, vehicleTypeID));
+            drives = std::make_shared<DriveCheck>(VehicleMap(*site, vehicle->vehicleTypeID));
         }
-        config.robots[i].drives = drives;
+        vehicle->drives = drives;
+        vehicle->site = site;
     }
 }
 
 /// What a received factsheet would be reported for, by the log or by an alarm.
 void WarnOfFactsheets(AcsdConfig& config)
 {
-    for (const RobotLinkConfig& robot : config.robots)
+    for (const std::shared_ptr<VehicleConfig>& vehicle : config.vehicles)
     {
-        if (robot.bDriven)
-        {
-            continue;
-        }
-        std::ranges::move(CheckFactsheetFile(robot), std::back_inserter(config.warnings));
-        VDA5050::MasterOptions options;
-        options.address = {GetInterfaceName(config), robot.manufacturer, robot.serialNumber};
-        options.factsheet = robot.factsheet;
-        options.version = VDA5050::ReadVersionOrNull(robot.protocolVersion).value_or(options.version);
-        options.zoneSetID = config.zoneSetID;
-        const VDA5050::MasterSession session(std::move(options));
-        const std::string incompatibility = FindIncompatibility(session, *robot.drives, robot.methods, {});
+        std::ranges::move(CheckFactsheetFile(*vehicle), std::back_inserter(config.warnings));
+        const VDA5050::MasterSession session(MakeMasterOptions(*vehicle));
+        const std::string incompatibility = FindIncompatibility(session, *vehicle->drives, vehicle->methods, {});
         if (!incompatibility.empty())
         {
-            config.warnings.push_back(fmt::format("robots.{}: {}", robot.robotID, incompatibility));
+            config.warnings.push_back(fmt::format("robots.{}: {}", vehicle->robotID, incompatibility));
         }
     }
 }
@@ -271,9 +263,8 @@ void ReadBroker(const ConfigSection& root, const std::string& fileName, AcsdConf
 /// Whether the broker is given and used, when it is known which robots use it.
 void CheckBroker(const ConfigSection& root, const std::string& fileName, AcsdConfig& config)
 {
-    const bool bNeeded = std::ranges::any_of(config.robots, [](const RobotLinkConfig& robot) {
-        return !robot.bDriven || !robot.topicPrefix.empty();
-    });
+    const bool bNeeded =
+        std::ranges::any_of(config.robots, [](const RobotLinkConfig& robot) { return !robot.topicPrefix.empty(); });
     if (bNeeded && !config.mqtt.has_value())
     {
         ReadMqttConfig(root, fileName, config.mqtt.emplace(), config.warnings); // what is missing
@@ -308,14 +299,16 @@ AcsdConfig Read(
     ReadHttpConfig(root, fileName, config.storePath, config.http);
     ReadEngineConfig(root, config.engine);
     ReadStations(root, config);
-    ReadRobots(root, fileName, drivers, config);
-    ReadJobs(root, config);
-    ReadDrivenRobots(reader, drivers, config);
+    ReadRobots(root, drivers, config);
+    const MethodTables actions = ReadActions(root, config);
+    MakeSetups(reader, fileName, drivers, config);
+    ReadMethods(root, actions, config);
+    ApplyCapabilities(reader, config);
     CheckBroker(root, fileName, config);
     ReportRemovedKeys(root);
     if (reader.GetErrors().empty())
     {
-        RejectActions(root, config);
+        CheckActions(root, config);
     }
     std::optional<Planning::SiteMap> open; // before the factsheets close edges
     if (reader.GetErrors().empty() && config.site.has_value())

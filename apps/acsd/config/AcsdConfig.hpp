@@ -2,22 +2,19 @@
 
 #include "common/config/ConfigReader.hpp"
 #include "common/config/LocalOffset.hpp"
-#include "common/config/Url.hpp"
 #include "config/ArmOptions.hpp"
 #include "config/HttpConfig.hpp"
 #include "config/McsConfig.hpp"
 #include "config/MqttConfig.hpp"
 #include "config/OperationsConfig.hpp"
+#include "config/VehicleConfig.hpp"
+#include "drivers/BuiltInDrivers.hpp"
 #include "robots/ArmRelay.hpp"
-#include "robots/DriveCheck.hpp"
 #include "robots/JobData.hpp"
-#include "robots/JobMethods.hpp"
-#include "robots/VehicleMaps.hpp"
 #include <acs/acsd/IRobotDriver.hpp>
 #include <acs/acsd/IRobotSetup.hpp>
 #include <acs/plan/EngineOptions.hpp>
 #include <acs/plan/SiteMap.hpp>
-#include <acs/vda5050/FactsheetMessage.hpp>
 
 #include <chrono>
 #include <cstddef>
@@ -32,29 +29,17 @@
 namespace ACS::Acsd
 {
 
-/// The drivers that are built in: a vehicle, and a vehicle with an arm.
+/// The drivers of MakeBuiltInDrivers: a vehicle, and a vehicle with an arm.
 inline constexpr std::string_view VDA5050_DRIVER = "vda5050";
 inline constexpr std::string_view OPEN_STREAM_DRIVER = "vda5050_openstream";
 
-/// How one robot is connected: the links to its vehicle and its arm, or its driver. The engine's settings of the robot are in EngineOptions::robots.
+/// The driver of one robot. The engine's settings of the robot are in EngineOptions::robots.
 struct RobotLinkConfig
 {
     std::string robotID;
-    std::string manufacturer;
-    std::string serialNumber;
-    std::string protocolVersion;        ///< "2.0.0" or "2.1.0"
-    std::optional<Apps::Url> armOrNull; ///< tcp://, Open Stream server of the arm's controller
-    ArmOptions armOptions = {};
-    JobMethods methods = {};                                             ///< Of the actions of its type.
-    std::optional<VDA5050::FactsheetMessage> factsheet = std::nullopt;   ///< Of factsheet_file.
-    std::shared_ptr<DriveCheck> drives = std::make_shared<DriveCheck>(); ///< Shared by its vehicle type.
-    std::vector<NeededMap> maps = {};                                    ///< How the vehicle gets maps.
-    /// The begin of its topics on the broker ("uagv/v2/ACME/0001"); empty: it does not use the broker.
-    std::string topicPrefix = {};
     std::string driver = std::string(VDA5050_DRIVER);
-    /// By a driver that is not built in: of the members above it has robotID, drives and topicPrefix only.
-    bool bDriven = false;
-    std::shared_ptr<const IRobotSetup> setupOrNull = nullptr; ///< Set if bDriven and there are no errors.
+    std::string topicPrefix;                        ///< RobotCapabilities::topicPrefix
+    std::shared_ptr<const IRobotSetup> setupOrNull; ///< Set if there are no errors.
 };
 
 /// acsd's complete and checked configuration.
@@ -69,7 +54,9 @@ struct AcsdConfig
     std::string storePath;
     HttpConfig http;
     Apps::LocalOffset localOffset;
-    std::vector<RobotLinkConfig> robots;
+    std::vector<RobotLinkConfig> robots; ///< In the order of EngineOptions::robots.
+    /// Those of the robots whose drivers are built in, and which their setups share.
+    std::vector<std::shared_ptr<VehicleConfig>> vehicles;
     std::shared_ptr<const StationTable> stations = std::make_shared<const StationTable>();
     OperationsConfig operations;
     Planning::EngineOptions engine;
@@ -82,17 +69,16 @@ struct AcsdConfig
 };
 
 /// Reads the file and its map. The overrides of the command line ("table.key=value") take precedence.
-/// The drivers are those besides the built-in ones.
 [[nodiscard]] AcsdConfig ReadAcsdConfig(
     const std::string& fileName,
     const std::vector<std::string>& overrides,
-    const RobotDrivers& drivers = {});
+    const RobotDrivers& drivers = MakeBuiltInDrivers());
 
 /// Likewise, and checks whether a start could open the store. Does not create, change or lock it.
 [[nodiscard]] AcsdConfig CheckAcsdConfig(
     const std::string& fileName,
     const std::vector<std::string>& overrides,
-    const RobotDrivers& drivers = {});
+    const RobotDrivers& drivers = MakeBuiltInDrivers());
 
 /// First level of the topics of the vehicles.
 [[nodiscard]] std::string GetInterfaceName(const AcsdConfig& config);

@@ -1,5 +1,6 @@
 #include "config/DriverConfig.hpp"
 
+#include "config/DriverContext.hpp"
 #include "drivers/OptionTableImpl.hpp"
 
 #include <fmt/format.h>
@@ -8,7 +9,9 @@
 #include <cstddef>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <set>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -46,51 +49,41 @@ std::string_view GetTypeName(Planning::ERobotType type)
 
 DrivenRobotConfig MakeDrivenConfig(
     const Apps::ConfigReader& reader,
-    const Planning::RobotOptions& robot,
-    const Planning::ActionTable& rules)
+    const DriverContext& context,
+    const std::shared_ptr<std::vector<std::string>>& warnings)
 {
-    const ConfigSection root = reader.GetRoot();
-    const std::string robotID(robot.robotID.GetText());
+    const ConfigSection actions = reader.GetRoot().GetSection("actions");
+    const Planning::RobotOptions& robot = context.options;
     DrivenRobotConfig config{
-        robotID,
+        std::string(robot.robotID.GetText()),
         robot.type,
         robot.ports,
-        MakeOptionTable(reader, root.GetSection("robots").GetSection(robotID).GetSection("options")),
-        {}};
-    for (const auto& [name, rule] : rules)
+        MakeOptionTable(reader, context.robot, "options", warnings),
+        {},
+        &context};
+    for (const auto& [name, rule] : context.config.engine.actions)
     {
         if (rule.robotType == robot.type)
         {
-            const ConfigSection action = root.GetSection("actions").GetSection(name);
-            config.actions.emplace(name, MakeOptionTable(reader, action.GetSection("options")));
+            config.actions.emplace(name, MakeOptionTable(reader, actions.GetSection(name), "options", warnings));
         }
     }
     return config;
 }
 
-void ReadDrivenRobot(
-    const Apps::ConfigReader& reader,
-    const IRobotDriver& driver,
+/// What the driver states of the robot.
+void ApplyCapabilitiesOf(
+    const ConfigSection& robot,
     const Planning::ActionTable& rules,
     RobotLinkConfig& link,
     Planning::RobotOptions& options)
 {
-    link.setupOrNull = driver.MakeSetupOrNull(MakeDrivenConfig(reader, options, rules));
-    const ConfigSection section = reader.GetRoot().GetSection("robots").GetSection(link.robotID);
-    if (link.setupOrNull == nullptr)
-    {
-        if (reader.GetErrors().empty())
-        {
-            section.AddError("options", fmt::format("the driver {} refuses the robot without a reason", link.driver));
-        }
-        return;
-    }
     RobotCapabilities capabilities = link.setupOrNull->GetCapabilities();
     if (std::ranges::count(capabilities.types, options.type) == 0)
     {
         std::vector<std::string_view> types;
         std::ranges::transform(capabilities.types, std::back_inserter(types), GetTypeName);
-        section.AddError(
+        robot.AddError(
             "type",
             fmt::format(
                 "the driver {} has robots of type {} only, found {}",
@@ -107,7 +100,7 @@ void ReadDrivenRobot(
     link.topicPrefix = std::move(capabilities.topicPrefix);
     if (link.topicPrefix.find_first_of("+#") != std::string::npos)
     {
-        section.AddError(
+        robot.AddError(
             "options",
             fmt::format("the driver {} declares the topics {}, with a wildcard", link.driver, link.topicPrefix));
     }
@@ -163,7 +156,7 @@ void AcceptKeys(
 
 std::optional<std::string> FindDriverFaultOrNull(const RobotDrivers& drivers)
 {
-    std::set<std::string_view> names{VDA5050_DRIVER, OPEN_STREAM_DRIVER};
+    std::set<std::string_view> names;
     for (const auto& driver : drivers)
     {
         if (driver == nullptr)
@@ -186,41 +179,64 @@ std::optional<std::string> FindDriverFaultOrNull(const RobotDrivers& drivers)
     return std::nullopt;
 }
 
-bool IsBuiltInDriver(std::string_view name)
-{
-    return name == VDA5050_DRIVER || name == OPEN_STREAM_DRIVER;
-}
-
 std::string ReadDriver(const ConfigSection& robot, const RobotDrivers& drivers)
 {
-    std::string name = robot.GetString("driver", std::string(VDA5050_DRIVER));
-    if (IsBuiltInDriver(name) || FindDriverOrNull(drivers, name) != nullptr)
+    if (!robot.HasKey("driver"))
     {
-        return name;
+        return std::string(robot.HasKey("arm") ? OPEN_STREAM_DRIVER : VDA5050_DRIVER);
     }
-    std::string known = fmt::format("{}, {}", VDA5050_DRIVER, OPEN_STREAM_DRIVER);
-    for (const auto& driver : drivers)
+    std::string name = robot.GetString("driver");
+    if (FindDriverOrNull(drivers, name) == nullptr)
     {
-        known += fmt::format(", {}", driver->GetName());
+        std::vector<std::string_view> known;
+        std::ranges::transform(drivers, std::back_inserter(known), [](const auto& driver) {
+            return driver->GetName();
+        });
+        robot.AddError(
+            "driver",
+            fmt::format("this acsd has no driver {}; it has {}", Core::QuoteForError(name), fmt::join(known, ", ")));
     }
-    robot.AddError("driver", fmt::format("this acsd has no driver {}; it has {}", Core::QuoteForError(name), known));
     return name;
 }
 
-void ReadDrivenRobots(const Apps::ConfigReader& reader, const RobotDrivers& drivers, AcsdConfig& config)
+void MakeSetups(
+    const Apps::ConfigReader& reader,
+    const std::string& fileName,
+    const RobotDrivers& drivers,
+    AcsdConfig& config)
 {
+    const ConfigSection robots = reader.GetRoot().GetSection("robots");
     for (std::size_t i = 0; i < config.robots.size(); ++i)
     {
         RobotLinkConfig& link = config.robots[i];
-        Planning::RobotOptions& options = config.engine.robots[i];
+        const Planning::RobotOptions& options = config.engine.robots[i];
         const IRobotDriver* const driverOrNull = FindDriverOrNull(drivers, link.driver);
-        if (driverOrNull != nullptr)
-        {
-            ReadDrivenRobot(reader, *driverOrNull, config.engine.actions, link, options);
-        }
-        else if (link.bDriven)
+        if (driverOrNull == nullptr)
         {
             AcceptKeys(reader.GetRoot(), link.robotID, options.type, config.engine.actions);
+            continue;
+        }
+        const ConfigSection robot = robots.GetSection(link.robotID);
+        const DriverContext context{robot, fileName, options, config};
+        const auto warnings = std::make_shared<std::vector<std::string>>();
+        link.setupOrNull = driverOrNull->MakeSetupOrNull(MakeDrivenConfig(reader, context, warnings));
+        std::ranges::move(*warnings, std::back_inserter(config.warnings));
+        if (link.setupOrNull == nullptr && reader.GetErrors().empty())
+        {
+            robot.AddError("options", fmt::format("the driver {} refuses the robot without a reason", link.driver));
+        }
+    }
+}
+
+void ApplyCapabilities(const Apps::ConfigReader& reader, AcsdConfig& config)
+{
+    const ConfigSection robots = reader.GetRoot().GetSection("robots");
+    for (std::size_t i = 0; i < config.robots.size(); ++i)
+    {
+        RobotLinkConfig& link = config.robots[i];
+        if (link.setupOrNull != nullptr)
+        {
+            ApplyCapabilitiesOf(robots.GetSection(link.robotID), config.engine.actions, link, config.engine.robots[i]);
         }
     }
     if (reader.GetErrors().empty())

@@ -13,33 +13,33 @@
 namespace ACS::Acsd
 {
 
-std::vector<std::string> CheckFactsheetFile(const RobotLinkConfig& robot)
+std::vector<std::string> CheckFactsheetFile(const VehicleConfig& vehicle)
 {
-    if (!robot.factsheet.has_value())
+    if (!vehicle.factsheet.has_value())
     {
         return {};
     }
     std::vector<std::string> warnings;
-    const auto add = [&robot, &warnings](std::string_view text) {
-        warnings.push_back(fmt::format("robots.{}.factsheet_file: {}", robot.robotID, text));
+    const auto add = [&vehicle, &warnings](std::string_view text) {
+        warnings.push_back(fmt::format("robots.{}.factsheet_file: {}", vehicle.robotID, text));
     };
-    const VDA5050::Header& header = robot.factsheet->header;
-    if (!header.manufacturer.empty() && header.manufacturer != robot.manufacturer)
+    const VDA5050::Header& header = vehicle.factsheet->header;
+    if (!header.manufacturer.empty() && header.manufacturer != vehicle.address.manufacturer)
     {
         add(fmt::format(
             "the manufacturer is {}, and {} in the configuration; give the factsheet of this vehicle",
             Core::QuoteForError(header.manufacturer),
-            robot.manufacturer));
+            vehicle.address.manufacturer));
     }
     if (!header.version.empty()
-        && VDA5050::ReadVersionOrNull(header.version) != VDA5050::ReadVersionOrNull(robot.protocolVersion))
+        && VDA5050::ReadVersionOrNull(header.version) != VDA5050::ReadVersionOrNull(vehicle.protocolVersion))
     {
         add(fmt::format(
             "the version is {}, and protocol is {}; correct protocol, or give the factsheet of this vehicle",
             Core::QuoteForError(header.version),
-            robot.protocolVersion));
+            vehicle.protocolVersion));
     }
-    for (const std::string& contradiction : VDA5050::FindContradictions(*robot.factsheet))
+    for (const std::string& contradiction : VDA5050::FindContradictions(*vehicle.factsheet))
     {
         add(Core::ShortenText(contradiction));
     }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "config/AcsdConfig.hpp"
+#include "config/VehicleConfig.hpp"
 
 #include <cstddef>
 #include <string>
@@ -11,8 +11,8 @@ namespace ACS::Acsd
 
 inline constexpr std::size_t MOST_FACTSHEET_WARNINGS = 10;
 
-/// Why the factsheet of the robot's factsheet_file may not be the vehicle's: contradictions, and a header of another manufacturer or
+/// Why the factsheet of the vehicle's factsheet_file may not be the vehicle's: contradictions, and a header of another manufacturer or
 /// version. A sentence each with the key, at most MOST_FACTSHEET_WARNINGS; the last one then states how many more there are.
-[[nodiscard]] std::vector<std::string> CheckFactsheetFile(const RobotLinkConfig& robot);
+[[nodiscard]] std::vector<std::string> CheckFactsheetFile(const VehicleConfig& vehicle);
 
 } // namespace ACS::Acsd

@@ -3,13 +3,13 @@
 #include "config/ActionConfig.hpp"
 #include "config/TemplateCheck.hpp"
 #include "robots/MethodResolver.hpp"
-#include "robots/RobotHost.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <utility>
@@ -61,54 +61,33 @@ MethodTables ReadOverrides(
     return tables;
 }
 
-bool HasRobot(const AcsdConfig& config, Planning::ERobotType type, bool bDriven)
+bool HasVehicle(const AcsdConfig& config, Planning::ERobotType type)
 {
-    for (std::size_t i = 0; i < config.robots.size(); ++i)
-    {
-        if (config.engine.robots[i].type == type && config.robots[i].bDriven == bDriven)
-        {
-            return true;
-        }
-    }
-    return false;
+    return std::ranges::any_of(config.vehicles, [type](const auto& vehicle) { return vehicle->type == type; });
+}
+
+/// Whether a robot of the type has a driver that is not built in.
+bool HasOtherRobot(const AcsdConfig& config, Planning::ERobotType type)
+{
+    const auto vehicles =
+        std::ranges::count_if(config.vehicles, [type](const auto& vehicle) { return vehicle->type == type; });
+    return std::ranges::count(config.engine.robots, type, &Planning::RobotOptions::type) > vehicles;
 }
 
 /// Robots of other drivers do an action by its `options`.
-void CheckKeys(const ConfigSection& section, const MethodKeys& keys, bool bVehicles, bool bDriven)
+void CheckKeys(const ConfigSection& section, const MethodKeys& keys, bool bVehicles, bool bOthers)
 {
     const bool bGiven = keys.IsOfVehicle() || keys.IsOfArm();
-    if (bGiven && bDriven && !bVehicles)
+    if (bGiven && bOthers && !bVehicles)
     {
         section.AddError(
             keys.FindFirstKey(),
             "has no effect: no robot of this type has the driver vda5050 or vda5050_openstream; give options instead");
     }
-    else if ((bGiven || !bDriven) && keys.vehicleAction.has_value() == keys.armProgram.has_value())
+    else if ((bGiven || !bOthers) && keys.vehicleAction.has_value() == keys.armProgram.has_value())
     {
         section.AddError("", "needs exactly one of vehicle_action and arm_program");
     }
-}
-
-MethodTables ReadActions(const ConfigSection& root, const TemplateCheck& check, AcsdConfig& config)
-{
-    Planning::ActionTable& rules = config.engine.actions;
-    MethodTables tables;
-    const ConfigSection actions = root.GetSection("actions");
-    rules.clear();
-    for (const std::string& name : actions.GetNames())
-    {
-        const ConfigSection section = actions.GetSection(name);
-        const Planning::ActionRule rule = ReadActionRule(section, name);
-        MethodKeys keys = ReadMethodKeys(section, rule, check);
-        CheckKeys(section, keys, HasRobot(config, rule.robotType, false), HasRobot(config, rule.robotType, true));
-        rules.insert_or_assign(name, rule);
-        tables.emplace(name, MethodTable{section, std::move(keys)});
-    }
-    if (rules.empty())
-    {
-        root.AddError("actions", "needs at least one table, such as [actions.CassetteLoad]: no plan could be done");
-    }
-    return tables;
 }
 
 StationTables ReadStationTables(const ConfigSection& root, const AcsdConfig& config, const TemplateCheck& check)
@@ -126,55 +105,83 @@ StationTables ReadStationTables(const ConfigSection& root, const AcsdConfig& con
     return tables;
 }
 
+TemplateCheck MakeTemplateCheck(const AcsdConfig& config)
+{
+    return {*config.stations, config.engine, config.relayIndex};
+}
+
+/// The tables `actions` of the vehicles, in their order.
+std::vector<MethodTables> ReadVehicleTables(
+    const ConfigSection& root,
+    const AcsdConfig& config,
+    const TemplateCheck& check)
+{
+    std::vector<MethodTables> tables;
+    const ConfigSection robots = root.GetSection("robots");
+    for (const std::shared_ptr<VehicleConfig>& vehicle : config.vehicles)
+    {
+        const ConfigSection section = robots.GetSection(vehicle->robotID);
+        tables.push_back(ReadOverrides(section, config.engine.actions, &vehicle->type, check));
+    }
+    return tables;
+}
+
 } // namespace
 
-void ReadJobs(const ConfigSection& root, AcsdConfig& config)
+MethodTables ReadActions(const ConfigSection& root, AcsdConfig& config)
 {
-    const TemplateCheck check(*config.stations, config.engine, config.relayIndex);
-    const MethodTables actions = ReadActions(root, check, config);
-    const StationTables stations = ReadStationTables(root, config, check);
-    std::vector<MethodTables> overrides;
-    for (std::size_t i = 0; i < config.robots.size(); ++i)
+    const TemplateCheck check = MakeTemplateCheck(config);
+    Planning::ActionTable& rules = config.engine.actions;
+    MethodTables tables;
+    const ConfigSection actions = root.GetSection("actions");
+    rules.clear();
+    for (const std::string& name : actions.GetNames())
     {
-        if (config.robots[i].bDriven)
-        {
-            overrides.emplace_back();
-            continue;
-        }
-        const ConfigSection section = root.GetSection("robots").GetSection(config.robots[i].robotID);
-        overrides.push_back(ReadOverrides(section, config.engine.actions, &config.engine.robots[i].type, check));
+        const ConfigSection section = actions.GetSection(name);
+        const Planning::ActionRule rule = ReadActionRule(section, name);
+        MethodKeys keys = ReadMethodKeys(section, rule, check);
+        rules.insert_or_assign(name, rule);
+        tables.emplace(name, MethodTable{section, std::move(keys)});
     }
+    if (rules.empty())
+    {
+        root.AddError("actions", "needs at least one table, such as [actions.CassetteLoad]: no plan could be done");
+    }
+    return tables;
+}
+
+void ReadMethods(const ConfigSection& root, const MethodTables& actions, AcsdConfig& config)
+{
+    const TemplateCheck check = MakeTemplateCheck(config);
+    for (const auto& [name, table] : actions)
+    {
+        const Planning::ERobotType type = config.engine.actions.at(name).robotType;
+        CheckKeys(table.section, table.keys, HasVehicle(config, type), HasOtherRobot(config, type));
+    }
+    const StationTables stations = ReadStationTables(root, config, check);
+    const std::vector<MethodTables> overrides = ReadVehicleTables(root, config, check);
     for (const auto& [name, table] : actions)
     {
         const Planning::ActionRule& rule = config.engine.actions.at(name);
         MethodResolver resolver(name, rule, table, stations, config.warnings);
-        for (std::size_t i = 0; i < config.robots.size(); ++i)
+        for (std::size_t i = 0; i < config.vehicles.size(); ++i)
         {
-            const Planning::RobotOptions& options = config.engine.robots[i];
-            if (rule.robotType == options.type && !config.robots[i].bDriven)
+            if (rule.robotType == config.vehicles[i]->type)
             {
                 const auto own = overrides[i].find(name);
-                resolver.SetMethods(
-                    own == overrides[i].end() ? nullptr : &own->second,
-                    options.ports.size(),
-                    config.robots[i]);
+                resolver.SetMethods(own == overrides[i].end() ? nullptr : &own->second, *config.vehicles[i]);
             }
         }
         resolver.Check(check.GetPlaces());
     }
 }
 
-void RejectActions(const ConfigSection& root, AcsdConfig& config)
+void CheckActions(const ConfigSection& root, const AcsdConfig& config)
 {
     std::map<std::string, std::string> reasons; ///< By action: why the first robot cannot do it.
     std::set<std::string> possible;
-    for (std::size_t i = 0; i < config.robots.size(); ++i)
+    for (const Planning::RobotOptions& robot : config.engine.robots)
     {
-        Planning::RobotOptions& robot = config.engine.robots[i];
-        if (!config.robots[i].bDriven) // else its setup has stated them
-        {
-            robot.rejectedActions = RobotHost::FindRejectedActions(config, config.robots[i], robot.type);
-        }
         for (const auto& [name, rule] : config.engine.actions)
         {
             const auto rejected = robot.rejectedActions.find(name);
@@ -188,7 +195,7 @@ void RejectActions(const ConfigSection& root, AcsdConfig& config)
             }
         }
     }
-    const bool bDriven = std::ranges::any_of(config.robots, &RobotLinkConfig::bDriven);
+    const bool bOthers = config.vehicles.size() < config.robots.size();
     for (const auto& [name, reason] : reasons)
     {
         if (!possible.contains(name))
@@ -198,7 +205,7 @@ void RejectActions(const ConfigSection& root, AcsdConfig& config)
                 fmt::format(
                     "no robot can do it, {}; give arm_program for robots with an arm, vehicle_action for those without{}",
                     reason,
-                    bDriven ? ", options for those of other drivers" : ""));
+                    bOthers ? ", options for those of other drivers" : ""));
         }
     }
 }

@@ -8,11 +8,12 @@
 namespace ACS::Acsd
 {
 
-/// The metrics of one robot of a driver.
+/// The metrics of one robot of a driver. Names that begin with `acsd_` are those of acsd's own drivers, and have no
+/// prefix.
 class DriverMetrics final : public IRobotMetrics
 {
     Apps::MetricsEndpoint& _endpoint;
-    const std::string _prefix; ///< Of all names of the driver.
+    const std::string _prefix; ///< Of the names of the driver.
     const Apps::MetricsEndpoint::Labels _labels;
 
 public:
@@ -21,8 +22,12 @@ public:
 
     void AddCounter(const std::string& name, const std::string& help) override;
     void AddGauge(const std::string& name, const std::string& help) override;
+    void Increment(const std::string& name, const Labels& labels) override;
     void SetTotal(const std::string& name, double total) override;
     void SetGauge(const std::string& name, double value) override;
+
+private:
+    [[nodiscard]] std::string GetFullName(const std::string& name) const;
 };
 
 } // namespace ACS::Acsd

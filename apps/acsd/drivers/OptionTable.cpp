@@ -1,6 +1,8 @@
 #include "drivers/OptionTableImpl.hpp"
 #include <acs/acsd/OptionTable.hpp>
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace ACS::Acsd
@@ -14,22 +16,22 @@ OptionTable::OptionTable(std::shared_ptr<const Impl> impl) noexcept
 OptionTable OptionTable::ReadText(std::string_view text, const std::string& fileName)
 {
     const Apps::ConfigReader reader = Apps::ConfigReader::ReadText(text, fileName, {});
-    return MakeOptionTable(reader, reader.GetRoot());
+    return MakeOptionTable(reader, reader.GetRoot(), {}, std::make_shared<std::vector<std::string>>());
 }
 
 std::string OptionTable::GetString(const std::string& key) const
 {
-    return _impl->section.GetString(key);
+    return _impl->GetSection().GetString(key);
 }
 
 std::string OptionTable::GetString(const std::string& key, const std::string& fallback) const
 {
-    return _impl->section.GetString(key, fallback);
+    return _impl->GetSection().GetString(key, fallback);
 }
 
 std::string OptionTable::GetWord(const std::string& key, std::initializer_list<std::string_view> words) const
 {
-    return _impl->section.GetWord(key, words);
+    return _impl->GetSection().GetWord(key, words);
 }
 
 std::string OptionTable::GetWord(
@@ -37,33 +39,33 @@ std::string OptionTable::GetWord(
     std::initializer_list<std::string_view> words,
     const std::string& fallback) const
 {
-    return _impl->section.GetWord(key, words, fallback);
+    return _impl->GetSection().GetWord(key, words, fallback);
 }
 
 std::int64_t OptionTable::GetInteger(const std::string& key, std::int64_t min, std::int64_t max) const
 {
-    return _impl->section.GetInteger(key, min, max);
+    return _impl->GetSection().GetInteger(key, min, max);
 }
 
 std::int64_t OptionTable::GetInteger(const std::string& key, std::int64_t min, std::int64_t max, std::int64_t fallback)
     const
 {
-    return _impl->section.GetInteger(key, min, max, fallback);
+    return _impl->GetSection().GetInteger(key, min, max, fallback);
 }
 
 double OptionTable::GetNumber(const std::string& key, double min, double max) const
 {
-    return _impl->section.GetNumber(key, min, max);
+    return _impl->GetSection().GetNumber(key, min, max);
 }
 
 double OptionTable::GetNumber(const std::string& key, double min, double max, double fallback) const
 {
-    return _impl->section.GetNumber(key, min, max, fallback);
+    return _impl->GetSection().GetNumber(key, min, max, fallback);
 }
 
 bool OptionTable::IsEnabled(const std::string& key, bool bFallback) const
 {
-    return _impl->section.IsEnabled(key, bFallback);
+    return _impl->GetSection().IsEnabled(key, bFallback);
 }
 
 std::chrono::milliseconds OptionTable::GetDuration(
@@ -72,43 +74,49 @@ std::chrono::milliseconds OptionTable::GetDuration(
     std::chrono::milliseconds max,
     std::chrono::milliseconds fallback) const
 {
-    return _impl->section.GetDuration(key, min, max, fallback);
+    return _impl->GetSection().GetDuration(key, min, max, fallback);
 }
 
 TcpAddress OptionTable::GetTcpAddress(const std::string& key) const
 {
-    const Apps::Url url = _impl->section.GetURL(key, {Apps::EUrlScheme::Tcp});
+    const Apps::Url url = _impl->GetSection().GetURL(key, {Apps::EUrlScheme::Tcp});
     return {url.peer.host, url.peer.port};
 }
 
 std::vector<std::string> OptionTable::GetStringList(const std::string& key) const
 {
-    return _impl->section.GetStringList(key);
+    return _impl->GetSection().GetStringList(key);
 }
 
 OptionTable OptionTable::GetTable(const std::string& name) const
 {
-    return MakeOptionTable(_impl->reader, _impl->section.GetSection(name));
+    return MakeOptionTable(_impl->reader, _impl->GetSection().GetSection(name), {}, _impl->warnings);
 }
 
 std::vector<std::string> OptionTable::GetNames() const
 {
-    return _impl->section.GetNames();
+    return _impl->GetSection().GetNames();
 }
 
 bool OptionTable::HasKey(const std::string& key) const
 {
-    return _impl->section.HasKey(key);
+    return _impl->GetSection().HasKey(key);
 }
 
 void OptionTable::AddError(const std::string& key, const std::string& text) const
 {
-    _impl->section.AddError(key, text);
+    _impl->GetSection().AddError(key, text);
+}
+
+void OptionTable::AddWarning(const std::string& key, const std::string& text) const
+{
+    const std::string_view separator = key.empty() || _impl->path.empty() ? "" : ".";
+    _impl->warnings->push_back(fmt::format("{}{}{}: {}", _impl->path, separator, key, text));
 }
 
 const std::string& OptionTable::GetPath() const noexcept
 {
-    return _impl->section.GetPath();
+    return _impl->path;
 }
 
 std::vector<std::string> OptionTable::GetErrors() const
@@ -116,9 +124,19 @@ std::vector<std::string> OptionTable::GetErrors() const
     return _impl->reader.GetErrors();
 }
 
-OptionTable MakeOptionTable(const Apps::ConfigReader& reader, Apps::ConfigSection section)
+std::vector<std::string> OptionTable::GetWarnings() const
 {
-    return OptionTable(std::make_shared<const OptionTable::Impl>(reader, std::move(section)));
+    return *_impl->warnings;
+}
+
+OptionTable MakeOptionTable(
+    const Apps::ConfigReader& reader,
+    Apps::ConfigSection parent,
+    std::string name,
+    std::shared_ptr<std::vector<std::string>> warnings)
+{
+    return OptionTable(
+        std::make_shared<const OptionTable::Impl>(reader, std::move(parent), std::move(name), std::move(warnings)));
 }
 
 } // namespace ACS::Acsd

@@ -37,12 +37,6 @@ constexpr const char* PLANS = "acsd_plans";
 constexpr const char* ALARMS = "acsd_alarms_active";
 constexpr const char* ROBOT_STATE = "acsd_robot_state";
 constexpr const char* ROBOT_BATTERY = "acsd_robot_battery";
-constexpr const char* ROBOT_SEEN = "acsd_robot_last_seen_seconds";
-constexpr const char* ROBOT_STATES = "acsd_robot_states_received_total";
-constexpr const char* ROBOT_RESENT = "acsd_robot_orders_resent_total";
-constexpr const char* ARM_UP = "acsd_arm_up";
-constexpr const char* ARM_CONNECTS = "acsd_arm_connects_total";
-constexpr const char* ARM_MISSING = "acsd_arm_samples_missing_total";
 constexpr const char* COMMITS = "acsd_store_commit_seconds";
 constexpr const char* STORE_LOG = "acsd_store_log_bytes";
 constexpr const char* STORE_FREE = "acsd_store_free_bytes";
@@ -106,12 +100,6 @@ AcsdMetrics::AcsdMetrics(Apps::MetricsEndpoint& metrics)
     _metrics.AddGauge(ALARMS, "Active alarms, by level");
     _metrics.AddGauge(ROBOT_STATE, "1 for the robot's present status, 0 for the others");
     _metrics.AddGauge(ROBOT_BATTERY, "Charge in percent");
-    _metrics.AddGauge(ROBOT_SEEN, "Seconds since the last message of the vehicle; absent until the first");
-    _metrics.AddCounter(ROBOT_STATES, "VDA5050 states received");
-    _metrics.AddCounter(ROBOT_RESENT, "VDA5050 orders that were sent again");
-    _metrics.AddGauge(ARM_UP, "1 when the arm's Open Stream session is ready");
-    _metrics.AddCounter(ARM_CONNECTS, "Open Stream sessions that began");
-    _metrics.AddCounter(ARM_MISSING, "MONITOR samples that did not arrive");
     _metrics.AddHistogram(
         COMMITS,
         "Time from a batch of changes to its commit",
@@ -214,24 +202,6 @@ void AcsdMetrics::UpdateRobotStatus(const Planning::RobotStatus& status)
             ROBOT_STATE,
             {{"robot", status.robotID}, {"state", std::string(GetText(state))}},
             status.status == state ? 1.0 : 0.0);
-    }
-}
-
-void AcsdMetrics::UpdateRobot(const RobotHost& robot, Core::Now now)
-{
-    const Apps::MetricsEndpoint::Labels labels{{"robot", robot.GetRobotID()}};
-    const RobotHost::Figures figures = robot.GetFigures();
-    if (figures.seenAt.has_value())
-    {
-        _metrics.SetGauge(ROBOT_SEEN, labels, ToSeconds(now.steady - *figures.seenAt));
-    }
-    _metrics.SetTotal(ROBOT_STATES, labels, ToNumber(figures.vehicle.statesReceived));
-    _metrics.SetTotal(ROBOT_RESENT, labels, ToNumber(figures.vehicle.ordersResent));
-    if (figures.arm.has_value())
-    {
-        _metrics.SetGauge(ARM_UP, labels, figures.bArmReady ? 1.0 : 0.0);
-        _metrics.SetTotal(ARM_CONNECTS, labels, ToNumber(figures.arm->connects));
-        _metrics.SetTotal(ARM_MISSING, labels, ToNumber(figures.arm->missingLines));
     }
 }
 

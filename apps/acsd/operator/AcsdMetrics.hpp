@@ -3,7 +3,6 @@
 #include "common/http/MetricsEndpoint.hpp"
 #include "mcs/McsLink.hpp"
 #include "mcs/RefusedReports.hpp"
-#include "robots/RobotHost.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/plan/PlanEngine.hpp>
 #include <acs/plan/RobotStatus.hpp>
@@ -16,7 +15,7 @@ namespace ACS::Acsd
 {
 
 /// acsd's metrics by their names at /metrics; docs/reference/metrics.md lists them. Counters of other components are read at
-/// each request; durations are observed when they end.
+/// each request; durations are observed when they end. The drivers of the robots have metrics of their own.
 class AcsdMetrics final
 {
     Apps::MetricsEndpoint& _metrics;
@@ -32,7 +31,6 @@ public:
     void UpdateLink(const std::string& name, bool bUp);
     void UpdateMCS(const McsLink& mcs, const RefusedReports& refused);
     void UpdatePlans(const Planning::PlanEngine& engine, Core::Now now);
-    void UpdateRobot(const RobotHost& robot, Core::Now now);
     void UpdateStoreLog(const Planning::StoreLog& log);
     void UpdateLog(std::uint64_t dropped);
     void UpdateTrace(std::uint64_t lost);

@@ -23,10 +23,10 @@ struct LinkStatus
     std::string obstacle{}; ///< Why it is not up, as a line of /readyz; empty: there is no connection.
 };
 
-/// The vehicle of a robot, as the status page shows it.
+/// The links of a robot, as the status page shows them.
 struct VehicleStatus
 {
-    std::string topic;                   ///< The begin of its MQTT topics: "uagv/v2/ACME/0001".
+    std::string topic;                   ///< The begin of its MQTT topics: "uagv/v2/ACME/0001"; empty: it has none.
     std::vector<std::string> warnings{}; ///< What its messages contradict, without an alarm.
 };
 

@@ -61,49 +61,49 @@ std::optional<MethodFault> FindMethodFaultOrNull(
     const std::string& action,
     const JobMethod& method,
     const MethodKeys& given,
-    const RobotLinkConfig& robot)
+    const VehicleConfig& vehicle)
 {
     if (given.IsOfVehicle() == given.IsOfArm())
     {
         return std::nullopt; // keys of both or of neither are reported already
     }
-    const bool bArm = robot.armOrNull.has_value();
+    const bool bArm = vehicle.armOrNull.has_value();
     if (bArm && method.armProgram == 0)
     {
         return MethodFault{
-            robot.robotID,
+            vehicle.robotID,
             given.FindFirstKey(),
             fmt::format("the arm has no program for {}", action),
-            fmt::format("give arm_program, because {} has an arm", robot.robotID)};
+            fmt::format("give arm_program, because {} has an arm", vehicle.robotID)};
     }
     if (!bArm && method.vehicleAction.empty())
     {
         return MethodFault{
-            robot.robotID,
+            vehicle.robotID,
             given.FindFirstKey(),
             fmt::format("the vehicle has no action for {}", action),
-            fmt::format("give vehicle_action, because {} has no arm", robot.robotID)};
+            fmt::format("give vehicle_action, because {} has no arm", vehicle.robotID)};
     }
     return std::nullopt;
 }
 
 /// Otherwise the input would overwrite the counter, or acsd would read the input as the counter.
-void RefuseCounters(const MethodTable& table, const RobotLinkConfig& robot)
+void RefuseCounters(const MethodTable& table, const VehicleConfig& vehicle)
 {
-    if (!robot.armOrNull.has_value() || !table.keys.armInputs.has_value())
+    if (!vehicle.armOrNull.has_value() || !table.keys.armInputs.has_value())
     {
         return;
     }
     for (const ArmInputTemplate& input : *table.keys.armInputs)
     {
-        if (const std::optional<std::size_t> counter = FindCounterOrNull(input.relay, robot.armOptions))
+        if (const std::optional<std::size_t> counter = FindCounterOrNull(input.relay, vehicle.armOptions))
         {
             table.section.GetSection(ARM_INPUTS)
                 .AddError(
                     input.relay.name,
                     fmt::format(
                         "this relay holds a job counter of the arm of {} (bytes {} to {}); choose another one",
-                        robot.robotID,
+                        vehicle.robotID,
                         *counter,
                         *counter + METHOD_WORD_BYTES - 1));
         }
@@ -111,9 +111,9 @@ void RefuseCounters(const MethodTable& table, const RobotLinkConfig& robot)
 }
 
 /// Its program cannot echo a number that it does not receive.
-void WarnWithoutNumber(const MethodTable& table, const RobotLinkConfig& robot, std::vector<std::string>& warnings)
+void WarnWithoutNumber(const MethodTable& table, const VehicleConfig& vehicle, std::vector<std::string>& warnings)
 {
-    if (!table.keys.armInputs.has_value() || table.keys.armInputs->empty() || !robot.armOptions.echoIndex.has_value())
+    if (!table.keys.armInputs.has_value() || table.keys.armInputs->empty() || !vehicle.armOptions.echoIndex.has_value())
     {
         return;
     }
@@ -153,7 +153,7 @@ MethodResolver::MethodResolver(
 {
 }
 
-void MethodResolver::SetMethods(const MethodTable* overrideOrNull, std::size_t portCount, RobotLinkConfig& robot)
+void MethodResolver::SetMethods(const MethodTable* overrideOrNull, VehicleConfig& vehicle)
 {
     MethodKeys keys = _base.keys;
     if (overrideOrNull != nullptr)
@@ -162,13 +162,13 @@ void MethodResolver::SetMethods(const MethodTable* overrideOrNull, std::size_t p
     }
     const MethodTable& given = overrideOrNull == nullptr ? _base : *overrideOrNull;
     const std::optional<MethodFault> fault =
-        FindMethodFaultOrNull(_action, MakeMethod(keys, _rule, portCount), given.keys, robot);
+        FindMethodFaultOrNull(_action, MakeMethod(keys, _rule, vehicle.portCount), given.keys, vehicle);
     if (fault.has_value() && overrideOrNull != nullptr)
     {
         _bOverrideFault = true;
         given.section.AddError(
             fault->key,
-            fmt::format("{} cannot do {} with it: {}; {}", robot.robotID, _action, fault->reason, fault->remedy));
+            fmt::format("{} cannot do {} with it: {}; {}", vehicle.robotID, _action, fault->reason, fault->remedy));
     }
     else if (fault.has_value() && !_baseFaultOrNull.has_value())
     {
@@ -180,13 +180,13 @@ void MethodResolver::SetMethods(const MethodTable* overrideOrNull, std::size_t p
     }
     const bool bOwnInputs = overrideOrNull != nullptr && overrideOrNull->keys.armInputs.has_value();
     const MethodTable& inputs = bOwnInputs ? *overrideOrNull : _base;
-    RefuseCounters(inputs, robot);
+    RefuseCounters(inputs, vehicle);
     if (keys.IsOfArm())
     {
-        WarnWithoutNumber(inputs, robot, _warnings);
+        WarnWithoutNumber(inputs, vehicle, _warnings);
     }
-    robot.methods.SetMethod(_action, {}, MakeMethod(keys, _rule, portCount));
-    SetStationMethods(keys, portCount, robot);
+    vehicle.methods.SetMethod(_action, {}, MakeMethod(keys, _rule, vehicle.portCount));
+    SetStationMethods(keys, vehicle);
 }
 
 void MethodResolver::Check(const SitePlaces& places) const
@@ -212,7 +212,7 @@ void MethodResolver::Check(const SitePlaces& places) const
     }
 }
 
-void MethodResolver::SetStationMethods(const MethodKeys& keys, std::size_t portCount, RobotLinkConfig& robot) const
+void MethodResolver::SetStationMethods(const MethodKeys& keys, VehicleConfig& vehicle) const
 {
     for (const auto& [stationID, tables] : _stations)
     {
@@ -223,9 +223,9 @@ void MethodResolver::SetStationMethods(const MethodKeys& keys, std::size_t portC
         }
         MethodKeys atStation = keys;
         ReplaceKeys(atStation, table->second.keys);
-        RefuseCounters(table->second, robot);
-        WarnWithoutNumber(table->second, robot, _warnings);
-        robot.methods.SetMethod(_action, stationID, MakeMethod(atStation, _rule, portCount));
+        RefuseCounters(table->second, vehicle);
+        WarnWithoutNumber(table->second, vehicle, _warnings);
+        vehicle.methods.SetMethod(_action, stationID, MakeMethod(atStation, _rule, vehicle.portCount));
     }
 }
 

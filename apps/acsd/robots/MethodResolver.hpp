@@ -1,9 +1,9 @@
 #pragma once
 
 #include "common/config/ConfigSection.hpp"
-#include "config/AcsdConfig.hpp"
 #include "config/ActionConfig.hpp"
 #include "config/SitePlaces.hpp"
+#include "config/VehicleConfig.hpp"
 
 #include <cstddef>
 #include <functional>
@@ -57,13 +57,13 @@ public:
         std::vector<std::string>& warnings);
 
     /// The override is null if the robot has none.
-    void SetMethods(const MethodTable* overrideOrNull, std::size_t portCount, RobotLinkConfig& robot);
+    void SetMethods(const MethodTable* overrideOrNull, VehicleConfig& vehicle);
 
     /// Reports the errors that concern all robots. Call after the last robot.
     void Check(const SitePlaces& places) const;
 
 private:
-    void SetStationMethods(const MethodKeys& keys, std::size_t portCount, RobotLinkConfig& robot) const;
+    void SetStationMethods(const MethodKeys& keys, VehicleConfig& vehicle) const;
     void CheckStation(const std::string& stationID, const MethodTable& table, const SitePlaces& places) const;
 };
 

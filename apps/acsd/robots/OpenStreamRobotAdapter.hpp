@@ -1,6 +1,5 @@
 #pragma once
 
-#include "config/AcsdConfig.hpp"
 #include "config/ArmOptions.hpp"
 #include "robots/ArmControls.hpp"
 #include "robots/ArmInput.hpp"

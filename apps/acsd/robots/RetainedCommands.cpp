@@ -85,7 +85,7 @@ void RetainedCommands::Remove(const VDA5050::MqttMessage& message)
             {{"robotId", _robotID}, {"topic", message.topic}, {"reason", Core::Describe(published.error())}});
         return;
     }
-    _dependencies.metrics.Increment(REMOVED, {{"robot", _robotID}});
+    _dependencies.metrics.Increment(REMOVED, {});
     _dependencies.logger.Warning(
         "a retained message was removed from a command topic of the vehicle: find the program that publishes commands with "
         "the retain flag",

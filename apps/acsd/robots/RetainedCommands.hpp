@@ -1,6 +1,6 @@
 #pragma once
 
-#include "common/http/MetricsEndpoint.hpp"
+#include <acs/acsd/IRobotMetrics.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/vda5050/IMqttLink.hpp>
 #include <acs/vda5050/Topic.hpp>
@@ -28,7 +28,7 @@ public:
     {
         VDA5050::IMqttLink& mqtt;
         Core::Logger logger;
-        Apps::MetricsEndpoint& metrics;
+        IRobotMetrics& metrics;
     };
 
 private:

@@ -18,43 +18,44 @@ using namespace std::chrono_literals;
 /// The controller refuses within a few milliseconds. A longer window only delays each job.
 constexpr std::chrono::milliseconds CONTROL_WINDOW = 100ms;
 
-VDA5050::MasterOptions MakeMasterOptions(const AcsdConfig& config, const RobotLinkConfig& robot)
+} // namespace
+
+VDA5050::MasterOptions MakeMasterOptions(const VehicleConfig& vehicle)
 {
     VDA5050::MasterOptions options;
-    options.address = {GetInterfaceName(config), robot.manufacturer, robot.serialNumber};
+    options.address = vehicle.address;
     // Longer where the factsheet announces a longer interval between states.
-    options.stateMargin = std::min(options.stateMargin, config.operations.offlineAfter / 3);
-    options.stateInterval = config.operations.offlineAfter - options.stateMargin;
-    options.factsheet = robot.factsheet;
-    options.version = VDA5050::ReadVersionOrNull(robot.protocolVersion).value_or(VDA5050::EVda5050Version::Version200);
-    options.zoneSetID = config.zoneSetID;
+    options.stateMargin = std::min(options.stateMargin, vehicle.offlineAfter / 3);
+    options.stateInterval = vehicle.offlineAfter - options.stateMargin;
+    options.factsheet = vehicle.factsheet;
+    options.version =
+        VDA5050::ReadVersionOrNull(vehicle.protocolVersion).value_or(VDA5050::EVda5050Version::Version200);
+    options.zoneSetID = vehicle.zoneSetID;
     return options;
 }
 
-} // namespace
-
-RobotAdapter MakeRobotAdapter(const AcsdConfig& config, const RobotLinkConfig& robot, RobotOutputs& outputs)
+RobotAdapter MakeRobotAdapter(const VehicleConfig& vehicle, RobotOutputs& outputs)
 {
-    VDA5050::MasterOptions options = MakeMasterOptions(config, robot);
-    if (!robot.armOrNull.has_value())
+    VDA5050::MasterOptions options = MakeMasterOptions(vehicle);
+    if (!vehicle.armOrNull.has_value())
     {
-        auto vehicle = std::make_unique<Vda5050RobotAdapter>(
+        auto adapter = std::make_unique<Vda5050RobotAdapter>(
             std::move(options),
-            robot.methods,
+            vehicle.methods,
             outputs,
-            config.operations.loadTimeout,
-            robot.drives,
-            robot.maps);
-        return {std::move(vehicle), nullptr};
+            vehicle.loadTimeout,
+            vehicle.drives,
+            vehicle.maps);
+        return {std::move(adapter), nullptr};
     }
     auto adapter = std::make_unique<OpenStreamRobotAdapter>(
         std::move(options),
-        robot.armOptions,
-        robot.methods,
-        [methods = robot.methods](const Planning::StartJob& job) { return MakeArmInputs(methods, job); },
+        vehicle.armOptions,
+        vehicle.methods,
+        [methods = vehicle.methods](const Planning::StartJob& job) { return MakeArmInputs(methods, job); },
         outputs,
-        robot.drives,
-        robot.maps);
+        vehicle.drives,
+        vehicle.maps);
     OpenStreamRobotAdapter* const arm = adapter.get();
     return {std::move(adapter), arm};
 }

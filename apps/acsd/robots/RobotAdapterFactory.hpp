@@ -1,10 +1,11 @@
 #pragma once
 
-#include "config/AcsdConfig.hpp"
+#include "config/VehicleConfig.hpp"
 #include "robots/IMqttRobotAdapter.hpp"
 #include "robots/OpenStreamRobotAdapter.hpp"
 #include "robots/RobotOutputs.hpp"
 #include <acs/openstream/ClientSessionActions.hpp>
+#include <acs/vda5050/MasterOptions.hpp>
 
 #include <memory>
 
@@ -19,10 +20,10 @@ struct RobotAdapter
 };
 
 /// Makes the adapter of a vehicle, or of a vehicle with an arm. The outputs must outlive it.
-[[nodiscard]] RobotAdapter MakeRobotAdapter(
-    const AcsdConfig& config,
-    const RobotLinkConfig& robot,
-    RobotOutputs& outputs);
+[[nodiscard]] RobotAdapter MakeRobotAdapter(const VehicleConfig& vehicle, RobotOutputs& outputs);
+
+/// Options of acsd's session with the vehicle.
+[[nodiscard]] VDA5050::MasterOptions MakeMasterOptions(const VehicleConfig& vehicle);
 
 /// Options of acsd's session with the controller of an arm.
 [[nodiscard]] OpenStream::ClientSessionOptions MakeArmSessionOptions();

@@ -84,7 +84,7 @@ void VehicleWatch::Note(std::string_view kind, std::string_view detail)
 {
     const std::string name(kind);
     const std::uint64_t total = ++_counts[name];
-    _metrics.Increment(ODDITIES, {{"robot", _robotID}, {"kind", name}});
+    _metrics.Increment(ODDITIES, {{"kind", name}});
     _log.Write(
         _clock.GetNow().steady,
         Core::ELogLevel::Warning,

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "common/http/MetricsEndpoint.hpp"
 #include "common/log/LogRateLimiter.hpp"
 #include "robots/LoadPositions.hpp"
+#include <acs/acsd/IRobotMetrics.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/openstream/ClientSessionActions.hpp>
@@ -31,7 +31,7 @@ public:
     {
         const Core::IClock& clock;
         Core::Logger logger;
-        Apps::MetricsEndpoint& metrics;
+        IRobotMetrics& metrics;
     };
 
     /// How far outside the rectangle around all nodes, or beyond the lanes of its last node, a vehicle may be, in metres.
@@ -57,7 +57,7 @@ private:
     std::string _robotID;
     const Core::IClock& _clock;
     Apps::LogRateLimiter _log;
-    Apps::MetricsEndpoint& _metrics;
+    IRobotMetrics& _metrics;
     std::map<std::string, std::uint64_t, std::less<>> _counts; ///< By kind; the number of kinds is fixed.
     LoadPositions _positions;
     std::string _protocolVersion;

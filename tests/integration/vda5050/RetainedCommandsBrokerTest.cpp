@@ -1,4 +1,6 @@
 #include "Catch.hpp"
+#include "common/http/MetricsEndpoint.hpp"
+#include "drivers/DriverMetrics.hpp"
 #include "LinkFixture.hpp"
 #include "robots/RetainedCommands.hpp"
 
@@ -24,7 +26,8 @@ struct RetainedBroker
     TestLink other{context, MakeOptions(broker.GetPort(), "other")};
     RecordingLogSink log;
     Apps::MetricsEndpoint metrics;
-    Acsd::RetainedCommands retained{{acsd.link, Core::Logger(log, "robot"), metrics}, "LR01", {"uagv", "ACS", "LR01"}};
+    Acsd::DriverMetrics ofRobot{metrics, "vda5050", "LR01"};
+    Acsd::RetainedCommands retained{{acsd.link, Core::Logger(log, "robot"), ofRobot}, "LR01", {"uagv", "ACS", "LR01"}};
     std::size_t handled = 0; ///< Of the messages that acsd has received.
 
     RetainedBroker()

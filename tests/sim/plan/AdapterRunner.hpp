@@ -13,7 +13,7 @@
 namespace ACS::Simulation
 {
 
-/// Runs the adapter of one robot as RobotHost does: gives it time, keeps its timers, passes its events on, and carries
+/// Runs the adapter of one robot as RobotRunner does: gives it time, keeps its timers, passes its events on, and carries
 /// out its actions in order, also those that are added in the meantime.
 class AdapterRunner final
 {

@@ -12,7 +12,7 @@
 namespace ACS::Simulation
 {
 
-/// Runs the adapter of one robot in memory as RobotHost runs those of real ones: gives it events and time, keeps its
+/// Runs the adapter of one robot in memory as RobotRunner runs those of real ones: gives it events and time, keeps its
 /// timers, passes its events on.
 class RobotConnection final : public IRobotConnection, private IRadioListener
 {

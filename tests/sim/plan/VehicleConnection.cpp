@@ -1,7 +1,7 @@
 #include "VehicleConnection.hpp"
 
 #include "ArmPrograms.hpp"
-#include "config/AcsdConfig.hpp"
+#include "config/VehicleConfig.hpp"
 
 #include <memory>
 #include <optional>
@@ -69,22 +69,24 @@ Acsd::JobMethods MakeMethods(const Planning::RobotOptions& robot, bool bArm)
     return methods;
 }
 
-Acsd::RobotLinkConfig MakeLink(const Planning::RobotOptions& robot, const ArmController* controllerOrNull)
+Acsd::VehicleConfig MakeVehicle(const Planning::RobotOptions& robot, const ArmController* controllerOrNull)
 {
     const std::string& robotID = robot.robotID.GetText();
-    Acsd::RobotLinkConfig link{robotID, "ACS", robotID, "2.0.0", std::nullopt};
-    link.methods = MakeMethods(robot, controllerOrNull != nullptr);
+    Acsd::VehicleConfig vehicle;
+    vehicle.robotID = robotID;
+    vehicle.address = {"uagv", "ACS", robotID};
+    vehicle.methods = MakeMethods(robot, controllerOrNull != nullptr);
     if (controllerOrNull == nullptr)
     {
-        return link;
+        return vehicle;
     }
-    link.armOrNull.emplace(); // the network has its addresses
-    link.armOptions.period = ARM_PERIOD;
+    vehicle.armOrNull.emplace(); // the network has its addresses
+    vehicle.armOptions.period = ARM_PERIOD;
     if (controllerOrNull->Is(EMutation::EchoIgnored))
     {
-        link.armOptions.echoIndex.reset();
+        vehicle.armOptions.echoIndex.reset();
     }
-    return link;
+    return vehicle;
 }
 
 } // namespace
@@ -96,7 +98,7 @@ VehicleConnection::VehicleConnection(
     EventHandler handler,
     ArmController* controllerOrNull)
     : _broker(broker),
-      _adapter(Acsd::MakeRobotAdapter(Acsd::AcsdConfig(), MakeLink(robot, controllerOrNull), _outputs)),
+      _adapter(Acsd::MakeRobotAdapter(MakeVehicle(robot, controllerOrNull), _outputs)),
       _runner(timeline, *_adapter.adapter, std::move(handler), [this] { SendAll(); }),
       _client(broker.Open(*this, _adapter.adapter->GetSubscriptions(), std::nullopt))
 {

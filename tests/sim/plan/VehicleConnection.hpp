@@ -14,7 +14,7 @@
 namespace ACS::Simulation
 {
 
-/// Runs acsd's adapter of a VDA5050 vehicle, with an arm or without, as RobotHost does: over the simulated broker, and
+/// Runs acsd's adapter of a VDA5050 vehicle, with an arm or without, as RobotRunner does: over the simulated broker, and
 /// over the network of the arm's controller.
 class VehicleConnection final : public IRobotConnection, private VDA5050::IMqttLinkListener
 {

@@ -62,9 +62,11 @@ Planning::SiteMap VehicleBench::MakeSite()
     return std::move(*site);
 }
 
-Acsd::RobotLinkConfig VehicleBench::MakeLinkConfig()
+Acsd::VehicleConfig VehicleBench::MakeVehicleConfig()
 {
-    Acsd::RobotLinkConfig config{ROBOT, "ACS", ROBOT, "2.0.0", std::nullopt};
+    Acsd::VehicleConfig config;
+    config.robotID = ROBOT;
+    config.address = {"uagv", "ACS", ROBOT};
     const Acsd::LoadPositions ports(*Core::ParseLocationRange("LR01.CP01-04"), {});
     config.methods = Acsd::JobMethods(ports, std::make_shared<const Acsd::StationTable>());
     config.methods.SetMethod("CassetteLoad", {}, MakeHandling("pick", EActionEffect::Load));
@@ -130,7 +132,7 @@ Planning::IRobotAdapter& VehicleBench::MakeAdapter(AdapterTest::IAdapterHost& ho
 {
     _hostOrNull = &host;
     _outputs = {};
-    _adapter = Acsd::MakeRobotAdapter(Acsd::AcsdConfig(), MakeLinkConfig(), _outputs);
+    _adapter = Acsd::MakeRobotAdapter(MakeVehicleConfig(), _outputs);
     ConnectAdapterSoon();
     return *_adapter.adapter;
 }

@@ -85,7 +85,7 @@ public:
 
 private:
     [[nodiscard]] static Planning::SiteMap MakeSite();
-    [[nodiscard]] static Acsd::RobotLinkConfig MakeLinkConfig();
+    [[nodiscard]] static Acsd::VehicleConfig MakeVehicleConfig();
 
     void Post(std::size_t& connection, std::function<void()> task);
     void ConnectAdapterSoon();

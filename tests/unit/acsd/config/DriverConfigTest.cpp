@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -63,7 +64,12 @@ public:
         setup->capabilities.topicPrefix = config.options.GetString("topics", "");
         const TcpAddress address = config.options.GetTcpAddress("url");
         setup->capabilities.connectionHint = fmt::format("{} at {}:{}", config.robotID, address.host, address.port);
-        if (config.options.GetInteger("dogs", 1, 12, 6) == 7)
+        const std::int64_t dogs = config.options.GetInteger("dogs", 1, 12, 6);
+        if (dogs == 1)
+        {
+            config.options.AddWarning("dogs", "one dog alone is slow");
+        }
+        if (dogs == 7)
         {
             config.options.AddError("dogs", "an odd team pulls to one side");
             return nullptr;
@@ -81,7 +87,7 @@ public:
 
 RobotDrivers MakeDrivers(const std::vector<std::string>& names = {"sledge"})
 {
-    RobotDrivers drivers;
+    RobotDrivers drivers = MakeBuiltInDrivers();
     std::ranges::transform(names, std::back_inserter(drivers), [](const std::string& name) {
         return std::make_unique<SledgeDriver>(name);
     });
@@ -131,7 +137,7 @@ TEST_CASE("A robot without the key driver is a VDA5050 vehicle, and one with an 
     REQUIRE(config.errors.empty());
     CHECK(std::ranges::find(config.robots, "LR01", &RobotLinkConfig::robotID)->driver == "vda5050");
     CHECK(std::ranges::find(config.robots, "CR01", &RobotLinkConfig::robotID)->driver == "vda5050_openstream");
-    CHECK(std::ranges::none_of(config.robots, &RobotLinkConfig::bDriven));
+    CHECK(config.vehicles.size() == config.robots.size());
     CheckErrors(
         {{{"robots.CR01.driver=vda5050"}, "robots.CR01.driver: a robot with an arm has the driver vda5050_openstream"},
          {{"robots.LR01.driver=vda5050_openstream"}, "robots.LR01.arm: "}});
@@ -144,7 +150,7 @@ TEST_CASE("A robot of another driver needs no broker; its driver reads its optio
     CHECK(config.warnings == Errors{});
     CHECK_FALSE(config.mqtt.has_value());
     REQUIRE(config.robots.size() == 1);
-    CHECK(config.robots[0].bDriven);
+    CHECK(config.vehicles.empty());
     CHECK(config.robots[0].driver == "sledge");
     CHECK(config.robots[0].setupOrNull != nullptr);
     CHECK(config.engine.robots[0].connectionHint == "LR01 at 10.0.0.7:4700");
@@ -190,6 +196,13 @@ TEST_CASE("Unknown, missing and wrong options are errors with line and key")
     CHECK_THAT(
         ReadDriven(robot + OPTIONS, {}, {"robots.LR01.options.dogs=0"}).errors.at(0),
         Catch::StartsWith("--set: robots.LR01.options.dogs: expected an integer from 1 to 12"));
+}
+
+TEST_CASE("A driver warns of valid options")
+{
+    const AcsdConfig config = ReadDriven(std::string(ROBOT) + OPTIONS + "options.dogs = 1\n");
+    CHECK(config.errors == Errors{});
+    CHECK(config.warnings == Errors{"robots.LR01.options.dogs: one dog alone is slow"});
 }
 
 TEST_CASE("The type of a robot is one that its driver has")
@@ -319,6 +332,9 @@ TEST_CASE("A driver's own test reads its options from a text")
     CHECK(table.GetStringList("modes") == std::vector<std::string>{"a", "b"});
     const OptionTable lamp = table.GetTable("lamp");
     CHECK_FALSE(lamp.IsEnabled("on", false));
+    lamp.AddWarning("on", "is bright");
+    table.AddWarning("", "is short");
+    CHECK(table.GetWarnings() == Errors{"lamp.on: is bright", ": is short"});
     CHECK(lamp.GetErrors() == Errors{"x.toml:3: lamp.on: expected true or false, found the integer 3"});
 }
 

@@ -3,6 +3,7 @@
 #include "Catch.hpp"
 #include "config/AcsdConfig.hpp"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,14 @@ namespace ACS::Acsd::Test
 inline AcsdConfig ReadSite(const std::vector<std::string>& overrides)
 {
     return ReadAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", overrides);
+}
+
+/// A robot of the configuration whose driver is built in.
+inline const VehicleConfig& FindVehicle(const AcsdConfig& config, const std::string& robotID)
+{
+    return **std::ranges::find_if(config.vehicles, [&robotID](const auto& vehicle) {
+        return vehicle->robotID == robotID;
+    });
 }
 
 /// Keys that override the example site, and the begin of the only resulting error after "--set: ".

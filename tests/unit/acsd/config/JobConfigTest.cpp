@@ -25,11 +25,6 @@ Acsd::AcsdConfig ReadJobs(const std::vector<std::string>& overrides)
     return Acsd::ReadAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", overrides);
 }
 
-const Acsd::RobotLinkConfig& FindRobot(const Acsd::AcsdConfig& config, const std::string& robotID)
-{
-    return *std::ranges::find(config.robots, robotID, &Acsd::RobotLinkConfig::robotID);
-}
-
 Planning::StartJob MakeJob(
     const std::string& action,
     const std::string& position,
@@ -50,7 +45,7 @@ Planning::StartJob MakeJob(
 /// "ml105=77 ml106=1"
 std::string MakeInputs(const Acsd::AcsdConfig& config, const Planning::StartJob& job)
 {
-    const auto inputs = Acsd::MakeArmInputs(FindRobot(config, "CR01").methods, job);
+    const auto inputs = Acsd::MakeArmInputs(Acsd::Test::FindVehicle(config, "CR01").methods, job);
     if (!inputs.has_value())
     {
         return inputs.error();
@@ -69,7 +64,7 @@ std::string MakeAction(
     const Planning::StartJob& job,
     const std::string& robotID = "LR01")
 {
-    const Acsd::JobMethods& methods = FindRobot(config, robotID).methods;
+    const Acsd::JobMethods& methods = Acsd::Test::FindVehicle(config, robotID).methods;
     const Acsd::JobData data = methods.MakeData(job);
     const Acsd::JobMethod& method = *methods.FindMethodOrNull(job.action, data);
     std::string text = method.vehicleAction;
@@ -161,7 +156,7 @@ TEST_CASE("A robot's own arm_program keeps the inputs, and the other way round")
     const Acsd::AcsdConfig config = ReadJobs(
         {"robots.CR01.actions.TrayLoad.arm_program=21", "robots.CR01.actions.TrayUnload.arm_inputs={ml120=5}"});
     REQUIRE(config.errors == std::vector<std::string>{});
-    const Acsd::JobMethods& methods = FindRobot(config, "CR01").methods;
+    const Acsd::JobMethods& methods = Acsd::Test::FindVehicle(config, "CR01").methods;
     CHECK(methods.FindMethodOrNull("TrayLoad")->armProgram == 21);
     CHECK(methods.FindMethodOrNull("TrayLoad")->armInputs.size() == 5);
     CHECK(methods.FindMethodOrNull("TrayUnload")->armProgram == 13);
@@ -179,7 +174,7 @@ TEST_CASE("A robot's arm has keys of its own, and those of the table arm for the
     REQUIRE(config.errors == std::vector<std::string>{});
     CHECK_FALSE(config.arm.echoIndex.has_value());
     CHECK(config.arm.firstByte == 400);
-    const Acsd::ArmOptions& arm = FindRobot(config, "CR01").armOptions;
+    const Acsd::ArmOptions& arm = Acsd::Test::FindVehicle(config, "CR01").armOptions;
     CHECK(arm.echoIndex == 6U);
     CHECK(arm.firstByte == 800);
     CHECK(arm.inputTimeout == std::chrono::seconds(3));
@@ -257,7 +252,7 @@ TEST_CASE("4.1 An action that MCS-ACS does not define has keys for its places an
     CHECK(rule.to == EPlaceRule::FixedTray);
     CHECK(rule.effect == EActionEffect::Unload);
     CHECK(rule.bJobsRequired);
-    CHECK(FindRobot(config, "CR01").methods.FindMethodOrNull("Shift")->effect == EActionEffect::Unload);
+    CHECK(Acsd::Test::FindVehicle(config, "CR01").methods.FindMethodOrNull("Shift")->effect == EActionEffect::Unload);
     const Acsd::AcsdConfig plain = read("timeout='1m'");
     CHECK(plain.engine.actions.at("Shift").from == EPlaceRule::None);
     CHECK_FALSE(plain.engine.actions.at("Shift").bJobsRequired);

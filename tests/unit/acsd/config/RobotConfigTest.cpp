@@ -53,7 +53,7 @@ TEST_CASE("The topics of a robot's vehicle are named, also to the engine, for th
     CHECK(
         config.engine.robots.back().connectionHint
         == "The connection message of its vehicle is expected on plant/v2/ACME/0007/connection.");
-    CHECK(ReadSite({"robots.LR01.serial=a/b"}).robots.back().topicPrefix.empty());
+    CHECK(ReadSite({"robots.LR01.serial=a/b"}).engine.robots.back().connectionHint.empty());
 }
 
 TEST_CASE("The maps of a robot are maps of the site with a version; link and hash are optional")
@@ -63,8 +63,8 @@ TEST_CASE("The maps of a robot are maps of the site with a version; link and has
         {"robots.LR01.protocol=2.1.0", map + R"(.version="2")", map + R"(.download="http://files/floor.zip")"});
     CHECK(config.errors.empty());
     CHECK(config.warnings.empty());
-    const auto robot = std::ranges::find(config.robots, "LR01", &RobotLinkConfig::robotID);
-    CHECK(robot->maps == std::vector<NeededMap>{{"floor-1", "2", "http://files/floor.zip", {}}});
+    const VehicleConfig& vehicle = FindVehicle(config, "LR01");
+    CHECK(vehicle.maps == std::vector<NeededMap>{{"floor-1", "2", "http://files/floor.zip", {}}});
     for (const char* const link :
          {"https://files.example:8443/a/floor.zip?v=2", "file:///maps/floor.zip", "s3://bucket/floor"})
     {
@@ -147,10 +147,10 @@ TEST_CASE("A factsheet_file is read without a header, and an unreadable one is a
     const AcsdConfig good = ReadSite(keys);
     CHECK(good.errors.empty());
     CHECK(good.warnings.empty());
-    const auto robot = std::ranges::find(good.robots, "LR01", &RobotLinkConfig::robotID);
-    REQUIRE(robot->factsheet.has_value());
-    CHECK(robot->factsheet->typeSpecification.seriesName == "LR");
-    CHECK_FALSE(robot->drives->GetMap().GetRoutes().empty());
+    const VehicleConfig& vehicle = FindVehicle(good, "LR01");
+    REQUIRE(vehicle.factsheet.has_value());
+    CHECK(vehicle.factsheet->typeSpecification.seriesName == "LR");
+    CHECK_FALSE(vehicle.drives->GetMap().GetRoutes().empty());
 
     write(R"({"agvActions":[],"optionalParameters":[]})");
     const AcsdConfig poor = ReadSite(keys);

@@ -1,6 +1,7 @@
 #include "robots/RetainedCommands.hpp"
 
 #include "Catch.hpp"
+#include "drivers/DriverMetrics.hpp"
 #include "drivers/RecordingLink.hpp"
 #include "RecordingLogSink.hpp"
 
@@ -22,7 +23,8 @@ struct RetainedCommandsFixture
     RecordingLink mqtt;
     Testing::RecordingLogSink log;
     Apps::MetricsEndpoint metrics;
-    RetainedCommands retained{{mqtt, Core::Logger(log, "robot"), metrics}, "LR01", {"uagv", "ACS", "LR01"}};
+    DriverMetrics ofRobot{metrics, "vda5050", "LR01"};
+    RetainedCommands retained{{mqtt, Core::Logger(log, "robot"), ofRobot}, "LR01", {"uagv", "ACS", "LR01"}};
 
     [[nodiscard]] bool HasRemoved(int count) const
     {

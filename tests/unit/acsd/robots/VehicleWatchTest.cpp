@@ -2,6 +2,7 @@
 
 #include "Catch.hpp"
 #include "config/AcsdConfig.hpp"
+#include "drivers/DriverMetrics.hpp"
 #include "ManualClock.hpp"
 #include "RecordingLogSink.hpp"
 
@@ -22,11 +23,12 @@ struct WatchFixture
     Testing::RecordingLogSink sink;
     Testing::ManualClock clock;
     Apps::MetricsEndpoint metrics;
+    DriverMetrics ofRobot{metrics, "vda5050", "LR01"};
     VehicleWatch watch{
         *config.site,
         "LR01",
-        {clock, Core::Logger(sink, "robot"), metrics},
-        config.robots.back().methods.GetPositions(),
+        {clock, Core::Logger(sink, "robot"), ofRobot},
+        config.vehicles.back()->methods.GetPositions(),
         "2.0.0"};
     VDA5050::StateMessage state;
 
@@ -271,7 +273,7 @@ TEST_CASE_METHOD(
 
 TEST_CASE_METHOD(WatchFixture, "A load at a position that no port has is reported")
 {
-    REQUIRE(config.robots.back().robotID == "LR01");
+    REQUIRE(config.vehicles.back()->robotID == "LR01");
     VDA5050::Load load;
     load.loadPosition = "CP01";
     state.loads = {load};

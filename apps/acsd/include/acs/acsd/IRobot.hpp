@@ -3,8 +3,20 @@
 #include <acs/core/Api.hpp>
 #include <acs/plan/IRobotAdapter.hpp>
 
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace ACS::Acsd
 {
+
+/// What a driver shows of its robot at /status.
+struct DriverDetails
+{
+    std::vector<std::string> warnings; ///< What the robot's messages contradict, without an alarm; a sentence each.
+    std::optional<bool>
+        bArmUp; ///< Whether its arm can be commanded; nullopt for a robot without an arm of its own link.
+};
 
 /// One robot: its connection, and the pure adapter that decides. acsd calls both on the executor's thread only. It calls the
 /// adapter's Handle and OnTimer, runs its timers and passes its events to the engine.
@@ -31,6 +43,11 @@ public:
 
     /// Sets the robot's metrics to their current values. Called before metrics are served.
     virtual void UpdateMetrics() = 0;
+
+    [[nodiscard]] virtual DriverDetails GetDetails() const
+    {
+        return {};
+    }
 };
 
 } // namespace ACS::Acsd

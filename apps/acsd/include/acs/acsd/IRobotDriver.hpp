@@ -17,6 +17,8 @@
 namespace ACS::Acsd
 {
 
+struct DriverContext;
+
 /// What the configuration has for one robot of a driver.
 struct DrivenRobotConfig
 {
@@ -27,6 +29,7 @@ struct DrivenRobotConfig
     OptionTable options;               ///< `robots.NAME.options`
     /// `actions.ACTION.options` by action, for every action of the robot's type.
     std::map<std::string, OptionTable, std::less<>> actions;
+    const DriverContext* contextOrNull = nullptr; ///< For acsd's own drivers; null in tests of a driver.
 };
 
 /// A kind of robot that acsd can command: the integrator's entry point. Has no state; used by one thread.
@@ -42,7 +45,7 @@ public:
     [[nodiscard]] virtual std::string_view GetName() const noexcept = 0;
 
     /// Reads and validates the options of a robot; opens no connection, because `acsd --check-config` calls it too. Keys that are not
-    /// read are errors. Adds each error to its OptionTable; nullptr, and any error, make the configuration invalid.
+    /// read are errors. Adds each error and each warning to its OptionTable; nullptr, and any error, make the configuration invalid.
     [[nodiscard]] virtual std::unique_ptr<IRobotSetup> MakeSetupOrNull(const DrivenRobotConfig& config) const = 0;
 };
 

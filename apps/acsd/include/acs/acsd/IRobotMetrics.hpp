@@ -2,6 +2,7 @@
 
 #include <acs/core/Api.hpp>
 
+#include <map>
 #include <string>
 
 namespace ACS::Acsd
@@ -12,6 +13,9 @@ namespace ACS::Acsd
 class ACS_API IRobotMetrics
 {
 public:
+    /// Value by name of the label, which has a-z and _ only.
+    using Labels = std::map<std::string, std::string>;
+
     IRobotMetrics() = default;
     IRobotMetrics(const IRobotMetrics&) = delete;
     IRobotMetrics& operator=(const IRobotMetrics&) = delete;
@@ -24,6 +28,8 @@ public:
 
     // The metrics must have been added.
 
+    /// Adds 1 to a counter. The labels are besides `robot`, mostly none; give them few values, because each combination is a metric.
+    virtual void Increment(const std::string& name, const Labels& labels) = 0;
     /// Raises a counter to a total that is counted elsewhere; a smaller total is ignored.
     virtual void SetTotal(const std::string& name, double total) = 0;
     /// Sets a gauge to the value.

@@ -98,11 +98,17 @@ public:
     /// first error of a key is kept.
     void AddError(const std::string& key, const std::string& text) const;
 
+    /// Adds a warning about a valid value that is not advisable, or has no effect. `acsd --check-config` and the log at a start show it.
+    void AddWarning(const std::string& key, const std::string& text) const;
+
     /// "robots.LR01.options"
     [[nodiscard]] const std::string& GetPath() const noexcept;
 
     /// All errors of the document, by line, with those for unknown keys.
     [[nodiscard]] std::vector<std::string> GetErrors() const;
+
+    /// The warnings of this table and those around it and in it, in their order: "robots.LR01.options.speed: …"
+    [[nodiscard]] std::vector<std::string> GetWarnings() const;
 };
 
 } // namespace ACS::Acsd

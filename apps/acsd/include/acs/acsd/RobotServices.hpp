@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/acsd/IMqttService.hpp>
+#include <acs/acsd/IOpenStreamService.hpp>
 #include <acs/acsd/IRobotMetrics.hpp>
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
@@ -39,6 +40,7 @@ struct RobotServices
     std::function<void(const AdapterCall& adapterCall)> call;
     /// Adds a message as it was on the wire to the trace of acsd (--trace). Never empty; has no effect without a trace.
     std::function<void(ETraceDirection direction, std::string_view text)> trace;
+    IOpenStreamService& openStream;
     /// The broker; null without RobotCapabilities::topicPrefix.
     IMqttService* mqttOrNull = nullptr;
 };

@@ -1,8 +1,8 @@
-#include "drivers/DrivenRobot.hpp"
+#include "drivers/RobotRunner.hpp"
 
 #include "common/process/TimerSet.hpp"
 #include "drivers/DriverMetrics.hpp"
-#include <acs/acsd/IRobot.hpp>
+#include "drivers/OpenStreamService.hpp"
 #include <acs/acsd/IRobotSetup.hpp>
 #include <acs/acsd/RobotServices.hpp>
 #include <acs/core/Overloaded.hpp>
@@ -22,7 +22,7 @@ namespace
 {
 
 std::unique_ptr<IMqttService> MakeMqttService(
-    const DrivenRobot::Dependencies& dependencies,
+    const RobotRunner::Dependencies& dependencies,
     const RobotLinkConfig& link)
 {
     if (link.topicPrefix.empty() || dependencies.mqttOrNull == nullptr)
@@ -34,7 +34,7 @@ std::unique_ptr<IMqttService> MakeMqttService(
 
 } // namespace
 
-class DrivenRobot::Impl final
+class RobotRunner::Impl final
 {
     Dependencies _dependencies;
     const std::string _robotID;
@@ -42,6 +42,7 @@ class DrivenRobot::Impl final
     EventHandler _handler;
     DriverMetrics _metrics;
     const std::unique_ptr<IMqttService> _mqtt; ///< Null if the robot does not use the broker.
+    OpenStreamService _openStream;
     std::unique_ptr<IRobot> _robot;
     std::deque<Planning::AdapterAction> _actions; ///< Not executed yet.
     bool _bExecuting = false;
@@ -56,6 +57,13 @@ public:
           _handler(std::move(handler)),
           _metrics(_dependencies.metrics, link.driver, link.robotID),
           _mqtt(MakeMqttService(_dependencies, link)),
+          _openStream(
+              {_dependencies.executor,
+               _dependencies.clock,
+               _dependencies.random,
+               _dependencies.logger,
+               _dependencies.traceOrNull},
+              link.robotID),
           _robot(link.setupOrNull->MakeRobot(MakeServices())),
           _timers(_dependencies.executor, [this](Planning::AdapterTimerID timer) {
               Call([this, timer](Core::Now now, Planning::AdapterActions& out) {
@@ -93,6 +101,11 @@ public:
         _robot->UpdateMetrics();
     }
 
+    [[nodiscard]] DriverDetails GetDetails() const
+    {
+        return _robot->GetDetails();
+    }
+
 private:
     [[nodiscard]] RobotServices MakeServices()
     {
@@ -104,6 +117,7 @@ private:
             _metrics,
             [this](const RobotServices::AdapterCall& adapterCall) { Call(adapterCall); },
             [this](ETraceDirection direction, std::string_view text) { Trace(direction, text); },
+            _openStream,
             _mqtt.get()};
     }
 
@@ -156,31 +170,36 @@ private:
     }
 };
 
-DrivenRobot::DrivenRobot(Dependencies dependencies, const RobotLinkConfig& link, EventHandler handler)
+RobotRunner::RobotRunner(Dependencies dependencies, const RobotLinkConfig& link, EventHandler handler)
     : _impl(std::make_unique<Impl>(std::move(dependencies), link, std::move(handler)))
 {
 }
 
-DrivenRobot::~DrivenRobot() = default;
+RobotRunner::~RobotRunner() = default;
 
-void DrivenRobot::Start()
+void RobotRunner::Start()
 {
     _impl->Start();
 }
 
-void DrivenRobot::Stop()
+void RobotRunner::Stop()
 {
     _impl->Stop();
 }
 
-void DrivenRobot::Handle(const Planning::RobotCommand& command)
+void RobotRunner::Handle(const Planning::RobotCommand& command)
 {
     _impl->Handle(command);
 }
 
-void DrivenRobot::UpdateMetrics()
+void RobotRunner::UpdateMetrics()
 {
     _impl->UpdateMetrics();
+}
+
+DriverDetails RobotRunner::GetDetails() const
+{
+    return _impl->GetDetails();
 }
 
 } // namespace ACS::Acsd

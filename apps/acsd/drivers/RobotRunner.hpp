@@ -4,6 +4,7 @@
 #include "config/AcsdConfig.hpp"
 #include "drivers/MqttRouter.hpp"
 #include "trace/MessageTrace.hpp"
+#include <acs/acsd/IRobot.hpp>
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
@@ -19,9 +20,9 @@
 namespace ACS::Acsd
 {
 
-/// Runs the robot of a driver: passes commands and timers to its adapter, and its events to the engine. Decides nothing. Runs on
+/// Runs one robot by its driver: passes commands and timers to its adapter, and its events to the engine. Decides nothing. Runs on
 /// one thread, the executor's.
-class DrivenRobot final
+class RobotRunner final
 {
 public:
     /// Called from within the calls of the host and from the robot; may call Handle.
@@ -46,16 +47,17 @@ private:
 
 public:
     /// Makes the robot by its setup, which is set.
-    DrivenRobot(Dependencies dependencies, const RobotLinkConfig& link, EventHandler handler);
-    DrivenRobot(const DrivenRobot&) = delete;
-    DrivenRobot& operator=(const DrivenRobot&) = delete;
-    ~DrivenRobot();
+    RobotRunner(Dependencies dependencies, const RobotLinkConfig& link, EventHandler handler);
+    RobotRunner(const RobotRunner&) = delete;
+    RobotRunner& operator=(const RobotRunner&) = delete;
+    ~RobotRunner();
 
     void Start();
     void Stop();
     /// Possible before Start: the engine asks for jobs from before a restart as soon as they are restored.
     void Handle(const Planning::RobotCommand& command);
     void UpdateMetrics();
+    [[nodiscard]] DriverDetails GetDetails() const;
 };
 
 } // namespace ACS::Acsd
