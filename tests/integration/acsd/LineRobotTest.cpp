@@ -1,6 +1,6 @@
 #include "Catch.hpp"
 #include "common/http/MetricsEndpoint.hpp"
-#include "drivers/DrivenRobot.hpp"
+#include "drivers/RobotRunner.hpp"
 #include "LinePeer.hpp"
 #include "ManualClock.hpp"
 #include "RecordingLogSink.hpp"
@@ -106,7 +106,7 @@ struct LineRobotFixture
     Apps::MetricsEndpoint metrics;
     LinePeer peer{context, 0};
     std::vector<std::string> events;
-    DrivenRobot robot{
+    RobotRunner robot{
         {context.get_executor(), clock, random, Core::Logger(log, "acsd"), metrics, nullptr},
         MakeLink(),
         [this](const std::string& robotID, const Planning::RobotEvent& event) {
@@ -122,7 +122,6 @@ struct LineRobotFixture
         RobotLinkConfig link;
         link.robotID = "LR01";
         link.driver = "echo";
-        link.bDriven = true;
         link.setupOrNull = std::make_shared<EchoSetup>(options);
         return link;
     }
