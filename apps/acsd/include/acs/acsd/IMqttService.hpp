@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/vda5050/IMqttLink.hpp>
 
 namespace ACS::Acsd
@@ -11,7 +12,7 @@ namespace ACS::Acsd
 ///
 /// Publish fails with std::errc::not_connected without a connection, with Core::ECoreError::QueueFull if too many messages wait.
 /// A subscription outside of the robot's topics is not made, and logged as an error. A robot may publish to any topic.
-class IMqttService : public VDA5050::IMqttLink
+class ACS_API IMqttService : public VDA5050::IMqttLink
 {
 public:
     /// The listener receives the messages and the states of the connection from now on; nullptr: nothing any more. Set it and

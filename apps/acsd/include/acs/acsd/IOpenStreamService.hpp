@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/openstream_asio/OpenStreamClient.hpp>
 
 #include <memory>
@@ -8,7 +9,7 @@ namespace ACS::Acsd
 {
 
 /// Open Stream (the robot controllers Hi6), as one robot uses it. Called on the executor's thread only.
-class IOpenStreamService
+class ACS_API IOpenStreamService
 {
 public:
     IOpenStreamService() = default;
