@@ -13,9 +13,9 @@ namespace ACS::Acsd
 /// What a driver shows of its robot at /status.
 struct DriverDetails
 {
-    std::vector<std::string> warnings; ///< What the robot's messages contradict, without an alarm; a sentence each.
-    std::optional<bool>
-        bArmUp; ///< Whether its arm can be commanded; nullopt for a robot without an arm of its own link.
+    std::vector<std::string> warnings; ///< What its messages contradict, without an alarm; a sentence each.
+    /// Whether its arm can be commanded; nullopt for a robot without an arm that has a connection of its own.
+    std::optional<bool> bArmUp;
 };
 
 /// One robot: its connection, and the pure adapter that decides. acsd calls both on the executor's thread only. It calls the
@@ -44,6 +44,7 @@ public:
     /// Sets the robot's metrics to their current values. Called before metrics are served.
     virtual void UpdateMetrics() = 0;
 
+    /// Called for each request of /status; the default shows nothing.
     [[nodiscard]] virtual DriverDetails GetDetails() const
     {
         return {};

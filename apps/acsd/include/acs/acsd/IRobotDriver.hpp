@@ -17,7 +17,7 @@
 namespace ACS::Acsd
 {
 
-struct DriverContext;
+struct DriverContext; // internal
 
 /// What the configuration has for one robot of a driver.
 struct DrivenRobotConfig

@@ -40,6 +40,7 @@ struct RobotServices
     std::function<void(const AdapterCall& adapterCall)> call;
     /// Adds a message as it was on the wire to the trace of acsd (--trace). Never empty; has no effect without a trace.
     std::function<void(ETraceDirection direction, std::string_view text)> trace;
+    /// Makes clients of Open Stream for the robot.
     IOpenStreamService& openStream;
     /// The broker; null without RobotCapabilities::topicPrefix.
     IMqttService* mqttOrNull = nullptr;
