@@ -37,7 +37,7 @@ private:
 
     struct Hash
     {
-        using is_transparent = void;
+        using is_transparent = void; // NOLINT(readability-identifier-naming): the name of the standard library
 
         [[nodiscard]] std::size_t operator()(std::string_view text) const noexcept
         {
