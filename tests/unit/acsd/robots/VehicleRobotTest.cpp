@@ -76,7 +76,7 @@ struct VehicleRobotFixture
         robot.OnAdapterCalled();
     }
 
-    void Connect()
+    void Connect() const
     {
         mqtt.listenerOrNull->OnLinkDown({});
         mqtt.listenerOrNull->OnLinkUp();
