@@ -77,6 +77,7 @@ public:
 
     void StopAsync(StopHandler handler)
     {
+        OnLinkDown({}); // The sessions accept nothing from now on.
         _bStopped = true;
         _events->Detach();
         _timers.clear();
@@ -93,7 +94,7 @@ public:
         return _fleet;
     }
 
-    /// call(fleet, now, out); returns its result.
+    /// call(fleet, now, out); returns its result, a Core::Result.
     template <typename TCall>
     auto Run(TCall call)
     {
@@ -104,7 +105,7 @@ public:
         return std::move(*result);
     }
 
-    /// call(session, now, out); returns its result.
+    /// Likewise, call(session, now, out).
     template <typename TCall>
     auto RunSession(std::size_t vehicle, TCall call)
     {
@@ -119,8 +120,10 @@ public:
 
     bool TryRemove(std::size_t vehicle)
     {
-        const bool bRemoved = Run([vehicle](MasterFleet& fleet, Core::Now /*now*/, FleetActions& out) {
-            return fleet.TryRemove(vehicle, out);
+        bool bRemoved = false;
+        Run([vehicle, &bRemoved](MasterFleet& fleet, Core::Now /*now*/, FleetActions& out) {
+            bRemoved = fleet.TryRemove(vehicle, out);
+            return Core::Result<void>();
         });
         _timers.erase(vehicle);
         return bRemoved;
@@ -132,7 +135,7 @@ private:
         _events->Push(BrokerUp());
         Run([](MasterFleet& fleet, Core::Now now, FleetActions& out) {
             fleet.OnLinkUp(now, out);
-            return true;
+            return Core::Result<void>();
         });
     }
 
@@ -141,7 +144,7 @@ private:
         _events->Push(BrokerDown{reason});
         Run([](MasterFleet& fleet, Core::Now now, FleetActions& out) {
             fleet.OnLinkDown(now, out);
-            return true;
+            return Core::Result<void>();
         });
     }
 
@@ -149,7 +152,7 @@ private:
     {
         Run([&message](MasterFleet& fleet, Core::Now now, FleetActions& out) {
             fleet.OnMessage(message, now, out);
-            return true;
+            return Core::Result<void>();
         });
     }
 
@@ -194,7 +197,7 @@ private:
             timers = std::make_shared<MasterTimers>(_executor, [this, vehicle](EMasterTimer timer) {
                 Run([vehicle, timer](MasterFleet& fleet, Core::Now now, FleetActions& out) {
                     fleet.OnTimer(vehicle, timer, now, out);
-                    return true;
+                    return Core::Result<void>();
                 });
             });
         }
@@ -305,7 +308,7 @@ void MasterClient::Run(std::size_t vehicle, const SessionCall& call)
 {
     _impl->RunSession(vehicle, [&call](MasterSession& session, Core::Now now, MasterActions& out) {
         call(session, now, out);
-        return true;
+        return Core::Result<void>();
     });
 }
 

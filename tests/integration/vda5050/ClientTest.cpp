@@ -239,7 +239,17 @@ TEST_CASE_METHOD(ClientFixture, "MasterClient and VehicleClient: a vehicle is di
     CHECK(_handler.events.size() == before);
 }
 
-TEST_CASE_METHOD(ClientFixture, "VehicleClient: the broker sends the will of each connection of a vehicle that is gone")
+TEST_CASE_METHOD(ClientFixture, "MasterClient: what can no longer be sent is refused")
+{
+    REQUIRE(WasReached([this] { return IsReady(); }));
+    bool bStopped = false;
+    _master->StopAsync([&bStopped] { bStopped = true; });
+    CHECK_FALSE(_master->SendOrder(0, MakeOrder("order-1")).has_value());
+    REQUIRE(WasReached([&bStopped] { return bStopped; }));
+    CHECK(_vehicle->performed.empty());
+}
+
+TEST_CASE_METHOD(ClientFixture, "VehicleClient: the broker sends the will of a vehicle that is gone")
 {
     REQUIRE(WasReached([this] { return IsReady(); }));
     _vehicle.reset();

@@ -57,7 +57,8 @@ public:
     void Start();
 
     /// Waits until the broker has acknowledged what was published, at most for MosquittoLink::DEFAULT_STOP_TIMEOUT, disconnects,
-    /// and calls the handler once on the executor. The vehicles are not commanded. No event follows.
+    /// and calls the handler once on the executor. The vehicles are not commanded. No event follows,
+    /// and orders are refused.
     void StopAsync(StopHandler handler);
 
     /// Whether the broker is connected and all subscriptions are confirmed.
