@@ -27,7 +27,7 @@ void StateChecker::OnCommand(const Planning::RobotCommand& command)
         _lastSentID = jobOrNull->commandID;
         _sentIDs.insert(_lastSentID);
     }
-    _bErrorsExpected = _bErrorsExpected || std::holds_alternative<Planning::CancelJob>(command);
+    _bFaultAllowed = _bFaultAllowed || std::holds_alternative<Planning::CancelJob>(command);
     _bPauseAsked = std::holds_alternative<Planning::Pause>(command)
         || (_bPauseAsked && !std::holds_alternative<Planning::Resume>(command));
 }
@@ -79,7 +79,7 @@ void StateChecker::OnJobFinished(const RobotTruth& truth)
 
 void StateChecker::OnConduct(EConduct conduct)
 {
-    _bErrorsExpected = _bErrorsExpected || conduct == EConduct::Fails || conduct == EConduct::Refuses;
+    _bFaultAllowed = _bFaultAllowed || conduct == EConduct::Fails || conduct == EConduct::Refuses;
 }
 
 void StateChecker::OnRestart()
@@ -115,7 +115,10 @@ void StateChecker::VerifyAtRest(const RobotTruth& truth)
     {
         _sink(ERule::StateTrue, "bPaused is reported, and the robot was not commanded to pause.");
     }
-    VerifyUsable();
+    if (!_bFaultAllowed)
+    {
+        VerifyUsable();
+    }
     VerifyLoads(truth, "at rest");
 }
 
@@ -134,7 +137,7 @@ void StateChecker::VerifyUsable()
         _sink(ERule::Usable, fmt::format("it is reported as incompatible: '{}'.", _incompatibility));
     }
     const auto heavy = std::ranges::find(_state->errors, Planning::EAlarmLevel::Heavy, &Planning::RobotError::level);
-    if (heavy != _state->errors.end() && !_bErrorsExpected)
+    if (heavy != _state->errors.end())
     {
         _sink(ERule::Usable, fmt::format("the heavy error '{}' is reported.", heavy->errorCode));
     }
@@ -162,9 +165,12 @@ void StateChecker::VerifyLoads(const RobotTruth& truth, std::string_view when)
                 fmt::format("'{}' is reported as {} {}.", load.port, load.bLoaded ? "loaded" : "empty", when));
         }
     }
-    if (_state->loads->size() < truth.loads->size())
+    for (const Planning::PortLoad& real : *truth.loads)
     {
-        _sink(ERule::LoadsTrue, "a port of the robot is not reported.");
+        if (std::ranges::count(*_state->loads, real.port, &Planning::PortLoad::port) != 1)
+        {
+            _sink(ERule::LoadsTrue, fmt::format("the port '{}' is not reported once.", real.port));
+        }
     }
 }
 

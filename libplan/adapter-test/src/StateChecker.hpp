@@ -21,7 +21,7 @@ class StateChecker
     std::set<std::string> _sentIDs;               ///< Drives and jobs that were commanded.
     std::string _lastSentID;
     bool _bPauseAsked = false;
-    bool _bErrorsExpected = false; ///< The robot was made to fail, or its job was cancelled.
+    bool _bFaultAllowed = false; ///< The robot was made to fail or to refuse, or its job was cancelled.
     std::string _incompatibility;
 
 public:

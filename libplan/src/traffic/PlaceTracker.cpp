@@ -134,7 +134,7 @@ void PlaceTracker::OnPositionLost(Robot& robot)
     const std::string& nodeID = robot.view.state->lastNodeID;
     if (!bWasPlaced && nodeID.empty())
     {
-        return; // It has been switched on, and has not found its position yet.
+        return; // Mostly it was switched on and has not found its position yet. An alarm of before stays.
     }
     _transaction.RaiseAlarm(MakePlaceAlarm(
         robot,

@@ -450,6 +450,10 @@ std::vector<PlantedDefect> PlantAll()
             [](Planning::StateChanged& state) { state.loads->front().port = "CP99"; }),
         PlantState("reports no port", ERule::LoadsTrue, [](Planning::StateChanged& state) { state.loads->clear(); }),
         PlantState(
+            "reports a port twice",
+            ERule::LoadsTrue,
+            [](Planning::StateChanged& state) { state.loads->push_back(state.loads->front()); }),
+        PlantState(
             "does not list the node that the robot may enter after a restart",
             ERule::HeldNodes,
             [](Planning::StateChanged& state) { state.heldNodeIDs.clear(); }),

@@ -57,7 +57,7 @@ struct RestartEvidence
 };
 
 /// The current state of the robot. Raised on every change and for every state message of the robot. A pose with a number that is not
-/// finite counts as unknown; batteryPercent that is not finite leaves the former value, and is limited to its range.
+/// finite counts as unknown. A batteryPercent that is not finite keeps the former value, 0 without one; others are limited to 0 to 100.
 struct StateChanged
 {
     double x = 0;              ///< Metres.
