@@ -144,6 +144,12 @@ std::chrono::milliseconds ConfigSection::GetDuration(
     std::chrono::milliseconds max,
     std::chrono::milliseconds fallback) const
 {
+    const toml::node* const nodeOrNull = FindGivenOrNull(key);
+    if (nodeOrNull != nullptr && !nodeOrNull->is_string())
+    {
+        AddError(key, MakeWrongText(DURATION_FORM, *nodeOrNull));
+        return fallback;
+    }
     const auto duration = GetParsed<std::chrono::milliseconds>(key, ParseDuration, fallback);
     if (duration >= min && duration <= max)
     {

@@ -40,11 +40,7 @@ Core::Result<std::chrono::milliseconds> ParseDuration(std::string_view text)
             }
         }
     }
-    return Core::Fail(
-        Core::ECoreError::OutOfRange,
-        {},
-        "a duration such as '200ms', '5s', '2m' or '1h'",
-        fmt::format("'{}'", text));
+    return Core::Fail(Core::ECoreError::OutOfRange, {}, std::string(DURATION_FORM), fmt::format("'{}'", text));
 }
 
 std::string MakeDurationText(std::chrono::milliseconds duration)

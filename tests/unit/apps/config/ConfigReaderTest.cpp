@@ -93,6 +93,7 @@ TEST_CASE("All errors are reported, by line, each with file, line and key")
 [mcs]
 url = 'http://mcs'
 timeout = '5 s'
+pause = 5
 retries = 11
 compress = 1
 words = ['a', 2]
@@ -109,6 +110,7 @@ wait = '2m'
     const auto mcs = reader.GetRoot().GetSection("mcs");
     CHECK(mcs.GetURL("url", {Apps::EUrlScheme::Ws}) == Apps::Url{});
     CHECK(mcs.GetDuration("timeout", 1s, 1min, 2s) == 2s);
+    CHECK(mcs.GetDuration("pause", 1s, 1min, 2s) == 2s);
     CHECK(mcs.GetInteger("retries", 0, 10) == 0);
     CHECK(mcs.IsEnabled("compress", true));
     CHECK(mcs.GetStringList("words").empty());
@@ -119,13 +121,14 @@ wait = '2m'
             "acsd.toml: site.map: missing; give a string",
             "acsd.toml:3: mcs.url: expected a URL ws://HOST[:PORT][/PATH], found 'http://mcs'",
             "acsd.toml:4: mcs.timeout: expected a duration such as '200ms', '5s', '2m' or '1h', found '5 s'",
-            "acsd.toml:5: mcs.retries: expected an integer from 0 to 10, found the integer 11",
-            "acsd.toml:6: mcs.compress: expected true or false, found the integer 1",
-            "acsd.toml:7: mcs.words: expected a list of strings, found the integer 2",
-            "acsd.toml:8: robots.LR01.serial: missing; give a string",
-            "acsd.toml:9: robots.LR01.type: expected 'LR' or 'CR', found the string 'XX'",
-            "acsd.toml:10: robots.LR01.factor: expected a number from 0 to 1, found the number nan",
-            "acsd.toml:11: robots.LR01.wait: expected a duration from '1s' to '1m', found '2m'",
+            "acsd.toml:5: mcs.pause: expected a duration such as '200ms', '5s', '2m' or '1h', found the integer 5",
+            "acsd.toml:6: mcs.retries: expected an integer from 0 to 10, found the integer 11",
+            "acsd.toml:7: mcs.compress: expected true or false, found the integer 1",
+            "acsd.toml:8: mcs.words: expected a list of strings, found the integer 2",
+            "acsd.toml:9: robots.LR01.serial: missing; give a string",
+            "acsd.toml:10: robots.LR01.type: expected 'LR' or 'CR', found the string 'XX'",
+            "acsd.toml:11: robots.LR01.factor: expected a number from 0 to 1, found the number nan",
+            "acsd.toml:12: robots.LR01.wait: expected a duration from '1s' to '1m', found '2m'",
         });
 }
 
