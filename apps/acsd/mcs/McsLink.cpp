@@ -241,12 +241,13 @@ void McsLink::Warn(std::string_view kind, std::string_view message, std::initial
 
 void McsLink::LogOutage(const Protocol::LinkLost& lost)
 {
-    // Logged once per reason: further attempts mostly fail for the same one.
-    if (_stopHandler || lost.reason == _loggedOutage)
+    // Logged once per reason: further attempts mostly fail for the same one. What the MCS answered in its own words may differ.
+    const std::string_view reason = std::string_view(lost.reason).substr(0, lost.reason.find(": \""));
+    if (_stopHandler || reason == _loggedOutage)
     {
         return;
     }
-    _loggedOutage = lost.reason;
+    _loggedOutage = reason;
     _logger.Warning(
         lost.bWasRegistered ? "connection to the MCS lost, retrying until it answers"
                             : "cannot reach the MCS: start it or correct mcs.url; retrying until it answers",
