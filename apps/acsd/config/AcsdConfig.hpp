@@ -38,6 +38,7 @@ struct RobotLinkConfig
 {
     std::string robotID;
     std::string driver = std::string(VDA5050_DRIVER);
+    std::vector<std::string> ports;                 ///< RobotOptions::ports
     std::string topicPrefix;                        ///< RobotCapabilities::topicPrefix
     std::shared_ptr<const IRobotSetup> setupOrNull; ///< Set if there are no errors.
 };

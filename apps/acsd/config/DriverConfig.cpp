@@ -98,11 +98,18 @@ void ApplyCapabilitiesOf(
     });
     options.connectionHint = std::move(capabilities.connectionHint);
     link.topicPrefix = std::move(capabilities.topicPrefix);
-    if (link.topicPrefix.find_first_of("+#") != std::string::npos)
+    link.ports.clear();
+    std::ranges::transform(options.ports, std::back_inserter(link.ports), [](const Core::Location& port) {
+        return port.GetText();
+    });
+    if (link.topicPrefix.find_first_of("+#") != std::string::npos || link.topicPrefix.ends_with('/'))
     {
         robot.AddError(
             "options",
-            fmt::format("the driver {} declares the topics {}, with a wildcard", link.driver, link.topicPrefix));
+            fmt::format(
+                "the driver {} declares the topics {}, with a wildcard or with '/' at the end",
+                link.driver,
+                link.topicPrefix));
     }
 }
 

@@ -2,7 +2,9 @@
 
 #include "common/config/TextFile.hpp"
 #include "config/ArmConfig.hpp"
+#include "config/DriverContext.hpp"
 #include "config/McsConfig.hpp"
+#include "config/VehicleConfig.hpp"
 #include "mcs/MessageValue.hpp"
 #include "robots/VehicleSetup.hpp"
 #include <acs/core/Location.hpp>
@@ -12,7 +14,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -203,8 +207,6 @@ void CheckAddress(const ConfigSection& section, const VDA5050::VehicleAddress& a
     }
 }
 
-} // namespace
-
 std::shared_ptr<VehicleConfig> ReadVehicle(const DriverContext& context, std::string_view driver)
 {
     const ConfigSection& section = context.robot;
@@ -242,8 +244,11 @@ std::shared_ptr<VehicleConfig> ReadVehicle(const DriverContext& context, std::st
     return vehicle;
 }
 
+} // namespace
+
 std::unique_ptr<IRobotSetup> MakeVehicleSetup(const DrivenRobotConfig& config, std::string_view driver)
 {
+    assert(config.contextOrNull != nullptr);
     std::vector<std::string> actions;
     for (const auto& [action, options] : config.actions)
     {

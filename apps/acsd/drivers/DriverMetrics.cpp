@@ -1,13 +1,13 @@
 #include "drivers/DriverMetrics.hpp"
 
-#include <fmt/format.h>
+#include <utility>
 
 namespace ACS::Acsd
 {
 
-DriverMetrics::DriverMetrics(Apps::MetricsEndpoint& endpoint, const std::string& driver, const std::string& robotID)
+DriverMetrics::DriverMetrics(Apps::MetricsEndpoint& endpoint, std::string prefix, const std::string& robotID)
     : _endpoint(endpoint),
-      _prefix(fmt::format("acsd_driver_{}_", driver)),
+      _prefix(std::move(prefix)),
       _labels{{"robot", robotID}}
 {
 }
@@ -41,7 +41,7 @@ void DriverMetrics::SetGauge(const std::string& name, double value)
 
 std::string DriverMetrics::GetFullName(const std::string& name) const
 {
-    return name.starts_with("acsd_") ? name : _prefix + name;
+    return _prefix + name;
 }
 
 } // namespace ACS::Acsd

@@ -8,17 +8,16 @@
 namespace ACS::Acsd
 {
 
-/// The metrics of one robot of a driver. Names that begin with `acsd_` are those of acsd's own drivers, and have no
-/// prefix.
+/// The metrics of one robot.
 class DriverMetrics final : public IRobotMetrics
 {
     Apps::MetricsEndpoint& _endpoint;
-    const std::string _prefix; ///< Of the names of the driver.
+    const std::string _prefix; ///< Of each name.
     const Apps::MetricsEndpoint::Labels _labels;
 
 public:
     /// The endpoint must outlive it.
-    DriverMetrics(Apps::MetricsEndpoint& endpoint, const std::string& driver, const std::string& robotID);
+    DriverMetrics(Apps::MetricsEndpoint& endpoint, std::string prefix, const std::string& robotID);
 
     void AddCounter(const std::string& name, const std::string& help) override;
     void AddGauge(const std::string& name, const std::string& help) override;

@@ -1,3 +1,4 @@
+#include "common/config/DurationText.hpp"
 #include <acs/acsd/LineRobot.hpp>
 #include <acs/acsd/LineRobotSetup.hpp>
 
@@ -42,7 +43,11 @@ LineClientOptions ReadLineOptions(const OptionTable& options)
         options.GetDuration("receive_timeout", std::chrono::milliseconds(0), std::chrono::hours(1), DEFAULT_TIMEOUT);
     if (read.receiveTimeout.count() > 0 && read.receiveTimeout < SHORTEST_TIMEOUT)
     {
-        options.AddError("receive_timeout", "expected '0s' or a duration from '100ms' to '1h'");
+        options.AddError(
+            "receive_timeout",
+            fmt::format(
+                "expected '0s' or a duration from '100ms' to '1h', found '{}'",
+                Apps::MakeDurationText(read.receiveTimeout)));
     }
     return read;
 }

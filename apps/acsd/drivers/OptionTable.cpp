@@ -79,7 +79,14 @@ std::chrono::milliseconds OptionTable::GetDuration(
 
 TcpAddress OptionTable::GetTcpAddress(const std::string& key) const
 {
-    const Apps::Url url = _impl->GetSection().GetURL(key, {Apps::EUrlScheme::Tcp});
+    const Apps::ConfigSection section = _impl->GetSection();
+    const Apps::Url url = section.GetURL(key, {Apps::EUrlScheme::Tcp});
+    // The default port of the scheme is that of Hi6 controllers.
+    const std::string text = section.GetStringOrNull(key).value_or(std::string());
+    if (text.find_last_of(":]") <= text.find("://") || text.ends_with(']'))
+    {
+        section.AddError(key, fmt::format("expected tcp://HOST:PORT, found '{}'", text));
+    }
     return {url.peer.host, url.peer.port};
 }
 

@@ -1,19 +1,28 @@
 #include "drivers/RobotRunner.hpp"
 
+#include "common/log/LogRateLimiter.hpp"
 #include "common/process/TimerSet.hpp"
 #include "drivers/DriverMetrics.hpp"
 #include "drivers/OpenStreamService.hpp"
+#include "drivers/StateDefects.hpp"
 #include <acs/acsd/IRobotSetup.hpp>
 #include <acs/acsd/RobotServices.hpp>
 #include <acs/core/Overloaded.hpp>
 #include <acs/protocol_beast/EWireDirection.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cassert>
 #include <deque>
+#include <exception>
 #include <iterator>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace ACS::Acsd
 {
@@ -25,11 +34,19 @@ std::unique_ptr<IMqttService> MakeMqttService(
     const RobotRunner::Dependencies& dependencies,
     const RobotLinkConfig& link)
 {
-    if (link.topicPrefix.empty() || dependencies.mqttOrNull == nullptr)
+    if (link.topicPrefix.empty())
     {
         return nullptr;
     }
+    assert(dependencies.mqttOrNull != nullptr);
     return dependencies.mqttOrNull->MakeService(link.robotID, link.topicPrefix);
+}
+
+/// The metrics of acsd's own drivers have whole names.
+std::string MakeMetricPrefix(const std::string& driver)
+{
+    const bool bOwn = driver == VDA5050_DRIVER || driver == OPEN_STREAM_DRIVER;
+    return bOwn ? std::string() : fmt::format("acsd_driver_{}_", driver);
 }
 
 } // namespace
@@ -39,6 +56,7 @@ class RobotRunner::Impl final
     Dependencies _dependencies;
     const std::string _robotID;
     const std::string _driver;
+    const std::vector<std::string> _ports;
     EventHandler _handler;
     DriverMetrics _metrics;
     const std::unique_ptr<IMqttService> _mqtt; ///< Null if the robot does not use the broker.
@@ -47,6 +65,7 @@ class RobotRunner::Impl final
     std::deque<Planning::AdapterAction> _actions; ///< Not executed yet.
     bool _bExecuting = false;
     bool _bStopped = false;
+    Apps::LogRateLimiter _ignored; ///< A robot may send a bad value with each state.
     Apps::TimerSet<Planning::AdapterTimerID> _timers;
 
 public:
@@ -54,8 +73,9 @@ public:
         : _dependencies(std::move(dependencies)),
           _robotID(link.robotID),
           _driver(link.driver),
+          _ports(link.ports),
           _handler(std::move(handler)),
-          _metrics(_dependencies.metrics, link.driver, link.robotID),
+          _metrics(_dependencies.metrics, MakeMetricPrefix(link.driver), link.robotID),
           _mqtt(MakeMqttService(_dependencies, link)),
           _openStream(
               {_dependencies.executor,
@@ -65,6 +85,7 @@ public:
                _dependencies.traceOrNull},
               link.robotID),
           _robot(link.setupOrNull->MakeRobot(MakeServices())),
+          _ignored(_dependencies.logger.MakeFor("robot"), 1),
           _timers(_dependencies.executor, [this](Planning::AdapterTimerID timer) {
               Call([this, timer](Core::Now now, Planning::AdapterActions& out) {
                   _robot->GetAdapter().OnTimer(timer, now, out);
@@ -98,12 +119,15 @@ public:
 
     void UpdateMetrics()
     {
-        _robot->UpdateMetrics();
+        if (!_bStopped)
+        {
+            _robot->UpdateMetrics();
+        }
     }
 
     [[nodiscard]] DriverDetails GetDetails() const
     {
-        return _robot->GetDetails();
+        return _bStopped ? DriverDetails() : _robot->GetDetails();
     }
 
 private:
@@ -131,7 +155,7 @@ private:
             return;
         }
         Planning::AdapterActions wanted;
-        adapterCall(_dependencies.clock.GetNow(), wanted);
+        CallAdapter(adapterCall, wanted);
         std::ranges::move(wanted, std::back_inserter(_actions));
         if (std::exchange(_bExecuting, true))
         {
@@ -147,16 +171,52 @@ private:
         _robot->OnAdapterCalled();
     }
 
+    /// An exception ends acsd: whose it is helps the author of the driver.
+    template <typename TCall>
+    void CallAdapter(const TCall& adapterCall, Planning::AdapterActions& out) const
+    {
+        try
+        {
+            adapterCall(_dependencies.clock.GetNow(), out);
+        }
+        catch (const std::exception& error)
+        {
+            throw std::runtime_error(
+                fmt::format("the adapter of the robot {} (driver {}) has thrown: {}", _robotID, _driver, error.what()));
+        }
+    }
+
     void Execute(const Planning::AdapterAction& action)
     {
         std::visit(
             Core::Overloaded{
-                [this](const Planning::RaiseEvent& raise) { _handler(_robotID, raise.event); },
+                [this](const Planning::RaiseEvent& raise) {
+                    LogDefects(raise.event);
+                    _handler(_robotID, raise.event);
+                },
                 [this](const Planning::StartAdapterTimer& start) { _timers.Start(start.timer, start.delay); },
                 [this](const Planning::CancelAdapterTimer& cancel) {
                     _timers.Cancel(cancel.timer);
                 }},
             action);
+    }
+
+    void LogDefects(const Planning::RobotEvent& event)
+    {
+        const auto* const stateOrNull = std::get_if<Planning::StateChanged>(&event);
+        if (stateOrNull == nullptr)
+        {
+            return;
+        }
+        for (const StateDefect& defect : FindStateDefects(*stateOrNull, _ports))
+        {
+            _ignored.Write(
+                _dependencies.clock.GetNow().steady,
+                Core::ELogLevel::Warning,
+                defect.kind,
+                "a value of the robot's state is ignored",
+                {{"robotId", _robotID}, {"driver", _driver}, {"reason", defect.reason}});
+        }
     }
 
     void Trace(ETraceDirection direction, std::string_view text) const

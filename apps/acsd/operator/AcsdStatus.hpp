@@ -26,7 +26,7 @@ struct LinkStatus
 /// The links of a robot, as the status page shows them.
 struct VehicleStatus
 {
-    std::string topic;                   ///< The begin of its MQTT topics: "uagv/v2/ACME/0001"; empty: it has none.
+    std::string topic;                   ///< Its topic prefix: "uagv/v2/ACME/0001"; empty: it has none.
     std::vector<std::string> warnings{}; ///< What its messages contradict, without an alarm.
 };
 

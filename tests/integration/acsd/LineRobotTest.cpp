@@ -12,7 +12,9 @@
 
 #include <chrono>
 #include <cstddef>
+#include <limits>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -61,10 +63,16 @@ public:
             out.emplace_back(Planning::StartAdapterTimer{8, 1ms});
             out.emplace_back(Planning::CancelAdapterTimer{8});
         }
+        else if (line == "throw")
+        {
+            throw std::out_of_range("map::at");
+        }
         else
         {
             Planning::StateChanged state;
             state.lastNodeID = line;
+            state.batteryPercent = line == "bad" ? std::numeric_limits<double>::quiet_NaN() : 50;
+            state.loads = std::vector<Planning::PortLoad>{{line == "bad" ? "XX99.CP01" : "LR01.CP01", false, ""}};
             out.emplace_back(Planning::RaiseEvent{state});
         }
     }
@@ -122,6 +130,7 @@ struct LineRobotFixture
         RobotLinkConfig link;
         link.robotID = "LR01";
         link.driver = "echo";
+        link.ports = {"LR01.CP01"};
         link.setupOrNull = std::make_shared<EchoSetup>(options);
         return link;
     }
@@ -186,6 +195,89 @@ TEST_CASE("A line robot passes lines, commands and timers to its adapter, and se
     fixture.context.run_for(20ms);
     CHECK(fixture.events.size() == 4);
     CHECK(fixture.peer.received == "pause\npause\ntimer 7\n");
+}
+
+TEST_CASE("A robot that was stopped is not asked for its metrics and details any more")
+{
+    /// Has released everything in Stop.
+    class FragileRobot final : public IRobot
+    {
+        std::unique_ptr<EchoAdapter> _adapter = std::make_unique<EchoAdapter>();
+
+    public:
+        [[nodiscard]] Planning::IRobotAdapter& GetAdapter() noexcept override
+        {
+            return *_adapter;
+        }
+        void Start() override
+        {
+        }
+        void Stop() override
+        {
+            _adapter.reset();
+        }
+        void OnAdapterCalled() override
+        {
+        }
+        void UpdateMetrics() override
+        {
+            CHECK(_adapter != nullptr);
+        }
+        [[nodiscard]] DriverDetails GetDetails() const override
+        {
+            CHECK(_adapter != nullptr);
+            return {{"a warning"}, {}};
+        }
+    };
+    struct FragileSetup final : IRobotSetup
+    {
+        [[nodiscard]] RobotCapabilities GetCapabilities() const override
+        {
+            return {};
+        }
+        [[nodiscard]] std::unique_ptr<IRobot> MakeRobot(RobotServices /*services*/) const override
+        {
+            return std::make_unique<FragileRobot>();
+        }
+    };
+    LineRobotFixture fixture;
+    RobotLinkConfig link = fixture.MakeLink();
+    link.setupOrNull = std::make_shared<FragileSetup>();
+    const Core::Logger logger(fixture.log, "acsd");
+    RobotRunner robot(
+        {fixture.context.get_executor(), fixture.clock, fixture.random, logger, fixture.metrics, nullptr},
+        link,
+        {});
+    CHECK(robot.GetDetails().warnings.size() == 1);
+    robot.UpdateMetrics();
+    robot.Stop();
+    robot.UpdateMetrics();
+    CHECK(robot.GetDetails().warnings.empty());
+}
+
+TEST_CASE("What acsd ignores in the states of a robot is logged once for each kind, and the robot stays connected")
+{
+    LineRobotFixture fixture;
+    fixture.robot.Start();
+    REQUIRE(fixture.peer.TryRunUntil([&] { return fixture.events.size() == 1 && fixture.peer.accepted == 1; }));
+    fixture.peer.Send("N2\nbad\nbad\n");
+    fixture.AwaitEvents(4);
+    CHECK(fixture.log.Contains(Core::ELogLevel::Warning, "a value of the robot's state is ignored"));
+    CHECK(fixture.log.CountLevel(Core::ELogLevel::Warning) == 2);
+    CHECK(fixture.log.ContainsField("reason", "the battery nan % is not from 0 to 100"));
+    CHECK(fixture.log.ContainsField("reason", "loads of the port 'XX99.CP01', which the robot does not have"));
+    CHECK(fixture.log.ContainsField("robotId", "LR01"));
+}
+
+TEST_CASE("An exception that leaves an adapter names the robot and its driver")
+{
+    LineRobotFixture fixture;
+    fixture.robot.Start();
+    REQUIRE(fixture.peer.TryRunUntil([&] { return fixture.events.size() == 1 && fixture.peer.accepted == 1; }));
+    fixture.peer.Send("throw\n");
+    CHECK_THROWS_WITH(
+        fixture.peer.TryRunUntil([] { return false; }),
+        "the adapter of the robot LR01 (driver echo) has thrown: map::at");
 }
 
 TEST_CASE("The loss of a connection is logged once, with the peer and the reason")

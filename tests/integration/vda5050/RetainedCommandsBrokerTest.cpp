@@ -26,7 +26,7 @@ struct RetainedBroker
     TestLink other{context, MakeOptions(broker.GetPort(), "other")};
     RecordingLogSink log;
     Apps::MetricsEndpoint metrics;
-    Acsd::DriverMetrics ofRobot{metrics, "vda5050", "LR01"};
+    Acsd::DriverMetrics ofRobot{metrics, "", "LR01"};
     Acsd::RetainedCommands retained{{acsd.link, Core::Logger(log, "robot"), ofRobot}, "LR01", {"uagv", "ACS", "LR01"}};
     std::size_t handled = 0; ///< Of the messages that acsd has received.
 

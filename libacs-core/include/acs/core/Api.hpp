@@ -1,7 +1,7 @@
 #pragma once
 
-/// ACS_API marks what a library defines for its users: all that a shared library exports. A static library ignores it, so both
-/// kinds have the same headers. To keep a static library hidden in a shared one of your own, compile with -DACS_API= and link with
+/// ACS_API marks what a library defines for its users: all that a shared library exports. Both kinds of libraries
+/// have the same headers. To keep a static library hidden in a shared one of your own, compile with -DACS_API= and link with
 /// -Wl,--exclude-libs,ALL. ACS_HIDDEN marks a class inside an exported one that only the library uses.
 #ifndef ACS_API
 #ifdef __GNUC__

@@ -277,9 +277,14 @@ TEST_CASE("mqtt is required with a driver that declares topics, and each robot h
     CHECK(
         ReadDriven(robot + second + OPTIONS + "options.topics = \"sledges/1\"\n", {}, broker).errors
         == Errors{"FILE:16: robots.LR02: LR01 has the same topics on the broker (sledges/1): give each robot its own"});
-    CHECK(
-        ReadDriven(robot + second + OPTIONS + "options.topics = \"sledges/+\"\n", {}, broker).errors
-        == Errors{"FILE:22: robots.LR02.options: the driver sledge declares the topics sledges/+, with a wildcard"});
+    for (const std::string topics : {"sledges/+", "#", "sledges/2/"})
+    {
+        CHECK(
+            ReadDriven(robot + second + OPTIONS + "options.topics = \"" + topics + "\"\n", {}, broker).errors
+            == Errors{
+                "FILE:22: robots.LR02.options: the driver sledge declares the topics " + topics
+                + ", with a wildcard or with '/' at the end"});
+    }
 }
 
 TEST_CASE("The name of a driver is valid, not built in and used once")
@@ -317,8 +322,20 @@ TEST_CASE("The options of a robot that speaks lines are its address and the time
     };
     CHECK(read("0s") == std::pair(std::chrono::milliseconds(0), Errors{}));
     CHECK(read("100ms") == std::pair(std::chrono::milliseconds(100), Errors{}));
-    CHECK(read("99ms").second == Errors{"x.toml:2: receive_timeout: expected '0s' or a duration from '100ms' to '1h'"});
+    CHECK(
+        read("99ms").second
+        == Errors{"x.toml:2: receive_timeout: expected '0s' or a duration from '100ms' to '1h', found '99ms'"});
     CHECK_THAT(read("2h").second.at(0), Catch::StartsWith("x.toml:2: receive_timeout: expected a duration from '"));
+
+    for (const std::string url : {"tcp://cart", "tcp://[::1]"})
+    {
+        const OptionTable table = OptionTable::ReadText("url = '" + url + "'\n", "x.toml");
+        static_cast<void>(table.GetTcpAddress("url"));
+        CHECK(table.GetErrors() == Errors{"x.toml:1: url: expected tcp://HOST:PORT, found '" + url + "'"});
+    }
+    const OptionTable ipv6 = OptionTable::ReadText("url = 'tcp://[::1]:7'\n", "x.toml");
+    CHECK(ipv6.GetTcpAddress("url").port == 7);
+    CHECK(ipv6.GetErrors().empty());
 
     const LineRobotSetup setup({{Planning::ERobotType::CR}, {}, {}}, fallback, {});
     CHECK(setup.GetCapabilities().connectionHint == "It is expected at cart:4700.");

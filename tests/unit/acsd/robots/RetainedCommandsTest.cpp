@@ -23,7 +23,7 @@ struct RetainedCommandsFixture
     RecordingLink mqtt;
     Testing::RecordingLogSink log;
     Apps::MetricsEndpoint metrics;
-    DriverMetrics ofRobot{metrics, "vda5050", "LR01"};
+    DriverMetrics ofRobot{metrics, "", "LR01"};
     RetainedCommands retained{{mqtt, Core::Logger(log, "robot"), ofRobot}, "LR01", {"uagv", "ACS", "LR01"}};
 
     [[nodiscard]] bool HasRemoved(int count) const

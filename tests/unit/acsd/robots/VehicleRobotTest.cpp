@@ -36,7 +36,7 @@ struct VehicleRobotFixture
     RecordingLink mqtt;
     Testing::RecordingLogSink log;
     Apps::MetricsEndpoint metrics;
-    DriverMetrics ofRobot{metrics, "vda5050", "LR01"};
+    DriverMetrics ofRobot{metrics, "", "LR01"};
     OpenStreamService openStream{{context.get_executor(), clock, random, Core::Logger(log, "acsd")}, "LR01"};
     AcsdConfig config = ReadSite({});
     VehicleRobot robot{MakeServices(), FindVehicle("LR01")};

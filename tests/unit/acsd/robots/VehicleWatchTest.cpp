@@ -23,7 +23,7 @@ struct WatchFixture
     Testing::RecordingLogSink sink;
     Testing::ManualClock clock;
     Apps::MetricsEndpoint metrics;
-    DriverMetrics ofRobot{metrics, "vda5050", "LR01"};
+    DriverMetrics ofRobot{metrics, "", "LR01"};
     VehicleWatch watch{
         *config.site,
         "LR01",

@@ -41,10 +41,10 @@ public:
     /// Sends what the adapter wants to send. Called after every call of the adapter, when its actions have been executed.
     virtual void OnAdapterCalled() = 0;
 
-    /// Sets the robot's metrics to their current values. Called before metrics are served.
+    /// Sets the robot's metrics to their current values. Called before metrics are served, not after Stop.
     virtual void UpdateMetrics() = 0;
 
-    /// Called for each request of /status; the default shows nothing.
+    /// Called for each request of /status and /readyz, not after Stop; the default shows nothing.
     [[nodiscard]] virtual DriverDetails GetDetails() const
     {
         return {};

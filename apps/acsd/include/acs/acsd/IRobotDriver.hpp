@@ -29,7 +29,7 @@ struct DrivenRobotConfig
     OptionTable options;               ///< `robots.NAME.options`
     /// `actions.ACTION.options` by action, for every action of the robot's type.
     std::map<std::string, OptionTable, std::less<>> actions;
-    const DriverContext* contextOrNull = nullptr; ///< For acsd's own drivers; null in tests of a driver.
+    const DriverContext* contextOrNull = nullptr; ///< Read by acsd's own drivers only; null in tests of a driver.
 };
 
 /// A kind of robot that acsd can command: the integrator's entry point. Has no state; used by one thread.
@@ -49,7 +49,7 @@ public:
     [[nodiscard]] virtual std::unique_ptr<IRobotSetup> MakeSetupOrNull(const DrivenRobotConfig& config) const = 0;
 };
 
-/// The drivers of a program, for RunAcsd. Of several with one name only the first is used.
+/// The drivers of a program, for RunAcsd. Two of one name are an error.
 using RobotDrivers = std::vector<std::unique_ptr<const IRobotDriver>>;
 
 /// One driver of each type, for RunAcsd.

@@ -8,8 +8,8 @@
 namespace ACS::Acsd
 {
 
-/// The metrics of one robot at /metrics. A name has a-z and _ only, and does not begin with `acsd_`. acsd serves it as
-/// `acsd_driver_DRIVER_NAME` with the label `robot`; the name of a counter ends in `_total`.
+/// The metrics of one robot at /metrics. A name has a-z and _ only. acsd serves it as `acsd_driver_DRIVER_NAME` with the label
+/// `robot`; the name of a counter ends in `_total`.
 class ACS_API IRobotMetrics
 {
 public:

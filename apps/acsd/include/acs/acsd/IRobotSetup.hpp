@@ -22,7 +22,7 @@ struct RobotCapabilities
     Planning::RejectedActions rejectedActions;
     /// A sentence about where acsd expects the robot, for the alarm of a robot that has not connected; may be empty.
     std::string connectionHint;
-    /// The begin of all topics of a robot that is connected to the broker, without the last '/': "carts/7". No other robot may have
+    /// The topic prefix of a robot that is connected to the broker, without the last '/': "carts/7". No other robot may have
     /// the same one, and the configuration needs the table `mqtt`. Empty: the robot does not use the broker.
     std::string topicPrefix{};
 };

@@ -79,7 +79,7 @@ public:
         std::chrono::milliseconds max,
         std::chrono::milliseconds fallback) const;
 
-    /// A required URL "tcp://HOST:PORT". Without a port it has 49000.
+    /// A required URL "tcp://HOST:PORT".
     [[nodiscard]] TcpAddress GetTcpAddress(const std::string& key) const;
 
     /// A list of strings; empty if the key is absent.

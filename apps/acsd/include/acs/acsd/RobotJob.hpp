@@ -34,7 +34,8 @@ public:
     void OnDone(std::string_view commandID, Planning::AdapterActions& out);
 
     /// The robot has moved nothing for the job, and will not: JobUnknown, or JobInterrupted with the reason if it had begun
-    /// the job.
+    /// the job. The engine commands such a job again: pass only the answer to the last question, because that of an earlier one would
+    /// end the new command.
     void OnNotExecuted(std::string_view commandID, const std::string& reason, Planning::AdapterActions& out);
 
     /// The robot refuses the job: JobRejected.
