@@ -1,6 +1,7 @@
 #include "common/log/LogText.hpp"
 
 #include <acs/core/ControlCharacter.hpp>
+#include <acs/core/JsonText.hpp>
 
 #include <fmt/format.h>
 
@@ -28,6 +29,29 @@ void AppendEscaped(std::string& out, std::string_view text, bool bQuoted)
     }
 }
 
+void AppendEscaped(std::string& out, char character)
+{
+    out += fmt::format("\\x{:02x}", static_cast<unsigned>(static_cast<unsigned char>(character)));
+}
+
+/// With every byte outside of ASCII escaped.
+std::string MakeASCII(std::string_view text)
+{
+    std::string ascii;
+    for (const char character : text)
+    {
+        if (static_cast<unsigned char>(character) < 0x80U)
+        {
+            ascii += character;
+        }
+        else
+        {
+            AppendEscaped(ascii, character);
+        }
+    }
+    return ascii;
+}
+
 bool NeedsQuotes(std::string_view value)
 {
     return value.empty() || std::any_of(value.begin(), value.end(), [](char character) {
@@ -41,7 +65,7 @@ void AppendPrintable(std::string& out, char character)
 {
     if (Core::IsControlCharacter(character))
     {
-        out += fmt::format("\\x{:02x}", static_cast<unsigned>(static_cast<unsigned char>(character)));
+        AppendEscaped(out, character);
     }
     else
     {
@@ -69,6 +93,10 @@ std::string MakeLogText(
         {
             text += field.value;
         }
+    }
+    if (!Core::JsonText::IsUtf8(text))
+    {
+        text = MakeASCII(text);
     }
     return text;
 }

@@ -11,7 +11,7 @@ namespace ACS::Apps
 {
 
 /// "component: message key=value …" on one line: empty values and those with spaces or quotes are quoted, and control
-/// characters are escaped, so that what a peer sent cannot forge a line.
+/// characters are escaped, so that what a peer sent cannot forge a line. Always UTF-8.
 [[nodiscard]] std::string MakeLogText(
     std::string_view component,
     std::string_view message,

@@ -26,6 +26,12 @@ TEST_CASE("Text of a peer cannot start a new log line")
         Apps::MakeLogText("x", "bad\nline", {{"text", "a\r\nb\x1b[0m"}}) == R"(x: bad\nline text="a\x0d\nb\x1b[0m")");
 }
 
+TEST_CASE("A log line is UTF-8, whatever the text of a peer is")
+{
+    REQUIRE(Apps::MakeLogText("x", "m", {{"text", "\xEA\xB0\x80"}}) == "x: m text=\xEA\xB0\x80");
+    REQUIRE(Apps::MakeLogText("x", "m", {{"text", "a\xFFz\xB0"}}) == R"(x: m text=a\xffz\xb0)");
+}
+
 TEST_CASE("A log level is one of four names")
 {
     REQUIRE(Apps::ParseLogLevel("debug") == Core::ELogLevel::Debug);
