@@ -286,6 +286,10 @@ bool MosquittoLink::Impl::HasRival(bool bWasUp, const std::error_code& reason)
     {
         return true;
     }
+    if (_options.clientID.empty())
+    {
+        return false; // A generated one is unique.
+    }
     _shortLives = life >= STABLE_AFTER ? 0 : _shortLives + (bWasUp ? 1 : 0);
     return bWasUp && _shortLives >= SUSPICIOUS_LIVES;
 }
@@ -559,8 +563,11 @@ void MosquittoLink::Impl::FinishStop()
         _connectionOrNull.reset();
     }
     _connector.Abandon();
-    for (const StopHandler& handler : std::exchange(_stopHandlers, {}))
+    // One by one: a handler may destroy the link, and none is called after that.
+    while (!_stopHandlers.empty())
     {
+        const StopHandler handler = std::move(_stopHandlers.front());
+        _stopHandlers.erase(_stopHandlers.begin());
         if (handler)
         {
             handler();

@@ -249,6 +249,19 @@ TEST_CASE_METHOD(ClientFixture, "MasterClient: what can no longer be sent is ref
     CHECK(_vehicle->performed.empty());
 }
 
+TEST_CASE_METHOD(ClientFixture, "MasterClient: after a stop handler that destroys the client no other one is called")
+{
+    REQUIRE(WasReached([this] { return IsReady(); }));
+    std::size_t calls = 0;
+    _master->StopAsync([this, &calls] {
+        ++calls;
+        _master.reset();
+    });
+    _master->StopAsync([&calls] { ++calls; });
+    REQUIRE(WasReached([&calls] { return calls > 0; }));
+    CHECK(calls == 1);
+}
+
 TEST_CASE_METHOD(ClientFixture, "VehicleClient: the broker sends the will of a vehicle that is gone")
 {
     REQUIRE(WasReached([this] { return IsReady(); }));
