@@ -130,7 +130,8 @@ public:
         }
         _bCloseWanted = true;
         _closeReason.code = code;
-        const std::string_view shown = CutAtCharacter(reason, _closeReason.reason.max_size());
+        const std::string text = MakeUTF8(reason);
+        const std::string_view shown = CutAtCharacter(text, _closeReason.reason.max_size());
         _closeReason.reason.assign(shown.data(), shown.size());
         if (!_bOpen)
         {

@@ -1,5 +1,9 @@
 #include "CutText.hpp"
 
+#include <acs/core/JsonText.hpp>
+
+#include <algorithm>
+
 namespace ACS::ProtocolBeast
 {
 
@@ -12,6 +16,19 @@ bool IsContinuation(char byte)
 }
 
 } // namespace
+
+std::string MakeUTF8(std::string_view text)
+{
+    std::string made(text);
+    if (!Core::JsonText::IsUtf8(text))
+    {
+        std::ranges::replace_if(
+            made,
+            [](char byte) { return static_cast<unsigned char>(byte) >= 0x80U; },
+            '?');
+    }
+    return made;
+}
 
 std::string_view CutAtCharacter(std::string_view text, std::size_t maximum)
 {

@@ -301,12 +301,25 @@ TEST_CASE("An application closes the connection of the registered ACS, which may
     const std::optional<Protocol::ConnectionID> registered = rig.server->GetRegisteredOrNull();
     REQUIRE(registered.has_value());
     rig.server->Close(*registered + 1, "a connection that does not exist");
-    rig.server->Close(*registered, "the token was withdrawn");
+    rig.server->Close(*registered, "the token \xED\x86\xA0\xED\x81\xB0 was withdrawn");
     rig.server->Close(*registered, "again");
     REQUIRE(rig.WasLost());
-    CHECK(HasPart(rig.acsEvents.GetFirstLoss(), "the token was withdrawn"));
+    CHECK(HasPart(rig.acsEvents.GetFirstLoss(), "the token \xED\x86\xA0\xED\x81\xB0 was withdrawn"));
     CHECK(rig.WasReached([&rig, &registered] {
         const std::optional<Protocol::ConnectionID> next = rig.server->GetRegisteredOrNull();
         return next.has_value() && *next != *registered;
     }));
+}
+
+TEST_CASE("A reason that is not UTF-8 does not break the closing handshake")
+{
+    GuardedFixture rig;
+    rig.clientOptions.headers = {{"Authorization", TOKEN}};
+    rig.Listen();
+    rig.Connect();
+    REQUIRE(rig.WasRegistered());
+    rig.server->Close(*rig.server->GetRegisteredOrNull(), "bad \xFF token");
+    REQUIRE(rig.WasLost());
+    CHECK(HasPart(rig.acsEvents.GetFirstLoss(), "1008"));
+    CHECK(HasPart(rig.acsEvents.GetFirstLoss(), "bad ? token"));
 }
