@@ -373,7 +373,10 @@ std::set<std::string> SimulatedACS::ListWaiting() const
     std::set<std::string> waiting = _judge.ListOpenRequests();
     for (const Protocol::DurableRequest& durable : _outbox.GetRequests())
     {
-        waiting.insert(durable.request.transactionID);
+        if (!_judge.IsOverdue(durable.request.transactionID))
+        {
+            waiting.insert(durable.request.transactionID);
+        }
     }
     for (const auto& [due, answer] : _lateAnswers)
     {

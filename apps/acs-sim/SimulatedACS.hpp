@@ -88,7 +88,7 @@ private:
     void SendAnswerNow(const SendAnswer& answer);
     void SendStates();
     void Feed();
-    /// The transactionIDs of the requests of both directions that are not answered.
+    /// The transactionIDs of the requests of both directions that are not answered and can still be in time.
     [[nodiscard]] std::set<std::string> ListWaiting() const;
     void NoteGoal();
 

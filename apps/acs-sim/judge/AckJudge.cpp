@@ -66,6 +66,12 @@ AckJudge::AckJudge(RuleBook& book, Core::Duration ackTimeout)
 {
 }
 
+bool AckJudge::IsOverdue(const std::string& transactionID) const
+{
+    const SentRequest* const sentOrNull = _sent.FindOrNull(transactionID);
+    return sentOrNull != nullptr && sentOrNull->bOverdue;
+}
+
 std::set<std::string> AckJudge::ListOpenRequests() const
 {
     std::set<std::string> open;

@@ -48,6 +48,8 @@ public:
     /// The MCS may answer this request as it likes: the ACS has sent it at a wrong time. Call before OnRequestSent.
     void Excuse(const std::string& transactionID);
 
+    /// Whether the Ack of this request is missing for too long.
+    [[nodiscard]] bool IsOverdue(const std::string& transactionID) const;
     /// The transactionIDs of requests that wait for their Ack.
     [[nodiscard]] std::set<std::string> ListOpenRequests() const;
     [[nodiscard]] bool IsRegistered() const noexcept;

@@ -120,6 +120,11 @@ void McsJudge::Excuse(const std::string& transactionID)
     _acks.Excuse(transactionID);
 }
 
+bool McsJudge::IsOverdue(const std::string& transactionID) const
+{
+    return _acks.IsOverdue(transactionID);
+}
+
 std::set<std::string> McsJudge::ListOpenRequests() const
 {
     return _acks.ListOpenRequests();

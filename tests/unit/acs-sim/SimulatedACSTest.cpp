@@ -251,6 +251,21 @@ TEST_CASE("A run ends although the MCS sends more plans")
     CHECK(fixture.acs.IsDone());
 }
 
+TEST_CASE("A run ends although the MCS acknowledges nothing")
+{
+    AcsFixture fixture;
+    fixture.SendPlan("P", "T");
+    while (fixture.acs.CountEndedPlans() == 0)
+    {
+        fixture.clock.Advance(std::chrono::milliseconds(100));
+        fixture.acs.OnTimer(fixture.clock.GetNow());
+    }
+    CHECK_FALSE(fixture.acs.IsDone());
+    fixture.clock.Advance(std::chrono::seconds(6));
+    fixture.judge.OnTick(fixture.clock.GetNow().steady);
+    CHECK(fixture.acs.IsDone());
+}
+
 TEST_CASE("A run does not end before its last report is acknowledged")
 {
     AcsFixture fixture;
