@@ -55,6 +55,7 @@ class LineClient::Impl final : public std::enable_shared_from_this<LineClient::I
     boost::asio::ip::tcp::socket _socket;
     boost::asio::steady_timer _timer; ///< Of the attempt, of the silence of the peer, or until the next attempt.
     EState _state = EState::Stopped;
+    std::chrono::steady_clock::time_point _connectedAt;
     std::uint64_t _connection = 0; ///< Handlers of an earlier attempt or connection do nothing.
     std::array<char, LINE_READ_BYTES> _input{};
     std::string _line;              ///< Received without its end.
@@ -193,6 +194,7 @@ private:
         boost::system::error_code ignored;
         static_cast<void>(_socket.set_option(boost::asio::ip::tcp::no_delay(true), ignored));
         _state = EState::Connected;
+        _connectedAt = std::chrono::steady_clock::now();
         ++_stats.connects;
         AwaitLine();
         const std::uint64_t connection = _connection;
@@ -253,7 +255,10 @@ private:
                 return false;
             }
             ++_stats.linesReceived;
-            _backoff.Reset();
+            if (std::chrono::steady_clock::now() - _connectedAt >= STABLE_AFTER)
+            {
+                _backoff.Reset();
+            }
             AwaitLine();
             _handlers.onLine(line);
             if (_connection != connection)

@@ -76,13 +76,21 @@ void LineRobot::UpdateMetrics()
 void LineRobot::OnConnected()
 {
     _bConnected = true;
-    _services.logger.Info("connected to the robot", {{"robot", _peer}});
+    _connectedAt = _services.clock.GetNow().steady;
+    _services.logger.Write(
+        _bLossLogged ? Core::ELogLevel::Debug : Core::ELogLevel::Info,
+        "connected to the robot",
+        {{"robot", _peer}});
     _services.call([this](Core::Now now, Planning::AdapterActions& out) { _adapter->OnLinkUp(now, out); });
 }
 
 void LineRobot::OnLine(std::string_view line)
 {
-    _bLossLogged = false;
+    if (_services.clock.GetNow().steady - _connectedAt >= LineClient::STABLE_AFTER
+        && std::exchange(_bLossLogged, false))
+    {
+        _services.logger.Info("the robot answers again", {{"robot", _peer}});
+    }
     _services.trace(ETraceDirection::In, line);
     _services.call([this, line](Core::Now now, Planning::AdapterActions& out) { _adapter->OnLine(line, now, out); });
 }

@@ -80,14 +80,16 @@ std::chrono::milliseconds OptionTable::GetDuration(
 TcpAddress OptionTable::GetTcpAddress(const std::string& key) const
 {
     const Apps::ConfigSection section = _impl->GetSection();
-    const Apps::Url url = section.GetURL(key, {Apps::EUrlScheme::Tcp});
+    const std::string text = section.GetString(key);
+    const Core::Result<Apps::Url> url = Apps::ParseURL(text, {Apps::EUrlScheme::Tcp});
     // The default port of the scheme is that of Hi6 controllers.
-    const std::string text = section.GetStringOrNull(key).value_or(std::string());
-    if (text.find_last_of(":]") <= text.find("://") || text.ends_with(']'))
+    const bool bPort = text.find_last_of(":]") > text.find("://") && !text.ends_with(']');
+    if (!url.has_value() || !bPort)
     {
         section.AddError(key, fmt::format("expected tcp://HOST:PORT, found '{}'", text));
+        return {};
     }
-    return {url.peer.host, url.peer.port};
+    return {url->peer.host, url->peer.port};
 }
 
 std::vector<std::string> OptionTable::GetStringList(const std::string& key) const

@@ -197,6 +197,31 @@ TEST_CASE("A line robot passes lines, commands and timers to its adapter, and se
     CHECK(fixture.peer.received == "pause\npause\ntimer 7\n");
 }
 
+TEST_CASE("A robot that sends one line on each connection is logged once, until a connection lasts")
+{
+    LineRobotFixture fixture;
+    fixture.robot.Start();
+    for (std::size_t connection = 1; connection <= 3; ++connection)
+    {
+        REQUIRE(fixture.peer.TryRunUntil(
+            [&] { return fixture.events.size() == 3 * connection - 2 && fixture.peer.accepted == connection; }));
+        fixture.peer.Send("N2\n");
+        fixture.AwaitEvents(3 * connection - 1);
+        fixture.peer.Close();
+        fixture.AwaitEvents(3 * connection);
+    }
+    CHECK(fixture.log.CountLevel(Core::ELogLevel::Warning) == 1);
+    CHECK(fixture.log.CountLevel(Core::ELogLevel::Info) == 1);
+    REQUIRE(fixture.peer.TryRunUntil([&] { return fixture.peer.accepted == 4 && fixture.events.size() == 10; }));
+    fixture.clock.Advance(LineClient::STABLE_AFTER);
+    fixture.peer.Send("N2\n");
+    fixture.AwaitEvents(11);
+    CHECK(fixture.log.CountLevel(Core::ELogLevel::Info) == 2);
+    fixture.peer.Close();
+    fixture.AwaitEvents(12);
+    CHECK(fixture.log.CountLevel(Core::ELogLevel::Warning) == 2);
+}
+
 TEST_CASE("A robot that was stopped is not asked for its metrics and details any more")
 {
     /// Has released everything in Stop.

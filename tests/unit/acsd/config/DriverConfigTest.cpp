@@ -327,7 +327,8 @@ TEST_CASE("The options of a robot that speaks lines are its address and the time
         == Errors{"x.toml:2: receive_timeout: expected '0s' or a duration from '100ms' to '1h', found '99ms'"});
     CHECK_THAT(read("2h").second.at(0), Catch::StartsWith("x.toml:2: receive_timeout: expected a duration from '"));
 
-    for (const std::string url : {"tcp://cart", "tcp://[::1]"})
+    for (const std::string url :
+         {"tcp://cart", "tcp://[::1]", "tcp://cart:", "tcp://cart:0", "tcp://cart:99999", "", "http://cart:1"})
     {
         const OptionTable table = OptionTable::ReadText("url = '" + url + "'\n", "x.toml");
         static_cast<void>(table.GetTcpAddress("url"));

@@ -6,6 +6,7 @@
 
 #include <boost/asio/any_io_executor.hpp>
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -48,6 +49,9 @@ public:
         /// Once for each onConnected unless stopped, and for each attempt to connect that failed.
         std::function<void(std::string_view reason)> onLost;
     };
+
+    /// A connection that has received a line after this time ends an outage: the delays between attempts begin again.
+    static constexpr std::chrono::seconds STABLE_AFTER{5};
 
 private:
     class ACS_HIDDEN Impl;

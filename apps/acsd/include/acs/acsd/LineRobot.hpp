@@ -23,7 +23,8 @@ class ACS_API LineRobot final : public IRobot
     std::unique_ptr<ILineAdapter> _adapter;
     LineClient _client;
     bool _bConnected = false;
-    bool _bLossLogged = false; ///< Of the current outage.
+    bool _bLossLogged = false; ///< Of the current outage, which ends with a line after LineClient::STABLE_AFTER.
+    Core::SteadyTime _connectedAt;
 
 public:
     /// The adapter must not be null. Connects after Start.
