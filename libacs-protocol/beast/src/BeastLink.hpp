@@ -336,9 +336,10 @@ private:
     [[nodiscard]] std::string DescribeReadError(ErrorCode error)
     {
         namespace websocket = boost::beast::websocket;
-        if (error == websocket::error::closed)
+        // A peer that does not wait for the answer to its close frame causes an error of the socket.
+        const websocket::close_reason& given = _stream.reason();
+        if (error == websocket::error::closed || given.code != websocket::close_code::none)
         {
-            const websocket::close_reason& given = _stream.reason();
             std::string text = "closed by the other side with code " + std::to_string(given.code);
             text += given.reason.empty() ? "" : ": " + std::string(given.reason.data(), given.reason.size());
             return text;

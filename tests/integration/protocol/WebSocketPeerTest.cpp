@@ -360,6 +360,21 @@ TEST_CASE("13.10 After RST in mid frame, 403 and 1008 the client reconnects, reg
     CHECK(rig.connections[0]->requests[1] == MakeReport("a"));
 }
 
+TEST_CASE("1 The reason of a peer that closes and does not wait for the answer is reported")
+{
+    ClientWireFixture rig;
+    rig.onConnection = [](std::size_t /*index*/, RawMCS& mcs) {
+        mcs.onRequest = [&mcs](const Protocol::AcsRequest& /*request*/) {
+            mcs.Send("\x03\xF0token withdrawn", EFrame::Close);
+            mcs.GetPeer().Close();
+            return false;
+        };
+    };
+    rig.ConnectTo(rig.raw.GetURL());
+    REQUIRE(rig.WasReached([&rig] { return !rig.acsEvents.GetAll<Protocol::LinkLost>().empty(); }));
+    CHECK(rig.acsEvents.GetFirstLoss() == "closed by the other side with code 1008: token withdrawn");
+}
+
 TEST_CASE("1 A client that ends with RST in mid frame is dropped, and the next one is served")
 {
     ServerWireFixture rig;

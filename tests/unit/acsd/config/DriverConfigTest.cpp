@@ -280,10 +280,11 @@ TEST_CASE("mqtt is required with a driver that declares topics, and each robot h
     for (const std::string topics : {"sledges/+", "#", "sledges/2/"})
     {
         CHECK(
-            ReadDriven(robot + second + OPTIONS + "options.topics = \"" + topics + "\"\n", {}, broker).errors
-            == Errors{
-                "FILE:22: robots.LR02.options: the driver sledge declares the topics " + topics
-                + ", with a wildcard or with '/' at the end"});
+            ReadDriven(fmt::format("{}{}{}options.topics = \"{}\"\n", robot, second, OPTIONS, topics), {}, broker)
+                .errors
+            == Errors{fmt::format(
+                "FILE:22: robots.LR02.options: the driver sledge declares the topics {}, with a wildcard or with '/' at the end",
+                topics)});
     }
 }
 

@@ -1,5 +1,6 @@
 #include "Catch.hpp"
 #include "config/AcsdConfig.hpp"
+#include "config/ExampleSite.hpp"
 #include "robots/ArmInputs.hpp"
 #include "robots/VehicleParameters.hpp"
 #include "TemporaryFolder.hpp"
