@@ -31,7 +31,7 @@ public:
 
 int main()
 {
-    const auto options = ACS::Acsd::OptionTable::ReadText("url = \"tcp://10.0.0.7\"", "cart.toml");
+    const auto options = ACS::Acsd::OptionTable::ReadText("url = \"tcp://10.0.0.7:4700\"", "cart.toml");
     ACS::Acsd::DrivenRobotConfig config{"LR01", ACS::Planning::ERobotType::LR, {}, options, {}};
     const std::string hint = Driver().MakeSetupOrNull(config)->GetCapabilities().connectionHint;
     std::puts(hint.c_str());
@@ -40,5 +40,5 @@ int main()
     std::string version = "--version";
     std::array<char*, 3> arguments{name.data(), version.data(), nullptr};
     const int exitCode = ACS::Acsd::RunAcsd(2, arguments.data(), ACS::Acsd::MakeDrivers<Driver>());
-    return hint == "It is expected at 10.0.0.7:49000." ? exitCode : 1;
+    return hint == "It is expected at 10.0.0.7:4700." ? exitCode : 1;
 }
