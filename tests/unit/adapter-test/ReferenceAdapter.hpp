@@ -15,7 +15,7 @@
 namespace ACS::Testing
 {
 
-/// An adapter that breaks no rule, for the reference robot. The adapters of PlantedDefects.hpp derive from it.
+/// An adapter that breaks no rule, for the reference robot. Those of PlantedAdapters.hpp derive from it.
 class ReferenceAdapter : public Planning::IRobotAdapter
 {
 protected:
