@@ -1,13 +1,12 @@
-#include "BrokerEvent.hpp"
+#include "SessionOnBroker.hpp"
 #include <acs/core/Overloaded.hpp>
-#include <acs/net/ActionPump.hpp>
-#include <acs/net/EventQueue.hpp>
 #include <acs/net/TimerArray.hpp>
 #include <acs/vda5050_mosquitto/MasterClient.hpp>
-#include <acs/vda5050_mosquitto/MosquittoLink.hpp>
 
 #include <cassert>
-#include <optional>
+#include <cstddef>
+#include <memory>
+#include <string>
 #include <type_traits>
 #include <unordered_map>
 #include <utility>
@@ -19,9 +18,6 @@ namespace ACS::VDA5050
 namespace
 {
 
-using MasterEvent = std::variant<BrokerUp, BrokerDown, FleetAction>;
-using MasterEvents = Net::EventQueue<MasterEvent>;
-
 constexpr std::size_t MASTER_TIMERS = 3;
 static_assert(static_cast<std::size_t>(EMasterTimer::Silence) + 1 == MASTER_TIMERS);
 
@@ -29,20 +25,15 @@ using MasterTimers = Net::TimerArray<EMasterTimer, MASTER_TIMERS>;
 
 } // namespace
 
-class MasterClient::Impl final : private IMqttLinkListener
+class MasterClient::Impl final : private ISessionOwner<MasterFleet, FleetAction>
 {
     boost::asio::any_io_executor _executor;
-    const Core::IClock& _clock;
-    Core::Logger _logger;
     IMasterHandler& _handler;
-    MasterFleet _fleet;
-    std::shared_ptr<MasterEvents> _events;
     std::unordered_map<std::size_t, std::shared_ptr<MasterTimers>> _timers; ///< By vehicle.
-    Net::ActionPump<FleetAction> _pump;
-    MosquittoLink _link;
-    bool _bStopped = false;
 
 public:
+    SessionOnBroker<MasterFleet, FleetAction> onBroker;
+
     Impl(
         const boost::asio::any_io_executor& executor,
         const Core::IClock& clock,
@@ -52,120 +43,37 @@ public:
         MasterFleet fleet,
         IMasterHandler& handler)
         : _executor(executor),
-          _clock(clock),
-          _logger(logger),
           _handler(handler),
-          _fleet(std::move(fleet)),
-          _events(std::make_shared<MasterEvents>(executor, [this](const MasterEvent& event) { Deliver(event); })),
-          _link(executor, random, logger, std::move(broker), *this)
+          onBroker(executor, clock, random, logger, std::move(broker), std::move(fleet), *this)
     {
-        _link.Subscribe(_fleet.GetSubscriptions());
     }
 
-    Impl(const Impl&) = delete;
-    Impl& operator=(const Impl&) = delete;
-
-    ~Impl() override
-    {
-        _events->Detach();
-    }
-
-    void Start()
-    {
-        _link.Start();
-    }
-
-    void StopAsync(StopHandler handler)
-    {
-        OnLinkDown({}); // The sessions accept nothing from now on.
-        _bStopped = true;
-        _events->Detach();
-        _timers.clear();
-        _link.StopAsync(std::nullopt, MosquittoLink::DEFAULT_STOP_TIMEOUT, std::move(handler));
-    }
-
-    [[nodiscard]] bool IsConnected() const
-    {
-        return _link.IsConnected();
-    }
-
-    [[nodiscard]] const MasterFleet& GetFleet() const
-    {
-        return _fleet;
-    }
-
-    /// call(fleet, now, out); returns its result, a Core::Result.
-    template <typename TCall>
-    auto Run(TCall call)
-    {
-        std::optional<std::invoke_result_t<TCall, MasterFleet&, Core::Now, FleetActions&>> result;
-        _pump.Run(
-            [&](FleetActions& out) { result.emplace(call(_fleet, _clock.GetNow(), out)); },
-            [this](const FleetAction& action) { Execute(action); });
-        return std::move(*result);
-    }
-
-    /// Likewise, call(session, now, out).
+    /// call(session, now, out); returns its result, a Core::Result.
     template <typename TCall>
     auto RunSession(std::size_t vehicle, TCall call)
     {
-        assert(_fleet.Contains(vehicle));
-        return Run([&](MasterFleet& fleet, Core::Now now, FleetActions& out) {
+        assert(onBroker.GetSession().Contains(vehicle));
+        std::invoke_result_t<TCall, MasterSession&, Core::Now, MasterActions&> result;
+        onBroker.Run([&](MasterFleet& fleet, Core::Now now, FleetActions& out) {
             MasterActions actions;
-            auto result = call(fleet.GetSession(vehicle), now, actions);
+            result = call(fleet.GetSession(vehicle), now, actions);
             AppendActions(vehicle, actions, out);
-            return result;
         });
+        return result;
     }
 
-    bool TryRemove(std::size_t vehicle)
+    void ForgetTimers(std::size_t vehicle)
     {
-        bool bRemoved = false;
-        Run([vehicle, &bRemoved](MasterFleet& fleet, Core::Now /*now*/, FleetActions& out) {
-            bRemoved = fleet.TryRemove(vehicle, out);
-            return Core::Result<void>();
-        });
         _timers.erase(vehicle);
-        return bRemoved;
     }
 
 private:
-    void OnLinkUp() override
+    void Execute(const FleetAction& action) override
     {
-        _events->Push(BrokerUp());
-        Run([](MasterFleet& fleet, Core::Now now, FleetActions& out) {
-            fleet.OnLinkUp(now, out);
-            return Core::Result<void>();
-        });
-    }
-
-    void OnLinkDown(std::error_code reason) override
-    {
-        _events->Push(BrokerDown{reason});
-        Run([](MasterFleet& fleet, Core::Now now, FleetActions& out) {
-            fleet.OnLinkDown(now, out);
-            return Core::Result<void>();
-        });
-    }
-
-    void OnMqttMessage(const MqttMessage& message) override
-    {
-        Run([&message](MasterFleet& fleet, Core::Now now, FleetActions& out) {
-            fleet.OnMessage(message, now, out);
-            return Core::Result<void>();
-        });
-    }
-
-    void Execute(const FleetAction& action)
-    {
-        if (_bStopped)
-        {
-            return;
-        }
         const std::size_t vehicle = action.vehicle;
         std::visit(
             Core::Overloaded{
-                [this](const PublishMessage& publish) { Publish(publish.message); },
+                [this](const PublishMessage& publish) { onBroker.Publish(publish.message); },
                 [this, vehicle](const StartMasterTimer& start) { StartTimer(vehicle, start); },
                 [this, vehicle](const CancelMasterTimer& cancel) {
                     if (const auto found = _timers.find(vehicle); found != _timers.end())
@@ -174,19 +82,9 @@ private:
                     }
                 },
                 [this, &action](const auto& /*event*/) {
-                    _events->Push(action);
+                    onBroker.Push(action);
                 }},
             action.action);
-    }
-
-    void Publish(const MqttMessage& message)
-    {
-        if (const Core::Result<void> published = _link.Publish(message); !published)
-        {
-            _logger.Debug(
-                "a message is sent later",
-                {{"topic", message.topic}, {"reason", Core::Describe(published.error())}});
-        }
     }
 
     void StartTimer(std::size_t vehicle, const StartMasterTimer& start)
@@ -195,23 +93,37 @@ private:
         if (timers == nullptr)
         {
             timers = std::make_shared<MasterTimers>(_executor, [this, vehicle](EMasterTimer timer) {
-                Run([vehicle, timer](MasterFleet& fleet, Core::Now now, FleetActions& out) {
+                onBroker.Run([vehicle, timer](MasterFleet& fleet, Core::Now now, FleetActions& out) {
                     fleet.OnTimer(vehicle, timer, now, out);
-                    return Core::Result<void>();
                 });
             });
         }
         timers->Start(start.timer, start.delay);
     }
 
-    void Deliver(const MasterEvent& event)
+    void CancelTimers() override
+    {
+        _timers.clear();
+    }
+
+    /// The sessions accept nothing from now on.
+    void EndSession(MasterFleet& fleet, Core::Now now, FleetActions& out) override
+    {
+        fleet.OnLinkDown(now, out);
+    }
+
+    void PrepareConnection(MasterFleet& /*fleet*/, MosquittoLink& /*link*/, Core::Now /*now*/) override
+    {
+    }
+
+    void Deliver(const Event& event) override
     {
         std::visit(
             Core::Overloaded{
                 [this](const BrokerUp& /*up*/) { _handler.OnBrokerUp(); },
                 [this](const BrokerDown& down) { _handler.OnBrokerDown(down.reason); },
                 [this](const FleetAction& action) {
-                    if (_fleet.Contains(action.vehicle))
+                    if (onBroker.GetSession().Contains(action.vehicle))
                     {
                         _handler.OnVehicleEvent(action.vehicle, action.action);
                     }
@@ -247,33 +159,41 @@ Core::Result<std::unique_ptr<MasterClient>> MasterClient::Create(
 
 void MasterClient::Start()
 {
-    _impl->Start();
+    _impl->onBroker.Start();
 }
 
 void MasterClient::StopAsync(StopHandler handler)
 {
-    _impl->StopAsync(std::move(handler));
+    _impl->onBroker.StopAsync(std::move(handler));
 }
 
 bool MasterClient::IsConnected() const
 {
-    return _impl->IsConnected();
+    return _impl->onBroker.IsConnected();
 }
 
 const MasterFleet& MasterClient::GetFleet() const
 {
-    return _impl->GetFleet();
+    return _impl->onBroker.GetSession();
 }
 
 Core::Result<std::size_t> MasterClient::Add(const VehicleAddress& address)
 {
-    return _impl->Run(
-        [&address](MasterFleet& fleet, Core::Now now, FleetActions& out) { return fleet.Add(address, now, out); });
+    Core::Result<std::size_t> number;
+    _impl->onBroker.Run([&address, &number](MasterFleet& fleet, Core::Now now, FleetActions& out) {
+        number = fleet.Add(address, now, out);
+    });
+    return number;
 }
 
 bool MasterClient::TryRemove(std::size_t vehicle)
 {
-    return _impl->TryRemove(vehicle);
+    bool bRemoved = false;
+    _impl->onBroker.Run([vehicle, &bRemoved](MasterFleet& fleet, Core::Now /*now*/, FleetActions& out) {
+        bRemoved = fleet.TryRemove(vehicle, out);
+    });
+    _impl->ForgetTimers(vehicle);
+    return bRemoved;
 }
 
 Core::Result<void> MasterClient::SendOrder(std::size_t vehicle, OrderMessage order)

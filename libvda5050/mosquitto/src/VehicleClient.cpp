@@ -1,13 +1,10 @@
-#include "BrokerEvent.hpp"
+#include "SessionOnBroker.hpp"
 #include <acs/core/Overloaded.hpp>
-#include <acs/net/ActionPump.hpp>
-#include <acs/net/EventQueue.hpp>
 #include <acs/net/TimerArray.hpp>
-#include <acs/vda5050_mosquitto/MosquittoLink.hpp>
 #include <acs/vda5050_mosquitto/VehicleClient.hpp>
 
 #include <cstddef>
-#include <optional>
+#include <memory>
 #include <utility>
 #include <variant>
 
@@ -17,9 +14,6 @@ namespace ACS::VDA5050
 namespace
 {
 
-using VehicleEvent = std::variant<BrokerUp, BrokerDown, VehicleAction>;
-using VehicleEvents = Net::EventQueue<VehicleEvent>;
-
 constexpr std::size_t VEHICLE_TIMERS = 3;
 static_assert(static_cast<std::size_t>(EVehicleTimer::Visualization) + 1 == VEHICLE_TIMERS);
 
@@ -27,19 +21,14 @@ using VehicleTimers = Net::TimerArray<EVehicleTimer, VEHICLE_TIMERS>;
 
 } // namespace
 
-class VehicleClient::Impl final : private IMqttLinkListener
+class VehicleClient::Impl final : private ISessionOwner<VehicleSession, VehicleAction>
 {
-    const Core::IClock& _clock;
-    Core::Logger _logger;
     IVehicleHandler& _handler;
-    VehicleSession _session;
-    std::shared_ptr<VehicleEvents> _events;
     std::shared_ptr<VehicleTimers> _timers;
-    Net::ActionPump<VehicleAction> _pump;
-    MosquittoLink _link;
-    bool _bStopped = false;
 
 public:
+    SessionOnBroker<VehicleSession, VehicleAction> onBroker;
+
     Impl(
         const boost::asio::any_io_executor& executor,
         const Core::IClock& clock,
@@ -48,115 +37,49 @@ public:
         MosquittoOptions broker,
         VehicleOptions options,
         IVehicleHandler& handler)
-        : _clock(clock),
-          _logger(logger),
-          _handler(handler),
-          _session(std::move(options)),
-          _events(std::make_shared<VehicleEvents>(executor, [this](const VehicleEvent& event) { Deliver(event); })),
+        : _handler(handler),
           _timers(std::make_shared<VehicleTimers>(
               executor,
               [this](EVehicleTimer timer) {
-                  Run([timer](VehicleSession& session, Core::Now now, VehicleActions& out) {
+                  onBroker.Run([timer](VehicleSession& session, Core::Now now, VehicleActions& out) {
                       session.OnTimer(timer, now, out);
                   });
               })),
-          _link(executor, random, logger, std::move(broker), *this)
+          onBroker(executor, clock, random, logger, std::move(broker), VehicleSession(std::move(options)), *this)
     {
-        _link.Subscribe(_session.GetSubscriptions());
-    }
-
-    Impl(const Impl&) = delete;
-    Impl& operator=(const Impl&) = delete;
-
-    ~Impl() override
-    {
-        _events->Detach();
-    }
-
-    void Start()
-    {
-        _link.SetWill(_session.MakeWill(_clock.GetNow()));
-        _link.Start();
-    }
-
-    void StopAsync(StopHandler handler)
-    {
-        Run([](VehicleSession& session, Core::Now now, VehicleActions& out) { session.Leave(now, out); });
-        _bStopped = true;
-        _events->Detach();
-        _timers->CancelAll();
-        _link.StopAsync(std::nullopt, MosquittoLink::DEFAULT_STOP_TIMEOUT, std::move(handler));
-    }
-
-    [[nodiscard]] bool IsConnected() const
-    {
-        return _link.IsConnected();
-    }
-
-    [[nodiscard]] const VehicleSession& GetSession() const
-    {
-        return _session;
-    }
-
-    template <typename TCall>
-    void Run(TCall call)
-    {
-        _pump.Run(
-            [&](VehicleActions& out) { call(_session, _clock.GetNow(), out); },
-            [this](const VehicleAction& action) { Execute(action); });
     }
 
 private:
-    void OnLinkUp() override
+    void Execute(const VehicleAction& action) override
     {
-        // For the next connection: each will has its own time.
-        _link.SetWill(_session.MakeWill(_clock.GetNow()));
-        _events->Push(BrokerUp());
-        Run([](VehicleSession& session, Core::Now now, VehicleActions& out) { session.OnLinkUp(now, out); });
-    }
-
-    void OnLinkDown(std::error_code reason) override
-    {
-        _events->Push(BrokerDown{reason});
-        Run([](VehicleSession& session, Core::Now now, VehicleActions& out) { session.OnLinkDown(now, out); });
-    }
-
-    void OnMqttMessage(const MqttMessage& message) override
-    {
-        Run([&message](VehicleSession& session, Core::Now now, VehicleActions& out) {
-            session.OnMessage(message, now, out);
-        });
-    }
-
-    void Execute(const VehicleAction& action)
-    {
-        if (_bStopped)
-        {
-            return;
-        }
         std::visit(
             Core::Overloaded{
-                [this](const PublishMessage& publish) { Publish(publish.message); },
+                [this](const PublishMessage& publish) { onBroker.Publish(publish.message); },
                 [this](const StartVehicleTimer& start) { _timers->Start(start.timer, start.delay); },
                 [this](const CancelVehicleTimer& cancel) { _timers->Cancel(cancel.timer); },
                 [this, &action](const auto& /*event*/) {
-                    _events->Push(action);
+                    onBroker.Push(action);
                 }},
             action);
     }
 
-    void Publish(const MqttMessage& message)
+    void CancelTimers() override
     {
-        if (const Core::Result<void> published = _link.Publish(message); !published)
-        {
-            // The next state contains everything.
-            _logger.Debug(
-                "a message was not sent",
-                {{"topic", message.topic}, {"reason", Core::Describe(published.error())}});
-        }
+        _timers->CancelAll();
     }
 
-    void Deliver(const VehicleEvent& event)
+    void EndSession(VehicleSession& session, Core::Now now, VehicleActions& out) override
+    {
+        session.Leave(now, out);
+    }
+
+    /// Each will has its own time.
+    void PrepareConnection(VehicleSession& session, MosquittoLink& link, Core::Now now) override
+    {
+        link.SetWill(session.MakeWill(now));
+    }
+
+    void Deliver(const Event& event) override
     {
         std::visit(
             Core::Overloaded{
@@ -185,27 +108,27 @@ VehicleClient::~VehicleClient() = default;
 
 void VehicleClient::Start()
 {
-    _impl->Start();
+    _impl->onBroker.Start();
 }
 
 void VehicleClient::StopAsync(StopHandler handler)
 {
-    _impl->StopAsync(std::move(handler));
+    _impl->onBroker.StopAsync(std::move(handler));
 }
 
 bool VehicleClient::IsConnected() const
 {
-    return _impl->IsConnected();
+    return _impl->onBroker.IsConnected();
 }
 
 const VehicleSession& VehicleClient::GetSession() const
 {
-    return _impl->GetSession();
+    return _impl->onBroker.GetSession();
 }
 
 void VehicleClient::Run(const SessionCall& call)
 {
-    _impl->Run(call);
+    _impl->onBroker.Run(call);
 }
 
 } // namespace ACS::VDA5050
