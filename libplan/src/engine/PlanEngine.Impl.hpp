@@ -23,6 +23,8 @@
 #include "work/PlanWork.hpp"
 #include <acs/plan/PlanEngine.hpp>
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -76,14 +78,20 @@ public:
     [[nodiscard]] std::vector<RobotStatus> GetRobotStatuses() const;
     [[nodiscard]] std::vector<RobotPose> GetRobotPoses() const;
     [[nodiscard]] std::vector<RobotDetail> GetRobotDetails() const;
+    [[nodiscard]] std::vector<RobotRoute> GetRobotRoutes() const;
     [[nodiscard]] std::vector<PlanSummary> GetActivePlans() const;
     [[nodiscard]] std::optional<PlanSummary> GetPlanOrNull(std::string_view planID) const;
+    [[nodiscard]] const PlanRecord* GetPlanRecordOrNull(std::string_view planID) const;
+    [[nodiscard]] std::vector<std::reference_wrapper<const PlanRecord>> GetActivePlanRecords() const;
+    [[nodiscard]] std::vector<std::reference_wrapper<const PlanRecord>> GetFinishedPlanRecords(std::size_t limit) const;
     [[nodiscard]] std::vector<WaitReason> GetWaitReasons() const;
     [[nodiscard]] std::optional<WaitReason> GetWaitReasonOrNull(std::string_view planID) const;
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SetCarriers& command) const;
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const ResolveJob& command) const;
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SkipStep& command) const;
     [[nodiscard]] const std::vector<Alarm>& GetActiveAlarms() const noexcept;
+    [[nodiscard]] const EngineOptions& GetOptions() const noexcept;
+    [[nodiscard]] const SiteMap& GetSite() const noexcept;
     [[nodiscard]] ETscState GetTscState() const noexcept;
     [[nodiscard]] const std::string& GetHoldReason() const noexcept;
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <deque>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -93,7 +95,30 @@ std::vector<RobotDetail> PlanEngine::Impl::GetRobotDetails() const
     return details;
 }
 
-std::vector<PlanSummary> PlanEngine::Impl::GetActivePlans() const
+std::vector<RobotRoute> PlanEngine::Impl::GetRobotRoutes() const
+{
+    const std::vector<SiteNode>& nodes = _engine.site.GetNodes();
+    const Traffic& traffic = _places.GetTraffic();
+    std::vector<RobotRoute> routes;
+    routes.reserve(_engine.fleet.size());
+    for (const Robot& robot : _engine.fleet)
+    {
+        RobotRoute& made = routes.emplace_back();
+        made.robotID = robot.GetID();
+        for (const std::size_t node : traffic.ListReserved(robot.index))
+        {
+            made.reservedNodeIDs.push_back(nodes[node].nodeID);
+        }
+        const std::size_t end = robot.drive.has_value() ? robot.drive->nodes.size() : 0;
+        for (std::size_t i = end == 0 ? 0 : robot.drive->passed + 1; i < end; ++i)
+        {
+            made.nodes.push_back({nodes[robot.drive->nodes[i]].nodeID, i < robot.drive->grantedCount});
+        }
+    }
+    return routes;
+}
+
+std::vector<std::reference_wrapper<const PlanRecord>> PlanEngine::Impl::GetActivePlanRecords() const
 {
     const auto rank = [](const ActivePlan* planOrNull) {
         const EPlanState state = planOrNull->record.progress.state;
@@ -108,13 +133,33 @@ std::vector<PlanSummary> PlanEngine::Impl::GetActivePlans() const
     std::ranges::sort(ordered, [&rank](const ActivePlan* leftOrNull, const ActivePlan* rightOrNull) {
         return std::pair(rank(leftOrNull), leftOrNull->key) < std::pair(rank(rightOrNull), rightOrNull->key);
     });
-    std::vector<PlanSummary> summaries;
-    summaries.reserve(ordered.size());
+    std::vector<std::reference_wrapper<const PlanRecord>> records;
+    records.reserve(ordered.size());
     for (const ActivePlan* plan : ordered)
     {
-        summaries.push_back(MakeSummary(plan->record));
+        records.emplace_back(plan->record);
+    }
+    return records;
+}
+
+std::vector<std::reference_wrapper<const PlanRecord>> PlanEngine::Impl::GetFinishedPlanRecords(std::size_t limit) const
+{
+    return _engine.plans.ListFinished(limit);
+}
+
+std::vector<PlanSummary> PlanEngine::Impl::GetActivePlans() const
+{
+    std::vector<PlanSummary> summaries;
+    for (const PlanRecord& record : GetActivePlanRecords())
+    {
+        summaries.push_back(MakeSummary(record));
     }
     return summaries;
+}
+
+const PlanRecord* PlanEngine::Impl::GetPlanRecordOrNull(std::string_view planID) const
+{
+    return _engine.plans.FindRecordOrNull(planID);
 }
 
 std::optional<PlanSummary> PlanEngine::Impl::GetPlanOrNull(std::string_view planID) const
@@ -156,6 +201,16 @@ std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const Skip
 const std::vector<Alarm>& PlanEngine::Impl::GetActiveAlarms() const noexcept
 {
     return _engine.alarms.GetAlarms();
+}
+
+const EngineOptions& PlanEngine::Impl::GetOptions() const noexcept
+{
+    return _engine.options;
+}
+
+const SiteMap& PlanEngine::Impl::GetSite() const noexcept
+{
+    return _engine.site;
 }
 
 const std::string& PlanEngine::Impl::GetHoldReason() const noexcept

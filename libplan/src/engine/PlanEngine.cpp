@@ -85,6 +85,11 @@ std::vector<RobotDetail> PlanEngine::GetRobotDetails() const
     return _impl->GetRobotDetails();
 }
 
+std::vector<RobotRoute> PlanEngine::GetRobotRoutes() const
+{
+    return _impl->GetRobotRoutes();
+}
+
 std::vector<PlanSummary> PlanEngine::GetActivePlans() const
 {
     return _impl->GetActivePlans();
@@ -93,6 +98,21 @@ std::vector<PlanSummary> PlanEngine::GetActivePlans() const
 std::optional<PlanSummary> PlanEngine::GetPlanOrNull(std::string_view planID) const
 {
     return _impl->GetPlanOrNull(planID);
+}
+
+const PlanRecord* PlanEngine::GetPlanRecordOrNull(std::string_view planID) const
+{
+    return _impl->GetPlanRecordOrNull(planID);
+}
+
+std::vector<std::reference_wrapper<const PlanRecord>> PlanEngine::GetActivePlanRecords() const
+{
+    return _impl->GetActivePlanRecords();
+}
+
+std::vector<std::reference_wrapper<const PlanRecord>> PlanEngine::GetFinishedPlanRecords(std::size_t limit) const
+{
+    return _impl->GetFinishedPlanRecords(limit);
 }
 
 std::vector<WaitReason> PlanEngine::GetWaitReasons() const
@@ -123,6 +143,16 @@ std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const SkipStep& 
 const std::vector<Alarm>& PlanEngine::GetActiveAlarms() const noexcept
 {
     return _impl->GetActiveAlarms();
+}
+
+const EngineOptions& PlanEngine::GetOptions() const noexcept
+{
+    return _impl->GetOptions();
+}
+
+const SiteMap& PlanEngine::GetSite() const noexcept
+{
+    return _impl->GetSite();
 }
 
 const std::string& PlanEngine::GetHoldReason() const noexcept

@@ -5,6 +5,7 @@
 #include <acs/plan/PlanTransitions.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace ACS::Planning
@@ -61,7 +62,10 @@ void RestartRecovery::Restore(StoredState state)
             _status.Reset(*robotOrNull);
         }
     }
-    std::ranges::sort(state.plans, {}, &PlanRecord::sequence);
+    // The history in the order in which the plans ended, then the unfinished plans in the order of their acceptance.
+    std::ranges::sort(state.plans, {}, [](const PlanRecord& record) {
+        return std::pair(record.progress.endedAt.value_or(Core::WallTime::max()), record.sequence);
+    });
     for (PlanRecord& record : state.plans)
     {
         RestorePlan(std::move(record));

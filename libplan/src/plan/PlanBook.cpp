@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <cstddef>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -226,6 +228,17 @@ const PlanRecord* PlanBook::FindRecordOrNull(std::string_view planID) const
 {
     const ActivePlan* activeOrNull = FindActiveOrNull(planID);
     return activeOrNull != nullptr ? &activeOrNull->record : FindFinishedOrNull(planID);
+}
+
+std::vector<std::reference_wrapper<const PlanRecord>> PlanBook::ListFinished(std::size_t limit) const
+{
+    std::vector<std::reference_wrapper<const PlanRecord>> records;
+    records.reserve(std::min(limit, _finishedOrder.size()));
+    for (auto planID = _finishedOrder.rbegin(); planID != _finishedOrder.rend() && records.size() < limit; ++planID)
+    {
+        records.emplace_back(_finished.at(*planID));
+    }
+    return records;
 }
 
 std::size_t PlanBook::GetReportsAhead() const noexcept

@@ -6,6 +6,7 @@
 #include <acs/plan/IPlanStore.hpp>
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -89,6 +90,8 @@ public:
     [[nodiscard]] const PlanRecord* FindFinishedOrNull(std::string_view planID) const;
     /// Of an active or a finished plan.
     [[nodiscard]] const PlanRecord* FindRecordOrNull(std::string_view planID) const;
+    /// Finished plans, at most limit, those that ended last first.
+    [[nodiscard]] std::vector<std::reference_wrapper<const PlanRecord>> ListFinished(std::size_t limit) const;
     [[nodiscard]] bool IsAnyRunning() const;
     /// The maximum number of reports that the active plans still allow (ReportForecast).
     [[nodiscard]] std::size_t GetReportsAhead() const noexcept;

@@ -253,4 +253,9 @@ Traffic& PlaceTracker::GetTraffic() noexcept
     return _traffic;
 }
 
+const Traffic& PlaceTracker::GetTraffic() const noexcept
+{
+    return _traffic;
+}
+
 } // namespace ACS::Planning

@@ -40,6 +40,7 @@ public:
     /// Increases when a robot stops, starts, or becomes movable or not.
     [[nodiscard]] std::uint64_t GetStandingChanges() const noexcept;
     [[nodiscard]] Traffic& GetTraffic() noexcept;
+    [[nodiscard]] const Traffic& GetTraffic() const noexcept;
     /// The nodes where the robot may be after a restart; stored.
     [[nodiscard]] std::vector<std::string> ListNodes(const Robot& robot) const;
     /// Reserves the possible nodes of robots without a reported position. Reported positions take precedence.

@@ -342,6 +342,13 @@ std::span<const std::size_t> Traffic::GetHeld(std::size_t robot) const
     return _vehicles[robot].path;
 }
 
+std::vector<std::size_t> Traffic::ListReserved(std::size_t robot) const
+{
+    std::vector<std::size_t> nodes = _vehicles[robot].path;
+    nodes.insert(nodes.end(), _vehicles[robot].extra.begin(), _vehicles[robot].extra.end());
+    return nodes;
+}
+
 bool Traffic::IsFreeFor(std::size_t node, std::size_t robot) const
 {
     return _covers[node] == 0 || std::ranges::all_of(_near[node], [this, robot](std::uint32_t near) {

@@ -129,6 +129,8 @@ public:
     [[nodiscard]] std::optional<std::size_t> GetHolderOrNull(std::size_t node) const;
     /// The reserved nodes of its route, in driving order.
     [[nodiscard]] std::span<const std::size_t> GetHeld(std::size_t robot) const;
+    /// All nodes that it holds: those of its route in driving order, then the others.
+    [[nodiscard]] std::vector<std::size_t> ListReserved(std::size_t robot) const;
     /// Whether no other robot holds the node or one within the clearance.
     [[nodiscard]] bool IsFreeFor(std::size_t node, std::size_t robot) const;
     /// As IsFreeFor, and the node is not the home of another robot.

@@ -16,10 +16,13 @@
 #include <acs/plan/StoreLog.hpp>
 #include <acs/plan/WaitReason.hpp>
 
+#include <cstddef>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -109,11 +112,24 @@ public:
     /// One for every robot.
     [[nodiscard]] std::vector<RobotDetail> GetRobotDetails() const;
 
+    /// One for every robot.
+    [[nodiscard]] std::vector<RobotRoute> GetRobotRoutes() const;
+
     /// In progress, then paused, then pending, each in the order of the queue.
     [[nodiscard]] std::vector<PlanSummary> GetActivePlans() const;
 
     /// nullopt if the plan is unknown or was deleted.
     [[nodiscard]] std::optional<PlanSummary> GetPlanOrNull(std::string_view planID) const;
+
+    /// The whole record of a plan that GetPlanOrNull finds. Valid until the next call that changes the engine.
+    [[nodiscard]] const PlanRecord* GetPlanRecordOrNull(std::string_view planID) const;
+
+    /// The records of GetActivePlans, in its order. Valid until the next call that changes the engine.
+    [[nodiscard]] std::vector<std::reference_wrapper<const PlanRecord>> GetActivePlanRecords() const;
+
+    /// The finished plans that are kept (EngineOptions::finishedPlansKept), at most limit, those that ended last first. Valid
+    /// until the next call that changes the engine.
+    [[nodiscard]] std::vector<std::reference_wrapper<const PlanRecord>> GetFinishedPlanRecords(std::size_t limit) const;
 
     /// One for every plan that makes no progress now: paused plans, plans whose robot neither drives nor works, then the queue
     /// in its order.
@@ -131,6 +147,12 @@ public:
 
     /// The alarms that are set.
     [[nodiscard]] const std::vector<Alarm>& GetActiveAlarms() const noexcept;
+
+    /// As passed to the constructor.
+    [[nodiscard]] const EngineOptions& GetOptions() const noexcept;
+
+    /// As passed to the constructor.
+    [[nodiscard]] const SiteMap& GetSite() const noexcept;
 
     /// Whether plans are executed.
     [[nodiscard]] ETscState GetTscState() const noexcept;

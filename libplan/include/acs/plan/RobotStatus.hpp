@@ -52,4 +52,25 @@ struct RobotDetail
     bool operator==(const RobotDetail&) const = default;
 };
 
+/// A node of the rest of a route.
+struct RouteNodeAhead
+{
+    std::string nodeID;
+    bool bReserved = false; ///< The robot may drive there now; false: the node is not granted yet.
+
+    bool operator==(const RouteNodeAhead&) const = default;
+};
+
+/// Where a robot drives, and the nodes that no other robot may use.
+struct RobotRoute
+{
+    std::string robotID;
+    /// The rest of its drive in driving order, without the node it is on or has passed last; empty: it has no drive.
+    std::vector<RouteNodeAhead> nodes;
+    /// Its node, the reserved nodes of its route in driving order, then other nodes where it may be.
+    std::vector<std::string> reservedNodeIDs;
+
+    bool operator==(const RobotRoute&) const = default;
+};
+
 } // namespace ACS::Planning
