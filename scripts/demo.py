@@ -104,7 +104,7 @@ def start_line(line, arguments, output):
               f"MCS         ws://{mcs_address}/acs/\n"
               f"Open Stream tcp://{arm.addresses['stream']}\n"
               f"Open API    http://{arm.addresses['http']}\n"
-              f"acsd        http://{acsd.addresses['operator']}/status\n"
+              f"acsd        http://{acsd.addresses['operator']}/\n"
               f"world       {line.world}.journal\n"
               f"logs        {line.folder}", flush=True)
     if wait:

@@ -9,12 +9,15 @@
 #include "drivers/RobotRunners.hpp"
 #include "mcs/McsLink.hpp"
 #include "operator/AcsdMetrics.hpp"
-#include "operator/AcsdStatus.hpp"
 #include "operator/AuditLog.hpp"
+#include "operator/CommandRoutes.hpp"
+#include "operator/HealthRoutes.hpp"
 #include "operator/HttpInterfaces.hpp"
 #include "operator/LinesRoute.hpp"
-#include "operator/OperatorRoutes.hpp"
+#include "operator/OperatorAnswer.hpp"
 #include "operator/PlanLog.hpp"
+#include "operator/ReadRoutes.hpp"
+#include "operator/StateFeed.hpp"
 #include "store/StoreSummary.hpp"
 #include "store/StoreWorker.hpp"
 #include <acs/plan_sqlite/SqlitePlanStore.hpp>
@@ -33,13 +36,6 @@
 namespace ACS::Acsd
 {
 
-namespace
-{
-
-constexpr unsigned NOT_FOUND = 404;
-
-} // namespace
-
 class Acsd::Impl final : private IAcsdOutput
 {
     Dependencies _dependencies;
@@ -56,6 +52,7 @@ class Acsd::Impl final : private IAcsdOutput
     Apps::TimerSet<AcsdTimer> _timers;
     Apps::LoopWatchdog _watchdog;
     HttpInterfaces _http;
+    StateFeed _feed;
     std::size_t _openLinks = 0; ///< Of those that are being closed.
     StopHandler _stopHandler;
 
@@ -103,7 +100,14 @@ public:
               _dependencies.executor,
               {_config.operations.stallLimit, _dependencies.aliveInterval},
               {[this](Core::Duration stall) { OnStall(stall); }, _dependencies.onAlive}),
-          _http({_dependencies.executor, _dependencies.clock, _dependencies.logger}, _config.http, std::move(audit))
+          _http({_dependencies.executor, _dependencies.clock, _dependencies.logger}, _config.http, std::move(audit)),
+          _feed(
+              {_dependencies.executor,
+               _dependencies.clock,
+               _core.GetEngine(),
+               [this] { return GetProgramState(); },
+               [](std::string_view) {
+               }})
     {
         _core.SetObserver(_planLog);
         AddRoutes();
@@ -141,6 +145,7 @@ public:
         _watchdog.Start();
         _robots.Start();
         _core.Start();
+        _feed.Start();
         if (_mqtt.has_value())
         {
             _mqtt->Start();
@@ -236,6 +241,7 @@ private:
 
     void OnStopped() override
     {
+        _feed.Stop();
         _http.Stop();
         _watchdog.Stop();
         if (_stopHandler)
@@ -277,17 +283,18 @@ private:
         return links;
     }
 
-    [[nodiscard]] ProgramStatus GetProgramStatus() const
+    [[nodiscard]] ProgramState GetProgramState() const
     {
-        ProgramStatus program{GetLinks(), _core.GetNotReadyReasons(), {}, _core.GetRefusedReports()};
+        ProgramState program{
+            GetLinks(),
+            _core.GetNotReadyReasons(),
+            _core.GetPublishedConnectedOrNull(),
+            _core.GetRefusedReports()};
         for (const RobotLinkConfig& robot : _config.robots)
         {
-            DriverDetails details = _robots.GetDetails(robot.robotID);
-            if (details.bArmUp.has_value())
-            {
-                program.arms.emplace(robot.robotID, *details.bArmUp);
-            }
-            program.vehicles.emplace(robot.robotID, VehicleStatus{robot.topicPrefix, std::move(details.warnings)});
+            program.robots.emplace(
+                robot.robotID,
+                RobotLinkState{robot.driver, robot.ports, robot.topicPrefix, _robots.GetDetails(robot.robotID)});
         }
         return program;
     }
@@ -295,19 +302,26 @@ private:
     void AddRoutes()
     {
         Apps::HttpRoutes& monitoring = _http.GetMonitoringRoutes();
-        AddHealthRoutes(monitoring, [this] { return GetProgramStatus(); });
+        AddHealthRoutes(monitoring, [this] { return GetProgramState(); });
         monitoring.Add("GET", "/metrics", [this](const auto&, const auto&) {
             UpdateMetrics();
             return _metricsEndpoint.Respond();
         });
         Apps::HttpRoutes& commands = _http.GetOperatorRoutes();
-        AddStatusRoute(commands, _core.GetEngine(), [this] { return GetProgramStatus(); });
-        commands.Add("GET", "/trace", [this](const Apps::HttpRequest& request, const auto&) {
+        AddReadRoutes(
+            commands,
+            _core.GetEngine(),
+            {_dependencies.clock,
+             [this]() -> const StateView& { return _feed.Update(); },
+             [] {
+                 return 0U;
+             }});
+        commands.Add("GET", "/v1/trace", [this](const Apps::HttpRequest& request, const auto&) {
             return _dependencies.traceOrNull == nullptr
-                ? MakeOperatorError(NOT_FOUND, "Messages are not traced: start acsd with --trace DIR.")
+                ? MakeOperatorError(OperatorCode::NOT_FOUND, "Messages are not traced: start acsd with --trace DIR.")
                 : RespondWithLines(request, _dependencies.traceOrNull->GetNewest());
         });
-        AddOperatorRoutes(
+        AddCommandRoutes(
             commands,
             _core.GetEngine(),
             {[this](Planning::PlanCommand command) { return _core.Offer(std::move(command)); },

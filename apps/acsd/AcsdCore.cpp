@@ -207,6 +207,11 @@ const RefusedReports& AcsdCore::GetRefusedReports() const noexcept
     return _gateway.GetRefusedReports();
 }
 
+std::optional<bool> AcsdCore::GetPublishedConnectedOrNull() const noexcept
+{
+    return _gateway.GetPublishedWorkingOrNull();
+}
+
 bool AcsdCore::IsMqttUp() const noexcept
 {
     return _bMqttUp;

@@ -121,6 +121,8 @@ public:
 
     [[nodiscard]] const Planning::PlanEngine& GetEngine() const noexcept;
     [[nodiscard]] const RefusedReports& GetRefusedReports() const noexcept;
+    /// isConnected, as it was last published to the MCS; nullopt before the first time.
+    [[nodiscard]] std::optional<bool> GetPublishedConnectedOrNull() const noexcept;
     [[nodiscard]] bool IsMqttUp() const noexcept;
     /// Inputs have no effect any more.
     [[nodiscard]] bool IsClosed() const noexcept;

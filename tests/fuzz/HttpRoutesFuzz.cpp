@@ -22,9 +22,9 @@ Apps::HttpRoutes MakeRoutes()
         }
         return Apps::HttpResponse{200, "text/plain", request.GetQueryOrNull("reason").value_or("done")};
     };
-    routes.Add("GET", "/status", respond);
-    routes.Add("POST", "/robots/{ID}/maintenance/on", respond);
-    routes.Add("POST", "/plans/{ID}/steps/{NO}/skip", respond);
+    routes.Add("GET", "/v1/status", respond);
+    routes.Add("POST", "/v1/robots/{ID}/maintenance", respond);
+    routes.Add("POST", "/v1/plans/{ID}/steps/{NO}/skip", respond);
     return routes;
 }
 

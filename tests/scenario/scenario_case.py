@@ -7,10 +7,10 @@ import pathlib
 import sys
 import time
 import unittest
-import urllib.request
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "scripts"))
+import operator_api  # noqa: E402
 from production_line import Line  # noqa: E402
 
 SITE = REPOSITORY / "examples" / "site"
@@ -44,8 +44,7 @@ class ScenarioCase(unittest.TestCase):
         return arm.wait_ready()
 
     def read_status(self, address):
-        with urllib.request.urlopen(f"http://{address}/status", timeout=STATUS_SECONDS) as response:
-            return json.load(response)
+        return operator_api.read_state(address, STATUS_SECONDS)
 
     def wait_for_status(self, address, is_reached, seconds=STATUS_SECONDS):
         deadline = time.monotonic() + seconds

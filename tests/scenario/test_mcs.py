@@ -6,9 +6,9 @@ import json
 import signal
 import subprocess
 import unittest
-import urllib.request
 
 from scenario_case import FINISH_SECONDS, PLANS, REPOSITORY, SITE, TIME_SCALE, Line, ScenarioCase, main
+import operator_api  # which scenario_case makes known
 from wire_rules import WireRules, read_trace
 
 SCENARIOS = REPOSITORY / "examples" / "scenarios"
@@ -192,12 +192,11 @@ class Scenarios(ScenarioCase):
         acsd = []
 
         def post(path):
-            with urllib.request.urlopen(f"http://{acsd[0].addresses['operator']}{path}", data=b"", timeout=20) as response:
-                self.assertEqual(response.status, 202)
+            self.assertEqual(operator_api.post(acsd[0].addresses["operator"], path)[0], 202)
 
         mcs = self.line.start("mcs-sim", "--listen", "127.0.0.1:0", "--scenario", SCENARIOS / "tsc-paused.json",
-                              on_output=self.answer({"pause the TSC": lambda: post("/tsc/pause"),
-                                                     "resume the TSC": lambda: post("/tsc/resume")}))
+                              on_output=self.answer({"pause the TSC": lambda: post("/v1/tsc/pause"),
+                                                     "resume the TSC": lambda: post("/v1/tsc/resume")}))
         arm_addresses = self.start_robots()
         acsd.append(self.line.start_acsd(mcs.wait_ready()["ws"], arm_addresses))
         acsd[0].wait_ready()

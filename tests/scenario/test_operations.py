@@ -17,6 +17,7 @@ import urllib.request
 from mcs_stub import McsStub
 from plan_samples import make_carrying_plan
 from scenario_case import SITE, TIME_SCALE, ScenarioCase, main
+import operator_api  # which scenario_case makes known
 
 DRAIN_SECONDS = 8
 LOG_SECONDS = 20
@@ -93,7 +94,7 @@ class Operations(ScenarioCase):
         os.mkfifo(gate)
         start = stub.count()
         stub.send_request("ExecutionPlan", make_carrying_plan("P1"))
-        self.wait_for_status(address, lambda status: "the store does not answer" in status["obstacles"])
+        self.wait_for_status(address, lambda status: "the store does not answer" in status["notReadyReasons"])
         with self.assertRaises(urllib.error.HTTPError) as refused:
             urllib.request.urlopen(f"http://{addresses['http']}/readyz", timeout=LOG_SECONDS)
         with refused.exception as answer:
@@ -107,18 +108,19 @@ class Operations(ScenarioCase):
         _, answer = stub.wait_for("ExecutionPlanAck", start=start)
         self.assertEqual(answer.body["result"], "Success")
         self.wait_for_log(acsd, "the disk has answered")
-        self.wait_for_status(address, lambda status: not status["obstacles"])
+        self.wait_for_status(address, lambda status: not status["notReadyReasons"])
 
-    def post_all(self, address, paths):
+    def post_all(self, address, path, bodies):
         """The statuses of the answers, and the values of Retry-After; one connection, without waiting between requests."""
-        requests = b"".join(f"POST {path} HTTP/1.1\r\nHost: {address}\r\n\r\n".encode() for path in paths)
+        requests = b"".join(f"POST {path} HTTP/1.1\r\nHost: {address}\r\nContent-Length: {len(body)}\r\n\r\n{body}".encode()
+                            for body in bodies)
         statuses, waits = [], set()
         host, port = address.rsplit(":", 1)
         with socket.create_connection((host, int(port)), LOG_SECONDS) as connection:
             writer = threading.Thread(target=connection.sendall, args=(requests,))
             writer.start()
             with connection.makefile("rb") as reader:
-                for _ in paths:
+                for _ in bodies:
                     statuses.append(int(reader.readline().split()[1]))
                     headers = dict(line.decode().strip().split(": ", 1) for line in iter(reader.readline, b"\r\n"))
                     reader.read(int(headers["Content-Length"]))
@@ -144,12 +146,12 @@ class Operations(ScenarioCase):
         stub.wait_for("RobotStatusUpdate", lambda message: message.payload["robotStatus"] == "Idle"
                       and message.payload["robotId"] == "LR01")
         os.mkfifo(gate)
-        self.post(address, "/tsc/pause")
+        self.post(address, "/v1/tsc/pause")
         commits = self.count_commits(addresses["http"])
         begin = time.monotonic()
         with concurrent.futures.ThreadPoolExecutor(SENDERS) as pool:
-            paths = [f"/robots/CR01/maintenance/{'on' if number % 2 == 0 else 'off'}" for number in range(COMMANDS // SENDERS)]
-            answers = list(pool.map(lambda _: self.post_all(address, paths), range(SENDERS)))
+            bodies = [json.dumps({"on": number % 2 == 0}) for number in range(COMMANDS // SENDERS)]
+            answers = list(pool.map(lambda _: self.post_all(address, "/v1/robots/CR01/maintenance", bodies), range(SENDERS)))
         end = time.monotonic()
         statuses = [status for answer, _ in answers for status in answer]
         self.assertEqual(len(statuses), COMMANDS)
@@ -177,7 +179,7 @@ class Operations(ScenarioCase):
         for number in range(WAITING_PLANS):
             stub.wait_for("ExecutionPlanAck", lambda ack, number=number: ack.payload["planId"] == f"P{number}"
                           and ack.body["result"] == "Success")
-        self.wait_for_status(address, lambda status: not status["obstacles"])
+        self.wait_for_status(address, lambda status: not status["notReadyReasons"])
         self.assertLess(self.count_commits(addresses["http"]) - commits, 100)
 
     def read_ready(self, address):
@@ -188,13 +190,8 @@ class Operations(ScenarioCase):
             with error:
                 return error.code, error.read().decode()
 
-    def post(self, address, path):
-        try:
-            with urllib.request.urlopen(urllib.request.Request(f"http://{address}{path}", method="POST")) as response:
-                return response.status, json.load(response)
-        except urllib.error.HTTPError as error:
-            with error:
-                return error.code, json.load(error)
+    def post(self, address, path, body=None):
+        return operator_api.post(address, path, body)
 
     def test_a_log_pipe_that_is_full_stops_no_plan_and_acsd_ends_at_sigterm(self):
         stub = self.start_stub()
@@ -246,7 +243,7 @@ class Operations(ScenarioCase):
         self.assertRegex(acsd.log.read_text(), rf"store: new, schema \d+ directory={directory}\n")
         stub.wait_for("RobotStatusUpdate")
         self.assertEqual(self.submit(stub, "P1")["result"], "Success")
-        self.wait_for_status(address, lambda status: status["plans"] and not status["obstacles"])
+        self.wait_for_status(address, lambda status: status["plans"] and not status["notReadyReasons"])
 
         # Away and back: this is noticed without any write.
         away = self.line.folder / "away.db"
@@ -258,18 +255,18 @@ class Operations(ScenarioCase):
         refusal = self.submit(stub, "P2")
         self.assertEqual(refusal["result"], "Fail")
         self.assertIn("removed or moved away", refusal["message"])
-        self.assertEqual(self.post(address, "/tsc/resume")[0], 503)
-        code, answer = self.post(address, "/robots/LR01/maintenance/on")
+        self.assertEqual(self.post(address, "/v1/tsc/resume")[0], 503)
+        code, answer = self.post(address, "/v1/robots/LR01/maintenance", {"on": True})
         self.assertEqual((code, "This is not stored" in answer["message"]), (202, True))
         away.rename(store)
-        self.wait_for_status(address, lambda status: not status["obstacles"] and not status["alarms"])
+        self.wait_for_status(address, lambda status: not status["notReadyReasons"] and not status["alarms"])
         self.wait_for_log(acsd, "the store works again")
         self.assertEqual(self.submit(stub, "P3")["result"], "Success")
-        self.assertEqual(self.post(address, "/tsc/pause")[0], 202)
+        self.assertEqual(self.post(address, "/v1/tsc/pause")[0], 202)
 
         # Removed for good: the next start has everything from before.
         store.unlink()
-        self.wait_for_status(address, lambda status: status["obstacles"])
+        self.wait_for_status(address, lambda status: any("store" in reason for reason in status["notReadyReasons"]))
         acsd.process.kill()
         acsd.stop()
         self.line.forget(acsd)
@@ -391,7 +388,7 @@ class Operations(ScenarioCase):
         stub.wait_for("PlanReport", lambda message: message.payload["status"] == "Completed")
         with urllib.request.urlopen(f"http://{http}/metrics", timeout=10) as response:
             metrics = response.read().decode()
-        with urllib.request.urlopen(f"http://{commands}/trace?limit=2", timeout=10) as response:
+        with urllib.request.urlopen(f"http://{commands}/v1/trace?limit=2", timeout=10) as response:
             newest = response.read().decode().splitlines()
         self.line.forget(acsd)
         self.assertEqual(acsd.stop(), 0)

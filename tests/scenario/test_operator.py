@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What an operator does over HTTP, and what /status answers, with real processes."""
+"""What an operator does over HTTP, and what the operator API answers, with real processes."""
 
 import http.client
 import json
@@ -13,7 +13,8 @@ import urllib.error
 import urllib.request
 
 from scenario_case import FINISH_SECONDS, PLANS, TIME_SCALE, ScenarioCase, main
-from production_line import find_free_port  # which scenario_case makes known
+import operator_api  # which scenario_case makes known
+from production_line import find_free_port
 
 
 class Operator(ScenarioCase):
@@ -31,18 +32,16 @@ class Operator(ScenarioCase):
         self.acsd = self.line.start_acsd(f"127.0.0.1:{self.mcs_port}", self.arm, *self.overrides)
         self.acsd.wait_ready()
 
-    def ask(self, path, method="GET"):
-        request = urllib.request.Request(f"http://{self.acsd.addresses['operator']}{path}", method=method)
-        try:
-            with urllib.request.urlopen(request, timeout=20) as response:
-                return response.status, json.loads(response.read())
-        except urllib.error.HTTPError as error:
-            return error.code, json.loads(error.read())
+    def command(self, path, body=None):
+        return operator_api.post(self.acsd.addresses["operator"], path, body)
+
+    def set_carriers(self, *carriers):
+        return self.command("/v1/robots/CR01/carriers", {"carrierIds": carriers})
 
     def wait_for(self, get, what):
         """The first answer of get that is not None."""
         never, end = threading.Event(), time.monotonic() + FINISH_SECONDS
-        while (found := get(self.ask("/status")[1])) is None:
+        while (found := get(self.read_status(self.acsd.addresses["operator"]))) is None:
             self.assertLess(time.monotonic(), end, what)
             never.wait(0.05)
         return found
@@ -68,11 +67,11 @@ class Operator(ScenarioCase):
         self.arm, self.overrides = {"stream": "127.0.0.1:1"}, ()
         self.start_acsd()
         self.assertEqual([self.read_code(name, path) for name in ("http", "operator") for path in (
-            "/livez", "/metrics", "/status")], [200, 200, 404, 404, 404, 200])
-        self.assertEqual([self.read_code("http", path, "POST") for path in ("/tsc/pause", "/livez")], [404, 405])
-        self.assertEqual(self.read_code("operator", "/tsc/pause", "POST"), 202)
+            "/livez", "/metrics", "/v1/status")], [200, 200, 404, 404, 404, 200])
+        self.assertEqual([self.read_code("http", path, "POST") for path in ("/v1/tsc/pause", "/livez")], [404, 405])
+        self.assertEqual(self.read_code("operator", "/v1/tsc/pause", "POST"), 202)
         for name in ("http", "operator"):  # a page that has its own name resolved to this address (DNS rebinding)
-            self.assertEqual([self.read_code(name, path, host="evil.example") for path in ("/livez", "/metrics", "/status")],
+            self.assertEqual([self.read_code(name, path, host="evil.example") for path in ("/livez", "/metrics", "/v1/status")],
                              [403, 403, 403])
 
     def test_no_other_origin_may_read_an_answer(self):
@@ -81,7 +80,7 @@ class Operator(ScenarioCase):
         self.mcs_port = find_free_port()
         self.arm, self.overrides = {"stream": "127.0.0.1:1"}, ()
         self.start_acsd()
-        for name, path in (("http", "/livez"), ("http", "/metrics"), ("operator", "/status"), ("operator", "/audit")):
+        for name, path in (("http", "/livez"), ("http", "/metrics"), ("operator", "/v1/status"), ("operator", "/v1/audit")):
             for method in ("GET", "OPTIONS"):  # OPTIONS asks for the permission
                 connection = http.client.HTTPConnection(self.acsd.addresses[name], timeout=20)
                 connection.request(method, path, headers={
@@ -111,17 +110,17 @@ class Operator(ScenarioCase):
         rows = ((None, 401, 401), ("guess", 401, 401), (tokens.read_text().split()[-1], 401, 401),
                 (viewer, 200, 403), (operator, 200, 202))
         for token, read, changed in rows:
-            self.assertEqual(self.read_code("operator", "/status", token=token), read)
-            self.assertEqual(self.read_code("operator", "/tsc/pause", "POST", token=token), changed)
+            self.assertEqual(self.read_code("operator", "/v1/status", token=token), read)
+            self.assertEqual(self.read_code("operator", "/v1/tsc/pause", "POST", token=token), changed)
         self.assertEqual(self.read_code("http", "/livez"), 200)
         self.assert_audited(operator, [("grafana", "viewer", 403), ("kim", "operator", 202)])
 
         tokens.write_text("".join(line for line in tokens.read_text().splitlines(True) if "kim" not in line))
         self.acsd.send_signal(signal.SIGHUP)
         deadline = time.monotonic() + FINISH_SECONDS
-        while self.read_code("operator", "/tsc/resume", "POST", token=operator) != 401:
+        while self.read_code("operator", "/v1/tsc/resume", "POST", token=operator) != 401:
             self.assertLess(time.monotonic(), deadline, "the token is still valid")
-        self.assertEqual(self.read_code("operator", "/status", token=viewer), 200)
+        self.assertEqual(self.read_code("operator", "/v1/status", token=viewer), 200)
 
         self.line.forget(self.acsd)
         self.assertEqual(self.acsd.stop(), 0)
@@ -129,12 +128,12 @@ class Operator(ScenarioCase):
         self.assert_audited(viewer, [("grafana", "viewer", 403), ("kim", "operator", 202)])
 
     def assert_audited(self, token, commands):
-        """These commands to pause the TSC are in /audit."""
-        request = urllib.request.Request(f"http://{self.acsd.addresses['operator']}/audit?limit=1000",
+        """These commands to pause the TSC are in /v1/audit."""
+        request = urllib.request.Request(f"http://{self.acsd.addresses['operator']}/v1/audit?limit=1000",
                                          headers={"Authorization": f"Bearer {token}"})
         with urllib.request.urlopen(request, timeout=20) as response:
             entries = [json.loads(line) for line in response.read().splitlines()]
-        entries = [entry for entry in entries if entry["request"] == "/tsc/pause"]
+        entries = [entry for entry in entries if entry["request"] == "/v1/tsc/pause"]
         self.assertEqual([(entry["name"], entry["role"], entry["status"]) for entry in entries], commands)
         for entry in entries:
             self.assertEqual((entry["method"], entry["proof"]), ("POST", "token"))
@@ -191,13 +190,13 @@ class Operator(ScenarioCase):
             if identity is not None:
                 context.load_cert_chain(*identity)
             headers = {} if token is None else {"Authorization": f"Bearer {token}"}
-            for method, path, expected in (("GET", "/status", read), ("POST", "/tsc/pause", changed)):
+            for method, path, expected in (("GET", "/v1/status", read), ("POST", "/v1/tsc/pause", changed)):
                 connection = http.client.HTTPSConnection("127.0.0.1", port, timeout=20, context=context)
                 connection.request(method, path, headers=headers)
                 self.assertEqual(connection.getresponse().status, expected, (identity, token, method))
                 connection.close()
         with self.assertRaises(OSError):
-            urllib.request.urlopen(f"http://127.0.0.1:{port}/status", timeout=20)
+            urllib.request.urlopen(f"http://127.0.0.1:{port}/v1/status", timeout=20)
 
     def test_a_certificate_is_renewed_without_a_restart(self):
         def read_certificate():
@@ -251,11 +250,11 @@ class Operator(ScenarioCase):
     def test_maintenance_and_ports_block_a_plan_over_a_restart_until_cleared(self):
         self.start_line()
         self.wait_for_robot("CR01", "Idle")
-        self.assertEqual(self.ask("/robots/CR01/maintenance/on", "POST"),
+        self.assertEqual(self.command("/v1/robots/CR01/maintenance", {"on": True}),
                          (202, {"message": "CR01 is taken out of service."}))
         self.assertTrue(self.wait_for_robot("CR01", "Stopped")["maintenance"])
-        self.assertEqual(self.ask("/robots/CR09/maintenance/on", "POST")[0], 404)
-        self.assertEqual(self.ask("/alarms/clear?robot=CR01&code=ACS-1004", "POST")[0], 404)
+        self.assertEqual(self.command("/v1/robots/CR09/maintenance", {"on": True})[0], 404)
+        self.assertEqual(self.command("/v1/alarms/clear", {"robotId": "CR01", "errorCode": "ACS-1004"})[0], 404)
         mcs = self.line.start_mcs(PLANS[1:], "--fresh-ids", port=self.mcs_port)
         mcs.wait_ready()
         self.assertEqual(self.wait_for_reason("in maintenance")["queuePosition"], 1)
@@ -265,11 +264,11 @@ class Operator(ScenarioCase):
         self.start_acsd()
         self.wait_for_reason("in maintenance")
 
-        self.assertEqual(self.ask("/robots/CR01/carriers?carrier=TRAY_99&carrier=&carrier=", "POST")[0], 202)
-        self.assertEqual(self.ask("/robots/CR01/carriers?carrier=A&carrier=B", "POST")[0], 400)
-        self.assertEqual(self.ask("/robots/CR01/maintenance/off", "POST")[0], 202)
+        self.assertEqual(self.set_carriers("TRAY_99", None, None)[0], 202)
+        self.assertEqual(self.set_carriers("A", "B")[0], 400)
+        self.assertEqual(self.command("/v1/robots/CR01/maintenance", {"on": False})[0], 202)
         self.wait_for_reason("CR01.TP01 is taken by TRAY_99")
-        self.assertEqual(self.ask("/robots/CR01/carriers?carrier=&carrier=&carrier=", "POST")[0], 202)
+        self.assertEqual(self.set_carriers(None, None, None)[0], 202)
         self.wait_for(lambda _: "it was (TRAY_99, empty, empty), it is (empty, empty, empty)" in self.acsd.log.read_text(errors="replace") or None,
                       "a line about the corrected port")
         self.assertEqual(mcs.wait(FINISH_SECONDS), 0)
@@ -283,7 +282,7 @@ class Operator(ScenarioCase):
         mcs.wait_ready()
         self.assertEqual(mcs.wait(FINISH_SECONDS), 0)
         self.assert_last_line(mcs, "1 plans completed, 0 failed")
-        robot = next(robot for robot in self.ask("/status")[1]["robots"] if robot["robotId"] == "LR01")
+        robot = next(robot for robot in self.read_status(self.acsd.addresses["operator"])["robots"] if robot["robotId"] == "LR01")
         self.assertGreater(robot["battery"], 30)
 
 

@@ -66,7 +66,7 @@ class Refusals(TracedLineCase):
         self.assertEqual(plan["status"], "Pending")
         (robot,) = plan["waits"]["robots"]
         self.assertIn("rejects its commands: the vehicle rejected the order", robot["reason"])
-        self.post("/alarms/clear?robot=LR01&code=ACS-1012")
+        self.post("/v1/alarms/clear", {"robotId": "LR01", "errorCode": "ACS-1012"})
         self.finish()
         self.assertEqual(len([nodes for nodes in self.read_drives() if nodes[0]["nodeId"] == "D-CHG01"]), 4)
 
@@ -112,7 +112,7 @@ class Refusals(TracedLineCase):
                          sorted(end for carrier in carriers for end in TRANSPORTS[carrier]))
         self.assertEqual(len(self.read_drives()), 3)
         self.command_vehicles("LR01 end refuse")
-        self.post("/alarms/clear?robot=LR01&code=ACS-1012")
+        self.post("/v1/alarms/clear", {"robotId": "LR01", "errorCode": "ACS-1012"})
         self.assertEqual(self.mcs.wait(FINISH_SECONDS), 0)
         self.assertEqual(self.mcs.tail(2), ["5 carriers delivered, 0 misplaced", "5 plans completed, 0 failed"])
         start, target = TRANSPORTS[PINNED]

@@ -16,6 +16,7 @@ import urllib.request
 from mcs_stub import McsStub
 from plan_samples import make_carrying_plan, make_tray_memory_plan
 from scenario_case import FINISH_SECONDS, ScenarioCase, main
+import operator_api  # which scenario_case makes known
 
 END_SECONDS = 20
 FOREIGN_USER = 65534
@@ -93,7 +94,7 @@ class OneProgram(Store):
         away = self.line.folder / "away"
         self.directory.rename(away)
         self.directory.mkdir(mode=0o700)
-        self.wait_for_status(address, lambda status: status["obstacles"])
+        self.wait_for_status(address, lambda status: any("store" in reason for reason in status["notReadyReasons"]))
         self.wait_for_lock()
         self.assert_refused(f"{self.directory}: expected a store that only this program uses")
         self.assert_refused(f"{away}: expected a store that only this program uses", overrides=(f"store.directory={away}",))
@@ -241,9 +242,7 @@ class Restored(Store):
             acsd, address = self.start_acsd(arguments=("--trace", trace))
             self.wait_for_status(address, lambda status: all(robot["node"] for robot in status["robots"]))
         self.assertEqual(self.read_commands(trace), [])
-        resume = urllib.request.Request(f"http://{address}/tsc/resume", method="POST")
-        with urllib.request.urlopen(resume, timeout=END_SECONDS) as response:
-            self.assertEqual(response.status, 202)
+        self.assertEqual(operator_api.post(address, "/v1/tsc/resume")[0], 202)
         self.wait_for_status(address, lambda status: status["tsc"] == "Auto" and status["tscReason"] is None)
 
     def test_a_copied_store_does_not_start(self):

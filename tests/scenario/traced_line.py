@@ -3,9 +3,9 @@
 import json
 import signal
 import time
-import urllib.request
 
 from scenario_case import FINISH_SECONDS, PLANS, STATUS_SECONDS, ScenarioCase
+import operator_api  # which scenario_case makes known
 
 # Slow enough for a fault between two nodes, which are 2 m apart.
 TIME_SCALE = 5
@@ -13,10 +13,8 @@ VEHICLES = ("LR01,type=LR", "CR01,type=CR,node=D-CHG02")
 
 
 class TracedLineCase(ScenarioCase):
-    def post(self, path):
-        request = urllib.request.Request(f"http://{self.operator}{path}", method="POST")
-        with urllib.request.urlopen(request, timeout=STATUS_SECONDS) as response:
-            self.assertEqual(response.status, 202)
+    def post(self, path, body=None):
+        self.assertEqual(operator_api.post(self.operator, path, body, STATUS_SECONDS)[0], 202)
 
     def start_line(self, *faults, vehicles=VEHICLES, overrides=(), tables="", plans=(PLANS[0],), world=None):
         """The faults are those of the first vehicle, which has a process of its own, as each vehicle has."""
@@ -50,7 +48,7 @@ class TracedLineCase(ScenarioCase):
         """With tsc.initial=paused: the first plan goes to the nearest vehicle, LR01, not to the first one that connects."""
         self.wait_for_status(self.operator, lambda status: all(
             robot["status"] not in ("Init", "Disconnected") for robot in status["robots"]))
-        self.post("/tsc/resume")
+        self.post("/v1/tsc/resume")
 
     def kill(self, program):
         self.line.forget(program)

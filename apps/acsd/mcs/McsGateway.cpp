@@ -201,6 +201,7 @@ void McsGateway::PublishStatus(const Planning::RobotStatus& status)
 
 void McsGateway::PublishWorking(bool bWorking)
 {
+    _bWorkingPublished = bWorking;
     _output.SendStatus(Protocol::AcsCommStateUpdate{bWorking});
 }
 
@@ -408,6 +409,11 @@ void McsGateway::HandleRefusal(const Protocol::Acked& acked, const SentReport& s
 const RefusedReports& McsGateway::GetRefusedReports() const noexcept
 {
     return _refusedReports;
+}
+
+std::optional<bool> McsGateway::GetPublishedWorkingOrNull() const noexcept
+{
+    return _bWorkingPublished;
 }
 
 void McsGateway::BeginReplay()

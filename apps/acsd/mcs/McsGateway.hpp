@@ -22,6 +22,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -75,6 +76,7 @@ private:
     MessageStyle _style;
     AckObserver _ackObserver;
     RefusedReports _refusedReports;
+    std::optional<bool> _bWorkingPublished;
 
 public:
     /// Clock, random source, engine and output must outlive the gateway.
@@ -111,6 +113,8 @@ public:
     void PublishTscState(Planning::ETscState state);
 
     [[nodiscard]] const RefusedReports& GetRefusedReports() const noexcept;
+    /// The last value of PublishWorking.
+    [[nodiscard]] std::optional<bool> GetPublishedWorkingOrNull() const noexcept;
 
 private:
     void HandleRequest(const Protocol::AcsRequest& request);

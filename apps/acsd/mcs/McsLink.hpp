@@ -5,8 +5,8 @@
 #include "mcs/IMcsOutput.hpp"
 #include "mcs/McsNoteLog.hpp"
 #include "mcs/RegistrationWatch.hpp"
-#include "operator/AcsdStatus.hpp"
 #include "trace/MessageTrace.hpp"
+#include "view/ProgramState.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>

@@ -15,18 +15,20 @@ constexpr std::string_view WAITS_FOR_ANSWER = "ACS-1008";
 /// Is in the engine's message if the step can be skipped, which it cannot after the end of its plan.
 constexpr std::string_view SKIP_OFFERED = "skip the step";
 
-/// A segment of a path.
-std::string EncodeSegment(std::string_view text)
+/// An argument of a command line in a shell.
+std::string QuoteArgument(std::string_view text)
 {
-    constexpr std::string_view PLAIN = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~";
-    std::string encoded;
+    constexpr std::string_view PLAIN = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._:/@";
+    if (!text.empty() && text.find_first_not_of(PLAIN) == std::string_view::npos)
+    {
+        return std::string(text);
+    }
+    std::string quoted = "'";
     for (const char character : text)
     {
-        const bool bPlain = PLAIN.find(character) != std::string_view::npos;
-        encoded += bPlain ? std::string(1, character)
-                          : fmt::format("%{:02X}", static_cast<unsigned>(static_cast<unsigned char>(character)));
+        quoted += character == '\'' ? std::string("'\\''") : std::string(1, character);
     }
-    return encoded;
+    return quoted + "'";
 }
 
 } // namespace
@@ -37,15 +39,15 @@ std::string MakeAlarmText(const Planning::Alarm& alarm)
     {
         return alarm.message;
     }
-    const std::string planID = EncodeSegment(*alarm.planID);
+    const std::string planID = QuoteArgument(*alarm.planID);
     std::string text = fmt::format(
-        "{} To resolve the job, send POST /plans/{}/jobs/{}/done to acsd's HTTP address, with the answer in the place of done.",
+        "{} To resolve the job: acsctl resolve {} {} done (or failed, or again).",
         alarm.message,
         planID,
-        EncodeSegment(*alarm.jobID));
+        QuoteArgument(*alarm.jobID));
     if (alarm.stepNo.has_value() && alarm.message.find(SKIP_OFFERED) != std::string::npos)
     {
-        text += fmt::format(" To skip the step, send POST /plans/{}/steps/{}/skip.", planID, *alarm.stepNo);
+        text += fmt::format(" To skip the step: acsctl skip {} {}.", planID, *alarm.stepNo);
     }
     return text;
 }

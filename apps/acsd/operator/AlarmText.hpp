@@ -7,8 +7,8 @@
 namespace ACS::Acsd
 {
 
-/// The alarm's message for the log, for /status and for the MCS. For an unresolved job (ACS-1008) it names the requests that
-/// resolve the job or skip its step (OperatorRoutes), which the engine does not know.
+/// The alarm's message for the log and for the MCS. For an unresolved job (ACS-1008) it names the commands of acsctl that resolve the
+/// job or skip its step, which the engine does not know.
 [[nodiscard]] std::string MakeAlarmText(const Planning::Alarm& alarm);
 
 } // namespace ACS::Acsd

@@ -1,6 +1,6 @@
 #include "operator/HttpInterfaces.hpp"
 
-#include "operator/AcsdStatus.hpp"
+#include "operator/HealthRoutes.hpp"
 
 #include <utility>
 

@@ -1,6 +1,6 @@
 #include "operator/LinesRoute.hpp"
 
-#include <acs/core/JsonText.hpp>
+#include "operator/OperatorAnswer.hpp"
 #include <acs/core/Result.hpp>
 
 #include <fmt/format.h>
@@ -15,19 +15,9 @@ namespace ACS::Acsd
 namespace
 {
 
-constexpr unsigned STATUS_LINES = 200;
-constexpr unsigned STATUS_WRONG_LIMIT = 400;
 constexpr std::size_t DEFAULT_LINES = 100;
 
 } // namespace
-
-Apps::HttpResponse MakeOperatorError(unsigned status, std::string_view sentence)
-{
-    Apps::HttpResponse response{status, "application/json", R"({"error":)"};
-    Core::JsonText::AppendString(sentence, response.body);
-    response.body += "}\n";
-    return response;
-}
 
 Apps::HttpResponse RespondWithLines(const Apps::HttpRequest& request, const Apps::NewestLines& lines)
 {
@@ -37,10 +27,10 @@ Apps::HttpResponse RespondWithLines(const Apps::HttpRequest& request, const Apps
     if (error != std::errc() || end != text.data() + text.size() || limit == 0 || limit > MOST_SHOWN_LINES)
     {
         return MakeOperatorError(
-            STATUS_WRONG_LIMIT,
+            OperatorCode::BAD_REQUEST,
             fmt::format("Expected limit from 1 to {}, found {}.", MOST_SHOWN_LINES, Core::QuoteForError(text)));
     }
-    return {STATUS_LINES, "application/x-ndjson", lines.GetText(limit)};
+    return {OperatorCode::OK, "application/x-ndjson", lines.GetText(limit)};
 }
 
 } // namespace ACS::Acsd

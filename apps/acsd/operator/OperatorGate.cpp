@@ -2,6 +2,7 @@
 
 #include "common/config/Endpoint.hpp"
 #include "operator/LinesRoute.hpp"
+#include "operator/OperatorAnswer.hpp"
 
 #include <utility>
 
@@ -22,7 +23,7 @@ OperatorGate::OperatorGate(const Core::IClock& clock, Core::Logger logger, Acces
       _policy(std::move(policy)),
       _audit(audit)
 {
-    _routes.Add("GET", "/audit", [this](const Apps::HttpRequest& request, const auto&) {
+    _routes.Add("GET", "/v1/audit", [this](const Apps::HttpRequest& request, const auto&) {
         return RespondWithLines(request, _audit.GetNewest());
     });
 }

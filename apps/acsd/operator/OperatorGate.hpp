@@ -22,7 +22,7 @@ class OperatorGate final
     Apps::HttpRoutes _routes;
 
 public:
-    /// The clock, the sink of the logger and the audit log outlive the gate. Adds the route GET /audit.
+    /// The clock, the sink of the logger and the audit log outlive the gate. Adds the route GET /v1/audit.
     OperatorGate(const Core::IClock& clock, Core::Logger logger, AccessPolicy policy, AuditLog& audit);
 
     /// To be filled before the first request.

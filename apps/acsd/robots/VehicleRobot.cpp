@@ -1,5 +1,6 @@
 #include "robots/VehicleRobot.hpp"
 
+#include "robots/VehicleDetails.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/vda5050/MasterSession.hpp>
 
@@ -114,7 +115,13 @@ void VehicleRobot::UpdateMetrics()
 
 DriverDetails VehicleRobot::GetDetails() const
 {
-    DriverDetails details{_watch.ListWarnings(), std::nullopt};
+    DriverDetails details;
+    details.warnings = _watch.ListWarnings();
+    if (const VDA5050::StateMessage* const stateOrNull = _made.adapter->GetSession().GetStateOrNull())
+    {
+        AddStateDetails(*stateOrNull, details);
+    }
+    details.lastMessageAt = _seenWallAt;
     if (_arm != nullptr)
     {
         details.bArmUp = _arm->GetState() == OpenStream::EClientState::Ready;
@@ -197,7 +204,9 @@ void VehicleRobot::OnMqttMessage(const VDA5050::MqttMessage& message)
     }
     if (!message.bRetained)
     {
-        _seenAt = _services.clock.GetNow().steady;
+        const Core::Now now = _services.clock.GetNow();
+        _seenAt = now.steady;
+        _seenWallAt = now.wall;
     }
     const VDA5050::MasterSession& session = _made.adapter->GetSession();
     const std::uint64_t statesBefore = session.GetStatistics().statesReceived;

@@ -39,6 +39,7 @@ class VehicleRobot final : public IRobot, private VDA5050::IMqttLinkListener
     Apps::LogRateLimiter _unsent; ///< A vehicle that reconnects has messages each time.
     Apps::TimerSet<ETimer> _timers;
     std::optional<Core::SteadyTime> _seenAt;                ///< Time of the vehicle's last message.
+    std::optional<Core::WallTime> _seenWallAt;              ///< The same time.
     std::unique_ptr<OpenStreamAsio::OpenStreamClient> _arm; ///< Null without an arm.
 
 public:

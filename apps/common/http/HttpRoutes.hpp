@@ -31,7 +31,7 @@ private:
     std::vector<Route> _routes;
 
 public:
-    /// A pattern is a path, with {NAME} for any segment that is not empty: "/robots/{ID}/maintenance/on".
+    /// A pattern is a path, with {NAME} for any segment that is not empty: "/v1/robots/{ID}/maintenance".
     void Add(std::string_view method, std::string_view pattern, Handler handler);
 
     [[nodiscard]] HttpResponse Respond(const HttpRequest& request) const;

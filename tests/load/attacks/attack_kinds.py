@@ -197,7 +197,7 @@ class UnreadLog(Attack):
                 written += os.write(filler, b"x" * PIPE_CHUNK)
         os.close(filler)
         self._read = -written
-        self.repeat(lambda number: line.post(f"/robots/{HOSTILE}/maintenance/{'on' if number % 2 else 'off'}"),
+        self.repeat(lambda number: line.post(f"/v1/robots/{HOSTILE}/maintenance", {"on": number % 2 == 1}),
                     COMMANDS_PER_SECOND)
 
     def find_effect(self, line):
@@ -320,7 +320,7 @@ class HangingDisk(HeldCall):
                     PLANS_PER_SECOND)
 
     def find_effect(self, line):
-        return "the store does not answer" if "the store does not answer" in line.read_status()["obstacles"] else ""
+        return "the store does not answer" if "the store does not answer" in line.read_status()["notReadyReasons"] else ""
 
     def end(self, line):
         super().end(line)

@@ -13,6 +13,7 @@ import urllib.request
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[3]
 sys.path += [str(REPOSITORY / "scripts"), str(REPOSITORY / "tests" / "scenario")]
+import operator_api  # noqa: E402
 from mcs_stub import McsStub  # noqa: E402
 from plan_samples import make_carrying_plan  # noqa: E402
 from production_line import Line  # noqa: E402
@@ -139,8 +140,9 @@ class AttackedLine:
             return 0, ""
 
     def read_status(self):
-        status, body = self.read(self.operator, "/status")
-        return json.loads(body) if status == 200 else {"links": {"mqtt": None, "mcs": None}, "obstacles": [], "alarms": []}
+        status, body = self.read(self.operator, "/v1/snapshot")
+        unknown = {"links": {"mqtt": None, "mcs": None}, "notReadyReasons": [], "alarms": []}
+        return operator_api.make_state(json.loads(body)) if status == 200 else unknown
 
     def read_metric(self, name):
         """The sum over all labels; None if acsd has no such metric or does not answer. `name` may end with some labels."""
@@ -148,11 +150,9 @@ class AttackedLine:
         values = [float(line.rsplit(" ", 1)[1]) for line in body.splitlines() if line.startswith(name)]
         return int(sum(values)) if values else None
 
-    def post(self, path):
+    def post(self, path, body=None):
         try:
-            request = urllib.request.Request(f"http://{self.operator}{path}", method="POST")
-            with urllib.request.urlopen(request, timeout=ANSWER_SECONDS):
-                return True
+            return operator_api.post(self.operator, path, body, ANSWER_SECONDS)[0] == 202
         except OSError:
             return False
 

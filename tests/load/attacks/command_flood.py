@@ -16,8 +16,9 @@ NICENESS = 10  # the sender is another machine in a plant
 
 
 def make_requests(address, robot):
-    return b"".join(f"POST /robots/{robot}/maintenance/{state} HTTP/1.1\r\nHost: {address}\r\n\r\n".encode()
-                    for _ in range(COMMANDS // 2) for state in ("on", "off"))
+    bodies = ('{"on":true}', '{"on":false}')
+    return b"".join(f"POST /v1/robots/{robot}/maintenance HTTP/1.1\r\nHost: {address}\r\nContent-Length: {len(body)}\r\n\r\n"
+                    f"{body}".encode() for _ in range(COMMANDS // 2) for body in bodies)
 
 
 def send_round(address, requests, counts):

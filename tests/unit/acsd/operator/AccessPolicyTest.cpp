@@ -23,7 +23,7 @@ const std::vector<Acsd::OperatorToken> TOKENS{
 
 AccessPolicy::Decision Decide(const AccessPolicy::Options& options, const std::string& method, Apps::HttpSender sender)
 {
-    Apps::HttpRequest request = *Apps::ParseHttpTarget("/tsc/pause");
+    Apps::HttpRequest request = *Apps::ParseHttpTarget("/v1/tsc/pause");
     request.method = method;
     request.sender = std::move(sender);
     return AccessPolicy(options).Decide(request);

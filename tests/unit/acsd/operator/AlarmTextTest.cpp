@@ -1,36 +1,27 @@
 #include "operator/AlarmText.hpp"
 
 #include "Catch.hpp"
-#include "common/http/HttpMessage.hpp"
 #include "mcs/ReportMapper.hpp"
 
 namespace ACS::Acsd::Test
 {
 
-TEST_CASE("The text of ACS-1008 has the request that resolves the job; a message of the site is sent unchanged")
+TEST_CASE("The text of ACS-1008 has the command that resolves the job; a message of the site is sent unchanged")
 {
     Planning::Alarm alarm;
     alarm.robotID = "LR01";
     alarm.errorCode = "ACS-1008";
     alarm.message = "Look.";
-    alarm.planID = "P/1 ü";
+    alarm.planID = "P'1 ü";
     alarm.jobID = "J-1";
     const std::string text = MakeAlarmText(alarm);
-    CHECK(
-        text
-        == "Look. To resolve the job, send POST /plans/P%2F1%20%C3%BC/jobs/J-1/done to acsd's HTTP address, with the answer in "
-           "the place of done.");
-    const std::size_t begin = text.find("/plans/");
-    const Core::Result<Apps::HttpRequest> target =
-        Apps::ParseHttpTarget(std::string_view(text).substr(begin, text.find(' ', begin) - begin));
-    REQUIRE(target.has_value());
-    CHECK(target->segments == std::vector<std::string>{"plans", "P/1 ü", "jobs", "J-1", "done"});
+    CHECK(text == R"(Look. To resolve the job: acsctl resolve 'P'\''1 ü' J-1 done (or failed, or again).)");
     CHECK(MakeErrorReport(alarm, true).message == text);
 
     alarm.stepNo = 3;
     CHECK(MakeAlarmText(alarm) == text); // its plan has ended
     alarm.message = "Look. Or skip the step.";
-    CHECK(MakeAlarmText(alarm).ends_with(" To skip the step, send POST /plans/P%2F1%20%C3%BC/steps/3/skip."));
+    CHECK(MakeAlarmText(alarm).ends_with(R"( To skip the step: acsctl skip 'P'\''1 ü' 3.)"));
     alarm.message = "Look.";
 
     MessageStyle style;

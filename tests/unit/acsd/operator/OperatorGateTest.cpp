@@ -35,13 +35,13 @@ struct GateFixture
 
     GateFixture()
     {
-        gate.GetRoutes().Add("POST", "/tsc/pause", [this](const auto&, const auto&) {
+        gate.GetRoutes().Add("POST", "/v1/tsc/pause", [this](const auto&, const auto&) {
             ++commands;
             return Apps::HttpResponse{202, "application/json", "{\"message\":\"paused\"}\n"};
         });
     }
 
-    Apps::HttpResponse Post(const std::string& token, const std::string& target = "/tsc/pause")
+    Apps::HttpResponse Post(const std::string& token, const std::string& target = "/v1/tsc/pause")
     {
         return Ask("POST", token, target);
     }
@@ -92,13 +92,13 @@ TEST_CASE("Each command of an identified client is in the audit log with its out
     CHECK(fixture.Post("read").status == 403);
     CHECK(fixture.Post("write", "/unknown").status == 404);
     CHECK(fixture.Post("guess").status == 401);
-    CHECK(fixture.Ask("GET", "write", "/tsc/pause").status == 405);
-    const Apps::HttpResponse audit = fixture.Ask("GET", "read", "/audit");
+    CHECK(fixture.Ask("GET", "write", "/v1/tsc/pause").status == 405);
+    const Apps::HttpResponse audit = fixture.Ask("GET", "read", "/v1/audit");
     CHECK(audit.status == 200);
     CHECK(audit.contentType == "application/x-ndjson");
     CHECK(std::ranges::count(audit.body, '\n') == 3);
     const std::size_t first = audit.body.find(
-        R"("name":"kim","role":"operator","method":"POST","request":"/tsc/pause","status":202,"answer":{"message":"paused"}})");
+        R"("name":"kim","role":"operator","method":"POST","request":"/v1/tsc/pause","status":202,"answer":{"message":"paused"}})");
     const std::size_t second = audit.body.find(R"("name":"grafana","role":"viewer","method":"POST",)");
     const std::size_t third = audit.body.find(R"("request":"/unknown","status":404,)");
     CHECK(first < second);
@@ -106,7 +106,7 @@ TEST_CASE("Each command of an identified client is in the audit log with its out
     CHECK(third != std::string::npos);
 }
 
-TEST_CASE("GET /audit has the number of lines that is asked for, from 1 to 1000")
+TEST_CASE("GET /v1/audit has the number of lines that is asked for, from 1 to 1000")
 {
     GateFixture fixture;
     for (int i = 0; i < 150; ++i)
@@ -116,12 +116,12 @@ TEST_CASE("GET /audit has the number of lines that is asked for, from 1 to 1000"
     const auto count = [&fixture](const std::string& target) {
         return std::ranges::count(fixture.Ask("GET", "read", target).body, '\n');
     };
-    CHECK(count("/audit") == 100);
-    CHECK(count("/audit?limit=1") == 1);
-    CHECK(count("/audit?limit=1000") == 150);
+    CHECK(count("/v1/audit") == 100);
+    CHECK(count("/v1/audit?limit=1") == 1);
+    CHECK(count("/v1/audit?limit=1000") == 150);
     for (const char* limit : {"0", "1001", "-1", "1x", "", "99999999999999999999"})
     {
         CAPTURE(limit);
-        CHECK(fixture.Ask("GET", "read", std::string("/audit?limit=") + limit).status == 400);
+        CHECK(fixture.Ask("GET", "read", std::string("/v1/audit?limit=") + limit).status == 400);
     }
 }

@@ -35,8 +35,8 @@ TEST_CASE("Requests of programs are allowed: by address, localhost, configured n
           ""})
     {
         INFO(host);
-        CHECK(AskOrNull("POST", "/tsc/pause", {host, {}, {}}) == std::nullopt);
-        CHECK(AskOrNull("GET", "/status", {host, {}, {}}) == std::nullopt);
+        CHECK(AskOrNull("POST", "/v1/tsc/pause", {host, {}, {}}) == std::nullopt);
+        CHECK(AskOrNull("GET", "/v1/status", {host, {}, {}}) == std::nullopt);
     }
 }
 
@@ -46,13 +46,13 @@ TEST_CASE("A foreign host name is refused on every path (DNS rebinding)")
          {"evil.example:8080", "127.0.0.1.evil.example", "localhost.evil", "acs.example.evil", "[evil", ":"})
     {
         INFO(host);
-        CHECK(AskOrNull("POST", "/tsc/pause", {host, {}, {}}).has_value());
+        CHECK(AskOrNull("POST", "/v1/tsc/pause", {host, {}, {}}).has_value());
         CHECK(AskOrNull("POST", "/metrics", {host, {}, {}}).has_value());
-        CHECK(AskOrNull("GET", "/status", {host, {}, {}}).has_value());
+        CHECK(AskOrNull("GET", "/v1/status", {host, {}, {}}).has_value());
         CHECK(AskOrNull("HEAD", "/metrics", {host, {}, {}}).has_value());
     }
     CHECK(
-        AskOrNull("GET", "/status", {"evil.example:8080", {}, {}})
+        AskOrNull("GET", "/v1/status", {"evil.example:8080", {}, {}})
         == "host name \"evil.example:8080\" is not allowed: use the IP address, or add the name to the configuration");
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/core/Api.hpp>
+#include <acs/core/Now.hpp>
 #include <acs/plan/IRobotAdapter.hpp>
 
 #include <optional>
@@ -10,12 +11,28 @@
 namespace ACS::Acsd
 {
 
-/// What a driver shows of its robot at /status.
+/// An error that a robot reports, in its own words.
+struct DriverError
+{
+    std::string type;
+    std::string level;       ///< Of the robot's protocol: "WARNING", "FATAL".
+    std::string description; ///< May be empty.
+
+    bool operator==(const DriverError&) const = default;
+};
+
+/// What a driver shows of its robot to operators: `/v1/robots`, `acsctl robot`, the live page.
 struct DriverDetails
 {
     std::vector<std::string> warnings; ///< What its messages contradict, without an alarm; a sentence each.
     /// Whether its arm can be commanded; nullopt for a robot without an arm that has a connection of its own.
     std::optional<bool> bArmUp;
+    std::optional<std::string> protocolVersion{};  ///< As the robot reports it: "2.1.0"; nullopt: unknown.
+    std::optional<std::string> mode{};             ///< As the robot reports it: "AUTOMATIC"; nullopt: unknown.
+    std::vector<DriverError> errors{};             ///< That the robot reports now.
+    std::optional<Core::WallTime> lastMessageAt{}; ///< nullopt: it has sent none since the start of acsd.
+
+    bool operator==(const DriverDetails&) const = default;
 };
 
 /// One robot: its connection, and the pure adapter that decides. acsd calls both on the executor's thread only. It calls the
@@ -44,7 +61,7 @@ public:
     /// Sets the robot's metrics to their current values. Called before metrics are served, not after Stop.
     virtual void UpdateMetrics() = 0;
 
-    /// Called for each request of /status and /readyz, not after Stop; the default shows nothing.
+    /// Called several times a second, not after Stop; the default shows nothing.
     [[nodiscard]] virtual DriverDetails GetDetails() const
     {
         return {};

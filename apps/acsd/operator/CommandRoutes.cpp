@@ -1,0 +1,325 @@
+#include "operator/CommandRoutes.hpp"
+
+#include "operator/CommandBodies.hpp"
+#include "operator/OperatorAnswer.hpp"
+#include <acs/core/Result.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+using Apps::HttpRequest;
+using Apps::HttpResponse;
+using Captures = Apps::HttpRoutes::Captures;
+
+HttpResponse Refuse(unsigned status, std::string_view sentence)
+{
+    return MakeOperatorError(status, sentence);
+}
+
+HttpResponse RefuseFull()
+{
+    constexpr std::chrono::seconds WAIT{1};
+    HttpResponse response =
+        Refuse(OperatorCode::UNAVAILABLE, "Refused, because acsd has not stored earlier commands yet. Retry in 1 s.");
+    response.retryAfter = WAIT;
+    return response;
+}
+
+/// How a command is handled while the store fails.
+enum class EUnstored
+{
+    Refused, ///< It would be lost in a crash. Controls of the MCS are refused likewise.
+    Accepted ///< It only stops work, which cannot wait for a disk. The answer states that it would be lost in a crash.
+};
+
+HttpResponse Submit(
+    const CommandAccess& access,
+    Planning::PlanCommand command,
+    std::string message,
+    EUnstored unstored = EUnstored::Refused)
+{
+    const std::optional<std::string> fault = access.getStoreFaultOrNull();
+    if (fault.has_value() && unstored == EUnstored::Refused)
+    {
+        return Refuse(
+            OperatorCode::UNAVAILABLE,
+            fmt::format("Refused, because it would be lost in a crash: {}. Retry when /readyz answers ready.", *fault));
+    }
+    if (fault.has_value())
+    {
+        message += fmt::format(
+            " This is not stored and would be lost in a crash: {}. After a restart, check /v1/status and repeat the request if "
+            "necessary.",
+            *fault);
+    }
+    switch (access.submit(std::move(command)))
+    {
+        case Planning::EInputAdmission::Accepted:
+            return MakeAccepted(message);
+        case Planning::EInputAdmission::Full:
+            return RefuseFull();
+        case Planning::EInputAdmission::Closed:
+        default:
+            return Refuse(OperatorCode::UNAVAILABLE, "acsd is stopping and accepts no requests.");
+    }
+}
+
+std::optional<Planning::RobotStatus> FindRobotOrNull(const Planning::PlanEngine& engine, const std::string& robotID)
+{
+    for (Planning::RobotStatus& robot : engine.GetRobotStatuses())
+    {
+        if (robot.robotID == robotID)
+        {
+            return std::move(robot);
+        }
+    }
+    return std::nullopt;
+}
+
+HttpResponse RefuseRobot(const std::string& robotID)
+{
+    return Refuse(OperatorCode::NOT_FOUND, fmt::format("There is no robot {}; /v1/robots lists them.", robotID));
+}
+
+/// What the robot completes before it is out of service.
+std::string DescribeMaintenance(const Planning::PlanEngine& engine, const Planning::RobotStatus& robot)
+{
+    if (robot.planID.has_value())
+    {
+        return fmt::format("{} is taken out of service when plan {} has ended.", robot.robotID, *robot.planID);
+    }
+    const std::vector<Planning::RobotDetail> details = engine.GetRobotDetails();
+    const auto found = std::ranges::find(details, robot.robotID, &Planning::RobotDetail::robotID);
+    if (found != details.end() && found->bHasJob)
+    {
+        return fmt::format("{} is taken out of service. It completes the job of its ended plan.", robot.robotID);
+    }
+    if (found != details.end() && found->bHasDrive)
+    {
+        return fmt::format("{} is taken out of service when it has completed its drive.", robot.robotID);
+    }
+    return robot.robotID + " is taken out of service.";
+}
+
+HttpResponse Maintain(
+    const Planning::PlanEngine& engine,
+    const CommandAccess& access,
+    const std::string& robotID,
+    bool bOn)
+{
+    const std::optional<Planning::RobotStatus> robot = FindRobotOrNull(engine, robotID);
+    if (!robot.has_value())
+    {
+        return RefuseRobot(robotID);
+    }
+    return Submit(
+        access,
+        Planning::SetMaintenance{robotID, bOn, 0},
+        bOn ? DescribeMaintenance(engine, *robot) : robotID + " is put back into service.",
+        bOn ? EUnstored::Accepted : EUnstored::Refused);
+}
+
+HttpResponse SetCarriers(
+    const Planning::PlanEngine& engine,
+    const CommandAccess& access,
+    const std::string& robotID,
+    CarriersBody body)
+{
+    if (!FindRobotOrNull(engine, robotID).has_value())
+    {
+        return RefuseRobot(robotID);
+    }
+    Planning::SetCarriers command{robotID, std::move(body.carrierIDs), 0};
+    if (std::optional<std::string> reason = engine.GetRejectionReasonOrNull(command))
+    {
+        return Refuse(OperatorCode::BAD_REQUEST, *reason);
+    }
+    return Submit(access, std::move(command), fmt::format("The ports of {} are corrected.", robotID));
+}
+
+HttpResponse ClearAlarms(const Planning::PlanEngine& engine, const CommandAccess& access, ClearBody body)
+{
+    const auto isMeant = [&body](const Planning::Alarm& alarm) {
+        return alarm.robotID == body.robotID && alarm.errorCode == body.errorCode;
+    };
+    if (std::ranges::none_of(engine.GetActiveAlarms(), isMeant))
+    {
+        return Refuse(
+            OperatorCode::NOT_FOUND,
+            fmt::format("{} has no alarm {}; /v1/alarms lists the alarms.", body.robotID, body.errorCode));
+    }
+    return Submit(
+        access,
+        Planning::ClearAlarms{
+            std::move(body.robotID),
+            std::move(body.errorCode),
+            std::move(body.planID),
+            std::move(body.jobID),
+            0},
+        "The alarm is cleared. It is set again if its cause persists.");
+}
+
+std::optional<Planning::EJobResolution> ReadOutcomeOrNull(std::string_view word)
+{
+    for (const auto& [text, resolution] :
+         {std::pair("done", Planning::EJobResolution::Done),
+          std::pair("failed", Planning::EJobResolution::Failed),
+          std::pair("again", Planning::EJobResolution::Again)})
+    {
+        if (word == text)
+        {
+            return resolution;
+        }
+    }
+    return std::nullopt;
+}
+
+HttpResponse ResolveJob(
+    const Planning::PlanEngine& engine,
+    const CommandAccess& access,
+    const Captures& captures,
+    const ResolveBody& body)
+{
+    const std::optional<Planning::EJobResolution> resolution = ReadOutcomeOrNull(body.outcome);
+    if (!resolution.has_value())
+    {
+        return Refuse(
+            OperatorCode::BAD_REQUEST,
+            fmt::format("Expected outcome: done, failed or again; found {}.", Core::QuoteForError(body.outcome)));
+    }
+    Planning::ResolveJob command{captures[0], captures[1], *resolution, 0};
+    const std::optional<std::string> reason = engine.GetRejectionReasonOrNull(command);
+    if (!reason.has_value())
+    {
+        return Submit(access, std::move(command), "The job is resolved; its alarm ACS-1008 is cleared.");
+    }
+    command.resolution = Planning::EJobResolution::Done;
+    const bool bUnresolved = !engine.GetRejectionReasonOrNull(command).has_value();
+    return bUnresolved
+        ? Refuse(OperatorCode::CONFLICT, *reason)
+        : Refuse(OperatorCode::NOT_FOUND, *reason + " /v1/alarms lists each unresolved job as an alarm ACS-1008.");
+}
+
+HttpResponse SkipStep(
+    const Planning::PlanEngine& engine,
+    const CommandAccess& access,
+    const std::string& planID,
+    const std::string& stepText)
+{
+    Planning::SkipStep command{planID, 0, 0};
+    const char* end = stepText.data() + stepText.size();
+    const auto [parsed, error] = std::from_chars(stepText.data(), end, command.stepNo);
+    if (error != std::errc() || parsed != end)
+    {
+        return Refuse(
+            OperatorCode::BAD_REQUEST,
+            fmt::format("Expected a stepNo (a number from 1), found {}.", Core::QuoteForError(stepText)));
+    }
+    if (const std::optional<std::string> reason = engine.GetRejectionReasonOrNull(command))
+    {
+        return Refuse(
+            engine.GetPlanOrNull(planID).has_value() ? OperatorCode::CONFLICT : OperatorCode::NOT_FOUND,
+            *reason);
+    }
+    return Submit(access, std::move(command), fmt::format("Step {} of plan {} is skipped.", stepText, planID));
+}
+
+/// Adds a POST whose body is TBody.
+template <typename TBody, typename THandle>
+void AddCommand(Apps::HttpRoutes& routes, std::string_view pattern, THandle handle)
+{
+    routes.Add(
+        "POST",
+        pattern,
+        [handle = std::move(handle)](const HttpRequest& request, const Captures& captures) -> HttpResponse {
+            if (const std::optional<std::string> reason = FindUnexpectedParameterOrNull(request, {}))
+            {
+                return Refuse(OperatorCode::BAD_REQUEST, *reason);
+            }
+            Core::Result<TBody> body = ReadBody<TBody>(request.body);
+            if (!body.has_value())
+            {
+                return Refuse(OperatorCode::BAD_REQUEST, "Invalid body: " + Core::Describe(body.error()));
+            }
+            return handle(captures, std::move(*body));
+        });
+}
+
+void AddPlanCommands(Apps::HttpRoutes& routes, const Planning::PlanEngine& engine, const CommandAccess& access)
+{
+    AddCommand<EmptyBody>(
+        routes,
+        "/v1/plans/{planId}/steps/{stepNo}/skip",
+        [&engine, access](const Captures& captures, const EmptyBody&) {
+            return SkipStep(engine, access, captures[0], captures[1]);
+        });
+    AddCommand<ResolveBody>(
+        routes,
+        "/v1/plans/{planId}/jobs/{jobId}/resolve",
+        [&engine, access](const Captures& captures, const ResolveBody& body) {
+            return ResolveJob(engine, access, captures, body);
+        });
+}
+
+void AddRobotCommands(Apps::HttpRoutes& routes, const Planning::PlanEngine& engine, const CommandAccess& access)
+{
+    AddCommand<MaintenanceBody>(
+        routes,
+        "/v1/robots/{robotId}/maintenance",
+        [&engine, access](const Captures& captures, const MaintenanceBody& body) {
+            return Maintain(engine, access, captures[0], body.bOn);
+        });
+    AddCommand<CarriersBody>(
+        routes,
+        "/v1/robots/{robotId}/carriers",
+        [&engine, access](const Captures& captures, CarriersBody body) {
+            return SetCarriers(engine, access, captures[0], std::move(body));
+        });
+    AddCommand<ClearBody>(routes, "/v1/alarms/clear", [&engine, access](const Captures&, ClearBody body) {
+        return ClearAlarms(engine, access, std::move(body));
+    });
+}
+
+void AddSiteCommands(Apps::HttpRoutes& routes, const CommandAccess& access)
+{
+    for (const bool bPause : {true, false})
+    {
+        const std::string_view word = bPause ? "pause" : "resume";
+        AddCommand<EmptyBody>(
+            routes,
+            fmt::format("/v1/tsc/{}", word),
+            [access, bPause, word](const Captures&, const EmptyBody&) {
+                return Submit(
+                    access,
+                    Planning::ControlTSC{bPause, 0},
+                    fmt::format("The TSC was commanded to {}; /v1/status shows its state.", word),
+                    bPause ? EUnstored::Accepted : EUnstored::Refused);
+            });
+    }
+}
+
+} // namespace
+
+void AddCommandRoutes(Apps::HttpRoutes& routes, const Planning::PlanEngine& engine, const CommandAccess& access)
+{
+    AddPlanCommands(routes, engine, access);
+    AddRobotCommands(routes, engine, access);
+    AddSiteCommands(routes, access);
+}
+
+} // namespace ACS::Acsd

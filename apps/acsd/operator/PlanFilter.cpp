@@ -1,0 +1,83 @@
+#include "operator/PlanFilter.hpp"
+
+#include "view/PlanViewMaker.hpp"
+#include <acs/core/ECoreError.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <iterator>
+#include <limits>
+#include <string_view>
+#include <system_error>
+
+namespace ACS::Acsd
+{
+
+Core::Result<PlanFilter> PlanFilter::Read(const Apps::HttpRequest& request)
+{
+    PlanFilter filter;
+    const std::string state = request.GetQueryOrNull("state").value_or("unfinished");
+    constexpr std::string_view WORDS[]{"unfinished", "active", "waiting", "finished"};
+    const auto word = std::ranges::find(WORDS, state);
+    if (word == std::ranges::end(WORDS))
+    {
+        return Core::Fail(
+            Core::ECoreError::UnknownWord,
+            "state",
+            "unfinished, active, waiting or finished",
+            Core::QuoteForError(state));
+    }
+    filter._stage = static_cast<EStage>(word - std::ranges::begin(WORDS));
+    filter._robotID = request.GetQueryOrNull("robot");
+    filter._lotID = request.GetQueryOrNull("lot");
+    if (const std::optional<std::string> text = request.GetQueryOrNull("limit"))
+    {
+        const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), filter._limit);
+        if (error != std::errc() || end != text->data() + text->size() || filter._limit == 0
+            || filter._limit > MOST_PLANS)
+        {
+            return Core::Fail(
+                Core::ECoreError::OutOfRange,
+                "limit",
+                fmt::format("1 to {}", MOST_PLANS),
+                Core::QuoteForError(*text));
+        }
+    }
+    return filter;
+}
+
+std::vector<PlanView> PlanFilter::List(const Planning::PlanEngine& engine, const StateView& state) const
+{
+    std::vector<PlanView> plans;
+    if (_stage != EStage::Finished)
+    {
+        std::ranges::copy_if(state.plans, std::back_inserter(plans), [this](const PlanView& plan) {
+            return IsMeant(plan) && (_stage != EStage::Active || plan.robotID.has_value())
+                && (_stage != EStage::Waiting || !plan.robotID.has_value());
+        });
+        plans.resize(std::min(plans.size(), _limit));
+        return plans;
+    }
+    for (const Planning::PlanRecord& record : engine.GetFinishedPlanRecords(std::numeric_limits<std::size_t>::max()))
+    {
+        PlanView plan = MakePlanView(record, *engine.GetPlanOrNull(record.plan.planID), EPlanDetail::Steps);
+        if (IsMeant(plan))
+        {
+            plans.push_back(std::move(plan));
+        }
+        if (plans.size() == _limit)
+        {
+            break;
+        }
+    }
+    return plans;
+}
+
+bool PlanFilter::IsMeant(const PlanView& plan) const
+{
+    return (!_robotID.has_value() || plan.robotID == _robotID) && (!_lotID.has_value() || plan.lotID == *_lotID);
+}
+
+} // namespace ACS::Acsd

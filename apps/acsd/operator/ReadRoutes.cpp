@@ -1,0 +1,123 @@
+#include "operator/ReadRoutes.hpp"
+
+#include "operator/OperatorAnswer.hpp"
+#include "operator/PlanFilter.hpp"
+#include "view/PlanViewMaker.hpp"
+#include "view/SiteViewMaker.hpp"
+#include "view/ViewCodec.hpp"
+#include <acs/core/Result.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+using Apps::HttpRequest;
+using Apps::HttpResponse;
+using Captures = Apps::HttpRoutes::Captures;
+
+/// Adds a GET without parameters.
+template <typename THandle>
+void AddRead(Apps::HttpRoutes& routes, std::string_view pattern, THandle handle)
+{
+    routes.Add(
+        "GET",
+        pattern,
+        [handle = std::move(handle)](const HttpRequest& request, const Captures& captures) -> HttpResponse {
+            const std::optional<std::string> reason = FindUnexpectedParameterOrNull(request, {});
+            return reason.has_value() ? MakeOperatorError(OperatorCode::BAD_REQUEST, *reason) : handle(captures);
+        });
+}
+
+/// The wait reason is that of the present state, which notes its time.
+HttpResponse ShowPlan(const Planning::PlanEngine& engine, const StateView& state, const std::string& planID)
+{
+    const Planning::PlanRecord* recordOrNull = engine.GetPlanRecordOrNull(planID);
+    const std::optional<Planning::PlanSummary> summary = engine.GetPlanOrNull(planID);
+    if (recordOrNull == nullptr || !summary.has_value())
+    {
+        return MakeOperatorError(
+            OperatorCode::NOT_FOUND,
+            fmt::format("There is no plan {}; /v1/plans lists them.", Core::QuoteForError(planID)));
+    }
+    PlanView plan = MakePlanView(*recordOrNull, *summary, EPlanDetail::Jobs);
+    if (const auto found = std::ranges::find(state.plans, planID, &PlanView::planID); found != state.plans.end())
+    {
+        plan.waits = found->waits;
+    }
+    return MakeJsonAnswer(EncodePlan(plan));
+}
+
+HttpResponse ShowRobot(const StateView& state, const std::string& robotID)
+{
+    const auto found = std::ranges::find(state.robots, robotID, &RobotView::robotID);
+    if (found == state.robots.end())
+    {
+        return MakeOperatorError(
+            OperatorCode::NOT_FOUND,
+            fmt::format("There is no robot {}; /v1/robots lists them.", Core::QuoteForError(robotID)));
+    }
+    return MakeJsonAnswer(EncodeRobot(*found));
+}
+
+HttpResponse ShowPlans(const Planning::PlanEngine& engine, const StateView& state, const HttpRequest& request)
+{
+    if (const std::optional<std::string> reason =
+            FindUnexpectedParameterOrNull(request, {"state", "robot", "lot", "limit"}))
+    {
+        return MakeOperatorError(OperatorCode::BAD_REQUEST, *reason);
+    }
+    const Core::Result<PlanFilter> filter = PlanFilter::Read(request);
+    if (!filter.has_value())
+    {
+        return MakeOperatorError(OperatorCode::BAD_REQUEST, Core::Describe(filter.error()));
+    }
+    return MakeJsonAnswer(EncodePlans(filter->List(engine, state)));
+}
+
+} // namespace
+
+void AddReadRoutes(Apps::HttpRoutes& routes, const Planning::PlanEngine& engine, const ReadAccess& access)
+{
+    AddRead(routes, "/v1/status", [access](const Captures&) {
+        return MakeJsonAnswer(EncodeStatus(access.getState().status, access.clock.GetNow().wall));
+    });
+    AddRead(routes, "/v1/snapshot", [access](const Captures&) {
+        const StateView& state = access.getState();
+        return MakeJsonAnswer(EncodeSnapshot(state, access.getEventID(), access.clock.GetNow().wall));
+    });
+    routes.Add("GET", "/v1/plans", [&engine, access](const HttpRequest& request, const Captures&) {
+        return ShowPlans(engine, access.getState(), request);
+    });
+    AddRead(routes, "/v1/plans/{planId}", [&engine, access](const Captures& captures) {
+        return ShowPlan(engine, access.getState(), captures[0]);
+    });
+    AddRead(routes, "/v1/robots", [access](const Captures&) {
+        return MakeJsonAnswer(EncodeRobots(access.getState().robots));
+    });
+    AddRead(routes, "/v1/robots/{robotId}", [access](const Captures& captures) {
+        return ShowRobot(access.getState(), captures[0]);
+    });
+    AddRead(routes, "/v1/alarms", [access](const Captures&) {
+        return MakeJsonAnswer(EncodeAlarms(access.getState().alarms));
+    });
+    AddRead(routes, "/v1/links", [access](const Captures&) {
+        return MakeJsonAnswer(EncodeLinks(access.getState().status.links));
+    });
+    AddRead(routes, "/v1/queue", [access](const Captures&) { return MakeJsonAnswer(EncodeQueue(access.getState())); });
+    AddRead(routes, "/v1/site", [site = MakeSiteView(engine.GetSite())](const Captures&) {
+        return MakeJsonAnswer(EncodeSite(site));
+    });
+}
+
+} // namespace ACS::Acsd

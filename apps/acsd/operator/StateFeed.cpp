@@ -1,0 +1,64 @@
+#include "operator/StateFeed.hpp"
+
+#include "view/PlanViewMaker.hpp"
+#include "view/ViewCodec.hpp"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+StateFeed::StateFeed(Dependencies dependencies)
+    : _dependencies(std::move(dependencies)),
+      _maker(_dependencies.engine, _dependencies.clock.GetNow().wall),
+      _timer(_dependencies.executor, [this](int) { OnTimer(); })
+{
+}
+
+void StateFeed::Start()
+{
+    OnTimer();
+}
+
+void StateFeed::Stop()
+{
+    _timer.CancelAll();
+}
+
+const StateView& StateFeed::Update()
+{
+    StateView fresh = _maker.Make(_dependencies.getProgram(), _dependencies.clock.GetNow().wall);
+    const StateChanges changes = FindChanges(_state, fresh);
+    _state = std::move(fresh);
+    if (!changes.IsEmpty())
+    {
+        Publish(changes);
+    }
+    return _state;
+}
+
+void StateFeed::Publish(const StateChanges& changes)
+{
+    std::vector<PlanView> ended;
+    for (const std::string& planID : changes.endedPlanIDs)
+    {
+        const Planning::PlanRecord* recordOrNull = _dependencies.engine.GetPlanRecordOrNull(planID);
+        const std::optional<Planning::PlanSummary> summary = _dependencies.engine.GetPlanOrNull(planID);
+        if (recordOrNull != nullptr && summary.has_value())
+        {
+            ended.push_back(MakePlanView(*recordOrNull, *summary, EPlanDetail::Steps));
+        }
+    }
+    _dependencies.publish(EncodeChanges(changes, ended));
+}
+
+void StateFeed::OnTimer()
+{
+    static_cast<void>(Update());
+    _timer.Start(0, INTERVAL);
+}
+
+} // namespace ACS::Acsd

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "common/process/TimerSet.hpp"
+#include "view/StateView.hpp"
+#include "view/StateViewMaker.hpp"
+#include <acs/core/Now.hpp>
+#include <acs/plan/PlanEngine.hpp>
+
+#include <boost/asio/any_io_executor.hpp>
+
+#include <functional>
+#include <string_view>
+
+namespace ACS::Acsd
+{
+
+/// The present state for operators, and the events `changes` with what is different from the state before. Used on the executor's
+/// thread.
+class StateFeed final
+{
+public:
+    struct Dependencies
+    {
+        boost::asio::any_io_executor executor;
+        const Core::IClock& clock;
+        const Planning::PlanEngine& engine;
+        std::function<ProgramState()> getProgram;
+        /// Publishes the data of an event `changes`.
+        std::function<void(std::string_view data)> publish;
+    };
+
+    /// Between two events at least.
+    static constexpr Core::Duration INTERVAL = std::chrono::milliseconds(200);
+
+private:
+    Dependencies _dependencies;
+    StateViewMaker _maker;
+    StateView _state;
+    Apps::TimerSet<int> _timer;
+
+public:
+    /// All references must outlive the feed.
+    explicit StateFeed(Dependencies dependencies);
+
+    /// Updates the state every INTERVAL until Stop.
+    void Start();
+    void Stop();
+
+    /// Publishes what has changed. The state is valid until the next call.
+    [[nodiscard]] const StateView& Update();
+
+private:
+    void Publish(const StateChanges& changes);
+    void OnTimer();
+};
+
+} // namespace ACS::Acsd
