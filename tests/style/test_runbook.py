@@ -29,8 +29,8 @@ CODE = re.compile(r'"((?:ACS|AGV|ARM)-[A-Za-z0-9]+)"')
 FAMILY = re.compile(r'"((?:AGV|ARM)-)"')  # the begin of codes that a robot completes
 ENTRY = re.compile(r'^    \{"([^"]+)",\s*"([^"]+)"', re.MULTILINE)
 SPAN = re.compile(r"`([^`\n]+)`")
-KEY = re.compile(r"^(?:abort|actions|arm|cancel|drive|errors|history|mcs|mqtt|operator|outbox|pause|queue|restart|robot|robots|site|"
-                 r"store|trace|tsc)\.[a-zA-Z_][\w.]*$")
+KEY = re.compile(r"^(?:abort|actions|arm|cancel|drive|errors|history|mcs|mqtt|operator|outbox|pause|queue|restart|robot|robots|"
+                 r"site|store|trace|tsc)\.[a-zA-Z_][\w.]*$")
 METRIC = re.compile(r"^acsd_[a-z_]+$")
 HANGUL = re.compile(r"[\uac00-\ud7a3]")
 SECTIONS = {
@@ -58,7 +58,7 @@ def find_codes(tree):
     """{code: path of a source that raises it}"""
     codes = {}
     for path, text in tree.items():
-        if path.startswith(SOURCES) and path != CATALOGUE:
+        if path.startswith(SOURCES) and path.endswith(CPP_SUFFIXES) and path != CATALOGUE:
             code_only = strip_comments(text)
             for code in CODE.findall(code_only):
                 codes.setdefault(code, path)
@@ -83,13 +83,19 @@ def check_page(tree, language, code, title):
         yield f"{path}: the sections must be {', '.join(SECTIONS[language])}"
 
 
+def is_row_of(row, cell):
+    """Whether the first cell of the row has the code; "`AGV-" only as the begin of codes, not as that of one code."""
+    first = row.split("|")[1]
+    return cell in first and (cell.endswith("`") or re.search(re.escape(cell) + "(?:`|…)", first) is not None)
+
+
 def check_codes(tree):
     codes = find_codes(tree)
     catalogue = dict(ENTRY.findall(tree.get(CATALOGUE, "")))
     korean = json.loads(tree.get(KOREAN_CATALOGUE, "{}"))
-    # The first cells of the tables.
-    rows = {path: [line.split("|")[1] for line in tree.get(path, "").splitlines() if line.startswith("|")]
-            for path in (TABLE, *INDEXES)}
+    korean_titles = {code: str(entry.get("title")) for code, entry in korean.items()}
+    # document with a row of each code, titles that the row must have
+    tables = ((TABLE, ()), (INDEXES[0], (catalogue, korean_titles)), (INDEXES[1], (korean_titles,)))
     for code, source in sorted(codes.items()):
         text = f"{code} of {source}"
         if code not in catalogue:
@@ -97,10 +103,13 @@ def check_codes(tree):
         entry = korean.get(code, {})
         if not all(HANGUL.search(str(entry.get(member, ""))) for member in ("title", "cause", "remedy")):
             yield f"{KOREAN_CATALOGUE}: no title, cause and remedy in Korean of {text}"
-        cell = f"`{code.rstrip('*')}"
-        for path, cells in rows.items():
-            if not any(cell in row and (code.endswith("*") or cell + "`" in row) for row in cells):
+        cell = f"`{code[:-1]}" if code.endswith("*") else f"`{code}`"
+        for path, titles in tables:
+            row = next((row for row in tree.get(path, "").splitlines() if row.startswith("| ") and is_row_of(row, cell)), None)
+            if row is None:
                 yield f"{path}: no row of {text}"
+            elif not all(f"[{title.get(code)}]" in row for title in titles):
+                yield f"{path}: the row of {code} has not its titles in the catalogues"
         yield from check_page(tree, "en", code, catalogue.get(code, "?"))
         yield from check_page(tree, "ko", code, entry.get("title", "?"))
     known = {*codes, OTHER}
@@ -122,12 +131,13 @@ def list_spans(text):
 
 def check_pairs(tree):
     for path in sorted(tree):
-        if not re.match(re.escape(PAGES) + r"(?:en|ko)/", path) or path in INDEXES:
+        if not path.startswith(PAGES):
             continue
-        language, twin = ("Korean", path.replace("/en/", "/ko/")) if "/en/" in path else ("English", path.replace("/ko/", "/en/"))
+        twin = {INDEXES[0]: INDEXES[1], INDEXES[1]: INDEXES[0]}.get(path)
+        twin = twin or (path.replace("/en/", "/ko/") if "/en/" in path else path.replace("/ko/", "/en/"))
         if twin not in tree:
-            yield f"{twin}: missing; {path} has no twin in {language}"
-        elif "/en/" in path and list_spans(tree[path]) != list_spans(tree[twin]):
+            yield f"{twin}: missing; {path} has no twin"
+        elif "/ko/" not in path and list_spans(tree[path]) != list_spans(tree[twin]):
             differences = sorted(list_spans(tree[path]) ^ list_spans(tree[twin]))
             yield f"{twin}: differs from {path} in {', '.join(f'`{span}`' for span in differences)}"
         if "/ko/" in path and not HANGUL.search(tree[path]):
@@ -141,7 +151,7 @@ def check_names(tree):
     for path, text in tree.items():
         if path.startswith(PAGES):
             for span in sorted(list_spans(text)):
-                name = span.split(" = ")[0].replace("MAPID.", "MAPID.")
+                name = span.split(" = ")[0]
                 if KEY.match(name) and not re.search(rf"`{re.escape(name)}(?:\.\*)?`|`{re.escape(name)}\.", keys):
                     yield f"{path}: docs/reference/configuration.md has no key {name}"
                 if METRIC.match(span) and f"`{span}" not in metrics:
@@ -197,7 +207,10 @@ def plant(tree):
     yield "no Korean entry", replace(KOREAN_CATALOGUE, '"ACS-1002": {', '"ACS-1992": {'), [
         f"{KOREAN_CATALOGUE}: no title, cause and remedy in Korean of ACS-1002"]
     yield "no row", replace(TABLE, "| [`ACS-1002`]", "| [`ACS-1992`]"), [f"{TABLE}: no row of ACS-1002"]
-    yield "another title", replace(f"{PAGES}en/ACS-1002.md", "# ACS-1002: ", "# ACS-1002: A "), [f"{PAGES}en/ACS-1002.md: the heading"]
+    yield "another title in the index", replace(INDEXES[0], "[Robot disconnected]", "[Robot lost]"), [
+        f"{INDEXES[0]}: the row of ACS-1002"]
+    yield "another title", replace(f"{PAGES}en/ACS-1002.md", "# ACS-1002: ", "# ACS-1002: A "), [
+        f"{PAGES}en/ACS-1002.md: the heading"]
     yield "no section", replace(f"{PAGES}ko/ACS-1002.md", "## 예방", "## 기타"), [f"{PAGES}ko/ACS-1002.md: the sections"]
     yield "a page of no code", {**tree, f"{PAGES}en/ACS-1999.md": ""}, [f"{PAGES}en/ACS-1999.md: no source raises ACS-1999"]
     yield "another command", replace(f"{PAGES}ko/ACS-1008.md", "`acsctl resolve PLAN JOB again`", ""), [
@@ -206,7 +219,7 @@ def plant(tree):
     yield "an unknown key", replace(f"{PAGES}en/ACS-1009.md", "drive.stall_timeout", "drive.stall_limit"), [
         f"{PAGES}en/ACS-1009.md: docs/reference/configuration.md has no key drive.stall_limit"]
     yield "a new reason", {**tree, REASON_SOURCES[0]: tree[REASON_SOURCES[0]] + 'Add("{} is planted for a test");\n'}, [
-        f"{PLAN_PAGE}: no row of the reason 'is planted for a'"]
+        f"{PLAN_PAGE}: no row of the reason 'is planted for a "]
     yield "only a comment", {**tree, new_source: "// " + raised}, []
 
 
