@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """The runbook is complete: each alarm code in the sources has a page in English and in Korean, an entry in both catalogues and a
 row in docs/reference/alarms.md, and none of these is about a code that no source raises. The pages of a pair name the same
-commands, keys and messages, and the keys and metrics exist. The page about plans has every reason that the engine gives.
-First it plants violations of each kind and requires that each is found."""
+commands, keys and messages, and these commands, keys and metrics exist. The page about plans has every reason that the engine
+gives. First it plants violations of each kind and requires that each is found."""
 
 import json
 import os
@@ -15,6 +15,7 @@ sys.dont_write_bytecode = True
 from source_tree import CPP_SUFFIXES, list_files, read_text  # noqa: E402
 
 SOURCES = ("libplan/", "libvda5050/", "libopenstream/", "apps/acsd/")
+COMMANDS = "apps/acsctl/options/"  # the command line of acsctl
 CATALOGUE = "apps/acsd/operator/AlarmCatalog.cpp"
 KOREAN_CATALOGUE = "apps/acsd/page/alarms.ko.json"
 TABLE = "docs/reference/alarms.md"
@@ -27,7 +28,7 @@ OTHER = "*"  # the entry of unknown codes
 COMMENT = re.compile(r'//[^\n]*|/\*.*?\*/|("(?:\\.|[^"\\\n])*")', re.DOTALL)
 CODE = re.compile(r'"((?:ACS|AGV|ARM)-[A-Za-z0-9]+)"')
 FAMILY = re.compile(r'"((?:AGV|ARM)-)"')  # the begin of codes that a robot completes
-ENTRY = re.compile(r'^    \{"([^"]+)",\s*"([^"]+)"', re.MULTILINE)
+ENTRY = re.compile(r'^    \{"([^"]+)",\s*"([^"]+)",(.*?)\},$', re.MULTILINE | re.DOTALL)
 SPAN = re.compile(r"`([^`\n]+)`")
 KEY = re.compile(r"^(?:abort|actions|arm|cancel|drive|errors|history|mcs|mqtt|operator|outbox|pause|queue|restart|robot|robots|"
                  r"site|store|trace|tsc)\.[a-zA-Z_][\w.]*$")
@@ -42,7 +43,8 @@ SECTIONS = {
 def read_tree(root):
     """{path: text} of what this test reads."""
     return {path: read_text(root, path) for path in list_files(root)
-            if (path.startswith(SOURCES) and path.endswith(CPP_SUFFIXES)) or path.startswith("docs/") or path == KOREAN_CATALOGUE}
+            if (path.startswith((*SOURCES, COMMANDS)) and path.endswith(CPP_SUFFIXES)) or path.startswith("docs/")
+            or path == KOREAN_CATALOGUE}
 
 
 def strip_comments(text):
@@ -71,6 +73,10 @@ def list_headings(text, mark):
     return [line[len(mark) + 1:].strip() for line in text.splitlines() if line.startswith(mark + " ")]
 
 
+def list_spans(text):
+    return {" ".join(span.split()) for span in SPAN.findall(text)}
+
+
 def check_page(tree, language, code, title):
     path = f"{PAGES}{language}/{name_page(code)}.md"
     if path not in tree:
@@ -91,7 +97,9 @@ def is_row_of(row, cell):
 
 def check_codes(tree):
     codes = find_codes(tree)
-    catalogue = dict(ENTRY.findall(tree.get(CATALOGUE, "")))
+    entries = {code: (title, "".join(re.findall(r'"([^"]*)"', texts)))
+               for code, title, texts in ENTRY.findall(tree.get(CATALOGUE, ""))}
+    catalogue = {code: title for code, (title, _) in entries.items()}
     korean = json.loads(tree.get(KOREAN_CATALOGUE, "{}"))
     korean_titles = {code: str(entry.get("title")) for code, entry in korean.items()}
     # document with a row of each code, titles that the row must have
@@ -112,6 +120,9 @@ def check_codes(tree):
                 yield f"{path}: the row of {code} has not its titles in the catalogues"
         yield from check_page(tree, "en", code, catalogue.get(code, "?"))
         yield from check_page(tree, "ko", code, entry.get("title", "?"))
+    for code in sorted(entries.keys() & korean.keys()):
+        if list_spans(entries[code][1]) != list_spans(f"{korean[code].get('cause')} {korean[code].get('remedy')}"):
+            yield f"{KOREAN_CATALOGUE}: the entry of {code} names other commands or keys than {CATALOGUE}"
     known = {*codes, OTHER}
     for path, listed in ((CATALOGUE, catalogue), (KOREAN_CATALOGUE, korean)):
         for code in sorted(listed.keys() - known):
@@ -123,10 +134,6 @@ def check_codes(tree):
         match = re.match(re.escape(PAGES) + r"(?:en|ko)/((?:ACS|AGV|ARM)-\w+)\.md$", path)
         if match and match.group(1) not in pages:
             yield f"{path}: no source raises {match.group(1)}"
-
-
-def list_spans(text):
-    return {" ".join(span.split()) for span in SPAN.findall(text)}
 
 
 def check_pairs(tree):
@@ -145,12 +152,15 @@ def check_pairs(tree):
 
 
 def check_names(tree):
-    """Keys and metrics that the pages name exist."""
+    """Commands, keys and metrics that the pages name exist."""
+    commands = "".join(text for path, text in tree.items() if path.startswith(COMMANDS))
     keys = tree.get("docs/reference/configuration.md", "")
     metrics = tree.get("docs/reference/metrics.md", "")
     for path, text in tree.items():
-        if path.startswith(PAGES):
+        if path.startswith(PAGES) or path in (CATALOGUE, KOREAN_CATALOGUE):
             for span in sorted(list_spans(text)):
+                if commands and re.match("acsctl [a-z]", span) and f'"{span.split()[1]}"' not in commands:
+                    yield f"{path}: acsctl has no command {span.split()[1]}"
                 name = span.split(" = ")[0]
                 if KEY.match(name) and not re.search(rf"`{re.escape(name)}(?:\.\*)?`|`{re.escape(name)}\.", keys):
                     yield f"{path}: docs/reference/configuration.md has no key {name}"
@@ -218,6 +228,11 @@ def plant(tree):
     yield "a page without a twin", without(f"{PAGES}ko/plan-does-not-move.md"), [f"{PAGES}ko/plan-does-not-move.md: missing"]
     yield "an unknown key", replace(f"{PAGES}en/ACS-1009.md", "drive.stall_timeout", "drive.stall_limit"), [
         f"{PAGES}en/ACS-1009.md: docs/reference/configuration.md has no key drive.stall_limit"]
+    planted = replace(f"{PAGES}en/ACS-1009.md", "acsctl abort", "acsctl abandon")
+    yield "an unknown command", {**planted, COMMANDS + "Planted.cpp": 'Add("abort");\n'}, [
+        f"{PAGES}en/ACS-1009.md: acsctl has no command abandon"]
+    yield "another command in Korean", replace(KOREAN_CATALOGUE, "acsctl maintenance ROBOT on", "acsctl maintenance ROBOT off"), [
+        f"{KOREAN_CATALOGUE}: the entry of ACS-1002 names other commands"]
     yield "a new reason", {**tree, REASON_SOURCES[0]: tree[REASON_SOURCES[0]] + 'Add("{} is planted for a test");\n'}, [
         f"{PLAN_PAGE}: no row of the reason 'is planted for a "]
     yield "only a comment", {**tree, new_source: "// " + raised}, []
