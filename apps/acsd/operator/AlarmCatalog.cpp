@@ -124,7 +124,7 @@ std::span<const AlarmDescription> GetAlarmCatalog() noexcept
 
 const AlarmDescription& DescribeAlarm(std::string_view errorCode) noexcept
 {
-    const auto found = std::ranges::find(CATALOG, errorCode, &AlarmDescription::errorCode);
+    const auto* const found = std::ranges::find(CATALOG, errorCode, &AlarmDescription::errorCode);
     if (found != CATALOG.end())
     {
         return *found;
