@@ -43,6 +43,11 @@ std::string_view GetText(EPlanControl value) noexcept
     return Json::GetWord(value);
 }
 
+std::string_view GetText(EControlOrigin value) noexcept
+{
+    return Json::GetWord(value);
+}
+
 std::string_view GetText(ETscState value) noexcept
 {
     return Json::GetWord(value);

@@ -2,6 +2,7 @@
 
 #include <acs/json/EnumNames.hpp>
 #include <acs/plan/EAlarmLevel.hpp>
+#include <acs/plan/EControlOrigin.hpp>
 #include <acs/plan/EJobResolution.hpp>
 #include <acs/plan/EJobState.hpp>
 #include <acs/plan/EPlanControl.hpp>
@@ -112,6 +113,15 @@ struct EnumNames<Planning::EPlanControl>
         EnumWord<Planning::EPlanControl>{Planning::EPlanControl::Abort, "Abort"},
         EnumWord<Planning::EPlanControl>{Planning::EPlanControl::Pause, "Pause"},
         EnumWord<Planning::EPlanControl>{Planning::EPlanControl::Resume, "Resume"},
+    };
+};
+
+template <>
+struct EnumNames<Planning::EControlOrigin>
+{
+    static constexpr std::array WORDS{
+        EnumWord<Planning::EControlOrigin>{Planning::EControlOrigin::MCS, "MCS"},
+        EnumWord<Planning::EControlOrigin>{Planning::EControlOrigin::Operator, "Operator"},
     };
 };
 

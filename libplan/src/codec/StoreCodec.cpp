@@ -55,6 +55,7 @@ struct ProgressText
     bool bArrived = false;
     std::optional<EPlanControl> control;
     std::size_t controlCount = 0;
+    EControlOrigin controlOrigin = EControlOrigin::MCS;
     std::vector<std::string> requestIDs;
     std::int64_t queuedAt = 0;
     std::int64_t storedAt = 0;
@@ -130,6 +131,7 @@ struct JsonFields<Planning::ProgressText>
         Optional("arrived", &Planning::ProgressText::bArrived),
         Optional("control", &Planning::ProgressText::control),
         Optional("controlCount", &Planning::ProgressText::controlCount),
+        Optional("controlOrigin", &Planning::ProgressText::controlOrigin),
         Optional("requestIds", &Planning::ProgressText::requestIDs),
         Optional("queuedAt", &Planning::ProgressText::queuedAt),
         Optional("storedAt", &Planning::ProgressText::storedAt));
@@ -372,6 +374,7 @@ std::string EncodeProgress(const PlanProgress& progress)
         progress.bArrived,
         progress.control,
         progress.controlCount,
+        progress.controlOrigin,
         progress.requestIDs,
         progress.queuedAt.count(),
         progress.storedAt.count()});
@@ -390,6 +393,7 @@ Core::Result<PlanProgress> DecodeProgress(std::string_view text)
             read.bArrived,
             read.control,
             read.controlCount,
+            read.controlOrigin,
             std::move(read.requestIDs),
             std::chrono::milliseconds(read.queuedAt),
             std::chrono::milliseconds(read.storedAt)};

@@ -43,11 +43,18 @@ void ControlAnswers::Remember(PlanProgress& progress, const ControlPlan& command
     _plans.MarkProgressed(command.planID);
 }
 
-void ControlAnswers::Ask(ActivePlan& plan, EPlanControl control)
+void ControlAnswers::Ask(ActivePlan& plan, EPlanControl control, EControlOrigin origin)
 {
     _plans.MarkProgressed(plan.record.plan.planID);
     plan.record.progress.control = control;
-    plan.record.progress.controlCount = 1;
+    plan.record.progress.controlCount = origin == EControlOrigin::MCS ? 1 : 0;
+    plan.record.progress.controlOrigin = origin;
+}
+
+std::string ControlAnswers::DescribeOrigin(const ActivePlan& plan, EPlanControl control)
+{
+    return plan.record.progress.controlOrigin == EControlOrigin::Operator ? "the operator"
+                                                                          : fmt::format("{}Plan", GetText(control));
 }
 
 void ControlAnswers::Answer(ActivePlan& plan, bool bSucceeded, const std::string& message)
@@ -63,6 +70,16 @@ void ControlAnswers::Answer(ActivePlan& plan, bool bSucceeded, const std::string
         Robot& robot = _fleet[*plan.robot];
         robot.control.bStandstillAwaited = false;
         StopConfirmingControl(robot);
+        if (!bSucceeded && plan.record.progress.controlOrigin == EControlOrigin::Operator)
+        {
+            _transaction.Note(
+                robot,
+                fmt::format(
+                    "{}Plan of the operator failed for plan {}: {}",
+                    GetText(*control),
+                    plan.record.plan.planID,
+                    message));
+        }
     }
     for (std::size_t count = std::exchange(plan.record.progress.controlCount, 0); count > 0; --count)
     {
@@ -118,12 +135,18 @@ void ControlAnswers::ReleasePause(Robot& robot)
     }
 }
 
+std::string ControlAnswers::DescribeInactive(const std::string& planID) const
+{
+    const PlanRecord* finishedOrNull = std::as_const(_plans).FindFinishedOrNull(planID);
+    return finishedOrNull == nullptr ? fmt::format("There is no plan {}.", planID)
+                                     : fmt::format("The plan is already {}.", GetText(finishedOrNull->progress.state));
+}
+
 void ControlAnswers::RefuseControl(const ControlPlan& command)
 {
     PlanRecord* finishedOrNull = _plans.FindFinishedOrNull(command.planID);
     const bool bKnown = finishedOrNull != nullptr;
-    const std::string reason = bKnown ? fmt::format("The plan is already {}.", GetText(finishedOrNull->progress.state))
-                                      : fmt::format("There is no plan {}.", command.planID);
+    const std::string reason = DescribeInactive(command.planID);
     _transaction.Emit(ReplyCommand{command.replyToken, bKnown, bKnown ? "Received." : reason});
     if (bKnown)
     {

@@ -29,8 +29,10 @@ public:
     /// Remembers the request to recognise a repetition.
     void Remember(PlanProgress& progress, const ControlPlan& command);
     /// Opens a control, until Answer.
-    void Ask(ActivePlan& plan, EPlanControl control);
-    /// Closes the open control, if any, and reports its outcome once per request.
+    void Ask(ActivePlan& plan, EPlanControl control, EControlOrigin origin);
+    /// "PausePlan", or "the operator": who began the open control of the plan.
+    [[nodiscard]] static std::string DescribeOrigin(const ActivePlan& plan, EPlanControl control);
+    /// Closes the open control, if any, and reports its outcome once per request of the MCS.
     void Answer(ActivePlan& plan, bool bSucceeded, const std::string& message);
     /// Reports an outcome without an open control.
     void ReportControlResult(EPlanControl control, const std::string& planID, bool bSucceeded, std::string message);
@@ -43,6 +45,8 @@ public:
     void LeavePause(ActivePlan& plan, std::string message);
     /// Commands the robot to resume if the engine has paused it.
     void ReleasePause(Robot& robot);
+    /// Why a plan that is not active cannot be controlled.
+    [[nodiscard]] std::string DescribeInactive(const std::string& planID) const;
     /// Refuses a control of an unknown or finished plan (register D-19, D-20).
     void RefuseControl(const ControlPlan& command);
 };

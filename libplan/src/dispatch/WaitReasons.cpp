@@ -145,7 +145,10 @@ std::optional<WaitReason> WaitReasons::DescribeBegunOrNull(const ActivePlan& pla
     reason.planID = plan.record.plan.planID;
     if (plan.record.progress.state == EPlanState::Paused)
     {
-        reason.message = plan.robot.has_value() ? "The plan is paused." : "The plan is held in the queue by PausePlan.";
+        const bool bByOperator = plan.record.progress.controlOrigin == EControlOrigin::Operator;
+        reason.message = plan.robot.has_value()
+            ? fmt::format("The plan is paused{}.", bByOperator ? " by the operator" : "")
+            : fmt::format("The plan is held in the queue by {}.", bByOperator ? "the operator" : "PausePlan");
         return reason;
     }
     if (!plan.robot.has_value())

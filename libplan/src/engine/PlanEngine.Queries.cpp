@@ -198,6 +198,11 @@ std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const Skip
     return _operator.GetRejectionReasonOrNull(command);
 }
 
+std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const ControlPlan& command) const
+{
+    return _controls.GetRejectionReasonOrNull(command);
+}
+
 const std::vector<Alarm>& PlanEngine::Impl::GetActiveAlarms() const noexcept
 {
     return _engine.alarms.GetAlarms();

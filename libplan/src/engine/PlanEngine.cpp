@@ -140,6 +140,11 @@ std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const SkipStep& 
     return _impl->GetRejectionReasonOrNull(command);
 }
 
+std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const ControlPlan& command) const
+{
+    return _impl->GetRejectionReasonOrNull(command);
+}
+
 const std::vector<Alarm>& PlanEngine::GetActiveAlarms() const noexcept
 {
     return _impl->GetActiveAlarms();

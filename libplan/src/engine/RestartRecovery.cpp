@@ -192,7 +192,8 @@ void RestartRecovery::RestoreControl(ActivePlan& plan, Robot& robot)
         return;
     }
     constexpr std::size_t MOST_OWED = 1'000;
-    progress.controlCount = std::clamp<std::size_t>(progress.controlCount, 1, MOST_OWED);
+    const std::size_t leastOwed = progress.controlOrigin == EControlOrigin::MCS ? 1 : 0;
+    progress.controlCount = std::clamp<std::size_t>(progress.controlCount, leastOwed, MOST_OWED);
     switch (*progress.control)
     {
         case EPlanControl::Pause:

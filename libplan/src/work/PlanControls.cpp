@@ -8,6 +8,16 @@
 namespace ACS::Planning
 {
 
+namespace
+{
+
+std::string DescribeResume(const ActivePlan& plan)
+{
+    return fmt::format("Resumed by {}.", ControlAnswers::DescribeOrigin(plan, EPlanControl::Resume));
+}
+
+} // namespace
+
 PlanControls::PlanControls(
     EngineState& engine,
     const TscControl& tsc,
@@ -36,6 +46,11 @@ PlanControls::PlanControls(
 
 void PlanControls::Control(const ControlPlan& command)
 {
+    if (command.origin == EControlOrigin::Operator)
+    {
+        ControlByOperator(command);
+        return;
+    }
     const bool bRepeated = _answers.IsRepetition(command);
     if (_backlog.IsFailing()
         && (!bRepeated || _call.unstoredControlIDs.contains(ControlAnswers::MakeRequestID(command))))
@@ -75,35 +90,107 @@ void PlanControls::Control(const ControlPlan& command)
         _plans.MarkProgressed(command.planID);
         return;
     }
-    const bool bEnding = plan.record.progress.control == EPlanControl::Abort
-        || (plan.record.progress.control == EPlanControl::Cancel && command.control != EPlanControl::Abort);
-    if (bEnding)
+    if (std::optional<std::string> reason = DescribeObstacleOrNull(command.control, plan))
     {
-        _answers.ReportControlResult(
-            command.control,
-            command.planID,
-            false,
-            fmt::format("{}Plan is already in progress for this plan.", GetText(*plan.record.progress.control)));
+        _answers.ReportControlResult(command.control, command.planID, false, std::move(*reason));
         return;
     }
-    Apply(command.control, plan);
+    Apply(command.control, command.origin, plan);
 }
 
-void PlanControls::Apply(EPlanControl control, ActivePlan& plan)
+void PlanControls::ControlByOperator(const ControlPlan& command)
+{
+    if (std::optional<std::string> reason = GetRejectionReasonOrNull(command))
+    {
+        _transaction.Reply(command.replyToken, false, std::move(*reason));
+        return;
+    }
+    if (command.control == EPlanControl::Pause)
+    {
+        _call.controlID = ControlAnswers::MakeRequestID(command);
+    }
+    ActivePlan& plan = *_plans.FindActiveOrNull(command.planID);
+    if (plan.record.progress.control != command.control)
+    {
+        Apply(command.control, command.origin, plan);
+    }
+    _transaction.Reply(
+        command.replyToken,
+        true,
+        plan.record.progress.control.has_value()
+            ? fmt::format("{}Plan of {} is in progress.", GetText(command.control), command.planID)
+            : fmt::format("Plan {} is {}.", command.planID, GetText(plan.record.progress.state)));
+}
+
+std::optional<std::string> PlanControls::GetRejectionReasonOrNull(const ControlPlan& command) const
+{
+    const ActivePlan* planOrNull = _plans.FindActiveOrNull(command.planID);
+    if (planOrNull == nullptr)
+    {
+        return _answers.DescribeInactive(command.planID);
+    }
+    const PlanProgress& progress = planOrNull->record.progress;
+    if (_backlog.IsFailing())
+    {
+        return "The request cannot be stored because the store is failing. Send it again.";
+    }
+    if (progress.controlCount > 0)
+    {
+        return fmt::format(
+            "The MCS has {}Plan in progress for this plan. Wait for its result.",
+            GetText(progress.control.value_or(command.control)));
+    }
+    // The reports of an end are among those that an accepted plan has room for.
+    const bool bEnds = command.control == EPlanControl::Cancel || command.control == EPlanControl::Abort;
+    if (!bEnds && !_room.HasRoomForControl())
+    {
+        return "Outbox Full: there is no room for the reports of the plan. Send the request again when the MCS has "
+               "acknowledged reports.";
+    }
+    return progress.control == command.control ? std::nullopt : DescribeObstacleOrNull(command.control, *planOrNull);
+}
+
+std::optional<std::string> PlanControls::DescribeObstacleOrNull(EPlanControl control, const ActivePlan& plan) const
+{
+    const PlanProgress& progress = plan.record.progress;
+    const bool bEnding = progress.control == EPlanControl::Abort
+        || (progress.control == EPlanControl::Cancel && control != EPlanControl::Abort);
+    if (bEnding)
+    {
+        return fmt::format("{}Plan is already in progress for this plan.", GetText(*progress.control));
+    }
+    if (control == EPlanControl::Cancel && !IsCancellable(plan))
+    {
+        return _options.controls.cancelUntil == ECancelWindow::Dispatch
+            ? "The plan is assigned to a robot."
+            : (plan.bJobBegun ? "The first job has started." : "The robot has arrived.");
+    }
+    if (control == EPlanControl::Resume && progress.state != EPlanState::Paused)
+    {
+        return "The plan is not paused.";
+    }
+    if (control == EPlanControl::Resume && _tsc.GetState() != ETscState::Auto && plan.robot.has_value())
+    {
+        return fmt::format("The TSC is {}. Resume the plan when it is Auto.", GetText(_tsc.GetState()));
+    }
+    return std::nullopt;
+}
+
+void PlanControls::Apply(EPlanControl control, EControlOrigin origin, ActivePlan& plan)
 {
     switch (control)
     {
         case EPlanControl::Cancel:
-            Cancel(plan);
+            Cancel(plan, origin);
             break;
         case EPlanControl::Abort:
-            Abort(plan);
+            Abort(plan, origin);
             break;
         case EPlanControl::Pause:
-            Pause(plan);
+            Pause(plan, origin);
             break;
         case EPlanControl::Resume:
-            Resume(plan);
+            Resume(plan, origin);
             break;
         default:
             assert(false && "a control has no case");
@@ -111,31 +198,23 @@ void PlanControls::Apply(EPlanControl control, ActivePlan& plan)
     }
 }
 
-void PlanControls::Cancel(ActivePlan& plan)
+void PlanControls::Cancel(ActivePlan& plan, EControlOrigin origin)
 {
-    if (!IsCancellable(plan))
-    {
-        const char* reason = _options.controls.cancelUntil == ECancelWindow::Dispatch
-            ? "The plan is assigned to a robot."
-            : (plan.bJobBegun ? "The first job has started." : "The robot has arrived.");
-        _answers.ReportControlResult(EPlanControl::Cancel, plan.record.plan.planID, false, reason);
-        return;
-    }
     _answers.Answer(plan, false, "Superseded by CancelPlan.");
-    StopDrive(plan, EPlanControl::Cancel);
+    StopDrive(plan, EPlanControl::Cancel, origin);
 }
 
-void PlanControls::Abort(ActivePlan& plan)
+void PlanControls::Abort(ActivePlan& plan, EControlOrigin origin)
 {
     _answers.Answer(plan, false, "Superseded by AbortPlan.");
     const bool bJobRuns = plan.robot.has_value() && _fleet[*plan.robot].activity == EActivity::Works;
     if (!bJobRuns)
     {
-        StopDrive(plan, EPlanControl::Abort);
+        StopDrive(plan, EPlanControl::Abort, origin);
         return;
     }
     Robot& robot = _fleet[*plan.robot];
-    _answers.Ask(plan, EPlanControl::Abort);
+    _answers.Ask(plan, EPlanControl::Abort, origin);
     if (robot.job.IsUnresolved())
     {
         _work.AbortUnresolvedJob(robot);
@@ -170,9 +249,9 @@ bool PlanControls::IsCancellable(const ActivePlan& plan) const
     }
 }
 
-void PlanControls::StopDrive(ActivePlan& plan, EPlanControl control)
+void PlanControls::StopDrive(ActivePlan& plan, EPlanControl control, EControlOrigin origin)
 {
-    _answers.Ask(plan, control);
+    _answers.Ask(plan, control, origin);
     Robot* robotOrNull = plan.robot.has_value() ? &_fleet[*plan.robot] : nullptr;
     if (robotOrNull == nullptr || !robotOrNull->drive.has_value() || robotOrNull->drive->goal == EDriveGoal::Home)
     {
@@ -245,18 +324,22 @@ void PlanControls::OnControlTimeout(Robot& robot)
     }
     if (plan.record.progress.state == EPlanState::Paused)
     {
-        _answers.LeavePause(plan, "PausePlan failed: the robot did not confirm that it stopped.");
+        _answers.LeavePause(plan, "The pause has failed: the robot did not confirm that it stopped.");
     }
     _answers.Answer(plan, false, "The robot did not confirm that it stopped; the plan continues.");
     ContinueAfterControl(robot);
 }
 
-void PlanControls::Pause(ActivePlan& plan)
+void PlanControls::Pause(ActivePlan& plan, EControlOrigin origin)
 {
     const bool bPaused = plan.record.progress.state == EPlanState::Paused;
     if (bPaused && !plan.record.progress.control.has_value())
     {
-        _answers.ReportControlResult(EPlanControl::Pause, plan.record.plan.planID, true, "The plan is already paused.");
+        if (origin == EControlOrigin::MCS)
+        {
+            const std::string& planID = plan.record.plan.planID;
+            _answers.ReportControlResult(EPlanControl::Pause, planID, true, "The plan is already paused.");
+        }
         return;
     }
     _answers.Answer(plan, false, "Superseded by PausePlan.");
@@ -265,11 +348,14 @@ void PlanControls::Pause(ActivePlan& plan)
         _assignment.Withdraw(plan);
     }
     _assignment.Start(plan); // its robot may have accepted the drive and not shown it yet
-    _answers.Ask(plan, EPlanControl::Pause);
+    _answers.Ask(plan, EPlanControl::Pause, origin);
     if (!plan.robot.has_value())
     {
         _plans.Dequeue(plan);
-        _transaction.ChangePlan(plan, EPlanState::Paused, "Held in the queue by PausePlan.");
+        _transaction.ChangePlan(
+            plan,
+            EPlanState::Paused,
+            fmt::format("Held in the queue by {}.", ControlAnswers::DescribeOrigin(plan, EPlanControl::Pause)));
         _answers.Answer(plan, true, "The plan is held in the queue.");
         return;
     }
@@ -290,28 +376,13 @@ void PlanControls::Pause(ActivePlan& plan)
     UpdatePause(robot, false, false);
 }
 
-void PlanControls::Resume(ActivePlan& plan)
+void PlanControls::Resume(ActivePlan& plan, EControlOrigin origin)
 {
-    const std::string& planID = plan.record.plan.planID;
-    if (plan.record.progress.state != EPlanState::Paused)
-    {
-        _answers.ReportControlResult(EPlanControl::Resume, planID, false, "The plan is not paused.");
-        return;
-    }
-    if (_tsc.GetState() != ETscState::Auto && plan.robot.has_value())
-    {
-        _answers.ReportControlResult(
-            EPlanControl::Resume,
-            planID,
-            false,
-            fmt::format("The TSC is {}. Resume the plan when it is Auto.", GetText(_tsc.GetState())));
-        return;
-    }
     _answers.Answer(plan, false, "Superseded by ResumePlan.");
-    _answers.Ask(plan, EPlanControl::Resume);
+    _answers.Ask(plan, EPlanControl::Resume, origin);
     if (!plan.robot.has_value())
     {
-        _answers.LeavePause(plan, "Resumed by ResumePlan.");
+        _answers.LeavePause(plan, DescribeResume(plan));
         _plans.Enqueue(plan);
         _answers.Answer(plan, true, "The plan is back in the queue.");
         _transaction.RequestDispatch();
@@ -363,7 +434,7 @@ void PlanControls::ConfirmResume(Robot& robot)
 {
     ActivePlan& plan = *robot.planOrNull;
     _status.PublishStatus(robot, _status.DeriveStatus(robot));
-    _answers.LeavePause(plan, "Resumed by ResumePlan.");
+    _answers.LeavePause(plan, DescribeResume(plan));
     _answers.Answer(plan, true, "The plan continues.");
     ContinueAfterControl(robot);
 }

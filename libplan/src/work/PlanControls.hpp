@@ -48,6 +48,8 @@ public:
 
     /// Acknowledges the request and applies it.
     void Control(const ControlPlan& command);
+    /// Why an operator's control would be refused now.
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const ControlPlan& command) const;
     /// Continues what a pause or a failed control has delayed.
     void ContinueAfterControl(Robot& robot);
     /// The robot has not confirmed in time that it stopped or resumed: the control fails.
@@ -59,19 +61,22 @@ public:
     void UpdateStandstill(Robot& robot);
 
 private:
-    void Apply(EPlanControl control, ActivePlan& plan);
-    void Cancel(ActivePlan& plan);
+    void ControlByOperator(const ControlPlan& command);
+    /// Why the plan cannot be controlled now, for the MCS and for the operator.
+    [[nodiscard]] std::optional<std::string> DescribeObstacleOrNull(EPlanControl control, const ActivePlan& plan) const;
+    void Apply(EPlanControl control, EControlOrigin origin, ActivePlan& plan);
+    void Cancel(ActivePlan& plan, EControlOrigin origin);
     /// Sections 6.6 and 6.14, register D-15, D-16.
-    void Abort(ActivePlan& plan);
+    void Abort(ActivePlan& plan, EControlOrigin origin);
     /// Section 6.5, register D-14.
     [[nodiscard]] bool IsCancellable(const ActivePlan& plan) const;
     /// Ends the plan at once, or, if its robot drives to the step's station, when the robot has stopped.
-    void StopDrive(ActivePlan& plan, EPlanControl control);
+    void StopDrive(ActivePlan& plan, EPlanControl control, EControlOrigin origin);
     /// Section 6.7, register D-21, D-22. A plan without a robot is held in the queue. A robot that drives or works must confirm
     /// that it has stopped.
-    void Pause(ActivePlan& plan);
+    void Pause(ActivePlan& plan, EControlOrigin origin);
     /// Section 6.8.
-    void Resume(ActivePlan& plan);
+    void Resume(ActivePlan& plan, EControlOrigin origin);
     /// The robot has resumed: reports its status, the plan's state and the result, in this order.
     void ConfirmResume(Robot& robot);
 };

@@ -226,7 +226,10 @@ void PlanWork::ConfirmPause(Robot& robot)
     robot.changes.bStatus = true;
     if (plan.record.progress.state != EPlanState::Paused)
     {
-        _transaction.ChangePlan(plan, EPlanState::Paused, "Paused by PausePlan.");
+        _transaction.ChangePlan(
+            plan,
+            EPlanState::Paused,
+            fmt::format("Paused by {}.", ControlAnswers::DescribeOrigin(plan, EPlanControl::Pause)));
     }
     _answers.Answer(plan, true, "The plan is paused.");
 }
@@ -300,7 +303,7 @@ void PlanWork::EndByControl(ActivePlan& plan, EPlanControl control)
     EndPlan(
         plan,
         control == EPlanControl::Cancel ? EPlanState::Cancelled : EPlanState::Aborted,
-        fmt::format("Ended by {}Plan.", GetText(control)));
+        fmt::format("Ended by {}.", ControlAnswers::DescribeOrigin(plan, control)));
 }
 
 void PlanWork::DropJob(Robot& robot)

@@ -75,6 +75,7 @@ std::vector<StoreBatch> MakeBatches()
     progressed.progress.bArrived = true;
     progressed.progress.control = EPlanControl::Pause;
     progressed.progress.controlCount = 2;
+    progressed.progress.controlOrigin = EControlOrigin::Operator;
     progressed.progress.requestIDs = {"T1", "T2"};
     const RobotWorkChanged work{"LR01", "C1", {"C0"}, std::nullopt, "5 5 0", true, false, {"N1", "N2"}};
     const StartJob job{"P1", 1, "J1", "CassetteLoad", "A01.CP01", "A01.CP01", "LR01.CP01", "C1", "C2", "5 5 0"};

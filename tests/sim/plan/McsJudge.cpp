@@ -136,6 +136,11 @@ void McsJudge::NoteFailedByOperator(const std::string& planID)
     _failedByOperator.insert(planID);
 }
 
+void McsJudge::NoteControlledByOperator(const std::string& planID)
+{
+    _controlledByOperator.insert(planID);
+}
+
 void McsJudge::NoteControlSent(
     Planning::EPlanControl control,
     const std::string& planID,
@@ -529,7 +534,8 @@ std::string McsJudge::DescribeOwed() const
     for (const auto& [key, control] : _controls)
     {
         const auto plan = _plans.find(key.first);
-        const bool bEnds = key.second == Planning::EPlanControl::Cancel || key.second == Planning::EPlanControl::Abort;
+        const bool bEnds = (key.second == Planning::EPlanControl::Cancel || key.second == Planning::EPlanControl::Abort)
+            && !_controlledByOperator.contains(key.first);
         if (bEnds && !control.bDone && plan != _plans.end() && IsDone(key.second, plan->second.status))
         {
             text += fmt::format(

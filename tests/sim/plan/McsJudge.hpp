@@ -60,6 +60,7 @@ private:
     const WorkChecker& _workChecker;
     std::map<std::string, PlanView> _plans;
     std::map<std::pair<std::string, Planning::EPlanControl>, ControlView> _controls;
+    std::set<std::string> _controlledByOperator;
     std::set<std::string> _failedByOperator; ///< Plans.
     std::map<std::string, Protocol::AcsPayload> _seen;
     std::uint64_t _lastSequence = 0;
@@ -76,6 +77,8 @@ public:
     void NotePlanAck(const Protocol::AcsAck& ack);
     /// The operator resolves a job of the plan as failed: the plan may fail without a JobReport(Failed).
     void NoteFailedByOperator(const std::string& planID);
+    /// The operator may end the plan, so its end is no effect of a control of the MCS.
+    void NoteControlledByOperator(const std::string& planID);
     void NoteControlSent(Planning::EPlanControl control, const std::string& planID, const std::string& transactionID);
     void NoteControlAck(Planning::EPlanControl control, const std::string& planID, const Protocol::AcsAck& ack);
 

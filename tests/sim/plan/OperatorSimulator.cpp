@@ -22,11 +22,13 @@ OperatorSimulator::OperatorSimulator(
     const ChanceSeed& seed,
     const Robots& robots,
     const CrashableStore& store,
+    McsJudge& judge,
     ProcessSource getProcessOrNull)
     : _trace(trace),
       _chance(seed),
       _robots(robots),
       _store(store),
+      _judge(judge),
       _getProcessOrNull(std::move(getProcessOrNull)),
       _behaviours(timeline)
 {
@@ -36,6 +38,43 @@ void OperatorSimulator::Begin()
 {
     _behaviours.Start(EBehaviour::Turn, _chance.GetBetween(1s, 60s), [this] { Turn(); });
     _behaviours.Start(EBehaviour::Poll, 1s, [this] { Poll(); });
+}
+
+void OperatorSimulator::BeginInterventions()
+{
+    _behaviours.Start(EBehaviour::Intervene, _chance.GetBetween(1s, 60s), [this] { Intervene(); });
+}
+
+void OperatorSimulator::Intervene()
+{
+    if (AcsdProcess* const processOrNull = _getProcessOrNull(); processOrNull != nullptr)
+    {
+        ControlPlan(*processOrNull);
+    }
+    _behaviours.Start(EBehaviour::Intervene, _chance.GetBetween(1s, 30s), [this] { Intervene(); });
+}
+
+void OperatorSimulator::ControlPlan(AcsdProcess& process)
+{
+    using Planning::EPlanControl;
+    const std::vector<Planning::PlanSummary> plans = process.GetEngine().GetActivePlans();
+    if (plans.empty())
+    {
+        return;
+    }
+    const std::string& planID = plans[_chance.GetBelow(plans.size())].planID;
+    const std::vector<EPlanControl> controls{
+        EPlanControl::Pause,
+        EPlanControl::Pause,
+        EPlanControl::Resume,
+        EPlanControl::Resume,
+        EPlanControl::Resume,
+        EPlanControl::Cancel,
+        EPlanControl::Abort};
+    const EPlanControl control = _chance.Pick(controls);
+    _trace.Add("operator: {} of plan {}", GetText(control), planID);
+    _judge.NoteControlledByOperator(planID);
+    process.PushCommand(Planning::ControlPlan{control, planID, {}, 0, {}, Planning::EControlOrigin::Operator});
 }
 
 void OperatorSimulator::End()

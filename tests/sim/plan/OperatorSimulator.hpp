@@ -3,6 +3,7 @@
 #include "AcsdProcess.hpp"
 #include "ChanceModel.hpp"
 #include "ISimulatedRobot.hpp"
+#include "McsJudge.hpp"
 #include "TimerBank.hpp"
 #include "Trace.hpp"
 
@@ -15,7 +16,7 @@ namespace ACS::Simulation
 {
 
 /// The operator who takes robots out of service and puts them back, and checks that acsd leaves a robot alone that
-/// is stationary and out of service.
+/// is stationary and out of service. In some runs the operator also controls plans.
 class OperatorSimulator final
 {
 public:
@@ -28,6 +29,7 @@ private:
     {
         Turn,
         Poll,
+        Intervene,
     };
     struct Service
     {
@@ -39,6 +41,7 @@ private:
     ChanceModel _chance;
     const Robots& _robots;
     const CrashableStore& _store;
+    McsJudge& _judge;
     ProcessSource _getProcessOrNull;
     TimerBank<EBehaviour> _behaviours;
 
@@ -53,9 +56,12 @@ public:
         const ChanceSeed& seed,
         const Robots& robots,
         const CrashableStore& store,
+        McsJudge& judge,
         ProcessSource getProcessOrNull);
 
     void Begin();
+    /// Controls plans from now on.
+    void BeginInterventions();
     void End();
     /// acsd was started. A robot has its plan again if the end was not stored; maintenance is as before.
     void OnStart();
@@ -65,6 +71,8 @@ public:
 private:
     void Turn();
     void Poll();
+    void Intervene();
+    void ControlPlan(AcsdProcess& process);
     void CheckResting(const Planning::RobotStatus& robot);
     void CheckService(const Planning::RobotStatus& robot);
 };

@@ -28,6 +28,7 @@ constexpr std::uint64_t FAULT_PART = 303;
 constexpr std::uint64_t ROBOT_PART = 304;
 constexpr std::uint64_t BROKER_PART = 305;
 constexpr std::uint64_t OPERATOR_PART = 306;
+constexpr std::uint64_t INTERVENTION_PART = 307; ///< Whether the operator intervenes.
 constexpr std::uint64_t FIRST_ROBOT_PART = 400;
 constexpr std::uint64_t FIRST_RADIO_PART = 500;
 constexpr std::uint64_t FIRST_ARM_PART = 600;
@@ -58,7 +59,9 @@ World::World(Scenario scenario, EMutation mutation, bool bPrinting)
       _behaviours(_timeline),
       _robotBehaviours(_timeline),
       _radioBehaviours(_timeline),
-      _operator(_timeline, _trace, {_scenario.seed, OPERATOR_PART}, _robots, _store, [this] { return _process.get(); })
+      _operator(_timeline, _trace, {_scenario.seed, OPERATOR_PART}, _robots, _store, _judge, [this] {
+          return _process.get();
+      })
 {
 }
 
@@ -209,6 +212,10 @@ void World::BeginFaults()
     if (_scenario.bMaintenance)
     {
         _operator.Begin();
+    }
+    if (_scenario.Has(EFault::Controls) && ChanceModel({_scenario.seed, INTERVENTION_PART}).IsHit(300))
+    {
+        _operator.BeginInterventions();
     }
     if (_scenario.Has(EFault::Crashes))
     {

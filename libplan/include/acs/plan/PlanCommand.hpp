@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/plan/EControlOrigin.hpp>
 #include <acs/plan/EJobResolution.hpp>
 #include <acs/plan/EPlanControl.hpp>
 #include <acs/plan/Plan.hpp>
@@ -28,8 +29,9 @@ struct SubmitPlan
     bool operator==(const SubmitPlan&) const = default;
 };
 
-/// CancelPlan, AbortPlan, PausePlan, ResumePlan. Answered by one ReplyCommand immediately and by one ControlResultReport when
-/// the outcome is known.
+/// CancelPlan, AbortPlan, PausePlan, ResumePlan. Answered by one ReplyCommand immediately and, if it is the MCS's, by one
+/// ControlResultReport when the outcome is known. An operator's has the same effect and the same reports of the plan, but no
+/// result report; it is refused while a control of the MCS has no result yet, and where the MCS's would fail at once.
 struct ControlPlan
 {
     EPlanControl control = EPlanControl::Cancel; ///< What to do with the plan.
@@ -37,6 +39,7 @@ struct ControlPlan
     std::string reason; ///< May be empty.
     ReplyToken replyToken = 0;
     std::string transactionID = {}; ///< Of the request; a repetition has no result report of its own. May be empty.
+    EControlOrigin origin = EControlOrigin::MCS; ///< Who is answered.
 
     bool operator==(const ControlPlan&) const = default;
 };

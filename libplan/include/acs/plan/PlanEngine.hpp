@@ -142,6 +142,9 @@ public:
     /// Likewise.
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SkipStep& command) const;
 
+    /// Likewise; the command is taken as an operator's.
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const ControlPlan& command) const;
+
     /// nullopt if the plan is unknown, is finished or makes progress.
     [[nodiscard]] std::optional<WaitReason> GetWaitReasonOrNull(std::string_view planID) const;
 

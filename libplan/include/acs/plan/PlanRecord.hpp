@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/core/Now.hpp>
+#include <acs/plan/EControlOrigin.hpp>
 #include <acs/plan/EJobState.hpp>
 #include <acs/plan/EPlanControl.hpp>
 #include <acs/plan/EPlanState.hpp>
@@ -37,8 +38,10 @@ struct PlanProgress
     std::vector<StepProgress> steps;         ///< One per step of the plan, in ascending stepNo.
     bool bArrived = false;                   ///< The last node before the position of the first step was reached.
     std::optional<EPlanControl> control;     ///< The acknowledged control whose outcome is not known.
-    std::size_t controlCount = 0;            ///< Number of requests for that control; each gets a result report.
-    std::vector<std::string> requestIDs;     ///< The latest controls, each with its transactionID ("Pause 4711").
+    std::size_t controlCount = 0; ///< Number of the MCS's requests for that control; each gets a result report.
+    /// Who began that control or, if there is none, the last one.
+    EControlOrigin controlOrigin = EControlOrigin::MCS;
+    std::vector<std::string> requestIDs; ///< The latest controls, each with its transactionID ("Pause 4711").
     /// Age of the queue when the plan was accepted, and when this was stored last: the time that the engine has run, restarts
     /// included. Setting the wall clock does not change it.
     std::chrono::milliseconds queuedAt{0};

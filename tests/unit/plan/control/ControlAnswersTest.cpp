@@ -12,7 +12,7 @@ TEST_CASE("ControlAnswers: each request of an open control has one result")
     EngineParts parts;
     ActivePlan& plan = parts.AddLoad();
     parts.Discard();
-    parts.answers.Ask(plan, EPlanControl::Pause);
+    parts.answers.Ask(plan, EPlanControl::Pause, EControlOrigin::MCS);
     plan.record.progress.controlCount = 3;
     parts.answers.Answer(plan, true, "Paused.");
     CHECK(
@@ -69,7 +69,7 @@ TEST_CASE("ControlAnswers: the answer stops the timer, and a reroute has its tim
 {
     EngineParts parts;
     ActivePlan& plan = parts.BeginDriveToLoad();
-    parts.answers.Ask(plan, EPlanControl::Cancel);
+    parts.answers.Ask(plan, EPlanControl::Cancel, EControlOrigin::MCS);
     parts.answers.StartConfirming(parts.lr, std::chrono::seconds(3));
     CHECK(parts.Collect().GetDelayOrNull(EEngineTimer::ControlConfirm) == std::chrono::seconds(3));
     SECTION("without a reroute")

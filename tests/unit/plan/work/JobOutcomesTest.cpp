@@ -91,7 +91,7 @@ TEST_CASE("JobOutcomes: a job that the robot never had is repeated under its com
     }
     SECTION("not begun, and the plan is to be aborted")
     {
-        parts.answers.Ask(plan, EPlanControl::Abort);
+        parts.answers.Ask(plan, EPlanControl::Abort, EControlOrigin::MCS);
         parts.jobs.OnJobUnknown(parts.lr, JobUnknown{"P1-a4"});
         CHECK(plan.record.progress.state == EPlanState::Aborted);
     }

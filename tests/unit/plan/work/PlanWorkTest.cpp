@@ -115,7 +115,7 @@ TEST_CASE("PlanWork: a plan that is being paused begins nothing after its job")
     EngineParts parts;
     ActivePlan& plan = parts.BeginLoad();
     parts.jobs.OnJobStarted(parts.lr, JobStarted{"P1-a4"});
-    parts.answers.Ask(plan, EPlanControl::Pause);
+    parts.answers.Ask(plan, EPlanControl::Pause, EControlOrigin::MCS);
     parts.Discard();
     parts.work.EndJob(parts.lr, {});
     CHECK(plan.record.progress.state == EPlanState::Paused);
