@@ -59,6 +59,7 @@ struct ProgressText
     std::vector<std::string> requestIDs;
     std::int64_t queuedAt = 0;
     std::int64_t storedAt = 0;
+    std::optional<std::int32_t> priority;
 };
 
 } // namespace
@@ -134,7 +135,8 @@ struct JsonFields<Planning::ProgressText>
         Optional("controlOrigin", &Planning::ProgressText::controlOrigin),
         Optional("requestIds", &Planning::ProgressText::requestIDs),
         Optional("queuedAt", &Planning::ProgressText::queuedAt),
-        Optional("storedAt", &Planning::ProgressText::storedAt));
+        Optional("storedAt", &Planning::ProgressText::storedAt),
+        Optional("priority", &Planning::ProgressText::priority));
 };
 
 template <>
@@ -377,7 +379,8 @@ std::string EncodeProgress(const PlanProgress& progress)
         progress.controlOrigin,
         progress.requestIDs,
         progress.queuedAt.count(),
-        progress.storedAt.count()});
+        progress.storedAt.count(),
+        progress.priority});
 }
 
 Core::Result<PlanProgress> DecodeProgress(std::string_view text)
@@ -396,7 +399,8 @@ Core::Result<PlanProgress> DecodeProgress(std::string_view text)
             read.controlOrigin,
             std::move(read.requestIDs),
             std::chrono::milliseconds(read.queuedAt),
-            std::chrono::milliseconds(read.storedAt)};
+            std::chrono::milliseconds(read.storedAt),
+            read.priority};
     });
 }
 

@@ -263,10 +263,7 @@ std::optional<std::string> OperatorCommands::GetRejectionReasonOrNull(const Skip
     const ActivePlan* planOrNull = _plans.FindActiveOrNull(command.planID);
     if (planOrNull == nullptr)
     {
-        const PlanRecord* finishedOrNull = _plans.FindFinishedOrNull(command.planID);
-        return finishedOrNull == nullptr
-            ? fmt::format("There is no plan {}.", command.planID)
-            : fmt::format("Plan {} is already {}.", command.planID, GetText(finishedOrNull->progress.state));
+        return DescribeInactive(command.planID);
     }
     const ActivePlan& plan = *planOrNull;
     const std::optional<std::size_t> index = FindStepOrNull(plan.record.plan, command.stepNo);
@@ -290,6 +287,45 @@ std::optional<std::string> OperatorCommands::GetRejectionReasonOrNull(const Skip
         "Step {} is {}. Only a Pending step or a step with an unresolved job can be skipped.",
         command.stepNo,
         GetText(state));
+}
+
+std::optional<std::string> OperatorCommands::GetRejectionReasonOrNull(const SetPlanPriority& command) const
+{
+    const ActivePlan* planOrNull = _plans.FindActiveOrNull(command.planID);
+    if (planOrNull == nullptr)
+    {
+        return DescribeInactive(command.planID);
+    }
+    const EPlanState state = planOrNull->record.progress.state;
+    return state == EPlanState::Pending
+        ? std::nullopt
+        : std::optional(fmt::format(
+            "Plan {} is {}. Only the priority of a plan that waits in the queue can be changed.",
+            command.planID,
+            GetText(state)));
+}
+
+std::string OperatorCommands::DescribeInactive(const std::string& planID) const
+{
+    const PlanRecord* recordOrNull = _plans.FindRecordOrNull(planID);
+    return recordOrNull == nullptr
+        ? fmt::format("There is no plan {}.", planID)
+        : fmt::format("Plan {} is already {}.", planID, GetText(recordOrNull->progress.state));
+}
+
+void OperatorCommands::ChangePriority(const SetPlanPriority& command)
+{
+    if (std::optional<std::string> reason = GetRejectionReasonOrNull(command))
+    {
+        _transaction.Reply(command.replyToken, false, std::move(*reason));
+        return;
+    }
+    _plans.SetPriority(*_plans.FindActiveOrNull(command.planID), command.priority);
+    _transaction.RequestDispatch();
+    _transaction.Reply(
+        command.replyToken,
+        true,
+        fmt::format("Plan {} has the priority {}.", command.planID, command.priority));
 }
 
 void OperatorCommands::Skip(const SkipStep& command)

@@ -18,10 +18,11 @@
 namespace ACS::Planning
 {
 
-/// Handles the operator's commands: maintenance, alarms, carriers, skipped steps and the outcome of jobs. Owns no data.
+/// Handles the operator's commands: maintenance, alarms, carriers, skipped steps, priorities and the outcome of
+/// jobs. Owns no data.
 class OperatorCommands
 {
-    const PlanBook& _plans;
+    PlanBook& _plans;
     Fleet& _fleet;
     AlarmBook& _alarms;
     EngineTransaction& _transaction;
@@ -53,14 +54,19 @@ public:
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SetCarriers& command) const;
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const ResolveJob& command) const;
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SkipStep& command) const;
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SetPlanPriority& command) const;
     /// Skips a step (section 6.13).
     void Skip(const SkipStep& command);
+    /// Moves a plan in the queue.
+    void ChangePriority(const SetPlanPriority& command);
     /// Resolves a job whose outcome is unknown.
     void Settle(const ResolveJob& command);
 
 private:
     /// Whether the cause of the alarm remains, as far as the engine knows.
     [[nodiscard]] bool HasCause(const Alarm& alarm) const;
+    /// Why a plan that is not active is refused.
+    [[nodiscard]] std::string DescribeInactive(const std::string& planID) const;
     /// The outcome of the job stays unknown; the record of the ports is not changed.
     void SkipUnresolved(Robot& robot);
     /// Index of the robot that has the job.

@@ -101,8 +101,9 @@ void PlanEngine::Impl::HandleCommand(const PlanCommand& command)
             [this](const SetMaintenance& maintenance) { _operator.Maintain(maintenance); },
             [this](const ClearAlarms& clear) { _operator.ClearByOperator(clear); },
             [this](const SetCarriers& carriers) { _operator.CorrectCarriers(carriers); },
-            [this](const SkipStep& skip) {
-                _operator.Skip(skip);
+            [this](const SkipStep& skip) { _operator.Skip(skip); },
+            [this](const SetPlanPriority& priority) {
+                _operator.ChangePriority(priority);
             }},
         command);
 }

@@ -203,6 +203,11 @@ std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const Cont
     return _controls.GetRejectionReasonOrNull(command);
 }
 
+std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const SetPlanPriority& command) const
+{
+    return _operator.GetRejectionReasonOrNull(command);
+}
+
 const std::vector<Alarm>& PlanEngine::Impl::GetActiveAlarms() const noexcept
 {
     return _engine.alarms.GetAlarms();

@@ -145,6 +145,11 @@ std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const ControlPla
     return _impl->GetRejectionReasonOrNull(command);
 }
 
+std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const SetPlanPriority& command) const
+{
+    return _impl->GetRejectionReasonOrNull(command);
+}
+
 const std::vector<Alarm>& PlanEngine::GetActiveAlarms() const noexcept
 {
     return _impl->GetActiveAlarms();

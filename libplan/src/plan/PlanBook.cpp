@@ -124,6 +124,19 @@ void PlanBook::Dequeue(const ActivePlan& plan)
     _queue.erase(plan.key);
 }
 
+void PlanBook::SetPriority(ActivePlan& plan, std::int32_t priority)
+{
+    const bool bQueued = _queue.contains(plan.key);
+    Dequeue(plan);
+    plan.record.progress.priority = priority;
+    plan.key = MakeQueueKey(plan.record);
+    if (bQueued)
+    {
+        Enqueue(plan);
+    }
+    MarkProgressed(plan.record.plan.planID);
+}
+
 EPlanState PlanBook::Change(ActivePlan& plan, EPlanState state, std::string message, Core::WallTime now)
 {
     PlanProgress& progress = plan.record.progress;
@@ -256,7 +269,7 @@ bool PlanBook::IsAnyRunning() const
 /// Time in the queue counts as priority, continuously: of two plans the same one is always ahead, so keys never change.
 QueueKey PlanBook::MakeQueueKey(const PlanRecord& record) const
 {
-    const std::int64_t given = record.plan.priority.value_or(_options.defaultPriority);
+    const std::int64_t given = record.GetPriorityOrNull().value_or(_options.defaultPriority);
     const std::int64_t priority = _options.bLowerPriorityFirst ? -given : given;
     const std::int64_t ageing = _options.queueAgeing.count();
     if (ageing == 0)

@@ -68,6 +68,9 @@ public:
     void Enqueue(ActivePlan& plan);
     void Dequeue(const ActivePlan& plan);
 
+    /// Of a plan in the queue or with an offer.
+    void SetPriority(ActivePlan& plan, std::int32_t priority);
+
     /// These return the previous state. The transition must be in its table.
     EPlanState Change(ActivePlan& plan, EPlanState state, std::string message, Core::WallTime now);
     EStepState ChangeStep(ActivePlan& plan, std::size_t index, EStepState state);

@@ -50,6 +50,7 @@ void OperatorSimulator::Intervene()
     if (AcsdProcess* const processOrNull = _getProcessOrNull(); processOrNull != nullptr)
     {
         ControlPlan(*processOrNull);
+        ChangePriority(*processOrNull);
     }
     _behaviours.Start(EBehaviour::Intervene, _chance.GetBetween(1s, 30s), [this] { Intervene(); });
 }
@@ -75,6 +76,18 @@ void OperatorSimulator::ControlPlan(AcsdProcess& process)
     _trace.Add("operator: {} of plan {}", GetText(control), planID);
     _judge.NoteControlledByOperator(planID);
     process.PushCommand(Planning::ControlPlan{control, planID, {}, 0, {}, Planning::EControlOrigin::Operator});
+}
+
+void OperatorSimulator::ChangePriority(AcsdProcess& process)
+{
+    const std::vector<Planning::PlanSummary> plans = process.GetEngine().GetActivePlans();
+    if (!plans.empty())
+    {
+        const std::string& planID = plans[_chance.GetBelow(plans.size())].planID;
+        const auto priority = static_cast<std::int32_t>(_chance.GetBelow(4));
+        _trace.Add("operator: plan {} has the priority {}", planID, priority);
+        process.PushCommand(Planning::SetPlanPriority{planID, priority, 0});
+    }
 }
 
 void OperatorSimulator::End()

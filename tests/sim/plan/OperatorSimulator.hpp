@@ -16,7 +16,8 @@ namespace ACS::Simulation
 {
 
 /// The operator who takes robots out of service and puts them back, and checks that acsd leaves a robot alone that
-/// is stationary and out of service. In some runs the operator also controls plans.
+/// is stationary and out of service. In some runs the operator also controls plans and
+/// changes their priorities.
 class OperatorSimulator final
 {
 public:
@@ -73,6 +74,7 @@ private:
     void Poll();
     void Intervene();
     void ControlPlan(AcsdProcess& process);
+    void ChangePriority(AcsdProcess& process);
     void CheckResting(const Planning::RobotStatus& robot);
     void CheckService(const Planning::RobotStatus& robot);
 };

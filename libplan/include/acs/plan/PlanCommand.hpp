@@ -119,6 +119,18 @@ struct SkipStep
     bool operator==(const SkipStep&) const = default;
 };
 
+/// Operator: change the priority of a plan that waits in the queue. Every priority is accepted, as in SubmitPlan. The order of
+/// the queue follows at once; the time that the plan has waited counts as before. Survives a restart. Answered by one
+/// ReplyCommand.
+struct SetPlanPriority
+{
+    std::string planID;
+    std::int32_t priority = 0; ///< Replaces Plan::priority.
+    ReplyToken replyToken = 0;
+
+    bool operator==(const SetPlanPriority&) const = default;
+};
+
 /// Commands of the MCS and of the operator.
 using PlanCommand = std::variant<
     SubmitPlan,
@@ -129,6 +141,7 @@ using PlanCommand = std::variant<
     SetMaintenance,
     ClearAlarms,
     SetCarriers,
-    SkipStep>;
+    SkipStep,
+    SetPlanPriority>;
 
 } // namespace ACS::Planning

@@ -142,6 +142,8 @@ public:
     /// Likewise.
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SkipStep& command) const;
 
+    /// Likewise.
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SetPlanPriority& command) const;
     /// Likewise; the command is taken as an operator's.
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const ControlPlan& command) const;
 

@@ -46,6 +46,8 @@ struct PlanProgress
     /// included. Setting the wall clock does not change it.
     std::chrono::milliseconds queuedAt{0};
     std::chrono::milliseconds storedAt{0}; ///< See queuedAt.
+    std::optional<std::int32_t>
+        priority; ///< As an operator has changed it (SetPlanPriority); nullopt: that of the plan.
 
     bool operator==(const PlanProgress&) const = default;
 };
@@ -58,6 +60,12 @@ struct PlanRecord
     Plan plan;                  ///< With its steps in ascending stepNo.
     PlanProgress progress;      ///< The current one.
     std::string transactionID;  ///< Of the request that submitted it; may be empty.
+
+    /// The one by which it is queued; nullopt: EngineOptions::defaultPriority.
+    [[nodiscard]] std::optional<std::int32_t> GetPriorityOrNull() const
+    {
+        return progress.priority.has_value() ? progress.priority : plan.priority;
+    }
 
     bool operator==(const PlanRecord&) const = default;
 };

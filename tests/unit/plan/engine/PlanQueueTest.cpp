@@ -102,6 +102,47 @@ TEST_CASE("queue.ageing: setting the wall clock changes no order, also over a re
     }
 }
 
+TEST_CASE("An operator changes the priority of a waiting plan: the order follows at once and after a restart")
+{
+    const auto ask = [](PlanWorld& world, const SetPlanPriority& command) {
+        const std::optional<std::string> reason = world.engine->GetRejectionReasonOrNull(command);
+        world.Ask(command);
+        CHECK(world.replies.at(command.replyToken).bAccepted != reason.has_value());
+        return world.replies.at(command.replyToken).message;
+    };
+    for (const int minutes : {0, 5})
+    {
+        const auto change = [minutes](EngineOptions& options) {
+            options.queueAgeing = std::chrono::minutes(minutes);
+        };
+        PlanWorld world = MakeWorld(change);
+        world.Submit(MakePlan("P1", 1), 1, "T1");
+        world.Submit(MakePlan("P2", 2));
+        world.Submit(MakePlan("P3", std::nullopt));
+        CHECK(ask(world, {"P1", 5, 9}) == "Plan P1 has the priority 5.");
+        CHECK(ask(world, {"P3", 4, 9}) == "Plan P3 has the priority 4.");
+        CHECK(GetQueue(world) == Lines{"P1", "P3", "P2"});
+        CHECK(world.engine->GetPlanRecordOrNull("P1")->GetPriorityOrNull() == 5);
+        CHECK(world.engine->GetPlanRecordOrNull("P2")->GetPriorityOrNull() == 2);
+        world.Submit(MakePlan("P1", 1), 2, "T1"); // a repetition
+        CHECK(world.replies.at(2).bAccepted);
+        Restart(world, change);
+        CHECK(GetQueue(world) == Lines{"P1", "P3", "P2"});
+        CHECK(ask(world, {"P1", -7, 9}) == "Plan P1 has the priority -7.");
+        CHECK(GetQueue(world) == Lines{"P3", "P2", "P1"});
+        world.Control(EPlanControl::Pause, "P1");
+        CHECK(
+            ask(world, {"P1", 9, 9})
+            == "Plan P1 is Paused. Only the priority of a plan that waits in the queue can be changed.");
+        world.Control(EPlanControl::Cancel, "P1");
+        CHECK(ask(world, {"P1", 9, 9}) == "Plan P1 is already Cancelled.");
+        CHECK(ask(world, {"P9", 9, 9}) == "There is no plan P9.");
+        world.Connect();
+        REQUIRE(TryRunUntil(world, "P3", "Plan InProgress"));
+        CHECK(ask(world, {"P3", 9, 9}).starts_with("Plan P3 is InProgress."));
+    }
+}
+
 TEST_CASE("D-23 A known planId is refused, unless plan.reuse_finished_id is set and its plan has ended")
 {
     for (const bool bReused : {false, true})

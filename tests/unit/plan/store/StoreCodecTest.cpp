@@ -17,6 +17,9 @@ TEST_CASE("Store texts: plans, states, carriers and alarms are decoded as they w
     progress.steps = {{EStepState::Completed, {EJobState::Completed}}, {EStepState::Dispatched, {}}};
     progress.queuedAt = std::chrono::milliseconds(7);
     progress.storedAt = std::chrono::hours(24 * 365);
+    progress.control = EPlanControl::Pause;
+    progress.controlOrigin = EControlOrigin::Operator;
+    progress.priority = -3;
     CHECK(DecodeProgress(EncodeProgress(progress)) == progress);
 
     const CarriersChanged carriers{"CR01", {std::nullopt, "TRAY_02", std::nullopt}};
