@@ -88,6 +88,17 @@ std::optional<std::string> HttpRequest::GetQueryOrNull(std::string_view name) co
     return found == query.end() ? std::nullopt : std::optional<std::string>(found->second);
 }
 
+std::optional<std::string> HttpRequest::GetHeaderOrNull(std::string_view name) const
+{
+    const auto lower = [](char letter) {
+        return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+    };
+    const auto found = std::ranges::find_if(headers, [&](const auto& header) {
+        return std::ranges::equal(header.first, name, {}, lower, lower);
+    });
+    return found == headers.end() ? std::nullopt : std::optional<std::string>(found->second);
+}
+
 Core::Result<HttpRequest> ParseHttpTarget(std::string_view target)
 {
     const std::size_t question = std::min(target.find('?'), target.size());

@@ -2,15 +2,13 @@
 
 #include "common/config/Endpoint.hpp"
 #include "common/http/HttpGuard.hpp"
+#include "common/http/HttpLimits.hpp"
 #include "common/http/HttpMessage.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/core/Result.hpp>
 
 #include <boost/asio/any_io_executor.hpp>
 
-#include <chrono>
-#include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -23,22 +21,9 @@ class context;
 namespace ACS::Apps
 {
 
-/// Limits for one peer and for all of them.
-struct HttpLimits
-{
-    std::uint32_t maxHeaderBytes = 16U * 1024U;
-    std::uint64_t maxBodyBytes = 1024U * 1024U;
-    std::chrono::milliseconds timeout{30'000}; ///< For a whole request, and for an idle connection.
-    /// A further connection replaces the one that has waited longest for a complete request, else the one that has not read
-    /// its response for the longest time. While the handler's responses to all of them are delayed, it waits.
-    std::size_t maxConnections = 64;
-    /// Of these, from one address (of IPv6, from one /64): a further one replaces a connection of the same peer.
-    std::size_t maxPerPeer = 32;
-};
-
 /// A small HTTP/1.1 server: status and metrics of a program, the Open API of the simulated controller. Keeps
-/// connections alive; answers 400, 413 and 431 itself, 403 if its guard refuses the request, and closes after what is not HTTP.
-/// One thread: the executor's.
+/// connections alive; answers 400, 413 and 431 itself, 403 if its guard refuses the request, 503 for a stream beyond the limit,
+/// and closes after what is not HTTP. One thread: the executor's.
 class HttpServer final
 {
 public:

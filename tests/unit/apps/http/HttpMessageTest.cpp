@@ -41,3 +41,11 @@ TEST_CASE("A target that is not an encoded path is refused")
     CAPTURE(target);
     REQUIRE_FALSE(Apps::ParseHttpTarget(target).has_value());
 }
+
+TEST_CASE("A header is found in any case; the first of several counts")
+{
+    ACS::Apps::HttpRequest request;
+    request.headers = {{"cookie", "a=1"}, {"Cookie", "a=2"}};
+    CHECK(request.GetHeaderOrNull("Cookie") == "a=1");
+    CHECK(request.GetHeaderOrNull("Cookies") == std::nullopt);
+}

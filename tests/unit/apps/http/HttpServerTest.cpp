@@ -3,21 +3,17 @@
 #include "Catch.hpp"
 #include "common/http/HttpPeer.hpp"
 #include "common/log/LogRateLimiter.hpp"
-#include "RecordingLogSink.hpp"
+#include "HttpServerFixture.hpp"
+#include "RawHttpClient.hpp"
 
-#include <boost/asio/connect.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/read.hpp>
-#include <boost/asio/read_until.hpp>
 #include <boost/asio/socket_base.hpp>
 #include <boost/asio/write.hpp>
 
 #include <algorithm>
 #include <chrono>
-#include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,121 +32,8 @@ namespace
 constexpr auto LIMIT = 10s;
 constexpr const char* LOOPBACK = "127.0.0.1";
 
-/// A raw peer on the server's own loop, so that a test sends exactly the bytes that it wants to.
-class RawClient final
-{
-    boost::asio::io_context& _context;
-    Tcp::socket _socket;
-    std::string _received;
-    bool _bClosed = false;
-
-public:
-    RawClient(boost::asio::io_context& context, std::uint16_t port, const char* from = LOOPBACK)
-        : _context(context),
-          _socket(context, {boost::asio::ip::make_address(from), 0})
-    {
-        _socket.connect({boost::asio::ip::make_address(LOOPBACK), port});
-        ReadAsync();
-    }
-
-    void Send(const std::string& text)
-    {
-        auto copy = std::make_shared<std::string>(text);
-        boost::asio::async_write(
-            _socket,
-            boost::asio::buffer(*copy),
-            [copy](const boost::system::error_code&, std::size_t) {});
-    }
-
-    /// Runs the loop until this number of answers with that end has arrived, or the time limit expires.
-    [[nodiscard]] bool HasReceived(const std::string& end)
-    {
-        return Matches([this, &end] { return _received.find(end) != std::string::npos; });
-    }
-
-    [[nodiscard]] bool WasClosed()
-    {
-        return Matches([this] { return _bClosed; });
-    }
-
-    [[nodiscard]] std::string TakeReceived()
-    {
-        return std::exchange(_received, {});
-    }
-
-private:
-    bool Matches(const std::function<bool()>& isDone)
-    {
-        const auto deadline = std::chrono::steady_clock::now() + LIMIT;
-        while (!isDone() && std::chrono::steady_clock::now() < deadline)
-        {
-            _context.restart();
-            _context.run_one_for(100ms);
-        }
-        return isDone();
-    }
-
-    void ReadAsync()
-    {
-        auto chunk = std::make_shared<std::string>(4096, '\0');
-        _socket.async_read_some(
-            boost::asio::buffer(*chunk),
-            [this, chunk](const boost::system::error_code& error, std::size_t count) {
-                if (error == boost::asio::error::operation_aborted)
-                {
-                    return;
-                }
-                _received += chunk->substr(0, count);
-                _bClosed = error.failed();
-                if (!_bClosed)
-                {
-                    ReadAsync();
-                }
-            });
-    }
-};
-
-struct Fixture
-{
-    boost::asio::io_context context;
-    Testing::RecordingLogSink log;
-    std::vector<Apps::HttpRequest> requests;
-    Apps::HttpResponse answer;
-    std::unique_ptr<Apps::HttpServer> server;
-    std::uint16_t port = 0;
-
-    explicit Fixture(Apps::HttpLimits limits = {}, std::optional<Apps::HttpGuard> guardOrNull = std::nullopt)
-    {
-        const auto handler = [this](const Apps::HttpRequest& request) {
-            requests.push_back(request);
-            return answer;
-        };
-        server = std::make_unique<Apps::HttpServer>(
-            context.get_executor(),
-            handler,
-            Core::Logger(log, "http"),
-            limits,
-            std::move(guardOrNull));
-        const auto endpoint = server->Listen({LOOPBACK, 0});
-        REQUIRE(endpoint.has_value());
-        REQUIRE(endpoint->host == LOOPBACK);
-        REQUIRE(endpoint->port != 0);
-        port = endpoint->port;
-        answer.body = "<answer>";
-    }
-
-    /// Runs the loop until the connection is closed, or the time limit expires.
-    [[nodiscard]] bool IsReached(const std::function<bool()>& isReached)
-    {
-        const auto deadline = std::chrono::steady_clock::now() + LIMIT;
-        while (!isReached() && std::chrono::steady_clock::now() < deadline)
-        {
-            context.restart();
-            context.run_one_for(100ms);
-        }
-        return isReached();
-    }
-};
+using Fixture = Testing::HttpServerFixture;
+using RawClient = Testing::RawHttpClient;
 
 } // namespace
 

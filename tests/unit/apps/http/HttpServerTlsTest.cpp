@@ -1,5 +1,6 @@
 #include "Catch.hpp"
 #include "CertificateMaker.hpp"
+#include "common/http/HttpBodyStream.hpp"
 #include "common/http/HttpServer.hpp"
 #include "common/http/HttpTls.hpp"
 #include "RecordingLogSink.hpp"
@@ -7,9 +8,11 @@
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
 #include <boost/asio/read.hpp>
 #include <boost/asio/ssl.hpp>
 #include <boost/asio/write.hpp>
+#include <fmt/format.h>
 
 #include <chrono>
 #include <memory>
@@ -43,11 +46,12 @@ struct TlsFixture
     boost::asio::io_context context;
     Testing::RecordingLogSink log;
     std::vector<Apps::HttpRequest> requests;
+    Apps::HttpResponse answer{200, "text/plain", "<answer>"};
     Apps::HttpServer server{
         context.get_executor(),
         [this](const Apps::HttpRequest& request) {
             requests.push_back(request);
-            return Apps::HttpResponse{200, "text/plain", "<answer>"};
+            return answer;
         },
         Core::Logger(log, "operator")};
     std::uint16_t port = 0;
@@ -164,6 +168,25 @@ TEST_CASE("A client certificate of another CA, or one that has expired, is refus
     CHECK(fixture.requests.empty());
     CHECK(fixture.log.GetLines().size() == 2);
     CHECK(fixture.log.Contains(Core::ELogLevel::Warning, "Refused an HTTP request"));
+}
+
+TEST_CASE("Over TLS a stream sends its pieces until it ends")
+{
+    TlsFixture fixture;
+    int pieces = 0;
+    fixture.answer.stream = std::make_shared<Apps::HttpBodyStream>([&] {
+        if (++pieces < 3)
+        {
+            return fmt::format("data: {}\n\n", pieces);
+        }
+        boost::asio::post(fixture.context, [&fixture] { fixture.answer.stream->End(); });
+        return std::string();
+    });
+    const Exchange exchange = Ask(fixture, REQUEST, std::nullopt);
+    CHECK_THAT(exchange.received, StartsWith("HTTP/1.1 200 OK\r\n"));
+    CHECK_THAT(exchange.received, EndsWith("\r\n\r\ndata: 1\n\ndata: 2\n\n"));
+    CHECK(exchange.end.failed());
+    CHECK(fixture.requests.at(0).sender.bTLS);
 }
 
 TEST_CASE("Without TLS a client of the TLS address gets no answer")
