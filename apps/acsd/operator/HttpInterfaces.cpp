@@ -2,6 +2,9 @@
 
 #include "operator/HealthRoutes.hpp"
 
+#include <boost/asio/post.hpp>
+#include <boost/system/error_code.hpp>
+
 #include <utility>
 
 namespace ACS::Acsd
@@ -15,6 +18,8 @@ HttpInterfaces::HttpInterfaces(Dependencies dependencies, const HttpConfig& conf
           _dependencies.logger.MakeFor("operator"),
           AccessPolicy(config.control.access),
           *_audit),
+      _keepAlive(_dependencies.executor),
+      _events(std::make_shared<EventFeed>(_dependencies.clock, [this] { RequestFlush(); })),
       _monitoring(
           _dependencies.executor,
           [this](const Apps::HttpRequest& request) { return _monitoringRoutes.Respond(request); },
@@ -28,6 +33,9 @@ HttpInterfaces::HttpInterfaces(Dependencies dependencies, const HttpConfig& conf
           {},
           MakeHttpGuard(config.control.http))
 {
+    _gate.GetRoutes().Add("GET", "/v1/events", [this](const Apps::HttpRequest& request, const auto&) {
+        return _events->Respond(request);
+    });
 }
 
 Apps::HttpRoutes& HttpInterfaces::GetMonitoringRoutes() noexcept
@@ -38,6 +46,11 @@ Apps::HttpRoutes& HttpInterfaces::GetMonitoringRoutes() noexcept
 Apps::HttpRoutes& HttpInterfaces::GetOperatorRoutes() noexcept
 {
     return _gate.GetRoutes();
+}
+
+EventFeed& HttpInterfaces::GetEvents() noexcept
+{
+    return *_events;
 }
 
 Core::Result<void> HttpInterfaces::Listen(const HttpConfig& config)
@@ -51,11 +64,19 @@ Core::Result<void> HttpInterfaces::Listen(const HttpConfig& config)
     {
         opened = ListenOn(_operator, "operator", config.control.http);
     }
+    if (opened)
+    {
+        _bListening = true;
+        KeepAliveAsync();
+    }
     return opened;
 }
 
 void HttpInterfaces::Stop()
 {
+    _bListening = false;
+    boost::system::error_code ignored;
+    _keepAlive.cancel(ignored);
     _monitoring.Stop();
     _operator.Stop();
 }
@@ -70,6 +91,30 @@ void HttpInterfaces::Reload(const OperatorConfig& fresh, OperatorConfig& present
     }
 }
 
+void HttpInterfaces::RequestFlush()
+{
+    boost::asio::post(_dependencies.executor, [weak = std::weak_ptr<EventFeed>(_events)] {
+        if (const std::shared_ptr<EventFeed> events = weak.lock())
+        {
+            events->Flush();
+        }
+    });
+}
+
+void HttpInterfaces::KeepAliveAsync()
+{
+    _keepAlive.expires_after(EventFeed::KEEP_ALIVE);
+    _keepAlive.async_wait([this, weak = std::weak_ptr<EventFeed>(_events)](const boost::system::error_code& error) {
+        // Expired before it was cancelled, the handler may run after the destructor.
+        const std::shared_ptr<EventFeed> events = weak.lock();
+        if (!error.failed() && events != nullptr && _bListening)
+        {
+            events->KeepAlive();
+            KeepAliveAsync();
+        }
+    });
+}
+
 void HttpInterfaces::ReloadTokens(const OperatorConfig& fresh, OperatorConfig& present)
 {
     if (fresh.tokensFile != present.tokensFile || fresh.access.tokens == present.access.tokens)
@@ -78,6 +123,7 @@ void HttpInterfaces::ReloadTokens(const OperatorConfig& fresh, OperatorConfig& p
     }
     present.access.tokens = fresh.access.tokens;
     _gate.SetPolicy(AccessPolicy(present.access));
+    _events->EndAll(); // of a withdrawn token perhaps
     _dependencies.logger.MakeFor("operator").Info("tokens reloaded", {{"file", present.tokensFile}});
 }
 

@@ -6,12 +6,14 @@
 #include "common/process/ReadyLine.hpp"
 #include "config/HttpConfig.hpp"
 #include "operator/AuditLog.hpp"
+#include "operator/EventFeed.hpp"
 #include "operator/OperatorGate.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
 
 #include <boost/asio/any_io_executor.hpp>
+#include <boost/asio/steady_timer.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -38,9 +40,12 @@ private:
     std::unique_ptr<AuditLog> _audit;
     Apps::HttpRoutes _monitoringRoutes;
     OperatorGate _gate;
+    boost::asio::steady_timer _keepAlive;
+    std::shared_ptr<EventFeed> _events; ///< Flushed by handlers of the executor, which do not own it.
     Apps::HttpServer _monitoring;
     Apps::HttpServer _operator;
     std::vector<Apps::ReadyAddress> _addresses;
+    bool _bListening = false;
 
 public:
     /// The clock and the sink of the logger outlive the interfaces.
@@ -49,6 +54,9 @@ public:
     /// To be filled before Listen, as GetOperatorRoutes.
     [[nodiscard]] Apps::HttpRoutes& GetMonitoringRoutes() noexcept;
     [[nodiscard]] Apps::HttpRoutes& GetOperatorRoutes() noexcept;
+
+    /// Of GET /v1/events.
+    [[nodiscard]] EventFeed& GetEvents() noexcept;
 
     [[nodiscard]] Core::Result<void> Listen(const HttpConfig& config);
     void Stop();
@@ -64,6 +72,8 @@ public:
     [[nodiscard]] std::uint64_t GetLostAudit() const;
 
 private:
+    void RequestFlush();
+    void KeepAliveAsync();
     void ReloadTokens(const OperatorConfig& fresh, OperatorConfig& present);
     [[nodiscard]] Core::Result<void> UseTLS(const Apps::HttpTlsFiles& files);
     [[nodiscard]] Core::Result<void> ListenOn(
