@@ -8,6 +8,8 @@
 #include <prometheus/text_serializer.h>
 
 #include <cassert>
+#include <map>
+#include <string>
 #include <unordered_map>
 
 namespace ACS::Apps
@@ -39,6 +41,14 @@ struct MetricsEndpoint::Impl
     FamilyMap<prometheus::Gauge> gauges;
     FamilyMap<prometheus::Histogram> histograms;
     std::unordered_map<std::string, prometheus::Histogram::BucketBoundaries> bounds;
+    std::unordered_map<std::string, std::map<Labels, prometheus::Gauge*>> replaced; ///< The series of ReplaceGauges.
+
+    prometheus::Histogram& GetHistogram(const std::string& name, const Labels& labels)
+    {
+        const auto found = histograms.find(name);
+        assert(found != histograms.end() && "metric was not added");
+        return found->second->Add(labels, bounds.at(name));
+    }
 };
 
 MetricsEndpoint::MetricsEndpoint()
@@ -75,9 +85,7 @@ void MetricsEndpoint::AddHistogram(const std::string& name, const std::string& h
 
 void MetricsEndpoint::Observe(const std::string& name, const Labels& labels, double value)
 {
-    const auto found = _impl->histograms.find(name);
-    assert(found != _impl->histograms.end() && "metric was not added");
-    found->second->Add(labels, _impl->bounds.at(name)).Observe(value);
+    _impl->GetHistogram(name, labels).Observe(value);
 }
 
 void MetricsEndpoint::Increment(const std::string& name, const Labels& labels, double delta)
@@ -97,6 +105,35 @@ void MetricsEndpoint::SetTotal(const std::string& name, const Labels& labels, do
 void MetricsEndpoint::SetGauge(const std::string& name, const Labels& labels, double value)
 {
     GetMetric(_impl->gauges, name, labels).Set(value);
+}
+
+void MetricsEndpoint::ReplaceGauges(const std::string& name, const Series& series)
+{
+    std::map<Labels, prometheus::Gauge*>& present = _impl->replaced[name];
+    std::erase_if(present, [this, &name, &series](const auto& gauge) {
+        const bool bGone = !series.contains(gauge.first);
+        if (bGone)
+        {
+            _impl->gauges.at(name)->Remove(gauge.second);
+        }
+        return bGone;
+    });
+    for (const auto& [labels, value] : series)
+    {
+        prometheus::Gauge& gauge = GetMetric(_impl->gauges, name, labels);
+        gauge.Set(value);
+        present.insert_or_assign(labels, &gauge);
+    }
+}
+
+void MetricsEndpoint::CreateCounter(const std::string& name, const Labels& labels)
+{
+    GetMetric(_impl->counters, name, labels);
+}
+
+void MetricsEndpoint::CreateHistogram(const std::string& name, const Labels& labels)
+{
+    _impl->GetHistogram(name, labels);
 }
 
 std::string MetricsEndpoint::Render() const

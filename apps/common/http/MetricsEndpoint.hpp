@@ -16,6 +16,8 @@ class MetricsEndpoint final
 {
 public:
     using Labels = std::map<std::string, std::string>;
+    /// One series of a gauge for each set of labels.
+    using Series = std::map<Labels, double>;
 
 private:
     struct Impl;
@@ -41,6 +43,11 @@ public:
     void SetTotal(const std::string& name, const Labels& labels, double total);
     void Observe(const std::string& name, const Labels& labels, double value);
     void SetGauge(const std::string& name, const Labels& labels, double value);
+    /// Sets these series of the gauge and removes all others.
+    void ReplaceGauges(const std::string& name, const Series& series);
+    /// Creates the series with the value 0 if it does not exist: a rate needs the value before the first event.
+    void CreateCounter(const std::string& name, const Labels& labels = {});
+    void CreateHistogram(const std::string& name, const Labels& labels = {});
 
     /// All metrics in the Prometheus text format.
     [[nodiscard]] std::string Render() const;

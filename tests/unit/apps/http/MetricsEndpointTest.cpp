@@ -50,6 +50,27 @@ TEST_CASE("A histogram counts the values up to each bound and sums all values")
     REQUIRE_THAT(text, Contains("acs_wait_seconds_sum{kind=\"a\"} 5.55\n"));
 }
 
+TEST_CASE("Replaced series of a gauge disappear, and created series begin with 0")
+{
+    Apps::MetricsEndpoint metrics;
+    metrics.AddGauge("acs_alarms", "Alarms");
+    metrics.AddCounter("acs_events_total", "Events");
+    metrics.AddHistogram("acs_wait_seconds", "A wait", {1.0});
+    metrics.ReplaceGauges("acs_alarms", {{{{"code", "A"}}, 1.0}, {{{"code", "B"}}, 2.0}});
+    REQUIRE_THAT(metrics.Render(), Contains("acs_alarms{code=\"A\"} 1\n") && Contains("acs_alarms{code=\"B\"} 2\n"));
+    metrics.ReplaceGauges("acs_alarms", {{{{"code", "B"}}, 1.0}, {{{"code", "C"}}, 1.0}});
+    REQUIRE_THAT(metrics.Render(), !Contains("code=\"A\"") && Contains("acs_alarms{code=\"B\"} 1\n"));
+    metrics.ReplaceGauges("acs_alarms", {});
+    REQUIRE_THAT(metrics.Render(), !Contains("acs_alarms{"));
+
+    metrics.CreateCounter("acs_events_total");
+    metrics.CreateHistogram("acs_wait_seconds");
+    REQUIRE_THAT(metrics.Render(), Contains("acs_events_total 0\n") && Contains("acs_wait_seconds_count 0\n"));
+    metrics.Increment("acs_events_total");
+    metrics.CreateCounter("acs_events_total");
+    REQUIRE_THAT(metrics.Render(), Contains("acs_events_total 1\n"));
+}
+
 TEST_CASE("The response to a scrape names its text format")
 {
     const Apps::HttpResponse response = Apps::MetricsEndpoint().Respond();
