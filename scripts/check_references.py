@@ -11,7 +11,8 @@ SOURCES = ("libplan/src/", "apps/acsd/")
 # document, what sources define as a literal, what the first cells of its tables list
 REFERENCES = (
     ("docs/reference/alarms.md", re.compile(r'"(ACS-[0-9]{4}|ARM-[A-Za-z]+)"'), re.compile(r"`((?:ACS|ARM)-[A-Za-z0-9]+)`")),
-    ("docs/reference/metrics.md", re.compile(r'"(acsd_[a-z_]+)"'), re.compile(r"`(acsd_[a-z_]+)(?:\{[a-z,]+\})?`")),
+    ("docs/reference/metrics.md", re.compile(r'"((?:acsd|process)_[a-z_]+)"'),
+     re.compile(r"`((?:acsd|process)_[a-z_]+)(?:\{[a-z,]+\})?`")),
 )
 
 

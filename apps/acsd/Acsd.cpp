@@ -16,6 +16,7 @@
 #include "operator/LinesRoute.hpp"
 #include "operator/OperatorAnswer.hpp"
 #include "operator/PlanLog.hpp"
+#include "operator/ProcessMetrics.hpp"
 #include "operator/ReadRoutes.hpp"
 #include "operator/StateFeed.hpp"
 #include "store/StoreSummary.hpp"
@@ -28,6 +29,7 @@
 #include <cassert>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -36,12 +38,23 @@
 namespace ACS::Acsd
 {
 
+namespace
+{
+
+enum class ESampleTimer : std::uint8_t
+{
+    Plans
+};
+
+} // namespace
+
 class Acsd::Impl final : private IAcsdOutput
 {
     Dependencies _dependencies;
     AcsdConfig _config;
     Apps::MetricsEndpoint _metricsEndpoint;
     AcsdMetrics _metrics;
+    ProcessMetrics _processMetrics;
     PlanLog _planLog;
     AcsdCore _core;
     StoreWorker _store;
@@ -50,6 +63,7 @@ class Acsd::Impl final : private IAcsdOutput
     std::optional<VDA5050::MosquittoLink> _mqtt; ///< Set if a robot needs the broker.
     RobotRunners _robots;
     Apps::TimerSet<AcsdTimer> _timers;
+    Apps::TimerSet<ESampleTimer> _sampling;
     Apps::LoopWatchdog _watchdog;
     HttpInterfaces _http;
     StateFeed _feed;
@@ -65,6 +79,7 @@ public:
         : _dependencies(std::move(dependencies)),
           _config(std::move(config)),
           _metrics(_metricsEndpoint),
+          _processMetrics(_metricsEndpoint, _dependencies.clock.GetNow()),
           _planLog(_dependencies.logger.MakeFor("plan"), _metricsEndpoint),
           _core({_dependencies.clock, _dependencies.random, _dependencies.logger, *this, _mcs}, _config),
           _store(
@@ -96,6 +111,7 @@ public:
                   _core.OnRobotEvent(robotID, event);
               }),
           _timers(_dependencies.executor, [this](const AcsdTimer& timer) { _core.OnTimer(timer); }),
+          _sampling(_dependencies.executor, [this](ESampleTimer /*timer*/) { SampleMetrics(); }),
           _watchdog(
               _dependencies.executor,
               {_config.operations.stallLimit, _dependencies.aliveInterval},
@@ -110,6 +126,7 @@ public:
                }})
     {
         _core.SetObserver(_planLog);
+        _planLog.CreateSeries(_config.engine);
         AddRoutes();
         if (_config.mqtt.has_value())
         {
@@ -143,6 +160,7 @@ public:
     void Start()
     {
         _watchdog.Start();
+        SampleMetrics();
         _robots.Start();
         _core.Start();
         _feed.Start();
@@ -244,6 +262,7 @@ private:
         _feed.Stop();
         _http.Stop();
         _watchdog.Stop();
+        _sampling.CancelAll();
         if (_stopHandler)
         {
             std::exchange(_stopHandler, nullptr)();
@@ -330,14 +349,23 @@ private:
              }});
     }
 
+    void SampleMetrics()
+    {
+        _planLog.Sample(_core.GetEngine(), _dependencies.clock.GetNow());
+        _sampling.Start(ESampleTimer::Plans, PlanLog::SAMPLE_PERIOD);
+    }
+
     void UpdateMetrics()
     {
+        const Core::Now now = _dependencies.clock.GetNow();
+        _processMetrics.Update();
+        _planLog.Sample(_core.GetEngine(), now);
         for (const LinkStatus& link : GetLinks())
         {
             _metrics.UpdateLink(link.name, link.bUp);
         }
-        _metrics.UpdateMCS(_mcs, _core.GetRefusedReports());
-        _metrics.UpdatePlans(_core.GetEngine(), _dependencies.clock.GetNow());
+        _metrics.UpdateMCS(_mcs, _core.GetRefusedReports(), _core.GetPublishedConnectedOrNull().value_or(true));
+        _metrics.UpdatePlans(_core.GetEngine(), _core.GetStoreFaultOrNull().has_value(), now);
         _robots.UpdateMetrics();
         _metrics.UpdateAudit(_http.GetLostAudit());
         if (_dependencies.countDroppedLines)

@@ -1,5 +1,13 @@
 #include "operator/AcsdMetrics.hpp"
 
+#include "operator/WaitCauses.hpp"
+#include <acs/plan/EAlarmLevel.hpp>
+#include <acs/plan/EPlanState.hpp>
+#include <acs/plan/ETscState.hpp>
+#include <acs/protocol/EAcsCommand.hpp>
+#include <acs/protocol/SessionEvent.hpp>
+#include <acs/protocol/SessionStatistics.hpp>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -14,11 +22,12 @@ namespace
 
 using Planning::EAlarmLevel;
 using Planning::EPlanState;
-using Planning::ERobotStatus;
+using Planning::ETscState;
 
 constexpr const char* LINK_UP = "acsd_link_up";
 constexpr const char* MCS_CONNECTED = "acsd_mcs_connected";
 constexpr const char* MCS_REGISTERED = "acsd_mcs_registered";
+constexpr const char* IS_CONNECTED = "acsd_is_connected";
 constexpr const char* MCS_LINK_LOSSES = "acsd_mcs_link_losses_total";
 constexpr const char* MCS_SENT = "acsd_mcs_requests_sent_total";
 constexpr const char* MCS_RECEIVED = "acsd_mcs_requests_received_total";
@@ -34,8 +43,11 @@ constexpr const char* OUTBOX_DEPTH = "acsd_outbox_depth";
 constexpr const char* OUTBOX_OLDEST = "acsd_outbox_oldest_seconds";
 constexpr const char* PLANS_ACTIVE = "acsd_plans_active";
 constexpr const char* PLANS = "acsd_plans";
+constexpr const char* QUEUE_OLDEST = "acsd_queue_oldest_seconds";
+constexpr const char* PLANS_WAITING = "acsd_plans_waiting";
+constexpr const char* TSC_STATE = "acsd_tsc_state";
 constexpr const char* ALARMS = "acsd_alarms_active";
-constexpr const char* ROBOT_STATE = "acsd_robot_state";
+constexpr const char* ALARMS_BY_CODE = "acsd_alarms_by_code";
 constexpr const char* ROBOT_BATTERY = "acsd_robot_battery";
 constexpr const char* COMMITS = "acsd_store_commit_seconds";
 constexpr const char* STORE_LOG = "acsd_store_log_bytes";
@@ -46,19 +58,24 @@ constexpr const char* TRACE_LOST = "acsd_trace_lost_total";
 constexpr const char* AUDIT_LOST = "acsd_audit_lost_total";
 
 constexpr std::array ACTIVE_STATES{EPlanState::Pending, EPlanState::InProgress, EPlanState::Paused};
-constexpr std::array ROBOT_STATES_ALL{
-    ERobotStatus::Init,
-    ERobotStatus::Disconnected,
-    ERobotStatus::Manual,
-    ERobotStatus::Idle,
-    ERobotStatus::Moving,
-    ERobotStatus::Arrival,
-    ERobotStatus::Docking,
-    ERobotStatus::UnDocking,
-    ERobotStatus::Working,
-    ERobotStatus::Charging,
-    ERobotStatus::Error,
-    ERobotStatus::Stopped};
+constexpr std::array TSC_STATES{ETscState::Auto, ETscState::Pausing, ETscState::Paused};
+
+/// The commands that an MCS can refuse as a report. The session handles the Acks of the other ones.
+constexpr std::array REPORTS{
+    Protocol::EAcsCommand::PlanReport,
+    Protocol::EAcsCommand::StepReport,
+    Protocol::EAcsCommand::JobReport,
+    Protocol::EAcsCommand::CancelResultReport,
+    Protocol::EAcsCommand::AbortResultReport,
+    Protocol::EAcsCommand::PauseResultReport,
+    Protocol::EAcsCommand::ResumeResultReport,
+    Protocol::EAcsCommand::ErrorReport};
+
+/// Not negative, although the wall clock may have been set back.
+double GetAge(Core::WallTime since, Core::Now now)
+{
+    return std::max(0.0, std::chrono::duration<double>(now.wall - since).count());
+}
 
 double ToSeconds(Core::Duration duration)
 {
@@ -79,6 +96,7 @@ AcsdMetrics::AcsdMetrics(Apps::MetricsEndpoint& metrics)
     _metrics.AddGauge(LINK_UP, "1 when the link is up: mcs registered, mqtt subscribed");
     _metrics.AddGauge(MCS_CONNECTED, "1 when the WebSocket to the MCS is open");
     _metrics.AddGauge(MCS_REGISTERED, "1 when the MCS has accepted the registration");
+    _metrics.AddGauge(IS_CONNECTED, "isConnected as it was reported to the MCS last: 1 when acsd can work");
     _metrics.AddCounter(MCS_LINK_LOSSES, "Connections to the MCS that ended or could not be established");
     _metrics.AddCounter(MCS_SENT, "Requests sent to the MCS, including resends");
     _metrics.AddCounter(MCS_RECEIVED, "Requests received from the MCS, including repeated ones");
@@ -97,8 +115,11 @@ AcsdMetrics::AcsdMetrics(Apps::MetricsEndpoint& metrics)
     _metrics.AddGauge(OUTBOX_OLDEST, "Age of the oldest report without an Ack; 0 without one");
     _metrics.AddGauge(PLANS_ACTIVE, "Unfinished plans");
     _metrics.AddGauge(PLANS, "Unfinished plans, by status");
+    _metrics.AddGauge(QUEUE_OLDEST, "Age of the oldest plan that has not started; 0 without one");
+    _metrics.AddGauge(PLANS_WAITING, "Unfinished plans that make no progress, by cause");
+    _metrics.AddGauge(TSC_STATE, "1 for the present state of the TSC, 0 for the others");
     _metrics.AddGauge(ALARMS, "Active alarms, by level");
-    _metrics.AddGauge(ROBOT_STATE, "1 for the robot's present status, 0 for the others");
+    _metrics.AddGauge(ALARMS_BY_CODE, "Active alarms, by robot, code and level");
     _metrics.AddGauge(ROBOT_BATTERY, "Charge in percent");
     _metrics.AddHistogram(
         COMMITS,
@@ -110,6 +131,10 @@ AcsdMetrics::AcsdMetrics(Apps::MetricsEndpoint& metrics)
     _metrics.AddCounter(LOG_DROPPED, "Log lines dropped because standard error was not read in time");
     _metrics.AddCounter(TRACE_LOST, "Messages that are missing in the trace");
     _metrics.AddCounter(AUDIT_LOST, "Commands that are missing in the files of the audit log");
+    for (const char* histogram : {MCS_ACK_WAIT, COMMITS, LOOP_STALLS})
+    {
+        _metrics.CreateHistogram(histogram);
+    }
 }
 
 void AcsdMetrics::ObserveAckWait(Core::Duration wait)
@@ -132,26 +157,18 @@ void AcsdMetrics::UpdateLink(const std::string& name, bool bUp)
     _metrics.SetGauge(LINK_UP, {{"link", name}}, bUp ? 1.0 : 0.0);
 }
 
-void AcsdMetrics::UpdateMCS(const McsLink& mcs, const RefusedReports& refused)
+void AcsdMetrics::UpdateMCS(const McsLink& mcs, const RefusedReports& refused, bool bWorking)
 {
     const Protocol::SessionStatistics& statistics = mcs.GetStatistics();
     const McsLink::Metrics metrics = mcs.GetMetrics();
     _metrics.SetGauge(MCS_CONNECTED, {}, metrics.bConnected ? 1.0 : 0.0);
     _metrics.SetGauge(MCS_REGISTERED, {}, mcs.IsRegistered() ? 1.0 : 0.0);
+    _metrics.SetGauge(IS_CONNECTED, {}, bWorking ? 1.0 : 0.0);
     _metrics.SetGauge(MCS_LONGEST, {}, ToNumber(metrics.longestSent));
     _metrics.SetTotal(MCS_LINK_LOSSES, {}, ToNumber(statistics.linkLosses));
     _metrics.SetTotal(POSITIONS_MISSED, {}, ToNumber(statistics.positionTicksMissed));
     _metrics.SetTotal(MCS_TIMEOUTS, {}, ToNumber(metrics.unanswered));
-    for (std::size_t index = 0; index < Protocol::COMMAND_COUNT; ++index)
-    {
-        const auto command = static_cast<Protocol::EAcsCommand>(index);
-        const Apps::MetricsEndpoint::Labels labels{{"command", std::string(GetText(command))}};
-        const Protocol::CommandCounters& counters = statistics.Of(command);
-        _metrics.SetTotal(MCS_SENT, labels, ToNumber(counters.sent));
-        _metrics.SetTotal(MCS_RECEIVED, labels, ToNumber(counters.received));
-        _metrics.SetTotal(MCS_REFUSED, labels, ToNumber(counters.refused));
-        _metrics.SetTotal(MCS_NACKS, labels, ToNumber(refused.byCommand.at(index)));
-    }
+    UpdateCommands(mcs, refused);
     for (std::size_t index = 0; index < Protocol::NOTE_COUNT; ++index)
     {
         const auto note = static_cast<Protocol::EProtocolNote>(index);
@@ -165,7 +182,29 @@ void AcsdMetrics::UpdateMCS(const McsLink& mcs, const RefusedReports& refused)
             + statistics.CountOf(Protocol::EProtocolNote::AckUnexpected)));
 }
 
-void AcsdMetrics::UpdatePlans(const Planning::PlanEngine& engine, Core::Now now)
+/// Only the commands that each side sends.
+void AcsdMetrics::UpdateCommands(const McsLink& mcs, const RefusedReports& refused)
+{
+    for (std::size_t index = 0; index < Protocol::COMMAND_COUNT; ++index)
+    {
+        const auto command = static_cast<Protocol::EAcsCommand>(index);
+        const Apps::MetricsEndpoint::Labels labels{{"command", std::string(GetText(command))}};
+        const Protocol::CommandCounters& counters = mcs.GetStatistics().Of(command);
+        if (Protocol::IsSentByMCS(command))
+        {
+            _metrics.SetTotal(MCS_RECEIVED, labels, ToNumber(counters.received));
+            _metrics.SetTotal(MCS_REFUSED, labels, ToNumber(counters.refused));
+            continue;
+        }
+        _metrics.SetTotal(MCS_SENT, labels, ToNumber(counters.sent));
+        if (std::ranges::find(REPORTS, command) != REPORTS.end())
+        {
+            _metrics.SetTotal(MCS_NACKS, labels, ToNumber(refused.byCommand.at(index)));
+        }
+    }
+}
+
+void AcsdMetrics::UpdatePlans(const Planning::PlanEngine& engine, bool bStoreFailing, Core::Now now)
 {
     const std::vector<Planning::PlanSummary> plans = engine.GetActivePlans();
     _metrics.SetGauge(PLANS_ACTIVE, {}, ToNumber(plans.size()));
@@ -174,35 +213,44 @@ void AcsdMetrics::UpdatePlans(const Planning::PlanEngine& engine, Core::Now now)
         const auto count = std::ranges::count(plans, state, &Planning::PlanSummary::state);
         _metrics.SetGauge(PLANS, {{"status", std::string(GetText(state))}}, ToNumber(count));
     }
+    Core::WallTime oldest = now.wall;
+    for (const Planning::PlanSummary& plan : plans)
+    {
+        if (plan.state == EPlanState::Pending)
+        {
+            oldest = std::min(oldest, plan.startTime);
+        }
+    }
+    _metrics.SetGauge(QUEUE_OLDEST, {}, GetAge(oldest, now));
+    for (const auto& [cause, count] : CountWaitCauses(engine, bStoreFailing))
+    {
+        _metrics.SetGauge(PLANS_WAITING, {{"cause", std::string(cause)}}, ToNumber(count));
+    }
+    for (const ETscState state : TSC_STATES)
+    {
+        _metrics.SetGauge(
+            TSC_STATE,
+            {{"state", std::string(GetText(state))}},
+            engine.GetTscState() == state ? 1.0 : 0.0);
+    }
     const Planning::OutboxSummary outbox = engine.GetOutboxSummary();
     _metrics.SetGauge(OUTBOX_DEPTH, {}, ToNumber(outbox.count));
-    // Negative if the wall clock was set back.
-    const std::chrono::duration<double> age = now.wall - outbox.oldest.value_or(now.wall);
-    _metrics.SetGauge(OUTBOX_OLDEST, {}, std::max(age.count(), 0.0));
-    for (const EAlarmLevel level : {EAlarmLevel::Heavy, EAlarmLevel::Light})
-    {
-        const auto count = std::ranges::count(engine.GetActiveAlarms(), level, &Planning::Alarm::level);
-        _metrics.SetGauge(ALARMS, {{"level", std::string(GetText(level))}}, ToNumber(count));
-    }
-    for (const Planning::RobotStatus& status : engine.GetRobotStatuses())
-    {
-        UpdateRobotStatus(status);
-    }
+    _metrics.SetGauge(OUTBOX_OLDEST, {}, GetAge(outbox.oldest.value_or(now.wall), now));
+    UpdateAlarms(engine);
     for (const Planning::RobotPose& pose : engine.GetRobotPoses())
     {
         _metrics.SetGauge(ROBOT_BATTERY, {{"robot", pose.robotID}}, pose.batteryPercent);
     }
 }
 
-void AcsdMetrics::UpdateRobotStatus(const Planning::RobotStatus& status)
+void AcsdMetrics::UpdateAlarms(const Planning::PlanEngine& engine)
 {
-    for (const ERobotStatus state : ROBOT_STATES_ALL)
+    for (const EAlarmLevel level : {EAlarmLevel::Heavy, EAlarmLevel::Light})
     {
-        _metrics.SetGauge(
-            ROBOT_STATE,
-            {{"robot", status.robotID}, {"state", std::string(GetText(state))}},
-            status.status == state ? 1.0 : 0.0);
+        const auto count = std::ranges::count(engine.GetActiveAlarms(), level, &Planning::Alarm::level);
+        _metrics.SetGauge(ALARMS, {{"level", std::string(GetText(level))}}, ToNumber(count));
     }
+    _metrics.ReplaceGauges(ALARMS_BY_CODE, _alarms.Count(engine.GetActiveAlarms()));
 }
 
 void AcsdMetrics::UpdateStoreLog(const Planning::StoreLog& log)

@@ -3,9 +3,9 @@
 #include "common/http/MetricsEndpoint.hpp"
 #include "mcs/McsLink.hpp"
 #include "mcs/RefusedReports.hpp"
+#include "operator/AlarmSeries.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/plan/PlanEngine.hpp>
-#include <acs/plan/RobotStatus.hpp>
 #include <acs/plan/StoreLog.hpp>
 
 #include <cstdint>
@@ -19,6 +19,7 @@ namespace ACS::Acsd
 class AcsdMetrics final
 {
     Apps::MetricsEndpoint& _metrics;
+    AlarmSeries _alarms;
 
 public:
     /// The endpoint outlives it.
@@ -29,15 +30,17 @@ public:
     void ObserveStall(Core::Duration stall);
 
     void UpdateLink(const std::string& name, bool bUp);
-    void UpdateMCS(const McsLink& mcs, const RefusedReports& refused);
-    void UpdatePlans(const Planning::PlanEngine& engine, Core::Now now);
+    /// bWorking: the value of isConnected that was published last.
+    void UpdateMCS(const McsLink& mcs, const RefusedReports& refused, bool bWorking);
+    void UpdatePlans(const Planning::PlanEngine& engine, bool bStoreFailing, Core::Now now);
     void UpdateStoreLog(const Planning::StoreLog& log);
     void UpdateLog(std::uint64_t dropped);
     void UpdateTrace(std::uint64_t lost);
     void UpdateAudit(std::uint64_t lost);
 
 private:
-    void UpdateRobotStatus(const Planning::RobotStatus& status);
+    void UpdateCommands(const McsLink& mcs, const RefusedReports& refused);
+    void UpdateAlarms(const Planning::PlanEngine& engine);
 };
 
 } // namespace ACS::Acsd

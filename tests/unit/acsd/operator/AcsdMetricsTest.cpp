@@ -1,0 +1,115 @@
+#include "operator/AcsdMetrics.hpp"
+
+#include "Catch.hpp"
+#include "fixtures/PlanWorldSteps.hpp"
+#include "operator/WaitCauses.hpp"
+
+#include <chrono>
+#include <string>
+
+namespace ACS::Acsd::Test
+{
+
+using Catch::Matchers::Contains;
+using namespace std::chrono_literals;
+
+namespace
+{
+
+/// The causes that count at least one plan, with their numbers: "paused 1 queue 2".
+std::string ListCauses(const Testing::PlanWorld& world, bool bStoreFailing = false)
+{
+    std::string text;
+    for (const auto& [cause, count] : CountWaitCauses(*world.engine, bStoreFailing))
+    {
+        if (count > 0)
+        {
+            text += (text.empty() ? "" : " ") + std::string(cause) + ' ' + std::to_string(count);
+        }
+    }
+    return text;
+}
+
+} // namespace
+
+TEST_CASE("Plans that wait are counted by cause")
+{
+    Testing::PlanWorld world;
+    CHECK(CountWaitCauses(*world.engine, false).size() == 7);
+    world.Submit(Testing::MakeLogisticsPlan("P1")); // no robot is connected
+    world.Submit(Testing::MakeLogisticsPlan("P2"));
+    CHECK(ListCauses(world) == "queue 2");
+    CHECK(ListCauses(world, true) == "store 2");
+    world.SwitchTSC(true);
+    CHECK(ListCauses(world, true) == "tsc 2");
+    world.SwitchTSC(false);
+    world.Connect();
+    REQUIRE(Testing::TryRunUntil(world, "P1", "Step 1 InProgress"));
+    CHECK(ListCauses(world) == "queue 1");
+    Testing::PausePlan(world);
+    CHECK(ListCauses(world) == "paused 1 queue 1");
+    world.Control(Planning::EPlanControl::Resume, "P1");
+    REQUIRE(Testing::TryRunUntil(world, "P1", "ResumeResult Success"));
+    world.Raise("LR01", Planning::LinkChanged{false});
+    CHECK(ListCauses(world) == "queue 1 robot 1");
+}
+
+TEST_CASE("A plan whose robot waits for its route, and one whose job has no known outcome, have causes of their own")
+{
+    Testing::PlanWorld world;
+    world.Connect();
+    world.Submit(Testing::MakeLogisticsPlan("P1"));
+    REQUIRE(Testing::TryRunUntil(world, "P1", "Step 1 InProgress"));
+    world.Submit(Testing::MakeControlPlan("P2"));
+    CHECK(world.TryRun([&world] { return ListCauses(world) == "route 1"; }));
+
+    Testing::PlanWorld other;
+    Testing::BeginPlan(other, Testing::MakeLogisticsPlan("P1"), "Step 1 InProgress");
+    REQUIRE(other.TryRun([&other] { return other.engine->GetRobotStatuses().front().jobID.has_value(); }));
+    other.GetRobot("LR01").unresolvedReason = "it was switched off";
+    Testing::RestartEngine(other);
+    CHECK(ListCauses(other) == "job 1");
+}
+
+TEST_CASE("The age of the oldest plan that has not started follows the queue")
+{
+    Testing::PlanWorld world;
+    Apps::MetricsEndpoint endpoint;
+    AcsdMetrics metrics(endpoint);
+    const auto render = [&](Core::Duration later) {
+        Core::Now now = world.GetNow();
+        now.wall += std::chrono::duration_cast<Core::WallTime::duration>(later);
+        metrics.UpdatePlans(*world.engine, false, now);
+        return endpoint.Render();
+    };
+    CHECK_THAT(render(5s), Contains("\nacsd_queue_oldest_seconds 0\n"));
+    world.Submit(Testing::MakeLogisticsPlan("P1"));
+    const std::string text = render(5s);
+    CHECK_THAT(text, Contains("\nacsd_queue_oldest_seconds 5\n"));
+    CHECK_THAT(text, Contains("acsd_plans{status=\"Pending\"} 1\n"));
+    CHECK_THAT(text, Contains("acsd_plans_waiting{cause=\"queue\"} 1\n"));
+    CHECK_THAT(text, Contains("acsd_plans_waiting{cause=\"route\"} 0\n"));
+    CHECK_THAT(text, Contains("acsd_tsc_state{state=\"Auto\"} 1\n"));
+    CHECK_THAT(render(-5s), Contains("\nacsd_queue_oldest_seconds 0\n")); // the wall clock was set back
+}
+
+TEST_CASE("An alarm has its series while it is active")
+{
+    Testing::PlanWorld world;
+    Apps::MetricsEndpoint endpoint;
+    AcsdMetrics metrics(endpoint);
+    const auto render = [&] {
+        metrics.UpdatePlans(*world.engine, false, world.GetNow());
+        return endpoint.Render();
+    };
+    CHECK_THAT(render(), Contains("acsd_alarms_active{level=\"heavy\"} 0\n") && !Contains("acsd_alarms_by_code{"));
+    world.Connect();
+    world.Raise("LR01", Planning::LinkChanged{false});
+    REQUIRE(world.TryRun([&world] { return !world.engine->GetActiveAlarms().empty(); }));
+    CHECK_THAT(render(), Contains(R"(acsd_alarms_by_code{code="ACS-1002",level="heavy",robot="LR01"} 1)"));
+    world.Raise("LR01", Planning::LinkChanged{true});
+    REQUIRE(world.TryRun([&world] { return world.engine->GetActiveAlarms().empty(); }));
+    CHECK_THAT(render(), !Contains("acsd_alarms_by_code{"));
+}
+
+} // namespace ACS::Acsd::Test
