@@ -360,10 +360,7 @@ private:
         const Core::Now now = _dependencies.clock.GetNow();
         _processMetrics.Update();
         _planLog.Sample(_core.GetEngine(), now);
-        for (const LinkStatus& link : GetLinks())
-        {
-            _metrics.UpdateLink(link.name, link.bUp);
-        }
+        _metrics.UpdateReady(GetLinks(), _core.GetNotReadyReasons().empty());
         _metrics.UpdateMCS(_mcs, _core.GetRefusedReports(), _core.GetPublishedConnectedOrNull().value_or(true));
         _metrics.UpdatePlans(_core.GetEngine(), _core.GetStoreFaultOrNull().has_value(), now);
         _robots.UpdateMetrics();

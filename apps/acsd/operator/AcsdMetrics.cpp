@@ -24,6 +24,7 @@ using Planning::EAlarmLevel;
 using Planning::EPlanState;
 using Planning::ETscState;
 
+constexpr const char* READY = "acsd_ready";
 constexpr const char* LINK_UP = "acsd_link_up";
 constexpr const char* MCS_CONNECTED = "acsd_mcs_connected";
 constexpr const char* MCS_REGISTERED = "acsd_mcs_registered";
@@ -50,6 +51,7 @@ constexpr const char* ALARMS = "acsd_alarms_active";
 constexpr const char* ALARMS_BY_CODE = "acsd_alarms_by_code";
 constexpr const char* ROBOT_BATTERY = "acsd_robot_battery";
 constexpr const char* COMMITS = "acsd_store_commit_seconds";
+constexpr const char* STORE_FAILING = "acsd_store_failing";
 constexpr const char* STORE_LOG = "acsd_store_log_bytes";
 constexpr const char* STORE_FREE = "acsd_store_free_bytes";
 constexpr const char* LOOP_STALLS = "acsd_loop_stall_seconds";
@@ -93,6 +95,7 @@ double ToNumber(TNumber number)
 AcsdMetrics::AcsdMetrics(Apps::MetricsEndpoint& metrics)
     : _metrics(metrics)
 {
+    _metrics.AddGauge(READY, "1 when /readyz answers 200");
     _metrics.AddGauge(LINK_UP, "1 when the link is up: mcs registered, mqtt subscribed");
     _metrics.AddGauge(MCS_CONNECTED, "1 when the WebSocket to the MCS is open");
     _metrics.AddGauge(MCS_REGISTERED, "1 when the MCS has accepted the registration");
@@ -125,6 +128,7 @@ AcsdMetrics::AcsdMetrics(Apps::MetricsEndpoint& metrics)
         COMMITS,
         "Time from a batch of changes to its commit",
         {0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 5});
+    _metrics.AddGauge(STORE_FAILING, "1 while data cannot be stored");
     _metrics.AddGauge(STORE_LOG, "Size of the store's write-ahead log");
     _metrics.AddGauge(STORE_FREE, "Free space on the file system of the store");
     _metrics.AddHistogram(LOOP_STALLS, "Times for which the event loop was blocked", {0.5, 1, 2, 5, 10, 30});
@@ -152,9 +156,14 @@ void AcsdMetrics::ObserveCommit(Core::Duration duration)
     _metrics.Observe(COMMITS, {}, ToSeconds(duration));
 }
 
-void AcsdMetrics::UpdateLink(const std::string& name, bool bUp)
+void AcsdMetrics::UpdateReady(const std::vector<LinkStatus>& links, bool bWorks)
 {
-    _metrics.SetGauge(LINK_UP, {{"link", name}}, bUp ? 1.0 : 0.0);
+    for (const LinkStatus& link : links)
+    {
+        UpdateLink(link.name, link.bUp);
+    }
+    const bool bUp = std::ranges::all_of(links, &LinkStatus::bUp);
+    _metrics.SetGauge(READY, {}, bUp && bWorks ? 1.0 : 0.0);
 }
 
 void AcsdMetrics::UpdateMCS(const McsLink& mcs, const RefusedReports& refused, bool bWorking)
@@ -207,6 +216,7 @@ void AcsdMetrics::UpdateCommands(const McsLink& mcs, const RefusedReports& refus
 void AcsdMetrics::UpdatePlans(const Planning::PlanEngine& engine, bool bStoreFailing, Core::Now now)
 {
     const std::vector<Planning::PlanSummary> plans = engine.GetActivePlans();
+    _metrics.SetGauge(STORE_FAILING, {}, bStoreFailing ? 1.0 : 0.0);
     _metrics.SetGauge(PLANS_ACTIVE, {}, ToNumber(plans.size()));
     for (const EPlanState state : ACTIVE_STATES)
     {
@@ -272,6 +282,11 @@ void AcsdMetrics::UpdateTrace(std::uint64_t lost)
 void AcsdMetrics::UpdateAudit(std::uint64_t lost)
 {
     _metrics.SetTotal(AUDIT_LOST, {}, ToNumber(lost));
+}
+
+void AcsdMetrics::UpdateLink(const std::string& name, bool bUp)
+{
+    _metrics.SetGauge(LINK_UP, {{"link", name}}, bUp ? 1.0 : 0.0);
 }
 
 } // namespace ACS::Acsd

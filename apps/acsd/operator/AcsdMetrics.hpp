@@ -3,6 +3,7 @@
 #include "common/http/MetricsEndpoint.hpp"
 #include "mcs/McsLink.hpp"
 #include "mcs/RefusedReports.hpp"
+#include "operator/AcsdStatus.hpp"
 #include "operator/AlarmSeries.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/plan/PlanEngine.hpp>
@@ -10,6 +11,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace ACS::Acsd
 {
@@ -29,7 +31,8 @@ public:
     void ObserveCommit(Core::Duration duration);
     void ObserveStall(Core::Duration stall);
 
-    void UpdateLink(const std::string& name, bool bUp);
+    /// bWorks: no other reason than a link keeps acsd from being ready.
+    void UpdateReady(const std::vector<LinkStatus>& links, bool bWorks);
     /// bWorking: the value of isConnected that was published last.
     void UpdateMCS(const McsLink& mcs, const RefusedReports& refused, bool bWorking);
     void UpdatePlans(const Planning::PlanEngine& engine, bool bStoreFailing, Core::Now now);
@@ -39,6 +42,7 @@ public:
     void UpdateAudit(std::uint64_t lost);
 
 private:
+    void UpdateLink(const std::string& name, bool bUp);
     void UpdateCommands(const McsLink& mcs, const RefusedReports& refused);
     void UpdateAlarms(const Planning::PlanEngine& engine);
 };

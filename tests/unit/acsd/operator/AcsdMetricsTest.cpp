@@ -89,8 +89,21 @@ TEST_CASE("The age of the oldest plan that has not started follows the queue")
     CHECK_THAT(text, Contains("acsd_plans{status=\"Pending\"} 1\n"));
     CHECK_THAT(text, Contains("acsd_plans_waiting{cause=\"queue\"} 1\n"));
     CHECK_THAT(text, Contains("acsd_plans_waiting{cause=\"route\"} 0\n"));
+    CHECK_THAT(text, Contains("\nacsd_store_failing 0\n"));
     CHECK_THAT(text, Contains("acsd_tsc_state{state=\"Auto\"} 1\n"));
     CHECK_THAT(render(-5s), Contains("\nacsd_queue_oldest_seconds 0\n")); // the wall clock was set back
+}
+
+TEST_CASE("acsd is ready while every link is up and nothing else prevents it")
+{
+    Apps::MetricsEndpoint endpoint;
+    AcsdMetrics metrics(endpoint);
+    metrics.UpdateReady({{"mcs", true}, {"mqtt", true}}, true);
+    CHECK_THAT(endpoint.Render(), Contains("acsd_ready 1\n") && Contains("acsd_link_up{link=\"mqtt\"} 1\n"));
+    metrics.UpdateReady({{"mcs", true}, {"mqtt", true}}, false);
+    CHECK_THAT(endpoint.Render(), Contains("acsd_ready 0\n"));
+    metrics.UpdateReady({{"mcs", true}, {"mqtt", false}}, true);
+    CHECK_THAT(endpoint.Render(), Contains("acsd_ready 0\n") && Contains("acsd_link_up{link=\"mqtt\"} 0\n"));
 }
 
 TEST_CASE("An alarm has its series while it is active")
