@@ -11,6 +11,7 @@
 #include "operator/AcsdMetrics.hpp"
 #include "operator/AuditLog.hpp"
 #include "operator/CommandRoutes.hpp"
+#include "operator/EntryFeed.hpp"
 #include "operator/HealthRoutes.hpp"
 #include "operator/HttpInterfaces.hpp"
 #include "operator/LinesRoute.hpp"
@@ -67,6 +68,7 @@ class Acsd::Impl final : private IAcsdOutput
     Apps::LoopWatchdog _watchdog;
     HttpInterfaces _http;
     StateFeed _feed;
+    EntryFeed _entries;
     std::size_t _openLinks = 0; ///< Of those that are being closed.
     StopHandler _stopHandler;
 
@@ -122,10 +124,10 @@ public:
                _dependencies.clock,
                _core.GetEngine(),
                [this] { return GetProgramState(); },
-               [](std::string_view) {
-               }})
+               _http.GetEvents()}),
+          _entries([this](std::string_view data) { _http.GetEvents().Publish("entry", data); }, _planLog)
     {
-        _core.SetObserver(_planLog);
+        _core.SetObserver(_entries);
         _planLog.CreateSeries(_config.engine);
         AddRoutes();
         if (_config.mqtt.has_value())
@@ -332,8 +334,8 @@ private:
             _core.GetEngine(),
             {_dependencies.clock,
              [this]() -> const StateView& { return _feed.Update(); },
-             [] {
-                 return 0U;
+             [this] {
+                 return _feed.GetEventID();
              }});
         commands.Add("GET", "/v1/trace", [this](const Apps::HttpRequest& request, const auto&) {
             return _dependencies.traceOrNull == nullptr

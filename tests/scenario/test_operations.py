@@ -98,7 +98,7 @@ class Operations(ScenarioCase):
         with self.assertRaises(urllib.error.HTTPError) as refused:
             urllib.request.urlopen(f"http://{addresses['http']}/readyz", timeout=LOG_SECONDS)
         with refused.exception as answer:
-            self.assertEqual((answer.code, answer.read()), (503, b"the store does not answer\n"))
+            self.assertEqual((answer.code, answer.read()), (503, b"the store does not answer\nisConnected=true\n"))
         self.wait_for_log(acsd, "the disk does not answer")
         self.assertFalse([message for message in stub.get(start) if message.command == "ExecutionPlanAck"])
 

@@ -3,7 +3,7 @@
 #include "common/http/MetricsEndpoint.hpp"
 #include "mcs/McsLink.hpp"
 #include "mcs/RefusedReports.hpp"
-#include "operator/AcsdStatus.hpp"
+#include "view/ProgramState.hpp"
 #include "operator/AlarmSeries.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/plan/PlanEngine.hpp>

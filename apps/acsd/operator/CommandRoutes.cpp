@@ -215,6 +215,12 @@ HttpResponse ResolveJob(
         : Refuse(OperatorCode::NOT_FOUND, *reason + " /v1/alarms lists each unresolved job as an alarm ACS-1008.");
 }
 
+/// 404 for an unknown plan, otherwise 409.
+HttpResponse RefusePlan(const Planning::PlanEngine& engine, const std::string& planID, std::string_view reason)
+{
+    return Refuse(engine.GetPlanOrNull(planID).has_value() ? OperatorCode::CONFLICT : OperatorCode::NOT_FOUND, reason);
+}
+
 HttpResponse SkipStep(
     const Planning::PlanEngine& engine,
     const CommandAccess& access,
@@ -237,6 +243,38 @@ HttpResponse SkipStep(
             *reason);
     }
     return Submit(access, std::move(command), fmt::format("Step {} of plan {} is skipped.", stepText, planID));
+}
+
+HttpResponse ControlPlan(
+    const Planning::PlanEngine& engine,
+    const CommandAccess& access,
+    Planning::EPlanControl control,
+    const std::string& planID,
+    ReasonBody body)
+{
+    Planning::ControlPlan command{control, planID, std::move(body.reason), 0, {}, Planning::EControlOrigin::Operator};
+    if (const std::optional<std::string> reason = engine.GetRejectionReasonOrNull(command))
+    {
+        return RefusePlan(engine, planID, *reason);
+    }
+    return Submit(
+        access,
+        std::move(command),
+        fmt::format("{} of plan {} is accepted; /v1/plans shows its effect.", GetText(control), planID));
+}
+
+HttpResponse SetPriority(
+    const Planning::PlanEngine& engine,
+    const CommandAccess& access,
+    const std::string& planID,
+    const PriorityBody& body)
+{
+    Planning::SetPlanPriority command{planID, body.priority, 0};
+    if (const std::optional<std::string> reason = engine.GetRejectionReasonOrNull(command))
+    {
+        return RefusePlan(engine, planID, *reason);
+    }
+    return Submit(access, std::move(command), fmt::format("The priority of plan {} is {}.", planID, body.priority));
 }
 
 /// Adds a POST whose body is TBody.
@@ -267,6 +305,25 @@ void AddPlanCommands(Apps::HttpRoutes& routes, const Planning::PlanEngine& engin
         "/v1/plans/{planId}/steps/{stepNo}/skip",
         [&engine, access](const Captures& captures, const EmptyBody&) {
             return SkipStep(engine, access, captures[0], captures[1]);
+        });
+    for (const auto& [word, control] :
+         {std::pair("cancel", Planning::EPlanControl::Cancel),
+          std::pair("abort", Planning::EPlanControl::Abort),
+          std::pair("pause", Planning::EPlanControl::Pause),
+          std::pair("resume", Planning::EPlanControl::Resume)})
+    {
+        AddCommand<ReasonBody>(
+            routes,
+            fmt::format("/v1/plans/{{planId}}/{}", word),
+            [&engine, access, kind = control](const Captures& captures, ReasonBody body) {
+                return ControlPlan(engine, access, kind, captures[0], std::move(body));
+            });
+    }
+    AddCommand<PriorityBody>(
+        routes,
+        "/v1/plans/{planId}/priority",
+        [&engine, access](const Captures& captures, const PriorityBody& body) {
+            return SetPriority(engine, access, captures[0], body);
         });
     AddCommand<ResolveBody>(
         routes,

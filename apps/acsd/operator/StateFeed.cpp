@@ -40,6 +40,11 @@ const StateView& StateFeed::Update()
     return _state;
 }
 
+std::uint64_t StateFeed::GetEventID() const noexcept
+{
+    return _dependencies.events.GetLastID();
+}
+
 void StateFeed::Publish(const StateChanges& changes)
 {
     std::vector<PlanView> ended;
@@ -52,7 +57,7 @@ void StateFeed::Publish(const StateChanges& changes)
             ended.push_back(MakePlanView(*recordOrNull, *summary, EPlanDetail::Steps));
         }
     }
-    _dependencies.publish(EncodeChanges(changes, ended));
+    _dependencies.events.Publish("changes", EncodeChanges(changes, ended));
 }
 
 void StateFeed::OnTimer()

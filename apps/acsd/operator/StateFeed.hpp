@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/process/TimerSet.hpp"
+#include "operator/EventFeed.hpp"
 #include "view/StateView.hpp"
 #include "view/StateViewMaker.hpp"
 #include <acs/core/Now.hpp>
@@ -8,8 +9,9 @@
 
 #include <boost/asio/any_io_executor.hpp>
 
+#include <chrono>
+#include <cstdint>
 #include <functional>
-#include <string_view>
 
 namespace ACS::Acsd
 {
@@ -25,8 +27,7 @@ public:
         const Core::IClock& clock;
         const Planning::PlanEngine& engine;
         std::function<ProgramState()> getProgram;
-        /// Publishes the data of an event `changes`.
-        std::function<void(std::string_view data)> publish;
+        EventFeed& events;
     };
 
     /// Between two events at least.
@@ -48,6 +49,9 @@ public:
 
     /// Publishes what has changed. The state is valid until the next call.
     [[nodiscard]] const StateView& Update();
+
+    /// Number of the last event that contributed to the state.
+    [[nodiscard]] std::uint64_t GetEventID() const noexcept;
 
 private:
     void Publish(const StateChanges& changes);

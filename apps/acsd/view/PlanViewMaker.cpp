@@ -27,7 +27,7 @@ PlanView MakePlanView(const Planning::PlanRecord& record, const Planning::PlanSu
     PlanView plan;
     plan.planID = record.plan.planID;
     plan.lotID = record.plan.lotID;
-    plan.priority = record.plan.priority;
+    plan.priority = record.GetPriorityOrNull();
     plan.status = GetText(record.progress.state);
     plan.robotID = summary.robotID;
     plan.stepNo = summary.stepNo;

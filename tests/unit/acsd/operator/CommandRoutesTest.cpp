@@ -194,6 +194,53 @@ TEST_CASE("POST /v1/plans/PLAN/steps/NO/skip skips a step that is Pending or who
     CHECK(HasText(user.Post("/v1/plans/P1/steps/1/skip"), "409 {\"error\":\"Plan P1 is already Completed."));
 }
 
+TEST_CASE("POST /v1/plans/PLAN/pause, resume, abort and cancel control a plan like the MCS, without a result report")
+{
+    Operator user;
+    user.world.Submit(MakeLogisticsPlan("P1"));
+    CHECK(HasText(user.Post("/v1/plans/P1/resume"), "409 {\"error\":"));
+    CHECK(HasText(user.Post("/v1/plans/P9/abort"), "404 {\"error\":"));
+    REQUIRE(Testing::TryRunUntil(user.world, "P1", "Plan InProgress"));
+    CHECK(
+        user.Post("/v1/plans/P1/pause", R"({"reason":"door"})")
+        == "202 {\"message\":\"Pause of plan P1 is accepted; /v1/plans shows its effect.\"}\n");
+    REQUIRE(user.world.TryRun());
+    CHECK(HasText(user.GetStatus(), R"("status":"Paused")"));
+    CHECK(HasText(user.Post("/v1/plans/P1/resume"), "202 "));
+    REQUIRE(user.world.TryRun());
+    CHECK(user.world.GetReportsOf("P1").back() == "Plan Completed");
+    CHECK(HasText(user.Post("/v1/plans/P1/cancel"), "409 {\"error\":"));
+    user.storeFault = "the store cannot be written";
+    user.world.Submit(MakeLogisticsPlan("P2"));
+    CHECK(HasText(user.Post("/v1/plans/P2/cancel"), "503 "));
+    CHECK(HasText(user.Post("/v1/plans/P2/cancel", R"({"reason":1})"), "400 "));
+}
+
+TEST_CASE("POST /v1/plans/PLAN/priority changes the order of the queue")
+{
+    Operator user;
+    CHECK(HasText(user.Post("/v1/robots/LR01/maintenance", ON), "202 "));
+    CHECK(HasText(user.Post("/v1/robots/LR02/maintenance", ON), "202 "));
+    user.world.Submit(MakeLogisticsPlan("P1"));
+    user.world.Submit(MakeLogisticsPlan("P2"));
+    std::string status = user.GetStatus();
+    CHECK(status.find(R"("planId":"P1")") < status.find(R"("planId":"P2")"));
+    const std::optional<std::int32_t> usual = user.world.engine->GetPlanRecordOrNull("P1")->GetPriorityOrNull();
+    CHECK(
+        user.Post("/v1/plans/P2/priority", R"({"priority":100})")
+        == "202 {\"message\":\"The priority of plan P2 is 100.\"}\n");
+    CHECK(
+        user.Post("/v1/plans/P1/priority", R"({"priority":-100})")
+        == "202 {\"message\":\"The priority of plan P1 is -100.\"}\n");
+    status = user.GetStatus();
+    CHECK(status.find(R"("planId":"P2")") != status.find(R"("planId":"P1")"));
+    CHECK(HasText(status, R"("priority":100)"));
+    CHECK(user.world.engine->GetPlanRecordOrNull("P1")->GetPriorityOrNull() != usual);
+    CHECK(HasText(user.Post("/v1/plans/P9/priority", R"({"priority":1})"), "404 "));
+    CHECK(HasText(user.Post("/v1/plans/P1/priority", R"({"priority":1.5})"), "400 "));
+    CHECK(HasText(user.Post("/v1/plans/P1/priority"), "400 "));
+}
+
 TEST_CASE("Parameters in the query, unknown and repeated members and invalid bodies are refused by name")
 {
     Operator user;

@@ -1,0 +1,65 @@
+#include "operator/EntryFeed.hpp"
+
+#include "Catch.hpp"
+#include "fixtures/PlanWorldSteps.hpp"
+#include "operator/PlanLog.hpp"
+#include "RecordingLogSink.hpp"
+#include <acs/core/Logger.hpp>
+
+#include <string>
+#include <vector>
+
+namespace ACS::Acsd::Test
+{
+
+namespace
+{
+
+/// The values of the member in the entries, in order.
+std::vector<std::string> ListTexts(const std::vector<std::string>& entries)
+{
+    constexpr std::string_view KEY = R"("text":")";
+    std::vector<std::string> texts;
+    for (const std::string& entry : entries)
+    {
+        const std::size_t begin = entry.find(KEY) + KEY.size();
+        texts.push_back(entry.substr(begin, entry.rfind('"') - begin));
+    }
+    return texts;
+}
+
+} // namespace
+
+TEST_CASE("Each change of state is an entry with its objects and a line, and reaches the next observer")
+{
+    Testing::RecordingLogSink sink;
+    Apps::MetricsEndpoint metrics;
+    PlanLog log(Core::Logger(sink, "plan"), metrics);
+    std::vector<std::string> entries;
+    EntryFeed feed([&entries](std::string_view data) { entries.emplace_back(data); }, log);
+
+    const Planning::Alarm alarm{"LR01", "ACS-1008", Planning::EAlarmLevel::Heavy, "job \"J\" unknown", "P1", 3, "J1"};
+    feed.OnAlarmChanged(alarm, true, "t1", {});
+    feed.OnAlarmChanged(alarm, false, "t2", {});
+    feed.OnTscChanged(Planning::ETscState::Pausing, Planning::ETscState::Auto, {});
+    feed.OnNote("LR01", "entered N1", {});
+    Planning::RobotStatus status;
+    status.robotID = "LR01";
+    status.message = "LR01: no connection.";
+    feed.OnRobotStatusChanged(status, {});
+    CHECK(
+        entries[0]
+        == R"({"time":"1970-01-01T00:00:00.000Z","kind":"alarm","robotId":"LR01","planId":"P1","stepNo":3,"jobId":"J1",)"
+           R"("text":"heavy alarm ACS-1008 of LR01 set: job \"J\" unknown"})");
+    CHECK(
+        entries[2]
+        == R"({"time":"1970-01-01T00:00:00.000Z","kind":"tsc","robotId":null,"planId":null,"stepNo":null,"jobId":null,)"
+           R"("text":"TSC: Auto -> Pausing"})");
+    const std::vector<std::string> texts = ListTexts(entries);
+    CHECK(texts[1] == "heavy alarm ACS-1008 of LR01 cleared");
+    CHECK(texts[3] == "entered N1");
+    CHECK(texts[4] == "robot LR01: Disconnected: LR01: no connection.");
+    CHECK(sink.GetLines().size() == entries.size());
+}
+
+} // namespace ACS::Acsd::Test
