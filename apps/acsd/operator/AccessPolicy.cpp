@@ -2,11 +2,13 @@
 
 #include "common/config/Endpoint.hpp"
 #include "common/config/WordReader.hpp"
+#include "common/http/HttpGuard.hpp"
 
 #include <fmt/format.h>
 #include <openssl/crypto.h>
 
 #include <algorithm>
+#include <cassert>
 #include <string_view>
 #include <utility>
 
@@ -28,6 +30,11 @@ bool IsBearer(std::string_view scheme)
     return std::ranges::equal(scheme, std::string_view("bearer"), {}, lower);
 }
 
+bool IsReading(const Apps::HttpRequest& request)
+{
+    return request.method == "GET" || request.method == "HEAD";
+}
+
 } // namespace
 
 AccessPolicy::AccessPolicy(Options options)
@@ -35,20 +42,61 @@ AccessPolicy::AccessPolicy(Options options)
 {
 }
 
-AccessPolicy::Decision AccessPolicy::Decide(const Apps::HttpRequest& request) const
+std::string_view GetText(EProof proof)
 {
-    Decision decision = Identify(request.sender);
-    const bool bReads = request.method == "GET" || request.method == "HEAD";
-    if (decision.access == EAccess::Permitted && !bReads && decision.identity->role == EOperatorRole::Viewer)
+    switch (proof)
+    {
+        case EProof::Local:
+            return "local";
+        case EProof::Token:
+            return "token";
+        case EProof::Session:
+            return "session";
+        case EProof::Certificate:
+            return "certificate";
+        default:
+            assert(false);
+            return {};
+    }
+}
+
+bool AccessPolicy::IsPublic(const Apps::HttpRequest& request)
+{
+    const bool bOfPage = request.path == "/" || (request.segments.size() > 1 && request.segments.front() == "page");
+    return bOfPage && IsReading(request);
+}
+
+bool AccessPolicy::HasTokens() const noexcept
+{
+    return _options.tokens.has_value();
+}
+
+AccessPolicy::Decision AccessPolicy::Decide(
+    const Apps::HttpRequest& request,
+    const std::optional<OperatorToken::Hash>& sessionOrNull) const
+{
+    Decision decision = Identify(request.sender, sessionOrNull);
+    if (decision.access != EAccess::Permitted || IsReading(request))
+    {
+        return decision;
+    }
+    if (decision.identity->role == EOperatorRole::Viewer)
     {
         decision.access = EAccess::Forbidden;
         decision.reason = fmt::format("{} is a viewer and may not send commands.", decision.identity->name);
+    }
+    else if (decision.identity->proof == EProof::Session && !Apps::IsFromOwnPage(request))
+    {
+        decision.access = EAccess::Forbidden;
+        decision.reason = "A command with the cookie of a session needs the Origin of this address.";
     }
     return decision;
 }
 
 /// A token is more specific than a certificate: a browser shows its certificate without being asked again.
-AccessPolicy::Decision AccessPolicy::Identify(const Apps::HttpSender& sender) const
+AccessPolicy::Decision AccessPolicy::Identify(
+    const Apps::HttpSender& sender,
+    const std::optional<OperatorToken::Hash>& sessionOrNull) const
 {
     if (!_options.tokens.has_value() && !_options.certificates.has_value())
     {
@@ -61,6 +109,13 @@ AccessPolicy::Decision AccessPolicy::Identify(const Apps::HttpSender& sender) co
     if (_options.tokens.has_value() && !sender.authorization.empty())
     {
         return IdentifyByToken(sender.authorization);
+    }
+    if (_options.tokens.has_value() && sessionOrNull.has_value())
+    {
+        if (Decision decision = IdentifyByHash(*sessionOrNull, EProof::Session); decision.access == EAccess::Permitted)
+        {
+            return decision;
+        }
     }
     if (_options.certificates.has_value() && !sender.certificateName.empty())
     {
@@ -86,6 +141,12 @@ AccessPolicy::Decision AccessPolicy::IdentifyByToken(const std::string& authoriz
     {
         return {EAccess::Unidentified, std::nullopt, "Expected Authorization: Bearer TOKEN."};
     }
+    return IdentifyByHash(hash, EProof::Token);
+}
+
+AccessPolicy::Decision AccessPolicy::IdentifyByHash(const OperatorToken::Hash& hash, EProof proof) const
+{
+    assert(HasTokens());
     // The time depends neither on how much of a hash agrees nor on the line of the token.
     const OperatorToken* foundOrNull = nullptr;
     for (const OperatorToken& token : *_options.tokens)
@@ -99,7 +160,7 @@ AccessPolicy::Decision AccessPolicy::IdentifyByToken(const std::string& authoriz
     {
         return {EAccess::Unidentified, std::nullopt, "The token is unknown."};
     }
-    return {EAccess::Permitted, OperatorIdentity{EProof::Token, foundOrNull->name, foundOrNull->role}, {}};
+    return {EAccess::Permitted, OperatorIdentity{proof, foundOrNull->name, foundOrNull->role}, {}};
 }
 
 AccessPolicy::Decision AccessPolicy::IdentifyByCertificate(const std::string& name) const

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ACS::Acsd
@@ -20,6 +21,7 @@ struct OperatorIdentity
     {
         Local,      ///< None: any program on this machine.
         Token,      ///< The token of the name.
+        Session,    ///< A session that a browser has opened with it.
         Certificate ///< A client certificate whose CN is the name.
     };
 
@@ -29,6 +31,9 @@ struct OperatorIdentity
 
     bool operator==(const OperatorIdentity&) const = default;
 };
+
+/// "local", "token", "session" or "certificate".
+[[nodiscard]] std::string_view GetText(OperatorIdentity::EProof proof);
 
 /// Decides which requests of the operator interface are permitted. Viewers may read (GET, HEAD), operators may send every
 /// request. Without tokens and certificates every program on this machine is an operator, and no other is served. Pure.
@@ -62,10 +67,26 @@ private:
 public:
     explicit AccessPolicy(Options options);
 
-    [[nodiscard]] Decision Decide(const Apps::HttpRequest& request) const;
+    /// Whether the request is served without identification: the files of the page, which contain no data.
+    [[nodiscard]] static bool IsPublic(const Apps::HttpRequest& request);
+
+    /// Whether clients can show a token.
+    [[nodiscard]] bool HasTokens() const noexcept;
+
+    /// With the token of the session of a browser. A browser sends its cookie by itself, so a command needs an Origin too.
+    [[nodiscard]] Decision Decide(
+        const Apps::HttpRequest& request,
+        const std::optional<OperatorToken::Hash>& sessionOrNull = std::nullopt) const;
+
+    /// Who sends the request, without regard to what it is.
+    [[nodiscard]] Decision Identify(
+        const Apps::HttpSender& sender,
+        const std::optional<OperatorToken::Hash>& sessionOrNull) const;
+
+    /// Whose token this is. HasTokens must be true.
+    [[nodiscard]] Decision IdentifyByHash(const OperatorToken::Hash& hash, OperatorIdentity::EProof proof) const;
 
 private:
-    [[nodiscard]] Decision Identify(const Apps::HttpSender& sender) const;
     [[nodiscard]] Decision IdentifyByToken(const std::string& authorization) const;
     [[nodiscard]] Decision IdentifyByCertificate(const std::string& name) const;
 };

@@ -32,15 +32,6 @@ void AppendText(std::string_view name, std::string_view text, std::string& line)
     Core::JsonText::AppendString(text.substr(0, LONGEST_AUDIT_TEXT), line);
 }
 
-std::string_view GetProofText(OperatorIdentity::EProof proof)
-{
-    if (proof == OperatorIdentity::EProof::Local)
-    {
-        return "local";
-    }
-    return proof == OperatorIdentity::EProof::Token ? "token" : "certificate";
-}
-
 void BeginAuditLine(Core::Now now, std::string& line)
 {
     fmt::format_to(std::back_inserter(line), R"({{"time":"{}")", Core::FormatUTC(now.wall));
@@ -61,7 +52,7 @@ std::string MakeAuditLine(const AuditEntry& entry, Core::Now now)
     std::string line;
     BeginAuditLine(now, line);
     AppendText("peer", Apps::MakeText(entry.request.sender.peer), line);
-    AppendText("proof", GetProofText(entry.identity.proof), line);
+    AppendText("proof", GetText(entry.identity.proof), line);
     AppendText("name", entry.identity.name, line);
     AppendText("role", GetText(entry.identity.role), line);
     AppendText("method", entry.request.method, line);

@@ -36,6 +36,7 @@ HttpInterfaces::HttpInterfaces(Dependencies dependencies, const HttpConfig& conf
     _gate.GetRoutes().Add("GET", "/v1/events", [this](const Apps::HttpRequest& request, const auto&) {
         return _events->Respond(request);
     });
+    _gate.SetLogoutHandler([this] { _events->EndAll(); });
 }
 
 Apps::HttpRoutes& HttpInterfaces::GetMonitoringRoutes() noexcept

@@ -1,9 +1,12 @@
 #include "operator/OperatorGate.hpp"
 
 #include "common/config/Endpoint.hpp"
+#include "common/http/HttpGuard.hpp"
 #include "operator/LinesRoute.hpp"
 #include "operator/OperatorAnswer.hpp"
 
+#include <string>
+#include <string_view>
 #include <utility>
 
 namespace ACS::Acsd
@@ -12,8 +15,18 @@ namespace ACS::Acsd
 namespace
 {
 
+constexpr unsigned STATUS_DONE = 204;
+constexpr unsigned STATUS_INVALID = 400;
 constexpr unsigned STATUS_UNAUTHORIZED = 401;
 constexpr unsigned STATUS_FORBIDDEN = 403;
+constexpr std::string_view LOGIN = "/v1/login";
+constexpr std::string_view LOGOUT = "/v1/logout";
+
+/// These decide themselves who may send them.
+bool IsOfSession(const Apps::HttpRequest& request)
+{
+    return request.path == LOGIN || request.path == LOGOUT;
+}
 
 } // namespace
 
@@ -26,6 +39,8 @@ OperatorGate::OperatorGate(const Core::IClock& clock, Core::Logger logger, Acces
     _routes.Add("GET", "/v1/audit", [this](const Apps::HttpRequest& request, const auto&) {
         return RespondWithLines(request, _audit.GetNewest());
     });
+    _routes.Add("POST", LOGIN, [this](const Apps::HttpRequest& request, const auto&) { return Login(request); });
+    _routes.Add("POST", LOGOUT, [this](const Apps::HttpRequest& request, const auto&) { return Logout(request); });
 }
 
 Apps::HttpRoutes& OperatorGate::GetRoutes() noexcept
@@ -38,15 +53,86 @@ void OperatorGate::SetPolicy(AccessPolicy policy)
     _policy = std::move(policy);
 }
 
+void OperatorGate::SetLogoutHandler(std::function<void()> onLogout)
+{
+    _onLogout = std::move(onLogout);
+}
+
 Apps::HttpResponse OperatorGate::Respond(const Apps::HttpRequest& request)
 {
-    const AccessPolicy::Decision decision = _policy.Decide(request);
+    if (AccessPolicy::IsPublic(request) || IsOfSession(request))
+    {
+        return _routes.Respond(request);
+    }
+    const AccessPolicy::Decision decision = _policy.Decide(request, FindSessionOrNull(request));
     const bool bPermitted = decision.access == AccessPolicy::EAccess::Permitted;
     Apps::HttpResponse response = bPermitted ? _routes.Respond(request) : Refuse(request, decision);
     // Requests of unknown clients are only logged: they could push all others out of the audit log.
     if (decision.identity.has_value() && request.method != "GET" && request.method != "HEAD")
     {
         _audit.Write({request, *decision.identity, response});
+    }
+    return response;
+}
+
+std::optional<OperatorToken::Hash> OperatorGate::FindSessionOrNull(const Apps::HttpRequest& request) const
+{
+    return _login.FindTokenOrNull(request, _clock.GetNow().steady);
+}
+
+/// Without tokens a browser needs no session, only what other clients need.
+Apps::HttpResponse OperatorGate::Login(const Apps::HttpRequest& request)
+{
+    Apps::HttpResponse response{STATUS_DONE, {}};
+    AccessPolicy::Decision decision;
+    if (_policy.HasTokens())
+    {
+        const std::optional<std::string> token = ReadLoginTokenOrNull(request.body);
+        if (!token.has_value() || !request.query.empty())
+        {
+            return MakeOperatorError(STATUS_INVALID, R"(Expected the body {"token": "TOKEN"} and no parameter.)");
+        }
+        const OperatorToken::Hash hash = HashToken(*token);
+        decision = _policy.IdentifyByHash(hash, OperatorIdentity::EProof::Token);
+        if (decision.access == AccessPolicy::EAccess::Permitted)
+        {
+            response = _login.Open(request, hash, _clock.GetNow().steady);
+        }
+    }
+    else
+    {
+        decision = _policy.Identify(request.sender, std::nullopt);
+    }
+    if (decision.access != AccessPolicy::EAccess::Permitted)
+    {
+        return Refuse(request, decision);
+    }
+    _audit.Write({request, *decision.identity, response});
+    return response;
+}
+
+Apps::HttpResponse OperatorGate::Logout(const Apps::HttpRequest& request)
+{
+    const std::optional<OperatorToken::Hash> session = FindSessionOrNull(request);
+    if (!session.has_value())
+    {
+        return _login.Close(request);
+    }
+    AccessPolicy::Decision decision = _policy.Identify({}, session);
+    if (!Apps::IsFromOwnPage(request))
+    {
+        decision.access = AccessPolicy::EAccess::Forbidden;
+        decision.reason = "A logout needs the Origin of this address.";
+        return Refuse(request, decision);
+    }
+    const Apps::HttpResponse response = _login.Close(request);
+    if (decision.identity.has_value())
+    {
+        _audit.Write({request, *decision.identity, response});
+    }
+    if (_onLogout)
+    {
+        _onLogout();
     }
     return response;
 }

@@ -85,4 +85,12 @@ std::optional<std::string> HttpGuard::GetRejectionReasonOrNull(const HttpRequest
     return std::nullopt;
 }
 
+bool IsFromOwnPage(const HttpRequest& request)
+{
+    const std::string origin = request.GetHeaderOrNull("Origin").value_or("");
+    const std::string host = request.GetHeaderOrNull("Host").value_or("");
+    const bool bSameScheme = origin.starts_with("https://") || (origin.starts_with("http://") && !request.sender.bTLS);
+    return bSameScheme && !host.empty() && IsOwnOrigin(origin, host);
+}
+
 } // namespace ACS::Apps

@@ -46,4 +46,8 @@ private:
     [[nodiscard]] bool IsOwnName(std::string_view host) const;
 };
 
+/// Whether the request states that a page of this server has sent it: for requests that a browser identifies by itself. A
+/// program in front of the server may add TLS, but not remove it.
+[[nodiscard]] bool IsFromOwnPage(const HttpRequest& request);
+
 } // namespace ACS::Apps

@@ -2,6 +2,7 @@
 
 #include "Catch.hpp"
 
+#include <map>
 #include <string>
 #include <utility>
 
@@ -113,4 +114,55 @@ TEST_CASE("The CN of a client certificate has its role; a token takes precedence
     CHECK(Decide(both, "POST", {REMOTE, {}, "kim"}).access == EAccess::Permitted);
     CHECK(Decide(both, "POST", {REMOTE, "Bearer read", "kim"}).access == EAccess::Forbidden);
     CHECK(Decide(both, "POST", {REMOTE, "Bearer guess", "kim"}).access == EAccess::Unidentified);
+}
+
+TEST_CASE("The files of the page are served without identification, and nothing else")
+{
+    const auto isPublic = [](const std::string& method, const std::string& target) {
+        Apps::HttpRequest request = *Apps::ParseHttpTarget(target);
+        request.method = method;
+        return AccessPolicy::IsPublic(request);
+    };
+    for (const char* target : {"/", "/?x=1", "/page/app.js", "/page/a/b.css"})
+    {
+        CAPTURE(target);
+        CHECK(isPublic("GET", target));
+        CHECK(isPublic("HEAD", target));
+        CHECK_FALSE(isPublic("POST", target));
+    }
+    for (const char* target :
+         {"/page", "/pages/x", "/page%2Fx", "//", "//page/x", "/v1/page/x", "/v1/status", "/audit"})
+    {
+        CAPTURE(target);
+        CHECK_FALSE(isPublic("GET", target));
+    }
+}
+
+TEST_CASE("A session counts as its token; a command with it needs the Origin of the own address")
+{
+    const AccessPolicy policy({TOKENS, std::map<std::string, EOperatorRole>{{"tool", EOperatorRole::Viewer}}});
+    Apps::HttpRequest request = *Apps::ParseHttpTarget("/tsc/pause");
+    request.method = "GET";
+    request.sender = {REMOTE};
+    const auto decide = [&](const char* token) {
+        return policy.Decide(request, Acsd::HashToken(token));
+    };
+    CHECK(decide("write").identity == OperatorIdentity{EProof::Session, "kim", EOperatorRole::Operator});
+    CHECK(decide("withdrawn").access == EAccess::Unidentified);
+    request.method = "POST";
+    CHECK(decide("write").access == EAccess::Forbidden);
+    request.headers = {{"Host", "acs:8081"}, {"Origin", "http://evil:8081"}};
+    CHECK(decide("write").access == EAccess::Forbidden);
+    request.headers = {{"Host", "acs:8081"}, {"Origin", "http://acs:8081"}};
+    CHECK(decide("write").access == EAccess::Permitted);
+    CHECK(decide("read").access == EAccess::Forbidden);
+    request.headers.clear();
+    // A token decides before the session, the session before a certificate.
+    request.sender.authorization = "Bearer write";
+    CHECK(decide("read").identity->proof == EProof::Token);
+    CHECK(decide("read").access == EAccess::Permitted);
+    request.sender.authorization.clear();
+    request.sender.certificateName = "tool";
+    CHECK(decide("write").identity->proof == EProof::Session);
+    CHECK(decide("withdrawn").identity->proof == EProof::Certificate);
 }

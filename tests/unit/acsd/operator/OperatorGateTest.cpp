@@ -35,6 +35,9 @@ struct GateFixture
 
     GateFixture()
     {
+        gate.GetRoutes().Add("GET", "/page/{FILE}", [](const auto&, const auto&) {
+            return Apps::HttpResponse{200, "text/css"};
+        });
         gate.GetRoutes().Add("POST", "/v1/tsc/pause", [this](const auto&, const auto&) {
             ++commands;
             return Apps::HttpResponse{202, "application/json", "{\"message\":\"paused\"}\n"};
@@ -52,6 +55,30 @@ struct GateFixture
         request.method = method;
         request.sender = {{"10.0.0.7", 40'000}, token.empty() ? token : "Bearer " + token};
         return gate.Respond(request);
+    }
+
+    /// As the page does it.
+    Apps::HttpResponse Browse(
+        const std::string& method,
+        const std::string& target,
+        const std::string& cookie,
+        const std::string& body = {})
+    {
+        Apps::HttpRequest request = *Apps::ParseHttpTarget(target);
+        request.method = method;
+        request.body = body;
+        request.sender.peer = {"10.0.0.7", 40'000};
+        request.headers = {{"Host", "acs:8081"}, {"Origin", "http://acs:8081"}, {"Cookie", cookie}};
+        return gate.Respond(request);
+    }
+
+    /// The cookie of a new session.
+    std::string Login(const std::string& token)
+    {
+        const Apps::HttpResponse response = Browse("POST", "/v1/login", "", "{\"token\":\"" + token + "\"}");
+        REQUIRE(response.status == 204);
+        const std::string header = response.headers.at(0).second;
+        return header.substr(0, header.find(';'));
     }
 };
 
@@ -124,4 +151,89 @@ TEST_CASE("GET /v1/audit has the number of lines that is asked for, from 1 to 10
         CAPTURE(limit);
         CHECK(fixture.Ask("GET", "read", std::string("/v1/audit?limit=") + limit).status == 400);
     }
+}
+
+TEST_CASE("A browser that has shown a token is identified by its cookie until it logs out")
+{
+    GateFixture fixture;
+    int logouts = 0;
+    fixture.gate.SetLogoutHandler([&logouts] { ++logouts; });
+    const std::string cookie = fixture.Login("write");
+    CHECK(fixture.Browse("POST", "/v1/tsc/pause", cookie).status == 202);
+    CHECK(fixture.Browse("POST", "/v1/tsc/pause", fixture.Login("read")).status == 403);
+    CHECK(fixture.Browse("GET", "/v1/audit", fixture.Login("read")).status == 200);
+    Apps::HttpRequest forged = *Apps::ParseHttpTarget("/v1/tsc/pause");
+    forged.method = "POST";
+    forged.headers = {{"Host", "acs:8081"}, {"Cookie", cookie}};
+    CHECK(fixture.gate.Respond(forged).status == 403);
+    forged = *Apps::ParseHttpTarget("/v1/logout");
+    forged.method = "POST";
+    forged.headers = {{"Host", "acs:8081"}, {"Cookie", cookie}};
+    CHECK(fixture.gate.Respond(forged).status == 403);
+    CHECK(fixture.commands == 1);
+    CHECK(logouts == 0);
+    CHECK(fixture.Browse("POST", "/v1/logout", cookie).status == 204);
+    CHECK(logouts == 1);
+    CHECK(fixture.Browse("POST", "/v1/tsc/pause", cookie).status == 401);
+    CHECK(fixture.Browse("POST", "/v1/logout", cookie).status == 204);
+    CHECK(logouts == 1);
+    const std::string audit = fixture.Ask("GET", "read", "/v1/audit").body;
+    CHECK(
+        audit.find(
+            R"("proof":"token","name":"kim","role":"operator","method":"POST","request":"/v1/login","status":204)")
+        != std::string::npos);
+    CHECK(
+        audit.find(R"("proof":"session","name":"kim","role":"operator","method":"POST","request":"/v1/tsc/pause")")
+        != std::string::npos);
+    CHECK(
+        audit.find(
+            R"("proof":"session","name":"kim","role":"operator","method":"POST","request":"/v1/logout","status":204)")
+        != std::string::npos);
+    CHECK(audit.find("acs_session") == std::string::npos);
+}
+
+TEST_CASE("A session ends when its token is withdrawn, and after 12 hours")
+{
+    GateFixture fixture;
+    const std::string kim = fixture.Login("write");
+    const std::string grafana = fixture.Login("read");
+    fixture.gate.SetPolicy(
+        AccessPolicy({{{{EOperatorRole::Viewer, "grafana", Acsd::HashToken("read")}}}, std::nullopt}));
+    CHECK(fixture.Browse("GET", "/v1/audit", kim).status == 401);
+    CHECK(fixture.Browse("GET", "/v1/audit", grafana).status == 200);
+    fixture.clock.Advance(Acsd::SessionTable::LIFETIME);
+    CHECK(fixture.Browse("GET", "/v1/audit", grafana).status == 401);
+}
+
+TEST_CASE("A login with an unknown token is refused and logged, one without a token is malformed")
+{
+    GateFixture fixture;
+    const Apps::HttpResponse unknown = fixture.Browse("POST", "/v1/login", "", R"({"token":"guess"})");
+    CHECK(unknown.status == 401);
+    CHECK(unknown.headers.empty());
+    CHECK(fixture.log.Contains(Core::ELogLevel::Warning, "Refused a request to the operator interface"));
+    CHECK(fixture.Browse("POST", "/v1/login", "", "guess").status == 400);
+    CHECK(fixture.Browse("POST", "/v1/login?token=write", "", R"({"token":"write"})").status == 400);
+    CHECK(fixture.Browse("GET", "/v1/login", "").status == 405);
+    CHECK(fixture.Ask("GET", "read", "/v1/audit").body.empty());
+}
+
+TEST_CASE("Without tokens a login is not needed: it is answered with 204 and no cookie")
+{
+    GateFixture fixture;
+    fixture.gate.SetPolicy(AccessPolicy({std::nullopt, std::nullopt}));
+    CHECK(fixture.Browse("POST", "/v1/login", "").status == 403); // not of this machine
+    Apps::HttpRequest request = *Apps::ParseHttpTarget("/v1/login");
+    request.method = "POST";
+    request.sender.peer = {"127.0.0.1", 40'000};
+    const Apps::HttpResponse response = fixture.gate.Respond(request);
+    CHECK(response.status == 204);
+    CHECK(response.headers.empty());
+}
+
+TEST_CASE("The files of the page are served without identification")
+{
+    GateFixture fixture;
+    CHECK(fixture.Ask("GET", "", "/page/app.css").status == 200);
+    CHECK(fixture.Ask("POST", "", "/page/app.css").status == 401);
 }

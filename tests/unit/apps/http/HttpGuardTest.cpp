@@ -88,3 +88,23 @@ TEST_CASE("If any host name is allowed, pages of other origins are still refused
     CHECK(guard.GetRejectionReasonOrNull(request, {"simulator:8890", {}, {}}) == std::nullopt);
     CHECK(guard.GetRejectionReasonOrNull(request, {"simulator:8890", "http://evil.example", {}}).has_value());
 }
+
+TEST_CASE("A request of a browser comes from the server's own page only with its Origin")
+{
+    const auto isOwn = [](bool bTLS, const std::string& origin, const std::string& host) {
+        Apps::HttpRequest request;
+        request.sender.bTLS = bTLS;
+        request.headers = {{"Host", host}, {"Origin", origin}};
+        return Apps::IsFromOwnPage(request);
+    };
+    CHECK(isOwn(false, "http://acs.example:8081", "acs.example:8081"));
+    CHECK(isOwn(false, "https://acs.example", "acs.example")); // behind a proxy
+    CHECK(isOwn(true, "https://acs.example:8081", "acs.example:8081"));
+    CHECK_FALSE(isOwn(true, "http://acs.example:8081", "acs.example:8081"));
+    CHECK_FALSE(isOwn(false, "http://acs.example:8082", "acs.example:8081"));
+    CHECK_FALSE(isOwn(false, "http://evil.example:8081", "acs.example:8081"));
+    CHECK_FALSE(isOwn(false, "ftp://acs.example", "acs.example"));
+    CHECK_FALSE(isOwn(false, "null", "acs.example:8081"));
+    CHECK_FALSE(isOwn(false, "http://", ""));
+    CHECK_FALSE(Apps::IsFromOwnPage({}));
+}
