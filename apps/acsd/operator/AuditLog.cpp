@@ -57,6 +57,12 @@ std::string MakeAuditLine(const AuditEntry& entry, Core::Now now)
     AppendText("role", GetText(entry.identity.role), line);
     AppendText("method", entry.request.method, line);
     AppendText("request", entry.request.target, line);
+    if (!entry.key.key.empty())
+    {
+        AppendText("key", entry.key.key, line);
+        AppendText("digest", entry.key.digest, line);
+        line += entry.key.bReplay ? R"(,"replay":true)" : "";
+    }
     fmt::format_to(std::back_inserter(line), R"(,"status":{})", entry.response.status);
     std::string_view answer = entry.response.body;
     answer = answer.substr(0, answer.find_last_not_of('\n') + 1);

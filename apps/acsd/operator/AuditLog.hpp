@@ -5,6 +5,7 @@
 #include "common/trace/NewestLines.hpp"
 #include "common/trace/TraceWriter.hpp"
 #include "operator/AccessPolicy.hpp"
+#include "operator/CommandKey.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
@@ -23,6 +24,7 @@ struct AuditEntry
     const Apps::HttpRequest& request;
     const OperatorIdentity& identity;
     const Apps::HttpResponse& response;
+    CommandKey key{};
 };
 
 /// The entry as one line of JSON, without its end. Long texts of the client are cut.

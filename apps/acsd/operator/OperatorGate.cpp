@@ -39,6 +39,7 @@ OperatorGate::OperatorGate(const Core::IClock& clock, Core::Logger logger, Acces
     _routes.Add("GET", "/v1/audit", [this](const Apps::HttpRequest& request, const auto&) {
         return RespondWithLines(request, _audit.GetNewest());
     });
+    _keys.Restore(_audit.GetNewest().GetText(MOST_SHOWN_LINES), _clock.GetNow());
     _routes.Add("POST", LOGIN, [this](const Apps::HttpRequest& request, const auto&) { return Login(request); });
     _routes.Add("POST", LOGOUT, [this](const Apps::HttpRequest& request, const auto&) { return Logout(request); });
 }
@@ -65,14 +66,28 @@ Apps::HttpResponse OperatorGate::Respond(const Apps::HttpRequest& request)
         return _routes.Respond(request);
     }
     const AccessPolicy::Decision decision = _policy.Decide(request, FindSessionOrNull(request));
-    const bool bPermitted = decision.access == AccessPolicy::EAccess::Permitted;
-    Apps::HttpResponse response = bPermitted ? _routes.Respond(request) : Refuse(request, decision);
-    // Requests of unknown clients are only logged: they could push all others out of the audit log.
-    if (decision.identity.has_value() && request.method != "GET" && request.method != "HEAD")
+    const bool bReads = request.method == "GET" || request.method == "HEAD";
+    IdempotencyKeys::Answer answer;
+    if (decision.access != AccessPolicy::EAccess::Permitted)
     {
-        _audit.Write({request, *decision.identity, response});
+        answer.response = Refuse(request, decision);
     }
-    return response;
+    else if (request.method == "POST")
+    {
+        answer = _keys.Respond(request, *decision.identity, _clock.GetNow().steady, [&] {
+            return _routes.Respond(request);
+        });
+    }
+    else
+    {
+        answer.response = _routes.Respond(request);
+    }
+    // Requests of unknown clients are only logged: they could push all others out of the audit log.
+    if (decision.identity.has_value() && !bReads)
+    {
+        _audit.Write({request, *decision.identity, answer.response, answer.key});
+    }
+    return answer.response;
 }
 
 std::optional<OperatorToken::Hash> OperatorGate::FindSessionOrNull(const Apps::HttpRequest& request) const

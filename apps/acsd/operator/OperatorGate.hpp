@@ -5,6 +5,7 @@
 #include "common/log/LogRateLimiter.hpp"
 #include "operator/AccessPolicy.hpp"
 #include "operator/AuditLog.hpp"
+#include "operator/IdempotencyKeys.hpp"
 #include "operator/OperatorLogin.hpp"
 #include "operator/OperatorToken.hpp"
 #include <acs/core/Logger.hpp>
@@ -17,8 +18,8 @@ namespace ACS::Acsd
 {
 
 /// Passes the permitted requests of the operator interface to their routes and refuses the others: 401 without a valid token
-/// or certificate, 403 for a role that is not sufficient. Opens and ends sessions of browsers. Records each command of an
-/// identified client in the audit log.
+/// or certificate, 403 for a role that is not sufficient. Opens and ends sessions of browsers. Executes a repeated
+/// command once (Idempotency-Key). Records each command of an identified client in the audit log.
 class OperatorGate final
 {
     const Core::IClock& _clock;
@@ -26,11 +27,13 @@ class OperatorGate final
     AccessPolicy _policy;
     AuditLog& _audit;
     OperatorLogin _login;
+    IdempotencyKeys _keys;
     Apps::HttpRoutes _routes;
     std::function<void()> _onLogout;
 
 public:
-    /// The clock, the sink of the logger and the audit log outlive the gate. Adds the routes of the audit log and of sessions.
+    /// The clock, the sink of the logger and the audit log outlive the gate. Adds the routes of the audit log and of sessions,
+    /// and knows the keys of commands from the lines of the audit log.
     OperatorGate(const Core::IClock& clock, Core::Logger logger, AccessPolicy policy, AuditLog& audit);
     OperatorGate(const OperatorGate&) = delete;
     OperatorGate& operator=(const OperatorGate&) = delete;

@@ -44,6 +44,15 @@ struct GateFixture
         });
     }
 
+    Apps::HttpResponse PostWithKey(const std::string& token, const std::string& key)
+    {
+        Apps::HttpRequest request = *Apps::ParseHttpTarget("/v1/tsc/pause");
+        request.method = "POST";
+        request.sender = {{"10.0.0.7", 40'000}, "Bearer " + token};
+        request.headers = {{"Idempotency-Key", key}};
+        return gate.Respond(request);
+    }
+
     Apps::HttpResponse Post(const std::string& token, const std::string& target = "/v1/tsc/pause")
     {
         return Ask("POST", token, target);
@@ -236,4 +245,37 @@ TEST_CASE("The files of the page are served without identification")
     GateFixture fixture;
     CHECK(fixture.Ask("GET", "", "/page/app.css").status == 200);
     CHECK(fixture.Ask("POST", "", "/page/app.css").status == 401);
+}
+
+TEST_CASE("A command with a key is executed once, also over a restart, and each repetition is in the audit log")
+{
+    GateFixture fixture;
+    CHECK(fixture.PostWithKey("read", "k").status == 403); // does not take the key
+    CHECK(fixture.PostWithKey("write", "k").status == 202);
+    CHECK(fixture.PostWithKey("write", "k").status == 202);
+    CHECK(fixture.PostWithKey("write", "no key").status == 400);
+    CHECK(fixture.commands == 1);
+    const std::string audit = fixture.Ask("GET", "read", "/v1/audit").body;
+    CHECK(std::ranges::count(audit, '\n') == 4);
+    CHECK(audit.find(R"("request":"/v1/tsc/pause","key":"k","digest":")") != std::string::npos);
+    CHECK(audit.find(R"(","replay":true,"status":202,"answer":{"message":"paused"}})") != std::string::npos);
+
+    fixture.audit.reset(); // writes its lines
+    fixture.audit = std::move(*Acsd::AuditLog::Create(
+        fixture.folder.GetPath() / "audit",
+        {},
+        fixture.clock,
+        Core::Logger(fixture.log, "audit")));
+    Acsd::OperatorGate restarted(
+        fixture.clock,
+        Core::Logger(fixture.log, "operator"),
+        AccessPolicy({{{{EOperatorRole::Operator, "kim", Acsd::HashToken("write")}}}, std::nullopt}),
+        *fixture.audit);
+    Apps::HttpRequest request = *Apps::ParseHttpTarget("/v1/tsc/pause");
+    request.method = "POST";
+    request.sender = {{"10.0.0.7", 40'000}, "Bearer write"};
+    request.headers = {{"Idempotency-Key", "k"}};
+    const Apps::HttpResponse replayed = restarted.Respond(request);
+    CHECK(replayed.status == 202);
+    CHECK(replayed.body == "{\"message\":\"paused\"}\n");
 }
