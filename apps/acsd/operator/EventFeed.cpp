@@ -1,6 +1,6 @@
 #include "operator/EventFeed.hpp"
 
-#include "operator/LinesRoute.hpp"
+#include "operator/OperatorAnswer.hpp"
 #include <acs/core/Result.hpp>
 
 #include <fmt/format.h>
