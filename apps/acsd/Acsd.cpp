@@ -16,6 +16,7 @@
 #include "operator/HttpInterfaces.hpp"
 #include "operator/LinesRoute.hpp"
 #include "operator/OperatorAnswer.hpp"
+#include "operator/PageRoutes.hpp"
 #include "operator/PlanLog.hpp"
 #include "operator/ProcessMetrics.hpp"
 #include "operator/ReadRoutes.hpp"
@@ -342,6 +343,7 @@ private:
                 ? MakeOperatorError(OperatorCode::NOT_FOUND, "Messages are not traced: start acsd with --trace DIR.")
                 : RespondWithLines(request, _dependencies.traceOrNull->GetNewest());
         });
+        AddPageRoutes(commands);
         AddCommandRoutes(
             commands,
             _core.GetEngine(),

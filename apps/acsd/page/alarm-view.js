@@ -1,0 +1,89 @@
+// The list of alarms with cause and remedy.
+
+import {Commands, makeCommandButton} from "./commands.js";
+import {KeyedList, make, setClass, setHidden, setText} from "./dom.js";
+import {setSince} from "./format.js";
+import {setGlyph} from "./glyphs.js";
+import {explainAlarm, nameState, t} from "./text.js";
+
+export function getAlarmKey(alarm) {
+    return [alarm.robotId, alarm.errorCode, alarm.planId, alarm.jobId].join("\n");
+}
+
+/** Also used in the detail of a robot or plan. */
+export class AlarmRow {
+    constructor(alarm, select) {
+        this.select = select;
+        this.glyph = make("span", {class: "row-glyph"});
+        this.code = make("span", {class: "tag"});
+        this.title = make("span", {class: "row-id"});
+        this.level = make("span", {class: "alarm-level"});
+        this.since = make("span", {class: "muted"});
+        this.message = make("p", {class: "alarm-message"});
+        this.cause = make("dd");
+        this.remedy = make("dd");
+        this.explanation = make("dl", {class: "alarm-text"}, make("dt", {text: t("alarm.cause")}), this.cause,
+            make("dt", {text: t("alarm.remedy")}), this.remedy);
+        this.links = make("span", {class: "alarm-links"});
+        this.clear = makeCommandButton(Commands.clearAlarm(alarm));
+        this.clear.classList.add("no-wall");
+        this.node = make("li", {}, this.glyph, make("div", {class: "row-main"},
+            make("div", {class: "row-head"}, this.level, this.title, this.code, this.since), this.message, this.explanation,
+            make("div", {class: "row-buttons"}, this.links, this.clear)));
+        this.node.dataset.id = alarm.errorCode;
+    }
+
+    update(alarm) {
+        if (this.alarm === alarm) {
+            return;
+        }
+        this.alarm = alarm;
+        const isHeavy = alarm.level === "Heavy";
+        const text = explainAlarm(alarm);
+        setClass(this.node, `alarm ${isHeavy ? "heavy" : "light"}`);
+        setGlyph(this.glyph, isHeavy ? "error" : "light");
+        setText(this.level, nameState("alarmLevel", alarm.level));
+        setText(this.code, alarm.errorCode);
+        setText(this.title, text.title || alarm.errorCode);
+        setSince(this.since, alarm.since);
+        setText(this.message, alarm.message);
+        setText(this.cause, text.cause);
+        setText(this.remedy, text.remedy);
+        setHidden(this.explanation, text.cause === "" && text.remedy === "");
+        const makeLink = (kind, id, label) => make("button", {
+            type: "button", class: "link", text: label, onclick: () => this.select({kind, id})});
+        this.links.replaceChildren(
+            alarm.robotId === "ACS" ? make("span", {text: t("alarm.acsd")}) : makeLink("robot", alarm.robotId, alarm.robotId),
+            ...alarm.planId ? [makeLink("plan", alarm.planId, alarm.stepNo ? `${alarm.planId} / ${alarm.stepNo}` : alarm.planId)] : []);
+    }
+}
+
+export class AlarmView {
+    constructor(context) {
+        this.context = context;
+        this.root = document.getElementById("view-alarms");
+        this.build();
+    }
+
+    build() {
+        const list = make("ul", {class: "alarms", "aria-label": t("tab.alarms")});
+        this.list = new KeyedList(list, getAlarmKey, (alarm) => new AlarmRow(alarm, this.context.select));
+        this.empty = make("p", {class: "empty", text: t("alarm.none")});
+        this.root.replaceChildren(this.empty, list);
+        this.update();
+    }
+
+    isAffected(changes) {
+        return changes.alarms;
+    }
+
+    getCount() {
+        return this.context.model.alarms.length;
+    }
+
+    update() {
+        const alarms = this.context.model.listAlarms();
+        setHidden(this.empty, alarms.length > 0);
+        this.list.show(alarms);
+    }
+}

@@ -1,0 +1,81 @@
+// What the operator may do: each command is one POST. Those with consequences ask first.
+
+import {post} from "./api.js";
+import {askConfirmation, askNumber, showToast} from "./dialogs.js";
+import {make} from "./dom.js";
+import {t} from "./text.js";
+
+const encode = encodeURIComponent;
+
+/** {label, path, body, ask}: ask is the key of the question, null for a command without one. */
+function makePlanControl(name, plan, ask, hasReason = false) {
+    return {label: t(`command.${name}`), path: `/v1/plans/${encode(plan.planId)}/${name}`, ask, hasReason, values: {id: plan.planId}};
+}
+
+export const Commands = {
+    pausePlan: (plan) => makePlanControl("pause", plan, null),
+    resumePlan: (plan) => makePlanControl("resume", plan, null),
+    cancelPlan: (plan) => makePlanControl("cancel", plan, "ask.cancel", true),
+    abortPlan: (plan) => makePlanControl("abort", plan, "ask.abort", true),
+    setPriority: (plan) => ({label: t("command.priority"), path: `/v1/plans/${encode(plan.planId)}/priority`, number: "priority",
+        value: plan.priority ?? 0, values: {id: plan.planId}}),
+    resolveJob: (plan, jobId, outcome) => ({label: t(`command.resolve.${outcome}`),
+        path: `/v1/plans/${encode(plan.planId)}/jobs/${encode(jobId)}/resolve`, body: {outcome}, ask: `ask.resolve.${outcome}`,
+        values: {id: jobId}}),
+    skipStep: (plan, stepNo) => ({label: t("command.skip"), path: `/v1/plans/${encode(plan.planId)}/steps/${stepNo}/skip`,
+        ask: "ask.skip", values: {id: plan.planId, n: stepNo}}),
+    setMaintenance: (robot) => ({label: t(robot.maintenance ? "command.maintenanceOff" : "command.maintenanceOn"),
+        path: `/v1/robots/${encode(robot.robotId)}/maintenance`, body: {on: !robot.maintenance},
+        ask: robot.maintenance ? "ask.maintenanceOff" : null, values: {id: robot.robotId}}),
+    clearAlarm: (alarm) => ({label: t("command.clear"), path: "/v1/alarms/clear", ask: "ask.clear", body: {
+        robotId: alarm.robotId, errorCode: alarm.errorCode, ...(alarm.planId ? {planId: alarm.planId} : {}),
+        ...(alarm.jobId ? {jobId: alarm.jobId} : {})}, values: {id: alarm.errorCode, robot: alarm.robotId}}),
+    pauseTSC: () => ({label: t("command.tscPause"), path: "/v1/tsc/pause", ask: null}),
+    resumeTSC: () => ({label: t("command.tscResume"), path: "/v1/tsc/resume", ask: "ask.tscResume"}),
+    block: (kind, id) => ({label: t("command.block"), path: "/v1/site/block", body: {kind, id}, ask: "ask.block", hasReason: true,
+        values: {kind: t(`kind.${kind}`), id}}),
+    unblock: (kind, id) => ({label: t("command.unblock"), path: "/v1/site/unblock", body: {kind, id}, ask: "ask.unblock",
+        values: {kind: t(`kind.${kind}`), id}}),
+};
+
+/** Asks if need be, sends, and shows the answer. */
+export async function runCommand(command) {
+    let body = command.body;
+    if (command.number !== undefined) {
+        const value = await askNumber({title: command.label, label: t("ask.priority", command.values), value: command.value});
+        if (value === null) {
+            return;
+        }
+        body = {[command.number]: value};
+    } else if (command.ask) {
+        const answer = await askConfirmation({
+            title: command.label, text: t(command.ask, command.values), action: command.label, hasReason: command.hasReason});
+        if (answer === null) {
+            return;
+        }
+        if (answer.reason !== "") {
+            body = {...body, reason: answer.reason};
+        }
+    }
+    try {
+        const response = await post(command.path, body);
+        showToast((await response.json()).message);
+    } catch (error) {
+        if (error.status !== 401) {
+            showToast(error.status === 0 ? t("error.connection", {reason: error.message}) : error.message, "error");
+        }
+    }
+}
+
+/** A button that cannot be pressed twice while its command runs. */
+export function makeCommandButton(command, kind = "") {
+    const button = make("button", {type: "button", class: `button ${kind}`.trim(), text: command.label});
+    button.dataset.path = command.path;
+    button.addEventListener("click", async (event) => {
+        event.stopPropagation();
+        button.disabled = true;
+        await runCommand(command);
+        button.disabled = false;
+    });
+    return button;
+}

@@ -1,0 +1,165 @@
+// The dialogs: confirmation, login, search, help; and the short messages at the edge.
+
+import {post} from "./api.js";
+import {make} from "./dom.js";
+import {makeGlyph} from "./glyphs.js";
+import {t} from "./text.js";
+
+const TOAST_TIME = 7_000; // milliseconds
+const FOUND_LIMIT = 12;
+
+/** A short message; kind "info" or "error". */
+export function showToast(text, kind = "info") {
+    const toast = make("div", {class: `toast ${kind}`}, make("span", {class: "toast-glyph"}, makeGlyph(kind === "error" ? "error" : "done")),
+        make("span", {text}));
+    document.getElementById("toasts").append(toast);
+    setTimeout(() => toast.remove(), kind === "error" ? 2 * TOAST_TIME : TOAST_TIME);
+}
+
+function openDialog(id) {
+    const dialog = document.getElementById(id);
+    if (!dialog.open) {
+        dialog.showModal();
+    }
+    return dialog;
+}
+
+/** Asks before a command with consequences. Resolves to {reason}, or null if the user cancels. */
+export function askConfirmation({title, text, action, hasReason = false}) {
+    const dialog = document.getElementById("confirm-dialog");
+    const reason = hasReason ? make("input", {id: "confirm-reason", type: "text", maxlength: 200, autocomplete: "off"}) : null;
+    const cancel = make("button", {type: "submit", value: "cancel", class: "button", text: t("dialog.cancel"), formnovalidate: true});
+    dialog.replaceChildren(make("form", {method: "dialog"},
+        make("h2", {id: "confirm-title", text: title}), make("p", {text}),
+        reason && make("label", {for: "confirm-reason", text: t("dialog.reason")}), reason,
+        make("div", {class: "dialog-buttons"}, cancel,
+            make("button", {type: "submit", value: "confirm", class: "button danger", id: "confirm-action", text: action}))));
+    dialog.returnValue = "";
+    openDialog("confirm-dialog");
+    // Enter must not confirm by accident.
+    (reason ?? cancel).focus();
+    if (reason !== null) {
+        reason.addEventListener("keydown", (event) => {
+            if (event.key === "Enter") {
+                event.preventDefault();
+                document.getElementById("confirm-action").focus();
+            }
+        });
+    }
+    return new Promise((resolve) => {
+        dialog.addEventListener("close", () => {
+            resolve(dialog.returnValue === "confirm" ? {reason: reason?.value.trim() ?? ""} : null);
+        }, {once: true});
+    });
+}
+
+/** Asks for one number; null if the user cancels. */
+export function askNumber({title, label, value}) {
+    const dialog = document.getElementById("confirm-dialog");
+    const input = make("input", {id: "confirm-number", type: "number", step: 1, required: true, value});
+    dialog.replaceChildren(make("form", {method: "dialog"}, make("h2", {id: "confirm-title", text: title}),
+        make("label", {for: "confirm-number", text: label}), input,
+        make("div", {class: "dialog-buttons"},
+            make("button", {type: "button", class: "button", text: t("dialog.cancel"), onclick: () => dialog.close("cancel")}),
+            make("button", {type: "submit", value: "confirm", class: "button primary", id: "confirm-action", text: t("dialog.set")}))));
+    dialog.returnValue = "";
+    openDialog("confirm-dialog");
+    input.select();
+    return new Promise((resolve) => {
+        dialog.addEventListener("close", () => {
+            resolve(dialog.returnValue === "confirm" && input.checkValidity() ? Number(input.value) : null);
+        }, {once: true});
+    });
+}
+
+/** Asks for a token until acsd accepts one. */
+export function showLogin(onLogin) {
+    const dialog = document.getElementById("login-dialog");
+    if (dialog.open) {
+        return;
+    }
+    const token = make("input", {id: "login-token", type: "password", autocomplete: "current-password", required: true});
+    const message = make("p", {class: "form-error", role: "alert"});
+    const form = make("form", {},
+        make("h2", {id: "login-title", text: t("login.title")}), make("p", {text: t("login.text")}),
+        make("label", {for: "login-token", text: t("login.token")}), token, message,
+        make("div", {class: "dialog-buttons"}, make("button", {type: "submit", class: "button primary", text: t("login.action")})));
+    form.addEventListener("submit", async (event) => {
+        event.preventDefault();
+        message.textContent = "";
+        try {
+            await post("/v1/login", {token: token.value.trim()});
+        } catch (error) {
+            message.textContent = error.status === 401 ? t("login.refused") : error.message;
+            token.select();
+            return;
+        }
+        dialog.close();
+        onLogin();
+    });
+    dialog.oncancel = (event) => event.preventDefault();
+    dialog.replaceChildren(form);
+    openDialog("login-dialog");
+    token.focus();
+}
+
+/** Finds a robot, plan, alarm or part of the floor by its id. list() gives [{kind, id}]. */
+export function showFind(list, onFound) {
+    const dialog = document.getElementById("find-dialog");
+    const items = list();
+    const results = make("ul", {class: "find-results", id: "find-results", role: "listbox", "aria-label": t("find.results")});
+    const input = make("input", {
+        id: "find-input", type: "search", autocomplete: "off", spellcheck: "false", role: "combobox", "aria-expanded": "true",
+        "aria-controls": "find-results",
+    });
+    let chosen = 0;
+    let found = [];
+    const choose = (item) => {
+        dialog.close();
+        onFound(item);
+    };
+    const show = () => {
+        const wanted = input.value.trim().toLowerCase();
+        found = wanted === "" ? [] : items.filter(({id}) => id.toLowerCase().includes(wanted))
+            .sort((a, b) => a.id.toLowerCase().indexOf(wanted) - b.id.toLowerCase().indexOf(wanted)).slice(0, FOUND_LIMIT);
+        chosen = Math.max(0, Math.min(chosen, found.length - 1));
+        results.replaceChildren(...found.map((item, i) => make("li", {
+            role: "option", id: `find-${i}`, "aria-selected": String(i === chosen), onclick: () => choose(item),
+        }, make("span", {class: "muted", text: t(`kind.${item.kind}`)}), make("span", {text: item.id}))));
+        input.setAttribute("aria-activedescendant", found.length > 0 ? `find-${chosen}` : "");
+    };
+    input.addEventListener("input", () => {
+        chosen = 0;
+        show();
+    });
+    input.addEventListener("keydown", (event) => {
+        const step = {ArrowDown: 1, ArrowUp: -1}[event.key];
+        if (step !== undefined) {
+            event.preventDefault();
+            chosen += step;
+            show();
+        } else if (event.key === "Enter") {
+            event.preventDefault();
+            if (found.length > 0) {
+                choose(found[chosen]);
+            }
+        }
+    });
+    dialog.replaceChildren(make("div", {}, make("h2", {id: "find-title", text: t("find.title")}),
+        make("label", {for: "find-input", text: t("find.text")}), input, results));
+    openDialog("find-dialog");
+    input.focus();
+}
+
+/** Keys: [[key, text]]. */
+export function showHelp(keys) {
+    const dialog = document.getElementById("help-dialog");
+    dialog.replaceChildren(make("form", {method: "dialog"},
+        make("h2", {id: "help-title", text: t("help.title")}),
+        make("dl", {class: "keys"}, ...keys.flatMap(([key, text]) => [make("dt", {}, make("kbd", {text: key})), make("dd", {text})])),
+        make("p", {class: "muted", text: t("help.colours")}),
+        make("p", {class: "muted"}, `${t("help.leaflet")} `,
+            make("a", {href: "/page/leaflet-copyright.txt", target: "_blank", rel: "noopener", text: t("help.licence")})),
+        make("div", {class: "dialog-buttons"}, make("button", {type: "submit", class: "button primary", text: t("dialog.close")}))));
+    openDialog("help-dialog");
+}

@@ -1,0 +1,103 @@
+// Helpers for the DOM. Every text goes through textContent: ids and messages come from other systems.
+
+const SVG = "http://www.w3.org/2000/svg";
+
+/** make("li", {class: "row", text: "…", "aria-label": "…", onclick: f}, child, …): children may be strings or null. */
+export function make(tag, attributes = {}, ...children) {
+    const node = document.createElement(tag);
+    for (const [name, value] of Object.entries(attributes)) {
+        if (value === null || value === undefined || value === false) {
+            continue;
+        }
+        if (name === "text") {
+            node.textContent = value;
+        } else if (name.startsWith("on")) {
+            node.addEventListener(name.slice(2), value);
+        } else {
+            node.setAttribute(name, value === true ? "" : value);
+        }
+    }
+    node.append(...children.filter((child) => child !== null && child !== undefined));
+    return node;
+}
+
+export function makeSvg(tag, attributes, ...children) {
+    const node = document.createElementNS(SVG, tag);
+    for (const [name, value] of Object.entries(attributes)) {
+        node.setAttribute(name, value);
+    }
+    node.append(...children);
+    return node;
+}
+
+/** Only a change touches the DOM. */
+export function setText(node, text) {
+    if (node.textContent !== text) {
+        node.textContent = text;
+    }
+}
+
+export function setClass(node, name) {
+    if (node.className !== name) {
+        node.className = name;
+    }
+}
+
+export function setHidden(node, isHidden) {
+    if (node.hidden !== isHidden) {
+        node.hidden = isHidden;
+    }
+}
+
+export function setAttribute(node, name, value) {
+    if (value === null) {
+        node.removeAttribute(name);
+    } else if (node.getAttribute(name) !== value) {
+        node.setAttribute(name, value);
+    }
+}
+
+/** A list whose elements stay while their key does: create(item) makes one with a method update(item). */
+export class KeyedList {
+    #container;
+    #getKey;
+    #create;
+    #rows = new Map();
+
+    constructor(container, getKey, create) {
+        this.#container = container;
+        this.#getKey = getKey;
+        this.#create = create;
+    }
+
+    clear() {
+        this.#rows.clear();
+        this.#container.replaceChildren();
+    }
+
+    show(items) {
+        const kept = new Set();
+        let next = this.#container.firstElementChild;
+        for (const item of items) {
+            const key = this.#getKey(item);
+            kept.add(key);
+            let row = this.#rows.get(key);
+            if (row === undefined) {
+                row = this.#create(item);
+                this.#rows.set(key, row);
+            }
+            row.update(item);
+            if (row.node === next) {
+                next = next.nextElementSibling;
+            } else {
+                this.#container.insertBefore(row.node, next);
+            }
+        }
+        for (const [key, row] of this.#rows) {
+            if (!kept.has(key)) {
+                row.node.remove();
+                this.#rows.delete(key);
+            }
+        }
+    }
+}

@@ -1,0 +1,73 @@
+// Times and numbers as text.
+
+import {setText} from "./dom.js";
+import {getLanguage, t} from "./text.js";
+
+let serverOffset = 0; // milliseconds that the clock of acsd is ahead of this one
+
+/** Times are compared with acsd's clock: that of the browser's machine may be wrong. */
+export function setServerTime(milliseconds) {
+    serverOffset = milliseconds - Date.now();
+}
+
+export function getServerNow() {
+    return Date.now() + serverOffset;
+}
+
+export function formatDuration(milliseconds) {
+    const seconds = Math.max(0, Math.floor(milliseconds / 1000));
+    if (seconds < 60) {
+        return t("time.seconds", {n: seconds});
+    }
+    const minutes = Math.floor(seconds / 60);
+    if (minutes < 60) {
+        return t("time.minutes", {n: minutes});
+    }
+    const hours = Math.floor(minutes / 60);
+    if (hours < 24) {
+        return t("time.hours", {n: hours, m: minutes % 60});
+    }
+    return t("time.days", {n: Math.floor(hours / 24), h: hours % 24});
+}
+
+export function formatClock(milliseconds) {
+    return new Date(milliseconds).toLocaleTimeString(getLanguage(), {hour12: false});
+}
+
+/** Local date and time; "–" for null. */
+export function formatTime(text) {
+    if (text === null || text === undefined) {
+        return "–";
+    }
+    const time = new Date(text);
+    const isToday = time.toDateString() === new Date(getServerNow()).toDateString();
+    return isToday ? formatClock(time)
+        : time.toLocaleString(getLanguage(), {month: "short", day: "numeric", hour: "2-digit", minute: "2-digit", hour12: false});
+}
+
+export function formatNumber(value, digits = 2) {
+    return value.toLocaleString(getLanguage(), {minimumFractionDigits: digits, maximumFractionDigits: digits});
+}
+
+/** Makes the node show for how long, from then on; null shows nothing. */
+export function setSince(node, text) {
+    if (text === null || text === undefined) {
+        delete node.dataset.since;
+        setText(node, "");
+        return;
+    }
+    if (node.dataset.since !== text) {
+        node.dataset.since = text;
+        node.title = new Date(text).toLocaleString(getLanguage());
+    }
+    setText(node, formatDuration(getServerNow() - Date.parse(text)));
+}
+
+/** Once a second: the durations that can be seen. */
+export function updateSince() {
+    for (const node of document.querySelectorAll("[data-since]")) {
+        if (node.offsetParent !== null) {
+            setText(node, formatDuration(getServerNow() - Date.parse(node.dataset.since)));
+        }
+    }
+}

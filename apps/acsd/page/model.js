@@ -1,0 +1,119 @@
+// What the page knows of acsd: the last snapshot and every event after it.
+
+const KEPT_ENTRIES = 500;
+
+/** Which parts have changed; ids where there are many. */
+export class Changes {
+    constructor() {
+        this.isAll = false;
+        this.status = false;
+        this.alarms = false;
+        this.site = false;
+        this.entries = false;
+        this.plans = new Set();
+        this.robots = new Set();
+    }
+
+    merge(other) {
+        for (const name of ["isAll", "status", "alarms", "site", "entries"]) {
+            this[name] ||= other[name];
+        }
+        other.plans.forEach((id) => this.plans.add(id));
+        other.robots.forEach((id) => this.robots.add(id));
+    }
+}
+
+export class Model {
+    constructor() {
+        this.status = null;
+        this.plans = new Map(); // unfinished
+        this.ended = new Map(); // finished while the page was open
+        this.robots = new Map();
+        this.alarms = [];
+        this.entries = []; // newest first
+        this.site = null;
+        this.blocks = new Map(); // "kind/id" -> block
+        this.entryNumber = 0;
+        this.listeners = [];
+    }
+
+    /** The listener is called with Changes. */
+    listen(listener) {
+        this.listeners.push(listener);
+    }
+
+    emit(changes) {
+        this.listeners.forEach((listener) => listener(changes));
+    }
+
+    setSnapshot(snapshot) {
+        this.status = snapshot.status;
+        this.plans = new Map(snapshot.plans.map((plan) => [plan.planId, plan]));
+        this.robots = new Map(snapshot.robots.map((robot) => [robot.robotId, robot]));
+        this.alarms = snapshot.alarms;
+        const changes = new Changes();
+        changes.isAll = true;
+        this.emit(changes);
+    }
+
+    setSite(site) {
+        this.site = site;
+        this.blocks = new Map(site.blocked.map((block) => [`${block.kind}/${block.id}`, block]));
+        const changes = new Changes();
+        changes.site = true;
+        this.emit(changes);
+    }
+
+    apply(data) {
+        const changes = new Changes();
+        if (data.status !== undefined) {
+            this.status = data.status;
+            changes.status = true;
+        }
+        for (const plan of data.plans ?? []) {
+            this.plans.set(plan.planId, plan);
+            changes.plans.add(plan.planId);
+        }
+        for (const plan of data.ended ?? []) {
+            this.plans.delete(plan.planId);
+            this.ended.set(plan.planId, plan);
+            changes.plans.add(plan.planId);
+        }
+        for (const robot of data.robots ?? []) {
+            this.robots.set(robot.robotId, robot);
+            changes.robots.add(robot.robotId);
+        }
+        if (data.alarms !== undefined) {
+            this.alarms = data.alarms;
+            changes.alarms = true;
+        }
+        this.emit(changes);
+    }
+
+    addEntry(entry) {
+        this.entryNumber += 1;
+        this.entries.unshift({...entry, number: this.entryNumber});
+        this.entries.length = Math.min(this.entries.length, KEPT_ENTRIES);
+        const changes = new Changes();
+        changes.entries = true;
+        this.emit(changes);
+    }
+
+    findPlan(planId) {
+        return this.plans.get(planId) ?? this.ended.get(planId) ?? null;
+    }
+
+    findBlock(kind, id) {
+        return this.blocks.get(`${kind}/${id}`) ?? null;
+    }
+
+    /** Alarms of a robot, plan or job, heavy ones first. */
+    findAlarms(matches) {
+        return this.listAlarms().filter(matches);
+    }
+
+    listAlarms() {
+        const getRank = (alarm) => (alarm.level === "Heavy" ? 0 : 1);
+        return [...this.alarms].sort((a, b) => getRank(a) - getRank(b) || (b.since ?? "").localeCompare(a.since ?? ""));
+    }
+}

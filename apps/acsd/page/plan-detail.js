@@ -1,0 +1,137 @@
+// The detail of a plan: why it waits, its steps and jobs, and what the operator may do with it.
+
+import {getJson} from "./api.js";
+import {AlarmRow, getAlarmKey} from "./alarm-view.js";
+import {Commands, makeCommandButton} from "./commands.js";
+import {KeyedList, make, setHidden} from "./dom.js";
+import {formatTime, setSince} from "./format.js";
+import {StepBar} from "./plan-view.js";
+import {nameState, t} from "./text.js";
+import {TraceList} from "./trace-list.js";
+
+const UNRESOLVED = "ACS-1008";
+
+export class PlanDetail {
+    constructor(context, {id}) {
+        this.context = context;
+        this.id = id;
+        this.steps = new StepBar();
+        this.facts = make("dl", {class: "facts"});
+        this.buttons = make("div", {class: "row-buttons no-wall"});
+        this.stepList = make("ol", {class: "step-list"});
+        this.alarmList = make("ul", {class: "alarms"});
+        this.alarms = new KeyedList(this.alarmList, getAlarmKey, (alarm) => new AlarmRow(alarm, context.select));
+        this.node = make("div", {class: "detail-body"}, this.steps.node, this.alarmList, this.facts, this.buttons,
+            make("h3", {text: t("plan.steps")}), this.stepList, new TraceList(`plan=${encodeURIComponent(id)}`).node);
+        this.plan = null;
+        this.isLoading = false;
+        this.load();
+    }
+
+    /** The jobs are in the answer for one plan only. */
+    async load() {
+        if (this.isLoading) {
+            this.isStale = true;
+            return;
+        }
+        this.isLoading = true;
+        do {
+            this.isStale = false;
+            try {
+                this.plan = await getJson(`/v1/plans/${encodeURIComponent(this.id)}`);
+                this.#show();
+            } catch (error) {
+                if (this.plan === null) {
+                    this.facts.replaceChildren(make("dd", {text: error.message}));
+                }
+            }
+        } while (this.isStale);
+        this.isLoading = false;
+    }
+
+    update(changes) {
+        if (changes.isAll || changes.plans.has(this.id)) {
+            this.load();
+        } else if (changes.alarms && this.plan !== null) {
+            this.#show();
+        }
+    }
+
+    #findAlarms() {
+        return this.context.model.findAlarms((alarm) => alarm.planId === this.id);
+    }
+
+    #show() {
+        const focused = document.activeElement?.dataset.path;
+        const {plan} = this;
+        const alarms = this.#findAlarms();
+        setHidden(this.alarmList, alarms.length === 0);
+        this.alarms.show(alarms);
+        this.steps.update(plan);
+        this.#showFacts(plan);
+        this.#showButtons(plan);
+        this.stepList.replaceChildren(...plan.steps.map((step) => this.#makeStep(plan, step, alarms)));
+        if (focused !== undefined) {
+            [...this.node.querySelectorAll("[data-path]")].find((button) => button.dataset.path === focused)?.focus();
+        }
+    }
+
+    #showFacts(plan) {
+        const rows = [];
+        const add = (key, ...children) => rows.push(make("dt", {text: t(key)}), make("dd", {}, ...children));
+        const makeLink = (kind, id) => make("button", {type: "button", class: "link", text: id,
+            onclick: () => this.context.select({kind, id})});
+        add("plan.status", nameState("planStatus", plan.status), plan.message ? make("p", {class: "reason", text: plan.message}) : null);
+        if (plan.waits !== null) {
+            const since = make("span", {class: "wait-since"});
+            setSince(since, plan.waits.since);
+            add("plan.waits", make("div", {class: "wait"}, since, make("span", {text: plan.waits.message})),
+                make("ul", {class: "reasons"}, ...plan.waits.robots.map(({robotId, reason}) => make("li", {}, makeLink("robot", robotId),
+                    ` ${reason}`))));
+            if (plan.waits.queuePosition !== null) {
+                add("plan.place", t("plan.queuePosition", {n: plan.waits.queuePosition}));
+            }
+        }
+        add("plan.robot", plan.robotId ? makeLink("robot", plan.robotId) : "–");
+        add("plan.priority", String(plan.priority ?? "–"));
+        add("plan.lot", plan.lotId || "–");
+        add("plan.carriers", (plan.carrierIds ?? []).join(", ") || "–");
+        add("plan.accepted", formatTime(plan.acceptedAt));
+        add("plan.started", formatTime(plan.startedAt));
+        if (plan.endedAt !== null) {
+            add("plan.ended", formatTime(plan.endedAt));
+        }
+        this.facts.replaceChildren(...rows);
+    }
+
+    #showButtons(plan) {
+        if (plan.endedAt !== null) {
+            this.buttons.replaceChildren();
+            return;
+        }
+        this.buttons.replaceChildren(
+            makeCommandButton(plan.status === "Paused" ? Commands.resumePlan(plan) : Commands.pausePlan(plan)),
+            makeCommandButton(Commands.setPriority(plan)), makeCommandButton(Commands.cancelPlan(plan), "danger"),
+            makeCommandButton(Commands.abortPlan(plan), "danger"));
+    }
+
+    #makeStep(plan, step, alarms) {
+        const isUnresolved = (job) => job.status === "Unresolved"
+            || alarms.some((alarm) => alarm.errorCode === UNRESOLVED && alarm.jobId === job.jobId);
+        const jobs = step.jobs ?? [];
+        const canSkip = plan.endedAt === null && plan.robotId !== null && (step.status === "Pending" || jobs.some(isUnresolved));
+        return make("li", {class: `step-item step-${step.status.replace(/\W/g, "")}`},
+            make("div", {class: "row-head"}, make("span", {class: "step-no", text: String(step.stepNo)}),
+                make("span", {class: "row-id", text: step.action}),
+                make("button", {type: "button", class: "link", text: step.position,
+                    onclick: () => this.context.select({kind: "station", id: step.position})}),
+                make("span", {class: "row-state", text: nameState("stepStatus", step.status)})),
+            make("ul", {class: "jobs"}, ...jobs.map((job) => make("li", {},
+                make("span", {text: [job.from, job.to].map((place) => place || "–").join(" → ")}), " ",
+                make("span", {class: "muted", text: nameState("jobStatus", isUnresolved(job) ? "Unresolved" : job.status)}),
+                make("p", {class: "muted job-id", text: job.jobId}),
+                isUnresolved(job) ? make("div", {class: "row-buttons no-wall"}, ...["done", "failed", "again"]
+                    .map((outcome) => makeCommandButton(Commands.resolveJob(plan, job.jobId, outcome), "danger"))) : null))),
+            canSkip ? make("div", {class: "row-buttons no-wall"}, makeCommandButton(Commands.skipStep(plan, step.stepNo), "small")) : null);
+    }
+}

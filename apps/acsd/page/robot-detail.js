@@ -1,0 +1,110 @@
+// The detail of a robot.
+
+import {AlarmRow, getAlarmKey} from "./alarm-view.js";
+import {Commands, makeCommandButton} from "./commands.js";
+import {KeyedList, make, setHidden} from "./dom.js";
+import {formatNumber, setSince} from "./format.js";
+import {getRobotGlyph, getRobotGroup, makeGlyph} from "./glyphs.js";
+import {Battery, describePlace} from "./robot-view.js";
+import {nameState, t} from "./text.js";
+import {TraceList} from "./trace-list.js";
+
+const DEGREES = 180 / Math.PI;
+
+export class RobotDetail {
+    constructor(context, {id}) {
+        this.context = context;
+        this.id = id;
+        this.buttons = make("div", {class: "row-buttons no-wall"});
+        this.facts = make("dl", {class: "facts"});
+        this.alarmList = make("ul", {class: "alarms"});
+        this.alarms = new KeyedList(this.alarmList, getAlarmKey, (alarm) => new AlarmRow(alarm, context.select));
+        this.node = make("div", {class: "detail-body"}, this.alarmList, this.facts, this.buttons,
+            new TraceList(`robot=${encodeURIComponent(id)}`).node);
+        this.update(null);
+    }
+
+    update(changes) {
+        const robot = this.context.model.robots.get(this.id);
+        if (changes === null || changes.isAll || changes.alarms) {
+            const alarms = this.context.model.findAlarms((alarm) => alarm.robotId === this.id);
+            setHidden(this.alarmList, alarms.length === 0);
+            this.alarms.show(alarms);
+        }
+        if (robot === undefined) {
+            this.facts.replaceChildren(make("dd", {text: t("detail.gone")}));
+            this.buttons.replaceChildren();
+            return;
+        }
+        if (changes === null || changes.isAll || changes.robots.has(this.id)) {
+            this.#showFacts(robot);
+            if (this.isInMaintenance !== robot.maintenance) {
+                this.isInMaintenance = robot.maintenance;
+                this.buttons.replaceChildren(makeCommandButton(Commands.setMaintenance(robot)));
+            }
+        }
+    }
+
+    /** The open route keeps the focus of the link to the plan: only what changes is replaced. */
+    #showFacts(robot) {
+        const rows = [];
+        const add = (key, ...children) => {
+            const node = make("dd", {}, ...children);
+            rows.push(make("dt", {text: t(key)}), node);
+        };
+        const makeLink = (kind, id, text = id) => make("button", {
+            type: "button", class: "link", text, onclick: () => this.context.select({kind, id})});
+        add("robot.status", make("span", {class: `badge group-${getRobotGroup(robot)}`}, makeGlyph(getRobotGlyph(robot))), " ",
+            nameState("robotStatus", robot.status), robot.maintenance ? ` · ${t("robot.maintenance")}` : "",
+            robot.reason ? make("p", {class: "reason", text: robot.reason}) : null);
+        add("robot.plan", robot.planId ? makeLink("plan", robot.planId) : "–",
+            robot.planId ? ` ${t("plan.step", {n: robot.stepNo ?? "–"})}` : "",
+            robot.jobId ? make("span", {class: "muted", text: ` ${robot.jobId}`}) : null);
+        add("robot.place", robot.node ? makeLink("node", robot.node, describePlace(robot)) : describePlace(robot),
+            robot.position ? make("span", {class: "muted", text: ` ${robot.position}`}) : null,
+            robot.pose ? make("p", {class: "muted", text: `x ${formatNumber(robot.pose.x)} m, y ${formatNumber(robot.pose.y)} m, `
+                + `${formatNumber(robot.pose.theta * DEGREES, 0)}°`}) : null);
+        if (robot.battery !== null) {
+            const battery = new Battery();
+            battery.update(robot.battery);
+            add("robot.battery", battery.node);
+        }
+        add("robot.carriers", make("ul", {class: "ports"}, ...robot.ports.map((port, i) => make("li", {},
+            make("span", {class: "muted", text: port}), " ", robot.carrierIds[i] ?? t("robot.empty")))));
+        add("robot.route", robot.route.length === 0 ? "–" : make("span", {class: "route"}, ...robot.route.flatMap((step, i) => [
+            make("span", {class: step.reserved ? "reserved" : "horizon", text: step.nodeId}), i + 1 < robot.route.length ? " → " : ""])));
+        add("robot.vehicle", [robot.type, robot.driver, robot.protocolVersion, robot.mode].filter(Boolean).join(" · "),
+            robot.topic ? make("p", {class: "muted", text: robot.topic}) : null);
+        if (robot.armUp !== null) {
+            add("robot.arm", t(robot.armUp ? "link.up" : "link.down"));
+        }
+        const last = make("span");
+        setSince(last, robot.lastMessageAt);
+        add("robot.lastMessage", robot.lastMessageAt ? last : "–");
+        if (robot.errors.length > 0) {
+            add("robot.errors", make("ul", {class: "reasons"}, ...robot.errors.map((error) => make("li", {
+                text: [error.level, error.type, error.description].filter(Boolean).join(" · ")}))));
+        }
+        if (robot.warnings.length > 0) {
+            add("robot.warnings", make("ul", {class: "reasons"}, ...robot.warnings.map((warning) => make("li", {text: warning}))));
+        }
+        this.#replace(rows);
+    }
+
+    /** Keeps the elements that stay the same, so that focus and selected text survive. */
+    #replace(rows) {
+        const old = [...this.facts.children];
+        rows.forEach((row, i) => {
+            if (old[i] === undefined) {
+                this.facts.append(row);
+            } else if (!old[i].isEqualNode(row)) {
+                const isFocused = old[i].contains(document.activeElement);
+                old[i].replaceWith(row);
+                if (isFocused) {
+                    row.querySelector("button")?.focus();
+                }
+            }
+        });
+        old.slice(rows.length).forEach((row) => row.remove());
+    }
+}

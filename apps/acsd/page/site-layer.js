@@ -1,0 +1,270 @@
+// The floor under the robots: lanes, nodes, stations and what is blocked. Drawn when the view or the site changes.
+
+import {CanvasLayer} from "./canvas-layer.js";
+import {drawGlyph} from "./glyphs.js";
+
+const NODE_SCALE = 9; // pixels per metre from which nodes are drawn
+const ARROW_SCALE = 16;
+const NODE_LABEL_SCALE = 34;
+const LANE_WIDTH = 0.55; // metres
+
+function traceEdge(path, points) {
+    path.moveTo(points[0][0], points[0][1]);
+    for (let i = 1; i < points.length; i += 1) {
+        path.lineTo(points[i][0], points[i][1]);
+    }
+}
+
+/** Rectangles of labels that are drawn already, so that no label covers another one. */
+class LabelSpace {
+    #cells = new Set();
+
+    tryTake(x, y, width, height) {
+        const cells = [];
+        for (let column = Math.floor((x - width / 2) / 8); column <= Math.floor((x + width / 2) / 8); column += 1) {
+            for (let row = Math.floor((y - height / 2) / 8); row <= Math.floor((y + height / 2) / 8); row += 1) {
+                const cell = row * 8192 + column;
+                if (this.#cells.has(cell)) {
+                    return false;
+                }
+                cells.push(cell);
+            }
+        }
+        cells.forEach((cell) => this.#cells.add(cell));
+        return true;
+    }
+}
+
+export class SiteLayer extends CanvasLayer {
+    constructor(theme) {
+        super(1, 0.15);
+        this.theme = theme;
+        this.index = null;
+        this.mapId = "";
+        this.blocks = new Map();
+        this.selection = null; // {kind, id}
+        this.targets = new Set(); // stationIds of the selected plan
+    }
+
+    setSite(index, mapId, blocks) {
+        this.index = index;
+        this.mapId = mapId;
+        this.blocks = blocks;
+        this.lanes = new Path2D();
+        this.oneWay = [];
+        this.blocked = [];
+        for (const edge of index.edges.values()) {
+            if (edge.mapId !== mapId) {
+                continue;
+            }
+            if (!edge.isBothWays) {
+                this.oneWay.push(edge);
+            }
+            if (!edge.isBothWays || edge.startNodeId < edge.endNodeId) {
+                traceEdge(this.lanes, edge.points);
+            }
+        }
+        for (const block of blocks.values()) {
+            const item = {node: index.nodes, edge: index.edges, station: index.stations}[block.kind]?.get(block.id);
+            if (item !== undefined && (item.mapId ?? "") === mapId) {
+                this.blocked.push({kind: block.kind, item});
+            }
+        }
+        this.request();
+    }
+
+    draw(context) {
+        if (this.index === null) {
+            return;
+        }
+        const colours = this.theme.colours;
+        const rem = this.theme.rem;
+        this.useMetres(context);
+        context.lineCap = context.lineJoin = "round";
+        context.lineWidth = Math.max(LANE_WIDTH, 3 / this.scale);
+        context.strokeStyle = colours.lane;
+        context.stroke(this.lanes);
+        context.lineWidth = 1 / this.scale;
+        context.strokeStyle = colours.track;
+        context.stroke(this.lanes);
+        this.usePixels(context);
+        if (this.scale >= ARROW_SCALE) {
+            this.#drawArrows(context, colours);
+        }
+        this.#drawNodes(context, colours);
+        this.#drawStations(context, colours);
+        this.#drawBlocks(context, colours);
+        this.#drawSelection(context, colours);
+        this.#drawLabels(context, colours, rem);
+    }
+
+    #drawArrows(context, colours) {
+        context.fillStyle = colours.node;
+        const size = Math.min(6, this.scale * 0.16);
+        for (const edge of this.oneWay) {
+            const last = edge.points.length - 1;
+            const [start, end] = [edge.points[Math.floor(last / 2)], edge.points[Math.floor(last / 2) + 1]];
+            const [x, y] = [(start[0] + end[0]) / 2, (start[1] + end[1]) / 2];
+            if (!this.isVisible(x, y, 10)) {
+                continue;
+            }
+            const angle = -Math.atan2(end[1] - start[1], end[0] - start[0]);
+            const [cos, sin] = [Math.cos(angle) * size, Math.sin(angle) * size];
+            const [pixelX, pixelY] = [this.toX(x), this.toY(y)];
+            context.beginPath();
+            context.moveTo(pixelX + cos, pixelY + sin);
+            context.lineTo(pixelX - cos - sin * 0.8, pixelY - sin + cos * 0.8);
+            context.lineTo(pixelX - cos + sin * 0.8, pixelY - sin - cos * 0.8);
+            context.fill();
+        }
+    }
+
+    #drawNodes(context, colours) {
+        if (this.scale < NODE_SCALE) {
+            return;
+        }
+        context.fillStyle = colours.node;
+        const radius = Math.max(1.2, Math.min(4, this.scale * 0.07));
+        context.beginPath();
+        for (const node of this.index.nodes.values()) {
+            if ((node.mapId ?? "") === this.mapId && this.isVisible(node.x, node.y, radius)) {
+                const [x, y] = [this.toX(node.x), this.toY(node.y)];
+                context.moveTo(x + radius, y);
+                context.arc(x, y, radius, 0, 2 * Math.PI);
+            }
+        }
+        context.fill();
+    }
+
+    #getStationSize() {
+        return Math.max(5, this.scale * 1.05);
+    }
+
+    #drawStations(context, colours) {
+        const size = this.#getStationSize();
+        context.lineWidth = 1;
+        for (const station of this.index.stations.values()) {
+            if (station.mapId !== this.mapId || !this.isVisible(station.x, station.y, size)) {
+                continue;
+            }
+            context.beginPath();
+            context.roundRect(this.toX(station.x) - size / 2, this.toY(station.y) - size / 2, size, size, size * 0.12);
+            context.fillStyle = colours.station;
+            context.fill();
+            context.strokeStyle = colours.stationLine;
+            context.stroke();
+            if (this.targets.has(station.stationId)) {
+                context.lineWidth = 3;
+                context.strokeStyle = colours.accent;
+                context.stroke();
+                context.lineWidth = 1;
+            }
+        }
+    }
+
+    #drawBlocks(context, colours) {
+        const size = Math.max(14, Math.min(26, this.scale * 0.6));
+        for (const {kind, item} of this.blocked) {
+            if (kind === "edge") {
+                const path = new Path2D();
+                traceEdge(path, item.points);
+                this.useMetres(context);
+                context.lineCap = "butt";
+                context.lineWidth = Math.max(LANE_WIDTH * 0.6, 4 / this.scale);
+                context.strokeStyle = colours.heavy;
+                context.setLineDash([6 / this.scale, 5 / this.scale]);
+                context.stroke(path);
+                context.setLineDash([]);
+                this.usePixels(context);
+            }
+            const middle = kind === "edge" ? this.#getMiddle(item) : [item.x, item.y];
+            const [x, y] = [this.toX(middle[0]), this.toY(middle[1])];
+            context.beginPath();
+            context.arc(x, y, size / 2, 0, 2 * Math.PI);
+            context.fillStyle = colours.floor;
+            context.fill();
+            drawGlyph(context, "block", x, y, size * 1.25, colours.heavy);
+        }
+    }
+
+    #getMiddle(edge) {
+        const last = edge.points.length - 1;
+        const [start, end] = [edge.points[Math.floor(last / 2)], edge.points[Math.ceil(last / 2)]];
+        return last % 2 === 0 ? start : [(start[0] + end[0]) / 2, (start[1] + end[1]) / 2];
+    }
+
+    #drawSelection(context, colours) {
+        if (this.selection === null) {
+            return;
+        }
+        const {kind, id} = this.selection;
+        const item = {node: this.index.nodes, edge: this.index.edges, station: this.index.stations}[kind]?.get(id);
+        if (item === undefined || (item.mapId ?? "") !== this.mapId) {
+            return;
+        }
+        context.strokeStyle = colours.accent;
+        context.lineWidth = 3;
+        if (kind === "edge") {
+            const path = new Path2D();
+            traceEdge(path, item.points);
+            this.useMetres(context);
+            context.lineWidth = 4 / this.scale;
+            context.stroke(path);
+            this.usePixels(context);
+            return;
+        }
+        context.beginPath();
+        const radius = kind === "station" ? this.#getStationSize() * 0.8 : 9;
+        context.arc(this.toX(item.x), this.toY(item.y), radius, 0, 2 * Math.PI);
+        context.stroke();
+    }
+
+    #drawLabels(context, colours, rem) {
+        const space = new LabelSpace();
+        const height = 0.72 * rem;
+        context.textAlign = "center";
+        context.textBaseline = "middle";
+        context.font = `500 ${height}px ${this.theme.font}`;
+        const stations = [...this.index.stations.values()].filter((station) => station.mapId === this.mapId);
+        const visible = stations.filter((station) => this.isVisible(station.x, station.y, 40));
+        // All with their whole id or all without their area.
+        const isShort = visible.some((station) => context.measureText(station.stationId).width > this.scale * 1.9);
+        context.fillStyle = colours.stationText;
+        for (const station of visible) {
+            const text = isShort ? station.stationId.split(".").at(-1) : station.stationId;
+            const distance = (this.#getStationSize() / 2 + height * 0.65) * (station.isLabelAbove ? -1 : 1);
+            this.#drawLabel(context, space, text, this.toX(station.x), this.toY(station.y) + distance, height);
+        }
+        this.#drawAreas(context, colours, rem);
+        if (this.scale < NODE_LABEL_SCALE) {
+            return;
+        }
+        context.font = `${0.62 * rem}px ${this.theme.font}`;
+        context.fillStyle = colours.nodeText;
+        for (const node of this.index.nodes.values()) {
+            if ((node.mapId ?? "") === this.mapId && this.isVisible(node.x, node.y, 40) && !this.index.stationsOfNode.has(node.nodeId)) {
+                const y = this.toY(node.y) + Math.max(0.7 * rem, this.scale * 0.27 + 0.35 * rem);
+                this.#drawLabel(context, space, node.nodeId, this.toX(node.x), y, 0.62 * rem);
+            }
+        }
+    }
+
+    #drawLabel(context, space, text, x, y, height) {
+        const width = context.measureText(text).width;
+        if (width < this.scale * 1.95 && space.tryTake(x, y, width + 4, height)) {
+            context.fillText(text, x, y);
+        }
+    }
+
+    /** Large and pale, in the middle of the stations of an area. */
+    #drawAreas(context, colours, rem) {
+        context.fillStyle = colours.track;
+        for (const area of this.index.areas) {
+            const size = Math.min(2.2 * rem, this.scale * 1.3, area.width * this.scale / area.name.length);
+            if (area.mapId === this.mapId && size >= 0.7 * rem) {
+                context.font = `700 ${size}px ${this.theme.font}`;
+                context.fillText(area.name, this.toX(area.x), this.toY(area.y));
+            }
+        }
+    }
+}

@@ -1,0 +1,89 @@
+// acsd itself: ready state, links, TSC, outbox, and the session of the user.
+
+import {post} from "./api.js";
+import {Commands, makeCommandButton} from "./commands.js";
+import {make} from "./dom.js";
+import {formatDuration, formatTime, setSince} from "./format.js";
+import {makeGlyph} from "./glyphs.js";
+import {nameState, t} from "./text.js";
+
+function makeState(isGood, text) {
+    return make("span", {class: isGood ? "state good" : "state bad"}, makeGlyph(isGood ? "done" : "failed"), text);
+}
+
+function makeSince(text) {
+    const node = make("span", {class: "muted"});
+    setSince(node, text);
+    return node;
+}
+
+export class SystemView {
+    constructor(context) {
+        this.context = context;
+        this.root = document.getElementById("view-system");
+        this.shown = "";
+        this.build();
+    }
+
+    build() {
+        this.shown = "";
+        this.update();
+    }
+
+    isAffected(changes) {
+        return changes.status;
+    }
+
+    getCount() {
+        return null;
+    }
+
+    update() {
+        const {status, blocks} = this.context.model;
+        // Few members and rarely changed, except for the time: drawn as a whole.
+        const shown = JSON.stringify([{...status, uptimeSeconds: 0}, [...blocks.keys()]]);
+        if (status === null || shown === this.shown) {
+            return;
+        }
+        this.shown = shown;
+        const rows = [];
+        const add = (key, ...children) => rows.push(make("dt", {text: t(key)}), make("dd", {}, ...children));
+        add("system.ready", makeState(status.ready, t(status.ready ? "system.isReady" : "system.notReady")),
+            status.notReadyReasons.length > 0
+                ? make("ul", {class: "reasons"}, ...status.notReadyReasons.map((reason) => make("li", {text: reason}))) : null);
+        add("system.tsc", make("span", {class: status.tsc === "Auto" ? "state good" : "state warn"}, nameState("tsc", status.tsc)),
+            status.tscReason ? make("span", {class: "muted", text: ` ${status.tscReason}`}) : null,
+            make("div", {class: "row-buttons"},
+                makeCommandButton(status.tsc === "Auto" ? Commands.pauseTSC() : Commands.resumeTSC())));
+        for (const link of status.links) {
+            rows.push(make("dt", {text: nameState("link", link.name)}), make("dd", {},
+                makeState(link.up, t(link.up ? "link.up" : "link.down")), " ", makeSince(link.since),
+                link.reason ? make("p", {class: "reason", text: link.reason}) : null));
+        }
+        add("system.toMcs", makeState(status.isConnected, t(status.isConnected ? "system.connected" : "system.disconnected")));
+        add("system.outbox", t("system.reports", {n: status.outbox.reports}), " ",
+            status.outbox.oldest ? makeSince(status.outbox.oldest) : null);
+        const refused = status.refusedReports;
+        add("system.refused", String(refused.count),
+            refused.last ? make("p", {class: "reason", text: [refused.last.command, refused.last.planId, refused.last.message]
+                .filter(Boolean).join(" · ")}) : null);
+        add("system.blocked", blocks.size === 0 ? "–" : make("ul", {class: "reasons"}, ...[...blocks.values()].map((block) => make("li", {},
+            make("button", {type: "button", class: "link", text: `${t(`kind.${block.kind}`)} ${block.id}`,
+                onclick: () => this.context.select({kind: block.kind, id: block.id})}),
+            block.reason ? ` ${block.reason}` : ""))));
+        add("system.version", status.version);
+        add("system.started", formatTime(status.startedAt), " ",
+            make("span", {class: "muted", text: t("system.uptime", {time: formatDuration(status.uptimeSeconds * 1_000)})}));
+        this.root.replaceChildren(make("dl", {class: "facts"}, ...rows), make("div", {class: "row-buttons session"},
+            make("button", {type: "button", class: "button", text: t("login.logout"), onclick: () => this.#logout()})));
+    }
+
+    async #logout() {
+        try {
+            await post("/v1/logout");
+            location.reload();
+        } catch (error) {
+            this.context.showError(error);
+        }
+    }
+}

@@ -1,0 +1,70 @@
+// The newest messages of a robot or plan, from the message trace of acsd.
+
+import {getLines} from "./api.js";
+import {make} from "./dom.js";
+import {formatClock} from "./format.js";
+import {t} from "./text.js";
+
+const LIMIT = 40;
+
+/** What a message is, in a few words: its MCS command, or the last levels of its topic. */
+function nameMessage(line) {
+    if (line.topic) {
+        return line.topic.split("/").slice(-1)[0];
+    }
+    try {
+        const message = JSON.parse(line.text);
+        return message.command ?? message.type ?? line.link;
+    } catch {
+        return (line.text ?? "").slice(0, 60);
+    }
+}
+
+function formatText(text) {
+    try {
+        return JSON.stringify(JSON.parse(text), null, 2);
+    } catch {
+        return text;
+    }
+}
+
+function makeLine(line) {
+    if (line.lost !== undefined) {
+        return make("li", {class: "message muted", text: t("trace.lost", {n: line.lost})});
+    }
+    const body = make("pre", {tabindex: 0});
+    const details = make("details", {}, make("summary", {},
+        make("time", {datetime: line.time, text: formatClock(Date.parse(line.time))}),
+        make("span", {class: "direction", text: line.direction === "in" ? "→" : "←", title: t(`trace.${line.direction}`)}),
+        make("span", {class: "tag", text: line.link}), make("span", {class: "message-name", text: nameMessage(line)})), body);
+    details.addEventListener("toggle", () => {
+        body.textContent = details.open ? formatText(line.text ?? "") : "";
+    });
+    return make("li", {class: "message"}, details);
+}
+
+export class TraceList {
+    /** The query of /v1/trace: "robot=LR01" or "plan=P1", encoded. */
+    constructor(query) {
+        this.query = query;
+        this.list = make("ol", {class: "messages"});
+        this.note = make("p", {class: "muted"});
+        this.button = make("button", {type: "button", class: "button small", onclick: () => this.load()});
+        this.node = make("section", {class: "trace"}, make("h3", {}, make("span", {text: t("trace.title")}), this.button), this.note, this.list);
+        this.load();
+    }
+
+    async load() {
+        this.button.disabled = true;
+        this.button.textContent = t("trace.refresh");
+        try {
+            const lines = await getLines(`/v1/trace?limit=${LIMIT}&${this.query}`);
+            this.note.textContent = lines.length === 0 ? t("trace.none") : "";
+            this.list.replaceChildren(...lines.reverse().map(makeLine));
+        } catch (error) {
+            this.list.replaceChildren();
+            this.note.textContent = error.status === 404 ? t("trace.off") : error.message;
+        }
+        this.button.disabled = false;
+    }
+}
