@@ -13,11 +13,11 @@ class Browser:
     """driver: of selenium. Its folder is removed at the end."""
 
     def __init__(self, width=1366, height=768, scale=1, is_dark=False, is_touch=False, language="en"):
-        self._folder = tempfile.mkdtemp(prefix="acs-page-")
+        self.folder = tempfile.mkdtemp(prefix="acs-page-")
         options = Options()
         for argument in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu", "--hide-scrollbars",
                          "--no-first-run", "--disable-extensions", "--disable-background-networking",
-                         f"--user-data-dir={self._folder}", f"--lang={language}", f"--window-size={width},{height}",
+                         f"--user-data-dir={self.folder}", f"--lang={language}", f"--window-size={width},{height}",
                          f"--force-device-scale-factor={scale}"):
             options.add_argument(argument)
         if is_dark:
@@ -39,10 +39,33 @@ class Browser:
 
     def close(self):
         self.driver.quit()
-        shutil.rmtree(self._folder, ignore_errors=True)
+        shutil.rmtree(self.folder, ignore_errors=True)
 
     def __enter__(self):
         return self
 
     def __exit__(self, *_):
         self.close()
+
+
+def list_processes(folder):
+    """pid -> type ("browser", "renderer", "gpu-process" …) of the Chromium with this user folder."""
+    found = {}
+    for name in os.listdir("/proc"):
+        if not name.isdigit():
+            continue
+        try:
+            with open(f"/proc/{name}/cmdline", "rb") as file:
+                arguments = file.read().decode(errors="replace").replace("\0", " ").split()
+        except OSError:
+            continue
+        if any(folder in argument for argument in arguments):
+            kinds = [argument.removeprefix("--type=") for argument in arguments if argument.startswith("--type=")]
+            found[int(name)] = kinds[0] if kinds else "browser"
+    return found
+
+
+def read_cpu_seconds(pid):
+    with open(f"/proc/{pid}/stat", encoding="ascii", errors="replace") as file:
+        fields = file.read().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")

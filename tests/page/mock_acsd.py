@@ -48,14 +48,14 @@ class Refusal(Exception):
 class MockAcsd:
     """One mock on a free port (or `port`), with threads of its own. `lock` protects all of it."""
 
-    def __init__(self, floor=None, robots=8, port=0, token=None, is_traced=True, seed=1):
+    def __init__(self, floor=None, robots=8, port=0, token=None, is_traced=True, seed=1, has_traffic=True):
         self.lock = threading.RLock()
-        self.simulation = Simulation(floor or Floor.read_example(), robots, seed)
+        self.simulation = Simulation(floor or Floor.read_example(), robots, seed, has_traffic)
         self.posts = []  # (path, body, idempotencyKey)
         self.token = token  # with one, every request needs it
         self.role = "operator"
         self.is_traced = is_traced
-        self.is_silent = False  # neither events nor keep-alives
+        self.is_silent = False  # neither events nor keep-alives, and no answer to a request for them
         self.is_down = False  # closes every connection
         self.tsc = "Auto"
         self.links = [{"name": name, "up": True, "reason": None, "since": format_time(get_now())} for name in ("mcs", "mqtt")]
@@ -92,6 +92,10 @@ class MockAcsd:
                 if not self._is_frozen:
                     self.simulation.advance(TICK_SECONDS)
                 self.publish()
+
+    def is_stopped(self, seconds):
+        """Within this time."""
+        return self._stopped.wait(seconds)
 
     def freeze(self):
         """Robots and plans change no more by themselves."""
@@ -391,6 +395,8 @@ class Handler(http.server.BaseHTTPRequestHandler):
 
     def send_events(self, query):
         mock = self.server.mock
+        while mock.is_silent and not mock.is_stopped(0.1):
+            pass
         after = query.get("after", self.headers.get("Last-Event-ID"))
         client = mock.attach(None if after is None else int(after))
         try:
@@ -428,7 +434,7 @@ def main():
     parser.add_argument("--troubles", action="store_true", help="with alarms, an unresolved job, blocks and a lost link")
     arguments = parser.parse_args()
     with MockAcsd(Floor.make_grid(arguments.nodes) if arguments.nodes else None, arguments.robots, arguments.port,
-                  arguments.token) as mock:
+                  arguments.token, has_traffic=not arguments.nodes) as mock:
         mock.role = arguments.role
         if arguments.troubles:
             from mock_troubles import add_troubles

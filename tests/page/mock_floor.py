@@ -79,7 +79,7 @@ class Floor:
                     floor.add_edge(f"{other}-{here}", other, here)
             if (row + column) % 4 == 0:
                 kind = "SET" if row % 2 else "CP"
-                station = f"B{row:02}.{kind}{column:03}"
+                station = f"B{row // 5}{column // 8}.{kind}{row:02}{column:03}"
                 floor.add_node(f"D-{station}", column * 3.0 + 1.1, row * 3.0 + 1.1)
                 floor.add_edge(f"{here}-D-{station}", here, f"D-{station}")
                 floor.add_edge(f"D-{station}-{here}", f"D-{station}", here)
@@ -203,8 +203,9 @@ class Robot:
 class Simulation:
     """Robots drive from station to station with plans. advance() is one step in time; the changes since are in `changed_…`."""
 
-    def __init__(self, floor, robot_count, seed=1):
+    def __init__(self, floor, robot_count, seed=1, has_traffic=True):
         self.floor = floor
+        self.has_traffic = has_traffic  # without it, no robot waits for another one
         self.random = random.Random(seed)
         self.robots = {}
         self.plans = {}
@@ -294,7 +295,7 @@ class Simulation:
     def _reserve(self, robot):
         while robot.reserved < min(AHEAD, len(robot.route)):
             node = robot.route[robot.reserved]
-            owner = self._owner.get(node)
+            owner = self._owner.get(node) if self.has_traffic else None
             if owner not in (None, robot):
                 return owner
             self._owner[node] = robot

@@ -20,16 +20,16 @@ export class AlarmRow {
         this.level = make("span", {class: "alarm-level"});
         this.since = make("span", {class: "muted"});
         this.message = make("p", {class: "alarm-message"});
-        this.cause = make("dd");
+        this.cause = make("dd", {class: "no-wall"});
         this.remedy = make("dd");
-        this.explanation = make("dl", {class: "alarm-text"}, make("dt", {text: t("alarm.cause")}), this.cause,
+        this.explanation = make("dl", {class: "alarm-text"}, make("dt", {class: "no-wall", text: t("alarm.cause")}), this.cause,
             make("dt", {text: t("alarm.remedy")}), this.remedy);
         this.links = make("span", {class: "alarm-links"});
         this.clear = makeCommandButton(Commands.clearAlarm(alarm));
         this.clear.classList.add("no-wall");
         this.node = make("li", {}, this.glyph, make("div", {class: "row-main"},
-            make("div", {class: "row-head"}, this.level, this.title, this.code, this.since), this.message, this.explanation,
-            make("div", {class: "row-buttons"}, this.links, this.clear)));
+            make("div", {class: "alarm-head"}, this.level, this.title, this.since), this.message, this.explanation,
+            make("div", {class: "row-buttons"}, this.code, this.links, this.clear)));
         this.node.dataset.id = alarm.errorCode;
     }
 

@@ -82,6 +82,7 @@ export function showLogin(onLogin) {
     const message = make("p", {class: "form-error", role: "alert"});
     const form = make("form", {},
         make("h2", {id: "login-title", text: t("login.title")}), make("p", {text: t("login.text")}),
+        make("input", {type: "text", autocomplete: "username", value: "acsd", hidden: true}), // for password managers
         make("label", {for: "login-token", text: t("login.token")}), token, message,
         make("div", {class: "dialog-buttons"}, make("button", {type: "submit", class: "button primary", text: t("login.action")})));
     form.addEventListener("submit", async (event) => {

@@ -43,6 +43,7 @@ export class Feed {
     #onState;
     #state = {name: "connecting", reason: "", since: Date.now()};
     #lastByte = Date.now();
+    #lastSign = Date.now(); // a byte, or a new attempt
     #lastID = null;
     #run = 0;
     #abort = null;
@@ -74,8 +75,11 @@ export class Feed {
     }
 
     #watch() {
-        if (this.#state.name === "live" && Date.now() - this.#lastByte > SILENCE) {
-            this.#set("silent");
+        if (Date.now() - this.#lastSign > SILENCE) {
+            this.#lastSign = Date.now();
+            if (this.#state.name === "live") {
+                this.#set("silent");
+            }
             this.#abort?.abort();
         }
     }
@@ -84,6 +88,7 @@ export class Feed {
         for (let attempt = 0; run === this.#run;) {
             const abort = new AbortController();
             this.#abort = abort;
+            this.#lastSign = Date.now();
             let reason = "";
             try {
                 await this.#read(run, abort.signal, () => { attempt = 0; });
@@ -135,7 +140,7 @@ export class Feed {
     }
 
     #noteByte() {
-        this.#lastByte = Date.now();
+        this.#lastByte = this.#lastSign = Date.now();
         this.#set("live");
     }
 

@@ -31,7 +31,8 @@ export function formatDuration(milliseconds) {
 }
 
 export function formatClock(milliseconds) {
-    return new Date(milliseconds).toLocaleTimeString(getLanguage(), {hour12: false});
+    const time = new Date(milliseconds);
+    return [time.getHours(), time.getMinutes(), time.getSeconds()].map((part) => String(part).padStart(2, "0")).join(":");
 }
 
 /** Local date and time; "–" for null. */
@@ -42,7 +43,7 @@ export function formatTime(text) {
     const time = new Date(text);
     const isToday = time.toDateString() === new Date(getServerNow()).toDateString();
     return isToday ? formatClock(time)
-        : time.toLocaleString(getLanguage(), {month: "short", day: "numeric", hour: "2-digit", minute: "2-digit", hour12: false});
+        : `${time.toLocaleDateString(getLanguage(), {month: "short", day: "numeric"})} ${formatClock(time)}`;
 }
 
 export function formatNumber(value, digits = 2) {

@@ -20,6 +20,7 @@ import {Theme} from "./theme.js";
 
 const LIST_PERIOD = 400; // milliseconds between two updates of the lists
 const TABS = [["floor", "floor"], ["plans", "plan"], ["robots", "robot"], ["alarms", "error"], ["events", "list"], ["system", "system"]];
+const PHONE = "(max-width: 760px)"; // as in style.css
 const SELECTABLE = ["robot", "plan", "node", "edge", "station"];
 
 class Page {
@@ -52,8 +53,8 @@ class Page {
         document.addEventListener("visibilitychange", () => this.#schedule());
         setInterval(() => this.#tick(), 1_000);
         this.showTexts();
+        this.openTab(matchMedia(PHONE).matches ? "floor" : "plans");
         this.#readHash();
-        this.openTab(matchMedia("(max-width: 760px)").matches ? "floor" : "plans");
         this.#showFeed(this.feedState);
         this.feed.start();
     }
@@ -132,6 +133,10 @@ class Page {
     }
 
     openTab(name) {
+        // On a phone the detail covers the tab.
+        if (this.detail.selection !== null && matchMedia(PHONE).matches) {
+            this.select(null);
+        }
         this.tab = name;
         document.body.dataset.tab = name;
         for (const [other, {tab}] of this.tabs) {
@@ -191,7 +196,7 @@ class Page {
         } catch {
             // Not an address of this page.
         }
-        this.setWall(kind === "wall" || (kind === "" && document.body.classList.contains("wall") && location.hash === "#wall"));
+        this.setWall(kind === "wall");
         this.#applySelection(SELECTABLE.includes(kind) && id ? {kind, id} : null, true);
     }
 
@@ -255,6 +260,7 @@ class Page {
         document.documentElement.classList.toggle("wall", isOn);
         document.body.classList.toggle("wall", isOn);
         this.theme.refresh();
+        this.views.plans.isStale = true;
         this.#showViews();
     }
 
@@ -336,4 +342,5 @@ class Page {
 
 await startTexts();
 const page = new Page();
+globalThis.acsdPage = page; // for the console of the browser, and for tests
 page.start();

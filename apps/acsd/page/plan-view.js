@@ -143,8 +143,10 @@ export class PlanView {
     update() {
         const {model} = this.context;
         const plans = [...model.plans.values()].filter((plan) => this.#matches(plan));
+        // A wall screen does not scroll: what waits comes first there.
+        const getRank = (plan) => (document.body.classList.contains("wall") && plan.waits !== null ? 0 : 1);
         const active = plans.filter((plan) => plan.robotId !== null)
-            .sort((a, b) => (a.startedAt ?? "").localeCompare(b.startedAt ?? "") || a.planId.localeCompare(b.planId));
+            .sort((a, b) => getRank(a) - getRank(b) || (a.startedAt ?? "").localeCompare(b.startedAt ?? "") || a.planId.localeCompare(b.planId));
         const getPlace = (plan) => plan.waits?.queuePosition ?? Infinity;
         const queue = plans.filter((plan) => plan.robotId === null)
             .sort((a, b) => getPlace(a) - getPlace(b) || a.acceptedAt.localeCompare(b.acceptedAt));

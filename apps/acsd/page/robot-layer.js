@@ -3,6 +3,7 @@
 
 import {CanvasLayer} from "./canvas-layer.js";
 import {drawGlyph, getRobotGlyph, getRobotGroup} from "./glyphs.js";
+import {LabelSpace} from "./label-space.js";
 
 const FRAME = 90; // milliseconds
 const JUMP = 6; // metres; a longer way is not shown as a drive
@@ -155,15 +156,12 @@ export class RobotLayer extends CanvasLayer {
         }
         const shown = [...this.robots.values()].filter((robot) => this.motions.has(robot.robotId) && this.#isOnMap(robot));
         this.#drawRoutes(context, shown);
-        for (const robot of shown) {
-            if (robot.robotId !== this.selected) {
-                this.#drawRobot(context, robot);
-            }
-        }
-        const selected = shown.find((robot) => robot.robotId === this.selected);
-        if (selected !== undefined) {
-            this.#drawRobot(context, selected);
-        }
+        // The selected robot last, and so on top; its label first.
+        const isSelected = (robot) => robot.robotId === this.selected;
+        const ordered = [...shown.filter((robot) => !isSelected(robot)), ...shown.filter(isSelected)];
+        ordered.forEach((robot) => this.#drawRobot(context, robot));
+        const space = new LabelSpace();
+        ordered.reverse().forEach((robot) => this.#drawLabel(context, robot, space));
         if (isMoving) {
             this.#schedule();
         }
@@ -247,8 +245,17 @@ export class RobotLayer extends CanvasLayer {
         context.rotate(theta);
         context.translate(-pixelX, -pixelY);
         drawGlyph(context, getRobotGlyph(robot), pixelX, pixelY, size * 0.46, this.theme.colours[`${getRobotGroup(robot)}Ink`]);
-        const label = this.#getLabel(robot.robotId, isSelected);
-        const top = pixelY + size * 0.52;
+    }
+
+    /** Left out where another one is. */
+    #drawLabel(context, robot, space) {
+        const {x, y} = this.motions.get(robot.robotId).shown;
+        const size = this.getBodySize();
+        const label = this.#getLabel(robot.robotId, robot.robotId === this.selected);
+        const [pixelX, top] = [this.toX(x), this.toY(y) + size * 0.52];
+        if (!this.isVisible(x, y, 3 * size) || !space.tryTake(pixelX, top + label.height / 2, label.width - 8, label.height - 8)) {
+            return;
+        }
         context.drawImage(label.canvas, pixelX - label.width / 2, top, label.width, label.height);
         if (robot.battery !== null && (robot.battery < LOW_BATTERY || this.scale > 24)) {
             this.#drawBattery(context, robot.battery, pixelX, top + label.height, size);

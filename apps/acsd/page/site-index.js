@@ -39,7 +39,7 @@ export class SiteIndex {
             }
         }
         return [...areas.values()].map(({name, mapId, low, high}) => ({name, mapId, x: (low[0] + high[0]) / 2, y: (low[1] + high[1]) / 2,
-            width: high[0] - low[0]}));
+            height: high[1] - low[1]}));
     }
 
     #addEdge(edge) {

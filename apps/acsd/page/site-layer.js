@@ -2,36 +2,17 @@
 
 import {CanvasLayer} from "./canvas-layer.js";
 import {drawGlyph} from "./glyphs.js";
+import {LabelSpace} from "./label-space.js";
 
 const NODE_SCALE = 9; // pixels per metre from which nodes are drawn
 const ARROW_SCALE = 16;
-const NODE_LABEL_SCALE = 34;
+const NODE_LABEL_SCALE = 2.4; // of the root size
 const LANE_WIDTH = 0.55; // metres
 
 function traceEdge(path, points) {
     path.moveTo(points[0][0], points[0][1]);
     for (let i = 1; i < points.length; i += 1) {
         path.lineTo(points[i][0], points[i][1]);
-    }
-}
-
-/** Rectangles of labels that are drawn already, so that no label covers another one. */
-class LabelSpace {
-    #cells = new Set();
-
-    tryTake(x, y, width, height) {
-        const cells = [];
-        for (let column = Math.floor((x - width / 2) / 8); column <= Math.floor((x + width / 2) / 8); column += 1) {
-            for (let row = Math.floor((y - height / 2) / 8); row <= Math.floor((y + height / 2) / 8); row += 1) {
-                const cell = row * 8192 + column;
-                if (this.#cells.has(cell)) {
-                    return false;
-                }
-                cells.push(cell);
-            }
-        }
-        cells.forEach((cell) => this.#cells.add(cell));
-        return true;
     }
 }
 
@@ -53,6 +34,7 @@ export class SiteLayer extends CanvasLayer {
         this.lanes = new Path2D();
         this.oneWay = [];
         this.blocked = [];
+        this.lanePlaces = [];
         for (const edge of index.edges.values()) {
             if (edge.mapId !== mapId) {
                 continue;
@@ -62,6 +44,7 @@ export class SiteLayer extends CanvasLayer {
             }
             if (!edge.isBothWays || edge.startNodeId < edge.endNodeId) {
                 traceEdge(this.lanes, edge.points);
+                this.#addPlaces(edge.points);
             }
         }
         for (const block of blocks.values()) {
@@ -71,6 +54,17 @@ export class SiteLayer extends CanvasLayer {
             }
         }
         this.request();
+    }
+
+    /** A point for every metre of a lane. */
+    #addPlaces(points) {
+        for (let i = 1; i < points.length; i += 1) {
+            const [start, end] = [points[i - 1], points[i]];
+            const count = Math.ceil(Math.hypot(end[0] - start[0], end[1] - start[1]));
+            for (let k = 0; k < count; k += 1) {
+                this.lanePlaces.push([start[0] + (end[0] - start[0]) * k / count, start[1] + (end[1] - start[1]) * k / count]);
+            }
+        }
     }
 
     draw(context) {
@@ -235,8 +229,10 @@ export class SiteLayer extends CanvasLayer {
             const distance = (this.#getStationSize() / 2 + height * 0.65) * (station.isLabelAbove ? -1 : 1);
             this.#drawLabel(context, space, text, this.toX(station.x), this.toY(station.y) + distance, height);
         }
-        this.#drawAreas(context, colours, rem);
-        if (this.scale < NODE_LABEL_SCALE) {
+        const size = this.#getStationSize();
+        visible.forEach((station) => space.take(this.toX(station.x), this.toY(station.y), size, size));
+        this.#drawAreas(context, colours, rem, space);
+        if (this.scale < NODE_LABEL_SCALE * rem) {
             return;
         }
         context.font = `${0.62 * rem}px ${this.theme.font}`;
@@ -256,14 +252,27 @@ export class SiteLayer extends CanvasLayer {
         }
     }
 
-    /** Large and pale, in the middle of the stations of an area. */
-    #drawAreas(context, colours, rem) {
-        context.fillStyle = colours.track;
+    /** Large and pale, near the middle of the stations of an area, where there is room beside stations and lanes. */
+    #drawAreas(context, colours, rem, space) {
+        for (const edge of this.lanePlaces) {
+            space.take(this.toX(edge[0]), this.toY(edge[1]), 4, 4);
+        }
+        context.fillStyle = colours.areaText;
         for (const area of this.index.areas) {
-            const size = Math.min(2.2 * rem, this.scale * 1.3, area.width * this.scale / area.name.length);
-            if (area.mapId === this.mapId && size >= 0.7 * rem) {
-                context.font = `700 ${size}px ${this.theme.font}`;
-                context.fillText(area.name, this.toX(area.x), this.toY(area.y));
+            const size = Math.min(2.2 * rem, this.scale * 1.3);
+            if (area.mapId !== this.mapId || size < 0.7 * rem) {
+                continue;
+            }
+            context.font = `700 ${size}px ${this.theme.font}`;
+            const width = context.measureText(area.name).width;
+            const [x, y] = [this.toX(area.x), this.toY(area.y)];
+            const steps = Math.ceil((area.height * this.scale / 2 + 3 * size) / (size / 2));
+            for (let i = 0; i <= 2 * steps; i += 1) {
+                const place = y + (i % 2 === 0 ? -1 : 1) * Math.ceil(i / 2) * size / 2;
+                if (space.tryTake(x, place, width, size)) {
+                    context.fillText(area.name, x, place);
+                    break;
+                }
             }
         }
     }

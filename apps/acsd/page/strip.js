@@ -94,11 +94,17 @@ export class Strip {
             return;
         }
         this.shownRobots = shown;
-        this.robots.extra.replaceChildren(...ROBOT_ORDER.filter((status) => (byStatus[status] ?? 0) > 0).map((status) => {
-            const robot = {status, maintenance: false};
-            return make("span", {class: "mini", title: nameState("robotStatus", status)},
-                make("span", {class: `badge group-${getRobotGroup(robot)}`}, makeGlyph(getRobotGlyph(robot))),
-                make("span", {class: "sr-only", text: nameState("robotStatus", status)}), String(byStatus[status]));
-        }));
+        // One count for each shape.
+        const counts = new Map();
+        for (const status of ROBOT_ORDER.filter((name) => (byStatus[name] ?? 0) > 0)) {
+            const glyph = getRobotGlyph({status, maintenance: false});
+            const count = counts.get(glyph) ?? {number: 0, names: [], group: getRobotGroup({status, maintenance: false})};
+            count.number += byStatus[status];
+            count.names.push(nameState("robotStatus", status));
+            counts.set(glyph, count);
+        }
+        this.robots.extra.replaceChildren(...[...counts].map(([glyph, {number, names, group}]) => make("span", {
+            class: "mini", title: names.join(", ")}, make("span", {class: `badge group-${group}`}, makeGlyph(glyph)),
+        make("span", {class: "sr-only", text: names.join(", ")}), String(number))));
     }
 }

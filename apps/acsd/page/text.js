@@ -55,12 +55,17 @@ export function fillTexts(root = document) {
     }
 }
 
+/** {code: {title, cause, remedy}} */
+export function setKoreanAlarms(alarms) {
+    koreanAlarms = alarms;
+}
+
 async function loadKoreanAlarms() {
     try {
         const response = await fetch("/page/alarms.ko.json");
-        koreanAlarms = response.ok ? await response.json() : {};
+        setKoreanAlarms(response.ok ? await response.json() : {});
     } catch {
-        koreanAlarms = {};
+        // Shown in English.
     }
 }
 

@@ -1,0 +1,473 @@
+"""The tests that test_page.py runs."""
+
+import time
+import unittest
+
+from browser import list_processes, read_cpu_seconds
+from mock_floor import Floor as MockFloor
+from page_case import PageCase, wait_until
+from selenium.webdriver.common.keys import Keys
+
+CPU_LIMIT = 0.2  # of a core, for the renderer
+MEASURED_SECONDS = 20
+NODE = "N020"  # on the east lane of the example site
+
+
+class AnyAcsd(PageCase):
+    """What holds for every acsd, also a real one (--url)."""
+
+    def setUp(self):
+        super().setUp()
+        if self.url is None:
+            self.start_mock()
+
+    def test_both_languages_and_themes(self):
+        self.open("?lang=ko&theme=dark")
+        self.assertEqual(self.find("html").get_attribute("lang"), "ko")
+        self.assertEqual(self.find("html").get_attribute("data-theme"), "dark")
+        self.wait_for_text("#tab-robots", "로봇")
+        self.click("#language-button")
+        self.wait_for_text("#tab-robots", "Robots")
+        self.click("#theme-button")
+        wait_until(lambda: self.find("html").get_attribute("data-theme") == "light", "the theme is light")
+        self.assertNotIn(".", self.get_text("#tabs"), "a text is missing")
+
+    def test_every_robot_is_listed(self):
+        self.open()
+        count = self.run_script("return acsdPage.model.robots.size")
+        self.assertGreater(count, 0)
+        self.click("#tab-robots")
+        wait_until(lambda: len(self.find_all("#view-robots li")) == count, f"{count} robots are listed")
+
+    def test_phone(self):
+        self.browser.resize(360, 740, 2, True)
+        self.open()
+        for name in ("floor", "plans", "robots", "alarms", "events", "system"):
+            self.click(f"#tab-{name}")
+            wait_until(lambda shown=name: self.find(f"#view-{shown}").is_displayed(), f"{name} is shown")
+            self.assertEqual(self.find("#map").is_displayed(), name == "floor")
+            self.assertLessEqual(self.run_script("return document.documentElement.scrollWidth"), 360, name)
+            self.assertLessEqual(self.run_script(f"return document.getElementById('view-{name}').scrollWidth"), 360, name)
+
+    def test_robot_by_keyboard(self):
+        self.open()
+        robot_id = self.run_script("return [...acsdPage.model.robots.keys()][0]")
+        self.press("/")
+        wait_until(lambda: self.find("#find-dialog").is_displayed(), "the search is open")
+        self.press(robot_id)
+        self.wait_for_text("#find-results", robot_id)
+        self.press(Keys.ENTER)
+        self.wait_for_text("#detail-title", robot_id)
+        self.press(Keys.ESCAPE)
+        wait_until(lambda: not self.find("#detail").is_displayed(), "the detail is closed")
+
+    def test_wall(self):
+        self.browser.resize(1920, 1080)
+        self.open("?lang=en#wall")
+        wait_until(lambda: self.find("#view-alarms").is_displayed() and self.find("#view-plans").is_displayed(), "plans and alarms")
+        self.assertEqual([button.text for button in self.find_all("button.button, button.icon-button") if button.is_displayed()], [])
+        self.assertGreaterEqual(self.run_script("return parseFloat(getComputedStyle(document.documentElement).fontSize)"), 20)
+        self.press("w")
+        wait_until(lambda: self.find("#tabs").is_displayed(), "the tabs are back")
+
+
+class Floor(PageCase):
+    def get_place(self, robot_id):
+        return self.run_script("return acsdPage.floor.robotLayer.getPlace(arguments[0])", robot_id)
+
+    def test_a_robot_moves(self):
+        mock = self.start_mock()
+        self.open()
+        first = self.get_place("LR01")
+        wait_until(lambda: self.get_place("LR01") != first, "LR01 is shown elsewhere")
+        # Drawing, too: the canvas has another picture.
+        read = "return document.querySelector('.canvas-pane-2 canvas').toDataURL()"
+        picture = self.run_script(read)
+        wait_until(lambda: self.run_script(read) != picture, "the floor is drawn again")
+        mock.freeze()
+
+    def test_nothing_is_drawn_while_nothing_moves(self):
+        self.start_mock().freeze()
+        self.open()
+        count = ("const layer = acsdPage.floor.robotLayer; if (layer.counted === undefined) {"
+                 "const draw = layer.draw; layer.counted = 0;"
+                 "layer.draw = function (...all) { this.counted += 1; draw.apply(this, all); }; } return layer.counted")
+        self.run_script(count)
+        entries = self.run_script("return acsdPage.model.entries.length")
+        # Three entries later, which change no robot.
+        for _ in range(3):
+            with self.mock.lock:
+                self.mock.simulation.note("note", "nothing")
+                self.mock.publish()
+        wait_until(lambda: self.run_script("return acsdPage.model.entries.length") == entries + 3, "three entries")
+        self.assertEqual(self.run_script(count), 0)
+
+    def test_a_click_opens_a_robot_with_its_messages(self):
+        mock = self.start_mock()
+        mock.freeze()
+        self.open()
+        place = self.get_place("LR02")
+        self.click_floor(place["x"], place["y"])
+        self.wait_for_text("#detail-title", "LR02")
+        self.wait_for_text("#detail .trace", "visualization")
+        self.click("#detail .message summary")
+        self.wait_for_text("#detail .message pre", "lastNodeId")
+
+    def test_no_trace(self):
+        self.expected_log = ("/v1/trace",)
+        self.start_mock(is_traced=False)
+        self.open("?lang=en#robot/LR01")
+        self.wait_for_text("#detail .trace", "--trace DIR")
+
+    def test_block_and_unblock_a_node(self):
+        mock = self.start_mock()
+        self.open()
+        mock.freeze()
+        self.click_floor(*mock.simulation.floor.places[NODE])
+        self.wait_for_text("#detail-title", NODE)
+        self.click_button("Block")
+        self.find("#confirm-reason").send_keys("wet floor")
+        self.click("#confirm-action")
+        self.wait_for_post("/v1/site/block", {"kind": "node", "id": NODE, "reason": "wet floor"})
+        self.wait_for_text("#detail", "wet floor")
+        self.click_button("Unblock")
+        self.click("#confirm-action")
+        self.wait_for_post("/v1/site/unblock", {"kind": "node", "id": NODE})
+        wait_until(lambda: "wet floor" not in self.get_text("#detail"), "the node is not blocked")
+
+    def test_zoom_and_fit(self):
+        self.start_mock()
+        self.open()
+        get_zoom = "return acsdPage.floor.map.getZoom()"
+        first = self.run_script(get_zoom)
+        self.press("+", "+")
+        self.assertGreater(self.run_script(get_zoom), first)
+        self.press("f")
+        self.assertAlmostEqual(self.run_script(get_zoom), first, places=3)
+
+    def test_large_floor(self):
+        self.start_mock(floor=MockFloor.make_grid(5000), robots=20, has_traffic=False)
+        self.open()
+        self.assertGreater(self.run_script("return acsdPage.floor.index.nodes.size"), 4900)
+        times = self.run_script(
+            "const layer = acsdPage.floor.siteLayer, times = [];"
+            "for (let i = 0; i < 10; i += 1) { const begin = performance.now(); layer.draw(layer.context); "
+            "times.push(performance.now() - begin); } return times")
+        print(f"\n  drawing 5,000 nodes: {sorted(times)[len(times) // 2]:.1f} ms")
+
+
+class Plans(PageCase):
+    def setUp(self):
+        super().setUp()
+        self.start_mock()
+        self.mock.simulation.advance(0.2)
+        self.mock.freeze()
+        self.plan = self.mock.simulation.robots["LR01"].plan
+        self.path = f"/v1/plans/{self.plan.plan_id}"
+        self.open()
+
+    def open_plan(self):
+        self.click(f"#plans-active li[data-id='{self.plan.plan_id}'] .row")
+        self.wait_for_text("#detail-title", self.plan.plan_id)
+
+    def test_pause_and_resume(self):
+        self.open_plan()
+        self.click_button("Pause")
+        self.wait_for_post(f"{self.path}/pause")
+        self.wait_for_text("#detail .facts", "The plan is paused.")
+        self.click_button("Resume")
+        self.wait_for_post(f"{self.path}/resume")
+        self.wait_for_text("#detail .facts", "In progress")
+        self.assertEqual(len({key for _, _, key in self.list_posts()}), 2)
+
+    def test_cancel_asks_first(self):
+        self.open_plan()
+        self.click_button("Cancel plan")
+        wait_until(lambda: self.find("#confirm-dialog").is_displayed(), "the question")
+        self.assertIn(self.plan.plan_id, self.get_text("#confirm-dialog"))
+        # Enter in the field of the reason does not confirm.
+        self.press("too late", Keys.ESCAPE)
+        wait_until(lambda: not self.find("#confirm-dialog").is_displayed(), "the question is closed")
+        self.assertEqual(self.list_posts(), [])
+        self.click_button("Cancel plan")
+        self.find("#confirm-reason").send_keys("wrong lot")
+        self.click("#confirm-action")
+        self.wait_for_post(f"{self.path}/cancel", {"reason": "wrong lot"})
+        wait_until(lambda: not self.find_all(f"#plans-active li[data-id='{self.plan.plan_id}']"), "the plan is not active")
+
+    def test_abort_without_reason(self):
+        self.open_plan()
+        self.click_button("Abort plan")
+        self.click("#confirm-action")
+        self.wait_for_post(f"{self.path}/abort")
+        self.wait_for_text("#detail .facts", "Aborted")
+
+    def test_priority(self):
+        self.open_plan()
+        self.click_button("Priority")
+        wait_until(lambda: self.find_all("#confirm-number"), "the question")
+        self.press("9", Keys.ENTER)
+        self.wait_for_post(f"{self.path}/priority", {"priority": 9})
+        self.wait_for_text(f"#plans-active li[data-id='{self.plan.plan_id}'] .tag", "9")
+
+    def test_unresolved_job_and_skipped_step(self):
+        job_id = self.plan.get_job_id()
+        with self.mock.lock:
+            self.plan.get_step()["status"] = "InProgress"
+            self.mock.simulation.set_alarm("LR01", "ACS-1008", "Heavy", "unknown", "Job outcome unknown", "", "", self.plan)
+            self.mock.simulation.changed_plans.add(self.plan.plan_id)
+            self.mock.publish()
+        self.open_plan()
+        self.click_button("Skip step", "#detail .step-list > li:nth-child(2)")
+        self.click("#confirm-action")
+        self.wait_for_post(f"{self.path}/steps/2/skip")
+        self.click_button("Job was done")
+        self.click("#confirm-action")
+        self.wait_for_post(f"{self.path}/jobs/{job_id}/resolve", {"outcome": "done"})
+
+    def test_waits_and_finished(self):
+        self.wait_for_text("#plans-queue", "No suitable robot is free.")
+        with self.mock.lock:
+            self.mock.simulation.end_plan(self.plan, "Failed", "LR01: motor fault")
+            self.mock.publish()
+        wait_until(lambda: not self.find_all(f"#plans-active li[data-id='{self.plan.plan_id}']"), "the plan is not active")
+        self.click("#finished-button")
+        self.wait_for_text("#plans-finished", "LR01: motor fault")
+        self.find("#view-plans .filter").send_keys("no such plan")
+        wait_until(lambda: not self.find_all("#view-plans .rows li"), "the filter hides all")
+
+    def test_viewer(self):
+        self.expected_log = ("/pause",)
+        self.mock.role = "viewer"
+        self.open_plan()
+        self.click_button("Pause")
+        self.wait_for_text("#toasts", "may only read")
+
+
+class Alarms(PageCase):
+    def test_an_alarm_appears_and_clears(self):
+        mock = self.start_mock()
+        self.open()
+        with mock.lock:
+            mock.simulation.set_alarm("LR01", "ACS-1002", "Heavy", "LR01 is disconnected.", "Robot disconnected", "No state.",
+                                      "Check the network.", minutes=3)
+            mock.publish()
+        self.wait_for_text("#strip-alarms", "1 heavy")
+        self.click("#tab-alarms")
+        for text in ("Robot disconnected", "LR01 is disconnected.", "No state.", "Check the network.", "3 min"):
+            self.wait_for_text("#view-alarms", text)
+        self.assertEqual(self.driver.title, "(1) acsd")
+        self.click_button("Clear alarm", "#view-alarms")
+        self.click("#confirm-action")
+        self.wait_for_post("/v1/alarms/clear", {"robotId": "LR01", "errorCode": "ACS-1002"})
+        self.wait_for_text("#view-alarms", "No alarms.")
+
+    def test_korean_alarm(self):
+        self.start_mock()
+        self.open("?lang=ko")
+        self.run_script("return import('/page/text.js').then((text) => text.setKoreanAlarms({'ACS-1002': {title: '로봇 통신 끊김', "
+                        "cause: '원인 문구', remedy: '조치 문구'}}))")
+        with self.mock.lock:
+            self.mock.simulation.set_alarm("LR01", "ACS-1002", "Heavy", "LR01 is disconnected.", "Robot disconnected", "", "")
+            self.mock.publish()
+        self.click("#tab-alarms")
+        for text in ("로봇 통신 끊김", "원인 문구", "조치 문구", "LR01 is disconnected."):
+            self.wait_for_text("#view-alarms", text)
+
+    def test_maintenance_and_tsc(self):
+        self.start_mock()
+        self.open("?lang=en#robot/LR01")
+        self.click_button("Maintenance on")
+        self.wait_for_post("/v1/robots/LR01/maintenance", {"on": True})
+        self.click_button("Maintenance off")
+        self.click("#confirm-action")
+        wait_until(lambda: self.list_posts()[-1][1] == {"on": False}, "maintenance is off")
+        self.click_button("Pause TSC", "#strip")
+        self.wait_for_post("/v1/tsc/pause")
+        self.wait_for_text("#strip-tsc", "Paused")
+        self.click_button("Resume TSC", "#strip")
+        self.click("#confirm-action")
+        self.wait_for_post("/v1/tsc/resume")
+        self.wait_for_text("#strip-tsc", "Auto")
+
+
+class Safety(PageCase):
+    def test_ids_are_text(self):
+        evil = "<img src=x onerror=\"window.wasHacked=1\"><script>window.wasHacked=1</script>"
+        mock = self.start_mock()
+        with mock.lock:
+            simulation = mock.simulation
+            robot = simulation.robots.pop("LR01")
+            robot.robot_id = evil
+            simulation.robots[evil] = robot
+            plan = simulation.add_plan("LR")
+            plan.lot_id = evil
+            plan.waits = simulation.make_wait(evil, 1, [(evil, evil)])
+            simulation.set_alarm(evil, evil, "Heavy", evil, evil, evil, evil, plan)
+            simulation.floor.blocks[("node", NODE)] = {"kind": "node", "id": NODE, "reason": evil, "since": None}
+            mock.not_ready = [evil]
+            mock.links[0].update(up=False, reason=evil)
+        mock.freeze()
+        self.open()
+        with mock.lock:
+            simulation.note("note", evil)
+            mock.publish()
+        for tab in ("robots", "alarms", "events", "system", "plans"):
+            self.click(f"#tab-{tab}")
+            self.wait_for_text(f"#view-{tab}", "onerror")
+        for selection in (("robot", evil), ("plan", plan.plan_id), ("node", NODE)):
+            self.run_script("acsdPage.select({kind: arguments[0], id: arguments[1]})", *selection)
+            self.wait_for_text("#detail", "onerror" if selection[0] != "robot" else "<img")
+        self.assertEqual(self.find_all("body img, body script"), [])
+        self.assertIsNone(self.run_script("return window.wasHacked"))
+
+    def test_policy(self):
+        self.expected_log = ("Content Security Policy", "Refused to execute inline script")
+        self.start_mock()
+        self.open()
+        self.run_script("const node = document.createElement('script'); node.textContent = 'window.wasHacked = 1';"
+                        "document.body.append(node)")
+        self.assertIsNone(self.run_script("return window.wasHacked"))
+
+
+class Connection(PageCase):
+    def test_reset(self):
+        mock = self.start_mock()
+        mock.freeze()
+        self.open()
+        with mock.lock:
+            plan = next(iter(mock.simulation.plans.values()))
+            plan.lot_id = "LOT_AFTER_RESET"
+        mock.send_reset()
+        self.wait_for_text("#view-plans", "LOT_AFTER_RESET")
+
+    def test_a_lost_connection_is_shown_and_restored(self):
+        self.expected_log = ("net::ERR",)
+        mock = self.start_mock()
+        self.open()
+        mock.is_down = True
+        mock.drop_clients()
+        self.wait_for_text("#banner", "This page shows the state of")
+        self.assertIn("is-old", self.find("body").get_attribute("class"))
+        with mock.lock:
+            mock.simulation.set_alarm("LR01", "ACS-1009", "Light", "meanwhile", "Robot stalled", "", "")
+            mock.publish()
+        mock.is_down = False
+        self.wait_for_state("live")
+        self.assertFalse(self.find("#banner").is_displayed())
+        self.wait_for_text("#strip-alarms", "1")
+
+    def test_silence(self):
+        mock = self.start_mock()
+        self.open()
+        mock.is_silent = True
+        # The clock of the page is 31 s ahead, again if an event was still on its way.
+        def is_shown():
+            self.run_script("const now = Date.now; Date.now = () => now() + 31_000")
+            return "more than 30 s" in self.get_text("#banner")
+
+        wait_until(is_shown, "the page states that its data is old")
+        self.assertIn("is-old", self.find("body").get_attribute("class"))
+        mock.is_silent = False
+        self.wait_for_state("live")
+
+    def test_acsd_restarts(self):
+        """The event ids of the new run are lower."""
+        self.expected_log = ("net::ERR",)
+        mock = self.start_mock()
+        self.open()
+        wait_until(lambda: mock._event_id > 5, "events")
+        mock.freeze()
+        with mock.lock:
+            mock._event_id, mock.simulation.robots["LR02"].battery = 1, 3
+            mock._events.clear()
+        mock.drop_clients()
+        wait_until(lambda: self.run_script("return acsdPage.model.robots.get('LR02').battery") == 3, "the snapshot of the new run")
+
+    def test_login(self):
+        self.expected_log = ("401",)
+        self.start_mock(token="s3cret")
+        self.open(is_live=False)
+        wait_until(lambda: self.find("#login-dialog").is_displayed(), "the login")
+        self.press("wrong", Keys.ENTER)
+        self.wait_for_text("#login-dialog", "does not accept")
+        self.press("s3cret", Keys.ENTER)
+        self.wait_for_state("live")
+        self.assertFalse(self.find("#login-dialog").is_displayed())
+        self.assertNotIn("s3cret", self.run_script("return document.cookie + JSON.stringify(localStorage)"))
+        self.click("#tab-system")
+        self.click_button("Log out", "#view-system")
+        wait_until(lambda: self.find("#login-dialog").is_displayed(), "the login again")
+
+
+class Keyboard(PageCase):
+    def setUp(self):
+        super().setUp()
+        self.start_mock()
+        self.open()
+
+    def test_help_and_tabs(self):
+        self.press("?")
+        self.wait_for_text("#help-dialog", "view for a wall screen")
+        self.press(Keys.ESCAPE)
+        wait_until(lambda: not self.find("#help-dialog").is_displayed(), "the help is closed")
+        for key, name in (("2", "robots"), ("3", "alarms"), ("4", "events"), ("5", "system"), ("1", "plans")):
+            self.press(key)
+            self.assertTrue(self.find(f"#view-{name}").is_displayed(), name)
+            self.assertEqual(self.find(f"#tab-{name}").get_attribute("aria-selected"), "true")
+
+    def test_everything_has_a_name_and_a_visible_focus(self):
+        self.run_script("document.activeElement.blur()")
+        seen = set()
+        for _ in range(60):
+            self.press(Keys.TAB)
+            if self.run_script("return document.activeElement === document.body"):
+                continue  # after the last one
+            name, is_visible, label = self.run_script(
+                "const node = document.activeElement, style = getComputedStyle(node);"
+                "return [node.id || node.className + node.textContent, style.outlineStyle !== 'none' && style.outlineWidth !== '0px',"
+                " (node.getAttribute('aria-label') || node.textContent || node.placeholder || '').trim()]")
+            seen.add(name)
+            self.assertTrue(is_visible, f"the focus of {name}")
+            self.assertTrue(label, name)
+        for name in ("find-button", "map", "finished-button", "tab-plans"):
+            self.assertIn(name, seen)
+
+    def test_roles(self):
+        for tab in self.find_all("[role=tab]"):
+            self.assertTrue(self.find(f"#{tab.get_attribute('aria-controls')}"))
+        tree = self.driver.execute_cdp_cmd("Accessibility.getFullAXTree", {})["nodes"]
+        unnamed = [node for node in tree if not node.get("ignored") and node["role"]["value"] in ("button", "textbox", "searchbox", "tab")
+                   and not node.get("name", {}).get("value")]
+        self.assertEqual(unnamed, [])
+
+    def test_focus_returns_from_the_detail(self):
+        self.run_script("document.querySelector('#plans-active .row').focus()")
+        self.press(Keys.ENTER)
+        wait_until(lambda: self.find("#detail").is_displayed(), "the detail")
+        self.press(Keys.ESCAPE)
+        self.assertIn("plan-row", self.run_script("return document.activeElement.className"))
+
+
+class Performance(PageCase):
+    def test_cpu_with_100_robots(self):
+        self.start_mock(floor=MockFloor.make_grid(400), robots=100, has_traffic=False)
+        self.open()
+        for tab in ("plans", "robots"):
+            self.click(f"#tab-{tab}")
+            with self.subTest(tab=tab):
+                self.assertLess(self.measure(tab), CPU_LIMIT)
+
+    def measure(self, tab):
+        """The time that the renderers of the page use, as a share of one core. The mock has updates of 100 robots every 0.2 s."""
+        first = self.run_script("return acsdPage.feed.getLastByte()")
+        pids = [pid for pid, kind in list_processes(self.browser.folder).items() if kind == "renderer"]
+        begin, used = time.monotonic(), sum(map(read_cpu_seconds, pids))
+        wait_until(lambda: self.run_script("return acsdPage.feed.getLastByte()") - first > 1000 * MEASURED_SECONDS, "the measurement")
+        share = (sum(map(read_cpu_seconds, pids)) - used) / (time.monotonic() - begin)
+        print(f"\n  100 robots, {tab}: {100 * share:.1f} % of a core for the renderer")
+        return share
+
+
+if __name__ == "__main__":
+    unittest.main()
