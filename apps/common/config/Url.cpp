@@ -21,13 +21,14 @@ struct SchemeRule
     bool bSecure;
 };
 
-constexpr std::array<SchemeRule, 6> RULES{{
+constexpr std::array<SchemeRule, 7> RULES{{
     {EUrlScheme::Ws, "ws", 80, true, false},
     {EUrlScheme::Wss, "wss", 443, true, true},
     {EUrlScheme::Mqtt, "mqtt", 1883, false, false},
     {EUrlScheme::Mqtts, "mqtts", 8883, false, true},
     {EUrlScheme::Tcp, "tcp", 49000, false, false},
     {EUrlScheme::Http, "http", 80, true, false},
+    {EUrlScheme::Https, "https", 443, true, true},
 }};
 
 const SchemeRule& GetRule(EUrlScheme scheme)

@@ -19,14 +19,16 @@ enum class EUrlScheme : std::uint8_t
     Mqtts, ///< 8883
     Tcp,   ///< 49000
     Http,  ///< 80
+    Https, ///< 443
 };
 
 /// The URL of a peer.
 struct Url
 {
     EUrlScheme scheme = EUrlScheme::Tcp;
-    Endpoint peer;    ///< The port is never 0.
-    std::string path; ///< With its query. Default "/" for ws, wss and http; always empty for mqtt, mqtts and tcp.
+    Endpoint peer; ///< The port is never 0.
+    std::string
+        path; ///< With its query. Default "/" for ws, wss, http and https; always empty for mqtt, mqtts and tcp.
 
     bool operator==(const Url&) const = default;
 };
@@ -37,7 +39,7 @@ struct Url
 /// The URL as text, always with the port.
 [[nodiscard]] std::string MakeText(const Url& url);
 
-/// wss and mqtts: the connection is encrypted.
+/// wss, mqtts and https: the connection is encrypted.
 [[nodiscard]] bool IsSecure(EUrlScheme scheme);
 
 } // namespace ACS::Apps

@@ -1,0 +1,181 @@
+#include "Program.hpp"
+
+#include "commands/Answers.hpp"
+#include "commands/CommandError.hpp"
+#include "commands/Requests.hpp"
+#include "commands/Session.hpp"
+#include "commands/WhyCommand.hpp"
+#include "common/config/CommandLine.hpp"
+#include "common/process/SystemClock.hpp"
+#include "common/process/SystemRandom.hpp"
+#include "terminal/Terminal.hpp"
+#include "view/DisplayText.hpp"
+#include <acs/core/Uuid.hpp>
+
+#include <chrono>
+#include <cstdlib>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace ACS::Acsctl
+{
+
+namespace
+{
+
+std::optional<std::string> GetVariableOrNull(const char* name)
+{
+    const char* const valueOrNull = std::getenv(name); // NOLINT(concurrency-mt-unsafe): there is one thread
+    return valueOrNull == nullptr || *valueOrNull == '\0' ? std::nullopt : std::optional<std::string>(valueOrNull);
+}
+
+int Report(const CommandError& error)
+{
+    Apps::PrintError(PROGRAM_NAME, MakeDisplayable(error.text));
+    return error.exitCode;
+}
+
+int Finish(const Terminal& terminal, int exitCode)
+{
+    return terminal.IsFailed() ? Report({EXIT_LOCAL_FAILURE, "the output could not be written"}) : exitCode;
+}
+
+Outcome<Shown> Read(Session& session, const AcsctlOptions& options, const Terminal& terminal)
+{
+    const ViewContext context{terminal.GetScreen(), Apps::SystemClock().GetNow().wall};
+    if (options.command == ECommand::Why)
+    {
+        return RunWhy(session.GetAPI(), options, context);
+    }
+    const Outcome<std::string> body = Get(session.GetAPI(), MakeReadTarget(options));
+    return body.has_value() ? ShowAnswer(options, *body, context) : tl::make_unexpected(body.error());
+}
+
+/// Repeats a command that reads until the operator interrupts it. The first failure ends it; later ones are shown.
+int Watch(Session& session, const AcsctlOptions& options, Terminal& terminal)
+{
+    EventLoop& loop = session.GetLoop();
+    loop.CatchInterrupts();
+    bool bFirst = true;
+    while (!loop.IsInterrupted() && !terminal.IsFailed())
+    {
+        const Outcome<Shown> shown = Read(session, options, terminal);
+        if (loop.IsInterrupted())
+        {
+            break;
+        }
+        if (!shown.has_value() && bFirst)
+        {
+            return Report(shown.error());
+        }
+        if (!shown.has_value() && options.bJSON)
+        {
+            static_cast<void>(Report(shown.error()));
+        }
+        else if (options.bJSON)
+        {
+            terminal.Write(shown->text);
+        }
+        else
+        {
+            terminal.Redraw(shown.has_value() ? shown->text : MakeDisplayable(shown.error().text) + "\n");
+        }
+        bFirst = false;
+        loop.Pause(*options.watch);
+    }
+    return Finish(terminal, EXIT_DONE);
+}
+
+int RunRead(Session& session, const AcsctlOptions& options, Terminal& terminal)
+{
+    if (options.watch.has_value())
+    {
+        return Watch(session, options, terminal);
+    }
+    const Outcome<Shown> shown = Read(session, options, terminal);
+    if (!shown.has_value())
+    {
+        return Report(shown.error());
+    }
+    terminal.Write(shown->text);
+    return Finish(terminal, shown->exitCode);
+}
+
+/// Nullopt: the command may be sent.
+std::optional<int> AskOrNull(const AcsctlOptions& options, const Terminal& terminal)
+{
+    const std::optional<std::string> question = MakeQuestionOrNull(options);
+    if (!question.has_value() || options.bYes)
+    {
+        return std::nullopt;
+    }
+    if (!terminal.CanAsk())
+    {
+        return Report({EXIT_BAD_INPUT, *question + " Without a terminal this command needs --yes"});
+    }
+    return terminal.IsConfirmed(*question) ? std::nullopt
+                                           : std::optional(Report({EXIT_REFUSED, "not confirmed; nothing was sent"}));
+}
+
+int RunChange(Session& session, ApiRequest request, const AcsctlOptions& options, Terminal& terminal)
+{
+    if (const std::optional<int> exitCode = AskOrNull(options, terminal); exitCode.has_value())
+    {
+        return *exitCode;
+    }
+    Apps::SystemRandom random;
+    request.idempotencyKey = Core::MakeUUID(random);
+    const tl::expected<ApiAnswer, ApiFailure> answer = session.GetAPI().Send(request);
+    if (!answer.has_value())
+    {
+        return Report(MakeError(answer.error(), true));
+    }
+    const Outcome<std::string> body = GetBody(*answer);
+    if (!body.has_value())
+    {
+        return Report(body.error());
+    }
+    const Outcome<Shown> shown = ShowAccepted(options.bJSON, *body);
+    if (!shown.has_value())
+    {
+        return Report(shown.error());
+    }
+    terminal.Write(shown->text);
+    return Finish(terminal, EXIT_DONE);
+}
+
+} // namespace
+
+Environment ReadEnvironment()
+{
+    Environment environment;
+    environment.url = GetVariableOrNull("ACSCTL_URL");
+    environment.token = GetVariableOrNull("ACSCTL_TOKEN");
+    environment.context = GetVariableOrNull("ACSCTL_CONTEXT");
+    environment.configHome = GetVariableOrNull("XDG_CONFIG_HOME");
+    environment.home = GetVariableOrNull("HOME");
+    environment.bNoColor = GetVariableOrNull("NO_COLOR").has_value();
+    environment.bDumbTerminal = GetVariableOrNull("TERM").value_or("dumb") == "dumb";
+    return environment;
+}
+
+int Run(const AcsctlOptions& options, const Environment& environment)
+{
+    Terminal terminal(!options.bPlain && !environment.bNoColor && !environment.bDumbTerminal);
+    std::optional<ApiRequest> change = MakeChangeOrNull(options);
+    if (change.has_value() && options.watch.has_value())
+    {
+        return Report({EXIT_BAD_INPUT, "--watch is for commands that read"});
+    }
+    Session session;
+    if (const Outcome<void> opened = session.Open(options, environment); !opened.has_value())
+    {
+        return Report(opened.error());
+    }
+    return change.has_value() ? RunChange(session, std::move(*change), options, terminal)
+                              : RunRead(session, options, terminal);
+}
+
+} // namespace ACS::Acsctl

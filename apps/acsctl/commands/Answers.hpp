@@ -1,0 +1,45 @@
+#pragma once
+
+#include "api/ApiTypes.hpp"
+#include "commands/CommandError.hpp"
+#include "http/ApiFailure.hpp"
+#include "http/ApiRequest.hpp"
+#include "options/AcsctlOptions.hpp"
+#include "view/ViewContext.hpp"
+#include <acs/core/Now.hpp>
+#include <acs/core/Result.hpp>
+
+#include <string>
+#include <string_view>
+
+namespace ACS::Acsctl
+{
+
+/// What a command that reads prints, and its exit code.
+struct Shown
+{
+    std::string text;
+    int exitCode = EXIT_DONE;
+};
+
+/// The error of an answer that cannot be decoded.
+[[nodiscard]] tl::unexpected<CommandError> MakeBadAnswer(const Core::Error& error);
+
+/// The clock of acsd when it made the answer: ages do not depend on the clock of this machine.
+[[nodiscard]] Core::WallTime GetServerTime(const StatusInfo& status, Core::WallTime otherwise);
+
+/// The body of an answer with status 2xx; otherwise the error that acsd states, with the exit code of the status.
+[[nodiscard]] Outcome<std::string> GetBody(const ApiAnswer& answer);
+
+[[nodiscard]] CommandError MakeError(const ApiFailure& failure, bool bChange);
+
+/// The lines for an answer to the GET of a command, or its JSON.
+[[nodiscard]] Outcome<Shown> ShowAnswer(
+    const AcsctlOptions& options,
+    std::string_view body,
+    const ViewContext& context);
+
+/// The sentence of an accepted command.
+[[nodiscard]] Outcome<Shown> ShowAccepted(bool bJSON, std::string_view body);
+
+} // namespace ACS::Acsctl

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+
+namespace ACS::Acsctl
+{
+
+enum class ECommand : std::uint8_t
+{
+    Status,
+    Plans,
+    Plan,
+    Why,
+    Robots,
+    Robot,
+    Alarms,
+    Links,
+    Queue,
+    Site,
+    Events,
+    Trace,
+    Audit,
+    TscPause,
+    TscResume,
+    Block,
+    Unblock,
+    Maintenance,
+    Resolve,
+    Skip,
+    Cancel,
+    Abort,
+    Pause,
+    Resume,
+    Priority,
+    Carriers,
+    Clear,
+    Bundle,
+    Completion,
+    ContextList,
+    ContextUse,
+    ContextSet,
+    ContextRemove,
+};
+
+} // namespace ACS::Acsctl

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "view/TextTable.hpp"
+
+#include <string>
+#include <string_view>
+
+namespace ACS::Acsctl
+{
+
+/// Standard input and output.
+class Terminal final
+{
+    const bool _bColored;
+    bool _bRedrawn = false;
+    bool _bFailed = false;
+
+public:
+    /// Colours are shown on a terminal only.
+    explicit Terminal(bool bColorWanted);
+
+    /// The width of the terminal; 80 columns for a file or a pipe.
+    [[nodiscard]] Screen GetScreen() const;
+    /// Whether the operator sees the output and can answer.
+    [[nodiscard]] bool CanAsk() const;
+    [[nodiscard]] bool IsTerminal() const;
+    /// Whether output was lost: the disk is full.
+    [[nodiscard]] bool IsFailed() const noexcept;
+
+    void Write(std::string_view text);
+    /// On a terminal in the place of the text before, cut at its last line; else below it, after an empty line.
+    void Redraw(const std::string& text);
+    /// Writes the question on standard error and reads the answer; only "y" and "yes" are true.
+    [[nodiscard]] bool IsConfirmed(const std::string& question) const;
+};
+
+} // namespace ACS::Acsctl

@@ -1,0 +1,176 @@
+#include "view/LineViews.hpp"
+
+#include "view/AgeText.hpp"
+#include "view/DisplayText.hpp"
+#include <acs/core/Result.hpp>
+#include <acs/json/JsonDocument.hpp>
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+
+namespace ACS::Acsctl
+{
+
+namespace
+{
+
+constexpr std::size_t LONGEST_MESSAGE = 4U * 1024U * 1024U;
+constexpr std::size_t DEEPEST_MESSAGE = 64;
+constexpr std::size_t MOST_VALUES = 500'000;
+
+/// The member as text: a string, or JSON; empty if it is absent, null, an object or a list.
+std::string GetText(const Json::Value& object, std::string_view name)
+{
+    const Json::Value* const memberOrNull = Json::FindFirstOrNull(object, name);
+    if (memberOrNull == nullptr || memberOrNull->IsObject() || memberOrNull->IsArray())
+    {
+        return {};
+    }
+    return memberOrNull->IsString() ? std::string(memberOrNull->GetString(), memberOrNull->GetStringLength())
+                                    : Json::WriteText(*memberOrNull);
+}
+
+/// "planId=P1 stepNo=2" of the members that are there.
+template <std::size_t COUNT>
+std::string ListMembers(const Json::Value& object, const std::array<std::string_view, COUNT>& names)
+{
+    std::string list;
+    for (const std::string_view name : names)
+    {
+        if (const std::string text = GetText(object, name); !text.empty())
+        {
+            list += fmt::format(" {}={}", name, text);
+        }
+    }
+    return list;
+}
+
+constexpr std::array<std::string_view, 11> PAYLOAD_MEMBERS{
+    "planId",
+    "stepNo",
+    "jobId",
+    "robotId",
+    "status",
+    "robotStatus",
+    "errorCode",
+    "state",
+    "isConnected",
+    "result",
+    "message"};
+constexpr std::array<std::string_view, 9> VEHICLE_MEMBERS{
+    "orderId",
+    "orderUpdateId",
+    "lastNodeId",
+    "driving",
+    "paused",
+    "operatingMode",
+    "connectionState",
+    "charging",
+    "newBaseRequest"};
+
+std::string SummarizeMessage(const TraceLine& line, const Json::Value& message)
+{
+    if (const std::string command = GetText(message, "command"); !command.empty())
+    {
+        const Json::Value* const payloadOrNull = Json::FindFirstOrNull(message, "payload");
+        const Json::Value* const resultOrNull = Json::FindFirstOrNull(message, "result");
+        const Json::Value* const partOrNull = payloadOrNull != nullptr ? payloadOrNull : resultOrNull;
+        return command
+            + (partOrNull == nullptr || !partOrNull->IsObject() ? ListMembers(message, PAYLOAD_MEMBERS)
+                                                                : ListMembers(*partOrNull, PAYLOAD_MEMBERS));
+    }
+    if (line.topic.has_value())
+    {
+        return line.topic->substr(line.topic->rfind('/') + 1) + ListMembers(message, VEHICLE_MEMBERS);
+    }
+    return {};
+}
+
+} // namespace
+
+std::string Summarize(const TraceLine& line)
+{
+    if (line.lost.has_value())
+    {
+        return fmt::format("{} messages are missing before this line", *line.lost);
+    }
+    Json::JsonDocument document;
+    const Core::Result<const Json::Value*> message =
+        document.Parse(line.text, {LONGEST_MESSAGE, DEEPEST_MESSAGE, MOST_VALUES});
+    if (message.has_value() && (*message)->IsObject())
+    {
+        if (std::string summary = SummarizeMessage(line, **message); !summary.empty())
+        {
+            return summary;
+        }
+    }
+    return line.topic.has_value() ? fmt::format("{} {}", line.topic->substr(line.topic->rfind('/') + 1), line.text)
+                                  : line.text;
+}
+
+std::string PrintTrace(const std::vector<TraceLine>& lines, const Screen& screen)
+{
+    if (lines.empty())
+    {
+        return "No message.\n";
+    }
+    constexpr std::size_t TIME = 12;
+    TextTable table({{"TIME", 0, TIME}, {"LINK", 1}, {"DIR", 0, 3}, {"ROBOT", 1}, {"WHAT", 2}});
+    for (const TraceLine& line : lines)
+    {
+        table.AddRow(
+            {{MakeTimeOfDay(line.time)},
+             {line.link},
+             {line.direction.value_or("-")},
+             {line.robot.value_or("-")},
+             {Summarize(line), line.lost.has_value() ? EStyle::Warning : EStyle::Plain}});
+    }
+    return table.Print(screen);
+}
+
+std::string PrintAudit(const std::vector<AuditLine>& lines, const Screen& screen)
+{
+    if (lines.empty())
+    {
+        return "No command is recorded.\n";
+    }
+    constexpr std::size_t TIME = 19;
+    constexpr std::size_t REQUEST = 16;
+    constexpr std::int64_t FIRST_ERROR = 400;
+    TextTable table(
+        {{"TIME", 1, TIME}, {"NAME", 1}, {"STATUS", 0, 3, true}, {"REQUEST", 2, REQUEST}, {"ANSWER", 3}, {"PEER", 4}});
+    for (const AuditLine& line : lines)
+    {
+        if (line.lost.has_value())
+        {
+            table.AddRow({{line.time}, {}, {}, {fmt::format("{} commands are missing", *line.lost), EStyle::Warning}});
+            continue;
+        }
+        const bool bRefused = line.status.value_or(0) >= FIRST_ERROR;
+        const std::string name = line.name.value_or("");
+        table.AddRow(
+            {{line.time},
+             {name.empty() ? "-" : name},
+             {line.status.has_value() ? std::to_string(*line.status) : "-", bRefused ? EStyle::Bad : EStyle::Plain},
+             {line.request.value_or("")},
+             {line.answer.GetStringOrNull().value_or(line.answer.GetText())},
+             {line.peer.value_or("")}});
+    }
+    return table.Print(screen);
+}
+
+std::string PrintEntry(const EntryEvent& entry, const Screen& screen)
+{
+    const std::string line = fmt::format(
+        "{} {:<7} {}",
+        MakeDisplayable(MakeTimeOfDay(entry.time)),
+        MakeDisplayable(entry.kind),
+        MakeDisplayable(entry.text));
+    return CutToColumns(line, screen.columns) + "\n";
+}
+
+} // namespace ACS::Acsctl
