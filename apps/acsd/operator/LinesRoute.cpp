@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <optional>
 #include <string>
 #include <system_error>
 
@@ -21,6 +22,10 @@ constexpr std::size_t DEFAULT_LINES = 100;
 
 Apps::HttpResponse RespondWithLines(const Apps::HttpRequest& request, const Apps::NewestLines& lines)
 {
+    if (const std::optional<std::string> reason = FindUnexpectedParameterOrNull(request, {"limit"}))
+    {
+        return MakeOperatorError(OperatorCode::BAD_REQUEST, *reason);
+    }
     const std::string text = request.GetQueryOrNull("limit").value_or(std::to_string(DEFAULT_LINES));
     std::size_t limit = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), limit);

@@ -160,6 +160,11 @@ TEST_CASE("GET /v1/audit has the number of lines that is asked for, from 1 to 10
         CAPTURE(limit);
         CHECK(fixture.Ask("GET", "read", std::string("/v1/audit?limit=") + limit).status == 400);
     }
+    for (const char* query : {"lines=5", "limit=5&limit=5", "limit=5&plan=P1"})
+    {
+        CAPTURE(query);
+        CHECK(fixture.Ask("GET", "read", std::string("/v1/audit?") + query).status == 400);
+    }
 }
 
 TEST_CASE("A browser that has shown a token is identified by its cookie until it logs out")
