@@ -21,6 +21,9 @@
 #include "operator/ProcessMetrics.hpp"
 #include "operator/ReadRoutes.hpp"
 #include "operator/StateFeed.hpp"
+#include "replay/CoreRecorder.hpp"
+#include "replay/RecordedConfig.hpp"
+#include "replay/RecordLine.hpp"
 #include "store/StoreSummary.hpp"
 #include "store/StoreWorker.hpp"
 #include <acs/plan_sqlite/SqlitePlanStore.hpp>
@@ -58,6 +61,7 @@ class Acsd::Impl final : private IAcsdOutput
     AcsdMetrics _metrics;
     ProcessMetrics _processMetrics;
     PlanLog _planLog;
+    std::unique_ptr<CoreRecorder> _recorder; ///< Null without a trace.
     AcsdCore _core;
     StoreWorker _store;
     McsLink _mcs;
@@ -84,7 +88,8 @@ public:
           _metrics(_metricsEndpoint),
           _processMetrics(_metricsEndpoint, _dependencies.clock.GetNow()),
           _planLog(_dependencies.logger.MakeFor("plan"), _metricsEndpoint),
-          _core({_dependencies.clock, _dependencies.random, _dependencies.logger, *this, _mcs}, _config),
+          _recorder(MakeRecorderOrNull()),
+          _core(MakeCoreDependencies(), _config),
           _store(
               _dependencies.executor,
               std::move(store),
@@ -200,6 +205,24 @@ public:
     }
 
 private:
+    [[nodiscard]] std::unique_ptr<CoreRecorder> MakeRecorderOrNull() const
+    {
+        MessageTrace* const traceOrNull = _dependencies.traceOrNull;
+        if (traceOrNull == nullptr)
+        {
+            return nullptr;
+        }
+        WriteRecord(MakeBeginRecord(_config, _dependencies.clock.GetNow()), *traceOrNull);
+        return std::make_unique<CoreRecorder>(
+            [traceOrNull](const CoreRecord& record) { WriteRecord(record, *traceOrNull); });
+    }
+
+    [[nodiscard]] AcsdCore::Dependencies MakeCoreDependencies()
+    {
+        const AcsdCore::Dependencies real{_dependencies.clock, _dependencies.random, _dependencies.logger, *this, _mcs};
+        return _recorder == nullptr ? real : _recorder->Wrap(real);
+    }
+
     void Store(const Planning::StoreBatch& batch) override
     {
         _store.Append(batch);

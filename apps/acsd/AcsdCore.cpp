@@ -1,5 +1,6 @@
 #include "AcsdCore.hpp"
 
+#include "replay/RecordedConfig.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/plan/EPlanningError.hpp>
 
@@ -69,12 +70,14 @@ void AcsdCore::SetObserver(Planning::IPlanObserver& observer)
 
 void AcsdCore::Restore(Planning::StoredState state)
 {
+    const RecordedInput recorded(_dependencies.recorderOrNull, [&state] { return RestoreInput{state}; });
     _gateway.Restore(state.outbox);
     _host.Restore(std::move(state));
 }
 
 void AcsdCore::Start()
 {
+    const RecordedInput recorded(_dependencies.recorderOrNull, [] { return StartInput{}; });
     _dependencies.output.StartTimer(EAcsdTimer::WorkGrace, _operations.workGrace);
     StartStatusTimer();
     CheckStore();
@@ -83,6 +86,9 @@ void AcsdCore::Start()
 
 void AcsdCore::Reload(const AcsdConfig& config)
 {
+    const RecordedInput recorded(_dependencies.recorderOrNull, [&config] {
+        return ReloadInput{MakeRecordedConfig(config)};
+    });
     _operations = config.operations;
     _gateway.SetStyle(config.mcs.style);
     if (_phase == EPhase::Running)
@@ -93,6 +99,7 @@ void AcsdCore::Reload(const AcsdConfig& config)
 
 void AcsdCore::Stop()
 {
+    const RecordedInput recorded(_dependencies.recorderOrNull, [] { return StopInput{}; });
     if (_phase != EPhase::Running)
     {
         return;
@@ -105,6 +112,12 @@ void AcsdCore::Stop()
 }
 
 void AcsdCore::Close()
+{
+    const RecordedInput recorded(_dependencies.recorderOrNull, [] { return CloseInput{}; });
+    DoClose();
+}
+
+void AcsdCore::DoClose()
 {
     if (IsClosed())
     {
@@ -122,17 +135,22 @@ void AcsdCore::Close()
 
 void AcsdCore::OnSessionEvent(const Protocol::SessionEvent& event)
 {
+    const RecordedInput recorded(_dependencies.recorderOrNull, [&event] { return event; });
     _gateway.OnSessionEvent(event);
     UpdateDrain();
 }
 
 void AcsdCore::OnRobotEvent(const std::string& robotID, const Planning::RobotEvent& event)
 {
-    _host.Push(Planning::RobotInput{robotID, event});
+    ICoreRecorder* const recorderOrNull = _dependencies.recorderOrNull;
+    const RecordedInput recorded(recorderOrNull, [&] { return Planning::RobotInput{robotID, event}; });
+    _host.Push(
+        Planning::RobotInput{robotID, recorderOrNull == nullptr ? event : recorderOrNull->Watch(robotID, event)});
 }
 
 void AcsdCore::OnTimer(const AcsdTimer& timer)
 {
+    const RecordedInput recorded(_dependencies.recorderOrNull, [&timer] { return timer; });
     std::visit(
         Core::Overloaded{
             [this](EAcsdTimer own) { OnOwnTimer(own); },
@@ -144,18 +162,23 @@ void AcsdCore::OnTimer(const AcsdTimer& timer)
 
 void AcsdCore::OnMqttUp()
 {
+    const RecordedInput recorded(_dependencies.recorderOrNull, [] { return MqttInput{true}; });
     _bMqttUp = true;
     UpdateWorking();
 }
 
 void AcsdCore::OnMqttDown()
 {
+    const RecordedInput recorded(_dependencies.recorderOrNull, [] { return MqttInput{false}; });
     _bMqttUp = false;
     UpdateWorking();
 }
 
 void AcsdCore::OnStored(const Core::Result<void>& result)
 {
+    const RecordedInput recorded(_dependencies.recorderOrNull, [&result] {
+        return StoredInput{result.has_value() ? std::nullopt : std::optional(result.error())};
+    });
     if (_phase == EPhase::Stopped || TryEndForTakenStore(result))
     {
         return; // the store was late
@@ -172,6 +195,7 @@ void AcsdCore::OnStored(const Core::Result<void>& result)
 
 void AcsdCore::OnStoreLost(const Core::Error& error)
 {
+    const RecordedInput recorded(_dependencies.recorderOrNull, [&error] { return StoreLostInput{error}; });
     if (!TryEndForTakenStore(tl::unexpected(error)) && !_host.IsStoring())
     {
         _storeWatch.OnLost(error, _dependencies.clock.GetNow().steady);
@@ -181,11 +205,13 @@ void AcsdCore::OnStoreLost(const Core::Error& error)
 
 void AcsdCore::OnStoreLog(const Planning::StoreLog& log)
 {
+    const RecordedInput recorded(_dependencies.recorderOrNull, [&log] { return log; });
     _host.Push(log);
 }
 
 void AcsdCore::OnLinksClosed()
 {
+    const RecordedInput recorded(_dependencies.recorderOrNull, [] { return LinksClosedInput{}; });
     if (_phase == EPhase::Leaving)
     {
         FinishStop();
@@ -194,6 +220,7 @@ void AcsdCore::OnLinksClosed()
 
 Planning::EInputAdmission AcsdCore::Offer(Planning::PlanCommand command)
 {
+    const RecordedInput recorded(_dependencies.recorderOrNull, [&command] { return command; });
     return _host.Offer(std::move(command));
 }
 
@@ -290,7 +317,7 @@ void AcsdCore::OnOwnTimer(EAcsdTimer timer)
             break;
         case EAcsdTimer::Drain:
         case EAcsdTimer::Settle:
-            Close();
+            DoClose();
             break;
         case EAcsdTimer::Stop:
             FinishStop();

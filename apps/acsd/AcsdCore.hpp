@@ -6,6 +6,7 @@
 #include "mcs/IMcsOutput.hpp"
 #include "mcs/McsGateway.hpp"
 #include "mcs/RefusedReports.hpp"
+#include "replay/ICoreRecorder.hpp"
 #include "store/StoreWatch.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
@@ -49,6 +50,7 @@ public:
         IAcsdOutput& output;
         IMcsOutput& mcs;
         ActionFilter filter{}; ///< Faults of a simulation; empty: all actions are executed.
+        ICoreRecorder* recorderOrNull = nullptr;
     };
 
     /// For closing the links at a stop.
@@ -131,6 +133,7 @@ public:
     [[nodiscard]] std::vector<std::string> GetNotReadyReasons() const;
 
 private:
+    void DoClose();
     void Store(const Planning::StoreBatch& batch);
     void Execute(const Planning::EngineAction& action);
     void OnStatusChanged(const Planning::RobotStatus& status);

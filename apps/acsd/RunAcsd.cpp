@@ -10,6 +10,7 @@
 #include "config/DriverConfig.hpp"
 #include "drivers/BuiltInDrivers.hpp"
 #include "operator/TokenCommand.hpp"
+#include "replay/ReplayCommand.hpp"
 #include "store/StoreCommand.hpp"
 #include <acs/acsd/RunAcsd.hpp>
 
@@ -41,6 +42,7 @@ constexpr const char* NAME = "acsd";
 constexpr const char* FOOTER =
     "Commands: acsd token ROLE NAME makes a token for the operator interface; acsd token --help explains it.\n"
     "          acsd store COMMAND checks, accepts, backs up or restores the store; acsd store --help explains it.\n"
+    "          acsd replay TRACE repeats a recorded run and shows the first difference; acsd replay --help explains it.\n"
     "Signals: SIGTERM and SIGINT stop acsd after the MCS has acknowledged its reports (a second one stops it at once), "
     "SIGHUP reloads the configuration.\n"
     "Exit codes: 0 after a stop, --check-config without errors, --help or --version; 1 if acsd cannot run (store, port, "
@@ -159,6 +161,10 @@ int Run(int argc, const char* const* argv, const RobotDrivers& drivers)
     {
         Apps::PrintError(NAME, *fault);
         return 1;
+    }
+    if (argc > 1 && std::string_view(argv[1]) == "replay")
+    {
+        return RunReplayCommand(argc - 1, argv + 1, drivers);
     }
     ProgramOptions options;
     CLI::App app{

@@ -284,6 +284,7 @@ AcsdConfig Read(
     bool bStoreInspected)
 {
     AcsdConfig config;
+    config.fileName = fileName;
     const Apps::ConfigReader reader = Apps::ConfigReader::ReadFile(fileName, overrides);
     const ConfigSection root = reader.GetRoot();
     std::vector<std::string> otherErrors;

@@ -46,6 +46,7 @@ struct RobotLinkConfig
 /// acsd's complete and checked configuration.
 struct AcsdConfig
 {
+    std::string fileName; ///< Relative paths begin at its folder.
     McsConfig mcs;
     std::optional<MqttConfig> mqtt; ///< Set if a robot uses the broker.
     ArmOptions arm;                 ///< Defaults of all arms.

@@ -86,14 +86,21 @@ std::string MakeTraceLine(const TraceEntry& entry, Core::Now now)
     std::string line;
     BeginLine(now, entry.link, line);
     line += entry.direction == ProtocolBeast::EWireDirection::In ? R"(,"direction":"in")" : R"(,"direction":"out")";
-    if (!entry.robotID.empty())
+    const auto append = [&line](std::string_view name, std::string_view value) {
+        if (!value.empty())
+        {
+            AppendMember(name, value, line);
+        }
+    };
+    append("kind", entry.kind);
+    if (entry.depth > 0)
     {
-        AppendMember("robot", entry.robotID, line);
+        fmt::format_to(std::back_inserter(line), R"(,"depth":{})", entry.depth);
     }
-    if (!entry.topic.empty())
-    {
-        AppendMember("topic", entry.topic, line);
-    }
+    append("robot", entry.robotID);
+    append("plan", entry.planID);
+    append("transaction", entry.transactionID);
+    append("topic", entry.topic);
     if (Core::JsonText::IsUtf8(entry.text))
     {
         AppendMember("text", entry.text, line);
@@ -137,9 +144,16 @@ Core::Result<std::unique_ptr<MessageTrace>> MessageTrace::Create(
 
 void MessageTrace::Write(const TraceEntry& entry)
 {
-    const Core::Now now = _clock.GetNow();
+    Write(entry, _clock.GetNow(), ETraceUse::All);
+}
+
+void MessageTrace::Write(const TraceEntry& entry, Core::Now now, ETraceUse use)
+{
     std::string line = MakeTraceLine(entry, now);
-    _newest.Add(line);
+    if (use == ETraceUse::All)
+    {
+        _newest.Add(line);
+    }
     _writer.Write(std::move(line), now);
 }
 

@@ -16,19 +16,30 @@
 namespace ACS::Acsd
 {
 
-/// One message of a link, as it was on the wire.
+/// One message of a link as it was on the wire, or an input, a decision or an output of acsd.
 struct TraceEntry
 {
-    std::string_view link; ///< "mcs", "mqtt", "arm"
+    std::string_view link; ///< "mcs", "mqtt", "arm", "core", "store", …
     ProtocolBeast::EWireDirection direction = ProtocolBeast::EWireDirection::In;
     std::string_view robotID; ///< Empty: of no robot, or of one that is not ours.
     std::string_view topic;   ///< Of MQTT; else empty.
     std::string_view text;    ///< Any bytes.
+    std::string_view kind{};  ///< Empty: a message.
+    std::string_view planID{};
+    std::string_view transactionID{};
+    std::size_t depth = 0; ///< Of an input that came within another one.
 };
 
 /// The entry as one line of JSON, without its end. In text that is not valid UTF-8, \xNN stands for each invalid byte, each
 /// backslash is doubled, and the line has "escaped":true.
 [[nodiscard]] std::string MakeTraceLine(const TraceEntry& entry, Core::Now now);
+
+/// Which lines an entry is for.
+enum class ETraceUse : std::uint8_t
+{
+    All,       ///< The files, and the newest lines in memory.
+    FilesOnly, ///< What only a replay needs.
+};
 
 /// Writes every message of every link to a trace. Called on one thread, the executor's.
 class MessageTrace final
@@ -55,6 +66,7 @@ public:
         std::size_t maxQueuedBytes = Apps::TraceWriter::DEFAULT_QUEUE_BYTES);
 
     void Write(const TraceEntry& entry);
+    void Write(const TraceEntry& entry, Core::Now now, ETraceUse use);
 
     /// For the next file.
     void SetLimits(const Apps::TraceLimits& limits);

@@ -1,0 +1,85 @@
+#pragma once
+
+#include "AcsdTimer.hpp"
+#include <acs/core/Result.hpp>
+#include <acs/plan/EngineInput.hpp>
+#include <acs/plan/IPlanStore.hpp>
+#include <acs/plan/PlanCommand.hpp>
+#include <acs/plan/StoreLog.hpp>
+#include <acs/protocol/SessionEvent.hpp>
+
+#include <optional>
+#include <string>
+#include <variant>
+
+namespace ACS::Acsd
+{
+
+/// AcsdCore::Restore
+struct RestoreInput
+{
+    Planning::StoredState state;
+};
+
+/// AcsdCore::Start
+struct StartInput
+{
+};
+
+/// AcsdCore::Reload
+struct ReloadInput
+{
+    std::string config; ///< A text of MakeRecordedConfig.
+};
+
+/// AcsdCore::OnMqttUp and OnMqttDown
+struct MqttInput
+{
+    bool bUp = false;
+};
+
+/// AcsdCore::OnStored
+struct StoredInput
+{
+    std::optional<Core::Error> errorOrNull; ///< nullopt: the batch is stored.
+};
+
+/// AcsdCore::OnStoreLost
+struct StoreLostInput
+{
+    Core::Error error;
+};
+
+/// AcsdCore::OnLinksClosed
+struct LinksClosedInput
+{
+};
+
+/// AcsdCore::Stop
+struct StopInput
+{
+};
+
+/// AcsdCore::Close
+struct CloseInput
+{
+};
+
+/// One call of AcsdCore. RobotInput, AcsdTimer, StoreLog and PlanCommand are the calls OnRobotEvent, OnTimer, OnStoreLog and Offer.
+using CoreInput = std::variant<
+    RestoreInput,
+    StartInput,
+    ReloadInput,
+    Protocol::SessionEvent,
+    Planning::RobotInput,
+    AcsdTimer,
+    MqttInput,
+    StoredInput,
+    StoreLostInput,
+    Planning::StoreLog,
+    Planning::PlanCommand,
+    LinksClosedInput,
+    StopInput,
+    CloseInput>;
+
+} // namespace ACS::Acsd

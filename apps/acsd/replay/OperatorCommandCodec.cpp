@@ -1,0 +1,266 @@
+#include "replay/OperatorCommandCodec.hpp"
+
+#include "replay/RecordJson.hpp"
+#include <acs/core/ECoreError.hpp>
+#include <acs/core/Overloaded.hpp>
+#include <acs/plan/StoreCodec.hpp>
+
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+/// A command of any kind: what a kind does not have is absent.
+struct CommandText
+{
+    std::string command;
+    std::string planID;
+    std::string robotID;
+    std::string text; ///< A word, a reason or a code, depending on the command.
+    std::string reason;
+    std::string transactionID;
+    std::string plan; ///< JSON
+    std::optional<bool> bOn;
+    std::optional<std::int32_t> number;
+    std::optional<std::uint64_t> sequence;
+    std::optional<std::string> alarmPlanID;
+    std::optional<std::string> jobID;
+    std::vector<std::optional<std::string>> carrierIDs;
+    std::uint64_t replyToken = 0;
+};
+
+constexpr std::string_view SUBMIT_COMMAND = "SubmitPlan";
+constexpr std::string_view CONTROL_COMMAND = "ControlPlan";
+constexpr std::string_view ACKNOWLEDGED_COMMAND = "MessageAcknowledged";
+constexpr std::string_view TSC_COMMAND = "ControlTSC";
+constexpr std::string_view RESOLVE_COMMAND = "ResolveJob";
+constexpr std::string_view MAINTENANCE_COMMAND = "SetMaintenance";
+constexpr std::string_view CLEAR_COMMAND = "ClearAlarms";
+constexpr std::string_view CARRIERS_COMMAND = "SetCarriers";
+constexpr std::string_view SKIP_COMMAND = "SkipStep";
+
+} // namespace
+
+} // namespace ACS::Acsd
+
+namespace ACS::Json
+{
+
+template <>
+struct JsonFields<Acsd::CommandText>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("command", &Acsd::CommandText::command),
+        Optional("planId", &Acsd::CommandText::planID),
+        Optional("robotId", &Acsd::CommandText::robotID),
+        Optional("text", &Acsd::CommandText::text),
+        Optional("reason", &Acsd::CommandText::reason),
+        Optional("transactionId", &Acsd::CommandText::transactionID),
+        Optional("plan", &Acsd::CommandText::plan),
+        Optional("on", &Acsd::CommandText::bOn),
+        Optional("number", &Acsd::CommandText::number),
+        Optional("sequence", &Acsd::CommandText::sequence),
+        Optional("alarmPlanId", &Acsd::CommandText::alarmPlanID),
+        Optional("jobId", &Acsd::CommandText::jobID),
+        Optional("carrierIds", &Acsd::CommandText::carrierIDs),
+        Defaulted("replyToken", &Acsd::CommandText::replyToken));
+};
+
+} // namespace ACS::Json
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+/// The value that has this text; an error if there is none.
+template <typename TEnum>
+Core::Result<TEnum> FindWordValue(std::string_view text, std::initializer_list<TEnum> values)
+{
+    for (const TEnum value : values)
+    {
+        if (text == GetText(value))
+        {
+            return value;
+        }
+    }
+    return Core::Fail(Core::ECoreError::UnknownWord, "text", "a word of the command", Core::QuoteForError(text));
+}
+
+CommandText MakeCommandText(const Planning::PlanCommand& command)
+{
+    using namespace Planning;
+    CommandText text;
+    std::visit(
+        Core::Overloaded{
+            [&text](const SubmitPlan& submit) {
+                text.command = SUBMIT_COMMAND;
+                text.plan = EncodePlan(submit.plan);
+                text.replyToken = submit.replyToken;
+                text.transactionID = submit.transactionID;
+            },
+            [&text](const ControlPlan& control) {
+                text.command = CONTROL_COMMAND;
+                text.text = GetText(control.control);
+                text.planID = control.planID;
+                text.reason = control.reason;
+                text.replyToken = control.replyToken;
+                text.transactionID = control.transactionID;
+            },
+            [&text](const MessageAcknowledged& acknowledged) {
+                text.command = ACKNOWLEDGED_COMMAND;
+                text.sequence = acknowledged.sequence;
+            },
+            [&text](const ControlTSC& control) {
+                text.command = TSC_COMMAND;
+                text.bOn = control.bPause;
+                text.replyToken = control.replyToken;
+            },
+            [&text](const ResolveJob& resolve) {
+                text.command = RESOLVE_COMMAND;
+                text.planID = resolve.planID;
+                text.jobID = resolve.jobID;
+                text.text = GetText(resolve.resolution);
+                text.replyToken = resolve.replyToken;
+            },
+            [&text](const SetMaintenance& maintenance) {
+                text.command = MAINTENANCE_COMMAND;
+                text.robotID = maintenance.robotID;
+                text.bOn = maintenance.bOn;
+                text.replyToken = maintenance.replyToken;
+            },
+            [&text](const ClearAlarms& clear) {
+                text.command = CLEAR_COMMAND;
+                text.robotID = clear.robotID;
+                text.text = clear.errorCode;
+                text.alarmPlanID = clear.planID;
+                text.jobID = clear.jobID;
+                text.replyToken = clear.replyToken;
+            },
+            [&text](const SetCarriers& carriers) {
+                text.command = CARRIERS_COMMAND;
+                text.robotID = carriers.robotID;
+                text.carrierIDs = carriers.carrierIDs;
+                text.replyToken = carriers.replyToken;
+            },
+            [&text](const SkipStep& skip) {
+                text.command = SKIP_COMMAND;
+                text.planID = skip.planID;
+                text.number = skip.stepNo;
+                text.replyToken = skip.replyToken;
+            }},
+        command);
+    return text;
+}
+
+Core::Result<Planning::PlanCommand> MakeControl(CommandText text)
+{
+    using Planning::EPlanControl;
+    return FindWordValue(
+               text.text,
+               {EPlanControl::Cancel, EPlanControl::Abort, EPlanControl::Pause, EPlanControl::Resume})
+        .map([&text](EPlanControl control) -> Planning::PlanCommand {
+            return Planning::ControlPlan{
+                control,
+                std::move(text.planID),
+                std::move(text.reason),
+                text.replyToken,
+                std::move(text.transactionID)};
+        });
+}
+
+Core::Result<Planning::PlanCommand> MakeResolution(CommandText text)
+{
+    using Planning::EJobResolution;
+    return FindWordValue(text.text, {EJobResolution::Done, EJobResolution::Failed, EJobResolution::Again})
+        .map([&text](EJobResolution resolution) -> Planning::PlanCommand {
+            return Planning::ResolveJob{
+                std::move(text.planID),
+                std::move(text.jobID).value_or(std::string()),
+                resolution,
+                text.replyToken};
+        });
+}
+
+Core::Result<Planning::PlanCommand> MakePlanCommand(CommandText text)
+{
+    if (text.command == SUBMIT_COMMAND)
+    {
+        return Planning::DecodePlan(text.plan).map([&text](Planning::Plan&& plan) -> Planning::PlanCommand {
+            return Planning::SubmitPlan{std::move(plan), text.replyToken, std::move(text.transactionID)};
+        });
+    }
+    if (text.command == CONTROL_COMMAND)
+    {
+        return MakeControl(std::move(text));
+    }
+    if (text.command == ACKNOWLEDGED_COMMAND)
+    {
+        return Planning::MessageAcknowledged{text.sequence.value_or(0)};
+    }
+    if (text.command == TSC_COMMAND)
+    {
+        return Planning::ControlTSC{text.bOn.value_or(false), text.replyToken};
+    }
+    if (text.command == RESOLVE_COMMAND)
+    {
+        return MakeResolution(std::move(text));
+    }
+    if (text.command == MAINTENANCE_COMMAND)
+    {
+        return Planning::SetMaintenance{std::move(text.robotID), text.bOn.value_or(false), text.replyToken};
+    }
+    if (text.command == CLEAR_COMMAND)
+    {
+        return Planning::ClearAlarms{
+            std::move(text.robotID),
+            std::move(text.text),
+            std::move(text.alarmPlanID),
+            std::move(text.jobID),
+            text.replyToken};
+    }
+    if (text.command == CARRIERS_COMMAND)
+    {
+        return Planning::SetCarriers{std::move(text.robotID), std::move(text.carrierIDs), text.replyToken};
+    }
+    if (text.command == SKIP_COMMAND)
+    {
+        return Planning::SkipStep{std::move(text.planID), text.number.value_or(0), text.replyToken};
+    }
+    return Core::Fail(Core::ECoreError::UnknownWord, "command", "a command", Core::QuoteForError(text.command));
+}
+
+} // namespace
+
+std::string EncodeCommand(const Planning::PlanCommand& command)
+{
+    return EncodeRecord(MakeCommandText(command));
+}
+
+Core::Result<Planning::PlanCommand> DecodeCommand(std::string_view text)
+{
+    return DecodeRecord<CommandText>(text).and_then(
+        [](CommandText&& read) { return MakePlanCommand(std::move(read)); });
+}
+
+std::string FindPlanID(const Planning::PlanCommand& command)
+{
+    const auto* const submitOrNull = std::get_if<Planning::SubmitPlan>(&command);
+    return submitOrNull == nullptr ? MakeCommandText(command).planID : submitOrNull->plan.planID;
+}
+
+std::string FindRobotID(const Planning::PlanCommand& command)
+{
+    return MakeCommandText(command).robotID;
+}
+
+} // namespace ACS::Acsd
