@@ -18,17 +18,6 @@ using namespace std::chrono_literals;
 namespace
 {
 
-/// The simulated MCS does not use isConnected: it is reported neither after a grace time nor periodically.
-Acsd::AcsdConfig MakeConfig(const Scenario& scenario)
-{
-    Acsd::AcsdConfig config;
-    config.engine = scenario.options;
-    config.site = scenario.MakeSite();
-    config.localOffset = Apps::LocalOffset(540min);
-    config.operations.workGrace = 24h;
-    return config;
-}
-
 Protocol::SessionOptions MakeSessionOptions()
 {
     Protocol::SessionOptions options;
@@ -38,21 +27,23 @@ Protocol::SessionOptions MakeSessionOptions()
 
 } // namespace
 
+/// The simulated MCS does not use isConnected: it is reported neither after a grace time nor periodically.
+Acsd::AcsdConfig AcsdProcess::MakeConfig(const Scenario& scenario)
+{
+    Acsd::AcsdConfig config;
+    config.engine = scenario.options;
+    config.site = scenario.MakeSite();
+    config.localOffset = Apps::LocalOffset(540min);
+    config.operations.workGrace = 24h;
+    return config;
+}
+
 AcsdProcess::AcsdProcess(const Dependencies& around, CrashHandler onCrash, CommitHandler onCommit)
     : _around(around),
       _onCrash(std::move(onCrash)),
       _onCommit(std::move(onCommit)),
       _bCrashing(_around.scenario.Has(EFault::Crashes)),
-      _core(
-          {_around.timeline,
-           _around.ownRandom,
-           Core::Logger(),
-           *this,
-           *this,
-           [this](const Planning::EngineAction& action, const Acsd::AcsdCore::ActionHandler& execute) {
-               OnAction(action, execute);
-           }},
-          MakeConfig(_around.scenario)),
+      _core(MakeDependencies(), MakeConfig(_around.scenario)),
       _session(MakeSessionOptions(), _around.ownRandom),
       _timers(_around.timeline),
       _sessionTimers(_around.timeline),
@@ -66,6 +57,20 @@ AcsdProcess::~AcsdProcess()
     {
         _around.network.Abandon(*_connection, ETextEnd::Client);
     }
+}
+
+Acsd::AcsdCore::Dependencies AcsdProcess::MakeDependencies()
+{
+    const Acsd::AcsdCore::Dependencies real{
+        _around.timeline,
+        _around.ownRandom,
+        Core::Logger(),
+        *this,
+        *this,
+        [this](const Planning::EngineAction& action, const Acsd::AcsdCore::ActionHandler& execute) {
+            OnAction(action, execute);
+        }};
+    return _around.onRecord ? _recorder.emplace(_around.onRecord).Wrap(real) : real;
 }
 
 void AcsdProcess::Begin()
@@ -95,6 +100,10 @@ void AcsdProcess::Crash(std::string_view where)
         return;
     }
     _around.trace.Add("acsd: crash {}", where);
+    if (_recorder.has_value())
+    {
+        _recorder->Stop();
+    }
     _timers.CancelAll();
     _sessionTimers.CancelAll();
     _core.Close();

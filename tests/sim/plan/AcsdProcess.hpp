@@ -2,6 +2,7 @@
 
 #include "AcsdCore.hpp"
 #include "ChanceModel.hpp"
+#include "config/AcsdConfig.hpp"
 #include "CrashableStore.hpp"
 #include "EMutation.hpp"
 #include "IAcsdOutput.hpp"
@@ -9,6 +10,7 @@
 #include "ISimulatedRobot.hpp"
 #include "mcs/IMcsOutput.hpp"
 #include "Mutator.hpp"
+#include "replay/CoreRecorder.hpp"
 #include "Scenario.hpp"
 #include "TextNetwork.hpp"
 #include "TimerBank.hpp"
@@ -46,6 +48,8 @@ public:
         const Scenario& scenario;
         EMutation mutation = EMutation::None;
         std::uint64_t number = 0; ///< The number of this start.
+        /// Receives the inputs and outputs of the core; may be empty.
+        Acsd::CoreRecorder::RecordHandler onRecord = {};
     };
 
     /// Called once at the crash, possibly from within a call of this class. Afterwards it does nothing.
@@ -60,6 +64,7 @@ private:
     bool _bDead = false;
     bool _bCrashing; ///< Crashes at random; ends with the faults.
 
+    std::optional<Acsd::CoreRecorder> _recorder;
     Acsd::AcsdCore _core;
     Protocol::AcsSession _session;
     std::map<std::string, std::unique_ptr<IRobotConnection>> _hands;
@@ -74,6 +79,9 @@ private:
     Mutator _mutator;
 
 public:
+    /// The configuration of acsd.
+    [[nodiscard]] static Acsd::AcsdConfig MakeConfig(const Scenario& scenario);
+
     AcsdProcess(const Dependencies& around, CrashHandler onCrash, CommitHandler onCommit);
     AcsdProcess(const AcsdProcess&) = delete;
     AcsdProcess& operator=(const AcsdProcess&) = delete;
@@ -91,6 +99,7 @@ public:
     [[nodiscard]] const Planning::PlanEngine& GetEngine() const noexcept;
 
 private:
+    [[nodiscard]] Acsd::AcsdCore::Dependencies MakeDependencies();
     void Commit();
     [[nodiscard]] bool TryCommit(const Planning::StoreBatch& batch);
     void OnAction(const Planning::EngineAction& action, const Acsd::AcsdCore::ActionHandler& execute);

@@ -42,7 +42,7 @@ EHandling GetHandling(ERobotKind robots)
 
 } // namespace
 
-World::World(Scenario scenario, EMutation mutation, bool bPrinting)
+World::World(Scenario scenario, EMutation mutation, bool bPrinting, RecordingHandler onRecording)
     : _scenario(std::move(scenario)),
       _mutation(mutation),
       _trace(_timeline, bPrinting),
@@ -61,7 +61,8 @@ World::World(Scenario scenario, EMutation mutation, bool bPrinting)
       _radioBehaviours(_timeline),
       _operator(_timeline, _trace, {_scenario.seed, OPERATOR_PART}, _robots, _store, _judge, [this] {
           return _process.get();
-      })
+      }),
+      _onRecording(std::move(onRecording))
 {
 }
 
@@ -153,7 +154,8 @@ void World::StartAcsd()
         _workChecker,
         _scenario,
         _mutation,
-        _starts};
+        _starts,
+        _onRecording ? _onRecording(_starts) : Acsd::CoreRecorder::RecordHandler()};
     _process = std::make_unique<AcsdProcess>(
         around,
         [this] { OnCrash(); },

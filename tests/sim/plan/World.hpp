@@ -9,12 +9,14 @@
 #include "McsSide.hpp"
 #include "MqttBroker.hpp"
 #include "OperatorSimulator.hpp"
+#include "replay/CoreRecorder.hpp"
 #include "Scenario.hpp"
 #include "TextNetwork.hpp"
 #include "TimerBank.hpp"
 #include "Trace.hpp"
 #include "WorkChecker.hpp"
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -60,13 +62,17 @@ class World final
     TimerBank<std::string> _radioBehaviours;
     std::unique_ptr<AcsdProcess> _process;
     OperatorSimulator _operator;
+    RecordingHandler _onRecording; ///< May be empty.
     std::uint64_t _starts = 0;
     Core::SteadyTime _deadline{};
     bool _bSettling = false;
     bool _bDone = false;
 
 public:
-    World(Scenario scenario, EMutation mutation, bool bPrinting);
+    /// Called at each start of acsd, with its number. Returns what receives the records of this start.
+    using RecordingHandler = std::function<Acsd::CoreRecorder::RecordHandler(std::uint64_t start)>;
+
+    World(Scenario scenario, EMutation mutation, bool bPrinting, RecordingHandler onRecording = {});
 
     /// The rules that were violated in their order; empty: none.
     [[nodiscard]] std::vector<std::string> Run();
