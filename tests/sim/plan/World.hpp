@@ -29,6 +29,11 @@ namespace ACS::Simulation
 /// The run of one seed, from its first plan until all work is finished.
 class World final
 {
+public:
+    /// Called at each start of acsd, with its number. Returns what receives the records of this start.
+    using RecordingHandler = std::function<Acsd::CoreRecorder::RecordHandler(std::uint64_t start)>;
+
+private:
     enum class EBehaviour : std::uint8_t
     {
         Restart,
@@ -69,9 +74,6 @@ class World final
     bool _bDone = false;
 
 public:
-    /// Called at each start of acsd, with its number. Returns what receives the records of this start.
-    using RecordingHandler = std::function<Acsd::CoreRecorder::RecordHandler(std::uint64_t start)>;
-
     World(Scenario scenario, EMutation mutation, bool bPrinting, RecordingHandler onRecording = {});
 
     /// The rules that were violated in their order; empty: none.
