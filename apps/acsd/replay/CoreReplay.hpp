@@ -13,10 +13,8 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
-#include <utility>
 
 namespace ACS::Acsd
 {
@@ -48,9 +46,9 @@ private:
     Core::SteadyTime _checkedAt; ///< Timers.
     std::size_t _depth = 0;      ///< Number of inputs that have not ended.
     mutable bool _bRegistered = false;
-    bool _bEnd = false; ///< Of the source.
-    std::string _input; ///< Description of the latest input that is not nested.
-    std::map<std::pair<std::string, std::string>, std::string> _rejections; ///< By robot and job.
+    bool _bUnknownNumbers = false; ///< More were drawn than recorded.
+    bool _bEnd = false;            ///< Of the source.
+    std::string _input;            ///< Description of the latest input that is not nested.
     ReplayOutcome _outcome;
 
 public:
@@ -67,6 +65,7 @@ private:
     void DeliverNested();
     void Call(CoreInput input, const CoreRecord& record);
     void OnActual(const CoreRecord& actual);
+    [[nodiscard]] bool IsCut(const CoreRecord& actual) const;
     void CheckTimers();
     void CheckEnd();
     void Differ(std::string expected, std::string actual, const std::string& place);

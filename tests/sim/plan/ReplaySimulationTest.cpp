@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -78,10 +79,14 @@ std::optional<Acsd::ReplayDifference> FindDifferenceOrNull(EMutation mutation)
 
 TEST_CASE("A recorded run with faults of disk, links, robots and acsd replays to the same reports and commands")
 {
-    constexpr std::uint64_t SEEDS = 30;
+    constexpr std::uint64_t SEEDS = 100;
+    std::vector<std::uint64_t> seeds(SEEDS);
+    std::iota(seeds.begin(), seeds.end(), 1);
+    seeds.push_back(417); // acsd ends within an input that draws numbers
+    seeds.push_back(775); // a later job check accepts what an earlier one rejected
     std::size_t reports = 0;
     std::size_t commands = 0;
-    for (std::uint64_t seed = 1; seed <= SEEDS; ++seed)
+    for (const std::uint64_t seed : seeds)
     {
         const Scenario scenario = MakeScenario(seed, {}, std::nullopt);
         for (const Recording& recording : Record(scenario, EMutation::None))
