@@ -35,6 +35,7 @@ struct CommandText
     std::optional<std::string> jobID;
     std::vector<std::optional<std::string>> carrierIDs;
     std::uint64_t replyToken = 0;
+    std::string origin; ///< Of a control; empty: the MCS.
 };
 
 constexpr std::string_view SUBMIT_COMMAND = "SubmitPlan";
@@ -46,6 +47,7 @@ constexpr std::string_view MAINTENANCE_COMMAND = "SetMaintenance";
 constexpr std::string_view CLEAR_COMMAND = "ClearAlarms";
 constexpr std::string_view CARRIERS_COMMAND = "SetCarriers";
 constexpr std::string_view SKIP_COMMAND = "SkipStep";
+constexpr std::string_view PRIORITY_COMMAND = "SetPlanPriority";
 
 } // namespace
 
@@ -71,7 +73,8 @@ struct JsonFields<Acsd::CommandText>
         Optional("alarmPlanId", &Acsd::CommandText::alarmPlanID),
         Optional("jobId", &Acsd::CommandText::jobID),
         Optional("carrierIds", &Acsd::CommandText::carrierIDs),
-        Defaulted("replyToken", &Acsd::CommandText::replyToken));
+        Defaulted("replyToken", &Acsd::CommandText::replyToken),
+        Optional("origin", &Acsd::CommandText::origin));
 };
 
 } // namespace ACS::Json
@@ -115,6 +118,7 @@ CommandText MakeCommandText(const Planning::PlanCommand& command)
                 text.reason = control.reason;
                 text.replyToken = control.replyToken;
                 text.transactionID = control.transactionID;
+                text.origin = GetText(control.origin);
             },
             [&text](const MessageAcknowledged& acknowledged) {
                 text.command = ACKNOWLEDGED_COMMAND;
@@ -157,6 +161,12 @@ CommandText MakeCommandText(const Planning::PlanCommand& command)
                 text.planID = skip.planID;
                 text.number = skip.stepNo;
                 text.replyToken = skip.replyToken;
+            },
+            [&text](const SetPlanPriority& priority) {
+                text.command = PRIORITY_COMMAND;
+                text.planID = priority.planID;
+                text.number = priority.priority;
+                text.replyToken = priority.replyToken;
             }},
         command);
     return text;
@@ -174,7 +184,9 @@ Core::Result<Planning::PlanCommand> MakeControl(CommandText text)
                 std::move(text.planID),
                 std::move(text.reason),
                 text.replyToken,
-                std::move(text.transactionID)};
+                std::move(text.transactionID),
+                text.origin == GetText(Planning::EControlOrigin::Operator) ? Planning::EControlOrigin::Operator
+                                                                           : Planning::EControlOrigin::MCS};
         });
 }
 
@@ -235,6 +247,10 @@ Core::Result<Planning::PlanCommand> MakePlanCommand(CommandText text)
     if (text.command == SKIP_COMMAND)
     {
         return Planning::SkipStep{std::move(text.planID), text.number.value_or(0), text.replyToken};
+    }
+    if (text.command == PRIORITY_COMMAND)
+    {
+        return Planning::SetPlanPriority{std::move(text.planID), text.number.value_or(0), text.replyToken};
     }
     return Core::Fail(Core::ECoreError::UnknownWord, "command", "a command", Core::QuoteForError(text.command));
 }

@@ -59,9 +59,14 @@ World::World(Scenario scenario, EMutation mutation, bool bPrinting, RecordingHan
       _behaviours(_timeline),
       _robotBehaviours(_timeline),
       _radioBehaviours(_timeline),
-      _operator(_timeline, _trace, {_scenario.seed, OPERATOR_PART}, _robots, _store, _judge, [this] {
-          return _process.get();
-      }),
+      _operator(
+          _timeline,
+          _trace,
+          {_scenario.seed, OPERATOR_PART},
+          _robots,
+          _store,
+          _judge,
+          [this] { return _process.get(); }),
       _onRecording(std::move(onRecording))
 {
 }
