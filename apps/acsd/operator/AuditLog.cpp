@@ -32,6 +32,13 @@ void AppendText(std::string_view name, std::string_view text, std::string& line)
     Core::JsonText::AppendString(text.substr(0, LONGEST_AUDIT_TEXT), line);
 }
 
+/// Not the body of a login, which has a token, also not if its path is wrong.
+bool HasPublicBody(const AuditEntry& entry)
+{
+    constexpr unsigned NOT_FOUND = 404;
+    return !entry.request.body.empty() && entry.response.status != NOT_FOUND && entry.request.path != "/v1/login";
+}
+
 void BeginAuditLine(Core::Now now, std::string& line)
 {
     fmt::format_to(std::back_inserter(line), R"({{"time":"{}")", Core::FormatUTC(now.wall));
@@ -57,6 +64,10 @@ std::string MakeAuditLine(const AuditEntry& entry, Core::Now now)
     AppendText("role", GetText(entry.identity.role), line);
     AppendText("method", entry.request.method, line);
     AppendText("request", entry.request.target, line);
+    if (HasPublicBody(entry))
+    {
+        AppendText("body", entry.request.body, line);
+    }
     if (!entry.key.key.empty())
     {
         AppendText("key", entry.key.key, line);

@@ -92,6 +92,24 @@ TEST_CASE("An entry of the audit log has peer, identity, request and outcome")
     CHECK(Core::JsonText::IsUtf8(cut));
 }
 
+TEST_CASE("An entry of the audit log has the body of a command, but never a token")
+{
+    const Core::Now now = Testing::ManualClock().GetNow();
+    Apps::HttpRequest request = MakePost("/v1/alarms/clear");
+    request.body = R"({"robotId":"LR01"})";
+    CHECK(
+        Acsd::MakeAuditLine({request, KIM, {400, "text/plain", "no"}}, now)
+            .find(R"("request":"/v1/alarms/clear","body":"{\"robotId\":\"LR01\"}","status":400)")
+        != std::string::npos);
+    request.body = std::string(9'000, 'x');
+    CHECK(Acsd::MakeAuditLine({request, KIM, {400, "text/plain", "no"}}, now).size() < 2'000);
+    request.body = R"({"token":"secret"})";
+    CHECK(Acsd::MakeAuditLine({request, KIM, {404, "text/plain", "no"}}, now).find("secret") == std::string::npos);
+    request = MakePost("/v1/login");
+    request.body = R"({"token":"secret"})";
+    CHECK(Acsd::MakeAuditLine({request, KIM, {204, "", ""}}, now).find("secret") == std::string::npos);
+}
+
 TEST_CASE("The audit log is readable by its owner only, and continues over a restart")
 {
     AuditFixture fixture;
