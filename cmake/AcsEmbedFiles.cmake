@@ -1,4 +1,4 @@
-# acs_embed_files(TARGET acs_acsd NAME page FUNCTION GetPageFiles HEADER operator/PageFiles.hpp FILES index.html=/path/of/index.html …)
+# acs_embed_files(TARGET acs_acsd NAME page FUNCTION GetPageFiles HEADER operator/PageFiles.hpp FILES index.html=PATH …)
 # Adds a source to the target that defines ACS::Acsd::FUNCTION() with the names and contents of these files. The source is generated
 # when a file has changed, by this file as a script.
 function(acs_embed_files)

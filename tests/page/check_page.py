@@ -9,11 +9,12 @@ import unittest
 
 PAGE = pathlib.Path(__file__).resolve().parent.parent.parent / "apps" / "acsd" / "page"
 TEXT = re.compile(r'^    "([^"]+)": "((?:[^"\\]|\\.)*)",$', re.MULTILINE)
+LONGEST_LINE = 132
 LEAST_CONTRAST = 4.5  # WCAG AA
 # What a reader must be able to read, on what it is shown.
-PAIRS = (("text", "surface"), ("text", "surface-2"), ("text", "back"), ("muted", "surface"), ("muted", "surface-2"), ("accent", "surface"),
-         ("heavy", "surface"), ("heavy", "heavy-back"), ("text", "heavy-back"), ("warn", "surface"), ("warn", "warn-back"),
-         ("good", "surface"), ("accent-ink", "accent"), ("station-text", "floor"), ("text", "floor"), ("drive-ink", "drive"),
+PAIRS = (("text", "surface"), ("text", "surface-2"), ("text", "back"), ("muted", "surface"), ("muted", "surface-2"),
+         ("accent", "surface"), ("heavy", "surface"), ("heavy", "heavy-back"), ("text", "heavy-back"), ("warn", "surface"),
+         ("warn", "warn-back"), ("good", "surface"), ("accent-ink", "accent"), ("station-text", "floor"), ("text", "floor"), ("drive-ink", "drive"),
          ("work-ink", "work"), ("idle-ink", "idle"), ("charge-ink", "charge"), ("stop-ink", "stop"), ("off-ink", "off"))
 
 
@@ -80,10 +81,17 @@ class Texts(unittest.TestCase):
             self.assertEqual(sorted(alarm), ["cause", "remedy", "title"], code)
 
 
+class Lines(unittest.TestCase):
+    def test_no_line_is_too_long(self):
+        for path in list_sources(".js", ".css", ".html"):
+            for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+                self.assertLessEqual(len(line), LONGEST_LINE, f"{path.name}:{number}")
+
+
 class Safety(unittest.TestCase):
     def test_foreign_text_never_becomes_html(self):
-        forbidden = re.compile(r"innerHTML|outerHTML|insertAdjacentHTML|document\.write|createContextualFragment|DOMParser|\beval\(|"
-                               r"new Function|srcdoc|setHTML")
+        forbidden = re.compile(r"innerHTML|outerHTML|insertAdjacentHTML|document\.write|createContextualFragment|DOMParser|"
+                               r"\beval\(|new Function|srcdoc|setHTML")
         for path in list_sources(".js", ".html"):
             self.assertIsNone(forbidden.search(path.read_text(encoding="utf-8")), path.name)
 

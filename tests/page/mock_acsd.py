@@ -228,16 +228,17 @@ class MockAcsd:
         lines = []
         robot_id, plan_id = query.get("robot"), query.get("plan")
         if plan_id:
-            for direction, command in (("in", "PlanCommand"), ("out", "PlanCommandAck"), ("out", "PlanReport"), ("in", "PlanReportAck")):
-                text = json.dumps({"command": command, "transactionId": "7f3c", "payload": {"planId": plan_id, "status": "InProgress"}})
+            for direction, command in (("in", "PlanCommand"), ("out", "PlanCommandAck"), ("out", "PlanReport"),
+                                       ("in", "PlanReportAck")):
+                text = json.dumps({"command": command, "transactionId": "7f3c", "payload": {"planId": plan_id}})
                 lines.append({"link": "mcs", "direction": direction, "text": text})
         if robot_id:
             robot = self.simulation.robots[robot_id]
             for direction, topic in (("out", "order"), ("in", "state"), ("in", "visualization"), ("in", "state")):
                 text = json.dumps({"headerId": 812, "version": "2.0.0", "manufacturer": "ACME", "serialNumber": robot_id,
                                    "lastNodeId": robot.node, "driving": robot.status == "Moving"})
-                lines.append({"link": "mqtt", "direction": direction, "robot": robot_id, "topic": f"uagv/v2/ACME/{robot_id}/{topic}",
-                              "text": text})
+                lines.append({"link": "mqtt", "direction": direction, "robot": robot_id, "text": text,
+                              "topic": f"uagv/v2/ACME/{robot_id}/{topic}"})
         return "".join(json.dumps({"time": format_time(get_now()), "mono_us": i, **line}) + "\n" for i, line in enumerate(lines))
 
     # POST

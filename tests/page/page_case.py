@@ -106,7 +106,8 @@ class PageCase(unittest.TestCase):
     def click_button(self, text, inside="#detail"):
         def try_click():
             try:
-                next(button for button in self.find_all(f"{inside} button") if button.is_displayed() and button.text == text).click()
+                buttons = self.find_all(f"{inside} button")
+                next(button for button in buttons if button.is_displayed() and button.text == text).click()
                 return True
             except (StopIteration, WebDriverException):
                 return False

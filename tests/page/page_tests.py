@@ -65,7 +65,8 @@ class AnyAcsd(PageCase):
         self.browser.resize(1920, 1080)
         self.open("?lang=en#wall")
         wait_until(lambda: self.find("#view-alarms").is_displayed() and self.find("#view-plans").is_displayed(), "plans and alarms")
-        self.assertEqual([button.text for button in self.find_all("button.button, button.icon-button") if button.is_displayed()], [])
+        buttons = self.find_all("button.button, button.icon-button")
+        self.assertEqual([button.text for button in buttons if button.is_displayed()], [])
         self.assertGreaterEqual(self.run_script("return parseFloat(getComputedStyle(document.documentElement).fontSize)"), 20)
         self.press("w")
         wait_until(lambda: self.find("#tabs").is_displayed(), "the tabs are back")
@@ -425,7 +426,8 @@ class Keyboard(PageCase):
                 continue  # after the last one
             name, is_visible, label = self.run_script(
                 "const node = document.activeElement, style = getComputedStyle(node);"
-                "return [node.id || node.className + node.textContent, style.outlineStyle !== 'none' && style.outlineWidth !== '0px',"
+                "return [node.id || node.className + node.textContent,"
+                " style.outlineStyle !== 'none' && style.outlineWidth !== '0px',"
                 " (node.getAttribute('aria-label') || node.textContent || node.placeholder || '').trim()]")
             seen.add(name)
             self.assertTrue(is_visible, f"the focus of {name}")
@@ -437,7 +439,8 @@ class Keyboard(PageCase):
         for tab in self.find_all("[role=tab]"):
             self.assertTrue(self.find(f"#{tab.get_attribute('aria-controls')}"))
         tree = self.driver.execute_cdp_cmd("Accessibility.getFullAXTree", {})["nodes"]
-        unnamed = [node for node in tree if not node.get("ignored") and node["role"]["value"] in ("button", "textbox", "searchbox", "tab")
+        roles = ("button", "textbox", "searchbox", "tab", "combobox")
+        unnamed = [node for node in tree if not node.get("ignored") and node["role"]["value"] in roles
                    and not node.get("name", {}).get("value")]
         self.assertEqual(unnamed, [])
 
@@ -463,7 +466,8 @@ class Performance(PageCase):
         first = self.run_script("return acsdPage.feed.getLastByte()")
         pids = [pid for pid, kind in list_processes(self.browser.folder).items() if kind == "renderer"]
         begin, used = time.monotonic(), sum(map(read_cpu_seconds, pids))
-        wait_until(lambda: self.run_script("return acsdPage.feed.getLastByte()") - first > 1000 * MEASURED_SECONDS, "the measurement")
+        wait_until(lambda: self.run_script("return acsdPage.feed.getLastByte()") - first > 1000 * MEASURED_SECONDS,
+                   "the measurement")
         share = (sum(map(read_cpu_seconds, pids)) - used) / (time.monotonic() - begin)
         print(f"\n  100 robots, {tab}: {100 * share:.1f} % of a core for the renderer")
         return share

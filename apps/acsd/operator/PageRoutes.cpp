@@ -43,10 +43,9 @@ std::string_view GetContentType(std::string_view name)
 Apps::HttpResponse RespondWithFile(const PageFiles& files, const Apps::HttpRequest& request, std::string_view name)
 {
     const auto file = files.find(name);
-    return file == files.end() ? MakeOperatorError(
-                                     OperatorCode::NOT_FOUND,
-                                     fmt::format("The page has no file {}.", Core::QuoteForError(name)))
-                               : file->second.Respond(request);
+    return file == files.end()
+        ? MakeOperatorError(OperatorCode::NOT_FOUND, fmt::format("The page has no file {}.", Core::QuoteForError(name)))
+        : file->second.Respond(request);
 }
 
 } // namespace

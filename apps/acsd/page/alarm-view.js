@@ -1,7 +1,7 @@
 // The list of alarms with cause and remedy.
 
 import {Commands, makeCommandButton} from "./commands.js";
-import {KeyedList, make, setClass, setHidden, setText} from "./dom.js";
+import {KeyedList, make, setClass, setHidden, setMarkedText, setText} from "./dom.js";
 import {setSince} from "./format.js";
 import {setGlyph} from "./glyphs.js";
 import {explainAlarm, nameState, t} from "./text.js";
@@ -47,14 +47,14 @@ export class AlarmRow {
         setText(this.title, text.title || alarm.errorCode);
         setSince(this.since, alarm.since);
         setText(this.message, alarm.message);
-        setText(this.cause, text.cause);
-        setText(this.remedy, text.remedy);
+        setMarkedText(this.cause, text.cause);
+        setMarkedText(this.remedy, text.remedy);
         setHidden(this.explanation, text.cause === "" && text.remedy === "");
         const makeLink = (kind, id, label) => make("button", {
             type: "button", class: "link", text: label, onclick: () => this.select({kind, id})});
         this.links.replaceChildren(
             alarm.robotId === "ACS" ? make("span", {text: t("alarm.acsd")}) : makeLink("robot", alarm.robotId, alarm.robotId),
-            ...alarm.planId ? [makeLink("plan", alarm.planId, alarm.stepNo ? `${alarm.planId} / ${alarm.stepNo}` : alarm.planId)] : []);
+            ...alarm.planId ? [makeLink("plan", alarm.planId, [alarm.planId, alarm.stepNo].filter(Boolean).join(" / "))] : []);
     }
 }
 

@@ -9,7 +9,8 @@ const encode = encodeURIComponent;
 
 /** {label, path, body, ask}: ask is the key of the question, null for a command without one. */
 function makePlanControl(name, plan, ask, hasReason = false) {
-    return {label: t(`command.${name}`), path: `/v1/plans/${encode(plan.planId)}/${name}`, ask, hasReason, values: {id: plan.planId}};
+    const id = plan.planId;
+    return {label: t(`command.${name}`), path: `/v1/plans/${encode(id)}/${name}`, ask, hasReason, values: {id}};
 }
 
 export const Commands = {

@@ -34,7 +34,8 @@ export class Detail {
         const Content = {robot: RobotDetail, plan: PlanDetail}[kind] ?? PlaceDetail;
         this.content = new Content(this.context, this.selection);
         this.root.replaceChildren(make("header", {class: "detail-head"},
-            make("span", {class: "muted", text: t(`kind.${kind}`)}), make("h2", {id: "detail-title", text: id}), close), this.content.node);
+            make("span", {class: "muted", text: t(`kind.${kind}`)}), make("h2", {id: "detail-title", text: id}), close),
+        this.content.node);
         this.root.scrollTop = 0;
     }
 

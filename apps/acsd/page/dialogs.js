@@ -10,8 +10,8 @@ const FOUND_LIMIT = 12;
 
 /** A short message; kind "info" or "error". */
 export function showToast(text, kind = "info") {
-    const toast = make("div", {class: `toast ${kind}`}, make("span", {class: "toast-glyph"}, makeGlyph(kind === "error" ? "error" : "done")),
-        make("span", {text}));
+    const glyph = makeGlyph(kind === "error" ? "error" : "done");
+    const toast = make("div", {class: `toast ${kind}`}, make("span", {class: "toast-glyph"}, glyph), make("span", {text}));
     document.getElementById("toasts").append(toast);
     setTimeout(() => toast.remove(), kind === "error" ? 2 * TOAST_TIME : TOAST_TIME);
 }
@@ -28,7 +28,7 @@ function openDialog(id) {
 export function askConfirmation({title, text, action, hasReason = false}) {
     const dialog = document.getElementById("confirm-dialog");
     const reason = hasReason ? make("input", {id: "confirm-reason", type: "text", maxlength: 200, autocomplete: "off"}) : null;
-    const cancel = make("button", {type: "submit", value: "cancel", class: "button", text: t("dialog.cancel"), formnovalidate: true});
+    const cancel = make("button", {type: "submit", value: "cancel", class: "button", text: t("dialog.cancel")});
     dialog.replaceChildren(make("form", {method: "dialog"},
         make("h2", {id: "confirm-title", text: title}), make("p", {text}),
         reason && make("label", {for: "confirm-reason", text: t("dialog.reason")}), reason,
@@ -61,7 +61,8 @@ export function askNumber({title, label, value}) {
         make("label", {for: "confirm-number", text: label}), input,
         make("div", {class: "dialog-buttons"},
             make("button", {type: "button", class: "button", text: t("dialog.cancel"), onclick: () => dialog.close("cancel")}),
-            make("button", {type: "submit", value: "confirm", class: "button primary", id: "confirm-action", text: t("dialog.set")}))));
+            make("button", {
+                type: "submit", value: "confirm", class: "button primary", id: "confirm-action", text: t("dialog.set")}))));
     dialog.returnValue = "";
     openDialog("confirm-dialog");
     input.select();
@@ -157,10 +158,12 @@ export function showHelp(keys) {
     const dialog = document.getElementById("help-dialog");
     dialog.replaceChildren(make("form", {method: "dialog"},
         make("h2", {id: "help-title", text: t("help.title")}),
-        make("dl", {class: "keys"}, ...keys.flatMap(([key, text]) => [make("dt", {}, make("kbd", {text: key})), make("dd", {text})])),
+        make("dl", {class: "keys"}, ...keys.flatMap(([key, text]) => [
+            make("dt", {}, make("kbd", {text: key})), make("dd", {text})])),
         make("p", {class: "muted", text: t("help.colours")}),
         make("p", {class: "muted"}, `${t("help.leaflet")} `,
             make("a", {href: "/page/leaflet-copyright.txt", target: "_blank", rel: "noopener", text: t("help.licence")})),
-        make("div", {class: "dialog-buttons"}, make("button", {type: "submit", class: "button primary", text: t("dialog.close")}))));
+        make("div", {class: "dialog-buttons"},
+            make("button", {type: "submit", class: "button primary", text: t("dialog.close")}))));
     openDialog("help-dialog");
 }

@@ -30,6 +30,14 @@ export function makeSvg(tag, attributes, ...children) {
     return node;
 }
 
+/** Shows text with `code` in backticks. */
+export function setMarkedText(node, text) {
+    if (node.dataset.marked !== text) {
+        node.dataset.marked = text;
+        node.replaceChildren(...text.split("`").map((part, i) => (i % 2 === 1 ? make("code", {text: part}) : part)));
+    }
+}
+
 /** Only a change touches the DOM. */
 export function setText(node, text) {
     if (node.textContent !== text) {

@@ -1,5 +1,5 @@
-// Keeps the model up to date: a snapshot, then the events after it. Reads the event stream with fetch: unlike EventSource this shows
-// the keep-alive comments, without which an idle stream and a dead one look the same, and the status of a refusal.
+// Keeps the model up to date: a snapshot, then the events after it. Reads the event stream with fetch: unlike EventSource this
+// shows the keep-alive comments, without which an idle stream and a dead one look the same, and the status of a refusal.
 
 import {ApiError, getJson, request} from "./api.js";
 import {setServerTime} from "./format.js";

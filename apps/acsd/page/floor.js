@@ -94,7 +94,8 @@ export class Floor {
             const rem = this.context.theme.rem;
             this.isTouched = false;
             this.isWheeled = false;
-            this.map.fitBounds(bounds, {animate: false, paddingTopLeft: [2 * rem, 2 * rem], paddingBottomRight: [2 * rem, 2.5 * rem]});
+            this.map.fitBounds(bounds, {
+                animate: false, paddingTopLeft: [2 * rem, 2 * rem], paddingBottomRight: [2 * rem, 2.5 * rem]});
         }
     }
 
@@ -177,7 +178,7 @@ export class Floor {
     showTools() {
         const makeTool = (glyph, label, key, action, isPressed) => {
             const button = make("button", {
-                type: "button", class: "icon-button", "aria-label": t(label), title: key ? `${t(label)} (${key})` : t(label), onclick: action,
+                type: "button", class: "icon-button", "aria-label": t(label), title: `${t(label)} (${key})`, onclick: action,
                 "aria-pressed": isPressed === undefined ? null : String(isPressed),
             });
             button.append(makeGlyph(glyph));

@@ -24,7 +24,7 @@ const PATHS = {
     plan: "M3 2.5h10v3H3zM3 6.8h10v3H3zM3 11h10v3H3z",
     find: "M7 2.5a4.5 4.5 0 1 0 0 9a4.5 4.5 0 1 0 0-9M10.3 10.3 14 14",
     wall: "M1.5 3h13v8.5h-13zM5 14h6",
-    light_theme: "M8 5a3 3 0 1 0 0 6a3 3 0 1 0 0-6M8 1v2M8 13v2M1 8h2M13 8h2M3 3l1.4 1.4M11.6 11.6 13 13M13 3l-1.4 1.4M4.4 11.6 3 13",
+    light_theme: "M8 5a3 3 0 1 0 0 6a3 3 0 1 0 0-6M8 1v2M8 13v2M1 8h2M13 8h2M3 3l1.5 1.5M11.5 11.5 13 13M13 3 11.5 4.5M5 11 3 13",
     dark_theme: "M12.5 10.5A6 6 0 0 1 5.5 3.5a5.5 5.5 0 1 0 7 7z",
     system_theme: "M8 2.5a5.5 5.5 0 1 0 0 11zM8 2.5a5.5 5.5 0 0 1 0 11",
     help: "M5.5 5.8a2.6 2.6 0 1 1 3.8 2.3Q8 8.8 8 10M8 12v.9",
@@ -40,8 +40,8 @@ const PATHS = {
     system: "M3 4h10M3 8h10M3 12h10M6 2.5v3M10.5 6.5v3M5 10.5v3",
     list: "M5.5 4h8M5.5 8h8M5.5 12h8M2.5 4h.8M2.5 8h.8M2.5 12h.8",
 };
-const STROKED = new Set(["disconnected", "manual", "unknown", "maintenance", "done", "failed", "skipped", "find", "wall", "light_theme",
-    "system_theme", "help", "plus", "minus", "fit", "route", "labels", "close", "back", "floor", "system", "list"]);
+const STROKED = new Set(["disconnected", "manual", "unknown", "maintenance", "done", "failed", "skipped", "find", "wall",
+    "light_theme", "system_theme", "help", "plus", "minus", "fit", "route", "labels", "close", "back", "floor", "system", "list"]);
 const OUTLINED = new Set(["idle"]);
 
 const ROBOT_GLYPHS = {

@@ -19,7 +19,9 @@ import {fillTexts, getLanguage, setLanguage, startTexts, t} from "./text.js";
 import {Theme} from "./theme.js";
 
 const LIST_PERIOD = 400; // milliseconds between two updates of the lists
-const TABS = [["floor", "floor"], ["plans", "plan"], ["robots", "robot"], ["alarms", "error"], ["events", "list"], ["system", "system"]];
+// Names and glyphs.
+const TABS = [["floor", "floor"], ["plans", "plan"], ["robots", "robot"], ["alarms", "error"], ["events", "list"],
+    ["system", "system"]];
 const PHONE = "(max-width: 760px)"; // as in style.css
 const SELECTABLE = ["robot", "plan", "node", "edge", "station"];
 
@@ -28,7 +30,8 @@ class Page {
         this.model = new Model();
         this.theme = new Theme();
         this.context = {
-            model: this.model, theme: this.theme, select: (selection) => this.select(selection), openTab: (name) => this.openTab(name),
+            model: this.model, theme: this.theme, select: (selection) => this.select(selection),
+            openTab: (name) => this.openTab(name),
             showError: (error) => { if (error.status !== 401) { showToast(error.message, "error"); } },
         };
         this.floor = this.context.floor = new Floor(this.context);
@@ -114,8 +117,9 @@ class Page {
         for (const [name, glyph] of TABS) {
             const text = make("span", {class: "tab-text"});
             const count = make("span", {class: "count"});
-            const tab = make("button", {type: "button", class: `tab tab-${name}`, id: `tab-${name}`, role: "tab", "aria-controls": `view-${name}`,
-                onclick: () => this.openTab(name)}, make("span", {class: "tab-glyph"}, makeGlyph(glyph)), text, count);
+            const tab = make("button", {type: "button", class: `tab tab-${name}`, id: `tab-${name}`, role: "tab",
+                "aria-controls": `view-${name}`, onclick: () => this.openTab(name)},
+            make("span", {class: "tab-glyph"}, makeGlyph(glyph)), text, count);
             list.append(tab);
             this.tabs.set(name, {tab, text, count});
         }
@@ -147,10 +151,10 @@ class Page {
     }
 
     #showViews() {
-        const isWall = document.body.classList.contains("wall");
+        // On a wall screen alarms and plans are shown together; beside the tab of the floor, which only a phone has, the plans.
+        const shown = document.body.classList.contains("wall") ? ["alarms", "plans"] : [this.tab === "floor" ? "plans" : this.tab];
         for (const [name, view] of Object.entries(this.views)) {
-            // On a wall screen alarms and plans are shown together.
-            setHidden(view.root, isWall ? !["alarms", "plans"].includes(name) : this.tab === "floor" ? name !== "plans" : name !== this.tab);
+            setHidden(view.root, !shown.includes(name));
         }
         this.#flush();
     }
@@ -203,8 +207,9 @@ class Page {
     #listFindable() {
         const {index} = this.floor;
         const list = (kind, ids) => [...ids ?? []].map((id) => ({kind, id}));
-        return [...list("robot", this.model.robots.keys()), ...list("plan", this.model.plans.keys()), ...list("plan", this.model.ended.keys()),
-            ...list("station", index?.stations.keys()), ...list("node", index?.nodes.keys()), ...list("edge", index?.edges.keys())];
+        return [...list("robot", this.model.robots.keys()), ...list("plan", this.model.plans.keys()),
+            ...list("plan", this.model.ended.keys()), ...list("station", index?.stations.keys()),
+            ...list("node", index?.nodes.keys()), ...list("edge", index?.edges.keys())];
     }
 
     find() {
@@ -282,16 +287,19 @@ class Page {
     }
 
     #listKeys() {
-        return [["/", "key.find", () => this.find()], ["f", "key.fit", () => this.floor.fit()], ["+", "key.zoomIn", () => this.floor.zoom(0.5)],
-            ["-", "key.zoomOut", () => this.floor.zoom(-0.5)], ["r", "key.routes", () => this.floor.toggleRoutes()],
+        const openTab = (name, i) => [String(i + 1), `key.${name}`, () => this.openTab(name)];
+        return [["/", "key.find", () => this.find()], ["f", "key.fit", () => this.floor.fit()],
+            ["+", "key.zoomIn", () => this.floor.zoom(0.5)], ["-", "key.zoomOut", () => this.floor.zoom(-0.5)],
+            ["r", "key.routes", () => this.floor.toggleRoutes()],
             ["k", "key.legend", () => this.floor.toggleLegend()], ["m", "key.map", () => document.getElementById("map").focus()],
-            ...["plans", "robots", "alarms", "events", "system"].map((name, i) => [String(i + 1), `key.${name}`, () => this.openTab(name)]),
+            ...["plans", "robots", "alarms", "events", "system"].map(openTab),
             ["w", "key.wall", () => this.toggleWall()], ["t", "key.theme", () => this.switchTheme()],
             ["l", "key.language", () => this.switchLanguage()], ["?", "key.help", () => this.help()]];
     }
 
     help() {
-        showHelp([...this.#listKeys().map(([key, text]) => [key, t(text)]), ["Esc", t("key.close")], ["← ↑ → ↓", t("key.pan")]]);
+        const keys = [...this.#listKeys(), ["Esc", "key.close"], ["← ↑ → ↓", "key.pan"]];
+        showHelp(keys.map(([key, text]) => [key, t(text)]));
     }
 
     #onKey(event) {
@@ -326,7 +334,8 @@ class Page {
         setClass(live, `live ${isLive ? "good" : "bad"}`);
         if (live.dataset.state !== state.name + getLanguage()) {
             live.dataset.state = state.name + getLanguage();
-            live.replaceChildren(make("span", {class: "live-dot"}), make("span", {class: "live-text", text: t(`live.${state.name}`)}),
+            live.replaceChildren(make("span", {class: "live-dot"}),
+                make("span", {class: "live-text", text: t(`live.${state.name}`)}),
                 make("time", {id: "clock", class: "clock", text: formatClock(Date.now())}));
         }
         const isOld = ["silent", "lost"].includes(state.name) && this.model.status !== null;
@@ -334,8 +343,9 @@ class Page {
         const banner = document.getElementById("banner");
         setHidden(banner, !["silent", "lost"].includes(state.name));
         if (!banner.hidden) {
-            const reason = state.name === "silent" ? t("banner.silent") : state.reason ? t("banner.lostWhy", {reason: state.reason}) : t("banner.lost");
-            setText(banner, isOld ? `${reason} ${t("banner.old", {time: formatClock(Date.now() - age), age: formatDuration(age)})}` : reason);
+            const key = state.name === "silent" ? "banner.silent" : state.reason ? "banner.lostWhy" : "banner.lost";
+            const old = isOld ? t("banner.old", {time: formatClock(Date.now() - age), age: formatDuration(age)}) : "";
+            setText(banner, `${t(key, {reason: state.reason})} ${old}`.trim());
         }
     }
 }

@@ -39,7 +39,8 @@ export class PlaceDetail {
         const robots = [...model.robots.values()];
         const here = this.kind === "edge" ? robots.filter((robot) => robot.node === nodes[0] && robot.nextNode === nodes[1])
             : robots.filter((robot) => nodes.includes(robot.node) && robot.nextNode === null);
-        const reserving = this.kind === "edge" ? [] : robots.filter((robot) => robot.reservedNodes.some((id) => nodes.includes(id)));
+        const reserving = this.kind === "edge" ? []
+            : robots.filter((robot) => robot.reservedNodes.some((id) => nodes.includes(id)));
         const coming = robots.filter((robot) => robot.route.some((step) => nodes.includes(step.nodeId)));
         const shown = JSON.stringify([block, here.map((robot) => [robot.robotId, robot.carrierIds]),
             reserving.map((robot) => robot.robotId), coming.map((robot) => robot.robotId)]);
@@ -62,8 +63,8 @@ export class PlaceDetail {
         if (this.kind === "station") {
             add("robot.carriers", here.flatMap((robot) => robot.carrierIds.filter(Boolean)
                 .map((carrier) => `${carrier} (${robot.robotId})`)).join(", ") || "–");
-            add("place.plans", ...this.#listLinks("plan", [...model.plans.values()]
-                .filter((plan) => plan.steps.some((step) => step.position === this.id && ["Pending", "Dispatched", "InProgress"].includes(step.status)))
+            const isAhead = (step) => step.position === this.id && ["Pending", "Dispatched", "InProgress"].includes(step.status);
+            add("place.plans", ...this.#listLinks("plan", [...model.plans.values()].filter((plan) => plan.steps.some(isAhead))
                 .map((plan) => plan.planId)));
         }
         if (this.kind === "node") {

@@ -81,13 +81,14 @@ export class PlanDetail {
         const add = (key, ...children) => rows.push(make("dt", {text: t(key)}), make("dd", {}, ...children));
         const makeLink = (kind, id) => make("button", {type: "button", class: "link", text: id,
             onclick: () => this.context.select({kind, id})});
-        add("plan.status", nameState("planStatus", plan.status), plan.message ? make("p", {class: "reason", text: plan.message}) : null);
+        add("plan.status", nameState("planStatus", plan.status),
+            plan.message ? make("p", {class: "reason", text: plan.message}) : null);
         if (plan.waits !== null) {
             const since = make("span", {class: "wait-since"});
             setSince(since, plan.waits.since);
             add("plan.waits", make("div", {class: "wait"}, since, make("span", {text: plan.waits.message})),
-                make("ul", {class: "reasons"}, ...plan.waits.robots.map(({robotId, reason}) => make("li", {}, makeLink("robot", robotId),
-                    ` ${reason}`))));
+                make("ul", {class: "reasons"}, ...plan.waits.robots.map(({robotId, reason}) => make("li", {},
+                    makeLink("robot", robotId), ` ${reason}`))));
             if (plan.waits.queuePosition !== null) {
                 add("plan.place", t("plan.queuePosition", {n: plan.waits.queuePosition}));
             }
@@ -132,6 +133,7 @@ export class PlanDetail {
                 make("p", {class: "muted job-id", text: job.jobId}),
                 isUnresolved(job) ? make("div", {class: "row-buttons no-wall"}, ...["done", "failed", "again"]
                     .map((outcome) => makeCommandButton(Commands.resolveJob(plan, job.jobId, outcome), "danger"))) : null))),
-            canSkip ? make("div", {class: "row-buttons no-wall"}, makeCommandButton(Commands.skipStep(plan, step.stepNo), "small")) : null);
+            canSkip ? make("div", {class: "row-buttons no-wall"},
+                makeCommandButton(Commands.skipStep(plan, step.stepNo), "small")) : null);
     }
 }

@@ -21,7 +21,8 @@ export class StepBar {
         plan.steps.forEach((step, i) => {
             const part = this.node.children[i] ?? this.node.appendChild(make("span"));
             setClass(part, `step step-${step.status.replace(/\W/g, "")}`);
-            setAttribute(part, "title", `${step.stepNo}. ${step.action} @ ${step.position}: ${nameState("stepStatus", step.status)}`);
+            const state = nameState("stepStatus", step.status);
+            setAttribute(part, "title", `${step.stepNo}. ${step.action} @ ${step.position}: ${state}`);
         });
     }
 }
@@ -45,10 +46,9 @@ class PlanRow {
         this.since = make("span", {class: "wait-since"});
         this.reason = make("span", {class: "wait-text"});
         this.wait = make("span", {class: "wait"}, this.since, this.reason);
-        this.button = make("button", {type: "button", class: "row plan-row", onclick: () => select({kind: "plan", id: plan.planId})},
-            this.glyph, make("span", {class: "row-main"},
-                make("span", {class: "row-head"}, this.id, this.priority, this.robot),
-                this.steps.node, make("span", {class: "row-line"}, this.step, this.lot, this.state), this.wait));
+        const main = make("span", {class: "row-main"}, make("span", {class: "row-head"}, this.id, this.priority, this.robot),
+            this.steps.node, make("span", {class: "row-line"}, this.step, this.lot, this.state), this.wait);
+        this.button = make("button", {type: "button", onclick: () => select({kind: "plan", id: plan.planId})}, this.glyph, main);
         this.node = make("li", {}, this.button);
         this.node.dataset.id = plan.planId;
     }
@@ -99,17 +99,19 @@ export class PlanView {
             const count = make("span", {class: "count"});
             const list = make("ul", {class: "rows", id: `plans-${name}`, "aria-label": t(key)});
             const section = make("section", {class: "group"}, make("h2", {class: "group-title"}, t(key), count), list);
-            return {section, count, list: new KeyedList(list, (plan) => plan.planId, (plan) => new PlanRow(plan, this.context.select))};
+            const makeRow = (plan) => new PlanRow(plan, this.context.select);
+            return {section, count, list: new KeyedList(list, (plan) => plan.planId, makeRow)};
         };
         this.filter = make("input", {
-            type: "search", class: "filter", placeholder: t("plan.filter"), "aria-label": t("plan.filter"), oninput: () => this.update()});
+            type: "search", class: "filter", placeholder: t("plan.filter"), "aria-label": t("plan.filter"),
+            oninput: () => this.update()});
         this.active = makeSection("plan.active", "active");
         this.queue = makeSection("plan.queue", "queue");
         this.done = makeSection("plan.finished", "finished");
         this.empty = make("p", {class: "empty", text: t("plan.none")});
         this.more = make("button", {type: "button", class: "button", id: "finished-button", onclick: () => this.toggleFinished()});
-        this.root.replaceChildren(make("div", {class: "view-head no-wall"}, this.filter, this.more), this.empty, this.active.section,
-            this.queue.section, this.done.section);
+        this.root.replaceChildren(make("div", {class: "view-head no-wall"}, this.filter, this.more), this.empty,
+            this.active.section, this.queue.section, this.done.section);
         this.update();
     }
 
@@ -146,7 +148,8 @@ export class PlanView {
         // A wall screen does not scroll: what waits comes first there.
         const getRank = (plan) => (document.body.classList.contains("wall") && plan.waits !== null ? 0 : 1);
         const active = plans.filter((plan) => plan.robotId !== null)
-            .sort((a, b) => getRank(a) - getRank(b) || (a.startedAt ?? "").localeCompare(b.startedAt ?? "") || a.planId.localeCompare(b.planId));
+            .sort((a, b) => getRank(a) - getRank(b) || (a.startedAt ?? "").localeCompare(b.startedAt ?? "")
+                || a.planId.localeCompare(b.planId));
         const getPlace = (plan) => plan.waits?.queuePosition ?? Infinity;
         const queue = plans.filter((plan) => plan.robotId === null)
             .sort((a, b) => getPlace(a) - getPlace(b) || a.acceptedAt.localeCompare(b.acceptedAt));

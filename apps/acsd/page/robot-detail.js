@@ -72,7 +72,7 @@ export class RobotDetail {
         add("robot.carriers", make("ul", {class: "ports"}, ...robot.ports.map((port, i) => make("li", {},
             make("span", {class: "muted", text: port}), " ", robot.carrierIds[i] ?? t("robot.empty")))));
         add("robot.route", robot.route.length === 0 ? "–" : make("span", {class: "route"}, ...robot.route.flatMap((step, i) => [
-            make("span", {class: step.reserved ? "reserved" : "horizon", text: step.nodeId}), i + 1 < robot.route.length ? " → " : ""])));
+            i > 0 ? " → " : "", make("span", {class: step.reserved ? "reserved" : "horizon", text: step.nodeId})])));
         add("robot.vehicle", [robot.type, robot.driver, robot.protocolVersion, robot.mode].filter(Boolean).join(" · "),
             robot.topic ? make("p", {class: "muted", text: robot.topic}) : null);
         if (robot.armUp !== null) {

@@ -312,7 +312,8 @@ export class RobotLayer extends CanvasLayer {
         const isLoaded = robot.carrierIds.some((carrier) => carrier !== null);
         const rounded = Math.round(size);
         const reach = rounded;
-        return this.#makeSprite(`body ${robot.type} ${group} ${isLoaded} ${rounded} ${this.ratio}`, 2 * reach, 2 * reach, (context) => {
+        const key = `body ${robot.type} ${group} ${isLoaded} ${rounded} ${this.ratio}`;
+        return this.#makeSprite(key, 2 * reach, 2 * reach, (context) => {
             const colours = this.theme.colours;
             context.translate(reach, reach);
             const [half, side] = [rounded * 0.46, rounded * 0.34];
@@ -325,8 +326,8 @@ export class RobotLayer extends CanvasLayer {
             if (robot.type === "CR") {
                 const cut = side * 0.55;
                 body.moveTo(-half + cut, -side);
-                [[half - cut, -side], [half, -side + cut], [half, side - cut], [half - cut, side], [-half + cut, side], [-half, side - cut],
-                    [-half, -side + cut]].forEach(([x, y]) => body.lineTo(x, y));
+                [[half - cut, -side], [half, -side + cut], [half, side - cut], [half - cut, side], [-half + cut, side],
+                    [-half, side - cut], [-half, -side + cut]].forEach(([x, y]) => body.lineTo(x, y));
                 body.closePath();
             } else {
                 body.roundRect(-half, -side, 2 * half, 2 * side, side * 0.25);

@@ -10,7 +10,8 @@ export class Battery {
     constructor() {
         this.fill = make("span", {class: "battery-fill"});
         this.text = make("span", {class: "battery-text"});
-        this.node = make("span", {class: "battery"}, make("span", {class: "battery-bar", "aria-hidden": "true"}, this.fill), this.text);
+        const bar = make("span", {class: "battery-bar", "aria-hidden": "true"}, this.fill);
+        this.node = make("span", {class: "battery"}, bar, this.text);
     }
 
     update(percent) {
@@ -76,8 +77,8 @@ export class RobotView {
 
     build() {
         this.filter = make("input", {
-            type: "search", class: "filter", placeholder: t("robot.filter"), "aria-label": t("robot.filter"), oninput: () => this.update()});
-        this.isTroubleFirst ??= true;
+            type: "search", class: "filter", placeholder: t("robot.filter"), "aria-label": t("robot.filter"),
+            oninput: () => this.update()});
         const list = make("ul", {class: "rows", "aria-label": t("tab.robots")});
         this.list = new KeyedList(list, (robot) => robot.robotId, (robot) => new RobotRow(robot, this.context.select));
         this.empty = make("p", {class: "empty", text: t("robot.none")});
@@ -97,9 +98,9 @@ export class RobotView {
     update() {
         const wanted = this.filter.value.trim().toLowerCase();
         const getRank = (robot) => RANKS[getRobotGroup(robot)] ?? 3;
+        const listTexts = (robot) => [robot.robotId, robot.status, robot.planId, robot.node, robot.position, ...robot.carrierIds];
         const robots = [...this.context.model.robots.values()]
-            .filter((robot) => wanted === "" || [robot.robotId, robot.status, robot.planId, robot.node, robot.position, ...robot.carrierIds]
-                .some((text) => (text ?? "").toLowerCase().includes(wanted)))
+            .filter((robot) => wanted === "" || listTexts(robot).some((text) => (text ?? "").toLowerCase().includes(wanted)))
             .sort((a, b) => getRank(a) - getRank(b) || a.robotId.localeCompare(b.robotId));
         setHidden(this.empty, robots.length > 0);
         this.list.show(robots);

@@ -4,10 +4,11 @@ const CELL = 4; // metres
 const SAMPLES = 64; // points of one edge in the grid
 
 function getDistance(point, start, end) {
-    const length = (end[0] - start[0]) ** 2 + (end[1] - start[1]) ** 2;
-    const share = length === 0 ? 0
-        : Math.max(0, Math.min(1, ((point[0] - start[0]) * (end[0] - start[0]) + (point[1] - start[1]) * (end[1] - start[1])) / length));
-    return Math.hypot(point[0] - start[0] - share * (end[0] - start[0]), point[1] - start[1] - share * (end[1] - start[1]));
+    const [x, y] = [end[0] - start[0], end[1] - start[1]];
+    const length = x * x + y * y;
+    const along = (point[0] - start[0]) * x + (point[1] - start[1]) * y;
+    const share = length === 0 ? 0 : Math.max(0, Math.min(1, along / length));
+    return Math.hypot(point[0] - start[0] - share * x, point[1] - start[1] - share * y);
 }
 
 export class SiteIndex {
@@ -32,14 +33,15 @@ export class SiteIndex {
         for (const station of this.stations.values()) {
             const [name, ...rest] = station.stationId.split(".");
             if (rest.length > 0) {
-                const area = areas.get(`${station.mapId} ${name}`) ?? {name, mapId: station.mapId, low: [Infinity, Infinity], high: [-Infinity, -Infinity]};
+                const area = areas.get(`${station.mapId} ${name}`)
+                    ?? {name, mapId: station.mapId, low: [Infinity, Infinity], high: [-Infinity, -Infinity]};
                 area.low = [Math.min(area.low[0], station.x), Math.min(area.low[1], station.y)];
                 area.high = [Math.max(area.high[0], station.x), Math.max(area.high[1], station.y)];
                 areas.set(`${station.mapId} ${name}`, area);
             }
         }
-        return [...areas.values()].map(({name, mapId, low, high}) => ({name, mapId, x: (low[0] + high[0]) / 2, y: (low[1] + high[1]) / 2,
-            height: high[1] - low[1]}));
+        return [...areas.values()].map(({name, mapId, low, high}) => ({
+            name, mapId, x: (low[0] + high[0]) / 2, y: (low[1] + high[1]) / 2, height: high[1] - low[1]}));
     }
 
     #addEdge(edge) {

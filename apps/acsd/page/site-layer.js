@@ -238,7 +238,8 @@ export class SiteLayer extends CanvasLayer {
         context.font = `${0.62 * rem}px ${this.theme.font}`;
         context.fillStyle = colours.nodeText;
         for (const node of this.index.nodes.values()) {
-            if ((node.mapId ?? "") === this.mapId && this.isVisible(node.x, node.y, 40) && !this.index.stationsOfNode.has(node.nodeId)) {
+            if ((node.mapId ?? "") === this.mapId && this.isVisible(node.x, node.y, 40)
+                && !this.index.stationsOfNode.has(node.nodeId)) {
                 const y = this.toY(node.y) + Math.max(0.7 * rem, this.scale * 0.27 + 0.35 * rem);
                 this.#drawLabel(context, space, node.nodeId, this.toX(node.x), y, 0.62 * rem);
             }

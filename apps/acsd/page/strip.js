@@ -41,8 +41,8 @@ export class Strip {
         this.alarms = new Cell("alarms", t("strip.alarms"), open("alarms"));
         this.tscButton = make("span", {class: "no-wall tsc-button"});
         this.shownTsc = null;
-        this.root.replaceChildren(this.ready.node, this.tsc.node, this.tscButton, this.linkCell.node, this.outbox.node, this.plans.node,
-            this.robots.node, this.alarms.node);
+        this.root.replaceChildren(this.ready.node, this.alarms.node, this.tsc.node, this.tscButton, this.linkCell.node,
+            this.outbox.node, this.plans.node, this.robots.node);
         this.update();
     }
 
@@ -61,7 +61,8 @@ export class Strip {
         this.tsc.set(nameState("tsc", status.tsc), status.tsc === "Auto" ? "" : "warn");
         if (this.shownTsc !== status.tsc) {
             this.shownTsc = status.tsc;
-            this.tscButton.replaceChildren(makeCommandButton(status.tsc === "Auto" ? Commands.pauseTSC() : Commands.resumeTSC(), "small"));
+            const command = status.tsc === "Auto" ? Commands.pauseTSC() : Commands.resumeTSC();
+            this.tscButton.replaceChildren(makeCommandButton(command, "small"));
         }
         this.#showLinks(status);
         this.outbox.set(String(status.outbox.reports), "");
@@ -82,8 +83,9 @@ export class Strip {
         const shown = status.links.map((link) => `${link.name}${link.up}`).join();
         if (this.shownLinks !== shown) {
             this.shownLinks = shown;
-            this.linkCell.value.replaceChildren(...status.links.map((link) => make("span", {class: link.up ? "link-state" : "link-state down"},
-                makeGlyph(link.up ? "done" : "failed"), nameState("link", link.name))));
+            this.linkCell.value.replaceChildren(...status.links.map((link) => make("span", {
+                class: link.up ? "link-state" : "link-state down",
+            }, makeGlyph(link.up ? "done" : "failed"), nameState("link", link.name))));
         }
     }
 

@@ -67,10 +67,11 @@ export class SystemView {
         add("system.refused", String(refused.count),
             refused.last ? make("p", {class: "reason", text: [refused.last.command, refused.last.planId, refused.last.message]
                 .filter(Boolean).join(" · ")}) : null);
-        add("system.blocked", blocks.size === 0 ? "–" : make("ul", {class: "reasons"}, ...[...blocks.values()].map((block) => make("li", {},
+        const blockRows = [...blocks.values()].map((block) => make("li", {},
             make("button", {type: "button", class: "link", text: `${t(`kind.${block.kind}`)} ${block.id}`,
                 onclick: () => this.context.select({kind: block.kind, id: block.id})}),
-            block.reason ? ` ${block.reason}` : ""))));
+            block.reason ? ` ${block.reason}` : ""));
+        add("system.blocked", blocks.size === 0 ? "–" : make("ul", {class: "reasons"}, ...blockRows));
         add("system.version", status.version);
         add("system.started", formatTime(status.startedAt), " ",
             make("span", {class: "muted", text: t("system.uptime", {time: formatDuration(status.uptimeSeconds * 1_000)})}));

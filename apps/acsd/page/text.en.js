@@ -239,7 +239,7 @@ export default {
     "find.results": "Results",
 
     "help.title": "Keys",
-    "help.colours": "Each state has a shape of its own; colours only repeat it. Grey is normal, orange needs attention, red is an alarm.",
+    "help.colours": "Each state has its own shape; colours repeat it. Grey is normal, orange needs attention, red is an alarm.",
     "help.leaflet": "The floor is drawn with Leaflet.",
     "help.licence": "Copyright and licence",
     "key.find": "find a robot, a plan or a place",

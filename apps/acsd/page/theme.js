@@ -2,8 +2,8 @@
 
 const STORED = "acsd.theme";
 const THEMES = ["system", "light", "dark"];
-const COLOURS = ["floor", "lane", "track", "node", "node-text", "station", "station-line", "station-text", "area-text", "heavy", "accent", "text",
-    "route", "load", "battery", "battery-back",
+const COLOURS = ["floor", "lane", "track", "node", "node-text", "station", "station-line", "station-text", "area-text", "heavy",
+    "accent", "text", "route", "load", "battery", "battery-back",
     ...["drive", "work", "idle", "charge", "stop", "fault", "off"].flatMap((group) => [group, `${group}-line`, `${group}-ink`])];
 
 function toCamelCase(name) {

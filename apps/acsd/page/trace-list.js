@@ -50,7 +50,8 @@ export class TraceList {
         this.list = make("ol", {class: "messages"});
         this.note = make("p", {class: "muted"});
         this.button = make("button", {type: "button", class: "button small", onclick: () => this.load()});
-        this.node = make("section", {class: "trace"}, make("h3", {}, make("span", {text: t("trace.title")}), this.button), this.note, this.list);
+        const title = make("h3", {}, make("span", {text: t("trace.title")}), this.button);
+        this.node = make("section", {class: "trace"}, title, this.note, this.list);
         this.load();
     }
 
