@@ -44,7 +44,7 @@ def add_troubles(mock, ahead_seconds=40):
         simulation.fix(logistics[2].robot_id, "Stopped")
         simulation.changed_plans.update(simulation.plans)
         simulation.changed_robots.update(simulation.robots)
-        for kind, place, reason in (("edge", "N010-N011", "Floor repair"), ("station", "A02.SET09", "Equipment down")):
+        for kind, place, reason in (("edge", "N005-N006", "Floor repair"), ("station", "A02.SET09", "Equipment down")):
             simulation.floor.blocks[(kind, place)] = {"kind": kind, "id": place, "reason": reason, "since": format_time(get_now())}
         mock.site_revision += 1
         mock.publish()

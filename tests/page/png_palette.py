@@ -55,17 +55,33 @@ def read_pixels(data):
     return width, lines
 
 
+def _find_nearest(palette, colour):
+    """(square of the distance, index)"""
+    red, green, blue = colour
+    return min(((other[0] - red) ** 2 + (other[1] - green) ** 2 + (other[2] - blue) ** 2, i) for i, other in enumerate(palette))
+
+
+def _choose_palette(colours):
+    """The most frequent ones that differ: a rare colour is not replaced by one of another hue."""
+    for distance in (800, 400, 200, 100, 50, 0):
+        palette = colours[:1]
+        for colour in colours[1:]:
+            if len(palette) == COLOURS:
+                break
+            if _find_nearest(palette, colour)[0] > distance:
+                palette.append(colour)
+        if len(palette) == COLOURS:
+            break
+    return palette
+
+
 def shrink(data):
     width, lines = read_pixels(data)
     counts = Counter()
     for line in lines:
         counts.update(line)
-    palette = [colour for colour, _ in counts.most_common(COLOURS)]
-    index = {colour: i for i, colour in enumerate(palette)}
-    for colour in counts:
-        if colour not in index:
-            index[colour] = min(range(len(palette)), key=lambda i, red=colour[0], green=colour[1], blue=colour[2]: (
-                (palette[i][0] - red) ** 2 + (palette[i][1] - green) ** 2 + (palette[i][2] - blue) ** 2))
+    palette = _choose_palette([colour for colour, _ in counts.most_common()])
+    index = {colour: _find_nearest(palette, colour)[1] for colour in counts}
     raw = b"".join(b"\0" + bytes(index[pixel] for pixel in line) for line in lines)
     return (SIGNATURE + _make_chunk(b"IHDR", struct.pack(">IIBBBBB", width, len(lines), 8, 3, 0, 0, 0))
             + _make_chunk(b"PLTE", b"".join(palette)) + _make_chunk(b"IDAT", zlib.compress(raw, 9)) + _make_chunk(b"IEND", b""))
