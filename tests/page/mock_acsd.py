@@ -294,6 +294,8 @@ class MockAcsd:
         elif parts[0] in ("cancel", "abort"):
             simulation.end_plan(plan, "Cancelled" if parts[0] == "cancel" else "Aborted", body.get("reason", ""))
         elif parts[0] == "priority":
+            if plan.robot_id is not None:
+                raise Refusal(409, f"Plan {plan.plan_id} does not wait.")
             plan.priority = body["priority"]
         elif parts[0] == "jobs":
             simulation.clear_alarms(plan.robot_id, "ACS-1008")

@@ -203,13 +203,14 @@ class Plans(PageCase):
         self.wait_for_post(f"{self.path}/abort")
         self.wait_for_text("#detail .facts", "Aborted")
 
-    def test_priority(self):
-        self.open_plan()
+    def test_priority_of_a_waiting_plan(self):
+        plan = next(plan for plan in self.mock.simulation.plans.values() if plan.robot_id is None)
+        self.run_script("acsdPage.select({kind: 'plan', id: arguments[0]})", plan.plan_id)
         self.click_button("Priority")
         wait_until(lambda: self.find_all("#confirm-number"), "the question")
         self.press("9", Keys.ENTER)
-        self.wait_for_post(f"{self.path}/priority", {"priority": 9})
-        self.wait_for_text(f"#plans-active li[data-id='{self.plan.plan_id}'] .tag", "9")
+        self.wait_for_post(f"/v1/plans/{plan.plan_id}/priority", {"priority": 9})
+        self.wait_for_text("#detail .facts", "9")
 
     def test_unresolved_job_and_skipped_step(self):
         job_id = self.plan.get_job_id()

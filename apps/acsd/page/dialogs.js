@@ -164,6 +164,6 @@ export function showHelp(keys) {
         make("p", {class: "muted"}, `${t("help.leaflet")} `,
             make("a", {href: "/page/leaflet-copyright.txt", target: "_blank", rel: "noopener", text: t("help.licence")})),
         make("div", {class: "dialog-buttons"},
-            make("button", {type: "submit", class: "button primary", text: t("dialog.close")}))));
+            make("button", {type: "submit", class: "button primary", autofocus: true, text: t("dialog.close")}))));
     openDialog("help-dialog");
 }

@@ -5,6 +5,7 @@ import {ApiError, getJson, request} from "./api.js";
 import {setServerTime} from "./format.js";
 
 const SILENCE = 30_000; // milliseconds without a byte until the data counts as old; acsd sends a keep-alive every 15 s
+const SHORT = 5_000; // milliseconds; a stream that ended later is continued at once: acsd ends each after an hour
 const RETRIES = [500, 1_000, 2_000, 4_000, 8_000];
 
 /** Splits the text of an event stream; returns what is complete. */
@@ -90,6 +91,7 @@ export class Feed {
             this.#abort = abort;
             this.#lastSign = Date.now();
             let reason = "";
+            const begin = Date.now();
             try {
                 await this.#read(run, abort.signal, () => { attempt = 0; });
             } catch (error) {
@@ -104,6 +106,9 @@ export class Feed {
             }
             if (run !== this.#run) {
                 return;
+            }
+            if (this.#state.name === "live" && reason === "" && Date.now() - begin > SHORT) {
+                continue;
             }
             if (this.#state.name !== "silent" || reason !== "") {
                 this.#set("lost", reason);

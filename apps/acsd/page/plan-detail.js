@@ -112,8 +112,8 @@ export class PlanDetail {
         }
         this.buttons.replaceChildren(
             makeCommandButton(plan.status === "Paused" ? Commands.resumePlan(plan) : Commands.pausePlan(plan)),
-            makeCommandButton(Commands.setPriority(plan)), makeCommandButton(Commands.cancelPlan(plan), "danger"),
-            makeCommandButton(Commands.abortPlan(plan), "danger"));
+            ...plan.robotId === null ? [makeCommandButton(Commands.setPriority(plan))] : [],
+            makeCommandButton(Commands.cancelPlan(plan), "danger"), makeCommandButton(Commands.abortPlan(plan), "danger"));
     }
 
     #makeStep(plan, step, alarms) {

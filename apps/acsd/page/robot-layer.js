@@ -181,13 +181,14 @@ export class RobotLayer extends CanvasLayer {
         this.useMetres(context);
         context.lineCap = "butt";
         context.lineJoin = "round";
+        const pixel = Math.max(1, this.theme.rem / 16) / this.scale;
         for (const [paths, colour, width] of [[others, colours.route, 3], [own, colours.accent, 5]]) {
             context.strokeStyle = colour;
-            context.lineWidth = width * 0.55 / this.scale * Math.max(1, this.theme.rem / 16);
-            context.setLineDash([4 / this.scale, 5 / this.scale]);
+            context.lineWidth = width * 0.55 * pixel;
+            context.setLineDash([4 * pixel, 5 * pixel]);
             context.stroke(paths.horizon);
             context.setLineDash([]);
-            context.lineWidth = width / this.scale * Math.max(1, this.theme.rem / 16);
+            context.lineWidth = width * pixel;
             context.stroke(paths.reserved);
         }
         this.usePixels(context);

@@ -94,7 +94,7 @@ export class SiteLayer extends CanvasLayer {
 
     #drawArrows(context, colours) {
         context.fillStyle = colours.node;
-        const size = Math.min(6, this.scale * 0.16);
+        const size = Math.min(0.38 * this.theme.rem, this.scale * 0.16);
         for (const edge of this.oneWay) {
             const last = edge.points.length - 1;
             const [start, end] = [edge.points[Math.floor(last / 2)], edge.points[Math.floor(last / 2) + 1]];
@@ -118,7 +118,7 @@ export class SiteLayer extends CanvasLayer {
             return;
         }
         context.fillStyle = colours.node;
-        const radius = Math.max(1.2, Math.min(4, this.scale * 0.07));
+        const radius = Math.max(1.2, Math.min(0.25 * this.theme.rem, this.scale * 0.07));
         context.beginPath();
         for (const node of this.index.nodes.values()) {
             if ((node.mapId ?? "") === this.mapId && this.isVisible(node.x, node.y, radius)) {
@@ -157,7 +157,7 @@ export class SiteLayer extends CanvasLayer {
     }
 
     #drawBlocks(context, colours) {
-        const size = Math.max(14, Math.min(26, this.scale * 0.6));
+        const size = this.theme.rem * Math.max(0.9, Math.min(1.6, this.scale * 0.6 / this.theme.rem));
         for (const {kind, item} of this.blocked) {
             if (kind === "edge") {
                 const path = new Path2D();
@@ -166,7 +166,7 @@ export class SiteLayer extends CanvasLayer {
                 context.lineCap = "butt";
                 context.lineWidth = Math.max(LANE_WIDTH * 0.6, 4 / this.scale);
                 context.strokeStyle = colours.heavy;
-                context.setLineDash([6 / this.scale, 5 / this.scale]);
+                context.setLineDash([6, 5].map((length) => length * this.theme.rem / 16 / this.scale));
                 context.stroke(path);
                 context.setLineDash([]);
                 this.usePixels(context);
