@@ -1,13 +1,17 @@
 #include "Program.hpp"
 
 #include "commands/Answers.hpp"
+#include "commands/BundleCommand.hpp"
 #include "commands/CommandError.hpp"
+#include "commands/ContextCommands.hpp"
+#include "commands/EventsCommand.hpp"
 #include "commands/Requests.hpp"
 #include "commands/Session.hpp"
 #include "commands/WhyCommand.hpp"
 #include "common/config/CommandLine.hpp"
 #include "common/process/SystemClock.hpp"
 #include "common/process/SystemRandom.hpp"
+#include "completion/CompletionScripts.hpp"
 #include "terminal/Terminal.hpp"
 #include "view/DisplayText.hpp"
 #include <acs/core/Uuid.hpp>
@@ -146,6 +150,53 @@ int RunChange(Session& session, ApiRequest request, const AcsctlOptions& options
     return Finish(terminal, EXIT_DONE);
 }
 
+bool IsContextCommand(ECommand command)
+{
+    return command == ECommand::ContextList || command == ECommand::ContextUse || command == ECommand::ContextSet
+        || command == ECommand::ContextRemove;
+}
+
+int Print(const Outcome<std::string>& text, Terminal& terminal)
+{
+    if (!text.has_value())
+    {
+        return Report(text.error());
+    }
+    terminal.Write(*text);
+    return Finish(terminal, EXIT_DONE);
+}
+
+int RunEvents(Session& session, const AcsctlOptions& options, Terminal& terminal)
+{
+    const Outcome<void> done = EventsCommand(session, options, terminal).Run();
+    return done.has_value() ? Finish(terminal, EXIT_DONE) : Report(done.error());
+}
+
+/// Of a command that needs acsd.
+int RunRemote(const AcsctlOptions& options, const Environment& environment, Terminal& terminal)
+{
+    std::optional<ApiRequest> change = MakeChangeOrNull(options);
+    if (options.watch.has_value() && (change.has_value() || options.command == ECommand::Bundle))
+    {
+        return Report({EXIT_BAD_INPUT, "--watch is for commands that read"});
+    }
+    Session session;
+    if (const Outcome<void> opened = session.Open(options, environment); !opened.has_value())
+    {
+        return Report(opened.error());
+    }
+    if (change.has_value())
+    {
+        return RunChange(session, std::move(*change), options, terminal);
+    }
+    if (options.command == ECommand::Bundle)
+    {
+        return Print(RunBundle(session, options), terminal);
+    }
+    return options.command == ECommand::Events ? RunEvents(session, options, terminal)
+                                               : RunRead(session, options, terminal);
+}
+
 } // namespace
 
 Environment ReadEnvironment()
@@ -164,18 +215,13 @@ Environment ReadEnvironment()
 int Run(const AcsctlOptions& options, const Environment& environment)
 {
     Terminal terminal(!options.bPlain && !environment.bNoColor && !environment.bDumbTerminal);
-    std::optional<ApiRequest> change = MakeChangeOrNull(options);
-    if (change.has_value() && options.watch.has_value())
+    if (options.command == ECommand::Completion)
     {
-        return Report({EXIT_BAD_INPUT, "--watch is for commands that read"});
+        return Print(std::string(options.arguments.word == "zsh" ? ZSH_SCRIPT : BASH_SCRIPT), terminal);
     }
-    Session session;
-    if (const Outcome<void> opened = session.Open(options, environment); !opened.has_value())
-    {
-        return Report(opened.error());
-    }
-    return change.has_value() ? RunChange(session, std::move(*change), options, terminal)
-                              : RunRead(session, options, terminal);
+    return IsContextCommand(options.command)
+        ? Print(RunContextCommand(options, environment, terminal.GetScreen()), terminal)
+        : RunRemote(options, environment, terminal);
 }
 
 } // namespace ACS::Acsctl

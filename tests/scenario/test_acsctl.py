@@ -2,12 +2,22 @@
 """acsctl against an operator API that only answers: what each command prints, sends and returns."""
 
 import argparse
+import contextlib
+import fcntl
 import json
 import os
 import pathlib
+import pty
+import signal
+import socket
+import ssl
+import struct
 import subprocess
 import sys
+import tarfile
 import tempfile
+import termios
+import time
 import unittest
 
 from operator_mock import PLANS, ROBOTS, OperatorMock
@@ -28,6 +38,20 @@ class AcsctlCase(unittest.TestCase):
     def run_acsctl(self, *arguments, **options):
         return subprocess.run([self.bin_dir / "acsctl", *map(str, arguments)], capture_output=True, text=True,
                               env=self.environment, timeout=SECONDS, stdin=subprocess.DEVNULL, **options)
+
+    def run_on_terminal(self, *arguments, typed="", columns=100):
+        """(exit code, everything that the terminal shows)"""
+        process_id, terminal = pty.fork()
+        if process_id == 0:
+            os.execve(self.bin_dir / "acsctl", ["acsctl", *map(str, arguments)], {**self.environment, "TERM": "xterm"})
+        fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 30, columns, 0, 0))
+        os.write(terminal, typed.encode())
+        shown = b""
+        with contextlib.suppress(OSError):  # the end of the program
+            while part := os.read(terminal, 65536):
+                shown += part
+        os.close(terminal)
+        return os.waitstatus_to_exitcode(os.waitpid(process_id, 0)[1]), shown.decode(errors="replace")
 
     def check(self, code, *arguments):
         """The standard output of a run with this exit code; with an error one line on standard error and no output."""
@@ -61,6 +85,12 @@ class Reading(AcsctlCase):
         self.assertIn("[N2] N3", self.check(0, "robot", "LR01"))
         self.assertIn("ACS-1002", self.check(0, "alarms"))
 
+    def test_a_terminal_has_colours_unless_they_are_refused(self):
+        self.assertIn("\x1b[1mROBOT", self.run_on_terminal("robots")[1])
+        self.assertNotIn("\x1b", self.run_on_terminal("robots", "--no-color")[1])
+        self.environment["NO_COLOR"] = "1"
+        self.assertNotIn("\x1b", self.run_on_terminal("robots")[1])
+
     def test_json_is_the_answer_of_the_api(self):
         self.assertEqual(json.loads(self.check(0, "plans", "--json")), {"plans": PLANS})
         self.assertEqual(json.loads(self.check(0, "robot", "LR02", "--json")), ROBOTS[1])
@@ -87,7 +117,7 @@ class Reading(AcsctlCase):
         for text in ("Plan PLAN_2 does not move for 5 min: it is Pending, at position 1 of the queue.",
                      "No suitable robot is free.", "The TSC is Paused: Paused by kim.", "acsctl tsc resume",
                      "Robot LR01: busy with plan PLAN_1.", "Edge E1 is blocked for 0 s: wet floor.",
-                     "acsctl unblock edge E1", "Robot LR02 is in maintenance.", "acsctl maintenance LR02 off",
+                     "acsctl unblock edge E1", "Robot LR02: in maintenance.", "acsctl maintenance LR02 off",
                      "Heavy alarm ACS-1002 Robot disconnected of LR02 for 1 min: no state for 10 s.",
                      "Cause: The network is down.", "Remedy: Check the robot."):
             self.assertIn(text, flat)
@@ -135,6 +165,246 @@ class Failing(AcsctlCase):
         output = self.check(0, "robots")
         self.assertNotRegex(output, "[\x1b\u202e\x9b]")
         self.assertEqual(len(output.splitlines()), 2)
+
+
+CHANGES = (
+    (("cancel", "PLAN_1", "--reason", "wrong lot"), "/v1/plans/PLAN_1/cancel", {"reason": "wrong lot"}),
+    (("abort", "PLAN_1"), "/v1/plans/PLAN_1/abort", None),
+    (("pause", "PLAN_1"), "/v1/plans/PLAN_1/pause", None),
+    (("resume", "PLAN_1"), "/v1/plans/PLAN_1/resume", None),
+    (("priority", "PLAN_1", "7"), "/v1/plans/PLAN_1/priority", {"priority": 7}),
+    (("resolve", "PLAN_1", "J 1", "again"), "/v1/plans/PLAN_1/jobs/J%201/resolve", {"outcome": "again"}),
+    (("skip", "PLAN_1", "2"), "/v1/plans/PLAN_1/steps/2/skip", None),
+    (("maintenance", "LR01", "off"), "/v1/robots/LR01/maintenance", {"on": False}),
+    (("carriers", "LR01", "C_01", "--", "-"), "/v1/robots/LR01/carriers", {"carrierIds": ["C_01", None, None]}),
+    (("clear", "LR01", "ACS-1004", "--plan", "PLAN_1"), "/v1/alarms/clear",
+     {"robotId": "LR01", "errorCode": "ACS-1004", "planId": "PLAN_1"}),
+    (("tsc", "pause"), "/v1/tsc/pause", None),
+    (("tsc", "resume"), "/v1/tsc/resume", None),
+    (("block", "station", "B02", "--reason", "wet floor"), "/v1/site/block",
+     {"kind": "station", "id": "B02", "reason": "wet floor"}),
+    (("unblock", "node", "N1"), "/v1/site/unblock", {"kind": "node", "id": "N1"}),
+)
+WITHOUT_QUESTION = ("pause", "priority", "block")
+
+
+class Changing(AcsctlCase):
+    def test_each_command_is_one_post_with_a_key(self):
+        for arguments, path, body in CHANGES:
+            self.assertEqual(self.check(0, *([*arguments[:1], "--yes", *arguments[1:]])), f"Accepted: {path}\n")
+            request = self.mock.requests[-1]
+            self.assertEqual((request["method"], request["path"]), ("POST", path))
+            self.assertEqual((request["body"], request["type"]) if body is None else json.loads(request["body"]),
+                             ("", None) if body is None else body)
+        keys = [request["key"] for request in self.mock.requests]
+        self.assertEqual(len(set(keys)), len(CHANGES))
+        for key in keys:
+            self.assertRegex(key, r"\A[A-Za-z0-9._-]{1,64}\Z")
+
+    def test_without_a_terminal_a_command_that_lets_robots_move_needs_yes(self):
+        for arguments, *_ in CHANGES:
+            if arguments[0] not in WITHOUT_QUESTION and arguments != ("tsc", "pause"):
+                self.assertIn("needs --yes", self.check(2, *arguments), arguments)
+        self.check(0, "maintenance", "LR01", "on")
+        self.assertEqual(len(self.mock.requests), 1)
+
+    def test_a_terminal_is_asked(self):
+        for answer, code, sent in (("y", 0, 1), ("n", 1, 1), ("", 1, 1), ("yes", 0, 2)):
+            exit_code, output = self.run_on_terminal("abort", "PLAN_1", typed=f"{answer}\n")
+            self.assertIn("Abort plan PLAN_1? [y/N]", output)
+            self.assertEqual((exit_code, len(self.mock.requests)), (code, sent), output)
+
+    def test_a_refused_command_prints_the_sentence(self):
+        for status in (400, 404, 409, 503):
+            self.mock.refusal = (status, "The plan has ended.")
+            self.assertEqual(self.check(1, "pause", "PLAN_1"), "acsctl: The plan has ended.\n")
+        self.mock.refusal = (503, "The store is busy.", ("Retry-After", "1"))
+        self.assertEqual(self.check(1, "pause", "PLAN_1"), "acsctl: The store is busy. Try again in 1 s.\n")
+        self.mock.refusal = (403, "A viewer may not send commands.")
+        self.check(4, "pause", "PLAN_1")
+
+    def test_a_lost_connection_is_repeated_once_with_the_same_key(self):
+        self.mock.losses = 1
+        self.check(0, "pause", "PLAN_1")
+        first, second = self.mock.requests
+        self.assertEqual(first["key"], second["key"])
+        self.mock.losses = 2
+        self.assertIn("may have executed", self.check(3, "pause", "PLAN_1"))
+        self.assertEqual(len(self.mock.requests), 4)
+
+    def test_an_answer_that_does_not_come_is_a_time_limit(self):
+        self.mock.raw = (200, b"{}", "application/json")
+        with socket.create_server(("127.0.0.1", 0)) as silent:
+            self.environment["ACSCTL_URL"] = f"http://127.0.0.1:{silent.getsockname()[1]}"
+            self.assertIn("no answer within 200ms", self.check(3, "plans", "--timeout", "200ms"))
+
+
+class Following(AcsctlCase):
+    def start(self, *arguments):
+        process = subprocess.Popen([self.bin_dir / "acsctl", *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   text=True, env=self.environment)
+        self.addCleanup(process.stdout.close)
+        self.addCleanup(process.stderr.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def test_events_of_the_past_end(self):
+        self.assertEqual(self.check(0, "events").splitlines(),
+                         ["23:10:00.000 plan    plan PLAN_1: Pending -> InProgress on LR01",
+                          "23:10:00.000 alarm   alarm ACS-1002 of LR02 is set"])
+        lines = self.check(0, "events", "--after", "1", "--json").splitlines()
+        self.assertEqual([json.loads(line)["id"] for line in lines], [2])
+        self.mock.events = [b"event: reset\ndata: {}\n\n"]
+        self.assertEqual(self.check(0, "events"), "")
+        self.check(1, "events", "--after", "1")
+        self.mock.events = [b"event: entry\nid: 1\ndata: odd\n\n"]
+        self.check(6, "events")
+
+    def test_follow_continues_until_an_interrupt(self):
+        self.mock.events_end = False
+        self.mock.events = [b"event: entry\nid: 7\nda", b'ta: {"time":"2026-11-27T23:10:00.000Z","kind":"tsc","text":"TSC: ',
+                            'Paused 정지"}\n\n'.encode(), b'event: changes\nid: 8\ndata: {"plans":[{"planId":"P1"}]}\n\n']
+        process = self.start("events", "--follow", "--types", "entry,changes")
+        self.assertEqual(process.stdout.readline(), "23:10:00.000 tsc     TSC: Paused 정지\n")
+        self.assertEqual(process.stdout.readline(), "changes plans P1\n")
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(SECONDS), 0)
+
+    def test_follow_connects_again_after_the_last_event(self):
+        process = self.start("events", "--follow", "--after", "0")
+        for _ in range(2):
+            process.stdout.readline()
+        deadline = time.monotonic() + SECONDS
+        while len(self.mock.requests) < 2:
+            self.assertLess(time.monotonic(), deadline, "it does not connect again")
+            time.sleep(0.02)
+        self.assertEqual([request["query"]["after"] for request in self.mock.requests[:2]], ["0", "2"])
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(SECONDS), 0)
+
+    def test_watch_repeats_until_an_interrupt(self):
+        process = self.start("links", "--watch", "0.1", "--json")
+        for _ in range(3):
+            self.assertEqual(len(json.loads(process.stdout.readline())["links"]), 2)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(SECONDS), 0)
+        self.check(2, "abort", "PLAN_1", "--yes", "--watch")
+        self.environment["ACSCTL_URL"] = "http://127.0.0.1:1"
+        self.check(3, "links", "--watch")
+
+
+class Configuring(AcsctlCase):
+    def test_contexts_are_stored_with_mode_0600(self):
+        del self.environment["ACSCTL_URL"]
+        self.mock.token = "secret"
+        token = self.folder / "token"
+        token.write_text("secret\n")
+        token.chmod(0o604)
+        self.assertIn("chmod o-rwx", self.check(2, "plans", "--url", self.mock.url, "--token-file", token))
+        token.chmod(0o600)
+        self.check(0, "context", "set", "line1", "--url", self.mock.url, "--token-file", token)
+        self.check(0, "context", "set", "line2", "--url", "http://127.0.0.1:1")
+        config = self.folder / ".config" / "acsctl" / "config.toml"
+        self.assertEqual(config.stat().st_mode & 0o777, 0o600)
+        self.check(0, "plans")
+        self.check(3, "plans", "--context", "line2")
+        self.check(0, "context", "use", "line2")
+        self.check(3, "plans")
+        self.environment["ACSCTL_CONTEXT"] = "line1"
+        self.check(0, "plans")
+        self.check(2, "plans", "--context", "line3")
+        self.check(1, "context", "use", "line3")
+        del self.environment["ACSCTL_CONTEXT"]
+        self.check(4, "plans", "--url", self.mock.url)  # without the token of a context
+        listed = json.loads(self.check(0, "context", "list", "--json"))["contexts"]
+        self.assertEqual([(context["name"], context["current"]) for context in listed], [("line1", False), ("line2", True)])
+        self.check(0, "context", "remove", "line1")
+        self.check(2, "plans")
+        config.chmod(0o640)
+        self.assertIn("chmod 600", self.check(2, "context", "list"))
+
+    def test_a_token_of_standard_input_is_not_shown(self):
+        result = subprocess.run([self.bin_dir / "acsctl", "context", "set", "a", "--url", self.mock.url, "--token-stdin"],
+                                input="secret\n", capture_output=True, text=True, env=self.environment, timeout=SECONDS)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.mock.token = "secret"
+        self.check(0, "plans", "--context", "a")
+        for command in (("context", "list"), ("context", "list", "--json")):
+            self.assertNotIn("secret", self.check(0, *command))
+
+    def test_completion_names_commands_plans_and_robots(self):
+        def complete(*words):
+            return self.check(0, "__complete", *words).split()
+
+        self.assertIn("plans", complete(""))
+        self.assertEqual(complete("why", ""), ["LR01", "LR02", "PLAN_1", "PLAN_2"])
+        self.assertEqual(complete("robot", "LR02"), ["LR02"])
+        self.assertEqual(complete("resolve", "PLAN_1", "J", ""), ["again", "done", "failed"])
+        self.assertEqual(complete("tsc", "r"), ["resume"])
+        self.assertEqual(complete("unblock", "edge", ""), ["E1"])
+        self.assertEqual(complete("clear", "LR02", ""), ["ACS-1002"])
+        self.environment["ACSCTL_URL"] = "http://127.0.0.1:1"
+        self.assertEqual(complete("plan", ""), [])
+        script = self.check(0, "completion", "bash")
+        shell = f"{script}\nCOMP_WORDS=(acsctl tsc p) COMP_CWORD=2; _acsctl; echo \"${{COMPREPLY[@]}}\""
+        self.environment["PATH"] = f"{self.bin_dir.resolve()}:{self.environment['PATH']}"
+        result = subprocess.run(["bash", "-c", shell], capture_output=True, text=True, env=self.environment, timeout=SECONDS)
+        self.assertEqual(result.stdout, "pause\n", result.stderr)
+        self.assertIn("compadd", self.check(0, "completion", "zsh"))
+
+    def test_a_bundle_has_everything_but_the_token(self):
+        self.mock.token = self.environment["ACSCTL_TOKEN"] = "secret-token"
+        file = self.folder / "bundle.tar.gz"
+        self.check(0, "bundle", file)
+        self.assertEqual(file.stat().st_mode & 0o777, 0o600)
+        with tarfile.open(file, "r:gz") as archive:
+            contents = {pathlib.PurePath(member.name).name: archive.extractfile(member).read() for member in archive}
+        self.assertEqual(sorted(contents), sorted((
+            "manifest.json", "status.json", "snapshot.json", "plans.json", "plans-finished.json", "robots.json", "alarms.json",
+            "links.json", "queue.json", "site.json", "audit.ndjson", "trace.ndjson", "openapi.json")))
+        self.assertEqual(json.loads(contents["robots.json"]), {"robots": ROBOTS})
+        self.assertEqual([entry["name"] for entry in json.loads(contents["manifest.json"])["files"] if entry["error"]], [])
+        self.assertNotIn(b"secret-token", b"".join(contents.values()))
+        self.assertIn("File exists", self.check(7, "bundle", file))
+        self.mock.token = None
+        self.check(0, "bundle", self.folder / "b", "--http-url", self.mock.url)
+        self.assertNotIn("secret-token", str([request["authorization"] for request in self.mock.requests
+                                              if request["path"] == "/metrics"]))
+        with tarfile.open(self.folder / "b") as archive:
+            self.assertIn("metrics.txt", [pathlib.PurePath(name).name for name in archive.getnames()])
+        self.environment["ACSCTL_URL"] = "http://127.0.0.1:1"
+        self.check(3, "bundle", self.folder / "c")
+        self.assertFalse((self.folder / "c").exists())
+
+    def test_tls_verifies_the_certificate_and_presents_one(self):
+        def make(name, *options):
+            certificate, key = self.folder / f"{name}.pem", self.folder / f"{name}.key"
+            subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes",
+                            "-keyout", key, "-out", certificate, "-days", "2", "-subj", f"/CN={name}", *map(str, options)],
+                           check=True, capture_output=True)
+            return certificate, key
+
+        ca, ca_key = make("ca")
+        server = make("acsd", "-CA", ca, "-CAkey", ca_key, "-addext", "subjectAltName=IP:127.0.0.1")
+        client, client_key = make("kim", "-CA", ca, "-CAkey", ca_key)
+        other_ca, _ = make("other")
+        context = ssl.create_default_context(ssl.Purpose.CLIENT_AUTH, cafile=ca)
+        context.load_cert_chain(*server)
+        context.verify_mode = ssl.CERT_REQUIRED
+        with OperatorMock(context) as mock:
+            identity = ("--certificate", client, "--key", client_key)
+            self.environment["ACSCTL_URL"] = mock.url
+            self.check(0, "links", "--ca", ca, *identity)
+            self.assertIn("the certificate is not valid", self.check(3, "links", "--ca", other_ca, *identity))
+            self.assertIn("the certificate is not valid", self.check(3, "links", *identity))
+            self.check(3, "links", "--ca", ca)
+            self.environment["ACSCTL_URL"] = mock.url.replace("127.0.0.1", "localhost")
+            self.assertIn("the certificate is not valid", self.check(3, "links", "--ca", ca, *identity))
+            self.check(2, "links", "--ca", self.folder / "none.pem", *identity)
+            self.check(2, "links", "--ca", ca, "--certificate", client, "--key", ca_key)
+            client_key.chmod(0o644)
+            self.assertIn("chmod", self.check(2, "links", "--ca", ca, *identity))
 
 
 def main():

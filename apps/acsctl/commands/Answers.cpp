@@ -214,6 +214,18 @@ Outcome<std::string> GetBody(const ApiAnswer& answer)
     return FailWith(bDenied ? EXIT_NOT_AUTHORIZED : EXIT_REFUSED, std::move(text));
 }
 
+Outcome<std::string> Get(IApi& api, const std::string& target)
+{
+    ApiRequest request;
+    request.target = target;
+    const tl::expected<ApiAnswer, ApiFailure> answer = api.Send(request);
+    if (!answer.has_value())
+    {
+        return tl::make_unexpected(MakeError(answer.error(), false));
+    }
+    return GetBody(*answer);
+}
+
 CommandError MakeError(const ApiFailure& failure, bool bChange)
 {
     const int exitCode = failure.kind == EApiFailure::BadAnswer ? EXIT_BAD_ANSWER : EXIT_NO_CONNECTION;

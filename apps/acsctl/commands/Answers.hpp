@@ -4,6 +4,7 @@
 #include "commands/CommandError.hpp"
 #include "http/ApiFailure.hpp"
 #include "http/ApiRequest.hpp"
+#include "http/IApi.hpp"
 #include "options/AcsctlOptions.hpp"
 #include "view/ViewContext.hpp"
 #include <acs/core/Now.hpp>
@@ -31,6 +32,10 @@ struct Shown
 /// The body of an answer with status 2xx; otherwise the error that acsd states, with the exit code of the status.
 [[nodiscard]] Outcome<std::string> GetBody(const ApiAnswer& answer);
 
+/// Sends a GET and returns the body of an answer with status 2xx.
+[[nodiscard]] Outcome<std::string> Get(IApi& api, const std::string& target);
+
+/// The error of a request without an answer; of a change it warns that acsd may have executed it.
 [[nodiscard]] CommandError MakeError(const ApiFailure& failure, bool bChange);
 
 /// The lines for an answer to the GET of a command, or its JSON.

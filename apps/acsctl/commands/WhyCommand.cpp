@@ -57,16 +57,6 @@ Outcome<Explanation> Explain(IApi& api, const WhyExplainer& explainer, const std
 
 } // namespace
 
-Outcome<std::string> Get(IApi& api, const std::string& target)
-{
-    const tl::expected<ApiAnswer, ApiFailure> answer = api.Send({"GET", target});
-    if (!answer.has_value())
-    {
-        return tl::make_unexpected(MakeError(answer.error(), false));
-    }
-    return GetBody(*answer);
-}
-
 Outcome<Shown> RunWhy(IApi& api, const AcsctlOptions& options, const ViewContext& context)
 {
     const Outcome<SnapshotAnswer> snapshot = GetDecoded<SnapshotAnswer>(api, "/v1/snapshot");

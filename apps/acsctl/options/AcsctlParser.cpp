@@ -199,6 +199,7 @@ void AddHistoryCommands(CLI::App& app, AcsctlOptions& options)
     AddText(events, "--types", arguments.types, "entry (default), changes, or both: entry,changes")
         .check(CLI::IsMember({"entry", "changes", "entry,changes", "changes,entry"}))
         ->type_name("TYPES");
+    AddLimit(events, arguments);
     events.add_option("--after", arguments.after, "Only events after this event id")->type_name("N");
     CLI::App& trace = AddCommand(app, options, "trace", ECommand::Trace, "Show messages of all links on one time line");
     AddText(trace, "--plan", arguments.plan, "Only messages about this plan").type_name("PLAN");

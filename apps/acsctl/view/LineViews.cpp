@@ -2,6 +2,7 @@
 
 #include "view/AgeText.hpp"
 #include "view/DisplayText.hpp"
+#include <acs/core/JsonText.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/json/JsonDocument.hpp>
 
@@ -71,6 +72,25 @@ constexpr std::array<std::string_view, 9> VEHICLE_MEMBERS{
     "connectionState",
     "charging",
     "newBaseRequest"};
+
+/// The sentence of an answer: its message or its error.
+std::string ReadAnswer(const Core::JsonText& answer)
+{
+    if (const std::optional<std::string> text = answer.GetStringOrNull(); text.has_value())
+    {
+        return *text;
+    }
+    Json::JsonDocument document;
+    const Core::Result<const Json::Value*> value =
+        document.Parse(answer.GetText(), {LONGEST_MESSAGE, DEEPEST_MESSAGE, MOST_VALUES});
+    if (value.has_value())
+    {
+        const std::string message = GetText(**value, "message");
+        const std::string sentence = message.empty() ? GetText(**value, "error") : message;
+        return sentence.empty() ? answer.GetText() : sentence;
+    }
+    return answer.GetText();
+}
 
 std::string SummarizeMessage(const TraceLine& line, const Json::Value& message)
 {
@@ -157,7 +177,7 @@ std::string PrintAudit(const std::vector<AuditLine>& lines, const Screen& screen
              {name.empty() ? "-" : name},
              {line.status.has_value() ? std::to_string(*line.status) : "-", bRefused ? EStyle::Bad : EStyle::Plain},
              {line.request.value_or("")},
-             {line.answer.GetStringOrNull().value_or(line.answer.GetText())},
+             {ReadAnswer(line.answer)},
              {line.peer.value_or("")}});
     }
     return table.Print(screen);

@@ -46,7 +46,8 @@ std::string MakeNumber(const std::optional<std::int64_t>& numberOrNull)
 
 void AddWaits(DetailList& details, const WaitsInfo& waits, Core::WallTime now)
 {
-    details.Add("Waits", fmt::format("{}{}", waits.message, MakeSince(waits.since, now)), EStyle::Warning);
+    const std::string since = waits.since.has_value() ? fmt::format(" ({})", MakeAge(waits.since, now)) : std::string();
+    details.Add("Waits", waits.message + since, EStyle::Warning);
     if (waits.queuePosition.has_value())
     {
         details.Add("Queue", fmt::format("position {}", *waits.queuePosition));

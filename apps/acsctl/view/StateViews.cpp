@@ -33,13 +33,22 @@ std::string Join(const std::vector<std::string>& texts, std::string_view separat
     return joined;
 }
 
+/// "1 node", "2 nodes"
+std::string MakeCount(std::uint64_t count, std::string_view noun)
+{
+    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
 std::string DescribeOutbox(const OutboxInfo& outbox, Core::WallTime now)
 {
     if (outbox.reports == 0)
     {
         return "empty";
     }
-    return fmt::format("{} reports without an Ack, the oldest{}", outbox.reports, MakeSince(outbox.oldest, now));
+    return fmt::format(
+        "{} without an Ack, the oldest{}",
+        MakeCount(outbox.reports, "report"),
+        MakeSince(outbox.oldest, now));
 }
 
 std::string DescribeRefused(const RefusedReportsInfo& refused)
@@ -48,7 +57,7 @@ std::string DescribeRefused(const RefusedReportsInfo& refused)
     {
         return {};
     }
-    std::string text = fmt::format("{} reports", refused.count);
+    std::string text = MakeCount(refused.count, "report");
     if (refused.last.has_value())
     {
         const std::string plan = refused.last->planID.has_value() ? " of plan " + *refused.last->planID : std::string();
@@ -211,10 +220,10 @@ std::string PrintQueue(const QueueAnswer& queue, const ViewContext& context)
 std::string PrintSite(const SiteAnswer& site, const ViewContext& context)
 {
     std::string out = fmt::format(
-        "Map: {} nodes, {} edges, {} stations\n",
-        site.nodes.size(),
-        site.edges.size(),
-        site.stations.size());
+        "Map: {}, {}, {}\n",
+        MakeCount(site.nodes.size(), "node"),
+        MakeCount(site.edges.size(), "edge"),
+        MakeCount(site.stations.size(), "station"));
     if (site.blocked.empty())
     {
         return out + "No place is blocked.\n";

@@ -38,6 +38,11 @@ std::string MakeSentence(std::string text)
     return text;
 }
 
+std::string MakeMaintenanceRemedy(std::string_view robotID)
+{
+    return fmt::format("When it may move: acsctl maintenance {} off", robotID);
+}
+
 } // namespace
 
 bool Explanation::NeedsAttention() const
@@ -154,6 +159,8 @@ Finding WhyExplainer::MakeRobotFinding(const RobotInfo& robot) const
 {
     Finding finding{ESubject::Robot, robot.robotID, {}, false, {}};
     Chain chain;
+    chain.robots.insert(robot.robotID);
+    AddState(robot, 0, chain.causes);
     AddRobot(robot, 0, chain);
     const PlanInfo* const planOrNull = robot.planID.has_value() ? FindPlanOrNull(*robot.planID) : nullptr;
     const bool bPlanWaits = planOrNull != nullptr && (planOrNull->waits.has_value() || planOrNull->status == "Paused");
@@ -275,16 +282,28 @@ void WhyExplainer::AddRobotOfPlanRecursive(
     Chain& chain) const
 {
     const std::size_t inner = reason.empty() ? depth : depth + 1;
+    const RobotInfo* const robotOrNull = FindRobotOrNull(robotID);
     if (!reason.empty())
     {
-        chain.causes.push_back({depth, MakeSentence(fmt::format("Robot {}: {}", robotID, reason)), {}, {}});
+        Cause cause{depth, MakeSentence(fmt::format("Robot {}: {}", robotID, reason)), {}, {}};
+        if (robotOrNull != nullptr && robotOrNull->bMaintenance)
+        {
+            cause.remedy.push_back(MakeMaintenanceRemedy(robotID));
+        }
+        chain.causes.push_back(std::move(cause));
     }
-    const RobotInfo* const robotOrNull = FindRobotOrNull(robotID);
     if (robotOrNull == nullptr)
     {
         return;
     }
-    AddRobot(*robotOrNull, inner, chain);
+    if (chain.robots.insert(robotID).second)
+    {
+        if (reason.empty())
+        {
+            AddState(*robotOrNull, inner, chain.causes);
+        }
+        AddRobot(*robotOrNull, inner, chain);
+    }
     const PlanInfo* const otherOrNull =
         robotOrNull->planID.has_value() ? FindPlanOrNull(*robotOrNull->planID) : nullptr;
     if (otherOrNull != nullptr && !chain.plans.contains(otherOrNull->planID)
@@ -295,29 +314,29 @@ void WhyExplainer::AddRobotOfPlanRecursive(
     }
 }
 
-void WhyExplainer::AddRobot(const RobotInfo& robot, std::size_t depth, Chain& chain) const
+void WhyExplainer::AddState(const RobotInfo& robot, std::size_t depth, std::vector<Cause>& causes) const
 {
-    if (!chain.robots.insert(robot.robotID).second)
-    {
-        return;
-    }
     if (robot.bMaintenance)
     {
-        chain.causes.push_back(
+        causes.push_back(
             {depth,
              fmt::format("Robot {} is in maintenance.", robot.robotID),
              {},
-             {fmt::format("When it may move: acsctl maintenance {} off", robot.robotID)}});
+             {MakeMaintenanceRemedy(robot.robotID)}});
     }
     else if (robot.reason.has_value())
     {
-        chain.causes.push_back(
+        causes.push_back(
             {depth, MakeSentence(fmt::format("Robot {} is not available: {}", robot.robotID, *robot.reason)), {}, {}});
     }
     else if (IsOneOf(UNUSABLE_STATUSES, robot.status))
     {
-        chain.causes.push_back({depth, fmt::format("Robot {} is {}.", robot.robotID, robot.status), {}, {}});
+        causes.push_back({depth, fmt::format("Robot {} is {}.", robot.robotID, robot.status), {}, {}});
     }
+}
+
+void WhyExplainer::AddRobot(const RobotInfo& robot, std::size_t depth, Chain& chain) const
+{
     AddAlarms(robot.robotID, depth, chain.causes);
     AddBlocksOfRoute(robot, depth, chain);
 }

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "commands/CommandError.hpp"
+#include "commands/Session.hpp"
+#include "options/AcsctlOptions.hpp"
+
+#include <string>
+
+namespace ACS::Acsctl
+{
+
+/// Collects a support bundle and writes it to a new file; returns what it prints.
+[[nodiscard]] Outcome<std::string> RunBundle(Session& session, const AcsctlOptions& options);
+
+} // namespace ACS::Acsctl

@@ -1,0 +1,209 @@
+#include "commands/EventsCommand.hpp"
+
+#include "api/ApiCodec.hpp"
+#include "commands/Answers.hpp"
+#include "common/config/CommandLine.hpp"
+#include "events/EventText.hpp"
+#include "view/DisplayText.hpp"
+#include <acs/core/Result.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <system_error>
+
+namespace ACS::Acsctl
+{
+
+namespace
+{
+
+constexpr std::uint64_t DEFAULT_EVENTS = 100;
+constexpr std::chrono::milliseconds RECONNECT{2'000};
+
+std::optional<std::uint64_t> ReadIdOrNull(const std::string& text)
+{
+    std::uint64_t number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [last, error] = std::from_chars(text.data(), end, number);
+    return error == std::errc() && last == end ? std::optional(number) : std::nullopt;
+}
+
+} // namespace
+
+EventsCommand::EventsCommand(Session& session, const AcsctlOptions& options, Terminal& terminal)
+    : _session(session),
+      _options(options),
+      _terminal(terminal),
+      _types(options.arguments.types.value_or("entry")),
+      _after(options.arguments.after)
+{
+}
+
+Outcome<void> EventsCommand::Run()
+{
+    const bool bFollow = _options.arguments.bFollow || _options.watch.has_value();
+    if (bFollow)
+    {
+        _session.GetLoop().CatchInterrupts();
+    }
+    if (!bFollow || _options.arguments.limit.has_value())
+    {
+        if (Outcome<void> done = RunHistory(); !done.has_value() || !bFollow)
+        {
+            return done;
+        }
+    }
+    _until.reset();
+    return Follow();
+}
+
+Outcome<void> EventsCommand::RunHistory()
+{
+    const Outcome<std::uint64_t> newest = ReadNewest();
+    if (!newest.has_value())
+    {
+        return tl::make_unexpected(newest.error());
+    }
+    _until = *newest;
+    if (_after.has_value())
+    {
+        Outcome<void> done = *_after < *newest ? ReadOnce() : Outcome<void>();
+        return done.has_value() && _end == EEnd::Reset
+            ? FailWith(EXIT_REFUSED, fmt::format("acsd no longer has all events after {}", *_after))
+            : done;
+    }
+    // acsd does not state how many events it has: it answers with reset when they are fewer.
+    for (std::uint64_t count = _options.arguments.limit.value_or(DEFAULT_EVENTS); count != 0; count /= 2)
+    {
+        _after = *newest - std::min(count, *newest);
+        if (*_after == *newest)
+        {
+            break;
+        }
+        Outcome<void> done = ReadOnce();
+        if (!done.has_value() || _end != EEnd::Reset)
+        {
+            return done;
+        }
+    }
+    _after = *newest;
+    return {};
+}
+
+Outcome<void> EventsCommand::Follow()
+{
+    EventLoop& loop = _session.GetLoop();
+    bool bConnected = false;
+    while (!loop.IsInterrupted() && !_terminal.IsFailed())
+    {
+        const Outcome<void> done = ReadOnce();
+        if (loop.IsInterrupted())
+        {
+            break;
+        }
+        if (!done.has_value())
+        {
+            if (!bConnected || done.error().exitCode != EXIT_NO_CONNECTION)
+            {
+                return done;
+            }
+            Apps::PrintError(PROGRAM_NAME, MakeDisplayable(done.error().text) + "; connecting again");
+        }
+        bConnected = true;
+        loop.Pause(RECONNECT);
+    }
+    return {};
+}
+
+Outcome<void> EventsCommand::ReadOnce()
+{
+    _end = EEnd::Ended;
+    SseParser parser;
+    ApiRequest request;
+    request.target = "/v1/events" + (_after.has_value() ? fmt::format("?after={}", *_after) : std::string());
+    const auto tryHandle = [this, &parser](std::string_view part) {
+        std::vector<SseEvent> events;
+        if (!parser.TryRead(part, events))
+        {
+            _end = EEnd::Malformed;
+            _fault = "an event is too long";
+            return false;
+        }
+        return std::ranges::all_of(events, [this](const SseEvent& event) { return TryHandle(event); });
+    };
+    const tl::expected<ApiAnswer, ApiFailure> answer = _session.GetAPI().Stream(request, tryHandle);
+    if (!answer.has_value())
+    {
+        return tl::make_unexpected(MakeError(answer.error(), false));
+    }
+    if (_end == EEnd::Malformed)
+    {
+        return FailWith(EXIT_BAD_ANSWER, "the answer is not one of acsd's operator API: " + _fault);
+    }
+    if (const Outcome<std::string> body = GetBody(*answer); !body.has_value())
+    {
+        return tl::make_unexpected(body.error());
+    }
+    if (!answer->contentType.starts_with("text/event-stream"))
+    {
+        return FailWith(EXIT_BAD_ANSWER, "the answer is not a stream of events but " + answer->contentType);
+    }
+    return {};
+}
+
+Outcome<std::uint64_t> EventsCommand::ReadNewest()
+{
+    const Outcome<std::string> body = Get(_session.GetAPI(), "/v1/snapshot");
+    if (!body.has_value())
+    {
+        return tl::make_unexpected(body.error());
+    }
+    const Core::Result<SnapshotAnswer> snapshot = DecodeAnswer<SnapshotAnswer>(*body);
+    if (!snapshot.has_value())
+    {
+        return MakeBadAnswer(snapshot.error());
+    }
+    return snapshot->eventID;
+}
+
+bool EventsCommand::TryHandle(const SseEvent& event)
+{
+    if (event.type == "reset")
+    {
+        _end = EEnd::Reset;
+        if (_until.has_value())
+        {
+            return false;
+        }
+        Apps::PrintError(PROGRAM_NAME, "events before this line are lost");
+        return !_options.bJSON || TryShow(event);
+    }
+    const std::optional<std::uint64_t> number = ReadIdOrNull(event.id);
+    _after = number.has_value() ? number : _after;
+    if (_types.find(event.type) != std::string::npos && !TryShow(event))
+    {
+        return false;
+    }
+    const bool bLast = _until.has_value() && number.has_value() && *number >= *_until;
+    _end = bLast ? EEnd::Stopped : _end;
+    return !bLast && !_terminal.IsFailed();
+}
+
+bool EventsCommand::TryShow(const SseEvent& event)
+{
+    const Core::Result<std::string> line =
+        _options.bJSON ? MakeEventJSON(event) : MakeEventLine(event, _terminal.GetScreen());
+    if (!line.has_value())
+    {
+        _end = EEnd::Malformed;
+        _fault = Core::Describe(line.error());
+        return false;
+    }
+    _terminal.Write(*line);
+    return true;
+}
+
+} // namespace ACS::Acsctl

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "commands/CommandError.hpp"
+#include "commands/Session.hpp"
+#include "events/SseParser.hpp"
+#include "options/AcsctlOptions.hpp"
+#include "terminal/Terminal.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ACS::Acsctl
+{
+
+/// `events`: the newest events that acsd still has, and with --follow those that come.
+class EventsCommand final
+{
+    enum class EEnd : std::uint8_t
+    {
+        Stopped,   ///< The last wanted event was read.
+        Reset,     ///< acsd no longer has the events after the wanted one.
+        Ended,     ///< acsd has ended the stream.
+        Malformed, ///< An event cannot be read.
+    };
+
+    Session& _session;
+    const AcsctlOptions& _options;
+    Terminal& _terminal;
+    std::string _types;
+    std::optional<std::uint64_t> _after;
+    std::optional<std::uint64_t> _until;
+    EEnd _end = EEnd::Ended;
+    std::string _fault;
+
+public:
+    EventsCommand(Session& session, const AcsctlOptions& options, Terminal& terminal);
+
+    /// Returns when all is shown; with --follow when the operator interrupts it.
+    [[nodiscard]] Outcome<void> Run();
+
+private:
+    [[nodiscard]] Outcome<void> RunHistory();
+    [[nodiscard]] Outcome<void> Follow();
+    /// One request, until its end.
+    [[nodiscard]] Outcome<void> ReadOnce();
+    [[nodiscard]] Outcome<std::uint64_t> ReadNewest();
+    [[nodiscard]] bool TryHandle(const SseEvent& event);
+    [[nodiscard]] bool TryShow(const SseEvent& event);
+};
+
+} // namespace ACS::Acsctl

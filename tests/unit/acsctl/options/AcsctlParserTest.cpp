@@ -1,0 +1,95 @@
+#include "options/AcsctlParser.hpp"
+
+#include "Catch.hpp"
+
+namespace Acsctl = ACS::Acsctl;
+using Acsctl::ECommand;
+
+namespace
+{
+
+using Words = std::vector<std::string>;
+
+Acsctl::AcsctlOptions Parse(Words words)
+{
+    words.insert(words.begin(), "acsctl");
+    Acsctl::AcsctlOptions options;
+    REQUIRE_FALSE(Acsctl::ParseOptionsOrNull(words, options).has_value());
+    return options;
+}
+
+int ParseBad(Words words)
+{
+    words.insert(words.begin(), "acsctl");
+    Acsctl::AcsctlOptions options;
+    return Acsctl::ParseOptionsOrNull(words, options).value_or(0);
+}
+
+} // namespace
+
+TEST_CASE("Options are read before and after the command")
+{
+    const Acsctl::AcsctlOptions options =
+        Parse({"--json", "plans", "--state", "finished", "--url", "http://x", "--limit", "5", "--timeout", "3s"});
+    CHECK(options.command == ECommand::Plans);
+    CHECK(options.bJSON);
+    CHECK(options.arguments.state == "finished");
+    CHECK(options.arguments.limit == 5);
+    CHECK(options.connection.url == "http://x");
+    CHECK(options.timeout.count() == 3'000);
+    CHECK(Parse({"tsc", "resume", "-y"}).command == ECommand::TscResume);
+    CHECK(Parse({"tsc", "resume", "-y"}).bYes);
+    CHECK(Parse({"context", "set", "a", "--url", "http://x"}).command == ECommand::ContextSet);
+}
+
+TEST_CASE("The interval of --watch may be left out")
+{
+    CHECK(Parse({"plans", "--watch"}).watch->count() == 2'000);
+    CHECK(Parse({"plans", "--watch", "0.5"}).watch->count() == 500);
+    CHECK(Parse({"plan", "--watch", "P1"}).arguments.id == "P1");
+    CHECK(Parse({"--watch=7", "plans"}).watch->count() == 7'000);
+    CHECK(ParseBad({"plans", "--watch=x"}) == 2);
+    CHECK(ParseBad({"plans", "--watch=0"}) == 2);
+    CHECK(ParseBad({"plans", "--watch=nan"}) == 2);
+}
+
+TEST_CASE("A port without a carrier is - or --")
+{
+    CHECK(Parse({"carriers", "CR01", "C_01", "--", "-"}).arguments.carriers == Words{"C_01", "-", "-"});
+    CHECK(Parse({"carriers", "CR01", "-", "--yes"}).arguments.carriers == Words{"-"});
+    CHECK(Acsctl::NormalizeArguments({"acsctl", "plan", "--", "-P"}) == Words{"acsctl", "plan", "--", "-P"});
+    CHECK(Parse({"plan", "--", "-P"}).arguments.id == "-P");
+}
+
+TEST_CASE("A plan may have the name of a command")
+{
+    CHECK(Parse({"plan", "status"}).arguments.id == "status");
+    CHECK(Parse({"cancel", "why"}).command == ECommand::Cancel);
+}
+
+TEST_CASE("An invalid command line is refused")
+{
+    const Words words = GENERATE(
+        Words{},
+        Words{"odd"},
+        Words{"plan"},
+        Words{"plan", ""},
+        Words{"plan", "P1", "P2"},
+        Words{"plans", "--state", "odd"},
+        Words{"plans", "--limit", "0"},
+        Words{"plans", "--limit", "1001"},
+        Words{"plans", "--url", "a", "--url", "b"},
+        Words{"tsc"},
+        Words{"tsc", "stop"},
+        Words{"resolve", "P", "J", "maybe"},
+        Words{"skip", "P", "-1"},
+        Words{"skip", "P", "x"},
+        Words{"priority", "P", "1.5"},
+        Words{"maintenance", "LR01", "maybe"},
+        Words{"carriers", "LR01"},
+        Words{"block", "robot", "X"},
+        Words{"plans", "--timeout", "0s"},
+        Words{"completion", "fish"});
+    CAPTURE(words);
+    CHECK(ParseBad(words) == 2);
+}

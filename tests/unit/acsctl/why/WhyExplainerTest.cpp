@@ -1,0 +1,215 @@
+#include "why/WhyExplainer.hpp"
+
+#include "Catch.hpp"
+#include "why/ExplanationView.hpp"
+#include <acs/core/Timestamp.hpp>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace Acsctl = ACS::Acsctl;
+
+namespace
+{
+
+/// A line that works: no plan, one robot that is Idle.
+class WhyFixture
+{
+public:
+    Acsctl::SnapshotAnswer snapshot;
+    Acsctl::SiteAnswer site;
+
+    WhyFixture()
+    {
+        snapshot.status.bReady = true;
+        snapshot.status.tsc = "Auto";
+        AddRobot("LR01", "Idle");
+    }
+
+    Acsctl::RobotInfo& AddRobot(std::string id, std::string status)
+    {
+        Acsctl::RobotInfo& robot = snapshot.robots.emplace_back();
+        robot.robotID = std::move(id);
+        robot.status = std::move(status);
+        return robot;
+    }
+
+    Acsctl::PlanInfo& AddPlan(std::string id, std::string status)
+    {
+        Acsctl::PlanInfo& plan = snapshot.plans.emplace_back();
+        plan.planID = std::move(id);
+        plan.status = std::move(status);
+        return plan;
+    }
+
+    Acsctl::PlanInfo& AddWaitingPlan(std::string id, std::string message, std::vector<Acsctl::RobotReason> robots = {})
+    {
+        Acsctl::PlanInfo& plan = AddPlan(std::move(id), "Pending");
+        plan.waits = Acsctl::WaitsInfo{std::move(message), "2026-11-27T23:05:00.000Z", 1, std::move(robots)};
+        return plan;
+    }
+
+    [[nodiscard]] Acsctl::WhyExplainer Make() const
+    {
+        return {snapshot, site, ACS::Core::ParseTimestamp("2026-11-27T23:10:00.000Z")->time};
+    }
+};
+
+std::string PrintText(const Acsctl::Explanation& explanation)
+{
+    return Acsctl::PrintExplanation(explanation, {200, false});
+}
+
+} // namespace
+
+TEST_CASE("A line on which everything moves needs no attention")
+{
+    WhyFixture line;
+    line.AddPlan("P1", "InProgress").robotID = "LR01";
+    const auto explanation = line.Make().ExplainAll();
+    CHECK_FALSE(explanation.NeedsAttention());
+    CHECK(PrintText(explanation) == "Nothing is in the way: 1 plans and 1 robots, none of which waits.\n");
+}
+
+TEST_CASE("The causes of a plan that waits lead over its robots to their plans")
+{
+    WhyFixture line;
+    line.snapshot.robots[0].planID = "P1";
+    Acsctl::PlanInfo& busy = line.AddPlan("P1", "Paused");
+    busy.robotID = "LR01";
+    line.AddWaitingPlan("P2", "No suitable robot is free", {{"LR01", "busy with plan P1"}});
+    const auto explanation = line.Make().ExplainPlan(*line.Make().FindPlanOrNull("P2"));
+    CHECK(explanation.NeedsAttention());
+    CHECK(
+        PrintText(explanation)
+        == "Plan P2 does not move for 5 min: it is Pending, at position 1 of the queue.\n"
+           "  No suitable robot is free.\n"
+           "  Robot LR01: busy with plan P1.\n"
+           "    Its plan P1 does not move either.\n"
+           "      Plan P1 is paused.\n"
+           "        Remedy: When it may continue: acsctl resume P1\n");
+}
+
+TEST_CASE("Plans that wait for each other are each explained once")
+{
+    WhyFixture line;
+    line.snapshot.robots[0].planID = "P1";
+    line.AddRobot("LR02", "Moving").planID = "P2";
+    line.AddWaitingPlan("P1", "Waiting for N2, reserved by LR02.", {{"LR02", "on N2"}}).robotID = "LR01";
+    line.AddWaitingPlan("P2", "Waiting for N1, reserved by LR01.", {{"LR01", "on N1"}}).robotID = "LR02";
+    const std::string text = PrintText(line.Make().ExplainPlan(line.snapshot.plans[0]));
+    CHECK(text.find("Waiting for N2") == text.rfind("Waiting for N2"));
+    CHECK(text.find("Waiting for N1") != std::string::npos);
+}
+
+TEST_CASE("An alarm is explained with its cause and remedy, an unresolved job with its command")
+{
+    WhyFixture line;
+    Acsctl::AlarmInfo alarm;
+    alarm.robotID = "LR01";
+    alarm.errorCode = "ACS-1008";
+    alarm.level = "Heavy";
+    alarm.title = "Job outcome unknown";
+    alarm.cause = "A restart";
+    alarm.remedy = "Check the carrier";
+    alarm.planID = "P1";
+    alarm.jobID = "J1";
+    line.snapshot.alarms.push_back(alarm);
+    alarm.errorCode = "ACS-1002";
+    alarm.title = "Robot disconnected";
+    alarm.planID.reset();
+    line.snapshot.alarms.push_back(alarm);
+    line.AddWaitingPlan("P1", "Job J1 is unresolved.").robotID = "LR01";
+    const std::string text = PrintText(line.Make().ExplainPlan(line.snapshot.plans[0]));
+    CHECK_THAT(
+        text,
+        Catch::Contains("Heavy alarm ACS-1008 Job outcome unknown of LR01.\n    Cause: A restart.\n"
+                        "    Remedy: Check the carrier.\n"
+                        "    Remedy: Then: acsctl resolve P1 J1 done|failed|again\n"));
+    CHECK_THAT(text, Catch::Contains("Heavy alarm ACS-1002 Robot disconnected of LR01."));
+}
+
+TEST_CASE("A blocked place is a cause where the plan works and where its robot drives")
+{
+    WhyFixture line;
+    line.site.blocked = {
+        {"station", "A01", "wet floor", std::nullopt},
+        {"node", "N9", std::nullopt, std::nullopt},
+        {"edge", "E1", "", std::nullopt},
+        {"node", "N7", std::nullopt, std::nullopt},
+        {"node", "FAR", std::nullopt, std::nullopt}};
+    line.site.stations = {{"B02", {"N7"}}};
+    line.site.edges = {{"E1", "N1", "N2"}};
+    Acsctl::RobotInfo& robot = line.snapshot.robots[0];
+    robot.node = "N1";
+    robot.route = {{"N2", true}, {"N9", false}};
+    Acsctl::PlanInfo& plan = line.AddWaitingPlan("P1", "No route.");
+    plan.robotID = "LR01";
+    plan.steps = {{1, "", "A01", "Pending", {}, {}}, {2, "", "B02", "Pending", {}, {}}};
+    const std::string text = PrintText(line.Make().ExplainPlan(plan));
+    CHECK_THAT(text, Catch::Contains("Station A01 is blocked: wet floor."));
+    CHECK_THAT(text, Catch::Contains("Node N9 is blocked."));
+    CHECK_THAT(text, Catch::Contains("Edge E1 is blocked."));
+    CHECK_THAT(text, Catch::Contains("Node N7 is blocked."));
+    CHECK_THAT(text, Catch::Contains("acsctl unblock node N7"));
+    CHECK_THAT(text, !Catch::Contains("FAR"));
+    line.snapshot.plans[0].steps[0].status = "Completed";
+    CHECK_THAT(PrintText(line.Make().ExplainPlan(line.snapshot.plans[0])), !Catch::Contains("A01"));
+}
+
+TEST_CASE("What stops acsd itself comes first")
+{
+    WhyFixture line;
+    line.snapshot.status.bReady = false;
+    line.snapshot.status.notReadyReasons = {"The MCS is not connected"};
+    line.snapshot.status.links = {{"mcs", false, "refused", std::nullopt}, {"mqtt", true, std::nullopt, std::nullopt}};
+    line.snapshot.status.tsc = "Paused";
+    line.AddWaitingPlan("P1", "The TSC is Paused.");
+    const auto explanation = line.Make().ExplainAll();
+    REQUIRE(explanation.findings.size() == 2);
+    CHECK(explanation.findings[0].subject == Acsctl::ESubject::Acsd);
+    CHECK(explanation.findings[0].causes.size() == 3);
+    const std::string text = PrintText(explanation);
+    CHECK_THAT(text, Catch::Contains("The link mcs is down: refused."));
+    CHECK_THAT(text, !Catch::Contains("mqtt"));
+    CHECK_THAT(text, Catch::Contains("acsctl tsc resume"));
+}
+
+TEST_CASE("A plan that has ended does not move, and needs no attention")
+{
+    WhyFixture line;
+    Acsctl::PlanInfo plan;
+    plan.planID = "P1";
+    plan.status = "Failed";
+    plan.endedAt = "2026-11-27T23:00:00.000Z";
+    plan.message = "Job J1 failed";
+    const auto explanation = line.Make().ExplainPlan(plan);
+    CHECK_FALSE(explanation.NeedsAttention());
+    CHECK(
+        PrintText(explanation)
+        == "Plan P1 does not move because it has ended: Failed at 2026-11-27T23:00:00.000Z: Job J1 failed.\n");
+}
+
+TEST_CASE("A robot that cannot be used needs attention")
+{
+    WhyFixture line;
+    CHECK_FALSE(line.Make().ExplainRobot(line.snapshot.robots[0]).NeedsAttention());
+    line.snapshot.robots[0].bMaintenance = true;
+    CHECK_THAT(
+        PrintText(line.Make().ExplainRobot(line.snapshot.robots[0])),
+        Catch::Contains("acsctl maintenance LR01 off"));
+    line.snapshot.robots[0].bMaintenance = false;
+    line.snapshot.robots[0].status = "Disconnected";
+    CHECK(line.Make().ExplainAll().NeedsAttention());
+}
+
+TEST_CASE("The explanation as JSON has the same findings")
+{
+    WhyFixture line;
+    line.AddWaitingPlan("P\"1", "No.");
+    CHECK(
+        Acsctl::MakeExplanationText(line.Make().ExplainAll())
+        == R"({"needsAttention":true,"findings":[{"subject":"plan","id":"P\"1","text":"Plan P\"1 does not move for 5 min: it is )"
+           R"(Pending, at position 1 of the queue.","needsAttention":true,"causes":[{"depth":0,"text":"No.","cause":null,"remedy":[]}]}]})");
+}
