@@ -40,7 +40,7 @@ bool HasBlockingAlarm(const Planning::PlanEngine& engine, const std::string& rob
 bool IsWaitingForRoute(
     const Planning::PlanEngine& engine,
     const Planning::RobotStatus& status,
-    const Planning::RobotDetail& detail)
+    const Planning::RobotRoute& route)
 {
     // A robot that is paused, disconnected or faulty has another status.
     if (status.status != Planning::ERobotStatus::Moving || status.bInMaintenance || !engine.GetHoldReason().empty()
@@ -48,11 +48,12 @@ bool IsWaitingForRoute(
     {
         return false;
     }
-    if (status.planID.has_value())
+    if (!route.nodes.empty())
     {
-        return !detail.bHasJob && engine.GetWaitReasonOrNull(*status.planID).has_value();
+        return !route.nodes.front().bReserved;
     }
-    return detail.bHasDrive && !detail.nextNodeID.has_value();
+    // It has no drive yet.
+    return status.planID.has_value() && engine.GetWaitReasonOrNull(*status.planID).has_value();
 }
 
 RobotTimes::RobotTimes(Apps::MetricsEndpoint& metrics)
@@ -70,24 +71,18 @@ void RobotTimes::OnStatusChanged(const Planning::RobotStatus& status, Core::Now 
 
 void RobotTimes::Sample(const Planning::PlanEngine& engine, Core::Now now)
 {
-    const std::vector<Planning::RobotDetail> details = engine.GetRobotDetails();
+    const std::vector<Planning::RobotRoute> routes = engine.GetRobotRoutes();
     for (const Planning::RobotStatus& status : engine.GetRobotStatuses())
     {
         Times& times = _robots[status.robotID];
         CountStatus(times, status, now.steady);
-        const auto detail = std::ranges::find(details, status.robotID, &Planning::RobotDetail::robotID);
-        if (detail == details.end())
-        {
-            continue;
-        }
-        const bool bWaits = IsWaitingForRoute(engine, status, *detail);
-        const bool bCounts = bWaits && times.bWaits && times.nodeID == detail->nodeID;
+        const auto route = std::ranges::find(routes, status.robotID, &Planning::RobotRoute::robotID);
+        const bool bWaits = route != routes.end() && IsWaitingForRoute(engine, status, *route);
         _metrics.Increment(
             ROUTE_WAIT,
             {{"robot", status.robotID}},
-            bCounts ? CountSeconds(times.sampledAt, now.steady) : 0.0);
+            bWaits && times.bWaits ? CountSeconds(times.sampledAt, now.steady) : 0.0);
         times.bWaits = bWaits;
-        times.nodeID = detail->nodeID;
         times.sampledAt = now.steady;
     }
 }

@@ -19,7 +19,7 @@ namespace ACS::Acsd
 [[nodiscard]] bool IsWaitingForRoute(
     const Planning::PlanEngine& engine,
     const Planning::RobotStatus& status,
-    const Planning::RobotDetail& detail);
+    const Planning::RobotRoute& route);
 
 /// How long each robot had each status, and how long it waited for its route.
 class RobotTimes final
@@ -30,7 +30,6 @@ class RobotTimes final
         std::optional<Planning::ERobotStatus> status; ///< nullopt until the first one.
         Core::SteadyTime statusAt;                    ///< Until then its time is counted.
         bool bWaits = false;                          ///< For its route, at the last sample.
-        std::string nodeID;                           ///< At the last sample.
         Core::SteadyTime sampledAt;
     };
 
@@ -44,7 +43,7 @@ public:
     void OnStatusChanged(const Planning::RobotStatus& status, Core::Now now);
 
     /// Samples the robots that wait for their routes. Call it regularly: the time between two samples counts if the robot
-    /// waited at the same node at both of them.
+    /// waited at both of them.
     void Sample(const Planning::PlanEngine& engine, Core::Now now);
 
 private:

@@ -49,9 +49,9 @@ std::string_view FindCauseOfRobot(
     {
         return CAUSE_TSC;
     }
-    const std::vector<Planning::RobotDetail> details = engine.GetRobotDetails();
-    const auto detail = std::ranges::find(details, status.robotID, &Planning::RobotDetail::robotID);
-    return detail != details.end() && IsWaitingForRoute(engine, status, *detail) ? CAUSE_ROUTE : CAUSE_ROBOT;
+    const std::vector<Planning::RobotRoute> routes = engine.GetRobotRoutes();
+    const auto route = std::ranges::find(routes, status.robotID, &Planning::RobotRoute::robotID);
+    return route != routes.end() && IsWaitingForRoute(engine, status, *route) ? CAUSE_ROUTE : CAUSE_ROBOT;
 }
 
 /// Empty for a plan that makes progress.
