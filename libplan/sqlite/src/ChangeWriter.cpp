@@ -97,6 +97,15 @@ void ChangeWriter::Write(const StoreChange& change)
             Run(changed.bOn ? "INSERT OR REPLACE INTO maintenance VALUES (?)"
                             : "DELETE FROM maintenance WHERE robot_id = ?",
                 changed.robotID);
+        },
+        [this](const BlockAdded& added) {
+            Run("INSERT INTO blocks (kind, id, block) VALUES (?, ?, ?)",
+                std::string(GetText(added.block.kind)),
+                added.block.id,
+                EncodeBlock(added.block));
+        },
+        [this](const BlockRemoved& removed) {
+            Run("DELETE FROM blocks WHERE kind = ? AND id = ?", std::string(GetText(removed.kind)), removed.id);
         }};
     std::visit(writer, change);
 }

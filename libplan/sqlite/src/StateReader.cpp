@@ -171,6 +171,7 @@ Core::Result<StoredState> ReadState(SQLite::Database& database, const std::strin
         .and_then([&] {
             return readRows("SELECT work FROM robot_works ORDER BY robot_id", DecodeRobotWork, state.robotWorks);
         })
+        .and_then([&] { return readRows("SELECT block FROM blocks ORDER BY sequence", DecodeBlock, state.blocks); })
         .map([&state] { return std::move(state); });
 }
 

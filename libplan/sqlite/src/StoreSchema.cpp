@@ -42,6 +42,9 @@ constexpr std::array MIGRATIONS{
     "CREATE TABLE maintenance (robot_id TEXT PRIMARY KEY) WITHOUT ROWID;",
     // The generation of a store directory replaces the numbers of logs.
     "DELETE FROM settings WHERE name = 'log_number';",
+    // Nodes, edges and stations that an operator has blocked, in the order of the sequence.
+    "CREATE TABLE blocks (sequence INTEGER PRIMARY KEY, kind TEXT NOT NULL, id TEXT NOT NULL, block TEXT NOT NULL,"
+    "  UNIQUE (kind, id));",
 };
 
 } // namespace

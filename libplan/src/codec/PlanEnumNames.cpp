@@ -48,6 +48,11 @@ std::string_view GetText(EControlOrigin value) noexcept
     return Json::GetWord(value);
 }
 
+std::string_view GetText(EBlockKind value) noexcept
+{
+    return Json::GetWord(value);
+}
+
 std::string_view GetText(ETscState value) noexcept
 {
     return Json::GetWord(value);

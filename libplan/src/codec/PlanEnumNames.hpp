@@ -2,6 +2,7 @@
 
 #include <acs/json/EnumNames.hpp>
 #include <acs/plan/EAlarmLevel.hpp>
+#include <acs/plan/EBlockKind.hpp>
 #include <acs/plan/EControlOrigin.hpp>
 #include <acs/plan/EJobResolution.hpp>
 #include <acs/plan/EJobState.hpp>
@@ -122,6 +123,16 @@ struct EnumNames<Planning::EControlOrigin>
     static constexpr std::array WORDS{
         EnumWord<Planning::EControlOrigin>{Planning::EControlOrigin::MCS, "MCS"},
         EnumWord<Planning::EControlOrigin>{Planning::EControlOrigin::Operator, "Operator"},
+    };
+};
+
+template <>
+struct EnumNames<Planning::EBlockKind>
+{
+    static constexpr std::array WORDS{
+        EnumWord<Planning::EBlockKind>{Planning::EBlockKind::Node, "node"},
+        EnumWord<Planning::EBlockKind>{Planning::EBlockKind::Edge, "edge"},
+        EnumWord<Planning::EBlockKind>{Planning::EBlockKind::Station, "station"},
     };
 };
 

@@ -62,6 +62,15 @@ struct ProgressText
     std::optional<std::int32_t> priority;
 };
 
+/// A Block whose time is counted.
+struct BlockText
+{
+    EBlockKind kind = EBlockKind::Node;
+    std::string id;
+    std::string reason;
+    std::int64_t since = 0;
+};
+
 } // namespace
 
 } // namespace ACS::Planning
@@ -150,6 +159,16 @@ struct JsonFields<Planning::Alarm>
         Optional("planId", &Planning::Alarm::planID),
         Optional("stepNo", &Planning::Alarm::stepNo),
         Optional("jobId", &Planning::Alarm::jobID));
+};
+
+template <>
+struct JsonFields<Planning::BlockText>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("kind", &Planning::BlockText::kind),
+        Required("id", &Planning::BlockText::id),
+        Optional("reason", &Planning::BlockText::reason),
+        Required("since", &Planning::BlockText::since));
 };
 
 template <>
@@ -447,6 +466,22 @@ std::string EncodeAlarm(const Alarm& alarm)
 Core::Result<Alarm> DecodeAlarm(std::string_view text)
 {
     return DecodeText<Alarm>(text);
+}
+
+std::string EncodeBlock(const Block& block)
+{
+    return EncodeText(BlockText{block.kind, block.id, block.reason, block.since.time_since_epoch().count()});
+}
+
+Core::Result<Block> DecodeBlock(std::string_view text)
+{
+    return DecodeText<BlockText>(text).map([](BlockText&& read) {
+        return Block{
+            read.kind,
+            std::move(read.id),
+            std::move(read.reason),
+            Core::WallTime(Core::WallTime::duration(read.since))};
+    });
 }
 
 } // namespace ACS::Planning

@@ -43,7 +43,8 @@ OperatorCommands::OperatorCommands(
       _rejections(rejections),
       _places(places),
       _work(work),
-      _jobs(jobs)
+      _jobs(jobs),
+      _blocks(engine)
 {
 }
 
@@ -326,6 +327,16 @@ void OperatorCommands::ChangePriority(const SetPlanPriority& command)
         command.replyToken,
         true,
         fmt::format("Plan {} has the priority {}.", command.planID, command.priority));
+}
+
+BlockControl& OperatorCommands::GetBlocks() noexcept
+{
+    return _blocks;
+}
+
+const BlockControl& OperatorCommands::GetBlocks() const noexcept
+{
+    return _blocks;
 }
 
 void OperatorCommands::Skip(const SkipStep& command)

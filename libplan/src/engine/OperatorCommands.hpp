@@ -4,6 +4,7 @@
 #include "control/LoadWatch.hpp"
 #include "control/RejectionWatch.hpp"
 #include "control/StallWatch.hpp"
+#include "traffic/BlockControl.hpp"
 #include "traffic/PlaceTracker.hpp"
 #include "transaction/EngineState.hpp"
 #include "work/JobOutcomes.hpp"
@@ -18,8 +19,8 @@
 namespace ACS::Planning
 {
 
-/// Handles the operator's commands: maintenance, alarms, carriers, skipped steps, priorities and the outcome of
-/// jobs. Owns no data.
+/// Handles the operator's commands: maintenance, alarms, carriers, skipped steps, priorities, blocks and the
+/// outcome of jobs.
 class OperatorCommands
 {
     PlanBook& _plans;
@@ -33,6 +34,7 @@ class OperatorCommands
     PlaceTracker& _places;
     PlanWork& _work;
     JobOutcomes& _jobs;
+    BlockControl _blocks;
 
 public:
     OperatorCommands(
@@ -59,6 +61,8 @@ public:
     void Skip(const SkipStep& command);
     /// Moves a plan in the queue.
     void ChangePriority(const SetPlanPriority& command);
+    [[nodiscard]] BlockControl& GetBlocks() noexcept;
+    [[nodiscard]] const BlockControl& GetBlocks() const noexcept;
     /// Resolves a job whose outcome is unknown.
     void Settle(const ResolveJob& command);
 

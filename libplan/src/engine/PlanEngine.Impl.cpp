@@ -70,6 +70,7 @@ void PlanEngine::Impl::SetObserver(IPlanObserver& observer)
 void PlanEngine::Impl::Restore(StoredState state, Core::Now now, EngineActions& out)
 {
     Begin(now);
+    _operator.GetBlocks().Restore(std::move(state.blocks));
     _recovery.Restore(std::move(state));
     End(out);
 }
@@ -102,8 +103,10 @@ void PlanEngine::Impl::HandleCommand(const PlanCommand& command)
             [this](const ClearAlarms& clear) { _operator.ClearByOperator(clear); },
             [this](const SetCarriers& carriers) { _operator.CorrectCarriers(carriers); },
             [this](const SkipStep& skip) { _operator.Skip(skip); },
-            [this](const SetPlanPriority& priority) {
-                _operator.ChangePriority(priority);
+            [this](const SetPlanPriority& priority) { _operator.ChangePriority(priority); },
+            [this](const BlockPlace& block) { _operator.GetBlocks().Add(block); },
+            [this](const UnblockPlace& unblock) {
+                _operator.GetBlocks().Remove(unblock);
             }},
         command);
 }

@@ -90,8 +90,11 @@ public:
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const ResolveJob& command) const;
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SkipStep& command) const;
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const ControlPlan& command) const;
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const BlockPlace& command) const;
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const UnblockPlace& command) const;
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SetPlanPriority& command) const;
     [[nodiscard]] const std::vector<Alarm>& GetActiveAlarms() const noexcept;
+    [[nodiscard]] const std::vector<Block>& GetBlocks() const noexcept;
     [[nodiscard]] const EngineOptions& GetOptions() const noexcept;
     [[nodiscard]] const SiteMap& GetSite() const noexcept;
     [[nodiscard]] ETscState GetTscState() const noexcept;

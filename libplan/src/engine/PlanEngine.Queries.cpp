@@ -208,9 +208,24 @@ std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const SetP
     return _operator.GetRejectionReasonOrNull(command);
 }
 
+std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const BlockPlace& command) const
+{
+    return _operator.GetBlocks().GetRejectionReasonOrNull(command);
+}
+
+std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const UnblockPlace& command) const
+{
+    return _operator.GetBlocks().GetRejectionReasonOrNull(command);
+}
+
 const std::vector<Alarm>& PlanEngine::Impl::GetActiveAlarms() const noexcept
 {
     return _engine.alarms.GetAlarms();
+}
+
+const std::vector<Block>& PlanEngine::Impl::GetBlocks() const noexcept
+{
+    return _engine.blocks.GetBlocks();
 }
 
 const EngineOptions& PlanEngine::Impl::GetOptions() const noexcept

@@ -150,9 +150,24 @@ std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const SetPlanPri
     return _impl->GetRejectionReasonOrNull(command);
 }
 
+std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const BlockPlace& command) const
+{
+    return _impl->GetRejectionReasonOrNull(command);
+}
+
+std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const UnblockPlace& command) const
+{
+    return _impl->GetRejectionReasonOrNull(command);
+}
+
 const std::vector<Alarm>& PlanEngine::GetActiveAlarms() const noexcept
 {
     return _impl->GetActiveAlarms();
+}
+
+const std::vector<Block>& PlanEngine::GetBlocks() const noexcept
+{
+    return _impl->GetBlocks();
 }
 
 const EngineOptions& PlanEngine::GetOptions() const noexcept

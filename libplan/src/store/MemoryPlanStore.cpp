@@ -57,6 +57,12 @@ void ApplyChange(StoredState& state, const StoreChange& change)
                     state.robotsInMaintenance.push_back(changed.robotID);
                 }
             },
+            [&state](const BlockAdded& added) { state.blocks.push_back(added.block); },
+            [&state](const BlockRemoved& removed) {
+                std::erase_if(state.blocks, [&removed](const Block& block) {
+                    return block.kind == removed.kind && block.id == removed.id;
+                });
+            },
             [&state](const TscChanged& changed) {
                 state.tscState = changed.state;
                 if (changed.state == ETscState::Auto)

@@ -5,6 +5,7 @@
 #include "restart/RestartHold.hpp"
 #include "restart/StartupBarrier.hpp"
 #include "robot/Fleet.hpp"
+#include "site/BlockBook.hpp"
 #include "transaction/AlarmBook.hpp"
 #include "transaction/CallRecord.hpp"
 #include "transaction/EngineTransaction.hpp"
@@ -26,6 +27,7 @@ struct EngineState
     SiteMap site;
     Core::IRandom& random;
     PlanAdmission admission{options, site};
+    BlockBook blocks{site};
     PlanBook plans{options};
     Fleet fleet{options};
     AlarmBook alarms;

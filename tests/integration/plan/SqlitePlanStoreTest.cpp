@@ -93,7 +93,12 @@ std::vector<StoreBatch> MakeBatches()
           MaintenanceChanged{"LR01", true},
           MaintenanceChanged{"CR01", true},
           MaintenanceChanged{"LR01", false},
-          MaintenanceChanged{"CR01", true}}},
+          MaintenanceChanged{"CR01", true},
+          BlockAdded{Block{EBlockKind::Node, "L03", "oil", Testing::ManualClock().GetNow().wall}},
+          BlockAdded{Block{EBlockKind::Edge, "L03", "", Testing::ManualClock().GetNow().wall}},
+          BlockAdded{Block{EBlockKind::Station, "A01.CP01", "", Testing::ManualClock().GetNow().wall}},
+          BlockRemoved{EBlockKind::Node, "L03"},
+          BlockAdded{Block{EBlockKind::Node, "L03", "ice", Testing::ManualClock().GetNow().wall}}}},
         {{ReportRemoved{1},
           CarriersChanged{"LR01", {"C1"}},
           ReportAdded{MakeEntry(3, "P1")},
@@ -180,8 +185,28 @@ TEST_CASE("Store: databases of the first and second schema are migrated without 
         REQUIRE(store->Append(
             {{PlanAdded{MakeRecord(2, "P2")}, RobotWorkChanged{"LR01", "C", {}, {}, {}, false, false, {"N1"}}}}));
         CHECK(store->Load()->plans.back().transactionID == "request-P2");
+        CHECK(store->Load()->blocks.empty());
         CHECK(store->Load()->robotWorks.size() == 1);
     }
+}
+
+TEST_CASE("Store: a database of the fourth schema, without blocks, is migrated without loss")
+{
+    const StoreFolder folder;
+    MemoryPlanStore memory;
+    const StoreBatch batch = MakeBatches().front();
+    REQUIRE(memory.Append(batch).has_value());
+    REQUIRE(OpenStore(folder.GetStore())->Append(batch).has_value());
+    {
+        SQLite::Database database(GetDatabase(folder.GetStore()), SQLite::OPEN_READWRITE);
+        database.exec("DROP TABLE blocks; PRAGMA user_version = 4");
+    }
+    const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetStore());
+    CHECK(store->GetOrigin().foundVersion == 4);
+    CHECK(*store->Load() == memory.GetState());
+    const Block block{EBlockKind::Node, "L03", "oil", Testing::ManualClock().GetNow().wall};
+    REQUIRE(store->Append({{BlockAdded{block}}}).has_value());
+    CHECK(store->Load()->blocks == std::vector<Block>{block});
 }
 
 TEST_CASE("Store: a batch that fails in the middle leaves no change, and the store still works")

@@ -2,6 +2,7 @@
 
 #include <acs/core/Api.hpp>
 #include <acs/core/Result.hpp>
+#include <acs/plan/Block.hpp>
 #include <acs/plan/ETscState.hpp>
 #include <acs/plan/PlanRecord.hpp>
 #include <acs/plan/Report.hpp>
@@ -120,6 +121,23 @@ struct MaintenanceChanged
     bool operator==(const MaintenanceChanged&) const = default;
 };
 
+/// A node, an edge or a station was blocked.
+struct BlockAdded
+{
+    Block block; ///< No other one has its kind and id.
+
+    bool operator==(const BlockAdded&) const = default;
+};
+
+/// A block was removed.
+struct BlockRemoved
+{
+    EBlockKind kind = EBlockKind::Node; ///< Of the block.
+    std::string id;                     ///< Of the block.
+
+    bool operator==(const BlockRemoved&) const = default;
+};
+
 /// One change of what a store has. StoredState is the result of all changes.
 using StoreChange = std::variant<
     PlanAdded,
@@ -132,7 +150,9 @@ using StoreChange = std::variant<
     AlarmCleared,
     TscChanged,
     RobotWorkChanged,
-    MaintenanceChanged>;
+    MaintenanceChanged,
+    BlockAdded,
+    BlockRemoved>;
 
 /// Changes that are stored as one transaction.
 struct StoreBatch
@@ -156,6 +176,7 @@ struct StoredState
     /// Paused and commands no robot to move or work until the operator resumes it. TscChanged to Auto clears the reason.
     std::string holdReason;
     std::vector<RobotWorkChanged> robotWorks; ///< The last one of each robot.
+    std::vector<Block> blocks;                ///< In the order in which they were added.
 
     bool operator==(const StoredState&) const = default;
 };

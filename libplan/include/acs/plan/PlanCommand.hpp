@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/plan/EBlockKind.hpp>
 #include <acs/plan/EControlOrigin.hpp>
 #include <acs/plan/EJobResolution.hpp>
 #include <acs/plan/EPlanControl.hpp>
@@ -131,6 +132,30 @@ struct SetPlanPriority
     bool operator==(const SetPlanPriority&) const = default;
 };
 
+/// Operator: close a node, an edge or a station. No drive begins and no node is granted that needs it; a drive under way is
+/// rerouted where its base ends, or waits there. Granted nodes are still driven, and a robot on a blocked node may leave it.
+/// Survives a restart. Refused if there is no such node, edge or station, if it is blocked already, and beyond MAXIMUM_BLOCKS.
+/// Answered by one ReplyCommand.
+struct BlockPlace
+{
+    EBlockKind kind = EBlockKind::Node; ///< What id names.
+    std::string id;                     ///< nodeID, edgeID or stationID.
+    std::string reason;                 ///< For wait reasons; may be empty. At most MAXIMUM_REASON_LENGTH.
+    ReplyToken replyToken = 0;
+
+    bool operator==(const BlockPlace&) const = default;
+};
+
+/// Operator: open what BlockPlace has closed. Answered by one ReplyCommand.
+struct UnblockPlace
+{
+    EBlockKind kind = EBlockKind::Node; ///< As in the block.
+    std::string id;                     ///< As in the block.
+    ReplyToken replyToken = 0;
+
+    bool operator==(const UnblockPlace&) const = default;
+};
+
 /// Commands of the MCS and of the operator.
 using PlanCommand = std::variant<
     SubmitPlan,
@@ -142,6 +167,8 @@ using PlanCommand = std::variant<
     ClearAlarms,
     SetCarriers,
     SkipStep,
-    SetPlanPriority>;
+    SetPlanPriority,
+    BlockPlace,
+    UnblockPlace>;
 
 } // namespace ACS::Planning

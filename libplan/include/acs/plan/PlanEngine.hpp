@@ -4,6 +4,7 @@
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
+#include <acs/plan/Block.hpp>
 #include <acs/plan/EngineAction.hpp>
 #include <acs/plan/EngineOptions.hpp>
 #include <acs/plan/IPlanObserver.hpp>
@@ -144,6 +145,10 @@ public:
 
     /// Likewise.
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const SetPlanPriority& command) const;
+    /// Likewise.
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const BlockPlace& command) const;
+    /// Likewise.
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const UnblockPlace& command) const;
     /// Likewise; the command is taken as an operator's.
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const ControlPlan& command) const;
 
@@ -152,6 +157,9 @@ public:
 
     /// The alarms that are set.
     [[nodiscard]] const std::vector<Alarm>& GetActiveAlarms() const noexcept;
+
+    /// In the order in which they were set. Those whose id is not on the map (any more) have no effect.
+    [[nodiscard]] const std::vector<Block>& GetBlocks() const noexcept;
 
     /// As passed to the constructor.
     [[nodiscard]] const EngineOptions& GetOptions() const noexcept;

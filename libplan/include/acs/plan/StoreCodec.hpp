@@ -45,4 +45,9 @@ namespace ACS::Planning
 /// Reads what EncodeAlarm wrote.
 [[nodiscard]] ACS_API Core::Result<Alarm> DecodeAlarm(std::string_view text);
 
+/// Writes a block.
+[[nodiscard]] ACS_API std::string EncodeBlock(const Block& block);
+/// Reads what EncodeBlock wrote.
+[[nodiscard]] ACS_API Core::Result<Block> DecodeBlock(std::string_view text);
+
 } // namespace ACS::Planning

@@ -22,6 +22,9 @@ TEST_CASE("Store texts: plans, states, carriers and alarms are decoded as they w
     progress.priority = -3;
     CHECK(DecodeProgress(EncodeProgress(progress)) == progress);
 
+    const Block block{EBlockKind::Station, "A01.CP01", "cleaning", Testing::ManualClock().GetNow().wall};
+    CHECK(DecodeBlock(EncodeBlock(block)) == block);
+
     const CarriersChanged carriers{"CR01", {std::nullopt, "TRAY_02", std::nullopt}};
     CHECK(DecodeCarriers(EncodeCarriers(carriers)) == carriers);
 
