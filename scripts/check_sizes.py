@@ -14,8 +14,8 @@ FOLDERS = ("libplan/", "apps/acsd/")
 CYCLE_ROOT = "libplan/src/"
 METHODS, MEMBERS, FIELDS, LINES = "methods", "members", "fields", "lines"
 LIMITS = {METHODS: 60, MEMBERS: 20, FIELDS: 15, LINES: 500}
-# Options, messages and views are values: they have as many fields as their document has.
-VALUE_NAME = re.compile(r"(?:Options|Config|Spec|Message|Record|Summary|Event|Job|Status|State|Limits|View)$")
+# Options, messages, texts and views are values: they have as many fields as their document has.
+VALUE_NAME = re.compile(r"(?:Options|Config|Spec|Message|Record|Summary|Event|Job|Status|State|Limits|Text|View)$")
 EXCEEDED = "scripts/sizes-exceeded.txt"
 TYPE = re.compile(r"\b(class|struct)\s+(?:ACS_[A-Z]+\s+|\[\[[^\]]*\]\]\s*|alignas\([^)]*\)\s*)?((?:\w+::)*\w+)\s*(?:final\s*)?"
                   r"(?::(?!:)[^;{}()]*)?\{")

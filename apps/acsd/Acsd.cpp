@@ -11,7 +11,6 @@
 #include "operator/AcsdMetrics.hpp"
 #include "operator/AuditLog.hpp"
 #include "operator/CommandRoutes.hpp"
-#include "operator/EntryFeed.hpp"
 #include "operator/HealthRoutes.hpp"
 #include "operator/HttpInterfaces.hpp"
 #include "operator/LinesRoute.hpp"
@@ -73,7 +72,6 @@ class Acsd::Impl final : private IAcsdOutput
     Apps::LoopWatchdog _watchdog;
     HttpInterfaces _http;
     StateFeed _feed;
-    EntryFeed _entries;
     std::size_t _openLinks = 0; ///< Of those that are being closed.
     StopHandler _stopHandler;
 
@@ -130,10 +128,10 @@ public:
                _dependencies.clock,
                _core.GetEngine(),
                [this] { return GetProgramState(); },
-               _http.GetEvents()}),
-          _entries([this](std::string_view data) { _http.GetEvents().Publish("entry", data); }, _planLog)
+               _http.GetEvents(),
+               _planLog})
     {
-        _core.SetObserver(_entries);
+        _core.SetObserver(_feed.GetObserver());
         _planLog.CreateSeries(_config.engine);
         AddRoutes();
         if (_config.mqtt.has_value())

@@ -1,6 +1,7 @@
 #include "AcsdCore.hpp"
 
 #include "replay/RecordedConfig.hpp"
+#include "replay/RecordedInput.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/plan/EPlanningError.hpp>
 

@@ -158,7 +158,7 @@ class Plan:
             "jobId": self.get_job_id() if is_working else None, "currentAction": self.get_step()["action"] if is_working else None,
             "acceptedAt": format_time(self.accepted_at), "startedAt": self.started_at and format_time(self.started_at),
             "endedAt": self.ended_at and format_time(self.ended_at), "message": self.message, "waits": self.waits,
-            "steps": steps, **({"carrierIds": self.carrier_ids} if is_detailed else {})}
+            "steps": steps}
 
 
 class Robot:

@@ -3,8 +3,8 @@
 #include "common/http/MetricsEndpoint.hpp"
 #include "mcs/McsLink.hpp"
 #include "mcs/RefusedReports.hpp"
-#include "view/ProgramState.hpp"
 #include "operator/AlarmSeries.hpp"
+#include "view/ProgramState.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/plan/PlanEngine.hpp>
 #include <acs/plan/StoreLog.hpp>

@@ -65,6 +65,13 @@ struct JsonFields<Acsd::BlockBody>
         Defaulted("reason", &Acsd::BlockBody::reason).WithLength(0, Acsd::MOST_REASON_BYTES).AsIdentifier());
 };
 
+template <>
+struct JsonFields<Acsd::UnblockBody>
+{
+    static constexpr auto FIELDS =
+        std::make_tuple(Required("kind", &Acsd::UnblockBody::kind), Required("id", &Acsd::UnblockBody::placeID));
+};
+
 } // namespace ACS::Json
 
 namespace ACS::Acsd
@@ -98,5 +105,6 @@ template Core::Result<MaintenanceBody> ReadBody<MaintenanceBody>(std::string_vie
 template Core::Result<CarriersBody> ReadBody<CarriersBody>(std::string_view text);
 template Core::Result<ClearBody> ReadBody<ClearBody>(std::string_view text);
 template Core::Result<BlockBody> ReadBody<BlockBody>(std::string_view text);
+template Core::Result<UnblockBody> ReadBody<UnblockBody>(std::string_view text);
 
 } // namespace ACS::Acsd

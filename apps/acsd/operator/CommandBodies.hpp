@@ -67,6 +67,13 @@ struct BlockBody
     std::string reason;
 };
 
+/// {"kind":"edge","id":"E_01"}
+struct UnblockBody
+{
+    std::string kind;
+    std::string placeID;
+};
+
 /// Reads the body of a command. An empty text is an empty object; unknown and repeated members are errors. The error has the JSON
 /// path. Defined for the bodies above.
 template <typename TBody>

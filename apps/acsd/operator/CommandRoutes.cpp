@@ -277,6 +277,58 @@ HttpResponse SetPriority(
     return Submit(access, std::move(command), fmt::format("The priority of plan {} is {}.", planID, body.priority));
 }
 
+std::optional<Planning::EBlockKind> ReadBlockKindOrNull(std::string_view word)
+{
+    for (const Planning::EBlockKind kind :
+         {Planning::EBlockKind::Node, Planning::EBlockKind::Edge, Planning::EBlockKind::Station})
+    {
+        if (word == GetText(kind))
+        {
+            return kind;
+        }
+    }
+    return std::nullopt;
+}
+
+HttpResponse RefuseKind(std::string_view kind)
+{
+    return Refuse(
+        OperatorCode::BAD_REQUEST,
+        fmt::format("Expected kind: node, edge or station; found {}.", Core::QuoteForError(kind)));
+}
+
+HttpResponse Block(const Planning::PlanEngine& engine, const CommandAccess& access, BlockBody body)
+{
+    const std::optional<Planning::EBlockKind> kind = ReadBlockKindOrNull(body.kind);
+    if (!kind.has_value())
+    {
+        return RefuseKind(body.kind);
+    }
+    Planning::BlockPlace command{*kind, std::move(body.placeID), std::move(body.reason), 0};
+    if (const std::optional<std::string> reason = engine.GetRejectionReasonOrNull(command))
+    {
+        return Refuse(OperatorCode::CONFLICT, *reason);
+    }
+    std::string message = fmt::format("The {} {} is blocked.", body.kind, command.id);
+    return Submit(access, std::move(command), std::move(message), EUnstored::Accepted);
+}
+
+HttpResponse Unblock(const Planning::PlanEngine& engine, const CommandAccess& access, UnblockBody body)
+{
+    const std::optional<Planning::EBlockKind> kind = ReadBlockKindOrNull(body.kind);
+    if (!kind.has_value())
+    {
+        return RefuseKind(body.kind);
+    }
+    Planning::UnblockPlace command{*kind, std::move(body.placeID), 0};
+    if (const std::optional<std::string> reason = engine.GetRejectionReasonOrNull(command))
+    {
+        return Refuse(OperatorCode::NOT_FOUND, *reason);
+    }
+    std::string message = fmt::format("The {} {} is open again.", body.kind, command.id);
+    return Submit(access, std::move(command), std::move(message));
+}
+
 /// Adds a POST whose body is TBody.
 template <typename TBody, typename THandle>
 void AddCommand(Apps::HttpRoutes& routes, std::string_view pattern, THandle handle)
@@ -352,8 +404,14 @@ void AddRobotCommands(Apps::HttpRoutes& routes, const Planning::PlanEngine& engi
     });
 }
 
-void AddSiteCommands(Apps::HttpRoutes& routes, const CommandAccess& access)
+void AddSiteCommands(Apps::HttpRoutes& routes, const Planning::PlanEngine& engine, const CommandAccess& access)
 {
+    AddCommand<BlockBody>(routes, "/v1/site/block", [&engine, access](const Captures&, BlockBody body) {
+        return Block(engine, access, std::move(body));
+    });
+    AddCommand<UnblockBody>(routes, "/v1/site/unblock", [&engine, access](const Captures&, UnblockBody body) {
+        return Unblock(engine, access, std::move(body));
+    });
     for (const bool bPause : {true, false})
     {
         const std::string_view word = bPause ? "pause" : "resume";
@@ -376,7 +434,7 @@ void AddCommandRoutes(Apps::HttpRoutes& routes, const Planning::PlanEngine& engi
 {
     AddPlanCommands(routes, engine, access);
     AddRobotCommands(routes, engine, access);
-    AddSiteCommands(routes, access);
+    AddSiteCommands(routes, engine, access);
 }
 
 } // namespace ACS::Acsd

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -115,8 +116,10 @@ void AddReadRoutes(Apps::HttpRoutes& routes, const Planning::PlanEngine& engine,
         return MakeJsonAnswer(EncodeLinks(access.getState().status.links));
     });
     AddRead(routes, "/v1/queue", [access](const Captures&) { return MakeJsonAnswer(EncodeQueue(access.getState())); });
-    AddRead(routes, "/v1/site", [site = MakeSiteView(engine.GetSite())](const Captures&) {
-        return MakeJsonAnswer(EncodeSite(site));
+    const auto site = std::make_shared<SiteView>(MakeSiteView(engine.GetSite()));
+    AddRead(routes, "/v1/site", [&engine, site](const Captures&) {
+        site->blocked = MakeBlockViews(engine.GetBlocks());
+        return MakeJsonAnswer(EncodeSite(*site));
     });
 }
 

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace ACS::Acsd
 StateFeed::StateFeed(Dependencies dependencies)
     : _dependencies(std::move(dependencies)),
       _maker(_dependencies.engine, _dependencies.clock.GetNow().wall),
+      _entries(
+          [this](std::string_view data) { _dependencies.events.Publish("entry", data); },
+          _dependencies.nextObserver),
       _timer(_dependencies.executor, [this](int) { OnTimer(); })
 {
 }
@@ -38,6 +42,11 @@ const StateView& StateFeed::Update()
         Publish(changes);
     }
     return _state;
+}
+
+Planning::IPlanObserver& StateFeed::GetObserver() noexcept
+{
+    return _entries;
 }
 
 std::uint64_t StateFeed::GetEventID() const noexcept

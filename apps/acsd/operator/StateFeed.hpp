@@ -1,10 +1,12 @@
 #pragma once
 
 #include "common/process/TimerSet.hpp"
+#include "operator/EntryFeed.hpp"
 #include "operator/EventFeed.hpp"
 #include "view/StateView.hpp"
 #include "view/StateViewMaker.hpp"
 #include <acs/core/Now.hpp>
+#include <acs/plan/IPlanObserver.hpp>
 #include <acs/plan/PlanEngine.hpp>
 
 #include <boost/asio/any_io_executor.hpp>
@@ -16,7 +18,7 @@
 namespace ACS::Acsd
 {
 
-/// The present state for operators, and the events `changes` with what is different from the state before. Used on the executor's
+/// The present state for operators, the events `changes` with what is different from the state before, and the events `entry`. Used on the executor's
 /// thread.
 class StateFeed final
 {
@@ -28,6 +30,7 @@ public:
         const Planning::PlanEngine& engine;
         std::function<ProgramState()> getProgram;
         EventFeed& events;
+        Planning::IPlanObserver& nextObserver; ///< Receives what GetObserver receives.
     };
 
     /// Between two events at least.
@@ -37,6 +40,7 @@ private:
     Dependencies _dependencies;
     StateViewMaker _maker;
     StateView _state;
+    EntryFeed _entries;
     Apps::TimerSet<int> _timer;
 
 public:
@@ -49,6 +53,9 @@ public:
 
     /// Publishes what has changed. The state is valid until the next call.
     [[nodiscard]] const StateView& Update();
+
+    /// For the engine: publishes an event `entry` for each change.
+    [[nodiscard]] Planning::IPlanObserver& GetObserver() noexcept;
 
     /// Number of the last event that contributed to the state.
     [[nodiscard]] std::uint64_t GetEventID() const noexcept;

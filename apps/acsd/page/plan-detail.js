@@ -82,7 +82,7 @@ export class PlanDetail {
         const makeLink = (kind, id) => make("button", {type: "button", class: "link", text: id,
             onclick: () => this.context.select({kind, id})});
         add("plan.status", nameState("planStatus", plan.status),
-            plan.message ? make("p", {class: "reason", text: plan.message}) : null);
+            plan.message ? make("p", {class: plan.endedAt === null ? "muted" : "reason", text: plan.message}) : null);
         if (plan.waits !== null) {
             const since = make("span", {class: "wait-since"});
             setSince(since, plan.waits.since);
@@ -96,7 +96,8 @@ export class PlanDetail {
         add("plan.robot", plan.robotId ? makeLink("robot", plan.robotId) : "–");
         add("plan.priority", String(plan.priority ?? "–"));
         add("plan.lot", plan.lotId || "–");
-        add("plan.carriers", (plan.carrierIds ?? []).join(", ") || "–");
+        const carriers = new Set(plan.steps.flatMap((step) => step.carrierIds ?? []));
+        add("plan.carriers", [...carriers].join(", ") || "–");
         add("plan.accepted", formatTime(plan.acceptedAt));
         add("plan.started", formatTime(plan.startedAt));
         if (plan.endedAt !== null) {

@@ -35,7 +35,8 @@ struct CommandText
     std::optional<std::string> jobID;
     std::vector<std::optional<std::string>> carrierIDs;
     std::uint64_t replyToken = 0;
-    std::string origin; ///< Of a control; empty: the MCS.
+    std::string origin;  ///< Of a control; empty: the MCS.
+    std::string placeID; ///< Of a block, whose kind is the text.
 };
 
 constexpr std::string_view SUBMIT_COMMAND = "SubmitPlan";
@@ -48,6 +49,8 @@ constexpr std::string_view CLEAR_COMMAND = "ClearAlarms";
 constexpr std::string_view CARRIERS_COMMAND = "SetCarriers";
 constexpr std::string_view SKIP_COMMAND = "SkipStep";
 constexpr std::string_view PRIORITY_COMMAND = "SetPlanPriority";
+constexpr std::string_view BLOCK_COMMAND = "BlockPlace";
+constexpr std::string_view UNBLOCK_COMMAND = "UnblockPlace";
 
 } // namespace
 
@@ -74,7 +77,8 @@ struct JsonFields<Acsd::CommandText>
         Optional("jobId", &Acsd::CommandText::jobID),
         Optional("carrierIds", &Acsd::CommandText::carrierIDs),
         Defaulted("replyToken", &Acsd::CommandText::replyToken),
-        Optional("origin", &Acsd::CommandText::origin));
+        Optional("origin", &Acsd::CommandText::origin),
+        Optional("placeId", &Acsd::CommandText::placeID));
 };
 
 } // namespace ACS::Json
@@ -167,6 +171,19 @@ CommandText MakeCommandText(const Planning::PlanCommand& command)
                 text.planID = priority.planID;
                 text.number = priority.priority;
                 text.replyToken = priority.replyToken;
+            },
+            [&text](const BlockPlace& block) {
+                text.command = BLOCK_COMMAND;
+                text.text = GetText(block.kind);
+                text.placeID = block.id;
+                text.reason = block.reason;
+                text.replyToken = block.replyToken;
+            },
+            [&text](const UnblockPlace& unblock) {
+                text.command = UNBLOCK_COMMAND;
+                text.text = GetText(unblock.kind);
+                text.placeID = unblock.id;
+                text.replyToken = unblock.replyToken;
             }},
         command);
     return text;
@@ -200,6 +217,19 @@ Core::Result<Planning::PlanCommand> MakeResolution(CommandText text)
                 std::move(text.jobID).value_or(std::string()),
                 resolution,
                 text.replyToken};
+        });
+}
+
+Core::Result<Planning::PlanCommand> MakeBlock(CommandText text)
+{
+    using Planning::EBlockKind;
+    return FindWordValue(text.text, {EBlockKind::Node, EBlockKind::Edge, EBlockKind::Station})
+        .map([&text](EBlockKind kind) -> Planning::PlanCommand {
+            if (text.command == BLOCK_COMMAND)
+            {
+                return Planning::BlockPlace{kind, std::move(text.placeID), std::move(text.reason), text.replyToken};
+            }
+            return Planning::UnblockPlace{kind, std::move(text.placeID), text.replyToken};
         });
 }
 
@@ -251,6 +281,10 @@ Core::Result<Planning::PlanCommand> MakePlanCommand(CommandText text)
     if (text.command == PRIORITY_COMMAND)
     {
         return Planning::SetPlanPriority{std::move(text.planID), text.number.value_or(0), text.replyToken};
+    }
+    if (text.command == BLOCK_COMMAND || text.command == UNBLOCK_COMMAND)
+    {
+        return MakeBlock(std::move(text));
     }
     return Core::Fail(Core::ECoreError::UnknownWord, "command", "a command", Core::QuoteForError(text.command));
 }

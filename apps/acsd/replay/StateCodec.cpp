@@ -50,6 +50,7 @@ struct StoreText
     std::string tscState;
     std::string holdReason;
     std::vector<std::string> robotWorks;
+    std::vector<std::string> blocks;
 };
 
 } // namespace
@@ -92,7 +93,8 @@ struct JsonFields<Acsd::StoreText>
         Optional("robotsInMaintenance", &Acsd::StoreText::robotsInMaintenance),
         Required("tsc", &Acsd::StoreText::tscState),
         Optional("holdReason", &Acsd::StoreText::holdReason),
-        Optional("robotWorks", &Acsd::StoreText::robotWorks));
+        Optional("robotWorks", &Acsd::StoreText::robotWorks),
+        Optional("blocks", &Acsd::StoreText::blocks));
 };
 
 } // namespace ACS::Json
@@ -173,6 +175,7 @@ Core::Result<Planning::StoredState> MakeStoredState(const StoreText& text)
         .and_then([&] { return DecodeAll(text.carriers, Planning::DecodeCarriers, state.carriers); })
         .and_then([&] { return DecodeAll(text.alarms, Planning::DecodeAlarm, state.alarms); })
         .and_then([&] { return DecodeAll(text.robotWorks, Planning::DecodeRobotWork, state.robotWorks); })
+        .and_then([&] { return DecodeAll(text.blocks, Planning::DecodeBlock, state.blocks); })
         .map([&] { return std::move(state); });
 }
 
@@ -236,8 +239,14 @@ std::string DescribeChange(const Planning::StoreChange& change)
                     QuoteText(changed.robotID),
                     changed.bOn);
             },
-            [](const auto& /*of a later version*/) {
-                return std::string(R"({"change":"other"})");
+            [](const BlockAdded& added) {
+                return fmt::format(R"({{"change":"BlockAdded","block":{}}})", EncodeBlock(added.block));
+            },
+            [](const BlockRemoved& removed) {
+                return fmt::format(
+                    R"({{"change":"BlockRemoved","kind":"{}","id":{}}})",
+                    GetText(removed.kind),
+                    QuoteText(removed.id));
             }},
         change);
 }
@@ -301,6 +310,7 @@ std::string EncodeState(const Planning::StoredState& state)
     text.tscState = GetText(state.tscState);
     text.holdReason = state.holdReason;
     std::ranges::transform(state.robotWorks, std::back_inserter(text.robotWorks), Planning::EncodeRobotWork);
+    std::ranges::transform(state.blocks, std::back_inserter(text.blocks), Planning::EncodeBlock);
     return EncodeRecord(text);
 }
 

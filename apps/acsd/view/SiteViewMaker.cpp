@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace ACS::Acsd
@@ -52,6 +53,17 @@ SiteView MakeSiteView(const Planning::SiteMap& site)
         view.stations.push_back({station.stationID, station.nodeIDs});
     }
     return view;
+}
+
+std::vector<BlockView> MakeBlockViews(const std::vector<Planning::Block>& blocks)
+{
+    std::vector<BlockView> views;
+    views.reserve(blocks.size());
+    for (const Planning::Block& block : blocks)
+    {
+        views.push_back({std::string(GetText(block.kind)), block.id, block.reason, block.since});
+    }
+    return views;
 }
 
 } // namespace ACS::Acsd

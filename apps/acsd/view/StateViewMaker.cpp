@@ -174,6 +174,12 @@ StatusView StateViewMaker::MakeStatus(const ProgramState& program, Core::WallTim
     status.alarms.heavy =
         static_cast<std::size_t>(std::ranges::count(alarms, Planning::EAlarmLevel::Heavy, &Planning::Alarm::level));
     status.alarms.light = alarms.size() - status.alarms.heavy;
+    if (_blocks != _engine.GetBlocks())
+    {
+        _blocks = _engine.GetBlocks();
+        ++_siteRevision;
+    }
+    status.siteRevision = _siteRevision;
     return status;
 }
 

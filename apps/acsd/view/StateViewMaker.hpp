@@ -5,10 +5,12 @@
 #include <acs/core/Now.hpp>
 #include <acs/plan/PlanEngine.hpp>
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace ACS::Acsd
 {
@@ -21,6 +23,8 @@ class StateViewMaker final
 
     const Planning::PlanEngine& _engine;
     Core::WallTime _startedAt;
+    std::vector<Planning::Block> _blocks; ///< Of the last view.
+    std::uint64_t _siteRevision = 0;
     Since _waits;  ///< By planID.
     Since _alarms; ///< By robot, code, plan and job.
     std::map<std::string, std::pair<bool, Core::WallTime>, std::less<>> _links;

@@ -90,6 +90,7 @@ struct StatusView
     PlanCountsView plans;
     RobotCountsView robots;
     AlarmCountsView alarms;
+    std::uint64_t siteRevision = 0; ///< Counts the changes of the blocks since the start: read the site again.
 
     bool operator==(const StatusView&) const = default;
 };

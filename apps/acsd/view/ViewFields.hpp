@@ -248,7 +248,8 @@ struct JsonFields<Acsd::StatusView>
         Required("refusedReports", &Acsd::StatusView::refusedReports),
         Required("plans", &Acsd::StatusView::plans),
         Required("robots", &Acsd::StatusView::robots),
-        Required("alarms", &Acsd::StatusView::alarms));
+        Required("alarms", &Acsd::StatusView::alarms),
+        Required("siteRevision", &Acsd::StatusView::siteRevision));
 };
 
 template <>

@@ -241,6 +241,29 @@ TEST_CASE("POST /v1/plans/PLAN/priority changes the order of the queue")
     CHECK(HasText(user.Post("/v1/plans/P1/priority"), "400 "));
 }
 
+TEST_CASE("POST /v1/site/block and unblock close and open a place of the map")
+{
+    Operator user;
+    const std::string block = R"({"kind":"station","id":"CHG01","reason":"wet floor"})";
+    CHECK(user.Post("/v1/site/block", block) == "202 {\"message\":\"The station CHG01 is blocked.\"}\n");
+    REQUIRE(user.world.engine->GetBlocks().size() == 1);
+    CHECK(user.world.engine->GetBlocks().front().reason == "wet floor");
+    CHECK(HasText(user.GetStatus(), R"("siteRevision":1)"));
+    CHECK(HasText(user.Post("/v1/site/block", block), "409 {\"error\":"));
+    CHECK(HasText(user.Post("/v1/site/block", R"({"kind":"node","id":"none"})"), "409 {\"error\":"));
+    CHECK(HasText(
+        user.Post("/v1/site/block", R"({"kind":"robot","id":"LR01"})"),
+        "400 {\"error\":\"Expected kind: node, edge or station; found \\\"robot\\\"."));
+    CHECK(HasText(user.Post("/v1/site/unblock", block), "400 {\"error\":\"Invalid body"));
+    user.storeFault = "the store cannot be written";
+    CHECK(HasText(user.Post("/v1/site/unblock", R"({"kind":"station","id":"CHG01"})"), "503 "));
+    user.storeFault.reset();
+    CHECK(HasText(user.Post("/v1/site/unblock", R"({"kind":"station","id":"CHG01"})"), "202 "));
+    CHECK(user.world.engine->GetBlocks().empty());
+    CHECK(HasText(user.GetStatus(), R"("siteRevision":2)"));
+    CHECK(HasText(user.Post("/v1/site/unblock", R"({"kind":"station","id":"CHG01"})"), "404 "));
+}
+
 TEST_CASE("Parameters in the query, unknown and repeated members and invalid bodies are refused by name")
 {
     Operator user;
