@@ -2,6 +2,7 @@
 
 #include "common/config/Endpoint.hpp"
 #include "common/http/HttpGuard.hpp"
+#include "operator/CommandBodies.hpp"
 #include "operator/LinesRoute.hpp"
 #include "operator/OperatorAnswer.hpp"
 
@@ -128,6 +129,10 @@ Apps::HttpResponse OperatorGate::Login(const Apps::HttpRequest& request)
 
 Apps::HttpResponse OperatorGate::Logout(const Apps::HttpRequest& request)
 {
+    if (!request.query.empty() || !ReadBody<EmptyBody>(request.body).has_value())
+    {
+        return MakeOperatorError(STATUS_INVALID, "Expected no body and no parameter.");
+    }
     const std::optional<OperatorToken::Hash> session = FindSessionOrNull(request);
     if (!session.has_value())
     {

@@ -186,6 +186,9 @@ TEST_CASE("A browser that has shown a token is identified by its cookie until it
     CHECK(fixture.gate.Respond(forged).status == 403);
     CHECK(fixture.commands == 1);
     CHECK(logouts == 0);
+    CHECK(fixture.Browse("POST", "/v1/logout?all=1", cookie).status == 400);
+    CHECK(fixture.Browse("POST", "/v1/logout", cookie, R"({"all":true})").status == 400);
+    CHECK(logouts == 0);
     CHECK(fixture.Browse("POST", "/v1/logout", cookie).status == 204);
     CHECK(logouts == 1);
     CHECK(fixture.Browse("POST", "/v1/tsc/pause", cookie).status == 401);
