@@ -11,6 +11,7 @@
 #include "operator/AcsdMetrics.hpp"
 #include "operator/AuditLog.hpp"
 #include "operator/CommandRoutes.hpp"
+#include "operator/DescriptionRoute.hpp"
 #include "operator/HealthRoutes.hpp"
 #include "operator/HttpInterfaces.hpp"
 #include "operator/LinesRoute.hpp"
@@ -364,6 +365,7 @@ private:
                 ? MakeOperatorError(OperatorCode::NOT_FOUND, "Messages are not traced: start acsd with --trace DIR.")
                 : RespondWithLines(request, _dependencies.traceOrNull->GetNewest());
         });
+        AddDescriptionRoute(commands);
         AddPageRoutes(commands);
         AddCommandRoutes(
             commands,
