@@ -63,6 +63,7 @@ class McsStub:
         self._upgrades_to_refuse = 0
         self.upgrades_refused = 0
         self.unacknowledged = ()  # commands that get no Ack
+        self.refused = ()  # commands whose Ack is Fail
         self._withheld_from = None  # Acks are withheld from the next message of this command on
         self._withholding = False
         threading.Thread(target=self._accept, daemon=True).start()
@@ -240,8 +241,9 @@ class McsStub:
             self._changed.notify_all()
             # Under the lock: when a test sees the message its Ack is sent.
             if self._is_acknowledged(message.command):
+                result, text = ("Fail", "Refused by the test.") if message.command in self.refused else ("Success", "")
                 ack = {"command": message.command + "Ack", "transactionId": message.body["transactionId"],
-                       "timestamp": make_timestamp(), "result": "Success", "message": "", "payload": {}}
+                       "timestamp": make_timestamp(), "result": result, "message": text, "payload": {}}
                 self._send(peer, make_frame(TEXT, json.dumps(ack).encode()))
 
     def _is_acknowledged(self, command):
