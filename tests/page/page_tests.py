@@ -14,7 +14,7 @@ NODE = "N020"  # on the east lane of the example site
 
 
 class AnyAcsd(PageCase):
-    """What holds for every acsd, also a real one (--url)."""
+    """What holds for every acsd with robots at work, also a real one (--url)."""
 
     def setUp(self):
         super().setUp()
@@ -38,6 +38,22 @@ class AnyAcsd(PageCase):
         self.assertGreater(count, 0)
         self.click("#tab-robots")
         wait_until(lambda: len(self.find_all("#view-robots li")) == count, f"{count} robots are listed")
+
+    def test_robots_move(self):
+        self.open()
+        get_places = "return JSON.stringify([...acsdPage.floor.robotLayer.motions.values()].map((motion) => motion.shown))"
+        first = self.run_script(get_places)
+        self.assertNotEqual(first, "[]")
+        wait_until(lambda: self.run_script(get_places) != first, "a robot is shown elsewhere")
+
+    def test_tsc(self):
+        self.open()
+        self.click_button("Pause TSC", "#strip")
+        self.wait_for_text("#toasts", "TSC")
+        wait_until(lambda: self.get_text("#strip-tsc .cell-value") in ("Pausing", "Paused"), "the TSC pauses")
+        self.click_button("Resume TSC", "#strip")
+        self.click("#confirm-action")
+        wait_until(lambda: self.get_text("#strip-tsc .cell-value") == "Auto", "the TSC is Auto")
 
     def test_phone(self):
         self.browser.resize(360, 740, 2, True)
@@ -136,6 +152,22 @@ class Floor(PageCase):
         self.click("#confirm-action")
         self.wait_for_post("/v1/site/unblock", {"kind": "node", "id": NODE})
         wait_until(lambda: "wet floor" not in self.get_text("#detail"), "the node is not blocked")
+
+    def test_trajectories_and_maps(self):
+        floor = MockFloor.read_example()
+        edge_id, start, end = floor.edges[0]
+        (x, y), last = floor.places[start], floor.places[end]
+        floor.trajectories[edge_id] = [(x, y), (x + 1, y + 1.5), last]
+        floor.add_node("UPSTAIRS", 0, 0, "floor-2")
+        self.start_mock(floor=floor).freeze()
+        self.open()
+        self.click_floor(x + 1, y + 1.5)
+        self.wait_for_text("#detail-title", edge_id)
+        self.find("#map-tools select").send_keys("floor-2")
+        wait_until(lambda: self.run_script("return acsdPage.floor.mapId") == "floor-2", "the other map")
+        self.press(Keys.ESCAPE)
+        self.click_floor(0, 0)
+        self.wait_for_text("#detail-title", "UPSTAIRS")
 
     def test_zoom_and_fit(self):
         self.start_mock()
@@ -386,6 +418,16 @@ class Connection(PageCase):
             mock._events.clear()
         mock.drop_clients()
         wait_until(lambda: self.run_script("return acsdPage.model.robots.get('LR02').battery") == 3, "the snapshot of the new run")
+
+    def test_pages_left_hold_no_connection(self):
+        """The browser opens 6 connections to one server."""
+        self.start_mock()
+        for _ in range(8):
+            self.open()
+        wait_until(lambda: len(self.mock._clients) == 1 or self.mock.publish(), "one event stream")
+        self.driver.back()
+        self.driver.back()
+        self.wait_for_state("live")
 
     def test_login(self):
         self.expected_log = ("401",)

@@ -62,10 +62,15 @@ export class Feed {
     }
 
     start() {
-        this.#run += 1;
-        this.#abort?.abort();
+        this.stop();
         this.#lastID = null;
         this.#keepGoing(this.#run);
+    }
+
+    /** Ends the stream. */
+    stop() {
+        this.#run += 1;
+        this.#abort?.abort();
     }
 
     #set(name, reason = "") {

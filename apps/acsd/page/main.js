@@ -54,6 +54,13 @@ class Page {
         addEventListener("keydown", (event) => this.#onKey(event));
         addEventListener("hashchange", () => this.#readHash());
         document.addEventListener("visibilitychange", () => this.#schedule());
+        // A page that the browser keeps for its back button must not keep a connection: there are 6 for each server.
+        addEventListener("pagehide", () => this.feed.stop());
+        addEventListener("pageshow", (event) => {
+            if (event.persisted) {
+                this.feed.start();
+            }
+        });
         setInterval(() => this.#tick(), 1_000);
         this.showTexts();
         this.openTab(matchMedia(PHONE).matches ? "floor" : "plans");
