@@ -11,7 +11,8 @@ class EntryRow {
     constructor(entry) {
         this.node = make("li", {class: `entry entry-${KINDS.includes(entry.kind) ? entry.kind : "note"}`},
             make("time", {datetime: entry.time, text: formatClock(Date.parse(entry.time))}),
-            make("span", {class: "tag", text: nameState("entry", entry.kind)}), make("span", {text: entry.text.replaceAll("->", "→")}));
+            make("span", {class: "tag", text: nameState("entry", entry.kind)}),
+            make("span", {text: entry.text.replaceAll("->", "→")}));
     }
 
     update() {
