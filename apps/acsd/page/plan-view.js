@@ -46,8 +46,9 @@ class PlanRow {
         this.since = make("span", {class: "wait-since"});
         this.reason = make("span", {class: "wait-text"});
         this.wait = make("span", {class: "wait"}, this.since, this.reason);
-        const main = make("span", {class: "row-main"}, make("span", {class: "row-head"}, this.id, this.priority, this.robot),
-            this.steps.node, make("span", {class: "row-line"}, this.step, this.lot, this.state), this.wait);
+        const main = make("span", {class: "row-main"},
+            make("span", {class: "row-head"}, this.id, this.priority, this.state, this.robot), this.steps.node,
+            make("span", {class: "row-line"}, this.step, this.lot), this.wait);
         this.button = make("button", {type: "button", onclick: () => select({kind: "plan", id: plan.planId})}, this.glyph, main);
         this.node = make("li", {}, this.button);
         this.node.dataset.id = plan.planId;
