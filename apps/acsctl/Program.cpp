@@ -108,24 +108,24 @@ int RunRead(Session& session, const AcsctlOptions& options, Terminal& terminal)
 }
 
 /// Nullopt: the command may be sent.
-std::optional<int> AskOrNull(const AcsctlOptions& options, const Terminal& terminal)
+std::optional<int> AskOrNull(const AcsctlOptions& options)
 {
     const std::optional<std::string> question = MakeQuestionOrNull(options);
     if (!question.has_value() || options.bYes)
     {
         return std::nullopt;
     }
-    if (!terminal.CanAsk())
+    if (!Terminal::CanAsk())
     {
         return Report({EXIT_BAD_INPUT, *question + " Without a terminal this command needs --yes"});
     }
-    return terminal.IsConfirmed(*question) ? std::nullopt
-                                           : std::optional(Report({EXIT_REFUSED, "not confirmed; nothing was sent"}));
+    return Terminal::IsConfirmed(*question) ? std::nullopt
+                                            : std::optional(Report({EXIT_REFUSED, "not confirmed; nothing was sent"}));
 }
 
 int RunChange(Session& session, ApiRequest request, const AcsctlOptions& options, Terminal& terminal)
 {
-    if (const std::optional<int> exitCode = AskOrNull(options, terminal); exitCode.has_value())
+    if (const std::optional<int> exitCode = AskOrNull(options); exitCode.has_value())
     {
         return *exitCode;
     }

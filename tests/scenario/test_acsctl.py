@@ -320,7 +320,7 @@ class Configuring(AcsctlCase):
         listed = json.loads(self.check(0, "context", "list", "--json"))["contexts"]
         self.assertEqual([(context["name"], context["current"]) for context in listed], [("line1", False), ("line2", True)])
         self.check(0, "context", "remove", "line1")
-        self.check(2, "plans")
+        self.check(2, "plans", "--context", "line1")
         config.chmod(0o640)
         self.assertIn("chmod 600", self.check(2, "context", "list"))
 

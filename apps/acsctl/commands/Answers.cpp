@@ -251,7 +251,7 @@ Outcome<Shown> ShowAnswer(const AcsctlOptions& options, std::string_view body, c
     {
         return ShowJSON(options.command, body);
     }
-    const auto view = std::ranges::find(VIEWS, options.command, &View::command);
+    const auto* const view = std::ranges::find(VIEWS, options.command, &View::command);
     if (view == VIEWS.end())
     {
         return FailWith(EXIT_BAD_INPUT, "the command has no view"); // a defect of acsctl

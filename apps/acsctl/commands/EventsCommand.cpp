@@ -99,7 +99,7 @@ Outcome<void> EventsCommand::Follow()
     bool bConnected = false;
     while (!loop.IsInterrupted() && !_terminal.IsFailed())
     {
-        const Outcome<void> done = ReadOnce();
+        Outcome<void> done = ReadOnce();
         if (loop.IsInterrupted())
         {
             break;

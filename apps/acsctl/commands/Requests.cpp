@@ -211,7 +211,7 @@ std::optional<std::string> MakeQuestionOrNull(const AcsctlOptions& options)
         {ECommand::Unblock, fmt::format("Unblock {} {}? Robots may drive there.", arguments.word, arguments.id)},
         {ECommand::Maintenance, fmt::format("Put {} back into service? It may move.", arguments.id)},
     }};
-    const auto found = std::ranges::find(questions, options.command, &Question::command);
+    const auto* const found = std::ranges::find(questions, options.command, &Question::command);
     const bool bStops = options.command == ECommand::Maintenance && arguments.word == "on";
     return found == questions.end() || bStops ? std::nullopt : std::optional(found->text);
 }

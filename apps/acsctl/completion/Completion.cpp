@@ -213,7 +213,8 @@ ConnectionOptions ReadConnectionOptions(const std::vector<std::string>& words)
     {
         const std::size_t equals = words[i].find('=');
         const std::string_view name = std::string_view(words[i]).substr(0, equals);
-        const auto target = std::ranges::find_if(targets, [name](const auto& entry) { return entry.first == name; });
+        const auto* const target =
+            std::ranges::find_if(targets, [name](const auto& entry) { return entry.first == name; });
         if (target == targets.end())
         {
             continue;

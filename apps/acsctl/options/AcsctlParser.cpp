@@ -375,6 +375,7 @@ std::optional<int> ParseOptionsOrNull(const std::vector<std::string>& arguments,
     BuildCommandLine(app, options);
     const std::vector<std::string> normal = NormalizeArguments(arguments);
     std::vector<const char*> pointers;
+    pointers.reserve(normal.size());
     for (const std::string& argument : normal)
     {
         pointers.push_back(argument.c_str());

@@ -47,12 +47,12 @@ Screen Terminal::GetScreen() const
     return {GetSize().columns, _bColored};
 }
 
-bool Terminal::CanAsk() const
+bool Terminal::CanAsk()
 {
     return ::isatty(STDIN_FILENO) == 1 && ::isatty(STDERR_FILENO) == 1;
 }
 
-bool Terminal::IsTerminal() const
+bool Terminal::IsTerminal()
 {
     return ::isatty(STDOUT_FILENO) == 1;
 }
@@ -102,7 +102,7 @@ void Terminal::Redraw(const std::string& text)
     Write(out);
 }
 
-bool Terminal::IsConfirmed(const std::string& question) const
+bool Terminal::IsConfirmed(const std::string& question)
 {
     std::cerr << MakeDisplayable(question) << " [y/N] " << std::flush;
     std::string answer;

@@ -22,8 +22,8 @@ public:
     /// The width of the terminal; 80 columns for a file or a pipe.
     [[nodiscard]] Screen GetScreen() const;
     /// Whether the operator sees the output and can answer.
-    [[nodiscard]] bool CanAsk() const;
-    [[nodiscard]] bool IsTerminal() const;
+    [[nodiscard]] static bool CanAsk();
+    [[nodiscard]] static bool IsTerminal();
     /// Whether output was lost: the disk is full.
     [[nodiscard]] bool IsFailed() const noexcept;
 
@@ -31,7 +31,7 @@ public:
     /// On a terminal in the place of the text before, cut at its last line; else below it, after an empty line.
     void Redraw(const std::string& text);
     /// Writes the question on standard error and reads the answer; only "y" and "yes" are true.
-    [[nodiscard]] bool IsConfirmed(const std::string& question) const;
+    [[nodiscard]] static bool IsConfirmed(const std::string& question);
 };
 
 } // namespace ACS::Acsctl

@@ -96,7 +96,7 @@ Character ReadFirst(std::string_view text)
     constexpr char32_t LAST_POINT = 0x10FFFF;
     constexpr Range SURROGATES{0xD800, 0xDFFF};
     const auto first = static_cast<unsigned char>(text.front());
-    const auto form = std::find_if(FORMS.begin(), FORMS.end(), [first](const Form& candidate) {
+    const auto* const form = std::find_if(FORMS.begin(), FORMS.end(), [first](const Form& candidate) {
         return (first & candidate.mask) == candidate.lead;
     });
     const Character invalid{REPLACEMENT_POINT, text.substr(0, 1)};

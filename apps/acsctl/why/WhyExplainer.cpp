@@ -314,7 +314,7 @@ void WhyExplainer::AddRobotOfPlanRecursive(
     }
 }
 
-void WhyExplainer::AddState(const RobotInfo& robot, std::size_t depth, std::vector<Cause>& causes) const
+void WhyExplainer::AddState(const RobotInfo& robot, std::size_t depth, std::vector<Cause>& causes)
 {
     if (robot.bMaintenance)
     {

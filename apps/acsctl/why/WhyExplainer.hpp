@@ -52,7 +52,7 @@ private:
     void AddPlanRecursive(const PlanInfo& plan, std::size_t depth, Chain& chain) const;
     void AddRobotOfPlanRecursive(const std::string& robotID, const std::string& reason, std::size_t depth, Chain& chain)
         const;
-    void AddState(const RobotInfo& robot, std::size_t depth, std::vector<Cause>& causes) const;
+    static void AddState(const RobotInfo& robot, std::size_t depth, std::vector<Cause>& causes);
     /// Its alarms and the blocked places on its route.
     void AddRobot(const RobotInfo& robot, std::size_t depth, Chain& chain) const;
     void AddAlarms(std::string_view robotID, std::size_t depth, std::vector<Cause>& causes) const;

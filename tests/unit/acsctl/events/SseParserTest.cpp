@@ -21,6 +21,7 @@ std::vector<std::string> ReadAll(const std::string& text, std::size_t part)
         REQUIRE(parser.TryRead(std::string_view(text).substr(at, part), events));
     }
     std::vector<std::string> out;
+    out.reserve(events.size());
     for (const Acsctl::SseEvent& event : events)
     {
         out.push_back(event.type + "|" + event.id + "|" + event.data);

@@ -35,7 +35,7 @@ TEST_CASE("What a peer sent cannot control the terminal")
     CHECK(Acsctl::MakeDisplayable("a\x1b[2J\x07\x7f") == "a\\x1b[2J\\x07\\x7f");
     CHECK(Acsctl::MakeDisplayable("a\nb\tc\r") == "a b c\\x0d");
     CHECK(Acsctl::MakeDisplayable("\u009b31m") == "\\x9b31m");
-    CHECK(Acsctl::MakeDisplayable("\u202egnp") == "\\u202egnp");
+    CHECK(Acsctl::MakeDisplayable(std::string("\xE2\x80") + "\xAEgnp") == "\\u202egnp"); // from right to left
     CHECK(Acsctl::MakeDisplayable("로봇 é") == "로봇 é");
     CHECK(Acsctl::MakeDisplayable(std::string("a\xff\xc3", 3)) == "a\uFFFD\uFFFD");
     CHECK(Acsctl::MakeDisplayable("\xc0\x80\xed\xa0\x80\xf5\x80\x80\x80").find('\x80') != 0);

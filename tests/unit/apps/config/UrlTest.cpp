@@ -12,8 +12,14 @@ namespace
 
 const std::vector<EUrlScheme>& GetAllSchemes()
 {
-    static const std::vector<EUrlScheme>
-        ALL{EUrlScheme::Ws, EUrlScheme::Wss, EUrlScheme::Mqtt, EUrlScheme::Mqtts, EUrlScheme::Tcp, EUrlScheme::Http};
+    static const std::vector<EUrlScheme> ALL{
+        EUrlScheme::Ws,
+        EUrlScheme::Wss,
+        EUrlScheme::Mqtt,
+        EUrlScheme::Mqtts,
+        EUrlScheme::Tcp,
+        EUrlScheme::Http,
+        EUrlScheme::Https};
     return ALL;
 }
 
@@ -28,7 +34,8 @@ TEST_CASE("A URL without a port has the default port of its scheme")
         Row{"mqtt://broker", 1883},
         Row{"mqtts://broker", 8883},
         Row{"tcp://arm", 49000},
-        Row{"http://arm", 80});
+        Row{"http://arm", 80},
+        Row{"https://acsd", 443});
     const auto url = Apps::ParseURL(text, GetAllSchemes());
     REQUIRE(url.has_value());
     REQUIRE(url->peer.port == port);
@@ -74,6 +81,7 @@ TEST_CASE("wss and mqtts are secure schemes")
 {
     REQUIRE(Apps::IsSecure(EUrlScheme::Wss));
     REQUIRE(Apps::IsSecure(EUrlScheme::Mqtts));
+    REQUIRE(Apps::IsSecure(EUrlScheme::Https));
     REQUIRE_FALSE(Apps::IsSecure(EUrlScheme::Ws));
     REQUIRE_FALSE(Apps::IsSecure(EUrlScheme::Http));
 }
