@@ -238,9 +238,10 @@ HttpResponse SkipStep(
     }
     if (const std::optional<std::string> reason = engine.GetRejectionReasonOrNull(command))
     {
-        return Refuse(
-            engine.GetPlanOrNull(planID).has_value() ? OperatorCode::CONFLICT : OperatorCode::NOT_FOUND,
-            *reason);
+        const Planning::PlanRecord* recordOrNull = engine.GetPlanRecordOrNull(planID);
+        const bool bExists = recordOrNull != nullptr
+            && std::ranges::count(recordOrNull->plan.steps, command.stepNo, &Planning::Step::stepNo) > 0;
+        return Refuse(bExists ? OperatorCode::CONFLICT : OperatorCode::NOT_FOUND, *reason);
     }
     return Submit(access, std::move(command), fmt::format("Step {} of plan {} is skipped.", stepText, planID));
 }
@@ -297,6 +298,33 @@ HttpResponse RefuseKind(std::string_view kind)
         fmt::format("Expected kind: node, edge or station; found {}.", Core::QuoteForError(kind)));
 }
 
+bool IsOnMap(const Planning::SiteMap& site, Planning::EBlockKind kind, const std::string& placeID)
+{
+    switch (kind)
+    {
+        case Planning::EBlockKind::Node:
+            return site.FindNodeOrNull(placeID) != nullptr;
+        case Planning::EBlockKind::Edge:
+            return std::ranges::find(site.GetEdges(), placeID, &Planning::SiteEdge::edgeID) != site.GetEdges().end();
+        case Planning::EBlockKind::Station:
+        default:
+            return site.FindStationOrNull(placeID) != nullptr;
+    }
+}
+
+/// 404 for a place that is not on the map, otherwise 409.
+template <typename TCommand>
+HttpResponse RefusePlace(const Planning::PlanEngine& engine, const TCommand& command, std::string_view reason)
+{
+    return IsOnMap(engine.GetSite(), command.kind, command.id) ? Refuse(OperatorCode::CONFLICT, reason)
+                                                               : Refuse(
+                                                                   OperatorCode::NOT_FOUND,
+                                                                   fmt::format(
+                                                                       "There is no {} {}; /v1/site lists them.",
+                                                                       GetText(command.kind),
+                                                                       Core::QuoteForError(command.id)));
+}
+
 HttpResponse Block(const Planning::PlanEngine& engine, const CommandAccess& access, BlockBody body)
 {
     const std::optional<Planning::EBlockKind> kind = ReadBlockKindOrNull(body.kind);
@@ -307,7 +335,7 @@ HttpResponse Block(const Planning::PlanEngine& engine, const CommandAccess& acce
     Planning::BlockPlace command{*kind, std::move(body.placeID), std::move(body.reason), 0};
     if (const std::optional<std::string> reason = engine.GetRejectionReasonOrNull(command))
     {
-        return Refuse(OperatorCode::CONFLICT, *reason);
+        return RefusePlace(engine, command, *reason);
     }
     std::string message = fmt::format("The {} {} is blocked.", body.kind, command.id);
     return Submit(access, std::move(command), std::move(message), EUnstored::Accepted);
@@ -323,7 +351,7 @@ HttpResponse Unblock(const Planning::PlanEngine& engine, const CommandAccess& ac
     Planning::UnblockPlace command{*kind, std::move(body.placeID), 0};
     if (const std::optional<std::string> reason = engine.GetRejectionReasonOrNull(command))
     {
-        return Refuse(OperatorCode::NOT_FOUND, *reason);
+        return RefusePlace(engine, command, *reason);
     }
     std::string message = fmt::format("The {} {} is open again.", body.kind, command.id);
     return Submit(access, std::move(command), std::move(message));

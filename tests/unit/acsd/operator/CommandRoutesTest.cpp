@@ -177,7 +177,7 @@ TEST_CASE("POST /v1/plans/PLAN/steps/NO/skip skips a step that is Pending or who
     CHECK(HasText(user.Post("/v1/plans/P1/steps/1/skip"), "409 {\"error\":\"Plan P1 has no robot yet"));
     REQUIRE(Testing::TryRunUntil(user.world, "P1", "Job 1 P1-a4 InProgress"));
     CHECK(HasText(user.Post("/v1/plans/P9/steps/1/skip"), "404 {\"error\":\"There is no plan P9."));
-    CHECK(HasText(user.Post("/v1/plans/P1/steps/9/skip"), "409 {\"error\":\"Plan P1 has no step 9."));
+    CHECK(HasText(user.Post("/v1/plans/P1/steps/9/skip"), "404 {\"error\":\"Plan P1 has no step 9."));
     CHECK(HasText(user.Post("/v1/plans/P1/steps/1/skip"), "409 {\"error\":\"Step 1 is InProgress"));
     for (const std::string number : {"one", "1x", "%201", "99999999999"})
     {
@@ -250,7 +250,16 @@ TEST_CASE("POST /v1/site/block and unblock close and open a place of the map")
     CHECK(user.world.engine->GetBlocks().front().reason == "wet floor");
     CHECK(HasText(user.GetStatus(), R"("siteRevision":1)"));
     CHECK(HasText(user.Post("/v1/site/block", block), "409 {\"error\":"));
-    CHECK(HasText(user.Post("/v1/site/block", R"({"kind":"node","id":"none"})"), "409 {\"error\":"));
+    for (const char* path : {"/v1/site/block", "/v1/site/unblock"})
+    {
+        for (const std::string kind : {"node", "edge", "station"})
+        {
+            CAPTURE(path, kind);
+            CHECK(HasText(
+                user.Post(path, "{\"kind\":\"" + kind + R"(","id":"none"})"),
+                "404 {\"error\":\"There is no " + kind + R"( \"none\"; /v1/site lists them.)"));
+        }
+    }
     CHECK(HasText(
         user.Post("/v1/site/block", R"({"kind":"robot","id":"LR01"})"),
         "400 {\"error\":\"Expected kind: node, edge or station; found \\\"robot\\\"."));
@@ -261,7 +270,7 @@ TEST_CASE("POST /v1/site/block and unblock close and open a place of the map")
     CHECK(HasText(user.Post("/v1/site/unblock", R"({"kind":"station","id":"CHG01"})"), "202 "));
     CHECK(user.world.engine->GetBlocks().empty());
     CHECK(HasText(user.GetStatus(), R"("siteRevision":2)"));
-    CHECK(HasText(user.Post("/v1/site/unblock", R"({"kind":"station","id":"CHG01"})"), "404 "));
+    CHECK(HasText(user.Post("/v1/site/unblock", R"({"kind":"station","id":"CHG01"})"), "409 "));
 }
 
 TEST_CASE("Parameters in the query, unknown and repeated members and invalid bodies are refused by name")
