@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""acsctl operates a real line: what each command prints and returns with an acsd behind it."""
+"""acsctl operates a real line: what each command prints and returns with a real acsd."""
 
 import json
 import os

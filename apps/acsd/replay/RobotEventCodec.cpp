@@ -153,9 +153,9 @@ std::optional<double> MakeFiniteOrNull(double value)
     return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-double ReadFinite(const std::optional<double>& value)
+double ReadFinite(const std::optional<double>& valueOrNull)
 {
-    return value.value_or(std::numeric_limits<double>::quiet_NaN());
+    return valueOrNull.value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 RobotStateText MakeRobotStateText(const Planning::StateChanged& state)

@@ -79,13 +79,13 @@ private:
     Mutator _mutator;
 
 public:
-    /// The configuration of acsd.
-    [[nodiscard]] static Acsd::AcsdConfig MakeConfig(const Scenario& scenario);
-
     AcsdProcess(const Dependencies& around, CrashHandler onCrash, CommitHandler onCommit);
     AcsdProcess(const AcsdProcess&) = delete;
     AcsdProcess& operator=(const AcsdProcess&) = delete;
     ~AcsdProcess() override;
+
+    /// The configuration of acsd.
+    [[nodiscard]] static Acsd::AcsdConfig MakeConfig(const Scenario& scenario);
 
     /// Reads the disk and starts.
     void Begin();
