@@ -75,7 +75,8 @@ Robot* Dispatcher::FindQuickestOrNull(const ActivePlan& plan, const std::vector<
     {
         const auto& [vehicleTypeID, load] = key;
         const std::size_t dock = *_admission.FindDockOrNull(plan.resolved.steps.front().stationID, vehicleTypeID);
-        const std::optional<QuickestStart> start = _router.FindQuickestStartOrNull(vehicleTypeID, load, nodes, dock);
+        const std::optional<QuickestStart> start =
+            _coordinator.GetOpenRouter().FindQuickestStartOrNull(vehicleTypeID, load, nodes, dock);
         if (start.has_value() && (!quickest.has_value() || start->travelSeconds < quickest->travelSeconds))
         {
             quickest = start;

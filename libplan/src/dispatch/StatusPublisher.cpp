@@ -134,6 +134,10 @@ std::string StatusPublisher::DescribeStatus(const Robot& robot) const
     {
         return fmt::format("{}: {}.", robot.GetID(), robot.Describe(unavailability));
     }
+    if (!robot.search.block.empty())
+    {
+        return fmt::format("{} waits: {}.", robot.GetID(), robot.search.block);
+    }
     return robot.charging.IsBatteryLow() ? "Battery low." : "";
 }
 

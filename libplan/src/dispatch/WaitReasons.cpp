@@ -18,6 +18,7 @@ WaitReasons::WaitReasons(
     : _options(engine.options),
       _plans(engine.plans),
       _fleet(engine.fleet),
+      _blocks(engine.blocks),
       _backlog(engine.backlog),
       _startup(engine.startup),
       _hold(engine.hold),
@@ -85,6 +86,10 @@ std::optional<std::string> WaitReasons::DescribeUnavailabilityOrNull(const Activ
     {
         return "no route to " + plan.resolved.steps.front().stationID;
     }
+    if (std::optional<std::string> reason = _coordinator.DescribeBlockOrNull(robot, plan))
+    {
+        return reason;
+    }
     return _coordinator.CanServe(robot, plan)
         ? std::nullopt
         : std::optional<std::string>(
@@ -124,6 +129,10 @@ WaitReason WaitReasons::DescribeWaiting(const ActivePlan& plan, std::size_t posi
     {
         reason.message = "Not all robots have reported their positions since the restart.";
     }
+    else if (const Block* blockOrNull = FindBlockOrNull(plan); blockOrNull != nullptr)
+    {
+        reason.message = fmt::format("The {}.", BlockBook::Describe(*blockOrNull));
+    }
     else if (_dispatcher.IsRejectedByAll(plan))
     {
         reason.message = _dispatcher.DescribeRejections(plan);
@@ -137,6 +146,18 @@ WaitReason WaitReasons::DescribeWaiting(const ActivePlan& plan, std::size_t posi
         reason.message = "No suitable robot is free.";
     }
     return reason;
+}
+
+const Block* WaitReasons::FindBlockOrNull(const ActivePlan& plan) const
+{
+    for (const ResolvedStep& step : plan.resolved.steps)
+    {
+        if (const Block* blockOrNull = _blocks.FindOrNull(EBlockKind::Station, step.stationID); blockOrNull != nullptr)
+        {
+            return blockOrNull;
+        }
+    }
+    return nullptr;
 }
 
 std::optional<WaitReason> WaitReasons::DescribeBegunOrNull(const ActivePlan& plan) const
@@ -201,6 +222,10 @@ std::optional<WaitReason> WaitReasons::DescribeBegunOrNull(const ActivePlan& pla
 
 std::string WaitReasons::DescribeStanding(const Robot& robot) const
 {
+    if (!robot.search.block.empty())
+    {
+        return fmt::format("{} waits: {}.", robot.GetID(), robot.search.block);
+    }
     std::string holders;
     for (const std::size_t blocker : robot.search.blockers)
     {

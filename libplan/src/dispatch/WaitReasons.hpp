@@ -24,6 +24,7 @@ class WaitReasons
     const EngineOptions& _options;
     const PlanBook& _plans;
     const Fleet& _fleet;
+    const BlockBook& _blocks;
     const StoreBacklog& _backlog;
     const StartupBarrier& _startup;
     const RestartHold& _hold;
@@ -56,6 +57,8 @@ private:
     [[nodiscard]] WaitReason DescribeWaiting(const ActivePlan& plan, std::size_t position) const;
     /// Of a robot that waits to start its drive, or at the end of its base.
     [[nodiscard]] std::string DescribeStanding(const Robot& robot) const;
+    /// Of the first station of the plan that is blocked.
+    [[nodiscard]] const Block* FindBlockOrNull(const ActivePlan& plan) const;
     [[nodiscard]] std::string DescribeUnfree(const Robot& robot) const;
 };
 

@@ -31,6 +31,7 @@ OperatorCommands::OperatorCommands(
     const StallWatch& stalls,
     RejectionWatch& rejections,
     PlaceTracker& places,
+    TrafficCoordinator& coordinator,
     PlanWork& work,
     JobOutcomes& jobs)
     : _plans(engine.plans),
@@ -44,7 +45,7 @@ OperatorCommands::OperatorCommands(
       _places(places),
       _work(work),
       _jobs(jobs),
-      _blocks(engine)
+      _blocks(engine, coordinator)
 {
 }
 

@@ -43,6 +43,7 @@ public:
         const StallWatch& stalls,
         RejectionWatch& rejections,
         PlaceTracker& places,
+        TrafficCoordinator& coordinator,
         PlanWork& work,
         JobOutcomes& jobs);
 

@@ -48,7 +48,7 @@ PlanEngine::Impl::Impl(EngineOptions options, SiteMap site, Core::IRandom& rando
       _controls(_engine, _tsc, _answers, _waiting, _coordinator, _status, _work),
       _drives(_engine, _tsc, _answers, _rejections, _places, _waiting, _coordinator, _work, _controls),
       _submission(_engine, _tsc, _waits),
-      _operator(_engine, _loads, _stalls, _rejections, _places, _work, _jobs),
+      _operator(_engine, _loads, _stalls, _rejections, _places, _coordinator, _work, _jobs),
       _recovery(_engine, _tsc, _answers, _places, _status, _work),
       _store(_engine, _answers, _places, _work)
 {
@@ -104,7 +104,10 @@ void PlanEngine::Impl::HandleCommand(const PlanCommand& command)
             [this](const SetCarriers& carriers) { _operator.CorrectCarriers(carriers); },
             [this](const SkipStep& skip) { _operator.Skip(skip); },
             [this](const SetPlanPriority& priority) { _operator.ChangePriority(priority); },
-            [this](const BlockPlace& block) { _operator.GetBlocks().Add(block); },
+            [this](const BlockPlace& block) {
+                _work.GetAssignment().WithdrawOffers(EOffers::All); // to robots that may have no way now
+                _operator.GetBlocks().Add(block);
+            },
             [this](const UnblockPlace& unblock) {
                 _operator.GetBlocks().Remove(unblock);
             }},

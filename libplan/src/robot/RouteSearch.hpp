@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace ACS::Planning
@@ -29,6 +30,8 @@ struct RouteSearch
     std::size_t detours = 0;           ///< Driven on the way to its present step.
     std::uint64_t refusedAt = 0;       ///< Traffic::GetFreedCount then.
     std::vector<std::size_t> blockers; ///< Robots that blocked its last attempt to drive.
+    std::string block;                 ///< What the operator has blocked on its way; empty: it waits for no block.
+    std::uint64_t blockedAt = 0;       ///< Traffic::GetFreedCount when no way around the block was found.
     std::optional<Yield> yield;
 };
 

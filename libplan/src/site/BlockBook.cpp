@@ -88,6 +88,29 @@ const Block* BlockBook::FindOfDockOrNull(std::size_t node) const
     return found == _blocks.end() ? nullptr : &*found;
 }
 
+const Block* BlockBook::FindOfTargetOrNull(std::string_view stationID, std::size_t dock) const
+{
+    const Block* const blockOrNull = FindOrNull(EBlockKind::Station, stationID);
+    return blockOrNull != nullptr || !_nodes[dock] ? blockOrNull
+                                                   : FindOrNull(EBlockKind::Node, _site.GetNodes()[dock].nodeID);
+}
+
+std::size_t BlockBook::CountOpen(const Route& route, std::size_t first) const
+{
+    std::size_t count = IsEmpty() ? route.nodes.size() : first;
+    while (count < route.nodes.size() && FindOnRouteOrNull(route, count) == nullptr)
+    {
+        ++count;
+    }
+    return count;
+}
+
+const Block* BlockBook::FindOnRouteOrNull(const Route& route, std::size_t index) const
+{
+    const Block* const edgeOrNull = index == 0 ? nullptr : FindOrNull(EBlockKind::Edge, route.edges[index - 1].edgeID);
+    return edgeOrNull != nullptr ? edgeOrNull : FindOrNull(EBlockKind::Node, route.nodes[index].nodeID);
+}
+
 std::string BlockBook::Describe(const Block& block)
 {
     return fmt::format(

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/plan/Block.hpp>
+#include <acs/plan/RobotCommand.hpp>
 #include <acs/plan/SiteMap.hpp>
 
 #include <cstddef>
@@ -38,6 +39,12 @@ public:
     [[nodiscard]] const std::vector<bool>& GetEdges() const noexcept;
     /// The block of the node, or of a station that has it as a dock.
     [[nodiscard]] const Block* FindOfDockOrNull(std::size_t node) const;
+    /// The block of the station, or of this dock of it.
+    [[nodiscard]] const Block* FindOfTargetOrNull(std::string_view stationID, std::size_t dock) const;
+    /// Number of nodes from the start of the route up to the first, from this index on, that a vehicle may not enter.
+    [[nodiscard]] std::size_t CountOpen(const Route& route, std::size_t first) const;
+    /// Why a vehicle may not enter the node of the route: its own block, or that of the edge to it.
+    [[nodiscard]] const Block* FindOnRouteOrNull(const Route& route, std::size_t index) const;
     /// "node L03 is blocked: oil"
     [[nodiscard]] static std::string Describe(const Block& block);
 

@@ -9,15 +9,21 @@
 namespace ACS::Planning
 {
 
-BlockControl::BlockControl(EngineState& engine)
+BlockControl::BlockControl(EngineState& engine, TrafficCoordinator& coordinator)
     : _blocks(engine.blocks),
-      _transaction(engine.transaction)
+      _transaction(engine.transaction),
+      _coordinator(coordinator)
 {
 }
 
 void BlockControl::Restore(std::vector<Block> blocks)
 {
+    if (blocks.empty())
+    {
+        return;
+    }
     _blocks.Restore(std::move(blocks));
+    _coordinator.OnBlocksChanged();
 }
 
 void BlockControl::Add(const BlockPlace& command)
@@ -30,7 +36,7 @@ void BlockControl::Add(const BlockPlace& command)
     Block block{command.kind, command.id, command.reason, _transaction.GetNow().wall};
     _transaction.Store(BlockAdded{block});
     _blocks.Add(std::move(block));
-    _transaction.RequestDispatch();
+    _coordinator.OnBlocksChanged();
     _transaction.Reply(
         command.replyToken,
         true,
@@ -46,7 +52,7 @@ void BlockControl::Remove(const UnblockPlace& command)
     }
     _transaction.Store(BlockRemoved{command.kind, command.id});
     _blocks.Remove(command.kind, command.id);
-    _transaction.RequestDispatch();
+    _coordinator.OnBlocksChanged();
     _transaction.Reply(command.replyToken, true, fmt::format("The {} {} is open.", GetText(command.kind), command.id));
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "traffic/TrafficCoordinator.hpp"
 #include "transaction/EngineState.hpp"
 
 #include <cstddef>
@@ -16,9 +17,10 @@ class BlockControl
 {
     BlockBook& _blocks;
     EngineTransaction& _transaction;
+    TrafficCoordinator& _coordinator;
 
 public:
-    explicit BlockControl(EngineState& engine);
+    BlockControl(EngineState& engine, TrafficCoordinator& coordinator);
 
     /// After a restart; called once, before all else.
     void Restore(std::vector<Block> blocks);

@@ -46,7 +46,9 @@ DeadlockResolver::Round DeadlockResolver::TryResolveDeadlock()
         return {true, nullptr};
     }
     // The most urgent robot does not yield to one that waits, too.
-    Robot& first = *stuck.front();
+    const auto helpable =
+        std::ranges::find_if(stuck, [this](const Robot* robot) { return _waiting.IsHelpable(*robot); });
+    Robot& first = **(helpable == stuck.end() ? stuck.begin() : helpable);
     if (first.drive.has_value() || !_waiting.IsYielding(first))
     {
         return {};
@@ -60,6 +62,7 @@ bool DeadlockResolver::TryDetour(Robot& robot)
     const bool bHome = robot.planOrNull == nullptr || robot.parking.retreatNode.has_value();
     const std::optional<std::size_t> target = _waiting.GetTargetOrNull(robot);
     if (!target.has_value() || robot.place.IsOn(target) || robot.control.bConfirming
+        || _coordinator.FindTargetBlockOrNull(robot, *target) != nullptr
         || (!bHome && robot.search.detours >= DETOURS_AT_MOST) || !_waiting.GetTargetHolders(robot, *target).empty())
     {
         return false;
@@ -115,17 +118,17 @@ bool DeadlockResolver::TryMakeWay(Robot& leader, const std::vector<Robot*>& stuc
 
 bool DeadlockResolver::TryRetreat(Robot& robot, const Robot& leader)
 {
-    const bool bGoesHome = robot.drive.has_value() && robot.drive->nodes.back() == robot.parking.parkingNode;
+    const std::optional<std::size_t> parking = robot.parking.GetParkingOrNull();
+    const bool bGoesHome = robot.drive.has_value() && robot.drive->nodes.back() == parking;
     if (!_traffic.IsMovable(robot.index) || _waiting.IsMoving(robot) || bGoesHome || robot.parking.bRefused
-        || robot.control.bConfirming
-        || (robot.parking.retreatNode.has_value() && robot.parking.retreatNode == robot.parking.parkingNode)
-        || !robot.parking.parkingNode.has_value() || robot.place.IsOn(robot.parking.parkingNode)
-        || !_waiting.GetTargetHolders(robot, *robot.parking.parkingNode).empty())
+        || robot.control.bConfirming || (robot.parking.retreatNode.has_value() && robot.parking.retreatNode == parking)
+        || !parking.has_value() || robot.place.IsOn(parking) || !_coordinator.IsOpenDock(*parking)
+        || !_waiting.GetTargetHolders(robot, *parking).empty())
     {
         return false;
     }
     std::optional<PlannedRoute> plannedRoute =
-        _coordinator.PlanRouteOrNull(robot, *robot.parking.parkingNode, [this, &robot](std::size_t node) {
+        _coordinator.PlanRouteOrNull(robot, *parking, [this, &robot](std::size_t node) {
             return !_traffic.IsOpenFor(node, robot.index);
         });
     if (!plannedRoute.has_value())
@@ -139,7 +142,7 @@ bool DeadlockResolver::TryRetreat(Robot& robot, const Robot& leader)
     }
     else
     {
-        robot.parking.retreatNode = robot.parking.parkingNode;
+        robot.parking.retreatNode = parking;
         bBegun = _coordinator.TryBeginDrive(robot, *plannedRoute);
         robot.parking.retreatNode = bBegun ? robot.parking.retreatNode : std::nullopt;
     }
@@ -150,7 +153,7 @@ bool DeadlockResolver::TryRetreat(Robot& robot, const Robot& leader)
             robot,
             fmt::format(
                 "drives to node {} to clear the route of {}",
-                _site.GetNodes()[*robot.parking.parkingNode].nodeID,
+                _site.GetNodes()[*parking].nodeID,
                 leader.GetID()));
     }
     return bBegun;
@@ -162,8 +165,9 @@ bool DeadlockResolver::TryStepAside(Robot& robot, const Robot& leader)
     const bool bInTheWay = leader.search.plannedRoute.has_value() && robot.place.node.has_value()
         && std::ranges::any_of(leader.search.plannedRoute->nodes,
                                [this, &robot](std::size_t node) { return _traffic.IsNear(node, *robot.place.node); });
-    if (!bInTheWay || robot.planOrNull != nullptr || robot.drive.has_value() || !_traffic.IsMovable(robot.index)
-        || !_tsc.CanDriveHome() || robot.parking.bRefused || !wanted.has_value())
+    const bool bWorks = robot.planOrNull != nullptr && (robot.search.block.empty() || !_waiting.IsWaiting(robot));
+    if (!bInTheWay || bWorks || robot.drive.has_value() || !_traffic.IsMovable(robot.index) || !_tsc.CanDriveHome()
+        || robot.parking.bRefused || !wanted.has_value())
     {
         return false;
     }
@@ -182,8 +186,9 @@ bool DeadlockResolver::TryStepAside(Robot& robot, const Robot& leader)
     {
         const std::optional<std::size_t> dock =
             _admission.FindDockOrNull(station.stationID, robot.options->vehicleTypeID);
-        if (!dock.has_value() || avoided[*dock] || dock == wanted || robot.place.IsOn(dock)
-            || !_traffic.IsOpenFor(*dock, robot.index) || !_waiting.GetTargetHolders(robot, *dock).empty())
+        if (!dock.has_value() || avoided[*dock] || !_coordinator.IsOpenDock(*dock) || dock == wanted
+            || robot.place.IsOn(dock) || !_traffic.IsOpenFor(*dock, robot.index)
+            || !_waiting.GetTargetHolders(robot, *dock).empty())
         {
             continue;
         }

@@ -28,10 +28,48 @@ Route Join(Route first, Route second)
 
 } // namespace
 
-RoutePlanner::RoutePlanner(const SiteMap& site)
+RoutePlanner::RoutePlanner(const SiteMap& site, const BlockBook& blocks)
     : _site(site),
+      _blocks(blocks),
       _router(site)
 {
+}
+
+void RoutePlanner::OnBlocksChanged()
+{
+    if (_blocks.IsEmpty())
+    {
+        _openRouter.reset();
+        return;
+    }
+    if (_openRouter == nullptr)
+    {
+        _openRouter = std::make_unique<Router>(_site);
+    }
+    _openRouter->SetBlocked(_blocks.GetNodes(), _blocks.GetEdges());
+}
+
+const Router& RoutePlanner::GetOpenRouter() const noexcept
+{
+    return _openRouter == nullptr ? _router : *_openRouter;
+}
+
+const Block* RoutePlanner::FindBlockOrNull(const Robot& robot, std::size_t target) const
+{
+    if (_blocks.IsEmpty() || PlanRouteOrNull(robot, target, {}).has_value())
+    {
+        return nullptr;
+    }
+    std::optional<Route> route = FindLaneOrNull(robot, target);
+    if (!route.has_value() || _blocks.CountOpen(*route, 1) == route->nodes.size())
+    {
+        const std::vector<SiteNode>& nodes = _site.GetNodes();
+        const std::string startID = route.has_value() ? route->nodes.back().nodeID : nodes[*robot.place.node].nodeID;
+        route =
+            _router.FindRouteOrNull(robot.options->vehicleTypeID, robot.GetLoad(), startID, nodes[target].nodeID, {});
+    }
+    const std::size_t open = route.has_value() ? _blocks.CountOpen(*route, 1) : 0;
+    return route.has_value() && open < route->nodes.size() ? _blocks.FindOnRouteOrNull(*route, open) : nullptr;
 }
 
 const Router& RoutePlanner::GetRouter() const noexcept
@@ -61,9 +99,13 @@ std::optional<PlannedRoute> RoutePlanner::PlanRouteOrNull(
 {
     const std::vector<SiteNode>& nodes = _site.GetNodes();
     std::optional<Route> lane = FindLaneOrNull(robot, target);
+    if (lane.has_value() && _blocks.CountOpen(*lane, 1) < lane->nodes.size())
+    {
+        return std::nullopt; // it cannot turn round
+    }
     const std::string startID = lane.has_value() ? lane->nodes.back().nodeID : nodes[*robot.place.node].nodeID;
     std::optional<Route> route =
-        _router
+        GetOpenRouter()
             .FindRouteOrNull(robot.options->vehicleTypeID, robot.GetLoad(), startID, nodes[target].nodeID, isExcluded);
     if (!route.has_value())
     {

@@ -2,26 +2,36 @@
 
 #include "robot/ActiveDrive.hpp"
 #include "robot/Robot.hpp"
+#include "site/BlockBook.hpp"
 #include <acs/plan/Router.hpp>
 #include <acs/plan/SiteMap.hpp>
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 
 namespace ACS::Planning
 {
 
-/// Owns the router. Plans the routes of robots, with their present load and from where they are.
+/// Owns the routers. Plans the routes of robots, around the blocks of the operator, with their present load and from where they
+/// are.
 class RoutePlanner
 {
     const SiteMap& _site;
-    Router _router;
+    const BlockBook& _blocks;
+    Router _router;                      ///< Of the map, without blocks.
+    std::unique_ptr<Router> _openRouter; ///< Around the blocks; null if there are none.
 
 public:
-    /// The site must outlive the planner.
-    explicit RoutePlanner(const SiteMap& site);
+    /// Site and blocks must outlive the planner.
+    RoutePlanner(const SiteMap& site, const BlockBook& blocks);
 
+    void OnBlocksChanged();
+    /// As if nothing was blocked.
     [[nodiscard]] const Router& GetRouter() const noexcept;
+    [[nodiscard]] const Router& GetOpenRouter() const noexcept;
+    /// What blocks its way to the target, if there would be a route without the blocks and there is none with them.
+    [[nodiscard]] const Block* FindBlockOrNull(const Robot& robot, std::size_t target) const;
     /// Whether its planned route leads to the target, and may be driven with its present load.
     [[nodiscard]] static bool HasRoute(const Robot& robot, std::size_t target);
     /// Plans its route to the target if it has none. False: there is none.

@@ -66,6 +66,8 @@ class Router::Impl
 
     const SiteMap& _site;
     std::map<std::string, Graphs, std::less<>> _graphs; ///< By vehicle type. Searches keep what they found.
+    std::vector<bool> _blockedNodes;                    ///< Of the map; empty: none.
+    std::vector<bool> _blockedEdges;
     mutable std::uint64_t _visitedNodes = 0;
     mutable std::uint64_t _uses = 0;
 
@@ -89,6 +91,16 @@ public:
                         bRestricted || load == ELoad::Unknown ? MakeGraph(rule.vehicleTypeID, load) : entry->second[0];
                 }
             }
+        }
+    }
+
+    void SetBlocked(std::vector<bool> nodes, std::vector<bool> edges)
+    {
+        _blockedNodes = std::move(nodes);
+        _blockedEdges = std::move(edges);
+        for (auto& [vehicleTypeID, graphs] : _graphs)
+        {
+            std::ranges::for_each(graphs, [](const std::shared_ptr<Graph>& graph) { graph->fields.clear(); });
         }
     }
 
@@ -238,6 +250,11 @@ public:
     }
 
 private:
+    [[nodiscard]] bool IsBlocked(const Lane& lane) const
+    {
+        return !_blockedNodes.empty() && (_blockedNodes[lane.to] || _blockedEdges[lane.edge]);
+    }
+
     [[nodiscard]] std::shared_ptr<Graph> MakeGraph(std::string_view vehicleTypeID, ELoad load) const
     {
         auto graph = std::make_shared<Graph>(Graph{FloorGraph(_site, vehicleTypeID, load), false, {}});
@@ -297,7 +314,7 @@ private:
             {
                 const Lane& lane = floor.GetLanes()[index];
                 const double seconds = field.seconds[node] + lane.seconds;
-                if (seconds < field.seconds[lane.from])
+                if (seconds < field.seconds[lane.from] && !IsBlocked(lane))
                 {
                     field.seconds[lane.from] = seconds;
                     field.lanes[lane.from] = index;
@@ -328,7 +345,7 @@ private:
         Queue open;
         const auto reach = [&](const Lane& lane, double before, std::size_t last) {
             const std::size_t index = floor.GetIndex(lane);
-            if (lane.to == from || (lane.to != to && isExcluded && isExcluded(lane.to)))
+            if (lane.to == from || IsBlocked(lane) || (lane.to != to && isExcluded && isExcluded(lane.to)))
             {
                 return;
             }
@@ -423,6 +440,11 @@ Router::Router(const SiteMap& site)
 }
 
 Router::~Router() = default;
+
+void Router::SetBlocked(std::vector<bool> nodes, std::vector<bool> edges)
+{
+    _impl->SetBlocked(std::move(nodes), std::move(edges));
+}
 
 std::optional<Route> Router::FindRouteOrNull(
     std::string_view vehicleTypeID,

@@ -116,6 +116,26 @@ bool Traffic::IsAnyFixed() const
     });
 }
 
+bool Traffic::IsBlocked(const Lane& lane) const
+{
+    return IsAnyBlocked() && (_blockedNodes[lane.to] || _blockedEdges[lane.edge]);
+}
+
+bool Traffic::HasOpenStart(const Vehicle& vehicle) const
+{
+    return !IsAnyBlocked() || !vehicle.heading.has_value()
+        || std::ranges::any_of(vehicle.graphs, [this, &vehicle](const LoadGraph& graph) {
+               return std::ranges::any_of(
+                   graph.floor->GetLanesFrom(vehicle.path.back()),
+                   [this, &vehicle](const Lane& lane) { return lane.to == vehicle.heading && !IsBlocked(lane); });
+           });
+}
+
+std::size_t Traffic::GetParking(const Vehicle& vehicle, ESafeStateScope scope) const
+{
+    return scope == ESafeStateScope::AsIs && IsAnyBlocked() ? vehicle.standIn.value_or(*vehicle.home) : *vehicle.home;
+}
+
 bool Traffic::IsHomeOfOther(const Vehicle& vehicle, std::size_t node) const
 {
     const std::size_t own = vehicle.home.has_value() && IsNear(*vehicle.home, node) ? 1 : 0;
@@ -128,8 +148,10 @@ bool Traffic::HasWay(
     const LoadGraph& graph,
     std::size_t from,
     std::size_t to,
-    const std::vector<std::uint16_t>& covers) const
+    const std::vector<std::uint16_t>& covers,
+    ESafeStateScope scope) const
 {
+    const bool bAround = scope == ESafeStateScope::AsIs && IsAnyBlocked();
     if (from == to)
     {
         return true;
@@ -145,6 +167,10 @@ bool Traffic::HasWay(
     {
         for (const Lane& lane : graph.floor->GetLanesFrom(_open[next]))
         {
+            if (bAround && IsBlocked(lane))
+            {
+                continue;
+            }
             if (lane.to == to)
             {
                 return true;
@@ -179,17 +205,24 @@ bool Traffic::HasStraightWayHome(
 /// covers: of all other robots. A route is needed with each load with which the map has one from there, so that a job that
 /// changes the load leaves the state safe. A station that can be left with one load only needs that of this load: the job there
 /// is assumed to end, as for every robot that works.
-bool Traffic::CanGoHome(const Vehicle& vehicle, std::size_t from, const std::vector<std::uint16_t>& covers)
+bool Traffic::CanGoHome(
+    const Vehicle& vehicle,
+    std::size_t from,
+    const std::vector<std::uint16_t>& covers,
+    ESafeStateScope scope)
 {
     FindReturns();
     const auto returns = [from](const LoadGraph& graph) {
         return graph.returns[from];
     };
     return vehicle.bCanReturn && std::ranges::any_of(vehicle.graphs, returns)
-        && std::ranges::all_of(vehicle.graphs, [this, &vehicle, &covers, &returns, from](const LoadGraph& graph) {
-               return !returns(graph) || HasStraightWayHome(vehicle, graph, from, covers)
-                   || HasWay(vehicle, graph, from, *vehicle.home, covers);
-           });
+        && std::ranges::all_of(
+               vehicle.graphs,
+               [this, &vehicle, &covers, &returns, from, scope](const LoadGraph& graph) {
+                   const bool bAround = scope == ESafeStateScope::AsIs && IsAnyBlocked();
+                   return !returns(graph) || (!bAround && HasStraightWayHome(vehicle, graph, from, covers))
+                       || HasWay(vehicle, graph, from, GetParking(vehicle, scope), covers, scope);
+               });
 }
 
 /// Robots that can park do so and free their nodes for the rest; the order makes no difference. All granted nodes of a robot
@@ -210,10 +243,11 @@ Traffic::SafeState Traffic::FindSafeState(ESafeStateScope standing)
     }
     for (bool bChanged = true; std::exchange(bChanged, false);)
     {
-        const auto isGone = [this, &covers, &found, &bChanged](std::size_t robot) {
+        const auto isGone = [this, &covers, &found, &bChanged, standing](std::size_t robot) {
             const Vehicle& vehicle = _vehicles[robot];
             Cover(vehicle, covers, false);
-            if (CanGoHome(vehicle, GetEnd(vehicle), covers))
+            const bool bStarts = standing == ESafeStateScope::AllMove || HasOpenStart(vehicle);
+            if (bStarts && CanGoHome(vehicle, GetEnd(vehicle), covers, standing))
             {
                 found.reachable[robot] = true;
                 bChanged = true;
@@ -259,7 +293,8 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
     Vehicle& vehicle = _vehicles[robot];
     // A robot that can park before all others leaves the floor as if it had never been there.
     Cover(vehicle, _covers, false);
-    const bool bFirst = vehicle.bMovable && CanGoHome(vehicle, ahead.back(), _covers);
+    const bool bFirst = vehicle.bMovable && CanGoHome(vehicle, ahead.back(), _covers, ESafeStateScope::AllMove)
+        && (!IsAnyBlocked() || CanGoHome(vehicle, ahead.back(), _covers, ESafeStateScope::AsIs));
     Cover(vehicle, _covers, true);
     if (bFirst)
     {
@@ -291,12 +326,13 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
     take();
     bool bSafe = IsAsGood(ESafeStateScope::AllMove, robot);
     giveBack();
-    if (bSafe && IsAnyFixed())
+    if (bSafe && (IsAnyFixed() || IsAnyBlocked()))
     {
         static_cast<void>(GetSafeState(ESafeStateScope::AsIs));
         take();
         bSafe = IsAsGood(ESafeStateScope::AsIs, robot);
         giveBack();
+        _bBlocksRefuse = !bSafe && IsAnyBlocked();
     }
     if (!bSafe && _blockers.empty())
     {
@@ -308,7 +344,8 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
 bool Traffic::CanServe(std::size_t robot, std::size_t node) const
 {
     const Vehicle& vehicle = _vehicles[robot];
-    if (vehicle.path.empty() || !vehicle.home.has_value() || vehicle.graphs.empty() || !IsAnyFixed())
+    if (vehicle.path.empty() || !vehicle.home.has_value() || vehicle.graphs.empty()
+        || (!IsAnyFixed() && !IsAnyBlocked()))
     {
         return true;
     }
@@ -321,23 +358,26 @@ bool Traffic::CanServe(std::size_t robot, std::size_t node) const
             Cover(other, covers, true);
         }
     }
-    const auto canReach = [this, &vehicle, node](const std::vector<std::uint16_t>& covered) {
-        return std::ranges::any_of(vehicle.graphs, [this, &vehicle, &covered, node](const LoadGraph& graph) {
-            return HasWay(vehicle, graph, GetEnd(vehicle), node, covered);
+    using EScope = ESafeStateScope;
+    const auto canReach = [this, &vehicle, node](const std::vector<std::uint16_t>& covered, EScope scope) {
+        return std::ranges::any_of(vehicle.graphs, [this, &vehicle, &covered, node, scope](const LoadGraph& graph) {
+            return HasWay(vehicle, graph, GetEnd(vehicle), node, covered, scope);
         });
     };
-    const auto canLeave = [this, &vehicle, node](const LoadGraph& graph, const std::vector<std::uint16_t>& covered) {
-        return HasWay(vehicle, graph, node, *vehicle.home, covered);
-    };
+    const auto canLeave =
+        [this, &vehicle, node](const LoadGraph& graph, const std::vector<std::uint16_t>& covered, EScope scope) {
+            return HasWay(vehicle, graph, node, GetParking(vehicle, scope), covered, scope);
+        };
     const bool bLeaves = std::ranges::any_of(vehicle.graphs, [&canLeave, &none](const LoadGraph& graph) {
-        return canLeave(graph, none);
+        return canLeave(graph, none, EScope::AllMove);
     });
-    if (!bLeaves || !canReach(none))
+    if (!bLeaves || !canReach(none, EScope::AllMove))
     {
-        return true; // not because of robots that cannot move
+        return true; // neither because of robots that cannot move nor because of blocks
     }
-    return canReach(covers) && std::ranges::all_of(vehicle.graphs, [&canLeave, &covers, &none](const LoadGraph& graph) {
-               return canLeave(graph, covers) || !canLeave(graph, none);
+    return HasOpenStart(vehicle) && canReach(covers, EScope::AsIs)
+        && std::ranges::all_of(vehicle.graphs, [&canLeave, &covers, &none](const LoadGraph& graph) {
+               return canLeave(graph, covers, EScope::AsIs) || !canLeave(graph, none, EScope::AllMove);
            });
 }
 

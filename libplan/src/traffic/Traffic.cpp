@@ -80,6 +80,32 @@ void Traffic::AddRobot(std::string_view vehicleTypeID, std::optional<std::size_t
     Note(false);
 }
 
+void Traffic::SetBlocked(const std::vector<bool>& nodes, const std::vector<bool>& edges)
+{
+    const bool bAny = std::ranges::count(nodes, true) + std::ranges::count(edges, true) > 0;
+    _blockedNodes = bAny ? nodes : std::vector<bool>();
+    _blockedEdges = bAny ? edges : std::vector<bool>();
+    Note(false);
+}
+
+void Traffic::SetStandIn(std::size_t robot, std::optional<std::size_t> standInOrNull)
+{
+    if (std::exchange(_vehicles[robot].standIn, standInOrNull) != standInOrNull)
+    {
+        Note(false);
+    }
+}
+
+bool Traffic::IsRefusedForBlocks() const noexcept
+{
+    return _bBlocksRefuse;
+}
+
+bool Traffic::IsAnyBlocked() const noexcept
+{
+    return !_blockedNodes.empty();
+}
+
 bool Traffic::IsSpur(std::string_view vehicleTypeID, std::size_t node) const
 {
     const auto found = _graphs.find(vehicleTypeID);
@@ -250,11 +276,15 @@ void Traffic::Disown(std::size_t robot, std::size_t node)
 std::size_t Traffic::Extend(std::size_t robot, std::span<const std::size_t> ahead)
 {
     _blockers.clear();
+    _bBlocksRefuse = false;
     Vehicle& vehicle = _vehicles[robot];
     assert(!vehicle.path.empty());
     std::size_t count = 0;
+    const auto isBlocked = [this](std::size_t node) {
+        return IsAnyBlocked() && _blockedNodes[node];
+    };
     // A node that it holds already and is to pass again is granted when it has passed it the first time.
-    while (count < ahead.size() && IsFreeFor(ahead[count], robot)
+    while (count < ahead.size() && IsFreeFor(ahead[count], robot) && !isBlocked(ahead[count])
            && std::ranges::count(vehicle.path, ahead[count]) == 0)
     {
         ++count;
@@ -262,6 +292,7 @@ std::size_t Traffic::Extend(std::size_t robot, std::span<const std::size_t> ahea
     if (count == 0)
     {
         _blockers = ahead.empty() ? std::vector<std::size_t>() : GetHolders(ahead.front(), robot);
+        _bBlocksRefuse = !ahead.empty() && isBlocked(ahead.front());
         return 0;
     }
     if (!IsSafe(robot, ahead.first(count)))
@@ -281,6 +312,7 @@ std::size_t Traffic::Extend(std::size_t robot, std::span<const std::size_t> ahea
     {
         vehicle.heading.reset();
         _blockers.clear();
+        _bBlocksRefuse = false;
         Note(true);
     }
     return count;

@@ -36,6 +36,7 @@ class Traffic
     {
         std::vector<LoadGraph> graphs; ///< None where no edge is for its type; one where loads make no difference.
         std::optional<std::size_t> home;
+        std::optional<std::size_t> standIn; ///< Instead of the home, while the way there is blocked.
         std::vector<std::size_t> path;      ///< Held nodes in driving order; it is on the first.
         std::optional<std::size_t> heading; ///< It is stationary between its node and this one, and cannot turn round.
         std::vector<std::size_t> extra;     ///< Other held nodes: where it may be, or may drive uncommanded.
@@ -62,8 +63,8 @@ class Traffic
 
     enum class ESafeStateScope : std::uint8_t
     {
-        AllMove, ///< As if every robot could move.
-        AsIs,    ///< Robots that cannot move are fixed obstacles.
+        AllMove, ///< As if every robot could move and nothing was blocked.
+        AsIs,    ///< Robots that cannot move and blocks are fixed obstacles.
     };
 
     std::vector<std::vector<std::uint32_t>> _near; ///< Of each node: those that it excludes, itself among them.
@@ -76,6 +77,9 @@ class Traffic
     std::vector<Awaited> _awaited; ///< In the order in which they were asked for.
     bool _bPassedOn = false;       ///< Something that was given back is held by another since the last Note.
     std::vector<std::size_t> _blockers;
+    std::vector<bool> _blockedNodes; ///< By the operator; empty: there are no blocks.
+    std::vector<bool> _blockedEdges;
+    bool _bBlocksRefuse = false; ///< The blocks limited the last Extend.
     bool _bReturnsKnown = false;
     std::uint64_t _freedCount = 0;
 
@@ -90,6 +94,13 @@ public:
 
     /// Adds the robot with the next index. The home must be exclusive.
     void AddRobot(std::string_view vehicleTypeID, std::optional<std::size_t> homeOrNull);
+
+    /// No robot is granted these nodes, by index in the map, and routes to parking positions avoid these edges.
+    void SetBlocked(const std::vector<bool>& nodes, const std::vector<bool>& edges);
+    /// Where the robot parks while the way to its home is blocked; nullopt: its home. No other robot has it.
+    void SetStandIn(std::size_t robot, std::optional<std::size_t> standInOrNull);
+    /// Whether the last Extend was refused because of blocks.
+    [[nodiscard]] bool IsRefusedForBlocks() const noexcept;
 
     /// A robot that cannot move is a fixed obstacle.
     void SetMovable(std::size_t robot, bool bMovable);
@@ -166,19 +177,29 @@ private:
     void Note(bool bOnlyFreed);
     void Cover(const Vehicle& vehicle, std::vector<std::uint16_t>& covers, bool bAdd) const;
     [[nodiscard]] bool IsAnyFixed() const;
+    [[nodiscard]] bool IsAnyBlocked() const noexcept;
+    [[nodiscard]] bool IsBlocked(const Lane& lane) const;
+    /// Whether the lane on which it is stationary between two nodes is open.
+    [[nodiscard]] bool HasOpenStart(const Vehicle& vehicle) const;
+    [[nodiscard]] std::size_t GetParking(const Vehicle& vehicle, ESafeStateScope scope) const;
     [[nodiscard]] bool IsHomeOfOther(const Vehicle& vehicle, std::size_t node) const;
     [[nodiscard]] bool HasWay(
         const Vehicle& vehicle,
         const LoadGraph& graph,
         std::size_t from,
         std::size_t to,
-        const std::vector<std::uint16_t>& covers) const;
+        const std::vector<std::uint16_t>& covers,
+        ESafeStateScope scope) const;
     [[nodiscard]] bool HasStraightWayHome(
         const Vehicle& vehicle,
         const LoadGraph& graph,
         std::size_t from,
         const std::vector<std::uint16_t>& covers) const;
-    [[nodiscard]] bool CanGoHome(const Vehicle& vehicle, std::size_t from, const std::vector<std::uint16_t>& covers);
+    [[nodiscard]] bool CanGoHome(
+        const Vehicle& vehicle,
+        std::size_t from,
+        const std::vector<std::uint16_t>& covers,
+        ESafeStateScope scope);
     [[nodiscard]] SafeState FindSafeState(ESafeStateScope standing);
     [[nodiscard]] const SafeState& GetSafeState(ESafeStateScope standing);
     [[nodiscard]] bool IsAsGood(ESafeStateScope standing, std::size_t robot);

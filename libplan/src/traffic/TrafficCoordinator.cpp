@@ -1,6 +1,7 @@
 #include "traffic/TrafficCoordinator.hpp"
 
 #include "robot/NodesAhead.hpp"
+#include "traffic/BlockText.hpp"
 #include <acs/core/ShortText.hpp>
 #include <acs/core/Uuid.hpp>
 
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <set>
 #include <span>
 #include <utility>
 
@@ -25,65 +25,16 @@ TrafficCoordinator::TrafficCoordinator(
       _site(engine.site),
       _random(engine.random),
       _admission(engine.admission),
+      _blocks(engine.blocks),
       _fleet(engine.fleet),
       _transaction(engine.transaction),
       _answers(answers),
       _charging(charging),
       _places(places),
       _waiting(waiting),
-      _routes(engine.site),
+      _routes(engine.site, engine.blocks),
       _traffic(places.GetTraffic())
 {
-}
-
-void TrafficCoordinator::AssignParking()
-{
-    std::set<std::size_t> taken;
-    for (const Robot& robot : _fleet)
-    {
-        if (robot.parking.homeNode.has_value())
-        {
-            taken.insert(*robot.parking.homeNode);
-        }
-        if (robot.parking.chargeNode.has_value())
-        {
-            taken.insert(*robot.parking.chargeNode);
-        }
-    }
-    for (Robot& robot : _fleet)
-    {
-        const RobotOptions& options = *robot.options;
-        robot.parking.parkingNode =
-            robot.parking.homeNode.has_value() ? robot.parking.homeNode : robot.parking.chargeNode;
-        for (const SiteStation& station : _site.GetStations())
-        {
-            const std::optional<std::size_t> dock = _admission.FindDockOrNull(station.stationID, options.vehicleTypeID);
-            if (!robot.parking.parkingNode.has_value() && dock.has_value() && CanParkAt(options, *dock)
-                && taken.insert(*dock).second)
-            {
-                robot.parking.parkingNode = dock;
-            }
-        }
-        _traffic.AddRobot(options.vehicleTypeID, robot.parking.parkingNode);
-        if (options.startNodeID.has_value())
-        {
-            const bool bStands = _traffic.TryStand(robot.index, *_site.FindNodeIndexOrNull(*options.startNodeID));
-            assert(bStands);
-            static_cast<void>(bStands);
-        }
-    }
-}
-
-bool TrafficCoordinator::CanParkAt(const RobotOptions& robot, std::size_t dock) const
-{
-    if (!_traffic.IsSpur(robot.vehicleTypeID, dock))
-    {
-        return false;
-    }
-    const std::string& dockID = _site.GetNodes()[dock].nodeID;
-    const std::string& startID = robot.startNodeID.value_or(dockID);
-    return _routes.GetRouter().FindRouteOrNull(robot.vehicleTypeID, startID, dockID).has_value()
-        && _routes.GetRouter().FindRouteOrNull(robot.vehicleTypeID, dockID, startID).has_value();
 }
 
 void TrafficCoordinator::ExtendDrives()
@@ -117,7 +68,13 @@ void TrafficCoordinator::ExtendBase(Robot& robot)
     {
         return;
     }
-    if (drive.grantedCount < drive.nodes.size() && drive.grantedCount < reached + _options.baseLength)
+    const Block* const blockOrNull = FindDriveBlockOrNull(robot);
+    if (blockOrNull != nullptr)
+    {
+        NoteBlock(robot, BlockBook::Describe(*blockOrNull));
+        robot.search.blockers.clear();
+    }
+    else if (drive.grantedCount < drive.nodes.size() && drive.grantedCount < reached + _options.baseLength)
     {
         const std::size_t wanted = std::min(
             drive.CountReachable(_site, robot.options->vehicleTypeID, robot.GetLoad()),
@@ -129,6 +86,7 @@ void TrafficCoordinator::ExtendBase(Robot& robot)
         robot.changes.bStatus = robot.changes.bStatus || granted > 0 || robot.search.blockers != _traffic.GetBlockers();
         robot.search.blockers = _traffic.GetBlockers();
         robot.search.refusedAt = _traffic.GetFreedCount();
+        NoteBlock(robot, _traffic.IsRefusedForBlocks() ? CUT_OFF : "");
     }
     if (drive.grantedCount > drive.releasedCount)
     {
@@ -151,6 +109,10 @@ EDriveAttempt TrafficCoordinator::TryDrive(Robot& robot)
         return EDriveAttempt::AtTarget;
     }
     const bool bFirst = !RoutePlanner::HasRoute(robot, *target);
+    if (TryNoteBlock(robot, *target))
+    {
+        return TryLeaveLane(robot) ? EDriveAttempt::Begun : EDriveAttempt::Waits;
+    }
     if (!_routes.TryPlanRoute(robot, *target))
     {
         return EDriveAttempt::NoRoute;
@@ -174,6 +136,7 @@ EDriveAttempt TrafficCoordinator::TryDrive(Robot& robot)
     {
         robot.search.blockers = _traffic.GetFixed(robot.index);
         robot.search.refusedAt = _traffic.GetFreedCount();
+        robot.search.block = robot.search.blockers.empty() ? CUT_OFF : "";
         return EDriveAttempt::Waits;
     }
     const bool bBegun = TryBeginPlannedRoute(robot);
@@ -249,6 +212,7 @@ bool TrafficCoordinator::TryBeginDrive(Robot& robot, const PlannedRoute& planned
     const std::size_t wanted = std::min(_options.baseLength, plannedRoute.nodes.size() - 1);
     const std::size_t granted = _traffic.Extend(robot.index, std::span(plannedRoute.nodes).subspan(1, wanted));
     robot.search.blockers = _traffic.GetBlockers();
+    robot.search.block = _traffic.IsRefusedForBlocks() ? CUT_OFF : "";
     if (granted == 0)
     {
         return false;
@@ -294,14 +258,6 @@ void TrafficCoordinator::RefuseHome(Robot& robot)
     robot.parking.refusals = std::min(robot.parking.refusals + 1, MOST_DOUBLINGS);
 }
 
-bool TrafficCoordinator::CanServe(const Robot& robot, const ActivePlan& plan) const
-{
-    return std::ranges::all_of(plan.resolved.steps, [this, &robot](const ResolvedStep& step) {
-        const std::optional<std::size_t> dock = _admission.FindDockOrNull(step.stationID, robot.options->vehicleTypeID);
-        return !dock.has_value() || _traffic.CanServe(robot.index, *dock);
-    });
-}
-
 bool TrafficCoordinator::TryReroute(Robot& robot, PlannedRoute plannedRoute, bool bRetreats)
 {
     const std::size_t wanted = std::min(_options.baseLength, plannedRoute.nodes.size() - 1);
@@ -319,9 +275,10 @@ bool TrafficCoordinator::TryReroute(Robot& robot, PlannedRoute plannedRoute, boo
 
 void TrafficCoordinator::BeginReroute(Robot& robot, PlannedRoute plannedRoute, bool bRetreats)
 {
-    if (plannedRoute.nodes.front() != robot.place.node || plannedRoute.load != robot.GetLoad())
+    if (plannedRoute.nodes.front() != robot.place.node || plannedRoute.load != robot.GetLoad()
+        || _blocks.CountOpen(plannedRoute.route, 1) < plannedRoute.nodes.size())
     {
-        return; // The robot has moved since, or has another load: it waits as any other.
+        return; // The robot has moved since, has another load, or its route is blocked: it waits as any other.
     }
     if (bRetreats)
     {
@@ -463,6 +420,7 @@ void TrafficCoordinator::EndDrive(Robot& robot)
     _places.NoteStandingChanged();
     robot.search.plannedRoute.reset();
     robot.search.blockers.clear();
+    robot.search.block.clear();
     _transaction.RequestDispatch();
 }
 

@@ -32,6 +32,7 @@ class TrafficCoordinator
     const SiteMap& _site;
     Core::IRandom& _random;
     const PlanAdmission& _admission;
+    const BlockBook& _blocks;
     Fleet& _fleet;
     EngineTransaction& _transaction;
     ControlAnswers& _answers;
@@ -40,6 +41,7 @@ class TrafficCoordinator
     const WaitingRobots& _waiting;
     RoutePlanner _routes;
     Traffic& _traffic;
+    bool _bStandIns = false; ///< Robots may have them.
 
 public:
     TrafficCoordinator(
@@ -52,7 +54,22 @@ public:
     /// Chooses the parking positions. Without a home it is the first free station beside the lanes with a route there and back,
     /// used only to clear the routes of others.
     void AssignParking();
+    /// Of the map, as if nothing was blocked.
     [[nodiscard]] const Router& GetRouter() const noexcept;
+    /// Around the blocks.
+    [[nodiscard]] const Router& GetOpenRouter() const noexcept;
+    /// Blocks were added or removed: routes are planned again.
+    void OnBlocksChanged();
+    /// Chooses another parking position for each robot whose way to its own is blocked.
+    void UpdateStandIns();
+    /// Reroutes the robots whose base ends before a block. One that finds no way does not wait on a lane.
+    void AvoidBlocks();
+    /// The block of the robot's target.
+    [[nodiscard]] const Block* FindTargetBlockOrNull(const Robot& robot, std::size_t target) const;
+    /// Whether neither the node nor a station that has it is blocked.
+    [[nodiscard]] bool IsOpenDock(std::size_t node) const;
+    /// Why the robot cannot execute the plan while there are these blocks.
+    [[nodiscard]] std::optional<std::string> DescribeBlockOrNull(const Robot& robot, const ActivePlan& plan) const;
     /// The time to confirm a drive has expired: the base is extended anyway.
     void OnExtensionDue(Robot& robot);
     /// The robot may be sent to its parking position again.
@@ -89,6 +106,22 @@ public:
     void EndDrive(Robot& robot);
 
 private:
+    [[nodiscard]] std::optional<std::size_t> ChooseStandInOrNull(const Robot& robot) const;
+    /// Whether the robot can park there: nothing on the way is blocked.
+    [[nodiscard]] bool IsParkingOpen(const Robot& robot, std::size_t node) const;
+    [[nodiscard]] bool IsParkingTaken(const Robot& robot, std::size_t node) const;
+    /// The first block of what is not granted of its drive.
+    [[nodiscard]] const Block* FindDriveBlockOrNull(const Robot& robot) const;
+    /// Whether a block is why the base of its drive is not extended.
+    [[nodiscard]] bool IsStoppedByBlock(const Robot& robot) const;
+    void AvoidBlock(Robot& robot);
+    /// Notes what is blocked on the way of a robot without a drive; false: nothing.
+    [[nodiscard]] bool TryNoteBlock(Robot& robot, std::size_t target) const;
+    /// Notes why the robot is granted nothing; empty: not because of blocks.
+    static void NoteBlock(Robot& robot, std::string block);
+    /// Sends a robot that waits for a block on a lane to its parking position.
+    [[nodiscard]] bool TryLeaveLane(Robot& robot);
+    [[nodiscard]] std::optional<PlannedRoute> PlanWayOffLaneOrNull(const Robot& robot) const;
     [[nodiscard]] bool CanParkAt(const RobotOptions& robot, std::size_t dock) const;
     /// Begins the planned route, or a detour around stationary robots if there is one.
     [[nodiscard]] bool TryBeginPlannedRoute(Robot& robot);

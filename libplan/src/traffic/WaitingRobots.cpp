@@ -19,7 +19,7 @@ std::optional<std::size_t> WaitingRobots::GetTargetOrNull(const Robot& robot) co
 {
     if (robot.parking.retreatNode.has_value() || robot.planOrNull == nullptr)
     {
-        return robot.parking.retreatNode.has_value() ? robot.parking.retreatNode : robot.parking.homeNode;
+        return robot.parking.retreatNode.has_value() ? robot.parking.retreatNode : robot.parking.GetHomeOrNull();
     }
     return _admission.FindDockOrNull(
         robot.planOrNull->resolved.steps[robot.planOrNull->step].stationID,
@@ -72,7 +72,7 @@ std::vector<Robot*> WaitingRobots::ListAwayFromHome()
     {
         const bool bIdle = robot.planOrNull == nullptr && !robot.drive.has_value() && !robot.parking.bRefused;
         if (bIdle && robot.IsUsable() && robot.parking.homeNode.has_value()
-            && !robot.place.IsOn(robot.parking.homeNode))
+            && !robot.place.IsOn(robot.parking.GetHomeOrNull()))
         {
             away.push_back(&robot);
         }
@@ -111,8 +111,10 @@ bool WaitingRobots::IsWaiting(const Robot& robot) const
 
 bool WaitingRobots::IsHelpable(const Robot& robot) const
 {
-    return robot.search.blockers.empty()
-        || std::ranges::any_of(robot.search.blockers, [this](std::size_t other) { return _traffic.IsMovable(other); });
+    return robot.search.block.empty()
+        && (robot.search.blockers.empty() || std::ranges::any_of(robot.search.blockers, [this](std::size_t other) {
+                return _traffic.IsMovable(other);
+            }));
 }
 
 bool WaitingRobots::IsYielding(const Robot& robot) const
@@ -129,7 +131,7 @@ bool WaitingRobots::IsYielding(const Robot& robot) const
     if (!robot.search.yield->planSequence.has_value())
     {
         return leader.planOrNull == nullptr && leader.parking.homeNode.has_value()
-            && !leader.place.IsOn(leader.parking.homeNode);
+            && !leader.place.IsOn(leader.parking.GetHomeOrNull());
     }
     return leader.planOrNull != nullptr && leader.planOrNull->record.sequence == robot.search.yield->planSequence
         && leader.planOrNull->step == robot.search.yield->step && leader.activity == EActivity::Waits;

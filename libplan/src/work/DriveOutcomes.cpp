@@ -49,12 +49,16 @@ DriveOutcomes::DriveOutcomes(
 
 void DriveOutcomes::MoveWaiting()
 {
+    _coordinator.UpdateStandIns();
     _coordinator.ExtendDrives();
+    _coordinator.AvoidBlocks();
     for (Robot* robot : _waiting.GetWaiting())
     {
         const std::vector<std::size_t> blockers = robot->search.blockers;
+        const std::string block = robot->search.block;
         static_cast<void>(TryMove(*robot));
-        robot->changes.bStatus = robot->changes.bStatus || robot->search.blockers != blockers;
+        robot->changes.bStatus =
+            robot->changes.bStatus || robot->search.blockers != blockers || robot->search.block != block;
     }
 }
 
@@ -62,7 +66,9 @@ void DriveOutcomes::SendIdleHome()
 {
     for (Robot* robot : _waiting.ListAwayFromHome())
     {
+        const std::string block = robot->search.block;
         static_cast<void>(TryMove(*robot));
+        robot->changes.bStatus = robot->changes.bStatus || robot->search.block != block;
     }
 }
 

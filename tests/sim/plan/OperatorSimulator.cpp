@@ -43,6 +43,7 @@ void OperatorSimulator::Begin()
 void OperatorSimulator::BeginInterventions()
 {
     _behaviours.Start(EBehaviour::Intervene, _chance.GetBetween(1s, 60s), [this] { Intervene(); });
+    _behaviours.Start(EBehaviour::CheckBlocks, 200ms, [this] { CheckBlocks(); });
 }
 
 void OperatorSimulator::Intervene()
@@ -51,6 +52,7 @@ void OperatorSimulator::Intervene()
     {
         ControlPlan(*processOrNull);
         ChangePriority(*processOrNull);
+        ChangeBlocks(*processOrNull);
     }
     _behaviours.Start(EBehaviour::Intervene, _chance.GetBetween(1s, 30s), [this] { Intervene(); });
 }
@@ -90,6 +92,82 @@ void OperatorSimulator::ChangePriority(AcsdProcess& process)
     }
 }
 
+void OperatorSimulator::ChangeBlocks(AcsdProcess& process)
+{
+    constexpr std::size_t MOST_BLOCKS = 3;
+    const Planning::PlanEngine& engine = process.GetEngine();
+    const std::vector<Planning::Block>& blocks = engine.GetBlocks();
+    if (!blocks.empty() && (blocks.size() >= MOST_BLOCKS || _chance.IsHit(500)))
+    {
+        const Planning::Block& block = blocks[_chance.GetBelow(blocks.size())];
+        _trace.Add("operator: {} {} is open", GetText(block.kind), block.id);
+        process.PushCommand(Planning::UnblockPlace{block.kind, block.id, 0});
+        return;
+    }
+    const Planning::SiteMap& site = engine.GetSite();
+    Planning::BlockPlace command;
+    command.kind = static_cast<Planning::EBlockKind>(_chance.GetBelow(3));
+    command.id = site.GetNodes()[_chance.GetBelow(site.GetNodes().size())].nodeID;
+    if (command.kind == Planning::EBlockKind::Edge)
+    {
+        command.id = site.GetEdges()[_chance.GetBelow(site.GetEdges().size())].edgeID;
+    }
+    else if (command.kind == Planning::EBlockKind::Station)
+    {
+        command.id = site.GetStations()[_chance.GetBelow(site.GetStations().size())].stationID;
+    }
+    _trace.Add("operator: {} {} is blocked", GetText(command.kind), command.id);
+    process.PushCommand(command);
+}
+
+void OperatorSimulator::CheckBlocks()
+{
+    if (AcsdProcess* const processOrNull = _getProcessOrNull(); processOrNull != nullptr)
+    {
+        const Planning::PlanEngine& engine = processOrNull->GetEngine();
+        std::map<std::string, std::set<std::string>> holders;
+        for (const Planning::RobotRoute& route : engine.GetRobotRoutes())
+        {
+            for (const Planning::RouteNodeAhead& node : route.nodes)
+            {
+                if (node.bReserved)
+                {
+                    holders[node.nodeID].insert(route.robotID);
+                }
+            }
+        }
+        std::map<std::string, std::set<std::string>> granted;
+        for (const Planning::Block& block : engine.GetBlocks())
+        {
+            if (block.kind != Planning::EBlockKind::Node)
+            {
+                continue;
+            }
+            const auto before = _granted.find(block.id);
+            for (const std::string& robotID : holders[block.id])
+            {
+                if (before != _granted.end() && !before->second.contains(robotID))
+                {
+                    _trace.Violate("{} was granted node {}, which is blocked", robotID, block.id);
+                }
+            }
+            granted.emplace(block.id, holders[block.id]);
+        }
+        _granted = std::move(granted);
+    }
+    _behaviours.Start(EBehaviour::CheckBlocks, 200ms, [this] { CheckBlocks(); });
+}
+
+void OperatorSimulator::RemoveBlocks() const
+{
+    AcsdProcess* const processOrNull = _getProcessOrNull();
+    for (const Planning::Block& block :
+         processOrNull == nullptr ? std::vector<Planning::Block>() : processOrNull->GetEngine().GetBlocks())
+    {
+        processOrNull->PushCommand(Planning::UnblockPlace{block.kind, block.id, 0});
+    }
+}
+
 void OperatorSimulator::End()
 {
     _behaviours.CancelAll();
@@ -98,6 +176,7 @@ void OperatorSimulator::End()
 void OperatorSimulator::OnStart()
 {
     _resting.clear();
+    _granted.clear();
     for (auto& [robotID, service] : _services)
     {
         if (std::exchange(service.polls, 0) >= POLLS_UNTIL_STORED)

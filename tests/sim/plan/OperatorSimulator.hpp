@@ -10,14 +10,15 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 
 namespace ACS::Simulation
 {
 
 /// The operator who takes robots out of service and puts them back, and checks that acsd leaves a robot alone that
-/// is stationary and out of service. In some runs the operator also controls plans and
-/// changes their priorities.
+/// is stationary and out of service. In some runs the operator also controls plans,
+/// changes their priorities and blocks parts of the map; no node is granted that is blocked.
 class OperatorSimulator final
 {
 public:
@@ -31,6 +32,7 @@ private:
         Turn,
         Poll,
         Intervene,
+        CheckBlocks,
     };
     struct Service
     {
@@ -46,9 +48,10 @@ private:
     ProcessSource _getProcessOrNull;
     TimerBank<EBehaviour> _behaviours;
 
-    std::map<std::string, std::string> _resting; ///< NodeIDs of those that are stationary and out of service.
-    std::map<std::string, Service> _services;    ///< As acsd reports them.
-    std::map<std::string, bool> _expected;       ///< After a start: whether it is in maintenance.
+    std::map<std::string, std::string> _resting;           ///< NodeIDs of those that are stationary and out of service.
+    std::map<std::string, Service> _services;              ///< As acsd reports them.
+    std::map<std::string, std::set<std::string>> _granted; ///< Of blocked nodes: robots that had them before.
+    std::map<std::string, bool> _expected;                 ///< After a start: whether it is in maintenance.
 
 public:
     OperatorSimulator(
@@ -68,6 +71,8 @@ public:
     void OnStart();
     /// Puts all robots back into service.
     void PutAllIntoService() const;
+    /// Removes all blocks.
+    void RemoveBlocks() const;
 
 private:
     void Turn();
@@ -75,6 +80,8 @@ private:
     void Intervene();
     void ControlPlan(AcsdProcess& process);
     void ChangePriority(AcsdProcess& process);
+    void ChangeBlocks(AcsdProcess& process);
+    void CheckBlocks();
     void CheckResting(const Planning::RobotStatus& robot);
     void CheckService(const Planning::RobotStatus& robot);
 };

@@ -410,6 +410,7 @@ void World::Watch()
         _process->PushCommand(Planning::ControlTSC{false, 0});
     }
     _operator.PutAllIntoService();
+    _operator.RemoveBlocks();
     RemoveCarriers();
     const std::string unrest = DescribeUnrest();
     if (unrest.empty())
@@ -476,6 +477,10 @@ std::string World::DescribeUnrest() const
     }
     const Planning::PlanEngine& engine = _process->GetEngine();
     std::string text = _judge.DescribeOwed();
+    if (!engine.GetBlocks().empty())
+    {
+        text += "blocks are set; ";
+    }
     if (!_mcs.IsSettled())
     {
         text += "the MCS waits for Acks; ";

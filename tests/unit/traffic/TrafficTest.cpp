@@ -300,3 +300,48 @@ TEST_CASE("Traffic: a node that a robot holds and is to pass again is granted af
     CHECK(traffic.Extend(0, Nodes{1, 0}) == 2);
     CHECK(GetHeld(traffic, 0) == Nodes{2, 1, 0});
 }
+
+TEST_CASE("Traffic: a blocked node is not granted, and a robot beyond it does not stop one that can park around it")
+{
+    Traffic traffic = MakeTraffic();
+    REQUIRE(traffic.TryStand(0, 3)); // its parking position 5 is beyond node 2
+    std::vector<bool> blocked(9, false);
+    blocked[2] = true;
+    traffic.SetBlocked(blocked, std::vector<bool>(14, false));
+    CHECK(traffic.Extend(0, Nodes{2, 1}) == 0);
+    CHECK(traffic.IsRefusedForBlocks());
+    CHECK(traffic.GetBlockers().empty());
+    CHECK(traffic.Extend(1, Nodes{4}) == 1); // from its parking position 6, to which it can return
+    CHECK_FALSE(traffic.IsRefusedForBlocks());
+    CHECK(traffic.Extend(0, Nodes{4}) == 0);
+    traffic.SetBlocked(std::vector<bool>(9, false), std::vector<bool>(14, false));
+    CHECK(traffic.Extend(0, Nodes{2, 1}) == 2);
+}
+
+TEST_CASE("Traffic: a robot is not granted nodes from where blocks cut off its parking position")
+{
+    Traffic traffic = MakeTraffic();
+    std::vector<bool> blocked(14, false);
+    blocked[3] = true; // the edge from 2 to 1
+    traffic.SetBlocked(std::vector<bool>(9, false), blocked);
+    CHECK(traffic.Extend(0, Nodes{0, 1}) == 2);
+    CHECK(traffic.Extend(0, Nodes{2}) == 0);
+    CHECK(traffic.IsRefusedForBlocks());
+    CHECK_FALSE(traffic.CanServe(0, 7));
+    traffic.SetStandIn(0, 7); // it may park beside node 2
+    CHECK(traffic.CanServe(0, 7));
+    CHECK(traffic.Extend(0, Nodes{2, 7}) == 2);
+}
+
+TEST_CASE("Traffic: while there are blocks, the state stays safe for the time after them")
+{
+    Traffic traffic = MakeTraffic();
+    REQUIRE(traffic.TryStand(0, 4)); // parks by 3, 2, 1 and 0
+    REQUIRE(traffic.TryStand(1, 7)); // parks by 2, 3 and 4, after robot 0
+    std::vector<bool> blocked(9, false);
+    blocked[0] = true;
+    traffic.SetBlocked(blocked, std::vector<bool>(14, false));
+    CHECK(traffic.Extend(1, Nodes{2}) == 0); // none of the two could ever park
+    CHECK(traffic.GetBlockers() == Nodes{0});
+    CHECK_FALSE(traffic.IsRefusedForBlocks());
+}

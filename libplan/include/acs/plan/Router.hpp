@@ -47,6 +47,10 @@ public:
     Router& operator=(const Router&) = delete;
     ~Router();
 
+    /// From now on no route enters these nodes or uses these edges, by index in the map; routes may begin on such a node. Discards
+    /// what earlier searches found. The sizes are those of the map.
+    void SetBlocked(std::vector<bool> nodes, std::vector<bool> edges);
+
     /// The fastest route between two nodes for a vehicle of unknown load; one node and no edge if they are the same. nullopt if
     /// there is no route, or if a node or the vehicle type is not on the map.
     [[nodiscard]] std::optional<Route> FindRouteOrNull(

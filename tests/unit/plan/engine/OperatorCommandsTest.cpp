@@ -12,7 +12,7 @@ namespace
 
 struct OperatorParts : EngineParts
 {
-    OperatorCommands commands{engine, loads, stalls, rejections, places, work, jobs};
+    OperatorCommands commands{engine, loads, stalls, rejections, places, coordinator, work, jobs};
 
     /// Plan P1 of LR01 with a job whose outcome the operator decides.
     ActivePlan& BeginUnresolvedLoad()

@@ -1,11 +1,21 @@
 #include "fixtures/PlanWorldSteps.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using ACS::Testing::BeginPlan;
+using ACS::Testing::FinishPlan;
+using ACS::Testing::Lines;
+using ACS::Testing::MakeControlPlan;
+using ACS::Testing::MakeLogisticsPlan;
+using ACS::Testing::MakeRestrictedSite;
+using ACS::Testing::MakeTestOptions;
+using ACS::Testing::MakeTestSite;
 using ACS::Testing::PlanWorld;
 using ACS::Testing::RestartEngine;
+using ACS::Testing::TryRunUntil;
 
 namespace
 {
@@ -31,6 +41,31 @@ std::string AskToBlock(PlanWorld& world, EBlockKind kind, const std::string& id,
 std::string AskToUnblock(PlanWorld& world, EBlockKind kind, const std::string& id)
 {
     return Ask(world, UnblockPlace{kind, id, 0});
+}
+
+/// One load at the station.
+Plan MakeLoadPlan(const std::string& stationID)
+{
+    return {"P1", "", 1, {{1, "CassetteLoad", stationID, {"C"}, {{"J1", stationID, "AMR.CP01"}}}}};
+}
+
+WaitReason GetWaitReason(const PlanWorld& world)
+{
+    const std::optional<WaitReason> reason = world.engine->GetWaitReasonOrNull("P1");
+    REQUIRE(reason.has_value());
+    return *reason;
+}
+
+/// The node of the robot, or that which it has passed last.
+std::string GetNode(const PlanWorld& world, const std::string& robotID)
+{
+    const std::vector<RobotDetail> details = world.engine->GetRobotDetails();
+    return std::ranges::find(details, robotID, &RobotDetail::robotID)->nodeID;
+}
+
+bool TryRunToNode(PlanWorld& world, const std::string& robotID, const std::string& nodeID)
+{
+    return world.TryRun([&world, robotID, nodeID] { return GetNode(world, robotID) == nodeID; });
 }
 
 } // namespace
@@ -81,4 +116,110 @@ TEST_CASE("Block: unknown ids, a second block, a bad reason and too many blocks 
     CHECK(AskToBlock(world, EBlockKind::Node, "L03").starts_with("no: There are 1000 blocks already."));
     CHECK(AskToUnblock(world, EBlockKind::Node, "17") == "yes: The node 17 is open.");
     CHECK(AskToBlock(world, EBlockKind::Node, "L03").starts_with("yes"));
+}
+
+TEST_CASE("Block: a plan to a blocked station waits with the reason, also after a restart, until it is open")
+{
+    PlanWorld world;
+    world.Connect();
+    AskToBlock(world, EBlockKind::Station, "A02.CP03", "cleaning"); // of the second step
+    world.Submit(MakeLogisticsPlan("P1"));
+    REQUIRE(world.TryRun());
+    CHECK(world.GetReportsOf("P1").empty());
+    CHECK(GetWaitReason(world).message == "The station A02.CP03 is blocked: cleaning.");
+    CHECK(
+        GetWaitReason(world).robots
+        == std::vector<RobotUnavailability>{{"LR01", "station A02.CP03 is blocked: cleaning"}});
+    RestartEngine(world);
+    REQUIRE(world.TryRun());
+    CHECK(world.GetReportsOf("P1").empty());
+    AskToUnblock(world, EBlockKind::Station, "A02.CP03");
+    FinishPlan(world);
+}
+
+TEST_CASE("Block: a plan waits while a node or an edge of its only route is blocked, and names it")
+{
+    PlanWorld world;
+    world.Connect();
+    const EBlockKind kind = GENERATE(EBlockKind::Node, EBlockKind::Edge);
+    const std::string id = kind == EBlockKind::Node ? "L02" : "L01>L02";
+    AskToBlock(world, kind, id);
+    world.Submit(MakeLogisticsPlan("P1"));
+    REQUIRE(world.TryRun());
+    CHECK(world.GetReportsOf("P1").empty());
+    CHECK(GetWaitReason(world).robots.front().reason == std::string(GetText(kind)) + " " + id + " is blocked");
+    AskToUnblock(world, kind, id);
+    FinishPlan(world);
+}
+
+TEST_CASE("Block: a station that is blocked during a plan stops the robot at its former station")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
+    AskToBlock(world, EBlockKind::Station, "A02.CP03", "cleaning");
+    REQUIRE(world.TryRun());
+    CHECK(world.GetReportsOf("P1").back() == "Step 2 Dispatched");
+    CHECK(GetWaitReason(world).message == "LR01 waits: station A02.CP03 is blocked: cleaning.");
+    CHECK(world.engine->GetRobotStatuses().front().message == GetWaitReason(world).message);
+    CHECK(GetNode(world, "LR01") == "D-A01.CP01");
+    AskToUnblock(world, EBlockKind::Station, "A02.CP03");
+    FinishPlan(world);
+}
+
+TEST_CASE(
+    "Block: a robot stops before a blocked node of its route, waits with the reason, and continues when it is open")
+{
+    EngineOptions options = MakeTestOptions(false);
+    options.baseLength = 1;
+    PlanWorld world(1, options, MakeTestSite());
+    BeginPlan(world, MakeLoadPlan("A01.CP06"), "Step 1 InProgress");
+    AskToBlock(world, EBlockKind::Node, "L05", "oil");
+    REQUIRE(world.TryRun());
+    CHECK(GetNode(world, "LR01") == "D-CHG01"); // its parking position: it does not wait on the lane
+    CHECK(GetWaitReason(world).message == "LR01 waits: node L05 is blocked: oil.");
+    AskToUnblock(world, EBlockKind::Node, "L05");
+    FinishPlan(world);
+    CHECK(world.violations == Lines{});
+}
+
+TEST_CASE("Block: a robot is rerouted around a blocked edge of its route")
+{
+    EngineOptions options = MakeTestOptions(false);
+    options.baseLength = 1;
+    PlanWorld world(1, options, MakeRestrictedSite({true, true}));
+    BeginPlan(world, MakeLoadPlan("A01.CP06"), "Step 1 InProgress");
+    AskToBlock(world, EBlockKind::Edge, "L05>L06", "oil");
+    REQUIRE(TryRunToNode(world, "LR01", "AROUND"));
+    FinishPlan(world);
+    CHECK(world.violations == Lines{});
+}
+
+TEST_CASE("Block: a robot whose parking position is blocked leaves it, parks elsewhere, and makes way for others there")
+{
+    PlanWorld world;
+    world.Connect();
+    const EBlockKind kind = GENERATE(EBlockKind::Node, EBlockKind::Station);
+    AskToBlock(world, kind, kind == EBlockKind::Node ? "D-CHG01" : "CHG01");
+    REQUIRE(world.TryRun());
+    CHECK(GetNode(world, "LR01") == "D-A01.CP01");
+    world.Submit(MakeControlPlan("P1")); // CR01 works at A01.CP01
+    FinishPlan(world);
+    world.Submit(MakeLogisticsPlan("P2"));
+    REQUIRE(world.TryRun());
+    CHECK(world.GetReportsOf("P2").back() == "Plan Completed");
+    CHECK(GetNode(world, "LR01") != "D-CHG01");
+    AskToUnblock(world, kind, kind == EBlockKind::Node ? "D-CHG01" : "CHG01");
+    REQUIRE(world.TryRun());
+    CHECK(GetNode(world, "LR01") == "D-CHG01");
+    CHECK(world.violations == Lines{});
+}
+
+TEST_CASE("Block: granted nodes are driven, and a robot on a blocked node leaves it")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeLoadPlan("A01.CP06"), "Step 1 InProgress");
+    REQUIRE(TryRunToNode(world, "LR01", "L02"));
+    AskToBlock(world, EBlockKind::Node, "L02");
+    AskToBlock(world, EBlockKind::Node, "L03");
+    FinishPlan(world);
 }

@@ -66,6 +66,24 @@ TEST_CASE("Routes: there is none against a one-way edge, for another vehicle typ
     CHECK_FALSE(router.FindRouteOrNull("lr", "A", "Z").has_value());
 }
 
+TEST_CASE("Routes: no route enters a blocked node or uses a blocked edge, but one may begin on a blocked node")
+{
+    const SiteMap site = *SiteMap::Create(
+        {MakeNode("A", 0, 0), MakeNode("B", 10, 0), MakeNode("C", 5, 5)},
+        {MakeEdge("direct", "A", "B", 1), MakeEdge("up", "A", "C", 1), MakeEdge("down", "C", "B", 1)},
+        {});
+    Router router(site);
+    CHECK(GetNodeIDs(router.FindRouteOrNull("lr", "A", "B")) == std::vector<std::string>{"A", "B"});
+    router.SetBlocked({true, false, false}, {true, false, false});
+    CHECK(GetNodeIDs(router.FindRouteOrNull("lr", "A", "B")) == std::vector<std::string>{"A", "C", "B"});
+    router.SetBlocked({false, false, true}, {true, false, false});
+    CHECK_FALSE(router.FindRouteOrNull("lr", "A", "B").has_value());
+    CHECK_FALSE(router.FindRouteOrNull("lr", "A", "C").has_value());
+    CHECK(router.FindRouteOrNull("lr", "C", "B").has_value());
+    router.SetBlocked({false, false, false}, {false, false, false});
+    CHECK(GetNodeIDs(router.FindRouteOrNull("lr", "A", "B")) == std::vector<std::string>{"A", "B"});
+}
+
 TEST_CASE("Routes: a route avoids excluded nodes except its first and last")
 {
     const SiteMap site = *SiteMap::Create(
