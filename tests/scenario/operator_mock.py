@@ -33,7 +33,7 @@ PLANS = [make_plan("PLAN_1", "InProgress", "LR01"), make_plan("PLAN_2", "Pending
 ROBOTS = [make_robot("LR01", "Moving", planId="PLAN_1", nextNode="N2", route=[{"nodeId": "N2", "reserved": True},
                                                                              {"nodeId": "N3", "reserved": False}]),
           make_robot("LR02", "Stopped", maintenance=True, reason="In maintenance.")]
-ALARMS = [{"robotId": "LR02", "errorCode": "ACS-1002", "level": "Heavy", "message": "no state for 10 s",
+ALARMS = [{"robotId": "LR02", "errorCode": "ACS-1002", "level": "heavy", "message": "no state for 10 s",
            "since": "2026-11-27T23:09:00.000Z", "title": "Robot disconnected", "cause": "The network is down.",
            "remedy": "Check the robot.", "planId": None, "stepNo": None, "jobId": None}]
 LINKS = [{"name": "mcs", "up": True, "reason": None, "since": "2026-11-27T20:10:00.000Z"},

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""acsctl operates a real line: what each command prints and returns with a real acsd."""
+"""acsctl operates a real line: what each command prints and returns when acsd answers."""
 
 import json
 import os
@@ -87,6 +87,14 @@ class OperatedLine(ScenarioCase):
         self.assertIn("needs --yes", self.check(2, "resume", plan_id))
         self.check(0, "resume", plan_id, "--yes")
         self.wait_until(lambda: self.read("plan", plan_id)["status"] == "Pending", "the end of the pause")
+        (station, *_) = (found["stationId"] for found in self.read("site")["stations"])
+        self.check(0, "block", "station", station, "--reason", "wet floor")
+        self.wait_until(lambda: self.read("site")["blocked"], "the block")
+        self.assertIn("wet floor", self.check(0, "site"))
+        self.assertIn(f"acsctl unblock station {station}", " ".join(self.check(5, "why").split()))
+        self.check(0, "unblock", "station", station, "--yes")
+        self.wait_until(lambda: not self.read("site")["blocked"], "the end of the block")
+        self.check(1, "block", "node", "NOWHERE")
         self.check(0, "tsc", "pause")
         self.wait_until(lambda: self.read("status")["tsc"] == "Paused", "the pause of the TSC")
         self.assertIn("acsctl tsc resume", " ".join(self.check(5, "why").split()))

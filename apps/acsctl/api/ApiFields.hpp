@@ -76,7 +76,7 @@ struct JsonFields<Acsctl::StatusInfo>
         Defaulted("uptimeSeconds", &T::uptimeSeconds),
         Required("ready", &T::bReady),
         Defaulted("notReadyReasons", &T::notReadyReasons),
-        Defaulted("isConnected", &T::bConnected),
+        Nullable("isConnected", &T::bConnected),
         Required("links", &T::links),
         Required("tsc", &T::tsc),
         Nullable("tscReason", &T::tscReason),

@@ -71,7 +71,7 @@ struct StatusInfo
     double uptimeSeconds = 0;
     bool bReady = false;
     std::vector<std::string> notReadyReasons;
-    bool bConnected = false;
+    std::optional<bool> bConnected; ///< As last reported to the MCS; nullopt: not yet.
     std::vector<LinkInfo> links;
     std::string tsc;
     std::optional<std::string> tscReason;

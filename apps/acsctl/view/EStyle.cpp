@@ -12,9 +12,9 @@ namespace
 constexpr std::array<std::string_view, 6> CODES{"", "\x1b[1m", "\x1b[32m", "\x1b[33m", "\x1b[31m", "\x1b[2m"};
 constexpr std::string_view RESET = "\x1b[0m";
 
-constexpr std::array<std::string_view, 6> BAD{"Failed", "Aborted", "Error", "Disconnected", "Heavy", "down"};
+constexpr std::array<std::string_view, 6> BAD{"Failed", "Aborted", "Error", "Disconnected", "heavy", "down"};
 constexpr std::array<std::string_view, 8>
-    WARNING{"Paused", "Pausing", "Stopped", "Manual", "Init", "Light", "Cancelled", "Skipped"};
+    WARNING{"Paused", "Pausing", "Stopped", "Manual", "Init", "light", "Cancelled", "Skipped"};
 constexpr std::array<std::string_view, 4> GOOD{"Completed", "InProgress", "Auto", "up"};
 
 } // namespace

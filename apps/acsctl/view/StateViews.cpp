@@ -125,7 +125,10 @@ std::string PrintStatus(const StatusInfo& status, const ViewContext& context)
     {
         details.Add("Ready", "no: " + Join(status.notReadyReasons, " "), EStyle::Bad);
     }
-    details.Add("Connected", status.bConnected ? "yes, as reported to the MCS" : "no, as reported to the MCS");
+    if (status.bConnected.has_value())
+    {
+        details.Add("Connected", fmt::format("{}, as reported to the MCS", *status.bConnected ? "yes" : "no"));
+    }
     for (const LinkInfo& link : status.links)
     {
         details.Add("Link " + link.name, DescribeLink(link, context.now), GetStyle(GetLinkText(link)));

@@ -38,6 +38,16 @@ std::string MakeSentence(std::string text)
     return text;
 }
 
+/// For the begin of a sentence.
+std::string Capitalize(std::string word)
+{
+    if (!word.empty() && word.front() >= 'a' && word.front() <= 'z')
+    {
+        word.front() = static_cast<char>(word.front() - 'a' + 'A');
+    }
+    return word;
+}
+
 std::string MakeMaintenanceRemedy(std::string_view robotID)
 {
     return fmt::format("When it may move: acsctl maintenance {} off", robotID);
@@ -401,14 +411,14 @@ void WhyExplainer::AddBlock(const BlockInfo& block, std::size_t depth, Chain& ch
         return;
     }
     const std::string reason = block.reason.value_or("").empty() ? std::string() : ": " + *block.reason;
-    std::string kind = block.kind;
-    if (!kind.empty() && kind.front() >= 'a' && kind.front() <= 'z')
-    {
-        kind.front() = static_cast<char>(kind.front() - 'a' + 'A');
-    }
     chain.causes.push_back(
         {depth,
-         MakeSentence(fmt::format("{} {} is blocked{}{}", kind, block.id, MakeSince(block.since, _now), reason)),
+         MakeSentence(fmt::format(
+             "{} {} is blocked{}{}",
+             Capitalize(block.kind),
+             block.id,
+             MakeSince(block.since, _now),
+             reason)),
          {},
          {fmt::format("When it is free: acsctl unblock {} {}", block.kind, block.id)}});
 }
@@ -455,7 +465,7 @@ Cause WhyExplainer::MakeAlarmCause(const AlarmInfo& alarm, std::size_t depth) co
         depth,
         MakeSentence(fmt::format(
             "{} alarm {}{} of {}{}{}",
-            alarm.level,
+            Capitalize(alarm.level),
             alarm.errorCode,
             title,
             alarm.robotID == ACSD_NAME ? "acsd" : alarm.robotID,

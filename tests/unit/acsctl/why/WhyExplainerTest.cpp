@@ -109,7 +109,7 @@ TEST_CASE("An alarm is explained with its cause and remedy, an unresolved job wi
     Acsctl::AlarmInfo alarm;
     alarm.robotID = "LR01";
     alarm.errorCode = "ACS-1008";
-    alarm.level = "Heavy";
+    alarm.level = "heavy";
     alarm.title = "Job outcome unknown";
     alarm.cause = "A restart";
     alarm.remedy = "Check the carrier";
