@@ -32,11 +32,6 @@ UNSEEN = {
     ("TraceLine/1.lost", "value"): "a disk that is full",
     ("Status.tscReason", "value"): "a store that was restored: test_store.py",
     ("StatusChange.tscReason", "value"): "a store that was restored: test_store.py",
-    ("Site.blocked[]", "value"): "no path blocks a place yet",
-    ("Block.kind", "value"): "no path blocks a place yet",
-    ("Block.id", "value"): "no path blocks a place yet",
-    ("Block.reason", "value"): "no path blocks a place yet",
-    ("Block.since", "value"): "no path blocks a place yet",
     ("Robot.topic", "null"): "a robot without MQTT: test_own_driver.py",
     ("Robot.warnings[]", "value"): "a vehicle that contradicts its factsheet",
     ("Unavailable: Retry-After", "value"): "1,000 commands that wait for the store: test_operations.py",
@@ -86,10 +81,22 @@ class OpenApi(ScenarioCase):
         for target in [f"/v1/plans/{plan}" for plan in plans] + ["/v1/robots/LR01", "/v1/robots/CR01"]:
             self.api.get(target)
 
+    def get_snapshot(self):
+        """The plan that a robot has names this robot, and has no position in the queue; any other plan has one."""
+        snapshot = self.api.get("/v1/snapshot")
+        robots = {robot["planId"]: robot["robotId"] for robot in snapshot["robots"] if robot["planId"]}
+        plans = [(plan["planId"], plan["robotId"]) for plan in snapshot["plans"]]
+        self.assertEqual({plan: robot for plan, robot in plans if robot}, robots)
+        self.assertEqual([robot is None for _, robot in plans], sorted(robot is None for _, robot in plans))
+        for plan in snapshot["plans"]:
+            if plan["waits"] and plan["status"] != "Paused":
+                self.assertEqual(plan["waits"]["queuePosition"] is None, plan["robotId"] is not None, plan)
+        return snapshot
+
     def wait_for(self, is_reached, what, *targets):
         """Reads the state until the function of the snapshot is true. Reads also the targets each time."""
         deadline = time.monotonic() + FINISH_SECONDS
-        while not is_reached(snapshot := self.api.get("/v1/snapshot")):
+        while not is_reached(snapshot := self.get_snapshot()):
             self.assertLess(time.monotonic(), deadline, f"{what}; the last: {snapshot}")
             for target in targets:
                 self.api.get(target)
@@ -262,6 +269,17 @@ class OpenApi(ScenarioCase):
         self.api.post("/v1/robots/CR01/maintenance", {"on": False})
         self.wait_for_robots("Idle", "CR01")
 
+    def check_blocked_places(self):
+        self.post_example("/v1/site/block")
+        self.wait_for(lambda snapshot: snapshot["status"]["siteRevision"] == 1, "a place is blocked")
+        self.read_everything()
+        self.post_example("/v1/site/block", 409)
+        self.post_example("/v1/site/unblock")
+        self.wait_for(lambda snapshot: snapshot["status"]["siteRevision"] == 2, "the place is open")
+        self.post_example("/v1/site/unblock", 409)
+        for command in ("block", "unblock"):
+            self.api.post(f"/v1/site/{command}", {"kind": "node", "id": "GHOST"}, 404)
+
     def check_waiting_plans(self):
         self.post_example("/v1/tsc/pause")
         self.wait_for(lambda snapshot: snapshot["status"]["tsc"] == "Paused", "the TSC is Paused")
@@ -418,10 +436,10 @@ class OpenApi(ScenarioCase):
     def test_answers_are_as_described(self):
         self.start()
         for check in (self.check_routes, self.check_links_that_are_down, self.check_idle_robots, self.check_invalid_requests,
-                      self.check_idempotency_keys, self.check_commands_to_robots, self.check_waiting_plans,
-                      self.check_running_plans, self.check_disconnected_robot, self.check_unresolved_job, self.check_abort,
-                      self.check_alarm_without_plan, self.check_invalid_message, self.check_failing_store, self.check_events,
-                      self.check_clients):
+                      self.check_idempotency_keys, self.check_commands_to_robots, self.check_blocked_places,
+                      self.check_waiting_plans, self.check_running_plans, self.check_disconnected_robot,
+                      self.check_unresolved_job, self.check_abort, self.check_alarm_without_plan, self.check_invalid_message,
+                      self.check_failing_store, self.check_events, self.check_clients):
             check()
         self.assertEqual(self.examples, {path for method, path, _ in self.description.list_operations() if method == "POST"})
         self.assertEqual(self.description.list_missing_answers(), [])
