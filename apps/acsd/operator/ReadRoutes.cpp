@@ -40,7 +40,7 @@ void AddRead(Apps::HttpRoutes& routes, std::string_view pattern, THandle handle)
         });
 }
 
-/// The wait reason is that of the present state, which notes its time.
+/// The robot and the wait reason are those of the present state, which notes the time of the latter.
 HttpResponse ShowPlan(const Planning::PlanEngine& engine, const StateView& state, const std::string& planID)
 {
     const Planning::PlanRecord* recordOrNull = engine.GetPlanRecordOrNull(planID);
@@ -54,6 +54,7 @@ HttpResponse ShowPlan(const Planning::PlanEngine& engine, const StateView& state
     PlanView plan = MakePlanView(*recordOrNull, *summary, EPlanDetail::Jobs);
     if (const auto found = std::ranges::find(state.plans, planID, &PlanView::planID); found != state.plans.end())
     {
+        plan.robotID = found->robotID;
         plan.waits = found->waits;
     }
     return MakeJsonAnswer(EncodePlan(plan));

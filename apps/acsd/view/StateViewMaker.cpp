@@ -192,12 +192,25 @@ std::vector<PlanView> StateViewMaker::MakePlans(Core::WallTime now)
         waiting.insert(reason.planID);
         reasons.emplace(reason.planID, std::move(reason));
     }
+    std::map<std::string, std::string, std::less<>> robots; // by planID
+    for (const Planning::RobotStatus& robot : _engine.GetRobotStatuses())
+    {
+        if (robot.planID.has_value())
+        {
+            robots.emplace(*robot.planID, robot.robotID);
+        }
+    }
     const std::vector<Planning::PlanSummary> summaries = _engine.GetActivePlans();
     const auto records = _engine.GetActivePlanRecords(); // in the same order
     std::vector<PlanView> plans;
     for (std::size_t index = 0; index < summaries.size(); ++index)
     {
         PlanView& plan = plans.emplace_back(MakePlanView(records[index], summaries[index], EPlanDetail::Steps));
+        // The MCS is sent the robot of a plan only when the robot has started it.
+        if (const auto robot = robots.find(plan.planID); robot != robots.end())
+        {
+            plan.robotID = robot->second;
+        }
         if (const auto found = reasons.find(plan.planID); found != reasons.end())
         {
             // A plan in the queue has waited since it was accepted, whatever acsd has seen of that.
@@ -206,6 +219,7 @@ std::vector<PlanView> StateViewMaker::MakePlans(Core::WallTime now)
         }
     }
     Forget(_waits, waiting);
+    std::stable_partition(plans.begin(), plans.end(), [](const PlanView& plan) { return plan.robotID.has_value(); });
     return plans;
 }
 
