@@ -14,7 +14,7 @@ namespace ACS::Acsd
 /// An error that a robot reports, in its own words.
 struct DriverError
 {
-    std::string type;
+    std::string type;        ///< Of the robot: "batteryFault".
     std::string level;       ///< Of the robot's protocol: "WARNING", "FATAL".
     std::string description; ///< May be empty.
 
