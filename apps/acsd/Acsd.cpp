@@ -18,7 +18,6 @@
 #include "operator/OperatorAnswer.hpp"
 #include "operator/PageRoutes.hpp"
 #include "operator/PlanLog.hpp"
-#include "operator/ProcessMetrics.hpp"
 #include "operator/ReadRoutes.hpp"
 #include "operator/StateFeed.hpp"
 #include "replay/CoreRecorder.hpp"
@@ -59,7 +58,6 @@ class Acsd::Impl final : private IAcsdOutput
     AcsdConfig _config;
     Apps::MetricsEndpoint _metricsEndpoint;
     AcsdMetrics _metrics;
-    ProcessMetrics _processMetrics;
     PlanLog _planLog;
     std::unique_ptr<CoreRecorder> _recorder; ///< Null without a trace.
     AcsdCore _core;
@@ -84,8 +82,7 @@ public:
         std::unique_ptr<AuditLog> audit)
         : _dependencies(std::move(dependencies)),
           _config(std::move(config)),
-          _metrics(_metricsEndpoint),
-          _processMetrics(_metricsEndpoint, _dependencies.clock.GetNow()),
+          _metrics(_metricsEndpoint, _dependencies.clock.GetNow()),
           _planLog(_dependencies.logger.MakeFor("plan"), _metricsEndpoint),
           _recorder(MakeRecorderOrNull()),
           _core(MakeCoreDependencies(), _config),
@@ -385,7 +382,7 @@ private:
     void UpdateMetrics()
     {
         const Core::Now now = _dependencies.clock.GetNow();
-        _processMetrics.Update();
+        _metrics.UpdateProcess();
         _planLog.Sample(_core.GetEngine(), now);
         _metrics.UpdateReady(GetLinks(), _core.GetNotReadyReasons().empty());
         _metrics.UpdateMCS(_mcs, _core.GetRefusedReports(), _core.GetPublishedConnectedOrNull().value_or(true));

@@ -92,8 +92,9 @@ double ToNumber(TNumber number)
 
 } // namespace
 
-AcsdMetrics::AcsdMetrics(Apps::MetricsEndpoint& metrics)
-    : _metrics(metrics)
+AcsdMetrics::AcsdMetrics(Apps::MetricsEndpoint& metrics, Core::Now now)
+    : _metrics(metrics),
+      _process(metrics, now)
 {
     _metrics.AddGauge(READY, "1 when /readyz answers 200");
     _metrics.AddGauge(LINK_UP, "1 when the link is up: mcs registered, mqtt subscribed");
@@ -154,6 +155,11 @@ void AcsdMetrics::ObserveStall(Core::Duration stall)
 void AcsdMetrics::ObserveCommit(Core::Duration duration)
 {
     _metrics.Observe(COMMITS, {}, ToSeconds(duration));
+}
+
+void AcsdMetrics::UpdateProcess()
+{
+    _process.Update();
 }
 
 void AcsdMetrics::UpdateReady(const std::vector<LinkStatus>& links, bool bWorks)

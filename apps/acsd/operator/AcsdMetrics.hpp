@@ -4,6 +4,7 @@
 #include "mcs/McsLink.hpp"
 #include "mcs/RefusedReports.hpp"
 #include "operator/AlarmSeries.hpp"
+#include "operator/ProcessMetrics.hpp"
 #include "view/ProgramState.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/plan/PlanEngine.hpp>
@@ -22,15 +23,17 @@ class AcsdMetrics final
 {
     Apps::MetricsEndpoint& _metrics;
     AlarmSeries _alarms;
+    ProcessMetrics _process;
 
 public:
-    /// The endpoint outlives it.
-    explicit AcsdMetrics(Apps::MetricsEndpoint& metrics);
+    /// The endpoint outlives it. The process has started now.
+    AcsdMetrics(Apps::MetricsEndpoint& metrics, Core::Now now);
 
     void ObserveAckWait(Core::Duration wait);
     void ObserveCommit(Core::Duration duration);
     void ObserveStall(Core::Duration stall);
 
+    void UpdateProcess();
     /// bWorks: no other reason than a link keeps acsd from being ready.
     void UpdateReady(const std::vector<LinkStatus>& links, bool bWorks);
     /// bWorking: the value of isConnected that was published last.

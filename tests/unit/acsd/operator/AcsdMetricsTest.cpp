@@ -75,7 +75,7 @@ TEST_CASE("The age of the oldest plan that has not started follows the queue")
 {
     Testing::PlanWorld world;
     Apps::MetricsEndpoint endpoint;
-    AcsdMetrics metrics(endpoint);
+    AcsdMetrics metrics(endpoint, world.GetNow());
     const auto render = [&](Core::Duration later) {
         Core::Now now = world.GetNow();
         now.wall += std::chrono::duration_cast<Core::WallTime::duration>(later);
@@ -97,7 +97,7 @@ TEST_CASE("The age of the oldest plan that has not started follows the queue")
 TEST_CASE("acsd is ready while every link is up and nothing else prevents it")
 {
     Apps::MetricsEndpoint endpoint;
-    AcsdMetrics metrics(endpoint);
+    AcsdMetrics metrics(endpoint, Core::Now());
     metrics.UpdateReady({{"mcs", true}, {"mqtt", true}}, true);
     CHECK_THAT(endpoint.Render(), Contains("acsd_ready 1\n") && Contains("acsd_link_up{link=\"mqtt\"} 1\n"));
     metrics.UpdateReady({{"mcs", true}, {"mqtt", true}}, false);
@@ -110,7 +110,7 @@ TEST_CASE("An alarm has its series while it is active")
 {
     Testing::PlanWorld world;
     Apps::MetricsEndpoint endpoint;
-    AcsdMetrics metrics(endpoint);
+    AcsdMetrics metrics(endpoint, world.GetNow());
     const auto render = [&] {
         metrics.UpdatePlans(*world.engine, false, world.GetNow());
         return endpoint.Render();
