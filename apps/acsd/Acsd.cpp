@@ -14,7 +14,6 @@
 #include "operator/DescriptionRoute.hpp"
 #include "operator/HealthRoutes.hpp"
 #include "operator/HttpInterfaces.hpp"
-#include "operator/LinesRoute.hpp"
 #include "operator/OperatorAnswer.hpp"
 #include "operator/PageRoutes.hpp"
 #include "operator/PlanLog.hpp"
@@ -25,6 +24,8 @@
 #include "replay/RecordLine.hpp"
 #include "store/StoreSummary.hpp"
 #include "store/StoreWorker.hpp"
+#include "trace/TraceObserver.hpp"
+#include "trace/TraceRoute.hpp"
 #include <acs/plan_sqlite/SqlitePlanStore.hpp>
 #include <acs/vda5050_mosquitto/MosquittoLink.hpp>
 
@@ -59,6 +60,7 @@ class Acsd::Impl final : private IAcsdOutput
     Apps::MetricsEndpoint _metricsEndpoint;
     AcsdMetrics _metrics;
     PlanLog _planLog;
+    TraceObserver _traceObserver;
     std::unique_ptr<CoreRecorder> _recorder; ///< Null without a trace.
     AcsdCore _core;
     StoreWorker _store;
@@ -84,6 +86,7 @@ public:
           _config(std::move(config)),
           _metrics(_metricsEndpoint, _dependencies.clock.GetNow()),
           _planLog(_dependencies.logger.MakeFor("plan"), _metricsEndpoint),
+          _traceObserver(_dependencies.traceOrNull, _planLog),
           _recorder(MakeRecorderOrNull()),
           _core(MakeCoreDependencies(), _config),
           _store(
@@ -127,7 +130,7 @@ public:
                _core.GetEngine(),
                [this] { return GetProgramState(); },
                _http.GetEvents(),
-               _planLog})
+               _traceObserver})
     {
         _core.SetObserver(_feed.GetObserver());
         _planLog.CreateSeries(_config.engine);
@@ -360,7 +363,7 @@ private:
         commands.Add("GET", "/v1/trace", [this](const Apps::HttpRequest& request, const auto&) {
             return _dependencies.traceOrNull == nullptr
                 ? MakeOperatorError(OperatorCode::NOT_FOUND, "Messages are not traced: start acsd with --trace DIR.")
-                : RespondWithLines(request, _dependencies.traceOrNull->GetNewest());
+                : RespondWithTrace(request, *_dependencies.traceOrNull);
         });
         AddDescriptionRoute(commands);
         AddPageRoutes(commands);

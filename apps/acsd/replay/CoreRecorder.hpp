@@ -18,8 +18,8 @@
 namespace ACS::Acsd
 {
 
-/// Stands between AcsdCore and its surroundings: passes all calls on, and describes each input, each output and each answer from
-/// outside as a CoreRecord. The time stands still during an input, so that the records have all times that the core has read.
+/// Passes all calls between AcsdCore and its surroundings, and describes each input, each output and each answer from outside as a
+/// CoreRecord. The clock does not advance during an input, so that the records have all times that the core has read.
 class CoreRecorder final : public ICoreRecorder,
                            private IAcsdOutput,
                            private IMcsOutput,

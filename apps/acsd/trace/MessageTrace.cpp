@@ -1,14 +1,11 @@
 #include "trace/MessageTrace.hpp"
 
+#include "common/trace/TraceFiles.hpp"
+#include "common/trace/TraceLine.hpp"
 #include <acs/core/ECoreError.hpp>
-#include <acs/core/JsonText.hpp>
-#include <acs/core/Timestamp.hpp>
-
-#include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <iterator>
+#include <deque>
 #include <system_error>
 #include <utility>
 
@@ -22,96 +19,24 @@ namespace
 constexpr std::size_t NEWEST_LINES = 1'000;
 constexpr std::size_t NEWEST_BYTES = 4U * 1024U * 1024U;
 
-/// Bytes of the character that begins here; 0: none does.
-std::size_t GetCharacterLength(std::string_view text)
-{
-    constexpr std::size_t LONGEST = 4;
-    for (std::size_t length = 1; length <= std::min(LONGEST, text.size()); ++length)
-    {
-        if (Core::JsonText::IsUtf8(text.substr(0, length)))
-        {
-            return length;
-        }
-    }
-    return 0;
-}
-
-std::string EscapeBytes(std::string_view text)
-{
-    std::string escaped;
-    for (std::size_t at = 0; at < text.size();)
-    {
-        const std::size_t length = GetCharacterLength(text.substr(at));
-        if (length == 0)
-        {
-            fmt::format_to(std::back_inserter(escaped), "\\x{:02X}", static_cast<unsigned char>(text[at]));
-        }
-        else
-        {
-            escaped.append(text[at] == '\\' ? "\\\\" : text.substr(at, length));
-        }
-        at += std::max<std::size_t>(length, 1);
-    }
-    return escaped;
-}
-
-void BeginLine(Core::Now now, std::string_view link, std::string& line)
-{
-    fmt::format_to(
-        std::back_inserter(line),
-        R"({{"time":"{}","mono_us":{},"link":"{}")",
-        Core::FormatUTC(now.wall),
-        std::chrono::duration_cast<std::chrono::microseconds>(now.steady.time_since_epoch()).count(),
-        link);
-}
-
-void AppendMember(std::string_view name, std::string_view value, std::string& line)
-{
-    fmt::format_to(std::back_inserter(line), R"(,"{}":)", name);
-    Core::JsonText::AppendString(value, line);
-}
-
-std::string MakeLossLine(std::uint64_t count, Core::Now now)
-{
-    std::string line;
-    BeginLine(now, "trace", line);
-    fmt::format_to(std::back_inserter(line), R"(,"lost":{}}})", count);
-    return line;
-}
+constexpr std::string_view MCS_LINK = "mcs";
+constexpr std::size_t TIME_END = std::string_view(R"({"time":"2026-01-01T00:00:00.000Z")").size();
 
 } // namespace
 
 std::string MakeTraceLine(const TraceEntry& entry, Core::Now now)
 {
-    std::string line;
-    BeginLine(now, entry.link, line);
-    line += entry.direction == ProtocolBeast::EWireDirection::In ? R"(,"direction":"in")" : R"(,"direction":"out")";
-    const auto append = [&line](std::string_view name, std::string_view value) {
-        if (!value.empty())
-        {
-            AppendMember(name, value, line);
-        }
-    };
-    append("kind", entry.kind);
-    if (entry.depth > 0)
-    {
-        fmt::format_to(std::back_inserter(line), R"(,"depth":{})", entry.depth);
-    }
-    append("robot", entry.robotID);
-    append("plan", entry.planID);
-    append("transaction", entry.transactionID);
-    append("topic", entry.topic);
-    if (Core::JsonText::IsUtf8(entry.text))
-    {
-        AppendMember("text", entry.text, line);
-    }
-    else
-    {
-        AppendMember("text", EscapeBytes(entry.text), line);
-        line += R"(,"escaped":true)";
-    }
-    line += '}';
-    return line;
+    return Apps::MakeTraceLine(
+        {entry.link,
+         entry.direction == ProtocolBeast::EWireDirection::In,
+         entry.text,
+         entry.robotID,
+         entry.planID,
+         entry.transactionID,
+         entry.topic,
+         entry.kind,
+         entry.depth},
+        now);
 }
 
 MessageTrace::MessageTrace(
@@ -121,8 +46,9 @@ MessageTrace::MessageTrace(
     Core::Logger logger,
     std::size_t maxQueuedBytes)
     : _clock(clock),
+      _folder(folder),
       _newest(NEWEST_LINES, NEWEST_BYTES),
-      _writer({folder, limits, MakeLossLine, maxQueuedBytes}, clock, std::move(logger))
+      _writer({folder, limits, Apps::MakeLossLine, maxQueuedBytes}, clock, std::move(logger))
 {
 }
 
@@ -144,7 +70,18 @@ Core::Result<std::unique_ptr<MessageTrace>> MessageTrace::Create(
 
 void MessageTrace::Write(const TraceEntry& entry)
 {
-    Write(entry, _clock.GetNow(), ETraceUse::All);
+    TraceEntry known = entry;
+    if (entry.link == MCS_LINK)
+    {
+        known.planID = Apps::FindTextMember(entry.text, "planId");
+        known.robotID = Apps::FindTextMember(entry.text, "robotId");
+        known.transactionID = Apps::FindTextMember(entry.text, "transactionId");
+    }
+    else if (const auto plan = _plans.find(entry.robotID); plan != _plans.end())
+    {
+        known.planID = plan->second;
+    }
+    Write(known, _clock.GetNow(), ETraceUse::All);
 }
 
 void MessageTrace::Write(const TraceEntry& entry, Core::Now now, ETraceUse use)
@@ -155,6 +92,49 @@ void MessageTrace::Write(const TraceEntry& entry, Core::Now now, ETraceUse use)
         _newest.Add(line);
     }
     _writer.Write(std::move(line), now);
+}
+
+void MessageTrace::SetPlan(const std::string& robotID, const std::string& planID)
+{
+    if (planID.empty())
+    {
+        _plans.erase(robotID);
+    }
+    else
+    {
+        _plans.insert_or_assign(robotID, planID);
+    }
+}
+
+Apps::NewestLines MessageTrace::Find(const TraceQuery& query, std::size_t maximum) const
+{
+    Apps::NewestLines found(maximum, NEWEST_BYTES);
+    const std::deque<std::string>& newest = _newest.GetLines();
+    const auto matching = static_cast<std::size_t>(
+        std::ranges::count_if(newest, [&query](const std::string& line) { return query.IsMatch(line); }));
+    if (matching < maximum)
+    {
+        // The time is at the beginning of a line. The last lines may not be in the files yet.
+        const std::string until = newest.empty() ? std::string() : newest.front().substr(0, TIME_END);
+        for (std::string& line : Apps::FindNewestLines(
+                 _folder,
+                 Apps::TraceFileStyle().prefix,
+                 maximum - matching,
+                 [&](std::string_view candidate) {
+                     return (until.empty() || candidate.substr(0, TIME_END) < until) && query.IsMatch(candidate);
+                 }))
+        {
+            found.Add(std::move(line));
+        }
+    }
+    for (const std::string& line : newest)
+    {
+        if (query.IsMatch(line))
+        {
+            found.Add(line);
+        }
+    }
+    return found;
 }
 
 void MessageTrace::SetLimits(const Apps::TraceLimits& limits)

@@ -2,6 +2,7 @@
 
 #include "common/trace/NewestLines.hpp"
 #include "common/trace/TraceWriter.hpp"
+#include "trace/TraceQuery.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
@@ -9,6 +10,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -45,6 +48,8 @@ enum class ETraceUse : std::uint8_t
 class MessageTrace final
 {
     const Core::IClock& _clock;
+    const std::string _folder;
+    std::map<std::string, std::string, std::less<>> _plans; ///< Of the robots that have one.
     Apps::NewestLines _newest;
     Apps::TraceWriter _writer;
 
@@ -65,8 +70,16 @@ public:
         Core::Logger logger,
         std::size_t maxQueuedBytes = Apps::TraceWriter::DEFAULT_QUEUE_BYTES);
 
+    /// Adds a message. Of one to or from the MCS the plan, the robot and the transaction are those that its text names; of a robot
+    /// the plan is its current one.
     void Write(const TraceEntry& entry);
     void Write(const TraceEntry& entry, Core::Now now, ETraceUse use);
+
+    /// The plan that the robot has; empty: none.
+    void SetPlan(const std::string& robotID, const std::string& planID);
+
+    /// The newest lines that match, in memory and at the end of the files; at most this number.
+    [[nodiscard]] Apps::NewestLines Find(const TraceQuery& query, std::size_t maximum) const;
 
     /// For the next file.
     void SetLimits(const Apps::TraceLimits& limits);

@@ -23,6 +23,11 @@ void NewestLines::Add(std::string line)
     }
 }
 
+const std::deque<std::string>& NewestLines::GetLines() const noexcept
+{
+    return _lines;
+}
+
 std::string NewestLines::GetText(std::size_t lines) const
 {
     std::string text;

@@ -21,6 +21,9 @@ public:
     /// Adds a line, given without its end. A line longer than the bound is kept alone.
     void Add(std::string line);
 
+    /// The oldest first, each without its end.
+    [[nodiscard]] const std::deque<std::string>& GetLines() const noexcept;
+
     /// At most this number of lines, the oldest of them first, each with its end.
     [[nodiscard]] std::string GetText(std::size_t lines) const;
 };

@@ -8,7 +8,9 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <limits>
 #include <string>
 #include <unistd.h>
 #include <utility>
@@ -79,6 +81,34 @@ std::vector<std::string> ReadTail(const std::filesystem::path& path)
 std::error_code GetLastError()
 {
     return {errno, std::generic_category()};
+}
+
+/// The filter may be empty.
+std::vector<std::string> CollectNewestLines(
+    const std::string& folder,
+    const std::string& prefix,
+    std::size_t maximum,
+    std::size_t mostFiles,
+    const std::function<bool(std::string_view line)>& filter)
+{
+    std::vector<std::string> newest;
+    const auto files = ListFiles(folder, prefix);
+    std::size_t read = 0;
+    for (auto file = files.rbegin(); file != files.rend() && newest.size() < maximum && read < mostFiles;
+         ++file, ++read)
+    {
+        std::vector<std::string> lines = ReadTail(file->second);
+        if (filter)
+        {
+            std::erase_if(lines, [&filter](const std::string& line) { return !filter(line); });
+        }
+        const auto missing = static_cast<std::ptrdiff_t>(std::min(maximum - newest.size(), lines.size()));
+        newest.insert(
+            newest.begin(),
+            std::make_move_iterator(lines.end() - missing),
+            std::make_move_iterator(lines.end()));
+    }
+    return newest;
 }
 
 } // namespace
@@ -231,18 +261,17 @@ std::error_code TraceFiles::WriteBuffer()
 
 std::vector<std::string> ReadNewestLines(const std::string& folder, const std::string& prefix, std::size_t maximum)
 {
-    std::vector<std::string> newest;
-    const auto files = ListFiles(folder, prefix);
-    for (auto file = files.rbegin(); file != files.rend() && newest.size() < maximum; ++file)
-    {
-        std::vector<std::string> lines = ReadTail(file->second);
-        const auto missing = static_cast<std::ptrdiff_t>(std::min(maximum - newest.size(), lines.size()));
-        newest.insert(
-            newest.begin(),
-            std::make_move_iterator(lines.end() - missing),
-            std::make_move_iterator(lines.end()));
-    }
-    return newest;
+    return CollectNewestLines(folder, prefix, maximum, std::numeric_limits<std::size_t>::max(), {});
+}
+
+std::vector<std::string> FindNewestLines(
+    const std::string& folder,
+    const std::string& prefix,
+    std::size_t maximum,
+    const std::function<bool(std::string_view line)>& filter)
+{
+    constexpr std::size_t MOST_FILES = 4; // of TAIL_BYTES each
+    return CollectNewestLines(folder, prefix, maximum, MOST_FILES, filter);
 }
 
 } // namespace ACS::Apps

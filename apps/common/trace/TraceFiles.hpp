@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -71,5 +72,12 @@ private:
     const std::string& folder,
     const std::string& prefix,
     std::size_t maximum);
+
+/// As ReadNewestLines, only those for which the filter is true, in the newest files only: at most 16 MiB are read.
+[[nodiscard]] std::vector<std::string> FindNewestLines(
+    const std::string& folder,
+    const std::string& prefix,
+    std::size_t maximum,
+    const std::function<bool(std::string_view line)>& filter);
 
 } // namespace ACS::Apps
