@@ -229,7 +229,7 @@ int Run(const McsSimOptions& options)
     std::unique_ptr<TraceFile> trace;
     if (!options.traceFile.empty())
     {
-        auto created = TraceFile::Create(options.traceFile, clock, offset, logger);
+        auto created = TraceFile::Create(options.traceFile, clock, logger);
         if (!created.has_value())
         {
             Apps::PrintError(PROGRAM_NAME, created.error());

@@ -74,7 +74,7 @@ class Trace:
         *lines, self._rest = text.split("\n")
         for line in lines:
             entry = json.loads(line)
-            self._take(entry["direction"], entry["message"])
+            self._take(entry["direction"], json.loads(entry["text"]))
 
     def _take(self, direction, message):
         command, payload = message["command"], message.get("payload")

@@ -254,7 +254,7 @@ class Scenarios(ScenarioCase):
         trace = self.line.folder / "trace.ndjson"
         _, code = self.play("--scenario", SCENARIOS / "sync-config.json", "--trace", trace)
         self.assertEqual(code, 0)
-        lines = [json.loads(line) for line in trace.read_text().splitlines()]
+        lines = read_trace(trace)
         self.assertEqual([(line["direction"], line["message"]["command"]) for line in lines[:2]],
                          [("in", "Registration"), ("out", "RegistrationAck")])
         ids = {name: [line["message"]["transactionId"] for line in lines if line["message"]["command"] == name]

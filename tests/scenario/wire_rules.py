@@ -47,8 +47,18 @@ POSITION_SECONDS = 0.2
 POSITIONS_FOR_A_MEDIAN = 20
 
 
+def read_message(text):
+    """The text itself if it is not JSON."""
+    try:
+        return json.loads(text)
+    except ValueError:
+        return text
+
+
 def read_trace(path):
-    return [json.loads(line) for line in path.read_text().splitlines()]
+    """The lines of the trace, each with its text as `message`."""
+    lines = [json.loads(line) for line in path.read_text().splitlines()]
+    return [line | {"message": read_message(line["text"])} for line in lines]
 
 
 def parse_time(text):

@@ -7,7 +7,6 @@
 
 #include <tl/expected.hpp>
 
-#include <chrono>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -15,11 +14,9 @@
 namespace ACS::McsSim
 {
 
-/// One message as a line of JSON without its end: time (local, with offset), direction ("in": from the ACS), connection,
-/// and message: as it was where that is JSON, else a string.
+/// One message as a line of a trace, without its end, with the number of its connection. "in" is from the ACS.
 [[nodiscard]] std::string MakeTraceLine(
-    Core::WallTime wall,
-    std::chrono::minutes offset,
+    Core::Now now,
     ProtocolBeast::EWireDirection direction,
     Protocol::ConnectionID connection,
     std::string_view text);
@@ -29,20 +26,14 @@ class TraceFile
 {
     Apps::TraceWriter _writer;
     const Core::IClock& _clock;
-    std::chrono::minutes _offset;
 
-    TraceFile(
-        const std::string& path,
-        const Core::IClock& clock,
-        std::chrono::minutes offset,
-        const Core::Logger& logger);
+    TraceFile(const std::string& path, const Core::IClock& clock, const Core::Logger& logger);
 
 public:
     /// Replaces an existing file. The error is one sentence. Clock and log sink outlive the trace.
     [[nodiscard]] static tl::expected<std::unique_ptr<TraceFile>, std::string> Create(
         const std::string& path,
         const Core::IClock& clock,
-        std::chrono::minutes offset,
         const Core::Logger& logger);
 
     void Write(ProtocolBeast::EWireDirection direction, Protocol::ConnectionID connection, std::string_view text);
