@@ -19,12 +19,9 @@
 #include "operator/PlanLog.hpp"
 #include "operator/ReadRoutes.hpp"
 #include "operator/StateFeed.hpp"
-#include "replay/CoreRecorder.hpp"
-#include "replay/RecordedConfig.hpp"
-#include "replay/RecordLine.hpp"
+#include "replay/RunTrace.hpp"
 #include "store/StoreSummary.hpp"
 #include "store/StoreWorker.hpp"
-#include "trace/TraceObserver.hpp"
 #include "trace/TraceRoute.hpp"
 #include <acs/plan_sqlite/SqlitePlanStore.hpp>
 #include <acs/vda5050_mosquitto/MosquittoLink.hpp>
@@ -60,8 +57,7 @@ class Acsd::Impl final : private IAcsdOutput
     Apps::MetricsEndpoint _metricsEndpoint;
     AcsdMetrics _metrics;
     PlanLog _planLog;
-    TraceObserver _traceObserver;
-    std::unique_ptr<CoreRecorder> _recorder; ///< Null without a trace.
+    RunTrace _runTrace;
     AcsdCore _core;
     StoreWorker _store;
     McsLink _mcs;
@@ -86,9 +82,10 @@ public:
           _config(std::move(config)),
           _metrics(_metricsEndpoint, _dependencies.clock.GetNow()),
           _planLog(_dependencies.logger.MakeFor("plan"), _metricsEndpoint),
-          _traceObserver(_dependencies.traceOrNull, _planLog),
-          _recorder(MakeRecorderOrNull()),
-          _core(MakeCoreDependencies(), _config),
+          _runTrace(_dependencies.traceOrNull, _config, _dependencies.clock.GetNow(), _planLog),
+          _core(
+              _runTrace.Wrap({_dependencies.clock, _dependencies.random, _dependencies.logger, *this, _mcs}),
+              _config),
           _store(
               _dependencies.executor,
               std::move(store),
@@ -130,7 +127,7 @@ public:
                _core.GetEngine(),
                [this] { return GetProgramState(); },
                _http.GetEvents(),
-               _traceObserver})
+               _runTrace.GetObserver()})
     {
         _core.SetObserver(_feed.GetObserver());
         _planLog.CreateSeries(_config.engine);
@@ -204,24 +201,6 @@ public:
     }
 
 private:
-    [[nodiscard]] std::unique_ptr<CoreRecorder> MakeRecorderOrNull() const
-    {
-        MessageTrace* const traceOrNull = _dependencies.traceOrNull;
-        if (traceOrNull == nullptr)
-        {
-            return nullptr;
-        }
-        WriteRecord(MakeBeginRecord(_config, _dependencies.clock.GetNow()), *traceOrNull);
-        return std::make_unique<CoreRecorder>(
-            [traceOrNull](const CoreRecord& record) { WriteRecord(record, *traceOrNull); });
-    }
-
-    [[nodiscard]] AcsdCore::Dependencies MakeCoreDependencies()
-    {
-        const AcsdCore::Dependencies real{_dependencies.clock, _dependencies.random, _dependencies.logger, *this, _mcs};
-        return _recorder == nullptr ? real : _recorder->Wrap(real);
-    }
-
     void Store(const Planning::StoreBatch& batch) override
     {
         _store.Append(batch);

@@ -84,7 +84,9 @@ std::vector<Planning::PlanCommand> MakeCommands()
         ClearAlarms{"LR01", "AGV-1", "P1", std::nullopt, 6},
         SetCarriers{"LR01", {"C_01", std::nullopt}, 7},
         SkipStep{"P1", 2, 8},
-        SetPlanPriority{"P1", -3, 9}};
+        SetPlanPriority{"P1", -3, 9},
+        BlockPlace{EBlockKind::Edge, "N1-N2", "wet", 10},
+        UnblockPlace{EBlockKind::Station, "A01.CP01", 11}};
 }
 
 std::vector<Protocol::SessionEvent> MakeSessionEvents()
