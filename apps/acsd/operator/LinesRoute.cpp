@@ -20,9 +20,12 @@ constexpr std::size_t DEFAULT_LINES = 100;
 
 } // namespace
 
-Apps::HttpResponse RespondWithLines(const Apps::HttpRequest& request, const Apps::NewestLines& lines)
+Apps::HttpResponse RespondWithLines(
+    const Apps::HttpRequest& request,
+    const Apps::NewestLines& lines,
+    std::initializer_list<std::string_view> known)
 {
-    if (const std::optional<std::string> reason = FindUnexpectedParameterOrNull(request, {"limit"}))
+    if (const std::optional<std::string> reason = FindUnexpectedParameterOrNull(request, known))
     {
         return MakeOperatorError(OperatorCode::BAD_REQUEST, *reason);
     }

@@ -4,6 +4,7 @@
 #include "ManualClock.hpp"
 #include "TemporaryFolder.hpp"
 #include "trace/MessageTrace.hpp"
+#include "trace/TraceRoute.hpp"
 
 #include <chrono>
 #include <cstddef>
@@ -91,6 +92,26 @@ TEST_CASE_METHOD(QueryFixture, "Lines of an earlier run are found in the files, 
     REQUIRE(second != std::string::npos);
     CHECK(first < second);
     CHECK(found.find("input") == std::string::npos);
+}
+
+TEST_CASE_METHOD(QueryFixture, "GET /v1/trace has the lines that match its parameters, and refuses unknown ones")
+{
+    trace->Write({"mqtt", EWireDirection::In, "LR01", "t", "one"});
+    trace->Write({"mqtt", EWireDirection::In, "LR02", "t", "two"});
+    const auto get = [this](const std::string& target) {
+        return RespondWithTrace(*Apps::ParseHttpTarget(target), *trace);
+    };
+    const std::string found = get("/v1/trace?robot=LR02&limit=5").body;
+    CHECK(found.find("two") != std::string::npos);
+    CHECK(found.find("one") == std::string::npos);
+    CHECK(get("/v1/trace?plan=P1").body.empty());
+    CHECK(get("/v1/trace").body.find("one") != std::string::npos);
+    for (const char* target :
+         {"/v1/trace?robots=LR02", "/v1/trace?robot=LR01&robot=LR02", "/v1/trace?robot=LR01&limit=0"})
+    {
+        CAPTURE(target);
+        CHECK(get(target).status == 400);
+    }
 }
 
 TEST_CASE("A text that looks like a member is no match")
