@@ -374,6 +374,9 @@ class OpenApi(ScenarioCase):
         while '"escaped":true' not in self.api.ask("GET", "/v1/trace?limit=1000", 200):
             self.assertLess(time.monotonic(), deadline, "the message is not in the trace")
             time.sleep(POLL_PERIOD)
+        for query in ("plan=P1", "robot=LR01", "plan=P1&robot=CR01&limit=5"):
+            self.assertTrue(self.api.ask("GET", f"/v1/trace?{query}", 200), query)
+        self.assertEqual(self.api.ask("GET", "/v1/trace?plan=GHOST", 200), "")
 
     def check_failing_store(self):
         database, away = self.line.folder / "store" / "acsd.db", self.line.folder / "away.db"
