@@ -56,7 +56,7 @@ class OperatedLine(ScenarioCase):
         self.check(5, "status", "--check")
         self.assertIn("The link mcs is down", " ".join(self.check(5, "why").split()))
         for command in (("status",), ("plans",), ("robots",), ("robot", "CR01"), ("alarms",), ("links",), ("queue",), ("site",),
-                        ("events",), ("trace",), ("trace", "--limit", "5"), ("audit",)):
+                        ("events",), ("trace",), ("trace", "--robot", "LR01", "--limit", "5"), ("audit",)):
             lines = self.check(0, *command).splitlines()
             self.assertLessEqual(max(map(len, lines), default=0), 80, command)
         self.assertIn("CR09", self.check(1, "robot", "CR09"))
@@ -111,7 +111,7 @@ class OperatedLine(ScenarioCase):
         self.assertEqual([found["planId"] for found in self.read("plans", "--state", "finished")["plans"]], [plan_id])
         self.check(1, "abort", plan_id, "--yes")
         self.assertIn(plan_id, self.check(0, "events"))
-        self.assertIn("RobotPositionUpdate", self.check(0, "trace", "--limit", "1000"))
+        self.assertIn("ExecutionPlan", self.check(0, "trace", "--plan", plan_id, "--limit", "1000"))
 
         bundle = self.line.folder / "bundle.tar.gz"
         self.check(0, "bundle", bundle, "--http-url", self.http)
