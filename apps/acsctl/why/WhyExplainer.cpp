@@ -48,6 +48,18 @@ std::string Capitalize(std::string word)
     return word;
 }
 
+std::string_view FindLinkRemedy(const LinkInfo& link)
+{
+    if (link.name == "mqtt")
+    {
+        return "Check the MQTT broker and the network to it.";
+    }
+    // The connection itself works.
+    const bool bRefused = link.reason.value_or("").starts_with("connected, not registered");
+    return bRefused ? "Check the MCS: it must accept the registration of this ACS, and of no other one."
+                    : "Check the MCS and the network to it.";
+}
+
 std::string MakeMaintenanceRemedy(std::string_view robotID)
 {
     return fmt::format("When it may move: acsctl maintenance {} off", robotID);
@@ -89,7 +101,13 @@ Explanation WhyExplainer::ExplainAll() const
             explanation.findings.push_back(std::move(finding));
         }
     }
-    if (explanation.findings.empty())
+    std::vector<Cause> refused;
+    AddRefusedReport({}, refused);
+    if (!refused.empty())
+    {
+        explanation.findings.push_back({ESubject::Acsd, {}, "The MCS has refused reports.", false, std::move(refused)});
+    }
+    else if (explanation.findings.empty())
     {
         std::string text = fmt::format(
             "Nothing is in the way: {} plans and {} robots, none of which waits.",
@@ -102,7 +120,13 @@ Explanation WhyExplainer::ExplainAll() const
 
 Explanation WhyExplainer::ExplainPlan(const PlanInfo& plan) const
 {
-    return {{MakePlanFinding(plan)}};
+    Finding finding = MakePlanFinding(plan);
+    if (!IsOneOf(FINAL_STATUSES, plan.status))
+    {
+        AddLinks(0, finding.causes);
+    }
+    AddRefusedReport(plan.planID, finding.causes);
+    return {{std::move(finding)}};
 }
 
 Explanation WhyExplainer::ExplainRobot(const RobotInfo& robot) const
@@ -199,9 +223,13 @@ std::vector<Cause> WhyExplainer::ListCausesOfACSD() const
     const StatusInfo& status = _snapshot.status;
     for (const std::string& reason : status.notReadyReasons)
     {
+        if (std::ranges::find(status.links, reason, &LinkInfo::reason) != status.links.end())
+        {
+            continue; // the link has it, with its remedy
+        }
         causes.push_back({0, MakeSentence("acsd is not ready: " + reason), {}, {}});
     }
-    AddLinks(causes);
+    AddLinks(0, causes);
     AddTSC(0, causes);
     AddAlarms(ACSD_NAME, 0, causes);
     Chain chain;
@@ -213,7 +241,7 @@ std::vector<Cause> WhyExplainer::ListCausesOfACSD() const
     return causes;
 }
 
-void WhyExplainer::AddLinks(std::vector<Cause>& causes) const
+void WhyExplainer::AddLinks(std::size_t depth, std::vector<Cause>& causes) const
 {
     for (const LinkInfo& link : _snapshot.status.links)
     {
@@ -221,13 +249,32 @@ void WhyExplainer::AddLinks(std::vector<Cause>& causes) const
         {
             const std::string reason = link.reason.has_value() ? ": " + *link.reason : std::string();
             causes.push_back(
-                {0,
+                {depth,
                  MakeSentence(fmt::format("The link {} is down{}{}", link.name, MakeSince(link.since, _now), reason)),
                  {},
-                 {link.name == "mqtt" ? "Check the MQTT broker and the network to it."
-                                      : "Check the MCS and the network to it."}});
+                 {std::string(FindLinkRemedy(link))}});
         }
     }
+}
+
+void WhyExplainer::AddRefusedReport(std::string_view planID, std::vector<Cause>& causes) const
+{
+    const RefusedReportsInfo& refused = _snapshot.status.refusedReports;
+    if (!refused.last.has_value() || (!planID.empty() && refused.last->planID != planID))
+    {
+        return;
+    }
+    const std::string plan = refused.last->planID.has_value() ? " of plan " + *refused.last->planID : std::string();
+    causes.push_back(
+        {0,
+         MakeSentence(fmt::format(
+             "The MCS has refused reports ({} since the start of acsd), last a {}{}: {}",
+             refused.count,
+             refused.last->command,
+             plan,
+             refused.last->message)),
+         "The state of the MCS differs from that of acsd. Refused reports are not sent again.",
+         {"Correct the plan in the MCS; its log has the reason."}});
 }
 
 void WhyExplainer::AddTSC(std::size_t depth, std::vector<Cause>& causes) const

@@ -47,7 +47,9 @@ private:
     [[nodiscard]] Finding MakePlanFinding(const PlanInfo& plan) const;
     [[nodiscard]] Finding MakeRobotFinding(const RobotInfo& robot) const;
     [[nodiscard]] std::vector<Cause> ListCausesOfACSD() const;
-    void AddLinks(std::vector<Cause>& causes) const;
+    void AddLinks(std::size_t depth, std::vector<Cause>& causes) const;
+    /// The last report that the MCS has refused; with a planID only if it is of that plan.
+    void AddRefusedReport(std::string_view planID, std::vector<Cause>& causes) const;
     void AddTSC(std::size_t depth, std::vector<Cause>& causes) const;
     void AddPlanRecursive(const PlanInfo& plan, std::size_t depth, Chain& chain) const;
     void AddRobotOfPlanRecursive(const std::string& robotID, const std::string& reason, std::size_t depth, Chain& chain)

@@ -176,6 +176,40 @@ TEST_CASE("What stops acsd itself comes first")
     CHECK_THAT(text, Catch::Contains("acsctl tsc resume"));
 }
 
+TEST_CASE("A plan is explained with the links that are down; a refused registration has its own remedy")
+{
+    WhyFixture line;
+    const std::string refusal = "connected, not registered: mcs: unknown ACS";
+    line.snapshot.status.links = {
+        {"mcs", false, refusal, std::nullopt},
+        {"mqtt", false, "no connection: mqtt", std::nullopt}};
+    line.snapshot.status.notReadyReasons = {refusal, "no connection: mqtt", "the store cannot be written"};
+    const Acsctl::PlanInfo plan = line.AddWaitingPlan("P1", "No suitable robot is free.");
+    const std::string text = PrintText(line.Make().ExplainPlan(plan));
+    CHECK_THAT(text, Catch::Contains("The link mcs is down: connected, not registered: mcs: unknown ACS."));
+    CHECK_THAT(text, Catch::Contains("it must accept the registration of this ACS"));
+    CHECK_THAT(text, Catch::Contains("Check the MQTT broker and the network to it."));
+    const auto explanation = line.Make().ExplainAll();
+    CHECK(explanation.findings[0].causes.size() == 3); // each link once, and the store
+    CHECK_THAT(PrintText(explanation), Catch::Contains("acsd is not ready: the store cannot be written."));
+}
+
+TEST_CASE("A report that the MCS has refused is explained with its plan, and for acsd without need of attention")
+{
+    WhyFixture line;
+    line.snapshot.status.refusedReports = {3, Acsctl::RefusedReport{"JobReport", "P1", "unknown job"}};
+    const Acsctl::PlanInfo plan = line.AddPlan("P1", "InProgress");
+    const Acsctl::PlanInfo other = line.AddPlan("P2", "InProgress");
+    const std::string refused =
+        "The MCS has refused reports (3 since the start of acsd), last a JobReport of plan P1: unknown job.";
+    CHECK_THAT(PrintText(line.Make().ExplainPlan(plan)), Catch::Contains(refused));
+    CHECK_THAT(PrintText(line.Make().ExplainPlan(plan)), Catch::Contains("Correct the plan in the MCS"));
+    CHECK_THAT(PrintText(line.Make().ExplainPlan(other)), !Catch::Contains("refused"));
+    const auto explanation = line.Make().ExplainAll();
+    CHECK_THAT(PrintText(explanation), Catch::Contains(refused));
+    CHECK_FALSE(explanation.NeedsAttention());
+}
+
 TEST_CASE("A plan that has ended does not move, and needs no attention")
 {
     WhyFixture line;
