@@ -3,8 +3,9 @@
 
 import json
 import subprocess
+import urllib.request
 
-from scenario_case import FINISH_SECONDS, main
+from scenario_case import FINISH_SECONDS, PLANS, STATUS_SECONDS, main
 from traced_line import TracedLineCase
 
 REPLAY_SECONDS = 120
@@ -49,6 +50,20 @@ class Replay(TracedLineCase):
         replayed = self.replay(changed)
         self.assertEqual(replayed.returncode, 2)
         self.assertIn("the beginning of the run is missing", replayed.stderr)
+
+    def test_the_time_line_of_a_plan_has_all_links_the_engine_and_the_store(self):
+        self.start_line()
+        self.assertEqual(self.mcs.wait(FINISH_SECONDS), 0)
+        plan_id = json.loads(PLANS[0].read_text())["planId"]
+        address = f"http://{self.operator}/v1/trace?limit=1000&plan={plan_id}"
+        with urllib.request.urlopen(address, timeout=STATUS_SECONDS) as response:
+            lines = [json.loads(line) for line in response.read().splitlines()]
+        self.assertEqual({line["link"] for line in lines}, {"mcs", "mqtt", "engine", "store"})
+        self.assertEqual({line["plan"] for line in lines}, {plan_id})
+        times = [line["mono_us"] for line in lines]
+        self.assertEqual(times, sorted(times))
+        states = [line["text"] for line in lines if line.get("kind") == "plan"]
+        self.assertEqual(states[-1], "InProgress -> Completed")
 
     def test_what_is_no_trace_is_refused(self):
         empty = self.line.folder / "empty"

@@ -105,18 +105,24 @@ bool HasRecord(std::string_view line)
 void WriteRecord(const CoreRecord& record, MessageTrace& trace)
 {
     const bool bStore = !record.bInput && record.kind == STORE_LINK;
-    trace.Write(
-        {bStore ? STORE_LINK : CORE_LINK,
-         record.bInput ? ProtocolBeast::EWireDirection::In : ProtocolBeast::EWireDirection::Out,
-         record.robotID,
-         {},
-         record.text,
-         record.kind,
-         record.planID,
-         record.transactionID,
-         record.depth},
-        record.now,
-        bStore ? ETraceUse::All : ETraceUse::FilesOnly);
+    const TraceEntry entry{
+        bStore ? STORE_LINK : CORE_LINK,
+        record.bInput ? ProtocolBeast::EWireDirection::In : ProtocolBeast::EWireDirection::Out,
+        record.robotID,
+        {},
+        record.text,
+        record.kind,
+        record.planID,
+        record.transactionID,
+        record.depth};
+    if (record.bInput && record.depth == 0)
+    {
+        trace.Add(entry, record.now, ETraceUse::FilesOnly); // a replay has this time
+    }
+    else
+    {
+        trace.Add(entry, bStore ? ETraceUse::All : ETraceUse::FilesOnly);
+    }
 }
 
 Core::Result<std::optional<std::variant<CoreRecord, LostLines>>> ReadRecord(std::string_view line)

@@ -81,10 +81,15 @@ void MessageTrace::Write(const TraceEntry& entry)
     {
         known.planID = plan->second;
     }
-    Write(known, _clock.GetNow(), ETraceUse::All);
+    Add(known, ETraceUse::All);
 }
 
-void MessageTrace::Write(const TraceEntry& entry, Core::Now now, ETraceUse use)
+void MessageTrace::Add(const TraceEntry& entry, ETraceUse use)
+{
+    Add(entry, _clock.GetNow(), use);
+}
+
+void MessageTrace::Add(const TraceEntry& entry, Core::Now now, ETraceUse use)
 {
     std::string line = MakeTraceLine(entry, now);
     if (use == ETraceUse::All)

@@ -73,7 +73,10 @@ public:
     /// Adds a message. Of one to or from the MCS the plan, the robot and the transaction are those that its text names; of a robot
     /// the plan is its current one.
     void Write(const TraceEntry& entry);
-    void Write(const TraceEntry& entry, Core::Now now, ETraceUse use);
+    /// Adds a line of another kind, as it is, with the present time.
+    void Add(const TraceEntry& entry, ETraceUse use);
+    /// Likewise, with a time that is not before that of the latest line.
+    void Add(const TraceEntry& entry, Core::Now now, ETraceUse use);
 
     /// The plan that the robot has; empty: none.
     void SetPlan(const std::string& robotID, const std::string& planID);

@@ -33,8 +33,7 @@ void TraceObserver::OnPlanChanged(
     const Planning::PlanProgress& progress = record.progress;
     Write(
         {"plan", progress.robotID, record.plan.planID, transactionID},
-        fmt::format("{} -> {}{}", GetText(from), GetText(progress.state), AppendPart(": ", progress.message)),
-        now);
+        fmt::format("{} -> {}{}", GetText(from), GetText(progress.state), AppendPart(": ", progress.message)));
     if (_traceOrNull != nullptr && !progress.robotID.empty())
     {
         _traceOrNull->SetPlan(progress.robotID, IsFinal(progress.state) ? std::string() : record.plan.planID);
@@ -58,8 +57,7 @@ void TraceObserver::OnStepChanged(
             GetText(from),
             GetText(record.progress.steps[stepIndex].state),
             step.action,
-            step.position),
-        now);
+            step.position));
     if (_traceOrNull != nullptr && !record.progress.robotID.empty())
     {
         _traceOrNull->SetPlan(record.progress.robotID, record.plan.planID);
@@ -83,8 +81,7 @@ void TraceObserver::OnJobChanged(
             step.stepNo,
             step.jobs[jobIndex].jobID,
             GetText(from),
-            GetText(record.progress.steps[stepIndex].jobs[jobIndex])),
-        now);
+            GetText(record.progress.steps[stepIndex].jobs[jobIndex])));
     _next.OnJobChanged(record, stepIndex, jobIndex, from, transactionID, now);
 }
 
@@ -97,8 +94,7 @@ void TraceObserver::OnAlarmChanged(
     const std::string planID = alarm.planID.value_or(std::string());
     Write(
         {"alarm", alarm.robotID, planID, transactionID},
-        fmt::format("{} {} {}: {}", GetText(alarm.level), alarm.errorCode, bSet ? "set" : "cleared", alarm.message),
-        now);
+        fmt::format("{} {} {}: {}", GetText(alarm.level), alarm.errorCode, bSet ? "set" : "cleared", alarm.message));
     _next.OnAlarmChanged(alarm, bSet, transactionID, now);
 }
 
@@ -111,28 +107,27 @@ void TraceObserver::OnRobotStatusChanged(const Planning::RobotStatus& status, Co
             "{}{}{}",
             GetText(status.status),
             AppendPart(" at ", status.position),
-            AppendPart(": ", status.message)),
-        now);
+            AppendPart(": ", status.message)));
     _next.OnRobotStatusChanged(status, now);
 }
 
 void TraceObserver::OnTscChanged(Planning::ETscState state, Planning::ETscState from, Core::Now now)
 {
-    Write({"tsc", {}, {}, {}}, fmt::format("{} -> {}", GetText(from), GetText(state)), now);
+    Write({"tsc", {}, {}, {}}, fmt::format("{} -> {}", GetText(from), GetText(state)));
     _next.OnTscChanged(state, from, now);
 }
 
 void TraceObserver::OnNote(std::string_view robotID, std::string_view text, Core::Now now)
 {
-    Write({"note", robotID, {}, {}}, std::string(text), now);
+    Write({"note", robotID, {}, {}}, std::string(text));
     _next.OnNote(robotID, text, now);
 }
 
-void TraceObserver::Write(const Entry& entry, const std::string& text, Core::Now now)
+void TraceObserver::Write(const Entry& entry, const std::string& text)
 {
     if (_traceOrNull != nullptr)
     {
-        _traceOrNull->Write(
+        _traceOrNull->Add(
             {"engine",
              ProtocolBeast::EWireDirection::Out,
              entry.robotID,
@@ -141,7 +136,6 @@ void TraceObserver::Write(const Entry& entry, const std::string& text, Core::Now
              entry.kind,
              entry.planID,
              entry.transactionID},
-            now,
             ETraceUse::All);
     }
 }

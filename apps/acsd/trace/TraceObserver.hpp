@@ -54,7 +54,7 @@ public:
     void OnNote(std::string_view robotID, std::string_view text, Core::Now now) override;
 
 private:
-    void Write(const Entry& entry, const std::string& text, Core::Now now);
+    void Write(const Entry& entry, const std::string& text);
 };
 
 } // namespace ACS::Acsd

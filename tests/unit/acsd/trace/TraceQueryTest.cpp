@@ -76,10 +76,7 @@ TEST_CASE_METHOD(QueryFixture, "Lines of an earlier run are found in the files, 
 {
     trace->SetPlan("LR01", "P1");
     trace->Write({"arm", EWireDirection::In, "LR01", {}, "first run"});
-    trace->Write(
-        {"core", EWireDirection::In, "LR01", {}, "input", "robot", "P1"},
-        clock.GetNow(),
-        ETraceUse::FilesOnly);
+    trace->Add({"core", EWireDirection::In, "LR01", {}, "input", "robot", "P1"}, ETraceUse::FilesOnly);
     trace.reset();
     clock.Advance(std::chrono::seconds(1));
     trace = Begin();
