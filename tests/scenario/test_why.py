@@ -48,7 +48,9 @@ class Why(ScenarioCase):
     def read_changes(self):
         """The changes of the event feed from now on, as they come."""
         with urllib.request.urlopen(f"http://{self.address}/v1/snapshot", timeout=STATUS_SECONDS) as response:
-            after = json.load(response)["eventId"]
+            return self.follow_changes(json.load(response)["eventId"])
+
+    def follow_changes(self, after):
         with urllib.request.urlopen(f"http://{self.address}/v1/events?after={after}", timeout=FINISH_SECONDS) as feed:
             event = None
             for line in feed:
@@ -90,6 +92,60 @@ class Why(ScenarioCase):
         self.wait_for_status(self.address, lambda status: not status["notReadyReasons"] and not status["alarms"])
         explanation = self.explain()
         self.assertFalse(explanation["needsAttention"], explanation)
+
+    def test_the_broker_is_gone(self):
+        self.start_line()
+        self.start_plan(make_carrying_plan("P1"))
+        changes = self.read_changes()
+        port = self.line.broker_port
+        self.line.forget(self.line.broker)
+        self.line.broker.stop()
+        self.check_explained(
+            changes, lambda change: any(link["name"] == "mqtt" and not link["up"] for link in
+                                        change.get("status", {}).get("links", [])),
+            "P1", "The link mqtt is down", "Check the MQTT broker and the network to it.")
+        self.line.start_broker(port)
+        self.check_over("P1")
+
+    def test_the_mcs_refuses_the_registration(self):
+        self.start_line()
+        self.start_plan(make_carrying_plan("P1"))
+        changes = self.read_changes()
+        self.stub.refused = ("Registration",)
+        self.stub.reset_link()
+        self.check_explained(
+            changes, lambda change: any(not link["up"] and "Refused by the test" in (link["reason"] or "") for link in
+                                        change.get("status", {}).get("links", [])),
+            "P1", "Refused by the test", "it must accept the registration of this ACS")
+        self.stub.refused = ()
+        self.check_over("P1")
+
+    def test_the_mcs_refuses_reports(self):
+        self.start_line()
+        self.stub.refused = ("JobReport", "StepReport")
+        changes = self.read_changes()
+        self.assertEqual(self.stub.ask("ExecutionPlan", make_carrying_plan("P1"))["result"], "Success")
+        self.check_explained(changes, lambda change: change.get("status", {}).get("refusedReports", {}).get("count", 0) > 0,
+                             "P1", "of plan P1: Refused by the test.", "Correct the plan in the MCS")
+        self.stub.refused = ()
+        self.check_over("P1")
+
+    def test_an_edge_is_blocked(self):
+        self.start_line()
+        with urllib.request.urlopen(f"http://{self.address}/v1/site", timeout=STATUS_SECONDS) as response:
+            site = json.load(response)
+        docks = next(station["nodeIds"] for station in site["stations"] if station["stationId"] == "A01.CP01")
+        edges = [edge["edgeId"] for edge in site["edges"] if edge["endNodeId"] in docks]
+        for edge in edges:
+            answer = operator_api.post(self.address, "/v1/site/block", {"kind": "edge", "id": edge, "reason": "wet floor"})
+            self.assertEqual(answer[0], 202, answer)
+        changes = self.read_changes()
+        self.assertEqual(self.stub.ask("ExecutionPlan", make_carrying_plan("P1"))["result"], "Success")
+        self.check_explained(changes, lambda change: any(plan["waits"] for plan in change.get("plans", [])),
+                             "P1", f"Edge {edges[0]} is blocked", f"acsctl unblock edge {edges[0]}")
+        for edge in edges:
+            self.assertEqual(operator_api.post(self.address, "/v1/site/unblock", {"kind": "edge", "id": edge})[0], 202)
+        self.check_over("P1")
 
     def test_a_vehicle_is_lost(self):
         proxies = []

@@ -60,6 +60,17 @@ std::string_view FindLinkRemedy(const LinkInfo& link)
                     : "Check the MCS and the network to it.";
 }
 
+/// Whether the reason of the plan or of one of its robots names the block, in the words of acsd.
+bool IsNamed(const BlockInfo& block, const WaitsInfo& waits)
+{
+    const std::string name = fmt::format("{} {} is blocked", block.kind, block.id);
+    const auto has = [&name](const std::string& text) {
+        return text.find(name) != std::string::npos || text.find(Capitalize(name)) != std::string::npos;
+    };
+    return has(waits.message)
+        || std::ranges::any_of(waits.robots, [&has](const RobotReason& robot) { return has(robot.reason); });
+}
+
 std::string MakeMaintenanceRemedy(std::string_view robotID)
 {
     return fmt::format("When it may move: acsctl maintenance {} off", robotID);
@@ -436,6 +447,14 @@ void WhyExplainer::AddBlocksOfPlan(const PlanInfo& plan, std::size_t depth, Chai
             {
                 AddBlock(block, depth, chain);
             }
+        }
+    }
+    // An edge in the way of a robot that has no route yet is named by the wait reason only.
+    for (const BlockInfo& block : _site.blocked)
+    {
+        if (IsNamed(block, *plan.waits))
+        {
+            AddBlock(block, depth, chain);
         }
     }
 }

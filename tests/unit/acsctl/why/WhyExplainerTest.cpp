@@ -158,6 +158,23 @@ TEST_CASE("A blocked place is a cause where the plan works and where its robot d
     CHECK_THAT(PrintText(line.Make().ExplainPlan(line.snapshot.plans[0])), !Catch::Contains("A01"));
 }
 
+TEST_CASE("A blocked edge that a wait reason names is a cause of the plan")
+{
+    WhyFixture line;
+    for (const char* edgeID : {"E1", "E12"})
+    {
+        Acsctl::BlockInfo& block = line.site.blocked.emplace_back();
+        block.kind = "edge";
+        block.id = edgeID;
+    }
+    const Acsctl::PlanInfo plan =
+        line.AddWaitingPlan("P1", "No suitable robot is free", {{"LR01", "edge E12 is blocked: wet floor"}});
+    const std::string text = PrintText(line.Make().ExplainPlan(plan));
+    CHECK_THAT(text, Catch::Contains("Edge E12 is blocked"));
+    CHECK_THAT(text, Catch::Contains("acsctl unblock edge E12"));
+    CHECK_THAT(text, !Catch::Contains("unblock edge E1\n"));
+}
+
 TEST_CASE("What stops acsd itself comes first")
 {
     WhyFixture line;
