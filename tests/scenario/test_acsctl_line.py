@@ -128,6 +128,7 @@ class OperatedLine(ScenarioCase):
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
+        self.assertNotEqual(process.stdout.readline(), "", "there is no earlier event")  # now it follows
         self.check(0, "tsc", "pause")
         while "tsc" not in (line := process.stdout.readline()).lower():
             self.assertNotEqual(line, "", "the stream has ended")

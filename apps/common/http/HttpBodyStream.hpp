@@ -26,6 +26,7 @@ public:
     explicit HttpBodyStream(Source takeNext);
     HttpBodyStream(const HttpBodyStream&) = delete;
     HttpBodyStream& operator=(const HttpBodyStream&) = delete;
+    ~HttpBodyStream() = default;
 
     /// By the owner: the source has a piece. May call the source at once.
     void Notify();
