@@ -57,7 +57,7 @@ public:
 private:
     [[nodiscard]] const Kept* FindOrNull(const std::string& owner, const std::string& key) const;
     void Add(Kept answer);
-    void RestoreLine(std::string_view line, Core::Now now);
+    void RestoreLine(std::string_view text, Core::Now now);
 };
 
 } // namespace ACS::Acsd

@@ -145,7 +145,7 @@ Apps::HttpResponse OperatorGate::Logout(const Apps::HttpRequest& request)
         decision.reason = "A logout needs the Origin of this address.";
         return Refuse(request, decision);
     }
-    const Apps::HttpResponse response = _login.Close(request);
+    Apps::HttpResponse response = _login.Close(request);
     if (decision.identity.has_value())
     {
         _audit.Write({request, *decision.identity, response});

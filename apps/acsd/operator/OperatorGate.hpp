@@ -37,6 +37,7 @@ public:
     OperatorGate(const Core::IClock& clock, Core::Logger logger, AccessPolicy policy, AuditLog& audit);
     OperatorGate(const OperatorGate&) = delete;
     OperatorGate& operator=(const OperatorGate&) = delete;
+    ~OperatorGate() = default;
 
     /// To be filled before the first request.
     [[nodiscard]] Apps::HttpRoutes& GetRoutes() noexcept;

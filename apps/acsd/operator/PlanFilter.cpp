@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <iterator>
 #include <limits>
@@ -19,9 +20,9 @@ Core::Result<PlanFilter> PlanFilter::Read(const Apps::HttpRequest& request)
 {
     PlanFilter filter;
     const std::string state = request.GetQueryOrNull("state").value_or("unfinished");
-    constexpr std::string_view WORDS[]{"unfinished", "active", "waiting", "finished"};
-    const auto word = std::ranges::find(WORDS, state);
-    if (word == std::ranges::end(WORDS))
+    constexpr std::array<std::string_view, 4> WORDS{"unfinished", "active", "waiting", "finished"};
+    const auto* const word = std::ranges::find(WORDS, state);
+    if (word == WORDS.end())
     {
         return Core::Fail(
             Core::ECoreError::UnknownWord,
@@ -29,7 +30,7 @@ Core::Result<PlanFilter> PlanFilter::Read(const Apps::HttpRequest& request)
             "unfinished, active, waiting or finished",
             Core::QuoteForError(state));
     }
-    filter._stage = static_cast<EStage>(word - std::ranges::begin(WORDS));
+    filter._stage = static_cast<EStage>(word - WORDS.begin());
     filter._robotID = request.GetQueryOrNull("robot");
     filter._lotID = request.GetQueryOrNull("lot");
     if (const std::optional<std::string> text = request.GetQueryOrNull("limit"))

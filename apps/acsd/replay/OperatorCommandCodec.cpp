@@ -105,7 +105,7 @@ Core::Result<TEnum> FindWordValue(std::string_view text, std::initializer_list<T
 
 CommandText MakeCommandText(const Planning::PlanCommand& command)
 {
-    using namespace Planning;
+    using namespace Planning; // NOLINT(google-build-using-namespace): all alternatives of a variant
     CommandText text;
     std::visit(
         Core::Overloaded{

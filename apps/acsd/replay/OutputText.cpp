@@ -63,7 +63,7 @@ std::string DescribeRoute(const Planning::Route& route)
 
 std::string DescribeRobotCommand(const Planning::RobotCommand& command)
 {
-    using namespace Planning;
+    using namespace Planning; // NOLINT(google-build-using-namespace): all alternatives of a variant
     return std::visit(
         Core::Overloaded{
             [](const Drive& drive) {

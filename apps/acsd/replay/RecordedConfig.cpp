@@ -64,7 +64,9 @@ bool IsOmitted(std::string_view key)
 bool IsSecret(std::string_view key)
 {
     const std::string_view name = key.substr(key.rfind('.') + 1);
-    return std::ranges::any_of(SECRETS, [name](std::string_view word) { return name.find(word) != name.npos; });
+    return std::ranges::any_of(SECRETS, [name](std::string_view word) {
+        return name.find(word) != std::string_view::npos;
+    });
 }
 
 bool IsFile(std::string_view key)

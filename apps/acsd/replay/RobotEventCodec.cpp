@@ -222,7 +222,7 @@ RobotEventText MakeJobText(std::string_view event, const std::string& jobID, con
 
 RobotEventText MakeRobotEventText(const Planning::RobotEvent& event)
 {
-    using namespace Planning;
+    using namespace Planning; // NOLINT(google-build-using-namespace): all alternatives of a variant
     return std::visit(
         Core::Overloaded{
             [](const LinkChanged& link) {

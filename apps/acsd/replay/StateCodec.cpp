@@ -188,7 +188,7 @@ std::string QuoteText(std::string_view text)
 
 std::string DescribeChange(const Planning::StoreChange& change)
 {
-    using namespace Planning;
+    using namespace Planning; // NOLINT(google-build-using-namespace): all alternatives of a variant
     return std::visit(
         Core::Overloaded{
             [](const PlanAdded& added) {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -47,7 +48,7 @@ void Forget(std::map<std::string, Core::WallTime, std::less<>>& times, const std
 /// The members of the alarm in the place of the words that stand for them in the commands between backticks.
 std::string FillRemedy(std::string_view remedy, const Planning::Alarm& alarm)
 {
-    const std::pair<std::string_view, std::optional<std::string>> words[]{
+    const std::map<std::string_view, std::optional<std::string>> words{
         {"ROBOT", alarm.robotID},
         {"CODE", alarm.errorCode},
         {"PLAN", alarm.planID},
@@ -59,8 +60,8 @@ std::string FillRemedy(std::string_view remedy, const Planning::Alarm& alarm)
     {
         const std::size_t end = std::min(remedy.find_first_of(" `."), remedy.size() - 1);
         const std::string_view word = remedy.substr(0, end == 0 ? 0 : end);
-        const auto found = std::ranges::find(words, word, [](const auto& entry) { return entry.first; });
-        const bool bFilled = bCommand && found != std::ranges::end(words) && found->second.has_value();
+        const auto found = words.find(word);
+        const bool bFilled = bCommand && found != words.end() && found->second.has_value();
         filled += bFilled ? *found->second : std::string(word);
         filled += remedy[end];
         bCommand = bCommand != (remedy[end] == '`');

@@ -330,14 +330,20 @@ void HttpConnection::WatchPeerAsync()
     _stream.Use([this](auto& stream) {
         stream.async_read_some(
             _buffer.prepare(DRAIN_BYTES),
-            [self = shared_from_this()](const ErrorCode& error, std::size_t /*count*/) {
-                if (error.failed() || self->_state == EState::Closed)
-                {
-                    return self->Leave();
-                }
-                self->WatchPeerAsync();
-            });
+            Beast::bind_front_handler(&HttpConnection::OnPeerRead, shared_from_this()));
     });
+}
+
+void HttpConnection::OnPeerRead(const ErrorCode& error, std::size_t /*count*/)
+{
+    if (error.failed() || _state == EState::Closed)
+    {
+        Leave();
+    }
+    else
+    {
+        WatchPeerAsync();
+    }
 }
 
 void HttpConnection::WritePieceAsync()

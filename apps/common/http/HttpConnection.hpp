@@ -93,6 +93,7 @@ private:
 
     void StartStream(std::shared_ptr<HttpBodyStream> body);
     void WatchPeerAsync();
+    void OnPeerRead(const ErrorCode& error, std::size_t count);
     void WritePieceAsync();
     void BeginPiece();
     void OnPieceWritten(const ErrorCode& error, std::size_t count);

@@ -8,6 +8,19 @@
 namespace ACS::Planning
 {
 
+namespace
+{
+
+std::string DescribePause(const ActivePlan& plan)
+{
+    const bool bByOperator = plan.record.progress.controlOrigin == EControlOrigin::Operator;
+    return plan.robot.has_value()
+        ? fmt::format("The plan is paused{}.", bByOperator ? " by the operator" : "")
+        : fmt::format("The plan is held in the queue by {}.", bByOperator ? "the operator" : "PausePlan");
+}
+
+} // namespace
+
 WaitReasons::WaitReasons(
     EngineState& engine,
     const TscControl& tsc,
@@ -166,10 +179,7 @@ std::optional<WaitReason> WaitReasons::DescribeBegunOrNull(const ActivePlan& pla
     reason.planID = plan.record.plan.planID;
     if (plan.record.progress.state == EPlanState::Paused)
     {
-        const bool bByOperator = plan.record.progress.controlOrigin == EControlOrigin::Operator;
-        reason.message = plan.robot.has_value()
-            ? fmt::format("The plan is paused{}.", bByOperator ? " by the operator" : "")
-            : fmt::format("The plan is held in the queue by {}.", bByOperator ? "the operator" : "PausePlan");
+        reason.message = DescribePause(plan);
         return reason;
     }
     if (!plan.robot.has_value())

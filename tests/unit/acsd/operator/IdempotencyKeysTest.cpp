@@ -140,7 +140,7 @@ TEST_CASE("The keys of the audit log are valid after a restart, for the rest of 
     CHECK(before.Post("full").response.status == 503);
     before.next = {404, "application/json", "{\"error\":\"no\"}\n"};
     CHECK(before.Post("missing").response.status == 404);
-    before.next = {202, "application/json", "{\"message\":\"" + std::string(2'000, 'x') + "\"}\n"};
+    before.next = {202, "application/json", R"({"message":")" + std::string(2'000, 'x') + "\"}\n"};
     CHECK(before.Post("long").response.status == 202);
 
     KeyFixture after;

@@ -84,7 +84,7 @@ struct GateFixture
     /// The cookie of a new session.
     std::string Login(const std::string& token)
     {
-        const Apps::HttpResponse response = Browse("POST", "/v1/login", "", "{\"token\":\"" + token + "\"}");
+        const Apps::HttpResponse response = Browse("POST", "/v1/login", "", R"({"token":")" + token + R"("})");
         REQUIRE(response.status == 204);
         const std::string header = response.headers.at(0).second;
         return header.substr(0, header.find(';'));

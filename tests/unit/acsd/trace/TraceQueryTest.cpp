@@ -26,7 +26,7 @@ struct QueryFixture
     Testing::ManualClock clock;
     std::unique_ptr<MessageTrace> trace = Begin();
 
-    [[nodiscard]] std::unique_ptr<MessageTrace> Begin()
+    [[nodiscard]] std::unique_ptr<MessageTrace> Begin() const
     {
         auto created = MessageTrace::Create(folder.GetPath().string(), {}, clock, Core::Logger());
         REQUIRE(created.has_value());
