@@ -26,7 +26,7 @@ double Round(double value)
     return std::round(value * PER_METRE) / PER_METRE;
 }
 
-std::optional<std::string> ToOptional(const std::string& text)
+std::optional<std::string> TextOrNull(const std::string& text)
 {
     return text.empty() ? std::nullopt : std::optional(text);
 }
@@ -91,7 +91,7 @@ void AddDetails(RobotView& robot, const RobotLinkState& link)
 {
     robot.driver = link.driver;
     robot.ports = link.ports;
-    robot.topic = ToOptional(link.topicPrefix);
+    robot.topic = TextOrNull(link.topicPrefix);
     robot.bArmUp = link.details.bArmUp;
     robot.protocolVersion = link.details.protocolVersion;
     robot.mode = link.details.mode;
@@ -115,7 +115,7 @@ RobotView MakeRobotView(const Planning::RobotStatus& status)
     robot.jobID = status.jobID;
     robot.carrierIDs = status.carrierIDs;
     robot.bInMaintenance = status.bInMaintenance;
-    robot.reason = status.planID.has_value() ? std::nullopt : ToOptional(status.message);
+    robot.reason = status.planID.has_value() ? std::nullopt : TextOrNull(status.message);
     return robot;
 }
 
@@ -162,14 +162,14 @@ StatusView StateViewMaker::MakeStatus(const ProgramState& program, Core::WallTim
             {link.name, link.bUp, link.bUp ? std::nullopt : std::optional(DescribeDown(link)), since});
     }
     status.tsc = GetText(_engine.GetTscState());
-    status.tscReason = ToOptional(_engine.GetHoldReason());
+    status.tscReason = TextOrNull(_engine.GetHoldReason());
     const Planning::OutboxSummary outbox = _engine.GetOutboxSummary();
     status.outbox = {outbox.count, outbox.oldest};
     status.refusedReports.count = program.refusedReports.count;
     if (program.refusedReports.count > 0)
     {
         const RefusedReports& refused = program.refusedReports;
-        status.refusedReports.last = {refused.command, ToOptional(refused.planID), refused.message};
+        status.refusedReports.last = {refused.command, TextOrNull(refused.planID), refused.message};
     }
     const std::vector<Planning::Alarm>& alarms = _engine.GetActiveAlarms();
     status.alarms.heavy =
@@ -267,7 +267,7 @@ std::vector<RobotView> StateViewMaker::MakeRobots(const ProgramState& program) c
     for (const Planning::RobotDetail& detail : _engine.GetRobotDetails())
     {
         RobotView& robot = *byID.at(detail.robotID);
-        robot.nodeID = ToOptional(detail.nodeID);
+        robot.nodeID = TextOrNull(detail.nodeID);
         robot.nextNodeID = robot.nodeID.has_value() ? detail.nextNodeID : std::nullopt;
     }
     for (Planning::RobotRoute& route : _engine.GetRobotRoutes())

@@ -25,7 +25,7 @@ namespace
 
 std::vector<Planning::RobotEvent> MakeEvents()
 {
-    using namespace Planning;
+    using namespace Planning; // NOLINT(google-build-using-namespace): all alternatives of a variant
     StateChanged state;
     state.x = 1.25;
     state.y = -0.000'123'456'789;
@@ -68,7 +68,7 @@ std::vector<Planning::RobotEvent> MakeEvents()
 
 std::vector<Planning::PlanCommand> MakeCommands()
 {
-    using namespace Planning;
+    using namespace Planning; // NOLINT(google-build-using-namespace): all alternatives of a variant
     Plan plan;
     plan.planID = "P1";
     plan.priority = 4;
@@ -91,7 +91,7 @@ std::vector<Planning::PlanCommand> MakeCommands()
 
 std::vector<Protocol::SessionEvent> MakeSessionEvents()
 {
-    using namespace Protocol;
+    using namespace Protocol; // NOLINT(google-build-using-namespace): all alternatives of a variant
     ExecutionPlan plan;
     plan.planID = "P1";
     plan.steps = {{1, "CassetteLoad", "A01.CP01", {"C_01"}, {{"J", "A01.CP01", "AMR.CP01"}}}};
