@@ -115,11 +115,11 @@ TEST_CASE("An invalid position is answered with 400, and a stream beyond the lim
 
 TEST_CASE("Events that are published together are flushed together, and only if there is a client")
 {
+    int notified = 0; // outlives the feed, which ends its streams
     FeedFixture fixture;
     fixture.feed.Publish("entry", "1");
     CHECK(fixture.flushRequests == 0);
     const Apps::HttpResponse response = fixture.Ask("");
-    int notified = 0;
     response.stream->Attach([&notified] { ++notified; });
     fixture.feed.Publish("entry", "2");
     fixture.feed.Publish("entry", "3");
