@@ -5,7 +5,6 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,7 +15,9 @@ StateFeed::StateFeed(Dependencies dependencies)
     : _dependencies(std::move(dependencies)),
       _maker(_dependencies.engine, _dependencies.clock.GetNow().wall),
       _entries(
-          [this](std::string_view data) { _dependencies.events.Publish("entry", data); },
+          [this](const ChangeEntry& entry, Core::Now now) {
+              _dependencies.events.Publish("entry", EncodeEntry(entry, now.wall));
+          },
           _dependencies.nextObserver),
       _timer(_dependencies.executor, [this](int) { OnTimer(); })
 {

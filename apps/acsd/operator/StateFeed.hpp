@@ -1,8 +1,8 @@
 #pragma once
 
 #include "common/process/TimerSet.hpp"
-#include "operator/EntryFeed.hpp"
 #include "operator/EventFeed.hpp"
+#include "view/ChangeObserver.hpp"
 #include "view/StateView.hpp"
 #include "view/StateViewMaker.hpp"
 #include <acs/core/Now.hpp>
@@ -40,7 +40,7 @@ private:
     Dependencies _dependencies;
     StateViewMaker _maker;
     StateView _state;
-    EntryFeed _entries;
+    ChangeObserver _entries;
     Apps::TimerSet<int> _timer;
 
 public:

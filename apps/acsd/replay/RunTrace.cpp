@@ -3,11 +3,44 @@
 #include "replay/RecordedConfig.hpp"
 #include "replay/RecordLine.hpp"
 
+#include <string>
+
 namespace ACS::Acsd
 {
 
+namespace
+{
+
+/// A decision of the engine. Later messages of the robot belong to its plan.
+void AddToTrace(const ChangeEntry& entry, MessageTrace& trace)
+{
+    trace.Add(
+        {"engine",
+         ProtocolBeast::EWireDirection::Out,
+         entry.robotID,
+         {},
+         entry.text,
+         entry.kind,
+         entry.planID,
+         entry.transactionID},
+        ETraceUse::All);
+    if ((entry.kind == "plan" || entry.kind == "step") && !entry.robotID.empty())
+    {
+        trace.SetPlan(std::string(entry.robotID), entry.bPlanEnded ? std::string() : std::string(entry.planID));
+    }
+}
+
+} // namespace
+
 RunTrace::RunTrace(MessageTrace* traceOrNull, const AcsdConfig& config, Core::Now now, Planning::IPlanObserver& next)
-    : _observer(traceOrNull, next)
+    : _observer(
+        [traceOrNull](const ChangeEntry& entry, Core::Now /*now*/) {
+            if (traceOrNull != nullptr)
+            {
+                AddToTrace(entry, *traceOrNull);
+            }
+        },
+        next)
 {
     if (traceOrNull != nullptr)
     {

@@ -4,7 +4,7 @@
 #include "config/AcsdConfig.hpp"
 #include "replay/CoreRecorder.hpp"
 #include "trace/MessageTrace.hpp"
-#include "trace/TraceObserver.hpp"
+#include "view/ChangeObserver.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/plan/IPlanObserver.hpp>
 
@@ -17,7 +17,7 @@ namespace ACS::Acsd
 /// passes everything on.
 class RunTrace final
 {
-    TraceObserver _observer;
+    ChangeObserver _observer;
     std::unique_ptr<CoreRecorder> _recorder; ///< Null without a trace.
 
 public:

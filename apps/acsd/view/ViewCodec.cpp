@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <tuple>
 
@@ -162,6 +164,22 @@ std::string EncodeChanges(const StateChanges& changes, const std::vector<PlanVie
         {
             WriteMember(writer, "alarms", *changes.alarms);
         }
+    });
+}
+
+std::string EncodeEntry(const ChangeEntry& entry, Core::WallTime time)
+{
+    const auto makeTextOrNull = [](std::string_view text) {
+        return text.empty() ? std::nullopt : std::optional<std::string>(text);
+    };
+    return EncodeObject([&](Json::JsonWriter& writer) {
+        WriteMember(writer, "time", time);
+        WriteMember(writer, "kind", std::string(entry.kind));
+        WriteMember(writer, "robotId", makeTextOrNull(entry.robotID));
+        WriteMember(writer, "planId", makeTextOrNull(entry.planID));
+        WriteMember(writer, "stepNo", entry.stepNo == 0 ? std::nullopt : std::optional(entry.stepNo));
+        WriteMember(writer, "jobId", makeTextOrNull(entry.jobID));
+        WriteMember(writer, "text", std::string(entry.text));
     });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "view/ChangeObserver.hpp"
 #include "view/SiteView.hpp"
 #include "view/StateView.hpp"
 
@@ -24,5 +25,8 @@ namespace ACS::Acsd
 
 /// The data of an event `changes`: members only for what has changed. Without a line end.
 [[nodiscard]] std::string EncodeChanges(const StateChanges& changes, const std::vector<PlanView>& endedPlans);
+
+/// The data of an event `entry`. Without a line end.
+[[nodiscard]] std::string EncodeEntry(const ChangeEntry& entry, Core::WallTime time);
 
 } // namespace ACS::Acsd

@@ -5,41 +5,37 @@
 
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <string_view>
 
 namespace ACS::Acsd
 {
 
-/// Makes an event `entry` of the operator API of each change of state, as one line for people, and passes the change to the next
-/// observer.
-class EntryFeed final : public Planning::IPlanObserver
+/// A change of state: its objects, and what happened as one line for people. The views are valid during the call only.
+struct ChangeEntry
+{
+    std::string_view kind;    ///< "plan", "step", "job", "alarm", "robot", "tsc", "note"
+    std::string_view robotID; ///< Empty: none; likewise the others.
+    std::string_view planID;
+    std::int32_t stepNo = 0; ///< 0: none.
+    std::string_view jobID;
+    std::string_view text;
+    std::string_view transactionID; ///< Of the report of the change.
+    bool bPlanEnded = false;        ///< The plan has reached its last state.
+};
+
+/// Makes an entry of each change of state, and passes the change to the next observer.
+class ChangeObserver final : public Planning::IPlanObserver
 {
 public:
-    /// Receives the data of an event `entry`.
-    using Publisher = std::function<void(std::string_view data)>;
-
-    /// Kind, objects and text of an entry; empty members are null.
-    struct Entry
-    {
-        std::string_view kind;
-        std::string_view robotID;
-        std::string_view planID;
-        std::int32_t stepNo = 0; ///< 0: none.
-        std::string_view jobID;
-        std::string_view text;
-    };
+    using Handler = std::function<void(const ChangeEntry& entry, Core::Now now)>;
 
 private:
-    Publisher _publish;
+    Handler _handler;
     Planning::IPlanObserver& _next;
 
 public:
-    /// The next observer must outlive the feed.
-    EntryFeed(Publisher publish, Planning::IPlanObserver& next);
-
-    /// An entry that is not of the engine: of a link or a command.
-    void Publish(const Entry& entry, Core::WallTime time);
+    /// The next observer must outlive this one.
+    ChangeObserver(Handler handler, Planning::IPlanObserver& next);
 
     void OnPlanChanged(
         const Planning::PlanRecord& record,

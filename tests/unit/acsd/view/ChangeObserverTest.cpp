@@ -1,9 +1,10 @@
-#include "operator/EntryFeed.hpp"
+#include "view/ChangeObserver.hpp"
 
 #include "Catch.hpp"
 #include "fixtures/PlanWorldSteps.hpp"
 #include "operator/PlanLog.hpp"
 #include "RecordingLogSink.hpp"
+#include "view/ViewCodec.hpp"
 #include <acs/core/Logger.hpp>
 
 #include <string>
@@ -36,7 +37,9 @@ TEST_CASE("Each change of state is an entry with its objects and a line, and rea
     Apps::MetricsEndpoint metrics;
     PlanLog log(Core::Logger(sink, "plan"), metrics);
     std::vector<std::string> entries;
-    EntryFeed feed([&entries](std::string_view data) { entries.emplace_back(data); }, log);
+    ChangeObserver feed(
+        [&entries](const ChangeEntry& entry, Core::Now now) { entries.push_back(EncodeEntry(entry, now.wall)); },
+        log);
 
     const Planning::Alarm alarm{"LR01", "ACS-1008", Planning::EAlarmLevel::Heavy, "job \"J\" unknown", "P1", 3, "J1"};
     feed.OnAlarmChanged(alarm, true, "t1", {});

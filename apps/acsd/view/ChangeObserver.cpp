@@ -1,10 +1,10 @@
-#include "operator/EntryFeed.hpp"
+#include "view/ChangeObserver.hpp"
 
-#include <acs/core/Timestamp.hpp>
-#include <acs/json/JsonWriter.hpp>
+#include <acs/plan/PlanTransitions.hpp>
 
 #include <fmt/format.h>
 
+#include <string>
 #include <utility>
 
 namespace ACS::Acsd
@@ -12,19 +12,6 @@ namespace ACS::Acsd
 
 namespace
 {
-
-void WriteOrNull(Json::JsonWriter& writer, std::string_view key, std::string_view value)
-{
-    writer.Key(key);
-    if (value.empty())
-    {
-        writer.WriteNull();
-    }
-    else
-    {
-        writer.WriteString(value);
-    }
-}
 
 /// " on LR01", or nothing.
 std::string DescribeRobot(std::string_view robotID)
@@ -40,40 +27,13 @@ std::string DescribeReason(std::string_view message)
 
 } // namespace
 
-EntryFeed::EntryFeed(Publisher publish, Planning::IPlanObserver& next)
-    : _publish(std::move(publish)),
+ChangeObserver::ChangeObserver(Handler handler, Planning::IPlanObserver& next)
+    : _handler(std::move(handler)),
       _next(next)
 {
 }
 
-void EntryFeed::Publish(const Entry& entry, Core::WallTime time)
-{
-    std::string data;
-    Json::JsonWriter writer(data);
-    writer.BeginObject();
-    writer.Key("time");
-    writer.WriteString(Core::FormatUTC(time));
-    writer.Key("kind");
-    writer.WriteString(entry.kind);
-    WriteOrNull(writer, "robotId", entry.robotID);
-    WriteOrNull(writer, "planId", entry.planID);
-    writer.Key("stepNo");
-    if (entry.stepNo == 0)
-    {
-        writer.WriteNull();
-    }
-    else
-    {
-        writer.WriteInteger(entry.stepNo);
-    }
-    WriteOrNull(writer, "jobId", entry.jobID);
-    writer.Key("text");
-    writer.WriteString(entry.text);
-    writer.EndObject();
-    _publish(data);
-}
-
-void EntryFeed::OnPlanChanged(
+void ChangeObserver::OnPlanChanged(
     const Planning::PlanRecord& record,
     Planning::EPlanState from,
     std::string_view transactionID,
@@ -86,11 +46,20 @@ void EntryFeed::OnPlanChanged(
         GetText(record.progress.state),
         DescribeRobot(record.progress.robotID),
         DescribeReason(record.progress.message));
-    Publish({"plan", record.progress.robotID, record.plan.planID, 0, {}, text}, now.wall);
+    _handler(
+        {"plan",
+         record.progress.robotID,
+         record.plan.planID,
+         0,
+         {},
+         text,
+         transactionID,
+         Planning::IsFinal(record.progress.state)},
+        now);
     _next.OnPlanChanged(record, from, transactionID, now);
 }
 
-void EntryFeed::OnStepChanged(
+void ChangeObserver::OnStepChanged(
     const Planning::PlanRecord& record,
     std::size_t stepIndex,
     Planning::EStepState from,
@@ -106,11 +75,11 @@ void EntryFeed::OnStepChanged(
         GetText(record.progress.steps[stepIndex].state),
         step.action,
         step.position);
-    Publish({"step", record.progress.robotID, record.plan.planID, step.stepNo, {}, text}, now.wall);
+    _handler({"step", record.progress.robotID, record.plan.planID, step.stepNo, {}, text, transactionID}, now);
     _next.OnStepChanged(record, stepIndex, from, transactionID, now);
 }
 
-void EntryFeed::OnJobChanged(
+void ChangeObserver::OnJobChanged(
     const Planning::PlanRecord& record,
     std::size_t stepIndex,
     std::size_t jobIndex,
@@ -128,11 +97,15 @@ void EntryFeed::OnJobChanged(
         GetText(from),
         GetText(record.progress.steps[stepIndex].jobs[jobIndex]),
         DescribeRobot(record.progress.robotID));
-    Publish({"job", record.progress.robotID, record.plan.planID, step.stepNo, jobID, text}, now.wall);
+    _handler({"job", record.progress.robotID, record.plan.planID, step.stepNo, jobID, text, transactionID}, now);
     _next.OnJobChanged(record, stepIndex, jobIndex, from, transactionID, now);
 }
 
-void EntryFeed::OnAlarmChanged(const Planning::Alarm& alarm, bool bSet, std::string_view transactionID, Core::Now now)
+void ChangeObserver::OnAlarmChanged(
+    const Planning::Alarm& alarm,
+    bool bSet,
+    std::string_view transactionID,
+    Core::Now now)
 {
     const std::string text = fmt::format(
         "{} alarm {} of {} {}{}",
@@ -141,18 +114,19 @@ void EntryFeed::OnAlarmChanged(const Planning::Alarm& alarm, bool bSet, std::str
         alarm.robotID,
         bSet ? "set" : "cleared",
         bSet ? DescribeReason(alarm.message) : std::string());
-    Publish(
+    _handler(
         {"alarm",
          alarm.robotID,
          alarm.planID.has_value() ? std::string_view(*alarm.planID) : std::string_view(),
          alarm.stepNo.value_or(0),
          alarm.jobID.has_value() ? std::string_view(*alarm.jobID) : std::string_view(),
-         text},
-        now.wall);
+         text,
+         transactionID},
+        now);
     _next.OnAlarmChanged(alarm, bSet, transactionID, now);
 }
 
-void EntryFeed::OnRobotStatusChanged(const Planning::RobotStatus& status, Core::Now now)
+void ChangeObserver::OnRobotStatusChanged(const Planning::RobotStatus& status, Core::Now now)
 {
     const std::string text = fmt::format(
         "robot {}: {}{}{}",
@@ -160,26 +134,28 @@ void EntryFeed::OnRobotStatusChanged(const Planning::RobotStatus& status, Core::
         GetText(status.status),
         status.position.empty() ? std::string() : fmt::format(" at {}", status.position),
         DescribeReason(status.message));
-    Publish(
+    _handler(
         {"robot",
          status.robotID,
          status.planID.has_value() ? std::string_view(*status.planID) : std::string_view(),
          status.stepNo.value_or(0),
          status.jobID.has_value() ? std::string_view(*status.jobID) : std::string_view(),
-         text},
-        now.wall);
+         text,
+         {}},
+        now);
     _next.OnRobotStatusChanged(status, now);
 }
 
-void EntryFeed::OnTscChanged(Planning::ETscState state, Planning::ETscState from, Core::Now now)
+void ChangeObserver::OnTscChanged(Planning::ETscState state, Planning::ETscState from, Core::Now now)
 {
-    Publish({"tsc", {}, {}, 0, {}, fmt::format("TSC: {} -> {}", GetText(from), GetText(state))}, now.wall);
+    const std::string text = fmt::format("TSC: {} -> {}", GetText(from), GetText(state));
+    _handler({"tsc", {}, {}, 0, {}, text, {}}, now);
     _next.OnTscChanged(state, from, now);
 }
 
-void EntryFeed::OnNote(std::string_view robotID, std::string_view text, Core::Now now)
+void ChangeObserver::OnNote(std::string_view robotID, std::string_view text, Core::Now now)
 {
-    Publish({"note", robotID, {}, 0, {}, text}, now.wall);
+    _handler({"note", robotID, {}, 0, {}, text, {}}, now);
     _next.OnNote(robotID, text, now);
 }
 
