@@ -60,17 +60,6 @@ std::string_view FindLinkRemedy(const LinkInfo& link)
                     : "Check the MCS and the network to it.";
 }
 
-/// Whether the reason of the plan or of one of its robots names the block, in the words of acsd.
-bool IsNamed(const BlockInfo& block, const WaitsInfo& waits)
-{
-    const std::string name = fmt::format("{} {} is blocked", block.kind, block.id);
-    const auto has = [&name](const std::string& text) {
-        return text.find(name) != std::string::npos || text.find(Capitalize(name)) != std::string::npos;
-    };
-    return has(waits.message)
-        || std::ranges::any_of(waits.robots, [&has](const RobotReason& robot) { return has(robot.reason); });
-}
-
 std::string MakeMaintenanceRemedy(std::string_view robotID)
 {
     return fmt::format("When it may move: acsctl maintenance {} off", robotID);
@@ -86,6 +75,7 @@ bool Explanation::NeedsAttention() const
 WhyExplainer::WhyExplainer(const SnapshotAnswer& snapshot, const SiteAnswer& site, Core::WallTime now)
     : _snapshot(snapshot),
       _site(site),
+      _places(site),
       _now(now)
 {
 }
@@ -443,7 +433,7 @@ void WhyExplainer::AddBlocksOfPlan(const PlanInfo& plan, std::size_t depth, Chai
         const bool bEnded = IsOneOf(FINAL_STATUSES, step.status) || step.status == "Skipped";
         for (const BlockInfo& block : _site.blocked)
         {
-            if (!bEnded && IsAtStation(block, step.position))
+            if (!bEnded && _places.IsAtStation(block, step.position))
             {
                 AddBlock(block, depth, chain);
             }
@@ -452,7 +442,7 @@ void WhyExplainer::AddBlocksOfPlan(const PlanInfo& plan, std::size_t depth, Chai
     // An edge in the way of a robot that has no route yet is named by the wait reason only.
     for (const BlockInfo& block : _site.blocked)
     {
-        if (IsNamed(block, *plan.waits))
+        if (BlockedPlaces::IsNamed(block, *plan.waits))
         {
             AddBlock(block, depth, chain);
         }
@@ -463,7 +453,7 @@ void WhyExplainer::AddBlocksOfRoute(const RobotInfo& robot, std::size_t depth, C
 {
     for (const BlockInfo& block : _site.blocked)
     {
-        if (IsOnRoute(block, robot))
+        if (_places.IsOnRoute(block, robot))
         {
             AddBlock(block, depth, chain);
         }
@@ -487,40 +477,6 @@ void WhyExplainer::AddBlock(const BlockInfo& block, std::size_t depth, Chain& ch
              reason)),
          {},
          {fmt::format("When it is free: acsctl unblock {} {}", block.kind, block.id)}});
-}
-
-bool WhyExplainer::IsAtStation(const BlockInfo& block, std::string_view stationID) const
-{
-    if (block.kind == "station")
-    {
-        return block.id == stationID;
-    }
-    const auto station = std::ranges::find(_site.stations, stationID, &StationInfo::stationID);
-    return block.kind == "node" && station != _site.stations.end()
-        && std::ranges::find(station->nodeIDs, block.id) != station->nodeIDs.end();
-}
-
-bool WhyExplainer::IsOnRoute(const BlockInfo& block, const RobotInfo& robot) const
-{
-    if (block.kind == "node")
-    {
-        return std::ranges::find(robot.route, block.id, &RouteNode::nodeID) != robot.route.end();
-    }
-    const auto edge = std::ranges::find(_site.edges, block.id, &EdgeInfo::edgeID);
-    if (block.kind != "edge" || edge == _site.edges.end())
-    {
-        return false;
-    }
-    std::string before = robot.node.value_or("");
-    for (const RouteNode& node : robot.route)
-    {
-        if (before == edge->startNodeID && node.nodeID == edge->endNodeID)
-        {
-            return true;
-        }
-        before = node.nodeID;
-    }
-    return false;
 }
 
 Cause WhyExplainer::MakeAlarmCause(const AlarmInfo& alarm, std::size_t depth) const

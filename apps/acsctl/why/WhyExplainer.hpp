@@ -1,6 +1,7 @@
 #pragma once
 
 #include "api/ApiTypes.hpp"
+#include "why/BlockedPlaces.hpp"
 #include "why/Explanation.hpp"
 #include <acs/core/Now.hpp>
 
@@ -17,6 +18,7 @@ class WhyExplainer final
 {
     const SnapshotAnswer& _snapshot;
     const SiteAnswer& _site;
+    BlockedPlaces _places;
     Core::WallTime _now;
 
 public:
@@ -62,8 +64,6 @@ private:
     void AddBlocksOfPlan(const PlanInfo& plan, std::size_t depth, Chain& chain) const;
     void AddBlocksOfRoute(const RobotInfo& robot, std::size_t depth, Chain& chain) const;
     void AddBlock(const BlockInfo& block, std::size_t depth, Chain& chain) const;
-    [[nodiscard]] bool IsAtStation(const BlockInfo& block, std::string_view stationID) const;
-    [[nodiscard]] bool IsOnRoute(const BlockInfo& block, const RobotInfo& robot) const;
     [[nodiscard]] Cause MakeAlarmCause(const AlarmInfo& alarm, std::size_t depth) const;
 };
 
