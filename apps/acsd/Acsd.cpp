@@ -335,6 +335,7 @@ private:
             commands,
             _core.GetEngine(),
             {_dependencies.clock,
+             [this]() -> const StateView& { return _feed.Read(); },
              [this]() -> const StateView& { return _feed.Update(); },
              [this] {
                  return _feed.GetEventID();

@@ -95,7 +95,7 @@ void AddReadRoutes(Apps::HttpRoutes& routes, const Planning::PlanEngine& engine,
         return MakeJsonAnswer(EncodeStatus(access.getState().status, access.clock.GetNow().wall));
     });
     AddRead(routes, "/v1/snapshot", [access](const Captures&) {
-        const StateView& state = access.getState();
+        const StateView& state = access.getPublished();
         return MakeJsonAnswer(EncodeSnapshot(state, access.getEventID(), access.clock.GetNow().wall));
     });
     routes.Add("GET", "/v1/plans", [&engine, access](const HttpRequest& request, const Captures&) {

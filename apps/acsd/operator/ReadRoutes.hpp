@@ -17,7 +17,9 @@ struct ReadAccess
     const Core::IClock& clock;
     /// The present state; valid until the next call.
     std::function<const StateView&()> getState;
-    /// Number of the last event that contributed to it.
+    /// The present state, all of whose changes are events; valid until the next call.
+    std::function<const StateView&()> getPublished;
+    /// Number of the last event that contributed to the published state.
     std::function<std::uint64_t()> getEventID;
 };
 

@@ -33,6 +33,12 @@ void StateFeed::Stop()
     _timer.CancelAll();
 }
 
+const StateView& StateFeed::Read()
+{
+    _read = _maker.Make(_dependencies.getProgram(), _dependencies.clock.GetNow().wall);
+    return _read;
+}
+
 const StateView& StateFeed::Update()
 {
     StateView fresh = _maker.Make(_dependencies.getProgram(), _dependencies.clock.GetNow().wall);

@@ -39,7 +39,8 @@ public:
 private:
     Dependencies _dependencies;
     StateViewMaker _maker;
-    StateView _state;
+    StateView _state; ///< As it was published last.
+    StateView _read;  ///< As it was read last.
     ChangeObserver _entries;
     Apps::TimerSet<int> _timer;
 
@@ -51,7 +52,10 @@ public:
     void Start();
     void Stop();
 
-    /// Publishes what has changed. The state is valid until the next call.
+    /// The present state, which is valid until the next call. Publishes nothing.
+    [[nodiscard]] const StateView& Read();
+
+    /// Publishes what has changed: the present state is that of GetEventID then. Valid until the next call.
     [[nodiscard]] const StateView& Update();
 
     /// For the engine: publishes an event `entry` for each change.

@@ -39,10 +39,8 @@ public:
             _routes,
             *world.engine,
             {*this,
-             [this]() -> const StateView& {
-                 _state = _maker.Make(program, now);
-                 return _state;
-             },
+             [this]() -> const StateView& { return Make(); },
+             [this]() -> const StateView& { return Make(); },
              [] {
                  return 7U;
              }});
@@ -57,6 +55,12 @@ public:
     }
 
 private:
+    const StateView& Make()
+    {
+        _state = _maker.Make(program, now);
+        return _state;
+    }
+
     [[nodiscard]] Core::Now GetNow() const override
     {
         return {Core::SteadyTime(), now};
