@@ -255,6 +255,12 @@ class Following(AcsctlCase):
                           "23:10:00.000 alarm   alarm ACS-1002 of LR02 is set"])
         lines = self.check(0, "events", "--after", "1", "--json").splitlines()
         self.assertEqual([json.loads(line)["id"] for line in lines], [2])
+        (entry, *_) = self.mock.make_events(0)[1:]
+        self.mock.events = [entry, b"event: changes\nid: 2\ndata: {}\n\n"]
+        self.assertIn("PLAN_1", self.check(0, "events", "--limit", "1"), "an event of another type does not count")
+        self.assertEqual(self.mock.requests[-1]["query"]["after"], "0")
+        self.mock.events = [entry, entry.replace(b"id: 1", b"id: 2")]
+        self.assertEqual(len(self.check(0, "events", "--limit", "1", "--json").splitlines()), 1)
         self.mock.events = [b"event: reset\ndata: {}\n\n"]
         self.assertEqual(self.check(0, "events"), "")
         self.check(1, "events", "--after", "1")

@@ -21,6 +21,8 @@ namespace
 {
 
 constexpr std::uint64_t DEFAULT_EVENTS = 100;
+/// acsd keeps at most this number of events, those of other types among them.
+constexpr std::uint64_t MOST_EVENTS_OF_ACSD = 4'096;
 constexpr std::chrono::milliseconds RECONNECT{2'000};
 
 std::optional<std::uint64_t> ReadIdOrNull(const std::string& text)
@@ -38,7 +40,8 @@ EventsCommand::EventsCommand(Session& session, const AcsctlOptions& options, Ter
       _options(options),
       _terminal(terminal),
       _types(options.arguments.types.value_or("entry")),
-      _after(options.arguments.after)
+      _after(options.arguments.after),
+      _maxHistory(options.arguments.limit.value_or(_after.has_value() ? MOST_EVENTS_OF_ACSD : DEFAULT_EVENTS))
 {
 }
 
@@ -51,12 +54,17 @@ Outcome<void> EventsCommand::Run()
     }
     if (!bFollow || _options.arguments.limit.has_value())
     {
-        if (Outcome<void> done = RunHistory(); !done.has_value() || !bFollow)
+        Outcome<void> done = RunHistory();
+        _until.reset();
+        for (const std::string& line : _history)
+        {
+            _terminal.Write(line);
+        }
+        if (!done.has_value() || !bFollow)
         {
             return done;
         }
     }
-    _until.reset();
     return Follow();
 }
 
@@ -76,7 +84,7 @@ Outcome<void> EventsCommand::RunHistory()
             : done;
     }
     // acsd does not state how many events it has: it answers with reset when they are fewer.
-    for (std::uint64_t count = _options.arguments.limit.value_or(DEFAULT_EVENTS); count != 0; count /= 2)
+    for (std::uint64_t count = MOST_EVENTS_OF_ACSD; count != 0; count /= 2)
     {
         _after = *newest - std::min(count, *newest);
         if (*_after == *newest)
@@ -174,6 +182,7 @@ bool EventsCommand::TryHandle(const SseEvent& event)
     if (event.type == "reset")
     {
         _end = EEnd::Reset;
+        _history.clear();
         if (_until.has_value())
         {
             return false;
@@ -202,7 +211,16 @@ bool EventsCommand::TryShow(const SseEvent& event)
         _fault = Core::Describe(line.error());
         return false;
     }
-    _terminal.Write(*line);
+    if (!_until.has_value())
+    {
+        _terminal.Write(*line);
+        return true;
+    }
+    _history.push_back(*line);
+    if (_history.size() > _maxHistory)
+    {
+        _history.pop_front();
+    }
     return true;
 }
 

@@ -6,7 +6,9 @@
 #include "options/AcsctlOptions.hpp"
 #include "terminal/Terminal.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,7 +33,9 @@ class EventsCommand final
     Terminal& _terminal;
     std::string _types;
     std::optional<std::uint64_t> _after;
-    std::optional<std::uint64_t> _until;
+    const std::size_t _maxHistory;
+    std::deque<std::string> _history;    ///< The newest lines of the history, shown when it is read.
+    std::optional<std::uint64_t> _until; ///< The last event of the history while it is read.
     EEnd _end = EEnd::Ended;
     std::string _fault;
 
