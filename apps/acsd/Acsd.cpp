@@ -157,6 +157,7 @@ public:
         {
             return opened;
         }
+        _http.GetGate().Restore(state.receipts);
         _core.Restore(std::move(state));
         return {};
     }
@@ -330,7 +331,7 @@ private:
             UpdateMetrics();
             return _metricsEndpoint.Respond();
         });
-        Apps::HttpRoutes& commands = _http.GetOperatorRoutes();
+        Apps::HttpRoutes& commands = _http.GetGate().GetRoutes();
         AddReadRoutes(
             commands,
             _core.GetEngine(),
@@ -350,7 +351,10 @@ private:
         AddCommandRoutes(
             commands,
             _core.GetEngine(),
-            {[this](Planning::PlanCommand command) { return _core.Offer(std::move(command)); },
+            {[this](Planning::PlanCommand command, std::optional<Planning::CommandReceipt> receiptOrNull) {
+                 return _core.Offer(std::move(command), std::move(receiptOrNull));
+             },
+             [this](const Apps::HttpResponse& answer) { return _http.GetGate().MakeReceiptOrNull(answer); },
              [this] {
                  return _core.GetStoreFaultOrNull();
              }});

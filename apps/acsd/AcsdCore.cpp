@@ -219,10 +219,12 @@ void AcsdCore::OnLinksClosed()
     }
 }
 
-Planning::EInputAdmission AcsdCore::Offer(Planning::PlanCommand command)
+Planning::EInputAdmission AcsdCore::Offer(
+    Planning::PlanCommand command,
+    std::optional<Planning::CommandReceipt> receiptOrNull)
 {
-    const RecordedInput recorded(_dependencies.recorderOrNull, [&command] { return command; });
-    return _host.Offer(std::move(command));
+    const RecordedInput recorded(_dependencies.recorderOrNull, [&] { return OfferInput{command, receiptOrNull}; });
+    return _host.Offer(std::move(command), std::move(receiptOrNull));
 }
 
 const Planning::PlanEngine& AcsdCore::GetEngine() const noexcept

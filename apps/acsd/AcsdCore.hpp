@@ -119,7 +119,9 @@ public:
     void OnLinksClosed();
 
     /// A command of the operator or of a test. Unless Accepted, nothing is done.
-    [[nodiscard]] Planning::EInputAdmission Offer(Planning::PlanCommand command);
+    [[nodiscard]] Planning::EInputAdmission Offer(
+        Planning::PlanCommand command,
+        std::optional<Planning::CommandReceipt> receiptOrNull = std::nullopt);
 
     [[nodiscard]] const Planning::PlanEngine& GetEngine() const noexcept;
     [[nodiscard]] const RefusedReports& GetRefusedReports() const noexcept;

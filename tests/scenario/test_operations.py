@@ -110,6 +110,44 @@ class Operations(ScenarioCase):
         self.wait_for_log(acsd, "the disk has answered")
         self.wait_for_status(address, lambda status: not status["notReadyReasons"])
 
+    def test_after_a_crash_a_command_and_its_key_are_both_stored_or_neither(self):
+        library = self.line.bin_dir / "libscenario_held_disk.so"
+        if not library.exists():
+            self.skipTest("not built with sanitizers")
+        gate = self.line.folder / "held"
+        environment = os.environ | {"LD_PRELOAD": str(library), "ACS_HELD_DISK": str(gate)}
+        stub, robots = self.start_stub(), self.start_robots()
+
+        def start():
+            acsd = self.line.start_acsd(stub.address, robots, environment=environment)
+            return acsd, acsd.wait_ready()["operator"]
+
+        def crash(acsd):
+            self.line.forget(acsd)
+            acsd.send_signal(signal.SIGKILL)
+            acsd.stop()
+
+        def is_replayed(address, path, key):
+            request = urllib.request.Request(f"http://{address}{path}", b"", {"Idempotency-Key": key})
+            with urllib.request.urlopen(request, timeout=LOG_SECONDS) as response:
+                self.assertEqual(response.status, 202)
+                return response.headers["Idempotent-Replay"] == "true"
+
+        acsd, address = start()
+        self.assertFalse(is_replayed(address, "/v1/tsc/pause", "stored"))
+        self.wait_for_status(address, lambda status: status["tsc"] == "Paused")
+        os.mkfifo(gate)
+        self.assertEqual(self.post(address, "/v1/robots/CR01/maintenance", {"on": True})[0], 202)
+        self.assertFalse(is_replayed(address, "/v1/tsc/resume", "waiting"))  # for the batch before it, until the crash
+        crash(acsd)
+        gate.unlink()
+
+        acsd, address = start()
+        self.assertEqual(self.read_status(address)["tsc"], "Paused")
+        self.assertTrue(is_replayed(address, "/v1/tsc/pause", "stored"))
+        self.assertFalse(is_replayed(address, "/v1/tsc/resume", "waiting"), "it was lost with its key")
+        self.wait_for_status(address, lambda status: status["tsc"] == "Auto")
+
     def post_all(self, address, path, bodies):
         """The statuses of the answers, and the values of Retry-After; one connection, without waiting between requests."""
         requests = b"".join(f"POST {path} HTTP/1.1\r\nHost: {address}\r\nContent-Length: {len(body)}\r\n\r\n{body}".encode()

@@ -67,10 +67,12 @@ HttpResponse Submit(
             "necessary.",
             *fault);
     }
-    switch (access.submit(std::move(command)))
+    HttpResponse accepted = MakeAccepted(message);
+    // What is not stored has no receipt either.
+    switch (access.submit(std::move(command), fault.has_value() ? std::nullopt : access.makeReceiptOrNull(accepted)))
     {
         case Planning::EInputAdmission::Accepted:
-            return MakeAccepted(message);
+            return accepted;
         case Planning::EInputAdmission::Full:
             return RefuseFull();
         case Planning::EInputAdmission::Closed:

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/http/HttpRoutes.hpp"
+#include <acs/plan/CommandReceipt.hpp>
 #include <acs/plan/EngineInput.hpp>
 #include <acs/plan/PlanEngine.hpp>
 
@@ -14,8 +15,12 @@ namespace ACS::Acsd
 /// The functions of acsd that the routes of commands call.
 struct CommandAccess
 {
-    /// Passes a command of the operator to the engine.
-    std::function<Planning::EInputAdmission(Planning::PlanCommand command)> submit;
+    /// Passes a command of the operator to the engine. The receipt is stored with it.
+    std::function<
+        Planning::EInputAdmission(Planning::PlanCommand command, std::optional<Planning::CommandReceipt> receiptOrNull)>
+        submit;
+    /// The receipt of the request that is being answered; nullopt if it has no Idempotency-Key.
+    std::function<std::optional<Planning::CommandReceipt>(const Apps::HttpResponse& answer)> makeReceiptOrNull;
     /// Why nothing can be stored at present, as part of a sentence.
     std::function<std::optional<std::string>()> getStoreFaultOrNull;
 };

@@ -44,9 +44,9 @@ Apps::HttpRoutes& HttpInterfaces::GetMonitoringRoutes() noexcept
     return _monitoringRoutes;
 }
 
-Apps::HttpRoutes& HttpInterfaces::GetOperatorRoutes() noexcept
+OperatorGate& HttpInterfaces::GetGate() noexcept
 {
-    return _gate.GetRoutes();
+    return _gate;
 }
 
 EventFeed& HttpInterfaces::GetEvents() noexcept

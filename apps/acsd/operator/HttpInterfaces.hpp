@@ -51,9 +51,11 @@ public:
     /// The clock and the sink of the logger outlive the interfaces.
     HttpInterfaces(Dependencies dependencies, const HttpConfig& config, std::unique_ptr<AuditLog> audit);
 
-    /// To be filled before Listen, as GetOperatorRoutes.
+    /// To be filled before Listen.
     [[nodiscard]] Apps::HttpRoutes& GetMonitoringRoutes() noexcept;
-    [[nodiscard]] Apps::HttpRoutes& GetOperatorRoutes() noexcept;
+
+    /// Of the operator address.
+    [[nodiscard]] OperatorGate& GetGate() noexcept;
 
     /// Of GET /v1/events.
     [[nodiscard]] EventFeed& GetEvents() noexcept;

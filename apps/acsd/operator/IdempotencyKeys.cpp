@@ -3,13 +3,14 @@
 #include "operator/OperatorAnswer.hpp"
 #include "operator/OperatorToken.hpp"
 #include <acs/core/Result.hpp>
-#include <acs/core/Timestamp.hpp>
 #include <acs/json/JsonDocument.hpp>
+#include <acs/json/JsonWriter.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
+#include <chrono>
+#include <string_view>
 #include <utility>
 
 namespace ACS::Acsd
@@ -52,20 +53,19 @@ std::string GetString(const Json::Value& object, std::string_view name)
         : std::string();
 }
 
-/// nullopt if the line does not have the whole answer.
-std::optional<Apps::HttpResponse> ReadAnswerOrNull(const Json::Value& line)
+std::string EncodeAnswer(std::string_view digest, const Apps::HttpResponse& response)
 {
-    const Json::Value* const statusOrNull = Json::FindFirstOrNull(line, "status");
-    const Json::Value* const answerOrNull = Json::FindFirstOrNull(line, "answer");
-    if (statusOrNull == nullptr || !statusOrNull->IsUint() || answerOrNull == nullptr)
-    {
-        return std::nullopt;
-    }
-    Apps::HttpResponse response{statusOrNull->GetUint(), "application/json"};
-    response.body = answerOrNull->IsString() ? R"({"message":"The answer was not kept over the restart of acsd."})"
-                                             : Json::WriteText(*answerOrNull);
-    response.body += '\n';
-    return response;
+    std::string text;
+    Json::JsonWriter writer(text);
+    writer.BeginObject();
+    writer.Key("digest");
+    writer.WriteString(digest);
+    writer.Key("status");
+    writer.WriteUnsigned(response.status);
+    writer.Key("body");
+    writer.WriteString(response.body);
+    writer.EndObject();
+    return text;
 }
 
 } // namespace
@@ -90,12 +90,14 @@ IdempotencyKeys::Answer IdempotencyKeys::Respond(
                 LONGEST_KEY,
                 Core::QuoteForError(*key)))};
     }
-    std::erase_if(_answers, [now](const Kept& answer) { return now - answer.answeredAt >= KEPT; });
+    std::erase_if(_answers, [now](const Kept& answer) {
+        return now - answer.answeredAt >= Planning::CommandReceipt::KEPT;
+    });
     const std::string owner = MakeOwner(GetText(identity.proof), identity.name);
     const CommandKey used{*key, MakeDigest(request), true};
     if (const Kept* const keptOrNull = FindOrNull(owner, *key); keptOrNull != nullptr)
     {
-        if (keptOrNull->digest != used.digest)
+        if (keptOrNull->used.digest != used.digest)
         {
             return {MakeOperatorError(KEY_REUSED, "This Idempotency-Key was used for another request: use a new one.")};
         }
@@ -103,64 +105,64 @@ IdempotencyKeys::Answer IdempotencyKeys::Respond(
         answer.response.headers.emplace_back("Idempotent-Replay", "true");
         return answer;
     }
+    _current = {owner, *key, used.digest};
     Apps::HttpResponse response = respond();
+    UsedKey current = *std::exchange(_current, std::nullopt);
     if (response.status >= FIRST_NOT_KEPT)
     {
         return {std::move(response)};
     }
-    Add({owner, *key, used.digest, response, now});
+    Add({std::move(current), response, now});
     return {std::move(response), {*key, used.digest, false}};
 }
 
-void IdempotencyKeys::Restore(std::string_view auditLines, Core::Now now)
+std::optional<Planning::CommandReceipt> IdempotencyKeys::MakeReceiptOrNull(
+    const Apps::HttpResponse& answer,
+    Core::WallTime now) const
 {
-    while (!auditLines.empty())
+    if (!_current.has_value())
     {
-        const std::size_t end = std::min(auditLines.find('\n'), auditLines.size());
-        RestoreLine(auditLines.substr(0, end), now);
-        auditLines.remove_prefix(std::min(end + 1, auditLines.size()));
+        return std::nullopt;
+    }
+    return Planning::CommandReceipt{_current->owner, _current->key, EncodeAnswer(_current->digest, answer), now};
+}
+
+void IdempotencyKeys::Restore(const std::vector<Planning::CommandReceipt>& receipts, Core::Now now)
+{
+    for (const Planning::CommandReceipt& receipt : receipts)
+    {
+        Json::JsonDocument document;
+        const Core::Result<const Json::Value*> answer = document.Parse(receipt.answer, Json::ParseLimits{});
+        const Json::Value* const statusOrNull =
+            answer.has_value() && (*answer)->IsObject() ? Json::FindFirstOrNull(**answer, "status") : nullptr;
+        // The wall clock may have been set back since.
+        const Core::Duration age =
+            std::max(std::chrono::duration_cast<Core::Duration>(now.wall - receipt.time), Core::Duration::zero());
+        if (statusOrNull == nullptr || !statusOrNull->IsUint() || age >= Planning::CommandReceipt::KEPT)
+        {
+            continue;
+        }
+        Apps::HttpResponse response{statusOrNull->GetUint(), "application/json"};
+        response.body = GetString(**answer, "body");
+        Add({{receipt.owner, receipt.key, GetString(**answer, "digest")}, std::move(response), now.steady - age});
     }
 }
 
 const IdempotencyKeys::Kept* IdempotencyKeys::FindOrNull(const std::string& owner, const std::string& key) const
 {
-    const auto found =
-        std::ranges::find_if(_answers, [&](const Kept& answer) { return answer.key == key && answer.owner == owner; });
+    const auto found = std::ranges::find_if(_answers, [&](const Kept& answer) {
+        return answer.used.key == key && answer.used.owner == owner;
+    });
     return found == _answers.end() ? nullptr : &*found;
 }
 
 void IdempotencyKeys::Add(Kept answer)
 {
-    if (_answers.size() >= MOST_KEYS)
+    if (_answers.size() >= Planning::CommandReceipt::MOST_RECEIPTS)
     {
         _answers.pop_front();
     }
     _answers.push_back(std::move(answer));
-}
-
-void IdempotencyKeys::RestoreLine(std::string_view text, Core::Now now)
-{
-    Json::JsonDocument document;
-    const Core::Result<const Json::Value*> line = document.Parse(text, Json::ParseLimits{});
-    if (!line.has_value() || !(*line)->IsObject())
-    {
-        return;
-    }
-    const std::string key = GetString(**line, "key");
-    const Core::Result<Core::Timestamp> time = Core::ParseTimestamp(GetString(**line, "time"));
-    std::optional<Apps::HttpResponse> response = ReadAnswerOrNull(**line);
-    if (!IsKey(key) || Json::FindFirstOrNull(**line, "replay") != nullptr || !time.has_value() || !response.has_value())
-    {
-        return;
-    }
-    // The wall clock may have been set back since.
-    const Core::Duration age =
-        std::max(std::chrono::duration_cast<Core::Duration>(now.wall - time->time), Core::Duration::zero());
-    const std::string owner = MakeOwner(GetString(**line, "proof"), GetString(**line, "name"));
-    if (age < KEPT && FindOrNull(owner, key) == nullptr)
-    {
-        Add({owner, key, GetString(**line, "digest"), std::move(*response), now.steady - age});
-    }
 }
 
 } // namespace ACS::Acsd

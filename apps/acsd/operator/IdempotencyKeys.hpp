@@ -4,26 +4,22 @@
 #include "operator/AccessPolicy.hpp"
 #include "operator/CommandKey.hpp"
 #include <acs/core/Now.hpp>
+#include <acs/plan/CommandReceipt.hpp>
 
-#include <chrono>
-#include <cstddef>
 #include <deque>
 #include <functional>
+#include <optional>
 #include <string>
-#include <string_view>
+#include <vector>
 
 namespace ACS::Acsd
 {
 
-/// The answers to commands with the header Idempotency-Key, bounded in number and time: a client that got no answer sends its
-/// command again, and it is executed once. A key belongs to the name that sent it. Pure.
+/// The answers to commands with the header Idempotency-Key, bounded in number and time as CommandReceipt: a client that got no
+/// answer sends its command again, and it is executed once. A key belongs to the name that sent it. Pure.
 class IdempotencyKeys final
 {
 public:
-    static constexpr std::chrono::minutes KEPT{10};
-    /// The oldest is dropped.
-    static constexpr std::size_t MOST_KEYS = 1'000;
-
     struct Answer
     {
         Apps::HttpResponse response;
@@ -31,16 +27,22 @@ public:
     };
 
 private:
-    struct Kept
+    struct UsedKey
     {
         std::string owner;
         std::string key;
         std::string digest;
+    };
+
+    struct Kept
+    {
+        UsedKey used;
         Apps::HttpResponse response;
         Core::SteadyTime answeredAt;
     };
 
-    std::deque<Kept> _answers; ///< The oldest first.
+    std::deque<Kept> _answers;       ///< The oldest first.
+    std::optional<UsedKey> _current; ///< Of the request that is being answered.
 
 public:
     /// Calls `respond`, or returns the kept answer of the same request with the header Idempotent-Replay. 409 if the key has
@@ -51,13 +53,17 @@ public:
         Core::SteadyTime now,
         const std::function<Apps::HttpResponse()>& respond);
 
-    /// Keeps the answers of the lines of the audit log, the oldest first, that are recent enough.
-    void Restore(std::string_view auditLines, Core::Now now);
+    /// For Restore in a later process, while `respond` is called; nullopt if the request has no key.
+    [[nodiscard]] std::optional<Planning::CommandReceipt> MakeReceiptOrNull(
+        const Apps::HttpResponse& answer,
+        Core::WallTime now) const;
+
+    /// Keeps the answers of the receipts, the oldest first, that are recent enough.
+    void Restore(const std::vector<Planning::CommandReceipt>& receipts, Core::Now now);
 
 private:
     [[nodiscard]] const Kept* FindOrNull(const std::string& owner, const std::string& key) const;
     void Add(Kept answer);
-    void RestoreLine(std::string_view text, Core::Now now);
 };
 
 } // namespace ACS::Acsd

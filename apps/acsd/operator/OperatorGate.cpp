@@ -40,7 +40,6 @@ OperatorGate::OperatorGate(const Core::IClock& clock, Core::Logger logger, Acces
     _routes.Add("GET", "/v1/audit", [this](const Apps::HttpRequest& request, const auto&) {
         return RespondWithLines(request, _audit.GetNewest());
     });
-    _keys.Restore(_audit.GetNewest().GetText(MOST_SHOWN_LINES), _clock.GetNow());
     _routes.Add("POST", LOGIN, [this](const Apps::HttpRequest& request, const auto&) { return Login(request); });
     _routes.Add("POST", LOGOUT, [this](const Apps::HttpRequest& request, const auto&) { return Logout(request); });
 }
@@ -53,6 +52,16 @@ Apps::HttpRoutes& OperatorGate::GetRoutes() noexcept
 void OperatorGate::SetPolicy(AccessPolicy policy)
 {
     _policy = std::move(policy);
+}
+
+void OperatorGate::Restore(const std::vector<Planning::CommandReceipt>& receipts)
+{
+    _keys.Restore(receipts, _clock.GetNow());
+}
+
+std::optional<Planning::CommandReceipt> OperatorGate::MakeReceiptOrNull(const Apps::HttpResponse& answer) const
+{
+    return _keys.MakeReceiptOrNull(answer, _clock.GetNow().wall);
 }
 
 void OperatorGate::SetLogoutHandler(std::function<void()> onLogout)

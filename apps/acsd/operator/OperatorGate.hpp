@@ -10,9 +10,11 @@
 #include "operator/OperatorToken.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
+#include <acs/plan/CommandReceipt.hpp>
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 namespace ACS::Acsd
 {
@@ -32,8 +34,7 @@ class OperatorGate final
     std::function<void()> _onLogout;
 
 public:
-    /// The clock, the sink of the logger and the audit log outlive the gate. Adds the routes of the audit log and of sessions,
-    /// and knows the keys of commands from the lines of the audit log.
+    /// The clock, the sink of the logger and the audit log outlive the gate. Adds the routes of the audit log and of sessions.
     OperatorGate(const Core::IClock& clock, Core::Logger logger, AccessPolicy policy, AuditLog& audit);
     OperatorGate(const OperatorGate&) = delete;
     OperatorGate& operator=(const OperatorGate&) = delete;
@@ -44,6 +45,12 @@ public:
 
     /// For all requests from now on.
     void SetPolicy(AccessPolicy policy);
+
+    /// The commands that a former process accepted.
+    void Restore(const std::vector<Planning::CommandReceipt>& receipts);
+
+    /// Of the command that is being answered; nullopt if it has no Idempotency-Key.
+    [[nodiscard]] std::optional<Planning::CommandReceipt> MakeReceiptOrNull(const Apps::HttpResponse& answer) const;
 
     /// Called after the end of a session.
     void SetLogoutHandler(std::function<void()> onLogout);

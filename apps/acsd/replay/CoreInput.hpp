@@ -2,6 +2,7 @@
 
 #include "AcsdTimer.hpp"
 #include <acs/core/Result.hpp>
+#include <acs/plan/CommandReceipt.hpp>
 #include <acs/plan/EngineInput.hpp>
 #include <acs/plan/IPlanStore.hpp>
 #include <acs/plan/PlanCommand.hpp>
@@ -50,6 +51,13 @@ struct StoreLostInput
     Core::Error error;
 };
 
+/// AcsdCore::Offer
+struct OfferInput
+{
+    Planning::PlanCommand command;
+    std::optional<Planning::CommandReceipt> receipt;
+};
+
 /// AcsdCore::OnLinksClosed
 struct LinksClosedInput
 {
@@ -65,7 +73,7 @@ struct CloseInput
 {
 };
 
-/// One call of AcsdCore. RobotInput, AcsdTimer, StoreLog and PlanCommand are the calls OnRobotEvent, OnTimer, OnStoreLog and Offer.
+/// One call of AcsdCore. RobotInput, AcsdTimer and StoreLog are the calls OnRobotEvent, OnTimer and OnStoreLog.
 using CoreInput = std::variant<
     RestoreInput,
     StartInput,
@@ -77,7 +85,7 @@ using CoreInput = std::variant<
     StoredInput,
     StoreLostInput,
     Planning::StoreLog,
-    Planning::PlanCommand,
+    OfferInput,
     LinksClosedInput,
     StopInput,
     CloseInput>;

@@ -230,7 +230,9 @@ void CoreReplay::Call(CoreInput input, const CoreRecord& record)
             },
             [this](const StoreLostInput& lost) { _core->OnStoreLost(lost.error); },
             [this](const Planning::StoreLog& log) { _core->OnStoreLog(log); },
-            [this](Planning::PlanCommand& command) { static_cast<void>(_core->Offer(std::move(command))); },
+            [this](OfferInput& offer) {
+                static_cast<void>(_core->Offer(std::move(offer.command), std::move(offer.receipt)));
+            },
             [this](const LinksClosedInput&) { _core->OnLinksClosed(); },
             [this](const StopInput&) { _core->Stop(); },
             [this](const CloseInput&) {

@@ -160,10 +160,10 @@ CoreRecord EncodeInput(const CoreInput& input)
             },
             [](const StoreLostInput& lost) { return MakeInputRecord(STORE_LOST_KIND, EncodeError(lost.error)); },
             [](const Planning::StoreLog& log) { return MakeInputRecord(STORE_LOG_KIND, EncodeRecord(log)); },
-            [](const Planning::PlanCommand& command) {
-                CoreRecord record = MakeInputRecord(OPERATOR_KIND, EncodeCommand(command));
-                record.planID = FindPlanID(command);
-                record.robotID = FindRobotID(command);
+            [](const OfferInput& offer) {
+                CoreRecord record = MakeInputRecord(OPERATOR_KIND, EncodeOffer(offer));
+                record.planID = FindPlanID(offer.command);
+                record.robotID = FindRobotID(offer.command);
                 return record;
             },
             [](const LinksClosedInput&) { return MakeInputRecord(LINKS_CLOSED_KIND); },
@@ -223,7 +223,7 @@ Core::Result<CoreInput> DecodeInput(const CoreRecord& record)
     }
     if (kind == OPERATOR_KIND)
     {
-        return AsInput(DecodeCommand(record.text));
+        return AsInput(DecodeOffer(record.text));
     }
     if (kind == START_KIND)
     {

@@ -1,5 +1,6 @@
 #include "replay/OperatorCommandCodec.hpp"
 
+#include "replay/ReceiptText.hpp"
 #include "replay/RecordJson.hpp"
 #include <acs/core/ECoreError.hpp>
 #include <acs/core/Overloaded.hpp>
@@ -37,6 +38,7 @@ struct CommandText
     std::uint64_t replyToken = 0;
     std::string origin;  ///< Of a control; empty: the MCS.
     std::string placeID; ///< Of a block, whose kind is the text.
+    std::optional<ReceiptText> receipt;
 };
 
 constexpr std::string_view SUBMIT_COMMAND = "SubmitPlan";
@@ -78,7 +80,8 @@ struct JsonFields<Acsd::CommandText>
         Optional("carrierIds", &Acsd::CommandText::carrierIDs),
         Defaulted("replyToken", &Acsd::CommandText::replyToken),
         Optional("origin", &Acsd::CommandText::origin),
-        Optional("placeId", &Acsd::CommandText::placeID));
+        Optional("placeId", &Acsd::CommandText::placeID),
+        Optional("receipt", &Acsd::CommandText::receipt));
 };
 
 } // namespace ACS::Json
@@ -291,15 +294,28 @@ Core::Result<Planning::PlanCommand> MakePlanCommand(CommandText text)
 
 } // namespace
 
-std::string EncodeCommand(const Planning::PlanCommand& command)
+std::string EncodeOffer(const OfferInput& offer)
 {
-    return EncodeRecord(MakeCommandText(command));
+    CommandText text = MakeCommandText(offer.command);
+    if (offer.receipt.has_value())
+    {
+        text.receipt = MakeReceiptText(*offer.receipt);
+    }
+    return EncodeRecord(text);
 }
 
-Core::Result<Planning::PlanCommand> DecodeCommand(std::string_view text)
+Core::Result<OfferInput> DecodeOffer(std::string_view text)
 {
-    return DecodeRecord<CommandText>(text).and_then(
-        [](CommandText&& read) { return MakePlanCommand(std::move(read)); });
+    return DecodeRecord<CommandText>(text).and_then([](CommandText&& read) {
+        std::optional<Planning::CommandReceipt> receipt;
+        if (read.receipt.has_value())
+        {
+            receipt = MakeReceipt(*read.receipt);
+        }
+        return MakePlanCommand(std::move(read)).map([&receipt](Planning::PlanCommand&& command) {
+            return OfferInput{std::move(command), std::move(receipt)};
+        });
+    });
 }
 
 std::string FindPlanID(const Planning::PlanCommand& command)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "replay/CoreInput.hpp"
 #include <acs/core/Result.hpp>
 #include <acs/plan/PlanCommand.hpp>
 
@@ -9,11 +10,11 @@
 namespace ACS::Acsd
 {
 
-/// JSON of a command of the operator.
-[[nodiscard]] std::string EncodeCommand(const Planning::PlanCommand& command);
+/// JSON of a command of the operator, with its receipt.
+[[nodiscard]] std::string EncodeOffer(const OfferInput& offer);
 
-/// Reads what EncodeCommand wrote. Accepts any text.
-[[nodiscard]] Core::Result<Planning::PlanCommand> DecodeCommand(std::string_view text);
+/// Reads what EncodeOffer wrote. Accepts any text.
+[[nodiscard]] Core::Result<OfferInput> DecodeOffer(std::string_view text);
 
 /// Of the plan and the robot that the command is about; empty: none.
 [[nodiscard]] std::string FindPlanID(const Planning::PlanCommand& command);

@@ -1,5 +1,6 @@
 #include "replay/StateCodec.hpp"
 
+#include "replay/ReceiptText.hpp"
 #include "replay/RecordJson.hpp"
 #include <acs/core/ECoreError.hpp>
 #include <acs/core/JsonText.hpp>
@@ -51,6 +52,7 @@ struct StoreText
     std::string holdReason;
     std::vector<std::string> robotWorks;
     std::vector<std::string> blocks;
+    std::vector<ReceiptText> receipts;
 };
 
 } // namespace
@@ -94,7 +96,8 @@ struct JsonFields<Acsd::StoreText>
         Required("tsc", &Acsd::StoreText::tscState),
         Optional("holdReason", &Acsd::StoreText::holdReason),
         Optional("robotWorks", &Acsd::StoreText::robotWorks),
-        Optional("blocks", &Acsd::StoreText::blocks));
+        Optional("blocks", &Acsd::StoreText::blocks),
+        Optional("receipts", &Acsd::StoreText::receipts));
 };
 
 } // namespace ACS::Json
@@ -166,6 +169,7 @@ Core::Result<Planning::StoredState> MakeStoredState(const StoreText& text)
     state.lastReportSequence = text.lastReportSequence;
     state.robotsInMaintenance = text.robotsInMaintenance;
     state.holdReason = text.holdReason;
+    std::ranges::transform(text.receipts, std::back_inserter(state.receipts), MakeReceipt);
     return ReadTscState(text.tscState)
         .and_then([&](Planning::ETscState tsc) {
             state.tscState = tsc;
@@ -247,6 +251,11 @@ std::string DescribeChange(const Planning::StoreChange& change)
                     R"({{"change":"BlockRemoved","kind":"{}","id":{}}})",
                     GetText(removed.kind),
                     QuoteText(removed.id));
+            },
+            [](const ReceiptAdded& added) {
+                return fmt::format(
+                    R"({{"change":"ReceiptAdded","receipt":{}}})",
+                    EncodeRecord(MakeReceiptText(added.receipt)));
             }},
         change);
 }
@@ -311,6 +320,7 @@ std::string EncodeState(const Planning::StoredState& state)
     text.holdReason = state.holdReason;
     std::ranges::transform(state.robotWorks, std::back_inserter(text.robotWorks), Planning::EncodeRobotWork);
     std::ranges::transform(state.blocks, std::back_inserter(text.blocks), Planning::EncodeBlock);
+    std::ranges::transform(state.receipts, std::back_inserter(text.receipts), MakeReceiptText);
     return EncodeRecord(text);
 }
 

@@ -106,6 +106,17 @@ void ChangeWriter::Write(const StoreChange& change)
         },
         [this](const BlockRemoved& removed) {
             Run("DELETE FROM blocks WHERE kind = ? AND id = ?", std::string(GetText(removed.kind)), removed.id);
+        },
+        [this](const ReceiptAdded& added) {
+            const CommandReceipt& receipt = added.receipt;
+            Run("INSERT INTO receipts (owner, key, answer, time) VALUES (?, ?, ?, ?)",
+                receipt.owner,
+                receipt.key,
+                receipt.answer,
+                ToCount(receipt.time));
+            Run("DELETE FROM receipts WHERE time <= ? OR sequence <= last_insert_rowid() - ?",
+                ToCount(receipt.time - CommandReceipt::KEPT),
+                static_cast<std::int64_t>(CommandReceipt::MOST_RECEIPTS));
         }};
     std::visit(writer, change);
 }

@@ -120,6 +120,19 @@ Core::Result<void> ReadReports(SQLite::Database& database, const std::string& pa
     return {};
 }
 
+void ReadReceipts(SQLite::Database& database, StoredState& state)
+{
+    SQLite::Statement query(database, "SELECT owner, key, answer, time FROM receipts ORDER BY sequence");
+    while (query.executeStep())
+    {
+        state.receipts.push_back(
+            {query.getColumn(0).getString(),
+             query.getColumn(1).getString(),
+             query.getColumn(2).getString(),
+             ToTime(query.getColumn(3).getInt64())});
+    }
+}
+
 void ReadHoldReason(SQLite::Database& database, StoredState& state)
 {
     SQLite::Statement query(database, "SELECT value FROM settings WHERE name = 'hold_reason'");
@@ -154,6 +167,7 @@ Core::Result<StoredState> ReadState(SQLite::Database& database, const std::strin
 {
     StoredState state;
     ReadHoldReason(database, state);
+    ReadReceipts(database, state);
     SQLite::Statement maintenance(database, "SELECT robot_id FROM maintenance ORDER BY robot_id");
     while (maintenance.executeStep())
     {

@@ -45,6 +45,9 @@ constexpr std::array MIGRATIONS{
     // Nodes, edges and stations that an operator has blocked, in the order of the sequence.
     "CREATE TABLE blocks (sequence INTEGER PRIMARY KEY, kind TEXT NOT NULL, id TEXT NOT NULL, block TEXT NOT NULL,"
     "  UNIQUE (kind, id));",
+    // Commands of operators that were accepted, which their senders may repeat. Few: deleted by age and number.
+    "CREATE TABLE receipts (sequence INTEGER PRIMARY KEY, owner TEXT NOT NULL, key TEXT NOT NULL, answer TEXT NOT NULL,"
+    "  time INTEGER NOT NULL);",
 };
 
 } // namespace

@@ -17,7 +17,8 @@ namespace
 /// A class is postponed at most this often before it has its turn.
 constexpr std::size_t LONGEST_POSTPONEMENT = 16;
 
-RobotEvent& GetEvent(EngineInput& input)
+template <typename TInput>
+RobotEvent& GetEvent(TInput& input)
 {
     return std::get<RobotInput>(input).event;
 }
@@ -64,11 +65,11 @@ InputQueue::InputQueue(const InputLimits& limits)
 {
 }
 
-bool InputQueue::TryPush(EngineInput& input)
+bool InputQueue::TryPush(EngineInput& input, std::optional<CommandReceipt> receiptOrNull)
 {
     return std::visit(
         Core::Overloaded{
-            [this](PlanCommand& command) { return TryPushCommand(command); },
+            [this, &receiptOrNull](PlanCommand& command) { return TryPushCommand(command, std::move(receiptOrNull)); },
             [this](RobotInput& robot) {
                 PushRobot(std::move(robot));
                 return true;
@@ -91,7 +92,7 @@ bool InputQueue::TryPush(EngineInput& input)
         input);
 }
 
-bool InputQueue::TryPushCommand(PlanCommand& command)
+bool InputQueue::TryPushCommand(PlanCommand& command, std::optional<CommandReceipt> receiptOrNull)
 {
     return std::visit(
         Core::Overloaded{
@@ -100,13 +101,15 @@ bool InputQueue::TryPushCommand(PlanCommand& command)
                 return true;
             },
             [this, &command](const SubmitPlan&) { return TryPushPlan(command); },
-            [this, &command](const ControlPlan&) { return TryPushControl(command); },
-            [this, &command](const auto&) {
+            [this, &command, &receiptOrNull](const ControlPlan&) {
+                return TryPushControl(command, std::move(receiptOrNull));
+            },
+            [this, &command, &receiptOrNull](const auto&) {
                 if (_operator.size() >= _limits.operatorCommands)
                 {
                     return false;
                 }
-                _operator.push_back(std::move(command));
+                _operator.push_back({std::move(command), std::move(receiptOrNull)});
                 return true;
             }},
         command);
@@ -120,11 +123,11 @@ bool InputQueue::TryPushPlan(PlanCommand& command)
     }
     ++_planCount;
     _planBytes += CountBytes(std::get<SubmitPlan>(command).plan);
-    _plans.push_back(std::move(command));
+    _plans.push_back({std::move(command), std::nullopt});
     return true;
 }
 
-bool InputQueue::TryPushControl(PlanCommand& command)
+bool InputQueue::TryPushControl(PlanCommand& command, std::optional<CommandReceipt> receiptOrNull)
 {
     if (_controlCount >= _limits.controls)
     {
@@ -132,17 +135,18 @@ bool InputQueue::TryPushControl(PlanCommand& command)
     }
     ++_controlCount;
     const bool bPlanWaits =
-        std::ranges::any_of(_plans, [&planID = std::get<ControlPlan>(command).planID](const PlanCommand& waiting) {
-            const auto* const planOrNull = std::get_if<SubmitPlan>(&waiting);
+        std::ranges::any_of(_plans, [&planID = std::get<ControlPlan>(command).planID](const QueuedCommand& waiting) {
+            const auto* const planOrNull = std::get_if<SubmitPlan>(&waiting.command);
             return planOrNull != nullptr && planOrNull->plan.planID == planID;
         });
+    QueuedCommand queued{std::move(command), std::move(receiptOrNull)};
     if (bPlanWaits)
     {
-        _plans.push_back(std::move(command));
+        _plans.push_back(std::move(queued));
     }
     else
     {
-        _urgent.emplace_back(std::move(command));
+        _urgent.emplace_back(std::move(queued));
     }
     return true;
 }
@@ -237,14 +241,21 @@ InputQueue::Next InputQueue::Pop()
     assert(!IsEmpty());
     if (!_acknowledged.empty())
     {
-        return std::vector<PlanCommand>{MessageAcknowledged{_acknowledged.extract(_acknowledged.begin()).value()}};
+        return Commands{{MessageAcknowledged{_acknowledged.extract(_acknowledged.begin()).value()}}, {}};
     }
     switch (ChooseClass())
     {
         case EClass::Plans:
             return PopPlans();
         case EClass::Operator:
-            return std::exchange(_operator, {});
+        {
+            Commands commands;
+            for (QueuedCommand& queued : std::exchange(_operator, {}))
+            {
+                AppendCommand(std::move(queued), commands);
+            }
+            return commands;
+        }
         case EClass::Urgent:
         default:
             return PopUrgent();
@@ -271,13 +282,15 @@ InputQueue::EClass InputQueue::ChooseClass()
 
 InputQueue::Next InputQueue::PopUrgent()
 {
-    EngineInput input = std::move(_urgent.front());
+    auto input = std::move(_urgent.front());
     _urgent.pop_front();
     return std::visit(
         Core::Overloaded{
-            [this](PlanCommand& command) -> Next {
+            [this](QueuedCommand& queued) -> Next {
                 --_controlCount;
-                return std::vector<PlanCommand>{std::move(command)};
+                Commands commands;
+                AppendCommand(std::move(queued), commands);
+                return commands;
             },
             [this](RobotInput& robot) -> Next {
                 _robots.find(robot.robotID)->second.pop_front();
@@ -294,42 +307,53 @@ InputQueue::Next InputQueue::PopUrgent()
 }
 
 /// The plans up to the next control, or that control.
-std::vector<PlanCommand> InputQueue::PopPlans()
+InputQueue::Commands InputQueue::PopPlans()
 {
-    const auto isPlan = [](const PlanCommand& command) {
-        return std::holds_alternative<SubmitPlan>(command);
+    const auto isPlan = [](const QueuedCommand& queued) {
+        return std::holds_alternative<SubmitPlan>(queued.command);
     };
-    std::vector<PlanCommand> commands;
+    Commands commands;
     if (!isPlan(_plans.front()))
     {
         --_controlCount;
-        commands.push_back(std::move(_plans.front()));
+        AppendCommand(std::move(_plans.front()), commands);
         _plans.pop_front();
         return commands;
     }
-    const auto end = std::ranges::find_if_not(_plans, isPlan);
-    std::move(_plans.begin(), end, std::back_inserter(commands));
-    _plans.erase(_plans.begin(), end);
-    for (const PlanCommand& command : commands)
+    while (!_plans.empty() && isPlan(_plans.front()))
     {
         --_planCount;
-        _planBytes -= CountBytes(std::get<SubmitPlan>(command).plan);
+        _planBytes -= CountBytes(std::get<SubmitPlan>(_plans.front().command).plan);
+        AppendCommand(std::move(_plans.front()), commands);
+        _plans.pop_front();
     }
     return commands;
+}
+
+void InputQueue::AppendCommand(QueuedCommand queued, Commands& commands)
+{
+    commands.commands.push_back(std::move(queued.command));
+    if (queued.receipt.has_value())
+    {
+        commands.receipts.push_back(std::move(*queued.receipt));
+    }
 }
 
 std::vector<PlanCommand> InputQueue::Clear()
 {
     std::vector<PlanCommand> commands;
-    for (EngineInput& input : _urgent)
+    const auto append = [&commands](QueuedCommand& queued) {
+        commands.push_back(std::move(queued.command));
+    };
+    for (auto& input : _urgent)
     {
-        if (auto* const controlOrNull = std::get_if<PlanCommand>(&input); controlOrNull != nullptr)
+        if (auto* const controlOrNull = std::get_if<QueuedCommand>(&input); controlOrNull != nullptr)
         {
-            commands.push_back(std::move(*controlOrNull));
+            append(*controlOrNull);
         }
     }
-    std::ranges::move(_plans, std::back_inserter(commands));
-    std::ranges::move(_operator, std::back_inserter(commands));
+    std::ranges::for_each(_plans, append);
+    std::ranges::for_each(_operator, append);
     *this = InputQueue(_limits);
     return commands;
 }

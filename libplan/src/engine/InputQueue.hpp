@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/plan/CommandReceipt.hpp>
 #include <acs/plan/EngineInput.hpp>
 
 #include <array>
@@ -23,8 +24,15 @@ namespace ACS::Planning
 class InputQueue
 {
 public:
-    /// Inputs of one call of the engine. Several commands are all plans, or all of the operator.
-    using Next = std::variant<RobotInput, EngineTimer, StoreLog, std::vector<PlanCommand>>;
+    /// Commands of one call of the engine. Several are all plans, or all of the operator.
+    struct Commands
+    {
+        std::vector<PlanCommand> commands;
+        std::vector<CommandReceipt> receipts; ///< Of those that have one.
+    };
+
+    /// Inputs of one call of the engine.
+    using Next = std::variant<RobotInput, EngineTimer, StoreLog, Commands>;
 
 private:
     enum class EClass : std::uint8_t
@@ -35,7 +43,13 @@ private:
     };
     static constexpr std::size_t CLASSES = 3;
 
-    using Inputs = std::list<EngineInput>;
+    struct QueuedCommand
+    {
+        PlanCommand command;
+        std::optional<CommandReceipt> receipt;
+    };
+
+    using Inputs = std::list<std::variant<QueuedCommand, RobotInput, EngineTimer, StoreLog>>;
     using RobotInputs = std::deque<Inputs::iterator>; ///< Of one robot, oldest first.
 
     InputLimits _limits;
@@ -44,8 +58,8 @@ private:
     std::map<std::string, RobotInputs> _robots; ///< The events in _urgent.
     std::set<EngineTimer> _timers;              ///< Those in _urgent.
     std::optional<StoreLog> _storeLog;          ///< The latest; an empty one in _urgent has its place.
-    std::deque<PlanCommand> _plans;             ///< With the controls that stay after a plan.
-    std::vector<PlanCommand> _operator;
+    std::deque<QueuedCommand> _plans;           ///< With the controls that stay after a plan.
+    std::vector<QueuedCommand> _operator;
     std::size_t _planCount = 0;
     std::size_t _planBytes = 0;
     std::size_t _controlCount = 0;                 ///< In both classes.
@@ -54,8 +68,9 @@ private:
 public:
     explicit InputQueue(const InputLimits& limits);
 
-    /// Queues the input, or merges it into one that waits. False: its class is full, and the input is unchanged.
-    [[nodiscard]] bool TryPush(EngineInput& input);
+    /// Queues the input, or merges it into one that waits. False: its class is full, and the input is unchanged. The receipt
+    /// is that of a command.
+    [[nodiscard]] bool TryPush(EngineInput& input, std::optional<CommandReceipt> receiptOrNull = std::nullopt);
     /// Only if not empty.
     [[nodiscard]] Next Pop();
     /// Removes all inputs. Returns the commands among them, except acknowledgements.
@@ -64,9 +79,9 @@ public:
     [[nodiscard]] std::size_t GetCount() const noexcept;
 
 private:
-    [[nodiscard]] bool TryPushCommand(PlanCommand& command);
+    [[nodiscard]] bool TryPushCommand(PlanCommand& command, std::optional<CommandReceipt> receiptOrNull);
     [[nodiscard]] bool TryPushPlan(PlanCommand& command);
-    [[nodiscard]] bool TryPushControl(PlanCommand& command);
+    [[nodiscard]] bool TryPushControl(PlanCommand& command, std::optional<CommandReceipt> receiptOrNull);
     void PushRobot(RobotInput input);
     /// Into a waiting event, without a loss: the engine decides on nothing that differs between them.
     [[nodiscard]] static bool TryMerge(const RobotInputs& waiting, const RobotEvent& event);
@@ -74,7 +89,8 @@ private:
     [[nodiscard]] bool TryReplace(RobotInputs& waiting, const RobotEvent& event);
     [[nodiscard]] EClass ChooseClass();
     [[nodiscard]] Next PopUrgent();
-    [[nodiscard]] std::vector<PlanCommand> PopPlans();
+    [[nodiscard]] Commands PopPlans();
+    static void AppendCommand(QueuedCommand queued, Commands& commands);
 };
 
 } // namespace ACS::Planning

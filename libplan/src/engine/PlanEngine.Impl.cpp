@@ -75,7 +75,11 @@ void PlanEngine::Impl::Restore(StoredState state, Core::Now now, EngineActions& 
     End(out);
 }
 
-void PlanEngine::Impl::HandleCommands(std::span<const PlanCommand> commands, Core::Now now, EngineActions& out)
+void PlanEngine::Impl::HandleCommands(
+    std::span<const PlanCommand> commands,
+    std::span<const CommandReceipt> receipts,
+    Core::Now now,
+    EngineActions& out)
 {
     const auto isAcknowledgement = [](const PlanCommand& command) {
         return std::holds_alternative<MessageAcknowledged>(command);
@@ -83,6 +87,9 @@ void PlanEngine::Impl::HandleCommands(std::span<const PlanCommand> commands, Cor
     assert(commands.size() == 1 || CanShareTransaction(commands));
     Begin(now);
     std::ranges::for_each(commands, [this](const PlanCommand& command) { HandleCommand(command); });
+    std::ranges::for_each(receipts, [this](const CommandReceipt& receipt) {
+        _engine.transaction.Store(ReceiptAdded{receipt});
+    });
     if (!std::ranges::all_of(commands, isAcknowledgement))
     {
         std::ranges::for_each(_engine.fleet, [this](const Robot& robot) { _places.NoteMovable(robot); });

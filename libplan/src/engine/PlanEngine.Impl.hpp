@@ -65,7 +65,11 @@ public:
 
     void SetObserver(IPlanObserver& observer);
     void Restore(StoredState state, Core::Now now, EngineActions& out);
-    void HandleCommands(std::span<const PlanCommand> commands, Core::Now now, EngineActions& out);
+    void HandleCommands(
+        std::span<const PlanCommand> commands,
+        std::span<const CommandReceipt> receipts,
+        Core::Now now,
+        EngineActions& out);
     void HandleEvent(std::string_view robotID, const RobotEvent& event, Core::Now now, EngineActions& out);
     void OnTimer(const EngineTimer& timer, Core::Now now, EngineActions& out);
     void OnStored(const Core::Result<void>& result, Core::Now now, EngineActions& out);

@@ -22,12 +22,16 @@ void PlanEngine::Restore(StoredState state, Core::Now now, EngineActions& out)
 
 void PlanEngine::Handle(const PlanCommand& command, Core::Now now, EngineActions& out)
 {
-    _impl->HandleCommands({&command, 1}, now, out);
+    _impl->HandleCommands({&command, 1}, {}, now, out);
 }
 
-void PlanEngine::Handle(std::span<const PlanCommand> commands, Core::Now now, EngineActions& out)
+void PlanEngine::Handle(
+    std::span<const PlanCommand> commands,
+    std::span<const CommandReceipt> receipts,
+    Core::Now now,
+    EngineActions& out)
 {
-    _impl->HandleCommands(commands, now, out);
+    _impl->HandleCommands(commands, receipts, now, out);
 }
 
 void PlanEngine::Handle(std::string_view robotID, const RobotEvent& event, Core::Now now, EngineActions& out)

@@ -57,14 +57,14 @@ void PlanEngineHost::Push(EngineInput input)
     }
 }
 
-EInputAdmission PlanEngineHost::Offer(PlanCommand command)
+EInputAdmission PlanEngineHost::Offer(PlanCommand command, std::optional<CommandReceipt> receiptOrNull)
 {
     if (_bClosed)
     {
         return EInputAdmission::Closed;
     }
     EngineInput input = std::move(command);
-    if (!_inputs->TryPush(input))
+    if (!_inputs->TryPush(input, std::move(receiptOrNull)))
     {
         return EInputAdmission::Full;
     }
@@ -163,7 +163,7 @@ void PlanEngineHost::CallEngine()
     EngineActions actions;
     std::visit(
         Core::Overloaded{
-            [&](const std::vector<PlanCommand>& commands) { _engine.Handle(commands, now, actions); },
+            [&](const InputQueue::Commands& input) { _engine.Handle(input.commands, input.receipts, now, actions); },
             [&](const RobotInput& robot) { _engine.Handle(robot.robotID, robot.event, now, actions); },
             [&](const EngineTimer& timer) { _engine.OnTimer(timer, now, actions); },
             [&](const StoreLog& log) {

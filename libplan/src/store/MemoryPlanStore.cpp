@@ -63,6 +63,16 @@ void ApplyChange(StoredState& state, const StoreChange& change)
                     return block.kind == removed.kind && block.id == removed.id;
                 });
             },
+            [&state](const ReceiptAdded& added) {
+                std::erase_if(state.receipts, [&added](const CommandReceipt& receipt) {
+                    return added.receipt.time - receipt.time >= CommandReceipt::KEPT;
+                });
+                if (state.receipts.size() >= CommandReceipt::MOST_RECEIPTS)
+                {
+                    state.receipts.erase(state.receipts.begin());
+                }
+                state.receipts.push_back(added.receipt);
+            },
             [&state](const TscChanged& changed) {
                 state.tscState = changed.state;
                 if (changed.state == ETscState::Auto)

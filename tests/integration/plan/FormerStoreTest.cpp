@@ -31,7 +31,9 @@ void MakeFormerStore(const StoreFolder& folder, const std::string& file)
     Files::rename(GetDatabase(source), file);
     Files::remove_all(source);
     SQLite::Database database(file, SQLite::OPEN_READWRITE);
-    database.exec("DELETE FROM settings; DROP TABLE blocks; PRAGMA user_version = " + std::to_string(FORMER_SCHEMA));
+    database.exec(
+        "DELETE FROM settings; DROP TABLE blocks; DROP TABLE receipts; PRAGMA user_version = "
+        + std::to_string(FORMER_SCHEMA));
     std::ofstream(file + ".lock").close();
 }
 

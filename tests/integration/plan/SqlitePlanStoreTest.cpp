@@ -103,6 +103,8 @@ std::vector<StoreBatch> MakeBatches()
           CarriersChanged{"LR01", {"C1"}},
           ReportAdded{MakeEntry(3, "P1")},
           ReportRemoved{3},
+          ReceiptAdded{{"token lee", "k1", R"({"status":202})", Testing::ManualClock().GetNow().wall}},
+          ReceiptAdded{{"token kim", "k1", {}, Testing::ManualClock().GetNow().wall}},
           later}}};
 }
 
@@ -190,7 +192,37 @@ TEST_CASE("Store: databases of the first and second schema are migrated without 
     }
 }
 
-TEST_CASE("Store: a database of the fourth schema, without blocks, is migrated without loss")
+TEST_CASE("Store: receipts are kept 10 minutes, at most 1,000 of them")
+{
+    const StoreFolder folder;
+    const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetStore());
+    MemoryPlanStore memory;
+    const auto add = [&](const std::string& key, Core::WallTime time) {
+        const StoreBatch batch{{ReceiptAdded{{"lee", key, "answer", time}}}};
+        REQUIRE(store->Append(batch).has_value());
+        REQUIRE(memory.Append(batch).has_value());
+        REQUIRE(store->Load()->receipts == memory.GetState().receipts);
+        return memory.GetState().receipts;
+    };
+    const Core::WallTime start = Testing::ManualClock().GetNow().wall;
+    add("old", start);
+    add("older", start + std::chrono::milliseconds(1));
+    const std::vector<CommandReceipt> kept = add("new", start + CommandReceipt::KEPT);
+    REQUIRE(kept.size() == 2);
+    CHECK(kept.front().key == "older");
+    StoreBatch many;
+    for (std::size_t number = 0; number < CommandReceipt::MOST_RECEIPTS; ++number)
+    {
+        many.changes.emplace_back(ReceiptAdded{{"lee", std::to_string(number), {}, start}});
+    }
+    REQUIRE(store->Append(many).has_value());
+    REQUIRE(memory.Append(many).has_value());
+    CHECK(store->Load()->receipts.size() == CommandReceipt::MOST_RECEIPTS);
+    CHECK(store->Load()->receipts.front().key == "0");
+    CHECK(store->Load()->receipts == memory.GetState().receipts);
+}
+
+TEST_CASE("Store: a database of the fourth schema, without blocks and receipts, is migrated without loss")
 {
     const StoreFolder folder;
     MemoryPlanStore memory;
@@ -199,7 +231,7 @@ TEST_CASE("Store: a database of the fourth schema, without blocks, is migrated w
     REQUIRE(OpenStore(folder.GetStore())->Append(batch).has_value());
     {
         SQLite::Database database(GetDatabase(folder.GetStore()), SQLite::OPEN_READWRITE);
-        database.exec("DROP TABLE blocks; PRAGMA user_version = 4");
+        database.exec("DROP TABLE blocks; DROP TABLE receipts; PRAGMA user_version = 4");
     }
     const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetStore());
     CHECK(store->GetOrigin().foundVersion == 4);

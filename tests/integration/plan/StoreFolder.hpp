@@ -17,7 +17,7 @@ namespace ACS::Planning::Test
 {
 
 /// The version of the schema.
-inline constexpr int NEWEST = 5;
+inline constexpr int NEWEST = 6;
 
 class StoreFolder : public Testing::TemporaryFolder
 {

@@ -3,6 +3,7 @@
 #include <acs/core/Api.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/plan/Block.hpp>
+#include <acs/plan/CommandReceipt.hpp>
 #include <acs/plan/ETscState.hpp>
 #include <acs/plan/PlanRecord.hpp>
 #include <acs/plan/Report.hpp>
@@ -138,6 +139,14 @@ struct BlockRemoved
     bool operator==(const BlockRemoved&) const = default;
 };
 
+/// A command of an operator was accepted. Drops the receipts beyond the limits of CommandReceipt.
+struct ReceiptAdded
+{
+    CommandReceipt receipt; ///< The newest.
+
+    bool operator==(const ReceiptAdded&) const = default;
+};
+
 /// One change of what a store has. StoredState is the result of all changes.
 using StoreChange = std::variant<
     PlanAdded,
@@ -152,7 +161,8 @@ using StoreChange = std::variant<
     RobotWorkChanged,
     MaintenanceChanged,
     BlockAdded,
-    BlockRemoved>;
+    BlockRemoved,
+    ReceiptAdded>;
 
 /// Changes that are stored as one transaction.
 struct StoreBatch
@@ -177,6 +187,7 @@ struct StoredState
     std::string holdReason;
     std::vector<RobotWorkChanged> robotWorks; ///< The last one of each robot.
     std::vector<Block> blocks;                ///< In the order in which they were added.
+    std::vector<CommandReceipt> receipts;     ///< The oldest first.
 
     bool operator==(const StoredState&) const = default;
 };

@@ -71,8 +71,13 @@ public:
     void Handle(const PlanCommand& command, Core::Now now, EngineActions& out);
 
     /// Handles several commands in this order with a single StorePlans, because a store on disk needs about the same time for
-    /// many changes as for one. Either all are SubmitPlan, or none is SubmitPlan or ControlPlan.
-    void Handle(std::span<const PlanCommand> commands, Core::Now now, EngineActions& out);
+    /// many changes as for one. Either all are SubmitPlan, or none is SubmitPlan or ControlPlan. The same StorePlans has the
+    /// receipts, also if the commands change nothing.
+    void Handle(
+        std::span<const PlanCommand> commands,
+        std::span<const CommandReceipt> receipts,
+        Core::Now now,
+        EngineActions& out);
 
     /// Handles an event of a robot. Ignored if the robot is not configured, or if the event belongs to another drive or job
     /// than the robot's current one.

@@ -3,6 +3,7 @@
 #include <acs/core/Api.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
+#include <acs/plan/CommandReceipt.hpp>
 #include <acs/plan/EngineInput.hpp>
 #include <acs/plan/PlanEngine.hpp>
 
@@ -10,6 +11,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 namespace ACS::Planning
@@ -60,8 +62,11 @@ public:
     /// inputs are dropped after Close.
     void Push(EngineInput input);
 
-    /// As Push, for a command whose sender waits for no reply. Unless Accepted, the command is not handled.
-    [[nodiscard]] EInputAdmission Offer(PlanCommand command);
+    /// As Push, for a command of the operator, whose sender waits for no reply. Unless Accepted, the command is not handled.
+    /// The receipt is stored in the transaction of the command; if that fails, with the retry.
+    [[nodiscard]] EInputAdmission Offer(
+        PlanCommand command,
+        std::optional<CommandReceipt> receiptOrNull = std::nullopt);
 
     /// The result of the batch that was passed to the StoreHandler.
     void OnStored(const Core::Result<void>& result);

@@ -5,6 +5,7 @@
 #include "view/StateViewMaker.hpp"
 #include "view/ViewCodec.hpp"
 
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -30,18 +31,23 @@ public:
     Planning::EInputAdmission admission = Planning::EInputAdmission::Accepted;
     std::chrono::seconds retryAfter{}; ///< Of the last answer.
     std::optional<std::string> storeFault;
+    std::optional<Planning::CommandReceipt> receipt; ///< Of the last command.
 
     Operator()
     {
         Acsd::AddCommandRoutes(
             _routes,
             *world.engine,
-            {[this](const Planning::PlanCommand& command) {
+            {[this](const Planning::PlanCommand& command, std::optional<Planning::CommandReceipt> receiptOrNull) {
+                 receipt = std::move(receiptOrNull);
                  if (admission == Planning::EInputAdmission::Accepted)
                  {
                      world.Ask(command);
                  }
                  return admission;
+             },
+             [](const Apps::HttpResponse& answer) {
+                 return Planning::CommandReceipt{"lee", "k", answer.body, {}};
              },
              [this] {
                  return storeFault;
@@ -168,6 +174,18 @@ TEST_CASE("POST /v1/plans/PLAN/jobs/JOB/resolve resolves an unresolved job, and 
     CHECK(HasText(user.Post("/v1/plans/P1/jobs/P1-a4/resolve", FAILED), "404 "));
     REQUIRE(user.world.TryRun());
     CHECK(user.world.GetReportsOf("P1").back() == "Plan Completed");
+}
+
+TEST_CASE("A command has the receipt of its answer, unless the store cannot be written")
+{
+    Operator user;
+    const std::string answer = user.Post("/v1/robots/LR01/maintenance", R"({"on":true})");
+    REQUIRE(HasText(answer, "202 "));
+    REQUIRE(user.receipt.has_value());
+    CHECK("202 " + user.receipt->answer == answer);
+    user.storeFault = "the store cannot be written";
+    REQUIRE(HasText(user.Post("/v1/tsc/pause"), "202 "));
+    CHECK_FALSE(user.receipt.has_value());
 }
 
 TEST_CASE("POST /v1/plans/PLAN/steps/NO/skip skips a step that is Pending or whose job is unresolved, and no other")

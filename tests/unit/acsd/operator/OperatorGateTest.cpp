@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 using namespace ACS; // NOLINT(google-build-using-namespace)
 using Acsd::AccessPolicy;
@@ -32,6 +35,7 @@ struct GateFixture
              std::nullopt}),
         *audit};
     int commands = 0;
+    std::vector<Planning::CommandReceipt> receipts; ///< Of the commands with a key.
 
     GateFixture()
     {
@@ -40,7 +44,12 @@ struct GateFixture
         });
         gate.GetRoutes().Add("POST", "/v1/tsc/pause", [this](const auto&, const auto&) {
             ++commands;
-            return Apps::HttpResponse{202, "application/json", "{\"message\":\"paused\"}\n"};
+            const Apps::HttpResponse answer{202, "application/json", "{\"message\":\"paused\"}\n"};
+            if (std::optional<Planning::CommandReceipt> receipt = gate.MakeReceiptOrNull(answer); receipt.has_value())
+            {
+                receipts.push_back(std::move(*receipt));
+            }
+            return answer;
         });
     }
 
@@ -268,17 +277,13 @@ TEST_CASE("A command with a key is executed once, also over a restart, and each 
     CHECK(audit.find(R"("request":"/v1/tsc/pause","key":"k","digest":")") != std::string::npos);
     CHECK(audit.find(R"(","replay":true,"status":202,"answer":{"message":"paused"}})") != std::string::npos);
 
-    fixture.audit.reset(); // writes its lines
-    fixture.audit = std::move(*Acsd::AuditLog::Create(
-        fixture.folder.GetPath() / "audit",
-        {},
-        fixture.clock,
-        Core::Logger(fixture.log, "audit")));
     Acsd::OperatorGate restarted(
         fixture.clock,
         Core::Logger(fixture.log, "operator"),
         AccessPolicy({{{{EOperatorRole::Operator, "kim", Acsd::HashToken("write")}}}, std::nullopt}),
         *fixture.audit);
+    REQUIRE(fixture.receipts.size() == 1);
+    restarted.Restore(fixture.receipts);
     Apps::HttpRequest request = *Apps::ParseHttpTarget("/v1/tsc/pause");
     request.method = "POST";
     request.sender = {{"10.0.0.7", 40'000}, "Bearer write"};

@@ -132,6 +132,7 @@ Planning::StoredState MakeStoredState()
     work.job->planID = "P1";
     work.nodeIDs = {"N1"};
     state.robotWorks.push_back(work);
+    state.receipts.push_back({"token lee", "k", "{\"status\":202}", record.acceptedAt});
     return state;
 }
 
@@ -173,7 +174,15 @@ TEST_CASE("A recorded command of the operator is read as it was")
 {
     for (const Planning::PlanCommand& command : MakeCommands())
     {
-        CHECK(std::get<Planning::PlanCommand>(Repeat(command)) == command);
+        const Planning::CommandReceipt receipt{
+            "token lee",
+            "k",
+            "{}",
+            Core::WallTime(std::chrono::milliseconds(1'000))};
+        const CoreInput input = Repeat(OfferInput{command, receipt});
+        CHECK(std::get<OfferInput>(input).command == command);
+        CHECK(std::get<OfferInput>(input).receipt == receipt);
+        CHECK_FALSE(std::get<OfferInput>(Repeat(OfferInput{command, std::nullopt})).receipt.has_value());
     }
 }
 

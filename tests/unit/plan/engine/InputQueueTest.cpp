@@ -124,7 +124,8 @@ TEST_CASE_METHOD(InputQueueTest, "Other robots, timers and acknowledgements are 
         REQUIRE(TryPush(MessageAcknowledged{7}));
     }
     CHECK(_queue.GetCount() == 9);
-    CHECK(std::get<std::vector<PlanCommand>>(_queue.Pop()) == std::vector<PlanCommand>{MessageAcknowledged{7}});
+    const InputQueue::Next next = _queue.Pop();
+    CHECK(std::get<InputQueue::Commands>(next).commands == std::vector<PlanCommand>{MessageAcknowledged{7}});
 }
 
 TEST_CASE_METHOD(InputQueueTest, "Of the states of the store's log, only the latest waits")

@@ -373,6 +373,55 @@ TEST_CASE_METHOD(
 
 TEST_CASE_METHOD(
     HostTest,
+    "The receipt of a command of the operator is in the transaction of the command, whether it waited or not")
+{
+    const auto makeReceipt = [](const std::string& key) {
+        return CommandReceipt{"lee", key, "accepted", {}};
+    };
+    const auto listKeys = [](const StoreBatch& batch) {
+        Texts keys;
+        for (const StoreChange& change : batch.changes)
+        {
+            if (const auto* const addedOrNull = std::get_if<ReceiptAdded>(&change))
+            {
+                keys.push_back(addedOrNull->receipt.key);
+            }
+        }
+        return keys;
+    };
+    const auto hasChange = [](const StoreBatch& batch, const StoreChange& wanted) {
+        return std::ranges::find(batch.changes, wanted) != batch.changes.end();
+    };
+    REQUIRE(_host.Offer(ControlTSC{true, 0}, makeReceipt("pause")) == EInputAdmission::Accepted);
+    REQUIRE(_batches.size() == 1);
+    CHECK(listKeys(_batches.back()) == Texts{"pause"});
+    CHECK(_batches.back().changes.size() > 1);
+
+    Submit("P1", 1); // waits, as all after it
+    const ControlPlan control{EPlanControl::Pause, "P1", {}, 0, {}, EControlOrigin::Operator};
+    REQUIRE(_host.Offer(control, makeReceipt("control")) == EInputAdmission::Accepted);
+    REQUIRE(_host.Offer(SetMaintenance{"LR01", true, 0}, makeReceipt("on")) == EInputAdmission::Accepted);
+    REQUIRE(_host.Offer(SetMaintenance{"CR01", true, 0}) == EInputAdmission::Accepted);
+    REQUIRE(_host.Offer(SetMaintenance{"LR01", true, 0}, makeReceipt("again")) == EInputAdmission::Accepted);
+    REQUIRE(TryStoreAll());
+    Texts keys;
+    for (const StoreBatch& batch : _batches)
+    {
+        CAPTURE(listKeys(batch));
+        const Texts found = listKeys(batch);
+        keys.insert(keys.end(), found.begin(), found.end());
+        CHECK(hasChange(batch, MaintenanceChanged{"LR01", true}) == (found == Texts{"on", "again"}));
+        CHECK((std::ranges::count(found, "control") == 0 || batch.changes.size() > 1));
+    }
+    CHECK(keys == Texts{"pause", "control", "on", "again"});
+
+    // Without any effect.
+    REQUIRE(_host.Offer(SetMaintenance{"LR01", true, 0}, makeReceipt("none")) == EInputAdmission::Accepted);
+    CHECK(_batches.back().changes == std::vector<StoreChange>{ReceiptAdded{makeReceipt("none")}});
+}
+
+TEST_CASE_METHOD(
+    HostTest,
     "4.1, R1 A closed loop still sends what waits for the batch that is being written, and refuses new requests")
 {
     Submit("P1", 1);

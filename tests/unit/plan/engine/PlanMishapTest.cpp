@@ -95,7 +95,7 @@ TEST_CASE("D-23 A repeated plan that runs is accepted although another plan of t
         SubmitPlan{MakeLogisticsPlan("P1"), 2, "T1"},
         SubmitPlan{MakeLogisticsPlan("P2"), 3, "T2"}};
     EngineActions actions;
-    world.engine->Handle(both, world.GetNow(), actions);
+    world.engine->Handle(both, {}, world.GetNow(), actions);
     REQUIRE(actions.size() == 1);
     REQUIRE(std::holds_alternative<StorePlans>(actions.front()));
     EngineActions instead;
