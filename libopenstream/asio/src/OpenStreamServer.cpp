@@ -5,6 +5,7 @@
 #include <boost/asio/ip/tcp.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,7 @@ class OpenStreamServer::Impl final : public std::enable_shared_from_this<OpenStr
     std::shared_ptr<Net::TcpListener> _listener;
     std::vector<std::shared_ptr<ServerConnection>> _connections;
     OpenStream::ServerSessionStats _endedStats;
+    std::uint64_t _accepted = 0; ///< The number of the latest connection.
 
 public:
     Impl(
@@ -108,7 +110,8 @@ private:
             std::move(socket),
             _clock,
             _logger,
-            _options.session,
+            _options,
+            ++_accepted,
             _service,
             [weak = weak_from_this()](ServerConnection& closed) {
                 if (const std::shared_ptr<Impl> self = weak.lock())

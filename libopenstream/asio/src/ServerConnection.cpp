@@ -54,26 +54,41 @@ std::string_view GetReasonText(OpenStream::EServerCloseReason reason)
     }
 }
 
+/// Empty if the function is.
+std::function<void(std::string_view bytes)> BindNumber(
+    const std::function<void(std::uint64_t connection, std::string_view bytes)>& function,
+    std::uint64_t number)
+{
+    return function ? std::bind_front(function, number) : std::function<void(std::string_view bytes)>();
+}
+
 } // namespace
 
 ServerConnection::ServerConnection(
     boost::asio::ip::tcp::socket socket,
     Core::IClock& clock,
     Core::Logger logger,
-    const OpenStream::ServerSessionOptions& options,
+    const OpenStreamServerOptions& options,
+    std::uint64_t number,
     OpenStream::IOpenApiService& service,
     ClosedHandler onClosed)
     : _socket(std::move(socket)),
       _clock(clock),
       _logger(std::move(logger)),
+      _onReceived(BindNumber(options.onReceived, number)),
+      _onSent(BindNumber(options.onSent, number)),
       _service(service),
       _onClosed(std::move(onClosed)),
       _peer(DescribePeer(_socket)),
-      _session(options),
+      _session(options.session),
       _timers(
           std::make_shared<Timers>(_socket.get_executor(), [this](OpenStream::EServerTimer timer) { OnTimer(timer); })),
       _answerTimers(std::make_shared<AnswerTimers>(_socket.get_executor(), [this](EAnswer kind) { OnAnswerDue(kind); }))
 {
+    if (options.onClosed)
+    {
+        _onEnded = std::bind_front(options.onClosed, number);
+    }
 }
 
 void ServerConnection::Start()
@@ -96,11 +111,15 @@ void ServerConnection::Reject(std::string_view message)
 
 void ServerConnection::Abort()
 {
-    _bClosed = true;
+    const bool bEnds = !std::exchange(_bClosed, true);
     _timers->CancelAll();
     _answerTimers->CancelAll();
     boost::system::error_code ignored;
     static_cast<void>(_socket.close(ignored));
+    if (bEnds && _onEnded)
+    {
+        _onEnded();
+    }
 }
 
 OpenStream::EServerState ServerConnection::GetState() const noexcept
@@ -126,6 +145,10 @@ void ServerConnection::Execute()
 
 void ServerConnection::Do(const OpenStream::ServerSend& action)
 {
+    if (_onSent)
+    {
+        _onSent(action.text);
+    }
     boost::asio::async_write(
         _socket,
         boost::asio::buffer(action.text),
@@ -268,7 +291,12 @@ void ServerConnection::OnRead(const boost::system::error_code& error, std::size_
     }
     else
     {
-        _session.OnBytes(std::string_view(_input.data(), size), _clock.GetNow(), _actions);
+        const std::string_view bytes(_input.data(), size);
+        if (_onReceived)
+        {
+            _onReceived(bytes);
+        }
+        _session.OnBytes(bytes, _clock.GetNow(), _actions);
     }
     Execute();
     ReadMoreAsync();

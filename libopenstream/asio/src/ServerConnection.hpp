@@ -6,6 +6,7 @@
 #include <acs/net/TimerArray.hpp>
 #include <acs/openstream/IOpenApiService.hpp>
 #include <acs/openstream/ServerSession.hpp>
+#include <acs/openstream_asio/OpenStreamServer.hpp>
 
 #include <boost/asio/ip/tcp.hpp>
 
@@ -52,6 +53,9 @@ private:
     boost::asio::ip::tcp::socket _socket;
     Core::IClock& _clock;
     Core::Logger _logger;
+    std::function<void(std::string_view bytes)> _onReceived; ///< May be empty, as the next two.
+    std::function<void(std::string_view bytes)> _onSent;
+    std::function<void()> _onEnded;
     OpenStream::IOpenApiService& _service;
     ClosedHandler _onClosed;
     std::string _peer;
@@ -71,7 +75,8 @@ public:
         boost::asio::ip::tcp::socket socket,
         Core::IClock& clock,
         Core::Logger logger,
-        const OpenStream::ServerSessionOptions& options,
+        const OpenStreamServerOptions& options,
+        std::uint64_t number,
         OpenStream::IOpenApiService& service,
         ClosedHandler onClosed);
 

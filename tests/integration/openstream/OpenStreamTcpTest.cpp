@@ -1,8 +1,11 @@
 #include "RawPeer.hpp"
 
 #include <chrono>
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 using namespace ACS::OpenStream;     // NOLINT(google-build-using-namespace)
@@ -288,4 +291,50 @@ TEST_CASE("8 Destroying both ends in mid stream leaves no handler")
     fixture.context.run_for(1s);
     REQUIRE(fixture.events.size() == before);
     REQUIRE(fixture.context.stopped());
+}
+
+TEST_CASE("A server shows all bytes of each connection with its number, and its end once")
+{
+    TcpFixture fixture;
+    struct Wire
+    {
+        std::string received;
+        std::string sent;
+        int ends = 0;
+    };
+    std::map<std::uint64_t, Wire> wires;
+    OpenStreamServerOptions options = TcpFixture::MakeOptions();
+    options.maximumSessions = 1;
+    options.onReceived = [&wires](std::uint64_t connection, std::string_view bytes) {
+        wires[connection].received += bytes;
+    };
+    options.onSent = [&wires](std::uint64_t connection, std::string_view bytes) {
+        wires[connection].sent += bytes;
+    };
+    options.onClosed = [&wires](std::uint64_t connection) {
+        ++wires[connection].ends;
+    };
+    const auto server = fixture.StartServer(options);
+    {
+        const std::string handshake = R"({"cmd":"HANDSHAKE","payload":{"major":1}})"
+                                      "\n";
+        const std::string part = R"({"cmd")";
+        RawPeer first(fixture, server->GetPort());
+        first.Send(handshake + part);
+        REQUIRE(first.TryAwait("handshake_ack"));
+        RawPeer second(fixture, server->GetPort());
+        REQUIRE(second.TryAwait("handshake_rejected"));
+        REQUIRE(second.TryAwaitClose());
+        REQUIRE(fixture.TryRunUntil([&]() { return wires[1].received == handshake + part; }));
+        CHECK(wires[1].sent == first.GetReceived());
+        CHECK(wires[1].ends == 0);
+        CHECK(wires[2].sent == second.GetReceived());
+        server->DropSessions();
+        CHECK(wires[1].ends == 1);
+    }
+    REQUIRE(fixture.TryRunUntil([&]() { return server->GetSessionCount() == 0; }));
+    server->Stop();
+    CHECK(wires.size() == 2);
+    CHECK(wires[1].ends == 1);
+    CHECK(wires[2].ends == 1);
 }

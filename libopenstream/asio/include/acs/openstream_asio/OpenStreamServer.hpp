@@ -11,8 +11,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace ACS::OpenStreamAsio
 {
@@ -26,6 +28,13 @@ struct OpenStreamServerOptions
     /// handshake_rejected if there is none.
     std::size_t maximumSessions = 8;
     OpenStream::ServerSessionOptions session; ///< Times and limits of each ServerSession.
+    /// Called with the number of the connection (from 1, in the order of connecting) and all bytes that are received on it. May be
+    /// empty. The view is valid during the call, which is made on the executor and must not call the server.
+    std::function<void(std::uint64_t connection, std::string_view bytes)> onReceived;
+    /// See onReceived: all bytes that are passed to the socket, before they are.
+    std::function<void(std::uint64_t connection, std::string_view bytes)> onSent;
+    /// See onReceived: the connection is closed. Called once for each connection that was accepted.
+    std::function<void(std::uint64_t connection)> onClosed;
 };
 
 /// Serves the Open Stream over TCP on a single-threaded executor: a ServerSession for each connection, and one service for
