@@ -397,6 +397,7 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, OpenStr
         "--control",
         control,
         "Address of the HTTP interface that begins and ends faults; port 0 selects a free one (default: disabled)");
+    Apps::AddTraceOptions(app, options.trace);
     Apps::AddCommonOptions(app, options.common);
     const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);
     if (exitCode.has_value())

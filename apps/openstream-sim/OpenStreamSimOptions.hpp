@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/config/CommandLine.hpp"
+#include "common/trace/TraceOptions.hpp"
 #include "controller/ControllerFleet.hpp"
 
 #include <optional>
@@ -17,6 +18,7 @@ struct OpenStreamSimOptions
     FleetOptions fleet;
     std::string worldFile;   ///< Empty: no floor.
     std::string programFile; ///< Empty: programs only take their time.
+    Apps::TraceOptions trace;
     bool bRealTime = false;
     Apps::CommonOptions common;
 };

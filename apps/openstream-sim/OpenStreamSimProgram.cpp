@@ -5,6 +5,7 @@
 #include "common/process/ReadyLine.hpp"
 #include "common/process/SignalWaiter.hpp"
 #include "common/process/SystemClock.hpp"
+#include "common/trace/SimulatorTrace.hpp"
 #include "controller/ControllerFleet.hpp"
 #include "OpenStreamSimOptions.hpp"
 #include "world/WorldFile.hpp"
@@ -51,6 +52,18 @@ int RunOpenStreamSim(int argc, const char* const* argv)
         }
         world = std::move(*opened);
         options.fleet.first.controller.world = world.get();
+    }
+    std::unique_ptr<Apps::SimulatorTrace> trace;
+    if (!options.trace.folder.empty())
+    {
+        auto created = Apps::SimulatorTrace::Create(std::string(PROGRAM_NAME), options.trace, clock, logger);
+        if (!created.has_value())
+        {
+            Apps::PrintError(PROGRAM_NAME, created.error());
+            return Apps::EXIT_BAD_COMMAND_LINE;
+        }
+        trace = std::move(*created);
+        options.fleet.first.traceOrNull = trace.get();
     }
     Apps::RaiseFileLimit(); // Each controller has two ports, and each client a connection.
     ControllerFleet fleet(context.get_executor(), clock, logger, options.fleet);

@@ -19,10 +19,12 @@ ControlChannel::ControlChannel(
     Core::Logger logger,
     VDA5050::MosquittoOptions options,
     std::string topic,
-    CommandHandler onCommand)
+    CommandHandler onCommand,
+    MqttTrace trace)
     : _topic(std::move(topic)),
       _logger(logger),
       _onCommand(std::move(onCommand)),
+      _trace(std::move(trace)),
       _link(executor, random, std::move(logger), std::move(options), *this)
 {
     _link.Subscribe({{_topic, CONTROL_QOS}});
@@ -54,6 +56,7 @@ void ControlChannel::OnLinkDown(std::error_code /*reason*/)
 
 void ControlChannel::OnMqttMessage(const VDA5050::MqttMessage& message)
 {
+    _trace.OnReceived(message);
     if (message.bRetained)
     {
         _logger.Warning(
@@ -66,7 +69,7 @@ void ControlChannel::OnMqttMessage(const VDA5050::MqttMessage& message)
         _onCommand(message.payload),
         CONTROL_QOS,
         false};
-    const Core::Result<void> sent = _link.Publish(answer);
+    const Core::Result<void> sent = _trace.Publish(answer, _link);
     if (!sent.has_value())
     {
         _logger.Warning("cannot answer a command", {{"reason", Core::Describe(sent.error())}});

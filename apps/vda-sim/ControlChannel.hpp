@@ -1,5 +1,6 @@
 #pragma once
 
+#include "vda-sim/MqttTrace.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/vda5050_mosquitto/MosquittoLink.hpp>
@@ -27,6 +28,7 @@ private:
     Core::Logger _logger;
     CommandHandler _onCommand;
     ConnectedHandler _onConnected;
+    MqttTrace _trace;
     VDA5050::MosquittoLink _link;
 
 public:
@@ -36,7 +38,8 @@ public:
         Core::Logger logger,
         VDA5050::MosquittoOptions options,
         std::string topic,
-        CommandHandler onCommand);
+        CommandHandler onCommand,
+        MqttTrace trace);
 
     /// Begins to connect; the handler is called after each subscription.
     void Start(ConnectedHandler onConnected);

@@ -8,6 +8,7 @@
 #include "common/process/SystemClock.hpp"
 #include "common/process/SystemRandom.hpp"
 #include "common/process/TimerSet.hpp"
+#include "common/trace/SimulatorTrace.hpp"
 #include "vda-sim/ControlChannel.hpp"
 #include "vda-sim/VehicleRandom.hpp"
 #include "vda-sim/VehicleRunner.hpp"
@@ -50,6 +51,7 @@ class Fleet
     Apps::SystemRandom _random;
     Apps::SpdlogSink _log;
     Core::Logger _logger;
+    std::unique_ptr<Apps::SimulatorTrace> _traceOrNull;
     std::uint64_t _seed;
     std::vector<Member> _members;
     std::optional<ControlChannel> _control;
@@ -71,6 +73,29 @@ public:
               worldOrNull == nullptr ? std::nullopt : std::optional<WorldWatch>(std::in_place, *worldOrNull, _logger)),
           _worldTimer(_context.get_executor(), [this](int /*key*/) { PollWorld(); })
     {
+    }
+
+    /// Opens the trace and adds the vehicles. The error is one sentence.
+    [[nodiscard]] tl::expected<void, std::string> Prepare()
+    {
+        if (!_options->trace.folder.empty())
+        {
+            auto created = Apps::SimulatorTrace::Create("vda-sim", _options->trace, _clock, _logger);
+            if (!created.has_value())
+            {
+                return tl::make_unexpected(std::move(created.error()));
+            }
+            _traceOrNull = std::move(*created);
+        }
+        for (std::size_t i = 0; i < _options->vehicles.size(); ++i)
+        {
+            const tl::expected<std::string, std::string> startNodeID = GetStartNode(_options->vehicles[i], i, *_site);
+            if (!startNodeID.has_value())
+            {
+                return tl::make_unexpected(startNodeID.error());
+            }
+            Add(_options->vehicles[i], *startNodeID);
+        }
         if (!_options->controlTopic.empty())
         {
             VDA5050::MosquittoOptions link = MakeLinkOptions(fmt::format("vda-sim-control-{:016x}", _random.GetNext()));
@@ -80,39 +105,10 @@ public:
                 _logger,
                 std::move(link),
                 _options->controlTopic,
-                [this](std::string_view text) { return Command(text); });
+                [this](std::string_view text) { return Command(text); },
+                MqttTrace(_traceOrNull.get(), {}));
         }
-    }
-
-    void Add(const VehicleSpec& spec, const std::string& startNodeID)
-    {
-        VirtualVehicleOptions vehicle;
-        vehicle.address = {_options->interfaceName, _options->manufacturer, spec.name};
-        vehicle.version = spec.version.value_or(_options->version);
-        vehicle.qos = _options->link.qos;
-        vehicle.type = spec.type;
-        vehicle.startNodeID = startNodeID;
-        vehicle.startPosition = spec.startPosition;
-        vehicle.timeScale = _options->timeScale;
-        vehicle.charge = spec.charge;
-        vehicle.profile = spec.profile.value_or(_options->profile);
-        vehicle.actionSeconds = _options->actionSeconds;
-        vehicle.handling = spec.handling;
-        vehicle.parameterCheck =
-            _options->bLenientParameters ? VDA5050::EParameterCheck::Lenient : VDA5050::EParameterCheck::Strict;
-        vehicle.worldOrNull = _worldOrNull;
-
-        const Core::Logger logger(_log, spec.name);
-        Member& member = _members.emplace_back();
-        member.name = spec.name;
-        member.random = std::make_unique<VehicleRandom>(_seed, spec.name);
-        member.runner = std::make_unique<VehicleRunner>(
-            _context.get_executor(),
-            _clock,
-            _random,
-            logger,
-            VirtualVehicle(std::move(vehicle), *_site, *member.random, logger),
-            MakeLinkOptions(fmt::format("vda-sim-{}-{}", _options->manufacturer, spec.name)));
+        return {};
     }
 
     void Run()
@@ -143,6 +139,38 @@ public:
     }
 
 private:
+    void Add(const VehicleSpec& spec, const std::string& startNodeID)
+    {
+        VirtualVehicleOptions vehicle;
+        vehicle.address = {_options->interfaceName, _options->manufacturer, spec.name};
+        vehicle.version = spec.version.value_or(_options->version);
+        vehicle.qos = _options->link.qos;
+        vehicle.type = spec.type;
+        vehicle.startNodeID = startNodeID;
+        vehicle.startPosition = spec.startPosition;
+        vehicle.timeScale = _options->timeScale;
+        vehicle.charge = spec.charge;
+        vehicle.profile = spec.profile.value_or(_options->profile);
+        vehicle.actionSeconds = _options->actionSeconds;
+        vehicle.handling = spec.handling;
+        vehicle.parameterCheck =
+            _options->bLenientParameters ? VDA5050::EParameterCheck::Lenient : VDA5050::EParameterCheck::Strict;
+        vehicle.worldOrNull = _worldOrNull;
+
+        const Core::Logger logger(_log, spec.name);
+        Member& member = _members.emplace_back();
+        member.name = spec.name;
+        member.random = std::make_unique<VehicleRandom>(_seed, spec.name);
+        member.runner = std::make_unique<VehicleRunner>(
+            _context.get_executor(),
+            _clock,
+            _random,
+            logger,
+            VirtualVehicle(std::move(vehicle), *_site, *member.random, logger),
+            MakeLinkOptions(fmt::format("vda-sim-{}-{}", _options->manufacturer, spec.name)),
+            MqttTrace(_traceOrNull.get(), spec.name));
+    }
+
     /// Updates the states after changes of the world by any program.
     void PollWorld()
     {
@@ -300,15 +328,9 @@ int RunVdaSim(const VdaSimOptions& options)
     }
     Apps::RaiseFileLimit(); // Each vehicle has two descriptors.
     Fleet fleet(options, *site, world.get());
-    for (std::size_t i = 0; i < options.vehicles.size(); ++i)
+    if (const tl::expected<void, std::string> prepared = fleet.Prepare(); !prepared.has_value())
     {
-        const VehicleSpec& vehicle = options.vehicles[i];
-        const tl::expected<std::string, std::string> startNodeID = GetStartNode(vehicle, i, *site);
-        if (!startNodeID.has_value())
-        {
-            return Refuse(startNodeID.error());
-        }
-        fleet.Add(vehicle, *startNodeID);
+        return Refuse(prepared.error());
     }
     fleet.Run();
     return 0;

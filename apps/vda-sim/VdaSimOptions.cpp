@@ -370,6 +370,7 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
         [&options](const std::string& text) { return ReadSeed(text, options.seed); },
         "Seed of random losses and delays, which makes them reproducible (default: random; it is logged)")
         .type_name("N");
+    Apps::AddTraceOptions(app, options.trace);
     Apps::AddCommonOptions(app, options.common);
     const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);
     if (exitCode.has_value())

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "common/config/CommandLine.hpp"
+#include "common/trace/TraceOptions.hpp"
 #include "vda-sim/BrokerOptions.hpp"
 #include "vda-sim/FaultCommand.hpp"
 #include "vda-sim/VehicleSpec.hpp"
@@ -36,6 +37,7 @@ struct VdaSimOptions
     std::map<std::string, double, std::less<>> actionSeconds;
     std::vector<FaultCommand> faults; ///< Of --fault and --fault-file; all of them begin one.
     bool bLenientParameters = false;
+    Apps::TraceOptions trace;
     std::string controlTopic = "vda-sim/control"; ///< Empty: none.
 };
 

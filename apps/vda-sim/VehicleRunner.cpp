@@ -23,6 +23,7 @@ class VehicleRunner::Impl final : public VDA5050::IMqttLinkListener
     VirtualActions _actions;
     Apps::TimerSet<std::uint64_t> _timers;
     VDA5050::MosquittoOptions _linkOptions;
+    MqttTrace _trace;
     std::unique_ptr<VDA5050::MosquittoLink> _linkOrNull;    ///< Null while a fault has cut the connection.
     std::unique_ptr<VDA5050::MosquittoLink> _leavingOrNull; ///< Disconnecting without OFFLINE.
     Handler _onConnected;
@@ -35,14 +36,16 @@ public:
         Core::IRandom& random,
         const Core::Logger& logger,
         VirtualVehicle vehicle,
-        VDA5050::MosquittoOptions linkOptions)
+        VDA5050::MosquittoOptions linkOptions,
+        MqttTrace trace)
         : _executor(executor),
           _clock(&clock),
           _random(&random),
           _logger(logger),
           _vehicle(std::move(vehicle)),
           _timers(executor, [this](std::uint64_t key) { OnTimer(key); }),
-          _linkOptions(std::move(linkOptions))
+          _linkOptions(std::move(linkOptions)),
+          _trace(std::move(trace))
     {
     }
 
@@ -103,6 +106,10 @@ public:
             boost::asio::post(_executor, std::move(onStopped));
             return;
         }
+        if (lastMessage.has_value() && _linkOrNull->IsConnected())
+        {
+            _trace.OnSent(*lastMessage);
+        }
         _linkOrNull->StopAsync(lastMessage, VDA5050::MosquittoLink::DEFAULT_STOP_TIMEOUT, std::move(onStopped));
     }
 
@@ -126,6 +133,7 @@ public:
 
     void OnMqttMessage(const VDA5050::MqttMessage& message) override
     {
+        _trace.OnReceived(message);
         _vehicle.OnMessage(message, _clock->GetNow(), _actions);
         Execute();
     }
@@ -192,7 +200,7 @@ private:
         {
             return;
         }
-        const Core::Result<void> sent = _linkOrNull->Publish(message);
+        const Core::Result<void> sent = _trace.Publish(message, *_linkOrNull);
         if (!sent.has_value())
         {
             _logger.Debug("not sent", {{"topic", message.topic}, {"reason", Core::Describe(sent.error())}});
@@ -206,8 +214,10 @@ VehicleRunner::VehicleRunner(
     Core::IRandom& random,
     const Core::Logger& logger,
     VirtualVehicle vehicle,
-    VDA5050::MosquittoOptions linkOptions)
-    : _impl(std::make_unique<Impl>(executor, clock, random, logger, std::move(vehicle), std::move(linkOptions)))
+    VDA5050::MosquittoOptions linkOptions,
+    MqttTrace trace)
+    : _impl(std::make_unique<
+            Impl>(executor, clock, random, logger, std::move(vehicle), std::move(linkOptions), std::move(trace)))
 {
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "vda-sim/MqttTrace.hpp"
 #include "vda-sim/VirtualVehicle.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Now.hpp>
@@ -36,7 +37,8 @@ public:
         Core::IRandom& random,
         const Core::Logger& logger,
         VirtualVehicle vehicle,
-        VDA5050::MosquittoOptions linkOptions);
+        VDA5050::MosquittoOptions linkOptions,
+        MqttTrace trace);
     VehicleRunner(const VehicleRunner&) = delete;
     VehicleRunner& operator=(const VehicleRunner&) = delete;
     ~VehicleRunner();

@@ -12,10 +12,6 @@ namespace
 using namespace std::chrono_literals;
 using Apps::ConfigSection;
 
-constexpr std::int64_t SMALLEST_FILE = 4'096;
-constexpr std::int64_t LARGEST_FILE = 1'000'000'000'000;
-constexpr std::int64_t MOST_FILES = 10'000;
-
 Core::ELogLevel ReadLogLevel(const ConfigSection& log)
 {
     const std::string word = log.GetWord("level", {"debug", "info", "warning", "error"}, "info");
@@ -41,11 +37,14 @@ void ReadOperationsConfig(const ConfigSection& root, OperationsConfig& config)
     const ConfigSection trace = root.GetSection("trace");
     config.trace.maxFileBytes = static_cast<std::uint64_t>(trace.GetInteger(
         "max_file_bytes",
-        SMALLEST_FILE,
-        LARGEST_FILE,
+        Apps::TraceLimits::SMALLEST_FILE,
+        Apps::TraceLimits::LARGEST_FILE,
         static_cast<std::int64_t>(config.trace.maxFileBytes)));
-    config.trace.maxFiles = static_cast<std::size_t>(
-        trace.GetInteger("max_files", 1, MOST_FILES, static_cast<std::int64_t>(config.trace.maxFiles)));
+    config.trace.maxFiles = static_cast<std::size_t>(trace.GetInteger(
+        "max_files",
+        1,
+        Apps::TraceLimits::MOST_FILES,
+        static_cast<std::int64_t>(config.trace.maxFiles)));
 
     config.workGrace = root.GetSection("comm").GetDuration("grace", 0ms, 1h, config.workGrace);
 

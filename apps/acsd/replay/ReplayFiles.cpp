@@ -1,5 +1,6 @@
 #include "replay/ReplayFiles.hpp"
 
+#include "common/trace/TraceFiles.hpp"
 #include "replay/RecordKind.hpp"
 #include "replay/RecordLine.hpp"
 
@@ -30,7 +31,9 @@ Core::Result<ReplayFiles> ReplayFiles::Open(const std::string& path)
         for (std::filesystem::directory_iterator entry(path, error), end; !error && entry != end;
              entry.increment(error))
         {
-            if (entry->path().extension() == TRACE_SUFFIX)
+            // The traces of simulators may be in the same folder.
+            const std::string name = entry->path().filename().string();
+            if (name.starts_with(Apps::TraceFileStyle().prefix) && name.ends_with(TRACE_SUFFIX))
             {
                 files._files.push_back(entry->path().string());
             }
@@ -46,7 +49,7 @@ Core::Result<ReplayFiles> ReplayFiles::Open(const std::string& path)
         return Core::Fail(
             error ? error : std::make_error_code(std::errc::no_such_file_or_directory),
             path,
-            error ? std::string() : "a file of a trace, or a folder with such files",
+            error ? std::string() : "a file of a trace, or a folder with files acsd-*.ndjson",
             {});
     }
     for (const std::string& file : files._files)

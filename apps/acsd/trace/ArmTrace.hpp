@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/trace/LineCollector.hpp"
 #include "trace/MessageTrace.hpp"
 
 #include <string>
@@ -13,8 +14,8 @@ class ArmTrace final
 {
     MessageTrace& _trace;
     std::string _robotID;
-    std::string _received; ///< The line that is not whole yet.
-    std::string _sent;
+    Apps::LineCollector _received;
+    Apps::LineCollector _sent;
 
 public:
     /// The trace outlives it.
@@ -27,7 +28,6 @@ public:
     void OnLost();
 
 private:
-    void Take(ProtocolBeast::EWireDirection direction, std::string_view bytes, std::string& kept);
     void Write(ProtocolBeast::EWireDirection direction, std::string_view line);
 };
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <functional>
 #include <system_error>
 #include <utility>
 
@@ -48,7 +49,10 @@ MessageTrace::MessageTrace(
     : _clock(clock),
       _folder(folder),
       _newest(NEWEST_LINES, NEWEST_BYTES),
-      _writer({folder, limits, Apps::MakeLossLine, maxQueuedBytes}, clock, std::move(logger))
+      _writer(
+          {folder, limits, std::bind_front(&Apps::MakeLossLine, std::string_view()), maxQueuedBytes},
+          clock,
+          std::move(logger))
 {
 }
 
@@ -63,7 +67,11 @@ Core::Result<std::unique_ptr<MessageTrace>> MessageTrace::Create(
     std::unique_ptr<MessageTrace> trace(new MessageTrace(folder, limits, clock, std::move(logger), maxQueuedBytes));
     if (const std::error_code error = trace->_writer.Open())
     {
-        return Core::Fail(error, {}, "a folder for --trace that can be written", folder + ": " + error.message());
+        return Core::Fail(
+            error,
+            {},
+            "a folder for --trace that can be written",
+            folder + ": " + Apps::DescribeTraceError(error));
     }
     return trace;
 }

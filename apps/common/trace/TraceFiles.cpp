@@ -12,6 +12,7 @@
 #include <iterator>
 #include <limits>
 #include <string>
+#include <sys/file.h>
 #include <unistd.h>
 #include <utility>
 #include <vector>
@@ -83,6 +84,20 @@ std::error_code GetLastError()
     return {errno, std::generic_category()};
 }
 
+/// Whether another process writes this file.
+bool IsLocked(const std::filesystem::path& path)
+{
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): POSIX has no other
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0)
+    {
+        return false;
+    }
+    const bool bLocked = ::flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    ::close(file); // which releases the lock
+    return bLocked;
+}
+
 /// The filter may be empty.
 std::vector<std::string> CollectNewestLines(
     const std::string& folder,
@@ -138,7 +153,17 @@ std::error_code TraceFiles::Open(const TraceLimits& limits)
 std::error_code TraceFiles::OpenFirst(const TraceLimits& limits)
 {
     const auto files = ListFiles(_path, _style.prefix);
-    if (!_style.bContinued || files.empty())
+    if (!_style.bContinued)
+    {
+        const std::error_code busy = std::make_error_code(std::errc::device_or_resource_busy);
+        if (!files.empty() && IsLocked(files.back().second))
+        {
+            return busy;
+        }
+        const std::error_code error = OpenNext(limits);
+        return error == std::errc::file_exists ? busy : error; // another process has just started
+    }
+    if (files.empty())
     {
         return OpenNext(limits);
     }
@@ -175,6 +200,8 @@ std::error_code TraceFiles::OpenFile(const std::string& path, int flags)
     {
         return GetLastError();
     }
+    // Released when the file is closed, also by a crash. Without locks on its file system the trace is written all the same.
+    static_cast<void>(::flock(_file, LOCK_EX | LOCK_NB));
     _written = static_cast<std::uint64_t>(std::max<off_t>(::lseek(_file, 0, SEEK_END), 0));
     return {};
 }
@@ -257,6 +284,13 @@ std::error_code TraceFiles::WriteBuffer()
         done += static_cast<std::size_t>(count);
     }
     return {};
+}
+
+std::string DescribeTraceError(const std::error_code& error)
+{
+    return error == std::errc::device_or_resource_busy
+        ? "another process of this program writes its trace there; give each process a folder of its own"
+        : error.message();
 }
 
 std::vector<std::string> ReadNewestLines(const std::string& folder, const std::string& prefix, std::size_t maximum)

@@ -14,6 +14,11 @@ namespace ACS::Apps
 /// Bounds the size of a trace to about their product.
 struct TraceLimits
 {
+    // What a configuration or a command line may set.
+    static constexpr std::int64_t SMALLEST_FILE = 4'096;
+    static constexpr std::int64_t LARGEST_FILE = 1'000'000'000'000;
+    static constexpr std::int64_t MOST_FILES = 10'000;
+
     std::uint64_t maxFileBytes = 100U * 1024U * 1024U; ///< Exceeded only by a single line that is longer.
     std::size_t maxFiles = 10;                         ///< The oldest are deleted; 0: the path is one file.
 
@@ -47,7 +52,8 @@ public:
     TraceFiles& operator=(const TraceFiles&) = delete;
     ~TraceFiles();
 
-    /// Creates the folder if necessary, and a file.
+    /// Creates the folder if necessary, and a file. std::errc::device_or_resource_busy: another process writes files of this prefix to
+    /// the folder; each would delete files of the other one.
     [[nodiscard]] std::error_code Open(const TraceLimits& limits);
 
     /// Adds a line, given without its line end. It is written by the next Flush at the latest. After an error this line and all
@@ -65,6 +71,9 @@ private:
     [[nodiscard]] std::error_code WriteBuffer();
     void Close() noexcept;
 };
+
+/// Why a trace cannot be opened: the text of the error, or what std::errc::device_or_resource_busy means.
+[[nodiscard]] std::string DescribeTraceError(const std::error_code& error);
 
 /// The newest lines in the files of the folder with this prefix, the oldest of them first, without their ends. Of each file
 /// only its last 4 MiB are read.

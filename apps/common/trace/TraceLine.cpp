@@ -48,20 +48,30 @@ std::string EscapeBytes(std::string_view text)
     return escaped;
 }
 
-void BeginLine(Core::Now now, std::string_view link, std::string& line)
-{
-    fmt::format_to(
-        std::back_inserter(line),
-        R"({{"time":"{}","mono_us":{},"link":"{}")",
-        Core::FormatUTC(now.wall),
-        std::chrono::duration_cast<std::chrono::microseconds>(now.steady.time_since_epoch()).count(),
-        link);
-}
-
 void AppendMember(std::string_view name, std::string_view value, std::string& line)
 {
     fmt::format_to(std::back_inserter(line), R"(,"{}":)", name);
     Core::JsonText::AppendString(value, line);
+}
+
+void AppendNumber(std::string_view name, std::uint64_t value, std::string& line)
+{
+    fmt::format_to(std::back_inserter(line), R"(,"{}":{})", name, value);
+}
+
+/// The first two members are always the times: traces are merged by them.
+void BeginLine(Core::Now now, std::string_view program, std::string_view link, std::string& line)
+{
+    fmt::format_to(
+        std::back_inserter(line),
+        R"({{"time":"{}","mono_us":{})",
+        Core::FormatUTC(now.wall),
+        std::chrono::duration_cast<std::chrono::microseconds>(now.steady.time_since_epoch()).count());
+    if (!program.empty())
+    {
+        AppendMember("program", program, line);
+    }
+    AppendMember("link", link, line);
 }
 
 } // namespace
@@ -69,7 +79,7 @@ void AppendMember(std::string_view name, std::string_view value, std::string& li
 std::string MakeTraceLine(const TraceLine& line, Core::Now now)
 {
     std::string out;
-    BeginLine(now, line.link, out);
+    BeginLine(now, line.program, line.link, out);
     out += line.bIn ? R"(,"direction":"in")" : R"(,"direction":"out")";
     const auto append = [&out](std::string_view name, std::string_view value) {
         if (!value.empty())
@@ -80,11 +90,15 @@ std::string MakeTraceLine(const TraceLine& line, Core::Now now)
     append("kind", line.kind);
     if (line.depth > 0)
     {
-        fmt::format_to(std::back_inserter(out), R"(,"depth":{})", line.depth);
+        AppendNumber("depth", line.depth, out);
+    }
+    if (line.controller.has_value())
+    {
+        AppendNumber("controller", *line.controller, out);
     }
     if (line.connection.has_value())
     {
-        fmt::format_to(std::back_inserter(out), R"(,"connection":{})", *line.connection);
+        AppendNumber("connection", *line.connection, out);
     }
     append("robot", line.robotID);
     append("plan", line.planID);
@@ -103,11 +117,12 @@ std::string MakeTraceLine(const TraceLine& line, Core::Now now)
     return out;
 }
 
-std::string MakeLossLine(std::uint64_t count, Core::Now now)
+std::string MakeLossLine(std::string_view program, std::uint64_t count, Core::Now now)
 {
     std::string line;
-    BeginLine(now, "trace", line);
-    fmt::format_to(std::back_inserter(line), R"(,"lost":{}}})", count);
+    BeginLine(now, program, "trace", line);
+    AppendNumber("lost", count, line);
+    line += '}';
     return line;
 }
 

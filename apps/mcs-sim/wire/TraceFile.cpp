@@ -1,8 +1,10 @@
 #include "wire/TraceFile.hpp"
 
 #include "common/trace/TraceLine.hpp"
+#include "McsSimOptions.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <system_error>
 
@@ -23,11 +25,15 @@ std::string MakeTraceLine(
     line.planID = Apps::FindTextMember(text, "planId");
     line.transactionID = Apps::FindTextMember(text, "transactionId");
     line.connection = connection;
+    line.program = PROGRAM_NAME;
     return Apps::MakeTraceLine(line, now);
 }
 
 TraceFile::TraceFile(const std::string& path, const Core::IClock& clock, const Core::Logger& logger)
-    : _writer({path, {std::numeric_limits<std::uint64_t>::max(), 0}, Apps::MakeLossLine}, clock, logger),
+    : _writer(
+        {path, {std::numeric_limits<std::uint64_t>::max(), 0}, std::bind_front(&Apps::MakeLossLine, PROGRAM_NAME)},
+        clock,
+        logger),
       _clock(clock)
 {
 }

@@ -50,6 +50,7 @@ ControllerFleet::ControllerFleet(
         HostOptions host = _options.first;
         host.stream = MakeEndpoint(host.stream, i);
         host.http = MakeEndpoint(host.http, i);
+        host.number = i + 1;
         host.label = _options.controllers > 1 ? std::to_string(i + 1) : std::string();
         if (const auto robot = _options.robots.find(i + 1); robot != _options.robots.end())
         {
@@ -117,6 +118,26 @@ std::vector<Apps::ReadyAddress> ControllerFleet::GetAddresses() const
 }
 
 Apps::HttpResponse ControllerFleet::Handle(const Apps::HttpRequest& request)
+{
+    Trace(true, MakeTraceText(request));
+    Apps::HttpResponse response = Answer(request);
+    Trace(false, MakeTraceText(response));
+    return response;
+}
+
+void ControllerFleet::Trace(bool bIn, std::string_view text) const
+{
+    if (_options.first.traceOrNull != nullptr)
+    {
+        Apps::TraceLine line;
+        line.link = "control";
+        line.bIn = bIn;
+        line.text = text;
+        _options.first.traceOrNull->Write(line);
+    }
+}
+
+Apps::HttpResponse ControllerFleet::Answer(const Apps::HttpRequest& request)
 {
     Apps::HttpResponse response;
     if (request.path != CONTROL_PATH)

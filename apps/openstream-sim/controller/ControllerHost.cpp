@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <functional>
 #include <utility>
 
 namespace ACS::OpenStreamSim
@@ -12,19 +13,32 @@ namespace ACS::OpenStreamSim
 namespace
 {
 
-OpenStreamAsio::OpenStreamServerOptions MakeServerOptions(const HostOptions& host)
+OpenStreamAsio::OpenStreamServerOptions MakeServerOptions(const HostOptions& host, ControllerTrace* traceOrNull)
 {
     OpenStreamAsio::OpenStreamServerOptions options;
     options.host = host.stream.host;
     options.port = host.stream.port;
     options.maximumSessions = host.sessions;
     options.session.handshakeTimeout = host.handshakeTimeout;
+    if (traceOrNull != nullptr)
+    {
+        options.onReceived = std::bind_front(&ControllerTrace::OnReceived, traceOrNull);
+        options.onSent = std::bind_front(&ControllerTrace::OnSent, traceOrNull);
+        options.onClosed = std::bind_front(&ControllerTrace::OnClosed, traceOrNull);
+    }
     return options;
 }
 
 Core::Logger MakeLogger(const Core::Logger& logger, const char* part, const HostOptions& options)
 {
     return logger.MakeFor(options.label.empty() ? std::string(part) : fmt::format("{} {}", part, options.label));
+}
+
+std::unique_ptr<ControllerTrace> MakeTraceOrNull(const HostOptions& host)
+{
+    return host.traceOrNull == nullptr
+        ? nullptr
+        : std::make_unique<ControllerTrace>(*host.traceOrNull, host.number, host.controller.robotID);
 }
 
 } // namespace
@@ -36,6 +50,7 @@ ControllerHost::ControllerHost(
     HostOptions options)
     : _clock(clock),
       _options(std::move(options)),
+      _traceOrNull(MakeTraceOrNull(_options)),
       _controller(_options.controller, clock.GetNow(), MakeLogger(logger, "controller", _options)),
       _timers(executor, [this](int /*key*/) { _faults.OnTimer(_clock.GetNow()); }),
       _faults(_controller, *this, MakeLogger(logger, "controller", _options), clock.GetNow()),
@@ -45,7 +60,7 @@ ControllerHost::ControllerHost(
           executor,
           clock,
           MakeLogger(logger, "stream", _options),
-          MakeServerOptions(_options),
+          MakeServerOptions(_options, _traceOrNull.get()),
           _streamService),
       _httpServer(
           executor,
@@ -56,7 +71,16 @@ ControllerHost::ControllerHost(
 
 Apps::HttpResponse ControllerHost::Handle(const Apps::HttpRequest& request)
 {
-    return AnswerHTTP(request, _httpService, _clock.GetNow());
+    if (_traceOrNull != nullptr)
+    {
+        _traceOrNull->OnRequest(request);
+    }
+    Apps::HttpResponse response = AnswerHTTP(request, _httpService, _clock.GetNow());
+    if (_traceOrNull != nullptr)
+    {
+        _traceOrNull->OnAnswer(response);
+    }
+    return response;
 }
 
 void ControllerHost::DropSessions()

@@ -5,6 +5,7 @@
 #include "common/http/HttpServer.hpp"
 #include "common/process/TimerSet.hpp"
 #include "controller/ControllerFaults.hpp"
+#include "controller/ControllerTrace.hpp"
 #include "controller/VirtualController.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
@@ -15,6 +16,8 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -30,6 +33,8 @@ struct HostOptions
     std::size_t sessions = 8;                          ///< Maximum of Open Stream sessions.
     std::chrono::milliseconds handshakeTimeout{5'000}; ///< Of an Open Stream connection; 0: no limit.
     ControllerOptions controller;
+    std::uint64_t number = 1;                    ///< In the trace.
+    Apps::SimulatorTrace* traceOrNull = nullptr; ///< Outlives the host.
 };
 
 /// One simulated controller, its faults and its two ports: Open Stream and the HTTP Open API over the same
@@ -38,6 +43,7 @@ class ControllerHost final : private IFaultHost
 {
     Core::IClock& _clock;
     HostOptions _options;
+    std::unique_ptr<ControllerTrace> _traceOrNull;
     VirtualController _controller;
     Apps::TimerSet<int> _timers; ///< One: for the next event of the faults and the controller.
     ControllerFaults _faults;

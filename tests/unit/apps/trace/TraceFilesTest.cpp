@@ -20,18 +20,20 @@ TEST_CASE("Files of a trace are limited in size and number; the oldest are delet
 {
     const Testing::TemporaryFolder place;
     std::ofstream(place.GetPath() / "acsd-notes.ndjson") << "mine\n";
-    TraceFiles files(place.GetPath().string());
     const TraceLimits limits{100, 2};
-    REQUIRE_FALSE(files.Open(limits));
-    for (int i = 0; i < 9; ++i)
     {
-        REQUIRE_FALSE(files.Append(std::to_string(i) + std::string(29, '-'), limits));
+        TraceFiles files(place.GetPath().string());
+        REQUIRE_FALSE(files.Open(limits));
+        for (int i = 0; i < 9; ++i)
+        {
+            REQUIRE_FALSE(files.Append(std::to_string(i) + std::string(29, '-'), limits));
+        }
+        REQUIRE_FALSE(files.Flush());
+        CHECK(
+            ListNames(place.GetPath())
+            == std::vector<std::string>{"acsd-000002.ndjson", "acsd-000003.ndjson", "acsd-notes.ndjson"});
+        CHECK(std::filesystem::file_size(place.GetPath() / "acsd-000003.ndjson") == 93);
     }
-    REQUIRE_FALSE(files.Flush());
-    CHECK(
-        ListNames(place.GetPath())
-        == std::vector<std::string>{"acsd-000002.ndjson", "acsd-000003.ndjson", "acsd-notes.ndjson"});
-    CHECK(std::filesystem::file_size(place.GetPath() / "acsd-000003.ndjson") == 93);
 
     // A restart starts a new file, and a line that is longer than a file has a file of its own.
     TraceFiles next(place.GetPath().string());
@@ -43,6 +45,27 @@ TEST_CASE("Files of a trace are limited in size and number; the oldest are delet
         ListNames(place.GetPath())
         == std::vector<std::string>{"acsd-000004.ndjson", "acsd-000005.ndjson", "acsd-notes.ndjson"});
     CHECK(std::filesystem::file_size(place.GetPath() / "acsd-000004.ndjson") == 201);
+}
+
+TEST_CASE("A folder in which another writer has files of the same name is refused, one with other names is not")
+{
+    const Testing::TemporaryFolder place;
+    const TraceLimits limits{20, 2};
+    {
+        TraceFiles files(place.GetPath().string());
+        REQUIRE_FALSE(files.Open(limits));
+        for (const char* line : {"one-one-one", "two-two-two", "three-three"})
+        {
+            const std::error_code refused = TraceFiles(place.GetPath().string()).Open(limits);
+            CHECK(refused == std::errc::device_or_resource_busy);
+            CHECK(Apps::DescribeTraceError(refused).find("another process") != std::string::npos);
+            REQUIRE_FALSE(files.Append(line, limits));
+            REQUIRE_FALSE(files.Flush());
+        }
+        CHECK(ListNames(place.GetPath()) == std::vector<std::string>{"acsd-000002.ndjson", "acsd-000003.ndjson"});
+        CHECK_FALSE(TraceFiles(place.GetPath().string(), {"vda-sim-"}).Open(limits));
+    }
+    CHECK_FALSE(TraceFiles(place.GetPath().string()).Open(limits));
 }
 
 TEST_CASE("A full disk loses complete lines, which are counted, and leaves no partial line")

@@ -23,7 +23,7 @@ TEST_CASE("A line of the trace has times, direction, connection, what the messag
             EWireDirection::In,
             3,
             R"({"transactionId": "T1", "payload":{"planId":"P1","robotId":null}})")
-        == R"({"time":"2025-07-02T12:00:00.123Z","mono_us":5000000,"link":"mcs","direction":"in","connection":3,"plan":"P1","transaction":"T1","text":"{\"transactionId\": \"T1\", \"payload\":{\"planId\":\"P1\",\"robotId\":null}}"})");
+        == R"({"time":"2025-07-02T12:00:00.123Z","mono_us":5000000,"program":"mcs-sim","link":"mcs","direction":"in","connection":3,"plan":"P1","transaction":"T1","text":"{\"transactionId\": \"T1\", \"payload\":{\"planId\":\"P1\",\"robotId\":null}}"})");
 }
 
 TEST_CASE("Text that is not JSON stays on one line of the trace")
