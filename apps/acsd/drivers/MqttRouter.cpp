@@ -47,10 +47,18 @@ public:
 
     [[nodiscard]] Core::Result<void> Publish(const VDA5050::MqttMessage& message) override
     {
+        MessageTrace* const traceOrNull = _router._dependencies.traceOrNull;
+        if (traceOrNull == nullptr)
+        {
+            return _router._linkOrNull->Publish(message);
+        }
+        const Core::Now now = traceOrNull->GetNow(); // before the vehicle can have the message
         Core::Result<void> published = _router._linkOrNull->Publish(message);
         if (published.has_value())
         {
-            _router.Trace(ProtocolBeast::EWireDirection::Out, _robotID, message);
+            traceOrNull->Write(
+                {"mqtt", ProtocolBeast::EWireDirection::Out, _robotID, message.topic, message.payload},
+                now);
         }
         return published;
     }
@@ -162,10 +170,13 @@ void MqttRouter::OnMqttMessage(const VDA5050::MqttMessage& message)
         return;
     }
     const Service* const serviceOrNull = FindServiceOrNull(message.topic);
-    Trace(
-        ProtocolBeast::EWireDirection::In,
-        serviceOrNull == nullptr ? std::string_view() : std::string_view(serviceOrNull->GetRobotID()),
-        message);
+    if (_dependencies.traceOrNull != nullptr)
+    {
+        const auto robotID =
+            serviceOrNull == nullptr ? std::string_view() : std::string_view(serviceOrNull->GetRobotID());
+        _dependencies.traceOrNull->Write(
+            {"mqtt", ProtocolBeast::EWireDirection::In, robotID, message.topic, message.payload});
+    }
     if (serviceOrNull != nullptr && serviceOrNull->GetListenerOrNull() != nullptr)
     {
         serviceOrNull->GetListenerOrNull()->OnMqttMessage(message);
@@ -211,17 +222,6 @@ MqttRouter::Service* MqttRouter::FindServiceOrNull(std::string_view topic) const
         start = end + 1;
     }
     return bestOrNull;
-}
-
-void MqttRouter::Trace(
-    ProtocolBeast::EWireDirection direction,
-    std::string_view robotID,
-    const VDA5050::MqttMessage& message) const
-{
-    if (_dependencies.traceOrNull != nullptr)
-    {
-        _dependencies.traceOrNull->Write({"mqtt", direction, robotID, message.topic, message.payload});
-    }
 }
 
 } // namespace ACS::Acsd

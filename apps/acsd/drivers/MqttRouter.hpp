@@ -73,8 +73,6 @@ private:
     [[nodiscard]] bool IsClosed() const;
     void ReportLink(bool bUp) const;
     [[nodiscard]] Service* FindServiceOrNull(std::string_view topic) const;
-    void Trace(ProtocolBeast::EWireDirection direction, std::string_view robotID, const VDA5050::MqttMessage& message)
-        const;
 };
 
 } // namespace ACS::Acsd

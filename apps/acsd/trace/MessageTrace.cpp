@@ -78,6 +78,16 @@ Core::Result<std::unique_ptr<MessageTrace>> MessageTrace::Create(
 
 void MessageTrace::Write(const TraceEntry& entry)
 {
+    Write(entry, GetNow());
+}
+
+Core::Now MessageTrace::GetNow() const
+{
+    return _clock.GetNow();
+}
+
+void MessageTrace::Write(const TraceEntry& entry, Core::Now now)
+{
     TraceEntry known = entry;
     if (entry.link == MCS_LINK)
     {
@@ -89,12 +99,12 @@ void MessageTrace::Write(const TraceEntry& entry)
     {
         known.planID = plan->second;
     }
-    Add(known, ETraceUse::All);
+    Add(known, now, ETraceUse::All);
 }
 
 void MessageTrace::Add(const TraceEntry& entry, ETraceUse use)
 {
-    Add(entry, _clock.GetNow(), use);
+    Add(entry, GetNow(), use);
 }
 
 void MessageTrace::Add(const TraceEntry& entry, Core::Now now, ETraceUse use)

@@ -73,10 +73,14 @@ public:
     /// Adds a message. Of one to or from the MCS the plan, the robot and the transaction are those that its text names; of a robot
     /// the plan is its current one.
     void Write(const TraceEntry& entry);
+    /// Likewise, with a time from GetNow: of a message that is sent, before anyone can receive it.
+    void Write(const TraceEntry& entry, Core::Now now);
     /// Adds a line of another kind, as it is, with the present time.
     void Add(const TraceEntry& entry, ETraceUse use);
     /// Likewise, with a time that is not before that of the latest line.
     void Add(const TraceEntry& entry, Core::Now now, ETraceUse use);
+
+    [[nodiscard]] Core::Now GetNow() const;
 
     /// The plan that the robot has; empty: none.
     void SetPlan(const std::string& robotID, const std::string& planID);

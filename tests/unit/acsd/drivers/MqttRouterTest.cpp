@@ -6,6 +6,7 @@
 #include "RecordingLogSink.hpp"
 #include "TemporaryFolder.hpp"
 
+#include <chrono>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -45,6 +46,32 @@ public:
             endedOrNull->SetListener(nullptr);
             endedOrNull->Unsubscribe(message.topic);
         }
+    }
+};
+
+/// Each message takes 5 ms.
+class SlowLink final : public VDA5050::IMqttLink
+{
+    Testing::ManualClock& _clock;
+
+public:
+    explicit SlowLink(Testing::ManualClock& clock)
+        : _clock(clock)
+    {
+    }
+
+    [[nodiscard]] Core::Result<void> Publish(const VDA5050::MqttMessage& /*message*/) override
+    {
+        _clock.Advance(std::chrono::milliseconds(5));
+        return {};
+    }
+
+    void Subscribe(const std::vector<VDA5050::MqttSubscription>& /*subscriptions*/) override
+    {
+    }
+
+    void Unsubscribe(const std::string& /*topicFilter*/) override
+    {
     }
 };
 
@@ -213,6 +240,17 @@ TEST_CASE_METHOD(MqttRouterFixture, "The trace has every message with its robot,
         == MakeTraceLine({"mqtt", EWireDirection::In, "LR02", "carts/2/state", "in"}, now) + "\n"
             + MakeTraceLine({"mqtt", EWireDirection::In, "", "carts/3/state", "other"}, now) + "\n"
             + MakeTraceLine({"mqtt", EWireDirection::Out, "LR02", "carts/2/order", "out"}, now) + "\n");
+}
+
+TEST_CASE_METHOD(MqttRouterFixture, "The time of a message in the trace is before its receiver can have it")
+{
+    const Core::Now now = clock.GetNow();
+    SlowLink slow(clock);
+    router.SetLink(slow);
+    CHECK(second->Publish({"carts/2/order", "out", 0, false}).has_value());
+    using ProtocolBeast::EWireDirection;
+    CHECK(GetTrace() == MakeTraceLine({"mqtt", EWireDirection::Out, "LR02", "carts/2/order", "out"}, now) + "\n");
+    router.SetLink(link);
 }
 
 } // namespace ACS::Acsd::Test
