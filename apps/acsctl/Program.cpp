@@ -13,6 +13,7 @@
 #include "common/process/SystemRandom.hpp"
 #include "completion/CompletionScripts.hpp"
 #include "terminal/Terminal.hpp"
+#include "trace/TraceCommand.hpp"
 #include "view/DisplayText.hpp"
 #include <acs/core/Uuid.hpp>
 
@@ -218,6 +219,10 @@ int Run(const AcsctlOptions& options, const Environment& environment)
     if (options.command == ECommand::Completion)
     {
         return Print(std::string(options.arguments.word == "zsh" ? ZSH_SCRIPT : BASH_SCRIPT), terminal);
+    }
+    if (options.command == ECommand::Trace && !options.arguments.files.empty())
+    {
+        return Print(RunTraceFiles(options, {terminal.GetScreen(), Apps::SystemClock().GetNow().wall}), terminal);
     }
     return IsContextCommand(options.command)
         ? Print(RunContextCommand(options, environment, terminal.GetScreen()), terminal)

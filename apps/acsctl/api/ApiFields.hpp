@@ -333,6 +333,7 @@ struct JsonFields<Acsctl::TraceLine>
     using T = Acsctl::TraceLine;
     static constexpr auto FIELDS = std::make_tuple(
         Required("time", &T::time),
+        Nullable("program", &T::program),
         Required("link", &T::link),
         Nullable("direction", &T::direction),
         Nullable("robot", &T::robot),

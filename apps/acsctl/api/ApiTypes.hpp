@@ -277,10 +277,11 @@ struct SnapshotAnswer
     std::vector<AlarmInfo> alarms;
 };
 
-/// A line of /v1/trace.
+/// A line of /v1/trace, or of a file of a trace.
 struct TraceLine
 {
     std::string time;
+    std::optional<std::string> program; ///< Absent: acsd.
     std::string link;
     std::optional<std::string> direction;
     std::optional<std::string> robot;

@@ -38,6 +38,7 @@ const std::vector<Choice>& ListChoices()
         {"--ca", ECompletionSource::Files, {}},
         {"--certificate", ECompletionSource::Files, {}},
         {"--key", ECompletionSource::Files, {}},
+        {"--file", ECompletionSource::Files, {}},
         {"PLAN", ECompletionSource::Plans, {}},
         {"ROBOT", ECompletionSource::Robots, {}},
         {"JOB", ECompletionSource::Jobs, {}},

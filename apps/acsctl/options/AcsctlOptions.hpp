@@ -44,6 +44,7 @@ struct CommandArguments
     std::optional<std::uint64_t> after;
     std::optional<std::string> types;
     std::optional<std::string> httpURL;
+    std::vector<std::string> files; ///< Of traces; empty: acsd is asked.
     bool bCheck = false;
     bool bFollow = false;
     bool bTokenFromInput = false;

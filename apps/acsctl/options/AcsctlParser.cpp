@@ -21,6 +21,7 @@ namespace
 {
 
 constexpr std::uint64_t MAX_LIMIT = 1'000;
+constexpr std::uint64_t MAX_FILE_LIMIT = 1'000'000;
 constexpr double SHORTEST_WATCH = 0.1;
 constexpr double LONGEST_WATCH = 86'400;
 constexpr double MILLISECONDS = 1'000;
@@ -205,7 +206,29 @@ void AddHistoryCommands(CLI::App& app, AcsctlOptions& options)
     AddText(trace, "--plan", arguments.plan, "Only messages about this plan").type_name("PLAN");
     AddText(trace, "--robot", arguments.robot, "Only messages of this robot").type_name("ROBOT");
     AddText(trace, "--transaction", arguments.transaction, "Only messages of this transaction").type_name("ID");
-    AddLimit(trace, arguments);
+    trace
+        .add_option(
+            "--limit",
+            arguments.limit,
+            fmt::format("Maximum number, 1 to {}, with --file to {} (default 100)", MAX_LIMIT, MAX_FILE_LIMIT))
+        ->check(CLI::Range(std::uint64_t{1}, MAX_FILE_LIMIT))
+        ->type_name("N");
+    Apps::AddRepeatedOption(
+        trace,
+        "--file",
+        [&arguments](const std::string& text) {
+            arguments.files.push_back(text);
+            return CheckNotEmpty(text);
+        },
+        "Do not ask acsd: merge the files of --trace of acsd and of the simulators. A file, or a folder with files; may be repeated")
+        .type_name("PATH");
+    trace.callback([&options] {
+        options.command = ECommand::Trace;
+        if (options.arguments.files.empty() && options.arguments.limit.value_or(1) > MAX_LIMIT)
+        {
+            throw CLI::ValidationError("--limit", fmt::format("expected 1 to {}; more lines need --file", MAX_LIMIT));
+        }
+    });
     CLI::App& audit = AddCommand(app, options, "audit", ECommand::Audit, "Show commands of identified operators");
     AddLimit(audit, arguments);
 }

@@ -8,10 +8,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 namespace ACS::Acsctl
 {
@@ -139,15 +141,26 @@ std::string PrintTrace(const std::vector<TraceLine>& lines, const Screen& screen
         return "No message.\n";
     }
     constexpr std::size_t TIME = 12;
-    TextTable table({{"TIME", 0, TIME}, {"LINK", 1}, {"DIR", 0, 3}, {"ROBOT", 1}, {"WHAT", 2}});
+    const bool bPrograms = std::ranges::any_of(lines, [](const TraceLine& line) { return line.program.has_value(); });
+    std::vector<TextTable::Column> columns{{"TIME", 0, TIME}, {"LINK", 1}, {"DIR", 0, 3}, {"ROBOT", 1}, {"WHAT", 2}};
+    if (bPrograms)
+    {
+        columns.insert(columns.begin() + 1, {"PROGRAM", 1});
+    }
+    TextTable table(std::move(columns));
     for (const TraceLine& line : lines)
     {
-        table.AddRow(
-            {{MakeTimeOfDay(line.time)},
-             {line.link},
-             {line.direction.value_or("-")},
-             {line.robot.value_or("-")},
-             {Summarize(line), line.lost.has_value() ? EStyle::Warning : EStyle::Plain}});
+        std::vector<TextTable::Cell> cells{
+            {MakeTimeOfDay(line.time)},
+            {line.link},
+            {line.direction.value_or("-")},
+            {line.robot.value_or("-")},
+            {Summarize(line), line.lost.has_value() ? EStyle::Warning : EStyle::Plain}};
+        if (bPrograms)
+        {
+            cells.insert(cells.begin() + 1, {line.program.value_or("acsd")});
+        }
+        table.AddRow(std::move(cells));
     }
     return table.Print(screen);
 }

@@ -9,7 +9,7 @@
 namespace ACS::Acsctl
 {
 
-/// The messages on one time line: time, link, direction, robot and contents.
+/// The messages on one time line: time, link, direction, robot and contents; also the program if a line is not of acsd.
 [[nodiscard]] std::string PrintTrace(const std::vector<TraceLine>& lines, const Screen& screen);
 
 [[nodiscard]] std::string PrintAudit(const std::vector<AuditLine>& lines, const Screen& screen);

@@ -129,7 +129,7 @@ void MessageTrace::SetPlan(const std::string& robotID, const std::string& planID
     }
 }
 
-Apps::NewestLines MessageTrace::Find(const TraceQuery& query, std::size_t maximum) const
+Apps::NewestLines MessageTrace::Find(const Apps::TraceQuery& query, std::size_t maximum) const
 {
     Apps::NewestLines found(maximum, NEWEST_BYTES);
     const std::deque<std::string>& newest = _newest.GetLines();

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "common/trace/NewestLines.hpp"
+#include "common/trace/TraceQuery.hpp"
 #include "common/trace/TraceWriter.hpp"
-#include "trace/TraceQuery.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
@@ -86,7 +86,7 @@ public:
     void SetPlan(const std::string& robotID, const std::string& planID);
 
     /// The newest lines that match, in memory and at the end of the files; at most this number.
-    [[nodiscard]] Apps::NewestLines Find(const TraceQuery& query, std::size_t maximum) const;
+    [[nodiscard]] Apps::NewestLines Find(const Apps::TraceQuery& query, std::size_t maximum) const;
 
     /// For the next file.
     void SetLimits(const Apps::TraceLimits& limits);

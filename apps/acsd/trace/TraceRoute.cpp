@@ -1,7 +1,7 @@
 #include "trace/TraceRoute.hpp"
 
+#include "common/trace/TraceQuery.hpp"
 #include "operator/LinesRoute.hpp"
-#include "trace/TraceQuery.hpp"
 
 #include <string>
 
@@ -10,7 +10,7 @@ namespace ACS::Acsd
 
 Apps::HttpResponse RespondWithTrace(const Apps::HttpRequest& request, const MessageTrace& trace)
 {
-    const TraceQuery query{
+    const Apps::TraceQuery query{
         request.GetQueryOrNull("plan").value_or(std::string()),
         request.GetQueryOrNull("robot").value_or(std::string()),
         request.GetQueryOrNull("transaction").value_or(std::string())};

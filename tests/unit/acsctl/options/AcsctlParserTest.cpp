@@ -61,6 +61,15 @@ TEST_CASE("A port without a carrier is - or --")
     CHECK(Parse({"plan", "--", "-P"}).arguments.id == "-P");
 }
 
+TEST_CASE("A trace may be read from files, then with more lines")
+{
+    CHECK(Parse({"trace", "--limit", "1000"}).arguments.files.empty());
+    const Acsctl::AcsctlOptions options = Parse({"trace", "--file", "a", "--limit", "1000000", "--file", "b"});
+    CHECK(options.command == ECommand::Trace);
+    CHECK(options.arguments.files == Words{"a", "b"});
+    CHECK(options.arguments.limit == 1'000'000);
+}
+
 TEST_CASE("A plan may have the name of a command")
 {
     CHECK(Parse({"plan", "status"}).arguments.id == "status");
@@ -78,6 +87,9 @@ TEST_CASE("An invalid command line is refused")
         Words{"plans", "--state", "odd"},
         Words{"plans", "--limit", "0"},
         Words{"plans", "--limit", "1001"},
+        Words{"trace", "--limit", "1001"},
+        Words{"trace", "--file", ""},
+        Words{"trace", "--file", "a", "--limit", "1000001"},
         Words{"plans", "--url", "a", "--url", "b"},
         Words{"tsc"},
         Words{"tsc", "stop"},

@@ -1,4 +1,4 @@
-#include "trace/TraceQuery.hpp"
+#include "common/trace/TraceQuery.hpp"
 
 #include "Catch.hpp"
 #include "ManualClock.hpp"
@@ -33,7 +33,7 @@ struct QueryFixture
         return std::move(*created);
     }
 
-    [[nodiscard]] std::string Find(const TraceQuery& query) const
+    [[nodiscard]] std::string Find(const Apps::TraceQuery& query) const
     {
         return trace->Find(query, 1'000).GetText(1'000);
     }
@@ -114,8 +114,8 @@ TEST_CASE_METHOD(QueryFixture, "GET /v1/trace has the lines that match its param
 TEST_CASE("A text that looks like a member is no match")
 {
     const std::string line = R"({"time":"T","link":"mcs","plan":"P2","text":"x,\"plan\":\"P1\""})";
-    CHECK_FALSE(TraceQuery{"P1", {}, {}}.IsMatch(line));
-    CHECK(TraceQuery{"P2", {}, {}}.IsMatch(line));
+    CHECK_FALSE(Apps::TraceQuery{"P1", {}, {}}.IsMatch(line));
+    CHECK(Apps::TraceQuery{"P2", {}, {}}.IsMatch(line));
 }
 
 } // namespace ACS::Acsd::Test

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace ACS::Acsd
+namespace ACS::Apps
 {
 
 /// Which lines of the trace are wanted. A member that is empty is not compared.
@@ -21,4 +21,4 @@ struct TraceQuery
     [[nodiscard]] bool IsMatch(std::string_view line) const;
 };
 
-} // namespace ACS::Acsd
+} // namespace ACS::Apps

@@ -1,11 +1,11 @@
-#include "trace/TraceQuery.hpp"
+#include "common/trace/TraceQuery.hpp"
 
 #include <acs/core/JsonText.hpp>
 
 #include <array>
 #include <utility>
 
-namespace ACS::Acsd
+namespace ACS::Apps
 {
 
 namespace
@@ -38,4 +38,4 @@ bool TraceQuery::IsMatch(std::string_view line) const
         && HasMember(members, "robot", robotID) && HasMember(members, "transaction", transactionID);
 }
 
-} // namespace ACS::Acsd
+} // namespace ACS::Apps
