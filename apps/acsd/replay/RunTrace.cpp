@@ -24,7 +24,9 @@ void AddToTrace(const ChangeEntry& entry, MessageTrace& trace)
          entry.planID,
          entry.transactionID},
         ETraceUse::All);
-    if ((entry.kind == "plan" || entry.kind == "step") && !entry.robotID.empty())
+    // The first order of a plan is sent before the plan has changed: then only the robot shows the plan.
+    const bool bStart = entry.kind == "robot" && !entry.planID.empty();
+    if ((bStart || entry.kind == "plan" || entry.kind == "step") && !entry.robotID.empty())
     {
         trace.SetPlan(std::string(entry.robotID), entry.bPlanEnded ? std::string() : std::string(entry.planID));
     }
