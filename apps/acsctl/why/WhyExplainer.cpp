@@ -17,6 +17,7 @@ namespace
 
 constexpr std::size_t DEEPEST = 6;
 constexpr std::string_view UNRESOLVED_CODE = "ACS-1008";
+constexpr std::string_view STORE_CODE = "ACS-1005";
 constexpr std::string_view ACSD_NAME = "ACS";
 
 constexpr std::array<std::string_view, 4> FINAL_STATUSES{"Completed", "Failed", "Cancelled", "Aborted"};
@@ -125,6 +126,7 @@ Explanation WhyExplainer::ExplainPlan(const PlanInfo& plan) const
     if (!IsOneOf(FINAL_STATUSES, plan.status))
     {
         AddLinks(0, finding.causes);
+        AddStoreAlarm(finding.causes);
     }
     AddRefusedReport(plan.planID, finding.causes);
     return {{std::move(finding)}};
@@ -409,6 +411,15 @@ void WhyExplainer::AddAlarms(std::string_view robotID, std::size_t depth, std::v
         {
             causes.push_back(MakeAlarmCause(alarm, depth));
         }
+    }
+}
+
+void WhyExplainer::AddStoreAlarm(std::vector<Cause>& causes) const
+{
+    const auto alarm = std::ranges::find(_snapshot.alarms, STORE_CODE, &AlarmInfo::errorCode);
+    if (alarm != _snapshot.alarms.end())
+    {
+        causes.push_back(MakeAlarmCause(*alarm, 0));
     }
 }
 

@@ -60,6 +60,8 @@ private:
     /// Its alarms and the blocked places on its route.
     void AddRobot(const RobotInfo& robot, std::size_t depth, Chain& chain) const;
     void AddAlarms(std::string_view robotID, std::size_t depth, std::vector<Cause>& causes) const;
+    /// The alarm of acsd that its store fails: plans are not started, and reports wait.
+    void AddStoreAlarm(std::vector<Cause>& causes) const;
     void AddUnresolvedJobs(const PlanInfo& plan, std::size_t depth, std::vector<Cause>& causes) const;
     void AddBlocksOfPlan(const PlanInfo& plan, std::size_t depth, Chain& chain) const;
     void AddBlocksOfRoute(const RobotInfo& robot, std::size_t depth, Chain& chain) const;

@@ -211,6 +211,32 @@ TEST_CASE("A plan is explained with the links that are down; a refused registrat
     CHECK_THAT(PrintText(explanation), Catch::Contains("acsd is not ready: the store cannot be written."));
 }
 
+TEST_CASE("An unfinished plan is explained with the alarm of a store that fails")
+{
+    WhyFixture line;
+    Acsctl::AlarmInfo alarm;
+    alarm.robotID = "ACS";
+    alarm.errorCode = "ACS-1005";
+    alarm.level = "heavy";
+    alarm.title = "Store failing";
+    alarm.message = "Plans cannot be stored: /var/acsd.db: expected free space";
+    alarm.cause = "The disk is full";
+    alarm.remedy = "Free space";
+    line.snapshot.alarms.push_back(alarm);
+    alarm.errorCode = "ACS-1021"; // refuses nothing
+    line.snapshot.alarms.push_back(alarm);
+    Acsctl::PlanInfo plan = line.AddWaitingPlan("P1", "The store is failing.");
+    const std::string text = PrintText(line.Make().ExplainPlan(plan));
+    CHECK_THAT(
+        text,
+        Catch::Contains(
+            "Heavy alarm ACS-1005 Store failing of acsd: Plans cannot be stored: /var/acsd.db: expected free space.\n"
+            "    Cause: The disk is full.\n    Remedy: Free space.\n"));
+    CHECK_THAT(text, !Catch::Contains("ACS-1021"));
+    plan.status = "Completed";
+    CHECK_THAT(PrintText(line.Make().ExplainPlan(plan)), !Catch::Contains("ACS-1005"));
+}
+
 TEST_CASE("A report that the MCS has refused is explained with its plan, and for acsd without need of attention")
 {
     WhyFixture line;
