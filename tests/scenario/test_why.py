@@ -3,61 +3,26 @@
 
 import json
 import pathlib
+import shutil
+import signal
+import sqlite3
 import subprocess
-import urllib.request
 
-from link_proxy import LinkProxy
-from mcs_stub import McsStub
-from plan_samples import make_carrying_plan, make_tray_memory_plan
-from scenario_case import FINISH_SECONDS, REPOSITORY, STATUS_SECONDS, TIME_SCALE, ScenarioCase, main
-import operator_api  # which scenario_case makes known
+from line_faults import (ArmMotorOff, BrokerGone, DiskFull, EdgeBlocked, FaultCase, RegistrationRefused, ReportsRefused,
+                         VehicleKilled, VehicleLost)
+from plan_samples import make_carrying_plan
+from scenario_case import REPOSITORY, STATUS_SECONDS, main
 
 UPDATES = 5  # of the event feed, from the first with the fault on
 RUNBOOK = REPOSITORY / "docs" / "runbook"
 
 
-class Why(ScenarioCase):
-    def start_line(self, make_port=lambda port: port):
-        """The base of LR01 is connected at a port of its own."""
-        self.stub = McsStub()
-        self.addCleanup(self.stub.close)
-        self.line.start_broker()
-        vehicles = [self.line.start_vehicles(TIME_SCALE, (vehicle,), port=port) for vehicle, port in (
-            ("LR01,type=LR", make_port(self.line.broker_port)), ("CR01,type=CR,node=D-A02.CP01", self.line.broker_port))]
-        self.arm = self.line.start_arm(TIME_SCALE).wait_ready()
-        for vehicle in vehicles:
-            vehicle.wait_ready()
-        self.acsd = self.line.start_acsd(self.stub.address, self.arm)
-        self.address = self.acsd.wait_ready()["operator"]
-        for robot in ("LR01", "CR01"):
-            self.stub.wait_for("RobotStatusUpdate", lambda message, robot=robot: message.payload["robotId"] == robot
-                               and message.payload["robotStatus"] == "Idle")
-        self.assertFalse(self.explain()["needsAttention"])
-
-    def start_plan(self, plan):
-        self.assertEqual(self.stub.ask("ExecutionPlan", plan)["result"], "Success")
-        self.stub.wait_for("PlanReport", lambda message: message.payload["planId"] == plan["planId"]
-                           and message.payload["status"] == "InProgress")
-
+class WhyCase(FaultCase):
     def explain(self, *subject):
         result = subprocess.run([self.line.bin_dir / "acsctl", "--url", f"http://{self.address}", "why", *subject, "--json"],
                                 capture_output=True, text=True, timeout=STATUS_SECONDS)
         self.assertEqual(result.stderr, "")
         return json.loads(result.stdout)
-
-    def read_changes(self):
-        """The changes of the event feed from now on, as they come."""
-        with urllib.request.urlopen(f"http://{self.address}/v1/snapshot", timeout=STATUS_SECONDS) as response:
-            return self.follow_changes(json.load(response)["eventId"])
-
-    def follow_changes(self, after):
-        with urllib.request.urlopen(f"http://{self.address}/v1/events?after={after}", timeout=FINISH_SECONDS) as feed:
-            event = None
-            for line in feed:
-                if line.startswith(b"event: "):
-                    event = line[7:].strip()
-                elif line.startswith(b"data: ") and event == b"changes":
-                    yield json.loads(line[6:])
 
     @staticmethod
     def list_texts(explanation):
@@ -65,123 +30,138 @@ class Why(ScenarioCase):
         return [" ".join([cause["text"], cause["cause"] or "", *cause["remedy"]])
                 for finding in explanation["findings"] for cause in finding["causes"]]
 
-    def check_explained(self, changes, has_fault, plan, cause, remedy, code=None):
-        """After the fault is in the feed, each explanation has one entry with the cause and the remedy within a few updates."""
-        for change in changes:
-            if has_fault(change):
-                break
-        missing = [plan, None]
+    def check_explained(self, fault):
+        """Each explanation has one entry with the cause and the remedy within a few updates from the fault on."""
+        changes = self.begin(fault)
+        missing = [fault.plans[-1], None]
         for _ in range(UPDATES):
             missing = [subject for subject in missing if not any(
-                cause in text and remedy in text for text in self.list_texts(self.explain(*filter(None, [subject]))))]
+                fault.cause in text and fault.remedy in text
+                for text in self.list_texts(self.explain(*filter(None, [subject]))))]
             if not missing:
                 break
             next(changes)
         self.assertEqual(missing, [], [self.list_texts(self.explain(*filter(None, [subject]))) for subject in missing])
-        if code is not None:
-            alarm = next(alarm for alarm in self.read_status(self.address)["alarms"] if alarm["errorCode"] == code)
+        if fault.code is not None:
+            alarm = next(alarm for alarm in self.read_status(self.address)["alarms"] if alarm["errorCode"] == fault.code)
             self.assertTrue(alarm["cause"] and alarm["remedy"])
             for language in ("en", "ko"):
-                self.assertTrue(pathlib.Path(RUNBOOK / language / f"{code}.md").exists())
+                self.assertTrue(pathlib.Path(RUNBOOK / language / f"{fault.code}.md").exists())
 
-    def check_over(self, *plans):
-        """The plans complete, and nothing is left to explain."""
-        for plan in plans:
-            self.stub.wait_for("PlanReport", lambda message, plan=plan: message.payload["planId"] == plan
-                               and message.payload["status"] == "Completed")
-        self.wait_for_status(self.address, lambda status: not status["notReadyReasons"] and not status["alarms"])
+    def start(self, kind):
+        fault = kind(self)
+        fault.start()
+        self.assertEqual([finding for finding in self.explain()["findings"] if finding["subject"] == "acsd"
+                          and finding["needsAttention"]], [])
+        return fault
+
+    def end(self, fault):
+        fault.end()
+        self.wait_until_over(fault)
         explanation = self.explain()
         self.assertFalse(explanation["needsAttention"], explanation)
 
+    def check(self, kind):
+        fault = self.start(kind)
+        self.check_explained(fault)
+        self.end(fault)
+
+
+class Why(WhyCase):
     def test_the_broker_is_gone(self):
-        self.start_line()
-        self.start_plan(make_carrying_plan("P1"))
-        changes = self.read_changes()
-        port = self.line.broker_port
-        self.line.forget(self.line.broker)
-        self.line.broker.stop()
-        self.check_explained(
-            changes, lambda change: any(link["name"] == "mqtt" and not link["up"] for link in
-                                        change.get("status", {}).get("links", [])),
-            "P1", "The link mqtt is down", "Check the MQTT broker and the network to it.")
-        self.line.start_broker(port)
-        self.check_over("P1")
+        self.check(BrokerGone)
 
     def test_the_mcs_refuses_the_registration(self):
-        self.start_line()
-        self.start_plan(make_carrying_plan("P1"))
-        changes = self.read_changes()
-        self.stub.refused = ("Registration",)
-        self.stub.reset_link()
-        self.check_explained(
-            changes, lambda change: any(not link["up"] and "Refused by the test" in (link["reason"] or "") for link in
-                                        change.get("status", {}).get("links", [])),
-            "P1", "Refused by the test", "it must accept the registration of this ACS")
-        self.stub.refused = ()
-        self.check_over("P1")
+        self.check(RegistrationRefused)
 
     def test_the_mcs_refuses_reports(self):
-        self.start_line()
-        self.stub.refused = ("JobReport", "StepReport")
-        changes = self.read_changes()
-        self.assertEqual(self.stub.ask("ExecutionPlan", make_carrying_plan("P1"))["result"], "Success")
-        self.check_explained(changes, lambda change: change.get("status", {}).get("refusedReports", {}).get("count", 0) > 0,
-                             "P1", "of plan P1: Refused by the test.", "Correct the plan in the MCS")
-        self.stub.refused = ()
-        self.check_over("P1")
+        self.check(ReportsRefused)
 
     def test_an_edge_is_blocked(self):
-        self.start_line()
-        with urllib.request.urlopen(f"http://{self.address}/v1/site", timeout=STATUS_SECONDS) as response:
-            site = json.load(response)
-        docks = next(station["nodeIds"] for station in site["stations"] if station["stationId"] == "A01.CP01")
-        edges = [edge["edgeId"] for edge in site["edges"] if edge["endNodeId"] in docks]
-        for edge in edges:
-            answer = operator_api.post(self.address, "/v1/site/block", {"kind": "edge", "id": edge, "reason": "wet floor"})
-            self.assertEqual(answer[0], 202, answer)
-        changes = self.read_changes()
-        self.assertEqual(self.stub.ask("ExecutionPlan", make_carrying_plan("P1"))["result"], "Success")
-        self.check_explained(changes, lambda change: any(plan["waits"] for plan in change.get("plans", [])),
-                             "P1", f"Edge {edges[0]} is blocked", f"acsctl unblock edge {edges[0]}")
-        for edge in edges:
-            self.assertEqual(operator_api.post(self.address, "/v1/site/unblock", {"kind": "edge", "id": edge})[0], 202)
-        self.check_over("P1")
+        self.check(EdgeBlocked)
 
     def test_a_vehicle_is_lost(self):
-        proxies = []
+        self.check(VehicleLost)
 
-        def make_port(port):
-            proxies.append(LinkProxy(port))
-            self.addCleanup(proxies[0].close)
-            return proxies[0].port
+    def read_connection_state(self, robot):
+        """As the broker has retained it."""
+        binary = shutil.which("mosquitto_sub")
+        self.assertIsNotNone(binary, "mosquitto_sub is missing; run scripts/setup")
+        topic = self.read_json(f"/v1/robots/{robot}")["topic"]
+        message = subprocess.run([binary, "-p", str(self.line.broker_port), "-t", f"{topic}/connection", "-C", "1"], check=True,
+                                 capture_output=True, timeout=STATUS_SECONDS).stdout
+        return json.loads(message)["connectionState"]
 
-        self.start_line(make_port)
-        self.start_plan(make_carrying_plan("P1"))
-        changes = self.read_changes()
-        next(changes)
-        proxies[0].cut()
-        self.check_explained(changes, lambda change: any(alarm["errorCode"] == "ACS-1002" for alarm in change.get("alarms", [])),
-                             "P1", "ACS-1002 Robot disconnected of LR01", "Check power, network and broker", "ACS-1002")
-        proxies[0].mend()
-        self.check_over("P1")
-
-    def press_emergency_stop(self, value):
-        request = urllib.request.Request(f"http://{self.arm['http']}/project/robot/emergency_stop",
-                                         data=json.dumps({"val": value}).encode(), headers={"Content-Type": "application/json"})
-        urllib.request.urlopen(request, timeout=STATUS_SECONDS).close()
+    def test_the_program_of_a_vehicle_is_killed(self):
+        fault = self.start(VehicleKilled)
+        self.check_explained(fault)
+        self.assertEqual(self.read_connection_state("LR01"), "CONNECTIONBROKEN")
+        self.end(fault)
 
     def test_the_emergency_stop_of_an_arm_is_pressed(self):
-        self.start_line()
-        changes = self.read_changes()
-        self.press_emergency_stop(1)
-        for change in changes:
-            if any(alarm["errorCode"] == "ARM-motorOff" for alarm in change.get("alarms", [])):
-                break
-        self.assertEqual(self.stub.ask("ExecutionPlan", make_tray_memory_plan("P1", 2))["result"], "Success")
-        self.check_explained(changes, lambda _: True, "P1", "ARM-motorOff Arm motor off of CR01",
-                             "Release the emergency stop", "ARM-motorOff")
-        self.press_emergency_stop(0)
-        self.check_over("P1")
+        self.check(ArmMotorOff)
+
+
+class FullDisk(WhyCase):
+    def check_refused(self, fault):
+        """Whatever a crash would lose; what only stops work is accepted."""
+        answer = self.post("/v1/plans/P2/priority", {"priority": 7}, 503)
+        self.assertIn("it would be lost in a crash", answer["error"])
+        self.assertIn(fault.remedy, answer["error"])
+        self.post("/v1/robots/CR01/maintenance", {"on": False}, 503)
+        ack = self.stub.ask("ExecutionPlan", make_carrying_plan("P3"))
+        self.assertEqual(ack["result"], "Fail", ack)
+        self.assertIn(fault.remedy, ack["message"])
+        self.assertEqual(self.stub.ask("AbortPlan", {"planId": "P1"})["result"], "Fail")
+        self.assertIn("This is not stored", self.post("/v1/site/block", {"kind": "node", "id": "N001"})["message"])
+
+    def list_reports(self, start=0):
+        return [message for message in self.stub.get(start) if message.command in ("PlanReport", "StepReport", "JobReport")]
+
+    def test_the_disk_is_full(self):
+        fault = self.start(DiskFull)
+        self.check_explained(fault)
+        status = self.read_json("/v1/status")
+        self.assertFalse(status["ready"])
+        (reason,) = status["notReadyReasons"]
+        self.assertIn("the store cannot be written", reason)
+        self.assertIn(fault.remedy, reason)
+        self.check_refused(fault)
+
+        # The plan in progress ends. Its reports wait, and no plan is started.
+        start = self.stub.count()
+        self.wait_for_status(self.address, lambda status: [plan["planId"] for plan in status["plans"]] == ["P2"])
+        self.assertEqual(self.read_json("/v1/plans/P1")["status"], "Completed")
+        (plan,) = self.read_status(self.address)["plans"]
+        self.assertEqual(plan["waits"]["message"], "The store is failing: no plan is started until it works again.")
+        self.assertEqual(self.list_reports(start), [])
+
+        fault.end()
+        self.wait_until_over(fault)
+        self.assertEqual(self.stub.ask("ExecutionPlan", make_carrying_plan("P3"))["result"], "Success")
+        self.wait_for_plan("P3", "Completed")
+
+        # Nothing is lost: every report came once, and a crash now finds everything stored.
+        reports = [json.dumps(message.payload | {"command": message.command}, sort_keys=True) for message in self.list_reports()]
+        self.assertEqual(len(reports), len(set(reports)))
+        self.stub.wait_until_acks_are_read()
+        self.line.forget(self.acsd)
+        self.acsd.send_signal(signal.SIGKILL)
+        self.acsd.stop()
+        with sqlite3.connect(f"file:{fault.directory}/acsd.db?mode=ro", uri=True) as store:
+            plans = dict(store.execute("SELECT plan_id, state FROM plans"))
+        store.close()
+        self.assertEqual(plans, {plan: "Completed" for plan in ("P1", "P2", "P3")})
+        self.acsd = self.line.start_acsd(self.stub.address, self.arm)
+        self.address = self.acsd.wait_ready()["operator"]
+        self.assertEqual([(block["kind"], block["id"]) for block in self.read_json("/v1/site")["blocked"]], [("node", "N001")])
+        self.assertEqual(self.read_json("/v1/plans")["plans"], [])
+
+    def test_a_full_disk_that_is_found_when_a_file_is_synchronised_has_the_same_remedy(self):
+        fault = self.start(DiskFull)
+        fault.begin("fdatasync")
+        self.wait_for_status(self.address, lambda status: any(fault.remedy in reason for reason in status["notReadyReasons"]))
+        self.end(fault)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,11 @@
 #include "StoreFault.hpp"
 
+#include "StoreFiles.hpp"
+
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <cerrno>
 #include <system_error>
 #include <utility>
 
@@ -23,8 +26,6 @@ std::string MakeAdvice(int code)
         case SQLITE_CORRUPT:
         case SQLITE_NOTADB:
             return fmt::format("an undamaged plan store; {}", RESTORE_IT);
-        case SQLITE_FULL:
-            return "free space on its disk; free some";
         case SQLITE_IOERR:
             return "a disk that reads and writes; check it and the system log, and move the store to another disk if it is "
                    "broken";
@@ -38,6 +39,12 @@ std::string MakeAdvice(int code)
         default:
             return "a file that can be read and written; check it, its directory and its disk";
     }
+}
+
+/// Of the file system, or of what this user may use of it.
+bool IsDiskFull(int code, int systemError)
+{
+    return code == SQLITE_FULL || systemError == ENOSPC || systemError == EDQUOT;
 }
 
 } // namespace
@@ -68,6 +75,15 @@ tl::unexpected<Core::Error> RefuseFor(
     if (bOfSystem && systemError != 0)
     {
         found += fmt::format(" ({})", DescribeErrno(systemError));
+    }
+    if (IsDiskFull(code, bOfSystem ? systemError : 0))
+    {
+        return Refuse(
+            path,
+            fmt::format(
+                "free space on the disk of {}; delete or move other files of this disk",
+                StoreFiles::GetParent(path)),
+            std::move(found));
     }
     const bool bCorrupt = code == SQLITE_CORRUPT || code == SQLITE_NOTADB || code == SQLITE_ERROR;
     return Refuse(
