@@ -73,6 +73,11 @@ class Texts(unittest.TestCase):
             self.assertIn(f"robotStatus.{state}", read_texts("en"))
             self.assertRegex(glyphs, rf"\b{state}: ")
 
+    def test_remedies_are_those_of_acsctl(self):
+        source = (PAGE.parent.parent / "acsctl" / "why" / "WhyExplainer.cpp").read_text(encoding="utf-8")
+        for key in ("remedy.mqtt", "remedy.mcs", "remedy.registration", "cause.refused", "remedy.refused"):
+            self.assertIn(f'"{read_texts("en")[key]}"', source, key)
+
     def test_korean_alarms(self):
         path = PAGE / "alarms.ko.json"
         if not path.exists():

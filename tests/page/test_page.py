@@ -8,16 +8,10 @@
 Exit code 77 if chromium, chromedriver or python3-selenium is missing."""
 
 import argparse
-import importlib.util
-import shutil
 import sys
 import unittest
 
-
-def find_missing():
-    missing = [name for name in ("chromium", "chromedriver") if shutil.which(name) is None]
-    return missing + ([] if importlib.util.find_spec("selenium") else ["python3-selenium"])
-
+from missing_packages import SKIPPED, find_missing
 
 SAMPLE = ("AnyAcsd", "Floor.test_a_robot_moves", "Alarms.test_an_alarm_appears_and_clears", "Plans.test_pause_and_resume",
           "Safety.test_ids_are_text", "Connection.test_reset")
@@ -31,7 +25,7 @@ def main():
     arguments = parser.parse_args()
     if missing := find_missing():
         print(f"skipped: {', '.join(missing)} not installed (scripts/setup --for test)")
-        return 77
+        return SKIPPED
     import page_tests
     from page_case import PageCase
     PageCase.url = arguments.url

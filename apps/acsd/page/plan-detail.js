@@ -52,7 +52,7 @@ export class PlanDetail {
     update(changes) {
         if (changes.isAll || changes.plans.has(this.id)) {
             this.load();
-        } else if (changes.alarms && this.plan !== null) {
+        } else if ((changes.alarms || changes.site) && this.plan !== null) {
             this.#show();
         }
     }
@@ -89,6 +89,12 @@ export class PlanDetail {
             add("plan.waits", make("div", {class: "wait"}, since, make("span", {text: plan.waits.message})),
                 make("ul", {class: "reasons"}, ...plan.waits.robots.map(({robotId, reason}) => make("li", {},
                     makeLink("robot", robotId), ` ${reason}`))));
+            const blocks = this.context.model.findNamedBlocks(plan.waits);
+            if (blocks.length > 0) {
+                add("alarm.remedy", make("ul", {class: "reasons"}, ...blocks.map(({kind, id}) => make("li", {},
+                    make("button", {type: "button", class: "link", text: t("remedy.unblock", {kind: t(`kind.${kind}`), id}),
+                        onclick: () => this.context.select({kind, id})})))));
+            }
             if (plan.waits.queuePosition !== null) {
                 add("plan.place", t("plan.queuePosition", {n: plan.waits.queuePosition}));
             }

@@ -17,6 +17,22 @@ function makeSince(text) {
     return node;
 }
 
+/** The remedies are those of acsctl why. */
+function describeLinkRemedy(link) {
+    if (link.name === "mqtt") {
+        return t("remedy.mqtt");
+    }
+    // The connection itself works.
+    const isRefused = (link.reason ?? "").startsWith("connected, not registered");
+    return t(isRefused ? "remedy.registration" : "remedy.mcs");
+}
+
+function makeExplanation(cause, remedy) {
+    const makeRow = (key, text) => [make("dt", {text: t(key)}), make("dd", {text})];
+    return make("dl", {class: "alarm-text"}, ...cause === "" ? [] : makeRow("alarm.cause", cause),
+        ...makeRow("alarm.remedy", remedy));
+}
+
 export class SystemView {
     constructor(context) {
         this.context = context;
@@ -58,7 +74,8 @@ export class SystemView {
         for (const link of status.links) {
             rows.push(make("dt", {text: nameState("link", link.name)}), make("dd", {},
                 makeState(link.up, t(link.up ? "link.up" : "link.down")), " ", makeSince(link.since),
-                link.reason ? make("p", {class: "reason", text: link.reason}) : null));
+                link.reason ? make("p", {class: "reason", text: link.reason}) : null,
+                link.up ? null : makeExplanation("", describeLinkRemedy(link))));
         }
         add("system.toMcs", makeState(status.isConnected, t(status.isConnected ? "system.connected" : "system.disconnected")));
         add("system.outbox", t("system.reports", {n: status.outbox.reports}), " ",
@@ -66,7 +83,8 @@ export class SystemView {
         const refused = status.refusedReports;
         add("system.refused", String(refused.count),
             refused.last ? make("p", {class: "reason", text: [refused.last.command, refused.last.planId, refused.last.message]
-                .filter(Boolean).join(" · ")}) : null);
+                .filter(Boolean).join(" · ")}) : null,
+            refused.last ? makeExplanation(t("cause.refused"), t("remedy.refused")) : null);
         const blockRows = [...blocks.values()].map((block) => make("li", {},
             make("button", {type: "button", class: "link", text: `${t(`kind.${block.kind}`)} ${block.id}`,
                 onclick: () => this.context.select({kind: block.kind, id: block.id})}),

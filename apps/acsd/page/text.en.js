@@ -175,6 +175,13 @@ export default {
     "link.up": "up",
     "link.down": "down",
 
+    "remedy.mqtt": "Check the MQTT broker and the network to it.",
+    "remedy.mcs": "Check the MCS and the network to it.",
+    "remedy.registration": "Check the MCS: it must accept the registration of this ACS, and of no other one.",
+    "remedy.unblock": "Unblock {kind} {id} when it is free.",
+    "cause.refused": "The state of the MCS differs from that of acsd. Refused reports are not sent again.",
+    "remedy.refused": "Correct the plan in the MCS; its log has the reason.",
+
     "place.blocked": "Blocked",
     "place.noReason": "no reason given",
     "place.robots": "Robot here",

@@ -175,6 +175,13 @@ export default {
     "link.up": "정상",
     "link.down": "끊김",
 
+    "remedy.mqtt": "MQTT 브로커와 브로커까지의 네트워크를 점검하십시오.",
+    "remedy.mcs": "MCS와 MCS까지의 네트워크를 점검하십시오.",
+    "remedy.registration": "MCS를 점검하십시오. MCS가 이 ACS의 등록만 수락해야 합니다.",
+    "remedy.unblock": "{kind} {id}에 장애물이 없으면 사용 금지를 해제하십시오.",
+    "cause.refused": "MCS의 상태가 acsd와 다릅니다. 거부된 보고는 다시 전송하지 않습니다.",
+    "remedy.refused": "MCS에서 Plan을 수정하십시오. 사유는 MCS 로그에 있습니다.",
+
     "place.blocked": "사용 금지",
     "place.noReason": "사유 없음",
     "place.robots": "현재 로봇",
