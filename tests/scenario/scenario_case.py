@@ -4,6 +4,7 @@ import argparse
 import json
 import os
 import pathlib
+import subprocess
 import sys
 import time
 import unittest
@@ -43,13 +44,26 @@ class ScenarioCase(unittest.TestCase):
         vehicles.wait_ready()
         return arm.wait_ready()
 
+    def make_token(self, role, name=None):
+        """The token, named as its role by default; its line is added to the file `tokens` in the folder of the line."""
+        result = subprocess.run([self.line.bin_dir / "acsd", "token", role, name or role], check=True, capture_output=True,
+                                text=True)
+        tokens = self.line.folder / "tokens"
+        tokens.touch(0o600)
+        with open(tokens, "a", encoding="ascii") as file:
+            file.write(result.stdout)
+        return result.stderr.split()[-1]
+
     def read_status(self, address):
         return operator_api.read_state(address, STATUS_SECONDS)
 
     def wait_for_status(self, address, is_reached, seconds=STATUS_SECONDS):
+        self.wait_until(lambda: is_reached(self.read_status(address)), "the status was not reached", seconds)
+
+    def wait_until(self, is_reached, otherwise, seconds=STATUS_SECONDS):
         deadline = time.monotonic() + seconds
-        while not is_reached(self.read_status(address)):
-            self.assertLess(time.monotonic(), deadline, "the status was not reached")
+        while not is_reached():
+            self.assertLess(time.monotonic(), deadline, otherwise)
             time.sleep(0.02)
 
     def assert_last_line(self, program, expected):

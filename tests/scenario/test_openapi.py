@@ -159,15 +159,6 @@ class OpenApi(ScenarioCase):
         path.write_text(json.dumps(site))
         return path
 
-    def make_token(self, role):
-        """The token; its line is added to the file."""
-        result = subprocess.run([self.line.bin_dir / "acsd", "token", role, role], check=True, capture_output=True, text=True)
-        tokens = self.line.folder / "tokens"
-        tokens.touch(0o600)
-        with open(tokens, "a", encoding="ascii") as file:
-            file.write(result.stdout)
-        return result.stderr.split()[-1]
-
     def publish(self, topic, *message):
         binary = shutil.which("mosquitto_pub")
         self.assertIsNotNone(binary, "mosquitto_pub is missing; run scripts/setup")

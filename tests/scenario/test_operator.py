@@ -90,15 +90,6 @@ class Operator(ScenarioCase):
                 self.assertEqual([key for key in response.headers if key.lower().startswith("access-control-")], [])
                 connection.close()
 
-    def make_token(self, role, name):
-        """The token; its line is added to the file."""
-        result = subprocess.run([self.line.bin_dir / "acsd", "token", role, name], check=True, capture_output=True, text=True)
-        tokens = self.line.folder / "tokens"
-        tokens.touch(0o600)
-        with open(tokens, "a", encoding="ascii") as file:
-            file.write(result.stdout)
-        return result.stderr.split()[-1]
-
     def test_a_token_gives_its_role_until_it_is_withdrawn(self):
         self.line.start_broker()
         self.mcs_port = find_free_port()
