@@ -141,4 +141,17 @@ Core::Result<std::string> MasterSession::Impl::SendInstantAction(Action action, 
     return actionID;
 }
 
+bool MasterSession::Impl::TryWithdrawInstantAction(std::string_view actionID)
+{
+    const auto isMeant = [actionID](const PendingAction& pending) {
+        return pending.action.actionID == actionID;
+    };
+    if (actionID == _cancelActionID || std::erase_if(_pendingActions, isMeant) == 0)
+    {
+        return false;
+    }
+    RemoveTrackedAction(actionID);
+    return true;
+}
+
 } // namespace ACS::VDA5050

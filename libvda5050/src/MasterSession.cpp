@@ -92,6 +92,11 @@ Core::Result<std::string> MasterSession::SendInstantAction(Action action, Core::
     return _impl->SendInstantAction(std::move(action), now, out);
 }
 
+bool MasterSession::TryWithdrawInstantAction(std::string_view actionID)
+{
+    return _impl->TryWithdrawInstantAction(actionID);
+}
+
 Core::Result<void> MasterSession::Cancel(Core::Now now, MasterActions& out)
 {
     return _impl->Cancel(now, out);

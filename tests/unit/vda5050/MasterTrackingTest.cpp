@@ -516,4 +516,43 @@ TEST_CASE("5.5 Each change of thousands of actions and errors is reported once, 
     CHECK(Pick<OrderFinished>(bench.GetOutput()).size() == 1);
 }
 
+TEST_CASE("5.6 A withdrawn instant action is not sent again; a late status of it is still reported")
+{
+    MasterSessionFixture bench;
+    bench.BeReady();
+    const Action picture = MakeAction("i1", EBlockingType::None, "takePicture");
+    REQUIRE(bench.session.SendInstantAction(picture, bench.GetNow(), bench.Clear()).has_value());
+    bench.Clear();
+    bench.Wait(MasterOptions{}.resendInterval, EMasterTimer::ResendInstantActions);
+    REQUIRE(bench.GetSent(ETopic::InstantActions).size() == 1);
+    CHECK_FALSE(bench.session.TryWithdrawInstantAction("i2"));
+    REQUIRE(bench.session.TryWithdrawInstantAction("i1"));
+    CHECK_FALSE(bench.session.TryWithdrawInstantAction("i1"));
+    bench.Clear();
+    bench.Wait(MasterOptions{}.resendInterval, EMasterTimer::ResendInstantActions);
+    bench.Connect(EConnectionState::Offline);
+    bench.Connect(EConnectionState::Online);
+    for (const MqttMessage& message : bench.GetSent(ETopic::InstantActions))
+    {
+        CHECK(message.payload.find("takePicture") == std::string::npos);
+    }
+    bench.state.actionStates = {ActionState{"i1", "takePicture", {}, EActionStatus::Running, {}}};
+    bench.SendState();
+    CHECK(
+        Pick<ActionChanged>(bench.GetOutput())
+        == std::vector{ActionChanged{"i1", "takePicture", EActionStatus::Running, {}}});
+}
+
+TEST_CASE("5.6 Neither an instant action that the vehicle shows nor the cancelOrder of Cancel can be withdrawn")
+{
+    MasterSessionFixture bench;
+    SendFirstOrder(bench);
+    const Action picture = MakeAction("i1", EBlockingType::None, "takePicture");
+    REQUIRE(bench.session.SendInstantAction(picture, bench.GetNow(), bench.Clear()).has_value());
+    bench.state.actionStates.push_back(ActionState{"i1", "takePicture", {}, EActionStatus::Running, {}});
+    bench.SendState();
+    CHECK_FALSE(bench.session.TryWithdrawInstantAction("i1"));
+    CHECK_FALSE(bench.session.TryWithdrawInstantAction(CancelOrder(bench)));
+}
+
 } // namespace ACS::VDA5050::Test

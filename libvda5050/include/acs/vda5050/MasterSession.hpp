@@ -140,6 +140,10 @@ public:
     /// InvalidOrder (the id belongs to another action that is shown or has not ended), NotSupported (for cancelOrder,
     /// startPause, stopPause, stateRequest and factsheetRequest only if the id violates the vehicle's limits).
     [[nodiscard]] Core::Result<std::string> SendInstantAction(Action action, Core::Now now, MasterActions& out);
+    /// Ends the resends of an instant action that the vehicle has not shown, for example because it was away in the meantime. It may
+    /// have received the action: ActionChanged then reports its status as that of any action. False, without an effect: the action
+    /// is shown already, was refused, is a request (sent once), or the cancelOrder of Cancel.
+    [[nodiscard]] bool TryWithdrawInstantAction(std::string_view actionID);
     /// Cancels the order, whether or not the vehicle has shown it. Ends with OrderCancelled, OrderFinished (the order ended
     /// first), OrderLost or CancelFailed. Errors: NoOrder, VehicleNotReady.
     [[nodiscard]] Core::Result<void> Cancel(Core::Now now, MasterActions& out);
