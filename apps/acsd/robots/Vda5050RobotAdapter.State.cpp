@@ -1,6 +1,5 @@
 #include "robots/Vda5050RobotAdapter.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace ACS::Acsd
@@ -14,43 +13,13 @@ using Planning::RaiseEvent;
 
 } // namespace
 
-bool Vda5050RobotAdapter::IsOccupied(const VDA5050::StateMessage& state) const
-{
-    if (_session.GetOrderPhase() != VDA5050::EOrderPhase::None || state.orderID.empty())
-    {
-        return false;
-    }
-    const bool bActs = std::ranges::any_of(state.actionStates, [](const VDA5050::ActionState& action) {
-        return action.actionStatus == VDA5050::EActionStatus::Initializing
-            || action.actionStatus == VDA5050::EActionStatus::Running
-            || action.actionStatus == VDA5050::EActionStatus::Paused;
-    });
-    return bActs || !state.nodeStates.empty() || !state.edgeStates.empty();
-}
-
-void Vda5050RobotAdapter::CancelForeignOrder(Core::Now now)
-{
-    const VDA5050::StateMessage& state = *_session.GetStateOrNull();
-    const bool bDrives = !state.nodeStates.empty() || !state.edgeStates.empty();
-    if (!bDrives || _foreignOrderID == state.orderID)
-    {
-        return;
-    }
-    VDA5050::Action action;
-    action.actionType = VDA5050::ActionTypes::CANCEL_ORDER;
-    if (_session.SendInstantAction(std::move(action), now, _sessionActions))
-    {
-        _foreignOrderID = state.orderID;
-    }
-}
-
 void Vda5050RobotAdapter::OnState(Core::Now now, AdapterActions& out)
 {
     const VDA5050::StateMessage& state = *_session.GetStateOrNull();
     _report.Update(state, IsJobRunning(state), _methods.GetPositions());
     _maps.OnReported(state.maps);
     RecoverJob(now, out); // first: a job of before a restart does not make the vehicle occupied
-    const bool bOccupied = IsOccupied(state);
+    const bool bOccupied = ForeignOrder::IsExecuted(_session);
     if (!bOccupied && _session.CanTakeOrder())
     {
         RequestMap(now);
@@ -63,8 +32,30 @@ void Vda5050RobotAdapter::OnState(Core::Now now, AdapterActions& out)
     EvaluateInterruption(false, out);
     if (bOccupied)
     {
-        CancelForeignOrder(now);
+        _foreignOrder.Cancel(_session, now, _sessionActions);
     }
+}
+
+void Vda5050RobotAdapter::SetOnline(bool bOnline, Core::Now now, AdapterActions& out)
+{
+    if (std::exchange(_bOnline, bOnline) == bOnline)
+    {
+        return;
+    }
+    if (bOnline)
+    {
+        UpdateJobCheck(out); // before the engine gives it a plan
+        UpdateCompatibility(now, out);
+    }
+    if (_bFactsheetAwaited && bOnline)
+    {
+        out.emplace_back(Planning::StartAdapterTimer{FACTSHEET_TIMER, FACTSHEET_TIMEOUT});
+    }
+    else if (_bFactsheetAwaited)
+    {
+        out.emplace_back(Planning::CancelAdapterTimer{FACTSHEET_TIMER});
+    }
+    out.emplace_back(RaiseEvent{Planning::LinkChanged{bOnline}});
 }
 
 void Vda5050RobotAdapter::RequestMap(Core::Now now)

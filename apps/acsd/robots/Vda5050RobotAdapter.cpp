@@ -173,7 +173,7 @@ void Vda5050RobotAdapter::SendInstantAction(std::string_view actionType, Core::N
 
 void Vda5050RobotAdapter::SendPendingOrder(Core::Now now, AdapterActions& out)
 {
-    if (!_pendingOrder.has_value() || !_session.CanTakeOrder() || IsOccupied(*_session.GetStateOrNull()))
+    if (!_pendingOrder.has_value() || !_session.CanTakeOrder() || ForeignOrder::IsExecuted(_session))
     {
         return;
     }
@@ -288,7 +288,7 @@ void Vda5050RobotAdapter::HandleAction(const VDA5050::MasterAction& action, Core
                 OnFactsheet(now, out);
             },
             [&](const VDA5050::VehicleOnline&) {
-                _foreignOrderID.clear();
+                _foreignOrder.OnConnected();
                 _maps.OnConnected();
             },
             [&](const VDA5050::InstantActionRejected& rejected) {
@@ -430,28 +430,6 @@ void Vda5050RobotAdapter::OnFinished(const std::string& orderID, Core::Now now, 
     {
         InterruptJob("the order ended without an end of its action", out);
     }
-}
-
-void Vda5050RobotAdapter::SetOnline(bool bOnline, Core::Now now, AdapterActions& out)
-{
-    if (std::exchange(_bOnline, bOnline) == bOnline)
-    {
-        return;
-    }
-    if (bOnline)
-    {
-        UpdateJobCheck(out); // before the engine gives it a plan
-        UpdateCompatibility(now, out);
-    }
-    if (_bFactsheetAwaited && bOnline)
-    {
-        out.emplace_back(Planning::StartAdapterTimer{FACTSHEET_TIMER, FACTSHEET_TIMEOUT});
-    }
-    else if (_bFactsheetAwaited)
-    {
-        out.emplace_back(Planning::CancelAdapterTimer{FACTSHEET_TIMER});
-    }
-    out.emplace_back(RaiseEvent{Planning::LinkChanged{bOnline}});
 }
 
 void Vda5050RobotAdapter::OnFactsheet(Core::Now now, AdapterActions& out)

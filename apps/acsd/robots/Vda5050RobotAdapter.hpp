@@ -1,6 +1,7 @@
 #pragma once
 
 #include "robots/DriveCheck.hpp"
+#include "robots/ForeignOrder.hpp"
 #include "robots/IMqttRobotAdapter.hpp"
 #include "robots/JobMethods.hpp"
 #include "robots/RobotOutputs.hpp"
@@ -62,7 +63,7 @@ private:
     /// The node of the last drive whose REQUIRED actions have not finished, with these.
     std::optional<Planning::RouteNode> _openNode;
     std::size_t _repetitionCount = 0; ///< Of orders that repeat actions of a node before a job.
-    std::string _foreignOrderID;      ///< The latest order of another master for which cancelOrder was sent.
+    ForeignOrder _foreignOrder;
 
 public:
     /// The outputs must outlive the adapter. loadTimeout: maximum time for the loads to agree with a job whose action is
@@ -134,10 +135,6 @@ private:
     /// The vehicle has accepted the drive, which cannot be continued. It is reported as rejected when the vehicle has stopped.
     void AbandonDrive(const std::string& reason, Core::Now now, Planning::AdapterActions& out);
 
-    /// Whether the vehicle executes an order of another master, or one that was sent before a restart. Its remaining route is
-    /// cancelled, once per order; running actions are not interrupted.
-    [[nodiscard]] bool IsOccupied(const VDA5050::StateMessage& state) const;
-    void CancelForeignOrder(Core::Now now);
     [[nodiscard]] bool IsJobRunning(const VDA5050::StateMessage& state) const;
 
     /// Executes the actions of the session and reports its events to the engine.

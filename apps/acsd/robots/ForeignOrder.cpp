@@ -1,0 +1,45 @@
+#include "robots/ForeignOrder.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace ACS::Acsd
+{
+
+bool ForeignOrder::IsExecuted(const VDA5050::MasterSession& session)
+{
+    const VDA5050::StateMessage& state = *session.GetStateOrNull();
+    if (session.GetOrderPhase() != VDA5050::EOrderPhase::None || state.orderID.empty())
+    {
+        return false;
+    }
+    const bool bActs = std::ranges::any_of(state.actionStates, [](const VDA5050::ActionState& action) {
+        return action.actionStatus == VDA5050::EActionStatus::Initializing
+            || action.actionStatus == VDA5050::EActionStatus::Running
+            || action.actionStatus == VDA5050::EActionStatus::Paused;
+    });
+    return bActs || !state.nodeStates.empty() || !state.edgeStates.empty();
+}
+
+void ForeignOrder::OnConnected()
+{
+    _cancelledID.clear();
+}
+
+void ForeignOrder::Cancel(VDA5050::MasterSession& session, Core::Now now, VDA5050::MasterActions& out)
+{
+    const VDA5050::StateMessage& state = *session.GetStateOrNull();
+    const bool bDrives = !state.nodeStates.empty() || !state.edgeStates.empty();
+    if (!bDrives || _cancelledID == state.orderID)
+    {
+        return;
+    }
+    VDA5050::Action action;
+    action.actionType = VDA5050::ActionTypes::CANCEL_ORDER;
+    if (session.SendInstantAction(std::move(action), now, out))
+    {
+        _cancelledID = state.orderID;
+    }
+}
+
+} // namespace ACS::Acsd

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <acs/core/Now.hpp>
+#include <acs/vda5050/MasterSession.hpp>
+
+#include <string>
+
+namespace ACS::Acsd
+{
+
+/// The order of another master, or one that was sent before a restart, which a vehicle executes. Its remaining route is cancelled, once
+/// per order; running actions are not interrupted.
+class ForeignOrder final
+{
+    std::string _cancelledID; ///< The latest order for which cancelOrder was sent.
+
+public:
+    /// According to the vehicle's last state, of which there is one.
+    [[nodiscard]] static bool IsExecuted(const VDA5050::MasterSession& session);
+
+    void OnConnected();
+    /// While IsExecuted.
+    void Cancel(VDA5050::MasterSession& session, Core::Now now, VDA5050::MasterActions& out);
+};
+
+} // namespace ACS::Acsd
