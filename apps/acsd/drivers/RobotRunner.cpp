@@ -67,6 +67,7 @@ class RobotRunner::Impl final
     bool _bStopped = false;
     Apps::LogRateLimiter _ignored; ///< A robot may send a bad value with each state.
     Apps::TimerSet<Planning::AdapterTimerID> _timers;
+    ActionHistory _history;
 
 public:
     Impl(Dependencies dependencies, const RobotLinkConfig& link, EventHandler handler)
@@ -130,6 +131,50 @@ public:
         return _bStopped ? DriverDetails() : _robot->GetDetails();
     }
 
+    [[nodiscard]] tl::expected<std::string, RobotActionRefusal> RequestAction(
+        RobotActionRequest request,
+        std::string reason)
+    {
+        IRobotActions* const actionsOrNull = _robot->GetActionsOrNull();
+        if (actionsOrNull == nullptr)
+        {
+            return RefuseAction(fmt::format("Robots of the driver {} have no instant actions.", _driver));
+        }
+        if (!_history.HasRoom())
+        {
+            return RefuseAction(
+                fmt::format("{} instant actions of the robot have not ended.", ActionHistory::MOST_RECORDS));
+        }
+        tl::expected<std::string, RobotActionRefusal> result = RefuseAction("acsd is stopping.");
+        Call([&](Core::Now now, Planning::AdapterActions& out) {
+            result = actionsOrNull->Request(request, now, out);
+            if (result.has_value())
+            {
+                PublishAction(_history.Add(
+                    {*result,
+                     std::move(request.actionType),
+                     std::move(request.parameters),
+                     std::move(reason),
+                     now.wall,
+                     ERobotActionStatus::Waiting,
+                     {},
+                     std::nullopt}));
+            }
+        });
+        return result;
+    }
+
+    [[nodiscard]] const std::deque<RobotActionRecord>& GetActions() const noexcept
+    {
+        return _history.GetRecords();
+    }
+
+    [[nodiscard]] std::vector<RobotActionOffer> ListActionOffers() const
+    {
+        const IRobotActions* const actionsOrNull = _bStopped ? nullptr : _robot->GetActionsOrNull();
+        return actionsOrNull == nullptr ? std::vector<RobotActionOffer>() : actionsOrNull->ListOffers();
+    }
+
 private:
     [[nodiscard]] RobotServices MakeServices()
     {
@@ -169,6 +214,38 @@ private:
         }
         _bExecuting = false;
         _robot->OnAdapterCalled();
+        UpdateHistory();
+    }
+
+    [[nodiscard]] static tl::unexpected<RobotActionRefusal> RefuseAction(std::string sentence)
+    {
+        return tl::make_unexpected(RobotActionRefusal{false, std::move(sentence)});
+    }
+
+    void UpdateHistory()
+    {
+        IRobotActions* const actionsOrNull = _robot->GetActionsOrNull();
+        if (actionsOrNull == nullptr)
+        {
+            return;
+        }
+        for (const RobotActionChange& change : actionsOrNull->TakeChanges())
+        {
+            const RobotActionRecord* const recordOrNull =
+                _history.ApplyOrNull(change, _dependencies.clock.GetNow().wall);
+            if (recordOrNull != nullptr && IsEnded(recordOrNull->status))
+            {
+                PublishAction(*recordOrNull);
+            }
+        }
+    }
+
+    void PublishAction(const RobotActionRecord& record) const
+    {
+        if (_dependencies.onAction)
+        {
+            _dependencies.onAction(_robotID, record);
+        }
     }
 
     /// An exception ends acsd: whose it is helps the author of the driver.
@@ -260,6 +337,21 @@ void RobotRunner::UpdateMetrics()
 DriverDetails RobotRunner::GetDetails() const
 {
     return _impl->GetDetails();
+}
+
+tl::expected<std::string, RobotActionRefusal> RobotRunner::RequestAction(RobotActionRequest request, std::string reason)
+{
+    return _impl->RequestAction(std::move(request), std::move(reason));
+}
+
+const std::deque<RobotActionRecord>& RobotRunner::GetActions() const noexcept
+{
+    return _impl->GetActions();
+}
+
+std::vector<RobotActionOffer> RobotRunner::ListActionOffers() const
+{
+    return _impl->ListActionOffers();
 }
 
 } // namespace ACS::Acsd

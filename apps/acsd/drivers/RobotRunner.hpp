@@ -2,6 +2,7 @@
 
 #include "common/http/MetricsEndpoint.hpp"
 #include "config/AcsdConfig.hpp"
+#include "drivers/ActionHistory.hpp"
 #include "drivers/MqttRouter.hpp"
 #include "trace/MessageTrace.hpp"
 #include <acs/acsd/IRobot.hpp>
@@ -12,10 +13,13 @@
 #include <acs/plan/RobotEvent.hpp>
 
 #include <boost/asio/any_io_executor.hpp>
+#include <tl/expected.hpp>
 
+#include <deque>
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace ACS::Acsd
 {
@@ -28,6 +32,9 @@ public:
     /// Called from within the calls of the host and from the robot; may call Handle.
     using EventHandler = std::function<void(const std::string& robotID, const Planning::RobotEvent& event)>;
 
+    /// Called when an operator has requested an instant action, and when one has ended.
+    using ActionHandler = std::function<void(const std::string& robotID, const RobotActionRecord& record)>;
+
     /// All of these must outlive it.
     struct Dependencies
     {
@@ -38,6 +45,7 @@ public:
         Apps::MetricsEndpoint& metrics;
         MessageTrace* traceOrNull = nullptr;
         MqttRouter* mqttOrNull = nullptr; ///< Set if a robot has a topic prefix.
+        ActionHandler onAction{};         ///< May be empty.
     };
 
 private:
@@ -58,6 +66,15 @@ public:
     void Handle(const Planning::RobotCommand& command);
     void UpdateMetrics();
     [[nodiscard]] DriverDetails GetDetails() const;
+
+    /// Has the robot validate and send an instant action of an operator. The result is its id. Not after Stop.
+    [[nodiscard]] tl::expected<std::string, RobotActionRefusal> RequestAction(
+        RobotActionRequest request,
+        std::string reason);
+    /// The last instant actions, oldest first.
+    [[nodiscard]] const std::deque<RobotActionRecord>& GetActions() const noexcept;
+    /// Those that RequestAction accepts at present; none after Stop.
+    [[nodiscard]] std::vector<RobotActionOffer> ListActionOffers() const;
 };
 
 } // namespace ACS::Acsd

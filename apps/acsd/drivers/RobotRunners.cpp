@@ -54,4 +54,10 @@ DriverDetails RobotRunners::GetDetails(const std::string& robotID) const
     return found->second.GetDetails();
 }
 
+RobotRunner* RobotRunners::FindOrNull(std::string_view robotID)
+{
+    const auto found = _robots.find(robotID);
+    return found == _robots.end() ? nullptr : &found->second;
+}
+
 } // namespace ACS::Acsd

@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ACS::Acsd
@@ -36,6 +37,9 @@ public:
 
     /// Of one of these.
     [[nodiscard]] DriverDetails GetDetails(const std::string& robotID) const;
+
+    /// For the instant actions of a robot; null: there is no such robot.
+    [[nodiscard]] RobotRunner* FindOrNull(std::string_view robotID);
 };
 
 } // namespace ACS::Acsd

@@ -6,17 +6,18 @@
 namespace ACS::Acsd
 {
 
-bool ForeignOrder::IsExecuted(const VDA5050::MasterSession& session)
+bool ForeignOrder::IsExecuted(const VDA5050::MasterSession& session, const OperatorActions& requested)
 {
     const VDA5050::StateMessage& state = *session.GetStateOrNull();
     if (session.GetOrderPhase() != VDA5050::EOrderPhase::None || state.orderID.empty())
     {
         return false;
     }
-    const bool bActs = std::ranges::any_of(state.actionStates, [](const VDA5050::ActionState& action) {
-        return action.actionStatus == VDA5050::EActionStatus::Initializing
+    const bool bActs = std::ranges::any_of(state.actionStates, [&requested](const VDA5050::ActionState& action) {
+        const bool bRuns = action.actionStatus == VDA5050::EActionStatus::Initializing
             || action.actionStatus == VDA5050::EActionStatus::Running
             || action.actionStatus == VDA5050::EActionStatus::Paused;
+        return bRuns && !requested.IsRequested(action.actionID);
     });
     return bActs || !state.nodeStates.empty() || !state.edgeStates.empty();
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "robots/OperatorActions.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/vda5050/MasterSession.hpp>
 
@@ -15,8 +16,8 @@ class ForeignOrder final
     std::string _cancelledID; ///< The latest order for which cancelOrder was sent.
 
 public:
-    /// According to the vehicle's last state, of which there is one.
-    [[nodiscard]] static bool IsExecuted(const VDA5050::MasterSession& session);
+    /// According to the vehicle's last state, of which there is one. Actions of operators are not of an order.
+    [[nodiscard]] static bool IsExecuted(const VDA5050::MasterSession& session, const OperatorActions& requested);
 
     void OnConnected();
     /// While IsExecuted.

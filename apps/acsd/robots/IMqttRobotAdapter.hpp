@@ -1,9 +1,13 @@
 #pragma once
 
+#include <acs/acsd/RobotAction.hpp>
 #include <acs/plan/IRobotAdapter.hpp>
 #include <acs/vda5050/IMqttLink.hpp>
 #include <acs/vda5050/MasterSession.hpp>
 
+#include <tl/expected.hpp>
+
+#include <string>
 #include <vector>
 
 namespace ACS::Acsd
@@ -21,6 +25,12 @@ public:
 
     /// Messages of other robots are ignored.
     virtual void OnMqttMessage(const VDA5050::MqttMessage& message, Core::Now now, Planning::AdapterActions& out) = 0;
+
+    /// Validates an instant action of an operator and sends it. The result is its id; RobotOutputs::actionChanges has its changes.
+    [[nodiscard]] virtual tl::expected<std::string, RobotActionRefusal> RequestAction(
+        const RobotActionRequest& request,
+        Core::Now now,
+        Planning::AdapterActions& out) = 0;
 
     /// The session with the vehicle, for its state and statistics.
     [[nodiscard]] virtual const VDA5050::MasterSession& GetSession() const noexcept = 0;

@@ -132,6 +132,16 @@ void OpenStreamRobotAdapter::OnLinkDown(Core::Now now, AdapterActions& out)
     DrainBase(now, out);
 }
 
+tl::expected<std::string, RobotActionRefusal> OpenStreamRobotAdapter::RequestAction(
+    const RobotActionRequest& request,
+    Core::Now now,
+    AdapterActions& out)
+{
+    tl::expected<std::string, RobotActionRefusal> sent = _base.RequestAction(request, now, _baseActions);
+    DrainBase(now, out);
+    return sent;
+}
+
 void OpenStreamRobotAdapter::OnMqttMessage(const VDA5050::MqttMessage& message, Core::Now now, AdapterActions& out)
 {
     _base.OnMqttMessage(message, now, _baseActions);

@@ -76,6 +76,10 @@ public:
     void OnLinkUp(Core::Now now, Planning::AdapterActions& out) override;
     void OnLinkDown(Core::Now now, Planning::AdapterActions& out) override;
     void OnMqttMessage(const VDA5050::MqttMessage& message, Core::Now now, Planning::AdapterActions& out) override;
+    [[nodiscard]] tl::expected<std::string, RobotActionRefusal> RequestAction(
+        const RobotActionRequest& request,
+        Core::Now now,
+        Planning::AdapterActions& out) override;
     [[nodiscard]] const VDA5050::MasterSession& GetSession() const noexcept override;
 
     void OnArmEvent(const OpenStream::ClientEvent& event, Core::Now now, Planning::AdapterActions& out);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/acsd/RobotAction.hpp>
 #include <acs/openstream/OpenStreamRequests.hpp>
 #include <acs/vda5050/IMqttLink.hpp>
 
@@ -17,6 +18,7 @@ struct RobotOutputs
 {
     std::vector<VDA5050::MqttMessage> messages;
     std::vector<ArmRequest> armRequests;
+    std::vector<RobotActionChange> actionChanges; ///< Of the instant actions of operators.
 };
 
 } // namespace ACS::Acsd

@@ -18,8 +18,9 @@ void Vda5050RobotAdapter::OnState(Core::Now now, AdapterActions& out)
     const VDA5050::StateMessage& state = *_session.GetStateOrNull();
     _report.Update(state, IsJobRunning(state), _methods.GetPositions());
     _maps.OnReported(state.maps);
+    _operatorActions.OnState(state);
     RecoverJob(now, out); // first: a job of before a restart does not make the vehicle occupied
-    const bool bOccupied = ForeignOrder::IsExecuted(_session);
+    const bool bOccupied = ForeignOrder::IsExecuted(_session, _operatorActions);
     if (!bOccupied && _session.CanTakeOrder())
     {
         RequestMap(now);
@@ -38,6 +39,10 @@ void Vda5050RobotAdapter::OnState(Core::Now now, AdapterActions& out)
 
 void Vda5050RobotAdapter::SetOnline(bool bOnline, Core::Now now, AdapterActions& out)
 {
+    if (!bOnline && _session.GetLink() != VDA5050::EVehicleLink::Online)
+    {
+        _operatorActions.OnDisconnected(_session);
+    }
     if (std::exchange(_bOnline, bOnline) == bOnline)
     {
         return;

@@ -33,7 +33,8 @@ Vda5050RobotAdapter::Vda5050RobotAdapter(
       _jobCheck(std::make_shared<const VehicleJobCheck>(_methods, _session.GetFactsheetOrNull(), _bFactsheetAwaited)),
       _outputs(outputs),
       _loadTimeout(loadTimeout),
-      _maps(_drives->GetMap(), maps)
+      _maps(_drives->GetMap(), maps),
+      _operatorActions(InstantActionCheck(_methods, _session.GetOptions().version), outputs)
 {
 }
 
@@ -80,6 +81,11 @@ void Vda5050RobotAdapter::OnTimer(Planning::AdapterTimerID timer, Core::Now now,
         Drain(now, out);
         return;
     }
+    if (timer == OperatorActions::TIMER)
+    {
+        _operatorActions.OnTimer(_session, now, out);
+        return;
+    }
     _session.OnTimer(static_cast<VDA5050::EMasterTimer>(timer), now, _sessionActions);
     Drain(now, out);
 }
@@ -116,6 +122,17 @@ void Vda5050RobotAdapter::OnMqttMessage(const VDA5050::MqttMessage& message, Cor
 {
     _session.OnMessage(message, now, _sessionActions);
     Drain(now, out);
+}
+
+tl::expected<std::string, RobotActionRefusal> Vda5050RobotAdapter::RequestAction(
+    const RobotActionRequest& request,
+    Core::Now now,
+    AdapterActions& out)
+{
+    tl::expected<std::string, RobotActionRefusal> sent =
+        _operatorActions.Send(request, _session, now, _sessionActions, out);
+    Drain(now, out);
+    return sent;
 }
 
 const VDA5050::MasterSession& Vda5050RobotAdapter::GetSession() const noexcept
@@ -173,7 +190,7 @@ void Vda5050RobotAdapter::SendInstantAction(std::string_view actionType, Core::N
 
 void Vda5050RobotAdapter::SendPendingOrder(Core::Now now, AdapterActions& out)
 {
-    if (!_pendingOrder.has_value() || !_session.CanTakeOrder() || ForeignOrder::IsExecuted(_session))
+    if (!_pendingOrder.has_value() || !_session.CanTakeOrder() || ForeignOrder::IsExecuted(_session, _operatorActions))
     {
         return;
     }

@@ -4,6 +4,7 @@
 #include "robots/ForeignOrder.hpp"
 #include "robots/IMqttRobotAdapter.hpp"
 #include "robots/JobMethods.hpp"
+#include "robots/OperatorActions.hpp"
 #include "robots/RobotOutputs.hpp"
 #include "robots/VehicleDrive.hpp"
 #include "robots/VehicleJob.hpp"
@@ -64,6 +65,7 @@ private:
     std::optional<Planning::RouteNode> _openNode;
     std::size_t _repetitionCount = 0; ///< Of orders that repeat actions of a node before a job.
     ForeignOrder _foreignOrder;
+    OperatorActions _operatorActions;
 
 public:
     /// The outputs must outlive the adapter. loadTimeout: maximum time for the loads to agree with a job whose action is
@@ -86,6 +88,10 @@ public:
     void OnLinkDown(Core::Now now, Planning::AdapterActions& out) override;
     void OnMqttMessage(const VDA5050::MqttMessage& message, Core::Now now, Planning::AdapterActions& out) override;
 
+    [[nodiscard]] tl::expected<std::string, RobotActionRefusal> RequestAction(
+        const RobotActionRequest& request,
+        Core::Now now,
+        Planning::AdapterActions& out) override;
     [[nodiscard]] const VDA5050::MasterSession& GetSession() const noexcept override;
 
     /// The factsheet was requested and has not arrived: what may be sent is not known. JobCheckChanged is raised at the end.

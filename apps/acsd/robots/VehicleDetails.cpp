@@ -1,15 +1,9 @@
 #include "robots/VehicleDetails.hpp"
 
-#include <string_view>
-
 namespace ACS::Acsd
 {
 
-namespace
-{
-
-/// As VDA5050 writes it.
-std::string_view GetText(VDA5050::EOperatingMode mode)
+std::string_view GetModeText(VDA5050::EOperatingMode mode)
 {
     switch (mode)
     {
@@ -27,12 +21,10 @@ std::string_view GetText(VDA5050::EOperatingMode mode)
     }
 }
 
-} // namespace
-
 void AddStateDetails(const VDA5050::StateMessage& state, DriverDetails& details)
 {
     details.protocolVersion = state.header.version;
-    details.mode = GetText(state.operatingMode);
+    details.mode = GetModeText(state.operatingMode);
     for (const VDA5050::VehicleError& error : state.errors)
     {
         const bool bFatal = error.errorLevel == VDA5050::EErrorLevel::Fatal;

@@ -1,5 +1,6 @@
 #include "robots/VehicleRobot.hpp"
 
+#include "robots/InstantActionCheck.hpp"
 #include "robots/VehicleDetails.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/vda5050/MasterSession.hpp>
@@ -127,6 +128,31 @@ DriverDetails VehicleRobot::GetDetails() const
         details.bArmUp = _arm->GetState() == OpenStream::EClientState::Ready;
     }
     return details;
+}
+
+IRobotActions* VehicleRobot::GetActionsOrNull() noexcept
+{
+    return this;
+}
+
+std::vector<RobotActionOffer> VehicleRobot::ListOffers() const
+{
+    const VDA5050::MasterSession& session = _made.adapter->GetSession();
+    const InstantActionCheck check(_config->methods, session.GetOptions().version);
+    return check.ListOffers(session.GetFactsheetOrNull());
+}
+
+tl::expected<std::string, RobotActionRefusal> VehicleRobot::Request(
+    const RobotActionRequest& request,
+    Core::Now now,
+    Planning::AdapterActions& out)
+{
+    return _made.adapter->RequestAction(request, now, out);
+}
+
+std::vector<RobotActionChange> VehicleRobot::TakeChanges()
+{
+    return std::exchange(_outputs.actionChanges, {});
 }
 
 std::unique_ptr<OpenStreamAsio::OpenStreamClient> VehicleRobot::MakeArmOrNull()

@@ -8,6 +8,7 @@
 #include "robots/RobotOutputs.hpp"
 #include "robots/VehicleWatch.hpp"
 #include <acs/acsd/IRobot.hpp>
+#include <acs/acsd/IRobotActions.hpp>
 #include <acs/acsd/RobotServices.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/openstream/ClientSessionActions.hpp>
@@ -17,13 +18,15 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <system_error>
+#include <vector>
 
 namespace ACS::Acsd
 {
 
 /// A VDA5050 vehicle, with an arm or without: passes messages to its adapter, and sends the adapter's messages. Decides nothing.
-class VehicleRobot final : public IRobot, private VDA5050::IMqttLinkListener
+class VehicleRobot final : public IRobot, private IRobotActions, private VDA5050::IMqttLinkListener
 {
     enum class ETimer : std::uint8_t
     {
@@ -52,6 +55,7 @@ public:
     void OnAdapterCalled() override;
     void UpdateMetrics() override;
     [[nodiscard]] DriverDetails GetDetails() const override;
+    [[nodiscard]] IRobotActions* GetActionsOrNull() noexcept override;
 
 private:
     [[nodiscard]] std::unique_ptr<OpenStreamAsio::OpenStreamClient> MakeArmOrNull();
@@ -59,6 +63,13 @@ private:
     void Publish(const VDA5050::MqttMessage& message);
     void Send(const ArmRequest& request) const;
     void StartRenewal();
+
+    [[nodiscard]] std::vector<RobotActionOffer> ListOffers() const override;
+    [[nodiscard]] tl::expected<std::string, RobotActionRefusal> Request(
+        const RobotActionRequest& request,
+        Core::Now now,
+        Planning::AdapterActions& out) override;
+    [[nodiscard]] std::vector<RobotActionChange> TakeChanges() override;
 
     void OnLinkUp() override;
     void OnLinkDown(std::error_code reason) override;

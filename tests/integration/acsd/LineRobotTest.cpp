@@ -280,6 +280,16 @@ TEST_CASE("A robot that was stopped is not asked for its metrics and details any
     CHECK(robot.GetDetails().warnings.empty());
 }
 
+TEST_CASE("A robot without instant actions refuses a requested one and offers none")
+{
+    LineRobotFixture fixture;
+    CHECK(fixture.robot.ListActionOffers().empty());
+    CHECK(
+        fixture.robot.RequestAction({"beep", {}}, {}).error()
+        == RobotActionRefusal{false, "Robots of the driver echo have no instant actions."});
+    CHECK(fixture.robot.GetActions().empty());
+}
+
 TEST_CASE("What acsd ignores in the states of a robot is logged once for each kind, and the robot stays connected")
 {
     LineRobotFixture fixture;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/acsd/IRobotActions.hpp>
 #include <acs/core/Api.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/plan/IRobotAdapter.hpp>
@@ -65,6 +66,12 @@ public:
     [[nodiscard]] virtual DriverDetails GetDetails() const
     {
         return {};
+    }
+
+    /// The instant actions that operators may request; owned by the robot, always the same. The default has none.
+    [[nodiscard]] virtual IRobotActions* GetActionsOrNull() noexcept
+    {
+        return nullptr;
     }
 };
 
