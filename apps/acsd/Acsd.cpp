@@ -9,6 +9,7 @@
 #include "drivers/RobotRunners.hpp"
 #include "mcs/McsLink.hpp"
 #include "operator/AcsdMetrics.hpp"
+#include "operator/ActionRoutes.hpp"
 #include "operator/AuditLog.hpp"
 #include "operator/CommandRoutes.hpp"
 #include "operator/DescriptionRoute.hpp"
@@ -23,6 +24,7 @@
 #include "store/StoreSummary.hpp"
 #include "store/StoreWorker.hpp"
 #include "trace/TraceRoute.hpp"
+#include "view/ViewCodec.hpp"
 #include <acs/plan_sqlite/SqlitePlanStore.hpp>
 #include <acs/vda5050_mosquitto/MosquittoLink.hpp>
 
@@ -109,7 +111,10 @@ public:
                _dependencies.logger,
                _metricsEndpoint,
                _dependencies.traceOrNull,
-               &_mqttRouter},
+               &_mqttRouter,
+               [this](const std::string& robotID, const RobotActionRecord& record) {
+                   OnAction(robotID, record);
+               }},
               _config.robots,
               [this](const std::string& robotID, const Planning::RobotEvent& event) {
                   _core.OnRobotEvent(robotID, event);
@@ -358,6 +363,30 @@ private:
              [this] {
                  return _core.GetStoreFaultOrNull();
              }});
+        AddActionRoutes(
+            commands,
+            {[this] { return _core.IsClosed(); },
+             [this](const std::string& robotID) -> std::optional<RobotActionsView> {
+                 const RobotRunner* const robotOrNull = _robots.FindOrNull(robotID);
+                 return robotOrNull == nullptr
+                     ? std::nullopt
+                     : std::optional(RobotActionsView{robotOrNull->GetActions(), robotOrNull->ListActionOffers()});
+             },
+             [this](const std::string& robotID, RobotActionRequest request, std::string reason)
+                 -> std::optional<ActionAccess::Requested> {
+                 RobotRunner* const robotOrNull = _robots.FindOrNull(robotID);
+                 return robotOrNull == nullptr
+                     ? std::nullopt
+                     : std::optional(robotOrNull->RequestAction(std::move(request), std::move(reason)));
+             }});
+    }
+
+    /// The engine does not know of it: only operators see it.
+    void OnAction(const std::string& robotID, const RobotActionRecord& record)
+    {
+        const std::string text = DescribeAction(robotID, record);
+        const ChangeEntry entry{"action", robotID, {}, 0, {}, text, {}};
+        _http.GetEvents().Publish("entry", EncodeEntry(entry, _dependencies.clock.GetNow().wall));
     }
 
     void SampleMetrics()

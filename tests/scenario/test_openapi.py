@@ -221,7 +221,7 @@ class OpenApi(ScenarioCase):
 
     def check_idle_robots(self):
         self.stub.refuse_upgrades(0)
-        self.carrier = self.start_robot("LR01,type=LR", "--action-time", "pick=1h")
+        self.carrier = self.start_robot("LR01,type=LR", "--action-time", "pick=1h", "--action-time", "logReport=1h")
         self.start_robot("CR01,type=CR,node=D-CHG02")
         self.wait_for_robots("Idle", "LR01", "CR01")
         self.wait_for(lambda snapshot: snapshot["status"]["ready"], "acsd is ready")
@@ -259,6 +259,21 @@ class OpenApi(ScenarioCase):
         self.wait_for_robots("Stopped", "CR01")
         self.api.post("/v1/robots/CR01/maintenance", {"on": False})
         self.wait_for_robots("Idle", "CR01")
+
+    def check_instant_actions(self):
+        """The logReport of LR01 does not end; later its vehicle is switched off."""
+        log = {"actionType": "logReport", "parameters": {"reason": "test"}, "reason": "a fault"}
+        self.api.ask("POST", "/v1/robots/LR01/actions", 202, log)
+        self.post_example("/v1/robots/{robotId}/actions")
+        for _ in range(2):
+            self.api.ask("POST", "/v1/robots/CR01/actions", 202, {"actionType": "stateRequest"}, {"Idempotency-Key": "state"})
+        self.api.ask("POST", "/v1/robots/CR01/actions", 400, {"actionType": "cancelOrder"})
+
+        def list_statuses(robot_id):
+            return [action["status"] for action in self.api.get(f"/v1/robots/{robot_id}/actions")["actions"]]
+
+        self.wait_for(lambda _: list_statuses("LR01") == ["Running"] and list_statuses("CR01") == ["Finished"] * 2,
+                      "the actions are performed")
 
     def check_blocked_places(self):
         self.post_example("/v1/site/block")
@@ -430,7 +445,8 @@ class OpenApi(ScenarioCase):
     def test_answers_are_as_described(self):
         self.start()
         for check in (self.check_routes, self.check_links_that_are_down, self.check_idle_robots, self.check_invalid_requests,
-                      self.check_idempotency_keys, self.check_commands_to_robots, self.check_blocked_places,
+                      self.check_idempotency_keys, self.check_commands_to_robots, self.check_instant_actions,
+                      self.check_blocked_places,
                       self.check_waiting_plans, self.check_running_plans, self.check_disconnected_robot,
                       self.check_unresolved_job, self.check_abort, self.check_alarm_without_plan, self.check_invalid_message,
                       self.check_failing_store, self.check_events, self.check_clients):

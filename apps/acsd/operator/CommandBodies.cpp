@@ -4,10 +4,72 @@
 #include <acs/json/JsonDocument.hpp>
 #include <acs/json/JsonFields.hpp>
 
+#include <cstddef>
+#include <string>
 #include <tuple>
 
 namespace ACS::Json
 {
+
+/// Any object whose members have a value.
+template <>
+struct ValueDecoder<Acsd::ActionParametersBody>
+{
+    [[nodiscard]] static bool TryDecode(
+        const Value& value,
+        Acsd::ActionParametersBody& out,
+        const FieldBounds& /*bounds*/,
+        DecodeContext& context)
+    {
+        if (!value.IsObject())
+        {
+            return context.IsFailedWith(Core::ECoreError::WrongType, "an object", &value);
+        }
+        if (HasDuplicateNames(value))
+        {
+            return context.IsFailedWith(Core::ECoreError::InvalidJSON, "each member once", &value);
+        }
+        FieldBounds nameBounds;
+        nameBounds.minimumLength = 1;
+        nameBounds.maximumLength = Acsd::MOST_ACTION_NAME_BYTES;
+        nameBounds.bIdentifier = true;
+        std::size_t bytes = 0;
+        out.values.clear();
+        for (const auto& member : value.GetObject())
+        {
+            Acsd::RobotActionParameter& parameter = out.values.emplace_back();
+            if (!Json::TryDecode(member.name, parameter.key, nameBounds, context)
+                || !Json::TryDecode(member.value, parameter.value, FieldBounds(), context))
+            {
+                return false;
+            }
+            if (member.value.IsNull())
+            {
+                return context.IsFailedWith(Core::ECoreError::WrongType, "a value", &member.value);
+            }
+            bytes += parameter.key.size() + parameter.value.GetText().size();
+        }
+        if (bytes > Acsd::MOST_PARAMETER_BYTES)
+        {
+            return context.IsFailedWith(
+                Core::ECoreError::TooLarge,
+                "at most " + std::to_string(Acsd::MOST_PARAMETER_BYTES) + " bytes of keys and values",
+                &value);
+        }
+        return true;
+    }
+};
+
+template <>
+struct JsonFields<Acsd::ActionBody>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("actionType", &Acsd::ActionBody::actionType)
+            .WithLength(1, Acsd::MOST_ACTION_NAME_BYTES)
+            .AsIdentifier(),
+        Defaulted("parameters", &Acsd::ActionBody::parameters),
+        Defaulted("reason", &Acsd::ActionBody::reason).WithLength(0, Acsd::MOST_REASON_BYTES).AsIdentifier());
+};
 
 template <>
 struct JsonFields<Acsd::EmptyBody>
@@ -103,6 +165,7 @@ template Core::Result<PriorityBody> ReadBody<PriorityBody>(std::string_view text
 template Core::Result<ResolveBody> ReadBody<ResolveBody>(std::string_view text);
 template Core::Result<MaintenanceBody> ReadBody<MaintenanceBody>(std::string_view text);
 template Core::Result<CarriersBody> ReadBody<CarriersBody>(std::string_view text);
+template Core::Result<ActionBody> ReadBody<ActionBody>(std::string_view text);
 template Core::Result<ClearBody> ReadBody<ClearBody>(std::string_view text);
 template Core::Result<BlockBody> ReadBody<BlockBody>(std::string_view text);
 template Core::Result<UnblockBody> ReadBody<UnblockBody>(std::string_view text);

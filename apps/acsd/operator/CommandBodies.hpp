@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/acsd/RobotAction.hpp>
 #include <acs/core/Result.hpp>
 
 #include <cstddef>
@@ -14,6 +15,10 @@ namespace ACS::Acsd
 
 /// Of a reason that an operator gives.
 inline constexpr std::size_t MOST_REASON_BYTES = 500;
+/// Of an instant action, and of one of its keys.
+inline constexpr std::size_t MOST_ACTION_NAME_BYTES = 200;
+/// Of the parameters of an instant action together, keys and values.
+inline constexpr std::size_t MOST_PARAMETER_BYTES = 8'000;
 
 /// No members: of commands that have no body, or {}.
 struct EmptyBody
@@ -48,6 +53,20 @@ struct MaintenanceBody
 struct CarriersBody
 {
     std::vector<std::optional<std::string>> carrierIDs;
+};
+
+/// {"x":1.0,"mapId":"floor"}
+struct ActionParametersBody
+{
+    std::vector<RobotActionParameter> values;
+};
+
+/// {"actionType":"initPosition","parameters":{"x":1.0},"reason":"moved by hand"}
+struct ActionBody
+{
+    std::string actionType;
+    ActionParametersBody parameters;
+    std::string reason;
 };
 
 /// {"robotId":"LR01","errorCode":"ACS-1004"}

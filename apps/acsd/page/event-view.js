@@ -5,7 +5,7 @@ import {formatClock} from "./format.js";
 import {t, nameState} from "./text.js";
 
 const SHOWN = 200;
-const KINDS = ["plan", "step", "job", "alarm", "robot", "tsc", "link", "command", "note"];
+const KINDS = ["plan", "step", "job", "alarm", "robot", "tsc", "link", "command", "action", "note"];
 
 class EntryRow {
     constructor(entry) {

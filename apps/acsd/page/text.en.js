@@ -151,6 +151,7 @@ export default {
     "entry.tsc": "TSC",
     "entry.link": "link",
     "entry.command": "command",
+    "entry.action": "action",
     "entry.note": "note",
 
     "system.ready": "Accepts plans",

@@ -151,6 +151,7 @@ export default {
     "entry.tsc": "TSC",
     "entry.link": "통신",
     "entry.command": "조작",
+    "entry.action": "동작",
     "entry.note": "참고",
 
     "system.ready": "Plan 접수",

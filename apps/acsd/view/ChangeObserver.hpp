@@ -13,7 +13,7 @@ namespace ACS::Acsd
 /// A change of state: its objects, and what happened as one line for people. The views are valid during the call only.
 struct ChangeEntry
 {
-    std::string_view kind;    ///< "plan", "step", "job", "alarm", "robot", "tsc", "note"
+    std::string_view kind;    ///< "plan", "step", "job", "alarm", "robot", "tsc", "action", "note"
     std::string_view robotID; ///< Empty: none; likewise the others.
     std::string_view planID;
     std::int32_t stepNo = 0; ///< 0: none.
