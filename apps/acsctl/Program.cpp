@@ -1,5 +1,6 @@
 #include "Program.hpp"
 
+#include "commands/ActionCommand.hpp"
 #include "commands/Answers.hpp"
 #include "commands/BundleCommand.hpp"
 #include "commands/CommandError.hpp"
@@ -151,6 +152,22 @@ int RunChange(Session& session, ApiRequest request, const AcsctlOptions& options
     return Finish(terminal, EXIT_DONE);
 }
 
+int RunActionCommand(Session& session, const AcsctlOptions& options, Terminal& terminal)
+{
+    if (const std::optional<int> exitCode = AskOrNull(options); exitCode.has_value())
+    {
+        return *exitCode;
+    }
+    Apps::SystemRandom random;
+    const Outcome<Shown> shown = RunAction(session, options, Core::MakeUUID(random));
+    if (!shown.has_value())
+    {
+        return Report(shown.error());
+    }
+    terminal.Write(shown->text);
+    return Finish(terminal, shown->exitCode);
+}
+
 bool IsContextCommand(ECommand command)
 {
     return command == ECommand::ContextList || command == ECommand::ContextUse || command == ECommand::ContextSet
@@ -177,7 +194,9 @@ int RunEvents(Session& session, const AcsctlOptions& options, Terminal& terminal
 int RunRemote(const AcsctlOptions& options, const Environment& environment, Terminal& terminal)
 {
     std::optional<ApiRequest> change = MakeChangeOrNull(options);
-    if (options.watch.has_value() && (change.has_value() || options.command == ECommand::Bundle))
+    const bool bReads =
+        !change.has_value() && options.command != ECommand::Bundle && options.command != ECommand::Action;
+    if (options.watch.has_value() && !bReads)
     {
         return Report({EXIT_BAD_INPUT, "--watch is for commands that read"});
     }
@@ -189,6 +208,10 @@ int RunRemote(const AcsctlOptions& options, const Environment& environment, Term
     if (change.has_value())
     {
         return RunChange(session, std::move(*change), options, terminal);
+    }
+    if (options.command == ECommand::Action)
+    {
+        return RunActionCommand(session, options, terminal);
     }
     if (options.command == ECommand::Bundle)
     {

@@ -61,6 +61,12 @@ ENTRIES = [{"time": NOW, "kind": "plan", "robotId": "LR01", "planId": "PLAN_1", 
             "text": "alarm ACS-1002 of LR02 is set"}]
 
 
+OFFERED = [{"actionType": "initPosition", "description": "sets the pose", "parameters": [
+               {"key": "x", "valueType": "NUMBER", "required": True}, {"key": "mapId", "valueType": "STRING", "required": True},
+               {"key": "note", "valueType": "OBJECT", "required": False}]},
+           {"actionType": "stateRequest", "description": "", "parameters": []}]
+
+
 def make_lines(objects):
     return "".join(json.dumps(line) + "\n" for line in objects).encode()
 
@@ -121,6 +127,8 @@ class _Handler(http.server.BaseHTTPRequestHandler):
             self.answer(*mock.read(url.path, request["query"]))
         elif mock.refusal is not None:
             self.answer(mock.refusal[0], {"error": mock.refusal[1]}, headers=mock.refusal[2:])
+        elif url.path.endswith("/actions"):
+            self.answer(202, {"message": f"Accepted: {url.path}", "actionId": mock.add_action(json.loads(body))})
         else:
             self.answer(202, {"message": f"Accepted: {url.path}"})
 
@@ -160,6 +168,8 @@ class OperatorMock:
         self.refusal = None  # (status, sentence, headers...): the answer to every command
         self.events = None
         self.events_end = True
+        self.actions = []
+        self.outcomes = [("Running", ""), ("Finished", "done")]  # of an action, one for each read
         self.plans, self.robots, self.alarms, self.status, self.site = PLANS, ROBOTS, ALARMS, STATUS, SITE
         self._server = _Server(("127.0.0.1", 0), _Handler)
         self._server.mock = self
@@ -188,6 +198,8 @@ class OperatorMock:
         if path == "/v1/plans":
             kept = [plan for plan in self.plans if query.get("robot") in (None, plan["robotId"])]
             return 200, {"plans": kept[:int(query.get("limit", 100))]}
+        if path == "/v1/robots/LR01/actions":
+            return 200, self.read_actions()
         if path in ("/v1/trace", "/v1/audit"):
             return 200, make_lines(TRACE if path == "/v1/trace" else AUDIT), "application/x-ndjson"
         if path == "/metrics":
@@ -198,6 +210,20 @@ class OperatorMock:
         found = [item for item in self.plans + self.robots if name in (item["planId"], item.get("robotId"))]
         found = [item for item in found if item in (self.robots if path.startswith("/v1/robots/") else self.plans)]
         return (200, found[0]) if found else (404, {"error": f"There is no {name}."})
+
+    def add_action(self, request):
+        self.actions.append({"actionId": f"A{len(self.actions)}", "actionType": request["actionType"], "status": "Waiting",
+                             "parameters": request.get("parameters", {}), "reason": request.get("reason", ""),
+                             "requestedAt": NOW, "resultDescription": "", "endedAt": None})
+        return self.actions[-1]["actionId"]
+
+    def read_actions(self):
+        """The newest action takes its next status."""
+        if self.actions and self.outcomes and self.actions[-1]["endedAt"] is None:
+            status, result = self.outcomes.pop(0)
+            ended = NOW if status in ("Finished", "Failed", "Unknown") else None
+            self.actions[-1].update(status=status, resultDescription=result, endedAt=ended)
+        return {"actions": self.actions, "offered": OFFERED}
 
     def make_events(self, after):
         if self.events is not None:

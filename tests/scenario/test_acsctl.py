@@ -67,7 +67,7 @@ class AcsctlCase(unittest.TestCase):
 class Reading(AcsctlCase):
     def test_tables_fit_80_columns(self):
         for command in (("status",), ("plans",), ("plan", "PLAN_1"), ("robots",), ("robot", "LR01"), ("alarms",), ("links",),
-                        ("queue",), ("site",), ("trace",), ("audit",)):
+                        ("queue",), ("site",), ("trace",), ("audit",), ("actions", "LR01")):
             output = self.check(0, *command)
             self.assertLessEqual(max(map(len, output.splitlines())), 80, command)
             self.assertNotIn("\x1b", output)
@@ -239,6 +239,51 @@ class Changing(AcsctlCase):
             self.assertIn("no answer within 200ms", self.check(3, "plans", "--timeout", "200ms"))
 
 
+class Acting(AcsctlCase):
+    """`action` and `actions`."""
+
+    def act(self, code, *arguments):
+        return self.check(code, "action", "--yes", "LR01", *arguments)
+
+    def test_an_action_has_typed_parameters_and_waits_for_its_outcome(self):
+        self.assertEqual(self.act(0, "initPosition", "x=1.50", "mapId=2", 'note={"a": 1}', "other=a=b", "--reason", "moved"),
+                         "initPosition of LR01: Finished: done\n")
+        methods = [(request["method"], request["path"]) for request in self.mock.requests]
+        self.assertEqual(methods, [(method, "/v1/robots/LR01/actions") for method in ("GET", "POST", "GET", "GET")])
+        request = self.mock.requests[1]
+        self.assertEqual(json.loads(request["body"]), {"actionType": "initPosition", "reason": "moved", "parameters": {
+            "x": 1.5, "mapId": "2", "note": {"a": 1}, "other": "a=b"}})
+        self.assertRegex(request["key"], r"\A[A-Za-z0-9._-]{1,64}\Z")
+        output = self.check(0, "actions", "LR01")
+        for text in ("initPosition", "Finished", "done", "A0", "x=NUMBER mapId=STRING [note=OBJECT]"):
+            self.assertIn(text, output)
+
+    def test_the_outcome_is_the_exit_code(self):
+        for status in ("Failed", "Unknown"):
+            self.mock.outcomes = [(status, "no space")]
+            self.assertEqual(self.act(5, "stateRequest"), f"stateRequest of LR01: {status}: no space\n")
+        self.mock.outcomes = []
+        self.assertEqual(self.act(0, "stateRequest", "--no-wait"), "Accepted: /v1/robots/LR01/actions\n")
+        self.mock.outcomes = [("Running", ""), ("Failed", "no")]
+        self.assertEqual(json.loads(self.act(5, "stateRequest", "--json"))["status"], "Failed")
+
+    def test_a_refused_or_invalid_action_is_an_error(self):
+        for code, arguments in ((2, ("initPosition", "x")), (2, ("initPosition", "=1")), (2, ("initPosition", "x=1", "x=2")),
+                                (2, ("stateRequest", "--watch"))):
+            self.act(code, *arguments)
+        self.assertEqual([request for request in self.mock.requests if request["method"] == "POST"], [])
+        self.mock.refusal = (409, "The robot is not connected.")
+        self.assertEqual(self.act(1, "stateRequest"), "acsctl: The robot is not connected.\n")
+        self.assertIn("There is no actions.", self.check(1, "action", "--yes", "LR09", "stateRequest"))
+        self.assertIn("Send stateRequest to LR01? Without a terminal", self.check(2, "action", "LR01", "stateRequest"))
+
+    def test_a_lost_outcome_is_stated(self):
+        self.mock.add_action = lambda request: "A9"  # as after a restart
+        result = self.run_acsctl("action", "-y", "LR01", "stateRequest")
+        self.assertEqual((result.returncode, result.stdout), (5, ""))
+        self.assertIn("the outcome is not known", result.stderr)
+
+
 class Following(AcsctlCase):
     def start(self, *arguments):
         process = subprocess.Popen([self.bin_dir / "acsctl", *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
@@ -350,6 +395,8 @@ class Configuring(AcsctlCase):
         self.assertEqual(complete("tsc", "r"), ["resume"])
         self.assertEqual(complete("unblock", "edge", ""), ["E1"])
         self.assertEqual(complete("clear", "LR02", ""), ["ACS-1002"])
+        self.assertEqual(complete("action", "LR01", ""), ["initPosition", "stateRequest"])
+        self.assertEqual(complete("action", ""), ["LR01", "LR02"])
         self.environment["ACSCTL_URL"] = "http://127.0.0.1:1"
         self.assertEqual(complete("plan", ""), [])
         script = self.check(0, "completion", "bash")

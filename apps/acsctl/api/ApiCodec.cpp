@@ -91,6 +91,8 @@ template Core::Result<SnapshotAnswer> DecodeAnswer<SnapshotAnswer>(std::string_v
 template Core::Result<TraceLine> DecodeAnswer<TraceLine>(std::string_view text);
 template Core::Result<AuditLine> DecodeAnswer<AuditLine>(std::string_view text);
 template Core::Result<EntryEvent> DecodeAnswer<EntryEvent>(std::string_view text);
+template Core::Result<ActionsAnswer> DecodeAnswer<ActionsAnswer>(std::string_view text);
+template Core::Result<ActionAcceptedAnswer> DecodeAnswer<ActionAcceptedAnswer>(std::string_view text);
 template Core::Result<MessageAnswer> DecodeAnswer<MessageAnswer>(std::string_view text);
 template Core::Result<ErrorAnswer> DecodeAnswer<ErrorAnswer>(std::string_view text);
 

@@ -371,6 +371,54 @@ struct JsonFields<Acsctl::EntryEvent>
 };
 
 template <>
+struct JsonFields<Acsctl::ActionInfo>
+{
+    using T = Acsctl::ActionInfo;
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("actionId", &T::actionID),
+        Required("actionType", &T::actionType),
+        Required("status", &T::status),
+        Defaulted("resultDescription", &T::resultDescription),
+        Nullable("requestedAt", &T::requestedAt),
+        Nullable("endedAt", &T::endedAt));
+};
+
+template <>
+struct JsonFields<Acsctl::ActionParameterInfo>
+{
+    using T = Acsctl::ActionParameterInfo;
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("key", &T::key),
+        Defaulted("valueType", &T::valueType),
+        Defaulted("required", &T::bRequired));
+};
+
+template <>
+struct JsonFields<Acsctl::ActionOfferInfo>
+{
+    using T = Acsctl::ActionOfferInfo;
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("actionType", &T::actionType),
+        Defaulted("description", &T::description),
+        Defaulted("parameters", &T::parameters));
+};
+
+template <>
+struct JsonFields<Acsctl::ActionsAnswer>
+{
+    using T = Acsctl::ActionsAnswer;
+    static constexpr auto FIELDS = std::make_tuple(Required("actions", &T::actions), Defaulted("offered", &T::offered));
+};
+
+template <>
+struct JsonFields<Acsctl::ActionAcceptedAnswer>
+{
+    using T = Acsctl::ActionAcceptedAnswer;
+    static constexpr auto FIELDS =
+        std::make_tuple(Required("message", &T::message), Required("actionId", &T::actionID));
+};
+
+template <>
 struct JsonFields<Acsctl::MessageAnswer>
 {
     static constexpr auto FIELDS = std::make_tuple(Required("message", &Acsctl::MessageAnswer::message));

@@ -314,6 +314,46 @@ struct EntryEvent
     std::string text;
 };
 
+/// An instant action that was requested of a robot.
+struct ActionInfo
+{
+    std::string actionID;
+    std::string actionType;
+    std::string status; ///< "Waiting", "Finished"
+    std::string resultDescription;
+    std::optional<std::string> requestedAt;
+    std::optional<std::string> endedAt; ///< Absent until its outcome is known, or known to be unknown.
+};
+
+struct ActionParameterInfo
+{
+    std::string key;
+    std::string valueType; ///< "STRING", "NUMBER"
+    bool bRequired = false;
+};
+
+/// An instant action that a robot offers.
+struct ActionOfferInfo
+{
+    std::string actionType;
+    std::string description;
+    std::vector<ActionParameterInfo> parameters;
+};
+
+/// The answer of /v1/robots/ID/actions.
+struct ActionsAnswer
+{
+    std::vector<ActionInfo> actions;
+    std::vector<ActionOfferInfo> offered;
+};
+
+/// The answer to an accepted instant action.
+struct ActionAcceptedAnswer
+{
+    std::string message;
+    std::string actionID;
+};
+
 /// The answer to an accepted command.
 struct MessageAnswer
 {

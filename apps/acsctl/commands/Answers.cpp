@@ -1,6 +1,7 @@
 #include "commands/Answers.hpp"
 
 #include "api/ApiCodec.hpp"
+#include "view/ActionViews.hpp"
 #include "view/DisplayText.hpp"
 #include "view/LineViews.hpp"
 #include "view/StateViews.hpp"
@@ -120,7 +121,7 @@ struct View
     ShowFunction show;
 };
 
-constexpr std::array<View, 10> VIEWS{{
+constexpr std::array<View, 11> VIEWS{{
     {ECommand::Plans,
      [](std::string_view body, const ViewContext& context) {
          return Show<PlansAnswer>(body, [&](const PlansAnswer& answer) { return PrintPlans(answer.plans, context); });
@@ -138,6 +139,10 @@ constexpr std::array<View, 10> VIEWS{{
     {ECommand::Robot,
      [](std::string_view body, const ViewContext& context) {
          return Show<RobotInfo>(body, [&](const RobotInfo& answer) { return PrintRobot(answer, context); });
+     }},
+    {ECommand::Actions,
+     [](std::string_view body, const ViewContext& context) {
+         return Show<ActionsAnswer>(body, [&](const ActionsAnswer& answer) { return PrintActions(answer, context); });
      }},
     {ECommand::Alarms,
      [](std::string_view body, const ViewContext& context) {

@@ -74,6 +74,15 @@ void AddAlarms(IApi& api, const std::string& robotID, std::vector<std::string>& 
     }
 }
 
+void AddActions(IApi& api, const std::string& robotID, std::vector<std::string>& out)
+{
+    const std::string target = "/v1/robots/" + EncodePercent(robotID) + "/actions";
+    for (ActionOfferInfo& offer : AskOrNull<ActionsAnswer>(api, target).value_or(ActionsAnswer()).offered)
+    {
+        out.push_back(std::move(offer.actionType));
+    }
+}
+
 void AddPlaces(IApi& api, const std::string& kind, std::vector<std::string>& out)
 {
     SiteAnswer site = AskOrNull<SiteAnswer>(api, "/v1/site").value_or(SiteAnswer());
@@ -128,6 +137,9 @@ void AddNames(IApi& api, const CompletionNeed& need, std::vector<std::string>& o
             break;
         case ECompletionSource::Alarms:
             AddAlarms(api, need.subject, out);
+            break;
+        case ECompletionSource::Actions:
+            AddActions(api, need.subject, out);
             break;
         case ECompletionSource::Places:
             AddPlaces(api, need.subject, out);

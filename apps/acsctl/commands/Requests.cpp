@@ -23,13 +23,15 @@ struct Target
     std::string_view path; ///< {} is the id.
 };
 
-constexpr std::array<Target, 13> READS{{
+constexpr std::array<Target, 15> READS{{
     {ECommand::Status, "/v1/status"},
     {ECommand::Plans, "/v1/plans"},
     {ECommand::Plan, "/v1/plans/{}"},
     {ECommand::Why, "/v1/snapshot"},
     {ECommand::Robots, "/v1/robots"},
     {ECommand::Robot, "/v1/robots/{}"},
+    {ECommand::Actions, "/v1/robots/{}/actions"},
+    {ECommand::Action, "/v1/robots/{}/actions"},
     {ECommand::Alarms, "/v1/alarms"},
     {ECommand::Links, "/v1/links"},
     {ECommand::Queue, "/v1/queue"},
@@ -193,7 +195,7 @@ std::optional<std::string> MakeQuestionOrNull(const AcsctlOptions& options)
         ECommand command;
         std::string text;
     };
-    const std::array<Question, 10> questions{{
+    const std::array<Question, 11> questions{{
         {ECommand::Cancel, fmt::format("Cancel plan {}?", arguments.id)},
         {ECommand::Abort, fmt::format("Abort plan {}?", arguments.id)},
         {ECommand::Resume, fmt::format("Resume plan {}? Its robot may move.", arguments.id)},
@@ -207,6 +209,7 @@ std::optional<std::string> MakeQuestionOrNull(const AcsctlOptions& options)
         {ECommand::Clear, fmt::format("Clear alarm {} of {}?", arguments.word, arguments.id)},
         {ECommand::Carriers,
          fmt::format("Record carriers {} on {}?", fmt::join(arguments.carriers, " "), arguments.id)},
+        {ECommand::Action, fmt::format("Send {} to {}?", arguments.word, arguments.id)},
         {ECommand::TscResume, "Resume the TSC? Robots may move."},
         {ECommand::Unblock, fmt::format("Unblock {} {}? Robots may drive there.", arguments.word, arguments.id)},
         {ECommand::Maintenance, fmt::format("Put {} back into service? It may move.", arguments.id)},

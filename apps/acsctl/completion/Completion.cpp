@@ -44,6 +44,7 @@ const std::vector<Choice>& ListChoices()
         {"JOB", ECompletionSource::Jobs, {}},
         {"STEP", ECompletionSource::Steps, {}},
         {"CODE", ECompletionSource::Alarms, {}},
+        {"TYPE", ECompletionSource::Actions, {}},
         {"NAME", ECompletionSource::Contexts, {}},
         {"FILE", ECompletionSource::Files, {}},
         {"OUTCOME", ECompletionSource::None, {"done", "failed", "again"}},

@@ -14,10 +14,11 @@ enum class ECompletionSource : std::uint8_t
     Plans,
     Robots,
     PlansAndRobots,
-    Jobs,   ///< Of the plan.
-    Steps,  ///< Of the plan.
-    Alarms, ///< Codes of the active alarms of the robot.
-    Places, ///< Of the kind.
+    Jobs,    ///< Of the plan.
+    Steps,   ///< Of the plan.
+    Actions, ///< Types of the instant actions that the robot offers.
+    Alarms,  ///< Codes of the active alarms of the robot.
+    Places,  ///< Of the kind.
     Contexts,
     Files,
 };

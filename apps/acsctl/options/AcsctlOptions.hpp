@@ -31,8 +31,10 @@ struct CommandArguments
     std::string id; ///< Of the plan, the robot, the place or the context.
     std::string jobID;
     std::int64_t number = 0; ///< Step or priority.
-    std::string word;        ///< on, off, done, failed, again, node, edge, station, bash, zsh; or the code of an alarm.
+    /// on, off, done, failed, again, node, edge, station, bash, zsh; the code of an alarm; the type of an instant action.
+    std::string word;
     std::vector<std::string> carriers;
+    std::vector<std::string> parameters; ///< "KEY=VALUE", of an instant action.
     std::optional<std::string> reason;
     std::optional<std::string> state;
     std::optional<std::string> plan;
@@ -48,6 +50,7 @@ struct CommandArguments
     bool bCheck = false;
     bool bFollow = false;
     bool bTokenFromInput = false;
+    bool bNotAwaited = false; ///< The outcome of an instant action.
 };
 
 /// The command line.

@@ -185,6 +185,13 @@ void AddStateCommands(CLI::App& app, AcsctlOptions& options)
     AddCommand(app, options, "robots", ECommand::Robots, "List robots");
     CLI::App& robot = AddCommand(app, options, "robot", ECommand::Robot, "Show a robot");
     AddPositional(robot, "ROBOT", arguments.id, "The robot");
+    CLI::App& actions = AddCommand(
+        app,
+        options,
+        "actions",
+        ECommand::Actions,
+        "Show the last instant actions of a robot with their outcome, and those that it offers");
+    AddPositional(actions, "ROBOT", arguments.id, "The robot");
     AddCommand(app, options, "alarms", ECommand::Alarms, "List active alarms");
     AddCommand(app, options, "links", ECommand::Links, "Show the links to the MCS and to the MQTT broker");
     AddCommand(app, options, "queue", ECommand::Queue, "Show plans that wait, in their order, and the outbox");
@@ -316,6 +323,30 @@ void AddRobotCommands(CLI::App& app, AcsctlOptions& options)
     AddText(clear, "--job", arguments.job, "Only the alarm of this job").type_name("JOB");
 }
 
+std::string CheckParameter(const std::string& text)
+{
+    const std::size_t equals = text.find('=');
+    return equals == std::string::npos || equals == 0 ? "expected KEY=VALUE, found " + Core::QuoteForError(text) : "";
+}
+
+void AddActionCommand(CLI::App& app, AcsctlOptions& options)
+{
+    CommandArguments& arguments = options.arguments;
+    CLI::App& action = AddCommand(
+        app,
+        options,
+        "action",
+        ECommand::Action,
+        "Send an instant action to a robot and wait up to 60 s for its outcome; exit with 5 unless it is Finished");
+    AddPositional(action, "ROBOT", arguments.id, "The robot");
+    AddPositional(action, "TYPE", arguments.word, "The type of the action; acsctl actions ROBOT lists them");
+    action.add_option("PARAMETER", arguments.parameters, "KEY=VALUE for each parameter; a value is JSON, or a text")
+        ->type_name("")
+        ->check(CheckParameter);
+    AddReason(action, arguments);
+    action.add_flag("--no-wait", arguments.bNotAwaited, "Do not wait for the outcome");
+}
+
 void AddLocalCommands(CLI::App& app, AcsctlOptions& options)
 {
     CommandArguments& arguments = options.arguments;
@@ -364,11 +395,12 @@ void BuildCommandLine(CLI::App& app, AcsctlOptions& options)
     AddHistoryCommands(app, options);
     AddPlanCommands(app, options);
     AddRobotCommands(app, options);
+    AddActionCommand(app, options);
     AddSiteCommands(app, options);
     AddLocalCommands(app, options);
     AddGlobalOptions(app, options);
     app.footer("Exit codes: 0 done, 1 refused, 2 invalid command line or file, 3 no connection, 4 not authorised, "
-               "5 attention needed (why, status --check), 6 not an answer of acsd, 7 file not written.");
+               "5 attention needed (why, status --check, action), 6 not an answer of acsd, 7 file not written.");
 }
 
 std::vector<std::string> NormalizeArguments(const std::vector<std::string>& arguments)

@@ -33,6 +33,7 @@ TEST_CASE("A command that reads becomes a target")
         Row{{"plans", "--lot", "A&B/로", "--limit", "9"}, "/v1/plans?lot=A%26B%2F%EB%A1%9C&limit=9"},
         Row{{"plan", "P 1/2"}, "/v1/plans/P%201%2F2"},
         Row{{"robot", "LR01"}, "/v1/robots/LR01"},
+        Row{{"actions", "LR 01"}, "/v1/robots/LR%2001/actions"},
         Row{{"trace", "--plan", "P", "--robot", "R"}, "/v1/trace?plan=P&robot=R"},
         Row{{"audit", "--limit", "3"}, "/v1/audit?limit=3"},
         Row{{"site"}, "/v1/site"});

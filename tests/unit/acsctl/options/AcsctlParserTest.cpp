@@ -53,6 +53,20 @@ TEST_CASE("The interval of --watch may be left out")
     CHECK(ParseBad({"plans", "--watch=nan"}) == 2);
 }
 
+TEST_CASE("The parameters of an instant action are KEY=VALUE")
+{
+    const Acsctl::AcsctlOptions options = Parse({"action", "LR01", "beep", "x=-1", "text=a=b", "empty=", "--no-wait"});
+    CHECK(options.command == ECommand::Action);
+    CHECK(options.arguments.id == "LR01");
+    CHECK(options.arguments.word == "beep");
+    CHECK(options.arguments.parameters == Words{"x=-1", "text=a=b", "empty="});
+    CHECK(options.arguments.bNotAwaited);
+    CHECK(Parse({"action", "LR01", "beep"}).arguments.parameters.empty());
+    CHECK(ParseBad({"action", "LR01"}) == 2);
+    CHECK(ParseBad({"action", "LR01", "beep", "x"}) == 2);
+    CHECK(ParseBad({"action", "LR01", "beep", "=1"}) == 2);
+}
+
 TEST_CASE("A port without a carrier is - or --")
 {
     CHECK(Parse({"carriers", "CR01", "C_01", "--", "-"}).arguments.carriers == Words{"C_01", "-", "-"});
