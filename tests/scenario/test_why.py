@@ -11,8 +11,9 @@ import subprocess
 from line_faults import (ArmMotorOff, BrokerGone, DiskFull, EdgeBlocked, FaultCase, RegistrationRefused, ReportsRefused,
                          VehicleKilled, VehicleLost)
 from plan_samples import make_carrying_plan
-from scenario_case import REPOSITORY, STATUS_SECONDS, main
+from scenario_case import FINISH_SECONDS, REPOSITORY, STATUS_SECONDS, main
 
+COMMANDS = 3  # of an operator while the disk is full
 UPDATES = 5  # of the event feed, from the first with the fault on
 RUNBOOK = REPOSITORY / "docs" / "runbook"
 
@@ -115,6 +116,12 @@ class FullDisk(WhyCase):
         self.assertEqual(self.stub.ask("AbortPlan", {"planId": "P1"})["result"], "Fail")
         self.assertIn("This is not stored", self.post("/v1/site/block", {"kind": "node", "id": "N001"})["message"])
 
+    @staticmethod
+    def count_audited(fault):
+        """Commands that the files of the audit log have or, because they are on the same disk, state as lost."""
+        lines = [line for path in (fault.directory / "audit").iterdir() for line in path.read_text().splitlines()]
+        return sum(json.loads(line).get("lost", 1) for line in lines)
+
     def list_reports(self, start=0):
         return [message for message in self.stub.get(start) if message.command in ("PlanReport", "StepReport", "JobReport")]
 
@@ -127,6 +134,7 @@ class FullDisk(WhyCase):
         self.assertIn("the store cannot be written", reason)
         self.assertIn(fault.remedy, reason)
         self.check_refused(fault)
+        self.assertEqual(self.count_audited(fault), 0)
 
         # The plan in progress ends. Its reports wait, and no plan is started.
         start = self.stub.count()
@@ -140,6 +148,7 @@ class FullDisk(WhyCase):
         self.wait_until_over(fault)
         self.assertEqual(self.stub.ask("ExecutionPlan", make_carrying_plan("P3"))["result"], "Success")
         self.wait_for_plan("P3", "Completed")
+        self.wait_until(lambda: self.count_audited(fault) == COMMANDS, "the audit log does not state a command", FINISH_SECONDS)
 
         # Nothing is lost: every report came once, and a crash now finds everything stored.
         reports = [json.dumps(message.payload | {"command": message.command}, sort_keys=True) for message in self.list_reports()]

@@ -65,7 +65,7 @@ struct TraceWriter::Impl
         std::unique_lock lock(mutex);
         while (!bClosing || !queue.empty() || unqueued > 0)
         {
-            wake.wait(lock, [this] { return bClosing || !queue.empty(); });
+            WaitForWork(lock);
             const std::deque<Entry> entries = std::exchange(queue, {});
             const std::uint64_t lostAtEnd = bClosing ? std::exchange(unqueued, 0) : 0;
             const TraceLimits limits = options.limits;
@@ -73,6 +73,25 @@ struct TraceWriter::Impl
             lock.unlock();
             WriteAll(entries, lostAtEnd, limits);
             lock.lock();
+        }
+        const TraceLimits limits = options.limits;
+        lock.unlock();
+        static_cast<void>(TryWriteLoss(clock.GetNow(), limits));
+    }
+
+    /// After a failure at most RETRY: what is lost is stated also if no line follows.
+    void WaitForWork(std::unique_lock<std::mutex>& lock)
+    {
+        const auto hasWork = [this] {
+            return bClosing || !queue.empty();
+        };
+        if (failedAt.has_value())
+        {
+            wake.wait_for(lock, RETRY, hasWork);
+        }
+        else
+        {
+            wake.wait(lock, hasWork);
         }
     }
 
@@ -91,7 +110,7 @@ struct TraceWriter::Impl
         }
         const Core::Now now = entries.empty() ? clock.GetNow() : entries.back().now;
         unwritten += lostAtEnd;
-        if (lostAtEnd > 0)
+        if (lostAtEnd > 0 || entries.empty()) // it closes, or RETRY has passed since a failure
         {
             static_cast<void>(TryWriteLoss(now, limits));
         }

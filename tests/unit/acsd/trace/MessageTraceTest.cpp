@@ -114,6 +114,27 @@ TEST_CASE_METHOD(TraceFixture, "A full disk is logged once, and the trace contin
     CHECK(lines[1].find("three") != std::string::npos);
 }
 
+TEST_CASE_METHOD(TraceFixture, "The trace states at its end what a full disk has lost")
+{
+    {
+        const auto trace = Begin();
+        const FullDisk full(0);
+        trace->Write({"mcs", EWireDirection::In, {}, {}, "one"});
+        while (trace->GetLost() < 1)
+        {
+            std::this_thread::yield();
+        }
+        trace->Write({"mcs", EWireDirection::In, {}, {}, "two"});
+        while (trace->GetLost() < 2)
+        {
+            std::this_thread::yield();
+        }
+    }
+    const std::vector<std::string> lines = ReadLines(folder.GetPath());
+    REQUIRE(lines.size() == 1);
+    CHECK(lines[0].find(R"("lost":2})") != std::string::npos);
+}
+
 TEST_CASE_METHOD(TraceFixture, "A folder that cannot be made is an error with its name")
 {
     std::ofstream(folder.GetPath() / "file") << "x";
