@@ -102,7 +102,7 @@ Outcome<bool> TraceSource::ReadNext()
     // A line without its end is the last one of a program that was killed.
     while (!_file.is_open() || !std::getline(_file, _line) || _file.eof())
     {
-        const Outcome<bool> opened = OpenNext();
+        Outcome<bool> opened = OpenNext();
         if (!opened.has_value() || !*opened)
         {
             return opened;

@@ -54,14 +54,6 @@ std::string_view GetReasonText(OpenStream::EServerCloseReason reason)
     }
 }
 
-/// Empty if the function is.
-std::function<void(std::string_view bytes)> BindNumber(
-    const std::function<void(std::uint64_t connection, std::string_view bytes)>& function,
-    std::uint64_t number)
-{
-    return function ? std::bind_front(function, number) : std::function<void(std::string_view bytes)>();
-}
-
 } // namespace
 
 ServerConnection::ServerConnection(
@@ -75,8 +67,10 @@ ServerConnection::ServerConnection(
     : _socket(std::move(socket)),
       _clock(clock),
       _logger(std::move(logger)),
-      _onReceived(BindNumber(options.onReceived, number)),
-      _onSent(BindNumber(options.onSent, number)),
+      _number(number),
+      _onReceived(options.onReceived),
+      _onSent(options.onSent),
+      _onEnded(options.onClosed),
       _service(service),
       _onClosed(std::move(onClosed)),
       _peer(DescribePeer(_socket)),
@@ -85,10 +79,6 @@ ServerConnection::ServerConnection(
           std::make_shared<Timers>(_socket.get_executor(), [this](OpenStream::EServerTimer timer) { OnTimer(timer); })),
       _answerTimers(std::make_shared<AnswerTimers>(_socket.get_executor(), [this](EAnswer kind) { OnAnswerDue(kind); }))
 {
-    if (options.onClosed)
-    {
-        _onEnded = std::bind_front(options.onClosed, number);
-    }
 }
 
 void ServerConnection::Start()
@@ -118,7 +108,7 @@ void ServerConnection::Abort()
     static_cast<void>(_socket.close(ignored));
     if (bEnds && _onEnded)
     {
-        _onEnded();
+        _onEnded(_number);
     }
 }
 
@@ -147,7 +137,7 @@ void ServerConnection::Do(const OpenStream::ServerSend& action)
 {
     if (_onSent)
     {
-        _onSent(action.text);
+        _onSent(_number, action.text);
     }
     boost::asio::async_write(
         _socket,
@@ -294,7 +284,7 @@ void ServerConnection::OnRead(const boost::system::error_code& error, std::size_
         const std::string_view bytes(_input.data(), size);
         if (_onReceived)
         {
-            _onReceived(bytes);
+            _onReceived(_number, bytes);
         }
         _session.OnBytes(bytes, _clock.GetNow(), _actions);
     }

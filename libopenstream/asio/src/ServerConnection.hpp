@@ -53,9 +53,11 @@ private:
     boost::asio::ip::tcp::socket _socket;
     Core::IClock& _clock;
     Core::Logger _logger;
-    std::function<void(std::string_view bytes)> _onReceived; ///< May be empty, as the next two.
-    std::function<void(std::string_view bytes)> _onSent;
-    std::function<void()> _onEnded;
+    std::uint64_t _number;
+    std::function<void(std::uint64_t connection, std::string_view bytes)>
+        _onReceived; ///< May be empty, as the next two.
+    std::function<void(std::uint64_t connection, std::string_view bytes)> _onSent;
+    std::function<void(std::uint64_t connection)> _onEnded;
     OpenStream::IOpenApiService& _service;
     ClosedHandler _onClosed;
     std::string _peer;
