@@ -86,7 +86,7 @@ std::string FindActionText(const std::string& body, const std::string& actionID)
     return {};
 }
 
-Outcome<std::string> SendAction(IApi& api, ApiRequest request)
+Outcome<std::string> SendAction(IApi& api, const ApiRequest& request)
 {
     const tl::expected<ApiAnswer, ApiFailure> answer = api.Send(request);
     return answer.has_value() ? GetBody(*answer) : tl::make_unexpected(MakeError(answer.error(), true));

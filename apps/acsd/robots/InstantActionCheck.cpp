@@ -219,6 +219,7 @@ std::optional<std::string> InstantActionCheck::FindErrorOrNull(
         return FindParameterErrorOrNull(request, *action);
     }
     std::vector<std::string_view> names;
+    names.reserve(actions.size());
     for (const VDA5050::AgvAction& known : actions)
     {
         names.emplace_back(known.actionType);

@@ -107,8 +107,10 @@ TEST_CASE_METHOD(RequestedVehicle, "A vehicle that no longer shows an action has
     }
     state.actionStates.clear();
     ShowState();
+    const std::vector<RobotActionChange> changes = TakeChanges();
+    REQUIRE_FALSE(changes.empty());
     CHECK(
-        TakeChanges().back()
+        changes.back()
         == RobotActionChange{actionID, ERobotActionStatus::Unknown, "The robot no longer reports the action."});
     Show(actionID, EActionStatus::Finished);
     CHECK(TakeChanges() == std::vector{RobotActionChange{actionID, ERobotActionStatus::Finished, ""}});
