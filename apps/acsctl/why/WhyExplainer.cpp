@@ -1,6 +1,7 @@
 #include "why/WhyExplainer.hpp"
 
 #include "view/AgeText.hpp"
+#include "view/ShellCommand.hpp"
 
 #include <fmt/format.h>
 
@@ -61,9 +62,9 @@ std::string_view FindLinkRemedy(const LinkInfo& link)
                     : "Check the MCS and the network to it.";
 }
 
-std::string MakeMaintenanceRemedy(std::string_view robotID)
+std::string MakeMaintenanceRemedy(const std::string& robotID)
 {
-    return fmt::format("When it may move: acsctl maintenance {} off", robotID);
+    return "When it may move: " + MakeShellCommand("maintenance", {robotID, "off"});
 }
 
 } // namespace
@@ -307,7 +308,7 @@ void WhyExplainer::AddPlanRecursive(const PlanInfo& plan, std::size_t depth, Cha
             {depth,
              fmt::format("Plan {} is paused.", plan.planID),
              {},
-             {fmt::format("When it may continue: acsctl resume {}", plan.planID)}});
+             {"When it may continue: " + MakeShellCommand("resume", {plan.planID})}});
     }
     if (plan.waits.has_value())
     {
@@ -431,7 +432,8 @@ void WhyExplainer::AddUnresolvedJobs(const PlanInfo& plan, std::size_t depth, st
         {
             Cause cause = MakeAlarmCause(alarm, depth);
             cause.remedy.push_back(
-                fmt::format("Then: acsctl resolve {} {} done|failed|again", plan.planID, alarm.jobID.value_or("JOB")));
+                "Then: " + MakeShellCommand("resolve", {plan.planID, alarm.jobID.value_or("JOB")})
+                + " done|failed|again");
             causes.push_back(std::move(cause));
         }
     }
@@ -487,7 +489,7 @@ void WhyExplainer::AddBlock(const BlockInfo& block, std::size_t depth, Chain& ch
              MakeSince(block.since, _now),
              reason)),
          {},
-         {fmt::format("When it is free: acsctl unblock {} {}", block.kind, block.id)}});
+         {"When it is free: " + MakeShellCommand("unblock", {block.kind, block.id})}});
 }
 
 Cause WhyExplainer::MakeAlarmCause(const AlarmInfo& alarm, std::size_t depth) const

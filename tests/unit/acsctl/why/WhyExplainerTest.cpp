@@ -281,6 +281,32 @@ TEST_CASE("A robot that cannot be used needs attention")
     CHECK(line.Make().ExplainAll().NeedsAttention());
 }
 
+TEST_CASE("The ids in the commands of remedies are quoted for a shell")
+{
+    WhyFixture line;
+    Acsctl::RobotInfo& robot = line.snapshot.robots[0];
+    robot.robotID = "-R;id";
+    robot.bMaintenance = true;
+    line.AddPlan("$(touch X);x y", "Paused").robotID = robot.robotID;
+    Acsctl::BlockInfo& block = line.site.blocked.emplace_back();
+    block.kind = "edge";
+    block.id = "`id`";
+    Acsctl::AlarmInfo alarm;
+    alarm.errorCode = "ACS-1008";
+    alarm.planID = line.snapshot.plans[0].planID;
+    alarm.jobID = "it's";
+    line.snapshot.alarms.push_back(alarm);
+    const std::string text = PrintText(line.Make().ExplainAll());
+    for (const char* command :
+         {"acsctl resume '$(touch X);x y'\n",
+          "acsctl maintenance -- '-R;id' off\n",
+          "acsctl unblock edge '`id`'\n",
+          R"(acsctl resolve '$(touch X);x y' 'it'\''s' done|failed|again)"})
+    {
+        CHECK_THAT(text, Catch::Contains(command));
+    }
+}
+
 TEST_CASE("The explanation as JSON has the same findings")
 {
     WhyFixture line;
