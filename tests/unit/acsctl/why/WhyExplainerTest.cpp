@@ -5,6 +5,7 @@
 #include <acs/core/Timestamp.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <utility>
 
@@ -279,6 +280,134 @@ TEST_CASE("A robot that cannot be used needs attention")
     line.snapshot.robots[0].bMaintenance = false;
     line.snapshot.robots[0].status = "Disconnected";
     CHECK(line.Make().ExplainAll().NeedsAttention());
+}
+
+TEST_CASE("The number of causes is bounded by the plans and robots, however they wait for each other")
+{
+    constexpr std::size_t COUNT = 300;
+    WhyFixture line;
+    line.snapshot.robots.clear();
+    std::vector<Acsctl::RobotReason> reasons;
+    for (std::size_t i = 0; i < COUNT; ++i)
+    {
+        const std::string next = "P" + std::to_string((i + 1) % COUNT);
+        reasons.push_back({"R" + std::to_string(i), "busy with plan " + next});
+        line.AddRobot(reasons.back().robotID, "Moving").planID = next;
+    }
+    for (std::size_t i = 0; i < COUNT; ++i)
+    {
+        line.AddWaitingPlan("P" + std::to_string(i), "No suitable robot is free.", reasons).robotID =
+            reasons[i].robotID;
+    }
+    const auto count = [](const Acsctl::Explanation& explanation) {
+        std::size_t causes = 0;
+        for (const Acsctl::Finding& finding : explanation.findings)
+        {
+            causes += finding.causes.size();
+        }
+        return causes;
+    };
+    const Acsctl::Explanation all = line.Make().ExplainAll();
+    CHECK(all.findings.size() == 2 * COUNT);
+    CHECK(count(all) < 8 * COUNT);
+    CHECK(count(line.Make().ExplainPlan(line.snapshot.plans[0])) < 8 * COUNT);
+    CHECK(count(line.Make().ExplainRobot(line.snapshot.robots[0])) < 8 * COUNT);
+}
+
+TEST_CASE("What was explained above is referred to in one line")
+{
+    WhyFixture line;
+    line.snapshot.robots[0].planID = "A0";
+    line.AddRobot("LR02", "Stopped");
+    Acsctl::AlarmInfo alarm;
+    alarm.robotID = "LR02";
+    alarm.errorCode = "ACS-1002";
+    alarm.level = "heavy";
+    alarm.title = "Robot disconnected";
+    line.snapshot.alarms.push_back(alarm);
+    Acsctl::BlockInfo& block = line.site.blocked.emplace_back();
+    block.kind = "edge";
+    block.id = "E1";
+    line.AddPlan("A0", "Paused").robotID = "LR01";
+    const std::vector<Acsctl::RobotReason> reasons{{"LR01", "busy with plan A0"}, {"LR02", "no connection"}};
+    line.AddWaitingPlan("P1", "The edge E1 is blocked.", reasons);
+    line.AddWaitingPlan("P2", "No suitable robot is free.", reasons);
+    line.AddWaitingPlan("P3", "No suitable robot is free.", {reasons[1]});
+    CHECK(PrintText(line.Make().ExplainAll()) == R"(acsd needs attention.
+  Edge E1 is blocked.
+    Remedy: When it is free: acsctl unblock edge E1
+
+Plan A0 does not move: it is Paused on LR01.
+  Plan A0 is paused.
+    Remedy: When it may continue: acsctl resume A0
+
+Plan P1 does not move for 5 min: it is Pending, at position 1 of the queue.
+  The edge E1 is blocked.
+  Robot LR01: busy with plan A0. See plan A0 above.
+  Robot LR02: no connection.
+    Heavy alarm ACS-1002 Robot disconnected of LR02.
+  Edge E1 is blocked: see above.
+
+Plan P2 does not move for 5 min: it is Pending, at position 1 of the queue.
+  No suitable robot is free.
+  The reasons of its 2 robots are those of plan P1: see above.
+
+Plan P3 does not move for 5 min: it is Pending, at position 1 of the queue.
+  No suitable robot is free.
+  Robot LR02: no connection. See robot LR02 above.
+
+Robot LR01 needs attention: it is Idle with plan A0.
+  Its plan A0 waits: see plan A0 above.
+
+Robot LR02 needs attention: it is Stopped, without a plan.
+  See robot LR02 above.
+)");
+}
+
+TEST_CASE("A state that the wait reason has is not repeated")
+{
+    WhyFixture line;
+    line.snapshot.robots[0].status = "Disconnected";
+    line.AddWaitingPlan("P1", "LR01: no connection.").robotID = "LR01";
+    Acsctl::PlanInfo paused = line.snapshot.plans[0];
+    CHECK(
+        PrintText(line.Make().ExplainPlan(paused))
+        == "Plan P1 does not move for 5 min: it is Pending on LR01, at position 1 of the queue.\n"
+           "  LR01: no connection.\n");
+    line.snapshot.robots[0].status = "Idle";
+    paused.status = "Paused";
+    paused.waits->queuePosition.reset();
+    paused.waits->message = "The plan is paused by the operator.";
+    CHECK(
+        PrintText(line.Make().ExplainPlan(paused))
+        == "Plan P1 does not move for 5 min: it is Paused on LR01.\n"
+           "  Plan P1 is paused by the operator.\n"
+           "    Remedy: When it may continue: acsctl resume P1\n");
+}
+
+TEST_CASE("The end of a maintenance is the remedy after the alarms of the robot")
+{
+    WhyFixture line;
+    line.snapshot.robots[0].bMaintenance = true;
+    line.snapshot.robots[0].reason = "In maintenance.";
+    Acsctl::AlarmInfo alarm;
+    alarm.robotID = "LR01";
+    alarm.errorCode = "ACS-1003";
+    alarm.remedy = "Push it";
+    line.snapshot.alarms.push_back(alarm);
+    line.AddWaitingPlan("P1", "No suitable robot is free.", {{"LR01", "in maintenance"}});
+    for (const std::string& text :
+         {PrintText(line.Make().ExplainPlan(line.snapshot.plans[0])),
+          PrintText(line.Make().ExplainRobot(line.snapshot.robots[0]))})
+    {
+        CAPTURE(text);
+        REQUIRE(text.find("acsctl maintenance LR01 off") != std::string::npos);
+        CHECK(text.find("ACS-1003") < text.find("acsctl maintenance LR01 off"));
+    }
+    line.snapshot.alarms.clear();
+    CHECK_THAT(
+        PrintText(line.Make().ExplainPlan(line.snapshot.plans[0])),
+        Catch::Contains("  Robot LR01: in maintenance.\n    Remedy: When it may move: acsctl maintenance LR01 off\n"));
 }
 
 TEST_CASE("The ids in the commands of remedies are quoted for a shell")
