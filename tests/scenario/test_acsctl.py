@@ -165,6 +165,12 @@ class Failing(AcsctlCase):
         output = self.check(0, "robots")
         self.assertNotRegex(output, "[\x1b\u202e\x9b]")
         self.assertEqual(len(output.splitlines()), 2)
+        evil = "X\x1b]52;c;QUFB\x07\u202e\x9b2J\x7f"
+        self.mock.status = {**self.mock.status, "links": [{"name": evil, "up": False, "reason": evil, "since": None}]}
+        self.mock.plans = [{**PLANS[0], "planId": "P\x9b"}, {**PLANS[0], "planId": "P\u202e"}, PLANS[0]]
+        for command in (("status",), ("links",), ("status", "--json"), ("plans", "--json"), ("__complete", "plan", "")):
+            self.assertNotRegex(self.run_acsctl(*command).stdout, "[\x1b\u202e\x9b\x7f]", command)
+        self.assertEqual(self.check(0, "__complete", "plan", ""), "PLAN_1\n")
 
 
 CHANGES = (

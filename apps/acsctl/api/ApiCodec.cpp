@@ -1,6 +1,7 @@
 #include "api/ApiCodec.hpp"
 
 #include "api/ApiFields.hpp"
+#include "view/DisplayText.hpp"
 #include <acs/json/JsonDecoder.hpp>
 #include <acs/json/JsonDocument.hpp>
 
@@ -106,7 +107,8 @@ Core::Result<std::string> MakeOneLine(std::string_view text)
     }
     const std::size_t end = text.find_last_not_of(" \t\r\n") + 1;
     const std::string_view trimmed = text.substr(0, end);
-    return trimmed.find_first_of("\r\n") == std::string_view::npos ? std::string(trimmed) : Json::WriteText(**root);
+    return MakeDisplayableJSON(
+        trimmed.find_first_of("\r\n") == std::string_view::npos ? std::string(trimmed) : Json::WriteText(**root));
 }
 
 } // namespace ACS::Acsctl

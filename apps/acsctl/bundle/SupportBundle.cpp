@@ -3,6 +3,7 @@
 #include "bundle/TarArchive.hpp"
 #include "commands/Answers.hpp"
 #include "common/Version.hpp"
+#include "view/DisplayText.hpp"
 #include <acs/core/Timestamp.hpp>
 #include <acs/json/JsonWriter.hpp>
 
@@ -91,7 +92,7 @@ std::string MakeManifest(const std::vector<Collected>& parts, const std::string&
     }
     writer.EndArray();
     writer.EndObject();
-    return out + "\n";
+    return MakeDisplayableJSON(out) + "\n";
 }
 
 /// "acsctl-20261127T231000Z/"

@@ -1,6 +1,7 @@
 #include "commands/ContextCommands.hpp"
 
 #include "config/ContextStore.hpp"
+#include "view/DisplayText.hpp"
 #include <acs/core/Result.hpp>
 #include <acs/json/JsonWriter.hpp>
 
@@ -108,7 +109,7 @@ std::string ShowContexts(const Contexts& contexts, bool bJSON, const Screen& scr
         }
         writer.EndArray();
         writer.EndObject();
-        return out + "\n";
+        return MakeDisplayableJSON(out) + "\n";
     }
     if (contexts.entries.empty())
     {

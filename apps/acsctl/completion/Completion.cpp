@@ -1,6 +1,7 @@
 #include "completion/Completion.hpp"
 
 #include "options/AcsctlParser.hpp"
+#include "view/DisplayText.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -242,7 +243,8 @@ std::vector<std::string> SelectCandidates(std::vector<std::string> candidates, s
             return bLetter || bWide || (letter >= '0' && letter <= '9')
                 || SAFE_SIGNS.find(letter) != std::string_view::npos;
         });
-        return candidate.empty() || !bSafe || !candidate.starts_with(begin);
+        const bool bShown = MakeDisplayable(candidate) == candidate; // no control characters above ASCII
+        return candidate.empty() || !bSafe || !bShown || !candidate.starts_with(begin);
     });
     std::ranges::sort(candidates);
     candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());

@@ -17,7 +17,7 @@ constexpr std::size_t LEAST_VALUE = 20;
 
 void DetailList::Add(std::string_view label, std::string_view value, EStyle style)
 {
-    _details.push_back({std::string(label), MakeDisplayable(value), style});
+    _details.push_back({MakeDisplayable(label), MakeDisplayable(value), style});
 }
 
 void DetailList::AddIfAny(std::string_view label, std::string_view value, EStyle style)

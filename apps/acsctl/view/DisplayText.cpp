@@ -53,13 +53,16 @@ constexpr std::array<Range, 9> COMBINING{{
 }};
 
 /// Characters without a shape that change how others are shown: the direction of writing, joiners, separators of lines.
-constexpr std::array<Range, 6> HIDDEN{{
+constexpr std::array<Range, 9> HIDDEN{{
     {0x00AD, 0x00AD},
     {0x061C, 0x061C},
+    {0x180E, 0x180E},
     {0x200B, 0x200F},
     {0x2028, 0x202E},
     {0x2060, 0x206F},
     {0xFEFF, 0xFEFF},
+    {0xFFF9, 0xFFFB},
+    {0xE0000, 0xE007F},
 }};
 
 template <std::size_t COUNT>
@@ -78,6 +81,30 @@ struct Character
 };
 
 constexpr char32_t REPLACEMENT_POINT = 0xFFFD;
+
+bool IsControl(char32_t point)
+{
+    return point < FIRST_PRINTABLE || (point >= DELETE_CHARACTER && point <= LAST_CONTROL);
+}
+
+/// The character in a JSON string: "\u009b", above U+FFFF a surrogate pair.
+std::string EscapeForJSON(char32_t point)
+{
+    constexpr char32_t LAST_BASIC = 0xFFFF;
+    constexpr char32_t FIRST_HIGH = 0xD800;
+    constexpr char32_t FIRST_LOW = 0xDC00;
+    constexpr unsigned LOW_BITS = 10;
+    constexpr char32_t LOW_MASK = 0x3FF;
+    if (point <= LAST_BASIC)
+    {
+        return fmt::format("\\u{:04x}", static_cast<std::uint32_t>(point));
+    }
+    const char32_t rest = point - LAST_BASIC - 1;
+    return fmt::format(
+        "\\u{:04x}\\u{:04x}",
+        static_cast<std::uint32_t>(FIRST_HIGH + (rest >> LOW_BITS)),
+        static_cast<std::uint32_t>(FIRST_LOW + (rest & LOW_MASK)));
+}
 
 Character ReadFirst(std::string_view text)
 {
@@ -159,8 +186,7 @@ std::string MakeDisplayable(std::string_view text)
     while (!text.empty())
     {
         const Character character = ReadFirst(text);
-        const bool bControl = character.point < FIRST_PRINTABLE
-            || (character.point >= DELETE_CHARACTER && character.point <= LAST_CONTROL);
+        const bool bControl = IsControl(character.point);
         if (character.point == '\n' || character.point == '\t')
         {
             shown += ' ';
@@ -179,6 +205,22 @@ std::string MakeDisplayable(std::string_view text)
         {
             shown += character.bytes;
         }
+        text.remove_prefix(character.bytes.size());
+    }
+    return shown;
+}
+
+std::string MakeDisplayableJSON(std::string_view text)
+{
+    std::string shown;
+    shown.reserve(text.size());
+    while (!text.empty())
+    {
+        const Character character = ReadFirst(text);
+        // Only strings have such characters; the ASCII control characters outside of strings are line ends and tabs.
+        const bool bEscaped =
+            (IsControl(character.point) && character.point >= DELETE_CHARACTER) || IsIn(HIDDEN, character.point);
+        shown += bEscaped ? EscapeForJSON(character.point) : std::string(character.bytes);
         text.remove_prefix(character.bytes.size());
     }
     return shown;

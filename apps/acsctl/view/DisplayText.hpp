@@ -12,6 +12,10 @@ namespace ACS::Acsctl
 /// writing, are escaped (\x1b, \u202e), and line ends become spaces. What is not UTF-8 becomes U+FFFD.
 [[nodiscard]] std::string MakeDisplayable(std::string_view text);
 
+/// JSON of which a terminal may show every character: those that MakeDisplayable escapes are written as \u009b. The text is valid JSON,
+/// and has the same value afterwards.
+[[nodiscard]] std::string MakeDisplayableJSON(std::string_view text);
+
 /// Columns of a terminal that the text occupies: two for a wide character (Korean, Chinese, Japanese, emoji), none for a
 /// combining mark. The text is displayable.
 [[nodiscard]] std::size_t CountColumns(std::string_view text);

@@ -116,7 +116,7 @@ std::string MakeExplanationText(const Explanation& explanation)
     }
     writer.EndArray();
     writer.EndObject();
-    return out;
+    return MakeDisplayableJSON(out);
 }
 
 } // namespace ACS::Acsctl

@@ -41,7 +41,7 @@ TEST_CASE("A change whose answer is lost may have been executed")
     CHECK(Acsctl::MakeError({Acsctl::EApiFailure::BadAnswer, "odd", true}, false).exitCode == 6);
 }
 
-TEST_CASE("JSON is passed on as it came, on one line")
+TEST_CASE("JSON is passed on as it came, on one line, with escapes for what could control a terminal")
 {
     Acsctl::AcsctlOptions options;
     options.command = Acsctl::ECommand::Robots;
@@ -57,6 +57,7 @@ TEST_CASE("JSON is passed on as it came, on one line")
            "\n");
     CHECK(Acsctl::ShowAnswer(options, "{\"robots\":\n []}", {})->text == "{\"robots\":[]}\n");
     CHECK(Acsctl::ShowAnswer(options, "{", {}).error().exitCode == 6);
+    CHECK(Acsctl::ShowAnswer(options, "{\"robots\":\"\u009b\u202e\"}", {})->text == "{\"robots\":\"\\u009b\\u202e\"}\n");
     options.command = Acsctl::ECommand::Trace;
     CHECK(Acsctl::ShowAnswer(options, "{\"a\":1}\n\n{\"b\":2}", {})->text == "{\"a\":1}\n{\"b\":2}\n");
     CHECK(Acsctl::ShowAnswer(options, "{\"a\":1}\nodd\n", {}).error().exitCode == 6);

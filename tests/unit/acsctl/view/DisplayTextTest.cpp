@@ -42,6 +42,14 @@ TEST_CASE("What a peer sent cannot control the terminal")
     CHECK(Acsctl::MakeDisplayable(std::string(1, '\0')) == "\\x00");
 }
 
+TEST_CASE("JSON keeps its value when what could control the terminal is escaped")
+{
+    CHECK(
+        Acsctl::MakeDisplayableJSON("{\"a\":\t\"\u009b1\x7f\u202e로봇\"}")
+        == "{\"a\":\t\"\\u009b1\\u007f\\u202e로봇\"}");
+    CHECK(Acsctl::MakeDisplayableJSON("\"\U000E0041🤖\"") == "\"\\udb40\\udc41🤖\"");
+}
+
 TEST_CASE("A long text continues on the next line, at a space if there is one")
 {
     using Lines = std::vector<std::string>;
