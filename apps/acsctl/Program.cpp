@@ -138,12 +138,7 @@ int RunChange(Session& session, ApiRequest request, const AcsctlOptions& options
     {
         return Report(MakeError(answer.error(), true));
     }
-    const Outcome<std::string> body = GetBody(*answer);
-    if (!body.has_value())
-    {
-        return Report(body.error());
-    }
-    const Outcome<Shown> shown = ShowAccepted(options.bJSON, *body);
+    const Outcome<Shown> shown = ShowChange(options, *answer);
     if (!shown.has_value())
     {
         return Report(shown.error());

@@ -80,6 +80,9 @@ class _Handler(http.server.BaseHTTPRequestHandler):
     def answer(self, status, body, content_type="application/json", headers=()):
         if not isinstance(body, bytes):
             body = json.dumps(body).encode()
+        for _ in range(self.server.mock.interim):
+            self.send_response_only(100)
+            self.end_headers()
         self.send_response(status)
         self.send_header("Content-Type", content_type)
         self.send_header("Content-Length", str(len(body)))
@@ -133,6 +136,9 @@ class _Handler(http.server.BaseHTTPRequestHandler):
             self.answer(202, {"message": f"Accepted: {url.path}"})
 
     def send_events(self, request):
+        for _ in range(self.server.mock.interim):
+            self.send_response_only(100)
+            self.end_headers()
         self.send_response(200)
         self.send_header("Content-Type", "text/event-stream")
         self.send_header("Transfer-Encoding", "chunked")
@@ -165,6 +171,7 @@ class OperatorMock:
         self.losses = 0  # requests whose connection is lost
         self.token = None
         self.raw = None  # (status, body, content type): the answer to everything
+        self.interim = 0  # answers "100 Continue" before each answer
         self.refusal = None  # (status, sentence, headers...): the answer to every command
         self.events = None
         self.events_end = True

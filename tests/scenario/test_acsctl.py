@@ -160,6 +160,21 @@ class Failing(AcsctlCase):
         self.mock.raw = (200, b" " * (33 * 1024 * 1024), "application/json")
         self.check(6, "plans")
 
+    def test_the_reason_of_a_refusal_without_json_is_shown(self):
+        self.mock.raw = (403, b'host name "vm" is not allowed: use the IP address\n', "text/plain; charset=utf-8")
+        self.assertIn('HTTP status 403: host name "vm" is not allowed: use the IP', self.check(4, "plans"))
+        self.mock.raw = (502, b"<html>bad gateway</html>", "text/html")
+        self.assertNotIn("may have executed", self.check(6, "plans"))
+        self.assertIn("may have executed", self.check(6, "pause", "PLAN_1"))
+
+    def test_an_interim_answer_is_not_the_answer(self):
+        self.mock.interim = 3
+        self.assertIn("PLAN_1", self.check(0, "plans"))
+        self.assertIn("PLAN_1", self.check(0, "events"))
+        self.check(0, "pause", "PLAN_1")
+        self.mock.interim = 1000
+        self.check(6, "plans")
+
     def test_a_name_cannot_send_codes_to_the_terminal(self):
         self.mock.robots = [{**ROBOTS[0], "robotId": "\x1b[2J\u202eLR01\x9b", "reason": "a\nb"}]
         output = self.check(0, "robots")

@@ -172,6 +172,29 @@ constexpr std::array<View, 11> VIEWS{{
      }},
 }};
 
+/// An answer without the JSON of the API: its status, and the text of acsd's HTTP server or the type of the content.
+std::string DescribeForeign(const ApiAnswer& answer)
+{
+    constexpr std::size_t LONGEST_REASON = 400; // columns
+    const std::size_t end = answer.body.find_last_not_of(" \r\n") + 1;
+    const std::string reason = CutToColumns(MakeDisplayable(answer.body.substr(0, end)), LONGEST_REASON);
+    const bool bPlain = answer.contentType.starts_with("text/plain") && !reason.empty();
+    const std::string type = answer.contentType.empty() ? "no content" : answer.contentType;
+    return fmt::format("HTTP status {}{}{}", answer.status, bPlain ? ": " : " with ", bPlain ? reason : type);
+}
+
+/// A question about the address, if the answer has the status of another server or of another address of acsd.
+std::string MakeAddressHint(std::string_view listenKey, const ApiAnswer& answer)
+{
+    constexpr unsigned HTTP_NOT_FOUND = 404;
+    constexpr unsigned FIRST_CLIENT_ERROR = 400;
+    const bool bOther = answer.status < FIRST_CLIENT_ERROR || answer.status == HTTP_NOT_FOUND
+        || answer.contentType.starts_with("text/html");
+    return bOther ? fmt::format("; is it the address of {}?", listenKey) : std::string();
+}
+
+constexpr std::string_view MAY_BE_EXECUTED = "; acsd may have executed the command: check before you repeat it";
+
 } // namespace
 
 tl::unexpected<CommandError> MakeBadAnswer(const Core::Error& error)
@@ -193,6 +216,11 @@ Core::WallTime GetServerTime(const StatusInfo& status, Core::WallTime otherwise)
 
 Outcome<std::string> GetBody(const ApiAnswer& answer)
 {
+    return GetBodyFrom("operator.listen", answer);
+}
+
+Outcome<std::string> GetBodyFrom(std::string_view listenKey, const ApiAnswer& answer)
+{
     if (IsSuccess(answer.status))
     {
         return answer.body;
@@ -201,15 +229,11 @@ Outcome<std::string> GetBody(const ApiAnswer& answer)
     const Core::Result<ErrorAnswer> error = DecodeAnswer<ErrorAnswer>(answer.body);
     if (!error.has_value())
     {
-        const std::string text = fmt::format("HTTP status {}", answer.status);
-        return bDenied ? FailWith(EXIT_NOT_AUTHORIZED, "not authorised: " + text)
+        return bDenied ? FailWith(EXIT_NOT_AUTHORIZED, "not authorised: " + DescribeForeign(answer))
                        : FailWith(
                            EXIT_BAD_ANSWER,
-                           fmt::format(
-                               "the answer is not one of acsd's operator API: {} with {}; is it the address of "
-                               "operator.listen?",
-                               text,
-                               answer.contentType.empty() ? "no content" : answer.contentType));
+                           "the answer is not one of acsd's operator API: " + DescribeForeign(answer)
+                               + MakeAddressHint(listenKey, answer));
     }
     std::string text = error->error;
     if (answer.status == HTTP_UNAVAILABLE && !answer.retryAfter.empty())
@@ -235,9 +259,7 @@ CommandError MakeError(const ApiFailure& failure, bool bChange)
 {
     const int exitCode = failure.kind == EApiFailure::BadAnswer ? EXIT_BAD_ANSWER : EXIT_NO_CONNECTION;
     const bool bUnknown = bChange && failure.bSent;
-    return {
-        exitCode,
-        bUnknown ? failure.text + "; acsd may have executed the command: check before you repeat it" : failure.text};
+    return {exitCode, bUnknown ? failure.text + std::string(MAY_BE_EXECUTED) : failure.text};
 }
 
 Outcome<Shown> ShowAnswer(const AcsctlOptions& options, std::string_view body, const ViewContext& context)
@@ -272,6 +294,24 @@ Outcome<Shown> ShowAccepted(bool bJSON, std::string_view body)
         return MakeBadAnswer(answer.error());
     }
     return bJSON ? ShowJSON(ECommand::Status, body) : Outcome<Shown>(Shown{MakeDisplayable(answer->message) + "\n"});
+}
+
+Outcome<Shown> ShowChange(const AcsctlOptions& options, const ApiAnswer& answer)
+{
+    constexpr unsigned HTTP_BAD_GATEWAY = 502;
+    constexpr unsigned HTTP_GATEWAY_TIMEOUT = 504;
+    constexpr unsigned HUNDRED = 100;
+    constexpr unsigned CLIENT_ERRORS = 4;
+    const Outcome<std::string> body = GetBody(answer);
+    Outcome<Shown> shown =
+        body.has_value() ? ShowAccepted(options.bJSON, *body) : Outcome<Shown>(tl::make_unexpected(body.error()));
+    const bool bProxy = answer.status == HTTP_BAD_GATEWAY || answer.status == HTTP_GATEWAY_TIMEOUT;
+    const bool bNotExecuted = answer.status / HUNDRED == CLIENT_ERRORS;
+    if (!shown.has_value() && (bProxy || (shown.error().exitCode == EXIT_BAD_ANSWER && !bNotExecuted)))
+    {
+        shown.error().text += MAY_BE_EXECUTED;
+    }
+    return shown;
 }
 
 } // namespace ACS::Acsctl

@@ -32,6 +32,9 @@ struct Shown
 /// The body of an answer with status 2xx; otherwise the error that acsd states, with the exit code of the status.
 [[nodiscard]] Outcome<std::string> GetBody(const ApiAnswer& answer);
 
+/// The same of an answer that another address of acsd is to give; listenKey is its key in the configuration ("http.listen").
+[[nodiscard]] Outcome<std::string> GetBodyFrom(std::string_view listenKey, const ApiAnswer& answer);
+
 /// Sends a GET and returns the body of an answer with status 2xx.
 [[nodiscard]] Outcome<std::string> Get(IApi& api, const std::string& target);
 
@@ -44,7 +47,11 @@ struct Shown
     std::string_view body,
     const ViewContext& context);
 
-/// The sentence of an accepted command.
+/// The sentence of an accepted command, or its JSON.
 [[nodiscard]] Outcome<Shown> ShowAccepted(bool bJSON, std::string_view body);
+
+/// What is shown for the answer to a command that changes something. The error of an answer that is not acsd's states that acsd may
+/// have executed the command, unless its status shows that it did not (4xx).
+[[nodiscard]] Outcome<Shown> ShowChange(const AcsctlOptions& options, const ApiAnswer& answer);
 
 } // namespace ACS::Acsctl

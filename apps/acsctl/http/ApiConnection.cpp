@@ -29,6 +29,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace ACS::Acsctl
@@ -45,6 +46,7 @@ constexpr std::uint32_t LONGEST_HEADER = 64U * 1024U;
 constexpr std::chrono::milliseconds LONGEST_SILENCE{45'000}; // acsd sends a comment every 15 s
 constexpr std::size_t PART_BYTES = 16U * 1024U;
 constexpr std::uint64_t LONGEST_ERROR_BODY = 64U * 1024U;
+constexpr std::size_t MOST_INTERIM_ANSWERS = 100;
 
 template <typename TMessage>
 ApiAnswer MakeAnswer(const TMessage& message, std::string body)
@@ -54,6 +56,14 @@ ApiAnswer MakeAnswer(const TMessage& message, std::string body)
         return std::string(value.data(), value.size());
     };
     return {message.result_int(), get(Http::field::content_type), std::move(body), get(Http::field::retry_after)};
+}
+
+/// Whether another answer follows, as after "100 Continue".
+bool IsInterim(unsigned status)
+{
+    constexpr unsigned FIRST_FINAL = 200;
+    constexpr unsigned SWITCHING_PROTOCOLS = 101;
+    return status < FIRST_FINAL && status != SWITCHING_PROTOCOLS;
 }
 
 } // namespace
@@ -154,36 +164,55 @@ tl::expected<void, ApiFailure> ApiConnection::Write(const ApiRequest& request)
 
 tl::expected<ApiAnswer, ApiFailure> ApiConnection::Read()
 {
-    Http::response_parser<Http::string_body> parser;
-    parser.body_limit(MAX_ANSWER_BYTES);
-    parser.header_limit(LONGEST_HEADER);
-    const ErrorCode error = Await([this, &parser](const auto& handler) {
-        _stream.Use([this, &parser, &handler](auto& stream) {
-            Http::async_read(stream, _buffer, parser, [handler](const ErrorCode& code, std::size_t /*bytes*/) {
-                handler(code);
+    std::optional<Http::response_parser<Http::string_body>> parser;
+    for (std::size_t interim = 0; interim <= MOST_INTERIM_ANSWERS; ++interim)
+    {
+        parser.emplace();
+        parser->body_limit(MAX_ANSWER_BYTES);
+        parser->header_limit(LONGEST_HEADER);
+        const ErrorCode error = Await([this, &parser](const auto& handler) {
+            _stream.Use([this, &parser, &handler](auto& stream) {
+                Http::async_read(stream, _buffer, *parser, [handler](const ErrorCode& code, std::size_t /*bytes*/) {
+                    handler(code);
+                });
             });
         });
-    });
-    if (error.failed())
-    {
-        return tl::make_unexpected(MakeFailure(error));
+        if (error.failed())
+        {
+            return tl::make_unexpected(MakeFailure(error));
+        }
+        if (!IsInterim(parser->get().result_int()))
+        {
+            std::string body = std::move(parser->get().body());
+            return MakeAnswer(parser->get(), std::move(body));
+        }
     }
-    std::string body = std::move(parser.get().body());
-    return MakeAnswer(parser.get(), std::move(body));
+    return tl::make_unexpected(MakeFailure(Http::error::unexpected_body));
 }
 
 tl::expected<ApiAnswer, ApiFailure> ApiConnection::ReadStream(const std::function<bool(std::string_view)>& tryHandle)
 {
-    Http::response_parser<Http::buffer_body> parser;
-    parser.body_limit(std::numeric_limits<std::uint64_t>::max());
-    parser.header_limit(LONGEST_HEADER);
-    ErrorCode error = Await([this, &parser](const auto& handler) {
-        _stream.Use([this, &parser, &handler](auto& stream) {
-            Http::async_read_header(stream, _buffer, parser, [handler](const ErrorCode& code, std::size_t /*bytes*/) {
-                handler(code);
+    std::optional<Http::response_parser<Http::buffer_body>> answer;
+    ErrorCode error;
+    std::size_t interim = 0;
+    do
+    {
+        answer.emplace();
+        answer->body_limit(std::numeric_limits<std::uint64_t>::max());
+        answer->header_limit(LONGEST_HEADER);
+        error = Await([this, &answer](const auto& handler) {
+            _stream.Use([this, &answer, &handler](auto& stream) {
+                Http::async_read_header(
+                    stream,
+                    _buffer,
+                    *answer,
+                    [handler](const ErrorCode& code, std::size_t /*bytes*/) { handler(code); });
             });
         });
-    });
+        ++interim;
+    }
+    while (!error.failed() && IsInterim(answer->get().result_int()) && interim <= MOST_INTERIM_ANSWERS);
+    Http::response_parser<Http::buffer_body>& parser = *answer;
     constexpr unsigned HTTP_OK = 200;
     _timeout = std::max(_timeout, LONGEST_SILENCE);
     std::string other; // the body of an error

@@ -31,6 +31,47 @@ TEST_CASE("The status of an answer decides the exit code")
     CHECK(Acsctl::GetBody(ApiAnswer{503, "", R"({"error":"Full."})", "2"}).error().text == "Full. Try again in 2 s.");
 }
 
+TEST_CASE("The reason that acsd states as plain text is shown")
+{
+    const auto getText = [](unsigned status, const std::string& type, const std::string& body) {
+        return Acsctl::GetBody(ApiAnswer{status, type, body, {}}).error().text;
+    };
+    const std::string plain = "text/plain; charset=utf-8";
+    CHECK(
+        getText(403, plain, "host name \"vm\" is not allowed\n")
+        == R"(not authorised: HTTP status 403: host name "vm" is not allowed)");
+    CHECK(getText(403, "text/html", "<html>") == "not authorised: HTTP status 403 with text/html");
+    CHECK(
+        getText(400, plain, "a\x1b[2J\nb")
+        == R"(the answer is not one of acsd's operator API: HTTP status 400: a\x1b[2J b)");
+    CHECK(getText(400, plain, std::string(100'000, 'x')).size() < 1'000);
+    CHECK_THAT(getText(431, plain, "the header is too large"), !Catch::Contains("operator.listen"));
+    CHECK_THAT(getText(404, plain, "not found"), Catch::EndsWith("not found; is it the address of operator.listen?"));
+    CHECK_THAT(getText(502, "text/html", "<html>"), Catch::Contains("operator.listen"));
+    CHECK_THAT(
+        Acsctl::GetBodyFrom("http.listen", ApiAnswer{404, plain, "not found", {}}).error().text,
+        Catch::Contains("is it the address of http.listen?"));
+}
+
+TEST_CASE("A change whose answer is not that of acsd may have been executed")
+{
+    const auto getError = [](unsigned status, const std::string& body) {
+        const auto shown = Acsctl::ShowChange({}, ApiAnswer{status, "text/html", body, {}});
+        return shown.has_value() ? std::string() : shown.error().text;
+    };
+    CHECK(Acsctl::ShowChange({}, ApiAnswer{202, "application/json", R"({"message":"Yes."})", {}})->text == "Yes.\n");
+    for (const unsigned status : {200U, 302U, 500U, 502U, 504U})
+    {
+        CAPTURE(status);
+        CHECK_THAT(
+            getError(status, "<html>"),
+            Catch::EndsWith("acsd may have executed the command: check before you repeat it"));
+    }
+    CHECK_THAT(getError(504, R"({"error":"No."})"), Catch::Contains("may have executed"));
+    CHECK_THAT(getError(409, R"({"error":"No."})"), !Catch::Contains("may have executed"));
+    CHECK_THAT(getError(404, "<html>"), !Catch::Contains("may have executed"));
+}
+
 TEST_CASE("A change whose answer is lost may have been executed")
 {
     const Acsctl::ApiFailure lost{Acsctl::EApiFailure::ConnectionLost, "lost", true};
@@ -57,7 +98,8 @@ TEST_CASE("JSON is passed on as it came, on one line, with escapes for what coul
            "\n");
     CHECK(Acsctl::ShowAnswer(options, "{\"robots\":\n []}", {})->text == "{\"robots\":[]}\n");
     CHECK(Acsctl::ShowAnswer(options, "{", {}).error().exitCode == 6);
-    CHECK(Acsctl::ShowAnswer(options, "{\"robots\":\"\u009b\u202e\"}", {})->text == "{\"robots\":\"\\u009b\\u202e\"}\n");
+    CHECK(
+        Acsctl::ShowAnswer(options, "{\"robots\":\"\u009b\u202e\"}", {})->text == "{\"robots\":\"\\u009b\\u202e\"}\n");
     options.command = Acsctl::ECommand::Trace;
     CHECK(Acsctl::ShowAnswer(options, "{\"a\":1}\n\n{\"b\":2}", {})->text == "{\"a\":1}\n{\"b\":2}\n");
     CHECK(Acsctl::ShowAnswer(options, "{\"a\":1}\nodd\n", {}).error().exitCode == 6);
