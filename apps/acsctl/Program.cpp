@@ -179,6 +179,16 @@ int Print(const Outcome<std::string>& text, Terminal& terminal)
     return Finish(terminal, EXIT_DONE);
 }
 
+int PrintShown(const Outcome<Shown>& shown, Terminal& terminal)
+{
+    if (!shown.has_value())
+    {
+        return Report(shown.error());
+    }
+    terminal.Write(shown->text);
+    return Finish(terminal, shown->exitCode);
+}
+
 int RunEvents(Session& session, const AcsctlOptions& options, Terminal& terminal)
 {
     const Outcome<void> done = EventsCommand(session, options, terminal).Run();
@@ -210,7 +220,7 @@ int RunRemote(const AcsctlOptions& options, const Environment& environment, Term
     }
     if (options.command == ECommand::Bundle)
     {
-        return Print(RunBundle(session, options), terminal);
+        return PrintShown(RunBundle(session, options), terminal);
     }
     return options.command == ECommand::Events ? RunEvents(session, options, terminal)
                                                : RunRead(session, options, terminal);

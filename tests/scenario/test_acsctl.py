@@ -451,6 +451,31 @@ class Configuring(AcsctlCase):
         self.check(3, "bundle", self.folder / "c")
         self.assertFalse((self.folder / "c").exists())
 
+    def test_an_answer_that_is_not_of_its_route_is_no_file_of_a_bundle(self):
+        read = self.mock.read
+        self.mock.read = lambda path, query: ((200, b"<html>login</html>", "text/html")
+                                              if path in ("/v1/robots", "/v1/trace") else read(path, query))
+        file = self.folder / "b.tar.gz"
+        result = self.run_acsctl("bundle", file)
+        self.assertEqual((result.returncode, result.stderr), (6, ""), result.stdout)
+        self.assertIn("not in it: robots.json: the answer is not that of acsd: its content is text/html", result.stdout)
+        with tarfile.open(file, "r:gz") as archive:
+            contents = {pathlib.PurePath(member.name).name: archive.extractfile(member).read() for member in archive}
+        self.assertIn("plans.json", contents)
+        self.assertNotIn(b"login", b"".join(contents.values()))
+        faulty = {entry["name"] for entry in json.loads(contents["manifest.json"])["files"] if entry["error"]}
+        self.assertEqual(faulty, {"robots.json", "trace.ndjson"})
+        self.mock.read = lambda path, query: (404, b"not found", "text/plain") if path == "/metrics" else read(path, query)
+        result = self.run_acsctl("bundle", self.folder / "b2", "--http-url", self.mock.url)
+        self.assertEqual(result.returncode, 6)
+        self.assertIn("is it the address of http.listen?", result.stdout)
+        self.mock.raw = (200, b"<html>login</html>", "text/html")
+        self.check(6, "bundle", self.folder / "b3")
+        self.assertFalse((self.folder / "b3").exists())
+        for url in (self.mock.url + "/?token=SECRET", self.mock.url + "/#SECRET"):
+            self.assertNotIn("SECRET", self.check(2, "bundle", self.folder / "b4", "--url", url))
+            self.assertNotIn("SECRET", self.check(2, "bundle", self.folder / "b4", "--http-url", url))
+
     def test_tls_verifies_the_certificate_and_presents_one(self):
         def make(name, *options):
             certificate, key = self.folder / f"{name}.pem", self.folder / f"{name}.key"

@@ -1,5 +1,6 @@
 #include "bundle/SupportBundle.hpp"
 
+#include "api/ApiCodec.hpp"
 #include "bundle/TarArchive.hpp"
 #include "commands/Answers.hpp"
 #include "common/Version.hpp"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 #include <utility>
@@ -30,9 +32,40 @@ struct Collected
     unsigned status = 0; ///< 0: no answer.
     std::string content;
     std::string fault;
+    bool bForeign = false; ///< The answer is not that of the route.
 };
 
-Collected Collect(IApi& api, const BundlePart& part)
+bool IsJsonObject(std::string_view text)
+{
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    return first != std::string_view::npos && text[first] == '{' && MakeOneLine(text).has_value();
+}
+
+bool HasOnlyJsonLines(std::string_view text)
+{
+    while (!text.empty())
+    {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        if (end != 0 && !IsJsonObject(text.substr(0, end)))
+        {
+            return false;
+        }
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return true;
+}
+
+/// What the answer of a route is instead of its content; empty if it is that.
+std::string FindContentFault(EContent content, const ApiAnswer& answer)
+{
+    const bool bRight = content == EContent::Json ? IsJsonObject(answer.body)
+        : content == EContent::Lines              ? HasOnlyJsonLines(answer.body)
+                                                  : answer.contentType.starts_with("text/plain");
+    const std::string type = answer.contentType.empty() ? "without a type" : answer.contentType;
+    return bRight ? std::string() : fmt::format("the answer is not that of acsd: its content is {}", type);
+}
+
+Collected Collect(IApi& api, std::string_view listenKey, const BundlePart& part)
 {
     Collected collected{part.fileName, part.target, 0, {}, {}};
     ApiRequest request;
@@ -45,10 +78,16 @@ Collected Collect(IApi& api, const BundlePart& part)
     }
     constexpr unsigned UNAVAILABLE = 503; // the answer of /readyz while acsd is not ready
     collected.status = answer->status;
-    if (const Outcome<std::string> body = GetBody(*answer);
+    if (const Outcome<std::string> body = GetBodyFrom(listenKey, *answer);
         !body.has_value() && !(answer->status == UNAVAILABLE && part.target == "/readyz"))
     {
         collected.fault = body.error().text;
+        collected.bForeign = body.error().exitCode == EXIT_BAD_ANSWER;
+        return collected;
+    }
+    if (collected.fault = FindContentFault(part.content, *answer); !collected.fault.empty())
+    {
+        collected.bForeign = true;
         return collected;
     }
     collected.content = std::move(answer->body);
@@ -118,14 +157,14 @@ std::vector<BundlePart> ListBundleParts()
         {"links.json", "/v1/links"},
         {"queue.json", "/v1/queue"},
         {"site.json", "/v1/site"},
-        {"audit.ndjson", "/v1/audit?limit=1000"},
-        {"trace.ndjson", "/v1/trace?limit=1000"},
+        {"audit.ndjson", "/v1/audit?limit=1000", EContent::Lines},
+        {"trace.ndjson", "/v1/trace?limit=1000", EContent::Lines},
         {"openapi.json", "/v1/openapi.json"}};
 }
 
 std::vector<BundlePart> ListHttpParts()
 {
-    return {{"metrics.txt", "/metrics"}, {"readyz.txt", "/readyz"}};
+    return {{"metrics.txt", "/metrics", EContent::Text}, {"readyz.txt", "/readyz", EContent::Text}};
 }
 
 Outcome<SupportBundle> CollectBundle(IApi& api, IApi* httpOrNull, const std::string& url, Core::WallTime now)
@@ -137,17 +176,21 @@ Outcome<SupportBundle> CollectBundle(IApi& api, IApi* httpOrNull, const std::str
     {
         return tl::make_unexpected(first.error());
     }
+    if (const Core::Result<StatusInfo> status = DecodeAnswer<StatusInfo>(*first); !status.has_value())
+    {
+        return MakeBadAnswer(status.error());
+    }
     std::vector<Collected> parts{{wanted.front().fileName, wanted.front().target, HTTP_FOUND, std::move(*first), {}}};
     wanted.erase(wanted.begin());
     for (const BundlePart& part : wanted)
     {
-        parts.push_back(Collect(api, part));
+        parts.push_back(Collect(api, "operator.listen", part));
     }
     if (httpOrNull != nullptr)
     {
         for (const BundlePart& part : ListHttpParts())
         {
-            parts.push_back(Collect(*httpOrNull, part));
+            parts.push_back(Collect(*httpOrNull, "http.listen", part));
         }
     }
     SupportBundle bundle;
@@ -165,6 +208,7 @@ Outcome<SupportBundle> CollectBundle(IApi& api, IApi* httpOrNull, const std::str
         else
         {
             bundle.missing.push_back(fmt::format("{}: {}", part.fileName, part.fault));
+            bundle.bForeign = bundle.bForeign || part.bForeign;
         }
     }
     bundle.archive = CompressGzip(archive.Finish());

@@ -87,7 +87,7 @@ Outcome<std::unique_ptr<ApiClient>> MakeHttpClient(Session& session, const Acsct
 
 } // namespace
 
-Outcome<std::string> RunBundle(Session& session, const AcsctlOptions& options)
+Outcome<Shown> RunBundle(Session& session, const AcsctlOptions& options)
 {
     const Outcome<std::unique_ptr<ApiClient>> http = MakeHttpClient(session, options);
     if (!http.has_value())
@@ -105,16 +105,17 @@ Outcome<std::string> RunBundle(Session& session, const AcsctlOptions& options)
     {
         return tl::make_unexpected(written.error());
     }
+    const int exitCode = bundle->bForeign ? EXIT_BAD_ANSWER : EXIT_DONE;
     if (options.bJSON)
     {
-        return bundle->manifest;
+        return Shown{bundle->manifest, exitCode};
     }
     std::string out = fmt::format("{}: {} bytes\n", path, bundle->archive.size());
     for (const std::string& missing : bundle->missing)
     {
         out += fmt::format("not in it: {}\n", MakeDisplayable(missing));
     }
-    return out;
+    return Shown{std::move(out), exitCode};
 }
 
 } // namespace ACS::Acsctl

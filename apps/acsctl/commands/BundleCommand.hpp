@@ -1,5 +1,6 @@
 #pragma once
 
+#include "commands/Answers.hpp"
 #include "commands/CommandError.hpp"
 #include "commands/Session.hpp"
 #include "options/AcsctlOptions.hpp"
@@ -10,6 +11,6 @@ namespace ACS::Acsctl
 {
 
 /// Collects a support bundle and writes it to a new file; returns what it prints.
-[[nodiscard]] Outcome<std::string> RunBundle(Session& session, const AcsctlOptions& options);
+[[nodiscard]] Outcome<Shown> RunBundle(Session& session, const AcsctlOptions& options);
 
 } // namespace ACS::Acsctl

@@ -31,6 +31,11 @@ void SetIfAny(std::string& target, const std::optional<std::string>& valueOrNull
 
 tl::expected<Apps::Url, std::string> ParseHttpURL(const std::string& text)
 {
+    if (text.find_first_of("?#") != std::string::npos)
+    {
+        // It is not shown: a query may have a secret.
+        return tl::make_unexpected(std::string("expected a URL without ? and #"));
+    }
     Core::Result<Apps::Url> url = Apps::ParseURL(text, {Apps::EUrlScheme::Http, Apps::EUrlScheme::Https});
     if (!url.has_value())
     {

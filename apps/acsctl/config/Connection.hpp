@@ -46,7 +46,7 @@ struct Connection
 /// Why a token must not be sent to this address: it would not be encrypted. Nullopt if it may.
 [[nodiscard]] std::optional<std::string> FindTokenRiskOrNull(const Connection& connection);
 
-/// The address that --http-url names.
+/// The address that --url or --http-url names; a query and a fragment are refused.
 [[nodiscard]] tl::expected<Apps::Url, std::string> ParseHttpURL(const std::string& text);
 
 } // namespace ACS::Acsctl
