@@ -372,8 +372,9 @@ class Configuring(AcsctlCase):
         self.mock.token = "secret"
         token = self.folder / "token"
         token.write_text("secret\n")
-        token.chmod(0o604)
-        self.assertIn("chmod o-rwx", self.check(2, "plans", "--url", self.mock.url, "--token-file", token))
+        for mode in (0o604, 0o640, 0o620):
+            token.chmod(mode)
+            self.assertIn("chmod go-rwx", self.check(2, "plans", "--url", self.mock.url, "--token-file", token))
         token.chmod(0o600)
         self.check(0, "context", "set", "line1", "--url", self.mock.url, "--token-file", token)
         self.check(0, "context", "set", "line2", "--url", "http://127.0.0.1:1")
@@ -386,7 +387,7 @@ class Configuring(AcsctlCase):
         self.environment["ACSCTL_CONTEXT"] = "line1"
         self.check(0, "plans")
         self.check(2, "plans", "--context", "line3")
-        self.check(1, "context", "use", "line3")
+        self.assertIn('no context "line3"; there are: line1, line2', self.check(1, "context", "use", "line3"))
         del self.environment["ACSCTL_CONTEXT"]
         self.check(4, "plans", "--url", self.mock.url)  # without the token of a context
         listed = json.loads(self.check(0, "context", "list", "--json"))["contexts"]
@@ -404,6 +405,62 @@ class Configuring(AcsctlCase):
         self.check(0, "plans", "--context", "a")
         for command in (("context", "list"), ("context", "list", "--json")):
             self.assertNotIn("secret", self.check(0, *command))
+
+    def set_token(self, token):
+        return subprocess.run([self.bin_dir / "acsctl", "context", "set", "a", "--url", self.mock.url, "--token-stdin"],
+                              input=token, capture_output=True, text=True, env=self.environment, timeout=SECONDS)
+
+    def test_no_file_is_written_that_cannot_be_read(self):
+        result = self.set_token("x" * 3_000_000)
+        self.assertEqual((result.returncode, result.stdout), (2, ""))
+        self.assertIn("at most 4096 characters", result.stderr)
+        self.assertFalse((self.folder / ".config").exists())
+        self.assertEqual(self.set_token("x" * 4096).returncode, 0)
+        config = self.folder / ".config" / "acsctl" / "config.toml"
+        before = config.read_bytes()
+        for number in range(12):
+            result = self.run_acsctl("context", "set", f"b{number}", "--url", self.mock.url, "--ca", "x" * 100_000)
+        self.assertEqual(result.returncode, 7)
+        self.assertIn("would exceed", result.stderr)
+        self.assertIn("b1", self.check(0, "context", "list"))
+        self.assertNotEqual(config.read_bytes(), before)
+
+    def test_without_a_folder_there_is_no_configuration(self):
+        work = self.folder / "work"
+        (work / ".config" / "acsctl").mkdir(parents=True)
+        trap = work / ".config" / "acsctl" / "config.toml"
+        trap.write_text('current = "a"\n[contexts.a]\nurl = "http://127.0.0.1:1"\n')
+        trap.chmod(0o600)
+        url = self.environment.pop("ACSCTL_URL")
+        for home, config_home in ((None, None), (".", None), (None, ".config")):
+            self.environment = {"PATH": self.environment["PATH"]}
+            self.environment.update({name: value for name, value in (("HOME", home), ("XDG_CONFIG_HOME", config_home)) if value})
+            result = self.run_acsctl("context", "list", cwd=work)
+            self.assertEqual(result.returncode, 2, (home, config_home))
+            self.assertIn("set HOME or XDG_CONFIG_HOME", result.stderr)
+            self.assertNotIn("127.0.0.1:1/", self.run_acsctl("plans", "--timeout", "1s", cwd=work).stderr)
+            self.assertEqual(self.run_acsctl("plans", "--url", url, cwd=work).returncode, 0)
+
+    def test_a_symbolic_link_stays_and_its_target_is_written(self):
+        folder = self.folder / ".config" / "acsctl"
+        folder.mkdir(parents=True)
+        target = self.folder / "dotfiles.toml"
+        (folder / "config.toml").symlink_to(target)
+        self.assertIn("No such file", self.check(7, "context", "set", "a", "--url", self.mock.url))
+        target.touch(0o600)
+        self.check(0, "context", "set", "a", "--url", self.mock.url)
+        self.assertTrue((folder / "config.toml").is_symlink())
+        self.assertIn("[contexts.a]", target.read_text())
+        self.assertEqual(target.stat().st_mode & 0o777, 0o600)
+
+    @unittest.skipIf(os.geteuid() != 0, "only root can give a file to another user")
+    def test_a_configuration_of_another_user_is_refused(self):
+        self.check(0, "context", "set", "a", "--url", self.mock.url)
+        config = self.folder / ".config" / "acsctl" / "config.toml"
+        os.chown(config, 65534, 65534)
+        del self.environment["ACSCTL_URL"]
+        self.assertIn("belongs to another user", self.check(2, "plans"))
+        self.assertIn("belongs to another user", self.check(2, "context", "list"))
 
     def test_completion_names_commands_plans_and_robots(self):
         def complete(*words):

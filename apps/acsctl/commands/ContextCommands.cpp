@@ -79,7 +79,15 @@ void WriteContext(Json::JsonWriter& writer, const std::string& name, const Conte
 std::string ReadTokenOfInput()
 {
     std::string token;
-    std::getline(std::cin, token);
+    for (int letter = std::cin.get(); letter != std::char_traits<char>::eof() && letter != '\n';
+         letter = std::cin.get())
+    {
+        token += static_cast<char>(letter);
+        if (token.size() > LONGEST_TOKEN)
+        {
+            break; // too long already
+        }
+    }
     while (token.ends_with('\r'))
     {
         token.pop_back();
@@ -87,9 +95,19 @@ std::string ReadTokenOfInput()
     return token;
 }
 
-tl::unexpected<CommandError> FailForUnknown(const std::string& name)
+tl::unexpected<CommandError> FailForUnknown(const std::string& name, const Contexts& contexts)
 {
-    return FailWith(EXIT_REFUSED, fmt::format("there is no context {}", Core::QuoteForError(name)));
+    std::string existing;
+    for (const auto& [other, context] : contexts.entries)
+    {
+        existing.append(existing.empty() ? "; there are: " : ", ").append(other);
+    }
+    return FailWith(
+        EXIT_REFUSED,
+        fmt::format(
+            "there is no context {}{}",
+            Core::QuoteForError(name),
+            existing.empty() ? "; acsctl context set adds one" : existing));
 }
 
 } // namespace
@@ -142,7 +160,8 @@ tl::expected<void, std::string> SetContext(
     }
     if (options.arguments.bTokenFromInput && !IsToken(tokenOfInput))
     {
-        return tl::make_unexpected(std::string("the first line of standard input is not a token"));
+        return tl::make_unexpected(
+            fmt::format("the first line of standard input is not a token of at most {} characters", LONGEST_TOKEN));
     }
     Context context = contexts.entries.contains(name) ? contexts.entries.at(name) : Context();
     if (given.url.has_value())
@@ -181,6 +200,12 @@ Outcome<std::string> RunContextCommand(
     const Screen& screen)
 {
     const ContextStore store(environment);
+    if (store.GetPath().empty())
+    {
+        return FailWith(
+            EXIT_BAD_INPUT,
+            "no folder for the configuration file: set HOME or XDG_CONFIG_HOME to an absolute path");
+    }
     tl::expected<Contexts, std::string> contexts = store.Load();
     if (!contexts.has_value())
     {
@@ -203,7 +228,7 @@ Outcome<std::string> RunContextCommand(
     }
     else if (!contexts->entries.contains(name))
     {
-        return FailForUnknown(name);
+        return FailForUnknown(name, *contexts);
     }
     else if (options.command == ECommand::ContextUse)
     {

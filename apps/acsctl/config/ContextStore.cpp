@@ -22,7 +22,6 @@ namespace
 {
 
 constexpr std::size_t LARGEST_CONFIG = 1024U * 1024U;
-constexpr std::size_t LARGEST_TOKEN_FILE = 4096;
 constexpr mode_t PRIVATE_FILE = S_IRUSR | S_IWUSR;
 constexpr mode_t NOT_OF_OTHERS = S_IRWXG | S_IRWXO;
 
@@ -50,18 +49,43 @@ bool TryWriteAll(int file, std::string_view text)
     return ::fsync(file) == 0;
 }
 
+/// Empty: the environment names no folder for it. Relative paths do not count, as the XDG specification demands.
+std::string FindConfigPath(const Environment& environment)
+{
+    std::filesystem::path folder(environment.configHome.value_or(""));
+    if (!folder.is_absolute())
+    {
+        folder = environment.home.value_or("");
+        if (!folder.is_absolute())
+        {
+            return {};
+        }
+        folder /= ".config";
+    }
+    return folder / "acsctl" / "config.toml";
+}
+
+/// The file to replace: the target, if the path is a symbolic link.
+std::filesystem::path FollowLinks(const std::string& path, std::error_code& error)
+{
+    std::error_code ignored; // there is no such file yet
+    return std::filesystem::is_symlink(path, ignored) ? std::filesystem::canonical(path, error)
+                                                      : std::filesystem::path(path);
+}
+
 } // namespace
 
 ContextStore::ContextStore(const Environment& environment)
-    : _path(
-        (environment.configHome.has_value() ? std::filesystem::path(*environment.configHome)
-                                            : std::filesystem::path(environment.home.value_or(".")) / ".config")
-        / "acsctl" / "config.toml")
+    : _path(FindConfigPath(environment))
 {
 }
 
 tl::expected<Contexts, std::string> ContextStore::Load() const
 {
+    if (_path.empty())
+    {
+        return Contexts();
+    }
     struct stat status = {};
     if (::stat(_path.c_str(), &status) != 0)
     {
@@ -70,6 +94,11 @@ tl::expected<Contexts, std::string> ContextStore::Load() const
             return Contexts();
         }
         return Fail(_path, errno);
+    }
+    if (status.st_uid != ::geteuid())
+    {
+        return tl::make_unexpected(
+            fmt::format("{} belongs to another user; acsctl reads only a file of its user", _path));
     }
     if ((status.st_mode & NOT_OF_OTHERS) != 0)
     {
@@ -86,30 +115,39 @@ tl::expected<Contexts, std::string> ContextStore::Load() const
 
 tl::expected<void, std::string> ContextStore::Save(const Contexts& contexts) const
 {
-    const std::filesystem::path path(_path);
+    const std::string text = WriteContexts(contexts);
+    if (text.size() > LARGEST_CONFIG)
+    {
+        return tl::make_unexpected(fmt::format("{} would exceed {} bytes; nothing was written", _path, LARGEST_CONFIG));
+    }
     std::error_code error;
-    std::filesystem::create_directories(path.parent_path(), error);
+    const std::filesystem::path target = FollowLinks(_path, error);
     if (error)
     {
-        return Fail(path.parent_path(), error.value());
+        return Fail(_path, error.value());
     }
-    std::string temporary = _path + ".XXXXXX";
+    std::filesystem::create_directories(target.parent_path(), error);
+    if (error)
+    {
+        return Fail(target.parent_path(), error.value());
+    }
+    std::string temporary = target.string() + ".XXXXXX";
     const int file = ::mkostemp(temporary.data(), O_CLOEXEC); // mode 0600
     if (file < 0)
     {
         return Fail(temporary, errno);
     }
-    const bool bWritten = TryWriteAll(file, WriteContexts(contexts)) && ::fchmod(file, PRIVATE_FILE) == 0;
+    const bool bWritten = TryWriteAll(file, text) && ::fchmod(file, PRIVATE_FILE) == 0;
     int reason = bWritten ? 0 : errno;
     ::close(file);
-    if (reason == 0 && std::rename(temporary.c_str(), _path.c_str()) != 0)
+    if (reason == 0 && std::rename(temporary.c_str(), target.c_str()) != 0)
     {
         reason = errno;
     }
     if (reason != 0)
     {
         static_cast<void>(::unlink(temporary.c_str()));
-        return Fail(_path, reason);
+        return Fail(target, reason);
     }
     return {};
 }
@@ -121,16 +159,15 @@ const std::string& ContextStore::GetPath() const noexcept
 
 tl::expected<std::string, std::string> ReadTokenFile(const std::string& path)
 {
-    const tl::expected<std::string, std::string> text = Apps::ReadTextFileUpTo(path, LARGEST_TOKEN_FILE);
+    const tl::expected<std::string, std::string> text = Apps::ReadTextFileUpTo(path, LONGEST_TOKEN);
     if (!text.has_value())
     {
         return tl::make_unexpected(fmt::format("{}: {}", path, text.error()));
     }
     struct stat status = {};
-    if (::stat(path.c_str(), &status) == 0 && (status.st_mode & S_IRWXO) != 0)
+    if (::stat(path.c_str(), &status) == 0 && (status.st_mode & NOT_OF_OTHERS) != 0)
     {
-        return tl::make_unexpected(
-            fmt::format("every user of this machine can access {}; run chmod o-rwx {}", path, path));
+        return tl::make_unexpected(fmt::format("other users can access {}; run chmod go-rwx {}", path, path));
     }
     std::string token = text->substr(0, text->find_first_of("\r\n"));
     if (!IsToken(token))
@@ -142,7 +179,8 @@ tl::expected<std::string, std::string> ReadTokenFile(const std::string& path)
 
 bool IsToken(const std::string& text)
 {
-    return !text.empty() && std::ranges::all_of(text, [](char letter) { return letter > ' ' && letter < '\x7f'; });
+    return !text.empty() && text.size() <= LONGEST_TOKEN
+        && std::ranges::all_of(text, [](char letter) { return letter > ' ' && letter < '\x7f'; });
 }
 
 } // namespace ACS::Acsctl
