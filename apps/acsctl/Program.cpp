@@ -18,11 +18,14 @@
 #include "view/DisplayText.hpp"
 #include <acs/core/Uuid.hpp>
 
+#include <charconv>
 #include <chrono>
+#include <cstddef>
 #include <cstdlib>
 #include <functional>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 
 namespace ACS::Acsctl
@@ -35,6 +38,16 @@ std::optional<std::string> GetVariableOrNull(const char* name)
 {
     const char* const valueOrNull = std::getenv(name); // NOLINT(concurrency-mt-unsafe): there is one thread
     return valueOrNull == nullptr || *valueOrNull == '\0' ? std::nullopt : std::optional<std::string>(valueOrNull);
+}
+
+/// Nullopt if COLUMNS is not a number above 0.
+std::optional<std::size_t> ReadColumnsOrNull()
+{
+    const std::string text = GetVariableOrNull("COLUMNS").value_or("");
+    std::size_t columns = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), columns);
+    const bool bWhole = error == std::errc() && end == text.data() + text.size();
+    return bWhole && columns != 0 ? std::optional(columns) : std::nullopt;
 }
 
 int Report(const CommandError& error)
@@ -236,6 +249,7 @@ Environment ReadEnvironment()
     environment.context = GetVariableOrNull("ACSCTL_CONTEXT");
     environment.configHome = GetVariableOrNull("XDG_CONFIG_HOME");
     environment.home = GetVariableOrNull("HOME");
+    environment.columns = ReadColumnsOrNull();
     environment.bNoColor = GetVariableOrNull("NO_COLOR").has_value();
     environment.bDumbTerminal = GetVariableOrNull("TERM").value_or("dumb") == "dumb";
     return environment;
@@ -243,7 +257,7 @@ Environment ReadEnvironment()
 
 int Run(const AcsctlOptions& options, const Environment& environment)
 {
-    Terminal terminal(!options.bPlain && !environment.bNoColor && !environment.bDumbTerminal);
+    Terminal terminal(!options.bPlain && !environment.bNoColor && !environment.bDumbTerminal, environment.columns);
     if (options.command == ECommand::Completion)
     {
         return Print(std::string(options.arguments.word == "zsh" ? ZSH_SCRIPT : BASH_SCRIPT), terminal);

@@ -20,7 +20,7 @@ import termios
 import time
 import unittest
 
-from operator_mock import PLANS, ROBOTS, OperatorMock
+from operator_mock import NOW, PLANS, ROBOTS, WAITS, OperatorMock, make_plan
 
 SECONDS = 30
 
@@ -65,7 +65,8 @@ class AcsctlCase(unittest.TestCase):
 
 
 class Reading(AcsctlCase):
-    def test_tables_fit_80_columns(self):
+    def test_tables_fit_the_columns_of_the_environment(self):
+        self.environment["COLUMNS"] = "80"
         for command in (("status",), ("plans",), ("plan", "PLAN_1"), ("robots",), ("robot", "LR01"), ("alarms",), ("links",),
                         ("queue",), ("site",), ("trace",), ("audit",), ("actions", "LR01")):
             output = self.check(0, *command)
@@ -84,6 +85,40 @@ class Reading(AcsctlCase):
             self.assertIn(text, status)
         self.assertIn("[N2] N3", self.check(0, "robot", "LR01"))
         self.assertIn("ACS-1002", self.check(0, "alarms"))
+
+    def test_a_file_or_a_pipe_has_everything(self):
+        job = {"jobId": "J" * 200, "from": "A" * 60, "to": "B" * 60, "status": "Completed"}
+        plan = make_plan("P" * 150, "Pending", waits={**WAITS, "message": "No robot. " * 30})
+        plan["steps"] = [{**plan["steps"][0], "jobs": [job], "carrierIds": ["C" * 100]}]
+        self.mock.plans = [plan, PLANS[0]]
+        output = self.check(0, "plan", plan["planId"])
+        for text in (job["jobId"], job["from"], job["to"], "C" * 100, "No robot. " * 29):
+            self.assertIn(text, output)
+        lines = self.check(0, "plans").splitlines()
+        self.assertIn("No robot. " * 29, lines[1])
+        self.assertLess(len(lines[2]), 250)
+        self.assertIn("No robot. " * 29, self.check(5, "why", plan["planId"]))
+        self.environment["COLUMNS"] = "60"
+        for command in ("plans", "plan"):
+            output = self.check(0, command, *([plan["planId"]] if command == "plan" else []))
+            self.assertLessEqual(max(map(len, output.splitlines())), 60)
+
+    def test_nothing_is_stated_as_a_sentence(self):
+        self.mock.plans = []
+        self.assertEqual(self.check(0, "plans"), "No unfinished plan; --state finished lists the others.\n")
+        self.assertEqual(self.check(0, "plans", "--robot", "LR09"), "No such plan.\n")
+        self.mock.events = [b": keep-alive\n\n"]
+        self.assertEqual(self.check(0, "events"), "No events.\n")
+        self.assertEqual(self.check(0, "events", "--after", "2"), "No events after 2.\n")
+        self.assertEqual(self.check(0, "events", "--after", "99"), "No events after 99; the newest is 2.\n")
+        self.assertEqual(self.check(0, "events", "--json"), "")
+
+    def test_a_finished_plan_has_the_number_of_its_steps(self):
+        plan = make_plan("P1", "Completed", endedAt=NOW, stepNo=0)
+        plan["steps"] = [{**step, "status": status} for step, status in zip(plan["steps"], ("Completed", "Skipped"))]
+        self.mock.plans = [plan]
+        self.assertRegex(self.check(0, "plan", "P1"), r"Step +2/2\n")
+        self.assertRegex(self.check(0, "plans"), r" 2/2 ")
 
     def test_a_terminal_has_colours_unless_they_are_refused(self):
         self.assertIn("\x1b[1mROBOT", self.run_on_terminal("robots")[1])
@@ -121,7 +156,8 @@ class Reading(AcsctlCase):
                      "Heavy alarm ACS-1002 Robot disconnected of LR02 for 1 min: no state for 10 s.",
                      "Cause: The network is down.", "Remedy: Check the robot."):
             self.assertIn(text, flat)
-        self.assertLessEqual(max(map(len, output.splitlines())), 80)
+        self.environment["COLUMNS"] = "80"
+        self.assertLessEqual(max(map(len, self.check(5, "why", "PLAN_2").splitlines())), 80)
         self.assertIn("Plan PLAN_1 makes progress", self.check(0, "why", "PLAN_1"))
         self.assertIn("Robot LR02 needs attention", self.check(5, "why", "LR02"))
         everything = " ".join(self.check(5, "why").split())
@@ -137,7 +173,9 @@ class Reading(AcsctlCase):
 class Failing(AcsctlCase):
     def test_each_failure_has_its_exit_code(self):
         self.assertIn("There is no PLAN_9.", self.check(1, "plan", "PLAN_9"))
-        self.check(2, "plans", "--state", "odd")
+        self.assertIn('expected active, waiting, unfinished, finished, found "odd"', self.check(2, "plans", "--state", "odd"))
+        self.assertIn('expected entry, changes, or both with a comma, found "x,entry"',
+                      self.check(2, "events", "--types", "x,entry"))
         self.check(2, "plan")
         self.check(2)
         self.mock.token = "secret"
@@ -328,7 +366,7 @@ class Following(AcsctlCase):
         self.mock.events = [entry, entry.replace(b"id: 1", b"id: 2")]
         self.assertEqual(len(self.check(0, "events", "--limit", "1", "--json").splitlines()), 1)
         self.mock.events = [b"event: reset\ndata: {}\n\n"]
-        self.assertEqual(self.check(0, "events"), "")
+        self.assertEqual(self.check(0, "events"), "No events.\n")
         self.check(1, "events", "--after", "1")
         self.mock.events = [b"event: entry\nid: 1\ndata: odd\n\n"]
         self.check(6, "events")

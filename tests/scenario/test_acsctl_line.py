@@ -57,8 +57,10 @@ class OperatedLine(ScenarioCase):
         self.assertIn("The link mcs is down", " ".join(self.check(5, "why").split()))
         for command in (("status",), ("plans",), ("robots",), ("robot", "CR01"), ("alarms",), ("links",), ("queue",), ("site",),
                         ("events",), ("trace",), ("trace", "--robot", "LR01", "--limit", "5"), ("audit",)):
+            self.environment["COLUMNS"] = "80"
             lines = self.check(0, *command).splitlines()
             self.assertLessEqual(max(map(len, lines), default=0), 80, command)
+            del self.environment["COLUMNS"]
         self.assertIn("CR09", self.check(1, "robot", "CR09"))
         self.check(1, "plan", "P/9")
         self.check(1, "why", "P9")

@@ -113,6 +113,17 @@ Outcome<Shown> ShowStatus(const AcsctlOptions& options, std::string_view body, c
     return Shown{PrintStatus(*status, adjusted), bAttention ? EXIT_ATTENTION : EXIT_DONE};
 }
 
+Outcome<Shown> ShowPlans(const CommandArguments& arguments, std::string_view body, const ViewContext& context)
+{
+    const bool bUnfinished = arguments.state.value_or("unfinished") == "unfinished";
+    const bool bAll = bUnfinished && !arguments.robot.has_value() && !arguments.lot.has_value();
+    return Show<PlansAnswer>(body, [&](const PlansAnswer& answer) {
+        return answer.plans.empty() && bAll
+            ? std::string("No unfinished plan; --state finished lists the others.\n")
+            : PrintPlans(answer.plans, context);
+    });
+}
+
 using ShowFunction = Outcome<Shown> (*)(std::string_view body, const ViewContext& context);
 
 struct View
@@ -121,11 +132,7 @@ struct View
     ShowFunction show;
 };
 
-constexpr std::array<View, 11> VIEWS{{
-    {ECommand::Plans,
-     [](std::string_view body, const ViewContext& context) {
-         return Show<PlansAnswer>(body, [&](const PlansAnswer& answer) { return PrintPlans(answer.plans, context); });
-     }},
+constexpr std::array<View, 10> VIEWS{{
     {ECommand::Plan,
      [](std::string_view body, const ViewContext& context) {
          return Show<PlanInfo>(body, [&](const PlanInfo& answer) { return PrintPlan(answer, context); });
@@ -277,6 +284,10 @@ Outcome<Shown> ShowAnswer(const AcsctlOptions& options, std::string_view body, c
     if (options.bJSON)
     {
         return ShowJSON(options.command, body);
+    }
+    if (options.command == ECommand::Plans)
+    {
+        return ShowPlans(options.arguments, body, context);
     }
     const auto* const view = std::ranges::find(VIEWS, options.command, &View::command);
     if (view == VIEWS.end())

@@ -60,12 +60,29 @@ Outcome<void> EventsCommand::Run()
         {
             _terminal.Write(line);
         }
+        if (done.has_value() && !bFollow && !_options.bJSON && _history.empty())
+        {
+            _terminal.Write(MakeEmptyText());
+        }
         if (!done.has_value() || !bFollow)
         {
             return done;
         }
     }
     return Follow();
+}
+
+std::string EventsCommand::MakeEmptyText() const
+{
+    if (!_options.arguments.after.has_value())
+    {
+        return "No events.\n";
+    }
+    const bool bBeyond = *_options.arguments.after > _newest;
+    return fmt::format(
+        "No events after {}{}.\n",
+        *_options.arguments.after,
+        bBeyond ? fmt::format("; the newest is {}", _newest) : std::string());
 }
 
 Outcome<void> EventsCommand::RunHistory()
@@ -76,6 +93,7 @@ Outcome<void> EventsCommand::RunHistory()
         return tl::make_unexpected(newest.error());
     }
     _until = *newest;
+    _newest = *newest;
     if (_after.has_value())
     {
         Outcome<void> done = *_after < *newest ? ReadOnce() : Outcome<void>();

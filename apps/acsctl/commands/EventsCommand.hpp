@@ -36,6 +36,7 @@ class EventsCommand final
     const std::size_t _maxHistory;
     std::deque<std::string> _history;    ///< The newest lines of the history, shown when it is read.
     std::optional<std::uint64_t> _until; ///< The last event of the history while it is read.
+    std::uint64_t _newest = 0;           ///< The newest event that acsd has, when the history was read.
     EEnd _end = EEnd::Ended;
     std::string _fault;
 
@@ -46,6 +47,8 @@ public:
     [[nodiscard]] Outcome<void> Run();
 
 private:
+    /// What is shown of a history without events.
+    [[nodiscard]] std::string MakeEmptyText() const;
     [[nodiscard]] Outcome<void> RunHistory();
     [[nodiscard]] Outcome<void> Follow();
     /// One request, until its end.

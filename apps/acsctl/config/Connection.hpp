@@ -6,6 +6,7 @@
 
 #include <tl/expected.hpp>
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -20,7 +21,8 @@ struct Environment
     std::optional<std::string> context;    ///< ACSCTL_CONTEXT
     std::optional<std::string> configHome; ///< XDG_CONFIG_HOME
     std::optional<std::string> home;
-    bool bNoColor = false; ///< NO_COLOR
+    std::optional<std::size_t> columns; ///< COLUMNS
+    bool bNoColor = false;              ///< NO_COLOR
     bool bDumbTerminal = false;
 };
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <string_view>
@@ -91,6 +92,15 @@ CLI::Option& AddPositional(CLI::App& app, const std::string& name, std::string& 
     return *app.add_option(name, target, help)->required()->type_name("")->check(CheckNotEmpty);
 }
 
+std::function<std::string(const std::string&)> MakeWordCheck(const std::vector<std::string>& words)
+{
+    return [words](const std::string& text) {
+        const bool bKnown = std::find(words.begin(), words.end(), text) != words.end();
+        return bKnown ? std::string()
+                      : fmt::format("expected {}, found {}", fmt::join(words, ", "), Core::QuoteForError(text));
+    };
+}
+
 void AddWord(
     CLI::App& app,
     const std::string& name,
@@ -98,11 +108,7 @@ void AddWord(
     const std::vector<std::string>& words,
     const std::string& help)
 {
-    AddPositional(app, name, target, help).check([words](const std::string& text) {
-        const bool bKnown = std::find(words.begin(), words.end(), text) != words.end();
-        return bKnown ? std::string()
-                      : fmt::format("expected {}, found {}", fmt::join(words, ", "), Core::QuoteForError(text));
-    });
+    AddPositional(app, name, target, help).check(MakeWordCheck(words));
 }
 
 void AddLimit(CLI::App& app, CommandArguments& arguments)
@@ -166,7 +172,7 @@ void AddStateCommands(CLI::App& app, AcsctlOptions& options)
         "a heavy alarm is active");
     CLI::App& plans = AddCommand(app, options, "plans", ECommand::Plans, "List plans (default: the unfinished ones)");
     AddText(plans, "--state", arguments.state, "active, waiting, unfinished or finished")
-        .check(CLI::IsMember({"active", "waiting", "unfinished", "finished"}))
+        .check(MakeWordCheck({"active", "waiting", "unfinished", "finished"}))
         ->type_name("STATE");
     AddText(plans, "--robot", arguments.robot, "Only plans of this robot").type_name("ROBOT");
     AddText(plans, "--lot", arguments.lot, "Only plans of this lot").type_name("LOT");
@@ -205,7 +211,12 @@ void AddHistoryCommands(CLI::App& app, AcsctlOptions& options)
         AddCommand(app, options, "events", ECommand::Events, "Show what happens, one line for each event");
     events.add_flag("-f,--follow", arguments.bFollow, "Continue until Ctrl-C");
     AddText(events, "--types", arguments.types, "entry (default), changes, or both: entry,changes")
-        .check(CLI::IsMember({"entry", "changes", "entry,changes", "changes,entry"}))
+        .check([](const std::string& text) {
+            const bool bKnown =
+                text == "entry" || text == "changes" || text == "entry,changes" || text == "changes,entry";
+            return bKnown ? std::string()
+                          : "expected entry, changes, or both with a comma, found " + Core::QuoteForError(text);
+        })
         ->type_name("TYPES");
     AddLimit(events, arguments);
     events.add_option("--after", arguments.after, "Only events after this event id")->type_name("N");

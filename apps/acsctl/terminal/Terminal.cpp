@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstddef>
 #include <iostream>
@@ -29,22 +30,27 @@ struct Size
 
 Size GetSize()
 {
+    if (::isatty(STDOUT_FILENO) != 1)
+    {
+        return {UNLIMITED_COLUMNS, DEFAULT_ROWS};
+    }
     struct winsize size = {};
-    const bool bKnown = ::isatty(STDOUT_FILENO) == 1
-        && ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0; // NOLINT: the system's signature
+    const bool bKnown = ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0; // NOLINT: the system's signature
     return bKnown && size.ws_col >= FEWEST_COLUMNS && size.ws_row > 1 ? Size{size.ws_col, size.ws_row} : Size();
 }
 
 } // namespace
 
-Terminal::Terminal(bool bColorWanted)
-    : _bColored(bColorWanted && ::isatty(STDOUT_FILENO) == 1)
+Terminal::Terminal(bool bColorWanted, std::optional<std::size_t> columnsOrNull)
+    : _bColored(bColorWanted && ::isatty(STDOUT_FILENO) == 1),
+      _columnsOrNull(columnsOrNull)
 {
 }
 
 Screen Terminal::GetScreen() const
 {
-    return {GetSize().columns, _bColored};
+    const std::size_t columns = std::max(_columnsOrNull.value_or(FEWEST_COLUMNS), FEWEST_COLUMNS);
+    return {_columnsOrNull.has_value() ? columns : GetSize().columns, _bColored};
 }
 
 bool Terminal::CanAsk()

@@ -2,6 +2,8 @@
 
 #include "view/TextTable.hpp"
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,14 +14,15 @@ namespace ACS::Acsctl
 class Terminal final
 {
     const bool _bColored;
+    const std::optional<std::size_t> _columnsOrNull;
     bool _bRedrawn = false;
     bool _bFailed = false;
 
 public:
-    /// Colours are shown on a terminal only.
-    explicit Terminal(bool bColorWanted);
+    /// Colours are shown on a terminal only. The number of columns replaces that of the terminal.
+    Terminal(bool bColorWanted, std::optional<std::size_t> columnsOrNull);
 
-    /// The width of the terminal; 80 columns for a file or a pipe.
+    /// The width of the terminal; unlimited for a file or a pipe. At least 20 columns.
     [[nodiscard]] Screen GetScreen() const;
     /// Whether the operator sees the output and can answer.
     [[nodiscard]] static bool CanAsk();

@@ -19,13 +19,17 @@ constexpr int CUT_LATE = 1;
 constexpr int CUT_EARLY = 2;
 constexpr int CUT_FIRST = 3;
 
+/// Of a finished plan the number of steps that it has done.
 std::string MakeStepText(const PlanInfo& plan)
 {
     if (plan.steps.empty())
     {
         return plan.stepNo > 0 ? std::to_string(plan.stepNo) : "-";
     }
-    return fmt::format("{}/{}", plan.stepNo, plan.steps.size());
+    const auto done = std::ranges::count_if(plan.steps, [](const StepInfo& step) {
+        return step.status == "Completed" || step.status == "Skipped";
+    });
+    return fmt::format("{}/{}", plan.endedAt.has_value() ? done : plan.stepNo, plan.steps.size());
 }
 
 /// Why the plan makes no progress, or how it ended.

@@ -13,6 +13,7 @@ namespace
 {
 
 constexpr std::size_t GAP = 2;
+constexpr std::size_t WIDEST_ALIGNED = 120;
 
 } // namespace
 
@@ -63,6 +64,8 @@ std::vector<std::size_t> TextTable::ComputeWidths(std::size_t columns) const
         {
             width = std::max(width, CountColumns(row[i].text));
         }
+        // One long cell must not fill all lines with blanks.
+        width = columns == UNLIMITED_COLUMNS ? std::min(width, WIDEST_ALIGNED) : width;
         widths.push_back(width);
     }
     std::vector<std::size_t> order(_columns.size());
@@ -94,8 +97,9 @@ void TextTable::PrintRow(const Row& row, const std::vector<std::size_t>& widths,
     std::size_t pending = 0; // blanks before the next text, so that no line ends in blanks
     for (std::size_t i = 0; i < row.size(); ++i)
     {
-        const std::string text = CutToColumns(row[i].text, widths[i]);
-        const std::size_t blanks = widths[i] - CountColumns(text);
+        const bool bWhole = screen.columns == UNLIMITED_COLUMNS;
+        const std::string text = bWhole ? row[i].text : CutToColumns(row[i].text, widths[i]);
+        const std::size_t blanks = widths[i] - std::min(CountColumns(text), widths[i]);
         pending += _columns[i].bRight ? blanks : 0;
         if (!text.empty())
         {

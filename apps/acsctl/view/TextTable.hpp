@@ -3,11 +3,15 @@
 #include "view/EStyle.hpp"
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace ACS::Acsctl
 {
+
+/// Nothing is cut or continued on the next line.
+constexpr std::size_t UNLIMITED_COLUMNS = std::numeric_limits<std::size_t>::max();
 
 /// How a table or a text is shown.
 struct Screen
@@ -17,7 +21,7 @@ struct Screen
 };
 
 /// A table with a title for each column, in at most the columns of the screen. When the screen is too narrow, the cells of the
-/// least important column are cut first.
+/// least important column are cut first. Without a limit, a column is at most 120 wide; the cells after a longer one move to the right.
 class TextTable final
 {
 public:
