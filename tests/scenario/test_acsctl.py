@@ -515,12 +515,38 @@ class Configuring(AcsctlCase):
         self.assertEqual(complete("action", ""), ["LR01", "LR02"])
         self.environment["ACSCTL_URL"] = "http://127.0.0.1:1"
         self.assertEqual(complete("plan", ""), [])
-        script = self.check(0, "completion", "bash")
-        shell = f"{script}\nCOMP_WORDS=(acsctl tsc p) COMP_CWORD=2; _acsctl; echo \"${{COMPREPLY[@]}}\""
-        self.environment["PATH"] = f"{self.bin_dir.resolve()}:{self.environment['PATH']}"
-        result = subprocess.run(["bash", "-c", shell], capture_output=True, text=True, env=self.environment, timeout=SECONDS)
-        self.assertEqual(result.stdout, "pause\n", result.stderr)
         self.assertIn("compadd", self.check(0, "completion", "zsh"))
+
+    def complete_in_bash(self, line):
+        """The line after TAB in an interactive bash."""
+        process_id, terminal = pty.fork()
+        if process_id == 0:
+            path = f"{self.bin_dir.resolve()}:{self.environment['PATH']}"
+            os.execvpe("bash", ["bash", "--norc", "--noprofile", "-i"],
+                       {**self.environment, "PATH": path, "TERM": "dumb", "PS1": "", "HISTFILE": ""})
+        self.addCleanup(os.waitpid, process_id, 0)
+        self.addCleanup(os.close, terminal)
+        # The line is printed, not executed.
+        os.write(terminal, b'eval "$(acsctl completion bash)"; acsctl() { if [[ $1 == __complete ]]; '
+                           b'then command acsctl "$@"; else printf "<%s>" "$@"; printf "END\\n"; fi; }; '
+                           b'bind "set bell-style none"\n' + line.encode() + b"\t\n")
+        shown = b""
+        while b"END\r\n" not in shown.replace(b'END\\n', b""):
+            part = os.read(terminal, 65536)
+            self.assertTrue(part, shown)
+            shown += part
+        os.write(terminal, b"exit\n")
+        return shown.decode().rsplit("\n<", 1)[1].split("END")[0].strip("<>").split("><")
+
+    def test_bash_completes_words_with_its_word_breaks(self):
+        self.mock.plans = [{**PLANS[0], "planId": name} for name in ("P:1-A", "L=1", "-X")]
+        for line, words in (("acsctl tsc p", ["tsc", "pause"]), ("acsctl plan P:", ["plan", "P:1-A"]),
+                            ("acsctl plan P", ["plan", "P:1-A"]), ("acsctl plan L=", ["plan", "L=1"]),
+                            (f"acsctl --url {self.mock.url} plan P:1", ["--url", self.mock.url, "plan", "P:1-A"]),
+                            (f"acsctl --url={self.mock.url}  pri", [f"--url={self.mock.url}", "priority"]),
+                            ("acsctl plans --state=f", ["plans", "--state=finished"]),
+                            ("acsctl plan -- -", ["plan", "--", "-X"])):
+            self.assertEqual(self.complete_in_bash(line), words, line)
 
     def test_a_bundle_has_everything_but_the_token(self):
         self.mock.token = self.environment["ACSCTL_TOKEN"] = "secret-token"

@@ -7,7 +7,9 @@
 #include "config/ContextStore.hpp"
 #include <acs/core/Result.hpp>
 
+#include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -163,10 +165,10 @@ bool NeedsAPI(ECompletionSource source)
 std::string RunCompletion(const std::vector<std::string>& words, const Environment& environment)
 {
     CompletionNeed need = FindCompletion(words);
-    std::vector<std::string> candidates = std::move(need.words);
+    std::vector<std::string> names;
     if (need.source == ECompletionSource::Contexts)
     {
-        AddContexts(environment, candidates);
+        AddContexts(environment, names);
     }
     if (NeedsAPI(need.source))
     {
@@ -176,8 +178,18 @@ std::string RunCompletion(const std::vector<std::string>& words, const Environme
         Session session;
         if (session.Open(options, environment).has_value())
         {
-            AddNames(session.GetAPI(), need, candidates);
+            AddNames(session.GetAPI(), need, names);
         }
+    }
+    if (need.bBeforeDashes)
+    {
+        ReplaceDashedNames(names);
+    }
+    std::vector<std::string> candidates = std::move(need.words);
+    std::ranges::move(names, std::back_inserter(candidates));
+    for (std::string& candidate : candidates)
+    {
+        candidate.insert(0, need.prefix);
     }
     std::string out;
     for (const std::string& candidate :

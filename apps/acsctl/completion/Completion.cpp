@@ -72,6 +72,7 @@ struct Place
     const CLI::App* app = nullptr;
     const CLI::Option* waitingOrNull = nullptr; ///< An option whose value is the next word.
     std::vector<std::string> positionals;
+    bool bOnlyPositionals = false; ///< After "--".
 };
 
 /// The option of the command, or of one above it.
@@ -102,14 +103,20 @@ void Advance(Place& place, const std::string& word)
         place.waitingOrNull = nullptr;
         return;
     }
-    if (word.size() > 1 && word.front() == '-')
+    if (word == "--" && place.app->get_name() != "carriers") // of carriers: no carrier
+    {
+        place.bOnlyPositionals = true;
+        return;
+    }
+    if (word.size() > 1 && word.front() == '-' && !place.bOnlyPositionals)
     {
         const CLI::Option* const optionOrNull = FindOptionOrNull(place.app, word);
         const bool bValue = optionOrNull != nullptr && optionOrNull->get_items_expected_max() > 0;
         place.waitingOrNull = bValue && word != "--watch" ? optionOrNull : nullptr;
         return;
     }
-    if (const CLI::App* const commandOrNull = FindCommandOrNull(*place.app, word); commandOrNull != nullptr)
+    const CLI::App* const commandOrNull = place.bOnlyPositionals ? nullptr : FindCommandOrNull(*place.app, word);
+    if (commandOrNull != nullptr)
     {
         place.app = commandOrNull;
         return;
@@ -186,12 +193,23 @@ CompletionNeed FindCompletion(const std::vector<std::string>& words)
     {
         return MakeNeed("--" + place.waitingOrNull->get_lnames().front(), {});
     }
-    if (last.starts_with('-'))
+    const std::size_t equals = last.find('=');
+    if (last.starts_with("--") && equals != std::string::npos && !place.bOnlyPositionals)
     {
-        return {ListOptions(place.app), ECompletionSource::None, {}};
+        const CLI::Option* const optionOrNull = FindOptionOrNull(place.app, last.substr(0, equals));
+        CompletionNeed need =
+            optionOrNull == nullptr ? CompletionNeed() : MakeNeed("--" + optionOrNull->get_lnames().front(), {});
+        need.prefix = last.substr(0, equals + 1);
+        return need;
     }
     CompletionNeed need = CompletePositional(place);
-    if (place.positionals.empty())
+    need.bBeforeDashes = !place.bOnlyPositionals;
+    if (last.starts_with('-') && !place.bOnlyPositionals)
+    {
+        need.words = ListOptions(place.app);
+        return need;
+    }
+    if (place.positionals.empty() && !place.bOnlyPositionals)
     {
         for (const CLI::App* command : std::as_const(*place.app).get_subcommands({}))
         {
@@ -232,6 +250,16 @@ ConnectionOptions ReadConnectionOptions(const std::vector<std::string>& words)
         }
     }
     return options;
+}
+
+void ReplaceDashedNames(std::vector<std::string>& names)
+{
+    const auto dashed = std::ranges::count_if(names, [](const std::string& name) { return name.starts_with('-'); });
+    std::erase_if(names, [](const std::string& name) { return name.starts_with('-'); });
+    if (dashed != 0)
+    {
+        names.emplace_back("--");
+    }
 }
 
 std::vector<std::string> SelectCandidates(std::vector<std::string> candidates, std::string_view begin)

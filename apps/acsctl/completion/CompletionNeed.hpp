@@ -28,7 +28,9 @@ struct CompletionNeed
 {
     std::vector<std::string> words;
     ECompletionSource source = ECompletionSource::None;
-    std::string subject; ///< The plan, the robot or the kind.
+    std::string subject{};      ///< The plan, the robot or the kind.
+    std::string prefix{};       ///< What precedes each candidate in the word: "--state=".
+    bool bBeforeDashes = false; ///< The word is a positional argument, without "--" before it.
 };
 
 } // namespace ACS::Acsctl

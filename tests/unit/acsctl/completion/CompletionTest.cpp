@@ -56,6 +56,32 @@ TEST_CASE("Names are completed from the source of the argument")
     CHECK(Acsctl::FindCompletion({"block", "node", ""}).subject == "node");
 }
 
+TEST_CASE("The value of an option is also completed after =")
+{
+    const Acsctl::CompletionNeed state = Acsctl::FindCompletion({"plans", "--state=f"});
+    CHECK(HasWord(state, "finished"));
+    CHECK(state.prefix == "--state=");
+    CHECK(Acsctl::FindCompletion({"plans", "--robot="}).source == ECompletionSource::Robots);
+    CHECK(Acsctl::FindCompletion({"plans", "--odd=x"}).words.empty());
+}
+
+TEST_CASE("Names that begin with - are completed after --")
+{
+    CHECK(Acsctl::FindCompletion({"plan", "--", "-"}).source == ECompletionSource::Plans);
+    CHECK_FALSE(HasWord(Acsctl::FindCompletion({"plan", "--", "-"}), "--json"));
+    CHECK(Acsctl::FindCompletion({"resolve", "--", "-P", ""}).subject == "-P");
+    CHECK_FALSE(Acsctl::FindCompletion({"plan", "--", "-"}).bBeforeDashes);
+    CHECK(Acsctl::FindCompletion({"plan", "-"}).bBeforeDashes);
+    CHECK(HasWord(Acsctl::FindCompletion({"plan", "-"}), "--json"));
+    CHECK_FALSE(Acsctl::FindCompletion({"plans", "--robot", ""}).bBeforeDashes);
+    Typed names{"-P1", "P2", "-P3"};
+    Acsctl::ReplaceDashedNames(names);
+    CHECK(names == Typed{"P2", "--"});
+    names.pop_back();
+    Acsctl::ReplaceDashedNames(names);
+    CHECK(names == Typed{"P2"});
+}
+
 TEST_CASE("A candidate is one harmless word of a shell")
 {
     CHECK(
