@@ -244,13 +244,15 @@ CHANGES = (
      {"kind": "station", "id": "B02", "reason": "wet floor"}),
     (("unblock", "node", "N1"), "/v1/site/unblock", {"kind": "node", "id": "N1"}),
 )
+CONTROLS = ("cancel", "abort", "pause", "resume")
 WITHOUT_QUESTION = ("pause", "priority", "block")
 
 
 class Changing(AcsctlCase):
     def test_each_command_is_one_post_with_a_key(self):
         for arguments, path, body in CHANGES:
-            self.assertEqual(self.check(0, *([*arguments[:1], "--yes", *arguments[1:]])), f"Accepted: {path}\n")
+            outcome = f"acsctl plan {arguments[1]} and acsctl events show the outcome.\n" if arguments[0] in CONTROLS else ""
+            self.assertEqual(self.check(0, *([*arguments[:1], "--yes", *arguments[1:]])), f"Accepted: {path}\n{outcome}")
             request = self.mock.requests[-1]
             self.assertEqual((request["method"], request["path"]), ("POST", path))
             self.assertEqual((request["body"], request["type"]) if body is None else json.loads(request["body"]),

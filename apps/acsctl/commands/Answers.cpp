@@ -4,6 +4,7 @@
 #include "view/ActionViews.hpp"
 #include "view/DisplayText.hpp"
 #include "view/LineViews.hpp"
+#include "view/ShellCommand.hpp"
 #include "view/StateViews.hpp"
 #include <acs/core/Result.hpp>
 #include <acs/core/Timestamp.hpp>
@@ -118,9 +119,8 @@ Outcome<Shown> ShowPlans(const CommandArguments& arguments, std::string_view bod
     const bool bUnfinished = arguments.state.value_or("unfinished") == "unfinished";
     const bool bAll = bUnfinished && !arguments.robot.has_value() && !arguments.lot.has_value();
     return Show<PlansAnswer>(body, [&](const PlansAnswer& answer) {
-        return answer.plans.empty() && bAll
-            ? std::string("No unfinished plan; --state finished lists the others.\n")
-            : PrintPlans(answer.plans, context);
+        return answer.plans.empty() && bAll ? std::string("No unfinished plan; --state finished lists the others.\n")
+                                            : PrintPlans(answer.plans, context);
     });
 }
 
@@ -178,6 +178,13 @@ constexpr std::array<View, 10> VIEWS{{
          return ShowLines<AuditLine>(body, [&](const auto& lines) { return PrintAudit(lines, context.screen); });
      }},
 }};
+
+/// Whether acsd answers the command before its outcome is known.
+bool IsPlanControl(ECommand command)
+{
+    return command == ECommand::Cancel || command == ECommand::Abort || command == ECommand::Pause
+        || command == ECommand::Resume;
+}
 
 /// An answer without the JSON of the API: its status, and the text of acsd's HTTP server or the type of the content.
 std::string DescribeForeign(const ApiAnswer& answer)
@@ -321,6 +328,11 @@ Outcome<Shown> ShowChange(const AcsctlOptions& options, const ApiAnswer& answer)
     if (!shown.has_value() && (bProxy || (shown.error().exitCode == EXIT_BAD_ANSWER && !bNotExecuted)))
     {
         shown.error().text += MAY_BE_EXECUTED;
+    }
+    if (shown.has_value() && IsPlanControl(options.command) && !options.bJSON)
+    {
+        const std::string command = MakeShellCommand("plan", {options.arguments.id});
+        shown->text += MakeDisplayable(command + " and acsctl events show the outcome.") + "\n";
     }
     return shown;
 }

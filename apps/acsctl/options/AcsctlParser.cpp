@@ -266,7 +266,10 @@ void AddPlanCommands(CLI::App& app, AcsctlOptions& options)
         const char* help;
     };
     for (const Control& control :
-         {Control{"cancel", ECommand::Cancel, "Cancel a plan that has not begun"},
+         {Control{
+              "cancel",
+              ECommand::Cancel,
+              "Cancel a plan whose robot has not arrived at its first place (acsd: cancel.until)"},
           Control{"abort", ECommand::Abort, "Abort a plan"},
           Control{"pause", ECommand::Pause, "Pause a plan"},
           Control{"resume", ECommand::Resume, "Resume a paused plan"}})

@@ -72,6 +72,25 @@ TEST_CASE("A change whose answer is not that of acsd may have been executed")
     CHECK_THAT(getError(404, "<html>"), !Catch::Contains("may have executed"));
 }
 
+TEST_CASE("An accepted control of a plan names the commands that show its outcome")
+{
+    Acsctl::AcsctlOptions options;
+    options.command = Acsctl::ECommand::Cancel;
+    options.arguments.id = "P 1";
+    const ApiAnswer answer{202, "application/json", R"({"message":"Accepted."})", {}};
+    CHECK(
+        Acsctl::ShowChange(options, answer)->text
+        == "Accepted.\nacsctl plan 'P 1' and acsctl events show the outcome.\n");
+    options.bJSON = true;
+    CHECK(
+        Acsctl::ShowChange(options, answer)->text
+        == R"({"message":"Accepted."})"
+           "\n");
+    options.bJSON = false;
+    options.command = Acsctl::ECommand::Block;
+    CHECK(Acsctl::ShowChange(options, answer)->text == "Accepted.\n");
+}
+
 TEST_CASE("A change whose answer is lost may have been executed")
 {
     const Acsctl::ApiFailure lost{Acsctl::EApiFailure::ConnectionLost, "lost", true};
