@@ -8,6 +8,7 @@ import re
 import unittest
 
 PAGE = pathlib.Path(__file__).resolve().parent.parent.parent / "apps" / "acsd" / "page"
+DESCRIPTION = PAGE.parent.parent.parent / "docs" / "reference" / "openapi.json"
 TEXT = re.compile(r'^    "([^"]+)": "((?:[^"\\]|\\.)*)",$', re.MULTILINE)
 LONGEST_LINE = 132
 LEAST_CONTRAST = 4.5  # WCAG AA
@@ -63,6 +64,16 @@ class Texts(unittest.TestCase):
             used += re.findall(r'\b(?:ask: |t\([^()]*\? )"([a-zA-Z]+\.[a-zA-Z.]+)"', source)
             for key in used:
                 self.assertIn(key, texts, path.name)
+
+    def test_every_word_of_the_api_has_a_text(self):
+        schemas = json.loads(DESCRIPTION.read_text(encoding="utf-8"))["components"]["schemas"]
+        words = {"alarmLevel": schemas["AlarmLevel"], "planStatus": schemas["PlanStatus"], "stepStatus": schemas["StepStatus"],
+                 "jobStatus": schemas["JobStatus"], "robotStatus": schemas["RobotStatus"], "tsc": schemas["TscState"],
+                 "link": schemas["Link"]["properties"]["name"], "entry": schemas["EventEntry"]["properties"]["kind"],
+                 "kind": schemas["Block"]["properties"]["kind"]}
+        for kind, schema in words.items():
+            for word in schema["enum"]:
+                self.assertTrue(f"{kind}.{word}" in read_texts("en"), f"{kind}.{word}")
 
     def test_every_state_of_a_robot_has_a_text_and_a_shape(self):
         header = PAGE.parent.parent.parent / "libplan" / "include" / "acs" / "plan" / "ERobotStatus.hpp"

@@ -108,9 +108,9 @@ class MockAcsd:
             simulation = self.simulation
             data = {}
             status = self.describe_status()
-            comparable = {**status, "uptimeSeconds": 0}
-            if comparable != self._sent_status:
-                data["status"], self._sent_status = status, comparable
+            del status["uptimeSeconds"]
+            if status != self._sent_status:
+                data["status"] = self._sent_status = status
             plans = [simulation.plans[plan_id].describe() for plan_id in sorted(simulation.changed_plans)
                      if plan_id in simulation.plans]
             if plans:
@@ -174,7 +174,7 @@ class MockAcsd:
         by_status = {}
         for robot in simulation.robots.values():
             by_status[robot.status] = by_status.get(robot.status, 0) + 1
-        heavy = sum(alarm["level"] == "Heavy" for alarm in simulation.alarms)
+        heavy = sum(alarm["level"] == "heavy" for alarm in simulation.alarms)
         reasons = self.not_ready + [f"link {link['name']} is down: {link['reason']}" for link in self.links if not link["up"]]
         return {
             "version": "0.1.0", "startedAt": format_time(self.started_at),
@@ -250,7 +250,9 @@ class MockAcsd:
             self.posts.append((path, body, key))
             if key in self._answers:
                 return self._answers[key]
-            self._answers[key] = answer = {"message": self.execute(path.split("/")[2:], body or {})}
+            answer = {"message": self.execute(path.split("/")[2:], body or {})}
+            if key is not None:
+                self._answers[key] = answer
             self.publish()
             return answer
 

@@ -154,7 +154,7 @@ class Plan:
                                  "status": self.job_status[i]}]
         return {
             "planId": self.plan_id, "lotId": self.lot_id, "priority": self.priority, "status": self.status,
-            "robotId": self.robot_id, "stepNo": self.step_no if is_busy or self.ended_at else 0,
+            "robotId": self.robot_id, "stepNo": self.step_no if is_busy or self.ended_at and self.status != "Completed" else 0,
             "jobId": self.get_job_id() if is_working else None, "currentAction": self.get_step()["action"] if is_working else None,
             "acceptedAt": format_time(self.accepted_at), "startedAt": self.started_at and format_time(self.started_at),
             "endedAt": self.ended_at and format_time(self.ended_at), "message": self.message, "waits": self.waits,

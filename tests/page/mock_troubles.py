@@ -20,7 +20,7 @@ def add_troubles(mock, ahead_seconds=40):
         control = [robot for robot in robots if robot.type == "CR" and robot.plan is not None]
         lost = simulation.fix(logistics[-1].robot_id, "Disconnected", "No connection for 4 min.")
         simulation.set_alarm(
-            lost.robot_id, "ACS-1002", "Heavy",
+            lost.robot_id, "ACS-1002", "heavy",
             f"{lost.robot_id} is disconnected: no state on uagv/v2/ACME/{lost.robot_id}/state for 30 s.",
             "Robot disconnected", "No VDA5050 connection, or no state within robot.offline_after.",
             "Check the robot, its network and the broker. For a robot that was removed from the floor, set maintenance.",
@@ -28,15 +28,15 @@ def add_troubles(mock, ahead_seconds=40):
         lost.plan.waits = simulation.make_wait(f"{lost.robot_id} is disconnected.")
         unresolved = simulation.fix(control[0].robot_id, "Working")
         unresolved.plan.get_step()["status"] = "InProgress"
-        unresolved.plan.job_status[unresolved.plan.step_no - 1] = "Unresolved"
+        unresolved.plan.job_status[unresolved.plan.step_no - 1] = "InProgress"
         simulation.set_alarm(
-            unresolved.robot_id, "ACS-1008", "Heavy", f"Job {unresolved.plan.get_job_id()}: no report shows whether it was done.",
+            unresolved.robot_id, "ACS-1008", "heavy", f"Job {unresolved.plan.get_job_id()}: no report shows whether it was done.",
             "Job outcome unknown", "After a restart, a power loss of the robot, or contradicting loads.",
             "Check where the carrier is and resolve the job.", unresolved.plan, 11)
         unresolved.plan.waits = simulation.make_wait(
             f"Job {unresolved.plan.get_job_id()} is unresolved: an operator decides its outcome.")
         simulation.set_alarm(
-            logistics[1].robot_id, "ACS-1011", "Light", f"{logistics[1].robot_id}.CP01 reports C_017; the record has no carrier.",
+            logistics[1].robot_id, "ACS-1011", "light", f"{logistics[1].robot_id}.CP01 reports C_017; the record has no carrier.",
             "Reported loads differ from the record", "A carrier was moved by hand, or a sensor is wrong.",
             "Check the port, then correct the record or clear the alarm.", None, 2)
         logistics[2].plan.status = "Paused"

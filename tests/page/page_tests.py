@@ -249,7 +249,7 @@ class Plans(PageCase):
         job_id = self.plan.get_job_id()
         with self.mock.lock:
             self.plan.get_step()["status"] = "InProgress"
-            self.mock.simulation.set_alarm("LR01", "ACS-1008", "Heavy", "unknown", "Job outcome unknown", "", "", self.plan)
+            self.mock.simulation.set_alarm("LR01", "ACS-1008", "heavy", "unknown", "Job outcome unknown", "", "", self.plan)
             self.mock.simulation.changed_plans.add(self.plan.plan_id)
             self.mock.publish()
         self.open_plan()
@@ -284,7 +284,7 @@ class Alarms(PageCase):
         mock = self.start_mock()
         self.open()
         with mock.lock:
-            mock.simulation.set_alarm("LR01", "ACS-1002", "Heavy", "LR01 is disconnected.", "Robot disconnected", "No state.",
+            mock.simulation.set_alarm("LR01", "ACS-1002", "heavy", "LR01 is disconnected.", "Robot disconnected", "No state.",
                                       "Check the network.", minutes=3)
             mock.publish()
         self.wait_for_text("#strip-alarms", "1 heavy")
@@ -297,13 +297,32 @@ class Alarms(PageCase):
         self.wait_for_post("/v1/alarms/clear", {"robotId": "LR01", "errorCode": "ACS-1002"})
         self.wait_for_text("#view-alarms", "No alarms.")
 
+    def test_heavy_alarms_come_first_and_look_heavy(self):
+        mock = self.start_mock()
+        with mock.lock:
+            mock.simulation.set_alarm("LR01", "ACS-1002", "heavy", "LR01 is disconnected.", "Robot disconnected", "", "", minutes=9)
+            mock.simulation.set_alarm("LR02", "ACS-1009", "light", "LR02 does not move.", "Robot stalled", "", "")
+        self.open("?lang=en")
+        self.click("#tab-alarms")
+        wait_until(lambda: [row.get_attribute("data-id") for row in self.find_all("#view-alarms .alarm")] == ["ACS-1002", "ACS-1009"],
+                   "the heavy alarm is first")
+        for code, level, shape, text in (("ACS-1002", "heavy", "error", "Heavy"), ("ACS-1009", "light", "light", "Light")):
+            row = f"#view-alarms .alarm[data-id='{code}']"
+            self.assertIn(level, self.find(row).get_attribute("class").split())
+            self.assertEqual(self.find(f"{row} .row-glyph svg").get_attribute("data-name"), shape)
+            self.assertEqual(self.get_text(f"{row} .alarm-level"), text)
+        self.assertIn("heavy", self.find("#tab-alarms .count").get_attribute("class"))
+        self.click("#language-button")
+        self.wait_for_text("#view-alarms .heavy .alarm-level", "중알람")
+        self.assertEqual(self.get_text("#view-alarms .light .alarm-level"), "경알람")
+
     def test_korean_alarm(self):
         self.start_mock()
         self.open("?lang=ko")
         self.run_script("return import('/page/text.js').then((text) => text.setKoreanAlarms({'ACS-1002': {title: '로봇 통신 끊김', "
                         "cause: '원인 문구', remedy: '조치 문구'}}))")
         with self.mock.lock:
-            self.mock.simulation.set_alarm("LR01", "ACS-1002", "Heavy", "LR01 is disconnected.", "Robot disconnected", "", "")
+            self.mock.simulation.set_alarm("LR01", "ACS-1002", "heavy", "LR01 is disconnected.", "Robot disconnected", "", "")
             self.mock.publish()
         self.click("#tab-alarms")
         for text in ("로봇 통신 끊김", "원인 문구", "조치 문구", "LR01 is disconnected."):
@@ -338,7 +357,7 @@ class Safety(PageCase):
             plan = simulation.add_plan("LR")
             plan.lot_id = evil
             plan.waits = simulation.make_wait(evil, 1, [(evil, evil)])
-            simulation.set_alarm(evil, evil, "Heavy", evil, evil, evil, evil, plan)
+            simulation.set_alarm(evil, evil, "heavy", evil, evil, evil, evil, plan)
             simulation.floor.blocks[("node", NODE)] = {"kind": "node", "id": NODE, "reason": evil, "since": None}
             mock.not_ready = [evil]
             mock.links[0].update(up=False, reason=evil)
@@ -385,7 +404,7 @@ class Connection(PageCase):
         self.wait_for_text("#banner", "This page shows the state of")
         self.assertIn("is-old", self.find("body").get_attribute("class"))
         with mock.lock:
-            mock.simulation.set_alarm("LR01", "ACS-1009", "Light", "meanwhile", "Robot stalled", "", "")
+            mock.simulation.set_alarm("LR01", "ACS-1009", "light", "meanwhile", "Robot stalled", "", "")
             mock.publish()
         mock.is_down = False
         self.wait_for_state("live")

@@ -38,7 +38,7 @@ export class AlarmRow {
             return;
         }
         this.alarm = alarm;
-        const isHeavy = alarm.level === "Heavy";
+        const isHeavy = alarm.level === "heavy";
         const text = explainAlarm(alarm);
         setClass(this.node, `alarm ${isHeavy ? "heavy" : "light"}`);
         setGlyph(this.glyph, isHeavy ? "error" : "light");

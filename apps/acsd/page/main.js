@@ -171,7 +171,7 @@ class Page {
             const count = view.getCount();
             setText(this.tabs.get(name).count, count === null || count === 0 ? "" : String(count));
         }
-        const hasHeavy = this.model.alarms.some((alarm) => alarm.level === "Heavy");
+        const hasHeavy = this.model.alarms.some((alarm) => alarm.level === "heavy");
         setClass(this.tabs.get("alarms").count, hasHeavy ? "count heavy" : "count");
     }
 

@@ -119,7 +119,7 @@ export class Model {
     }
 
     listAlarms() {
-        const getRank = (alarm) => (alarm.level === "Heavy" ? 0 : 1);
+        const getRank = (alarm) => (alarm.level === "heavy" ? 0 : 1);
         return [...this.alarms].sort((a, b) => getRank(a) - getRank(b) || (b.since ?? "").localeCompare(a.since ?? ""));
     }
 }

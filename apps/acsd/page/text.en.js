@@ -137,8 +137,8 @@ export default {
     "alarm.cause": "Cause",
     "alarm.remedy": "Remedy",
     "alarm.acsd": "acsd itself",
-    "alarmLevel.Heavy": "Heavy",
-    "alarmLevel.Light": "Light",
+    "alarmLevel.heavy": "Heavy",
+    "alarmLevel.light": "Light",
 
     "event.none": "Nothing has happened since the page was opened.",
     "event.kind": "Kind of event",

@@ -137,8 +137,8 @@ export default {
     "alarm.cause": "원인",
     "alarm.remedy": "조치",
     "alarm.acsd": "acsd 자체",
-    "alarmLevel.Heavy": "중알람",
-    "alarmLevel.Light": "경알람",
+    "alarmLevel.heavy": "중알람",
+    "alarmLevel.light": "경알람",
 
     "event.none": "화면을 연 이후 발생한 이력이 없습니다.",
     "event.kind": "이력 종류",
