@@ -2,9 +2,11 @@
 
 import time
 import unittest
+from datetime import timedelta
 
 from browser import list_processes, read_cpu_seconds
 from mock_floor import Floor as MockFloor
+from mock_floor import format_time, get_now
 from page_case import PageCase, wait_until
 from selenium.webdriver.common.keys import Keys
 
@@ -271,6 +273,32 @@ class Plans(PageCase):
         self.find("#view-plans .filter").send_keys("no such plan")
         wait_until(lambda: not self.find_all("#view-plans .rows li"), "the filter hides all")
 
+    def test_a_completed_plan_has_all_its_steps(self):
+        with self.mock.lock:
+            for step in self.plan.steps:
+                step["status"] = "Completed"
+            self.mock.simulation.end_plan(self.plan, "Completed")
+            self.mock.publish()
+        row = f"#plans-finished li[data-id='{self.plan.plan_id}']"
+        self.click("#finished-button")
+        self.wait_for_text(row, "2/2 CassetteUnload")
+        self.assertIn("Completed", self.get_text(row))
+
+    def test_what_to_unblock(self):
+        with self.mock.lock:
+            self.mock.simulation.floor.blocks[("edge", "N005-N006")] = {
+                "kind": "edge", "id": "N005-N006", "reason": "", "since": format_time(get_now())}
+            self.mock.site_revision += 1
+            self.plan.waits = self.mock.simulation.make_wait("LR01: edge N005-N006 is blocked.")
+            self.mock.simulation.changed_plans.add(self.plan.plan_id)
+            self.mock.publish()
+        self.open_plan()
+        self.wait_for_text("#detail", "Unblock edge N005-N006 when it is free.")
+        self.run_script("acsdPage.select({kind: 'node', id: arguments[0]})", NODE)
+        self.click_button("Block")
+        self.wait_for_text("#confirm-dialog", f"Block node {NODE}?")
+        self.press(Keys.ESCAPE)
+
     def test_viewer(self):
         self.expected_log = ("/pause",)
         self.mock.role = "viewer"
@@ -343,6 +371,49 @@ class Alarms(PageCase):
         self.click("#confirm-action")
         self.wait_for_post("/v1/tsc/resume")
         self.wait_for_text("#strip-tsc", "Auto")
+
+
+class Header(PageCase):
+    """The strip at the top, and the view of acsd itself."""
+
+    def setUp(self):
+        super().setUp()
+        self.mock = self.start_mock()
+        self.mock.freeze()
+
+    def test_the_other_language_has_all_states(self):
+        with self.mock.lock:
+            self.mock.links[1].update(up=False, reason="connection refused")
+            self.mock.simulation.fix("LR01", "Disconnected")
+        self.open()
+        self.wait_for_text("#strip-links", "MQTT")
+        get_shapes = "return [...document.querySelectorAll('#strip-robots svg')].map((glyph) => glyph.dataset.name)"
+        shapes = self.run_script(get_shapes)
+        self.assertIn("disconnected", shapes)
+        for label, robots in (("통신", "통신 끊김"), ("Links", "Disconnected")):
+            self.click("#language-button")
+            self.wait_for_text("#strip-links", label)
+            self.assertIn("MQTT", self.get_text("#strip-links"))
+            self.assertEqual(len(self.find_all("#strip-links .link-state.down")), 1)
+            self.assertEqual(self.run_script(get_shapes), shapes)
+            self.assertEqual(self.find("#strip-robots .mini").get_attribute("title"), robots)
+
+    def test_the_time_since_the_start_counts_on(self):
+        with self.mock.lock:
+            self.mock.started_at -= timedelta(minutes=5)
+        self.open()
+        self.click("#tab-system")
+        self.wait_for_text("#view-system", "(5 min ago)")
+        # An event with a new status; then three minutes pass.
+        with self.mock.lock:
+            self.mock.outbox["reports"] = 3
+            self.mock.publish()
+        self.wait_for_text("#view-system", "3 reports")
+        self.assertNotIn("NaN", self.get_text("#view-system"))
+        self.run_script("const now = Date.now; Date.now = () => now() + 180_000")
+        self.wait_for_text("#view-system", "(8 min ago)")
+        self.click("#language-button")
+        self.wait_for_text("#view-system", "(8분 전)")
 
 
 class Safety(PageCase):

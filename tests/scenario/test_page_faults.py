@@ -63,7 +63,7 @@ class PageFaults(FaultCase, BrowserCase):
 
     def test_an_edge_is_blocked(self):
         self.check(EdgeBlocked, "plans", "#detail .facts", lambda fault: {
-            "en": [f"edge {fault.edges[0]} is blocked: wet floor", f"Unblock Edge {fault.edges[0]} when it is free."],
+            "en": [f"edge {fault.edges[0]} is blocked: wet floor", f"Unblock edge {fault.edges[0]} when it is free."],
             "ko": [f"edge {fault.edges[0]} is blocked: wet floor", f"{fault.edges[0]}에 장애물이 없으면 사용 금지를 해제하십시오."]})
 
     def test_a_vehicle_is_lost(self):

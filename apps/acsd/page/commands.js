@@ -34,9 +34,9 @@ export const Commands = {
     pauseTSC: () => ({label: t("command.tscPause"), path: "/v1/tsc/pause", ask: null}),
     resumeTSC: () => ({label: t("command.tscResume"), path: "/v1/tsc/resume", ask: "ask.tscResume"}),
     block: (kind, id) => ({label: t("command.block"), path: "/v1/site/block", body: {kind, id}, ask: "ask.block", hasReason: true,
-        values: {kind: t(`kind.${kind}`), id}}),
+        values: {kind: t(`kindInside.${kind}`), id}}),
     unblock: (kind, id) => ({label: t("command.unblock"), path: "/v1/site/unblock", body: {kind, id}, ask: "ask.unblock",
-        values: {kind: t(`kind.${kind}`), id}}),
+        values: {kind: t(`kindInside.${kind}`), id}}),
 };
 
 /** Asks if need be, sends, and shows the answer. */

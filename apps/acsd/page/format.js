@@ -50,8 +50,13 @@ export function formatNumber(value, digits = 2) {
     return value.toLocaleString(getLanguage(), {minimumFractionDigits: digits, maximumFractionDigits: digits});
 }
 
-/** Makes the node show for how long, from then on; null shows nothing. */
-export function setSince(node, text) {
+function showSince(node) {
+    const age = formatDuration(getServerNow() - Date.parse(node.dataset.since));
+    setText(node, node.dataset.sinceKey === undefined ? age : t(node.dataset.sinceKey, {time: age}));
+}
+
+/** Makes the node show for how long, from then on; null shows nothing. `key`: of a text with {time}. */
+export function setSince(node, text, key) {
     if (text === null || text === undefined) {
         delete node.dataset.since;
         setText(node, "");
@@ -61,14 +66,17 @@ export function setSince(node, text) {
         node.dataset.since = text;
         node.title = new Date(text).toLocaleString(getLanguage());
     }
-    setText(node, formatDuration(getServerNow() - Date.parse(text)));
+    if (key !== undefined) {
+        node.dataset.sinceKey = key;
+    }
+    showSince(node);
 }
 
 /** Once a second: the durations that can be seen. */
 export function updateSince() {
     for (const node of document.querySelectorAll("[data-since]")) {
         if (node.offsetParent !== null) {
-            setText(node, formatDuration(getServerNow() - Date.parse(node.dataset.since)));
+            showSince(node);
         }
     }
 }

@@ -92,7 +92,7 @@ export class PlanDetail {
             const blocks = this.context.model.findNamedBlocks(plan.waits);
             if (blocks.length > 0) {
                 add("alarm.remedy", make("ul", {class: "reasons"}, ...blocks.map(({kind, id}) => make("li", {},
-                    make("button", {type: "button", class: "link", text: t("remedy.unblock", {kind: t(`kind.${kind}`), id}),
+                    make("button", {type: "button", class: "link", text: t("remedy.unblock", {kind: t(`kindInside.${kind}`), id}),
                         onclick: () => this.context.select({kind, id})})))));
             }
             if (plan.waits.queuePosition !== null) {

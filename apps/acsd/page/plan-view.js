@@ -27,9 +27,10 @@ export class StepBar {
     }
 }
 
+/** The current step; before the start the first one, of a completed plan (stepNo 0) the last one. */
 export function describeStep(plan) {
     const step = plan.steps.find((candidate) => candidate.stepNo === plan.stepNo)
-        ?? plan.steps.find((candidate) => candidate.status === "Pending") ?? plan.steps[0];
+        ?? plan.steps.find((candidate) => candidate.status === "Pending") ?? plan.steps.at(-1);
     return step === undefined ? "" : `${step.stepNo}/${plan.steps.length} ${step.action} @ ${step.position}`;
 }
 

@@ -40,7 +40,7 @@ export class Strip {
         this.robots = new Cell("robots", t("strip.robots"), open("robots"));
         this.alarms = new Cell("alarms", t("strip.alarms"), open("alarms"));
         this.tscButton = make("span", {class: "no-wall tsc-button"});
-        this.shownTsc = null;
+        this.shownTsc = this.shownLinks = this.shownRobots = null; // the new cells are empty
         this.root.replaceChildren(this.ready.node, this.alarms.node, this.tsc.node, this.tscButton, this.linkCell.node,
             this.outbox.node, this.plans.node, this.robots.node);
         this.update();

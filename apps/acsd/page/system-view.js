@@ -3,7 +3,7 @@
 import {post} from "./api.js";
 import {Commands, makeCommandButton} from "./commands.js";
 import {make} from "./dom.js";
-import {formatDuration, formatTime, setSince} from "./format.js";
+import {formatTime, setSince} from "./format.js";
 import {makeGlyph} from "./glyphs.js";
 import {nameState, t} from "./text.js";
 
@@ -11,9 +11,9 @@ function makeState(isGood, text) {
     return make("span", {class: isGood ? "state good" : "state bad"}, makeGlyph(isGood ? "done" : "failed"), text);
 }
 
-function makeSince(text) {
+function makeSince(text, key) {
     const node = make("span", {class: "muted"});
-    setSince(node, text);
+    setSince(node, text, key);
     return node;
 }
 
@@ -56,7 +56,7 @@ export class SystemView {
 
     update() {
         const {status, blocks} = this.context.model;
-        // Few members and rarely changed, except for the time: drawn as a whole.
+        // Few members and rarely changed: drawn as a whole. uptimeSeconds is in the snapshot only.
         const shown = JSON.stringify([{...status, uptimeSeconds: 0}, [...blocks.keys()]]);
         if (status === null || shown === this.shown) {
             return;
@@ -91,8 +91,7 @@ export class SystemView {
             block.reason ? ` ${block.reason}` : ""));
         add("system.blocked", blocks.size === 0 ? "–" : make("ul", {class: "reasons"}, ...blockRows));
         add("system.version", status.version);
-        add("system.started", formatTime(status.startedAt), " ",
-            make("span", {class: "muted", text: t("system.uptime", {time: formatDuration(status.uptimeSeconds * 1_000)})}));
+        add("system.started", formatTime(status.startedAt), " ", makeSince(status.startedAt, "system.uptime"));
         this.root.replaceChildren(make("dl", {class: "facts"}, ...rows), make("div", {class: "row-buttons session"},
             make("button", {type: "button", class: "button", text: t("login.logout"), onclick: () => this.#logout()})));
     }

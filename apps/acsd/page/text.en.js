@@ -58,6 +58,10 @@ export default {
     "kind.edge": "Edge",
     "kind.station": "Station",
 
+    "kindInside.node": "node",
+    "kindInside.edge": "edge",
+    "kindInside.station": "station",
+
     "detail.close": "Close the detail",
     "detail.gone": "acsd does not know it any more.",
 

@@ -58,6 +58,10 @@ export default {
     "kind.edge": "엣지",
     "kind.station": "스테이션",
 
+    "kindInside.node": "노드",
+    "kindInside.edge": "엣지",
+    "kindInside.station": "스테이션",
+
     "detail.close": "상세 닫기",
     "detail.gone": "acsd에 더 이상 없는 항목입니다.",
 
