@@ -60,6 +60,7 @@ class MockAcsd:
         self.tsc = "Auto"
         self.links = [{"name": name, "up": True, "reason": None, "since": format_time(get_now())} for name in ("mcs", "mqtt")]
         self.not_ready = []
+        self.refused = {"count": 0, "last": None}
         self.outbox = {"reports": 0, "oldest": None}
         self.site_revision = 1
         self.started_at = get_now()
@@ -180,7 +181,7 @@ class MockAcsd:
             "version": "0.1.0", "startedAt": format_time(self.started_at),
             "uptimeSeconds": round((get_now() - self.started_at).total_seconds()), "ready": not reasons,
             "notReadyReasons": reasons, "isConnected": self.links[1]["up"], "links": [dict(link) for link in self.links],
-            "tsc": self.tsc, "tscReason": None, "outbox": dict(self.outbox), "refusedReports": {"count": 0, "last": None},
+            "tsc": self.tsc, "tscReason": None, "outbox": dict(self.outbox), "refusedReports": dict(self.refused),
             "plans": {"active": sum(plan.robot_id is not None for plan in simulation.plans.values()),
                       "waiting": sum(plan.robot_id is None for plan in simulation.plans.values())},
             "robots": {"total": len(simulation.robots), "byStatus": by_status},

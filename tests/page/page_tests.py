@@ -332,8 +332,8 @@ class Alarms(PageCase):
             mock.simulation.set_alarm("LR02", "ACS-1009", "light", "LR02 does not move.", "Robot stalled", "", "")
         self.open("?lang=en")
         self.click("#tab-alarms")
-        wait_until(lambda: [row.get_attribute("data-id") for row in self.find_all("#view-alarms .alarm")] == ["ACS-1002", "ACS-1009"],
-                   "the heavy alarm is first")
+        list_codes = "return [...document.querySelectorAll('#view-alarms .alarm')].map((row) => row.dataset.id)"
+        wait_until(lambda: self.run_script(list_codes) == ["ACS-1002", "ACS-1009"], "the heavy alarm is first")
         for code, level, shape, text in (("ACS-1002", "heavy", "error", "Heavy"), ("ACS-1009", "light", "light", "Light")):
             row = f"#view-alarms .alarm[data-id='{code}']"
             self.assertIn(level, self.find(row).get_attribute("class").split())
@@ -371,6 +371,113 @@ class Alarms(PageCase):
         self.click("#confirm-action")
         self.wait_for_post("/v1/tsc/resume")
         self.wait_for_text("#strip-tsc", "Auto")
+
+
+class Causes(PageCase):
+    """What acsctl why names, on the page."""
+
+    def setUp(self):
+        super().setUp()
+        self.start_mock()
+        self.mock.simulation.advance(0.2)
+        self.mock.freeze()
+        self.plan = self.mock.simulation.robots["LR01"].plan
+        self.open()
+
+    def change(self, change):
+        """Calls the function with the simulation, whose changes are then sent."""
+        with self.mock.lock:
+            change(self.mock.simulation)
+            self.mock.publish()
+
+    def select(self, kind, id):
+        self.run_script("acsdPage.select({kind: arguments[0], id: arguments[1]})", kind, id)
+        self.wait_for_text("#detail-title", id)
+
+    def wait_for_texts(self, selector, *texts):
+        for text in texts:
+            self.wait_for_text(selector, text)
+
+    def test_a_link_that_is_down(self):
+        def cut(simulation):
+            self.mock.links[1].update(up=False, reason="the MQTT broker does not answer")
+            simulation.set_alarm("LR01", "ACS-1002", "heavy", "LR01: no connection.", "Robot disconnected", "", "Check the robot.")
+
+        texts = ("The link mqtt is down", "the MQTT broker does not answer", "Check the MQTT broker and the network to it.")
+        self.select("plan", self.plan.plan_id)
+        self.change(cut)
+        self.wait_for_texts("#detail", *texts, "LR01: no connection.")
+        self.select("robot", "LR01")
+        self.wait_for_texts("#detail", *texts, "LR01: no connection.")
+        self.press(Keys.ESCAPE)
+        self.click("#tab-alarms")
+        self.wait_for_texts("#view-alarms", *texts)
+        self.assertLess(self.get_text("#view-alarms").index(texts[0]), self.get_text("#view-alarms").index("LR01: no connection."))
+        self.click("#language-button")
+        self.wait_for_texts("#view-alarms", "mqtt 통신이 끊겼습니다.", "MQTT 브로커와 브로커까지의 네트워크를 점검하십시오.")
+
+        self.change(lambda _: self.mock.links[1].update(up=True, reason=None))
+        wait_until(lambda: "mqtt" not in self.get_text("#view-alarms"), "the link is up")
+
+    def test_alarms_of_the_robots_of_a_waiting_plan(self):
+        waiting = next(plan for plan in self.mock.simulation.plans.values() if plan.robot_id is None)
+
+        def break_robots(simulation):
+            waiting.waits = simulation.make_wait("No suitable robot is free.", 1, [("LR02", "Error"), ("LR01", "busy")])
+            simulation.changed_plans.add(waiting.plan_id)
+            simulation.set_alarm("LR02", "ARM-motorOff", "heavy", "The motor is off.", "Arm motor off", "Emergency stop.",
+                                 "Release the emergency stop.")
+            simulation.set_alarm("CR01", "ACS-1009", "light", "not concerned", "Robot stalled", "", "")
+            simulation.set_alarm("LR01", "ACS-1008", "heavy", "job of another plan", "Job outcome unknown", "", "", self.plan)
+            simulation.set_alarm("ACS", "ACS-1005", "heavy", "disk full", "Store cannot be written", "No space.", "Free space.")
+
+        self.change(break_robots)
+        self.select("plan", waiting.plan_id)
+        self.wait_for_texts("#detail .alarms", "ARM-motorOff", "Emergency stop.", "Release the emergency stop.", "disk full")
+        self.assertNotIn("not concerned", self.get_text("#detail"))
+        self.assertNotIn("job of another plan", self.get_text("#detail"))
+        # The plan of LR01 waits, too: its job is the reason.
+        def wait(simulation):
+            self.plan.waits = simulation.make_wait("Job is unresolved.")
+            simulation.changed_plans.add(self.plan.plan_id)
+
+        self.change(wait)
+        self.wait_for_text("#detail .alarms", "job of another plan")
+
+    def test_what_an_operator_has_stopped(self):
+        station = self.plan.steps[0]["position"]
+
+        def stop(simulation):
+            self.mock.tsc = "Paused"
+            simulation.robots["LR01"].is_in_maintenance = True
+            simulation.changed_robots.add("LR01")
+            self.plan.waits = simulation.make_wait("The TSC is paused.")
+            simulation.changed_plans.add(self.plan.plan_id)
+            simulation.floor.blocks[("station", station)] = {
+                "kind": "station", "id": station, "reason": "equipment down", "since": format_time(get_now())}
+            self.mock.site_revision += 1
+
+        self.select("plan", self.plan.plan_id)
+        self.change(stop)
+        self.wait_for_texts("#detail .alarms", "The TSC is Paused.", "Robot LR01 is in maintenance.",
+                            f"Station {station} is blocked.", "equipment down", f"Unblock station {station} when it is free.")
+        self.click_button("Unblock")
+        self.click("#confirm-action")
+        self.wait_for_post("/v1/site/unblock", {"kind": "station", "id": station})
+        self.click_button("Maintenance off")
+        self.click("#confirm-action")
+        self.wait_for_post("/v1/robots/LR01/maintenance", {"on": False})
+        self.click_button("Resume TSC")
+        self.click("#confirm-action")
+        self.wait_for_post("/v1/tsc/resume")
+        wait_until(lambda: self.get_text("#detail .alarms") == "", "no cause is left")
+
+    def test_refused_reports_of_a_plan(self):
+        refused = {"count": 2, "last": {"command": "StepReport", "planId": self.plan.plan_id, "message": "unknown step"}}
+        self.select("plan", self.plan.plan_id)
+        self.change(lambda _: self.mock.refused.update(refused))
+        self.wait_for_texts("#detail .alarms", "The MCS has refused reports.", "StepReport: unknown step",
+                            "Correct the plan in the MCS; its log has the reason.")
 
 
 class Header(PageCase):

@@ -62,7 +62,7 @@ class PageFaults(FaultCase, BrowserCase):
             "ko": ["Refused by the test.", "MCS의 상태가 acsd와 다릅니다.", "MCS에서 Plan을 수정하십시오."]})
 
     def test_an_edge_is_blocked(self):
-        self.check(EdgeBlocked, "plans", "#detail .facts", lambda fault: {
+        self.check(EdgeBlocked, "plans", "#detail", lambda fault: {
             "en": [f"edge {fault.edges[0]} is blocked: wet floor", f"Unblock edge {fault.edges[0]} when it is free."],
             "ko": [f"edge {fault.edges[0]} is blocked: wet floor", f"{fault.edges[0]}에 장애물이 없으면 사용 금지를 해제하십시오."]})
 

@@ -1,5 +1,6 @@
-// The list of alarms with cause and remedy.
+// The list of alarms with cause and remedy, below the links that are down: these cause alarms of robots.
 
+import {CauseRow, listLinkCauses} from "./causes.js";
 import {Commands, makeCommandButton} from "./commands.js";
 import {KeyedList, make, setClass, setHidden, setMarkedText, setText} from "./dom.js";
 import {setSince} from "./format.js";
@@ -67,14 +68,16 @@ export class AlarmView {
 
     build() {
         const list = make("ul", {class: "alarms", "aria-label": t("tab.alarms")});
+        const causes = make("ul", {class: "alarms", "aria-label": t("strip.links")});
+        this.causes = new KeyedList(causes, (cause) => cause.key, (cause) => new CauseRow(cause, this.context.select));
         this.list = new KeyedList(list, getAlarmKey, (alarm) => new AlarmRow(alarm, this.context.select));
         this.empty = make("p", {class: "empty", text: t("alarm.none")});
-        this.root.replaceChildren(this.empty, list);
+        this.root.replaceChildren(causes, this.empty, list);
         this.update();
     }
 
     isAffected(changes) {
-        return changes.alarms;
+        return changes.alarms || changes.status;
     }
 
     getCount() {
@@ -83,6 +86,7 @@ export class AlarmView {
 
     update() {
         const alarms = this.context.model.listAlarms();
+        this.causes.show(listLinkCauses(this.context.model));
         setHidden(this.empty, alarms.length > 0);
         this.list.show(alarms);
     }

@@ -107,12 +107,6 @@ export class Model {
         return this.blocks.get(`${kind}/${id}`) ?? null;
     }
 
-    /** The blocked places that a wait reason names. */
-    findNamedBlocks(waits) {
-        const texts = [waits.message, ...waits.robots.map(({reason}) => reason)];
-        return [...this.blocks.values()].filter(({kind, id}) => texts.some((text) => text.includes(`${kind} ${id} is blocked`)));
-    }
-
     /** Alarms of a robot, plan or job, heavy ones first. */
     findAlarms(matches) {
         return this.listAlarms().filter(matches);

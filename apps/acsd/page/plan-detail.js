@@ -2,14 +2,13 @@
 
 import {getJson} from "./api.js";
 import {AlarmRow, getAlarmKey} from "./alarm-view.js";
+import {CauseRow, explainPlan, UNRESOLVED} from "./causes.js";
 import {Commands, makeCommandButton} from "./commands.js";
 import {KeyedList, make, setHidden} from "./dom.js";
 import {formatTime, setSince} from "./format.js";
 import {StepBar} from "./plan-view.js";
 import {nameState, t} from "./text.js";
 import {TraceList} from "./trace-list.js";
-
-const UNRESOLVED = "ACS-1008";
 
 export class PlanDetail {
     constructor(context, {id}) {
@@ -19,9 +18,11 @@ export class PlanDetail {
         this.facts = make("dl", {class: "facts"});
         this.buttons = make("div", {class: "row-buttons no-wall"});
         this.stepList = make("ol", {class: "step-list"});
+        this.causeList = make("ul", {class: "alarms"});
+        this.causes = new KeyedList(this.causeList, (cause) => cause.key, (cause) => new CauseRow(cause, context.select));
         this.alarmList = make("ul", {class: "alarms"});
         this.alarms = new KeyedList(this.alarmList, getAlarmKey, (alarm) => new AlarmRow(alarm, context.select));
-        this.node = make("div", {class: "detail-body"}, this.steps.node, this.alarmList, this.facts, this.buttons,
+        this.node = make("div", {class: "detail-body"}, this.steps.node, this.causeList, this.alarmList, this.facts, this.buttons,
             make("h3", {text: t("plan.steps")}), this.stepList, new TraceList(`plan=${encodeURIComponent(id)}`).node);
         this.plan = null;
         this.isLoading = false;
@@ -52,21 +53,27 @@ export class PlanDetail {
     update(changes) {
         if (changes.isAll || changes.plans.has(this.id)) {
             this.load();
-        } else if ((changes.alarms || changes.site) && this.plan !== null) {
+        } else if (changes.alarms && this.plan !== null) {
             this.#show();
+        } else if (this.plan !== null) {
+            this.#showCauses();
         }
     }
 
-    #findAlarms() {
-        return this.context.model.findAlarms((alarm) => alarm.planId === this.id);
+    /** Also those of other plans, robots and places for which the plan waits. Returns its alarms. */
+    #showCauses() {
+        const {causes, alarms} = explainPlan(this.context.model, this.context.floor.index, this.plan);
+        setHidden(this.causeList, causes.length === 0);
+        this.causes.show(causes);
+        setHidden(this.alarmList, alarms.length === 0);
+        this.alarms.show(alarms);
+        return alarms;
     }
 
     #show() {
         const focused = document.activeElement?.dataset.path;
         const {plan} = this;
-        const alarms = this.#findAlarms();
-        setHidden(this.alarmList, alarms.length === 0);
-        this.alarms.show(alarms);
+        const alarms = this.#showCauses();
         this.steps.update(plan);
         this.#showFacts(plan);
         this.#showButtons(plan);
@@ -89,12 +96,6 @@ export class PlanDetail {
             add("plan.waits", make("div", {class: "wait"}, since, make("span", {text: plan.waits.message})),
                 make("ul", {class: "reasons"}, ...plan.waits.robots.map(({robotId, reason}) => make("li", {},
                     makeLink("robot", robotId), ` ${reason}`))));
-            const blocks = this.context.model.findNamedBlocks(plan.waits);
-            if (blocks.length > 0) {
-                add("alarm.remedy", make("ul", {class: "reasons"}, ...blocks.map(({kind, id}) => make("li", {},
-                    make("button", {type: "button", class: "link", text: t("remedy.unblock", {kind: t(`kindInside.${kind}`), id}),
-                        onclick: () => this.context.select({kind, id})})))));
-            }
             if (plan.waits.queuePosition !== null) {
                 add("plan.place", t("plan.queuePosition", {n: plan.waits.queuePosition}));
             }

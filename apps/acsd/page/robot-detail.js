@@ -1,6 +1,7 @@
 // The detail of a robot.
 
 import {AlarmRow, getAlarmKey} from "./alarm-view.js";
+import {CauseRow, explainRobot} from "./causes.js";
 import {Commands, makeCommandButton} from "./commands.js";
 import {KeyedList, make, setHidden} from "./dom.js";
 import {formatNumber, setSince} from "./format.js";
@@ -17,20 +18,25 @@ export class RobotDetail {
         this.id = id;
         this.buttons = make("div", {class: "row-buttons no-wall"});
         this.facts = make("dl", {class: "facts"});
+        this.causeList = make("ul", {class: "alarms"});
+        this.causes = new KeyedList(this.causeList, (cause) => cause.key, (cause) => new CauseRow(cause, context.select));
         this.alarmList = make("ul", {class: "alarms"});
         this.alarms = new KeyedList(this.alarmList, getAlarmKey, (alarm) => new AlarmRow(alarm, context.select));
-        this.node = make("div", {class: "detail-body"}, this.alarmList, this.facts, this.buttons,
+        this.node = make("div", {class: "detail-body"}, this.causeList, this.alarmList, this.facts, this.buttons,
             new TraceList(`robot=${encodeURIComponent(id)}`).node);
         this.update(null);
     }
 
     update(changes) {
         const robot = this.context.model.robots.get(this.id);
-        if (changes === null || changes.isAll || changes.alarms) {
-            const alarms = this.context.model.findAlarms((alarm) => alarm.robotId === this.id);
-            setHidden(this.alarmList, alarms.length === 0);
-            this.alarms.show(alarms);
-        }
+        const {model, floor} = this.context;
+        const {causes, alarms} = robot === undefined
+            ? {causes: [], alarms: model.findAlarms((alarm) => alarm.robotId === this.id)}
+            : explainRobot(model, floor.index, robot);
+        setHidden(this.causeList, causes.length === 0);
+        this.causes.show(causes);
+        setHidden(this.alarmList, alarms.length === 0);
+        this.alarms.show(alarms);
         if (robot === undefined) {
             this.facts.replaceChildren(make("dd", {text: t("detail.gone")}));
             this.buttons.replaceChildren();

@@ -1,6 +1,7 @@
 // acsd itself: ready state, links, TSC, outbox, and the session of the user.
 
 import {post} from "./api.js";
+import {describeLinkRemedy} from "./causes.js";
 import {Commands, makeCommandButton} from "./commands.js";
 import {make} from "./dom.js";
 import {formatTime, setSince} from "./format.js";
@@ -15,16 +16,6 @@ function makeSince(text, key) {
     const node = make("span", {class: "muted"});
     setSince(node, text, key);
     return node;
-}
-
-/** The remedies are those of acsctl why. */
-function describeLinkRemedy(link) {
-    if (link.name === "mqtt") {
-        return t("remedy.mqtt");
-    }
-    // The connection itself works.
-    const isRefused = (link.reason ?? "").startsWith("connected, not registered");
-    return t(isRefused ? "remedy.registration" : "remedy.mcs");
 }
 
 function makeExplanation(cause, remedy) {
