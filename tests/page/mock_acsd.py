@@ -24,7 +24,7 @@ CONTENT_TYPES = {".html": "text/html; charset=utf-8", ".css": "text/css; charset
 POLICY = "default-src 'self'; object-src 'none'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
 TICK_SECONDS = 0.2
 KEEP_ALIVE_SECONDS = 15.0
-KEPT_EVENTS = 1000
+KEPT_EVENTS = 4096
 COOKIE = "acsd_session"
 
 

@@ -184,7 +184,7 @@ export class Feed {
                 this.#loadSite().catch(() => { this.#siteRevision = null; });
             }
         } else if (event.type === "entry") {
-            this.#model.addEntry(data);
+            this.#model.addEntry({...data, id: Number(event.id)});
         }
     }
 

@@ -30,10 +30,10 @@ export class Model {
         this.ended = new Map(); // finished while the page was open
         this.robots = new Map();
         this.alarms = [];
-        this.entries = []; // newest first
+        this.entries = []; // with the id of their event, newest first
+        this.firstEventID = null; // of the last snapshot: the entries up to it are loaded when they are needed
         this.site = null;
         this.blocks = new Map(); // "kind/id" -> block
-        this.entryNumber = 0;
         this.listeners = [];
     }
 
@@ -48,6 +48,9 @@ export class Model {
 
     setSnapshot(snapshot) {
         this.status = snapshot.status;
+        // After a restart acsd may number its events from a lower one.
+        this.entries = this.entries.filter((entry) => entry.id <= snapshot.eventId);
+        this.firstEventID = snapshot.eventId;
         this.plans = new Map(snapshot.plans.map((plan) => [plan.planId, plan]));
         this.robots = new Map(snapshot.robots.map((robot) => [robot.robotId, robot]));
         this.alarms = snapshot.alarms;
@@ -91,9 +94,13 @@ export class Model {
     }
 
     addEntry(entry) {
-        this.entryNumber += 1;
-        this.entries.unshift({...entry, number: this.entryNumber});
-        this.entries.length = Math.min(this.entries.length, KEPT_ENTRIES);
+        this.addEntries([entry]);
+    }
+
+    /** Each once, also if it is known. */
+    addEntries(entries) {
+        const all = new Map([...this.entries, ...entries].map((entry) => [entry.id, entry]));
+        this.entries = [...all.values()].sort((a, b) => b.id - a.id).slice(0, KEPT_ENTRIES);
         const changes = new Changes();
         changes.entries = true;
         this.emit(changes);

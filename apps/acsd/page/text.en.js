@@ -144,7 +144,8 @@ export default {
     "alarmLevel.heavy": "Heavy",
     "alarmLevel.light": "Light",
 
-    "event.none": "Nothing has happened since the page was opened.",
+    "event.none": "No events.",
+    "event.loading": "Loading the events",
     "event.kind": "Kind of event",
     "event.all": "All events",
     "entry.plan": "plan",

@@ -144,7 +144,8 @@ export default {
     "alarmLevel.heavy": "중알람",
     "alarmLevel.light": "경알람",
 
-    "event.none": "화면을 연 이후 발생한 이력이 없습니다.",
+    "event.none": "이력이 없습니다.",
+    "event.loading": "이력을 불러오는 중입니다.",
     "event.kind": "이력 종류",
     "event.all": "전체 이력",
     "entry.plan": "Plan",
