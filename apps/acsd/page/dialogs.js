@@ -1,7 +1,7 @@
 // The dialogs: confirmation, login, search, help; and the short messages at the edge.
 
 import {post} from "./api.js";
-import {make} from "./dom.js";
+import {make, setText} from "./dom.js";
 import {makeGlyph} from "./glyphs.js";
 import {t} from "./text.js";
 
@@ -92,7 +92,7 @@ export function showLogin(onLogin) {
         try {
             await post("/v1/login", {token: token.value.trim()});
         } catch (error) {
-            message.textContent = error.status === 401 ? t("login.refused") : error.message;
+            setText(message, error.status === 401 ? t("login.refused") : error.message);
             token.select();
             return;
         }

@@ -1,6 +1,14 @@
 // Helpers for the DOM. Every text goes through textContent: ids and messages come from other systems.
 
 const SVG = "http://www.w3.org/2000/svg";
+const SHOWN_ATTRIBUTES = ["title", "aria-label"];
+// Characters without a shape that change how others are shown: the direction of writing, joiners, separators of lines.
+const HIDDEN = /[\u00ad\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff]/g;
+
+/** The text with a sign for each hidden character, as acsctl shows it. */
+export function makeVisible(text) {
+    return String(text).replace(HIDDEN, "\ufffd");
+}
 
 /** make("li", {class: "row", text: "…", "aria-label": "…", onclick: f}, child, …): children may be strings or null. */
 export function make(tag, attributes = {}, ...children) {
@@ -10,14 +18,15 @@ export function make(tag, attributes = {}, ...children) {
             continue;
         }
         if (name === "text") {
-            node.textContent = value;
+            node.textContent = makeVisible(value);
         } else if (name.startsWith("on")) {
             node.addEventListener(name.slice(2), value);
         } else {
-            node.setAttribute(name, value === true ? "" : value);
+            node.setAttribute(name, value === true ? "" : SHOWN_ATTRIBUTES.includes(name) ? makeVisible(value) : value);
         }
     }
-    node.append(...children.filter((child) => child !== null && child !== undefined));
+    node.append(...children.filter((child) => child !== null && child !== undefined)
+        .map((child) => (typeof child === "string" ? makeVisible(child) : child)));
     return node;
 }
 
@@ -34,14 +43,15 @@ export function makeSvg(tag, attributes, ...children) {
 export function setMarkedText(node, text) {
     if (node.dataset.marked !== text) {
         node.dataset.marked = text;
-        node.replaceChildren(...text.split("`").map((part, i) => (i % 2 === 1 ? make("code", {text: part}) : part)));
+        node.replaceChildren(...makeVisible(text).split("`").map((part, i) => (i % 2 === 1 ? make("code", {text: part}) : part)));
     }
 }
 
 /** Only a change touches the DOM. */
 export function setText(node, text) {
-    if (node.textContent !== text) {
-        node.textContent = text;
+    const shown = makeVisible(text);
+    if (node.textContent !== shown) {
+        node.textContent = shown;
     }
 }
 
@@ -60,8 +70,11 @@ export function setHidden(node, isHidden) {
 export function setAttribute(node, name, value) {
     if (value === null) {
         node.removeAttribute(name);
-    } else if (node.getAttribute(name) !== value) {
-        node.setAttribute(name, value);
+        return;
+    }
+    const shown = SHOWN_ATTRIBUTES.includes(name) ? makeVisible(value) : value;
+    if (node.getAttribute(name) !== shown) {
+        node.setAttribute(name, shown);
     }
 }
 
