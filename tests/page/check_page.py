@@ -89,6 +89,11 @@ class Texts(unittest.TestCase):
         for key in ("remedy.mqtt", "remedy.mcs", "remedy.registration", "cause.refused", "remedy.refused"):
             self.assertIn(f'"{read_texts("en")[key]}"', source, key)
 
+    def test_korean_texts_fit_every_id(self):
+        """A particle depends on the last sound of the word before it, which is an id here."""
+        for key, text in read_texts("ko").items():
+            self.assertIsNone(re.search(r"[을이은과]\([를가는와]\)|\(으\)로", text), key)
+
     def test_korean_alarms(self):
         path = PAGE / "alarms.ko.json"
         if not path.exists():

@@ -130,6 +130,7 @@ class Floor(PageCase):
         place = self.get_place("LR02")
         self.click_floor(place["x"], place["y"])
         self.wait_for_text("#detail-title", "LR02")
+        self.click_button("Show", "#detail .trace")
         self.wait_for_text("#detail .trace", "visualization")
         self.click("#detail .message summary")
         self.wait_for_text("#detail .message pre", "lastNodeId")
@@ -137,6 +138,9 @@ class Floor(PageCase):
     def test_no_trace(self):
         self.start_mock(is_traced=False)
         self.open("?lang=en#robot/LR01")
+        self.wait_for_text("#detail .trace", "Messages")
+        self.assertNotIn("--trace", self.get_text("#detail"))
+        self.click_button("Show", "#detail .trace")
         self.wait_for_text("#detail .trace", "--trace DIR")
 
     def test_block_and_unblock_a_node(self):
@@ -154,6 +158,37 @@ class Floor(PageCase):
         self.click("#confirm-action")
         self.wait_for_post("/v1/site/unblock", {"kind": "node", "id": NODE})
         wait_until(lambda: "wet floor" not in self.get_text("#detail"), "the node is not blocked")
+
+    def test_a_selected_place_is_still_blocked(self):
+        count = """
+            const [x, y, name] = arguments, layer = acsdPage.floor.siteLayer, canvas = layer.context.canvas, size = 60;
+            const scale = canvas.width / parseFloat(canvas.style.width || canvas.clientWidth);
+            const [left, top] = [layer.toX(x) * scale - size / 2, layer.toY(y) * scale - size / 2];
+            layer.draw(layer.context);
+            const {data} = layer.context.getImageData(left, top, size, size), colour = acsdPage.theme.colours[name];
+            const wanted = [1, 3, 5].map((i) => parseInt(colour.slice(i, i + 2), 16));
+            let found = 0;
+            for (let i = 0; i < data.length; i += 4) {
+                found += wanted.every((value, k) => Math.abs(data[i + k] - value) < 24);
+            }
+            return found"""
+        self.expected_log = ("Canvas2D: Multiple readback",)
+        mock = self.start_mock(robots=1)
+        floor = mock.simulation.floor
+        edge_id, start, end = floor.edges[0]
+        middle = [(a + b) / 2 for a, b in zip(floor.places[start], floor.places[end])]
+        station, dock = next(iter(floor.stations.items()))
+        places = {("node", NODE): floor.places[NODE], ("edge", edge_id): middle, ("station", station): floor.places[dock]}
+        mock.freeze()
+        for kind, id in places:
+            floor.blocks[(kind, id)] = {"kind": kind, "id": id, "reason": "", "since": format_time(get_now())}
+        self.open()
+        for (kind, id), (x, y) in places.items():
+            red = self.run_script(count, x, y, "heavy")
+            self.assertGreater(red, 20, kind)
+            self.run_script("acsdPage.floor.setSelection({kind: arguments[0], id: arguments[1]}, false)", kind, id)
+            self.assertGreater(self.run_script(count, x, y, "heavy"), 0.8 * red, kind)
+            self.assertGreater(self.run_script(count, x, y, "accent"), 20, kind)
 
     def test_trajectories_and_maps(self):
         floor = MockFloor.read_example()
@@ -348,13 +383,35 @@ class Alarms(PageCase):
         self.start_mock()
         self.open("?lang=ko")
         self.run_script("return import('/page/text.js').then((text) => text.setKoreanAlarms({'ACS-1002': {title: '로봇 통신 끊김', "
-                        "cause: '원인 문구', remedy: '조치 문구'}}))")
+                        "cause: '원인 문구', remedy: '조치 문구 `acsctl robot ROBOT`'}}))")
         with self.mock.lock:
             self.mock.simulation.set_alarm("LR01", "ACS-1002", "heavy", "LR01 is disconnected.", "Robot disconnected", "", "")
             self.mock.publish()
         self.click("#tab-alarms")
-        for text in ("로봇 통신 끊김", "원인 문구", "조치 문구", "LR01 is disconnected."):
+        for text in ("로봇 통신 끊김", "원인 문구", "조치 문구 acsctl robot LR01", "LR01 is disconnected."):
             self.wait_for_text("#view-alarms", text)
+
+    def test_a_command_of_a_remedy_has_its_button(self):
+        mock = self.start_mock()
+        with mock.lock:
+            mock.simulation.set_alarm("LR01", "ACS-1002", "heavy", "LR01 is disconnected.", "Robot disconnected", "",
+                                      "If the robot has left the floor, run `acsctl maintenance LR01 on`.")
+        self.open()
+        self.click("#tab-alarms")
+        self.click_button("Maintenance on", "#view-alarms")
+        self.wait_for_post("/v1/robots/LR01/maintenance", {"on": True})
+
+    def test_a_phone_opens_heavy_alarms(self):
+        mock = self.start_mock()
+        self.browser.resize(360, 740, 2, True)
+        self.open()
+        self.assertTrue(self.find("#view-floor").is_displayed())
+        with mock.lock:
+            mock.simulation.set_alarm("LR01", "ACS-1002", "heavy", "LR01 is disconnected.", "Robot disconnected", "", "")
+        self.open()
+        wait_until(lambda: self.find("#view-alarms").is_displayed(), "the alarms")
+        self.open("?lang=en#robot/LR01")
+        self.wait_for_text("#detail-title", "LR01")
 
     def test_maintenance_and_tsc(self):
         self.start_mock()
@@ -574,6 +631,31 @@ class Header(PageCase):
             self.assertEqual(self.run_script(get_shapes), shapes)
             self.assertEqual(self.find("#strip-robots .mini").get_attribute("title"), robots)
 
+    def test_a_link_that_is_up_is_not_red(self):
+        with self.mock.lock:
+            self.mock.links[1].update(up=False, reason="connection refused")
+        self.open()
+        wait_until(lambda: self.find_all("#strip-links .down"), "the link is down")
+        get_colour = "return getComputedStyle(document.querySelector(arguments[0])).color"
+        up, down = (self.run_script(get_colour, f"#strip-links .link-state{kind}") for kind in (":not(.down)", ".down"))
+        self.assertNotEqual(up, down)
+
+    def test_no_log_out_without_a_login(self):
+        self.open()
+        self.click("#tab-system")
+        self.wait_for_text("#view-system", "Version")
+        self.assertNotIn("Log out", self.get_text("#view-system"))
+
+    def test_placeholders_are_not_cut(self):
+        for language in ("en", "ko"):
+            self.open(f"?lang={language}")
+            for tab in ("plans", "robots"):
+                self.click(f"#tab-{tab}")
+                is_cut = self.run_script("const field = document.querySelector(arguments[0]); field.value = field.placeholder;"
+                                         "const isCut = field.scrollWidth > field.clientWidth; field.value = ''; return isCut",
+                                         f"#view-{tab} .filter")
+                self.assertFalse(is_cut, (language, tab))
+
     def test_the_time_since_the_start_counts_on(self):
         with self.mock.lock:
             self.mock.started_at -= timedelta(minutes=5)
@@ -651,7 +733,8 @@ class Safety(PageCase):
                     continue;
                 }
                 const style = getComputedStyle(node), frame = node.closest('.panel, .detail').getBoundingClientRect();
-                const isCut = node.scrollWidth > node.clientWidth && style.display !== 'inline' && style.textOverflow !== 'ellipsis';
+                const isCut = node.scrollWidth > node.clientWidth && style.display !== 'inline'
+                    && style.textOverflow !== 'ellipsis';
                 if (isCut || node.getBoundingClientRect().right > frame.right + 1) {
                     errors.push(`cut: ${node.className}`);
                 }

@@ -38,7 +38,10 @@ class PageFaults(FaultCase, BrowserCase):
     def list_alarm_texts(self, fault):
         alarm = next(alarm for alarm in self.read_status(self.address)["alarms"] if alarm["errorCode"] == fault.code)
         korean = json.loads(KOREAN_ALARMS.read_text(encoding="utf-8"))[fault.code]
-        return {language: [alarm["message"], *(source[name].replace("`", "") for name in ("title", "cause", "remedy"))]
+        def show(text):
+            return text.replace("ROBOT", alarm["robotId"]).replace("`", "")
+
+        return {language: [alarm["message"], *(show(source[name]) for name in ("title", "cause", "remedy"))]
                 for language, source in (("en", alarm), ("ko", korean))}
 
     def check_alarm(self, kind):
@@ -51,6 +54,14 @@ class PageFaults(FaultCase, BrowserCase):
         self.check(BrokerGone, "system", "#view-system", lambda fault: {
             "en": [self.find_link_reason("mqtt"), fault.remedy],
             "ko": [self.find_link_reason("mqtt"), "MQTT 브로커와 브로커까지의 네트워크를 점검하십시오."]})
+
+    def test_the_broker_is_gone_above_the_alarms(self):
+        self.check(BrokerGone, "alarms", "#view-alarms", lambda fault: {
+            "en": ["The link mqtt is down", self.find_link_reason("mqtt"), fault.remedy],
+            "ko": ["mqtt 통신이 끊겼습니다.", self.find_link_reason("mqtt"), "MQTT 브로커와 브로커까지의 네트워크를 점검하십시오."]})
+
+    def test_the_emergency_stop_of_an_arm_on_the_plan(self):
+        self.check(ArmMotorOff, "plans", "#detail .alarms", self.list_alarm_texts)
 
     def test_the_mcs_refuses_the_registration(self):
         self.check(RegistrationRefused, "system", "#view-system", lambda fault: {

@@ -1,7 +1,7 @@
 // The list of alarms with cause and remedy, below the links that are down: these cause alarms of robots.
 
 import {CauseRow, listLinkCauses} from "./causes.js";
-import {Commands, makeCommandButton} from "./commands.js";
+import {Commands, listNamedCommands, makeCommandButton} from "./commands.js";
 import {KeyedList, make, setClass, setHidden, setMarkedText, setText} from "./dom.js";
 import {setSince} from "./format.js";
 import {setGlyph} from "./glyphs.js";
@@ -26,11 +26,12 @@ export class AlarmRow {
         this.explanation = make("dl", {class: "alarm-text"}, make("dt", {class: "no-wall", text: t("alarm.cause")}), this.cause,
             make("dt", {text: t("alarm.remedy")}), this.remedy);
         this.links = make("span", {class: "alarm-links"});
+        this.named = make("span", {class: "row-buttons no-wall"});
         this.clear = makeCommandButton(Commands.clearAlarm(alarm));
         this.clear.classList.add("no-wall");
         this.node = make("li", {}, this.glyph, make("div", {class: "row-main"},
             make("div", {class: "alarm-head"}, this.level, this.title, this.since), this.message, this.explanation,
-            make("div", {class: "row-buttons"}, this.code, this.links, this.clear)));
+            make("div", {class: "row-buttons"}, this.code, this.links, this.named, this.clear)));
         this.node.dataset.id = alarm.errorCode;
     }
 
@@ -50,6 +51,8 @@ export class AlarmRow {
         setText(this.message, alarm.message);
         setMarkedText(this.cause, text.cause);
         setMarkedText(this.remedy, text.remedy);
+        this.named.replaceChildren(...listNamedCommands(text.remedy).map((command) => makeCommandButton(command)));
+        setHidden(this.named, this.named.childElementCount === 0);
         setHidden(this.explanation, text.cause === "" && text.remedy === "");
         const makeLink = (kind, id, label) => make("button", {
             type: "button", class: "link", text: label, onclick: () => this.select({kind, id})});

@@ -39,6 +39,12 @@ export const Commands = {
         values: {kind: t(`kindInside.${kind}`), id}}),
 };
 
+/** The commands that a text of acsd names between backticks and for which the page has a button. */
+export function listNamedCommands(text) {
+    return [...text.matchAll(/`acsctl maintenance (\S+) (on|off)`/g)].map(([, robotId, word]) =>
+        Commands.setMaintenance({robotId, maintenance: word === "off"}));
+}
+
 /** Asks if need be, sends, and shows the answer. */
 export async function runCommand(command) {
     let body = command.body;

@@ -7,6 +7,8 @@ import {t} from "./text.js";
 
 const TOAST_TIME = 7_000; // milliseconds
 const FOUND_LIMIT = 12;
+// Whether this browser has logged in: scripts cannot read the cookie.
+const SESSION = "acsd.session";
 
 /** A short message; kind "info" or "error". */
 export function showToast(text, kind = "info") {
@@ -96,6 +98,7 @@ export function showLogin(onLogin) {
             token.select();
             return;
         }
+        localStorage.setItem(SESSION, "open");
         dialog.close();
         onLogin();
     });
@@ -103,6 +106,14 @@ export function showLogin(onLogin) {
     dialog.replaceChildren(form);
     openDialog("login-dialog");
     token.focus();
+}
+
+export function hasLoggedIn() {
+    return localStorage.getItem(SESSION) !== null;
+}
+
+export function forgetLogin() {
+    localStorage.removeItem(SESSION);
 }
 
 /** Finds a robot, plan, alarm or part of the floor by its id. list() gives [{kind, id}]. */

@@ -74,10 +74,25 @@ class Page {
     #collect(changes) {
         this.pending.merge(changes);
         if (changes.isAll) {
+            this.#openHeavyAlarms();
             this.#flush();
         } else {
             this.#schedule();
         }
+    }
+
+    /** On a phone, which shows one tab: with the first snapshot, unless the user has opened something else. */
+    #openHeavyAlarms() {
+        const isFirst = !this.hasSnapshot;
+        this.hasSnapshot = true;
+        const isUntouched = this.tab === "floor" && this.detail.selection === null;
+        if (isFirst && isUntouched && matchMedia(PHONE).matches && this.#hasHeavyAlarm()) {
+            this.openTab("alarms");
+        }
+    }
+
+    #hasHeavyAlarm() {
+        return this.model.alarms.some((alarm) => alarm.level === "heavy");
     }
 
     #schedule() {
@@ -171,8 +186,7 @@ class Page {
             const count = view.getCount();
             setText(this.tabs.get(name).count, count === null || count === 0 ? "" : String(count));
         }
-        const hasHeavy = this.model.alarms.some((alarm) => alarm.level === "heavy");
-        setClass(this.tabs.get("alarms").count, hasHeavy ? "count heavy" : "count");
+        setClass(this.tabs.get("alarms").count, this.#hasHeavyAlarm() ? "count heavy" : "count");
     }
 
     // Selection; in the address as #robot/LR01

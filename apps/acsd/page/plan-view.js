@@ -105,7 +105,8 @@ export class PlanView {
             return {section, count, list: new KeyedList(list, (plan) => plan.planId, makeRow)};
         };
         this.filter = make("input", {
-            type: "search", class: "filter", placeholder: t("plan.filter"), "aria-label": t("plan.filter"),
+            type: "search", class: "filter", placeholder: t("plan.filterShort"), "aria-label": t("plan.filter"),
+            title: t("plan.filter"),
             oninput: () => this.update()});
         this.active = makeSection("plan.active", "active");
         this.queue = makeSection("plan.queue", "queue");

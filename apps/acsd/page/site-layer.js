@@ -87,8 +87,8 @@ export class SiteLayer extends CanvasLayer {
         }
         this.#drawNodes(context, colours);
         this.#drawStations(context, colours);
-        this.#drawBlocks(context, colours);
         this.#drawSelection(context, colours);
+        this.#drawBlocks(context, colours); // a selected place is still seen to be blocked
         this.#drawLabels(context, colours, rem);
     }
 
@@ -156,8 +156,12 @@ export class SiteLayer extends CanvasLayer {
         }
     }
 
+    #getBlockSize() {
+        return this.theme.rem * Math.max(0.9, Math.min(1.6, this.scale * 0.6 / this.theme.rem));
+    }
+
     #drawBlocks(context, colours) {
-        const size = this.theme.rem * Math.max(0.9, Math.min(1.6, this.scale * 0.6 / this.theme.rem));
+        const size = this.#getBlockSize();
         for (const {kind, item} of this.blocked) {
             if (kind === "edge") {
                 const path = new Path2D();
@@ -202,13 +206,14 @@ export class SiteLayer extends CanvasLayer {
             const path = new Path2D();
             traceEdge(path, item.points);
             this.useMetres(context);
-            context.lineWidth = 4 / this.scale;
+            context.lineWidth = Math.max(LANE_WIDTH, 8 / this.scale);
             context.stroke(path);
             this.usePixels(context);
             return;
         }
         context.beginPath();
-        const radius = kind === "station" ? this.#getStationSize() * 0.8 : 9;
+        const radius = Math.max(kind === "station" ? this.#getStationSize() * 0.8 : 9,
+            this.blocks.has(`${kind}/${id}`) ? this.#getBlockSize() * 0.8 : 0);
         context.arc(this.toX(item.x), this.toY(item.y), radius, 0, 2 * Math.PI);
         context.stroke();
     }

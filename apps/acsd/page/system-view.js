@@ -3,6 +3,7 @@
 import {post} from "./api.js";
 import {describeLinkRemedy} from "./causes.js";
 import {Commands, makeCommandButton} from "./commands.js";
+import {forgetLogin, hasLoggedIn} from "./dialogs.js";
 import {make} from "./dom.js";
 import {formatTime, setSince} from "./format.js";
 import {makeGlyph} from "./glyphs.js";
@@ -83,13 +84,15 @@ export class SystemView {
         add("system.blocked", blocks.size === 0 ? "–" : make("ul", {class: "reasons"}, ...blockRows));
         add("system.version", status.version);
         add("system.started", formatTime(status.startedAt), " ", makeSince(status.startedAt, "system.uptime"));
-        this.root.replaceChildren(make("dl", {class: "facts"}, ...rows), make("div", {class: "row-buttons session"},
-            make("button", {type: "button", class: "button", text: t("login.logout"), onclick: () => this.#logout()})));
+        const session = hasLoggedIn() ? make("div", {class: "row-buttons session"},
+            make("button", {type: "button", class: "button", text: t("login.logout"), onclick: () => this.#logout()})) : "";
+        this.root.replaceChildren(make("dl", {class: "facts"}, ...rows), session);
     }
 
     async #logout() {
         try {
             await post("/v1/logout");
+            forgetLogin();
             location.reload();
         } catch (error) {
             this.context.showError(error);

@@ -70,6 +70,7 @@ export default {
     "plan.finished": "Finished",
     "plan.none": "No unfinished plans.",
     "plan.filter": "Filter plans: id, lot, robot, station",
+    "plan.filterShort": "Filter plans",
     "plan.showFinished": "Show finished",
     "plan.hideFinished": "Hide finished",
     "plan.queuePosition": "No. {n} in the queue.",
@@ -108,6 +109,7 @@ export default {
     "jobStatus.Unresolved": "Unresolved",
 
     "robot.filter": "Filter robots: id, status, plan, carrier",
+    "robot.filterShort": "Filter robots",
     "robot.none": "No robots.",
     "robot.noPlan": "no plan",
     "robot.unknownPlace": "place unknown",
@@ -207,6 +209,7 @@ export default {
     "place.nodes": "Nodes",
 
     "trace.title": "Messages",
+    "trace.show": "Show",
     "trace.refresh": "Refresh",
     "trace.none": "No messages.",
     "trace.off": "acsd records no messages. Start it with --trace DIR to see them here.",

@@ -31,13 +31,17 @@ export function nameState(kind, state) {
     return key in english ? t(key) : state;
 }
 
-/** Title, cause and remedy of an alarm in the language of the page, else as acsd sends them. */
+/** Title, cause and remedy of an alarm in the language of the page, else as acsd sends them. Commands in it name the robot, plan
+ *  and job of the alarm. */
 export function explainAlarm(alarm) {
     const own = language === "ko" ? koreanAlarms[alarm.errorCode] : undefined;
+    const values = {ROBOT: alarm.robotId, PLAN: alarm.planId, JOB: alarm.jobId, CODE: alarm.errorCode};
+    const fillCommand = (command) => command.replace(/\b[A-Z]+\b/g, (word) => values[word] ?? word);
+    const fill = (text) => text.replace(/`[^`]*`/g, fillCommand);
     return {
         title: own?.title ?? alarm.title ?? "",
-        cause: own?.cause ?? alarm.cause ?? "",
-        remedy: own?.remedy ?? alarm.remedy ?? "",
+        cause: fill(own?.cause ?? alarm.cause ?? ""),
+        remedy: fill(own?.remedy ?? alarm.remedy ?? ""),
     };
 }
 

@@ -1,11 +1,13 @@
 // The newest messages of a robot or plan, from the message trace of acsd.
 
 import {getLines} from "./api.js";
-import {make} from "./dom.js";
+import {make, setText} from "./dom.js";
 import {formatClock} from "./format.js";
 import {t} from "./text.js";
 
 const LIMIT = 40;
+
+let areShown = false; // kept for the next detail
 
 /** What a message is, in a few words: its MCS command, or the last levels of its topic. */
 function nameMessage(line) {
@@ -38,7 +40,7 @@ function makeLine(line) {
         make("span", {class: "direction", text: line.direction === "in" ? "→" : "←", title: t(`trace.${line.direction}`)}),
         make("span", {class: "tag", text: line.link}), make("span", {class: "message-name", text: nameMessage(line)})), body);
     details.addEventListener("toggle", () => {
-        body.textContent = details.open ? formatText(line.text ?? "") : "";
+        setText(body, details.open ? formatText(line.text ?? "") : "");
     });
     return make("li", {class: "message"}, details);
 }
@@ -49,22 +51,25 @@ export class TraceList {
         this.query = query;
         this.list = make("ol", {class: "messages"});
         this.note = make("p", {class: "muted"});
-        this.button = make("button", {type: "button", class: "button small", onclick: () => this.load()});
+        this.button = make("button", {type: "button", class: "button small", text: t("trace.show"), onclick: () => this.load()});
         const title = make("h3", {}, make("span", {text: t("trace.title")}), this.button);
         this.node = make("section", {class: "trace"}, title, this.note, this.list);
-        this.load();
+        if (areShown) {
+            this.load();
+        }
     }
 
     async load() {
+        areShown = true;
         this.button.disabled = true;
         this.button.textContent = t("trace.refresh");
         try {
             const lines = await getLines(`/v1/trace?limit=${LIMIT}&${this.query}`);
-            this.note.textContent = lines.length === 0 ? t("trace.none") : "";
+            setText(this.note, lines.length === 0 ? t("trace.none") : "");
             this.list.replaceChildren(...lines.reverse().map(makeLine));
         } catch (error) {
             this.list.replaceChildren();
-            this.note.textContent = error.status === 404 ? t("trace.off") : error.message;
+            setText(this.note, error.status === 404 ? t("trace.off") : error.message);
         }
         this.button.disabled = false;
     }
