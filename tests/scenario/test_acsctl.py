@@ -633,7 +633,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--bin", required=True, type=pathlib.Path)
     arguments, rest = parser.parse_known_args()
-    AcsctlCase.bin_dir = arguments.bin
+    AcsctlCase.bin_dir = arguments.bin.resolve()
     unittest.main(argv=[sys.argv[0], *rest], verbosity=2)
 
 

@@ -41,8 +41,9 @@ struct SupportBundle
 /// The parts at http.listen.
 [[nodiscard]] std::vector<BundlePart> ListHttpParts();
 
-/// Collects the parts. A part that cannot be read is listed in the manifest; an error only if the status cannot be read. An
-/// answer that is not what its route has is not read either. The second API is that of http.listen, nullptr: none. No header of a request is in the bundle, hence no token.
+/// Collects the parts. A part that cannot be read, or whose answer is not what its route has, is listed in the manifest; an error
+/// only if the status cannot be read. The second API is that of http.listen, nullptr: none. No header of a request is in the
+/// bundle, hence no token.
 [[nodiscard]] Outcome<SupportBundle> CollectBundle(
     IApi& api,
     IApi* httpOrNull,

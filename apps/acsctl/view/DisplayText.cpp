@@ -100,10 +100,7 @@ std::string EscapeForJSON(char32_t point)
         return fmt::format("\\u{:04x}", static_cast<std::uint32_t>(point));
     }
     const char32_t rest = point - LAST_BASIC - 1;
-    return fmt::format(
-        "\\u{:04x}\\u{:04x}",
-        static_cast<std::uint32_t>(FIRST_HIGH + (rest >> LOW_BITS)),
-        static_cast<std::uint32_t>(FIRST_LOW + (rest & LOW_MASK)));
+    return fmt::format("\\u{:04x}\\u{:04x}", FIRST_HIGH + (rest >> LOW_BITS), FIRST_LOW + (rest & LOW_MASK));
 }
 
 Character ReadFirst(std::string_view text)

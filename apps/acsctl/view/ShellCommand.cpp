@@ -5,9 +5,15 @@
 namespace ACS::Acsctl
 {
 
+namespace
+{
+
+constexpr std::string_view PLAIN_SIGNS = "-._:@%+/,";
+
+} // namespace
+
 std::string QuoteForShell(std::string_view word)
 {
-    constexpr std::string_view PLAIN_SIGNS = "-._:@%+/,";
     const bool bPlain = std::all_of(word.begin(), word.end(), [](char letter) {
         const bool bLetter = (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z');
         return bLetter || (letter >= '0' && letter <= '9') || PLAIN_SIGNS.find(letter) != std::string_view::npos;
