@@ -8,9 +8,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <string>
 #include <utility>
 
 namespace ACS::Apps
@@ -165,12 +167,9 @@ std::optional<int> ParseCommandLineOrNull(CLI::App& app, int argc, const char* c
 
 void PrintError(std::string_view program, std::string_view text)
 {
-    std::string line = fmt::format("{}: ", program);
-    for (const char character : text)
-    {
-        AppendPrintable(line, character == '\n' ? ' ' : character);
-    }
-    std::cerr << line << std::endl;
+    std::string line(text);
+    std::ranges::replace(line, '\n', ' ');
+    std::cerr << fmt::format("{}: {}", program, MakePrintable(line)) << std::endl;
 }
 
 int RunProgram(std::string_view program, const std::function<int()>& body)

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cstddef>
 
 namespace ACS::Apps
 {
@@ -13,64 +13,92 @@ namespace ACS::Apps
 namespace
 {
 
+/// Removes and returns the first character; a byte that is not valid UTF-8 is a character of its own.
+std::string_view TakeCharacter(std::string_view& text)
+{
+    constexpr unsigned TWO_BYTES = 0x80;
+    constexpr unsigned THREE_BYTES = 0xE0;
+    constexpr unsigned FOUR_BYTES = 0xF0;
+    const auto lead = static_cast<unsigned char>(text.front());
+    const std::size_t length =
+        1U + (lead >= TWO_BYTES ? 1U : 0U) + (lead >= THREE_BYTES ? 1U : 0U) + (lead >= FOUR_BYTES ? 1U : 0U);
+    const std::string_view character = text.substr(0, length);
+    const std::string_view taken = Core::JsonText::IsUtf8(character) ? character : text.substr(0, 1);
+    text.remove_prefix(taken.size());
+    return taken;
+}
+
+/// Whether it controls a terminal (C0, C1), ends a line or changes the direction of the text that follows.
+bool IsControl(std::string_view character)
+{
+    const auto isWithin = [character](std::string_view first, std::string_view last) {
+        return character.size() == first.size() && character >= first && character <= last;
+    };
+    return (character.size() == 1 && Core::IsControlCharacter(character.front()))
+        || isWithin("\xC2\x80", "\xC2\x9F")          // U+0080 to U+009F
+        || isWithin("\xD8\x9C", "\xD8\x9C")          // U+061C
+        || isWithin("\xE2\x80\x8E", "\xE2\x80\x8F")  // U+200E, U+200F
+        || isWithin("\xE2\x80\xA8", "\xE2\x80\xAE")  // U+2028 to U+202E
+        || isWithin("\xE2\x81\xA6", "\xE2\x81\xA9"); // U+2066 to U+2069
+}
+
+void AppendPrintable(std::string& out, std::string_view character)
+{
+    const bool bInvalid = character.size() == 1 && static_cast<signed char>(character.front()) < 0;
+    if (!bInvalid && !IsControl(character))
+    {
+        out += character;
+        return;
+    }
+    for (const char byte : character)
+    {
+        out += fmt::format("\\x{:02x}", static_cast<unsigned>(static_cast<unsigned char>(byte)));
+    }
+}
+
 void AppendEscaped(std::string& out, std::string_view text, bool bQuoted)
 {
-    for (const char character : text)
+    while (!text.empty())
     {
-        if (character == '\n')
+        const std::string_view character = TakeCharacter(text);
+        if (character == "\n")
         {
             out += "\\n";
         }
         else
         {
-            out += bQuoted && (character == '"' || character == '\\') ? "\\" : "";
+            out += bQuoted && (character == "\"" || character == "\\") ? "\\" : "";
             AppendPrintable(out, character);
         }
     }
 }
 
-void AppendEscaped(std::string& out, char character)
-{
-    out += fmt::format("\\x{:02x}", static_cast<unsigned>(static_cast<unsigned char>(character)));
-}
-
-/// With every byte outside of ASCII escaped.
-std::string MakeASCII(std::string_view text)
-{
-    std::string ascii;
-    for (const char character : text)
-    {
-        if (static_cast<unsigned char>(character) < 0x80U)
-        {
-            ascii += character;
-        }
-        else
-        {
-            AppendEscaped(ascii, character);
-        }
-    }
-    return ascii;
-}
-
 bool NeedsQuotes(std::string_view value)
 {
-    return value.empty() || std::any_of(value.begin(), value.end(), [](char character) {
-               return Core::IsControlCharacter(character) || character == ' ' || character == '"' || character == '=';
-           });
+    if (value.empty() || value.find_first_of(" \"=") != std::string_view::npos)
+    {
+        return true;
+    }
+    while (!value.empty())
+    {
+        if (IsControl(TakeCharacter(value)))
+        {
+            return true;
+        }
+    }
+    return false;
 }
 
 } // namespace
 
-void AppendPrintable(std::string& out, char character)
+std::string MakePrintable(std::string_view text)
 {
-    if (Core::IsControlCharacter(character))
+    std::string out;
+    while (!text.empty())
     {
-        AppendEscaped(out, character);
+        AppendPrintable(out, TakeCharacter(text));
     }
-    else
-    {
-        out += character;
-    }
+    return out;
 }
 
 std::string MakeLogText(
@@ -83,20 +111,10 @@ std::string MakeLogText(
     for (const Core::LogField& field : fields)
     {
         text += fmt::format(" {}=", field.key);
-        if (NeedsQuotes(field.value))
-        {
-            text += '"';
-            AppendEscaped(text, field.value, true);
-            text += '"';
-        }
-        else
-        {
-            text += field.value;
-        }
-    }
-    if (!Core::JsonText::IsUtf8(text))
-    {
-        text = MakeASCII(text);
+        const bool bQuoted = NeedsQuotes(field.value);
+        text += bQuoted ? "\"" : "";
+        AppendEscaped(text, field.value, bQuoted);
+        text += bQuoted ? "\"" : "";
     }
     return text;
 }
