@@ -7,12 +7,12 @@
 #include <charconv>
 #include <fcntl.h>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iterator>
 #include <limits>
 #include <string>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
 #include <vector>
@@ -25,7 +25,8 @@ namespace
 
 constexpr std::string_view SUFFIX = ".ndjson";
 constexpr std::size_t FLUSH_BYTES = 256U * 1024U;
-constexpr std::streamoff TAIL_BYTES = 4LL * 1024 * 1024;
+constexpr off_t TAIL_BYTES = 4LL * 1024 * 1024;
+constexpr std::uint64_t LARGEST_NUMBER = 999'999'999'999;
 
 /// 0 if the file is not one of this trace.
 std::uint64_t ReadNumber(const std::string& name, std::string_view prefix)
@@ -38,15 +39,16 @@ std::uint64_t ReadNumber(const std::string& name, std::string_view prefix)
         std::string_view(name).substr(prefix.size(), name.size() - prefix.size() - SUFFIX.size());
     std::uint64_t number = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    return error == std::errc() && end == digits.data() + digits.size() ? number : 0;
+    const bool bNumber = error == std::errc() && end == digits.data() + digits.size();
+    return bNumber && number <= LARGEST_NUMBER ? number : 0;
 }
 
-/// Ascending.
-std::vector<std::pair<std::uint64_t, std::filesystem::path>> ListFiles(
-    const std::string& folder,
-    std::string_view prefix)
+using NumberedFiles = std::vector<std::pair<std::uint64_t, std::filesystem::path>>;
+
+/// Ascending. A file of another type has a number that is in use, but is neither read nor deleted.
+NumberedFiles ListNumbers(const std::string& folder, std::string_view prefix)
 {
-    std::vector<std::pair<std::uint64_t, std::filesystem::path>> files;
+    NumberedFiles files;
     std::error_code error;
     for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
     {
@@ -60,21 +62,75 @@ std::vector<std::pair<std::uint64_t, std::filesystem::path>> ListFiles(
     return files;
 }
 
+/// Ascending. Neither links nor pipes nor devices: reading one could have no end.
+NumberedFiles ListFiles(const std::string& folder, std::string_view prefix)
+{
+    NumberedFiles files = ListNumbers(folder, prefix);
+    std::erase_if(files, [](const auto& file) {
+        std::error_code error;
+        return std::filesystem::symlink_status(file.second, error).type() != std::filesystem::file_type::regular;
+    });
+    return files;
+}
+
+/// -1: it is not a regular file, or cannot be read. The type may have changed since ListFiles.
+int OpenForReading(const std::filesystem::path& path)
+{
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): POSIX has no other
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    struct stat status = {};
+    if (file >= 0 && (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)))
+    {
+        ::close(file);
+        return -1;
+    }
+    return file;
+}
+
+/// The last bytes of the file, at most TAIL_BYTES; empty if it cannot be read.
+std::string ReadLastBytes(int file, off_t size)
+{
+    std::string bytes(static_cast<std::size_t>(std::min(size, TAIL_BYTES)), '\0');
+    std::size_t done = 0;
+    while (done < bytes.size())
+    {
+        const ssize_t count = ::pread(
+            file,
+            bytes.data() + done,
+            bytes.size() - done,
+            std::max<off_t>(size - TAIL_BYTES, 0) + static_cast<off_t>(done));
+        if (count <= 0)
+        {
+            break;
+        }
+        done += static_cast<std::size_t>(count);
+    }
+    bytes.resize(done);
+    return bytes;
+}
+
 /// The whole lines at the end of the file.
 std::vector<std::string> ReadTail(const std::filesystem::path& path)
 {
-    std::ifstream file(path, std::ios::binary | std::ios::ate);
-    const std::streamoff size = file.is_open() ? static_cast<std::streamoff>(file.tellg()) : 0;
-    file.seekg(std::max<std::streamoff>(size - TAIL_BYTES, 0));
     std::vector<std::string> lines;
-    std::string line;
-    while (std::getline(file, line) && !file.eof()) // the last line may lack its end
+    const int file = OpenForReading(path);
+    if (file < 0)
     {
-        lines.push_back(std::move(line));
+        return lines;
     }
-    if (size > TAIL_BYTES && !lines.empty())
+    const off_t size = ::lseek(file, 0, SEEK_END);
+    const std::string bytes = ReadLastBytes(file, std::max<off_t>(size, 0));
+    ::close(file);
+    std::string_view rest = bytes;
+    if (size > TAIL_BYTES)
     {
-        lines.erase(lines.begin());
+        rest.remove_prefix(std::min(rest.find('\n'), rest.size() - 1) + 1);
+    }
+    // The last line may lack its end.
+    for (std::size_t end = rest.find('\n'); end != std::string_view::npos; end = rest.find('\n'))
+    {
+        lines.emplace_back(rest.substr(0, end));
+        rest.remove_prefix(end + 1);
     }
     return lines;
 }
@@ -87,8 +143,7 @@ std::error_code GetLastError()
 /// Whether another process writes this file.
 bool IsLocked(const std::filesystem::path& path)
 {
-    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): POSIX has no other
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    const int file = OpenForReading(path);
     if (file < 0)
     {
         return false;
@@ -96,6 +151,21 @@ bool IsLocked(const std::filesystem::path& path)
     const bool bLocked = ::flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
     ::close(file); // which releases the lock
     return bLocked;
+}
+
+/// Whether lines can be added; otherwise a crash of the machine has cut the last one.
+bool EndsWithLine(const std::filesystem::path& path)
+{
+    const int file = OpenForReading(path);
+    if (file < 0)
+    {
+        return false;
+    }
+    char last = '\n';
+    const off_t size = ::lseek(file, 0, SEEK_END);
+    const bool bRead = size == 0 || ::pread(file, &last, 1, size - 1) == 1;
+    ::close(file);
+    return bRead && last == '\n';
 }
 
 /// The filter may be empty.
@@ -167,11 +237,8 @@ std::error_code TraceFiles::OpenFirst(const TraceLimits& limits)
     {
         return OpenNext(limits);
     }
-    std::ifstream newest(files.back().second, std::ios::binary | std::ios::ate);
-    const bool bEmpty = newest.tellg() == std::ifstream::pos_type(0);
-    newest.seekg(-1, std::ios::end);
-    const bool bWhole = bEmpty || newest.get() == '\n'; // else a crash of the machine has cut the last line
-    return bWhole ? OpenFile(files.back().second, 0) : OpenNext(limits);
+    return EndsWithLine(files.back().second) ? OpenFile(files.back().second, O_NOFOLLOW | O_NONBLOCK)
+                                             : OpenNext(limits);
 }
 
 std::error_code TraceFiles::OpenNext(const TraceLimits& limits)
@@ -180,8 +247,13 @@ std::error_code TraceFiles::OpenNext(const TraceLimits& limits)
     {
         return OpenFile(_path, 0);
     }
-    auto files = ListFiles(_path, _style.prefix);
-    const std::uint64_t number = files.empty() ? 1 : files.back().first + 1;
+    const NumberedFiles numbers = ListNumbers(_path, _style.prefix);
+    const std::uint64_t number = numbers.empty() ? 1 : numbers.back().first + 1;
+    if (number > LARGEST_NUMBER)
+    {
+        return std::make_error_code(std::errc::value_too_large);
+    }
+    const NumberedFiles files = ListFiles(_path, _style.prefix);
     // Deletes the oldest files before the new one needs their space.
     for (std::size_t i = 0; i + limits.maxFiles <= files.size(); ++i)
     {
@@ -288,9 +360,12 @@ std::error_code TraceFiles::WriteBuffer()
 
 std::string DescribeTraceError(const std::error_code& error)
 {
-    return error == std::errc::device_or_resource_busy
-        ? "another process of this program writes its trace there; give each process a folder of its own"
-        : error.message();
+    if (error == std::errc::device_or_resource_busy)
+    {
+        return "another process of this program writes its trace there; give each process a folder of its own";
+    }
+    return error == std::errc::value_too_large ? "no number follows that of the newest file; remove this file"
+                                               : error.message();
 }
 
 std::vector<std::string> ReadNewestLines(const std::string& folder, const std::string& prefix, std::size_t maximum)

@@ -53,7 +53,7 @@ public:
     ~TraceFiles();
 
     /// Creates the folder if necessary, and a file. std::errc::device_or_resource_busy: another process writes files of this prefix to
-    /// the folder; each would delete files of the other one.
+    /// the folder; each would delete files of the other one. Only regular files are read, continued or deleted.
     [[nodiscard]] std::error_code Open(const TraceLimits& limits);
 
     /// Adds a line, given without its line end. It is written by the next Flush at the latest. After an error this line and all
@@ -72,11 +72,11 @@ private:
     void Close() noexcept;
 };
 
-/// Why a trace cannot be opened: the text of the error, or what std::errc::device_or_resource_busy means.
+/// Why a trace cannot be opened: the text of the error, or what std::errc::device_or_resource_busy and value_too_large mean.
 [[nodiscard]] std::string DescribeTraceError(const std::error_code& error);
 
 /// The newest lines in the files of the folder with this prefix, the oldest of them first, without their ends. Of each file
-/// only its last 4 MiB are read.
+/// only its last 4 MiB are read. Only regular files are read, not links. From any thread.
 [[nodiscard]] std::vector<std::string> ReadNewestLines(
     const std::string& folder,
     const std::string& prefix,

@@ -5,9 +5,11 @@
 #include "FullDisk.hpp"
 #include "TemporaryFolder.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <sys/stat.h>
 #include <vector>
 
 namespace ACS::Testing
@@ -128,6 +130,75 @@ TEST_CASE("The newest file is continued at a start if that is wanted, and the ne
     CHECK(Apps::ReadNewestLines(folder, "acsd-", 9).empty());
     CHECK(std::filesystem::file_size(place.GetPath() / "audit-000001.ndjson") == 19);
     CHECK(std::filesystem::file_size(place.GetPath() / "audit-000002.ndjson") == 9);
+}
+
+TEST_CASE("Only regular files are read, continued and deleted; the others keep their names")
+{
+    const Testing::TemporaryFolder place;
+    const auto folder = place.GetPath();
+    const TraceLimits limits{100, 2};
+    std::ofstream(folder / "elsewhere") << "secret\n";
+    const bool bContinued = GENERATE(false, true);
+    {
+        TraceFiles files(folder.string(), {"acsd-", 0600, bContinued});
+        REQUIRE_FALSE(files.Open(limits));
+        REQUIRE_FALSE(files.Append("one", limits));
+        REQUIRE_FALSE(files.Flush());
+    }
+    REQUIRE(::mkfifo((folder / "acsd-000002.ndjson").c_str(), 0600) == 0);
+    std::filesystem::create_directory(folder / "acsd-000003.ndjson");
+    std::filesystem::create_symlink("/dev/zero", folder / "acsd-000004.ndjson");
+    std::filesystem::create_symlink(folder / "elsewhere", folder / "acsd-000005.ndjson");
+    CHECK(Apps::ReadNewestLines(folder.string(), "acsd-", 9) == std::vector<std::string>{"one"});
+    for (int i = 0; i < 3; ++i)
+    {
+        TraceFiles files(folder.string(), {"acsd-", 0600, bContinued});
+        REQUIRE_FALSE(files.Open(limits));
+        REQUIRE_FALSE(files.Append(std::string(90, 'x'), limits));
+        REQUIRE_FALSE(files.Flush());
+    }
+    CHECK(Apps::ReadNewestLines(folder.string(), "acsd-", 9) == std::vector<std::string>(2, std::string(90, 'x')));
+    const std::vector<std::string> others{
+        "acsd-000002.ndjson",
+        "acsd-000003.ndjson",
+        "acsd-000004.ndjson",
+        "acsd-000005.ndjson"};
+    const std::vector<std::string> names = ListNames(folder);
+    CHECK(std::ranges::includes(names, others));
+    CHECK(names.size() == others.size() + 3); // two files and the target of the link
+    CHECK(std::filesystem::file_size(folder / "elsewhere") == 7);
+}
+
+TEST_CASE("A file whose name has no usable number is left alone")
+{
+    const Testing::TemporaryFolder place;
+    const auto folder = place.GetPath();
+    for (const char* name :
+         {"acsd-18446744073709551615.ndjson", "acsd-99999999999999999999999.ndjson", "acsd--1.ndjson"})
+    {
+        std::ofstream(folder / name) << "line\n";
+    }
+    for (const char* expected : {"acsd-000001.ndjson", "acsd-000002.ndjson"})
+    {
+        TraceFiles files(folder.string());
+        REQUIRE_FALSE(files.Open({}));
+        CHECK(std::filesystem::exists(folder / expected));
+    }
+    CHECK(Apps::ReadNewestLines(folder.string(), "acsd-", 9).empty());
+    std::ofstream(folder / "acsd-999999999999.ndjson") << "line\n";
+    const std::error_code full = TraceFiles(folder.string()).Open({});
+    CHECK(full == std::errc::value_too_large);
+    CHECK(Apps::DescribeTraceError(full).find("newest file") != std::string::npos);
+}
+
+TEST_CASE("Of a long file the whole lines at its end are read, however long its lines are")
+{
+    const Testing::TemporaryFolder place;
+    const auto file = place.GetPath() / "acsd-000001.ndjson";
+    std::ofstream(file) << std::string(6'000'000, 'x') << "\nlast\ncut";
+    CHECK(Apps::ReadNewestLines(place.GetPath().string(), "acsd-", 9) == std::vector<std::string>{"last"});
+    std::ofstream(file) << std::string(6'000'000, 'x');
+    CHECK(Apps::ReadNewestLines(place.GetPath().string(), "acsd-", 9).empty());
 }
 
 } // namespace ACS::Testing
