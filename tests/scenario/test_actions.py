@@ -104,6 +104,7 @@ class Actions(ScenarioCase):
         line = self.read("audit", "--limit", "1")
         self.assertEqual((line["request"], line["status"]), ("/v1/robots/LR01/actions", 202))
         self.assertEqual(json.loads(line["body"])["actionType"], "deleteMap")
+        self.environment["COLUMNS"] = "80"
         for command in (("actions", "LR01"), ("actions", "CR01")):
             self.assertLessEqual(max(map(len, self.check(0, *command).splitlines())), 80)
 
