@@ -152,7 +152,15 @@ void HttpConnection::ReadAsync()
 
 void HttpConnection::OnHeader(const ErrorCode& error, std::size_t count)
 {
-    if (error.failed() || _parserOrNull->is_done())
+    if (error.failed())
+    {
+        return OnRead(error, count);
+    }
+    if (const std::optional<HttpResponse> refusal = MakeHeaderRefusalOrNull(_parserOrNull->get()))
+    {
+        return Refuse(*refusal, refusal->body.substr(0, refusal->body.size() - 1));
+    }
+    if (_parserOrNull->is_done())
     {
         return OnRead(error, count);
     }
@@ -188,24 +196,31 @@ void HttpConnection::ReadBodyAsync()
 
 void HttpConnection::OnRead(const ErrorCode& error, std::size_t /*count*/)
 {
+    if (error.failed())
+    {
+        const std::optional<HttpResponse> refusal = MakeHttpRefusalOrNull(error, _limits);
+        return refusal.has_value() ? Refuse(*refusal, error.message()) : Leave();
+    }
     const std::shared_ptr<IHttpConnectionOwner> owner = _owner.lock();
     if (owner == nullptr || !IsOpen())
     {
         return Leave();
     }
     _state = EState::Answering;
-    if (!error.failed())
-    {
-        return Answer(*owner, _parserOrNull->get());
-    }
-    const std::optional<HttpResponse> refusal = MakeHttpRefusalOrNull(error, _limits);
-    if (!refusal.has_value())
+    Answer(*owner, _parserOrNull->get());
+}
+
+/// What follows is not read: it need not be a request.
+void HttpConnection::Refuse(const HttpResponse& refusal, const std::string& reason)
+{
+    const std::shared_ptr<IHttpConnectionOwner> owner = _owner.lock();
+    if (owner == nullptr || !IsOpen())
     {
         return Leave();
     }
-    const std::string reason = error.message();
+    _state = EState::Answering;
     owner->LogRefusal(reason, reason);
-    WriteAsync(*refusal, false, false);
+    WriteAsync(refusal, false, false);
 }
 
 void HttpConnection::Answer(IHttpConnectionOwner& owner, const BeastRequest& message)

@@ -86,6 +86,7 @@ private:
     void OnHeader(const ErrorCode& error, std::size_t count);
     void ReadBodyAsync();
     void OnRead(const ErrorCode& error, std::size_t count);
+    void Refuse(const HttpResponse& refusal, const std::string& reason);
     void Answer(IHttpConnectionOwner& owner, const BeastRequest& message);
     void WriteAsync(const HttpResponse& response, bool bKeepAlive, bool bHead);
     void WritePreparedAsync(bool bKeepAlive, bool bHead);

@@ -1,9 +1,13 @@
 #include "common/http/HttpWire.hpp"
 
+#include <boost/beast/core/string.hpp>
 #include <boost/beast/http/error.hpp>
+#include <boost/beast/http/field.hpp>
 #include <boost/beast/http/status.hpp>
 #include <boost/none.hpp>
 
+#include <cstddef>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -21,6 +25,12 @@ template <typename TView>
 std::string MakeString(const TView& text)
 {
     return std::string(text.data(), text.size());
+}
+
+std::size_t CountFields(const BeastRequest& message, Http::field name)
+{
+    const auto [first, last] = message.equal_range(name);
+    return static_cast<std::size_t>(std::distance(first, last));
 }
 
 /// Responses of these never have a body.
@@ -58,6 +68,29 @@ std::optional<HttpResponse> MakeHttpRefusalOrNull(const boost::system::error_cod
     if (bHttpError && error != Http::error::end_of_stream && error != Http::error::partial_message)
     {
         return MakeHttpRefusal(Http::status::bad_request, "not an HTTP/1.1 request");
+    }
+    return std::nullopt;
+}
+
+std::optional<HttpResponse> MakeHeaderRefusalOrNull(const BeastRequest& message)
+{
+    const std::size_t hosts = CountFields(message, Http::field::host);
+    if (hosts > 1 || (hosts == 0 && message.version() >= HTTP_VERSION))
+    {
+        return MakeHttpRefusal(Http::status::bad_request, "expected one Host");
+    }
+    const std::size_t codings = CountFields(message, Http::field::transfer_encoding);
+    if (codings == 0)
+    {
+        return std::nullopt;
+    }
+    if (message.version() < HTTP_VERSION)
+    {
+        return MakeHttpRefusal(Http::status::bad_request, "Transfer-Encoding needs HTTP/1.1");
+    }
+    if (codings > 1 || !boost::beast::iequals(message[Http::field::transfer_encoding], "chunked"))
+    {
+        return MakeHttpRefusal(Http::status::not_implemented, "the only Transfer-Encoding is chunked");
     }
     return std::nullopt;
 }

@@ -25,6 +25,10 @@ using BeastResponse = boost::beast::http::response<boost::beast::http::string_bo
     const boost::system::error_code& error,
     const HttpLimits& limits);
 
+/// The response to a header with which this server and a program in front of it could disagree about the end of the request or its
+/// host (RFC 9112 sections 3.2 and 6.1); nullopt if it is valid. The connection must be closed after it.
+[[nodiscard]] std::optional<HttpResponse> MakeHeaderRefusalOrNull(const BeastRequest& message);
+
 /// Without the sender. Fails if the target is invalid.
 [[nodiscard]] Core::Result<HttpRequest> MakeHttpRequest(const BeastRequest& message);
 

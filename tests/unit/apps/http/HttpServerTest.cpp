@@ -15,6 +15,7 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Apps = ACS::Apps;
@@ -91,14 +92,14 @@ TEST_CASE("A delayed response delays neither other connections nor Stop")
     Fixture fixture;
     fixture.answer.delay = 1h;
     RawClient slow(fixture.context, fixture.port);
-    slow.Send("GET /slow HTTP/1.1\r\n\r\n");
+    slow.Send("GET /slow HTTP/1.1\r\nHost: x\r\n\r\n");
     RawClient gone(fixture.context, fixture.port);
-    gone.Send("GET /gone HTTP/1.1\r\n\r\n");
+    gone.Send("GET /gone HTTP/1.1\r\nHost: x\r\n\r\n");
     REQUIRE(fixture.IsReached([&fixture] { return fixture.requests.size() == 2; }));
     fixture.answer.delay = 20ms;
     const auto asked = std::chrono::steady_clock::now();
     RawClient other(fixture.context, fixture.port);
-    other.Send("GET /1 HTTP/1.1\r\n\r\nHEAD /2 HTTP/1.1\r\nConnection: close\r\n\r\n");
+    other.Send("GET /1 HTTP/1.1\r\nHost: x\r\n\r\nHEAD /2 HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n");
     REQUIRE(other.WasClosed());
     CHECK(std::chrono::steady_clock::now() - asked >= 40ms);
     const std::string received = other.TakeReceived();
@@ -113,10 +114,10 @@ TEST_CASE("Expect: 100-continue is answered with 100, unless the body is too lon
 {
     Fixture fixture;
     RawClient client(fixture.context, fixture.port);
-    client.Send("POST /1 HTTP/1.1\r\nExpect: 100-Continue\r\nContent-Length: 4\r\n\r\n");
+    client.Send("POST /1 HTTP/1.1\r\nHost: x\r\nExpect: 100-Continue\r\nContent-Length: 4\r\n\r\n");
     REQUIRE(client.HasReceived("HTTP/1.1 100 Continue\r\n\r\n"));
     CHECK(fixture.requests.empty());
-    client.Send("bodyPOST /2 HTTP/1.1\r\nExpect: 100-continue\r\nContent-Length: 1048577\r\n\r\n");
+    client.Send("bodyPOST /2 HTTP/1.1\r\nHost: x\r\nExpect: 100-continue\r\nContent-Length: 1048577\r\n\r\n");
     REQUIRE(client.HasReceived("HTTP/1.1 413 "));
     REQUIRE(fixture.requests.size() == 1);
     CHECK(fixture.requests.front().body == "body");
@@ -128,7 +129,7 @@ TEST_CASE("A chunk size without end is refused and not buffered")
 {
     Fixture fixture;
     RawClient client(fixture.context, fixture.port);
-    client.Send("POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n5;" + std::string(1'000'000, 'x'));
+    client.Send("POST / HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n5;" + std::string(1'000'000, 'x'));
     REQUIRE(client.HasReceived("HTTP/1.1 400 "));
     CHECK(fixture.requests.empty());
 }
@@ -137,11 +138,11 @@ TEST_CASE("A chunked body is complete and has the same limit as any other")
 {
     Fixture fixture;
     RawClient client(fixture.context, fixture.port);
-    client.Send("POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n2;x=y\r\nbo\r\n2\r\ndy\r\n0\r\n\r\n");
+    client.Send("POST / HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n2;x=y\r\nbo\r\n2\r\ndy\r\n0\r\n\r\n");
     REQUIRE(client.HasReceived("<answer>"));
     CHECK(fixture.requests.at(0).body == "body");
     const std::string chunk = "10000\r\n" + std::string(0x10000, 'x') + "\r\n";
-    std::string request = "POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n";
+    std::string request = "POST / HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n";
     for (int i = 0; i < 17; ++i)
     {
         request += chunk;
@@ -231,6 +232,52 @@ TEST_CASE("A request that the guard refuses is answered with 403 and logged; the
     CHECK(fixture.requests.size() == 2);
 }
 
+TEST_CASE("A body that a program in front of the server could see differently is refused, and nothing after it is read")
+{
+    const std::string second = "GET /second HTTP/1.1\r\nHost: x\r\n\r\n";
+    for (const auto& [header, status] :
+         {std::pair("Transfer-Encoding: xchunked\r\n", "501"),
+          std::pair("Transfer-Encoding: gzip\r\n", "501"),
+          std::pair("Transfer-Encoding: gzip, chunked\r\n", "501"),
+          std::pair("Transfer-Encoding: chunked, identity\r\n", "501"),
+          std::pair("Transfer-Encoding: chunked;q=1\r\n", "501"),
+          std::pair("Transfer-Encoding: identity\r\nTransfer-Encoding: chunked\r\n", "501"),
+          std::pair("Transfer-Encoding: chunked\r\nContent-Length: 4\r\n", "400"),
+          std::pair("Content-Length: 4\r\nTransfer-Encoding: xchunked\r\n", "400"),
+          std::pair("Host: y\r\n", "400")})
+    {
+        INFO(header);
+        Fixture fixture;
+        RawClient client(fixture.context, fixture.port);
+        client.Send("POST /1 HTTP/1.1\r\nHost: x\r\n" + std::string(header) + "\r\n" + second);
+        REQUIRE(client.WasClosed());
+        const std::string answer = client.TakeReceived();
+        CHECK_THAT(answer, StartsWith(std::string("HTTP/1.1 ") + status + " "));
+        CHECK_THAT(answer, Contains("Connection: close\r\n"));
+        CHECK(answer.find("\nHTTP/1.1 ") == std::string::npos);
+        CHECK(fixture.requests.empty());
+        CHECK(fixture.log.Contains(Core::ELogLevel::Warning, "Refused an HTTP request"));
+    }
+}
+
+TEST_CASE("HTTP/1.1 needs a Host, HTTP/1.0 does not, and has no Transfer-Encoding")
+{
+    Fixture fixture;
+    RawClient without(fixture.context, fixture.port);
+    without.Send("GET / HTTP/1.1\r\n\r\n");
+    REQUIRE(without.WasClosed());
+    CHECK_THAT(without.TakeReceived(), StartsWith("HTTP/1.1 400 "));
+    RawClient coded(fixture.context, fixture.port);
+    coded.Send("POST / HTTP/1.0\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n");
+    REQUIRE(coded.WasClosed());
+    CHECK_THAT(coded.TakeReceived(), StartsWith("HTTP/1.1 400 "));
+    CHECK(fixture.requests.empty());
+    RawClient old(fixture.context, fixture.port);
+    old.Send("GET / HTTP/1.0\r\n\r\n");
+    REQUIRE(old.WasClosed());
+    CHECK_THAT(old.TakeReceived(), StartsWith("HTTP/1.1 200 "));
+}
+
 TEST_CASE("A target that cannot be decoded is answered with 400 and the connection stays open")
 {
     Fixture fixture;
@@ -259,7 +306,7 @@ TEST_CASE("A header without end is answered with 431")
 {
     Fixture fixture;
     RawClient client(fixture.context, fixture.port);
-    client.Send("GET / HTTP/1.1\r\nX: " + std::string(20'000, 'x'));
+    client.Send("GET / HTTP/1.1\r\nHost: x\r\nX: " + std::string(20'000, 'x'));
     REQUIRE(client.WasClosed());
     REQUIRE_THAT(client.TakeReceived(), StartsWith("HTTP/1.1 431 "));
 }

@@ -85,7 +85,7 @@ class ReadmeClient(unittest.TestCase):
                             host, port = address.split(":")
                             client = stack.enter_context(socket.create_connection((host, int(port)), timeout=LIMIT))
                             if name.startswith("http"):
-                                client.sendall(b"GET /api_ver HTTP/1.1\r\n\r\n")
+                                client.sendall(b"GET /api_ver HTTP/1.1\r\nHost: x\r\n\r\n")
                             elif name.startswith("stream"):
                                 client.sendall(b'{"cmd":"HANDSHAKE","payload":{"major":1}}\n'
                                                b'{"cmd":"MONITOR","payload":{"method":"GET","url":"/api_ver","period_ms":2}}\n')
@@ -292,7 +292,7 @@ class ReadmeClient(unittest.TestCase):
         rows = [
             (b"GET /api_ver" + end + b"\r\n", 200, b"\r\n\r\n5"),
             (b"HEAD /api_ver" + end + b"\r\n", 200, b"Content-Length: 1\r\n\r\n"),
-            (b"GET /api_ver HTTP/1.1\r\n\r\n" * 20 + b"GET /api_ver" + end + b"\r\n", 200, b"5"),
+            (b"GET /api_ver HTTP/1.1\r\nHost: x\r\n\r\n" * 20 + b"GET /api_ver" + end + b"\r\n", 200, b"5"),
             (b"GET /project/robot%00" + end + b"\r\n", 404, b'"err_code":-2'),
             (b"GET /project/%ff" + end + b"\r\n", 404, b'"err_code":-2'),
             (b"GET /project/../api_ver" + end + b"\r\n", 404, b'"err_code":-2'),
@@ -304,6 +304,8 @@ class ReadmeClient(unittest.TestCase):
             (b"POST /project/robot/tool_no" + end + b"Transfer-Encoding: chunked\r\n\r\n9\r\n{\"val\":1}\r\n0\r\n\r\n", 200, b"_type"),
             (b"POST /project/robot/tool_no" + end + b"Transfer-Encoding: chunked\r\n\r\n5;" + b"x" * 1_000_000, 400, b"not an HTTP"),
             (b"POST /project/robot/tool_no" + end + b"Content-Length: -1\r\n\r\n", 400, b"not an HTTP"),
+            (b"POST /project/robot/tool_no" + end + b"Transfer-Encoding: gzip\r\n\r\n" + b"GET /api_ver" + end + b"\r\n", 501, b"chunked"),
+            (b"GET /api_ver HTTP/1.1\r\n\r\n", 400, b"one Host"),
             (b"\x16\x03\x01 no HTTP\r\n\r\n", 400, b"not an HTTP"),
         ]
         rows += [(method + b" /api_ver" + end + b"\r\n", 404, b'"err_code":-2')
@@ -329,7 +331,7 @@ class ReadmeClient(unittest.TestCase):
                 client.sendall(b"GET /api_ver HT")
             for client in slow[:40]:
                 client.close()
-            self.assertTrue(self.ask(http, b"GET /api_ver HTTP/1.1\r\nConnection: close\r\n\r\n").endswith(b"\r\n\r\n5"))
+            self.assertTrue(self.ask(http, b"GET /api_ver HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n").endswith(b"\r\n\r\n5"))
 
     def test_help_tells_what_the_programs_do(self):
         result = self.run_program("--help")
