@@ -2,6 +2,7 @@
 """What an operator does over HTTP, and what the operator API answers, with real processes."""
 
 import http.client
+import itertools
 import json
 import signal
 import socket
@@ -80,13 +81,14 @@ class Operator(ScenarioCase):
         self.mcs_port = find_free_port()
         self.arm, self.overrides = {"stream": "127.0.0.1:1"}, ()
         self.start_acsd()
+        rows = ({"Sec-Fetch-Site": "cross-site"}, 403), ({"Sec-Fetch-Site": "same-site"}, 200), ({}, 200)
         for name, path in (("http", "/livez"), ("http", "/metrics"), ("operator", "/v1/status"), ("operator", "/v1/audit")):
-            for method in ("GET", "OPTIONS"):  # OPTIONS asks for the permission
+            for method, (header, expected) in itertools.product(("GET", "OPTIONS"), rows):  # OPTIONS asks for the permission
                 connection = http.client.HTTPConnection(self.acsd.addresses[name], timeout=20)
                 connection.request(method, path, headers={
-                    "Origin": "http://evil.example", "Access-Control-Request-Method": "GET", "Sec-Fetch-Site": "cross-site"})
+                    "Origin": "http://evil.example", "Access-Control-Request-Method": "GET", **header})
                 response = connection.getresponse()
-                self.assertEqual(response.status, 200 if method == "GET" else 403, path)
+                self.assertEqual(response.status, expected if method == "GET" else 403, (path, header))
                 self.assertEqual([key for key in response.headers if key.lower().startswith("access-control-")], [])
                 connection.close()
 

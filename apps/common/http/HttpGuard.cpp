@@ -46,6 +46,12 @@ bool IsOwnOrigin(std::string_view origin, std::string_view host)
     return colon != std::string_view::npos && IsSameText(origin.substr(colon + 3), host);
 }
 
+/// Whether the browser goes to the page, or to a file such as /metrics. A deeper path may cost more than the page that names it.
+bool IsLink(const HttpRequest& request, const HttpSource& source)
+{
+    return source.fetchMode == "navigate" && request.method == "GET" && request.segments.size() == 1;
+}
+
 } // namespace
 
 HttpGuard::HttpGuard(Options options)
@@ -69,6 +75,10 @@ std::optional<std::string> HttpGuard::GetRejectionReasonOrNull(const HttpRequest
         return fmt::format(
             "host name {} is not allowed: use the IP address, or add the name to the configuration",
             Core::QuoteForError(source.host));
+    }
+    if (source.fetchSite == "cross-site" && !IsLink(request, source))
+    {
+        return "a web page of another site may only link to this address";
     }
     if (request.method == "GET" || request.method == "HEAD")
     {

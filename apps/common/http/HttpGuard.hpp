@@ -13,9 +13,10 @@ namespace ACS::Apps
 /// The headers that show where a request comes from; empty if absent.
 struct HttpSource
 {
-    std::string_view host;      ///< Host
-    std::string_view origin;    ///< Origin
-    std::string_view fetchSite; ///< Sec-Fetch-Site
+    std::string_view host;        ///< Host
+    std::string_view origin;      ///< Origin
+    std::string_view fetchSite;   ///< Sec-Fetch-Site
+    std::string_view fetchMode{}; ///< Sec-Fetch-Mode
 };
 
 /// Protects a program from web pages in the browser of a user who can reach it. Any page can send a POST (cross-site request

@@ -170,7 +170,8 @@ std::optional<std::string> HttpServer::Impl::GetRejectionReasonOrNull(const Http
     const std::string host = request.GetHeaderOrNull("Host").value_or("");
     const std::string origin = request.GetHeaderOrNull("Origin").value_or("");
     const std::string fetchSite = request.GetHeaderOrNull("Sec-Fetch-Site").value_or("");
-    return guardOrNull->GetRejectionReasonOrNull(request, {host, origin, fetchSite});
+    const std::string fetchMode = request.GetHeaderOrNull("Sec-Fetch-Mode").value_or("");
+    return guardOrNull->GetRejectionReasonOrNull(request, {host, origin, fetchSite, fetchMode});
 }
 
 /// Whether the peer has as many connections as it may have.

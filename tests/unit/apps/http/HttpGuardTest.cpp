@@ -76,8 +76,8 @@ TEST_CASE("A page may send commands only to its own origin")
     {
         INFO(site);
         CHECK(AskOrNull("POST", "/x", {"127.0.0.1:8080", {}, site}).has_value());
-        CHECK(AskOrNull("GET", "/x", {"127.0.0.1:8080", {}, site}) == std::nullopt);
     }
+    CHECK(AskOrNull("GET", "/x", {"127.0.0.1:8080", {}, "same-site"}) == std::nullopt);
 }
 
 TEST_CASE("If any host name is allowed, pages of other origins are still refused")
@@ -107,4 +107,29 @@ TEST_CASE("A request of a browser comes from the server's own page only with its
     CHECK_FALSE(isOwn(false, "null", "acs.example:8081"));
     CHECK_FALSE(isOwn(false, "http://", ""));
     CHECK_FALSE(Apps::IsFromOwnPage({}));
+}
+
+TEST_CASE("A page of another site may link to the page and to files beside it, and load nothing")
+{
+    for (const char* path : {"/", "/?plan=P1", "/metrics"})
+    {
+        INFO(path);
+        CHECK(AskOrNull("GET", path, {"127.0.0.1:8080", {}, "cross-site", "navigate"}) == std::nullopt);
+        for (const char* mode : {"no-cors", "cors", "websocket", ""})
+        {
+            INFO(mode);
+            CHECK(AskOrNull("GET", path, {"127.0.0.1:8080", {}, "cross-site", mode}).has_value());
+        }
+        CHECK(AskOrNull("HEAD", path, {"127.0.0.1:8080", {}, "cross-site", "navigate"}).has_value());
+        CHECK(AskOrNull("POST", path, {"127.0.0.1:8080", {}, "cross-site", "navigate"}).has_value());
+    }
+    for (const char* path : {"/v1/trace?plan=P1", "/v1/status", "/page/main.js"})
+    {
+        INFO(path);
+        CHECK(AskOrNull("GET", path, {"127.0.0.1:8080", {}, "cross-site", "navigate"}).has_value());
+        for (const char* site : {"same-origin", "same-site", "none", ""})
+        {
+            CHECK(AskOrNull("GET", path, {"127.0.0.1:8080", {}, site, "cors"}) == std::nullopt);
+        }
+    }
 }

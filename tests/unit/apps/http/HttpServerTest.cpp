@@ -213,6 +213,7 @@ TEST_CASE("A request that the guard refuses is answered with 403 and logged; the
     for (const std::string& header :
          {host + "Origin: http://evil.example\r\n",
           host + "sec-fetch-site: cross-site\r\n",
+          host + "Sec-Fetch-Site: cross-site\r\nSec-Fetch-Mode: navigate\r\n",
           std::string("Host: evil.example\r\n")})
     {
         INFO(header);
@@ -227,7 +228,8 @@ TEST_CASE("A request that the guard refuses is answered with 403 and logged; the
     client.Send("POST /tsc/pause HTTP/1.1\r\n" + host + "Content-Length: 0\r\n\r\n");
     REQUIRE(client.HasReceived("<answer>"));
     (void)client.TakeReceived();
-    client.Send("GET /metrics HTTP/1.1\r\nHost: acs.example:9090\r\n\r\n");
+    client.Send(
+        "GET /metrics HTTP/1.1\r\nHost: acs.example\r\nsec-fetch-site: cross-site\r\nsec-fetch-mode: navigate\r\n\r\n");
     REQUIRE(client.HasReceived("<answer>"));
     CHECK(fixture.requests.size() == 2);
 }
