@@ -51,7 +51,7 @@ class ApiClient:
         finally:
             connection.close()
         assert response.status == 404, text
-        return {tuple(line.split(" ", 1)) for line in text.splitlines()[1:]}
+        return {tuple(line.split(" ", 1)) for line in json.loads(text)["error"].splitlines()[1:]}
 
 
 class EventReader:

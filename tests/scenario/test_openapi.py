@@ -18,6 +18,7 @@ from production_line import find_free_port  # which scenario_case makes known
 POLL_PERIOD = 0.02
 TIME_SCALE = 10
 TOO_LONG = 1024 * 1024 + 1  # bytes of a body
+LONG_HEADER = {"X-Long": "x" * 17_000}
 MOST_STREAMS = 16  # of one client address
 CURVE = {"degree": 1, "knotVector": [0.0, 0.0, 1.0, 1.0]}
 SESSIONS = ("/v1/login", "/v1/logout")
@@ -230,6 +231,7 @@ class OpenApi(ScenarioCase):
     def check_invalid_requests(self):
         for method, path, operation, target, body in self.list_requests():
             self.check_unknown(method, path, operation, body)
+            self.api.ask(method, target, 431, headers=LONG_HEADER)
             if method == "POST":
                 self.api.ask("POST", target, 413, b" " * TOO_LONG)
                 if path not in SESSIONS:

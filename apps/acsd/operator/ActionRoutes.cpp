@@ -16,13 +16,6 @@ namespace ACS::Acsd
 namespace
 {
 
-Apps::HttpResponse RefuseUnknownRobot(const std::string& robotID)
-{
-    return MakeOperatorError(
-        OperatorCode::NOT_FOUND,
-        fmt::format("There is no robot {}; /v1/robots lists them.", Core::QuoteForError(robotID)));
-}
-
 Apps::HttpResponse AcceptAction(const std::string& robotID, const std::string& actionType, const std::string& actionID)
 {
     Apps::HttpResponse response{OperatorCode::ACCEPTED, "application/json", {}};
@@ -63,7 +56,7 @@ Apps::HttpResponse RequestAction(
         std::move(body->reason));
     if (!requested.has_value())
     {
-        return RefuseUnknownRobot(robotID);
+        return RefuseUnknown("robot", robotID);
     }
     if (!requested->has_value())
     {
@@ -86,7 +79,7 @@ void AddActionRoutes(Apps::HttpRoutes& routes, const ActionAccess& access)
             return MakeOperatorError(OperatorCode::BAD_REQUEST, *reason);
         }
         const std::optional<RobotActionsView> view = access.listOrNull(captures[0]);
-        return view.has_value() ? MakeJsonAnswer(EncodeActions(*view)) : RefuseUnknownRobot(captures[0]);
+        return view.has_value() ? MakeJsonAnswer(EncodeActions(*view)) : RefuseUnknown("robot", captures[0]);
     });
     routes.Add("POST", PATTERN, [access](const Apps::HttpRequest& request, const auto& captures) {
         return RequestAction(access, captures[0], request);

@@ -93,11 +93,6 @@ std::optional<Planning::RobotStatus> FindRobotOrNull(const Planning::PlanEngine&
     return std::nullopt;
 }
 
-HttpResponse RefuseRobot(const std::string& robotID)
-{
-    return Refuse(OperatorCode::NOT_FOUND, fmt::format("There is no robot {}; /v1/robots lists them.", robotID));
-}
-
 /// What the robot completes before it is out of service.
 std::string DescribeMaintenance(const Planning::PlanEngine& engine, const Planning::RobotStatus& robot)
 {
@@ -127,7 +122,7 @@ HttpResponse Maintain(
     const std::optional<Planning::RobotStatus> robot = FindRobotOrNull(engine, robotID);
     if (!robot.has_value())
     {
-        return RefuseRobot(robotID);
+        return RefuseUnknown("robot", robotID);
     }
     return Submit(
         access,
@@ -144,7 +139,7 @@ HttpResponse SetCarriers(
 {
     if (!FindRobotOrNull(engine, robotID).has_value())
     {
-        return RefuseRobot(robotID);
+        return RefuseUnknown("robot", robotID);
     }
     Planning::SetCarriers command{robotID, std::move(body.carrierIDs), 0};
     if (std::optional<std::string> reason = engine.GetRejectionReasonOrNull(command))
@@ -163,7 +158,10 @@ HttpResponse ClearAlarms(const Planning::PlanEngine& engine, const CommandAccess
     {
         return Refuse(
             OperatorCode::NOT_FOUND,
-            fmt::format("{} has no alarm {}; /v1/alarms lists the alarms.", body.robotID, body.errorCode));
+            fmt::format(
+                "{} has no alarm {}; /v1/alarms lists the alarms.",
+                Core::QuoteForError(body.robotID),
+                Core::QuoteForError(body.errorCode)));
     }
     return Submit(
         access,
@@ -174,6 +172,15 @@ HttpResponse ClearAlarms(const Planning::PlanEngine& engine, const CommandAccess
             std::move(body.jobID),
             0},
         "The alarm is cleared. It is set again if its cause persists.");
+}
+
+bool HasJob(const Planning::PlanEngine& engine, const std::string& planID, const std::string& jobID)
+{
+    const Planning::PlanRecord* recordOrNull = engine.GetPlanRecordOrNull(planID);
+    return recordOrNull != nullptr
+        && std::ranges::any_of(recordOrNull->plan.steps, [&jobID](const Planning::Step& step) {
+               return std::ranges::find(step.jobs, jobID, &Planning::Job::jobID) != step.jobs.end();
+           });
 }
 
 std::optional<Planning::EJobResolution> ReadOutcomeOrNull(std::string_view word)
@@ -211,16 +218,23 @@ HttpResponse ResolveJob(
         return Submit(access, std::move(command), "The job is resolved; its alarm ACS-1008 is cleared.");
     }
     command.resolution = Planning::EJobResolution::Done;
-    const bool bUnresolved = !engine.GetRejectionReasonOrNull(command).has_value();
-    return bUnresolved
-        ? Refuse(OperatorCode::CONFLICT, *reason)
-        : Refuse(OperatorCode::NOT_FOUND, *reason + " /v1/alarms lists each unresolved job as an alarm ACS-1008.");
+    if (!engine.GetRejectionReasonOrNull(command).has_value())
+    {
+        return Refuse(OperatorCode::CONFLICT, *reason);
+    }
+    const std::string sentence = HasJob(engine, captures[0], captures[1]) ? *reason
+                                                                          : fmt::format(
+                                                                              "There is no job {} of a plan {}.",
+                                                                              Core::QuoteForError(captures[1]),
+                                                                              Core::QuoteForError(captures[0]));
+    return Refuse(OperatorCode::NOT_FOUND, sentence + " /v1/alarms lists each unresolved job as an alarm ACS-1008.");
 }
 
 /// 404 for an unknown plan, otherwise 409.
 HttpResponse RefusePlan(const Planning::PlanEngine& engine, const std::string& planID, std::string_view reason)
 {
-    return Refuse(engine.GetPlanOrNull(planID).has_value() ? OperatorCode::CONFLICT : OperatorCode::NOT_FOUND, reason);
+    return engine.GetPlanOrNull(planID).has_value() ? Refuse(OperatorCode::CONFLICT, reason)
+                                                    : RefuseUnknown("plan", planID);
 }
 
 HttpResponse SkipStep(
@@ -232,7 +246,7 @@ HttpResponse SkipStep(
     Planning::SkipStep command{planID, 0, 0};
     const char* end = stepText.data() + stepText.size();
     const auto [parsed, error] = std::from_chars(stepText.data(), end, command.stepNo);
-    if (error != std::errc() || parsed != end)
+    if (error != std::errc() || parsed != end || command.stepNo < 1)
     {
         return Refuse(
             OperatorCode::BAD_REQUEST,
@@ -241,9 +255,14 @@ HttpResponse SkipStep(
     if (const std::optional<std::string> reason = engine.GetRejectionReasonOrNull(command))
     {
         const Planning::PlanRecord* recordOrNull = engine.GetPlanRecordOrNull(planID);
-        const bool bExists = recordOrNull != nullptr
-            && std::ranges::count(recordOrNull->plan.steps, command.stepNo, &Planning::Step::stepNo) > 0;
-        return Refuse(bExists ? OperatorCode::CONFLICT : OperatorCode::NOT_FOUND, *reason);
+        if (recordOrNull == nullptr)
+        {
+            return RefuseUnknown("plan", planID);
+        }
+        const bool bExists = std::ranges::count(recordOrNull->plan.steps, command.stepNo, &Planning::Step::stepNo) > 0;
+        return bExists
+            ? Refuse(OperatorCode::CONFLICT, *reason)
+            : Refuse(OperatorCode::NOT_FOUND, fmt::format("Plan {} has no step {}.", planID, command.stepNo));
     }
     return Submit(access, std::move(command), fmt::format("Step {} of plan {} is skipped.", stepText, planID));
 }

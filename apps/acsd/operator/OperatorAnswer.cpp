@@ -30,6 +30,13 @@ Apps::HttpResponse MakeOperatorError(unsigned status, std::string_view sentence)
     return MakeSentence(status, "error", sentence);
 }
 
+Apps::HttpResponse RefuseUnknown(std::string_view kind, std::string_view id)
+{
+    return MakeOperatorError(
+        OperatorCode::NOT_FOUND,
+        fmt::format("There is no {} {}; /v1/{}s lists them.", kind, Core::QuoteForError(id), kind));
+}
+
 Apps::HttpResponse MakeAccepted(std::string_view sentence)
 {
     return MakeSentence(OperatorCode::ACCEPTED, "message", sentence);

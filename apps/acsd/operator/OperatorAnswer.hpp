@@ -24,6 +24,9 @@ struct OperatorCode
 /// {"error":"…"}
 [[nodiscard]] Apps::HttpResponse MakeOperatorError(unsigned status, std::string_view sentence);
 
+/// 404 of a plan or a robot that does not exist; kind: "plan" or "robot".
+[[nodiscard]] Apps::HttpResponse RefuseUnknown(std::string_view kind, std::string_view id);
+
 /// 202 {"message":"…"}
 [[nodiscard]] Apps::HttpResponse MakeAccepted(std::string_view sentence);
 

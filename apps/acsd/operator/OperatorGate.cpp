@@ -35,7 +35,8 @@ OperatorGate::OperatorGate(const Core::IClock& clock, Core::Logger logger, Acces
     : _clock(clock),
       _refusals(std::move(logger)),
       _policy(std::move(policy)),
-      _audit(audit)
+      _audit(audit),
+      _routes(MakeOperatorError)
 {
     _routes.Add("GET", "/v1/audit", [this](const Apps::HttpRequest& request, const auto&) {
         return RespondWithLines(request, _audit.GetNewest());

@@ -7,8 +7,6 @@
 #include "view/ViewCodec.hpp"
 #include <acs/core/Result.hpp>
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -47,9 +45,7 @@ HttpResponse ShowPlan(const Planning::PlanEngine& engine, const StateView& state
     const std::optional<Planning::PlanSummary> summary = engine.GetPlanOrNull(planID);
     if (recordOrNull == nullptr || !summary.has_value())
     {
-        return MakeOperatorError(
-            OperatorCode::NOT_FOUND,
-            fmt::format("There is no plan {}; /v1/plans lists them.", Core::QuoteForError(planID)));
+        return RefuseUnknown("plan", planID);
     }
     PlanView plan = MakePlanView(*recordOrNull, *summary, EPlanDetail::Jobs);
     if (const auto found = std::ranges::find(state.plans, planID, &PlanView::planID); found != state.plans.end())
@@ -65,9 +61,7 @@ HttpResponse ShowRobot(const StateView& state, const std::string& robotID)
     const auto found = std::ranges::find(state.robots, robotID, &RobotView::robotID);
     if (found == state.robots.end())
     {
-        return MakeOperatorError(
-            OperatorCode::NOT_FOUND,
-            fmt::format("There is no robot {}; /v1/robots lists them.", Core::QuoteForError(robotID)));
+        return RefuseUnknown("robot", robotID);
     }
     return MakeJsonAnswer(EncodeRobot(*found));
 }

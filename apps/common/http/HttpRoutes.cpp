@@ -42,7 +42,22 @@ std::optional<HttpRoutes::Captures> MatchOrNull(
     return captures;
 }
 
+HttpResponse MakePlainRefusal(unsigned status, const std::string& text)
+{
+    return {status, PLAIN_TEXT, text + "\n"};
+}
+
 } // namespace
+
+HttpRoutes::HttpRoutes()
+    : HttpRoutes(MakePlainRefusal)
+{
+}
+
+HttpRoutes::HttpRoutes(RefusalMaker makeRefusal)
+    : _makeRefusal(std::move(makeRefusal))
+{
+}
 
 void HttpRoutes::Add(std::string_view method, std::string_view pattern, Handler handler)
 {
@@ -75,14 +90,16 @@ HttpResponse HttpRoutes::Refuse(const std::string& allowedMethods) const
 {
     if (!allowedMethods.empty())
     {
-        return {HTTP_NOT_ALLOWED, PLAIN_TEXT, "allowed methods: " + allowedMethods + "\n", {}, allowedMethods};
+        HttpResponse response = _makeRefusal(HTTP_NOT_ALLOWED, "allowed methods: " + allowedMethods);
+        response.allow = allowedMethods;
+        return response;
     }
-    HttpResponse response{HTTP_NOT_FOUND, PLAIN_TEXT, "not found; available paths:\n"};
+    std::string text = "not found; available paths:";
     for (const Route& route : _routes)
     {
-        response.body += route.method + " " + route.pattern + "\n";
+        text += "\n" + route.method + " " + route.pattern;
     }
-    return response;
+    return _makeRefusal(HTTP_NOT_FOUND, text);
 }
 
 } // namespace ACS::Apps

@@ -18,6 +18,8 @@ public:
     /// The decoded segments of the path that match a {NAME} of the pattern, in order.
     using Captures = std::vector<std::string>;
     using Handler = std::function<HttpResponse(const HttpRequest& request, const Captures& captures)>;
+    /// The response with this status (404 or 405) and text.
+    using RefusalMaker = std::function<HttpResponse(unsigned status, const std::string& text)>;
 
 private:
     struct Route
@@ -28,9 +30,14 @@ private:
         Handler handler;
     };
 
+    RefusalMaker _makeRefusal;
     std::vector<Route> _routes;
 
 public:
+    /// Refusals are plain text.
+    HttpRoutes();
+    explicit HttpRoutes(RefusalMaker makeRefusal);
+
     /// A pattern is a path, with {NAME} for any segment that is not empty: "/v1/robots/{ID}/maintenance".
     void Add(std::string_view method, std::string_view pattern, Handler handler);
 

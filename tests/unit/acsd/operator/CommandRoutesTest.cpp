@@ -109,7 +109,7 @@ TEST_CASE("POST /v1/robots/ID/maintenance; the robot shows it and why a plan wai
     CHECK(user.world.GetReportsOf("P1").back() == "Plan Completed");
     CHECK(
         user.Post("/v1/robots/LR09/maintenance", ON)
-        == "404 {\"error\":\"There is no robot LR09; /v1/robots lists them.\"}\n");
+        == "404 {\"error\":\"There is no robot \\\"LR09\\\"; /v1/robots lists them.\"}\n");
     CHECK(HasText(user.Post("/v1/robots/LR01/maintenance", R"({"on":"maybe"})"), "400 "));
 }
 
@@ -159,7 +159,7 @@ TEST_CASE("POST /v1/plans/PLAN/jobs/JOB/resolve resolves an unresolved job, and 
         "404 {\"error\":\"LR01 is connected and will report the outcome of the job."));
     CHECK(HasText(
         user.Post("/v1/plans/P1/jobs/P1-zz/resolve", DONE),
-        "404 {\"error\":\"No robot has job P1-zz of plan P1."));
+        "404 {\"error\":\"There is no job \\\"P1-zz\\\" of a plan \\\"P1\\\"."));
     user.world.Raise("LR01", Planning::JobUnresolved{"P1-a4", "it was switched off"});
     CHECK(HasText(user.GetStatus(), R"("errorCode":"ACS-1008")"));
     CHECK(HasText(user.GetStatus(), R"("planId":"P1","stepNo":1,"jobId":"P1-a4"})"));
@@ -194,10 +194,10 @@ TEST_CASE("POST /v1/plans/PLAN/steps/NO/skip skips a step that is Pending or who
     user.world.Submit(MakeLogisticsPlan("P1"));
     CHECK(HasText(user.Post("/v1/plans/P1/steps/1/skip"), "409 {\"error\":\"Plan P1 has no robot yet"));
     REQUIRE(Testing::TryRunUntil(user.world, "P1", "Job 1 P1-a4 InProgress"));
-    CHECK(HasText(user.Post("/v1/plans/P9/steps/1/skip"), "404 {\"error\":\"There is no plan P9."));
+    CHECK(HasText(user.Post("/v1/plans/P9/steps/1/skip"), "404 {\"error\":\"There is no plan \\\"P9\\\"; "));
     CHECK(HasText(user.Post("/v1/plans/P1/steps/9/skip"), "404 {\"error\":\"Plan P1 has no step 9."));
     CHECK(HasText(user.Post("/v1/plans/P1/steps/1/skip"), "409 {\"error\":\"Step 1 is InProgress"));
-    for (const std::string number : {"one", "1x", "%201", "99999999999"})
+    for (const std::string number : {"one", "1x", "%201", "99999999999", "-1", "0"})
     {
         CHECK(HasText(user.Post("/v1/plans/P1/steps/" + number + "/skip"), "400 {\"error\":\"Expected a stepNo"));
     }
@@ -289,6 +289,28 @@ TEST_CASE("POST /v1/site/block and unblock close and open a place of the map")
     CHECK(user.world.engine->GetBlocks().empty());
     CHECK(HasText(user.GetStatus(), R"("siteRevision":2)"));
     CHECK(HasText(user.Post("/v1/site/unblock", R"({"kind":"station","id":"CHG01"})"), "409 "));
+}
+
+TEST_CASE("An unknown id is quoted and cut in the answer")
+{
+    Operator user;
+    const std::string longID = "%1B" + std::string(9'000, 'x');
+    const std::string body = R"({"robotId":"\u001b)" + std::string(9'000, 'x') + R"(","errorCode":"E"})";
+    for (const std::string& answer :
+         {user.Post("/v1/robots/" + longID + "/maintenance", ON),
+          user.Post("/v1/robots/" + longID + "/carriers", R"({"carrierIds":[]})"),
+          user.Post("/v1/alarms/clear", body),
+          user.Post("/v1/plans/" + longID + "/abort"),
+          user.Post("/v1/plans/" + longID + "/priority", R"({"priority":1})"),
+          user.Post("/v1/plans/" + longID + "/steps/1/skip"),
+          user.Post("/v1/plans/" + longID + "/jobs/" + longID + "/resolve", DONE),
+          user.Post("/v1/site/block", R"({"kind":"node","id":"\u001b)" + std::string(9'000, 'x') + R"("})")})
+    {
+        CAPTURE(answer.substr(0, 300));
+        CHECK(HasText(answer, "404 "));
+        CHECK(answer.size() < 500);
+        CHECK(answer.find("u001b") == std::string::npos);
+    }
 }
 
 TEST_CASE("Parameters in the query, unknown and repeated members and invalid bodies are refused by name")
@@ -406,7 +428,7 @@ TEST_CASE("POST /v1/alarms/clear clears by robot and code")
         == std::vector<std::string>{"Error ACS-1002 set", "Error ACS-1002 cleared", "Error ACS-1002 set"});
     CHECK(HasText(
         user.Post("/v1/alarms/clear", R"({"robotId":"LR01","errorCode":"ACS-1004"})"),
-        "404 {\"error\":\"LR01 has no alarm ACS-1004"));
+        "404 {\"error\":\"\\\"LR01\\\" has no alarm \\\"ACS-1004\\\""));
     CHECK(HasText(user.Post("/v1/alarms/clear", R"({"robotId":"LR01"})"), "400 {\"error\":\"Invalid body: "));
     CHECK(HasText(user.Post("/v1/alarms/clear", R"({"robotId":"LR01","errorCode":"ACS-1002","stepNo":1})"), "400 "));
 }

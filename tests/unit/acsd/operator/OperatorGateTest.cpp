@@ -138,6 +138,10 @@ TEST_CASE("Each command of an identified client is in the audit log with its out
     CHECK(fixture.Post("write", "/unknown").status == 404);
     CHECK(fixture.Post("guess").status == 401);
     CHECK(fixture.Ask("GET", "write", "/v1/tsc/pause").status == 405);
+    const Apps::HttpResponse unknown = fixture.Ask("GET", "write", "/v1/ghosts");
+    CHECK(unknown.contentType == "application/json");
+    CHECK(unknown.body.starts_with(R"({"error":"not found; available paths:\nGET /v1/audit\n)"));
+    CHECK(fixture.Ask("GET", "write", "/v1/tsc/pause").body == "{\"error\":\"allowed methods: POST\"}\n");
     const Apps::HttpResponse audit = fixture.Ask("GET", "read", "/v1/audit");
     CHECK(audit.status == 200);
     CHECK(audit.contentType == "application/x-ndjson");

@@ -45,6 +45,22 @@ TEST_CASE("A path of another method is answered with 405 and the allowed methods
     REQUIRE(Ask(routes, "HEAD", "/plans/P/jobs/J/done").allow == "POST");
 }
 
+TEST_CASE("Refusals are made by the owner, with the same text and the allowed methods")
+{
+    Apps::HttpRoutes routes([](unsigned status, const std::string& text) {
+        return Apps::HttpResponse{status, "x", "<" + text + ">"};
+    });
+    routes.Add("GET", "/status", [](const auto&, const auto&) { return Apps::HttpResponse(); });
+    const Apps::HttpResponse unknown = Ask(routes, "GET", "/x");
+    CHECK(unknown.status == 404);
+    CHECK(unknown.contentType == "x");
+    CHECK(unknown.body == "<not found; available paths:\nGET /status>");
+    const Apps::HttpResponse method = Ask(routes, "POST", "/status");
+    CHECK(method.status == 405);
+    CHECK(method.allow == "GET, HEAD");
+    CHECK(method.body == "<allowed methods: GET, HEAD>");
+}
+
 TEST_CASE("HEAD is allowed for every path with GET")
 {
     const Apps::HttpResponse response = Ask(MakeRoutes(), "HEAD", "/status");
