@@ -32,11 +32,23 @@ void AppendText(std::string_view name, std::string_view text, std::string& line)
     Core::JsonText::AppendString(text.substr(0, LONGEST_AUDIT_TEXT), line);
 }
 
-/// Not the body of a login, which has a token, also not if its path is wrong.
-bool HasPublicBody(const AuditEntry& entry)
+/// Whether acsd does not have what the request is for. It may have been meant for /v1/login, which has a token.
+bool IsMisdirected(const AuditEntry& entry)
 {
     constexpr unsigned NOT_FOUND = 404;
-    return !entry.request.body.empty() && entry.response.status != NOT_FOUND && entry.request.path != "/v1/login";
+    constexpr unsigned NOT_ALLOWED = 405;
+    return entry.response.status == NOT_FOUND || entry.response.status == NOT_ALLOWED;
+}
+
+bool HasPublicBody(const AuditEntry& entry)
+{
+    return !entry.request.body.empty() && !IsMisdirected(entry) && entry.request.path != "/v1/login";
+}
+
+std::string_view GetPublicTarget(const AuditEntry& entry)
+{
+    const std::string_view target = entry.request.target;
+    return IsMisdirected(entry) ? target.substr(0, target.find('?')) : target;
 }
 
 void BeginAuditLine(Core::Now now, std::string& line)
@@ -63,7 +75,7 @@ std::string MakeAuditLine(const AuditEntry& entry, Core::Now now)
     AppendText("name", entry.identity.name, line);
     AppendText("role", GetText(entry.identity.role), line);
     AppendText("method", entry.request.method, line);
-    AppendText("request", entry.request.target, line);
+    AppendText("request", GetPublicTarget(entry), line);
     if (HasPublicBody(entry))
     {
         AppendText("body", entry.request.body, line);

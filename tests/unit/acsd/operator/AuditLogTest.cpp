@@ -105,6 +105,14 @@ TEST_CASE("An entry of the audit log has the body of a command, but never a toke
     CHECK(Acsd::MakeAuditLine({request, KIM, {400, "text/plain", "no"}}, now).size() < 2'000);
     request.body = R"({"token":"secret"})";
     CHECK(Acsd::MakeAuditLine({request, KIM, {404, "text/plain", "no"}}, now).find("secret") == std::string::npos);
+    CHECK(Acsd::MakeAuditLine({request, KIM, {405, "text/plain", "no"}}, now).find("secret") == std::string::npos);
+    for (const unsigned status : {404U, 405U})
+    {
+        const Apps::HttpRequest wrong = MakePost("/v1/logn?token=secret");
+        const std::string line = Acsd::MakeAuditLine({wrong, KIM, {status, "text/plain", "no"}}, now);
+        CHECK(line.find(R"("request":"/v1/logn","status":)") != std::string::npos);
+        CHECK(line.find("secret") == std::string::npos);
+    }
     request = MakePost("/v1/login");
     request.body = R"({"token":"secret"})";
     CHECK(Acsd::MakeAuditLine({request, KIM, {204, "", ""}}, now).find("secret") == std::string::npos);
