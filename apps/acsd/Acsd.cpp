@@ -15,7 +15,6 @@
 #include "operator/DescriptionRoute.hpp"
 #include "operator/HealthRoutes.hpp"
 #include "operator/HttpInterfaces.hpp"
-#include "operator/OperatorAnswer.hpp"
 #include "operator/PageRoutes.hpp"
 #include "operator/PlanLog.hpp"
 #include "operator/ReadRoutes.hpp"
@@ -69,6 +68,7 @@ class Acsd::Impl final : private IAcsdOutput
     Apps::TimerSet<AcsdTimer> _timers;
     Apps::TimerSet<ESampleTimer> _sampling;
     Apps::LoopWatchdog _watchdog;
+    TraceRoute _traceRoute;
     HttpInterfaces _http;
     StateFeed _feed;
     std::size_t _openLinks = 0; ///< Of those that are being closed.
@@ -125,6 +125,7 @@ public:
               _dependencies.executor,
               {_config.operations.stallLimit, _dependencies.aliveInterval},
               {[this](Core::Duration stall) { OnStall(stall); }, _dependencies.onAlive}),
+          _traceRoute(_dependencies.executor, _dependencies.traceOrNull),
           _http({_dependencies.executor, _dependencies.clock, _dependencies.logger}, _config.http, std::move(audit)),
           _feed(
               {_dependencies.executor,
@@ -347,9 +348,7 @@ private:
                  return _feed.GetEventID();
              }});
         commands.Add("GET", "/v1/trace", [this](const Apps::HttpRequest& request, const auto&) {
-            return _dependencies.traceOrNull == nullptr
-                ? MakeOperatorError(OperatorCode::NOT_FOUND, "Messages are not traced: start acsd with --trace DIR.")
-                : RespondWithTrace(request, *_dependencies.traceOrNull);
+            return _traceRoute.Respond(request);
         });
         AddDescriptionRoute(commands);
         AddPageRoutes(commands);

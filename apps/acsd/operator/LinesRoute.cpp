@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace ACS::Acsd
 {
@@ -20,25 +21,34 @@ constexpr std::size_t DEFAULT_LINES = 100;
 
 } // namespace
 
-Apps::HttpResponse RespondWithLines(
+tl::expected<std::size_t, std::string> ReadLineLimit(
     const Apps::HttpRequest& request,
-    const Apps::NewestLines& lines,
     std::initializer_list<std::string_view> known)
 {
-    if (const std::optional<std::string> reason = FindUnexpectedParameterOrNull(request, known))
+    if (std::optional<std::string> reason = FindUnexpectedParameterOrNull(request, known))
     {
-        return MakeOperatorError(OperatorCode::BAD_REQUEST, *reason);
+        return tl::make_unexpected(std::move(*reason));
     }
     const std::string text = request.GetQueryOrNull("limit").value_or(std::to_string(DEFAULT_LINES));
     std::size_t limit = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), limit);
     if (error != std::errc() || end != text.data() + text.size() || limit == 0 || limit > MOST_SHOWN_LINES)
     {
-        return MakeOperatorError(
-            OperatorCode::BAD_REQUEST,
+        return tl::make_unexpected(
             fmt::format("Expected limit from 1 to {}, found {}.", MOST_SHOWN_LINES, Core::QuoteForError(text)));
     }
+    return limit;
+}
+
+Apps::HttpResponse MakeLines(const Apps::NewestLines& lines, std::size_t limit)
+{
     return {OperatorCode::OK, "application/x-ndjson", lines.GetText(limit)};
+}
+
+Apps::HttpResponse RespondWithLines(const Apps::HttpRequest& request, const Apps::NewestLines& lines)
+{
+    const tl::expected<std::size_t, std::string> limit = ReadLineLimit(request, {"limit"});
+    return limit.has_value() ? MakeLines(lines, *limit) : MakeOperatorError(OperatorCode::BAD_REQUEST, limit.error());
 }
 
 } // namespace ACS::Acsd

@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <deque>
 #include <functional>
+#include <iterator>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace ACS::Acsd
 {
@@ -129,35 +131,40 @@ void MessageTrace::SetPlan(const std::string& robotID, const std::string& planID
     }
 }
 
-Apps::NewestLines MessageTrace::Find(const Apps::TraceQuery& query, std::size_t maximum) const
+MessageTrace::LineSearch MessageTrace::MakeSearch(Apps::TraceQuery query, std::size_t maximum) const
 {
-    Apps::NewestLines found(maximum, NEWEST_BYTES);
     const std::deque<std::string>& newest = _newest.GetLines();
-    const auto matching = static_cast<std::size_t>(
-        std::ranges::count_if(newest, [&query](const std::string& line) { return query.IsMatch(line); }));
-    if (matching < maximum)
-    {
-        // The time is at the beginning of a line. The last lines may not be in the files yet.
-        const std::string until = newest.empty() ? std::string() : newest.front().substr(0, TIME_END);
-        for (std::string& line : Apps::FindNewestLines(
-                 _folder,
-                 Apps::TraceFileStyle().prefix,
-                 maximum - matching,
-                 [&](std::string_view candidate) {
-                     return (until.empty() || candidate.substr(0, TIME_END) < until) && query.IsMatch(candidate);
-                 }))
+    std::vector<std::string> matching;
+    std::ranges::copy_if(newest, std::back_inserter(matching), [&query](const std::string& line) {
+        return query.IsMatch(line);
+    });
+    // The time is at the beginning of a line. The last lines may not be in the files yet.
+    std::string until = newest.empty() ? std::string() : newest.front().substr(0, TIME_END);
+    return [folder = _folder,
+            query = std::move(query),
+            maximum,
+            matching = std::move(matching),
+            until = std::move(until)] {
+        Apps::NewestLines found(maximum, NEWEST_BYTES);
+        if (matching.size() < maximum)
         {
-            found.Add(std::move(line));
+            for (std::string& line : Apps::FindNewestLines(
+                     folder,
+                     Apps::TraceFileStyle().prefix,
+                     maximum - matching.size(),
+                     [&until, &query](std::string_view candidate) {
+                         return (until.empty() || candidate.substr(0, TIME_END) < until) && query.IsMatch(candidate);
+                     }))
+            {
+                found.Add(std::move(line));
+            }
         }
-    }
-    for (const std::string& line : newest)
-    {
-        if (query.IsMatch(line))
+        for (const std::string& line : matching)
         {
             found.Add(line);
         }
-    }
-    return found;
+        return found;
+    };
 }
 
 void MessageTrace::SetLimits(const Apps::TraceLimits& limits)

@@ -47,6 +47,10 @@ enum class ETraceUse : std::uint8_t
 /// Writes every message of every link to a trace. Called on one thread, the executor's.
 class MessageTrace final
 {
+public:
+    using LineSearch = std::function<Apps::NewestLines()>;
+
+private:
     const Core::IClock& _clock;
     const std::string _folder;
     std::map<std::string, std::string, std::less<>> _plans; ///< Of the robots that have one.
@@ -85,8 +89,9 @@ public:
     /// The plan that the robot has; empty: none.
     void SetPlan(const std::string& robotID, const std::string& planID);
 
-    /// The newest lines that match, in memory and at the end of the files; at most this number.
-    [[nodiscard]] Apps::NewestLines Find(const Apps::TraceQuery& query, std::size_t maximum) const;
+    /// Finds the newest lines that match, in memory and at the end of the files; at most this number. Reads the files when it is
+    /// called, which may be on any thread, also after the end of the trace.
+    [[nodiscard]] LineSearch MakeSearch(Apps::TraceQuery query, std::size_t maximum) const;
 
     /// For the next file.
     void SetLimits(const Apps::TraceLimits& limits);

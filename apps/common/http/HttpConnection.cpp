@@ -1,6 +1,7 @@
 #include "common/http/HttpConnection.hpp"
 
 #include "common/http/HttpPeer.hpp"
+#include "common/http/HttpPendingResponse.hpp"
 #include "common/http/HttpTls.hpp"
 
 #include <boost/asio/buffer.hpp>
@@ -240,6 +241,16 @@ void HttpConnection::Answer(IHttpConnectionOwner& owner, const BeastRequest& mes
         _certificateName,
         _stream.GetTlsOrNull() != nullptr};
     const HttpResponse response = owner.Respond(*request, *this);
+    if (response.pending != nullptr)
+    {
+        response.pending->Attach([weak = weak_from_this(), bKeepAlive, bHead](const HttpResponse& complete) {
+            if (const std::shared_ptr<HttpConnection> self = weak.lock())
+            {
+                self->WriteAsync(complete, bKeepAlive, bHead);
+            }
+        });
+        return;
+    }
     if (response.stream != nullptr && bHead)
     {
         response.stream->End();

@@ -16,6 +16,7 @@ namespace ACS::Apps
 {
 
 class HttpBodyStream;
+class HttpPendingResponse;
 
 /// Names and values.
 using HttpHeaders = std::vector<std::pair<std::string, std::string>>;
@@ -62,6 +63,8 @@ struct HttpResponse
     HttpHeaders headers{};             ///< Further ones, such as Set-Cookie.
     /// Instead of `body`: the response continues until the stream ends or the peer closes the connection.
     std::shared_ptr<HttpBodyStream> stream{};
+    /// Instead of all other members: the response follows when it is complete.
+    std::shared_ptr<HttpPendingResponse> pending{};
 };
 
 /// Splits the target of a request line into path and query and decodes both. Fails if the target is invalid.

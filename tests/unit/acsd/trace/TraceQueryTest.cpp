@@ -1,10 +1,14 @@
 #include "common/trace/TraceQuery.hpp"
 
 #include "Catch.hpp"
+#include "common/http/HttpPendingResponse.hpp"
 #include "ManualClock.hpp"
 #include "TemporaryFolder.hpp"
 #include "trace/MessageTrace.hpp"
 #include "trace/TraceRoute.hpp"
+
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/io_context.hpp>
 
 #include <chrono>
 #include <cstddef>
@@ -35,7 +39,31 @@ struct QueryFixture
 
     [[nodiscard]] std::string Find(const Apps::TraceQuery& query) const
     {
-        return trace->Find(query, 1'000).GetText(1'000);
+        return trace->MakeSearch(query, 1'000)().GetText(1'000);
+    }
+};
+
+struct Loop
+{
+    boost::asio::io_context context;
+    boost::asio::executor_work_guard<boost::asio::io_context::executor_type> guard{context.get_executor()};
+
+    /// Runs until the response is complete.
+    Apps::HttpResponse Complete(Apps::HttpResponse response)
+    {
+        if (response.pending != nullptr)
+        {
+            bool bComplete = false;
+            response.pending->Attach([&response, &bComplete](const Apps::HttpResponse& complete) {
+                response = complete;
+                bComplete = true;
+            });
+            while (!bComplete)
+            {
+                context.run_one();
+            }
+        }
+        return response;
     }
 };
 
@@ -95,8 +123,10 @@ TEST_CASE_METHOD(QueryFixture, "GET /v1/trace has the lines that match its param
 {
     trace->Write({"mqtt", EWireDirection::In, "LR01", "t", "one"});
     trace->Write({"mqtt", EWireDirection::In, "LR02", "t", "two"});
-    const auto get = [this](const std::string& target) {
-        return RespondWithTrace(*Apps::ParseHttpTarget(target), *trace);
+    Loop loop;
+    TraceRoute route(loop.context.get_executor(), trace.get());
+    const auto get = [&](const std::string& target) {
+        return loop.Complete(route.Respond(*Apps::ParseHttpTarget(target)));
     };
     const std::string found = get("/v1/trace?robot=LR02&limit=5").body;
     CHECK(found.find("two") != std::string::npos);
@@ -107,8 +137,60 @@ TEST_CASE_METHOD(QueryFixture, "GET /v1/trace has the lines that match its param
          {"/v1/trace?robots=LR02", "/v1/trace?robot=LR01&robot=LR02", "/v1/trace?robot=LR01&limit=0"})
     {
         CAPTURE(target);
-        CHECK(get(target).status == 400);
+        const Apps::HttpResponse refusal = route.Respond(*Apps::ParseHttpTarget(target));
+        CHECK(refusal.status == 400);
+        CHECK(refusal.pending == nullptr);
     }
+}
+
+TEST_CASE_METHOD(QueryFixture, "A search does not block the loop; a further one is refused until it has ended")
+{
+    trace->Write({"mqtt", EWireDirection::In, "LR01", "t", "one"});
+    Loop loop;
+    TraceRoute route(loop.context.get_executor(), trace.get());
+    const Apps::HttpRequest search = *Apps::ParseHttpTarget("/v1/trace?robot=LR01");
+    const Apps::HttpResponse first = route.Respond(search);
+    REQUIRE(first.pending != nullptr);
+    for (int i = 0; i < 3; ++i)
+    {
+        const Apps::HttpResponse busy = route.Respond(search);
+        CHECK(busy.status == 503);
+        CHECK(busy.retryAfter == std::chrono::seconds(1));
+        CHECK(busy.body.starts_with("{\"error\":\""));
+    }
+    CHECK(route.Respond(*Apps::ParseHttpTarget("/v1/trace")).status == 200);
+    CHECK(loop.Complete(first).body.find("one") != std::string::npos);
+    CHECK(loop.Complete(route.Respond(search)).body.find("one") != std::string::npos);
+}
+
+TEST_CASE_METHOD(QueryFixture, "A search that runs when its route ends is dropped")
+{
+    Loop loop;
+    {
+        TraceRoute route(loop.context.get_executor(), trace.get());
+        CHECK(route.Respond(*Apps::ParseHttpTarget("/v1/trace?plan=P1")).pending != nullptr);
+    }
+    loop.guard.reset();
+    CHECK(loop.context.run() == 1);
+}
+
+TEST_CASE_METHOD(QueryFixture, "A search ends with the newest lines that were demanded")
+{
+    trace->SetPlan("LR01", "P1");
+    for (const char* text : {"one", "two", "three"})
+    {
+        trace->Write({"mqtt", EWireDirection::In, "LR01", "t", text});
+    }
+    const std::string found = trace->MakeSearch({"P1", {}, {}}, 2)().GetText(9);
+    CHECK(found.find("one") == std::string::npos);
+    CHECK(found.find("two") < found.find("three"));
+}
+
+TEST_CASE("Without a trace GET /v1/trace is answered with 404")
+{
+    Loop loop;
+    TraceRoute route(loop.context.get_executor(), nullptr);
+    CHECK(route.Respond(*Apps::ParseHttpTarget("/v1/trace?plan=P1")).status == 404);
 }
 
 TEST_CASE("A text that looks like a member is no match")

@@ -2,6 +2,7 @@
 
 #include "Catch.hpp"
 #include "common/http/HttpPeer.hpp"
+#include "common/http/HttpPendingResponse.hpp"
 #include "common/log/LogRateLimiter.hpp"
 #include "HttpServerFixture.hpp"
 #include "RawHttpClient.hpp"
@@ -108,6 +109,40 @@ TEST_CASE("A delayed response delays neither other connections nor Stop")
     fixture.server->Stop();
     REQUIRE(slow.WasClosed());
     CHECK(slow.TakeReceived().empty());
+}
+
+TEST_CASE("A response that is completed later delays no other one, and is dropped if its connection is gone")
+{
+    Fixture fixture;
+    std::vector<std::shared_ptr<Apps::HttpPendingResponse>> pending;
+    fixture.respond = [&](const Apps::HttpRequest& request) {
+        Apps::HttpResponse response = fixture.answer;
+        if (request.path == "/later")
+        {
+            response.pending = pending.emplace_back(std::make_shared<Apps::HttpPendingResponse>());
+        }
+        return response;
+    };
+    RawClient later(fixture.context, fixture.port);
+    later.Send("GET /later HTTP/1.1\r\nHost: x\r\n\r\nGET /next HTTP/1.1\r\nHost: x\r\n\r\n");
+    auto gone = std::make_unique<RawClient>(fixture.context, fixture.port);
+    gone->Send("GET /later HTTP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(fixture.IsReached([&pending] { return pending.size() == 2; }));
+    gone.reset();
+    RawClient other(fixture.context, fixture.port);
+    other.Send("GET / HTTP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(other.HasReceived("<answer>"));
+    CHECK(later.TakeReceived().empty());
+    for (const auto& response : pending)
+    {
+        response->Complete({200, "text/plain", "<later>"});
+    }
+    REQUIRE(later.HasReceived("<answer>"));
+    const std::string received = later.TakeReceived();
+    CHECK_THAT(received, Contains("Content-Length: 7\r\n"));
+    CHECK(received.find("<later>") < received.find("<answer>"));
+    fixture.server->Stop();
+    pending.front()->Complete({200, "text/plain", "<again>"});
 }
 
 TEST_CASE("Expect: 100-continue is answered with 100, unless the body is too long")
