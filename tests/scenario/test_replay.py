@@ -2,6 +2,7 @@
 """acsd replay repeats recorded runs of the whole line: with faults, with the first difference, and without a beginning."""
 
 import json
+import os
 import subprocess
 import urllib.request
 
@@ -37,13 +38,33 @@ class Replay(TracedLineCase):
         lines = files[-1].read_text().splitlines()
         place = next(i for i, line in enumerate(lines) if json.loads(line).get("kind") == "report"
                      and "Completed" in line)
-        lines[place] = lines[place].replace("Completed", "Cancelled")
+        lines[place] = lines[place].replace("Completed", "Cancelled\u202e\u009b")
         changed = self.line.folder / "changed.ndjson"
         changed.write_text("\n".join(lines) + "\n")
         replayed = self.replay(changed)
         self.assertEqual(replayed.returncode, 1, replayed.stdout + replayed.stderr)
         self.assertIn(f"(changed.ndjson:{place + 1})", replayed.stdout)
-        self.assertRegex(replayed.stdout, r"expected: .*Cancelled.*\n  actual: .*Completed")
+        self.assertRegex(replayed.stdout, r"expected: .*Cancelled\\xe2\\x80\\xae\\xc2\\x9b.*\n  actual: .*Completed")
+        self.assertTrue(replayed.stdout.replace("\n", "").isprintable(), replayed.stdout)
+
+        # A transaction that ends twice.
+        lines = files[-1].read_text().splitlines()
+        records = [json.loads(line) for line in lines]
+        inputs = [i for i, record in enumerate(records)
+                  if record["link"] == "core" and record["direction"] == "in" and "depth" not in record]
+        stored = next(i for i in inputs if records[i]["kind"] == "stored")
+        following = next(i for i in inputs if i > stored)
+        changed.write_text("\n".join([*lines[:following], lines[stored], ""]))
+        replayed = self.replay(changed)
+        self.assertEqual(replayed.returncode, 2, replayed.stdout + replayed.stderr)
+        self.assertIn(f"changed.ndjson:{following + 1}: the end of a transaction that has not begun", replayed.stderr)
+
+        # Written by another program, with blanks.
+        spaced = self.line.folder / "spaced.ndjson"
+        spaced.write_text("".join(json.dumps(json.loads(line)) + "\n" for line in files[-1].read_text().splitlines()))
+        replayed = self.replay(spaced)
+        self.assertEqual(replayed.returncode, 0, replayed.stdout + replayed.stderr)
+        self.assertRegex(replayed.stdout, r"no difference: [1-9]\d* reports, [1-9]\d* commands")
 
         # The same file without its beginning.
         changed.write_text("\n".join(line for line in lines if '"kind":"begin"' not in line) + "\n")
@@ -70,8 +91,15 @@ class Replay(TracedLineCase):
         empty.mkdir()
         damaged = self.line.folder / "damaged.ndjson"
         damaged.write_text('{"time":"2026-01-01T00:00:00.000Z","mono_us":1,"link":"core",\n')
-        for path in (empty, self.line.folder / "missing", damaged):
-            self.assertEqual(self.replay(path).returncode, 2, path)
+        pipe = self.line.folder / "pipe"
+        os.mkfifo(pipe)
+        for path, reason in ((empty, "a file of a trace"), (self.line.folder / "missing", "a file of a trace"),
+                             (damaged, "not a trace of acsd: damaged.ndjson:1: "), (PLANS[0], "not a trace of acsd: "),
+                             (pipe, "a regular file or a folder"), ("/dev/zero", "a regular file or a folder")):
+            replayed = self.replay(path)
+            self.assertEqual(replayed.returncode, 2, path)
+            self.assertIn(reason, replayed.stderr)
+            self.assertEqual(replayed.stderr.count("\n"), 1, replayed.stderr)
 
 
 if __name__ == "__main__":

@@ -176,6 +176,11 @@ void CoreReplay::Deliver()
         _outcome.fault = fmt::format("{}: the configuration has no robot {}", record.place, record.robotID);
         return;
     }
+    if (std::holds_alternative<StoredInput>(*input) && !std::exchange(_bStoring, false))
+    {
+        _outcome.fault = fmt::format("{}: the end of a transaction that has not begun", record.place);
+        return;
+    }
     ++_outcome.inputs;
     ++_depth;
     Call(std::move(*input), record);
@@ -334,6 +339,7 @@ std::uint64_t CoreReplay::GetNext()
 
 void CoreReplay::Store(const Planning::StoreBatch& /*batch*/)
 {
+    _bStoring = true;
     DeliverNested();
 }
 

@@ -46,6 +46,7 @@ private:
     Core::SteadyTime _checkedAt; ///< Timers.
     std::size_t _depth = 0;      ///< Number of inputs that have not ended.
     mutable bool _bRegistered = false;
+    bool _bStoring = false;        ///< A transaction has begun and not ended.
     bool _bUnknownNumbers = false; ///< More were drawn than recorded.
     bool _bEnd = false;            ///< Of the source.
     std::string _input;            ///< Description of the latest input that is not nested.

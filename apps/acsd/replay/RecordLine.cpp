@@ -67,8 +67,17 @@ namespace
 
 using Line = std::optional<std::variant<CoreRecord, LostLines>>;
 
+bool HasRecord(std::string_view link)
+{
+    return link == CORE_LINK || link == STORE_LINK || link == TRACE_LINK;
+}
+
 Core::Result<Line> MakeLine(LineText text)
 {
+    if (!HasRecord(text.link))
+    {
+        return Line();
+    }
     if (text.link == TRACE_LINK)
     {
         return Line(LostLines{text.lost});
@@ -87,17 +96,21 @@ Core::Result<Line> MakeLine(LineText text)
     });
 }
 
-/// Parsing the messages would take most of the time of a replay.
-bool HasRecord(std::string_view line)
+/// The link of a line that is written as acsd writes it; empty if it is not. Parsing the messages would take most of the time of a
+/// replay.
+std::string_view FindLink(std::string_view line)
 {
     constexpr std::size_t BEFORE_TEXT = 120;
-    const std::string_view begin = line.substr(0, BEFORE_TEXT);
-    const auto has = [begin](std::string_view link) {
-        const std::size_t at = begin.find(R"("link":")");
-        return at != std::string_view::npos && begin.substr(at + 8).starts_with(link)
-            && begin.substr(at + 8 + link.size()).starts_with('"');
-    };
-    return has(CORE_LINK) || has(STORE_LINK) || has(TRACE_LINK);
+    constexpr std::string_view MEMBER = R"("link":")";
+    std::string_view begin = line.substr(0, BEFORE_TEXT);
+    const std::size_t at = begin.find(MEMBER);
+    if (!line.starts_with(R"({"time":")") || !line.ends_with('}') || at == std::string_view::npos)
+    {
+        return {};
+    }
+    begin.remove_prefix(at + MEMBER.size());
+    const std::size_t end = begin.find('"');
+    return end == std::string_view::npos ? std::string_view() : begin.substr(0, end);
 }
 
 } // namespace
@@ -127,7 +140,8 @@ void WriteRecord(const CoreRecord& record, MessageTrace& trace)
 
 Core::Result<std::optional<std::variant<CoreRecord, LostLines>>> ReadRecord(std::string_view line)
 {
-    if (!HasRecord(line))
+    const std::string_view link = FindLink(line);
+    if (!link.empty() && !HasRecord(link))
     {
         return Line();
     }

@@ -21,7 +21,7 @@ struct LostLines
 /// Adds the record to the trace.
 void WriteRecord(const CoreRecord& record, MessageTrace& trace);
 
-/// Reads a line of the trace. nullopt: it is a message, or of another kind that is no record.
+/// Reads a line of the trace. nullopt: it is a message, or of another kind that is no record. Fails for any other line.
 [[nodiscard]] Core::Result<std::optional<std::variant<CoreRecord, LostLines>>> ReadRecord(std::string_view line);
 
 } // namespace ACS::Acsd

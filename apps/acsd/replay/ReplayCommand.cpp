@@ -1,6 +1,7 @@
 #include "replay/ReplayCommand.hpp"
 
 #include "common/config/CommandLine.hpp"
+#include "common/log/LogText.hpp"
 #include "common/Version.hpp"
 #include "replay/CoreReplay.hpp"
 #include "replay/RecordedConfig.hpp"
@@ -73,7 +74,7 @@ std::string Shorten(const std::string& text, const std::string& other)
     const auto at = std::max<std::ptrdiff_t>(std::distance(text.begin(), different) - BEFORE, 0);
     const std::string part = text.substr(static_cast<std::size_t>(at), MOST);
     const bool bCut = static_cast<std::size_t>(at) + MOST < text.size();
-    return fmt::format("{}{}{}", at > 0 ? "..." : "", part, bCut ? "..." : "");
+    return fmt::format("{}{}{}", at > 0 ? "..." : "", Apps::MakePrintable(part), bCut ? "..." : "");
 }
 
 void PrintDifference(const ReplayDifference& difference, std::size_t inputs)
@@ -82,7 +83,7 @@ void PrintDifference(const ReplayDifference& difference, std::size_t inputs)
         "first difference at {}, input {} ({})\n  input:    {}\n  expected: {}\n  actual:   {}\n",
         Core::FormatUTC(difference.now.wall),
         inputs,
-        difference.place,
+        Apps::MakePrintable(difference.place),
         Shorten(difference.input, {}),
         Shorten(difference.expected, difference.actual),
         Shorten(difference.actual, difference.expected));
@@ -120,7 +121,11 @@ int ReplayRun(const CoreRecord& begin, ReplayFiles& files, const RobotDrivers& d
         Apps::PrintError(REPLAY_NAME, fmt::format("{}: {}", begin.place, Core::Describe(run.error())));
         return UNREADABLE;
     }
-    fmt::print("run of {} ({}), acsd {}\n", Core::FormatUTC(begin.now.wall), begin.place, run->version);
+    fmt::print(
+        "run of {} ({}), acsd {}\n",
+        Core::FormatUTC(begin.now.wall),
+        Apps::MakePrintable(begin.place),
+        Apps::MakePrintable(run->version));
     if (run->version != Apps::VERSION)
     {
         fmt::print("recorded by another version than this one ({}): differences may be intended\n", Apps::VERSION);
@@ -210,6 +215,11 @@ int RunReplayCommand(int argc, const char* const* argv, const RobotDrivers& driv
             return outcome;
         }
         exitCode = std::max(exitCode, outcome);
+    }
+    if (const std::string reason = files->DescribeForeign(); runs == 0 && !reason.empty())
+    {
+        Apps::PrintError(REPLAY_NAME, fmt::format("{}: {}", path, reason));
+        return UNREADABLE;
     }
     if (runs == 0)
     {
