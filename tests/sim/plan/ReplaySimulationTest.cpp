@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -132,6 +133,33 @@ TEST_CASE("A replay shows a command that the recorded run never gave")
     REQUIRE(difference.has_value());
     CHECK(difference->expected.find("Drive") != std::string::npos);
     CHECK(difference->actual.find("Drive") != std::string::npos);
+}
+
+TEST_CASE("A repeated end of a transaction is a fault of the recording, and never reaches the engine")
+{
+    constexpr std::size_t MOST_COPIES = 20;
+    const Scenario scenario = MakeScenario(1, {}, std::nullopt);
+    const Recording recording = Record(scenario, EMutation::None).front();
+    const auto isOuterInput = [](const Acsd::CoreRecord& record) {
+        return record.bInput && record.depth == 0;
+    };
+    std::size_t faults = 0;
+    std::size_t copies = 0;
+    for (auto stored = recording.begin(); stored != recording.end() && copies < MOST_COPIES; ++stored)
+    {
+        if (stored->kind != "stored" || !isOuterInput(*stored))
+        {
+            continue;
+        }
+        ++copies;
+        Recording changed(recording.begin(), std::find_if(stored + 1, recording.end(), isOuterInput));
+        changed.push_back(*stored);
+        changed.back().place = "copy";
+        const Acsd::ReplayOutcome outcome = Replay(changed, AcsdProcess::MakeConfig(scenario));
+        faults += outcome.fault == "copy: the end of a transaction that has not begun" ? 1U : 0U;
+    }
+    CHECK(copies == MOST_COPIES);
+    CHECK(faults > 0);
 }
 
 TEST_CASE("A replay shows a timer that did not expire in the recorded run")
