@@ -134,10 +134,10 @@ class JournalCase(ScenarioCase):
                 self.write_plan(kind)
                 return
 
-    def wait_until(self, is_reached, what):
-        end = time.monotonic() + FINISH_SECONDS
+    def wait_until(self, is_reached, otherwise, seconds=FINISH_SECONDS):
+        end = time.monotonic() + seconds
         while not is_reached():
-            self.assertLess(time.monotonic(), end, what)
+            self.assertLess(time.monotonic(), end, otherwise)
             self.assertTrue(self.acsd.is_running(), "acsd has ended by itself")
             time.sleep(0.02)
             self.journal.update()

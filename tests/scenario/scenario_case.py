@@ -60,7 +60,7 @@ class ScenarioCase(unittest.TestCase):
     def wait_for_status(self, address, is_reached, seconds=STATUS_SECONDS):
         self.wait_until(lambda: is_reached(self.read_status(address)), "the status was not reached", seconds)
 
-    def wait_until(self, is_reached, otherwise, seconds=STATUS_SECONDS):
+    def wait_until(self, is_reached, otherwise, seconds=FINISH_SECONDS):
         deadline = time.monotonic() + seconds
         while not is_reached():
             self.assertLess(time.monotonic(), deadline, otherwise)

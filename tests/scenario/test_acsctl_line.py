@@ -7,8 +7,6 @@ import pathlib
 import signal
 import subprocess
 import tarfile
-import threading
-import time
 
 from scenario_case import FINISH_SECONDS, PLANS, TIME_SCALE, ScenarioCase, main
 from production_line import find_free_port  # which scenario_case makes known
@@ -40,12 +38,6 @@ class OperatedLine(ScenarioCase):
 
     def read(self, *arguments):
         return json.loads(self.check(0, *arguments, "--json"))
-
-    def wait_until(self, is_reached, what):
-        never, end = threading.Event(), time.monotonic() + FINISH_SECONDS
-        while not is_reached():
-            self.assertLess(time.monotonic(), end, what)
-            never.wait(0.1)
 
     def wait_for_robot(self, robot_id, status):
         self.wait_until(lambda: self.read("robot", robot_id)["status"] == status, f"{robot_id} is {status}")

@@ -6,8 +6,6 @@ import os
 import shutil
 import signal
 import subprocess
-import threading
-import time
 import urllib.request
 
 from scenario_case import FINISH_SECONDS, STATUS_SECONDS, TIME_SCALE, ScenarioCase, main
@@ -60,12 +58,6 @@ class Actions(ScenarioCase):
 
     def read(self, *arguments):
         return json.loads(self.check(0, *arguments, "--json"))
-
-    def wait_until(self, is_reached, what):
-        never, end = threading.Event(), time.monotonic() + FINISH_SECONDS
-        while not is_reached():
-            self.assertLess(time.monotonic(), end, what)
-            never.wait(0.1)
 
     def wait_for_robot(self, robot_id, status):
         self.wait_until(lambda: self.read("robot", robot_id)["status"] == status, f"{robot_id} is {status}")

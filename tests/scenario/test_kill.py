@@ -227,10 +227,10 @@ class Kill(ScenarioCase):
             self.supply()
             self.stopped.wait(min(0.05, max(0.0, end - time.monotonic())))
 
-    def wait_until(self, condition, what):
-        end = time.monotonic() + FINISH_SECONDS
-        while not condition():
-            self.assertLess(time.monotonic(), end, what)
+    def wait_until(self, is_reached, otherwise, seconds=FINISH_SECONDS):
+        end = time.monotonic() + seconds
+        while not is_reached():
+            self.assertLess(time.monotonic(), end, otherwise)
             self.assertTrue(self.acsd.is_running(), "acsd has ended by itself")
             self.stopped.wait(0.05)
             self.trace.update()

@@ -11,7 +11,7 @@ import subprocess
 from line_faults import (ArmMotorOff, BrokerGone, DiskFull, EdgeBlocked, FaultCase, RegistrationRefused, ReportsRefused,
                          VehicleKilled, VehicleLost)
 from plan_samples import make_carrying_plan
-from scenario_case import FINISH_SECONDS, REPOSITORY, STATUS_SECONDS, main
+from scenario_case import REPOSITORY, STATUS_SECONDS, main
 
 COMMANDS = 3  # of an operator while the disk is full
 UPDATES = 5  # of the event feed, from the first with the fault on
@@ -148,7 +148,7 @@ class FullDisk(WhyCase):
         self.wait_until_over(fault)
         self.assertEqual(self.stub.ask("ExecutionPlan", make_carrying_plan("P3"))["result"], "Success")
         self.wait_for_plan("P3", "Completed")
-        self.wait_until(lambda: self.count_audited(fault) == COMMANDS, "the audit log does not state a command", FINISH_SECONDS)
+        self.wait_until(lambda: self.count_audited(fault) == COMMANDS, "the audit log does not state a command")
 
         # Nothing is lost: every report came once, and a crash now finds everything stored.
         reports = [json.dumps(message.payload | {"command": message.command}, sort_keys=True) for message in self.list_reports()]

@@ -30,7 +30,7 @@ enum class ERobotActionStatus : std::uint8_t
 /// A value that an operator gives with an instant action.
 struct RobotActionParameter
 {
-    std::string key;
+    std::string key;      ///< As the robot names it.
     Core::JsonText value; ///< Any JSON value but null.
 
     bool operator==(const RobotActionParameter&) const = default;
@@ -39,7 +39,7 @@ struct RobotActionParameter
 /// An instant action that an operator requests.
 struct RobotActionRequest
 {
-    std::string actionType;
+    std::string actionType;                       ///< As the robot names it.
     std::vector<RobotActionParameter> parameters; ///< Each key once.
 
     bool operator==(const RobotActionRequest&) const = default;
@@ -48,10 +48,10 @@ struct RobotActionRequest
 /// A parameter of an instant action that a robot offers.
 struct RobotParameterOffer
 {
-    std::string key;
+    std::string key; ///< RobotActionParameter::key.
     std::string
         valueType; ///< For people, and for acsctl, which sends a value of STRING as a string: STRING, NUMBER, BOOL, …
-    bool bRequired = false;
+    bool bRequired = false; ///< The robot refuses the action without it.
 
     bool operator==(const RobotParameterOffer&) const = default;
 };
@@ -59,9 +59,9 @@ struct RobotParameterOffer
 /// An instant action that a robot offers.
 struct RobotActionOffer
 {
-    std::string actionType;
-    std::string description; ///< May be empty.
-    std::vector<RobotParameterOffer> parameters;
+    std::string actionType;                      ///< RobotActionRequest::actionType.
+    std::string description;                     ///< May be empty.
+    std::vector<RobotParameterOffer> parameters; ///< Those that it can have.
 
     bool operator==(const RobotActionOffer&) const = default;
 };
@@ -78,7 +78,7 @@ struct RobotActionRefusal
 /// What became of an instant action.
 struct RobotActionChange
 {
-    std::string actionID;
+    std::string actionID;                                    ///< The result of IRobotActions::Request.
     ERobotActionStatus status = ERobotActionStatus::Waiting; ///< The new one.
     std::string resultDescription;                           ///< The result, or why it failed; may be empty.
 
