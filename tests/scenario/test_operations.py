@@ -2,12 +2,14 @@
 """Operation of acsd as in docs/guide/operate.md: signals, the message trace, metrics."""
 
 import concurrent.futures
+import contextlib
 import itertools
 import json
 import os
 import re
 import signal
 import socket
+import sqlite3
 import subprocess
 import threading
 import time
@@ -110,6 +112,12 @@ class Operations(ScenarioCase):
         self.wait_for_log(acsd, "the disk has answered")
         self.wait_for_status(address, lambda status: not status["notReadyReasons"])
 
+    def list_stored_keys(self):
+        """Of the commands that the store has; acsd shows the effect of a command before it is stored."""
+        database = (self.line.folder / "store" / "acsd.db").resolve()
+        with contextlib.closing(sqlite3.connect(f"{database.as_uri()}?mode=ro", uri=True)) as store:
+            return [key for key, in store.execute("SELECT key FROM receipts ORDER BY sequence")]
+
     def test_after_a_crash_a_command_and_its_key_are_both_stored_or_neither(self):
         library = self.line.bin_dir / "libscenario_held_disk.so"
         if not library.exists():
@@ -135,7 +143,7 @@ class Operations(ScenarioCase):
 
         acsd, address = start()
         self.assertFalse(is_replayed(address, "/v1/tsc/pause", "stored"))
-        self.wait_for_status(address, lambda status: status["tsc"] == "Paused")
+        self.wait_until(lambda: self.list_stored_keys() == ["stored"], "the command is not stored")
         os.mkfifo(gate)
         self.assertEqual(self.post(address, "/v1/robots/CR01/maintenance", {"on": True})[0], 202)
         self.assertFalse(is_replayed(address, "/v1/tsc/resume", "waiting"))  # for the batch before it, until the crash
