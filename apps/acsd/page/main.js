@@ -18,7 +18,7 @@ import {SystemView} from "./system-view.js";
 import {fillTexts, getLanguage, setLanguage, startTexts, t} from "./text.js";
 import {Theme} from "./theme.js";
 
-const LIST_PERIOD = 400; // milliseconds between two updates of the lists
+const LIST_PERIOD = 500; // milliseconds between two updates of the lists
 // Names and glyphs.
 const TABS = [["floor", "floor"], ["plans", "plan"], ["robots", "robot"], ["alarms", "error"], ["events", "list"],
     ["system", "system"]];

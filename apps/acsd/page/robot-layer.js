@@ -5,7 +5,7 @@ import {CanvasLayer} from "./canvas-layer.js";
 import {drawGlyph, getRobotGlyph, getRobotGroup} from "./glyphs.js";
 import {LabelSpace} from "./label-space.js";
 
-const FRAME = 90; // milliseconds
+const FRAME = 130; // milliseconds
 const JUMP = 6; // metres; a longer way is not shown as a drive
 const SHORTEST = 120; // milliseconds between two places
 const LONGEST = 1_200;
