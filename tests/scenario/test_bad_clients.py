@@ -14,6 +14,7 @@ from api_client import EventReader
 from line_faults import FaultCase
 from plan_samples import make_carrying_plan
 from scenario_case import STATUS_SECONDS, ScenarioCase, main
+import operator_api  # which scenario_case makes known
 
 STREAMS = 100
 MOST_STREAMS = 16  # of one client address
@@ -50,10 +51,15 @@ class UnreadStreams(FaultCase):
 
     def change_the_queue(self):
         """The last plan of the queue becomes the second, and the last again, so that all of them change, until more was changed
-        than acsd keeps."""
-        produced, plan_id = 0, f"Q{WAITING_PLANS}"
+        than acsd keeps. A plan that is started meanwhile is left to the robot."""
+        produced, numbers = 0, list(range(1, WAITING_PLANS + 1))
         for priority in itertools.cycle((QUEUE_PRIORITY + 1, QUEUE_PRIORITY)):
-            self.post(f"/v1/plans/{plan_id}/priority", {"priority": priority})
+            plan_id = f"Q{numbers[-1]}"
+            status, answer = operator_api.post(self.address, f"/v1/plans/{plan_id}/priority", {"priority": priority})
+            if status == 409:
+                numbers.pop()
+                continue
+            self.assertEqual(status, 202, answer)
             plans = []
             while not any(plan["planId"] == plan_id and plan["priority"] == priority for plan in plans):
                 plans = self.read_json("/v1/snapshot")["plans"]
