@@ -34,12 +34,14 @@ bool IsControl(std::string_view character)
     const auto isWithin = [character](std::string_view first, std::string_view last) {
         return character.size() == first.size() && character >= first && character <= last;
     };
+    // NOLINTBEGIN(misc-misleading-bidirectional): the ends of ranges
     return (character.size() == 1 && Core::IsControlCharacter(character.front()))
         || isWithin("\xC2\x80", "\xC2\x9F")          // U+0080 to U+009F
         || isWithin("\xD8\x9C", "\xD8\x9C")          // U+061C
         || isWithin("\xE2\x80\x8E", "\xE2\x80\x8F")  // U+200E, U+200F
         || isWithin("\xE2\x80\xA8", "\xE2\x80\xAE")  // U+2028 to U+202E
         || isWithin("\xE2\x81\xA6", "\xE2\x81\xA9"); // U+2066 to U+2069
+    // NOLINTEND(misc-misleading-bidirectional)
 }
 
 void AppendPrintable(std::string& out, std::string_view character)

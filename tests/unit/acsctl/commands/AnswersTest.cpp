@@ -118,6 +118,7 @@ TEST_CASE("JSON is passed on as it came, on one line, with escapes for what coul
     CHECK(Acsctl::ShowAnswer(options, "{\"robots\":\n []}", {})->text == "{\"robots\":[]}\n");
     CHECK(Acsctl::ShowAnswer(options, "{", {}).error().exitCode == 6);
     CHECK(
+        // NOLINTNEXTLINE(misc-misleading-bidirectional): what is tested
         Acsctl::ShowAnswer(options, "{\"robots\":\"\u009b\u202e\"}", {})->text == "{\"robots\":\"\\u009b\\u202e\"}\n");
     options.command = Acsctl::ECommand::Trace;
     CHECK(Acsctl::ShowAnswer(options, "{\"a\":1}\n\n{\"b\":2}", {})->text == "{\"a\":1}\n{\"b\":2}\n");

@@ -87,6 +87,7 @@ TEST_CASE("A candidate is one harmless word of a shell")
     CHECK(
         Acsctl::SelectCandidates({"P2", "P1", "P1", "$(reboot)", "P 3", "P;4", "", "Q1", "P로"}, "P")
         == Typed{"P1", "P2", "P로"});
+    // NOLINTNEXTLINE(misc-misleading-bidirectional): what is tested
     CHECK(Acsctl::SelectCandidates({"P\u009b31m", "P\u202e", "P\xff", "P\u0085"}, "P").empty());
 }
 

@@ -45,6 +45,7 @@ TEST_CASE("What a peer sent cannot control the terminal")
 TEST_CASE("JSON keeps its value when what could control the terminal is escaped")
 {
     CHECK(
+        // NOLINTNEXTLINE(misc-misleading-bidirectional): what is tested
         Acsctl::MakeDisplayableJSON("{\"a\":\t\"\u009b1\x7f\u202e로봇\"}")
         == "{\"a\":\t\"\\u009b1\\u007f\\u202e로봇\"}");
     CHECK(Acsctl::MakeDisplayableJSON("\"\U000E0041🤖\"") == "\"\\udb40\\udc41🤖\"");

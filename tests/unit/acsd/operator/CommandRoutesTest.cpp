@@ -303,7 +303,7 @@ TEST_CASE("An unknown id is quoted and cut in the answer")
           user.Post("/v1/plans/" + longID + "/abort"),
           user.Post("/v1/plans/" + longID + "/priority", R"({"priority":1})"),
           user.Post("/v1/plans/" + longID + "/steps/1/skip"),
-          user.Post("/v1/plans/" + longID + "/jobs/" + longID + "/resolve", DONE),
+          user.Post(std::string("/v1/plans/").append(longID).append("/jobs/").append(longID).append("/resolve"), DONE),
           user.Post("/v1/site/block", R"({"kind":"node","id":"\u001b)" + std::string(9'000, 'x') + R"("})")})
     {
         CAPTURE(answer.substr(0, 300));

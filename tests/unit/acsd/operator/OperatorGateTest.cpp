@@ -44,7 +44,7 @@ struct GateFixture
         });
         gate.GetRoutes().Add("POST", "/v1/tsc/pause", [this](const auto&, const auto&) {
             ++commands;
-            const Apps::HttpResponse answer{202, "application/json", "{\"message\":\"paused\"}\n"};
+            Apps::HttpResponse answer{202, "application/json", "{\"message\":\"paused\"}\n"};
             if (std::optional<Planning::CommandReceipt> receipt = gate.MakeReceiptOrNull(answer); receipt.has_value())
             {
                 receipts.push_back(std::move(*receipt));

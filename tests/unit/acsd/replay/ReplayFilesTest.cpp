@@ -40,7 +40,7 @@ struct ReplayFolder
         }
     }
 
-    [[nodiscard]] std::string DescribeRefusal(const std::string& path) const
+    [[nodiscard]] static std::string DescribeRefusal(const std::string& path)
     {
         const Core::Result<ReplayFiles> files = ReplayFiles::Open(path);
         return files.has_value() ? std::string() : Core::Describe(files.error());

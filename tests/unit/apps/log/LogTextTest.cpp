@@ -46,7 +46,9 @@ TEST_CASE("Characters that control a terminal or turn the text are escaped in a 
           std::pair("\xD8\x9C", R"(\xd8\x9c)"),
           std::pair("\xE2\x80\x8F", R"(\xe2\x80\x8f)"),
           std::pair("\xE2\x80\xA8", R"(\xe2\x80\xa8)"),
+          // NOLINTNEXTLINE(misc-misleading-bidirectional): what is tested
           std::pair("\xE2\x80\xAE", R"(\xe2\x80\xae)"),
+          // NOLINTNEXTLINE(misc-misleading-bidirectional): what is tested
           std::pair("\xE2\x81\xA6", R"(\xe2\x81\xa6)"),
           std::pair("\x7F", R"(\x7f)")})
     {
