@@ -292,9 +292,16 @@ void WhyExplainer::AddUnresolvedJobs(const PlanInfo& plan, std::size_t depth, Ch
         if (alarm.errorCode == UNRESOLVED_CODE && alarm.planID == plan.planID && chain.alarms.insert(&alarm).second)
         {
             Cause cause = MakeAlarmCause(alarm, depth);
-            cause.remedy.push_back(
-                "Then: " + MakeShellCommand("resolve", {plan.planID, alarm.jobID.value_or("JOB")})
-                + " done|failed|again");
+            for (const auto& [finding, outcome] :
+                 {std::pair("If it was done", "done"),
+                  std::pair("If it failed", "failed"),
+                  std::pair("If nothing was moved", "again")})
+            {
+                cause.remedy.push_back(fmt::format(
+                    "{}: {}",
+                    finding,
+                    MakeShellCommand("resolve", {plan.planID, alarm.jobID.value_or("JOB"), outcome})));
+            }
             chain.causes.push_back(std::move(cause));
         }
     }

@@ -57,6 +57,16 @@ public:
     }
 };
 
+Acsctl::AlarmInfo MakeAlarm(std::string robotID, std::string code, std::string title)
+{
+    Acsctl::AlarmInfo alarm;
+    alarm.robotID = std::move(robotID);
+    alarm.errorCode = std::move(code);
+    alarm.level = "heavy";
+    alarm.title = std::move(title);
+    return alarm;
+}
+
 std::string PrintText(const Acsctl::Explanation& explanation)
 {
     return Acsctl::PrintExplanation(explanation, {200, false});
@@ -107,11 +117,7 @@ TEST_CASE("Plans that wait for each other are each explained once")
 TEST_CASE("An alarm is explained with its cause and remedy, an unresolved job with its command")
 {
     WhyFixture line;
-    Acsctl::AlarmInfo alarm;
-    alarm.robotID = "LR01";
-    alarm.errorCode = "ACS-1008";
-    alarm.level = "heavy";
-    alarm.title = "Job outcome unknown";
+    Acsctl::AlarmInfo alarm = MakeAlarm("LR01", "ACS-1008", "Job outcome unknown");
     alarm.cause = "A restart";
     alarm.remedy = "Check the carrier";
     alarm.planID = "P1";
@@ -127,7 +133,9 @@ TEST_CASE("An alarm is explained with its cause and remedy, an unresolved job wi
         text,
         Catch::Contains("Heavy alarm ACS-1008 Job outcome unknown of LR01.\n    Cause: A restart.\n"
                         "    Remedy: Check the carrier.\n"
-                        "    Remedy: Then: acsctl resolve P1 J1 done|failed|again\n"));
+                        "    Remedy: If it was done: acsctl resolve P1 J1 done\n"
+                        "    Remedy: If it failed: acsctl resolve P1 J1 failed\n"
+                        "    Remedy: If nothing was moved: acsctl resolve P1 J1 again\n"));
     CHECK_THAT(text, Catch::Contains("Heavy alarm ACS-1002 Robot disconnected of LR01."));
 }
 
@@ -215,11 +223,7 @@ TEST_CASE("A plan is explained with the links that are down; a refused registrat
 TEST_CASE("An unfinished plan is explained with the alarm of a store that fails")
 {
     WhyFixture line;
-    Acsctl::AlarmInfo alarm;
-    alarm.robotID = "ACS";
-    alarm.errorCode = "ACS-1005";
-    alarm.level = "heavy";
-    alarm.title = "Store failing";
+    Acsctl::AlarmInfo alarm = MakeAlarm("ACS", "ACS-1005", "Store failing");
     alarm.message = "Plans cannot be stored: /var/acsd.db: expected free space";
     alarm.cause = "The disk is full";
     alarm.remedy = "Free space";
@@ -430,7 +434,7 @@ TEST_CASE("The ids in the commands of remedies are quoted for a shell")
          {"acsctl resume '$(touch X);x y'\n",
           "acsctl maintenance -- '-R;id' off\n",
           "acsctl unblock edge '`id`'\n",
-          R"(acsctl resolve '$(touch X);x y' 'it'\''s' done|failed|again)"})
+          "acsctl resolve '$(touch X);x y' 'it'\\''s' again\n"})
     {
         CHECK_THAT(text, Catch::Contains(command));
     }
