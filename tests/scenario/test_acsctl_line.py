@@ -2,17 +2,17 @@
 """acsctl operates a real line: what each command prints and returns when acsd answers."""
 
 import json
-import os
 import pathlib
 import signal
 import subprocess
 import tarfile
 
-from scenario_case import FINISH_SECONDS, PLANS, TIME_SCALE, ScenarioCase, main
+from acsctl_case import AcsctlCase
+from scenario_case import FINISH_SECONDS, PLANS, TIME_SCALE, main
 from production_line import find_free_port  # which scenario_case makes known
 
 
-class OperatedLine(ScenarioCase):
+class OperatedLine(AcsctlCase):
     def setUp(self):
         super().setUp()
         self.line.start_broker()
@@ -23,24 +23,7 @@ class OperatedLine(ScenarioCase):
         self.acsd = self.line.start_acsd(f"127.0.0.1:{self.mcs_port}", arm, arguments=("--trace", str(self.line.folder / "trace")))
         addresses = self.acsd.wait_ready()
         self.http = f"http://{addresses['http']}"
-        self.environment = {"PATH": os.environ["PATH"], "HOME": str(self.line.folder),
-                            "ACSCTL_URL": f"http://{addresses['operator']}"}
-
-    def run_acsctl(self, *arguments):
-        return subprocess.run([self.line.bin_dir / "acsctl", *map(str, arguments)], capture_output=True, text=True,
-                              env=self.environment, timeout=FINISH_SECONDS, stdin=subprocess.DEVNULL)
-
-    def check(self, code, *arguments):
-        """Standard output, or standard error of a failure."""
-        result = self.run_acsctl(*arguments)
-        self.assertEqual(result.returncode, code, (arguments, result.stdout, result.stderr))
-        return result.stdout if code in (0, 5) else result.stderr
-
-    def read(self, *arguments):
-        return json.loads(self.check(0, *arguments, "--json"))
-
-    def wait_for_robot(self, robot_id, status):
-        self.wait_until(lambda: self.read("robot", robot_id)["status"] == status, f"{robot_id} is {status}")
+        self.use_acsd(addresses["operator"])
 
     def test_a_plan_is_found_blocked_freed_and_completed(self):
         self.wait_for_robot("CR01", "Idle")
