@@ -2,27 +2,26 @@
 """Instant actions that an operator requests: acsd validates them, sends them to a real vehicle of vda-sim and shows their outcome."""
 
 import json
-import os
 import shutil
 import signal
 import subprocess
 import urllib.request
 
-from scenario_case import FINISH_SECONDS, STATUS_SECONDS, TIME_SCALE, ScenarioCase, main
+from acsctl_case import AcsctlCase
+from scenario_case import STATUS_SECONDS, TIME_SCALE, main
 from production_line import find_free_port  # which scenario_case makes known
 
 OFFERED = ["deleteMap", "downloadMap", "enableMap", "factsheetRequest", "initPosition", "logReport", "stateRequest"]
 
 
-class Actions(ScenarioCase):
+class Actions(AcsctlCase):
     def setUp(self):
         super().setUp()
         self.line.start_broker()
         self.start_vehicles()
         arm = self.line.start_arm(TIME_SCALE).wait_ready()
         acsd = self.line.start_acsd(f"127.0.0.1:{find_free_port()}", arm)
-        self.environment = {"PATH": os.environ["PATH"], "HOME": str(self.line.folder),
-                            "ACSCTL_URL": f"http://{acsd.wait_ready()['operator']}"}
+        self.use_acsd(acsd.wait_ready()["operator"])
         self.wait_for_robot("LR01", "Idle")
         with urllib.request.urlopen(self.environment["ACSCTL_URL"] + "/v1/snapshot", timeout=STATUS_SECONDS) as answer:
             self.first_event = json.load(answer)["eventId"]
@@ -43,24 +42,8 @@ class Actions(ScenarioCase):
         subprocess.run([binary, "-p", str(self.line.broker_port), "-q", "1", "-t", "vda-sim/control", "-m", line], check=True,
                        timeout=STATUS_SECONDS)
 
-    def run_acsctl(self, *arguments):
-        return subprocess.run([self.line.bin_dir / "acsctl", *map(str, arguments)], capture_output=True, text=True,
-                              env=self.environment, timeout=FINISH_SECONDS, stdin=subprocess.DEVNULL)
-
-    def check(self, code, *arguments):
-        """Standard output, or standard error of a failure."""
-        result = self.run_acsctl(*arguments)
-        self.assertEqual(result.returncode, code, (arguments, result.stdout, result.stderr))
-        return result.stdout if code in (0, 5) else result.stderr
-
     def act(self, code, *arguments):
         return self.check(code, "action", "--yes", *arguments)
-
-    def read(self, *arguments):
-        return json.loads(self.check(0, *arguments, "--json"))
-
-    def wait_for_robot(self, robot_id, status):
-        self.wait_until(lambda: self.read("robot", robot_id)["status"] == status, f"{robot_id} is {status}")
 
     def read_last(self, robot_id="LR01"):
         return self.read("actions", robot_id)["actions"][-1]
@@ -74,8 +57,7 @@ class Actions(ScenarioCase):
         """Where LR01 is, as the parameters of initPosition."""
         robot = self.read("robot", "LR01")
         (map_id,) = {node["mapId"] for node in self.read("site")["nodes"] if node["nodeId"] == robot["node"]}
-        theta = max(-3.141, min(robot["pose"]["theta"], 3.141))  # it is rounded
-        values = robot["pose"] | {"theta": theta, "mapId": map_id, "lastNodeId": robot["node"]} | changes
+        values = robot["pose"] | {"mapId": map_id, "lastNodeId": robot["node"]} | changes
         return [f"{key}={value}" for key, value in values.items()]
 
     def test_actions_are_performed_and_recorded(self):

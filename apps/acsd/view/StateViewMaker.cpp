@@ -19,11 +19,17 @@ namespace
 {
 
 constexpr double FULL_PERCENT = 100;
-constexpr double PER_METRE = 1'000;
+constexpr double PER_UNIT = 1'000;
 
 double Round(double value)
 {
-    return std::round(value * PER_METRE) / PER_METRE;
+    return std::round(value * PER_UNIT) / PER_UNIT;
+}
+
+/// Towards zero: 3.142 would be above pi, and no valid theta of a command.
+double RoundAngle(double value)
+{
+    return std::trunc(value * PER_UNIT) / PER_UNIT;
 }
 
 std::optional<std::string> TextOrNull(const std::string& text)
@@ -261,7 +267,7 @@ std::vector<RobotView> StateViewMaker::MakeRobots(const ProgramState& program) c
     for (const Planning::RobotPose& pose : _engine.GetRobotPoses())
     {
         RobotView& robot = *byID.at(pose.robotID);
-        robot.pose = PoseView{Round(pose.x), Round(pose.y), Round(pose.theta)};
+        robot.pose = PoseView{Round(pose.x), Round(pose.y), RoundAngle(pose.theta)};
         robot.battery = std::lround(std::clamp(pose.batteryPercent, 0.0, FULL_PERCENT));
     }
     for (const Planning::RobotDetail& detail : _engine.GetRobotDetails())

@@ -6,6 +6,7 @@
 #include <acs/core/Timestamp.hpp>
 
 #include <chrono>
+#include <numbers>
 #include <string>
 
 namespace ACS::Acsd::Test
@@ -193,13 +194,14 @@ TEST_CASE("A robot is shown with pose, route, reservations, ports and what its d
     Planning::StateChanged state;
     state.bPoseKnown = true;
     state.x = -1000.00049;
+    state.theta = std::numbers::pi; // rounded it would be no valid angle
     state.lastNodeID = "D-CHG01";
     state.bDriving = true;
     state.batteryPercent = 41.6;
     reader.world.Raise("LR01", state);
     const std::string robot = reader.Get("/v1/robots/LR01");
     CHECK(HasText(robot, R"("node":"D-CHG01","nextNode":"L)"));
-    CHECK(HasText(robot, R"("pose":{"x":-1000,"y":0,"theta":0},"battery":42,"planId":"P1")"));
+    CHECK(HasText(robot, R"("pose":{"x":-1000,"y":0,"theta":3.141},"battery":42,"planId":"P1")"));
     CHECK(HasText(robot, R"("route":[{"nodeId":"L)"));
     CHECK(HasText(robot, R"(,"reserved":true})"));
     CHECK(HasText(robot, R"("reservedNodes":["D-CHG01",)"));
