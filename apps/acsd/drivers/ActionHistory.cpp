@@ -45,7 +45,7 @@ const RobotActionRecord* ActionHistory::ApplyOrNull(const RobotActionChange& cha
     return &*record;
 }
 
-const std::deque<RobotActionRecord>& ActionHistory::GetRecords() const noexcept
+const std::vector<RobotActionRecord>& ActionHistory::GetRecords() const noexcept
 {
     return _records;
 }

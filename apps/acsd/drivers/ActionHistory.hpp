@@ -4,7 +4,6 @@
 #include <acs/core/Now.hpp>
 
 #include <cstddef>
-#include <deque>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -38,7 +37,7 @@ public:
     static constexpr std::size_t MOST_RESULT_BYTES = 1'000;
 
 private:
-    std::deque<RobotActionRecord> _records; ///< Oldest first.
+    std::vector<RobotActionRecord> _records; ///< Oldest first.
 
 public:
     /// False: MOST_RECORDS actions have not ended.
@@ -50,7 +49,7 @@ public:
     /// The changed record, valid until the next call; null if the action is not known, or nothing is different.
     [[nodiscard]] const RobotActionRecord* ApplyOrNull(const RobotActionChange& change, Core::WallTime now);
 
-    [[nodiscard]] const std::deque<RobotActionRecord>& GetRecords() const noexcept;
+    [[nodiscard]] const std::vector<RobotActionRecord>& GetRecords() const noexcept;
 };
 
 /// The word of the operator API: "Waiting".

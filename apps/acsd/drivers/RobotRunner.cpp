@@ -164,7 +164,7 @@ public:
         return result;
     }
 
-    [[nodiscard]] const std::deque<RobotActionRecord>& GetActions() const noexcept
+    [[nodiscard]] const std::vector<RobotActionRecord>& GetActions() const noexcept
     {
         return _history.GetRecords();
     }
@@ -344,7 +344,7 @@ tl::expected<std::string, RobotActionRefusal> RobotRunner::RequestAction(RobotAc
     return _impl->RequestAction(std::move(request), std::move(reason));
 }
 
-const std::deque<RobotActionRecord>& RobotRunner::GetActions() const noexcept
+const std::vector<RobotActionRecord>& RobotRunner::GetActions() const noexcept
 {
     return _impl->GetActions();
 }

@@ -15,7 +15,6 @@
 #include <boost/asio/any_io_executor.hpp>
 #include <tl/expected.hpp>
 
-#include <deque>
 #include <functional>
 #include <memory>
 #include <string>
@@ -72,7 +71,7 @@ public:
         RobotActionRequest request,
         std::string reason);
     /// The last instant actions, oldest first.
-    [[nodiscard]] const std::deque<RobotActionRecord>& GetActions() const noexcept;
+    [[nodiscard]] const std::vector<RobotActionRecord>& GetActions() const noexcept;
     /// Those that RequestAction accepts at present; none after Stop.
     [[nodiscard]] std::vector<RobotActionOffer> ListActionOffers() const;
 };

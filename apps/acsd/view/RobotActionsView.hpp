@@ -3,7 +3,6 @@
 #include "drivers/ActionHistory.hpp"
 #include <acs/acsd/RobotAction.hpp>
 
-#include <deque>
 #include <vector>
 
 namespace ACS::Acsd
@@ -12,8 +11,8 @@ namespace ACS::Acsd
 /// The instant actions of a robot, as the operator sees them.
 struct RobotActionsView
 {
-    std::deque<RobotActionRecord> actions; ///< Those that were requested last, oldest first.
-    std::vector<RobotActionOffer> offered; ///< Those that may be requested.
+    std::vector<RobotActionRecord> actions; ///< Those that were requested last, oldest first.
+    std::vector<RobotActionOffer> offered;  ///< Those that may be requested.
 };
 
 } // namespace ACS::Acsd
