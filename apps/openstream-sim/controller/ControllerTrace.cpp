@@ -52,32 +52,25 @@ void ControllerTrace::OnClosed(std::uint64_t connection)
 
 void ControllerTrace::OnRequest(const Apps::HttpRequest& request)
 {
-    WriteHTTP(true, MakeTraceText(request));
+    const std::string text = MakeTraceText(request);
+    Write({"http", true, text});
 }
 
 void ControllerTrace::OnAnswer(const Apps::HttpResponse& response)
 {
-    WriteHTTP(false, MakeTraceText(response));
+    const std::string text = MakeTraceText(response);
+    Write({"http", false, text});
 }
 
 void ControllerTrace::WriteLine(bool bIn, std::uint64_t connection, std::string_view text)
 {
-    Apps::TraceLine line;
-    line.link = "arm";
-    line.bIn = bIn;
-    line.text = text;
-    line.robotID = _robotID;
-    line.controller = _controller;
+    Apps::TraceLine line{"arm", bIn, text};
     line.connection = connection;
-    _trace.Write(line);
+    Write(line);
 }
 
-void ControllerTrace::WriteHTTP(bool bIn, std::string_view text)
+void ControllerTrace::Write(Apps::TraceLine line)
 {
-    Apps::TraceLine line;
-    line.link = "http";
-    line.bIn = bIn;
-    line.text = text;
     line.robotID = _robotID;
     line.controller = _controller;
     _trace.Write(line);

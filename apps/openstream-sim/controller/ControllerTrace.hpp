@@ -41,7 +41,8 @@ public:
 
 private:
     void WriteLine(bool bIn, std::uint64_t connection, std::string_view text);
-    void WriteHTTP(bool bIn, std::string_view text);
+    /// The robot and the controller are added.
+    void Write(Apps::TraceLine line);
 };
 
 /// "POST /project/robot/start {"val":1}": method, target and body.
