@@ -227,13 +227,20 @@ class Floor(PageCase):
         print(f"\n  drawing 5,000 nodes: {sorted(times)[len(times) // 2]:.1f} ms")
 
 
-class Plans(PageCase):
+class PlanCase(PageCase):
+    """The mock is frozen, and LR01 has a plan."""
+
     def setUp(self):
         super().setUp()
         self.start_mock()
         self.mock.simulation.advance(0.2)
         self.mock.freeze()
         self.plan = self.mock.simulation.robots["LR01"].plan
+
+
+class Plans(PlanCase):
+    def setUp(self):
+        super().setUp()
         self.path = f"/v1/plans/{self.plan.plan_id}"
         self.open()
 
@@ -430,15 +437,11 @@ class Alarms(PageCase):
         self.wait_for_text("#strip-tsc", "Auto")
 
 
-class Causes(PageCase):
+class Causes(PlanCase):
     """What acsctl why names, on the page."""
 
     def setUp(self):
         super().setUp()
-        self.start_mock()
-        self.mock.simulation.advance(0.2)
-        self.mock.freeze()
-        self.plan = self.mock.simulation.robots["LR01"].plan
         self.open()
 
     def change(self, change):
