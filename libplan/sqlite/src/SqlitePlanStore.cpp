@@ -1,19 +1,18 @@
-#include "ChangeWriter.hpp"
 #include "FormerStore.hpp"
-#include "StateReader.hpp"
+#include "SqliteDatabase.hpp"
 #include "StoreDirectory.hpp"
 #include "StoreFault.hpp"
 #include "StoreFiles.hpp"
 #include "StoreGeneration.hpp"
 #include "StoreRescue.hpp"
 #include "StoreSchema.hpp"
+#include <acs/plan/SqlPlanTables.hpp>
 #include <acs/plan_sqlite/SqlitePlanStore.hpp>
 
 #include <fmt/format.h>
 #include <sqlite3.h>
 #include <SQLiteCpp/SQLiteCpp.h>
 
-#include <cerrno>
 #include <cstdint>
 #include <exception>
 #include <filesystem>
@@ -21,6 +20,7 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 namespace ACS::Planning
@@ -74,10 +74,9 @@ class SqlitePlanStore::Impl
     std::string _path;
     bool _bLogFound;
     SQLite::Database _database;
-    ChangeWriter _writer;
+    SqliteDatabase _tables;
     StoreFiles _files;
     StoreOrigin _origin;
-    int _systemError = 0;
     bool _bOpen = false;    ///< The database is marked as open (StoreGeneration.hpp).
     bool _bRescued = false; ///< The database file is missing or replaced, and its content was copied.
 
@@ -88,7 +87,7 @@ public:
           _path(path),
           _bLogFound(StoreFiles::HasContent(StoreFiles::GetLogPath(path))),
           _database(file, flags, BUSY_MILLISECONDS),
-          _writer(_database)
+          _tables(_database, _path)
     {
         KeepLog(_database, _bLogFound); // a database that is refused is left unchanged
         RestrictSchema(_database);
@@ -117,12 +116,6 @@ public:
     [[nodiscard]] StoreOrigin& GetOrigin() noexcept
     {
         return _origin;
-    }
-
-    /// errno of the last failed write.
-    [[nodiscard]] int GetSystemError() const noexcept
-    {
-        return _systemError;
     }
 
     /// Checks the database before anything is written. A database that is accepted may be of another generation.
@@ -181,22 +174,17 @@ public:
 
     [[nodiscard]] Core::Result<void> Append(const StoreBatch& batch)
     {
-        SQLite::Transaction transaction(_database);
-        errno = 0;
-        try
+        Core::Result<void> stored = _tables.Run("BEGIN", {});
+        for (auto change = batch.changes.begin(); stored.has_value() && change != batch.changes.end(); ++change)
         {
-            for (const StoreChange& change : batch.changes)
-            {
-                _writer.Write(change);
-            }
-            transaction.commit();
+            stored = WriteChange(_tables, *change);
         }
-        catch (const SQLite::Exception&)
+        stored = stored.and_then([this] { return _tables.Run("COMMIT", {}); });
+        if (!stored.has_value())
         {
-            _systemError = errno; // before the roll-back; SQLite does not keep the number of a failed commit
-            throw;
+            std::ignore = _tables.Run("ROLLBACK", {}); // fails if SQLite has rolled back by itself
         }
-        return {};
+        return stored;
     }
 
     [[nodiscard]] StoreLog CheckLog()
@@ -217,7 +205,9 @@ public:
 
     [[nodiscard]] Core::Result<StoredState> Load()
     {
-        return ReadState(_database, _path);
+        return ReadStoredState(
+            _tables,
+            {_path, std::string(RESTORE_IT), "SELECT seq FROM sqlite_sequence WHERE name = 'reports'"});
     }
 
 private:
@@ -417,30 +407,12 @@ const StoreOrigin& SqlitePlanStore::GetOrigin() const noexcept
 
 Core::Result<StoredState> SqlitePlanStore::Load()
 {
-    try
-    {
-        return _impl->Load();
-    }
-    catch (const SQLite::Exception& exception)
-    {
-        return RefuseFor(exception, _impl->GetPath(), "reading", 0);
-    }
+    return _impl->Load();
 }
 
 Core::Result<void> SqlitePlanStore::Append(const StoreBatch& batch)
 {
-    if (Core::Result<void> same = Check(); !same.has_value())
-    {
-        return same;
-    }
-    try
-    {
-        return _impl->Append(batch);
-    }
-    catch (const SQLite::Exception& exception)
-    {
-        return RefuseFor(exception, _impl->GetPath(), "writing", _impl->GetSystemError());
-    }
+    return Check().and_then([&] { return _impl->Append(batch); });
 }
 
 Core::Result<void> SqlitePlanStore::Check()

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <acs/core/Result.hpp>
-#include <acs/plan_sqlite/StoreOrigin.hpp>
+#include <acs/plan/StoreOrigin.hpp>
 
 #include <SQLiteCpp/Database.h>
 

@@ -3,7 +3,7 @@
 #include <acs/core/Api.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/plan/IPlanStore.hpp>
-#include <acs/plan_sqlite/StoreOrigin.hpp>
+#include <acs/plan/StoreOrigin.hpp>
 
 #include <functional>
 #include <memory>
