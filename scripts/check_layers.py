@@ -11,7 +11,7 @@ from source_tree import (CPP_SUFFIXES, IncludeResolver, list_files, list_include
 
 PURE = ("protocol", "vda5050", "openstream", "plan")
 IO = {"protocol_beast": "protocol", "vda5050_mosquitto": "vda5050", "openstream_asio": "openstream",
-      "plan_sqlite": "plan"}
+      "plan_postgres": "plan", "plan_sqlite": "plan"}
 # Pure, for the tests of users.
 KITS = {"adapter_test": "plan"}
 # For other languages: pure but for a random source, which their users need not supply.
@@ -31,6 +31,7 @@ FOLDERS = {
     "libopenstream/asio/": "openstream_asio",
     "libplan/": "plan",
     "libplan/adapter-test/": "adapter_test",
+    "libplan/postgres/": "plan_postgres",
     "libplan/sqlite/": "plan_sqlite",
     "apps/common/": "apps/common",
     "apps/acsd/include/": "drivers",
@@ -53,6 +54,7 @@ THIRD_PARTY = {
     "openstream_asio": (
         "fmt/", "tl/", "boost/asio", "boost/system/", "netinet/", "linux/sockios.h", "pthread.h", "sched.h", "sys/ioctl.h", "sys/mman.h", "sys/prctl.h",
         "sys/socket.h"),
+    "plan_postgres": ("fmt/", "tl/", "libpq-fe.h", "poll.h"),
     "plan_sqlite": ("fmt/", "tl/", "SQLiteCpp/", "sqlite3.h", "fcntl.h", "sys/file.h", "sys/stat.h", "unistd.h"),
 }
 PUBLIC_THIRD_PARTY = ("fmt/", "tl/", "boost/asio/any_io_executor.hpp")

@@ -1,4 +1,4 @@
-// needs: Boost OpenSSL SQLiteCpp Mosquitto spdlog tomlplusplus prometheus-cpp
+// needs: Boost OpenSSL PostgreSQL SQLiteCpp Mosquitto spdlog tomlplusplus prometheus-cpp
 #include <acs/acsd/LineRobotSetup.hpp>
 #include <acs/acsd/RunAcsd.hpp>
 

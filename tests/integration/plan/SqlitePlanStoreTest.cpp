@@ -1,5 +1,6 @@
 #include "ManualClock.hpp"
 #include "StoreFolder.hpp"
+#include "StoreSamples.hpp"
 #include <acs/plan/EPlanningError.hpp>
 #include <acs/plan/MemoryPlanStore.hpp>
 
@@ -16,26 +17,6 @@ using namespace ACS;                 // NOLINT(google-build-using-namespace)
 
 namespace
 {
-
-PlanRecord MakeRecord(std::uint64_t sequence, const std::string& planID)
-{
-    PlanRecord record;
-    record.sequence = sequence;
-    record.acceptedAt = Testing::ManualClock().GetNow().wall;
-    record.plan = {planID, "LOT", 3, {{1, "CassetteLoad", "A01.CP01", {"C1"}, {{"J1", "A01.CP01", "AMR.CP01"}}}}};
-    record.progress.steps = {{EStepState::Pending, {EJobState::Pending}}};
-    record.transactionID = "request-" + planID;
-    return record;
-}
-
-OutboxEntry MakeEntry(std::uint64_t sequence, const std::string& planID)
-{
-    return {
-        sequence,
-        "transaction-" + std::to_string(sequence),
-        Testing::ManualClock().GetNow().wall,
-        PlanReport{planID, EPlanState::InProgress, ""}};
-}
 
 /// The database of version 1, with one row of each kind.
 constexpr const char* FIRST_SCHEMA =
@@ -59,77 +40,7 @@ constexpr const char* SECOND_SCHEMA =
     "CREATE TABLE settings (name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
     "INSERT INTO settings VALUES ('tsc_state', 'Paused');";
 
-const Alarm& GetAlarm()
-{
-    static const Alarm ALARM{"LR01", "ACS-1001", EAlarmLevel::Heavy, "look", "P1", 1, "J1"};
-    return ALARM;
-}
-
-/// Changes of every kind, in four batches.
-std::vector<StoreBatch> MakeBatches()
-{
-    PlanProgressed progressed{"P1", MakeRecord(1, "P1").progress};
-    progressed.progress.state = EPlanState::InProgress;
-    progressed.progress.robotID = "LR01";
-    progressed.progress.startedAt = Testing::ManualClock().GetNow().wall;
-    progressed.progress.bArrived = true;
-    progressed.progress.control = EPlanControl::Pause;
-    progressed.progress.controlCount = 2;
-    progressed.progress.controlOrigin = EControlOrigin::Operator;
-    progressed.progress.requestIDs = {"T1", "T2"};
-    const RobotWorkChanged work{"LR01", "C1", {"C0"}, std::nullopt, "5 5 0", true, false, {"N1", "N2"}};
-    const StartJob job{"P1", 1, "J1", "CassetteLoad", "A01.CP01", "A01.CP01", "LR01.CP01", "C1", "C2", "5 5 0"};
-    const RobotWorkChanged later{"LR01", "C2", {"C1", "C0"}, job, "", false, true, {"N2"}};
-    return {
-        {{PlanAdded{MakeRecord(1, "P1")}, PlanAdded{MakeRecord(2, "P2")}, PlanAdded{MakeRecord(3, "P3")}}},
-        {{progressed,
-          ReportAdded{MakeEntry(1, "P1")},
-          ReportAdded{MakeEntry(2, "P1")},
-          AlarmSet{GetAlarm()},
-          CarriersChanged{"LR01", {std::nullopt}},
-          work}},
-        {{PlanRemoved{3},
-          TscChanged{ETscState::Pausing},
-          MaintenanceChanged{"LR01", true},
-          MaintenanceChanged{"CR01", true},
-          MaintenanceChanged{"LR01", false},
-          MaintenanceChanged{"CR01", true},
-          BlockAdded{Block{EBlockKind::Node, "L03", "oil", Testing::ManualClock().GetNow().wall}},
-          BlockAdded{Block{EBlockKind::Edge, "L03", "", Testing::ManualClock().GetNow().wall}},
-          BlockAdded{Block{EBlockKind::Station, "A01.CP01", "", Testing::ManualClock().GetNow().wall}},
-          BlockRemoved{EBlockKind::Node, "L03"},
-          BlockAdded{Block{EBlockKind::Node, "L03", "ice", Testing::ManualClock().GetNow().wall}}}},
-        {{ReportRemoved{1},
-          CarriersChanged{"LR01", {"C1"}},
-          ReportAdded{MakeEntry(3, "P1")},
-          ReportRemoved{3},
-          ReceiptAdded{{"token lee", "k1", R"({"status":202})", Testing::ManualClock().GetNow().wall}},
-          ReceiptAdded{{"token kim", "k1", {}, Testing::ManualClock().GetNow().wall}},
-          later}}};
-}
-
 } // namespace
-
-TEST_CASE("Store: a file that is closed and opened again has the content of the store in memory")
-{
-    const StoreFolder folder;
-    MemoryPlanStore memory;
-    for (const StoreBatch& batch : MakeBatches())
-    {
-        REQUIRE(OpenStore(folder.GetStore())->Append(batch).has_value());
-        REQUIRE(memory.Append(batch).has_value());
-    }
-    const Core::Result<StoredState> loaded = OpenStore(folder.GetStore())->Load();
-    REQUIRE(loaded.has_value());
-    CHECK(*loaded == memory.GetState());
-    CHECK(loaded->lastReportSequence == 3);
-    CHECK(loaded->plans.size() == 2);
-    CHECK(loaded->tscState == ETscState::Pausing);
-    CHECK(loaded->robotsInMaintenance == std::vector<std::string>{"CR01"});
-
-    REQUIRE(OpenStore(folder.GetStore())->Append({{AlarmCleared{GetAlarm()}}}).has_value());
-    CHECK(OpenStore(folder.GetStore())->Load()->alarms.empty());
-}
 
 TEST_CASE("Store: an empty file becomes a store with a schema version, in a write-ahead log")
 {
@@ -141,16 +52,6 @@ TEST_CASE("Store: an empty file becomes a store with a schema version, in a writ
     SQLite::Database database(GetDatabase(folder.GetStore()), SQLite::OPEN_READONLY);
     CHECK(database.execAndGet("PRAGMA user_version").getInt() == NEWEST);
     CHECK(database.execAndGet("PRAGMA journal_mode").getString() == "wal");
-}
-
-TEST_CASE("Store: a planID whose plan was removed can be stored again, also in the same batch")
-{
-    const StoreFolder folder;
-    const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetStore());
-    REQUIRE(store->Append({{PlanAdded{MakeRecord(1, "P1")}}}).has_value());
-    REQUIRE(store->Append({{PlanRemoved{1}, PlanAdded{MakeRecord(2, "P1")}}}).has_value());
-    REQUIRE(store->Load()->plans.size() == 1);
-    CHECK(store->Load()->plans.front().sequence == 2);
 }
 
 TEST_CASE("Store: databases of the first and second schema are migrated without loss")
@@ -192,36 +93,6 @@ TEST_CASE("Store: databases of the first and second schema are migrated without 
     }
 }
 
-TEST_CASE("Store: receipts are kept 10 minutes, at most 1,000 of them")
-{
-    const StoreFolder folder;
-    const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetStore());
-    MemoryPlanStore memory;
-    const auto add = [&](const std::string& key, Core::WallTime time) {
-        const StoreBatch batch{{ReceiptAdded{{"lee", key, "answer", time}}}};
-        REQUIRE(store->Append(batch).has_value());
-        REQUIRE(memory.Append(batch).has_value());
-        REQUIRE(store->Load()->receipts == memory.GetState().receipts);
-        return memory.GetState().receipts;
-    };
-    const Core::WallTime start = Testing::ManualClock().GetNow().wall;
-    add("old", start);
-    add("older", start + std::chrono::milliseconds(1));
-    const std::vector<CommandReceipt> kept = add("new", start + CommandReceipt::KEPT);
-    REQUIRE(kept.size() == 2);
-    CHECK(kept.front().key == "older");
-    StoreBatch many;
-    for (std::size_t number = 0; number < CommandReceipt::MOST_RECEIPTS; ++number)
-    {
-        many.changes.emplace_back(ReceiptAdded{{"lee", std::to_string(number), {}, start}});
-    }
-    REQUIRE(store->Append(many).has_value());
-    REQUIRE(memory.Append(many).has_value());
-    CHECK(store->Load()->receipts.size() == CommandReceipt::MOST_RECEIPTS);
-    CHECK(store->Load()->receipts.front().key == "0");
-    CHECK(store->Load()->receipts == memory.GetState().receipts);
-}
-
 TEST_CASE("Store: a database of the fourth schema, without blocks and receipts, is migrated without loss")
 {
     const StoreFolder folder;
@@ -239,20 +110,6 @@ TEST_CASE("Store: a database of the fourth schema, without blocks and receipts, 
     const Block block{EBlockKind::Node, "L03", "oil", Testing::ManualClock().GetNow().wall};
     REQUIRE(store->Append({{BlockAdded{block}}}).has_value());
     CHECK(store->Load()->blocks == std::vector<Block>{block});
-}
-
-TEST_CASE("Store: a batch that fails in the middle leaves no change, and the store still works")
-{
-    const StoreFolder folder;
-    const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetStore());
-    REQUIRE(store->Append({{PlanAdded{MakeRecord(1, "P1")}}}).has_value());
-    const Core::Result<void> twice = store->Append({{ReportAdded{MakeEntry(1, "P1")}, PlanAdded{MakeRecord(2, "P1")}}});
-    REQUIRE_FALSE(twice.has_value());
-    CHECK(twice.error().code == EPlanningError::StoreFailed);
-    CHECK(store->Load()->outbox.empty());
-    CHECK(store->Load()->plans.size() == 1);
-    CHECK(store->Append({{PlanAdded{MakeRecord(2, "P2")}, ReportAdded{MakeEntry(1, "P2")}}}).has_value());
-    CHECK(store->Load()->plans.size() == 2);
 }
 
 TEST_CASE("Store: damage, another program's file and a newer version are distinguished and left unchanged")

@@ -1,0 +1,147 @@
+#include "PostgresFault.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+namespace ACS::Planning
+{
+
+namespace
+{
+
+struct Remedy
+{
+    std::string_view state; ///< SQLSTATE, or its first two characters: the class.
+    EPlanningError error;
+    std::string_view expected;
+};
+
+/// The first that fits.
+constexpr std::array REMEDIES{
+    Remedy{TAKEN_STATE, EPlanningError::StoreTaken, "a store that no other process has taken; end this process"},
+    Remedy{
+        "42501",
+        EPlanningError::StoreFailed,
+        "a role that may create the schema acsd in this database, or that owns it; as its owner: GRANT CREATE ON DATABASE … TO …"},
+    Remedy{
+        "25006",
+        EPlanningError::StoreFailed,
+        "a server that accepts writes; name the primary in the URL, or all servers"},
+    Remedy{
+        "28",
+        EPlanningError::StoreFailed,
+        "the right user and password, and a line for them in pg_hba.conf of the server"},
+    Remedy{
+        "3D000",
+        EPlanningError::StoreFailed,
+        "a database of this name; create it with createdb, or correct the URL"},
+    Remedy{"53100", EPlanningError::StoreFailed, "free space on the disk of the database server"},
+    Remedy{
+        "53300",
+        EPlanningError::StoreFailed,
+        "a free connection; close others, or raise max_connections of the server"},
+    Remedy{"57014", EPlanningError::StoreFailed, "an answer in time; find out what slows the database server down"},
+    Remedy{"55P03", EPlanningError::StoreFailed, "tables that no other program locks; end what locks them (pg_locks)"},
+    Remedy{"57", EPlanningError::StoreFailed, "a server that runs; nothing to do if it is being restarted"},
+    Remedy{"XX", EPlanningError::StoreCorrupt, "an undamaged database; restore a backup"},
+    Remedy{
+        "42",
+        EPlanningError::StoreCorrupt,
+        "the tables of a plan store; restore a backup, or give an empty database"}};
+
+constexpr std::string_view OTHER_REMEDY = "a database that can be read and written; see the log of its server";
+
+std::string_view GetState(const PGresult& result)
+{
+    const char* const state = PQresultErrorField(&result, PG_DIAG_SQLSTATE);
+    return state == nullptr ? std::string_view() : std::string_view(state);
+}
+
+/// Messages of libpq end with a line break and may have several lines.
+std::string MakeOneLine(std::string text)
+{
+    while (!text.empty() && (text.back() == '\n' || text.back() == ' '))
+    {
+        text.pop_back();
+    }
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+/// The text of a connection that was refused has no SQLSTATE.
+std::string_view FindConnectionRemedy(std::string_view text)
+{
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 8> TEXTS{{
+        {"password", "the right password; give the file that has it"},
+        {"authentication failed", "the right user and password"},
+        {"no pg_hba.conf entry", "a line for this user and host in pg_hba.conf of the server"},
+        {"does not exist", "a database and a user of this name; create them, or correct the URL"},
+        {"read-only", "a server that accepts writes; name the primary in the URL, or all servers"},
+        {"certificate", "a certificate that can be verified; give its issuer as sslrootcert in the URL"},
+        {"too many", "a free connection; close others, or raise max_connections of the server"},
+        {"starting up", "a server that has started; it is starting now"},
+    }};
+    const auto found = std::ranges::find_if(TEXTS, [text](const auto& entry) {
+        return text.find(entry.first) != std::string_view::npos;
+    });
+    return found == TEXTS.end() ? "a database server that can be reached; check the URL, the network and the server"
+                                : found->second;
+}
+
+} // namespace
+
+tl::unexpected<Core::Error> RefuseStore(
+    EPlanningError error,
+    const std::string& name,
+    std::string expected,
+    std::string found)
+{
+    return Core::Fail(make_error_code(error), name, std::move(expected), std::move(found));
+}
+
+Core::Error MakeStatementError(const PGresult& result, const std::string& name, std::string_view operation)
+{
+    const std::string_view state = GetState(result);
+    const char* const message = PQresultErrorField(&result, PG_DIAG_MESSAGE_PRIMARY);
+    std::string found = fmt::format("{} failed: {} ({})", operation, message == nullptr ? "no reason" : message, state);
+    const auto remedy =
+        std::ranges::find_if(REMEDIES, [state](const Remedy& entry) { return state.starts_with(entry.state); });
+    const EPlanningError error = remedy == REMEDIES.end() ? EPlanningError::StoreFailed : remedy->error;
+    return {
+        make_error_code(error),
+        name,
+        std::string(remedy == REMEDIES.end() ? OTHER_REMEDY : remedy->expected),
+        MakeOneLine(std::move(found))};
+}
+
+Core::Error MakeConnectionError(const PGconn* connectionOrNull, const std::string& name, std::string_view operation)
+{
+    std::string text = MakeOneLine(connectionOrNull == nullptr ? "no memory" : PQerrorMessage(connectionOrNull));
+    return {
+        make_error_code(EPlanningError::StoreFailed),
+        name,
+        std::string(FindConnectionRemedy(text)),
+        fmt::format("{} failed: {}", operation, text.empty() ? "the connection was closed" : text)};
+}
+
+Core::Error MakeTimeoutError(const std::string& name, std::string_view operation, double seconds)
+{
+    return {
+        make_error_code(EPlanningError::StoreFailed),
+        name,
+        "an answer in time; check the network and what slows the database server down",
+        fmt::format("{} failed: no answer for {:.1f} s", operation, seconds)};
+}
+
+bool IsWorthRepeating(const PGresult& result)
+{
+    constexpr std::string_view SERIALIZATION_FAILURE = "40001";
+    constexpr std::string_view DEADLOCK_DETECTED = "40P01";
+    return GetState(result) == SERIALIZATION_FAILURE || GetState(result) == DEADLOCK_DETECTED;
+}
+
+} // namespace ACS::Planning

@@ -1,0 +1,75 @@
+#include "PostgresPlace.hpp"
+
+#include <chrono>
+#include <string>
+
+using namespace ACS::Planning;       // NOLINT(google-build-using-namespace): a test of that namespace
+using namespace ACS::Planning::Test; // NOLINT(google-build-using-namespace)
+using namespace ACS;                 // NOLINT(google-build-using-namespace)
+
+namespace
+{
+
+/// Why a store cannot be opened.
+std::string Explain(const std::string& url)
+{
+    const auto lease = PostgresLease::Open({url, {}, std::chrono::seconds(5)});
+    REQUIRE_FALSE(lease.has_value());
+    return Core::Describe(lease.error());
+}
+
+} // namespace
+
+TEST_CASE("PostgreSQL: a URL is read without its password")
+{
+    const PostgresTarget target =
+        *ReadPostgresURL("postgresql://kim:secret@db1.plant,db2.plant:5433/acs?sslmode=require");
+    CHECK(target.name == "postgresql://kim@db1.plant,db2.plant:5433/acs");
+    CHECK(target.bPassword);
+    CHECK(target.bOtherMachine);
+    CHECK_FALSE(target.bVerified);
+    CHECK(ReadPostgresURL("postgresql://db1.plant/acs")->bVerified); // by default
+    CHECK_FALSE(ReadPostgresURL("postgresql:///acs?host=/run/postgresql")->bOtherMachine);
+    CHECK_FALSE(ReadPostgresURL("postgresql://localhost/acs")->bOtherMachine);
+    CHECK(ReadPostgresURL("postgresql://127.0.0.1,db2.plant/acs")->bOtherMachine);
+    for (const std::string url :
+         {"mysql://kim:secret@db/acs",
+          "postgresql://kim:secret@db:x/acs",
+          "postgresql://kim:secret@[db/acs",
+          "",
+          "dbname=acs password=secret",
+          "postgresql://kim:secret@db/acs?odd=1"})
+    {
+        INFO(url);
+        const Core::Result<PostgresTarget> refused = ReadPostgresURL(url);
+        REQUIRE_FALSE(refused.has_value());
+        CHECK_THAT(Core::Describe(refused.error()), !Catch::Contains("secret"));
+    }
+}
+
+TEST_CASE("PostgreSQL: each reason why it cannot be used has its remedy")
+{
+    const PostgresPlace place;
+    const std::string port = std::to_string(GetServer().GetPort());
+    CHECK_THAT(Explain("postgresql://acsd@127.0.0.1:1/acs"), Catch::Contains("a database server that can be reached"));
+    CHECK_THAT(
+        Explain("postgresql://acsd@127.0.0.1:" + port + "/absent"),
+        Catch::Contains("a database and a user of this name"));
+    CHECK_THAT(
+        Explain("postgresql://absent@127.0.0.1:" + port + "/postgres"),
+        Catch::Contains("a database and a user of this name"));
+
+    GetServer().Execute("CREATE ROLE reader LOGIN");
+    const std::string reader = "postgresql://reader@127.0.0.1:" + port + "/" + place.GetDatabase();
+    CHECK_THAT(Explain(reader), Catch::Contains("a role that may create the schema acsd"));
+    GetServer().Execute("ALTER ROLE reader SET default_transaction_read_only TO on");
+    CHECK_THAT(Explain(reader), Catch::Contains("a server that accepts writes"));
+    GetServer().Execute("ALTER ROLE reader RESET default_transaction_read_only");
+    static_cast<void>(place.OpenLease());
+    const auto lease = PostgresLease::Open({reader, {}, std::chrono::seconds(5)});
+    CHECK_FALSE(lease.has_value()); // it may not read the tables either
+
+    GetServer().Execute("CREATE DATABASE latin ENCODING 'LATIN1' TEMPLATE template0");
+    CHECK_THAT(Explain(GetServer().GetURL("latin")), Catch::Contains("the encoding UTF8"));
+    CHECK_THAT(Explain("postgresql://acsd@127.0.0.1:" + port + "/postgres?sslmode=require"), Catch::Contains("SSL"));
+}
