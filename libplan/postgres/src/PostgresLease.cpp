@@ -77,18 +77,12 @@ private:
     }
 };
 
-PostgresLease::PostgresLease(std::unique_ptr<Impl> impl)
-    : _impl(std::move(impl))
+PostgresLease::PostgresLease(PostgresOptions options)
+    : _impl(std::make_unique<Impl>(std::move(options)))
 {
 }
 
 PostgresLease::~PostgresLease() = default;
-
-Core::Result<std::unique_ptr<PostgresLease>> PostgresLease::Open(PostgresOptions options)
-{
-    auto impl = std::make_unique<Impl>(std::move(options));
-    return impl->Connect().map([&] { return std::unique_ptr<PostgresLease>(new PostgresLease(std::move(impl))); });
-}
 
 Core::Result<LeaseState> PostgresLease::Read()
 {

@@ -29,17 +29,16 @@ namespace
 /// Repetitions of a transaction that the server has ended because of another one.
 constexpr int MOST_REPETITIONS = 3;
 
-/// Attempts to connect after a connection was lost during a commit.
-constexpr int MOST_ATTEMPTS = 20;
+/// Between two attempts to connect after a connection was lost during a commit.
+constexpr std::chrono::milliseconds RETRY_DELAY{100};
 
 constexpr std::string_view RESTORE_REMEDY =
     "restore a backup with pg_restore, or drop the schema acsd to start with an empty store";
 
 /// Between two attempts to connect: a server that is being restarted refuses at once.
-void PauseFor(Core::Duration duration)
+void PauseFor(std::chrono::milliseconds duration)
 {
-    std::ignore =
-        ::poll(nullptr, 0, static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(duration).count()));
+    std::ignore = ::poll(nullptr, 0, static_cast<int>(duration.count()));
 }
 
 std::int64_t ReadNumber(const std::string& text)
@@ -155,6 +154,7 @@ class PostgresPlanStore::Impl
     std::string _name;
     std::optional<PostgresConnection> _connection;
     StoreOrigin _origin;
+    std::string _identity;
     std::int64_t _session = 0;
     std::int64_t _number = 0; ///< Of the last transaction that is stored.
 
@@ -178,7 +178,13 @@ public:
                 return version < GetNewestPostgresSchema() ? MigratePostgresSchema(*_connection, version)
                                                            : Core::Result<void>();
             })
-            .and_then([this] { return BeginSession(); });
+            .and_then([this] { return BeginSession(); })
+            .and_then([this] { return ReadIdentity(); });
+    }
+
+    [[nodiscard]] const std::string& GetIdentity() const noexcept
+    {
+        return _identity;
     }
 
     [[nodiscard]] const StoreOrigin& GetOrigin() const noexcept
@@ -269,7 +275,8 @@ private:
     {
         const std::int64_t expected = _number + 1;
         Core::Result<void> connected;
-        for (int attempt = 0; attempt < MOST_ATTEMPTS; ++attempt)
+        const Core::SteadyTime deadline = std::chrono::steady_clock::now() + _options.timeout;
+        do
         {
             connected = Reconnect();
             if (connected.has_value())
@@ -280,8 +287,9 @@ private:
             {
                 return connected;
             }
-            PauseFor(_options.timeout / MOST_ATTEMPTS);
+            PauseFor(RETRY_DELAY);
         }
+        while (std::chrono::steady_clock::now() < deadline);
         return RefuseTaken(fmt::format(
             "the connection was lost during a commit, and whether that was stored could not be read: {}",
             Core::Describe(connected.error())));
@@ -298,6 +306,12 @@ private:
             _connection = std::move(connection);
             return BeginSession();
         });
+    }
+
+    [[nodiscard]] Core::Result<void> ReadIdentity()
+    {
+        return _connection->Query({"SELECT value FROM settings WHERE name = 'identity'", {}}, "reading the identity")
+            .map([this](const std::vector<SqlRow>& rows) { _identity = rows.empty() ? "" : rows.front().front(); });
     }
 
     /// From then on no transaction of a former connection is stored, and the number is that of the last one that was.
@@ -357,6 +371,11 @@ Core::Result<StoredState> PostgresPlanStore::InspectState(const PostgresOptions&
 const StoreOrigin& PostgresPlanStore::GetOrigin() const noexcept
 {
     return _impl->GetOrigin();
+}
+
+const std::string& PostgresPlanStore::GetIdentity() const noexcept
+{
+    return _impl->GetIdentity();
 }
 
 Core::Result<StoredState> PostgresPlanStore::Load()

@@ -51,6 +51,7 @@ INSERT INTO acsd.lease DEFAULT VALUES;
 CREATE TABLE acsd.batches (one boolean PRIMARY KEY DEFAULT true CHECK (one), epoch bigint NOT NULL DEFAULT 0,
   session bigint NOT NULL DEFAULT 0, number bigint NOT NULL DEFAULT 0, last_report bigint NOT NULL DEFAULT 0);
 INSERT INTO acsd.batches DEFAULT VALUES;
+INSERT INTO acsd.settings VALUES ('identity', gen_random_uuid());
 
 CREATE FUNCTION acsd.begin_batch(epoch_ bigint, session_ bigint, last_report_ bigint) RETURNS void LANGUAGE plpgsql AS $$
 BEGIN

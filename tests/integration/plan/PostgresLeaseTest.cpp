@@ -89,8 +89,8 @@ TEST_CASE("Lease: several processes create the tables of an empty database at th
     for (std::string& error : errors)
     {
         threads.emplace_back([&place, &error] {
-            const auto lease = PostgresLease::Open(place.GetOptions());
-            error = lease.has_value() ? std::string() : Core::Describe(lease.error());
+            const Core::Result<LeaseState> state = PostgresLease(place.GetOptions()).Read();
+            error = state.has_value() ? std::string() : Core::Describe(state.error());
         });
     }
     for (std::thread& thread : threads)

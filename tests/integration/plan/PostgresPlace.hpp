@@ -54,10 +54,11 @@ public:
 
     [[nodiscard]] std::unique_ptr<PostgresLease> OpenLease() const
     {
-        Core::Result<std::unique_ptr<PostgresLease>> lease = PostgresLease::Open(GetOptions());
-        INFO((lease.has_value() ? std::string() : Core::Describe(lease.error())));
-        REQUIRE(lease.has_value());
-        return std::move(*lease);
+        auto lease = std::make_unique<PostgresLease>(GetOptions());
+        const Core::Result<LeaseState> state = lease->Read();
+        INFO((state.has_value() ? std::string() : Core::Describe(state.error())));
+        REQUIRE(state.has_value());
+        return lease;
     }
 
     /// Takes the lease from any process that has it. Returns the epoch.

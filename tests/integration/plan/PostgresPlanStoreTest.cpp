@@ -100,9 +100,8 @@ TEST_CASE("PostgreSQL: a server that ends and starts again loses nothing")
 {
     Testing::PostgresServer server;
     const PostgresOptions options{server.GetURL(), {}, std::chrono::seconds(5)};
-    const auto lease = PostgresLease::Open(options);
-    REQUIRE(lease.has_value());
-    const auto epoch = (*lease)->TryTakeOrNull(*(*lease)->Read(), {"a test", "", std::chrono::seconds(3)});
+    PostgresLease lease(options);
+    const auto epoch = lease.TryTakeOrNull(*lease.Read(), {"a test", "", std::chrono::seconds(3)});
     REQUIRE(epoch.has_value());
     const auto store = PostgresPlanStore::Open(options, **epoch);
     REQUIRE(store.has_value());
@@ -111,10 +110,10 @@ TEST_CASE("PostgreSQL: a server that ends and starts again loses nothing")
     const Core::Result<void> failed = (*store)->Check();
     REQUIRE_FALSE(failed.has_value());
     CHECK(failed.error().code == EPlanningError::StoreFailed);
-    CHECK_FALSE((*lease)->TryRenew(**epoch).has_value());
+    CHECK_FALSE(lease.TryRenew(**epoch).has_value());
     server.Start();
     CHECK((*store)->Append(MakePlan(2)).has_value());
-    CHECK((*lease)->TryRenew(**epoch).value_or(false));
+    CHECK(lease.TryRenew(**epoch).value_or(false));
     CHECK((*store)->Load()->plans.size() == 2);
 }
 
@@ -188,7 +187,7 @@ TEST_CASE("PostgreSQL: what is found before the start has a state and a sentence
         static_cast<void>(place.OpenLease());
         place.Execute("UPDATE settings SET value = '99' WHERE name = 'schema_version'");
         refuse(EPlanningError::StoreTooNew, "version 99");
-        CHECK_FALSE(PostgresLease::Open(place.GetOptions()).has_value());
+        CHECK_FALSE(PostgresLease(place.GetOptions()).Read().has_value());
     }
     SECTION("the schema of another program")
     {

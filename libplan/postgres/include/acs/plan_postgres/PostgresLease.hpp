@@ -19,15 +19,13 @@ class ACS_API PostgresLease final : public ILease
     class ACS_HIDDEN Impl;
     std::unique_ptr<Impl> _impl;
 
-    explicit PostgresLease(std::unique_ptr<Impl> impl);
-
 public:
+    /// Opens no connection. The first call creates the tables in an empty database. The errors of all calls include those of the
+    /// URL.
+    explicit PostgresLease(PostgresOptions options);
     PostgresLease(const PostgresLease&) = delete;
     PostgresLease& operator=(const PostgresLease&) = delete;
     ~PostgresLease() override;
-
-    /// Connects, and creates the tables in an empty database. Errors as of ILease.
-    [[nodiscard]] static Core::Result<std::unique_ptr<PostgresLease>> Open(PostgresOptions options);
 
     [[nodiscard]] Core::Result<LeaseState> Read() override;
     [[nodiscard]] Core::Result<std::optional<std::uint64_t>> TryTakeOrNull(

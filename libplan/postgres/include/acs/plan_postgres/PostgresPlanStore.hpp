@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
 namespace ACS::Planning
 {
@@ -41,6 +42,9 @@ public:
 
     /// What Open has found.
     [[nodiscard]] const StoreOrigin& GetOrigin() const noexcept;
+
+    /// A random name that the store got when it was created: the same for all processes that share it.
+    [[nodiscard]] const std::string& GetIdentity() const noexcept;
 
     [[nodiscard]] Core::Result<StoredState> Load() override;
 
