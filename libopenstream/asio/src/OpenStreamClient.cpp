@@ -280,6 +280,13 @@ private:
 
     void Do(const OpenStream::ClientSend& action)
     {
+        if (_options.maySend && !_options.maySend())
+        {
+            boost::asio::post(_socket.get_executor(), [handler = Guard(&Impl::OnWritten)]() mutable {
+                handler(boost::asio::error::operation_aborted, 0);
+            });
+            return;
+        }
         _bWrote = true;
         _bAcknowledging = false;
         if (_options.onSent)

@@ -20,6 +20,31 @@ const MonitorRequest MONITOR{"/project/rgen", 20ms, {}, {}}; // NOLINT(cert-err5
 
 } // namespace
 
+TEST_CASE("A client that may not send any more closes its connection instead of sending")
+{
+    TcpFixture fixture;
+    const auto server = fixture.StartServer();
+    bool bAllowed = true;
+    std::string sent;
+    OpenStreamClientOptions options;
+    options.maySend = [&bAllowed] {
+        return bAllowed;
+    };
+    options.onSent = [&sent](std::string_view bytes) {
+        sent += bytes;
+    };
+    const auto client = fixture.MakeClient(server->GetPort(), options);
+    client->Start();
+    REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientReady>() == 1; }));
+    bAllowed = false;
+    sent.clear();
+    client->SendControl(ControlRequest{EApiMethod::Post, "/good", {}, {}}, EControlTracking::Tracked);
+    REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientLost>() == 1; }));
+    CHECK(sent.empty());
+    bAllowed = true;
+    REQUIRE(fixture.TryRunUntil([&]() { return fixture.Count<ClientReady>() == 2; }));
+}
+
 TEST_CASE("3 Handshake, a MONITOR at 20 ms delivers, a valid CONTROL is accepted, a rejected one gives the reason")
 {
     TcpFixture fixture;

@@ -29,6 +29,9 @@ struct OpenStreamClientOptions
     std::function<void(std::string_view bytes)> onReceived;
     /// See onReceived.
     std::function<void(std::string_view bytes)> onSent;
+    /// Asked on the executor before each message: false closes the connection instead of sending it. For a program that may command
+    /// for a time only. May be empty: it may always send.
+    std::function<bool()> maySend{};
 };
 
 /// Runs a ClientSession over TCP (no delay, keep-alive) on a single-threaded executor. After destruction no handler is
