@@ -6,7 +6,7 @@ import subprocess
 import time
 
 from scenario_case import FINISH_SECONDS, ScenarioCase
-from test_kill import make_expected
+from kill_case import make_expected
 
 FULL = "the journal cannot be used: File too large"
 MOST_OPEN = 2  # plans of each kind

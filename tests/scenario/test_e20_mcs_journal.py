@@ -19,7 +19,7 @@ import time
 from journal_line import FULL, JournalCase, get_key, is_report
 from scenario_case import FINISH_SECONDS
 from scenario_case import main as run_tests
-from test_kill import make_expected
+from kill_case import make_expected
 
 SETTINGS = argparse.Namespace(kills=5, seed=1)
 MOST_REPORTS = 6  # between two kills
