@@ -233,6 +233,8 @@ class Line:
             "operator.listen": "127.0.0.1:0",
             "robots.CR01.arm.url": f"tcp://{arm_addresses['stream']}",
         }
+        if any(override.startswith("store.url=") for override in overrides):
+            del settings["store.directory"]
         sets = [part for key, value in settings.items() for part in ("--set", f"{key}={value}")]
         sets += [part for override in overrides for part in ("--set", override)]
         return self.start("acsd", "--config", config or self.site_dir / "acsd.toml", *sets, *arguments, **options)

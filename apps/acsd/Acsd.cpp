@@ -20,11 +20,9 @@
 #include "operator/ReadRoutes.hpp"
 #include "operator/StateFeed.hpp"
 #include "replay/RunTrace.hpp"
-#include "store/StoreSummary.hpp"
 #include "store/StoreWorker.hpp"
 #include "trace/TraceRoute.hpp"
 #include "view/ViewCodec.hpp"
-#include <acs/plan_sqlite/SqlitePlanStore.hpp>
 #include <acs/vda5050_mosquitto/MosquittoLink.hpp>
 
 #include <fmt/format.h>
@@ -79,6 +77,7 @@ public:
         Dependencies dependencies,
         AcsdConfig config,
         std::unique_ptr<Planning::IPlanStore> store,
+        const std::string& identity,
         std::unique_ptr<AuditLog> audit)
         : _dependencies(std::move(dependencies)),
           _config(std::move(config)),
@@ -101,9 +100,8 @@ public:
               {_dependencies.logger.MakeFor("mqtt"),
                _dependencies.traceOrNull,
                [this](bool bUp) { bUp ? _core.OnMqttUp() : _core.OnMqttDown(); },
-               [this] {
-                   return _core.IsClosed();
-               }}),
+               [this] { return _core.IsClosed(); },
+               _dependencies.mayCommand}),
           _robots(
               {_dependencies.executor,
                _dependencies.clock,
@@ -112,9 +110,8 @@ public:
                _metricsEndpoint,
                _dependencies.traceOrNull,
                &_mqttRouter,
-               [this](const std::string& robotID, const RobotActionRecord& record) {
-                   OnAction(robotID, record);
-               }},
+               [this](const std::string& robotID, const RobotActionRecord& record) { OnAction(robotID, record); },
+               _dependencies.mayCommand},
               _config.robots,
               [this](const std::string& robotID, const Planning::RobotEvent& event) {
                   _core.OnRobotEvent(robotID, event);
@@ -144,7 +141,7 @@ public:
                 _dependencies.executor,
                 _dependencies.random,
                 _dependencies.logger.MakeFor("mqtt"),
-                MakeMqttOptions(*_config.mqtt, _dependencies.random),
+                MakeMqttOptions(*_config.mqtt, _dependencies.random, identity),
                 _mqttRouter);
             _mqttRouter.SetLink(*_mqtt);
         }
@@ -231,7 +228,10 @@ private:
 
     void CommandRobot(const Planning::CommandRobot& command) override
     {
-        _robots.Handle(command);
+        if (MayCommand())
+        {
+            _robots.Handle(command);
+        }
     }
 
     void StartTimer(const AcsdTimer& timer, Core::Duration delay) override
@@ -258,6 +258,11 @@ private:
             _mqtt->StopAsync(std::nullopt, VDA5050::MosquittoLink::DEFAULT_STOP_TIMEOUT, [this] { OnLinkClosed(); });
         }
         _mcs.StopAsync([this] { OnLinkClosed(); });
+    }
+
+    [[nodiscard]] bool MayCommand() const
+    {
+        return !_dependencies.mayCommand || _dependencies.mayCommand();
     }
 
     void OnLinkClosed()
@@ -364,7 +369,7 @@ private:
              }});
         AddActionRoutes(
             commands,
-            {[this] { return _core.IsClosed(); },
+            {[this] { return _core.IsClosed() || !MayCommand(); },
              [this](const std::string& robotID) -> std::optional<RobotActionsView> {
                  const RobotRunner* const robotOrNull = _robots.FindOrNull(robotID);
                  return robotOrNull == nullptr
@@ -422,22 +427,10 @@ Acsd::Acsd(std::unique_ptr<Impl> impl)
 
 Acsd::~Acsd() = default;
 
-Core::Result<std::unique_ptr<Acsd>> Acsd::Create(Dependencies dependencies, AcsdConfig config)
+Core::Result<std::unique_ptr<Acsd>> Acsd::Create(Dependencies dependencies, AcsdConfig config, OpenedStore store)
 {
     assert(config.errors.empty());
-    Core::Result<std::unique_ptr<Planning::SqlitePlanStore>> store = Planning::SqlitePlanStore::Open(config.storePath);
-    if (!store)
-    {
-        return tl::unexpected<Core::Error>(store.error());
-    }
-    Core::Result<Planning::StoredState> state = (*store)->Load();
-    if (!state)
-    {
-        return tl::unexpected<Core::Error>(state.error());
-    }
-    dependencies.logger.MakeFor("store").Info(
-        MakeStoreSummary((*store)->GetOrigin(), *state),
-        {{"directory", config.storePath}});
+    dependencies.logger.MakeFor("store").Info(store.summary, {{"store", config.store.GetName()}});
     const OperatorConfig& control = config.http.control;
     Core::Result<std::unique_ptr<AuditLog>> audit = AuditLog::Create(
         control.auditDirectory,
@@ -448,9 +441,13 @@ Core::Result<std::unique_ptr<Acsd>> Acsd::Create(Dependencies dependencies, Acsd
     {
         return tl::unexpected<Core::Error>(audit.error());
     }
-    auto impl =
-        std::make_unique<Impl>(std::move(dependencies), std::move(config), std::move(*store), std::move(*audit));
-    const Core::Result<void> opened = impl->Open(std::move(*state));
+    auto impl = std::make_unique<Impl>(
+        std::move(dependencies),
+        std::move(config),
+        std::move(store.store),
+        store.identity,
+        std::move(*audit));
+    const Core::Result<void> opened = impl->Open(std::move(store.state));
     if (!opened)
     {
         return tl::unexpected<Core::Error>(opened.error());

@@ -2,6 +2,7 @@
 
 #include "common/process/ReadyLine.hpp"
 #include "config/AcsdConfig.hpp"
+#include "store/OpenStore.hpp"
 #include "trace/MessageTrace.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
@@ -41,6 +42,8 @@ public:
         /// Another program has taken the place of the store. The owner must end the event loop.
         std::function<void()> onStoreTaken = [] {
         };
+        /// Whether robots may be commanded, asked before each message; empty: they always may.
+        std::function<bool()> mayCommand{};
     };
 
 private:
@@ -55,9 +58,12 @@ public:
     Acsd& operator=(const Acsd&) = delete;
     ~Acsd();
 
-    /// Opens the store, restores its contents and listens on its HTTP addresses; opens no connection. The configuration must
-    /// be without errors. Fails with a sentence about the store or an HTTP address and its remedy.
-    [[nodiscard]] static Core::Result<std::unique_ptr<Acsd>> Create(Dependencies dependencies, AcsdConfig config);
+    /// Restores the contents of the store and listens on its HTTP addresses; opens no connection. The configuration must be
+    /// without errors. Fails with a sentence about an HTTP address or the audit log and its remedy.
+    [[nodiscard]] static Core::Result<std::unique_ptr<Acsd>> Create(
+        Dependencies dependencies,
+        AcsdConfig config,
+        OpenedStore store);
 
     /// Connects to the MCS, the broker and the arms, and reconnects until it is stopped.
     void Start();

@@ -1,4 +1,4 @@
-#include "Acsd.hpp"
+#include "AcsdService.hpp"
 #include "common/config/CommandLine.hpp"
 #include "common/log/SpdlogSink.hpp"
 #include "common/process/HangUpWaiter.hpp"
@@ -64,7 +64,7 @@ void ReadAgain(
     const RobotDrivers& drivers,
     const Core::Logger& logger,
     Apps::SpdlogSink& sink,
-    Acsd& acsd)
+    AcsdService& acsd)
 {
     const AcsdConfig fresh = ReadAcsdConfig(options.configFile, options.overrides, drivers);
     if (!fresh.errors.empty())
@@ -110,37 +110,37 @@ int Serve(const ProgramOptions& options, const RobotDrivers& drivers, AcsdConfig
     boost::asio::io_context context(1);
     int exitCode = 0;
     const Apps::ServiceNotifier service(Apps::GetNotifyAddress());
-    Core::Result<std::unique_ptr<Acsd>> acsd = Acsd::Create(
-        Acsd::Dependencies{
-            context.get_executor(),
-            clock,
-            random,
-            logger,
-            trace.get(),
-            [&sink] { return sink.GetDropped(); },
-            [&service] { std::ignore = service.TryNotify("WATCHDOG=1"); },
-            Apps::GetWatchdogTimeoutOrNull().value_or(std::chrono::microseconds(0)) / 2,
-            [&context, &exitCode] {
-                exitCode = 1;
-                context.stop();
-            }},
-        std::move(config));
-    if (!acsd)
+    Acsd::Dependencies dependencies{
+        context.get_executor(),
+        clock,
+        random,
+        logger,
+        trace.get(),
+        [&sink] { return sink.GetDropped(); },
+        [&service] { std::ignore = service.TryNotify("WATCHDOG=1"); },
+        Apps::GetWatchdogTimeoutOrNull().value_or(std::chrono::microseconds(0)) / 2};
+    AcsdService acsd(
+        std::move(dependencies),
+        std::move(config),
+        {[&context] { context.stop(); },
+         [&context, &exitCode, &logger](const std::string& reason) {
+             logger.Error("acsd ends", {{"reason", reason}});
+             exitCode = 1;
+             context.stop();
+         }});
+    if (const Core::Result<void> started = acsd.Start(); !started.has_value())
     {
-        Apps::PrintError(NAME, Core::Describe(acsd.error()));
+        Apps::PrintError(NAME, Core::Describe(started.error()));
         return 1;
     }
     std::optional<Apps::SignalWaiter> signals;
     signals.emplace(context.get_executor(), [&](int) {
         std::ignore = service.TryNotify("STOPPING=1");
-        (*acsd)->StopAsync([&context] { context.stop(); });
+        acsd.StopAsync();
     });
-    const Apps::HangUpWaiter hangUps(context.get_executor(), [&] {
-        ReadAgain(options, drivers, logger, sink, **acsd);
-    });
-    (*acsd)->Start();
+    const Apps::HangUpWaiter hangUps(context.get_executor(), [&] { ReadAgain(options, drivers, logger, sink, acsd); });
     sink.Flush();
-    Apps::PrintReadyLine((*acsd)->GetAddresses());
+    Apps::PrintReadyLine(acsd.GetAddresses());
     std::ignore = service.TryNotify("READY=1");
     context.run();
     return exitCode;

@@ -286,7 +286,7 @@ class Operations(ScenarioCase):
         address = addresses["operator"]
         directory = self.line.folder / "store"
         store = directory / "acsd.db"
-        self.assertRegex(acsd.log.read_text(), rf"store: new, schema \d+ directory={directory}\n")
+        self.assertRegex(acsd.log.read_text(), rf"store: new, schema \d+ store={directory}\n")
         stub.wait_for("RobotStatusUpdate")
         self.assertEqual(self.submit(stub, "P1")["result"], "Success")
         self.wait_for_status(address, lambda status: status["plans"] and not status["notReadyReasons"])

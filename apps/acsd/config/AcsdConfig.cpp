@@ -19,7 +19,6 @@
 #include <acs/plan/LifReader.hpp>
 #include <acs/plan/Router.hpp>
 #include <acs/plan/UnusedLifMember.hpp>
-#include <acs/plan_sqlite/SqlitePlanStore.hpp>
 
 #include <fmt/format.h>
 
@@ -232,25 +231,6 @@ void ReadSite(const ConfigSection& root, const std::string& fileName, AcsdConfig
     ReadCorridors(section, config.site);
 }
 
-void ReadStore(const ConfigSection& root, const std::string& fileName, bool bStoreInspected, AcsdConfig& config)
-{
-    const ConfigSection section = root.GetSection("store");
-    const std::string directory = section.GetString("directory");
-    config.storePath = ResolvePath(fileName, directory);
-    if (directory.empty())
-    {
-        section.AddError("directory", "is empty; give the path of a directory, such as \"store\"");
-    }
-    else if (bStoreInspected)
-    {
-        const Core::Result<Planning::StoreOrigin> origin = Planning::SqlitePlanStore::Inspect(config.storePath);
-        if (!origin.has_value())
-        {
-            section.AddError("directory", Core::Describe(origin.error()));
-        }
-    }
-}
-
 /// Of a broker that is given. The interface is a part of the topics of vehicles, which are read later.
 void ReadBroker(const ConfigSection& root, const std::string& fileName, AcsdConfig& config)
 {
@@ -296,8 +276,8 @@ AcsdConfig Read(
     const bool bByte = arm.GetWord("relay_index", {"value", "byte"}, "value") == "byte";
     config.relayIndex = bByte ? EArmRelayIndex::Byte : EArmRelayIndex::Value;
     ReadSite(root, fileName, config);
-    ReadStore(root, fileName, bStoreInspected, config);
-    ReadHttpConfig(root, fileName, config.storePath, config.http);
+    ReadStoreConfig(root, fileName, bStoreInspected, config.store, config.warnings);
+    ReadHttpConfig(root, fileName, config.store.directory, config.http);
     ReadEngineConfig(root, config.engine);
     ReadStations(root, config);
     ReadRobots(root, drivers, config);

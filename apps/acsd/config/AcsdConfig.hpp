@@ -7,6 +7,7 @@
 #include "config/McsConfig.hpp"
 #include "config/MqttConfig.hpp"
 #include "config/OperationsConfig.hpp"
+#include "config/StoreConfig.hpp"
 #include "config/VehicleConfig.hpp"
 #include "drivers/BuiltInDrivers.hpp"
 #include "robots/ArmRelay.hpp"
@@ -53,7 +54,7 @@ struct AcsdConfig
     EArmRelayIndex relayIndex = EArmRelayIndex::Value;
     std::string siteFile;
     std::string zoneSetID; ///< Of all orders; may be empty.
-    std::string storePath;
+    StoreConfig store;
     HttpConfig http;
     Apps::LocalOffset localOffset;
     std::vector<RobotLinkConfig> robots; ///< In the order of EngineOptions::robots.

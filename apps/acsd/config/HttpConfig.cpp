@@ -152,15 +152,18 @@ void DemandIdentity(const ConfigSection& section, const OperatorConfig& config)
 void ReadAudit(
     const ConfigSection& section,
     const std::string& fileName,
-    const std::string& storePath,
+    const std::string& storeDirectory,
     OperatorConfig& config)
 {
     const ConfigSection audit = section.GetSection("audit");
     const std::optional<std::string> directory = audit.GetStringOrNull("directory");
-    config.auditDirectory = directory.has_value() ? ResolvePath(fileName, *directory) : storePath + "/audit";
-    if (directory.has_value() && directory->empty())
+    config.auditDirectory = directory.has_value() ? ResolvePath(fileName, *directory) : storeDirectory + "/audit";
+    if (directory.has_value() ? directory->empty() : storeDirectory.empty())
     {
-        audit.AddError("directory", "is empty; give the path of a directory");
+        audit.AddError(
+            "directory",
+            directory.has_value() ? "is empty; give the path of a directory"
+                                  : "is required with store.url; give the path of a directory");
     }
     config.auditLimits.maxFileBytes = static_cast<std::uint64_t>(audit.GetInteger(
         "max_file_bytes",
@@ -176,7 +179,7 @@ void ReadAudit(
 void ReadHttpConfig(
     const ConfigSection& root,
     const std::string& fileName,
-    const std::string& storePath,
+    const std::string& storeDirectory,
     HttpConfig& config)
 {
     const ConfigSection control = root.GetSection("operator");
@@ -186,7 +189,7 @@ void ReadHttpConfig(
     ReadOperatorTLS(control, fileName, config.control);
     ReadCertificates(control, config.control);
     DemandIdentity(control, config.control);
-    ReadAudit(control, fileName, storePath, config.control);
+    ReadAudit(control, fileName, storeDirectory, config.control);
     const Apps::Endpoint& listen = config.control.http.listen;
     if (listen == config.monitoring.listen && listen.port != 0)
     {

@@ -42,7 +42,7 @@ struct HttpConfig
 void ReadHttpConfig(
     const Apps::ConfigSection& root,
     const std::string& fileName,
-    const std::string& storePath,
+    const std::string& storeDirectory,
     HttpConfig& config);
 
 } // namespace ACS::Acsd

@@ -118,10 +118,10 @@ void ReadMqttConfig(
     ReadTLS(mqtt, fileName, config);
 }
 
-VDA5050::MosquittoOptions MakeMqttOptions(const MqttConfig& config, Core::IRandom& random)
+VDA5050::MosquittoOptions MakeMqttOptions(const MqttConfig& config, Core::IRandom& random, const std::string& identity)
 {
     VDA5050::MosquittoOptions options;
-    options.clientID = "acsd-" + Core::MakeUUID(random);
+    options.clientID = "acsd-" + (identity.empty() ? Core::MakeUUID(random) : identity);
     options.host = config.url.peer.host;
     options.port = config.url.peer.port;
     options.username = config.username;

@@ -28,7 +28,11 @@ void ReadMqttConfig(
     MqttConfig& config,
     std::vector<std::string>& warnings);
 
-/// The client id is random. With the same id the broker would disconnect one acsd when a second one connects.
-[[nodiscard]] VDA5050::MosquittoOptions MakeMqttOptions(const MqttConfig& config, Core::IRandom& random);
+/// The client id is made from the identity of a shared store: when a standby takes over, the broker disconnects the former leader.
+/// Without one it is random, because the broker would disconnect one acsd when a second one connects.
+[[nodiscard]] VDA5050::MosquittoOptions MakeMqttOptions(
+    const MqttConfig& config,
+    Core::IRandom& random,
+    const std::string& identity = {});
 
 } // namespace ACS::Acsd

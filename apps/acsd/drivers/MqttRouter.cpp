@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <system_error>
 #include <utility>
 
 namespace ACS::Acsd
@@ -47,6 +48,14 @@ public:
 
     [[nodiscard]] Core::Result<void> Publish(const VDA5050::MqttMessage& message) override
     {
+        if (_router._dependencies.mayCommand && !_router._dependencies.mayCommand())
+        {
+            return Core::Fail(
+                std::make_error_code(std::errc::not_connected),
+                message.topic,
+                "a process that leads",
+                "a standby");
+        }
         MessageTrace* const traceOrNull = _router._dependencies.traceOrNull;
         if (traceOrNull == nullptr)
         {

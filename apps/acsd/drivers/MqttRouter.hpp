@@ -30,6 +30,7 @@ public:
         MessageTrace* traceOrNull = nullptr;    ///< Outlives the router.
         std::function<void(bool bUp)> onLink{}; ///< Called before the robots receive the state; may be empty.
         std::function<bool()> isClosed{};       ///< Whether the robots receive nothing any more; empty: they always do.
+        std::function<bool()> mayCommand{};     ///< Asked before each message that is sent; empty: it may.
     };
 
 private:

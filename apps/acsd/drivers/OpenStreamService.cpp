@@ -56,6 +56,7 @@ std::unique_ptr<OpenStreamClient> OpenStreamService::MakeClient(
     OpenStreamClientOptions options,
     OpenStreamClient::EventHandler handler)
 {
+    options.maySend = _dependencies.mayCommand;
     if (_dependencies.traceOrNull != nullptr)
     {
         AddTrace(std::make_shared<ArmTrace>(*_dependencies.traceOrNull, _robotID), options, handler);

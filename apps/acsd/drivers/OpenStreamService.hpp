@@ -26,6 +26,7 @@ public:
         Core::IRandom& random;
         Core::Logger logger;
         MessageTrace* traceOrNull = nullptr;
+        std::function<bool()> mayCommand{}; ///< Asked before each message; empty: it may be sent.
     };
 
 private:

@@ -43,8 +43,9 @@ public:
         Core::Logger logger;
         Apps::MetricsEndpoint& metrics;
         MessageTrace* traceOrNull = nullptr;
-        MqttRouter* mqttOrNull = nullptr; ///< Set if a robot has a topic prefix.
-        ActionHandler onAction{};         ///< May be empty.
+        MqttRouter* mqttOrNull = nullptr;   ///< Set if a robot has a topic prefix.
+        ActionHandler onAction{};           ///< May be empty.
+        std::function<bool()> mayCommand{}; ///< Asked before each message to an arm; empty: it may be sent.
     };
 
 private:

@@ -96,6 +96,8 @@ AcsdMetrics::AcsdMetrics(Apps::MetricsEndpoint& metrics, Core::Now now)
     : _metrics(metrics),
       _process(metrics, now)
 {
+    _metrics.AddGauge(LEADER, LEADER_HELP);
+    _metrics.SetGauge(LEADER, {}, 1);
     _metrics.AddGauge(READY, "1 when /readyz answers 200");
     _metrics.AddGauge(LINK_UP, "1 when the link is up: mcs registered, mqtt subscribed");
     _metrics.AddGauge(MCS_CONNECTED, "1 when the WebSocket to the MCS is open");

@@ -21,6 +21,12 @@ namespace ACS::Acsd
 /// each request; durations are observed when they end. The drivers of the robots have metrics of their own.
 class AcsdMetrics final
 {
+public:
+    /// Whether this process may command robots; a standby has this metric too.
+    static constexpr const char* LEADER = "acsd_leader";
+    static constexpr const char* LEADER_HELP = "1 while this process leads, 0 while it is a standby";
+
+private:
     Apps::MetricsEndpoint& _metrics;
     AlarmSeries _alarms;
     ProcessMetrics _process;

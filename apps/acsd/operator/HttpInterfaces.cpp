@@ -28,7 +28,9 @@ HttpInterfaces::HttpInterfaces(Dependencies dependencies, const HttpConfig& conf
           MakeHttpGuard(config.monitoring)),
       _operator(
           _dependencies.executor,
-          [this](const Apps::HttpRequest& request) { return _gate.Respond(request); },
+          [this](const Apps::HttpRequest& request) {
+              return _handlerInstead ? _handlerInstead(request) : _gate.Respond(request);
+          },
           _dependencies.logger.MakeFor("operator"),
           {},
           MakeHttpGuard(config.control.http))
@@ -47,6 +49,11 @@ Apps::HttpRoutes& HttpInterfaces::GetMonitoringRoutes() noexcept
 OperatorGate& HttpInterfaces::GetGate() noexcept
 {
     return _gate;
+}
+
+void HttpInterfaces::ReplaceGate(Apps::HttpServer::Handler handler)
+{
+    _handlerInstead = std::move(handler);
 }
 
 EventFeed& HttpInterfaces::GetEvents() noexcept

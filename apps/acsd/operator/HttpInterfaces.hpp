@@ -40,6 +40,7 @@ private:
     std::unique_ptr<AuditLog> _audit;
     Apps::HttpRoutes _monitoringRoutes;
     OperatorGate _gate;
+    Apps::HttpServer::Handler _handlerInstead; ///< Empty: the gate answers.
     boost::asio::steady_timer _keepAlive;
     std::shared_ptr<EventFeed> _events; ///< Flushed by handlers of the executor, which do not own it.
     Apps::HttpServer _monitoring;
@@ -56,6 +57,9 @@ public:
 
     /// Of the operator address.
     [[nodiscard]] OperatorGate& GetGate() noexcept;
+
+    /// Has the handler answer all requests of the operator address instead of the gate.
+    void ReplaceGate(Apps::HttpServer::Handler handler);
 
     /// Of GET /v1/events.
     [[nodiscard]] EventFeed& GetEvents() noexcept;

@@ -3,6 +3,8 @@
 #include "common/config/ConfigReader.hpp"
 #include "common/config/TextFile.hpp"
 #include "common/Version.hpp"
+#include "config/LiveConfig.hpp"
+#include "operator/OperatorToken.hpp"
 #include "replay/RecordJson.hpp"
 #include "replay/RecordKind.hpp"
 
@@ -12,6 +14,7 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -47,8 +50,19 @@ namespace
 {
 
 /// Of links, paths and secrets. The keys that are required are added again, with a value that connects to nothing.
-constexpr std::array<std::string_view, 8>
-    OMITTED{"http.", "operator.", "mqtt.", "mcs.tls", "mcs.headers", "mcs.host", "mcs.url", "store.directory"};
+constexpr std::array<std::string_view, 12> OMITTED{
+    "http.",
+    "operator.",
+    "mqtt.",
+    "mcs.tls",
+    "mcs.headers",
+    "mcs.host",
+    "mcs.url",
+    "store.directory",
+    "store.url",
+    "store.password_file",
+    "store.lease",
+    "store.instance"};
 
 constexpr std::array<std::string_view, 4> SECRETS{"password", "secret", "token", "api_key"};
 
@@ -137,6 +151,21 @@ std::string ReadString(const std::string& value)
     return reader.GetRoot().GetString("value", "");
 }
 
+/// Those that the configuration names; without text if it cannot be read.
+std::vector<RecordedFile> ReadFiles(const AcsdConfig& config)
+{
+    std::vector<RecordedFile> files;
+    for (const auto& [key, value] : config.values)
+    {
+        if (IsFile(key))
+        {
+            const std::string path = ResolvePath(config.fileName, ReadString(value));
+            files.push_back({MakeFileName(key), Apps::ReadTextFile(path).value_or(std::string())});
+        }
+    }
+    return files;
+}
+
 bool TryWrite(const std::string& path, std::string_view text)
 {
     std::ofstream file(path, std::ios::binary);
@@ -152,19 +181,30 @@ std::string MakeRecordedConfig(const AcsdConfig& config)
     return MakeTOML(MakeRecordedValues(config));
 }
 
+std::string MakeConfigFingerprint(const AcsdConfig& config)
+{
+    std::map<std::string, std::string> values = MakeRecordedValues(config);
+    std::erase_if(values, [](const auto& entry) {
+        return IsLiveKey(entry.first) || entry.first.starts_with("log.") || entry.first.starts_with("trace.");
+    });
+    std::string text = MakeTOML(values);
+    for (const RecordedFile& file : ReadFiles(config))
+    {
+        text += fmt::format("{} {}\n{}\n", file.name, file.text.size(), file.text);
+    }
+    std::string fingerprint;
+    for (const std::uint8_t byte : HashToken(text))
+    {
+        fmt::format_to(std::back_inserter(fingerprint), "{:02x}", byte);
+    }
+    return fingerprint;
+}
+
 CoreRecord MakeBeginRecord(const AcsdConfig& config, Core::Now now)
 {
     std::map<std::string, std::string> values = MakeRecordedValues(config);
     values.insert_or_assign(std::string(TIMEZONE_KEY), MakeOffsetText(config.localOffset.GetAt(now.wall)));
-    RecordedRun run{std::string(Apps::VERSION), MakeTOML(values), {}};
-    for (const auto& [key, value] : config.values)
-    {
-        if (IsFile(key))
-        {
-            const std::string path = ResolvePath(config.fileName, ReadString(value));
-            run.files.push_back({MakeFileName(key), Apps::ReadTextFile(path).value_or(std::string())});
-        }
-    }
+    const RecordedRun run{std::string(Apps::VERSION), MakeTOML(values), ReadFiles(config)};
     CoreRecord record;
     record.now = now;
     record.kind = BEGIN_KIND;

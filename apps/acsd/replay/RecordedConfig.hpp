@@ -32,6 +32,9 @@ struct RecordedRun
 /// on the decisions of acsd. Values of keys that are named as secrets are replaced.
 [[nodiscard]] std::string MakeRecordedConfig(const AcsdConfig& config);
 
+/// The same for processes whose decisions are the same: a hash of the keys and files that have an effect on them.
+[[nodiscard]] std::string MakeConfigFingerprint(const AcsdConfig& config);
+
 /// The first record of a run, with the configuration and the files that it names.
 [[nodiscard]] CoreRecord MakeBeginRecord(const AcsdConfig& config, Core::Now now);
 

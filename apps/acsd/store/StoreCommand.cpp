@@ -4,6 +4,8 @@
 #include "common/process/SystemClock.hpp"
 #include "store/StoreSummary.hpp"
 #include <acs/core/Timestamp.hpp>
+#include <acs/plan/EPlanningError.hpp>
+#include <acs/plan_postgres/PostgresPlanStore.hpp>
 #include <acs/plan_sqlite/SqlitePlanStore.hpp>
 #include <acs/plan_sqlite/StoreBackup.hpp>
 
@@ -25,12 +27,38 @@ constexpr const char* NAME = "acsd store";
 /// The text to print.
 using Outcome = Core::Result<std::string>;
 
-Outcome Check(const std::string& directory)
+bool IsShared(const std::string& place)
 {
-    return Planning::SqlitePlanStore::Inspect(directory).and_then([&](const Planning::StoreOrigin& origin) {
-        return Planning::SqlitePlanStore::InspectState(directory).map(
+    return place.starts_with("postgres://") || place.starts_with("postgresql://");
+}
+
+Outcome CheckShared(const std::string& url)
+{
+    const Planning::PostgresOptions options{url, {}};
+    return Planning::PostgresPlanStore::Inspect(options).and_then([&](const Planning::StoreOrigin& origin) {
+        return Planning::PostgresPlanStore::InspectState(options).map(
             [&](const Planning::StoredState& state) { return MakeStoreSummary(origin, state); });
     });
+}
+
+/// A store in PostgreSQL has programs of its own for this.
+tl::unexpected<Core::Error> RefuseShared(const std::string& command)
+{
+    return Core::Fail(
+        make_error_code(Planning::EPlanningError::StoreFailed),
+        command,
+        "the directory of a store; for a store in PostgreSQL use pg_dump and pg_restore (docs/guide/run-a-standby.md)",
+        "a URL");
+}
+
+Outcome Check(const std::string& directory)
+{
+    return IsShared(directory)
+        ? CheckShared(directory)
+        : Planning::SqlitePlanStore::Inspect(directory).and_then([&](const Planning::StoreOrigin& origin) {
+              return Planning::SqlitePlanStore::InspectState(directory).map(
+                  [&](const Planning::StoredState& state) { return MakeStoreSummary(origin, state); });
+          });
 }
 
 Outcome Accept(const std::string& directory)
@@ -68,7 +96,7 @@ Outcome Restore(const std::string& directory, const std::string& file)
 
 int RunStoreCommand(int argc, const char* const* argv)
 {
-    CLI::App app{"Checks, copies and replaces the store of acsd (store.directory). Run it as the user of acsd.", NAME};
+    CLI::App app{"Checks, copies and replaces the store of acsd. Run it as the user of acsd.", NAME};
     app.require_subcommand(1);
     app.footer(
         "Exit codes: 0 when done; 1 if the store or the file does not allow it; 2 for an error in the command line.");
@@ -78,7 +106,13 @@ int RunStoreCommand(int argc, const char* const* argv)
     const auto add =
         [&](const std::string& name, const char* help, const char* fileHelpOrNull, std::function<Outcome()> work) {
             CLI::App& command = *app.add_subcommand(name, help);
-            command.add_option("DIR", directory, "directory of the store")->required();
+            const bool bChecks = name == "check";
+            command
+                .add_option(
+                    bChecks ? "STORE" : "DIR",
+                    directory,
+                    bChecks ? "directory of the store, or store.url" : "directory of the store")
+                ->required();
             if (fileHelpOrNull != nullptr)
             {
                 command.add_option("FILE", file, fileHelpOrNull)->required();
@@ -105,13 +139,15 @@ int RunStoreCommand(int argc, const char* const* argv)
     {
         return *exitCodeOrNull;
     }
-    const Outcome outcome = run();
+    const std::string command = app.get_subcommands().front()->get_name();
+    const Outcome outcome = IsShared(directory) && command != "check" ? RefuseShared(command) : run();
     if (!outcome.has_value())
     {
         Apps::PrintError(NAME, Core::Describe(outcome.error()));
         return 1;
     }
-    fmt::print("{}: {}\n", directory, *outcome);
+    const Core::Result<Planning::PostgresTarget> target = Planning::ReadPostgresURL(directory);
+    fmt::print("{}: {}\n", target.has_value() ? target->name : directory, *outcome);
     return 0;
 }
 

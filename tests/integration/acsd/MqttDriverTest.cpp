@@ -167,7 +167,9 @@ struct BuoyFixture
         REQUIRE(config.errors == std::vector<std::string>{});
         Acsd::Dependencies
             dependencies{context.get_executor(), clock, random, Core::Logger(log, "acsd"), nullptr, {}, {}};
-        auto created = Acsd::Create(std::move(dependencies), std::move(config));
+        auto store = OpenDirectoryStore(config.store);
+        REQUIRE(store.has_value());
+        auto created = Acsd::Create(std::move(dependencies), std::move(config), std::move(*store));
         REQUIRE(created.has_value());
         acsd = std::move(*created);
         robots.link.Subscribe({{"buoys/+/answer", 1}});

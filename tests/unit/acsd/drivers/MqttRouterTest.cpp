@@ -85,12 +85,14 @@ struct MqttRouterFixture
     RecordingLink link;
     Lines states; ///< Of the connection, as acsd itself receives them.
     bool bClosed = false;
+    bool bLeads = true;
     MqttRouter router{
         {Core::Logger(log, "mqtt"),
          trace.get(),
          [this](bool bUp) { states.emplace_back(bUp ? "up" : "down"); },
+         [this] { return bClosed; },
          [this] {
-             return bClosed;
+             return bLeads;
          }}};
     std::unique_ptr<IMqttService> first = router.MakeService("LR01", "uagv/v2/ACS/LR01");
     std::unique_ptr<IMqttService> second = router.MakeService("LR02", "carts/2");
@@ -224,6 +226,13 @@ TEST_CASE_METHOD(MqttRouterFixture, "A message is published on the connection; i
     const Core::Result<void> failed = first->Publish(message);
     REQUIRE_FALSE(failed.has_value());
     CHECK(failed.error().code == std::errc::not_connected);
+}
+
+TEST_CASE_METHOD(MqttRouterFixture, "A process that does not lead publishes nothing")
+{
+    bLeads = false;
+    CHECK_FALSE(first->Publish({"uagv/v2/ACS/LR01/order", "go", 1, false}).has_value());
+    CHECK(link.published.empty());
 }
 
 TEST_CASE_METHOD(MqttRouterFixture, "The trace has every message with its robot, also those of unknown robots")

@@ -1,0 +1,275 @@
+#include "standby/LeaseKeeper.hpp"
+
+#include <boost/asio/post.hpp>
+#include <boost/asio/thread_pool.hpp>
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+/// Readings of a standby during one lease.
+constexpr int READINGS = 12;
+
+} // namespace
+
+struct LeaseKeeper::Worker
+{
+    boost::asio::any_io_executor executor;
+    std::unique_ptr<Planning::ILease> lease;
+    LeaseKeeper* ownerOrNull; ///< Null after its destruction. Read on the executor's thread only.
+    boost::asio::thread_pool thread{1};
+};
+
+LeaseKeeper::LeaseKeeper(
+    Dependencies dependencies,
+    std::unique_ptr<Planning::ILease> lease,
+    Planning::LeaseClaim claim,
+    Handlers handlers)
+    : _dependencies(std::move(dependencies)),
+      _claim(std::move(claim)),
+      _handlers(std::move(handlers)),
+      _watch(_claim.config),
+      _worker(std::make_shared<Worker>()),
+      _timers(_dependencies.executor, [this](ETimer timer) { OnTimer(timer); })
+{
+    _worker->executor = _dependencies.executor;
+    _worker->lease = std::move(lease);
+    _worker->ownerOrNull = this;
+}
+
+LeaseKeeper::~LeaseKeeper()
+{
+    _worker->ownerOrNull = nullptr;
+    _worker->thread.join();
+}
+
+/// Does the work in the thread and handles its result on the executor. The lease outlives the work: the destructor waits.
+template <typename TWork, typename TAnswer>
+void LeaseKeeper::Ask(TWork work, TAnswer answer)
+{
+    boost::asio::post(_worker->thread, [weak = std::weak_ptr(_worker), &lease = *_worker->lease, work, answer]() {
+        auto result = work(lease);
+        const std::shared_ptr<Worker> worker = weak.lock();
+        if (worker == nullptr)
+        {
+            return;
+        }
+        boost::asio::post(worker->executor, [weak, answer, result = std::move(result)]() {
+            const std::shared_ptr<Worker> owned = weak.lock();
+            if (owned != nullptr && owned->ownerOrNull != nullptr)
+            {
+                answer(*owned->ownerOrNull, result);
+            }
+        });
+    });
+}
+
+void LeaseKeeper::Start()
+{
+    Read();
+}
+
+void LeaseKeeper::OnTimer(ETimer timer)
+{
+    switch (timer)
+    {
+        case ETimer::Read:
+            Read();
+            return;
+        case ETimer::Renew:
+            Renew();
+            return;
+        case ETimer::End:
+            Lose(fmt::format("the lease could not be renewed: {}", _fault.empty() ? "the store is slow" : _fault));
+            return;
+        default:
+            return;
+    }
+}
+
+void LeaseKeeper::Read()
+{
+    Ask([](Planning::ILease& lease) { return lease.Read(); },
+        [](LeaseKeeper& owner, const Core::Result<Planning::LeaseState>& state) { owner.OnRead(state); });
+}
+
+void LeaseKeeper::OnRead(const Core::Result<Planning::LeaseState>& state)
+{
+    if (_state != EState::Watching)
+    {
+        return;
+    }
+    SetFault(state.has_value() ? std::string() : Core::Describe(state.error()));
+    if (state.has_value() && _watch.ShouldTake(*state, _dependencies.clock.GetNow().steady))
+    {
+        Take(*state);
+        return;
+    }
+    _timers.Start(ETimer::Read, _claim.duration / READINGS);
+}
+
+void LeaseKeeper::Take(const Planning::LeaseState& seen)
+{
+    const Core::SteadyTime askedAt = _dependencies.clock.GetNow().steady;
+    Ask([seen, claim = _claim](Planning::ILease& lease) { return lease.TryTakeOrNull(seen, claim); },
+        [askedAt](LeaseKeeper& owner, const Core::Result<std::optional<std::uint64_t>>& taken) {
+            owner.OnTaken(taken, askedAt);
+        });
+}
+
+void LeaseKeeper::OnTaken(const Core::Result<std::optional<std::uint64_t>>& taken, Core::SteadyTime askedAt)
+{
+    if (_state != EState::Watching)
+    {
+        return;
+    }
+    SetFault(taken.has_value() ? std::string() : Core::Describe(taken.error()));
+    if (!taken.has_value() || !taken->has_value())
+    {
+        _timers.Start(ETimer::Read, _claim.duration / READINGS);
+        return;
+    }
+    _state = EState::Leading;
+    _epoch = **taken;
+    _term.emplace(_claim.duration, askedAt);
+    ExtendTo(*_term);
+    _timers.Start(ETimer::Renew, _term->GetRenewInterval());
+    _dependencies.logger.Info("this process leads", {{"epoch", std::to_string(_epoch)}});
+    _handlers.onTaken(_epoch);
+}
+
+void LeaseKeeper::Renew()
+{
+    if (_state != EState::Leading || HasEnded())
+    {
+        return;
+    }
+    _timers.Start(ETimer::Renew, _term->GetRenewInterval());
+    if (std::exchange(_bRenewing, true))
+    {
+        return; // the store has not answered the last request yet
+    }
+    const Core::SteadyTime askedAt = _dependencies.clock.GetNow().steady;
+    Ask([epoch = _epoch](Planning::ILease& lease) { return lease.TryRenew(epoch); },
+        [askedAt](LeaseKeeper& owner, const Core::Result<bool>& renewed) { owner.OnRenewed(renewed, askedAt); });
+}
+
+void LeaseKeeper::OnRenewed(const Core::Result<bool>& renewed, Core::SteadyTime askedAt)
+{
+    _bRenewing = false;
+    if (_state != EState::Leading || HasEnded())
+    {
+        return;
+    }
+    SetFault(renewed.has_value() ? std::string() : Core::Describe(renewed.error()));
+    if (renewed.has_value() && !*renewed)
+    {
+        Lose("another process has taken the lease");
+        return;
+    }
+    if (!renewed.has_value())
+    {
+        return; // the next one may succeed in time
+    }
+    _term->OnRenewed(askedAt);
+    ExtendTo(*_term);
+}
+
+/// Loses a lease that has ended. It is not revived by a late answer, although no other process leads yet: commands may have been
+/// held back meanwhile, which would be missing.
+bool LeaseKeeper::HasEnded()
+{
+    if (_term->IsHeld(_dependencies.clock.GetNow().steady))
+    {
+        return false;
+    }
+    Lose("this process has stalled for longer than its lease");
+    return true;
+}
+
+void LeaseKeeper::ExtendTo(const Planning::LeaseTerm& term)
+{
+    const Core::SteadyTime now = _dependencies.clock.GetNow().steady;
+    if (!term.IsHeld(now))
+    {
+        Lose("the store answered too late");
+        return;
+    }
+    _dependencies.guard.Extend(term.GetEnd());
+    _timers.Start(ETimer::End, term.GetEnd() - now);
+}
+
+void LeaseKeeper::SetFault(std::string fault)
+{
+    if (fault != _fault && !fault.empty())
+    {
+        _dependencies.logger.Warning("the lease of the store cannot be read or renewed", {{"reason", fault}});
+    }
+    _fault = std::move(fault);
+}
+
+void LeaseKeeper::Lose(const std::string& reason)
+{
+    if (std::exchange(_state, EState::Ended) == EState::Ended)
+    {
+        return;
+    }
+    _dependencies.guard.End();
+    _timers.CancelAll();
+    _handlers.onLost(reason);
+}
+
+void LeaseKeeper::ReleaseAsync(std::function<void()> handler)
+{
+    const bool bHeld = std::exchange(_state, EState::Ended) == EState::Leading;
+    _dependencies.guard.End();
+    _timers.CancelAll();
+    if (!bHeld)
+    {
+        boost::asio::post(_dependencies.executor, std::move(handler));
+        return;
+    }
+    Ask([epoch = _epoch](Planning::ILease& lease) { return lease.Release(epoch); },
+        [handler = std::move(handler)](LeaseKeeper& owner, const Core::Result<void>& released) {
+            if (!released.has_value())
+            {
+                owner._dependencies.logger.Warning(
+                    "the lease could not be released: a standby waits until it ends",
+                    {{"reason", Core::Describe(released.error())}});
+            }
+            handler();
+        });
+}
+
+std::string LeaseKeeper::GetWaitReason() const
+{
+    if (_state == EState::Leading)
+    {
+        return {};
+    }
+    if (!_fault.empty())
+    {
+        return fmt::format("standby: the store cannot be used: {}", _fault);
+    }
+    const std::optional<Planning::LeaseState>& seen = _watch.GetSeenOrNull();
+    if (!seen.has_value())
+    {
+        return "standby: the store was not read yet";
+    }
+    if (_watch.IsOtherConfig())
+    {
+        return fmt::format(
+            "standby that cannot take over: its site, robots or options are not those of {}, which leads; give both the same "
+            "configuration, or stop {}",
+            seen->holder,
+            seen->holder);
+    }
+    return fmt::format("standby: {} leads", seen->holder);
+}
+
+} // namespace ACS::Acsd

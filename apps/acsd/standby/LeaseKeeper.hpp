@@ -1,0 +1,109 @@
+#pragma once
+
+#include "common/process/TimerSet.hpp"
+#include "standby/LeaseGuard.hpp"
+#include <acs/core/Logger.hpp>
+#include <acs/core/Now.hpp>
+#include <acs/core/Result.hpp>
+#include <acs/plan/ILease.hpp>
+#include <acs/plan/LeaseTerm.hpp>
+#include <acs/plan/LeaseWatch.hpp>
+
+#include <boost/asio/any_io_executor.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace ACS::Acsd
+{
+
+/// Takes the lease of a shared store when it is free, and renews it until it is released or lost. The store is asked in a thread of
+/// its own; everything else runs on the executor's thread.
+class LeaseKeeper final
+{
+public:
+    struct Dependencies
+    {
+        boost::asio::any_io_executor executor;
+        const Core::IClock& clock;
+        Core::Logger logger;
+        LeaseGuard& guard; ///< Is extended by each renewal.
+    };
+
+    struct Handlers
+    {
+        std::function<void(std::uint64_t epoch)> onTaken;
+        /// Nothing may be commanded any more. The lease is not taken again by this object.
+        std::function<void(const std::string& reason)> onLost;
+    };
+
+private:
+    enum class EState : std::uint8_t
+    {
+        Watching,
+        Leading,
+        Ended
+    };
+
+    enum class ETimer : std::uint8_t
+    {
+        Read,
+        Renew,
+        End
+    };
+
+    struct Worker;
+
+    Dependencies _dependencies;
+    Planning::LeaseClaim _claim;
+    Handlers _handlers;
+    Planning::LeaseWatch _watch;
+    std::shared_ptr<Worker> _worker;
+    Apps::TimerSet<ETimer> _timers;
+    EState _state = EState::Watching;
+    std::uint64_t _epoch = 0;
+    std::optional<Planning::LeaseTerm> _term;
+    std::string _fault; ///< Why the store could not be asked the last time; empty: it could.
+    bool _bRenewing = false;
+
+public:
+    /// The clock, the sink of the logger and the guard outlive it.
+    LeaseKeeper(
+        Dependencies dependencies,
+        std::unique_ptr<Planning::ILease> lease,
+        Planning::LeaseClaim claim,
+        Handlers handlers);
+    LeaseKeeper(const LeaseKeeper&) = delete;
+    LeaseKeeper& operator=(const LeaseKeeper&) = delete;
+
+    /// Waits for the call of the store that is under way. Calls no handler any more.
+    ~LeaseKeeper();
+
+    void Start();
+
+    /// Ends: a lease that is held is released, then the handler is called. Call it when nothing is commanded any more.
+    void ReleaseAsync(std::function<void()> handler);
+
+    /// Why this process does not lead, as one sentence; empty: it does.
+    [[nodiscard]] std::string GetWaitReason() const;
+
+private:
+    template <typename TWork, typename TAnswer>
+    void Ask(TWork work, TAnswer answer);
+    void OnTimer(ETimer timer);
+    void Read();
+    void OnRead(const Core::Result<Planning::LeaseState>& state);
+    void Take(const Planning::LeaseState& seen);
+    void OnTaken(const Core::Result<std::optional<std::uint64_t>>& taken, Core::SteadyTime askedAt);
+    void Renew();
+    void OnRenewed(const Core::Result<bool>& renewed, Core::SteadyTime askedAt);
+    [[nodiscard]] bool HasEnded();
+    void ExtendTo(const Planning::LeaseTerm& term);
+    void SetFault(std::string fault);
+    void Lose(const std::string& reason);
+};
+
+} // namespace ACS::Acsd
