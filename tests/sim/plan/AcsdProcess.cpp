@@ -84,6 +84,11 @@ void AcsdProcess::Begin()
                 OnRobotEvent(robotID, event);
             }));
     }
+    if (_around.scenario.bShared)
+    {
+        _term.emplace(LEASE, _around.timeline.GetNow().steady);
+        RenewLease();
+    }
     _core.Restore(_mutator.OnRestore(_around.store.Load()));
     if (_bDead)
     {
@@ -107,12 +112,73 @@ void AcsdProcess::Crash(std::string_view where)
     _timers.CancelAll();
     _sessionTimers.CancelAll();
     _core.Close();
-    if (_writing.has_value() && _around.chance.IsHit(500))
+    if (_writing.has_value() && _around.scenario.bShared)
+    {
+        LeaveOnItsWay(*_writing);
+    }
+    else if (_writing.has_value() && _around.chance.IsHit(500))
     {
         _around.trace.Add("acsd: the batch being written is stored");
         static_cast<void>(TryCommit(*_writing));
     }
     _onCrash();
+}
+
+/// A shared store is another machine: what was sent may arrive much later, or never.
+void AcsdProcess::LeaveOnItsWay(const Planning::StoreBatch& batch)
+{
+    if (_around.chance.IsHit(300))
+    {
+        return;
+    }
+    const Core::Duration delay = _around.chance.IsHit(300) ? Core::Duration(1ms) : _around.chance.GetBetween(1ms, 12s);
+    _around.timeline.Post(
+        delay,
+        [&store = _around.store,
+         &trace = _around.trace,
+         epoch = _around.epoch,
+         written = _mutator.OnWrite(batch),
+         onCommit = _onCommit] {
+            const bool bStored = store.Commit(written, epoch).has_value();
+            trace.Add("disk: a batch of epoch {} arrives late: {}", epoch, bStored ? "stored" : "refused");
+            if (bStored)
+            {
+                onCommit();
+            }
+        });
+}
+
+void AcsdProcess::CutOff()
+{
+    _around.trace.Add("acsd: cut off from the store");
+    _bCutOff = true;
+}
+
+std::uint64_t AcsdProcess::GetNumber() const noexcept
+{
+    return _around.number;
+}
+
+void AcsdProcess::RenewLease()
+{
+    const Core::SteadyTime now = _around.timeline.GetNow().steady;
+    if (!_term->IsHeld(now) && !_mutator.Is(EMutation::LeaseEndIgnored))
+    {
+        Crash("because its lease has ended");
+        return;
+    }
+    if (!_bCutOff && _around.store.TryRenew(_around.epoch))
+    {
+        _term->OnRenewed(now);
+    }
+    _timers.Post(_term->GetRenewInterval(), [this] { RenewLease(); });
+}
+
+/// As acsd asks before each message to a robot.
+bool AcsdProcess::MayCommand()
+{
+    return !_term.has_value() || _mutator.Is(EMutation::LeaseEndIgnored)
+        || _term->IsHeld(_around.timeline.GetNow().steady);
 }
 
 void AcsdProcess::EndCrashes()
@@ -171,20 +237,44 @@ void AcsdProcess::Store(const Planning::StoreBatch& batch)
     }
 }
 
-bool AcsdProcess::TryCommit(const Planning::StoreBatch& batch)
+Core::Result<void> AcsdProcess::TryCommit(const Planning::StoreBatch& batch)
 {
-    const bool bStored = _around.store.Commit(_mutator.OnWrite(batch)).has_value();
-    _around.trace.Add("disk: {} changes {}", batch.changes.size(), bStored ? "stored" : "refused");
-    if (bStored)
+    Core::Result<void> stored = _around.store.Commit(_mutator.OnWrite(batch), _around.epoch);
+    _around.trace.Add("disk: {} changes {}", batch.changes.size(), stored.has_value() ? "stored" : "refused");
+    if (stored.has_value())
     {
         _onCommit();
     }
-    return bStored;
+    return stored;
+}
+
+/// As LeaderStore: again and again until it is stored, or the lease has ended.
+void AcsdProcess::CommitShared(Core::Duration retry)
+{
+    const Core::Result<void> stored = _bCutOff
+        ? Core::Fail(Planning::EPlanningError::StoreFailed, "acsd.db", "a connection", "none")
+        : TryCommit(*_writing);
+    if (!stored.has_value() && stored.error().code != Planning::EPlanningError::StoreTaken)
+    {
+        _timers.Post(retry, [this, retry] { CommitShared(retry); });
+        return;
+    }
+    _writing.reset();
+    CrashByChance(20, "after a write");
+    if (!_bDead)
+    {
+        _core.OnStored(stored);
+    }
 }
 
 void AcsdProcess::Commit()
 {
-    const bool bStored = TryCommit(*std::exchange(_writing, std::nullopt));
+    if (_around.scenario.bShared)
+    {
+        CommitShared(100ms);
+        return;
+    }
+    const bool bStored = TryCommit(*std::exchange(_writing, std::nullopt)).has_value();
     CrashByChance(20, "after a write");
     if (_bDead)
     {
@@ -263,7 +353,7 @@ void AcsdProcess::OnStopped()
 
 void AcsdProcess::OnStoreTaken()
 {
-    assert(false && "its store is in memory");
+    Crash("because another process has taken the store");
 }
 
 void AcsdProcess::ObserveCommit(Core::Duration /*duration*/)
@@ -276,6 +366,10 @@ void AcsdProcess::ObserveAckWait(Core::Duration /*wait*/)
 
 void AcsdProcess::CommandRobot(const Planning::CommandRobot& command)
 {
+    if (!MayCommand())
+    {
+        return;
+    }
     _around.trace.Add("acsd: {} {}", command.robotID, Describe(command.command));
     const auto found = _hands.find(command.robotID);
     assert(found != _hands.end());

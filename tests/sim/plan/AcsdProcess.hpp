@@ -16,9 +16,11 @@
 #include "TimerBank.hpp"
 #include "Trace.hpp"
 #include "WorkChecker.hpp"
+#include <acs/plan/LeaseTerm.hpp>
 #include <acs/plan/PlanEngine.hpp>
 #include <acs/protocol/AcsSession.hpp>
 
+#include <chrono>
 #include <deque>
 #include <functional>
 #include <map>
@@ -48,9 +50,13 @@ public:
         const Scenario& scenario;
         EMutation mutation = EMutation::None;
         std::uint64_t number = 0; ///< The number of this start.
+        std::uint64_t epoch = 0;  ///< With which it has taken the lease of the store.
         /// Receives the inputs and outputs of the core; may be empty.
         Acsd::CoreRecorder::RecordHandler onRecord = {};
     };
+
+    /// Of a shared store.
+    static constexpr std::chrono::milliseconds LEASE{3'000};
 
     /// Called once at the crash, possibly from within a call of this class. Afterwards it does nothing.
     using CrashHandler = std::function<void()>;
@@ -76,6 +82,8 @@ private:
     std::optional<Protocol::ConnectionID> _connection;
     Core::SteadyTime _lastDelivery{};
     std::optional<Planning::StoreBatch> _writing; ///< Being written to the disk.
+    std::optional<Planning::LeaseTerm> _term;     ///< Of a shared store.
+    bool _bCutOff = false;                        ///< From the shared store.
     Mutator _mutator;
 
 public:
@@ -94,6 +102,9 @@ public:
     void Crash(std::string_view where);
     /// No random crashes from now on.
     void EndCrashes();
+    /// It loses its connection to the shared store, until it ends.
+    void CutOff();
+    [[nodiscard]] std::uint64_t GetNumber() const noexcept;
 
     void PushCommand(Planning::PlanCommand command);
     [[nodiscard]] const Planning::PlanEngine& GetEngine() const noexcept;
@@ -101,7 +112,11 @@ public:
 private:
     [[nodiscard]] Acsd::AcsdCore::Dependencies MakeDependencies();
     void Commit();
-    [[nodiscard]] bool TryCommit(const Planning::StoreBatch& batch);
+    [[nodiscard]] Core::Result<void> TryCommit(const Planning::StoreBatch& batch);
+    void CommitShared(Core::Duration retry);
+    void LeaveOnItsWay(const Planning::StoreBatch& batch);
+    void RenewLease();
+    [[nodiscard]] bool MayCommand();
     void OnAction(const Planning::EngineAction& action, const Acsd::AcsdCore::ActionHandler& execute);
     void OnReport(const Planning::SendReport& report, const Acsd::AcsdCore::ActionHandler& execute);
     void OnRobotEvent(const std::string& robotID, const Planning::RobotEvent& event);

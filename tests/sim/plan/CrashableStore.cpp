@@ -3,12 +3,44 @@
 #include <acs/plan/EPlanningError.hpp>
 
 #include <algorithm>
+#include <chrono>
 
 namespace ACS::Simulation
 {
 
-Core::Result<void> CrashableStore::Commit(const Planning::StoreBatch& batch)
+CrashableStore::CrashableStore(bool bEpochChecked)
+    : _bEpochChecked(bEpochChecked)
 {
+}
+
+const Planning::LeaseState& CrashableStore::GetLease() const noexcept
+{
+    return _lease;
+}
+
+std::uint64_t CrashableStore::Take(Core::Duration duration)
+{
+    const auto milliseconds = std::chrono::duration_cast<std::chrono::milliseconds>(duration);
+    _lease = {_lease.epoch + 1, 0, "acsd", "", milliseconds, false};
+    return _lease.epoch;
+}
+
+bool CrashableStore::TryRenew(std::uint64_t epoch)
+{
+    if (bFails || epoch != _lease.epoch)
+    {
+        return false;
+    }
+    ++_lease.renewal;
+    return true;
+}
+
+Core::Result<void> CrashableStore::Commit(const Planning::StoreBatch& batch, std::uint64_t epoch)
+{
+    if (_bEpochChecked && epoch != _lease.epoch)
+    {
+        return Core::Fail(Planning::EPlanningError::StoreTaken, "acsd.db", "the present epoch", "a former one");
+    }
     if (bFails)
     {
         return Core::Fail(Planning::EPlanningError::StoreFailed, "acsd.db", "room", "disk full");

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
+#include <acs/plan/ILease.hpp>
 #include <acs/plan/IPlanStore.hpp>
 #include <acs/plan/MemoryPlanStore.hpp>
 
@@ -13,18 +15,29 @@
 namespace ACS::Simulation
 {
 
-/// The disk of a run: its content survives every crash. A batch is written completely or not at all.
+/// The disk of a run: its content survives every crash. A batch is written completely or not at all. It has a lease, so that
+/// processes can share it.
 class CrashableStore final
 {
     Planning::MemoryPlanStore _durable;
     std::unordered_map<std::string, std::uint64_t> _reports; ///< All reports that were ever stored, by transactionId.
+    Planning::LeaseState _lease;
+    bool _bEpochChecked;
 
 public:
     /// Called by its owner.
     bool bFails = false;
 
-    /// Called when the batch is on the disk.
-    [[nodiscard]] Core::Result<void> Commit(const Planning::StoreBatch& batch);
+    /// bEpochChecked: not with the mutation that accepts every epoch.
+    explicit CrashableStore(bool bEpochChecked);
+
+    [[nodiscard]] const Planning::LeaseState& GetLease() const noexcept;
+    /// Takes the lease. Returns the new epoch.
+    [[nodiscard]] std::uint64_t Take(Core::Duration duration);
+    [[nodiscard]] bool TryRenew(std::uint64_t epoch);
+
+    /// Called when the batch is on the disk. Fails with StoreTaken for an epoch of a former leader.
+    [[nodiscard]] Core::Result<void> Commit(const Planning::StoreBatch& batch, std::uint64_t epoch);
     [[nodiscard]] Planning::StoredState Load();
 
     /// The number with which the report was stored; nullopt: never stored.

@@ -40,16 +40,19 @@ enum class EMutation : std::uint8_t
     WrongPlace,
     StartRepeated,
     EchoIgnored,
+    EpochNotChecked,
+    LeaseEndIgnored,
 };
 
 struct MutationText
 {
     std::string_view name;
     std::string_view meaning;
-    bool bOfArms = false; ///< Found only with arms, which most runs do not have.
+    bool bOfArms = false;  ///< Found only with arms, which most runs do not have.
+    bool bOfLease = false; ///< Found only with a shared store, which most runs do not have.
 };
 
-inline constexpr std::size_t MUTATION_COUNT = 29;
+inline constexpr std::size_t MUTATION_COUNT = 31;
 
 /// By EMutation.
 inline constexpr std::array<MutationText, MUTATION_COUNT> MUTATION_TEXTS{{
@@ -83,6 +86,8 @@ inline constexpr std::array<MutationText, MUTATION_COUNT> MUTATION_TEXTS{{
     {"wrong-place", "a job is sent with the fixed place next to the right one"},
     {"start-repeated", "the START of a program is sent again after a reconnect of the arm", true},
     {"echo-ignored", "the job numbers that programs echo are ignored: any program counts for the job", true},
+    {"epoch-not-checked", "the store accepts transactions of a former leader", false, true},
+    {"lease-end-ignored", "a leader continues when its lease has ended, until the store refuses it", false, true},
 }};
 
 } // namespace ACS::Simulation

@@ -63,7 +63,7 @@ std::optional<Acsd::ReplayDifference> FindDifferenceOrNull(EMutation mutation)
     constexpr std::uint64_t SEEDS = 30;
     for (std::uint64_t seed = 1; seed <= SEEDS; ++seed)
     {
-        const Scenario scenario = MakeScenario(seed, {}, std::nullopt);
+        const Scenario scenario = MakeScenario(seed, {});
         for (const Recording& recording : Record(scenario, mutation))
         {
             Acsd::ReplayOutcome outcome = Replay(recording, AcsdProcess::MakeConfig(scenario));
@@ -89,7 +89,7 @@ TEST_CASE("A recorded run with faults of disk, links, robots and acsd replays to
     std::size_t commands = 0;
     for (const std::uint64_t seed : seeds)
     {
-        const Scenario scenario = MakeScenario(seed, {}, std::nullopt);
+        const Scenario scenario = MakeScenario(seed, {});
         for (const Recording& recording : Record(scenario, EMutation::None))
         {
             const Acsd::ReplayOutcome outcome = Replay(recording, AcsdProcess::MakeConfig(scenario));
@@ -116,7 +116,7 @@ TEST_CASE("A replay shows the first report that the present engine makes otherwi
 
 TEST_CASE("A replay shows a command that the recorded run never gave")
 {
-    const Scenario scenario = MakeScenario(1, {}, std::nullopt);
+    const Scenario scenario = MakeScenario(1, {});
     const std::vector<Recording> recordings = Record(scenario, EMutation::None);
     Acsd::AcsdConfig changed = AcsdProcess::MakeConfig(scenario);
     changed.engine.baseLength += 1;
@@ -138,7 +138,7 @@ TEST_CASE("A replay shows a command that the recorded run never gave")
 TEST_CASE("A repeated end of a transaction is a fault of the recording, and never reaches the engine")
 {
     constexpr std::size_t MOST_COPIES = 20;
-    const Scenario scenario = MakeScenario(1, {}, std::nullopt);
+    const Scenario scenario = MakeScenario(1, {});
     const Recording recording = Record(scenario, EMutation::None).front();
     const auto isOuterInput = [](const Acsd::CoreRecord& record) {
         return record.bInput && record.depth == 0;

@@ -15,7 +15,7 @@ RobotConnection::RobotConnection(Timeline& timeline, RobotRadio& radio, std::uin
 
 RobotConnection::~RobotConnection()
 {
-    _radio.Detach();
+    _radio.Detach(*this);
 }
 
 void RobotConnection::Handle(const Planning::RobotCommand& command)

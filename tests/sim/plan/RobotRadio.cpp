@@ -52,8 +52,12 @@ void RobotRadio::Attach(IRadioListener& listener)
     NotifyLink(_chance.GetBetween(1ms, 300ms));
 }
 
-void RobotRadio::Detach()
+void RobotRadio::Detach(const IRadioListener& listener)
 {
+    if (_listenerOrNull != &listener)
+    {
+        return; // a later process has attached
+    }
     _listenerOrNull = nullptr;
     ++_epoch;
     Lose(_toRobot);

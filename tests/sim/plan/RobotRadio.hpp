@@ -50,7 +50,7 @@ public:
 
     void Attach(IRadioListener& listener);
     /// acsd has crashed.
-    void Detach();
+    void Detach(const IRadioListener& listener);
     void Send(const RobotMessage& message);
     void SetUp(bool bUp);
     [[nodiscard]] bool IsUp() const noexcept;

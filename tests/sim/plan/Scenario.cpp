@@ -15,7 +15,8 @@ namespace
 {
 
 constexpr std::uint64_t SCENARIO_PART = 1;
-constexpr std::uint64_t ARM_PART = 2;     ///< Whether a run has arms: separate from the other random numbers.
+constexpr std::uint64_t ARM_PART = 2; ///< Whether a run has arms: separate from the other random numbers.
+constexpr std::uint64_t LEASE_PART = 900;
 constexpr std::uint64_t SERVICE_PART = 3; ///< Maintenance and batteries, likewise.
 constexpr double SPACING = 2.0;
 
@@ -339,7 +340,7 @@ Planning::SiteMap Scenario::MakeSite() const
     return *Planning::SiteMap::Create(nodes, edges, stations);
 }
 
-Scenario MakeScenario(std::uint64_t seed, const FaultSet& without, std::optional<ERobotKind> robotsOrNull)
+Scenario MakeScenario(std::uint64_t seed, const ScenarioDemands& demands)
 {
     ChanceModel chance({seed, SCENARIO_PART});
     Scenario scenario;
@@ -368,15 +369,19 @@ Scenario MakeScenario(std::uint64_t seed, const FaultSet& without, std::optional
     scenario.faultsEnd = std::chrono::seconds(chance.GetBetween(60, 240));
     // Some runs have all faults, most have some, so that each fault also occurs without others that hide its effect.
     const bool bAll = chance.IsHit(250);
-    for (std::size_t fault = 0; fault < FAULT_COUNT; ++fault)
+    constexpr auto PARTITIONS = static_cast<std::size_t>(EFault::Partitions);
+    for (std::size_t fault = 0; fault < PARTITIONS; ++fault)
     {
         const bool bChosen = chance.IsHit(500);
-        scenario.faults.set(fault, (bAll || bChosen) && !without.test(fault));
+        scenario.faults.set(fault, (bAll || bChosen) && !demands.without.test(fault));
     }
+    ChanceModel leaseChance({seed, LEASE_PART});
+    scenario.bShared = demands.bShared.value_or(leaseChance.IsHit(150));
+    scenario.faults.set(PARTITIONS, leaseChance.IsHit(700) && !demands.without.test(PARTITIONS));
     const bool bVehicles = chance.IsHit(70);
     const bool bArms = !bVehicles && ChanceModel({seed, ARM_PART}).IsHit(40);
     const ERobotKind kind = bArms ? ERobotKind::Arms : ERobotKind::Memory;
-    scenario.robots = robotsOrNull.value_or(bVehicles ? ERobotKind::Vda5050 : kind);
+    scenario.robots = demands.robots.value_or(bVehicles ? ERobotKind::Vda5050 : kind);
     ChooseService(scenario);
     return scenario;
 }

@@ -38,6 +38,7 @@ struct Scenario
     FaultSet faults; ///< By EFault.
     ERobotKind robots = ERobotKind::Memory;
     bool bMaintenance = false; ///< An operator takes robots out of service and puts them back.
+    bool bShared = false;      ///< The store has a lease, and a standby takes over.
     bool bBatteries = false;   ///< Vehicles have to charge; robots in memory never have to.
     std::string siteName;
     std::vector<Planning::SiteNode> nodes;
@@ -65,11 +66,16 @@ struct Scenario
     [[nodiscard]] Planning::SiteMap MakeSite() const;
 };
 
+/// What the command line demands of all runs; nullopt: it is drawn from the seed.
+struct ScenarioDemands
+{
+    FaultSet without;
+    std::optional<ERobotKind> robots;
+    std::optional<bool> bShared;
+};
+
 /// The same for the same seed.
-[[nodiscard]] Scenario MakeScenario(
-    std::uint64_t seed,
-    const FaultSet& without,
-    std::optional<ERobotKind> robotsOrNull);
+[[nodiscard]] Scenario MakeScenario(std::uint64_t seed, const ScenarioDemands& demands);
 
 /// A plan that a robot of the scenario can do.
 [[nodiscard]] Protocol::ExecutionPlan MakeGoodPlan(

@@ -82,6 +82,7 @@ std::optional<int> ReadOptionsOrNull(int argc, const char* const* argv, Simulati
         "--robots",
         [&options](const std::string& text) { return ParseRobots(text, options.robots); },
         "kind of all robots: memory, vda5050 or arms (vehicles, CRs with arms); default: from the seed");
+    app.add_flag("--shared", options.bShared, "all runs with a shared store and a standby; default: from the seed");
     app.add_flag("--mutations", options.bAllMutations, "check that every mutation is found within --seeds runs");
     app.add_flag("--list-mutations", options.bListMutations, "list the mutations with their meaning");
     return Apps::ParseCommandLineOrNull(app, argc, argv);

@@ -21,6 +21,7 @@ struct SimulationOptions
     FaultSet without;
     std::optional<ERobotKind> robots; ///< Absent: from the seed.
     EMutation mutation = EMutation::None;
+    bool bShared = false; ///< All runs have a shared store.
     bool bAllMutations = false;
     bool bListMutations = false;
     bool bKeepsGoing = false;

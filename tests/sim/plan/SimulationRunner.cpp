@@ -73,10 +73,12 @@ std::string SimulationRunner::DescribeReplay(EMutation mutation, std::uint64_t s
     {
         text += _options.without.test(fault) ? fmt::format(" --without {}", FAULT_NAMES[fault]) : "";
     }
-    if (const std::optional<ERobotKind> robots = GetRobotsOrNull(mutation); robots.has_value())
+    const ScenarioDemands demands = MakeDemands(mutation);
+    if (demands.robots.has_value())
     {
-        text += fmt::format(" --robots {}", GetText(*robots));
+        text += fmt::format(" --robots {}", GetText(*demands.robots));
     }
+    text += demands.bShared.has_value() ? " --shared" : "";
     if (mutation != EMutation::None)
     {
         text += fmt::format(" --mutation {}", MUTATION_TEXTS[static_cast<std::size_t>(mutation)].name);
@@ -84,18 +86,24 @@ std::string SimulationRunner::DescribeReplay(EMutation mutation, std::uint64_t s
     return text;
 }
 
-std::optional<ERobotKind> SimulationRunner::GetRobotsOrNull(EMutation mutation) const
+ScenarioDemands SimulationRunner::MakeDemands(EMutation mutation) const
 {
-    const bool bOfArms = MUTATION_TEXTS[static_cast<std::size_t>(mutation)].bOfArms;
-    return bOfArms && !_options.robots.has_value() ? ERobotKind::Arms : _options.robots;
+    const MutationText& text = MUTATION_TEXTS[static_cast<std::size_t>(mutation)];
+    ScenarioDemands demands{_options.without, _options.robots, {}};
+    if (text.bOfArms && !_options.robots.has_value())
+    {
+        demands.robots = ERobotKind::Arms;
+    }
+    if (_options.bShared || text.bOfLease)
+    {
+        demands.bShared = true;
+    }
+    return demands;
 }
 
 int SimulationRunner::RunSeed(std::uint64_t seed) const
 {
-    World world(
-        MakeScenario(seed, _options.without, GetRobotsOrNull(_options.mutation)),
-        _options.mutation,
-        _options.bTrace);
+    World world(MakeScenario(seed, MakeDemands(_options.mutation)), _options.mutation, _options.bTrace);
     const std::vector<std::string> violations = world.Run();
     for (const std::string& violation : violations)
     {
@@ -113,7 +121,7 @@ SimulationRunner::Tally SimulationRunner::RunWorlds(EMutation mutation, bool bPr
     const auto work = [&] {
         for (std::uint64_t seed = next++; seed < end; seed = next++)
         {
-            World world(MakeScenario(seed, _options.without, GetRobotsOrNull(mutation)), mutation, false);
+            World world(MakeScenario(seed, MakeDemands(mutation)), mutation, false);
             const std::vector<std::string> violations = world.Run();
             const std::lock_guard lock(mutex);
             ++tally.worlds;

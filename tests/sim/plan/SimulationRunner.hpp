@@ -39,7 +39,7 @@ private:
     /// Stops at the first failure.
     [[nodiscard]] Tally RunWorlds(EMutation mutation, bool bProgress) const;
     /// The kind that was requested; otherwise what the mutation needs, or nullopt.
-    [[nodiscard]] std::optional<ERobotKind> GetRobotsOrNull(EMutation mutation) const;
+    [[nodiscard]] ScenarioDemands MakeDemands(EMutation mutation) const;
     [[nodiscard]] int RunSeed(std::uint64_t seed) const;
     [[nodiscard]] int RunMutations() const;
     [[nodiscard]] std::string DescribeReplay(EMutation mutation, std::uint64_t seed) const;

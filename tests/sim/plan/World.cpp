@@ -50,6 +50,7 @@ World::World(Scenario scenario, EMutation mutation, bool bPrinting, RecordingHan
       _ownRandom({_scenario.seed, OWN_RANDOM_PART}),
       _faultChance({_scenario.seed, FAULT_PART}),
       _robotChance({_scenario.seed, ROBOT_PART}),
+      _store(mutation != EMutation::EpochNotChecked),
       _site(_scenario.MakeSite()),
       _workChecker(_trace, _site, GetHandling(_scenario.robots)),
       _judge(_trace, _store, _workChecker),
@@ -81,6 +82,10 @@ std::vector<std::string> World::Run()
         _scenario.planCount);
     AddRobots();
     StartAcsd();
+    if (_scenario.bShared)
+    {
+        WatchLease();
+    }
     _mcs.Begin();
     BeginFaults();
     while (!_bDone && _trace.GetViolations().empty() && _timeline.TryStep())
@@ -146,6 +151,7 @@ void World::AddRobots()
 void World::StartAcsd()
 {
     ++_starts;
+    _former = std::move(_process); // null, unless it ignores the end of its lease
     _operator.OnStart();
     BringIntoReach();
     const AcsdProcess::Dependencies around{
@@ -160,10 +166,11 @@ void World::StartAcsd()
         _scenario,
         _mutation,
         _starts,
+        _store.Take(AcsdProcess::LEASE),
         _onRecording ? _onRecording(_starts) : Acsd::CoreRecorder::RecordHandler()};
     _process = std::make_unique<AcsdProcess>(
         around,
-        [this] { OnCrash(); },
+        [this, number = _starts] { OnCrash(number); },
         [this] { _judge.CheckKept(); });
     if (_bSettling)
     {
@@ -193,12 +200,44 @@ void World::BringIntoReach()
 }
 
 /// It is still on the stack: it is destroyed when the stack is empty.
-void World::OnCrash()
+void World::OnCrash(std::uint64_t number)
 {
+    if (_scenario.bShared) // the standby takes over
+    {
+        _behaviours.Post(0ms, [this, number] {
+            for (std::unique_ptr<AcsdProcess>* const process : {&_process, &_former})
+            {
+                if (*process != nullptr && (*process)->GetNumber() == number)
+                {
+                    process->reset();
+                }
+            }
+        });
+        return;
+    }
     _behaviours.Post(0ms, [this] { _process.reset(); });
     _behaviours.Start(EBehaviour::Restart, _faultChance.GetBetween(1ms, _faultChance.IsHit(300) ? 30s : 2s), [this] {
         StartAcsd();
     });
+}
+
+/// The standby reads the lease of the shared store and takes it when it has ended.
+void World::WatchLease()
+{
+    if (_watch.ShouldTake(_store.GetLease(), _timeline.GetNow().steady))
+    {
+        StartAcsd();
+    }
+    _behaviours.Start(EBehaviour::Standby, AcsdProcess::LEASE / 12, [this] { WatchLease(); });
+}
+
+void World::CutOffSometime()
+{
+    if (_process != nullptr)
+    {
+        _process->CutOff();
+    }
+    _behaviours.Start(EBehaviour::Partition, _faultChance.GetBetween(5s, 90s), [this] { CutOffSometime(); });
 }
 
 void World::BeginFaults()
@@ -232,6 +271,10 @@ void World::BeginFaults()
     {
         _behaviours.Start(EBehaviour::Broker, _faultChance.GetBetween(10s, 200s), [this] { TurnBroker(); });
     }
+    if (_scenario.bShared && _scenario.Has(EFault::Partitions))
+    {
+        _behaviours.Start(EBehaviour::Partition, _faultChance.GetBetween(5s, 90s), [this] { CutOffSometime(); });
+    }
     for (const auto& [robotID, robot] : _robots)
     {
         if (_scenario.Has(EFault::Robots))
@@ -251,7 +294,12 @@ void World::EndFaults()
     _bSettling = true;
     _deadline = _timeline.GetNow().steady + SETTLING_LIMIT;
     for (const EBehaviour behaviour :
-         {EBehaviour::Disk, EBehaviour::Link, EBehaviour::Operator, EBehaviour::Crash, EBehaviour::Broker})
+         {EBehaviour::Disk,
+          EBehaviour::Link,
+          EBehaviour::Operator,
+          EBehaviour::Crash,
+          EBehaviour::Broker,
+          EBehaviour::Partition})
     {
         _behaviours.Cancel(behaviour);
     }

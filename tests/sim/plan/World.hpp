@@ -15,6 +15,7 @@
 #include "TimerBank.hpp"
 #include "Trace.hpp"
 #include "WorkChecker.hpp"
+#include <acs/plan/LeaseWatch.hpp>
 
 #include <functional>
 #include <map>
@@ -42,6 +43,8 @@ private:
         Crash,
         Operator,
         Broker,
+        Standby,
+        Partition,
         EndFaults,
         Watch,
     };
@@ -66,6 +69,8 @@ private:
     TimerBank<std::string> _robotBehaviours;
     TimerBank<std::string> _radioBehaviours;
     std::unique_ptr<AcsdProcess> _process;
+    std::unique_ptr<AcsdProcess> _former;       ///< A leader that has not ended in time, by a mutation.
+    Planning::LeaseWatch _watch{std::string()}; ///< Of the standby.
     OperatorSimulator _operator;
     RecordingHandler _onRecording; ///< May be empty.
     std::uint64_t _starts = 0;
@@ -86,7 +91,9 @@ private:
     void AddRobots();
     void StartAcsd();
     void BringIntoReach();
-    void OnCrash();
+    void OnCrash(std::uint64_t number);
+    void WatchLease();
+    void CutOffSometime();
     void BeginFaults();
     void EndFaults();
     void TurnDisk();
