@@ -57,6 +57,7 @@ class MockAcsd:
         self.is_traced = is_traced
         self.is_silent = False  # neither events nor keep-alives, and no answer to a request for them
         self.is_down = False  # closes every connection
+        self.standby = None  # why it does not lead; all but the page is then answered with it
         self.tsc = "Auto"
         self.links = [{"name": name, "up": True, "reason": None, "since": format_time(get_now())} for name in ("mcs", "mqtt")]
         self.not_ready = []
@@ -338,6 +339,8 @@ class Handler(http.server.BaseHTTPRequestHandler):
             return
         query = dict(urllib.parse.parse_qsl(url.query))
         try:
+            if mock.standby is not None:
+                raise Refusal(503, mock.standby)
             self.check_access()
             if url.path == "/v1/events":
                 self.send_events(query)

@@ -799,6 +799,19 @@ class Connection(PageCase):
         self.assertFalse(self.find("#banner").is_displayed())
         self.wait_for_text("#strip-alarms", "1")
 
+    def test_a_standby_is_shown_until_it_leads(self):
+        self.expected_log = ("net::ERR", "503")
+        mock = self.start_mock()
+        self.open()
+        mock.standby = "standby: acs2 leads"
+        mock.drop_clients()
+        self.wait_for_text("#banner", "standby: acs2 leads")
+        self.wait_for_text("#live", "Standby")
+        self.assertIn("is-old", self.find("body").get_attribute("class"))
+        mock.standby = None
+        self.wait_for_state("live")
+        self.assertFalse(self.find("#banner").is_displayed())
+
     def test_silence(self):
         mock = self.start_mock()
         self.open()

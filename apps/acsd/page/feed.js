@@ -38,7 +38,7 @@ export class EventParser {
     }
 }
 
-/** States: "connecting", "live", "silent" (no byte for 30 s), "lost" (with `reason`), "login". */
+/** States: "connecting", "live", "silent" (no byte for 30 s), "lost" (with `reason`), "standby" (with `reason`), "login". */
 export class Feed {
     #model;
     #onState;
@@ -96,6 +96,7 @@ export class Feed {
             this.#abort = abort;
             this.#lastSign = Date.now();
             let reason = "";
+            let isStandby = false;
             const begin = Date.now();
             try {
                 await this.#read(run, abort.signal, () => { attempt = 0; });
@@ -108,6 +109,7 @@ export class Feed {
                     return;
                 }
                 reason = error.name === "AbortError" ? "" : error.message;
+                isStandby = error instanceof ApiError && error.status === 503 && reason.startsWith("standby");
             }
             if (run !== this.#run) {
                 return;
@@ -116,7 +118,7 @@ export class Feed {
                 continue;
             }
             if (this.#state.name !== "silent" || reason !== "") {
-                this.#set("lost", reason);
+                this.#set(isStandby ? "standby" : "lost", reason);
             }
             await new Promise((resolve) => { setTimeout(resolve, RETRIES[Math.min(attempt, RETRIES.length - 1)]); });
             attempt += 1;

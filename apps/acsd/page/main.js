@@ -359,12 +359,13 @@ class Page {
                 make("span", {class: "live-text", text: t(`live.${state.name}`)}),
                 make("time", {id: "clock", class: "clock", text: formatClock(Date.now())}));
         }
-        const isOld = ["silent", "lost"].includes(state.name) && this.model.status !== null;
+        const isWithoutData = ["silent", "lost", "standby"].includes(state.name);
+        const isOld = isWithoutData && this.model.status !== null;
         document.body.classList.toggle("is-old", isOld);
         const banner = document.getElementById("banner");
-        setHidden(banner, !["silent", "lost"].includes(state.name));
+        setHidden(banner, !isWithoutData);
         if (!banner.hidden) {
-            const key = state.name === "silent" ? "banner.silent" : state.reason ? "banner.lostWhy" : "banner.lost";
+            const key = state.name === "lost" && state.reason ? "banner.lostWhy" : `banner.${state.name}`;
             const old = isOld ? t("banner.old", {time: formatClock(Date.now() - age), age: formatDuration(age)}) : "";
             setText(banner, `${t(key, {reason: state.reason})} ${old}`.trim());
         }

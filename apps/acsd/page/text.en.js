@@ -30,10 +30,12 @@ export default {
     "live.live": "Live",
     "live.silent": "No data",
     "live.lost": "Not connected",
+    "live.standby": "Standby",
     "live.login": "Login required",
     "banner.silent": "acsd has sent nothing for more than 30 s.",
     "banner.lost": "The connection to acsd is lost. Reconnecting.",
     "banner.lostWhy": "The connection to acsd is lost: {reason}. Reconnecting.",
+    "banner.standby": "This acsd has no live data ({reason}). Open the page of the one that leads.",
     "banner.old": "This page shows the state of {time} ({age} ago).",
 
     "floor.label": "Floor with robots. Arrow keys pan, + and - zoom; / finds a robot, a plan or a place by its id",
