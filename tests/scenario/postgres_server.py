@@ -28,19 +28,38 @@ def _as_server(command):
 
 
 class PostgresServer:
-    """Started at once; the line ends it."""
+    """Started at once; the line ends it. With `primary` it is a synchronous replica of that server."""
 
-    def __init__(self, line):
+    def __init__(self, line, primary=None):
         self._line = line
         self._folder = pathlib.Path(tempfile.mkdtemp(prefix="acs-postgres-"))
         if os.geteuid() == 0:
             shutil.chown(self._folder, "postgres", "postgres")
         self._data = self._folder / "data"
-        subprocess.run(
-            _as_server([_find("initdb"), "-D", str(self._data), "-U", "acsd", "-A", "trust", "-E", "UTF8", "--locale=C",
-                        "--no-sync"]), check=True, stdout=subprocess.DEVNULL)
+        if primary is None:
+            self._run("initdb", "-D", self._data, "-U", "acsd", "-A", "trust", "-E", "UTF8", "--locale=C", "--no-sync")
+        else:
+            self._run("pg_basebackup", "-D", self._data, "-R", "-X", "stream", "-d", f"{primary.get_url()}?application_name=replica")
         self.port = find_free_port()
         self.start()
+        if primary is not None:
+            primary.execute("ALTER SYSTEM SET synchronous_standby_names = 'replica'")
+            primary.execute("SELECT pg_reload_conf()")
+            deadline = time.monotonic() + START_SECONDS
+            while primary.execute("SELECT count(*) FROM pg_stat_replication WHERE sync_state = 'sync'") != "1":
+                if time.monotonic() > deadline:
+                    raise LineError("the replica is not synchronous", self.program)
+                time.sleep(0.05)
+
+    @staticmethod
+    def _run(name, *arguments):
+        subprocess.run(_as_server([_find(name), *map(str, arguments)]), check=True, stdout=subprocess.DEVNULL)
+
+    def promote(self):
+        """The replica becomes a primary."""
+        self._run("pg_ctl", "promote", "-D", self._data, "-w")
+        self.execute("ALTER SYSTEM RESET synchronous_standby_names")
+        self.execute("SELECT pg_reload_conf()")
 
     def get_url(self, database="postgres", port=None, user="acsd"):
         return f"postgresql://{user}@127.0.0.1:{port or self.port}/{database}"

@@ -122,8 +122,9 @@ class StandbyCase(KillCase):
         print(f"{len(ordered)} takeovers, median {ordered[len(ordered) // 2]:.2f} s, 95th percentile "
               f"{ordered[min(len(ordered) - 1, int(len(ordered) * PERMILLE_95))]:.2f} s ...", end=" ", file=sys.stderr)
 
-    def play_here(self, strike, short):
-        self.play(strike, SETTINGS.kills if SETTINGS.long else min(SETTINGS.kills, short))
+    def play_here(self, strike, short, share=1):
+        """share: of the kills, in a long run."""
+        self.play(strike, SETTINGS.kills // share if SETTINGS.long else min(SETTINGS.kills, short))
         self.judge()
         if self.takeovers:
             self.print_takeovers()
@@ -181,7 +182,7 @@ class Standby(StandbyCase):
             if kind != "broker":
                 self.wait_until(lambda: f"standby: {other.name} leads" in leader.read_ready()[1], "it is a standby")
 
-        self.play_here(strike, 3)
+        self.play_here(strike, 3, share=5)
 
     def test_a_leader_that_stalls_sends_nothing_later(self):
         """It is stopped for longer than its lease, and continues when the other one leads."""
@@ -196,7 +197,7 @@ class Standby(StandbyCase):
             self.wait_until(lambda: f"standby: {other.name} leads" in leader.read_ready()[1], "it is a standby")
             self.assertTrue(any("does not lead any more" in line for line in leader.program.tail(200)))
 
-        self.play_here(strike, 2)
+        self.play_here(strike, 2, share=5)
 
     def test_the_server_is_killed(self):
         """Neither leads meanwhile; then one of them continues."""
@@ -209,7 +210,28 @@ class Standby(StandbyCase):
             self.server.start()
             self.wait_until_leading()
 
-        self.play_here(strike, 2)
+        self.play_here(strike, 2, share=5)
+
+
+class Failover(StandbyCase):
+    """The database server is lost, and its synchronous replica is promoted: nothing that was acknowledged is lost."""
+
+    def start_acsd(self):
+        self.replica = PostgresServer(self.line, self.server)
+        self.addCleanup(self.replica.remove)
+        hosts = f"127.0.0.1:{self.server.port},127.0.0.1:{self.replica.port}"
+        self.members = [Member(self, name, url=f"postgresql://acsd@{hosts}/postgres") for name in ("one", "two")]
+        self.wait_until_leading()
+
+    def test_the_primary_is_lost(self):
+        self.start_line()
+        self.supply_for(3.0)
+        self.server.kill()
+        self.wait_until(lambda: not any(member.is_leading() for member in self.members), "none leads without a server")
+        self.replica.promote()
+        self.wait_until_leading()
+        self.play(lambda: None, 0)
+        self.judge()
 
 
 class Refusals(StandbyCase):
