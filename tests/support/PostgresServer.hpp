@@ -34,10 +34,7 @@ public:
     explicit PostgresServer(std::vector<std::string> settings = {})
         : _settings(std::move(settings))
     {
-        if (geteuid() == 0)
-        {
-            Run({"chown", "postgres:", _folder.GetPath().string()});
-        }
+        GiveToServer(_folder.GetPath().string());
         Run(MakeCommand(
             {GetProgram("initdb"),
              "-D",
@@ -58,6 +55,15 @@ public:
         if (_process == nullptr)
         {
             throw std::runtime_error("PostgreSQL does not start");
+        }
+    }
+
+    /// Lets the user of the server read a file or a folder with its files.
+    static void GiveToServer(const std::string& path)
+    {
+        if (geteuid() == 0)
+        {
+            Run({"chown", "-R", "postgres:", path});
         }
     }
 

@@ -1,4 +1,6 @@
+#include "CertificateMaker.hpp"
 #include "PostgresPlace.hpp"
+#include "TemporaryFolder.hpp"
 
 #include <chrono>
 #include <string>
@@ -71,4 +73,28 @@ TEST_CASE("PostgreSQL: each reason why it cannot be used has its remedy")
     GetServer().Execute("CREATE DATABASE latin ENCODING 'LATIN1' TEMPLATE template0");
     CHECK_THAT(Explain(GetServer().GetURL("latin")), Catch::Contains("the encoding UTF8"));
     CHECK_THAT(Explain("postgresql://acsd@127.0.0.1:" + port + "/postgres?sslmode=require"), Catch::Contains("SSL"));
+}
+
+TEST_CASE("PostgreSQL: the server is identified by its certificate")
+{
+    const Testing::TemporaryFolder folder;
+    Testing::CertificateMaker maker(folder.GetPath());
+    const Testing::CertificateFiles ca = maker.MakeCA("ca");
+    const Testing::CertificateFiles other = maker.MakeCA("other");
+    const Testing::CertificateFiles certificate = maker.Make(ca, {});
+    Testing::PostgresServer::GiveToServer(folder.GetPath().string());
+    const Testing::PostgresServer server(
+        {"ssl=on", "ssl_cert_file=" + certificate.certificate, "ssl_key_file=" + certificate.key});
+    const auto read = [&server](const std::string& parameters) {
+        const PostgresOptions options{server.GetURL() + "?" + parameters, {}, std::chrono::seconds(5)};
+        const Core::Result<LeaseState> state = PostgresLease(options).Read();
+        return state.has_value() ? std::string("connected") : Core::Describe(state.error());
+    };
+    CHECK(read("sslmode=verify-full&sslrootcert=" + ca.certificate) == "connected");
+    CHECK_THAT(
+        read("sslmode=verify-full&sslrootcert=" + other.certificate),
+        Catch::Contains("give its issuer as sslrootcert"));
+    CHECK_THAT(
+        read("sslmode=verify-full&sslrootcert=" + folder.GetPath().string() + "/absent"),
+        Catch::Contains("certificate"));
 }
