@@ -285,9 +285,9 @@ private:
         }
     }
 
-    void OnStoreTaken() override
+    void OnStoreTaken(const std::string& reason) override
     {
-        _dependencies.onStoreTaken();
+        _dependencies.onStoreTaken(reason);
     }
 
     void ObserveCommit(Core::Duration duration) override

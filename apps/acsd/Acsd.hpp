@@ -39,8 +39,8 @@ public:
         /// Called from the event loop at aliveInterval, which is 0 without a watchdog.
         std::function<void()> onAlive;
         Core::Duration aliveInterval{};
-        /// Another program has taken the place of the store. The owner must end the event loop.
-        std::function<void()> onStoreTaken = [] {
+        /// Another program has taken the store. The owner must destroy acsd, later.
+        std::function<void(const std::string& reason)> onStoreTaken = [](const std::string& /*reason*/) {
         };
         /// Whether robots may be commanded, asked before each message; empty: they always may.
         std::function<bool()> mayCommand{};

@@ -350,11 +350,8 @@ bool AcsdCore::TryEndForTakenStore(const Core::Result<void>& result)
     if (_phase != EPhase::Stopped)
     {
         _phase = EPhase::Stopped;
-        _dependencies.logger.Error(
-            "another program has taken the path of the store: acsd ends now; its own store is where it was moved to",
-            {{"reason", Core::Describe(result.error())}});
         _dependencies.output.CancelTimers();
-        _dependencies.output.OnStoreTaken();
+        _dependencies.output.OnStoreTaken(Core::Describe(result.error()));
     }
     return true;
 }

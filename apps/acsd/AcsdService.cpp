@@ -1,5 +1,6 @@
 #include "AcsdService.hpp"
 
+#include "config/LiveConfig.hpp"
 #include "operator/AuditLog.hpp"
 #include "replay/RecordedConfig.hpp"
 #include <acs/plan_postgres/PostgresLease.hpp>
@@ -17,20 +18,14 @@ namespace
 /// A call of the lease that takes longer is of no use.
 constexpr int CALLS_PER_LEASE = 2;
 
-Planning::PostgresOptions MakeLeaseOptions(const StoreConfig& store)
-{
-    Planning::PostgresOptions options = *store.postgres;
-    options.timeout = store.lease / CALLS_PER_LEASE;
-    return options;
-}
-
 } // namespace
 
 AcsdService::AcsdService(Acsd::Dependencies dependencies, AcsdConfig config, Handlers handlers)
     : _dependencies(std::move(dependencies)),
       _config(std::move(config)),
+      _fingerprint(_config.store.postgres.has_value() ? MakeConfigFingerprint(_config) : std::string()),
       _handlers(std::move(handlers)),
-      _guard(_dependencies.clock)
+      _guard(_leaseClock)
 {
     if (_config.store.postgres.has_value())
     {
@@ -38,10 +33,16 @@ AcsdService::AcsdService(Acsd::Dependencies dependencies, AcsdConfig config, Han
             return _guard.IsHeld();
         };
     }
-    _dependencies.onStoreTaken = [this] {
+    _dependencies.onStoreTaken = [this](const std::string& reason) {
         // Acsd cannot be destroyed from within its own call.
-        boost::asio::post(_dependencies.executor, [this] { LoseLead("another process has taken the store"); });
+        boost::asio::post(_dependencies.executor, [this, reason] { LoseLead(reason); });
     };
+}
+
+AcsdService::~AcsdService()
+{
+    _guard.End();
+    _opener.join();
 }
 
 Core::Result<void> AcsdService::Start()
@@ -55,14 +56,16 @@ Core::Result<void> AcsdService::Start()
 
 Core::Result<void> AcsdService::StartStandby()
 {
+    _state = EState::Standby;
     _keeper = std::make_unique<LeaseKeeper>(
-        LeaseKeeper::Dependencies{
-            _dependencies.executor,
-            _dependencies.clock,
-            _dependencies.logger.MakeFor("lease"),
-            _guard},
-        std::make_unique<Planning::PostgresLease>(MakeLeaseOptions(_config.store)),
-        Planning::LeaseClaim{_config.store.instance, MakeConfigFingerprint(_config), _config.store.lease},
+        LeaseKeeper::Dependencies{_dependencies.executor, _leaseClock, _dependencies.logger.MakeFor("lease"), _guard},
+        [store = _config.store](std::function<bool()> shouldStop) -> std::unique_ptr<Planning::ILease> {
+            Planning::PostgresOptions options = *store.postgres;
+            options.timeout = store.lease / CALLS_PER_LEASE;
+            options.shouldStop = std::move(shouldStop);
+            return std::make_unique<Planning::PostgresLease>(std::move(options));
+        },
+        Planning::LeaseClaim{_config.store.instance, _fingerprint, _config.store.lease},
         LeaseKeeper::Handlers{
             [this](std::uint64_t epoch) { OnTaken(epoch); },
             [this](const std::string& reason) {
@@ -79,24 +82,50 @@ Core::Result<void> AcsdService::StartStandby()
                 HttpInterfaces::Dependencies{_dependencies.executor, _dependencies.clock, _dependencies.logger},
                 _config.http,
                 std::move(audit),
-                [this] { return _keeper->GetWaitReason(); });
+                StandbyServer::Reasons{
+                    [this] { return _keeper->GetWaitReason(); },
+                    [this] {
+                        return _keeper->GetPublicReason();
+                    }});
             return _standby->Listen(_config.http);
         })
         .map([this] {
             KeepPorts(_standby->GetAddresses());
+            _watchdog.emplace(
+                _dependencies.executor,
+                Apps::LoopWatchdog::Options{_config.operations.stallLimit, _dependencies.aliveInterval},
+                Apps::LoopWatchdog::Handlers{{}, _dependencies.onAlive});
+            _watchdog->Start();
             _keeper->Start();
         });
 }
 
-/// Only what could be opened at the start can fail later: the end of the process shows it.
+/// The lease is renewed while the store is read, however long that takes.
 void AcsdService::OnTaken(std::uint64_t epoch)
 {
+    _state = EState::Opening;
+    _epoch = epoch;
+    boost::asio::post(_opener, [this, epoch, store = _config.store] {
+        auto opened = std::make_shared<Core::Result<OpenedStore>>(OpenSharedStore(store, epoch, _guard));
+        boost::asio::post(_dependencies.executor, [this, epoch, opened] { OnOpened(epoch, std::move(*opened)); });
+    });
+}
+
+void AcsdService::OnOpened(std::uint64_t epoch, Core::Result<OpenedStore> store)
+{
+    if (_state != EState::Opening || epoch != _epoch)
+    {
+        return; // the lease was lost, or acsd stops
+    }
+    if (!store.has_value())
+    {
+        LoseLead(Core::Describe(store.error()));
+        return;
+    }
     _standby->Stop();
     _standby.reset();
-    const Core::Result<void> led = OpenSharedStore(_config.store, epoch, _guard).and_then([this](OpenedStore store) {
-        return Lead(std::move(store));
-    });
-    if (!led.has_value())
+    _watchdog.reset();
+    if (const Core::Result<void> led = Lead(std::move(*store)); !led.has_value())
     {
         _handlers.onFailed(Core::Describe(led.error()));
     }
@@ -105,6 +134,7 @@ void AcsdService::OnTaken(std::uint64_t epoch)
 Core::Result<void> AcsdService::Lead(OpenedStore store)
 {
     return Acsd::Create(_dependencies, _config, std::move(store)).map([this](std::unique_ptr<Acsd> acsd) {
+        _state = EState::Leading;
         _acsd = std::move(acsd);
         KeepPorts(_acsd->GetAddresses());
         _acsd->Start();
@@ -119,19 +149,39 @@ void AcsdService::LoseLead(const std::string& reason)
         _handlers.onFailed(reason);
         return;
     }
-    if (_acsd == nullptr)
+    if (_state == EState::Stopping)
+    {
+        if (std::exchange(_acsd, nullptr) != nullptr)
+        {
+            Finish();
+        }
+        return;
+    }
+    if (_state != EState::Opening && _state != EState::Leading)
     {
         return;
     }
-    _dependencies.logger.Error("this process does not lead any more: all connections are closed", {{"reason", reason}});
+    _dependencies.logger.Error(
+        "this process does not lead any more; its connections are closed, and it is a standby",
+        {{"reason", reason}});
+    _state = EState::Standby;
     _acsd.reset();
-    if (_bStopping)
-    {
-        _handlers.onStopped();
-        return;
-    }
-    // Not from within a call of the keeper.
+    // Released, so that this process or another one can take it at once. Not from within a call of the keeper.
+    _keeper->ReleaseAsync([this] { BecomeStandbyLater(); });
+}
+
+void AcsdService::BecomeStandbyLater()
+{
     boost::asio::post(_dependencies.executor, [this] {
+        if (_state != EState::Standby)
+        {
+            return;
+        }
+        if (_standby != nullptr)
+        {
+            _standby->Stop();
+            _standby.reset();
+        }
         if (const Core::Result<void> standing = StartStandby(); !standing.has_value())
         {
             _handlers.onFailed(Core::Describe(standing.error()));
@@ -141,7 +191,7 @@ void AcsdService::LoseLead(const std::string& reason)
 
 void AcsdService::StopAsync()
 {
-    _bStopping = true;
+    _state = EState::Stopping;
     if (_acsd != nullptr)
     {
         _acsd->StopAsync([this] { Finish(); });
@@ -156,6 +206,7 @@ void AcsdService::Finish()
     {
         _standby->Stop();
     }
+    _watchdog.reset();
     if (_keeper == nullptr)
     {
         _handlers.onStopped();
@@ -169,6 +220,19 @@ void AcsdService::Reload(const AcsdConfig& fresh)
     if (_acsd != nullptr)
     {
         _acsd->Reload(fresh);
+    }
+    else
+    {
+        LogChange(_config, fresh, _dependencies.logger.MakeFor("config"));
+    }
+    ApplyLiveKeys(fresh, _config);
+    if (_standby != nullptr)
+    {
+        _standby->Reload(fresh.http.control, _config.http.control);
+    }
+    else if (fresh.http.control.tokensFile == _config.http.control.tokensFile)
+    {
+        _config.http.control.access.tokens = fresh.http.control.access.tokens;
     }
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "Acsd.hpp"
+#include "common/process/LoopWatchdog.hpp"
 #include "config/AcsdConfig.hpp"
+#include "standby/BootClock.hpp"
 #include "standby/LeaseGuard.hpp"
 #include "standby/LeaseKeeper.hpp"
 #include "standby/StandbyServer.hpp"
@@ -9,10 +11,12 @@
 #include <acs/core/Result.hpp>
 
 #include <boost/asio/any_io_executor.hpp>
+#include <boost/asio/thread_pool.hpp>
 
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,34 +24,50 @@ namespace ACS::Acsd
 {
 
 /// acsd from its start to its end. With a store of this machine it leads at once. With a shared one it is a standby until it has the
-/// lease, and again when it has lost it. One thread: the executor's.
+/// lease, and again when it has lost it. One thread: the executor's. It outlives the event loop.
 class AcsdService final
 {
 public:
     struct Handlers
     {
         std::function<void()> onStopped; ///< The end of a stop.
-        /// It cannot continue: another program has taken the store of this machine, or what was opened at the start cannot be opened
-        /// by a leader.
+        /// It cannot continue: another program has taken the store of this machine, or an address or the audit log cannot be opened
+        /// again.
         std::function<void(const std::string& reason)> onFailed;
     };
 
 private:
+    enum class EState : std::uint8_t
+    {
+        Starting,
+        Standby,
+        Opening, ///< The lease is held, and the store is read.
+        Leading,
+        Stopping
+    };
+
     Acsd::Dependencies _dependencies;
     AcsdConfig _config;
+    const std::string _fingerprint; ///< Of the configuration as it was read.
     Handlers _handlers;
+    BootClock _leaseClock;
     LeaseGuard _guard;
-    std::unique_ptr<LeaseKeeper> _keeper; ///< Of a shared store.
+    std::unique_ptr<LeaseKeeper> _keeper;        ///< Of a shared store.
+    std::optional<Apps::LoopWatchdog> _watchdog; ///< While there is no Acsd, which has its own.
     std::unique_ptr<StandbyServer> _standby;
     std::unique_ptr<Acsd> _acsd; ///< Set while this process leads.
-    bool _bStopping = false;
+    EState _state = EState::Starting;
+    std::uint64_t _epoch = 0;            ///< Of the lease that was taken last.
+    boost::asio::thread_pool _opener{1}; ///< Reads a shared store while the lease is renewed.
 
 public:
     /// What the dependencies refer to outlives the service; the configuration has no errors.
     AcsdService(Acsd::Dependencies dependencies, AcsdConfig config, Handlers handlers);
     AcsdService(const AcsdService&) = delete;
     AcsdService& operator=(const AcsdService&) = delete;
-    ~AcsdService() = default;
+
+    /// Waits for calls of a shared store, which end soon.
+    ~AcsdService();
 
     /// Fails with a sentence about the store or an HTTP address, and its remedy. A shared store may be opened later.
     [[nodiscard]] Core::Result<void> Start();
@@ -55,7 +75,7 @@ public:
     /// As Acsd::StopAsync; a lease is released. Ends with onStopped.
     void StopAsync();
 
-    /// As Acsd::Reload; a standby takes all keys.
+    /// As Acsd::Reload, also for the times when this process is a standby and when it leads again.
     void Reload(const AcsdConfig& fresh);
 
     /// As Acsd::GetAddresses. They stay the same when the process begins or ceases to lead.
@@ -65,7 +85,9 @@ private:
     [[nodiscard]] Core::Result<void> StartStandby();
     [[nodiscard]] Core::Result<void> Lead(OpenedStore store);
     void OnTaken(std::uint64_t epoch);
+    void OnOpened(std::uint64_t epoch, Core::Result<OpenedStore> store);
     void LoseLead(const std::string& reason);
+    void BecomeStandbyLater();
     void Finish();
     void KeepPorts(const std::vector<Apps::ReadyAddress>& addresses);
 };

@@ -4,6 +4,8 @@
 #include <acs/core/Now.hpp>
 #include <acs/plan/EngineAction.hpp>
 
+#include <string>
+
 namespace ACS::Acsd
 {
 
@@ -32,8 +34,8 @@ public:
     virtual void CloseLinks() = 0;
     /// The stop is complete. Last call.
     virtual void OnStopped() = 0;
-    /// Another program has taken the place of the store: end at once, as in a crash. Last call.
-    virtual void OnStoreTaken() = 0;
+    /// Another program has taken the store: end at once, as in a crash. Last call.
+    virtual void OnStoreTaken(const std::string& reason) = 0;
 
     /// Duration of a transaction of the store.
     virtual void ObserveCommit(Core::Duration duration) = 0;

@@ -291,7 +291,7 @@ class Refusals(StandbyCase):
         self.expect_standby(member, "the store cannot be used", "a server that accepts writes")
         member.kill()
         member = self.join(url=self.server.get_url(database="absent"))
-        self.expect_standby(member, "the store cannot be used", "a database and a user of this name")
+        self.expect_standby(member, "the store cannot be used", "a database of this name")
         member.kill()
         self.server.execute("UPDATE acsd.settings SET value = '99' WHERE name = 'schema_version'")
         member = self.join()

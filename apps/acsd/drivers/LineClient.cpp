@@ -271,6 +271,11 @@ private:
 
     void WriteFirst()
     {
+        if (_options.maySend && !_options.maySend())
+        {
+            LoseLater("this process does not lead any more");
+            return;
+        }
         boost::asio::async_write(_socket, boost::asio::buffer(_queue.front()), Guard(&Impl::OnWritten));
     }
 

@@ -8,6 +8,17 @@
 namespace ACS::Acsd
 {
 
+namespace
+{
+
+LineClientOptions AddPermission(LineClientOptions options, const std::function<bool()>& mayCommand)
+{
+    options.maySend = mayCommand;
+    return options;
+}
+
+} // namespace
+
 LineRobot::LineRobot(RobotServices services, LineClientOptions options, std::unique_ptr<ILineAdapter> adapter)
     : _services(std::move(services)),
       _peer(fmt::format("{}:{}", options.host, options.port)),
@@ -15,7 +26,7 @@ LineRobot::LineRobot(RobotServices services, LineClientOptions options, std::uni
       _client(
           _services.executor,
           _services.random,
-          std::move(options),
+          AddPermission(std::move(options), _services.mayCommand),
           {[this] { OnConnected(); },
            [this](std::string_view line) { OnLine(line); },
            [this](std::string_view reason) {

@@ -188,7 +188,10 @@ private:
             [this](const RobotServices::AdapterCall& adapterCall) { Call(adapterCall); },
             [this](ETraceDirection direction, std::string_view text) { Trace(direction, text); },
             _openStream,
-            _mqtt.get()};
+            _mqtt.get(),
+            [this] {
+                return !_dependencies.mayCommand || _dependencies.mayCommand();
+            }};
     }
 
     /// Calls the adapter and executes its actions. An event may lead to another call of the adapter: its actions are executed

@@ -219,10 +219,10 @@ void CoreRecorder::OnStopped()
     _real->output.OnStopped();
 }
 
-void CoreRecorder::OnStoreTaken()
+void CoreRecorder::OnStoreTaken(const std::string& reason)
 {
     Emit("store taken");
-    _real->output.OnStoreTaken();
+    _real->output.OnStoreTaken(reason);
 }
 
 void CoreRecorder::ObserveCommit(Core::Duration duration)

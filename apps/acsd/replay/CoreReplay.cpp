@@ -376,7 +376,7 @@ void CoreReplay::OnStopped()
     DeliverNested();
 }
 
-void CoreReplay::OnStoreTaken()
+void CoreReplay::OnStoreTaken(const std::string& /*reason*/)
 {
     DeliverNested();
 }

@@ -28,14 +28,14 @@ Core::Result<Planning::StoredState> LeaderStore::Load()
 
 Core::Result<void> LeaderStore::Append(const Planning::StoreBatch& batch)
 {
-    while (true)
+    for (int attempt = 1;; ++attempt)
     {
         Core::Result<void> stored = _store->Append(batch);
         if (stored.has_value() || stored.error().code == Planning::EPlanningError::StoreTaken)
         {
             return stored;
         }
-        if (!_guard.TryWait(RETRY_DELAY))
+        if (attempt == MOST_ATTEMPTS || !_guard.TryWait(RETRY_DELAY))
         {
             stored.error().code = make_error_code(Planning::EPlanningError::StoreTaken);
             return stored;

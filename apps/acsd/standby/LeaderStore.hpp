@@ -10,9 +10,13 @@ namespace ACS::Acsd
 {
 
 /// A shared store as a leader uses it. While it fails, nothing is commanded that the successor would not know: a batch is tried
-/// again until it is stored or the lease has ended.
+/// again until it is stored, the lease has ended, or MOST_ATTEMPTS have failed, which no lost connection explains.
 class LeaderStore final : public Planning::IPlanStore
 {
+public:
+    static constexpr int MOST_ATTEMPTS = 30;
+
+private:
     std::unique_ptr<Planning::IPlanStore> _store;
     LeaseGuard& _guard;
 

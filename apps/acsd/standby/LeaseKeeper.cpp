@@ -4,6 +4,7 @@
 #include <boost/asio/thread_pool.hpp>
 #include <fmt/format.h>
 
+#include <atomic>
 #include <utility>
 
 namespace ACS::Acsd
@@ -21,13 +22,14 @@ struct LeaseKeeper::Worker
 {
     boost::asio::any_io_executor executor;
     std::unique_ptr<Planning::ILease> lease;
-    LeaseKeeper* ownerOrNull; ///< Null after its destruction. Read on the executor's thread only.
+    LeaseKeeper* ownerOrNull = nullptr; ///< Null after its destruction. Read on the executor's thread only.
+    std::atomic<bool> bStopping = false;
     boost::asio::thread_pool thread{1};
 };
 
 LeaseKeeper::LeaseKeeper(
     Dependencies dependencies,
-    std::unique_ptr<Planning::ILease> lease,
+    const LeaseMaker& makeLease,
     Planning::LeaseClaim claim,
     Handlers handlers)
     : _dependencies(std::move(dependencies)),
@@ -38,13 +40,14 @@ LeaseKeeper::LeaseKeeper(
       _timers(_dependencies.executor, [this](ETimer timer) { OnTimer(timer); })
 {
     _worker->executor = _dependencies.executor;
-    _worker->lease = std::move(lease);
+    _worker->lease = makeLease([&bStopping = _worker->bStopping] { return bStopping.load(); });
     _worker->ownerOrNull = this;
 }
 
 LeaseKeeper::~LeaseKeeper()
 {
     _worker->ownerOrNull = nullptr;
+    _worker->bStopping = true;
     _worker->thread.join();
 }
 
@@ -110,11 +113,17 @@ void LeaseKeeper::OnRead(const Core::Result<Planning::LeaseState>& state)
         Take(*state);
         return;
     }
+    ReadLater();
+}
+
+void LeaseKeeper::ReadLater()
+{
     _timers.Start(ETimer::Read, _claim.duration / READINGS);
 }
 
 void LeaseKeeper::Take(const Planning::LeaseState& seen)
 {
+    _bTaking = true;
     const Core::SteadyTime askedAt = _dependencies.clock.GetNow().steady;
     Ask([seen, claim = _claim](Planning::ILease& lease) { return lease.TryTakeOrNull(seen, claim); },
         [askedAt](LeaseKeeper& owner, const Core::Result<std::optional<std::uint64_t>>& taken) {
@@ -124,20 +133,31 @@ void LeaseKeeper::Take(const Planning::LeaseState& seen)
 
 void LeaseKeeper::OnTaken(const Core::Result<std::optional<std::uint64_t>>& taken, Core::SteadyTime askedAt)
 {
-    if (_state != EState::Watching)
+    _bTaking = false;
+    SetFault(taken.has_value() ? std::string() : Core::Describe(taken.error()));
+    const std::optional<std::uint64_t> epochOrNull = taken.value_or(std::nullopt);
+    if (_state == EState::Ended)
     {
+        epochOrNull.has_value() ? ReleaseTaken(*epochOrNull, std::move(_onReleased)) : _onReleased();
         return;
     }
-    SetFault(taken.has_value() ? std::string() : Core::Describe(taken.error()));
-    if (!taken.has_value() || !taken->has_value())
+    if (!epochOrNull.has_value())
     {
-        _timers.Start(ETimer::Read, _claim.duration / READINGS);
+        ReadLater();
+        return;
+    }
+    const Planning::LeaseTerm term(_claim.duration, askedAt);
+    if (!term.IsHeld(_dependencies.clock.GetNow().steady))
+    {
+        SetFault("it took too long to take the lease");
+        ReleaseTaken(*epochOrNull, [] {});
+        ReadLater();
         return;
     }
     _state = EState::Leading;
-    _epoch = **taken;
-    _term.emplace(_claim.duration, askedAt);
-    ExtendTo(*_term);
+    _epoch = *epochOrNull;
+    _term = term;
+    Extend();
     _timers.Start(ETimer::Renew, _term->GetRenewInterval());
     _dependencies.logger.Info("this process leads", {{"epoch", std::to_string(_epoch)}});
     _handlers.onTaken(_epoch);
@@ -177,7 +197,7 @@ void LeaseKeeper::OnRenewed(const Core::Result<bool>& renewed, Core::SteadyTime 
         return; // the next one may succeed in time
     }
     _term->OnRenewed(askedAt);
-    ExtendTo(*_term);
+    Extend();
 }
 
 /// Loses a lease that has ended. It is not revived by a late answer, although no other process leads yet: commands may have been
@@ -192,16 +212,11 @@ bool LeaseKeeper::HasEnded()
     return true;
 }
 
-void LeaseKeeper::ExtendTo(const Planning::LeaseTerm& term)
+/// To the end of a term that has not ended.
+void LeaseKeeper::Extend()
 {
-    const Core::SteadyTime now = _dependencies.clock.GetNow().steady;
-    if (!term.IsHeld(now))
-    {
-        Lose("the store answered too late");
-        return;
-    }
-    _dependencies.guard.Extend(term.GetEnd());
-    _timers.Start(ETimer::End, term.GetEnd() - now);
+    _dependencies.guard.Extend(_term->GetEnd());
+    _timers.Start(ETimer::End, _term->GetEnd() - _dependencies.clock.GetNow().steady);
 }
 
 void LeaseKeeper::SetFault(std::string fault)
@@ -229,12 +244,23 @@ void LeaseKeeper::ReleaseAsync(std::function<void()> handler)
     const bool bHeld = std::exchange(_state, EState::Ended) == EState::Leading;
     _dependencies.guard.End();
     _timers.CancelAll();
-    if (!bHeld)
+    if (_bTaking)
+    {
+        _onReleased = std::move(handler); // when it is known whether it was taken
+    }
+    else if (bHeld)
+    {
+        ReleaseTaken(_epoch, std::move(handler));
+    }
+    else
     {
         boost::asio::post(_dependencies.executor, std::move(handler));
-        return;
     }
-    Ask([epoch = _epoch](Planning::ILease& lease) { return lease.Release(epoch); },
+}
+
+void LeaseKeeper::ReleaseTaken(std::uint64_t epoch, std::function<void()> handler)
+{
+    Ask([epoch](Planning::ILease& lease) { return lease.Release(epoch); },
         [handler = std::move(handler)](LeaseKeeper& owner, const Core::Result<void>& released) {
             if (!released.has_value())
             {
@@ -250,7 +276,7 @@ std::string LeaseKeeper::GetWaitReason() const
 {
     if (_state == EState::Leading)
     {
-        return {};
+        return "standby that takes over: it reads the store";
     }
     if (!_fault.empty())
     {
@@ -270,6 +296,13 @@ std::string LeaseKeeper::GetWaitReason() const
             seen->holder);
     }
     return fmt::format("standby: {} leads", seen->holder);
+}
+
+std::string LeaseKeeper::GetPublicReason() const
+{
+    return _state != EState::Leading && !_fault.empty()
+        ? "standby: the store cannot be used; /readyz on the monitoring address has the reason"
+        : GetWaitReason();
 }
 
 } // namespace ACS::Acsd

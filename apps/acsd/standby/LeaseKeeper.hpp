@@ -33,6 +33,9 @@ public:
         LeaseGuard& guard; ///< Is extended by each renewal.
     };
 
+    /// Makes the lease, whose calls end soon when the function returns true.
+    using LeaseMaker = std::function<std::unique_ptr<Planning::ILease>(std::function<bool()> shouldStop)>;
+
     struct Handlers
     {
         std::function<void(std::uint64_t epoch)> onTaken;
@@ -68,27 +71,28 @@ private:
     std::optional<Planning::LeaseTerm> _term;
     std::string _fault; ///< Why the store could not be asked the last time; empty: it could.
     bool _bRenewing = false;
+    bool _bTaking = false;
+    std::function<void()> _onReleased; ///< Of ReleaseAsync, while the lease is being taken.
 
 public:
     /// The clock, the sink of the logger and the guard outlive it.
-    LeaseKeeper(
-        Dependencies dependencies,
-        std::unique_ptr<Planning::ILease> lease,
-        Planning::LeaseClaim claim,
-        Handlers handlers);
+    LeaseKeeper(Dependencies dependencies, const LeaseMaker& makeLease, Planning::LeaseClaim claim, Handlers handlers);
     LeaseKeeper(const LeaseKeeper&) = delete;
     LeaseKeeper& operator=(const LeaseKeeper&) = delete;
 
-    /// Waits for the call of the store that is under way. Calls no handler any more.
+    /// Ends the call of the store that is under way. Calls no handler any more.
     ~LeaseKeeper();
 
     void Start();
 
-    /// Ends: a lease that is held is released, then the handler is called. Call it when nothing is commanded any more.
+    /// Ends: a lease that is held is released, then the handler is called, later. Call it when nothing is commanded any more.
     void ReleaseAsync(std::function<void()> handler);
 
-    /// Why this process does not lead, as one sentence; empty: it does.
+    /// Why this process does not lead, as one sentence.
     [[nodiscard]] std::string GetWaitReason() const;
+
+    /// Likewise, without names of the store and its server: for clients that are not identified.
+    [[nodiscard]] std::string GetPublicReason() const;
 
 private:
     template <typename TWork, typename TAnswer>
@@ -101,7 +105,9 @@ private:
     void Renew();
     void OnRenewed(const Core::Result<bool>& renewed, Core::SteadyTime askedAt);
     [[nodiscard]] bool HasEnded();
-    void ExtendTo(const Planning::LeaseTerm& term);
+    void Extend();
+    void ReadLater();
+    void ReleaseTaken(std::uint64_t epoch, std::function<void()> handler);
     void SetFault(std::string fault);
     void Lose(const std::string& reason);
 };

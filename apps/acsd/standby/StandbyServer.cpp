@@ -21,19 +21,19 @@ StandbyServer::StandbyServer(
     HttpInterfaces::Dependencies dependencies,
     const HttpConfig& config,
     std::unique_ptr<AuditLog> audit,
-    const std::function<std::string()>& getReason)
+    const Reasons& reasons)
     : _http(std::move(dependencies), config, std::move(audit))
 {
     _metrics.AddGauge(AcsdMetrics::LEADER, AcsdMetrics::LEADER_HELP);
     _metrics.SetGauge(AcsdMetrics::LEADER, {}, 0);
     Apps::HttpRoutes& monitoring = _http.GetMonitoringRoutes();
     monitoring.Add("GET", "/livez", [](const auto&, const auto&) { return MakeLiveResponse(); });
-    monitoring.Add("GET", "/readyz", [getReason](const auto&, const auto&) {
+    monitoring.Add("GET", "/readyz", [getReason = reasons.getReason](const auto&, const auto&) {
         return Apps::HttpResponse{OperatorCode::UNAVAILABLE, PLAIN_TEXT, getReason() + "\n"};
     });
     monitoring.Add("GET", "/metrics", [this](const auto&, const auto&) { return _metrics.Respond(); });
     AddPageRoutes(_pageRoutes);
-    _http.ReplaceGate([this, getReason](const Apps::HttpRequest& request) {
+    _http.ReplaceGate([this, getReason = reasons.getPublicReason](const Apps::HttpRequest& request) {
         const bool bOfPage = request.path == "/" || request.path.starts_with("/page/");
         return bOfPage ? _pageRoutes.Respond(request) : MakeOperatorError(OperatorCode::UNAVAILABLE, getReason());
     });
@@ -47,6 +47,11 @@ Core::Result<void> StandbyServer::Listen(const HttpConfig& config)
 void StandbyServer::Stop()
 {
     _http.Stop();
+}
+
+void StandbyServer::Reload(const OperatorConfig& fresh, OperatorConfig& present)
+{
+    _http.Reload(fresh, present);
 }
 
 const std::vector<Apps::ReadyAddress>& StandbyServer::GetAddresses() const noexcept

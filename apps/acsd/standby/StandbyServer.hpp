@@ -19,20 +19,31 @@ namespace ACS::Acsd
 /// shows the reason. All else is answered with 503. One thread: the executor's.
 class StandbyServer final
 {
+public:
+    /// Return why the process does not lead, as one sentence.
+    struct Reasons
+    {
+        std::function<std::string()> getReason;       ///< For monitoring.
+        std::function<std::string()> getPublicReason; ///< For clients that are not identified.
+    };
+
+private:
     HttpInterfaces _http;
     Apps::MetricsEndpoint _metrics;
     Apps::HttpRoutes _pageRoutes;
 
 public:
-    /// getReason returns why the process does not lead, as one sentence.
     StandbyServer(
         HttpInterfaces::Dependencies dependencies,
         const HttpConfig& config,
         std::unique_ptr<AuditLog> audit,
-        const std::function<std::string()>& getReason);
+        const Reasons& reasons);
 
     [[nodiscard]] Core::Result<void> Listen(const HttpConfig& config);
     void Stop();
+
+    /// As HttpInterfaces::Reload.
+    void Reload(const OperatorConfig& fresh, OperatorConfig& present);
 
     [[nodiscard]] const std::vector<Apps::ReadyAddress>& GetAddresses() const noexcept;
 };

@@ -27,6 +27,9 @@ Core::Result<OpenedStore> OpenSharedStore(const StoreConfig& config, std::uint64
     assert(config.postgres.has_value());
     Planning::PostgresOptions options = *config.postgres;
     options.timeout = config.lease; // a process that waits for longer does not lead any more
+    options.shouldStop = [&guard] {
+        return !guard.IsHeld();
+    };
     return Planning::PostgresPlanStore::Open(std::move(options), epoch)
         .and_then([&guard](std::unique_ptr<Planning::PostgresPlanStore> store) {
             return store->Load().map([&store, &guard](Planning::StoredState state) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -29,12 +30,8 @@ struct ResultCloser
 
 using ResultPointer = std::unique_ptr<PGresult, ResultCloser>;
 
-/// The server ends a session whose transaction waits for its client this long: the client has stalled, and its locks keep others
-/// from taking the store.
-constexpr std::chrono::milliseconds IDLE_TRANSACTION{1'000};
-
-/// Of the driver of the network: data that is not acknowledged this long ends the connection.
-constexpr std::chrono::milliseconds UNACKNOWLEDGED{5'000};
+/// Between two questions whether to stop.
+constexpr std::chrono::milliseconds STOP_INTERVAL{100};
 
 Core::SteadyTime GetSteadyNow()
 {
@@ -71,17 +68,21 @@ std::vector<SqlRow> MakeRows(const PGresult& result)
     return rows;
 }
 
-/// What libpq adds to the URL; the URL overrides all but the last two.
+/// The limits of the server are shorter than that of the client, which otherwise could not know the outcome. A session whose
+/// transaction waits for its client is ended soon: the client has stalled, and its locks keep others from taking the store.
 std::string MakeSessionScript(Core::Duration timeout)
 {
+    constexpr std::chrono::milliseconds LONGEST_IDLE{1'000};
+    const std::int64_t limit = ToMilliseconds(timeout);
     return fmt::format(
-        "SET search_path TO acsd; SET client_encoding TO 'UTF8'; SET client_min_messages TO warning; "
-        "SET default_transaction_isolation TO 'read committed'; SET statement_timeout TO {0}; SET lock_timeout TO {0}; "
-        "SET idle_in_transaction_session_timeout TO {1};"
+        "SET search_path TO acsd; SET client_encoding TO 'UTF8'; SET client_min_messages TO error; "
+        "SET default_transaction_isolation TO 'read committed'; SET statement_timeout TO {}; SET lock_timeout TO {}; "
+        "SET idle_in_transaction_session_timeout TO {};"
         // Durable when Append returns, whatever the default of the database is.
         "SELECT set_config('synchronous_commit', 'on', false) WHERE current_setting('synchronous_commit') IN ('off', 'local')",
-        ToMilliseconds(timeout),
-        IDLE_TRANSACTION.count());
+        limit * 4 / 5,
+        limit * 3 / 5,
+        std::min(LONGEST_IDLE.count(), limit / 2));
 }
 
 } // namespace
@@ -89,10 +90,11 @@ std::string MakeSessionScript(Core::Duration timeout)
 PostgresConnection::PostgresConnection(
     std::unique_ptr<PGconn, Closer> connection,
     std::string name,
-    Core::Duration timeout)
+    const PostgresOptions& options)
     : _connection(std::move(connection)),
       _name(std::move(name)),
-      _timeout(timeout)
+      _timeout(options.timeout),
+      _shouldStop(options.shouldStop)
 {
 }
 
@@ -103,19 +105,45 @@ Core::Result<PostgresConnection> PostgresConnection::Open(const PostgresOptions&
     {
         return tl::unexpected(target.error());
     }
-    const std::string unacknowledged = std::to_string(UNACKNOWLEDGED.count());
+    // One after the other, because libpq has no limit of time for one of several: the second would never be tried if the first
+    // is silent.
+    Core::Result<PostgresConnection> opened = tl::unexpected(Core::Error());
+    for (const PostgresHost& host : target->hosts)
+    {
+        opened = OpenHost(options, *target, host, options.timeout / static_cast<int>(target->hosts.size()));
+        if (opened.has_value())
+        {
+            break;
+        }
+    }
+    return opened;
+}
+
+/// The parameters before the URL are defaults, those after it override it.
+Core::Result<PostgresConnection> PostgresConnection::OpenHost(
+    const PostgresOptions& options,
+    const PostgresTarget& target,
+    const PostgresHost& host,
+    Core::Duration timeout)
+{
+    const std::string unacknowledged = std::to_string(ToMilliseconds(options.timeout));
     std::vector<std::pair<const char*, const char*>> parameters{
         {"keepalives_idle", "1"},
         {"keepalives_interval", "1"},
         {"keepalives_count", "3"},
         {"tcp_user_timeout", unacknowledged.c_str()},
         {"fallback_application_name", "acsd"}};
-    if (target->bOtherMachine)
+    if (target.bOtherMachine)
     {
         parameters.emplace_back("sslmode", "verify-full");
     }
-    parameters.emplace_back("dbname", options.url.c_str()); // is expanded, and overrides what is before it
+    parameters.emplace_back("dbname", options.url.c_str());
     parameters.emplace_back("target_session_attrs", "read-write");
+    if (target.hosts.size() > 1)
+    {
+        parameters.emplace_back("host", host.host.c_str());
+        parameters.emplace_back("port", host.port.c_str());
+    }
     if (!options.password.empty())
     {
         parameters.emplace_back("password", options.password.c_str());
@@ -131,24 +159,29 @@ Core::Result<PostgresConnection> PostgresConnection::Open(const PostgresOptions&
     values.push_back(nullptr);
     PostgresConnection connection(
         std::unique_ptr<PGconn, Closer>(PQconnectStartParams(keys.data(), values.data(), 1)),
-        target->name,
-        options.timeout);
-    return connection.Connect()
+        target.name,
+        options);
+    return connection.Connect(timeout)
         .and_then([&] { return connection.RunScript(MakeSessionScript(options.timeout), "preparing the session"); })
         .map([&] { return std::move(connection); });
 }
 
-Core::Result<void> PostgresConnection::Connect()
+Core::Result<void> PostgresConnection::Connect(Core::Duration timeout)
 {
     constexpr std::string_view OPERATION = "connecting";
-    const Core::SteadyTime deadline = GetSteadyNow() + _timeout;
+    const Core::SteadyTime deadline = GetSteadyNow() + timeout;
+    PQsetErrorVerbosity(_connection.get(), PQERRORS_VERBOSE); // with the SQLSTATE, which is the same in all languages
+    PQsetNoticeProcessor(
+        _connection.get(),
+        [](void* /*unused*/, const char* /*notice*/) {},
+        nullptr);
     PostgresPollingStatusType status = PGRES_POLLING_WRITING;
     while (PQstatus(_connection.get()) != CONNECTION_BAD && status != PGRES_POLLING_FAILED
            && status != PGRES_POLLING_OK)
     {
         if (!TryWait(status == PGRES_POLLING_WRITING, deadline))
         {
-            return tl::unexpected(MakeTimeoutError(_name, OPERATION, ToSeconds(_timeout)));
+            return tl::unexpected(MakeTimeoutError(_name, OPERATION, ToSeconds(timeout)));
         }
         status = PQconnectPoll(_connection.get());
     }
@@ -231,6 +264,10 @@ tl::expected<void, TransactionFault> PostgresConnection::ReadOutcome(std::size_t
         const ResultPointer result(PQgetResult(_connection.get()));
         if (result == nullptr)
         {
+            if (GetSteadyNow() >= deadline)
+            {
+                break;
+            }
             continue; // between two statements
         }
         status = PQresultStatus(result.get());
@@ -240,18 +277,34 @@ tl::expected<void, TransactionFault> PostgresConnection::ReadOutcome(std::size_t
         }
         else if (status == PGRES_FATAL_ERROR && !fault.has_value())
         {
-            fault = {MakeStatementError(*result, _name, OPERATION), false, IsWorthRepeating(*result)};
+            // Anything but an ERROR of a statement ends the connection, perhaps after COMMIT was executed.
+            fault = {MakeStatementError(*result, _name, OPERATION), !IsOfStatement(*result), IsWorthRepeating(*result)};
+        }
+        if (done == statements)
+        {
+            // COMMIT was executed, whatever follows.
+            if (!TryEndPipeline(deadline))
+            {
+                _connection.reset();
+            }
+            return {};
         }
     }
-    if (fault.has_value())
+    return tl::unexpected(fault.has_value() ? *fault : TransactionFault{Fail(OPERATION, deadline), true});
+}
+
+/// After the last result: reads the end of the pipeline.
+bool PostgresConnection::TryEndPipeline(Core::SteadyTime deadline)
+{
+    while (TryAwaitResult(deadline) && GetSteadyNow() < deadline)
     {
-        return tl::unexpected(std::move(*fault));
+        const ResultPointer result(PQgetResult(_connection.get()));
+        if (result != nullptr)
+        {
+            return PQresultStatus(result.get()) == PGRES_PIPELINE_SYNC && PQexitPipelineMode(_connection.get()) == 1;
+        }
     }
-    if (done != statements || PQexitPipelineMode(_connection.get()) != 1)
-    {
-        return tl::unexpected(TransactionFault{Fail(OPERATION, deadline), true});
-    }
-    return {};
+    return false;
 }
 
 bool PostgresConnection::TrySend(const SqlStatement& statement)
@@ -287,15 +340,17 @@ bool PostgresConnection::TryWait(bool bForWriting, Core::SteadyTime deadline)
 {
     while (true)
     {
-        const std::int64_t left = ToMilliseconds(deadline - GetSteadyNow());
-        if (left <= 0)
+        const Core::Duration left = deadline - GetSteadyNow();
+        if (left <= Core::Duration(0) || (_shouldStop && _shouldStop()))
         {
             return false;
         }
+        const std::int64_t slice =
+            std::max<std::int64_t>(1, ToMilliseconds(std::min<Core::Duration>(left, STOP_INTERVAL)));
         // What can be read must be read also while writing, or both sides wait for each other.
         std::array<pollfd, 1> sockets{
             {{PQsocket(_connection.get()), static_cast<short>(bForWriting ? POLLOUT | POLLIN : POLLIN), 0}}};
-        const int ready = ::poll(sockets.data(), sockets.size(), static_cast<int>(left));
+        const int ready = ::poll(sockets.data(), sockets.size(), static_cast<int>(slice));
         if (ready > 0 || (ready < 0 && errno != EINTR))
         {
             return true; // an error shows itself in the next call of libpq
@@ -339,7 +394,8 @@ Core::Result<std::vector<SqlRow>> PostgresConnection::ReadRows(Core::SteadyTime 
     {
         if (!TryAwaitResult(deadline))
         {
-            return rows.has_value() ? tl::unexpected(Fail(operation, deadline)) : rows;
+            Core::Error lost = Fail(operation, deadline);
+            return rows.has_value() ? tl::unexpected(std::move(lost)) : rows;
         }
         const ResultPointer result(PQgetResult(_connection.get()));
         if (result == nullptr)

@@ -6,6 +6,7 @@
 #include <acs/plan_postgres/PostgresOptions.hpp>
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -46,11 +47,13 @@ class PostgresConnection
     std::unique_ptr<PGconn, Closer> _connection;
     std::string _name;
     Core::Duration _timeout;
+    std::function<bool()> _shouldStop;
 
-    PostgresConnection(std::unique_ptr<PGconn, Closer> connection, std::string name, Core::Duration timeout);
+    PostgresConnection(std::unique_ptr<PGconn, Closer> connection, std::string name, const PostgresOptions& options);
 
 public:
-    /// Connects, and prepares the session: search path acsd, limits of time.
+    /// Connects to the first host that accepts writes, and prepares the session: search path acsd, limits of time. Each of N hosts
+    /// has an Nth of the timeout.
     [[nodiscard]] static Core::Result<PostgresConnection> Open(const PostgresOptions& options);
 
     /// The connection has not failed, as far as it is known.
@@ -66,13 +69,19 @@ public:
     [[nodiscard]] tl::expected<void, TransactionFault> Commit(const std::vector<SqlStatement>& statements);
 
 private:
-    [[nodiscard]] Core::Result<void> Connect();
+    [[nodiscard]] static Core::Result<PostgresConnection> OpenHost(
+        const PostgresOptions& options,
+        const PostgresTarget& target,
+        const PostgresHost& host,
+        Core::Duration timeout);
+    [[nodiscard]] Core::Result<void> Connect(Core::Duration timeout);
     [[nodiscard]] bool TrySend(const SqlStatement& statement);
     [[nodiscard]] bool TryWait(bool bForWriting, Core::SteadyTime deadline);
     [[nodiscard]] bool TryFlush(Core::SteadyTime deadline);
     [[nodiscard]] bool TryAwaitResult(Core::SteadyTime deadline);
     [[nodiscard]] Core::Result<std::vector<SqlRow>> ReadRows(Core::SteadyTime deadline, std::string_view operation);
     [[nodiscard]] tl::expected<void, TransactionFault> ReadOutcome(std::size_t statements, Core::SteadyTime deadline);
+    [[nodiscard]] bool TryEndPipeline(Core::SteadyTime deadline);
     [[nodiscard]] Core::Error Fail(std::string_view operation, Core::SteadyTime deadline);
 };
 

@@ -22,7 +22,7 @@ struct Remedy
 
 /// The first that fits.
 constexpr std::array REMEDIES{
-    Remedy{TAKEN_STATE, EPlanningError::StoreTaken, "a store that no other process has taken; end this process"},
+    Remedy{TAKEN_STATE, EPlanningError::StoreTaken, "the lease of the store; this process is a standby from now on"},
     Remedy{
         "42501",
         EPlanningError::StoreFailed,
@@ -61,29 +61,45 @@ std::string_view GetState(const PGresult& result)
     return state == nullptr ? std::string_view() : std::string_view(state);
 }
 
-/// Messages of libpq end with a line break and may have several lines.
+/// The first line: further ones are for the developers of PostgreSQL.
 std::string MakeOneLine(std::string text)
 {
-    while (!text.empty() && (text.back() == '\n' || text.back() == ' '))
-    {
-        text.pop_back();
-    }
-    std::replace(text.begin(), text.end(), '\n', ' ');
+    text.erase(std::find(text.begin(), text.end(), '\n'), text.end());
     return text;
 }
 
-/// The text of a connection that was refused has no SQLSTATE.
+const Remedy* FindRemedyOrNull(std::string_view state)
+{
+    const auto* const found =
+        std::ranges::find_if(REMEDIES, [state](const Remedy& entry) { return state.starts_with(entry.state); });
+    return found == REMEDIES.end() ? nullptr : &*found;
+}
+
+/// In "FATAL:  28P01: password authentication failed"; empty: the server has not answered.
+std::string_view FindState(std::string_view text)
+{
+    constexpr std::size_t LENGTH = 5;
+    constexpr std::string_view BEFORE = ":  ";
+    const std::size_t before = text.find(BEFORE);
+    if (before == std::string_view::npos)
+    {
+        return {};
+    }
+    const std::string_view rest = text.substr(before + BEFORE.size());
+    return rest.size() > LENGTH && rest[LENGTH] == ':' ? rest.substr(0, LENGTH) : std::string_view();
+}
+
+/// The refusal of a server has an SQLSTATE, the text of libpq is English.
 std::string_view FindConnectionRemedy(std::string_view text)
 {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 8> TEXTS{{
-        {"password", "the right password; give the file that has it"},
-        {"authentication failed", "the right user and password"},
-        {"no pg_hba.conf entry", "a line for this user and host in pg_hba.conf of the server"},
-        {"does not exist", "a database and a user of this name; create them, or correct the URL"},
+    if (const Remedy* const remedyOrNull = FindRemedyOrNull(FindState(text)); remedyOrNull != nullptr)
+    {
+        return remedyOrNull->expected;
+    }
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 3> TEXTS{{
+        {"no password supplied", "the password of the user; give the file that has it"},
         {"read-only", "a server that accepts writes; name the primary in the URL, or all servers"},
         {"certificate", "a certificate that can be verified; give its issuer as sslrootcert in the URL"},
-        {"too many", "a free connection; close others, or raise max_connections of the server"},
-        {"starting up", "a server that has started; it is starting now"},
     }};
     const auto found = std::ranges::find_if(TEXTS, [text](const auto& entry) {
         return text.find(entry.first) != std::string_view::npos;
@@ -135,6 +151,12 @@ Core::Error MakeTimeoutError(const std::string& name, std::string_view operation
         name,
         "an answer in time; check the network and what slows the database server down",
         fmt::format("{} failed: no answer for {:.1f} s", operation, seconds)};
+}
+
+bool IsOfStatement(const PGresult& result)
+{
+    const char* const severity = PQresultErrorField(&result, PG_DIAG_SEVERITY_NONLOCALIZED);
+    return severity != nullptr && std::string_view(severity) == "ERROR";
 }
 
 bool IsWorthRepeating(const PGresult& result)

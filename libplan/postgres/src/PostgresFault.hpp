@@ -36,6 +36,9 @@ inline constexpr std::string_view TAKEN_STATE = "ACS01";
 /// The server did not answer in time.
 [[nodiscard]] Core::Error MakeTimeoutError(const std::string& name, std::string_view operation, double seconds);
 
+/// The statement has failed and the connection has not: nothing of its transaction is stored.
+[[nodiscard]] bool IsOfStatement(const PGresult& result);
+
 /// A transaction that fails so can succeed if it is repeated.
 [[nodiscard]] bool IsWorthRepeating(const PGresult& result);
 

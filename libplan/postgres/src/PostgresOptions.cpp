@@ -4,11 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <libpq-fe.h>
 
@@ -21,57 +25,69 @@ namespace
 constexpr std::string_view EXPECTED =
     "a URL such as postgresql://user@host:5432/database?sslmode=verify-full&sslrootcert=FILE";
 
-/// One of several hosts, separated by commas: a path is the folder of a local socket.
+/// A path is the folder of a local socket.
 bool IsOfThisMachine(std::string_view host)
 {
-    return host.empty() || host.starts_with('/') || host.starts_with('@') || host == "localhost" || host == "::1"
+    return host.starts_with('/') || host.starts_with('@') || host == "localhost" || host == "::1"
         || host.starts_with("127.");
 }
 
-bool HasOtherMachine(std::string_view hosts)
+/// Without a host in the URL, libpq takes it from elsewhere.
+bool HasHostElsewhere(const std::map<std::string, std::string>& parameters)
 {
-    while (true)
+    return parameters.contains("service")
+        || std::ranges::any_of(std::array{"PGHOST", "PGHOSTADDR", "PGSERVICE"}, [](const char* name) {
+               return std::getenv(name) != nullptr;
+           });
+}
+
+std::vector<std::string> SplitList(std::string_view list)
+{
+    std::vector<std::string> parts;
+    for (std::size_t comma = 0; comma != std::string_view::npos;)
     {
-        const std::size_t comma = hosts.find(',');
-        if (!IsOfThisMachine(hosts.substr(0, comma)))
-        {
-            return true;
-        }
-        if (comma == std::string_view::npos)
-        {
-            return false;
-        }
-        hosts.remove_prefix(comma + 1);
+        comma = list.find(',');
+        parts.emplace_back(list.substr(0, comma));
+        list.remove_prefix(comma == std::string_view::npos ? list.size() : comma + 1);
     }
+    return parts;
 }
 
-/// The URL without a password and without parameters.
-std::string RemoveSecrets(std::string_view url)
+/// One port is that of all hosts.
+std::vector<PostgresHost> MakeHosts(const std::string& hosts, const std::string& ports)
 {
-    const std::size_t begin = url.find("//") + 2;
-    const std::string_view rest = url.substr(begin, url.find('?') - begin);
-    const std::size_t end = std::min(rest.find('/'), rest.size());
-    const std::size_t at = rest.substr(0, end).rfind('@');
-    const std::string_view user =
-        at == std::string_view::npos ? std::string_view() : rest.substr(0, std::min(rest.find(':'), at));
-    const std::string_view place = at == std::string_view::npos ? rest : rest.substr(at);
-    return fmt::format("postgresql://{}{}", user, place);
+    const std::vector<std::string> numbers = SplitList(ports);
+    std::vector<PostgresHost> made;
+    for (std::string& host : SplitList(hosts))
+    {
+        const std::size_t index = numbers.size() == 1 ? 0 : made.size();
+        made.push_back({std::move(host), index < numbers.size() ? numbers[index] : std::string()});
+    }
+    return made;
 }
 
-/// The values that the URL gives, by their keywords. Errors: the reason of libpq.
-tl::expected<std::map<std::string, std::string>, std::string> ReadParameters(const std::string& url)
+/// From what libpq has read, so that no part of a password can be in it.
+std::string MakeName(const std::string& user, const std::vector<PostgresHost>& hosts, const std::string& database)
 {
-    char* reason = nullptr;
+    std::string name = fmt::format("postgresql://{}{}", user, user.empty() ? "" : "@");
+    std::string_view separator;
+    for (const PostgresHost& host : hosts)
+    {
+        name += fmt::format("{}{}{}{}", separator, host.host, host.port.empty() ? "" : ":", host.port);
+        separator = ",";
+    }
+    return fmt::format("{}/{}", name, database);
+}
+
+/// The values that the URL gives, by their keywords; nullopt: libpq cannot read it. Its reason may have a part of a password.
+std::optional<std::map<std::string, std::string>> ReadParametersOrNull(const std::string& url)
+{
     const std::unique_ptr<PQconninfoOption, void (*)(PQconninfoOption*)> options(
-        PQconninfoParse(url.c_str(), &reason),
+        PQconninfoParse(url.c_str(), nullptr),
         &PQconninfoFree);
-    const std::unique_ptr<char, void (*)(void*)> ownedReason(reason, &PQfreemem);
     if (options == nullptr)
     {
-        std::string text(reason == nullptr ? "no memory" : reason);
-        text.erase(std::find(text.begin(), text.end(), '\n'), text.end());
-        // It may repeat the URL, with a password.
-        return tl::unexpected(text.find("postgres") == std::string::npos ? text : "a URL that cannot be read");
+        return std::nullopt;
     }
     std::map<std::string, std::string> parameters;
     for (const PQconninfoOption* option = options.get(); option->keyword != nullptr; ++option)
@@ -84,44 +100,46 @@ tl::expected<std::map<std::string, std::string>, std::string> ReadParameters(con
     return parameters;
 }
 
+tl::unexpected<Core::Error> Refuse(std::string found)
+{
+    return Core::Fail(
+        make_error_code(Core::ECoreError::InvalidLocation),
+        {},
+        "a URL such as postgresql://user@host:5432/database?sslmode=verify-full&sslrootcert=FILE, with %2F for / and %40 for @ in a "
+        "password",
+        std::move(found));
+}
+
 } // namespace
 
 Core::Result<PostgresTarget> ReadPostgresURL(const std::string& url)
 {
     if (!url.starts_with("postgresql://") && !url.starts_with("postgres://"))
     {
-        return Core::Fail(
-            make_error_code(Core::ECoreError::InvalidLocation),
-            {},
-            std::string(EXPECTED),
-            url.find("://") == std::string::npos ? "no URL" : Core::QuoteForError(url.substr(0, url.find("://"))));
+        return Refuse("another kind of text");
     }
-    auto parameters = ReadParameters(url);
-    if (!parameters.has_value())
+    std::optional<std::map<std::string, std::string>> parametersOrNull = ReadParametersOrNull(url);
+    if (!parametersOrNull.has_value())
     {
-        return Core::Fail(
-            make_error_code(Core::ECoreError::InvalidLocation),
-            {},
-            std::string(EXPECTED),
-            std::move(parameters.error()));
+        return Refuse("a URL that cannot be read, or with an unknown parameter");
     }
+    std::map<std::string, std::string>& parameters = *parametersOrNull;
+    const std::string& ports = parameters["port"];
+    const std::string& database = parameters["dbname"];
+    if (ports.find_first_not_of("0123456789,") != std::string::npos || database.find('@') != std::string::npos)
+    {
+        return Refuse("a port that is no number, or a password with these characters");
+    }
+    const std::string& hosts = parameters.contains("hostaddr") ? parameters["hostaddr"] : parameters["host"];
+    const std::string& mode = parameters["sslmode"];
     PostgresTarget target;
-    target.bPassword = parameters->contains("password");
-    // A URL without host means the local socket.
-    const std::string hosts = parameters->contains("hostaddr") ? (*parameters)["hostaddr"] : (*parameters)["host"];
-    target.bOtherMachine = HasOtherMachine(hosts);
-    const std::string& mode = (*parameters)["sslmode"];
+    target.hosts = MakeHosts(hosts, ports);
+    target.name = MakeName(parameters["user"], target.hosts, database);
+    target.bPassword = parameters.contains("password");
+    target.bOtherMachine = std::ranges::any_of(target.hosts, [&parameters](const PostgresHost& host) {
+        return host.host.empty() ? HasHostElsewhere(parameters) : !IsOfThisMachine(host.host);
+    });
     target.bVerified = mode == "verify-full" || (mode.empty() && target.bOtherMachine);
-    target.name = RemoveSecrets(url);
-    const std::string& ports = (*parameters)["port"];
-    if (ports.find_first_not_of("0123456789,") != std::string::npos)
-    {
-        return Core::Fail(
-            make_error_code(Core::ECoreError::InvalidLocation),
-            {},
-            std::string(EXPECTED),
-            "the port " + Core::QuoteForError(ports));
-    }
     return target;
 }
 

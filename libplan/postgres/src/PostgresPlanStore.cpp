@@ -51,31 +51,27 @@ std::int64_t ReadNumber(const std::string& text)
 /// Collects the statements of a transaction.
 class StatementList final : public ISqlDatabase
 {
-    const std::string& _name;
     std::vector<SqlStatement>& _statements;
 
 public:
-    StatementList(const std::string& name, std::vector<SqlStatement>& statements)
-        : _name(name),
-          _statements(statements)
+    explicit StatementList(std::vector<SqlStatement>& statements)
+        : _statements(statements)
     {
     }
 
+    /// PostgreSQL cannot store U+0000, which the texts of a robot may have; JSON texts have it escaped.
     [[nodiscard]] Core::Result<void> Run(std::string_view text, const std::vector<SqlValue>& values) override
     {
-        for (const SqlValue& value : values)
+        constexpr std::string_view REPLACEMENT = "\xEF\xBF\xBD"; // U+FFFD
+        SqlStatement& statement = _statements.emplace_back(SqlStatement{std::string(text), values});
+        for (SqlValue& value : statement.values)
         {
-            const auto* const string = std::get_if<std::string>(&value);
-            if (string != nullptr && string->find('\0') != std::string::npos)
+            auto* const string = std::get_if<std::string>(&value);
+            for (std::size_t at = 0; string != nullptr && (at = string->find('\0', at)) != std::string::npos;)
             {
-                return RefuseStore(
-                    EPlanningError::StoreFailed,
-                    _name,
-                    "texts without the character U+0000, which PostgreSQL cannot store",
-                    Core::QuoteForError(*string));
+                string->replace(at, 1, REPLACEMENT);
             }
         }
-        _statements.push_back({std::string(text), values});
         return {};
     }
 
@@ -111,7 +107,10 @@ public:
 Core::Result<StoredState> ReadSnapshot(PostgresConnection& connection, const std::string& name)
 {
     ConnectionReader reader(connection);
-    return reader.Run("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY", {})
+    return reader
+        .Run("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY", {})
+        // Rows are decoded between the queries.
+        .and_then([&] { return reader.Run("SET LOCAL idle_in_transaction_session_timeout TO 0", {}); })
         .and_then([&] {
             return ReadStoredState(reader, {name, std::string(RESTORE_REMEDY), "SELECT last_report FROM batches"});
         })
@@ -259,7 +258,7 @@ private:
     [[nodiscard]] Core::Result<std::vector<SqlStatement>> MakeStatements(const StoreBatch& batch) const
     {
         std::vector<SqlStatement> statements;
-        StatementList list(_name, statements);
+        StatementList list(statements);
         Core::Result<void> made = list.Run(
             "SELECT begin_batch($1, $2, $3)",
             {static_cast<std::int64_t>(_epoch), _session, static_cast<std::int64_t>(FindLastReport(batch))});
@@ -289,7 +288,7 @@ private:
             }
             PauseFor(RETRY_DELAY);
         }
-        while (std::chrono::steady_clock::now() < deadline);
+        while (std::chrono::steady_clock::now() < deadline && !(_options.shouldStop && _options.shouldStop()));
         return RefuseTaken(fmt::format(
             "the connection was lost during a commit, and whether that was stored could not be read: {}",
             Core::Describe(connected.error())));

@@ -27,6 +27,12 @@ TEST_CASE("PostgreSQL: a URL is read without its password")
     const PostgresTarget target =
         *ReadPostgresURL("postgresql://kim:secret@db1.plant,db2.plant:5433/acs?sslmode=require");
     CHECK(target.name == "postgresql://kim@db1.plant,db2.plant:5433/acs");
+    REQUIRE(target.hosts.size() == 2);
+    CHECK(target.hosts.front().port.empty());
+    CHECK(target.hosts.back().host == "db2.plant");
+    CHECK(ReadPostgresURL("postgresql://db1,db2/acs?port=5433")->name == "postgresql://db1:5433,db2:5433/acs");
+    CHECK(ReadPostgresURL("postgresql://kim:pa?ss@db.plant/acs")->name == "postgresql://kim@db.plant/acs");
+    CHECK(ReadPostgresURL("postgresql://kim:s%2Fecret@db.plant/acs")->name == "postgresql://kim@db.plant/acs");
     CHECK(target.bPassword);
     CHECK(target.bOtherMachine);
     CHECK_FALSE(target.bVerified);
@@ -40,7 +46,10 @@ TEST_CASE("PostgreSQL: a URL is read without its password")
           "postgresql://kim:secret@[db/acs",
           "",
           "dbname=acs password=secret",
-          "postgresql://kim:secret@db/acs?odd=1"})
+          "postgresql://kim:secret@db/acs?odd=1",
+          "postgresql://kim:100%secret@db/acs",
+          "postgresql://kim:secret/x@db/acs",
+          "postgresql://kim:12/secret@db/acs"})
     {
         INFO(url);
         const Core::Result<PostgresTarget> refused = ReadPostgresURL(url);
@@ -54,12 +63,10 @@ TEST_CASE("PostgreSQL: each reason why it cannot be used has its remedy")
     const PostgresPlace place;
     const std::string port = std::to_string(GetServer().GetPort());
     CHECK_THAT(Explain("postgresql://acsd@127.0.0.1:1/acs"), Catch::Contains("a database server that can be reached"));
-    CHECK_THAT(
-        Explain("postgresql://acsd@127.0.0.1:" + port + "/absent"),
-        Catch::Contains("a database and a user of this name"));
+    CHECK_THAT(Explain("postgresql://acsd@127.0.0.1:" + port + "/absent"), Catch::Contains("a database of this name"));
     CHECK_THAT(
         Explain("postgresql://absent@127.0.0.1:" + port + "/postgres"),
-        Catch::Contains("a database and a user of this name"));
+        Catch::Contains("the right user and password"));
 
     GetServer().Execute("CREATE ROLE reader LOGIN");
     const std::string reader = "postgresql://reader@127.0.0.1:" + port + "/" + place.GetDatabase();

@@ -196,13 +196,57 @@ TEST_CASE("PostgreSQL: what is found before the start has a state and a sentence
     }
 }
 
-TEST_CASE("PostgreSQL: a character that it cannot store is an error and no shorter text")
+TEST_CASE("PostgreSQL: the character that it cannot store is replaced")
 {
     const PostgresPlace place;
     const std::unique_ptr<PostgresPlanStore> store = place.OpenWith(place.GetOptions());
-    const Core::Result<void> refused = store->Append({{MaintenanceChanged{std::string("LR\0 01", 6), true}}});
-    REQUIRE_FALSE(refused.has_value());
-    CHECK(refused.error().code == EPlanningError::StoreFailed);
+    const Alarm alarm{"LR01", std::string("AGV-\0\0x", 7), EAlarmLevel::Light, std::string("a\0b", 3), {}, {}, {}};
+    REQUIRE(store->Append({{AlarmSet{alarm}}}).has_value());
+    CHECK(store->Load()->alarms == std::vector<Alarm>{alarm}); // its JSON text has all characters
+    REQUIRE(store->Append({{AlarmCleared{alarm}}}).has_value());
+    CHECK(store->Load()->alarms.empty());
     CHECK_FALSE(store->Append({{MaintenanceChanged{"LR\xff", true}}}).has_value());
     CHECK(store->Append({{MaintenanceChanged{"LR01", true}}}).has_value());
+}
+
+TEST_CASE("PostgreSQL: a session that the server ends just after a commit has stored it")
+{
+    const PostgresPlace place;
+    const std::unique_ptr<PostgresPlanStore> store = place.OpenWith(place.GetOptions());
+    REQUIRE(store->Append(MakePlan(1)).has_value());
+    place.Execute(
+        "CREATE FUNCTION fall() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN PERFORM pg_terminate_backend(pg_backend_pid()); "
+        "RETURN NULL; END $$; CREATE CONSTRAINT TRIGGER fall AFTER INSERT ON plans DEFERRABLE INITIALLY DEFERRED "
+        "FOR EACH ROW EXECUTE FUNCTION fall()");
+    const Core::Result<void> result = store->Append(MakePlan(2));
+    CHECK(CountPlans(place) == (result.has_value() ? 2U : 1U)); // the answer is true, whenever the session ended
+    place.Execute("DROP TRIGGER fall ON plans");
+    CHECK(store->Append(MakePlan(3)).has_value());
+}
+
+TEST_CASE("PostgreSQL: a silent host does not keep the next one from being tried")
+{
+    const PostgresPlace place;
+    CuttingProxy silent(GetServer().GetPort());
+    silent.Cut(ECut::Silence);
+    const PostgresOptions options{
+        "postgresql://acsd@127.0.0.1:" + std::to_string(silent.GetPort())
+            + ",127.0.0.1:" + std::to_string(GetServer().GetPort()) + "/" + place.GetDatabase(),
+        {},
+        std::chrono::seconds(2)};
+    CHECK(PostgresLease(options).Read().has_value());
+}
+
+TEST_CASE("PostgreSQL: a call that waits for the server ends when it should stop")
+{
+    const PostgresPlace place;
+    CuttingProxy silent(GetServer().GetPort());
+    silent.Cut(ECut::Silence);
+    PostgresOptions options = place.GetOptions(silent.GetPort());
+    options.timeout = std::chrono::hours(1);
+    int questions = 0;
+    options.shouldStop = [&questions] {
+        return ++questions > 3;
+    };
+    CHECK_FALSE(PostgresLease(options).Read().has_value());
 }

@@ -351,7 +351,7 @@ void AcsdProcess::OnStopped()
     assert(false && "it only crashes");
 }
 
-void AcsdProcess::OnStoreTaken()
+void AcsdProcess::OnStoreTaken(const std::string& /*reason*/)
 {
     Crash("because another process has taken the store");
 }

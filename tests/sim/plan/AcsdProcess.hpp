@@ -135,7 +135,7 @@ private:
     void CancelTimers() override;
     void CloseLinks() override;
     void OnStopped() override;
-    void OnStoreTaken() override;
+    void OnStoreTaken(const std::string& reason) override;
     void ObserveCommit(Core::Duration duration) override;
     void ObserveAckWait(Core::Duration wait) override;
 

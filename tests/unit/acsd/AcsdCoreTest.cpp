@@ -178,7 +178,7 @@ private:
         ++_stops;
     }
 
-    void OnStoreTaken() override
+    void OnStoreTaken(const std::string& /*reason*/) override
     {
         ++_takenStores;
     }

@@ -17,7 +17,7 @@ public:
     static constexpr std::chrono::milliseconds MARGIN{500};
 
     /// The shortest lease. Half of it is left to work after the margin.
-    static constexpr std::chrono::milliseconds SHORTEST{1'000};
+    static constexpr std::chrono::milliseconds SHORTEST{2'000};
 
 private:
     Core::Duration _duration;

@@ -91,6 +91,16 @@ TEST_CASE("A leader stores a batch again until it is stored or the lease has end
         CHECK(refused.error().code == EPlanningError::StoreTaken);
         CHECK(attempts == 3);
     }
+    SECTION("a failure that does not end is no lost connection: it gives up the lead")
+    {
+        failures = 2;
+        error = EPlanningError::StoreCorrupt;
+        attempts = -1'000;
+        const Core::Result<void> refused = store.Append({});
+        REQUIRE_FALSE(refused.has_value());
+        CHECK(refused.error().code == EPlanningError::StoreTaken);
+        CHECK(attempts == LeaderStore::MOST_ATTEMPTS - 1'000);
+    }
     SECTION("another process has taken the store")
     {
         error = EPlanningError::StoreTaken;

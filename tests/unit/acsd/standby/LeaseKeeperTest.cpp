@@ -28,8 +28,23 @@ class LeaseRow
     mutable std::mutex _mutex;
     Planning::LeaseState _state;
     bool _bFails = false;
+    std::function<void()> _onTaken; ///< Set while no call is under way.
 
 public:
+    void SetOnTaken(std::function<void()> onTaken)
+    {
+        _onTaken = std::move(onTaken);
+    }
+
+    void Take(const Planning::LeaseState& state)
+    {
+        Change([&state](Planning::LeaseState& row) { row = state; });
+        if (const std::function<void()> onTaken = _onTaken; onTaken)
+        {
+            onTaken();
+        }
+    }
+
     void Change(const std::function<void(Planning::LeaseState&)>& change)
     {
         const std::lock_guard lock(_mutex);
@@ -77,9 +92,7 @@ public:
             {
                 return std::nullopt;
             }
-            _row.Change([&](Planning::LeaseState& row) {
-                row = {seen.epoch + 1, 0, claim.holder, claim.config, claim.duration, false};
-            });
+            _row.Take({seen.epoch + 1, 0, claim.holder, claim.config, claim.duration, false});
             return seen.epoch + 1;
         });
     }
@@ -123,7 +136,7 @@ struct LeaseKeeperFixture
         keeper.reset();
         keeper = std::make_unique<LeaseKeeper>(
             LeaseKeeper::Dependencies{context.get_executor(), clock, Core::Logger(log, "lease"), guard},
-            std::make_unique<RowLease>(row),
+            [this](const std::function<bool()>& /*shouldStop*/) { return std::make_unique<RowLease>(row); },
             Planning::LeaseClaim{"this one", config, DURATION},
             LeaseKeeper::Handlers{
                 [this](std::uint64_t epoch) { taken.push_back(epoch); },
@@ -154,7 +167,6 @@ TEST_CASE_METHOD(LeaseKeeperFixture, "A lease that is free is taken, renewed and
     RunUntil([&] { return !taken.empty(); });
     CHECK(taken == std::vector<std::uint64_t>{1});
     CHECK(guard.IsHeld());
-    CHECK(keeper->GetWaitReason().empty());
     RunUntil([&] { return row.Get()->renewal >= 2; });
     bool bReleased = false;
     keeper->ReleaseAsync([&] { bReleased = true; });
@@ -215,11 +227,36 @@ TEST_CASE_METHOD(
     CHECK(lost.size() == 1);
 }
 
+TEST_CASE_METHOD(LeaseKeeperFixture, "A lease that took too long to be taken is released, and is taken again")
+{
+    row.SetOnTaken([this] {
+        clock.Advance(DURATION);
+        row.SetOnTaken({});
+    });
+    keeper->Start();
+    RunUntil([&] { return !taken.empty(); });
+    CHECK(taken == std::vector<std::uint64_t>{2});
+    CHECK(guard.IsHeld());
+    CHECK(lost.empty());
+}
+
+TEST_CASE_METHOD(LeaseKeeperFixture, "A lease that is being taken when the process ends is released")
+{
+    bool bReleased = false;
+    keeper->Start();
+    RunUntil([&] { return keeper->GetWaitReason() != "standby: the store was not read yet"; });
+    keeper->ReleaseAsync([&] { bReleased = true; });
+    RunUntil([&] { return bReleased; });
+    CHECK(taken.empty());
+    CHECK(row.Get()->bReleased);
+}
+
 TEST_CASE_METHOD(LeaseKeeperFixture, "A store that cannot be read is a reason to wait")
 {
     row.Fail(true);
     keeper->Start();
     RunUntil([&] { return keeper->GetWaitReason().starts_with("standby: the store cannot be used: "); });
+    CHECK_THAT(keeper->GetPublicReason(), !Catch::Contains("db"));
     row.Fail(false);
     RunUntil([&] { return !taken.empty(); });
     row.Fail(true); // it is destroyed while a call may be under way

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 namespace ACS::Acsd
@@ -22,6 +23,8 @@ struct LineClientOptions
     /// Maximum time between two lines of the peer; 0: no limit. A peer that was switched off is not noticed without it.
     std::chrono::milliseconds receiveTimeout{0};
     Core::BackoffOptions backoff; ///< Starts again when a line has been received.
+    /// RobotServices::mayCommand, asked before each line: false ends the connection instead. May be empty: lines may always be sent.
+    std::function<bool()> maySend{};
 };
 
 } // namespace ACS::Acsd

@@ -44,6 +44,11 @@ struct RobotServices
     IOpenStreamService& openStream;
     /// The broker; null without RobotCapabilities::topicPrefix.
     IMqttService* mqttOrNull = nullptr;
+    /// Whether a message may be sent to the robot at this moment. With a shared store acsd leads for a time only, and a process that has
+    /// stalled must send nothing later: a driver with a connection of its own asks before each message. Never empty.
+    std::function<bool()> mayCommand = [] {
+        return true;
+    };
 };
 
 } // namespace ACS::Acsd

@@ -5,7 +5,9 @@
 #include <acs/core/Result.hpp>
 
 #include <chrono>
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace ACS::Planning
 {
@@ -19,15 +21,25 @@ struct PostgresOptions
     std::string url;
     std::string password; ///< Of the user; empty: from the URL, or as libpq finds it (PGPASSFILE).
     Core::Duration timeout{std::chrono::seconds(5)}; ///< For connecting, and for each transaction.
+    /// Asked several times a second, by the thread that calls: true ends a call that waits for the server. May be empty.
+    std::function<bool()> shouldStop{};
+};
+
+/// A server that a URL names.
+struct PostgresHost
+{
+    std::string host; ///< Empty: the local socket.
+    std::string port; ///< Empty: the default.
 };
 
 /// What a URL of a store gives.
 struct PostgresTarget
 {
-    std::string name;          ///< The URL without a password and parameters, for people.
-    bool bPassword = false;    ///< The URL has a password.
-    bool bOtherMachine = true; ///< A host is none of this machine.
-    bool bVerified = false;    ///< The connection is encrypted and the server is identified.
+    std::string name;                ///< The URL without a password and parameters, for people.
+    std::vector<PostgresHost> hosts; ///< At least one.
+    bool bPassword = false;          ///< The URL has a password.
+    bool bOtherMachine = true;       ///< A host is none of this machine.
+    bool bVerified = false;          ///< The connection is encrypted and the server is identified.
 };
 
 /// Reads a URL without connecting. Errors: ECoreError::InvalidLocation, with the reason.
