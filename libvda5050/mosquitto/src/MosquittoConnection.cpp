@@ -90,14 +90,9 @@ std::error_code MosquittoConnection::Open(
     }
     _maxUnsent = options.maxUnsent;
     _maxPayloadBytes = options.maxPayloadBytes;
-    _connectTimer.expires_after(options.connectTimeout);
-    _connectTimer.async_wait([weak = weak_from_this()](const boost::system::error_code& error) {
-        const std::shared_ptr<MosquittoConnection> self = weak.lock();
-        if (self != nullptr && !error)
-        {
-            self->Close(std::make_error_code(std::errc::timed_out));
-        }
-    });
+    _maxQos = options.maxQos;
+    _connectTimeout = options.connectTimeout;
+    ProlongConnect();
     connector.ConnectAsync(
         std::move(*clientOrNull),
         options,
@@ -231,7 +226,8 @@ Core::Result<int> MosquittoConnection::Publish(const MqttMessage& message)
         return Core::Fail(Core::ECoreError::QueueFull, message.topic);
     }
     int messageID = 0;
-    const std::size_t ofQosZero = message.qos == 0 ? 1U : 0U;
+    const std::uint8_t qos = std::min(message.qos, _maxQos);
+    const std::size_t ofQosZero = qos == 0 ? 1U : 0U;
     _unsent += ofQosZero; // before the call, which may report such a message as sent
     errno = 0;
     const int code = mosquitto_publish(
@@ -240,7 +236,7 @@ Core::Result<int> MosquittoConnection::Publish(const MqttMessage& message)
         message.topic.c_str(),
         static_cast<int>(message.payload.size()),
         message.payload.data(),
-        message.qos,
+        qos,
         message.bRetained);
     if (code != MOSQ_ERR_SUCCESS)
     {
@@ -248,7 +244,7 @@ Core::Result<int> MosquittoConnection::Publish(const MqttMessage& message)
         _unsent -= std::min(_unsent, ofQosZero);
         return Core::Fail(MakeMosquittoError(code, errno), message.topic);
     }
-    if (message.qos != 0)
+    if (qos != 0)
     {
         _client->OnSending(messageID);
     }
@@ -258,9 +254,10 @@ Core::Result<int> MosquittoConnection::Publish(const MqttMessage& message)
 
 std::optional<int> MosquittoConnection::SubscribeOrNull(const MqttSubscription& subscription)
 {
+    const int qos = std::min(subscription.qos, _maxQos);
     int messageID = 0;
     if (!IsUp()
-        || mosquitto_subscribe(GetClientOrNull(), &messageID, subscription.topicFilter.c_str(), subscription.qos)
+        || mosquitto_subscribe(GetClientOrNull(), &messageID, subscription.topicFilter.c_str(), qos)
             != MOSQ_ERR_SUCCESS)
     {
         return std::nullopt;
@@ -276,6 +273,18 @@ void MosquittoConnection::Unsubscribe(const std::string& topicFilter)
         std::ignore = mosquitto_unsubscribe(GetClientOrNull(), nullptr, topicFilter.c_str());
         Settle(MOSQ_ERR_SUCCESS, 0);
     }
+}
+
+void MosquittoConnection::ProlongConnect()
+{
+    _connectTimer.expires_after(_connectTimeout);
+    _connectTimer.async_wait([weak = weak_from_this()](const boost::system::error_code& error) {
+        const std::shared_ptr<MosquittoConnection> self = weak.lock();
+        if (self != nullptr && !error)
+        {
+            self->Close(std::make_error_code(std::errc::timed_out));
+        }
+    });
 }
 
 void MosquittoConnection::Confirm()

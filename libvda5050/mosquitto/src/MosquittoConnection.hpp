@@ -12,6 +12,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -83,6 +84,8 @@ class MosquittoConnection final : public std::enable_shared_from_this<MosquittoC
     std::size_t _unsent = 0; ///< Of QoS 0.
     std::size_t _maxUnsent = 0;
     std::size_t _maxPayloadBytes = 0;
+    std::chrono::milliseconds _connectTimeout{};
+    std::uint8_t _maxQos = 0;
     int _closeCode = 0;
     bool _bPersistent = false;
     bool _bGoesOn = false;    ///< With the client of the previous connection.
@@ -113,6 +116,8 @@ public:
     [[nodiscard]] std::optional<int> SubscribeOrNull(const MqttSubscription& subscription);
     /// Without an answer. Does nothing where there is no connection.
     void Unsubscribe(const std::string& topicFilter);
+    /// The broker has confirmed one more subscription: the time to connect starts again.
+    void ProlongConnect();
     /// The owner has all that it waited for: the time to connect is no longer counted.
     void Confirm();
     /// Ends with OnConnectionClosed.

@@ -6,6 +6,7 @@
 #include <boost/asio/prefer.hpp>
 #include <mosquitto.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cerrno>
 #include <csignal>
@@ -77,7 +78,7 @@ int Configure(mosquitto* client, const MosquittoOptions& options)
             will.topic.c_str(),
             static_cast<int>(will.payload.size()),
             will.payload.data(),
-            will.qos,
+            std::min(will.qos, options.maxQos),
             will.bRetained);
     }
     return code;
@@ -254,7 +255,11 @@ void MosquittoConnector::OnFinished()
         const std::lock_guard lock(task->mutex);
     }
     task->handler(task->outcome);
-    _lateOrNull = std::exchange(task->outcome.clientOrNull, std::nullopt);
+    std::optional<MosquittoClient> leftOrNull = std::exchange(task->outcome.clientOrNull, std::nullopt);
+    if (!task->options.bCleanSession)
+    {
+        _lateOrNull = std::move(leftOrNull);
+    }
 }
 
 } // namespace ACS::VDA5050

@@ -1,3 +1,4 @@
+#include "BrokerRotation.hpp"
 #include "MosquittoConnection.hpp"
 #include "MosquittoError.hpp"
 #include <acs/vda5050_mosquitto/MosquittoLink.hpp>
@@ -6,9 +7,12 @@
 #include <boost/asio/steady_timer.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <deque>
 #include <exception>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace ACS::VDA5050
@@ -17,21 +21,30 @@ namespace ACS::VDA5050
 /// Shared, so that a timer or a posted call that comes late finds either the whole of it or nothing.
 class MosquittoLink::Impl final : public IMosquittoConnectionOwner, public std::enable_shared_from_this<Impl>
 {
+    struct WaitingSubscription
+    {
+        MqttSubscription subscription;
+        bool bLater = false; ///< OnLinkUp does not wait for it.
+    };
+
     boost::asio::any_io_executor _executor;
     Core::Logger _logger;
     MosquittoOptions _options;
+    BrokerRotation _rotation;
     IMqttLinkListener* _listenerOrNull;
     Core::IRandom* _random;
     Core::Backoff _backoff;
     boost::asio::steady_timer
         _timer; ///< Until the next attempt, until the backoff is forgotten, or until Stop is over.
-    MosquittoConnector _connector;
+    std::vector<std::unique_ptr<MosquittoConnector>>
+        _connectors; ///< One per broker: a name server that hangs delays no other.
     std::shared_ptr<MosquittoConnection> _connectionOrNull;
     std::optional<MosquittoClient> _clientOrNull; ///< Of a persistent session, between two connections.
     std::vector<MqttSubscription> _subscriptions;
-    std::map<int, std::string> _unconfirmed; ///< The filters that OnLinkUp waits for, by the id of their message.
-    std::map<int, std::string> _later;       ///< Those that came after them.
-    std::string _refusedFilter;              ///< The reason why the connection is closed.
+    std::deque<WaitingSubscription> _waiting; ///< Not sent yet, those that OnLinkUp waits for first.
+    std::map<int, std::string> _unconfirmed;  ///< The filters that OnLinkUp waits for, by the id of their message.
+    std::map<int, std::string> _later;        ///< Those that came after them.
+    std::string _refusedFilter;               ///< The reason why the connection is closed.
     std::vector<MqttMessage> _early;
     std::size_t _earlyBytes = 0;
     std::size_t _earlyDropped = 0;
@@ -39,10 +52,10 @@ class MosquittoLink::Impl final : public IMosquittoConnectionOwner, public std::
     std::chrono::steady_clock::time_point _upSince;
     std::size_t _shortLives = 0; ///< Consecutive connections that ended right after they were established.
     bool _bUp = false;
-    bool _bOutageLogged = false;
-    bool _bRefusalLogged = false;
-    bool _bLaterRefusalLogged = false; ///< In this connection.
-    bool _bTooLongLogged = false;      ///< In this connection.
+    std::set<std::size_t> _outagesLogged;  ///< Brokers, since the last connection.
+    std::set<std::size_t> _refusalsLogged; ///< Brokers, since the last connection.
+    bool _bLaterRefusalLogged = false;     ///< In this connection.
+    bool _bTooLongLogged = false;          ///< In this connection.
     bool _bRivalTold = false;
     bool _bStopping = false;
     bool _bStopped = false;
@@ -62,6 +75,7 @@ public:
     void Unsubscribe(const std::string& topicFilter);
     void SetWill(const MqttWill& will);
     [[nodiscard]] bool IsConnected() const;
+    [[nodiscard]] std::size_t GetBrokerIndex() const noexcept;
     void StopAsync(
         const std::optional<MqttMessage>& lastMessageOrNull,
         std::chrono::milliseconds timeout,
@@ -76,7 +90,11 @@ public:
 
 private:
     void Connect();
+    [[nodiscard]] bool IsConnectorBusy() const;
+    [[nodiscard]] std::optional<MosquittoClient> TakeLateClientOrNull();
     void Forget(const std::string& topicFilter);
+    void SendSubscriptions();
+    void TryNext();
     void Retry(std::chrono::milliseconds pause);
     [[nodiscard]] bool HasRival(bool bWasUp, const std::error_code& reason);
     void LogEnd(bool bWasUp, bool bRenewal, bool bRival, const std::error_code& reason);
@@ -86,7 +104,12 @@ private:
     void GiveUp(const std::string& filter);
     void AnnounceWhenConfirmed();
     void FinishStop();
+    void AbandonConnectors() noexcept;
+    [[nodiscard]] MosquittoBroker GetBroker(std::size_t index) const;
+    [[nodiscard]] std::string GetAddress(std::size_t index) const;
     [[nodiscard]] std::string GetAddress() const;
+    /// What follows a failure, as the end of a sentence.
+    [[nodiscard]] std::string MakePlan(std::string_view until) const;
 };
 
 namespace
@@ -95,6 +118,9 @@ namespace
 /// After a connection of this duration the next outage starts with the initial backoff again.
 constexpr std::chrono::seconds STABLE_AFTER{5};
 constexpr std::size_t SUSPICIOUS_LIVES = 3;
+/// Subscriptions at a time. A broker that stores each of them in a cluster may need half a second for one, during which it answers
+/// nothing else; all at once would take longer than the keep-alive permits.
+constexpr std::size_t MAX_UNCONFIRMED = 8;
 
 } // namespace
 
@@ -107,12 +133,16 @@ MosquittoLink::Impl::Impl(
     : _executor(executor),
       _logger(std::move(logger)),
       _options(std::move(options)),
+      _rotation(_options.furtherBrokers.size() + 1),
       _listenerOrNull(&listener),
       _random(&random),
       _backoff(_options.backoff),
-      _timer(executor),
-      _connector(executor)
+      _timer(executor)
 {
+    for (std::size_t index = 0; index <= _options.furtherBrokers.size(); ++index)
+    {
+        _connectors.push_back(std::make_unique<MosquittoConnector>(executor));
+    }
 }
 
 void MosquittoLink::Impl::Start()
@@ -137,7 +167,15 @@ void MosquittoLink::Impl::Abandon()
         _connectionOrNull->Abandon();
         _connectionOrNull.reset();
     }
-    _connector.Abandon();
+    AbandonConnectors();
+}
+
+void MosquittoLink::Impl::AbandonConnectors() noexcept
+{
+    for (const std::unique_ptr<MosquittoConnector>& connector : _connectors)
+    {
+        connector->Abandon();
+    }
 }
 
 Core::Result<void> MosquittoLink::Impl::Publish(const MqttMessage& message)
@@ -160,17 +198,33 @@ void MosquittoLink::Impl::Subscribe(const std::vector<MqttSubscription>& subscri
     {
         Forget(subscription.topicFilter);
         _subscriptions.push_back(subscription);
-        if (_connectionOrNull != nullptr)
+        if (_connectionOrNull != nullptr && _connectionOrNull->IsUp())
         {
-            const std::optional<int> messageID = _connectionOrNull->SubscribeOrNull(subscription);
-            if (messageID.has_value())
-            {
-                _later[*messageID] = subscription.topicFilter;
-            }
-            else if (_connectionOrNull->IsUp())
-            {
-                _logger.Error("cannot subscribe", {{"filter", subscription.topicFilter}});
-            }
+            _waiting.push_back({subscription, true});
+        }
+    }
+    SendSubscriptions();
+}
+
+void MosquittoLink::Impl::SendSubscriptions()
+{
+    while (!_waiting.empty() && _refusedFilter.empty() && _unconfirmed.size() + _later.size() < MAX_UNCONFIRMED)
+    {
+        const WaitingSubscription next = std::move(_waiting.front());
+        _waiting.pop_front();
+        const std::string& filter = next.subscription.topicFilter;
+        const std::optional<int> messageID = _connectionOrNull->SubscribeOrNull(next.subscription);
+        if (messageID.has_value())
+        {
+            (next.bLater ? _later : _unconfirmed)[*messageID] = filter;
+        }
+        else if (!next.bLater)
+        {
+            GiveUp(filter);
+        }
+        else if (_connectionOrNull->IsUp())
+        {
+            _logger.Error("cannot subscribe", {{"filter", filter}});
         }
     }
 }
@@ -189,6 +243,9 @@ void MosquittoLink::Impl::Forget(const std::string& topicFilter)
     std::erase_if(_subscriptions, [&topicFilter](const MqttSubscription& known) {
         return known.topicFilter == topicFilter;
     });
+    std::erase_if(_waiting, [&topicFilter](const WaitingSubscription& waiting) {
+        return waiting.subscription.topicFilter == topicFilter;
+    });
 }
 
 void MosquittoLink::Impl::SetWill(const MqttWill& will)
@@ -201,26 +258,66 @@ bool MosquittoLink::Impl::IsConnected() const
     return _bUp && !_bStopping && _connectionOrNull != nullptr && _connectionOrNull->IsUp();
 }
 
+std::size_t MosquittoLink::Impl::GetBrokerIndex() const noexcept
+{
+    return _rotation.GetCurrent();
+}
+
+MosquittoBroker MosquittoLink::Impl::GetBroker(std::size_t index) const
+{
+    return index == 0 ? MosquittoBroker{_options.host, _options.port} : _options.furtherBrokers.at(index - 1);
+}
+
+std::string MosquittoLink::Impl::GetAddress(std::size_t index) const
+{
+    const MosquittoBroker broker = GetBroker(index);
+    const bool bAddressV6 = broker.host.find(':') != std::string::npos;
+    return bAddressV6 ? fmt::format("[{}]:{}", broker.host, broker.port)
+                      : fmt::format("{}:{}", broker.host, broker.port);
+}
+
 std::string MosquittoLink::Impl::GetAddress() const
 {
-    const bool bAddressV6 = _options.host.find(':') != std::string::npos;
-    return bAddressV6 ? fmt::format("[{}]:{}", _options.host, _options.port)
-                      : fmt::format("{}:{}", _options.host, _options.port);
+    return GetAddress(_rotation.GetCurrent());
+}
+
+std::string MosquittoLink::Impl::MakePlan(std::string_view until) const
+{
+    return _options.furtherBrokers.empty() ? fmt::format("trying again until it {}", until)
+                                           : fmt::format("trying {} next", GetAddress(_rotation.GetNext()));
+}
+
+/// The exchanges of a persistent session are in the client that the thread has; without it they would be lost.
+bool MosquittoLink::Impl::IsConnectorBusy() const
+{
+    return _options.bCleanSession ? _connectors.at(_rotation.GetCurrent())->IsBusy()
+                                  : std::ranges::any_of(_connectors, &MosquittoConnector::IsBusy);
+}
+
+std::optional<MosquittoClient> MosquittoLink::Impl::TakeLateClientOrNull()
+{
+    for (const std::unique_ptr<MosquittoConnector>& connector : _connectors)
+    {
+        if (std::optional<MosquittoClient> lateOrNull = connector->TakeLateOrNull(); lateOrNull.has_value())
+        {
+            return lateOrNull;
+        }
+    }
+    return std::nullopt;
 }
 
 void MosquittoLink::Impl::Connect()
 {
-    if (_connector.IsBusy())
+    if (IsConnectorBusy())
     {
-        Retry(_backoff.GetNextDelay(
-            *_random)); // the attempt that has timed out still hangs, for example in a name server
+        TryNext(); // the attempt that has timed out still hangs, for example in a name server
         return;
     }
-    std::optional<MosquittoClient> lateOrNull = _connector.TakeLateOrNull();
     if (!_options.bCleanSession && !_clientOrNull.has_value())
     {
-        _clientOrNull = std::move(lateOrNull);
+        _clientOrNull = TakeLateClientOrNull();
     }
+    _waiting.clear();
     _unconfirmed.clear();
     _later.clear();
     _refusedFilter.clear();
@@ -233,15 +330,28 @@ void MosquittoLink::Impl::Connect()
     }
     _earlyDropped = 0;
     _connectionOrNull = std::make_shared<MosquittoConnection>(_executor, *this);
+    const std::size_t index = _rotation.GetCurrent();
+    MosquittoOptions options = _options;
+    options.host = GetBroker(index).host;
+    options.port = GetBroker(index).port;
     const std::error_code refused =
-        _connectionOrNull->Open(_options, std::exchange(_clientOrNull, std::nullopt), _connector);
+        _connectionOrNull->Open(options, std::exchange(_clientOrNull, std::nullopt), *_connectors.at(index));
     if (refused)
     {
         _connectionOrNull->Abandon();
         _connectionOrNull.reset();
         LogOutage(false, refused);
-        Retry(_backoff.GetNextDelay(*_random));
+        TryNext();
     }
+}
+
+/// Within a round only the first delay of the backoff passes: each broker may be the one that still runs.
+void MosquittoLink::Impl::TryNext()
+{
+    _rotation.MoveOn();
+    Retry(
+        _rotation.IsRoundOver() ? _backoff.GetNextDelay(*_random)
+                                : Core::Backoff(_options.backoff).GetNextDelay(*_random));
 }
 
 void MosquittoLink::Impl::Retry(std::chrono::milliseconds pause)
@@ -258,19 +368,19 @@ void MosquittoLink::Impl::Retry(std::chrono::milliseconds pause)
 
 void MosquittoLink::Impl::LogOutage(bool bWasUp, const std::error_code& reason)
 {
-    if (_bOutageLogged)
+    if (!_outagesLogged.insert(_rotation.GetCurrent()).second)
     {
         _logger.Debug("still no MQTT broker", {{"broker", GetAddress()}, {"reason", reason.message()}});
         return;
     }
-    _bOutageLogged = true;
     const std::string_view event = bWasUp ? "lost the MQTT broker at" : "cannot reach the MQTT broker at";
     _logger.Warning(fmt::format(
-        "{} {} ({}): {}; trying again until it answers",
+        "{} {} ({}): {}; {}",
         event,
         GetAddress(),
         reason.message(),
-        MakeConnectAdvice(reason)));
+        MakeConnectAdvice(reason),
+        MakePlan("answers")));
 }
 
 /// MQTT 5 reports it. 3.1.1 only closes the connection, which is detected by repeated short connections.
@@ -316,15 +426,16 @@ void MosquittoLink::Impl::LogEnd(bool bWasUp, bool bRenewal, bool bRival, const 
 
 void MosquittoLink::Impl::LogRefusal(const std::string& filter)
 {
-    if (std::exchange(_bRefusalLogged, true))
+    if (!_refusalsLogged.insert(_rotation.GetCurrent()).second)
     {
         _logger.Debug("the MQTT broker refuses a subscription still", {{"filter", filter}});
         return;
     }
     _logger.Warning(fmt::format(
-        "the MQTT broker {} refuses the subscription {}: check its access rules; trying again until it accepts it",
+        "the MQTT broker {} refuses the subscription {}: check its access rules; {}",
         GetAddress(),
-        filter));
+        filter,
+        MakePlan("accepts it")));
 }
 
 void MosquittoLink::Impl::LogRival(const std::error_code& reason)
@@ -337,32 +448,26 @@ void MosquittoLink::Impl::LogRival(const std::error_code& reason)
     _bRivalTold = true;
     const std::string what = IsSessionTakenOver(reason)
         ? fmt::format(
-            "another client took over the client id {} at the MQTT broker {}",
+            "another client took over the client id {} at the MQTT broker {}; give each client an id of its own",
             _options.clientID,
             GetAddress())
         : fmt::format(
-            "the MQTT broker {} ends each connection at once: does another client use the client id {}",
+            "the MQTT broker {} ends each connection at once: if another client uses the client id {}, give each client an id of "
+            "its own; otherwise the broker may not support the QoS or a character of a topic, see its log",
             GetAddress(),
             _options.clientID);
-    _logger.Error(fmt::format(
-        "{}; give each client an id of its own. Trying again every {} ms",
-        what,
-        _options.backoff.maximum.count()));
+    _logger.Error(fmt::format("{}. Trying again every {} ms", what, _options.backoff.maximum.count()));
 }
 
 void MosquittoLink::Impl::OnConnectionUp()
 {
     const std::shared_ptr<Impl> self = shared_from_this(); // the listener may destroy the link
+    _waiting.clear();
     for (const MqttSubscription& subscription : _subscriptions)
     {
-        const std::optional<int> messageID = _connectionOrNull->SubscribeOrNull(subscription);
-        if (!messageID.has_value())
-        {
-            GiveUp(subscription.topicFilter);
-            return;
-        }
-        _unconfirmed[*messageID] = subscription.topicFilter;
+        _waiting.push_back({subscription, false});
     }
+    SendSubscriptions();
     AnnounceWhenConfirmed();
 }
 
@@ -380,6 +485,8 @@ void MosquittoLink::Impl::OnSubscribed(int messageID, bool bGranted)
                 {{"broker", GetAddress()}, {"filter", later->second}});
         }
         _later.erase(later);
+        SendSubscriptions();
+        AnnounceWhenConfirmed();
         return;
     }
     const auto found = _unconfirmed.find(messageID);
@@ -393,6 +500,8 @@ void MosquittoLink::Impl::OnSubscribed(int messageID, bool bGranted)
         return;
     }
     _unconfirmed.erase(found);
+    _connectionOrNull->ProlongConnect();
+    SendSubscriptions();
     AnnounceWhenConfirmed();
 }
 
@@ -409,13 +518,14 @@ void MosquittoLink::Impl::GiveUp(const std::string& filter)
 
 void MosquittoLink::Impl::AnnounceWhenConfirmed()
 {
-    if (!_unconfirmed.empty() || !_refusedFilter.empty() || _bUp || _bStopping)
+    const bool bWaiting = !_waiting.empty() && !_waiting.front().bLater;
+    if (bWaiting || !_unconfirmed.empty() || !_refusedFilter.empty() || _bUp || _bStopping)
     {
         return;
     }
     _bUp = true;
-    _bOutageLogged = false;
-    _bRefusalLogged = false;
+    _outagesLogged.clear();
+    _refusalsLogged.clear();
     _connectionOrNull->Confirm();
     _upSince = std::chrono::steady_clock::now();
     _logger.Write(
@@ -434,6 +544,7 @@ void MosquittoLink::Impl::AnnounceWhenConfirmed()
         if (self != nullptr && !error)
         {
             self->_backoff.Reset();
+            self->_rotation.BeginRound();
         }
     });
     _earlyBytes = 0;
@@ -494,7 +605,19 @@ void MosquittoLink::Impl::OnConnectionClosed(std::error_code reason)
     }
     const bool bRival = HasRival(bWasUp, reason);
     LogEnd(bWasUp, bRenewal, bRival, reason);
-    Retry(bRival ? _options.backoff.maximum : _backoff.GetNextDelay(*_random));
+    if (bRival)
+    {
+        _rotation.MoveOn();
+        Retry(_options.backoff.maximum);
+    }
+    else if (bRenewal)
+    {
+        Retry(_backoff.GetNextDelay(*_random)); // it was in order
+    }
+    else
+    {
+        TryNext();
+    }
     if (bWasUp)
     {
         _listenerOrNull->OnLinkDown(reason);
@@ -562,7 +685,7 @@ void MosquittoLink::Impl::FinishStop()
         _connectionOrNull->Abandon();
         _connectionOrNull.reset();
     }
-    _connector.Abandon();
+    AbandonConnectors();
     // One by one: a handler may destroy the link, and none is called after that.
     while (!_stopHandlers.empty())
     {
@@ -625,6 +748,11 @@ void MosquittoLink::SetWill(const MqttWill& will)
 bool MosquittoLink::IsConnected() const
 {
     return _impl->IsConnected();
+}
+
+std::size_t MosquittoLink::GetBrokerIndex() const
+{
+    return _impl->GetBrokerIndex();
 }
 
 void MosquittoLink::StopAsync(

@@ -10,6 +10,7 @@
 #include <boost/asio/any_io_executor.hpp>
 
 #include <chrono>
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -19,13 +20,14 @@
 namespace ACS::VDA5050
 {
 
-/// A connection to an MQTT 3.1.1 or 5 broker through libmosquitto, on the caller's executor. Reconnects indefinitely with exponential backoff; an outage is logged once, not per attempt. Without a connection
-/// Publish fails, and the sessions resend.
+/// A connection to an MQTT 3.1.1 or 5 broker through libmosquitto, on the caller's executor. Reconnects indefinitely with
+/// exponential backoff, to the next broker if there are several; an outage is logged once per broker, not per attempt. Without a
+/// connection Publish fails, and the sessions resend.
 ///
 /// Runs on the single thread of the executor. Each attempt to connect has a thread of its own until the name of the host is
 /// resolved and connect() has begun, so that a name server or a broker that does not answer never blocks the executor. An
-/// attempt that hangs is abandoned after connectTimeout; the next one begins when its thread has ended. Of a
-/// name with several addresses only the first one is tried, except for localhost.
+/// attempt that hangs is abandoned after connectTimeout; the next one with the same broker (in a persistent session: with any
+/// broker) begins when its thread has ended. Of a name with several addresses only the first one is tried, except for localhost.
 class ACS_API MosquittoLink final : public IMqttLink
 {
 public:
@@ -74,6 +76,9 @@ public:
 
     /// Between OnLinkUp and OnLinkDown.
     [[nodiscard]] bool IsConnected() const;
+
+    /// The broker that is connected or tried: 0 is MosquittoOptions::host, N the Nth of furtherBrokers.
+    [[nodiscard]] std::size_t GetBrokerIndex() const;
 
     /// Publishes the last message (OFFLINE), waits until the broker has acknowledged it and all earlier ones, at most for
     /// the timeout, disconnects so that no will is sent, and then calls the handler once on the executor. Nothing is
