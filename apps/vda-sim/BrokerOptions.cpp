@@ -1,5 +1,6 @@
 #include "vda-sim/BrokerOptions.hpp"
 
+#include "common/config/BrokerUrls.hpp"
 #include "common/config/TextFile.hpp"
 #include <acs/core/Result.hpp>
 
@@ -30,6 +31,16 @@ std::string ReadQosProfile(const std::string& text, VDA5050::QosTable& qos)
         return fmt::format("expected project or standard, found {}", Core::QuoteForError(text));
     }
     qos = VDA5050::QosTable(text == "project" ? VDA5050::EQosProfile::Project : VDA5050::EQosProfile::Standard);
+    return {};
+}
+
+std::string ReadMaxQos(const std::string& text, std::uint8_t& maxQos)
+{
+    if (text != "0" && text != "1" && text != "2")
+    {
+        return fmt::format("expected 0, 1 or 2, found {}", Core::QuoteForError(text));
+    }
+    maxQos = static_cast<std::uint8_t>(text.front() - '0');
     return {};
 }
 
@@ -75,6 +86,13 @@ void AddBrokerOptions(CLI::App& app, BrokerOptions& options)
         .default_str("project");
     Apps::AddTextOption(
         app,
+        "--max-qos",
+        [&options](const std::string& text) { return ReadMaxQos(text, options.maxQos); },
+        "Highest QoS that the broker supports: a higher one is lowered to it (1 for nats-server 2.9)")
+        .default_str("2")
+        ->type_name("QOS");
+    Apps::AddTextOption(
+        app,
         "--user",
         [&options](const std::string& text) {
             options.username = text;
@@ -107,11 +125,15 @@ void AddBrokerOptions(CLI::App& app, BrokerOptions& options)
     addFile("--tls-key", options.tls.keyFile, "Private key of --tls-certificate, without a passphrase");
 }
 
-std::string CheckBrokerOptions(const BrokerOptions& options, Apps::EUrlScheme scheme)
+std::string CheckBrokerOptions(const BrokerOptions& options, const std::vector<Apps::Url>& brokers)
 {
+    if (const std::string error = Apps::CheckBrokerURLs(brokers); !error.empty())
+    {
+        return "--broker: " + error;
+    }
     const VDA5050::MosquittoTLS& tls = options.tls;
     const bool bTlsGiven = !tls.caFile.empty() || !tls.certFile.empty() || !tls.keyFile.empty();
-    if (bTlsGiven && !Apps::IsSecure(scheme))
+    if (bTlsGiven && !Apps::IsSecure(brokers.front().scheme))
     {
         return "--tls-ca, --tls-certificate and --tls-key are for a broker at mqtts://HOST:PORT";
     }

@@ -18,8 +18,10 @@
 #include <boost/asio/io_context.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <set>
@@ -188,13 +190,22 @@ private:
     [[nodiscard]] VDA5050::MosquittoOptions MakeLinkOptions(std::string clientID) const
     {
         VDA5050::MosquittoOptions link;
-        link.host = _options->broker.peer.host;
-        link.port = _options->broker.peer.port;
+        const std::vector<Apps::Url>& brokers = _options->brokers;
+        link.host = brokers.front().peer.host;
+        link.port = brokers.front().peer.port;
+        std::transform(
+            brokers.begin() + 1,
+            brokers.end(),
+            std::back_inserter(link.furtherBrokers),
+            [](const Apps::Url& url) {
+                return VDA5050::MosquittoBroker{url.peer.host, url.peer.port};
+            });
+        link.maxQos = _options->link.maxQos;
         link.clientID = std::move(clientID);
         link.version = _options->link.version;
         link.username = _options->link.username;
         link.password = _options->link.password;
-        if (Apps::IsSecure(_options->broker.scheme))
+        if (Apps::IsSecure(brokers.front().scheme))
         {
             link.tls = _options->link.tls;
         }
@@ -207,7 +218,7 @@ private:
         if (!_bReady && _connected.size() == _members.size() + (_control.has_value() ? 1 : 0))
         {
             _bReady = true;
-            Apps::PrintReadyLine({{"broker", _options->broker.peer}});
+            Apps::PrintReadyLine({{"broker", _options->brokers.front().peer}});
         }
     }
 

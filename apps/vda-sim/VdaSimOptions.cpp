@@ -1,5 +1,6 @@
 #include "vda-sim/VdaSimOptions.hpp"
 
+#include "common/config/BrokerUrls.hpp"
 #include "common/config/DurationText.hpp"
 #include "common/config/TextFile.hpp"
 #include "common/faults/FaultOptions.hpp"
@@ -248,13 +249,19 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
         PROGRAM};
     app.footer(MakeFooter());
     VehicleRow row;
-    Apps::AddUrlOption(
+    Apps::AddRepeatedOption(
         app,
         "--broker",
-        options.broker,
-        {Apps::EUrlScheme::Mqtt, Apps::EUrlScheme::Mqtts},
-        "MQTT broker, mqtt://HOST:PORT or mqtts://HOST:PORT; retried until it is reachable")
-        .required();
+        [&options](const std::string& text) {
+            return Read(Apps::ParseURL(text, Apps::GetBrokerSchemes()), [&options](Apps::Url url) {
+                options.brokers.push_back(std::move(url));
+                return std::string();
+            });
+        },
+        "MQTT broker, mqtt://HOST:PORT or mqtts://HOST:PORT; retried until it is reachable. Repeated for the nodes of a cluster: a "
+        "lost connection leads to the next one")
+        .type_name("URL")
+        ->required();
     AddBrokerOptions(app, options.link);
     app.add_option("--site", options.sitePath, "Layout of the site, a VDMA LIF 1.0 file")
         ->required()
@@ -378,7 +385,7 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
         return exitCode;
     }
     options.controlTopic = bNoControl ? std::string() : options.controlTopic;
-    std::string error = CheckBrokerOptions(options.link, options.broker.scheme);
+    std::string error = CheckBrokerOptions(options.link, options.brokers);
     error = error.empty() ? AddVehicles(row, options.vehicles) : error;
     error = error.empty() ? CheckActionTimes(options) : error;
     error = error.empty() ? CheckWorld(options) : error;

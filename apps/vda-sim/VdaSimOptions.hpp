@@ -23,7 +23,7 @@ namespace ACS::VdaSim
 struct VdaSimOptions
 {
     Apps::CommonOptions common;
-    Apps::Url broker{Apps::EUrlScheme::Mqtt, {}, {}};
+    std::vector<Apps::Url> brokers; ///< Of one broker, or the nodes of a cluster in the order of their use.
     BrokerOptions link;
     std::string sitePath;
     std::string worldPath; ///< Empty: none.

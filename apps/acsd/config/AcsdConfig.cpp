@@ -255,6 +255,21 @@ void CheckBroker(const ConfigSection& root, const std::string& fileName, AcsdCon
         config.warnings.emplace_back(
             "mqtt: has no effect, because no robot has a driver that uses the broker; remove it");
     }
+    else if (bNeeded)
+    {
+        std::vector<std::string> prefixes;
+        for (const RobotLinkConfig& robot : config.robots)
+        {
+            if (!robot.topicPrefix.empty())
+            {
+                prefixes.push_back(robot.topicPrefix);
+            }
+        }
+        if (std::string warning = WarnOfTopics(*config.mqtt, prefixes); !warning.empty())
+        {
+            config.warnings.push_back(std::move(warning));
+        }
+    }
 }
 
 AcsdConfig Read(

@@ -1,5 +1,6 @@
 #include "config/MqttConfig.hpp"
 
+#include "common/config/BrokerUrls.hpp"
 #include "common/config/TextFile.hpp"
 #include "config/McsConfig.hpp"
 #include "config/SecretCheck.hpp"
@@ -7,7 +8,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace ACS::Acsd
@@ -18,6 +23,40 @@ namespace
 
 using Apps::ConfigSection;
 using Apps::EUrlScheme;
+
+constexpr std::int64_t MOST_QOS = 2;
+
+std::vector<Apps::Url> ReadURLs(const ConfigSection& mqtt)
+{
+    const std::string key = "urls";
+    if (!mqtt.HasKey(key))
+    {
+        return {mqtt.GetURL("url", Apps::GetBrokerSchemes())};
+    }
+    std::vector<Apps::Url> urls;
+    for (const std::string& text : mqtt.GetStringList(key))
+    {
+        Core::Result<Apps::Url> url = Apps::ParseURL(text, Apps::GetBrokerSchemes());
+        if (!url.has_value())
+        {
+            mqtt.AddError(key, Core::Describe(url.error()));
+            return {Apps::Url{}};
+        }
+        urls.push_back(std::move(*url));
+    }
+    if (mqtt.HasKey("url"))
+    {
+        mqtt.AddError(
+            key,
+            "mqtt.url is given too; keep mqtt.url for one broker, or mqtt.urls for the nodes of a cluster");
+    }
+    if (const std::string error = Apps::CheckBrokerURLs(urls); !error.empty())
+    {
+        mqtt.AddError(key, error);
+        return {Apps::Url{}};
+    }
+    return urls;
+}
 
 std::optional<std::string> ReadFileOrNull(const ConfigSection& mqtt, const std::string& key, const std::string& path)
 {
@@ -59,13 +98,17 @@ void ReadPassword(
         mqtt.AddError(key, path + " has no password in its first line");
     }
     CheckSecretFile(mqtt, key, path);
-    WarnOfPlainSecret("mqtt." + key, config.url, "mqtts", warnings);
+    for (const Apps::Url& url : config.urls)
+    {
+        WarnOfPlainSecret("mqtt." + key, url, "mqtts", warnings);
+    }
 }
 
 /// The files are read at each connect. They are checked here too, to report a missing one at the start.
 void ReadTLS(const ConfigSection& mqtt, const std::string& fileName, MqttConfig& config)
 {
-    const bool bPlain = config.url.scheme == EUrlScheme::Mqtt;
+    const bool bPlain = config.urls.front().scheme == EUrlScheme::Mqtt;
+    const std::string_view urlKey = mqtt.HasKey("urls") ? "urls" : "url";
     const auto readPath = [&](const std::string& key) {
         const std::string file = mqtt.GetString(key, "");
         if (file.empty())
@@ -74,7 +117,9 @@ void ReadTLS(const ConfigSection& mqtt, const std::string& fileName, MqttConfig&
         }
         if (bPlain)
         {
-            mqtt.AddError(key, "is for mqtts:// only, and mqtt.url is mqtt://, which encrypts nothing");
+            mqtt.AddError(
+                key,
+                fmt::format("is for mqtts:// only, and mqtt.{} is mqtt://, which encrypts nothing", urlKey));
         }
         std::string path = ResolvePath(fileName, file);
         const std::optional<std::string> text = ReadFileOrNull(mqtt, key, path);
@@ -108,7 +153,8 @@ void ReadMqttConfig(
     std::vector<std::string>& warnings)
 {
     const ConfigSection mqtt = root.GetSection("mqtt");
-    config.url = mqtt.GetURL("url", {EUrlScheme::Mqtt, EUrlScheme::Mqtts});
+    config.urls = ReadURLs(mqtt);
+    config.maxQos = static_cast<std::uint8_t>(mqtt.GetInteger("max_qos", 0, MOST_QOS, MOST_QOS));
     config.interfaceName = mqtt.GetString("interface_name", config.interfaceName);
     if (config.interfaceName.empty() || config.interfaceName.find_first_of("/+#$") != std::string::npos)
     {
@@ -118,15 +164,44 @@ void ReadMqttConfig(
     ReadTLS(mqtt, fileName, config);
 }
 
+/// nats-server 2.9 closes a connection at a message of QoS 2: without max_qos a single broker is another one.
+std::string WarnOfTopics(const MqttConfig& config, const std::vector<std::string>& topicPrefixes)
+{
+    const bool bNatsPossible = config.urls.size() > 1 || config.maxQos < MOST_QOS;
+    const auto isRefused = [](const std::string& prefix) {
+        return prefix.find_first_of(". ") != std::string::npos;
+    };
+    const auto found = std::ranges::find_if(topicPrefixes, isRefused);
+    if (!bNatsPossible || found == topicPrefixes.end())
+    {
+        return {};
+    }
+    const auto count = std::ranges::count_if(topicPrefixes, isRefused);
+    return fmt::format(
+        "mqtt: {} of {} robots have topics with a '.' or a blank, such as '{}'. nats-server 2.9 refuses to subscribe to them and "
+        "disconnects a client that publishes to them; change interface_name, manufacturer or serial, or use another broker",
+        count,
+        topicPrefixes.size(),
+        *found);
+}
+
 VDA5050::MosquittoOptions MakeMqttOptions(const MqttConfig& config, Core::IRandom& random, const std::string& identity)
 {
     VDA5050::MosquittoOptions options;
     options.clientID = "acsd-" + (identity.empty() ? Core::MakeUUID(random) : identity);
-    options.host = config.url.peer.host;
-    options.port = config.url.peer.port;
+    options.host = config.urls.front().peer.host;
+    options.port = config.urls.front().peer.port;
+    std::transform(
+        config.urls.begin() + 1,
+        config.urls.end(),
+        std::back_inserter(options.furtherBrokers),
+        [](const Apps::Url& url) {
+            return VDA5050::MosquittoBroker{url.peer.host, url.peer.port};
+        });
+    options.maxQos = config.maxQos;
     options.username = config.username;
     options.password = config.password;
-    if (Apps::IsSecure(config.url.scheme))
+    if (Apps::IsSecure(config.urls.front().scheme))
     {
         options.tls = config.tls;
     }

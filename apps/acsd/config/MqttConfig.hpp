@@ -5,6 +5,7 @@
 #include <acs/core/IRandom.hpp>
 #include <acs/vda5050_mosquitto/MosquittoOptions.hpp>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,9 @@ namespace ACS::Acsd
 /// The table `mqtt`: the broker of the vehicles, and acsd's credentials.
 struct MqttConfig
 {
-    Apps::Url url;
+    std::vector<Apps::Url> urls{
+        Apps::Url{}}; ///< One broker, or the nodes of a cluster in the order of their use; never empty.
+    std::uint8_t maxQos = 2;
     std::string interfaceName = "uagv";
     std::string username; ///< Empty: none.
     std::string password; ///< First line of its file.
@@ -27,6 +30,9 @@ void ReadMqttConfig(
     const std::string& fileName,
     MqttConfig& config,
     std::vector<std::string>& warnings);
+
+/// The warning that nats-server does not accept these prefixes of topics, where it may be the broker; empty if there is none to give.
+[[nodiscard]] std::string WarnOfTopics(const MqttConfig& config, const std::vector<std::string>& topicPrefixes);
 
 /// The client id is made from the identity of a shared store: when a standby takes over, the broker disconnects the former leader.
 /// Without one it is random, because the broker would disconnect one acsd when a second one connects.

@@ -118,9 +118,9 @@ namespace
 /// After a connection of this duration the next outage starts with the initial backoff again.
 constexpr std::chrono::seconds STABLE_AFTER{5};
 constexpr std::size_t SUSPICIOUS_LIVES = 3;
-/// Subscriptions at a time. A broker that stores each of them in a cluster may need half a second for one, during which it answers
-/// nothing else; all at once would take longer than the keep-alive permits.
-constexpr std::size_t MAX_UNCONFIRMED = 8;
+/// Subscriptions at a time. A broker that stores each of them in a cluster may need more than a second for one, during which it
+/// answers nothing else; all at once would take longer than the keep-alive permits.
+constexpr std::size_t MAX_UNCONFIRMED = 4;
 
 } // namespace
 

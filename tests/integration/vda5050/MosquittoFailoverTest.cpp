@@ -197,7 +197,7 @@ TEST_CASE("Quality of service above that of the broker is lowered: of messages, 
     CHECK(watcher.listener.messages.front().qos == maxQos);
 }
 
-TEST_CASE("At most eight subscriptions wait for the broker at a time")
+TEST_CASE("At most four subscriptions wait for the broker at a time")
 {
     boost::asio::io_context context;
     RawBroker broker(context);
@@ -220,17 +220,17 @@ TEST_CASE("At most eight subscriptions wait for the broker at a time")
     const auto answer = [&broker](char packetID) {
         broker.Send(std::string("\x90\x03\0", 3) + packetID + '\x01');
     };
-    REQUIRE(TryRunUntil(context, [&]() { return countSubscriptions() >= 8; }));
+    REQUIRE(TryRunUntil(context, [&]() { return countSubscriptions() >= 4; }));
     CHECK_FALSE(TryRunUntil(
         context,
-        [&]() { return countSubscriptions() > 8; },
+        [&]() { return countSubscriptions() > 4; },
         100ms));
     for (char packetID = 1; packetID <= 3; ++packetID)
     {
         answer(packetID);
     }
-    REQUIRE(TryRunUntil(context, [&]() { return countSubscriptions() >= 11; }));
-    CHECK(countSubscriptions() == 11);
+    REQUIRE(TryRunUntil(context, [&]() { return countSubscriptions() >= 7; }));
+    CHECK(countSubscriptions() == 7);
     for (char packetID = 4; packetID <= 19; ++packetID)
     {
         answer(packetID);

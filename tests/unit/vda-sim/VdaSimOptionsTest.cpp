@@ -269,6 +269,10 @@ TEST_CASE("The command line has the settings of the broker: MQTT version, QoS pr
              {"--password-file", other.c_str()},
              {"--mqtt", "4"},
              {"--qos", "2"},
+             {"--max-qos", "3"},
+             {"--broker", "mqtt://127.0.0.1:1"}, // given twice
+             {"--broker", "mqtts://127.0.0.2:1"},
+             {"--broker", "broker"},
              {"--tls-ca", other.c_str()}, // at mqtt://
              {"--tls-key", "/nonexistent/key.pem"}})
     {
@@ -277,12 +281,28 @@ TEST_CASE("The command line has the settings of the broker: MQTT version, QoS pr
         all.insert(all.end(), arguments.begin(), arguments.end());
         CHECK(ReadOptionsFrom(all).exitCode == 2);
     }
+    const std::vector<Apps::Url> brokers{{Apps::EUrlScheme::Mqtts, {"broker", 8883}, {}}};
     VdaSim::BrokerOptions half;
-    CHECK(VdaSim::CheckBrokerOptions(half, Apps::EUrlScheme::Mqtts).empty());
+    CHECK(VdaSim::CheckBrokerOptions(half, brokers).empty());
     half.tls.certFile = "vehicle.pem";
-    CHECK_THAT(VdaSim::CheckBrokerOptions(half, Apps::EUrlScheme::Mqtts), Catch::Contains("--tls-key"));
+    CHECK_THAT(VdaSim::CheckBrokerOptions(half, brokers), Catch::Contains("--tls-key"));
     half.tls.keyFile = "vehicle-key.pem";
-    CHECK(VdaSim::CheckBrokerOptions(half, Apps::EUrlScheme::Mqtts).empty());
+    CHECK(VdaSim::CheckBrokerOptions(half, brokers).empty());
+}
+
+TEST_CASE("--broker is repeated for the nodes of a cluster; --max-qos limits the QoS")
+{
+    const ReadOptions plain = ReadOptionsFrom({"--vehicle", "A"});
+    CHECK(plain.options.brokers.size() == 1);
+    CHECK(plain.options.link.maxQos == 2);
+    const ReadOptions read =
+        ReadOptionsFrom({"--vehicle", "A", "--broker", "mqtt://b", "--broker", "mqtt://c:1884", "--max-qos", "1"});
+    REQUIRE_FALSE(read.exitCode.has_value());
+    REQUIRE(read.options.brokers.size() == 3);
+    CHECK(read.options.brokers[0].peer.port == 1);
+    CHECK(read.options.brokers[1] == Apps::Url{Apps::EUrlScheme::Mqtt, {"b", 1883}, {}});
+    CHECK(read.options.brokers[2] == Apps::Url{Apps::EUrlScheme::Mqtt, {"c", 1884}, {}});
+    CHECK(read.options.link.maxQos == 1);
 }
 
 TEST_CASE("An action time is accepted if one of the vehicles has the action, also under a name of its own")

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,20 @@ namespace
 AcsdConfig ReadMQTT(const std::vector<std::string>& overrides)
 {
     return ReadAcsdConfig(std::string(ACS_SITE) + "/acsd.toml", overrides);
+}
+
+/// With mqtt.urls instead of mqtt.url.
+AcsdConfig ReadCluster(const std::string& urls, const std::vector<std::string>& overrides = {})
+{
+    const Testing::TemporaryFolder folder;
+    std::filesystem::copy(ACS_SITE, folder.GetPath());
+    const std::string path = (folder.GetPath() / "acsd.toml").string();
+    std::ifstream input(path);
+    std::string text((std::istreambuf_iterator<char>(input)), std::istreambuf_iterator<char>());
+    const std::size_t begin = text.find("url = ", text.find("[mqtt]"));
+    text.replace(begin, text.find('\n', begin) - begin, "urls = " + urls);
+    std::ofstream(path) << text;
+    return ReadAcsdConfig(path, overrides);
 }
 
 std::string WriteFile(const Testing::TemporaryFolder& folder, const std::string& name, const std::string& text)
@@ -43,6 +58,79 @@ TEST_CASE("Without further keys the connection to the broker has neither TLS nor
     CHECK(MakeMqttOptions(config.mqtt.value(), random).clientID != options.clientID);
     CHECK(MakeMqttOptions(config.mqtt.value(), random, "plant").clientID == "acsd-plant");
     CHECK(config.warnings.empty());
+}
+
+TEST_CASE("mqtt.urls has the nodes of a broker cluster in the order of their use")
+{
+    const Testing::TemporaryFolder folder;
+    Testing::SeededRandom random{1};
+    const AcsdConfig config = ReadCluster(R"(["mqtt://a:1884", "mqtt://b", "mqtt://[fd00::1]:1885"])");
+    REQUIRE(config.errors.empty());
+    CHECK(config.warnings.empty());
+    const VDA5050::MosquittoOptions options = MakeMqttOptions(config.mqtt.value(), random);
+    CHECK(options.host == "a");
+    CHECK(options.port == 1884);
+    CHECK(options.furtherBrokers == std::vector<VDA5050::MosquittoBroker>{{"b", 1883}, {"fd00::1", 1885}});
+    CHECK(options.maxQos == 2);
+    CHECK_FALSE(options.tls.has_value());
+    const AcsdConfig secure = ReadCluster(R"(["mqtts://a", "mqtts://b"])", {"mqtt.max_qos=1"});
+    REQUIRE(secure.errors.empty());
+    CHECK(MakeMqttOptions(secure.mqtt.value(), random).tls.has_value());
+    CHECK(MakeMqttOptions(secure.mqtt.value(), random).maxQos == 1);
+
+    const std::string password = "mqtt.password_file=" + WriteFile(folder, "password", "s3cret");
+    const AcsdConfig plain =
+        ReadCluster(R"(["mqtt://127.0.0.1", "mqtt://10.0.0.5", "mqtt://10.0.0.6"])", {"mqtt.username=acs", password});
+    CHECK(
+        plain.warnings
+        == std::vector<std::string>{
+            "mqtt.password_file: it is sent to 10.0.0.5 unencrypted; use mqtts://",
+            "mqtt.password_file: it is sent to 10.0.0.6 unencrypted; use mqtts://"});
+}
+
+TEST_CASE("mqtt.urls that contradict themselves or mqtt.url are one error with the remedy")
+{
+    const auto getError = [](const AcsdConfig& config) {
+        REQUIRE(config.errors.size() == 1);
+        return config.errors[0];
+    };
+    CHECK_THAT(
+        getError(ReadMQTT({R"(mqtt.urls=["mqtt://a", "mqtt://b"])"})), // besides the mqtt.url of the file
+        Catch::Contains("mqtt.urls: mqtt.url is given too; keep mqtt.url for one broker, or mqtt.urls"));
+    CHECK_THAT(getError(ReadCluster("[]")), Catch::Contains("mqtt.urls: is empty"));
+    CHECK_THAT(getError(ReadCluster(R"("mqtt://a")")), Catch::Contains("mqtt.urls: expected a list of strings"));
+    CHECK_THAT(
+        getError(ReadCluster(R"(["mqtt://a", "ws://b"])")),
+        Catch::Contains("mqtt.urls: expected a URL mqtt://HOST[:PORT] or mqtts://HOST[:PORT], found 'ws://b'"));
+    CHECK_THAT(
+        getError(ReadCluster(R"(["mqtt://a", "mqtt://b", "mqtt://A:1883"])")),
+        Catch::Contains("mqtt.urls: A:1883 is given twice"));
+    CHECK_THAT(
+        getError(ReadCluster(R"(["mqtts://a", "mqtt://b"])")),
+        Catch::Contains("mqtt.urls: has mqtt:// and mqtts://; give one scheme"));
+    CHECK_THAT(getError(ReadCluster(R"(["mqtt://a"])", {"mqtt.max_qos=3"})), Catch::Contains("mqtt.max_qos: "));
+    CHECK_THAT(
+        getError(ReadCluster(R"(["mqtt://a", "mqtt://b"])", {"mqtt.ca_file=" + std::string(ACS_SITE) + "/acsd.toml"})),
+        Catch::Contains("mqtt.ca_file: is for mqtts:// only, and mqtt.urls is mqtt://"));
+}
+
+TEST_CASE("Topics with a '.' or a blank are a warning where nats-server may be the broker")
+{
+    const std::vector<std::string> dotted{"robots.LR01.serial=LR.01", "robots.CR01.manufacturer=AC ME"};
+    std::vector<std::string> modest = dotted;
+    modest.emplace_back("mqtt.max_qos=1");
+    CHECK(ReadMQTT(dotted).warnings.empty());
+    for (const AcsdConfig& config : {ReadMQTT(modest), ReadCluster(R"(["mqtt://a", "mqtt://b"])", dotted)})
+    {
+        REQUIRE(config.errors.empty());
+        REQUIRE(config.warnings.size() == 1);
+        CHECK_THAT(
+            config.warnings[0],
+            Catch::StartsWith("mqtt: 2 of 2 robots have topics with a '.' or a blank, such as "));
+    }
+    CHECK_THAT(
+        ReadMQTT({"mqtt.interface_name=uagv.eu", "mqtt.max_qos=0"}).warnings.at(0),
+        Catch::Contains("'uagv.eu/v2/ACS/"));
 }
 
 TEST_CASE("mqtt.username and the first line of mqtt.password_file are sent to the broker; a readable file is rejected")
