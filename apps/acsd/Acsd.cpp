@@ -308,12 +308,17 @@ private:
             {{"seconds", fmt::format("{:.3f}", std::chrono::duration<double>(stall).count())}});
     }
 
+    [[nodiscard]] std::string GetConnectedBroker() const
+    {
+        return _core.IsMqttUp() ? MakeText(_config.mqtt->urls.at(_mqtt->GetBrokerIndex())) : std::string();
+    }
+
     [[nodiscard]] std::vector<LinkStatus> GetLinks() const
     {
         std::vector<LinkStatus> links{_mcs.GetLink()};
         if (_mqtt.has_value())
         {
-            links.push_back({"mqtt", _core.IsMqttUp()});
+            links.push_back({"mqtt", _core.IsMqttUp(), {}, GetConnectedBroker()});
         }
         return links;
     }
@@ -405,6 +410,10 @@ private:
         _metrics.UpdateProcess();
         _planLog.Sample(_core.GetEngine(), now);
         _metrics.UpdateReady(GetLinks(), _core.GetNotReadyReasons().empty());
+        if (_mqtt.has_value())
+        {
+            _metrics.UpdateBrokers(_config.mqtt->urls, GetConnectedBroker());
+        }
         _metrics.UpdateMCS(_mcs, _core.GetRefusedReports(), _core.GetPublishedConnectedOrNull().value_or(true));
         _metrics.UpdatePlans(_core.GetEngine(), _core.GetStoreFaultOrNull().has_value(), now);
         _robots.UpdateMetrics();

@@ -25,6 +25,7 @@ POLICY = "default-src 'self'; object-src 'none'; base-uri 'none'; form-action 's
 TICK_SECONDS = 0.2
 KEEP_ALIVE_SECONDS = 15.0
 KEPT_EVENTS = 4096
+BROKER = "mqtt://broker-1.example:1883"
 COOKIE = "acsd_session"
 
 
@@ -59,7 +60,8 @@ class MockAcsd:
         self.is_down = False  # closes every connection
         self.standby = None  # why it does not lead; all but the page is then answered with it
         self.tsc = "Auto"
-        self.links = [{"name": name, "up": True, "reason": None, "since": format_time(get_now())} for name in ("mcs", "mqtt")]
+        self.links = [{"name": name, "up": True, "reason": None, "since": format_time(get_now()), "broker": broker}
+                      for name, broker in (("mcs", None), ("mqtt", BROKER))]
         self.not_ready = []
         self.refused = {"count": 0, "last": None}
         self.outbox = {"reports": 0, "oldest": None}
@@ -76,6 +78,9 @@ class MockAcsd:
         self.address = f"127.0.0.1:{self._server.server_address[1]}"
         self._threads = [threading.Thread(target=self._server.serve_forever, kwargs={"poll_interval": 0.1}, daemon=True),
                          threading.Thread(target=self._run, daemon=True)]
+
+    def make_links(self):
+        return [{**link, "broker": link["broker"] if link["up"] else None} for link in self.links]
 
     def __enter__(self):
         for thread in self._threads:
@@ -181,7 +186,7 @@ class MockAcsd:
         return {
             "version": "0.1.0", "startedAt": format_time(self.started_at),
             "uptimeSeconds": round((get_now() - self.started_at).total_seconds()), "ready": not reasons,
-            "notReadyReasons": reasons, "isConnected": self.links[1]["up"], "links": [dict(link) for link in self.links],
+            "notReadyReasons": reasons, "isConnected": self.links[1]["up"], "links": self.make_links(),
             "tsc": self.tsc, "tscReason": None, "outbox": dict(self.outbox), "refusedReports": dict(self.refused),
             "plans": {"active": sum(plan.robot_id is not None for plan in simulation.plans.values()),
                       "waiting": sum(plan.robot_id is None for plan in simulation.plans.values())},
@@ -210,7 +215,7 @@ class MockAcsd:
             if parts == ["alarms"]:
                 return {"alarms": simulation.alarms}
             if parts == ["links"]:
-                return {"links": self.links}
+                return {"links": self.make_links()}
             if parts == ["site"]:
                 return simulation.floor.describe()
             if parts == ["trace"]:

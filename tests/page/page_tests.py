@@ -649,6 +649,11 @@ class Header(PageCase):
         self.wait_for_text("#view-system", "Version")
         self.assertNotIn("Log out", self.get_text("#view-system"))
 
+    def test_the_system_view_names_the_connected_broker(self):
+        self.open()
+        self.click("#tab-system")
+        self.wait_for_text("#view-system", "mqtt://broker-1.example:1883")
+
     def test_placeholders_are_not_cut(self):
         for language in ("en", "ko"):
             self.open(f"?lang={language}")

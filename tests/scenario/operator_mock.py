@@ -36,8 +36,9 @@ ROBOTS = [make_robot("LR01", "Moving", planId="PLAN_1", nextNode="N2", route=[{"
 ALARMS = [{"robotId": "LR02", "errorCode": "ACS-1002", "level": "heavy", "message": "no state for 10 s",
            "since": "2026-11-27T23:09:00.000Z", "title": "Robot disconnected", "cause": "The network is down.",
            "remedy": "Check the robot.", "planId": None, "stepNo": None, "jobId": None}]
-LINKS = [{"name": "mcs", "up": True, "reason": None, "since": "2026-11-27T20:10:00.000Z"},
-         {"name": "mqtt", "up": False, "reason": "connection refused", "since": "2026-11-27T23:09:57.000Z"}]
+LINKS = [{"name": "mcs", "up": True, "reason": None, "since": "2026-11-27T20:10:00.000Z", "broker": None},
+         {"name": "mqtt", "up": False, "reason": "connection refused", "since": "2026-11-27T23:09:57.000Z",
+          "broker": None}]
 STATUS = {"version": "0.1.0", "startedAt": "2026-11-27T20:00:00.000Z", "uptimeSeconds": 11400, "ready": False,
           "notReadyReasons": ["The MQTT broker is not connected."], "isConnected": False, "links": LINKS, "tsc": "Paused",
           "tscReason": "Paused by kim.", "outbox": {"reports": 3, "oldest": "2026-11-27T23:09:50.000Z"},

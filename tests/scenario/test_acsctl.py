@@ -142,9 +142,9 @@ class Reading(AcsctlCase):
 
     def test_status_check_fails_where_attention_is_needed(self):
         self.check(5, "status", "--check")
-        self.mock.status = {**self.mock.status, "ready": True, "links": [{"name": "mcs", "up": True}], "tsc": "Auto",
-                            "alarms": {"heavy": 0, "light": 3}}
-        self.check(0, "status", "--check")
+        self.mock.status = {**self.mock.status, "ready": True, "tsc": "Auto", "alarms": {"heavy": 0, "light": 3}, "links": [
+            {"name": "mcs", "up": True}, {"name": "mqtt", "up": True, "broker": "mqtt://broker-1:1883"}]}
+        self.assertIn("up: mqtt://broker-1:1883\n", self.check(0, "status", "--check"))
 
     def test_why_follows_the_causes_and_names_remedies(self):
         output = self.check(5, "why", "PLAN_2")
@@ -219,7 +219,8 @@ class Failing(AcsctlCase):
         self.assertNotRegex(output, "[\x1b\u202e\x9b]")
         self.assertEqual(len(output.splitlines()), 2)
         evil = "X\x1b]52;c;QUFB\x07\u202e\x9b2J\x7f"
-        self.mock.status = {**self.mock.status, "links": [{"name": evil, "up": False, "reason": evil, "since": None}]}
+        self.mock.status = {**self.mock.status, "links": [
+            {"name": evil, "up": False, "reason": evil, "since": None}, {"name": "mqtt", "up": True, "broker": evil}]}
         self.mock.plans = [{**PLANS[0], "planId": "P\x9b"}, {**PLANS[0], "planId": "P\u202e"}, PLANS[0]]
         for command in (("status",), ("links",), ("status", "--json"), ("plans", "--json"), ("__complete", "plan", "")):
             self.assertNotRegex(self.run_acsctl(*command).stdout, "[\x1b\u202e\x9b\x7f]", command)

@@ -18,7 +18,8 @@ struct JsonFields<Acsctl::LinkInfo>
         Required("name", &T::name),
         Required("up", &T::bUp),
         Nullable("reason", &T::reason),
-        Nullable("since", &T::since));
+        Nullable("since", &T::since),
+        Nullable("broker", &T::broker));
 };
 
 template <>

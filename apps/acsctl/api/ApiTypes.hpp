@@ -19,6 +19,7 @@ struct LinkInfo
     bool bUp = false;
     std::optional<std::string> reason;
     std::optional<std::string> since;
+    std::optional<std::string> broker{};
 };
 
 struct OutboxInfo

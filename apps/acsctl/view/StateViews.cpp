@@ -73,6 +73,10 @@ std::string DescribeLink(const LinkInfo& link, Core::WallTime now)
     {
         text.append(": ").append(*link.reason);
     }
+    if (link.bUp && link.broker.has_value())
+    {
+        text.append(": ").append(*link.broker);
+    }
     return text;
 }
 

@@ -26,6 +26,7 @@ using Planning::ETscState;
 
 constexpr const char* READY = "acsd_ready";
 constexpr const char* LINK_UP = "acsd_link_up";
+constexpr const char* BROKER_CONNECTED = "acsd_mqtt_broker_connected";
 constexpr const char* MCS_CONNECTED = "acsd_mcs_connected";
 constexpr const char* MCS_REGISTERED = "acsd_mcs_registered";
 constexpr const char* IS_CONNECTED = "acsd_is_connected";
@@ -100,6 +101,9 @@ AcsdMetrics::AcsdMetrics(Apps::MetricsEndpoint& metrics, Core::Now now)
     _metrics.SetGauge(LEADER, {}, 1);
     _metrics.AddGauge(READY, "1 when /readyz answers 200");
     _metrics.AddGauge(LINK_UP, "1 when the link is up: mcs registered, mqtt subscribed");
+    _metrics.AddGauge(
+        BROKER_CONNECTED,
+        "1 for the MQTT broker that acsd is connected to, 0 for the others of mqtt.urls");
     _metrics.AddGauge(MCS_CONNECTED, "1 when the WebSocket to the MCS is open");
     _metrics.AddGauge(MCS_REGISTERED, "1 when the MCS has accepted the registration");
     _metrics.AddGauge(IS_CONNECTED, "isConnected as it was reported to the MCS last: 1 when acsd can work");
@@ -172,6 +176,15 @@ void AcsdMetrics::UpdateReady(const std::vector<LinkStatus>& links, bool bWorks)
     }
     const bool bUp = std::ranges::all_of(links, &LinkStatus::bUp);
     _metrics.SetGauge(READY, {}, bUp && bWorks ? 1.0 : 0.0);
+}
+
+void AcsdMetrics::UpdateBrokers(const std::vector<Apps::Url>& urls, const std::string& connected)
+{
+    for (const Apps::Url& url : urls)
+    {
+        const std::string broker = MakeText(url);
+        _metrics.SetGauge(BROKER_CONNECTED, {{"broker", broker}}, broker == connected ? 1.0 : 0.0);
+    }
 }
 
 void AcsdMetrics::UpdateMCS(const McsLink& mcs, const RefusedReports& refused, bool bWorking)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "common/config/Url.hpp"
 #include "common/http/MetricsEndpoint.hpp"
 #include "mcs/McsLink.hpp"
 #include "mcs/RefusedReports.hpp"
@@ -42,6 +43,8 @@ public:
     void UpdateProcess();
     /// bWorks: no other reason than a link keeps acsd from being ready.
     void UpdateReady(const std::vector<LinkStatus>& links, bool bWorks);
+    /// The broker in use is one of the URLs; empty: none is connected.
+    void UpdateBrokers(const std::vector<Apps::Url>& urls, const std::string& connected);
     /// bWorking: the value of isConnected that was published last.
     void UpdateMCS(const McsLink& mcs, const RefusedReports& refused, bool bWorking);
     void UpdatePlans(const Planning::PlanEngine& engine, bool bStoreFailing, Core::Now now);

@@ -66,6 +66,7 @@ export class SystemView {
         for (const link of status.links) {
             rows.push(make("dt", {text: nameState("link", link.name)}), make("dd", {},
                 makeState(link.up, t(link.up ? "link.up" : "link.down")), " ", makeSince(link.since),
+                link.broker ? make("span", {class: "muted", text: ` ${link.broker}`}) : null,
                 link.reason ? make("p", {class: "reason", text: link.reason}) : null,
                 link.up ? null : makeExplanation("", describeLinkRemedy(link))));
         }

@@ -17,6 +17,7 @@ struct LinkStatus
     std::string name; ///< "mcs", "mqtt"
     bool bUp = false;
     std::string notReadyReason{}; ///< Why it is not up, as a line of /readyz; empty: there is no connection.
+    std::string broker{};         ///< URL of the connected broker, without credentials; empty: none.
 
     bool operator==(const LinkStatus&) const = default;
 };

@@ -165,7 +165,11 @@ StatusView StateViewMaker::MakeStatus(const ProgramState& program, Core::WallTim
         auto& [bUp, since] = _links.try_emplace(link.name, link.bUp, now).first->second;
         since = std::exchange(bUp, link.bUp) == link.bUp ? since : now;
         status.links.push_back(
-            {link.name, link.bUp, link.bUp ? std::nullopt : std::optional(DescribeDown(link)), since});
+            {link.name,
+             link.bUp,
+             link.bUp ? std::nullopt : std::optional(DescribeDown(link)),
+             since,
+             TextOrNull(link.broker)});
     }
     status.tsc = GetText(_engine.GetTscState());
     status.tscReason = TextOrNull(_engine.GetHoldReason());

@@ -16,8 +16,9 @@ struct LinkView
 {
     std::string name; ///< "mcs", "mqtt"
     bool bUp = false;
-    std::optional<std::string> reason; ///< Why it is not up.
-    Core::WallTime since;              ///< Of this state; at the earliest the start of acsd.
+    std::optional<std::string> reason;   ///< Why it is not up.
+    Core::WallTime since;                ///< Of this state; at the earliest the start of acsd.
+    std::optional<std::string> broker{}; ///< URL of the connected broker.
 
     bool operator==(const LinkView&) const = default;
 };

@@ -181,7 +181,8 @@ struct JsonFields<Acsd::LinkView>
         Required("name", &Acsd::LinkView::name),
         Required("up", &Acsd::LinkView::bUp),
         Nullable("reason", &Acsd::LinkView::reason),
-        Required("since", &Acsd::LinkView::since));
+        Required("since", &Acsd::LinkView::since),
+        Nullable("broker", &Acsd::LinkView::broker));
 };
 
 template <>

@@ -95,6 +95,7 @@ TEST_CASE("The status has links with reason and time, counts, and isConnected as
     CHECK(HasText(status, R"("uptimeSeconds":90)"));
 
     reader.program.links[1].bUp = true;
+    reader.program.links[1].broker = "mqtt://broker:1883";
     reader.program.bConnected = true;
     reader.program.refusedReports.count = 3;
     reader.program.refusedReports.command = "JobReport";
@@ -104,7 +105,8 @@ TEST_CASE("The status has links with reason and time, counts, and isConnected as
     CHECK(HasText(status, R"("ready":true,"notReadyReasons":[],"isConnected":true)"));
     CHECK(HasText(
         status,
-        R"({"name":"mqtt","up":true,"reason":null,"since":)" + MakeTime(std::chrono::seconds(3'700)) + "}"));
+        R"({"name":"mqtt","up":true,"reason":null,"since":)" + MakeTime(std::chrono::seconds(3'700))
+            + R"(,"broker":"mqtt://broker:1883"})"));
     CHECK(HasText(
         status,
         R"("refusedReports":{"count":3,"last":{"command":"JobReport","planId":null,"message":"unknown job"}})"));
