@@ -227,7 +227,8 @@ class Line:
     def start_acsd(self, mcs_address, arm_addresses, *overrides, config=None, arguments=(), **options):
         settings = {
             "mcs.url": f"ws://{mcs_address}/acs/",
-            "mqtt.url": f"mqtt://127.0.0.1:{self.broker_port}",
+            **({} if any(part.startswith("mqtt.urls=") for part in overrides) else
+               {"mqtt.url": f"mqtt://127.0.0.1:{self.broker_port}"}),
             "store.directory": str(self.folder / "store"),
             "http.listen": "127.0.0.1:0",
             "operator.listen": "127.0.0.1:0",

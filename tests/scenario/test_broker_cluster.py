@@ -1,0 +1,225 @@
+#!/usr/bin/env python3
+"""acsd and vehicles on a cluster of three nodes of nats-server: nodes are killed while plans run, and no plan fails and no job is
+done twice. With --long all tests, without it a sample."""
+
+import argparse
+import collections
+import json
+import shutil
+import sys
+import time
+import unittest
+import urllib.request
+
+from nats_cluster import NatsCluster
+from scenario_case import PLANS, TIME_SCALE, ScenarioCase
+from scenario_case import main as run_tests
+from test_kill import Trace, make_expected
+
+VEHICLES = {"LR01": "LR01,type=LR,node=D-CHG01", "CR01": "CR01,type=CR,node=D-CHG02"}
+VEHICLE_NODES = {"LR01": 1, "CR01": 2}  # acsd begins with node 0
+REPEATS = 2
+UP_SECONDS = 120
+PLANS_SECONDS = 240
+REQUESTS = ("factsheetRequest", "stateRequest")
+SETTINGS = argparse.Namespace(long=False)
+
+
+class BrokerCluster(ScenarioCase):
+    def setUp(self):
+        super().setUp()
+        self.killed_at = None
+
+    def start_cluster(self, users=()):
+        self.cluster = NatsCluster(self.line, users)
+        self.cluster.start()
+        self.cluster.create_streams()
+
+    def write_config(self):
+        """The configuration of the site without mqtt.url, in the place of which each test has mqtt.urls."""
+        folder = self.line.folder / "site"
+        shutil.copytree(self.line.site_dir, folder)
+        config = folder / "acsd.toml"
+        lines = config.read_text(encoding="utf-8").splitlines()
+        lines.remove(next(line for line in lines if line.startswith('url = "mqtt://')))
+        config.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        return config
+
+    def start_line(self, urls=None, qos=1, vehicle_options=(), overrides=()):
+        """Each vehicle is a process of its own; all simulators share the floor."""
+        self.line.share_world()
+        arm = self.line.start_arm(TIME_SCALE).wait_ready()
+        self.vehicles = {name: self.line.start(
+            f"vda-sim-{name}", *[part for url in self.cluster.list_from(VEHICLE_NODES[name]) for part in ("--broker", url)],
+            "--max-qos", qos, "--no-control", "--site", self.line.site_dir / "site.lif.json", "--time-scale", TIME_SCALE,
+            "--vehicle", spec, "--world", self.line.world, *vehicle_options, binary=self.line.bin_dir / "vda-sim")
+            for name, spec in VEHICLES.items()}
+        for vehicle in self.vehicles.values():
+            vehicle.wait_ready(UP_SECONDS)
+        trace_file = self.line.folder / "mcs.ndjson"
+        self.trace = Trace(trace_file)
+        self.mcs = self.line.start_mcs(PLANS, "--repeat", REPEATS, "--trace", trace_file)
+        self.acsd = self.line.start_acsd(
+            self.mcs.wait_ready()["ws"], arm, f"mqtt.urls={json.dumps(urls or self.cluster.urls)}", f"mqtt.max_qos={qos}",
+            *overrides, config=self.write_config(), arguments=("--trace", self.line.folder / "trace"))
+        self.operator = self.acsd.wait_ready()["operator"]
+
+    def read_broker(self):
+        """The URL of the broker that acsd is connected to, or None."""
+        with urllib.request.urlopen(f"http://{self.operator}/v1/links", timeout=UP_SECONDS) as response:
+            links = {link["name"]: link for link in json.load(response)["links"]}
+        self.assertEqual(links["mqtt"]["up"], links["mqtt"]["broker"] is not None)
+        return links["mqtt"]["broker"]
+
+    def wait_for_jobs(self, count):
+        """Until each robot has begun this number of jobs."""
+        def has_begun():
+            self.trace.update()
+            begun = collections.Counter(self.get_robot(plan) for plan_id, plan in self.trace.plans.items()
+                                        for report in self.trace.get_reports(plan_id) if report[-1] == "Instructed")
+            return all(begun[robot] >= count for robot in VEHICLES)
+        self.wait_until(has_begun, f"each robot begins {count} jobs", UP_SECONDS)
+
+    @staticmethod
+    def get_robot(plan):
+        return "LR01" if plan["steps"][0]["action"].startswith("Cassette") else "CR01"
+
+    def kill(self, *nodes):
+        self.killed_at = time.time()
+        self.cluster.kill(*nodes)
+
+    def wait_for_another_broker(self, former):
+        self.wait_until(lambda: self.read_broker() not in (None, former), "acsd connects to another node", UP_SECONDS)
+        return self.read_broker()
+
+    def list_demanded_moves(self, robot):
+        moves = []
+        for plan in self.trace.plans.values():
+            for step in plan["steps"] if self.get_robot(plan) == robot else ():
+                carriers = step["carrierIds"] or [None] * len(step["jobs"])
+                moves += [(carrier, job["from"].replace("AMR.", f"{robot}."), job["to"].replace("AMR.", f"{robot}."))
+                          for carrier, job in zip(carriers, step["jobs"])]
+        return moves
+
+    def read_moves(self, robot):
+        lines = (self.line.folder / "world.json.journal").read_text(encoding="utf-8").splitlines()
+        return [(event.get("carrier"), event["from"], event["to"]) for event in map(json.loads, lines)
+                if event["event"] in ("CarrierMoved", "MemoryMoved") and event["robot"] == robot]
+
+    def judge(self):
+        """All plans are completed, each report came once, and each job moved its carrier once."""
+        count = REPEATS * len(PLANS)
+        self.assertEqual(self.mcs.wait(PLANS_SECONDS), 0)
+        self.assert_last_line(self.mcs, f"{count} plans completed, 0 failed")
+        self.trace.update()
+        self.assertEqual(self.trace.faults, [])
+        self.assertEqual(len(self.trace.plans), count)
+        for plan_id, plan in self.trace.plans.items():
+            self.assertEqual(self.trace.get_reports(plan_id), make_expected(plan), plan_id)
+        for robot in VEHICLES:
+            self.assertEqual(self.read_moves(robot), self.list_demanded_moves(robot), "each job is done once")
+
+    def read_requests(self):
+        """The instant actions that acsd has sent to each robot since the last kill."""
+        sent = {name: set() for name in VEHICLES}
+        for path in sorted((self.line.folder / "trace").iterdir()):
+            for line in path.read_text(encoding="utf-8").splitlines():
+                entry = json.loads(line)
+                if entry.get("link") == "mqtt" and entry["direction"] == "out" and entry["topic"].endswith("/instantActions") \
+                        and self.is_later(entry["time"]):
+                    sent[entry["robot"]] |= {action["actionType"] for action in json.loads(entry["text"]).get("actions", ())}
+        return sent
+
+    def is_later(self, text):
+        since = time.strftime("%Y-%m-%dT%H:%M:%S", time.gmtime(self.killed_at))
+        return text > since
+
+    def wait_for_requests(self):
+        self.wait_until(lambda: all(sent.issuperset(REQUESTS) for sent in self.read_requests().values()),
+                        "acsd requests state and factsheet of each vehicle", UP_SECONDS)
+
+    def run_with_kill_of_acsds_node(self, qos):
+        self.start_cluster()
+        self.start_line(qos=qos)
+        self.wait_for_jobs(1)
+        first = self.read_broker()
+        self.assertEqual(first, self.cluster.urls[0])
+        self.kill(self.cluster.find(first))
+        second = self.wait_for_another_broker(first)
+        self.wait_for_requests()
+        self.assertIn(f"lost the MQTT broker at {first.removeprefix('mqtt://')}", self.acsd.log.read_text())
+        self.assertIn(f"trying {self.cluster.urls[1].removeprefix('mqtt://')} next", self.acsd.log.read_text())
+        self.assertIn(f'acsd_mqtt_broker_connected{{broker="{second}"}} 1\n', self.read_metrics())
+        self.assertIn(f'acsd_mqtt_broker_connected{{broker="{first}"}} 0\n', self.read_metrics())
+        self.judge()
+
+    def read_metrics(self):
+        with urllib.request.urlopen(f"http://{self.acsd.addresses['http']}/metrics", timeout=UP_SECONDS) as response:
+            return response.read().decode()
+
+    def test_the_node_of_acsd_is_killed(self):
+        self.run_with_kill_of_acsds_node(qos=0)
+
+    def test_the_node_of_acsd_is_killed_at_qos_1(self):
+        self.skip_unless_long()
+        self.run_with_kill_of_acsds_node(qos=1)
+
+    def test_the_nodes_of_the_vehicles_are_killed(self):
+        """One after the other; each comes back before the next one is killed, since two of three are needed."""
+        self.skip_unless_long()
+        self.start_cluster()
+        self.start_line()
+        for jobs, (name, node) in enumerate(VEHICLE_NODES.items(), 1):
+            self.wait_for_jobs(jobs)
+            self.kill(node)
+            log, address = self.vehicles[name].log, self.cluster.urls[node].removeprefix("mqtt://")
+            self.wait_until(lambda: f"lost the MQTT broker at {address}" in log.read_text()
+                            and "connected to the MQTT broker" in log.read_text().split("lost the MQTT broker")[-1],
+                            f"{name} connects to another node", UP_SECONDS)
+            self.cluster.start(node)
+        self.assertEqual(self.read_broker(), self.cluster.urls[0])
+        self.judge()
+
+    def test_all_nodes_are_killed_and_started_again(self):
+        self.skip_unless_long()
+        self.start_cluster()
+        self.start_line()
+        self.wait_for_jobs(1)
+        self.kill()
+        self.wait_until(lambda: self.read_broker() is None, "acsd reports the lost broker", UP_SECONDS)
+        self.cluster.start()
+        self.wait_until(self.read_broker, "acsd is connected again", UP_SECONDS)
+        self.judge()
+
+    def test_nodes_that_cannot_be_used_are_reported_and_the_next_one_is_used(self):
+        """The host of the first URL has no address, and the node of the second has another password."""
+        self.skip_unless_long()
+        accounts = [("acs", "other"), ("acs", "secret"), ("acs", "secret")]
+        self.start_cluster(accounts)
+        password = self.line.folder / "password"
+        password.touch(mode=0o600)
+        password.write_text("secret\n", encoding="utf-8")
+        self.start_line(urls=["mqtt://no-such-host.invalid:1883", *self.cluster.urls],
+                        vehicle_options=("--user", "acs", "--password-file", password),
+                        overrides=("mqtt.username=acs", f"mqtt.password_file={password}"))
+        self.judge()
+        self.assertEqual(self.read_broker(), self.cluster.urls[1])
+        log = self.acsd.log.read_text()
+        self.assertIn("cannot reach the MQTT broker at no-such-host.invalid:1883", log)
+        self.assertIn("check the name of its host", log)
+        self.assertIn(f"cannot reach the MQTT broker at {self.cluster.urls[0].removeprefix('mqtt://')}", log)
+        self.assertIn("check user name, password and client id", log)
+        self.assertNotIn("secret", log)
+
+    @staticmethod
+    def skip_unless_long():
+        if not SETTINGS.long:
+            raise unittest.SkipTest("with --long")
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(add_help=False)
+    parser.add_argument("--long", action="store_true")
+    SETTINGS, rest = parser.parse_known_args()
+    sys.argv[1:] = rest
+    run_tests()
