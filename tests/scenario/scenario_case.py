@@ -4,6 +4,7 @@ import argparse
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import time
@@ -53,6 +54,16 @@ class ScenarioCase(unittest.TestCase):
         with open(tokens, "a", encoding="ascii") as file:
             file.write(result.stdout)
         return result.stderr.split()[-1]
+
+    def write_cluster_config(self):
+        """A copy of the site's configuration without mqtt.url, for tests that set mqtt.urls."""
+        folder = self.line.folder / "site"
+        shutil.copytree(self.line.site_dir, folder)
+        config = folder / "acsd.toml"
+        lines = config.read_text(encoding="utf-8").splitlines()
+        lines.remove(next(line for line in lines if line.startswith('url = "mqtt://')))
+        config.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        return config
 
     def read_status(self, address):
         return operator_api.read_state(address, STATUS_SECONDS)

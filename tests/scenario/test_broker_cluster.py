@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
 """acsd and vehicles on a cluster of three nodes of nats-server: nodes are killed while plans run, and no plan fails and no job is
-done twice. With --long all tests, without it a sample."""
+done twice. With --long all tests, without it a sample.
+
+--seed N  seed of the kills at random moments; printed on failure
+"""
 
 import argparse
 import collections
 import json
-import shutil
+import random
 import sys
 import time
 import unittest
@@ -22,7 +25,9 @@ REPEATS = 2
 UP_SECONDS = 120
 PLANS_SECONDS = 240
 REQUESTS = ("factsheetRequest", "stateRequest")
-SETTINGS = argparse.Namespace(long=False)
+RANDOM_KILLS = 6
+RANDOM_REPEATS = 12  # about two plans for each kill
+SETTINGS = argparse.Namespace(long=False, seed=1)
 
 
 class BrokerCluster(ScenarioCase):
@@ -35,17 +40,7 @@ class BrokerCluster(ScenarioCase):
         self.cluster.start()
         self.cluster.create_streams()
 
-    def write_config(self):
-        """The configuration of the site without mqtt.url, in the place of which each test has mqtt.urls."""
-        folder = self.line.folder / "site"
-        shutil.copytree(self.line.site_dir, folder)
-        config = folder / "acsd.toml"
-        lines = config.read_text(encoding="utf-8").splitlines()
-        lines.remove(next(line for line in lines if line.startswith('url = "mqtt://')))
-        config.write_text("\n".join(lines) + "\n", encoding="utf-8")
-        return config
-
-    def start_line(self, urls=None, qos=1, vehicle_options=(), overrides=()):
+    def start_line(self, urls=None, qos=1, vehicle_options=(), overrides=(), repeats=REPEATS):
         """Each vehicle is a process of its own; all simulators share the floor."""
         self.line.share_world()
         arm = self.line.start_arm(TIME_SCALE).wait_ready()
@@ -58,10 +53,11 @@ class BrokerCluster(ScenarioCase):
             vehicle.wait_ready(UP_SECONDS)
         trace_file = self.line.folder / "mcs.ndjson"
         self.trace = Trace(trace_file)
-        self.mcs = self.line.start_mcs(PLANS, "--repeat", REPEATS, "--trace", trace_file)
+        self.plan_count = repeats * len(PLANS)
+        self.mcs = self.line.start_mcs(PLANS, "--repeat", repeats, "--trace", trace_file)
         self.acsd = self.line.start_acsd(
             self.mcs.wait_ready()["ws"], arm, f"mqtt.urls={json.dumps(urls or self.cluster.urls)}", f"mqtt.max_qos={qos}",
-            *overrides, config=self.write_config(), arguments=("--trace", self.line.folder / "trace"))
+            *overrides, config=self.write_cluster_config(), arguments=("--trace", self.line.folder / "trace"))
         self.operator = self.acsd.wait_ready()["operator"]
 
     def read_broker(self):
@@ -108,12 +104,11 @@ class BrokerCluster(ScenarioCase):
 
     def judge(self):
         """All plans are completed, each report came once, and each job moved its carrier once."""
-        count = REPEATS * len(PLANS)
         self.assertEqual(self.mcs.wait(PLANS_SECONDS), 0)
-        self.assert_last_line(self.mcs, f"{count} plans completed, 0 failed")
+        self.assert_last_line(self.mcs, f"{self.plan_count} plans completed, 0 failed")
         self.trace.update()
         self.assertEqual(self.trace.faults, [])
-        self.assertEqual(len(self.trace.plans), count)
+        self.assertEqual(len(self.trace.plans), self.plan_count)
         for plan_id, plan in self.trace.plans.items():
             self.assertEqual(self.trace.get_reports(plan_id), make_expected(plan), plan_id)
         for robot in VEHICLES:
@@ -191,6 +186,23 @@ class BrokerCluster(ScenarioCase):
         self.wait_until(self.read_broker, "acsd is connected again", UP_SECONDS)
         self.judge()
 
+    def test_nodes_are_killed_at_random_moments(self):
+        self.skip_unless_long()
+        choices = random.Random(SETTINGS.seed)
+        self.start_cluster()
+        self.start_line(qos=0, repeats=RANDOM_REPEATS)
+        self.wait_for_jobs(1)
+        kills = 0
+        while self.mcs.is_running() and kills < RANDOM_KILLS:
+            time.sleep(choices.uniform(0.0, 3.0))  # the moment is the subject of the test
+            node = choices.randrange(len(self.cluster.urls))
+            self.kill(node)
+            self.cluster.start(node)
+            self.wait_until(self.read_broker, f"acsd is connected again, --seed {SETTINGS.seed}", UP_SECONDS)
+            kills += 1
+        self.assertGreater(kills, RANDOM_KILLS // 2, "too few plans")
+        self.judge()
+
     def test_nodes_that_cannot_be_used_are_reported_and_the_next_one_is_used(self):
         """The host of the first URL has no address, and the node of the second has another password."""
         self.skip_unless_long()
@@ -220,6 +232,7 @@ class BrokerCluster(ScenarioCase):
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(add_help=False)
     parser.add_argument("--long", action="store_true")
+    parser.add_argument("--seed", type=int, default=SETTINGS.seed)
     SETTINGS, rest = parser.parse_known_args()
     sys.argv[1:] = rest
     run_tests()

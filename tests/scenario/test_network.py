@@ -3,6 +3,7 @@
 
 import contextlib
 import datetime
+import json
 import os
 import signal
 import socket
@@ -218,6 +219,31 @@ class Network(ScenarioCase):
         self.line.forget(self.line.broker)
         self.wait_for_status(address, lambda status: not status["links"]["mqtt"])
         self.assert_lively(acsd)
+        acsd.send_signal(signal.SIGTERM)
+        self.assertEqual(acsd.wait(STOP_SECONDS), 0)
+
+    def test_a_silent_name_server_of_one_broker_does_not_delay_the_next_broker(self):
+        library = self.line.bin_dir / "libscenario_held_resolver.so"
+        if not library.exists():
+            self.skipTest("not built with sanitizers")
+        gate = self.line.folder / "resolver"
+        os.mkfifo(gate)
+        stub = self.start_stub()
+        arm = self.start_robots()
+        port = self.line.broker_port
+        urls = [f"mqtt://broker.test:{port}", f"mqtt://127.0.0.1:{port}"]
+        environment = os.environ | {"LD_PRELOAD": str(library), "ACS_HELD_RESOLVER": str(gate)}
+        acsd = self.line.start_acsd(stub.address, arm, f"mqtt.urls={json.dumps(urls)}", config=self.write_cluster_config(),
+                                    environment=environment)
+        address = acsd.wait_ready()["operator"]
+        for _ in range(2):
+            self.wait_for_status(address, lambda status: status["links"]["mqtt"])
+            self.line.broker.stop()
+            self.line.forget(self.line.broker)
+            self.wait_for_status(address, lambda status: not status["links"]["mqtt"])
+            self.line.start_broker(port)  # the first attempt still hangs
+        self.wait_for_status(address, lambda status: status["links"]["mqtt"])
+        self.assertIn(f"trying 127.0.0.1:{port} next", acsd.log.read_text())
         acsd.send_signal(signal.SIGTERM)
         self.assertEqual(acsd.wait(STOP_SECONDS), 0)
 
