@@ -114,7 +114,7 @@ class KillCase(ScenarioCase):
 
     def tearDown(self):
         super().tearDown()
-        if any(error for _, error in getattr(self._outcome, "errors", [])) or not self._outcome.success:
+        if self.has_failed():
             print(f"--seed {SETTINGS.seed} --kills {SETTINGS.kills}", file=sys.stderr)
 
     def make_proxy(self, port):

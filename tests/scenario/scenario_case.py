@@ -33,9 +33,14 @@ class ScenarioCase(unittest.TestCase):
         self.addCleanup(self.line.stop)
 
     def tearDown(self):
-        if any(error for _, error in getattr(self._outcome, "errors", [])) or not self._outcome.success:
+        if self.has_failed():
             for program in self.line.programs:
                 print(f"--- {program.name} ---", *program.tail(40), sep="\n", file=sys.stderr)
+
+    def has_failed(self):
+        """For tearDown: whether the test has a failure or an error, also in a subtest."""
+        result = self._outcome.result
+        return any(self in (test, getattr(test, "test_case", None)) for test, _ in [*result.failures, *result.errors])
 
     def start_robots(self, make_vehicle_port=lambda broker_port: broker_port, **arm_options):
         self.line.start_broker()

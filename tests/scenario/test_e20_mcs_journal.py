@@ -33,7 +33,7 @@ class McsJournal(JournalCase):
 
     def tearDown(self):
         super().tearDown()
-        if any(error for _, error in getattr(self._outcome, "errors", [])) or not self._outcome.success:
+        if self.has_failed():
             print(f"--seed {SETTINGS.seed} --kills {SETTINGS.kills}", file=sys.stderr)
 
     def test_the_mcs_is_killed_between_its_journal_and_its_ack(self):
