@@ -1,19 +1,19 @@
 """Three nodes of nats-server as an MQTT broker cluster with JetStream, each on free ports and in its own folder."""
 
-import json
 import os
 import shutil
 import signal
 import subprocess
 import time
+import urllib.error
 import urllib.request
 
 import scenario_case  # noqa: F401  it makes the next module known
 from production_line import READY_SECONDS, LineError, find_free_port
 
 NODES = 3
-QOS = 1  # nats-server 2.9 has no QoS 2
 PROBE_SECONDS = 10
+USABLE_SECONDS = 90
 
 
 class NatsCluster:
@@ -45,7 +45,7 @@ class NatsCluster:
         (self._line.folder / f"node{index}.conf").write_text("\n".join(lines) + "\n")
 
     def start(self, *indices):
-        """Starts these nodes, all without indices, and waits until each of them is current."""
+        """Starts these nodes, all without indices, and waits until each of them stores messages in the cluster."""
         chosen = indices or range(NODES)
         for index in chosen:
             self._starts[index] += 1
@@ -53,34 +53,41 @@ class NatsCluster:
                                                   self._line.folder / f"node{index}.conf", binary=self._binary)
         for index in chosen:
             self._wait_until_healthy(index)
+        for index in chosen:
+            self._wait_until_usable(index)
 
     def _wait_until_healthy(self, index):
-        node = self._nodes[index]
+        """Of the server only: a consumer of nats-server 2.9.10 may be "not current" for long after a restart."""
+        node, reason = self._nodes[index], "it has ended"
         deadline = time.monotonic() + READY_SECONDS
         while node.is_running() and time.monotonic() < deadline:
             try:
-                with urllib.request.urlopen(f"http://127.0.0.1:{self._http[index]}/healthz", timeout=1) as response:
-                    if json.load(response)["status"] == "ok":
-                        return
-            except OSError:
-                pass
+                with urllib.request.urlopen(f"http://127.0.0.1:{self._http[index]}/healthz?js-server-only=true", timeout=1):
+                    return
+            except urllib.error.HTTPError as error:
+                with error:
+                    reason = error.read().decode()
+            except OSError as error:
+                reason = str(error)
             time.sleep(0.1)
-        raise LineError(f"nats-server {index} does not start", node)
+        raise LineError(f"nats-server {index} does not start: {reason}", node)
 
-    def create_streams(self):
-        """The first MQTT client of a cluster waits until its streams exist; the test is not about that."""
+    def _wait_until_usable(self, index):
+        """The first MQTT client of a cluster waits until its streams exist; the tests are not about that."""
         binary = shutil.which("mosquitto_pub")
         if binary is None:
             raise LineError("mosquitto_pub is missing; run scripts/setup")
-        login = ("-u", self._users[0][0], "-P", self._users[0][1]) if self._users else ()
-        deadline = time.monotonic() + READY_SECONDS
+        login = ("-u", self._users[index][0], "-P", self._users[index][1]) if self._users else ()
+        command = [binary, "-h", "127.0.0.1", "-p", str(self.ports[index]), "-q", "1", "-t", "start", "-m", "x", *login]
+        deadline = time.monotonic() + USABLE_SECONDS
         while time.monotonic() < deadline:
-            run = subprocess.run([binary, "-h", "127.0.0.1", "-p", str(self.ports[0]), "-q", "1", "-t", "start", "-m", "x", *login],
-                                 capture_output=True, timeout=PROBE_SECONDS, check=False)
-            if run.returncode == 0:
-                return
+            try:
+                if subprocess.run(command, capture_output=True, timeout=PROBE_SECONDS, check=False).returncode == 0:
+                    return
+            except subprocess.TimeoutExpired:
+                pass
             time.sleep(0.2)
-        raise LineError("the cluster of nats-server accepts no message", self._nodes[0])
+        raise LineError(f"nats-server {index} accepts no message", self._nodes[index])
 
     def kill(self, *indices):
         """SIGKILL: clients get no message, nothing is stored."""

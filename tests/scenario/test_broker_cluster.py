@@ -7,6 +7,7 @@ done twice. With --long all tests, without it a sample.
 
 import argparse
 import collections
+import datetime
 import json
 import random
 import sys
@@ -38,7 +39,6 @@ class BrokerCluster(ScenarioCase):
     def start_cluster(self, users=()):
         self.cluster = NatsCluster(self.line, users)
         self.cluster.start()
-        self.cluster.create_streams()
 
     def start_line(self, urls=None, qos=1, vehicle_options=(), overrides=(), repeats=REPEATS):
         """Each vehicle is a process of its own; all simulators share the floor."""
@@ -84,10 +84,6 @@ class BrokerCluster(ScenarioCase):
         self.killed_at = time.time()
         self.cluster.kill(*nodes)
 
-    def wait_for_another_broker(self, former):
-        self.wait_until(lambda: self.read_broker() not in (None, former), "acsd connects to another node", UP_SECONDS)
-        return self.read_broker()
-
     def list_demanded_moves(self, robot):
         moves = []
         for plan in self.trace.plans.values():
@@ -118,16 +114,15 @@ class BrokerCluster(ScenarioCase):
         """The instant actions that acsd has sent to each robot since the last kill."""
         sent = {name: set() for name in VEHICLES}
         for path in sorted((self.line.folder / "trace").iterdir()):
-            for line in path.read_text(encoding="utf-8").splitlines():
-                entry = json.loads(line)
+            *lines, _ = path.read_text(encoding="utf-8").split("\n")  # without one that is being written
+            for entry in map(json.loads, lines):
                 if entry.get("link") == "mqtt" and entry["direction"] == "out" and entry["topic"].endswith("/instantActions") \
                         and self.is_later(entry["time"]):
                     sent[entry["robot"]] |= {action["actionType"] for action in json.loads(entry["text"]).get("actions", ())}
         return sent
 
     def is_later(self, text):
-        since = time.strftime("%Y-%m-%dT%H:%M:%S", time.gmtime(self.killed_at))
-        return text > since
+        return datetime.datetime.fromisoformat(text).timestamp() > self.killed_at
 
     def wait_for_requests(self):
         self.wait_until(lambda: all(sent.issuperset(REQUESTS) for sent in self.read_requests().values()),
@@ -137,14 +132,15 @@ class BrokerCluster(ScenarioCase):
         self.start_cluster()
         self.start_line(qos=qos)
         self.wait_for_jobs(1)
+        self.wait_until(self.read_broker, "acsd is connected", UP_SECONDS)
         first = self.read_broker()
-        self.assertEqual(first, self.cluster.urls[0])
         self.kill(self.cluster.find(first))
-        second = self.wait_for_another_broker(first)
+        self.wait_until(lambda: self.read_broker() not in (None, first), "acsd connects to another node", UP_SECONDS)
         self.wait_for_requests()
-        self.assertIn(f"lost the MQTT broker at {first.removeprefix('mqtt://')}", self.acsd.log.read_text())
-        self.assertIn(f"trying {self.cluster.urls[1].removeprefix('mqtt://')} next", self.acsd.log.read_text())
-        self.assertIn(f'acsd_mqtt_broker_connected{{broker="{second}"}} 1\n', self.read_metrics())
+        left, following = (url.removeprefix("mqtt://") for url in self.cluster.list_from(self.cluster.find(first))[:2])
+        self.assertRegex(self.acsd.log.read_text(), f"lost the MQTT broker at {left} .*; trying {following} next\n")
+        self.wait_until(lambda: f'acsd_mqtt_broker_connected{{broker="{self.read_broker()}"}} 1\n' in self.read_metrics(),
+                        "the metrics name the connected broker", UP_SECONDS)
         self.assertIn(f'acsd_mqtt_broker_connected{{broker="{first}"}} 0\n', self.read_metrics())
         self.judge()
 
@@ -160,7 +156,8 @@ class BrokerCluster(ScenarioCase):
         self.run_with_kill_of_acsds_node(qos=1)
 
     def test_the_nodes_of_the_vehicles_are_killed(self):
-        """One after the other; each comes back before the next one is killed, since two of three are needed."""
+        """One after the other; each comes back before the next one is killed, since two of three are needed. acsd may lose its
+        connection too: nats-server closes it if the cluster does not store a message of QoS 1 in 4 s."""
         self.skip_unless_long()
         self.start_cluster()
         self.start_line()
@@ -172,7 +169,6 @@ class BrokerCluster(ScenarioCase):
                             and "connected to the MQTT broker" in log.read_text().split("lost the MQTT broker")[-1],
                             f"{name} connects to another node", UP_SECONDS)
             self.cluster.start(node)
-        self.assertEqual(self.read_broker(), self.cluster.urls[0])
         self.judge()
 
     def test_all_nodes_are_killed_and_started_again(self):
@@ -215,7 +211,7 @@ class BrokerCluster(ScenarioCase):
                         vehicle_options=("--user", "acs", "--password-file", password),
                         overrides=("mqtt.username=acs", f"mqtt.password_file={password}"))
         self.judge()
-        self.assertEqual(self.read_broker(), self.cluster.urls[1])
+        self.assertIn(f"connected to the MQTT broker broker={self.cluster.urls[1].removeprefix('mqtt://')}", self.acsd.log.read_text())
         log = self.acsd.log.read_text()
         self.assertIn("cannot reach the MQTT broker at no-such-host.invalid:1883", log)
         self.assertIn("check the name of its host", log)
