@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
+#include <cassert>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -27,7 +27,7 @@ struct Place
     double y = 0.0;
 };
 
-// The ring goes round in this order; the spurs lie under its second node and over its fifth.
+// The ring goes round in this order; the spurs lie under its lower nodes and over its upper ones.
 constexpr std::array RING{Place{0, 0}, Place{1, 0}, Place{2, 0}, Place{2, 1}, Place{1, 1}, Place{0, 1}};
 constexpr std::size_t BOTTOM_LEFT = 0;
 constexpr std::size_t SOURCE_NODE = 1;
@@ -59,6 +59,29 @@ std::string GetDock(const std::string& stationID)
     return "D-" + stationID;
 }
 
+/// The way from the ring to a station.
+struct Spur
+{
+    std::string stationID;
+    std::size_t ringNode = 0;
+};
+
+std::vector<Spur> ListSpurs(std::size_t cell, std::size_t parking)
+{
+    std::vector<Spur> spurs{{GetSource(cell), SOURCE_NODE}, {GetTarget(cell), TARGET_NODE}};
+    for (std::size_t number = 1; number <= parking; ++number)
+    {
+        spurs.push_back({GetParking(cell, number), number == 1 ? BOTTOM_RIGHT : TOP_RIGHT});
+    }
+    return spurs;
+}
+
+Place GetDockPlace(std::size_t cell, const Spur& spur)
+{
+    const Place place = GetPlace(cell, spur.ringNode);
+    return {place.x, RING[spur.ringNode].y > 0 ? place.y + SPUR_METRES : place.y - SPUR_METRES};
+}
+
 using Edge = std::pair<std::string, std::string>;
 
 void AddBothWays(const std::string& one, const std::string& other, std::vector<Edge>& edges)
@@ -67,7 +90,7 @@ void AddBothWays(const std::string& one, const std::string& other, std::vector<E
     edges.emplace_back(other, one);
 }
 
-std::vector<Edge> MakeEdges(std::size_t cells)
+std::vector<Edge> MakeEdges(std::size_t cells, std::size_t parking)
 {
     std::vector<Edge> edges;
     for (std::size_t cell = 1; cell <= cells; ++cell)
@@ -76,8 +99,10 @@ std::vector<Edge> MakeEdges(std::size_t cells)
         {
             edges.emplace_back(GetNode(cell, i), GetNode(cell, (i + 1) % RING.size()));
         }
-        AddBothWays(GetNode(cell, SOURCE_NODE), GetDock(GetSource(cell)), edges);
-        AddBothWays(GetNode(cell, TARGET_NODE), GetDock(GetTarget(cell)), edges);
+        for (const Spur& spur : ListSpurs(cell, parking))
+        {
+            AddBothWays(GetNode(cell, spur.ringNode), GetDock(spur.stationID), edges);
+        }
         const bool bHasRight = cell % CELLS_IN_A_ROW != 0 && cell < cells;
         if (bHasRight)
         {
@@ -125,7 +150,7 @@ void WriteNode(Json::JsonWriter& writer, const std::string& nodeID, Place place)
     writer.EndObject();
 }
 
-void WriteNodes(Json::JsonWriter& writer, std::size_t cells)
+void WriteNodes(Json::JsonWriter& writer, std::size_t cells, std::size_t parking)
 {
     writer.Key("nodes");
     writer.BeginArray();
@@ -135,19 +160,19 @@ void WriteNodes(Json::JsonWriter& writer, std::size_t cells)
         {
             WriteNode(writer, GetNode(cell, i), GetPlace(cell, i));
         }
-        const Place source = GetPlace(cell, SOURCE_NODE);
-        const Place target = GetPlace(cell, TARGET_NODE);
-        WriteNode(writer, GetDock(GetSource(cell)), {source.x, source.y - SPUR_METRES});
-        WriteNode(writer, GetDock(GetTarget(cell)), {target.x, target.y + SPUR_METRES});
+        for (const Spur& spur : ListSpurs(cell, parking))
+        {
+            WriteNode(writer, GetDock(spur.stationID), GetDockPlace(cell, spur));
+        }
     }
     writer.EndArray();
 }
 
-void WriteEdges(Json::JsonWriter& writer, std::size_t cells)
+void WriteEdges(Json::JsonWriter& writer, std::size_t cells, std::size_t parking)
 {
     writer.Key("edges");
     writer.BeginArray();
-    for (const Edge& edge : MakeEdges(cells))
+    for (const Edge& edge : MakeEdges(cells, parking))
     {
         writer.BeginObject();
         WriteMember(writer, "edgeId", edge.first + ">" + edge.second);
@@ -159,19 +184,19 @@ void WriteEdges(Json::JsonWriter& writer, std::size_t cells)
     writer.EndArray();
 }
 
-void WriteStations(Json::JsonWriter& writer, std::size_t cells)
+void WriteStations(Json::JsonWriter& writer, std::size_t cells, std::size_t parking)
 {
     writer.Key("stations");
     writer.BeginArray();
     for (std::size_t cell = 1; cell <= cells; ++cell)
     {
-        for (const std::string& stationID : {GetSource(cell), GetTarget(cell)})
+        for (const Spur& spur : ListSpurs(cell, parking))
         {
             writer.BeginObject();
-            WriteMember(writer, "stationId", stationID);
+            WriteMember(writer, "stationId", spur.stationID);
             writer.Key("interactionNodeIds");
             writer.BeginArray();
-            writer.WriteString(GetDock(stationID));
+            writer.WriteString(GetDock(spur.stationID));
             writer.EndArray();
             writer.EndObject();
         }
@@ -181,8 +206,9 @@ void WriteStations(Json::JsonWriter& writer, std::size_t cells)
 
 } // namespace
 
-std::string WriteLIF(std::size_t cells)
+std::string WriteLIF(std::size_t cells, std::size_t parking)
 {
+    assert(parking <= MOST_PARKING);
     std::string text;
     Json::JsonWriter writer(text);
     writer.BeginObject();
@@ -198,9 +224,9 @@ std::string WriteLIF(std::size_t cells)
     writer.BeginObject();
     WriteMember(writer, "layoutId", "cells");
     WriteMember(writer, "layoutVersion", "1");
-    WriteNodes(writer, cells);
-    WriteEdges(writer, cells);
-    WriteStations(writer, cells);
+    WriteNodes(writer, cells, parking);
+    WriteEdges(writer, cells, parking);
+    WriteStations(writer, cells, parking);
     writer.EndObject();
     writer.EndArray();
     writer.EndObject();
@@ -215,6 +241,21 @@ std::string GetSource(std::size_t cell)
 std::string GetTarget(std::size_t cell)
 {
     return fmt::format("A{:02}.CP02", cell);
+}
+
+std::string GetParking(std::size_t cell, std::size_t number)
+{
+    return fmt::format("A{:02}.PK{:02}", cell, number);
+}
+
+std::string GetParkingNode(std::size_t cell, std::size_t number)
+{
+    return GetDock(GetParking(cell, number));
+}
+
+std::size_t GetNeighbour(std::size_t cell)
+{
+    return cell % 2 == 0 ? cell - 1 : cell + 1;
 }
 
 std::string GetStartNode(std::size_t cell)

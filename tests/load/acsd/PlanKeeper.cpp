@@ -17,28 +17,7 @@ namespace ACS::Load
 namespace
 {
 
-Protocol::ExecutionPlan MakeTransport(std::size_t cell, std::uint64_t number)
-{
-    const std::string source = CellSite::GetSource(cell);
-    const std::string target = CellSite::GetTarget(cell);
-    Protocol::ExecutionPlan plan;
-    plan.planID = fmt::format("{}-{}", cell, number);
-    plan.lotID = "LOT-1";
-    plan.priority = 1;
-    plan.steps = {
-        {1,
-         "CassetteLoad",
-         source,
-         {"CASSETTE-1"},
-         {{fmt::format("c0a80101-0000-4000-8000-{:012}", 2 * number), source, "AMR.CP01"}}},
-        {2,
-         "CassetteUnload",
-         target,
-         {"CASSETTE-1"},
-         {{fmt::format("c0a80101-0000-4000-8000-{:012}", 2 * number + 1), "AMR.CP01", target}}}};
-    return plan;
-}
-
+/// 0: not a plan of this MCS.
 std::size_t GetCell(const std::string& planID)
 {
     return std::strtoul(planID.c_str(), nullptr, 10);
@@ -46,8 +25,8 @@ std::size_t GetCell(const std::string& planID)
 
 } // namespace
 
-PlanKeeper::PlanKeeper(boost::asio::io_context& context, std::size_t robots)
-    : _robots(robots)
+PlanKeeper::PlanKeeper(boost::asio::io_context& context, const KeptPlans& kept)
+    : _kept(kept)
 {
     auto server = ProtocolBeast::McsServer::Create(
         context.get_executor(),
@@ -68,14 +47,24 @@ std::uint16_t PlanKeeper::GetPort() const
     return _server->GetPort();
 }
 
+bool PlanKeeper::IsEveryoneOnline() const noexcept
+{
+    return _online.size() == _kept.robots;
+}
+
+bool PlanKeeper::IsEveryonePlaced() const noexcept
+{
+    return _placed.size() == _kept.robots;
+}
+
 bool PlanKeeper::IsEveryoneIdle() const noexcept
 {
-    return _idle.size() == _robots;
+    return _idle.size() == _kept.robots;
 }
 
 void PlanKeeper::SendFirstPlans()
 {
-    for (std::size_t cell = 1; cell <= _robots; ++cell)
+    for (std::size_t cell = 1; cell <= _kept.plans; ++cell)
     {
         SendPlan(cell);
     }
@@ -136,18 +125,12 @@ void PlanKeeper::OnRequest(const Protocol::AcsRequest& request)
     std::visit(
         Core::Overloaded{
             [this](const Protocol::RobotPositionUpdate& update) { OnPositions(update); },
-            [this](const Protocol::RobotStatusUpdate& status) {
-                ++_count.statuses;
-                if (status.robotStatus == Protocol::ERobotStatus::Idle)
-                {
-                    _idle.insert(status.robotID);
-                }
-            },
+            [this](const Protocol::RobotStatusUpdate& status) { OnStatus(status); },
             [this](const Protocol::PlanReport& report) { OnPlanReport(report); },
             [this](const Protocol::StepReport&) { ++_count.reports; },
             [this](const Protocol::JobReport&) { ++_count.reports; },
             [this](const Protocol::ErrorReport& error) {
-                if (error.bSet && IsEveryoneIdle()) // until then robots are reported as lost
+                if (error.bSet && IsEveryonePlaced()) // until then robots are reported as lost
                 {
                     CountError(error.errorCode + ": " + error.message);
                 }
@@ -155,6 +138,24 @@ void PlanKeeper::OnRequest(const Protocol::AcsRequest& request)
             [](const auto& /*of no interest*/) {
             }},
         request.payload);
+}
+
+void PlanKeeper::OnStatus(const Protocol::RobotStatusUpdate& status)
+{
+    ++_count.statuses;
+    if (status.robotStatus == Protocol::ERobotStatus::Disconnected)
+    {
+        return;
+    }
+    _online.insert(status.robotID);
+    if (status.robotStatus != Protocol::ERobotStatus::Init)
+    {
+        _placed.insert(status.robotID);
+    }
+    if (status.robotStatus == Protocol::ERobotStatus::Idle)
+    {
+        _idle.insert(status.robotID);
+    }
 }
 
 void PlanKeeper::OnPlanReport(const Protocol::PlanReport& report)
@@ -172,21 +173,47 @@ void PlanKeeper::OnPlanReport(const Protocol::PlanReport& report)
         return;
     }
     ++_count.completed;
-    SendPlan(GetCell(report.planID));
+    if (const std::size_t cell = GetCell(report.planID); cell > 0)
+    {
+        SendPlan(cell);
+    }
 }
 
 void PlanKeeper::OnPositions(const Protocol::RobotPositionUpdate& update)
 {
-    if (!IsEveryoneIdle())
+    if (!IsEveryonePlaced())
     {
         return;
     }
     ++_count.positions;
     _positions.Note(std::chrono::steady_clock::now());
-    if (update.robots.size() != _robots)
+    if (update.robots.size() != _kept.robots)
     {
-        CountError(fmt::format("a position update has {} robots, not {}", update.robots.size(), _robots));
+        CountError(fmt::format("a position update has {} robots, not {}", update.robots.size(), _kept.robots));
     }
+}
+
+Protocol::ExecutionPlan PlanKeeper::MakeTransport(std::size_t cell, std::uint64_t number) const
+{
+    const bool bToNeighbour = _kept.bToNeighbours && number / _kept.plans % 2 == 1;
+    const std::string source = CellSite::GetSource(cell);
+    const std::string target = CellSite::GetTarget(bToNeighbour ? CellSite::GetNeighbour(cell) : cell);
+    Protocol::ExecutionPlan plan;
+    plan.planID = fmt::format("{}-{}", cell, number);
+    plan.lotID = "LOT-1";
+    plan.priority = 1;
+    plan.steps = {
+        {1,
+         "CassetteLoad",
+         source,
+         {"CASSETTE-1"},
+         {{fmt::format("c0a80101-0000-4000-8000-{:012}", 2 * number), source, "AMR.CP01"}}},
+        {2,
+         "CassetteUnload",
+         target,
+         {"CASSETTE-1"},
+         {{fmt::format("c0a80101-0000-4000-8000-{:012}", 2 * number + 1), "AMR.CP01", target}}}};
+    return plan;
 }
 
 void PlanKeeper::SendPlan(std::size_t cell)

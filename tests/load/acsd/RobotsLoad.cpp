@@ -28,6 +28,7 @@ constexpr double PERIOD = 200.0; ///< ms
 constexpr double TOLERANCE = 0.02;
 constexpr double FLAT = 1.5; ///< Cost of a robot among the most, relative to that among the fewest.
 constexpr std::size_t MOST_ROBOTS = 1000;
+constexpr std::size_t LEAST_CELLS = 100; ///< Of the site.
 
 struct Options
 {
@@ -100,12 +101,13 @@ bool IsEveryBoundKept(const RobotsMetrics& metrics)
 bool WasEverythingWell(const RobotsMetrics& metrics)
 {
     const KeeperCount& count = metrics.count;
-    const bool bWell = count.errors == 0 && count.positions > 0;
+    const bool bWell = count.errors == 0 && metrics.unsent == 0 && count.positions > 0;
     if (!bWell)
     {
         fmt::print(
-            "FAILED: {} errors, {} reports, {} position updates; {}\n",
+            "FAILED: {} errors, {} messages not sent, {} reports, {} position updates; {}\n",
             count.errors,
+            metrics.unsent,
             count.reports,
             count.positions,
             count.firstError);
@@ -139,7 +141,8 @@ int Run(Options options)
     bool bKept = true;
     for (const std::size_t robots : options.robots)
     {
-        const std::optional<RobotsMetrics> metrics = MeasureRobotsOrNull(robots, std::chrono::seconds(options.seconds));
+        const RobotsSetup setup{robots, robots, std::max(robots, LEAST_CELLS), 0, 0};
+        const std::optional<RobotsMetrics> metrics = MeasureRobotsOrNull(setup, std::chrono::seconds(options.seconds));
         if (!metrics.has_value())
         {
             return INTERRUPTED;
