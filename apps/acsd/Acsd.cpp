@@ -27,6 +27,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <chrono>
 #include <cstddef>
@@ -46,6 +47,21 @@ enum class ESampleTimer : std::uint8_t
 {
     Plans
 };
+
+/// When acsd connects, it sends several requests to every vehicle at once, and every vehicle sends its messages: the limits of
+/// the connection grow with the fleet.
+VDA5050::MosquittoOptions MakeLinkOptions(
+    const AcsdConfig& config,
+    Core::IRandom& random,
+    const std::string& identity)
+{
+    constexpr std::size_t MESSAGES_OF_ROBOT = 20;
+    VDA5050::MosquittoOptions options = MakeMqttOptions(*config.mqtt, random, identity);
+    const std::size_t messages = MESSAGES_OF_ROBOT * config.robots.size();
+    options.maxUnsent = std::max(options.maxUnsent, messages);
+    options.maxEarly = std::max(options.maxEarly, messages);
+    return options;
+}
 
 } // namespace
 
@@ -141,7 +157,7 @@ public:
                 _dependencies.executor,
                 _dependencies.random,
                 _dependencies.logger.MakeFor("mqtt"),
-                MakeMqttOptions(*_config.mqtt, _dependencies.random, identity),
+                MakeLinkOptions(_config, _dependencies.random, identity),
                 _mqttRouter);
             _mqttRouter.SetLink(*_mqtt);
         }
