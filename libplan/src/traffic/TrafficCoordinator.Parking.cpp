@@ -6,7 +6,6 @@
 #include <array>
 #include <cassert>
 #include <limits>
-#include <set>
 #include <utility>
 
 // Parking positions, and blocks of the operator.
@@ -16,16 +15,15 @@ namespace ACS::Planning
 
 void TrafficCoordinator::AssignParking()
 {
-    std::set<std::size_t> taken;
+    std::vector<bool> taken(_site.GetNodes().size(), false);
     for (const Robot& robot : _fleet)
     {
-        if (robot.parking.homeNode.has_value())
+        for (const std::optional<std::size_t>& own : {robot.parking.homeNode, robot.parking.chargeNode})
         {
-            taken.insert(*robot.parking.homeNode);
-        }
-        if (robot.parking.chargeNode.has_value())
-        {
-            taken.insert(*robot.parking.chargeNode);
+            if (own.has_value())
+            {
+                taken[*own] = true;
+            }
         }
     }
     for (Robot& robot : _fleet)
@@ -33,14 +31,13 @@ void TrafficCoordinator::AssignParking()
         const RobotOptions& options = *robot.options;
         robot.parking.parkingNode =
             robot.parking.homeNode.has_value() ? robot.parking.homeNode : robot.parking.chargeNode;
-        for (const SiteStation& station : _site.GetStations())
+        if (!robot.parking.parkingNode.has_value())
         {
-            const std::optional<std::size_t> dock = _admission.FindDockOrNull(station.stationID, options.vehicleTypeID);
-            if (!robot.parking.parkingNode.has_value() && dock.has_value() && CanParkAt(options, *dock)
-                && taken.insert(*dock).second)
-            {
-                robot.parking.parkingNode = dock;
-            }
+            robot.parking.parkingNode = FindParkingOrNull(options, taken);
+        }
+        if (robot.parking.parkingNode.has_value())
+        {
+            taken[*robot.parking.parkingNode] = true;
         }
         _traffic.AddRobot(options.vehicleTypeID, robot.parking.parkingNode);
         if (options.startNodeID.has_value())
@@ -50,6 +47,23 @@ void TrafficCoordinator::AssignParking()
             static_cast<void>(bStands);
         }
     }
+}
+
+/// The first dock that is not taken and where it can park.
+std::optional<std::size_t> TrafficCoordinator::FindParkingOrNull(
+    const RobotOptions& robot,
+    const std::vector<bool>& taken) const
+{
+    for (const SiteStation& station : _site.GetStations())
+    {
+        const std::optional<std::size_t> dock = _admission.FindDockOrNull(station.stationID, robot.vehicleTypeID);
+        // A search for a route last: the docks of the robots before are many.
+        if (dock.has_value() && !taken[*dock] && CanParkAt(robot, *dock))
+        {
+            return dock;
+        }
+    }
+    return std::nullopt;
 }
 
 bool TrafficCoordinator::CanParkAt(const RobotOptions& robot, std::size_t dock) const

@@ -122,6 +122,9 @@ private:
     /// Sends a robot that waits for a block on a lane to its parking position.
     [[nodiscard]] bool TryLeaveLane(Robot& robot);
     [[nodiscard]] std::optional<PlannedRoute> PlanWayOffLaneOrNull(const Robot& robot) const;
+    [[nodiscard]] std::optional<std::size_t> FindParkingOrNull(
+        const RobotOptions& robot,
+        const std::vector<bool>& taken) const;
     [[nodiscard]] bool CanParkAt(const RobotOptions& robot, std::size_t dock) const;
     /// Begins the planned route, or a detour around stationary robots if there is one.
     [[nodiscard]] bool TryBeginPlannedRoute(Robot& robot);
