@@ -93,7 +93,7 @@ void LoadWatch::MoveCarrier(Robot& robot, const StartJob& job)
         _transaction.RaiseAlarm(std::move(alarm));
     }
     UpdateLoadAlarm(robot);
-    robot.changes.bStatus = true;
+    robot.changes.MarkStatus();
     _transaction.Store(CarriersChanged{robot.GetID(), robot.ports.GetCarriers()});
 }
 

@@ -22,7 +22,7 @@ void RejectionWatch::OnRejected(Robot& robot, const std::string& reason)
     }
     RejectionTracker& rejections = robot.view.rejections;
     rejections.Add(reason, _options.maximumRejections);
-    robot.changes.bStatus = true;
+    robot.changes.MarkStatus();
     if (rejections.GetState() == ERejection::Delayed)
     {
         _transaction.StartTimer(EEngineTimer::RejectionRetry, robot.GetID(), _options.rejectionRetry);
@@ -41,7 +41,7 @@ void RejectionWatch::OnRetryDue(Robot& robot)
 {
     if (robot.view.rejections.GetState() == ERejection::Delayed && robot.view.rejections.TryRetry())
     {
-        robot.changes.bStatus = true;
+        robot.changes.MarkStatus();
         _transaction.RequestDispatch();
     }
 }
@@ -50,7 +50,7 @@ void RejectionWatch::OnRobotChanged(Robot& robot)
 {
     if (robot.view.rejections.GetState() == ERejection::Exhausted && robot.view.rejections.TryRetry())
     {
-        robot.changes.bStatus = true;
+        robot.changes.MarkStatus();
         _transaction.RequestDispatch();
     }
 }
@@ -61,7 +61,7 @@ void RejectionWatch::EndRow(Robot& robot)
     {
         _transaction.CancelTimer(EEngineTimer::RejectionRetry, robot.GetID());
         _transaction.ClearAlarm(MakeRejectionAlarm(robot));
-        robot.changes.bStatus = true;
+        robot.changes.MarkStatus();
         _transaction.RequestDispatch();
     }
 }
@@ -69,7 +69,7 @@ void RejectionWatch::EndRow(Robot& robot)
 void RejectionWatch::OnCompatibility(Robot& robot, const CompatibilityChanged& event)
 {
     robot.view.incompatibility = event.incompatibility;
-    robot.changes.bStatus = true;
+    robot.changes.MarkStatus();
     Alarm alarm = MakeAlarm(robot.GetID(), ALARM_INCOMPATIBLE, EAlarmLevel::Heavy, {});
     if (event.incompatibility.empty())
     {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstddef>
 #include <utility>
 
 namespace ACS::Planning
@@ -12,15 +13,27 @@ namespace ACS::Planning
 
 StallWatch::StallWatch(EngineState& engine)
     : _options(engine.options),
+      _fleet(engine.fleet),
       _alarms(engine.alarms),
       _transaction(engine.transaction),
       _monitors(engine.options.robots.size())
 {
 }
 
+void StallWatch::UpdateStalls()
+{
+    std::vector<std::size_t>& marked = _fleet.GetChanged().work;
+    const std::vector<std::size_t> changed = TakeInOrder(marked);
+    marked = changed; // the marks stay: StoreGate removes them
+    for (const std::size_t robot : changed)
+    {
+        UpdateStall(_fleet[robot]);
+    }
+}
+
 void StallWatch::UpdateStall(Robot& robot)
 {
-    if (!robot.changes.bWork)
+    if (!robot.changes.IsWorkMarked())
     {
         return;
     }
@@ -61,7 +74,7 @@ void StallWatch::OnDriveStall(Robot& robot)
     {
         return;
     }
-    robot.changes.bStatus = true;
+    robot.changes.MarkStatus();
     Alarm alarm = MakeAlarm(
         robot.GetID(),
         ALARM_STALL,

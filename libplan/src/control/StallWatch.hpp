@@ -16,6 +16,7 @@ namespace ACS::Planning
 class StallWatch
 {
     const EngineOptions& _options;
+    Fleet& _fleet;
     AlarmBook& _alarms;
     EngineTransaction& _transaction;
     std::vector<StallMonitor> _monitors; ///< By robot.
@@ -23,7 +24,8 @@ class StallWatch
 public:
     explicit StallWatch(EngineState& engine);
 
-    /// Updates the monitor of the robot; called at the end of every engine call.
+    /// Updates the monitors of the robots whose work has changed; called at the end of every engine call.
+    void UpdateStalls();
     void UpdateStall(Robot& robot);
     /// The timer has expired: raises the alarm.
     void OnDriveStall(Robot& robot);

@@ -178,9 +178,10 @@ void StatusPublisher::PublishStatus(const Robot& robot, ERobotStatus status)
 
 void StatusPublisher::PublishStatusChanges()
 {
-    for (Robot& robot : _fleet)
+    for (const std::size_t index : TakeInOrder(_fleet.GetChanged().status))
     {
-        if (std::exchange(robot.changes.bStatus, false))
+        Robot& robot = _fleet[index];
+        if (robot.changes.TryUnmarkStatus())
         {
             PublishStatus(robot, DeriveStatus(robot));
         }
@@ -190,7 +191,7 @@ void StatusPublisher::PublishStatusChanges()
 void StatusPublisher::Reset(Robot& robot)
 {
     _last[robot.index] = MakeStatus(robot, DeriveStatus(robot));
-    robot.changes.bStatus = false;
+    static_cast<void>(robot.changes.TryUnmarkStatus());
 }
 
 const std::vector<RobotStatus>& StatusPublisher::GetRobotStatuses() const noexcept

@@ -61,7 +61,7 @@ void OperatorCommands::Maintain(const SetMaintenance& command)
     if (std::exchange(robot.view.bInMaintenance, command.bOn) != command.bOn)
     {
         _transaction.Store(MaintenanceChanged{command.robotID, command.bOn});
-        robot.changes.bStatus = true;
+        robot.changes.MarkStatus();
         _transaction.RequestDispatch();
         _transaction.Note(
             robot,
@@ -177,7 +177,7 @@ void OperatorCommands::CorrectCarriers(const SetCarriers& command)
             DescribePorts(robot.ports.GetCarriers()),
             DescribePorts(command.carrierIDs)));
     robot.ports.Correct(command.carrierIDs);
-    robot.changes.bStatus = true;
+    robot.changes.MarkStatus();
     _transaction.RequestDispatch();
     _transaction.Store(CarriersChanged{command.robotID, command.carrierIDs});
     _transaction.ClearAlarm(MakeAlarm(command.robotID, ALARM_PORT, EAlarmLevel::Light, {}));
@@ -352,7 +352,7 @@ void OperatorCommands::Skip(const SkipStep& command)
     Robot& robot = _fleet[*plan.robot];
     const std::size_t index = *FindStepOrNull(plan.record.plan, command.stepNo);
     const bool bUnresolved = plan.record.progress.steps[index].state == EStepState::InProgress;
-    robot.changes.bStatus = true;
+    robot.changes.MarkStatus();
     _transaction.Note(robot, fmt::format("step {} of plan {} skipped by the operator", command.stepNo, command.planID));
     _transaction.ChangeStepAt(plan, index, EStepState::Skipped, "Skipped by the operator.");
     if (bUnresolved)
@@ -391,7 +391,7 @@ void OperatorCommands::Settle(const ResolveJob& command)
     }
     Robot& robot = _fleet[*FindWorkerOrNull(command)];
     _transaction.Emit(ReplyCommand{command.replyToken, true, "Received."});
-    robot.changes.bStatus = true;
+    robot.changes.MarkStatus();
     ApplyAnswer(robot, command.resolution);
 }
 

@@ -130,7 +130,8 @@ void PlanEngine::Impl::HandleEvent(std::string_view robotID, const RobotEvent& e
     }
     Begin(now);
     Robot& robot = *robotOrNull;
-    robot.changes = {true, true};
+    robot.changes.MarkStatus();
+    robot.changes.MarkWork();
     std::visit(
         Core::Overloaded{
             [this, &robot](const LinkChanged& typed) { OnLink(robot, typed); },
@@ -281,7 +282,7 @@ void PlanEngine::Impl::End(EngineActions& out)
         Dispatch();
     }
     _tsc.FinishTscPause();
-    std::ranges::for_each(_engine.fleet, [this](Robot& robot) { _stalls.UpdateStall(robot); });
+    _stalls.UpdateStalls();
     _status.PublishStatusChanges();
     _engine.transaction.WatchOutbox();
     _engine.transaction.WatchAlarms();
@@ -397,7 +398,7 @@ void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
             _work.MarkStepBegun(*robot.planOrNull);
         }
     }
-    robot.changes.bWork = robot.work.TryCheckEvidence(event, robot.planOrNull != nullptr) || robot.changes.bWork;
+    robot.changes.MarkWork(robot.work.TryCheckEvidence(event, robot.planOrNull != nullptr));
     _loads.CompareLoads(robot);
     _controls.UpdatePause(robot, bBack, bWasPaused);
     _controls.UpdateStandstill(robot);

@@ -150,7 +150,7 @@ void RestartRecovery::RestoreWork(ActivePlan& plan, Robot& robot)
     plan.robot = robot.index;
     robot.planOrNull = &plan;
     robot.activity = EActivity::Waits;
-    robot.changes.bStatus = true;
+    robot.changes.MarkStatus();
     const EContinuation unbegun = step.state == EStepState::Pending ? EContinuation::Step : EContinuation::Job;
     plan.next = IsFinal(step.state) ? EContinuation::End : unbegun;
     const StartJob* jobOrNull = robot.job.GetOrNull();
@@ -170,7 +170,7 @@ void RestartRecovery::RestoreWork(ActivePlan& plan, Robot& robot)
     if (bUntraced)
     {
         robot.job.Begin(MakeStartJob(robot));
-        robot.changes.bWork = true;
+        robot.changes.MarkWork();
         _work.SuspendJob(robot, "an older version of the ACS started it and stored no command ID");
         return;
     }

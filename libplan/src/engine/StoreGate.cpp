@@ -87,9 +87,10 @@ void StoreGate::Commit(EngineActions& out)
 
 void StoreGate::CollectWork()
 {
-    for (Robot& robot : _fleet)
+    for (const std::size_t index : TakeInOrder(_fleet.GetChanged().work))
     {
-        if (!std::exchange(robot.changes.bWork, false))
+        Robot& robot = _fleet[index];
+        if (!robot.changes.TryUnmarkWork())
         {
             continue;
         }
@@ -283,7 +284,7 @@ bool StoreGate::TryWithdraw(const CommandRobot& command)
 void StoreGate::WithdrawPause(Robot& robot)
 {
     robot.control.pause.Reset();
-    robot.changes.bWork = true;
+    robot.changes.MarkWork();
     _transaction.RequestDispatch();
     PlanProgress& progress = robot.planOrNull->record.progress;
     if (progress.control == EPlanControl::Pause)
@@ -312,7 +313,7 @@ void StoreGate::CheckStoreRecovery()
     {
         if (std::exchange(plan->bUnstored, false) && plan->robot.has_value())
         {
-            _fleet[*plan->robot].changes.bStatus = true;
+            _fleet[*plan->robot].changes.MarkStatus();
         }
     }
     _transaction.ClearAlarm(MakeStoreAlarm({}));

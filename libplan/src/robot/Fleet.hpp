@@ -17,6 +17,7 @@ class Fleet
 {
     std::vector<Robot> _robots;
     std::map<std::string, std::size_t, std::less<>> _indices;
+    ChangedRobots _changed;
 
 public:
     /// The options must outlive the fleet.
@@ -28,8 +29,22 @@ public:
             _robots[i].index = i;
             _robots[i].options = &options.robots[i];
             _robots[i].ports = PortLedger(options.robots[i].ports);
+            _robots[i].changes.SetList(_changed, i);
+            _robots[i].changes.MarkStatus();
             _indices.emplace(_robots[i].GetID(), i);
         }
+    }
+
+    Fleet(const Fleet&) = delete;
+    Fleet& operator=(const Fleet&) = delete;
+    Fleet(Fleet&&) = delete;
+    Fleet& operator=(Fleet&&) = delete;
+    ~Fleet() = default;
+
+    /// The robots with marks, and possibly some whose marks have been removed.
+    [[nodiscard]] ChangedRobots& GetChanged() noexcept
+    {
+        return _changed;
     }
 
     [[nodiscard]] Robot* FindOrNull(std::string_view robotID)

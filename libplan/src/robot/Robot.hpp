@@ -9,6 +9,7 @@
 #include "robot/ParkingPlaces.hpp"
 #include "robot/PauseTracker.hpp"
 #include "robot/PortLedger.hpp"
+#include "robot/RobotChanges.hpp"
 #include "robot/RobotPlace.hpp"
 #include "robot/RobotView.hpp"
 #include "robot/RouteSearch.hpp"
@@ -35,13 +36,6 @@ struct RobotControl
     PauseTracker pause;
     bool bConfirming = false;        ///< The timer ControlConfirm runs.
     bool bStandstillAwaited = false; ///< After a restart: the plan's control is answered once the robot is stationary.
-};
-
-/// What may have changed in the present call.
-struct RobotChanges
-{
-    bool bStatus = true;
-    bool bWork = false; ///< Its WorkRecord.
 };
 
 /// A robot of the fleet: its state, by the part of the engine that keeps it.

@@ -203,7 +203,7 @@ void PlaceTracker::ForgetPossibleNodes(Robot& robot)
     {
         _traffic.Disown(robot.index, node);
     }
-    robot.changes.bWork = true;
+    robot.changes.MarkWork();
     _transaction.RequestDispatch();
 }
 

@@ -102,7 +102,7 @@ void TrafficCoordinator::OnBlocksChanged()
         robot.search.detour.reset();
         robot.search.detourAt = 0;
         robot.search.block.clear();
-        robot.changes.bStatus = true;
+        robot.changes.MarkStatus();
     }
     _places.NoteStandingChanged();
     _transaction.RequestDispatch();
@@ -245,7 +245,7 @@ const Block* TrafficCoordinator::FindDriveBlockOrNull(const Robot& robot) const
 
 void TrafficCoordinator::NoteBlock(Robot& robot, std::string block)
 {
-    robot.changes.bStatus = robot.changes.bStatus || robot.search.block != block;
+    robot.changes.MarkStatus(robot.search.block != block);
     robot.search.block = std::move(block);
 }
 

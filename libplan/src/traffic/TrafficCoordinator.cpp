@@ -83,7 +83,7 @@ void TrafficCoordinator::ExtendBase(Robot& robot)
         const std::size_t granted =
             _traffic.Extend(robot.index, nodes.subspan(drive.grantedCount, wanted - drive.grantedCount));
         drive.grantedCount += granted;
-        robot.changes.bStatus = robot.changes.bStatus || granted > 0 || robot.search.blockers != _traffic.GetBlockers();
+        robot.changes.MarkStatus(granted > 0 || robot.search.blockers != _traffic.GetBlockers());
         robot.search.blockers = _traffic.GetBlockers();
         robot.search.refusedAt = _traffic.GetFreedCount();
         NoteBlock(robot, _traffic.IsRefusedForBlocks() ? CUT_OFF : "");
@@ -233,7 +233,7 @@ bool TrafficCoordinator::TryBeginDrive(Robot& robot, const PlannedRoute& planned
     drive.releasedCount = std::min({_options.baseLength, drive.grantedCount, drive.nodes.size() - 1});
     drive.goal =
         robot.planOrNull == nullptr || robot.parking.retreatNode.has_value() ? EDriveGoal::Home : EDriveGoal::Step;
-    robot.changes.bStatus = true;
+    robot.changes.MarkStatus();
     if (drive.goal == EDriveGoal::Step)
     {
         robot.search.yield.reset();

@@ -161,7 +161,7 @@ void EngineTransaction::CancelTimer(EEngineTimer kind, const std::string& robotI
 
 void EngineTransaction::Command(Robot& robot, RobotCommand command)
 {
-    robot.changes.bWork = true;
+    robot.changes.MarkWork();
     _actions.emplace_back(CommandRobot{robot.GetID(), std::move(command)});
 }
 

@@ -57,8 +57,7 @@ void DriveOutcomes::MoveWaiting()
         const std::vector<std::size_t> blockers = robot->search.blockers;
         const std::string block = robot->search.block;
         static_cast<void>(TryMove(*robot));
-        robot->changes.bStatus =
-            robot->changes.bStatus || robot->search.blockers != blockers || robot->search.block != block;
+        robot->changes.MarkStatus(robot->search.blockers != blockers || robot->search.block != block);
     }
 }
 
@@ -68,7 +67,7 @@ void DriveOutcomes::SendIdleHome()
     {
         const std::string block = robot->search.block;
         static_cast<void>(TryMove(*robot));
-        robot->changes.bStatus = robot->changes.bStatus || robot->search.block != block;
+        robot->changes.MarkStatus(robot->search.block != block);
     }
 }
 
@@ -138,7 +137,7 @@ void DriveOutcomes::OnNodePassed(Robot& robot, const NodePassed& event)
         _assignment.Start(*robot.planOrNull);
     }
     robot.work.MarkCommandTaken();
-    robot.changes.bWork = true;
+    robot.changes.MarkWork();
     if (!robot.drive->bConfirmed)
     {
         robot.drive->bConfirmed = true;

@@ -19,7 +19,7 @@ void JobOutcomes::OnJobStarted(Robot& robot, const JobStarted& event)
     }
     _rejections.EndRow(robot);
     robot.work.MarkCommandTaken();
-    robot.changes.bWork = true;
+    robot.changes.MarkWork();
     _work.EndRecovery(robot);
     ActivePlan& plan = *robot.planOrNull;
     if (GetJobState(plan) == EJobState::Instructed)
@@ -174,7 +174,7 @@ void JobOutcomes::OnJobUnresolved(Robot& robot, const JobUnresolved& event)
         {
             robot.work.MarkUnresolved();
         }
-        robot.changes.bWork = true;
+        robot.changes.MarkWork();
         _work.SuspendJob(robot, event.reason);
     }
 }

@@ -23,7 +23,7 @@ void PlanAssignment::Offer(ActivePlan& plan, Robot& robot)
     robot.planOrNull = &plan;
     robot.parking.bRefused = false;
     robot.work.BeginPlan(robot.view.state.has_value() ? robot.view.state->restartEvidence.commandID : std::nullopt);
-    robot.changes.bWork = true;
+    robot.changes.MarkWork();
     PrepareStep(plan, robot);
 }
 
@@ -84,9 +84,9 @@ void PlanAssignment::FreeRobot(Robot& robot)
 {
     robot.planOrNull = nullptr;
     robot.activity = EActivity::Idle;
-    robot.changes.bWork = robot.work.TryResolve() || robot.changes.bWork;
+    robot.changes.MarkWork(robot.work.TryResolve());
     robot.parking.retreatNode.reset();
-    robot.changes.bStatus = true;
+    robot.changes.MarkStatus();
     robot.search.plannedRoute.reset();
 }
 
@@ -103,7 +103,7 @@ void PlanAssignment::PrepareStep(ActivePlan& plan, Robot& robot)
     plan.next = EContinuation::Job;
     plan.bStepArrived = false;
     robot.activity = EActivity::Waits;
-    robot.changes.bStatus = true;
+    robot.changes.MarkStatus();
     robot.search.plannedRoute.reset();
     robot.search.detours = 0;
     _transaction.RequestDispatch();

@@ -272,7 +272,7 @@ void PlanControls::ContinueAfterControl(Robot& robot)
     ActivePlan& plan = *robot.planOrNull;
     _answers.ReleasePause(robot);
     _transaction.RequestDispatch();
-    robot.changes.bStatus = true;
+    robot.changes.MarkStatus();
     if (plan.next == EContinuation::End)
     {
         _work.EndPlan(plan, EPlanState::Completed, {});

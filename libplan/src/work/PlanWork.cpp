@@ -80,7 +80,7 @@ void PlanWork::BeginWork(Robot& robot)
 void PlanWork::BeginJob(Robot& robot)
 {
     ActivePlan& plan = *robot.planOrNull;
-    robot.changes.bStatus = true;
+    robot.changes.MarkStatus();
     plan.bJobBegun = true;
     if (!HasJob(plan))
     {
@@ -189,7 +189,7 @@ void PlanWork::ContinuePlan(Robot& robot)
     }
     // Continues when the pause ends.
     robot.activity = EActivity::Waits;
-    robot.changes.bStatus = true;
+    robot.changes.MarkStatus();
     if (plan.record.progress.control == EPlanControl::Pause && !robot.control.pause.IsPaused())
     {
         ConfirmPause(robot);
@@ -210,7 +210,7 @@ void PlanWork::BeginNext(Robot& robot)
     }
     // Continues when the robot, or the tray, is available again, or the hold of the restart ends.
     robot.activity = EActivity::Waits;
-    robot.changes.bStatus = true;
+    robot.changes.MarkStatus();
 }
 
 void PlanWork::ConfirmPause(Robot& robot)
@@ -223,7 +223,7 @@ void PlanWork::ConfirmPause(Robot& robot)
         StopJobTimer(robot);
     }
     _status.PublishStatus(robot, ERobotStatus::Stopped);
-    robot.changes.bStatus = true;
+    robot.changes.MarkStatus();
     if (plan.record.progress.state != EPlanState::Paused)
     {
         _transaction.ChangePlan(
@@ -342,14 +342,14 @@ void PlanWork::SuspendUnresolvedJob(Robot& robot)
 {
     robot.planOrNull->repetition.commandID.clear();
     robot.job.Begin(MakeStartJob(robot));
-    robot.changes.bWork = true;
+    robot.changes.MarkWork();
     SuspendJob(robot, "the robot may have done work that the ACS could not store before it stopped");
 }
 
 void PlanWork::SuspendJob(Robot& robot, const std::string& reason)
 {
     robot.job.MarkUnresolved();
-    robot.changes.bStatus = true;
+    robot.changes.MarkStatus();
     const StartJob& job = *robot.job.GetOrNull();
     Alarm alarm = MakeUnresolvedAlarm(robot);
     const bool bOfPlan = robot.planOrNull != nullptr && !robot.job.IsOverdue();
@@ -396,7 +396,7 @@ void PlanWork::ReleaseJob(Robot& robot)
     }
     _transaction.ClearAlarm(MakeUnresolvedAlarm(robot));
     robot.job.Release();
-    robot.changes.bWork = true;
+    robot.changes.MarkWork();
 }
 
 void PlanWork::RepeatJob(Robot& robot, std::string commandID)
@@ -406,7 +406,7 @@ void PlanWork::RepeatJob(Robot& robot, std::string commandID)
     robot.work.ForgetCommand(commandID);
     robot.planOrNull->repetition.commandID = std::move(commandID);
     robot.activity = EActivity::Waits;
-    robot.changes.bStatus = true;
+    robot.changes.MarkStatus();
     _transaction.RequestDispatch();
     if (robot.planOrNull->record.progress.control == EPlanControl::Pause && !robot.control.pause.IsPaused())
     {

@@ -33,7 +33,7 @@ TEST_CASE("LoadWatch: a finished job moves its carrier on the record")
     const CallOutcome outcome = parts.Collect();
     CHECK(outcome.ListChanges<CarriersChanged>() == std::vector{CarriersChanged{"LR01", {"C1"}}});
     CHECK(outcome.ListSetAlarms().empty());
-    CHECK(parts.lr.changes.bStatus);
+    CHECK(parts.lr.changes.IsStatusMarked());
     StartJob other = MakeLoadJob("C1");
     other.to = "A01.CP02";
     parts.loads.MoveCarrier(parts.lr, other);

@@ -13,11 +13,11 @@ TEST_CASE("StallWatch: a drive without progress raises an alarm with its plan, a
     parts.stalls.UpdateStall(parts.lr);
     CHECK(parts.Collect().GetDelayOrNull(EEngineTimer::DriveStall) == parts.engine.options.stallTimeout);
     parts.Advance(60s);
-    parts.lr.changes.bStatus = false;
+    static_cast<void>(parts.lr.changes.TryUnmarkStatus());
     parts.stalls.OnDriveStall(parts.lr);
     CHECK(parts.stalls.IsStalled(parts.lr));
     CHECK_FALSE(parts.stalls.IsStalled(parts.cr));
-    CHECK(parts.lr.changes.bStatus);
+    CHECK(parts.lr.changes.IsStatusMarked());
     const auto alarms = parts.Collect().ListChanges<AlarmSet>();
     REQUIRE(alarms.size() == 1);
     CHECK(alarms.front().alarm.errorCode == "ACS-1009");

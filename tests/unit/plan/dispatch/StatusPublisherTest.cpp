@@ -64,17 +64,17 @@ TEST_CASE("StatusPublisher: only a status that has changed is published")
     EngineParts parts;
     parts.PutOn(parts.lr, "D-CHG01");
     parts.Discard();
-    parts.lr.changes.bStatus = false;
+    static_cast<void>(parts.lr.changes.TryUnmarkStatus());
     parts.status.PublishStatusChanges();
     CHECK(parts.Collect().actions.empty());
-    parts.lr.changes.bStatus = true;
+    parts.lr.changes.MarkStatus();
     parts.status.PublishStatusChanges();
     const auto published = parts.Collect().ListActions<RobotStatusChanged>();
     REQUIRE(published.size() == 1);
     CHECK(published.front().status.robotID == "LR01");
     CHECK(published.front().status.status == ERobotStatus::Idle);
     CHECK(published.front().status == parts.status.GetRobotStatuses().front());
-    parts.lr.changes.bStatus = true;
+    parts.lr.changes.MarkStatus();
     parts.status.PublishStatusChanges();
     CHECK(parts.Collect().actions.empty());
 }

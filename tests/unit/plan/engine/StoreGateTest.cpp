@@ -80,14 +80,14 @@ TEST_CASE("StoreGate: a job is stored with the work of its robot before it is co
 {
     GateParts parts;
     parts.BeginLoad();
-    parts.lr.changes.bWork = true;
+    parts.lr.changes.MarkWork();
     const auto works = parts.CommitCall().ListChanges<RobotWorkChanged>();
     REQUIRE(works.size() == 1);
     REQUIRE(works.front().job.has_value());
     CHECK(works.front().job->jobID == "P1-a4");
     CHECK(works.front().nodeIDs == std::vector<std::string>{"D-A01.CP01"});
     static_cast<void>(parts.EndStore(true));
-    parts.lr.changes.bWork = true;
+    parts.lr.changes.MarkWork();
     CHECK(parts.CommitCall().actions.empty());
 }
 

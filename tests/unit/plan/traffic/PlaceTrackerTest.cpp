@@ -126,7 +126,7 @@ TEST_CASE("PlaceTracker: possible nodes are reserved until another robot is ther
     parts.Discard();
     parts.places.ForgetPossibleNodes(parts.lr);
     CHECK_FALSE(traffic.GetHolderOrNull(parts.FindNode("L04")).has_value());
-    CHECK(parts.lr.changes.bWork);
+    CHECK(parts.lr.changes.IsWorkMarked());
     CHECK(parts.engine.transaction.IsDispatchNeeded());
 }
 

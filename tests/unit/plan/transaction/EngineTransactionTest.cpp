@@ -88,10 +88,10 @@ TEST_CASE(
 TEST_CASE("EngineTransaction: a command has the work of its robot stored")
 {
     EngineParts parts;
-    parts.lr.changes.bWork = false;
+    static_cast<void>(parts.lr.changes.TryUnmarkWork());
     parts.engine.transaction.Command(parts.lr, Pause{});
-    CHECK(parts.lr.changes.bWork);
-    CHECK_FALSE(parts.cr.changes.bWork);
+    CHECK(parts.lr.changes.IsWorkMarked());
+    CHECK_FALSE(parts.cr.changes.IsWorkMarked());
     CHECK(parts.Collect().ListActions<CommandRobot>() == std::vector{CommandRobot{"LR01", Pause{}}});
 }
 
