@@ -145,6 +145,7 @@ PlanAdmission::PlanAdmission(const EngineOptions& options, const SiteMap& site)
         _catalog.Add(robot.ports);
         _catalog.Add(robot.childPorts);
     }
+    FindClasses();
 }
 
 std::optional<std::size_t> PlanAdmission::FindDockOrNull(std::string_view stationID, std::string_view vehicleTypeID)
@@ -388,104 +389,11 @@ Core::Result<void> PlanAdmission::CheckPlace(const Core::Location& place, EPlace
             : Refuse(ECoreError::InvalidLocation, path, "a place of this site", place.GetOriginalText());
     }
     const Core::RobotID& named = *place.GetRobotOrNull();
-    const bool bKnown =
-        std::ranges::any_of(_options.robots, [&named](const RobotOptions& robot) { return robot.robotID == named; });
-    if (!named.IsAlias() && !bKnown)
+    if (!named.IsAlias() && !_robots.contains(named.GetText()))
     {
         return Refuse(ECoreError::InvalidLocation, path, "a robot of this site", named.GetText());
     }
     return {};
-}
-
-Core::Result<void> PlanAdmission::FindCandidates(const Plan& plan, ResolvedPlan& resolved) const
-{
-    std::set<std::string> namedRobots;
-    const auto note = [&namedRobots](const std::optional<Core::Location>& placeOrNull) {
-        if (placeOrNull.has_value() && placeOrNull->IsRobotPort() && !placeOrNull->GetRobotOrNull()->IsAlias())
-        {
-            namedRobots.insert(placeOrNull->GetRobotOrNull()->GetText());
-        }
-    };
-    for (const ResolvedStep& step : resolved.steps)
-    {
-        for (const ResolvedJob& job : step.jobs)
-        {
-            note(job.from);
-            note(job.to);
-        }
-    }
-    if (namedRobots.size() > 1)
-    {
-        return Refuse(
-            ECoreError::InvalidLocation,
-            "steps",
-            "ports of one robot",
-            fmt::format("{} and {}", *namedRobots.begin(), *std::next(namedRobots.begin())));
-    }
-    std::string objections;
-    for (std::size_t i = 0; i < _options.robots.size(); ++i)
-    {
-        const std::optional<std::string> unavailabilityOrNull =
-            GetRejectionReasonOrNull(_options.robots[i], plan, resolved, namedRobots);
-        if (!unavailabilityOrNull.has_value())
-        {
-            resolved.candidates.push_back(i);
-            continue;
-        }
-        objections += objections.empty() ? "" : "; ";
-        objections += *unavailabilityOrNull;
-    }
-    if (resolved.candidates.empty())
-    {
-        return Refuse(ECoreError::InvalidLocation, "steps", "a plan that a robot of this site can execute", objections);
-    }
-    return {};
-}
-
-std::optional<std::string> PlanAdmission::GetRejectionReasonOrNull(
-    const RobotOptions& robot,
-    const Plan& plan,
-    const ResolvedPlan& resolved,
-    const std::set<std::string>& namedRobots) const
-{
-    const std::string& name = robot.robotID.GetText();
-    if (!namedRobots.empty() && *namedRobots.begin() != name)
-    {
-        return name + " is not the robot named in the plan";
-    }
-    if (resolved.steps.front().rule->robotType != robot.type)
-    {
-        return fmt::format("{} is of type {}", name, GetText(robot.type));
-    }
-    const auto hasPort = [this, &robot](const std::optional<Core::Location>& placeOrNull) {
-        if (!placeOrNull.has_value() || !placeOrNull->IsRobotPort())
-        {
-            return true;
-        }
-        const Core::Result<Core::Location> port = placeOrNull->WithRobot(robot.robotID);
-        return port.has_value() && _catalog.Contains(*port);
-    };
-    for (std::size_t i = 0; i < resolved.steps.size(); ++i)
-    {
-        const ResolvedStep& step = resolved.steps[i];
-        const auto rejected = robot.rejectedActions.find(plan.steps[i].action);
-        if (rejected != robot.rejectedActions.end())
-        {
-            return fmt::format("{} cannot do {}: {}", name, rejected->first, rejected->second);
-        }
-        if (!FindDockOrNull(step.stationID, robot.vehicleTypeID).has_value())
-        {
-            return fmt::format("{} cannot drive to {}", name, step.stationID);
-        }
-        for (const ResolvedJob& job : step.jobs)
-        {
-            if (!hasPort(job.from) || !hasPort(job.to))
-            {
-                return fmt::format("{} has no {}", name, (hasPort(job.from) ? job.to : job.from)->GetOriginalText());
-            }
-        }
-    }
-    return std::nullopt;
 }
 
 } // namespace ACS::Planning

@@ -8,8 +8,11 @@
 #include <acs/plan/SiteMap.hpp>
 
 #include <cstddef>
+#include <functional>
+#include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,7 +43,7 @@ struct ResolvedStep
 struct ResolvedPlan
 {
     std::vector<ResolvedStep> steps;
-    std::vector<std::size_t> candidates; ///< The robots that can execute it; never empty.
+    std::span<const std::size_t> candidates; ///< The robots that can execute it; never empty. Kept by PlanAdmission.
 };
 
 /// Checks plans against site, robots and actions (section 4.1 of MCS-ACS).
@@ -49,14 +52,26 @@ class PlanAdmission
     const EngineOptions& _options;
     const SiteMap& _site;
     PortCatalog _catalog;
+    std::map<std::string, std::size_t, std::less<>> _robots; ///< By name.
+    /// Robots that can execute the same plans, except those that name a robot. A plan is compared with one of each.
+    std::vector<std::vector<std::size_t>> _classes;
+    /// The lists to which plans refer: by the classes that can execute a plan, and of one robot each.
+    mutable std::map<std::vector<bool>, std::vector<std::size_t>> _candidates;
+    mutable std::map<std::size_t, std::vector<std::size_t>> _named;
 
 public:
+    /// Both must outlive the object.
     PlanAdmission(const EngineOptions& options, const SiteMap& site);
+    PlanAdmission(const PlanAdmission&) = delete;
+    PlanAdmission& operator=(const PlanAdmission&) = delete;
+    PlanAdmission(PlanAdmission&&) = delete;
+    PlanAdmission& operator=(PlanAdmission&&) = delete;
+    ~PlanAdmission() = default;
 
     /// Corrects the case of action names (section 2).
     void SpellActions(Plan& plan) const;
 
-    /// The steps must be in ascending order (SortSteps). The error's path names the field.
+    /// The steps must be in ascending order (SortSteps). The error's path names the field. The object must outlive the result.
     [[nodiscard]] Core::Result<ResolvedPlan> Resolve(const Plan& plan) const;
 
     /// The node at which a robot of the type docks at the station.
@@ -75,7 +90,12 @@ private:
     [[nodiscard]] Core::Result<void> CheckPlace(const Core::Location& place, EPlaceRule rule, const std::string& path)
         const;
     [[nodiscard]] static Core::Result<void> CheckPorts(const Plan& plan, const ResolvedPlan& resolved);
+    void FindClasses();
     [[nodiscard]] Core::Result<void> FindCandidates(const Plan& plan, ResolvedPlan& resolved) const;
+    [[nodiscard]] std::span<const std::size_t> ListCandidates(
+        const Plan& plan,
+        const ResolvedPlan& resolved,
+        const std::set<std::string>& namedRobots) const;
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(
         const RobotOptions& robot,
         const Plan& plan,
