@@ -59,7 +59,7 @@ public:
     [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const Planning::StartJob& job) const override
     {
         std::optional<std::string> reason = _real->GetRejectionReasonOrNull(job);
-        if (reason.has_value())
+        if (reason.has_value() && _recorder._depth > 0) // else asked by a view, which the replay does not have
         {
             CoreRecord record = EncodeRejection({_robotID, EncodeJob(job), *reason});
             record.planID = job.planID;

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -14,7 +16,6 @@ namespace ACS::Planning
 
 Dispatcher::Dispatcher(EngineState& engine, const TrafficCoordinator& coordinator)
     : _admission(engine.admission),
-      _plans(engine.plans),
       _fleet(engine.fleet),
       _transaction(engine.transaction),
       _coordinator(coordinator),
@@ -23,42 +24,114 @@ Dispatcher::Dispatcher(EngineState& engine, const TrafficCoordinator& coordinato
 {
 }
 
-Robot* Dispatcher::FindNearestOrNull(const ActivePlan& plan)
+Robot* Dispatcher::FindNearestOrNull(ActivePlan& plan)
 {
-    std::vector<Robot*> known;
-    std::vector<Robot*> supposed;
-    for (const std::size_t index : plan.resolved.candidates)
+    FreeRobots free(_fleet);
+    return FindNearestOrNull(plan, free.List(plan.resolved.candidates));
+}
+
+/// The nearest robot is looked for first, because the further checks take more time; mostly it passes them.
+Robot* Dispatcher::FindNearestOrNull(ActivePlan& plan, const std::vector<Robot*>& freeRobots)
+{
+    constexpr std::size_t MOST_TRIED = 4;
+    Choice choice;
+    std::ranges::copy_if(freeRobots, std::back_inserter(choice.left), [&plan](const Robot* robot) {
+        return !HasKnownRejection(plan, *robot);
+    });
+    choice.bAll = choice.left.size() == plan.resolved.candidates.size();
+    if (plan.resolved.candidates.size() == 1)
     {
-        Robot& robot = _fleet[index];
-        const bool bPossible = robot.IsFree() && !plan.rejections.contains(index);
-        const PortVerdict verdict = bPossible ? _ports.JudgePorts(plan, robot) : PortVerdict{"", false};
-        if (!verdict.unavailabilityOrNull.has_value() && _coordinator.CanServe(robot, plan))
-        {
-            (verdict.bSupposed ? supposed : known).push_back(&robot);
-        }
+        const bool bSuitable =
+            choice.bAll && HasPorts(plan, *choice.left.front()) && CanExecute(plan, *choice.left.front());
+        return bSuitable ? choice.left.front() : nullptr;
     }
-    const bool bAll = known.size() + supposed.size() == plan.resolved.candidates.size();
-    if (bAll && plan.resolved.candidates.size() == 1)
+    for (std::size_t tried = 0;; ++tried)
     {
-        return &_fleet[plan.resolved.candidates.front()];
-    }
-    for (const std::vector<Robot*>& robots : {known, supposed})
-    {
-        if (Robot* quickestOrNull = FindQuickestOrNull(plan, robots); quickestOrNull != nullptr)
+        if (tried == MOST_TRIED)
         {
-            return quickestOrNull;
+            JudgeAll(plan, choice);
         }
+        Robot* const nearestOrNull = FindQuickestOrNull(plan, choice.left);
+        if (nearestOrNull == nullptr)
+        {
+            break;
+        }
+        std::erase(choice.left, nearestOrNull);
+        if (tried < MOST_TRIED && !IsKnownToHaveCarriers(plan, *nearestOrNull, choice))
+        {
+            continue;
+        }
+        if (CanExecute(plan, *nearestOrNull))
+        {
+            return nearestOrNull;
+        }
+        choice.bAll = false;
+    }
+    while (!choice.supposed.empty())
+    {
+        Robot* const nearestOrNull = FindQuickestOrNull(plan, choice.supposed);
+        if (nearestOrNull == nullptr)
+        {
+            break;
+        }
+        if (CanExecute(plan, *nearestOrNull))
+        {
+            return nearestOrNull;
+        }
+        choice.bAll = false;
+        std::erase(choice.supposed, nearestOrNull);
     }
     // With no robot to wait for, the drive starts anyway and fails because there is no route.
-    return bAll ? &_fleet[plan.resolved.candidates.front()] : nullptr;
+    const auto isSuitable = [this, &plan](const Robot* robotOrNull) {
+        return HasPorts(plan, *robotOrNull) && CanExecute(plan, *robotOrNull);
+    };
+    choice.bAll =
+        choice.bAll && std::ranges::all_of(choice.left, isSuitable) && std::ranges::all_of(choice.supposed, isSuitable);
+    return choice.bAll ? &_fleet[plan.resolved.candidates.front()] : nullptr;
+}
+
+bool Dispatcher::IsKnownToHaveCarriers(const ActivePlan& plan, Robot& robot, Choice& choice) const
+{
+    const PortVerdict verdict = _ports.JudgePorts(plan, robot);
+    if (verdict.unavailabilityOrNull.has_value())
+    {
+        choice.bAll = false;
+    }
+    else if (verdict.bSupposed)
+    {
+        choice.supposed.push_back(&robot);
+    }
+    return !verdict.unavailabilityOrNull.has_value() && !verdict.bSupposed;
+}
+
+void Dispatcher::JudgeAll(const ActivePlan& plan, Choice& choice) const
+{
+    std::erase_if(choice.left, [this, &plan, &choice](Robot* robot) {
+        return !IsKnownToHaveCarriers(plan, *robot, choice);
+    });
+}
+
+bool Dispatcher::HasPorts(const ActivePlan& plan, const Robot& robot) const
+{
+    return !_ports.JudgePorts(plan, robot).unavailabilityOrNull.has_value();
+}
+
+bool Dispatcher::CanExecute(ActivePlan& plan, const Robot& robot) const
+{
+    if (!_coordinator.CanServe(robot, plan))
+    {
+        return false;
+    }
+    std::optional<std::string> reason = DescribeRejectionOrNull(plan, robot);
+    if (reason.has_value())
+    {
+        plan.verdicts.rejections.insert_or_assign(robot.index, JobRejection{robot.view.jobCheck, std::move(*reason)});
+    }
+    return !reason.has_value();
 }
 
 Robot* Dispatcher::FindSuccessorOrNull(ActivePlan& plan)
 {
-    for (const std::size_t index : plan.resolved.candidates)
-    {
-        CheckJobs(plan, _fleet[index]); // only pending plans are checked when a factsheet changes
-    }
     return FindNearestOrNull(plan);
 }
 
@@ -99,22 +172,28 @@ bool Dispatcher::HasWay(const ActivePlan& plan, const Robot& robot) const
 void Dispatcher::OnJobCheck(Robot& robot, const JobCheckChanged& event)
 {
     robot.view.jobCheck = event.jobCheck;
-    for (const auto& [planID, plan] : _plans.GetActive())
-    {
-        if (plan->record.progress.state == EPlanState::Pending)
-        {
-            CheckJobs(*plan, robot);
-        }
-    }
     _transaction.RequestDispatch();
 }
 
-void Dispatcher::CheckJobs(ActivePlan& plan, const Robot& robot)
+bool Dispatcher::HasKnownRejection(const ActivePlan& plan, const Robot& robot)
 {
-    plan.rejections.erase(robot.index);
-    if (robot.view.jobCheck == nullptr || std::ranges::count(plan.resolved.candidates, robot.index) == 0)
+    const auto known = plan.verdicts.rejections.find(robot.index);
+    return known != plan.verdicts.rejections.end() && known->second.check == robot.view.jobCheck;
+}
+
+std::optional<std::string> Dispatcher::DescribeRejectionOrNull(const ActivePlan& plan, const Robot& robot)
+{
+    if (robot.view.jobCheck == nullptr)
     {
-        return;
+        return std::nullopt;
+    }
+    if (HasKnownRejection(plan, robot))
+    {
+        return plan.verdicts.rejections.at(robot.index).reason;
+    }
+    if (plan.verdicts.acceptance.check == robot.view.jobCheck && plan.verdicts.acceptance.robot == robot.index)
+    {
+        return std::nullopt;
     }
     for (std::size_t step = 0; step < plan.resolved.steps.size(); ++step)
     {
@@ -125,26 +204,36 @@ void Dispatcher::CheckJobs(ActivePlan& plan, const Robot& robot)
                 robot.view.jobCheck->GetRejectionReasonOrNull(MakeStartJob(plan, step, job, robot));
             if (reason.has_value())
             {
-                plan.rejections.emplace(robot.index, std::move(*reason));
-                return;
+                return reason;
             }
         }
     }
+    plan.verdicts.acceptance = {robot.view.jobCheck, robot.index};
+    return std::nullopt;
 }
 
 bool Dispatcher::IsRejectedByAll(const ActivePlan& plan) const
 {
+    const JobAcceptance& acceptance = plan.verdicts.acceptance;
+    if (acceptance.check != nullptr && acceptance.check == _fleet[acceptance.robot].view.jobCheck)
+    {
+        return false;
+    }
     return std::ranges::all_of(plan.resolved.candidates, [this, &plan](std::size_t index) {
-        return _fleet[index].view.bOnline && plan.rejections.contains(index);
+        const Robot& robot = _fleet[index];
+        return robot.view.bOnline && DescribeRejectionOrNull(plan, robot).has_value();
     });
 }
 
 std::string Dispatcher::DescribeRejections(const ActivePlan& plan) const
 {
     std::string text;
-    for (const auto& [index, reason] : plan.rejections)
+    for (const std::size_t index : plan.resolved.candidates)
     {
-        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", _fleet[index].GetID(), reason);
+        if (const std::optional<std::string> reason = DescribeRejectionOrNull(plan, _fleet[index]))
+        {
+            text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", _fleet[index].GetID(), *reason);
+        }
     }
     return fmt::format("No robot can execute the plan: {}.", text);
 }

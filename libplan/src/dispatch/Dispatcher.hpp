@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dispatch/FreeRobots.hpp"
 #include "dispatch/PortCheck.hpp"
 #include "traffic/TrafficCoordinator.hpp"
 #include "transaction/EngineState.hpp"
@@ -16,8 +17,15 @@ namespace ACS::Planning
 /// Chooses the robot for a plan, and checks plans against what the robots can do (IJobCheck).
 class Dispatcher
 {
+    /// The free robots among the candidates of a plan.
+    struct Choice
+    {
+        std::vector<Robot*> left;     ///< Not judged yet.
+        std::vector<Robot*> supposed; ///< Their record lacks a carrier that the plan takes from them.
+        bool bAll = false;            ///< No candidate is busy or unsuitable, as far as they were judged.
+    };
+
     const PlanAdmission& _admission;
-    const PlanBook& _plans;
     Fleet& _fleet;
     EngineTransaction& _transaction;
     const TrafficCoordinator& _coordinator;
@@ -29,21 +37,33 @@ public:
 
     /// The nearest robot that is free, can do the jobs and has suitable ports. Robots whose record has the carriers come before
     /// those where they are only assumed.
-    [[nodiscard]] Robot* FindNearestOrNull(const ActivePlan& plan);
+    [[nodiscard]] Robot* FindNearestOrNull(ActivePlan& plan);
+    /// As above, with the list of FreeRobots for the plan's candidates.
+    [[nodiscard]] Robot* FindNearestOrNull(ActivePlan& plan, const std::vector<Robot*>& freeRobots);
     /// The nearest robot that can take over a plan from its robot, which is not free.
     [[nodiscard]] Robot* FindSuccessorOrNull(ActivePlan& plan);
     [[nodiscard]] const PortCheck& GetPorts() const noexcept;
     /// Whether a route leads to the plan's first station. Uses the router's cached times instead of a route search.
     [[nodiscard]] bool HasWay(const ActivePlan& plan, const Robot& robot) const;
-    /// Checks the unassigned plans again. An assigned plan stays with its robot, whose adapter refuses the job.
+    /// Unassigned plans are checked again when the robot is chosen. An assigned plan stays with its robot, whose adapter refuses
+    /// the job.
     void OnJobCheck(Robot& robot, const JobCheckChanged& event);
-    /// Records the first job of the plan that the robot rejects.
-    static void CheckJobs(ActivePlan& plan, const Robot& robot);
+    /// Why the robot rejects the first job of the plan that it rejects.
+    [[nodiscard]] static std::optional<std::string> DescribeRejectionOrNull(const ActivePlan& plan, const Robot& robot);
     /// Rejections of disconnected robots do not count: they may be outdated.
     [[nodiscard]] bool IsRejectedByAll(const ActivePlan& plan) const;
     [[nodiscard]] std::string DescribeRejections(const ActivePlan& plan) const;
 
 private:
+    /// Whether the robot has rejected a job of the plan and its check has not changed since.
+    [[nodiscard]] static bool HasKnownRejection(const ActivePlan& plan, const Robot& robot);
+    /// False: notes the robot among the supposed ones, or that not all are suitable.
+    [[nodiscard]] bool IsKnownToHaveCarriers(const ActivePlan& plan, Robot& robot, Choice& choice) const;
+    /// Leaves only robots that are known to have the carriers.
+    void JudgeAll(const ActivePlan& plan, Choice& choice) const;
+    [[nodiscard]] bool HasPorts(const ActivePlan& plan, const Robot& robot) const;
+    /// Whether robots that cannot move leave the way free, and the robot rejects no job. Records a rejection.
+    [[nodiscard]] bool CanExecute(ActivePlan& plan, const Robot& robot) const;
     /// The robot with the quickest route to the plan's first station; null without a route.
     [[nodiscard]] Robot* FindQuickestOrNull(const ActivePlan& plan, const std::vector<Robot*>& robots) const;
 };

@@ -83,9 +83,9 @@ std::optional<std::string> WaitReasons::DescribeUnavailabilityOrNull(const Activ
     {
         return DescribeUnfree(robot);
     }
-    if (const auto rejection = plan.rejections.find(robot.index); rejection != plan.rejections.end())
+    if (std::optional<std::string> rejection = Dispatcher::DescribeRejectionOrNull(plan, robot))
     {
-        return rejection->second;
+        return rejection;
     }
     if (!robot.IsFree())
     {

@@ -314,15 +314,27 @@ void PlanEngine::Impl::Dispatch()
 
 void PlanEngine::Impl::AssignPlans()
 {
+    if (_engine.plans.GetQueue().empty())
+    {
+        return;
+    }
+    FreeRobots free(_engine.fleet);
+    if (free.IsEmpty())
+    {
+        return;
+    }
     for (ActivePlan* plan : _engine.plans.ListStoredQueue())
     {
-        if (std::ranges::none_of(_engine.fleet, &Robot::IsFree))
-        {
-            return;
-        }
-        if (Robot* robotOrNull = _dispatcher.FindNearestOrNull(*plan); robotOrNull != nullptr)
+        const std::vector<Robot*>& robots = free.List(plan->resolved.candidates);
+        Robot* const robotOrNull = robots.empty() ? nullptr : _dispatcher.FindNearestOrNull(*plan, robots);
+        if (robotOrNull != nullptr)
         {
             _work.GetAssignment().Offer(*plan, *robotOrNull);
+            free.Remove(*robotOrNull);
+        }
+        if (free.IsEmpty())
+        {
+            return;
         }
     }
 }

@@ -1,12 +1,10 @@
 #include "engine/PlanSubmission.hpp"
 
-#include "dispatch/Dispatcher.hpp"
 #include "plan/ReportForecast.hpp"
 #include <acs/core/ECoreError.hpp>
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace ACS::Planning
@@ -16,7 +14,6 @@ PlanSubmission::PlanSubmission(EngineState& engine, const TscControl& tsc, const
     : _options(engine.options),
       _admission(engine.admission),
       _plans(engine.plans),
-      _fleet(engine.fleet),
       _outbox(engine.outbox),
       _room(engine.room),
       _transaction(engine.transaction),
@@ -51,7 +48,6 @@ void PlanSubmission::Submit(const SubmitPlan& command)
     {
         _unreported.push_back(plan->record.plan.planID);
     }
-    std::ranges::for_each(_fleet, [&plan](const Robot& robot) { Dispatcher::CheckJobs(*plan, robot); });
     _transaction.Store(_plans.Accept(std::move(plan), _transaction.GetNow().wall));
     _transaction.Emit(ReplyCommand{command.replyToken, true, REGISTERED});
     _transaction.StartTimer(EEngineTimer::Dispatch, {}, {});

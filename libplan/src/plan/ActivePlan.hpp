@@ -2,11 +2,13 @@
 
 #include "plan/PlanAdmission.hpp"
 #include <acs/core/Now.hpp>
+#include <acs/plan/IJobCheck.hpp>
 #include <acs/plan/PlanRecord.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -41,6 +43,28 @@ struct JobRepetition
     bool bInterrupted = false; ///< The robot has interrupted the job before. It is repeated only once.
 };
 
+/// Why a robot cannot do a job of a plan. Outdated when the robot has another check.
+struct JobRejection
+{
+    std::shared_ptr<const IJobCheck> check; ///< That rejected it.
+    std::string reason;
+};
+
+/// A robot that can do all jobs of a plan: one is kept, so that a plan that waits is not checked again and again. Outdated when
+/// the robot has another check.
+struct JobAcceptance
+{
+    std::shared_ptr<const IJobCheck> check; ///< That accepted them; null: none yet.
+    std::size_t robot = 0;
+};
+
+/// What is known of the robots and the jobs of a plan.
+struct JobVerdicts
+{
+    std::map<std::size_t, JobRejection> rejections; ///< By robot, of those that were to have the plan.
+    mutable JobAcceptance acceptance;
+};
+
 /// A plan that is not finished.
 struct ActivePlan
 {
@@ -57,8 +81,8 @@ struct ActivePlan
     bool bUnstored = false;    ///< Its start is not stored yet: the first job waits for that.
     JobRepetition repetition;
     std::optional<Core::SteadyTime> jobDeadline;
-    std::optional<Core::Duration> jobTimeLeft;     ///< Of a job that is paused.
-    std::map<std::size_t, std::string> rejections; ///< While Pending: by robot, why it cannot do a job.
+    std::optional<Core::Duration> jobTimeLeft; ///< Of a job that is paused.
+    JobVerdicts verdicts;
 };
 
 /// Whether it has a robot that has not accepted its first command yet.

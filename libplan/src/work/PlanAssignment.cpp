@@ -34,7 +34,7 @@ void PlanAssignment::Start(ActivePlan& plan)
         return;
     }
     const std::string& robotID = _fleet[*plan.robot].GetID();
-    plan.rejections.clear();
+    plan.verdicts.rejections.clear();
     plan.record.progress.robotID = robotID;
     _call.begunPlanIDs.push_back(plan.record.plan.planID);
     plan.bUnstored = _backlog.IsFailing();

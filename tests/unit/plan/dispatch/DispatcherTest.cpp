@@ -33,7 +33,7 @@ TEST_CASE("Dispatcher: the nearest of the free robots gets the plan")
 {
     EngineParts parts(MakeTestOptions(true));
     Robot& other = parts.engine.fleet[2];
-    const ActivePlan& plan = parts.AddLoad();
+    ActivePlan& plan = parts.AddLoad();
     parts.PutOn(parts.lr, "D-A01.CP02");
     CHECK(parts.dispatcher.FindNearestOrNull(plan) == &parts.lr);
     parts.PutOn(other, "D-CHG03"); // one way: A01.CP02 is after A01.CP01
@@ -52,7 +52,7 @@ TEST_CASE("Dispatcher: a robot that has the carrier on record is preferred to a 
     Plan plan = MakeLogisticsPlan("P1");
     plan.steps.erase(plan.steps.begin());
     plan.steps.front().carrierIDs.clear();
-    const ActivePlan& active = parts.Add(plan);
+    ActivePlan& active = parts.Add(plan);
     parts.PutOn(parts.lr, "D-CHG01");
     parts.PutOn(parts.engine.fleet[2], "D-CHG03");
     CHECK(parts.dispatcher.FindNearestOrNull(active) == &parts.lr);
@@ -68,15 +68,16 @@ TEST_CASE("Dispatcher: a plan is kept from the robots that reject one of its job
     parts.Discard();
     parts.dispatcher.OnJobCheck(parts.lr, JobCheckChanged{std::make_shared<SingleActionCheck>("CassetteUnload")});
     CHECK(parts.engine.transaction.IsDispatchNeeded());
-    REQUIRE(plan.rejections.contains(parts.lr.index));
-    CHECK(plan.rejections.at(parts.lr.index) == "no program for CassetteUnload");
+    CHECK(Dispatcher::DescribeRejectionOrNull(plan, parts.lr) == "no program for CassetteUnload");
     CHECK(parts.dispatcher.FindNearestOrNull(plan) == nullptr);
+    REQUIRE(plan.verdicts.rejections.contains(parts.lr.index));
+    CHECK(plan.verdicts.rejections.at(parts.lr.index).reason == "no program for CassetteUnload");
     CHECK(parts.dispatcher.IsRejectedByAll(plan));
     parts.lr.view.bOnline = false;
     CHECK_FALSE(parts.dispatcher.IsRejectedByAll(plan));
     parts.lr.view.bOnline = true;
     parts.dispatcher.OnJobCheck(parts.lr, JobCheckChanged{std::make_shared<SingleActionCheck>("TrayLoad")});
-    CHECK(plan.rejections.empty());
+    CHECK_FALSE(parts.dispatcher.IsRejectedByAll(plan));
     CHECK(parts.dispatcher.FindNearestOrNull(plan) == &parts.lr);
 }
 
@@ -85,7 +86,7 @@ TEST_CASE("Dispatcher: a plan that a robot has keeps its robot")
     EngineParts parts;
     ActivePlan& plan = parts.BeginDriveToLoad();
     parts.dispatcher.OnJobCheck(parts.lr, JobCheckChanged{std::make_shared<SingleActionCheck>("CassetteLoad")});
-    CHECK(plan.rejections.empty());
+    CHECK(plan.verdicts.rejections.empty());
 }
 
 TEST_CASE("Dispatcher: the nearest robot is found over edges for its load, and a robot without such a route has none")
@@ -103,7 +104,7 @@ TEST_CASE("Dispatcher: the nearest robot is found over edges for its load, and a
         Plan plan = MakeLogisticsPlan("P1");
         plan.steps.front().position = "A01.CP06";
         plan.steps.front().jobs.front().from = "A01.CP06";
-        const ActivePlan& active = parts.Add(plan);
+        ActivePlan& active = parts.Add(plan);
         parts.PutOn(parts.lr, "D-CHG01");
         parts.PutOn(other, "D-A01.CP02");
         CHECK(parts.dispatcher.HasWay(active, other) == bEmptyOnly);

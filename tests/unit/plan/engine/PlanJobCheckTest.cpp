@@ -1,6 +1,7 @@
 #include "fixtures/PlanWorldSteps.hpp"
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -75,6 +76,23 @@ TEST_CASE("A plan is assigned to a robot that can do all of its jobs, not to a n
         CHECK(GetOwner(world, "P1") == able);
         CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
     }
+}
+
+TEST_CASE("The jobs of a plan are checked once, for the robot that gets it and for no other")
+{
+    PlanWorld world(1, true);
+    std::map<std::string, int> checked;
+    for (const std::string robotID : {"LR01", "LR02"})
+    {
+        SetCheck(world, robotID, [&checked, robotID](const StartJob&) {
+            ++checked[robotID];
+            return std::string();
+        });
+    }
+    world.Connect();
+    world.Submit(MakePlan("P1", "AMR"));
+    REQUIRE(world.TryRun());
+    CHECK(checked == std::map<std::string, int>{{GetOwner(world, "P1"), 2}});
 }
 
 TEST_CASE("A plan with a job that no robot can do waits with the reasons until one of them can")
