@@ -4,7 +4,9 @@
 #include <acs/plan/Report.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -72,12 +74,14 @@ void RobotTimes::OnStatusChanged(const Planning::RobotStatus& status, Core::Now 
 void RobotTimes::Sample(const Planning::PlanEngine& engine, Core::Now now)
 {
     const std::vector<Planning::RobotRoute> routes = engine.GetRobotRoutes();
-    for (const Planning::RobotStatus& status : engine.GetRobotStatuses())
+    const std::vector<Planning::RobotStatus> statuses = engine.GetRobotStatuses();
+    assert(routes.size() == statuses.size()); // both in the order of the options
+    for (std::size_t i = 0; i < statuses.size(); ++i)
     {
+        const Planning::RobotStatus& status = statuses[i];
         Times& times = _robots[status.robotID];
         CountStatus(times, status, now.steady);
-        const auto route = std::ranges::find(routes, status.robotID, &Planning::RobotRoute::robotID);
-        const bool bWaits = route != routes.end() && IsWaitingForRoute(engine, status, *route);
+        const bool bWaits = IsWaitingForRoute(engine, status, routes[i]);
         _metrics.Increment(
             ROUTE_WAIT,
             {{"robot", status.robotID}},

@@ -8,7 +8,11 @@
 #include <acs/plan/RobotStatus.hpp>
 
 #include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ACS::Acsd
@@ -28,6 +32,31 @@ constexpr std::string_view CAUSE_ROBOT = "robot";
 /// Of a job whose outcome is unknown.
 constexpr std::string_view JOB_UNRESOLVED = "ACS-1008";
 
+/// What robots do for plans.
+struct RobotsAtWork
+{
+    std::vector<Planning::RobotStatus> statuses;
+    std::vector<Planning::RobotRoute> routes;                    ///< In the same order.
+    std::map<std::string_view, std::size_t, std::less<>> robots; ///< By planID: the robot's index in both.
+
+    explicit RobotsAtWork(const Planning::PlanEngine& engine)
+        : statuses(engine.GetRobotStatuses()),
+          routes(engine.GetRobotRoutes())
+    {
+        for (std::size_t i = 0; i < statuses.size(); ++i)
+        {
+            if (statuses[i].planID.has_value())
+            {
+                robots.emplace(*statuses[i].planID, i);
+            }
+        }
+    }
+
+    RobotsAtWork(const RobotsAtWork&) = delete;
+    RobotsAtWork& operator=(const RobotsAtWork&) = delete;
+    ~RobotsAtWork() = default;
+};
+
 bool IsJobUnresolved(const Planning::PlanEngine& engine, const std::string& planID)
 {
     return std::ranges::any_of(engine.GetActiveAlarms(), [&planID](const Planning::Alarm& alarm) {
@@ -39,7 +68,8 @@ bool IsJobUnresolved(const Planning::PlanEngine& engine, const std::string& plan
 std::string_view FindCauseOfRobot(
     const Planning::PlanEngine& engine,
     const std::string& planID,
-    const Planning::RobotStatus& status)
+    const Planning::RobotStatus& status,
+    const Planning::RobotRoute& route)
 {
     if (IsJobUnresolved(engine, planID))
     {
@@ -49,15 +79,13 @@ std::string_view FindCauseOfRobot(
     {
         return CAUSE_TSC;
     }
-    const std::vector<Planning::RobotRoute> routes = engine.GetRobotRoutes();
-    const auto route = std::ranges::find(routes, status.robotID, &Planning::RobotRoute::robotID);
-    return route != routes.end() && IsWaitingForRoute(engine, status, *route) ? CAUSE_ROUTE : CAUSE_ROBOT;
+    return IsWaitingForRoute(engine, status, route) ? CAUSE_ROUTE : CAUSE_ROBOT;
 }
 
 /// Empty for a plan that makes progress.
 std::string_view FindCause(
     const Planning::PlanEngine& engine,
-    const std::vector<Planning::RobotStatus>& statuses,
+    const RobotsAtWork& atWork,
     const Planning::PlanSummary& plan,
     bool bStoreFailing)
 {
@@ -66,11 +94,13 @@ std::string_view FindCause(
         return CAUSE_PAUSED;
     }
     // A robot has its plan before the plan is InProgress.
-    const auto robot = std::ranges::find(statuses, plan.planID, &Planning::RobotStatus::planID);
-    if (robot != statuses.end())
+    const auto robot = atWork.robots.find(plan.planID);
+    if (robot != atWork.robots.end())
     {
         const bool bWaits = engine.GetWaitReasonOrNull(plan.planID).has_value();
-        return bWaits ? FindCauseOfRobot(engine, plan.planID, *robot) : std::string_view();
+        return bWaits
+            ? FindCauseOfRobot(engine, plan.planID, atWork.statuses[robot->second], atWork.routes[robot->second])
+            : std::string_view();
     }
     if (engine.GetTscState() != Planning::ETscState::Auto)
     {
@@ -91,10 +121,10 @@ std::map<std::string_view, std::size_t> CountWaitCauses(const Planning::PlanEngi
         {CAUSE_ROUTE, 0},
         {CAUSE_JOB, 0},
         {CAUSE_ROBOT, 0}};
-    const std::vector<Planning::RobotStatus> statuses = engine.GetRobotStatuses();
+    const RobotsAtWork atWork(engine);
     for (const Planning::PlanSummary& plan : engine.GetActivePlans())
     {
-        const std::string_view cause = FindCause(engine, statuses, plan, bStoreFailing);
+        const std::string_view cause = FindCause(engine, atWork, plan, bStoreFailing);
         if (!cause.empty())
         {
             ++counts[cause];
