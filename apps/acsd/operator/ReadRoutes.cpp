@@ -53,6 +53,13 @@ HttpResponse ShowPlan(const Planning::PlanEngine& engine, const StateView& state
         plan.robotID = found->robotID;
         plan.waits = found->waits;
     }
+    // The view of all plans lists the robots of the first plans in the queue only.
+    const std::optional<Planning::WaitReason> reason =
+        plan.waits.has_value() ? engine.GetWaitReasonOrNull(planID) : std::nullopt;
+    if (reason.has_value())
+    {
+        plan.waits = MakeWaitView(*reason, plan.waits->since);
+    }
     return MakeJsonAnswer(EncodePlan(plan));
 }
 

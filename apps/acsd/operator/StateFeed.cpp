@@ -3,6 +3,7 @@
 #include "view/PlanViewMaker.hpp"
 #include "view/ViewCodec.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -78,8 +79,10 @@ void StateFeed::Publish(const StateChanges& changes)
 
 void StateFeed::OnTimer()
 {
+    const Core::SteadyTime begin = _dependencies.clock.GetNow().steady;
     static_cast<void>(Update());
-    _timer.Start(0, INTERVAL);
+    const Core::Duration took = _dependencies.clock.GetNow().steady - begin;
+    _timer.Start(0, std::clamp<Core::Duration>(SHARE * took, INTERVAL, LONGEST_INTERVAL));
 }
 
 } // namespace ACS::Acsd

@@ -35,8 +35,13 @@ public:
 
     /// Between two events at least.
     static constexpr Core::Duration INTERVAL = std::chrono::milliseconds(200);
+    /// Between two events at most, if something has changed.
+    static constexpr Core::Duration LONGEST_INTERVAL = std::chrono::seconds(1);
 
 private:
+    /// The view of a long queue takes long: the interval is at least this multiple of its time.
+    static constexpr int SHARE = 20;
+
     Dependencies _dependencies;
     StateViewMaker _maker;
     StateView _state; ///< As it was published last.
@@ -48,7 +53,7 @@ public:
     /// All references must outlive the feed.
     explicit StateFeed(Dependencies dependencies);
 
-    /// Updates the state every INTERVAL until Stop.
+    /// Updates the state every INTERVAL until Stop, less often if an update takes long.
     void Start();
     void Stop();
 

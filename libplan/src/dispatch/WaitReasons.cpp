@@ -54,10 +54,22 @@ std::vector<WaitReason> WaitReasons::GetWaitReasons() const
         }
     }
     std::size_t position = 0;
+    std::size_t listed = 0;
     for (const auto& [key, plan] : _plans.GetQueue())
     {
         ++position;
-        reasons.push_back(DescribeWaiting(*plan, position));
+        WaitReason reason;
+        reason.planID = plan->record.plan.planID;
+        reason.queuePosition = position;
+        bool bCanStart = false; // beyond the limit: the dispatcher has found no robot that can start it
+        if (listed < MAXIMUM_LISTED_ROBOTS)
+        {
+            reason.robots = ListUnavailable(*plan);
+            listed += plan->resolved.candidates.size();
+            bCanStart = reason.robots.size() < plan->resolved.candidates.size();
+        }
+        reason.message = DescribeWaiting(*plan, bCanStart);
+        reasons.push_back(std::move(reason));
     }
     return reasons;
 }
@@ -71,10 +83,16 @@ std::optional<WaitReason> WaitReasons::GetWaitReasonOrNull(std::string_view plan
     }
     const PlanBook::Queue& queue = _plans.GetQueue();
     const auto queued = queue.find(planOrNull->key);
-    return queued == queue.end()
-        ? DescribeBegunOrNull(*planOrNull)
-        : std::optional(
-            DescribeWaiting(*planOrNull, static_cast<std::size_t>(std::distance(queue.begin(), queued)) + 1));
+    if (queued == queue.end())
+    {
+        return DescribeBegunOrNull(*planOrNull);
+    }
+    WaitReason reason;
+    reason.planID = planOrNull->record.plan.planID;
+    reason.queuePosition = static_cast<std::size_t>(std::distance(queue.begin(), queued)) + 1;
+    reason.robots = ListUnavailable(*planOrNull);
+    reason.message = DescribeWaiting(*planOrNull, reason.robots.size() < planOrNull->resolved.candidates.size());
+    return reason;
 }
 
 std::optional<std::string> WaitReasons::DescribeUnavailabilityOrNull(const ActivePlan& plan, const Robot& robot) const
@@ -114,51 +132,46 @@ std::string WaitReasons::DescribeHold() const
     return fmt::format("The TSC is Paused: {}", _hold.GetReason());
 }
 
-WaitReason WaitReasons::DescribeWaiting(const ActivePlan& plan, std::size_t position) const
+std::vector<RobotUnavailability> WaitReasons::ListUnavailable(const ActivePlan& plan) const
 {
-    WaitReason reason;
-    reason.planID = plan.record.plan.planID;
-    reason.queuePosition = position;
+    std::vector<RobotUnavailability> robots;
     for (const std::size_t index : plan.resolved.candidates)
     {
-        if (std::optional<std::string> robotReason = DescribeUnavailabilityOrNull(plan, _fleet[index]))
+        if (std::optional<std::string> reason = DescribeUnavailabilityOrNull(plan, _fleet[index]))
         {
-            reason.robots.push_back({_fleet[index].GetID(), std::move(*robotReason)});
+            robots.push_back({_fleet[index].GetID(), std::move(*reason)});
         }
     }
+    return robots;
+}
+
+std::string WaitReasons::DescribeWaiting(const ActivePlan& plan, bool bCanStart) const
+{
     if (_hold.IsActive())
     {
-        reason.message = DescribeHold();
+        return DescribeHold();
     }
-    else if (_tsc.GetState() != ETscState::Auto)
+    if (_tsc.GetState() != ETscState::Auto)
     {
-        reason.message = fmt::format("The TSC is {}: no plan is started.", GetText(_tsc.GetState()));
+        return fmt::format("The TSC is {}: no plan is started.", GetText(_tsc.GetState()));
     }
-    else if (_backlog.IsFailing())
+    if (_backlog.IsFailing())
     {
-        reason.message = "The store is failing: no plan is started until it works again.";
+        return "The store is failing: no plan is started until it works again.";
     }
-    else if (_startup.IsHoldingWork())
+    if (_startup.IsHoldingWork())
     {
-        reason.message = "Not all robots have reported their positions since the restart.";
+        return "Not all robots have reported their positions since the restart.";
     }
-    else if (const Block* blockOrNull = FindBlockOrNull(plan); blockOrNull != nullptr)
+    if (const Block* blockOrNull = FindBlockOrNull(plan); blockOrNull != nullptr)
     {
-        reason.message = fmt::format("The {}.", BlockBook::Describe(*blockOrNull));
+        return fmt::format("The {}.", BlockBook::Describe(*blockOrNull));
     }
-    else if (_dispatcher.IsRejectedByAll(plan))
+    if (_dispatcher.IsRejectedByAll(plan))
     {
-        reason.message = _dispatcher.DescribeRejections(plan);
+        return _dispatcher.DescribeRejections(plan);
     }
-    else if (reason.robots.size() < plan.resolved.candidates.size())
-    {
-        reason.message = "The plan is about to start.";
-    }
-    else
-    {
-        reason.message = "No suitable robot is free.";
-    }
-    return reason;
+    return bCanStart ? "The plan is about to start." : "No suitable robot is free.";
 }
 
 const Block* WaitReasons::FindBlockOrNull(const ActivePlan& plan) const

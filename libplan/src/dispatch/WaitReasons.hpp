@@ -54,7 +54,9 @@ private:
     /// Why the plan is not assigned to the robot now.
     [[nodiscard]] std::optional<std::string> DescribeUnavailabilityOrNull(const ActivePlan& plan, const Robot& robot)
         const;
-    [[nodiscard]] WaitReason DescribeWaiting(const ActivePlan& plan, std::size_t position) const;
+    [[nodiscard]] std::vector<RobotUnavailability> ListUnavailable(const ActivePlan& plan) const;
+    /// Of a plan in the queue: what it waits for.
+    [[nodiscard]] std::string DescribeWaiting(const ActivePlan& plan, bool bCanStart) const;
     /// Of a robot that waits to start its drive, or at the end of its base.
     [[nodiscard]] std::string DescribeStanding(const Robot& robot) const;
     /// Of the first station of the plan that is blocked.

@@ -138,7 +138,7 @@ public:
     [[nodiscard]] std::vector<std::reference_wrapper<const PlanRecord>> GetFinishedPlanRecords(std::size_t limit) const;
 
     /// One for every plan that makes no progress now: paused plans, plans whose robot neither drives nor works, then the queue
-    /// in its order.
+    /// in its order. The lists of robots are limited (MAXIMUM_LISTED_ROBOTS).
     [[nodiscard]] std::vector<WaitReason> GetWaitReasons() const;
 
     /// Why the engine would reject the command now; nullopt if it would accept it.

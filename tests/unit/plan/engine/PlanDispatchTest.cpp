@@ -1,10 +1,16 @@
 #include "fixtures/PlanWorldSteps.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
+#include <string>
+#include <vector>
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 using ACS::Testing::MakeControlPlan;
 using ACS::Testing::MakeLogisticsPlan;
+using ACS::Testing::MakeTestOptions;
+using ACS::Testing::MakeTestSite;
 using ACS::Testing::MakeWorld;
 using ACS::Testing::PlanWorld;
 using ACS::Testing::TryRunUntil;
@@ -172,6 +178,30 @@ TEST_CASE("A plan that unloads a port before it loads it may find the port taken
     REQUIRE(world.TryRun());
     CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
     CHECK(world.engine->GetRobotStatuses().front().carrierIDs.front() == "CASSETTE_08");
+}
+
+TEST_CASE("Wait reasons of all plans: a long queue has lists of robots at its head only, a single plan always")
+{
+    constexpr std::size_t CANDIDATES = 2;
+    constexpr std::size_t LISTED = MAXIMUM_LISTED_ROBOTS / CANDIDATES;
+    EngineOptions options = MakeTestOptions(true);
+    options.maximumPlans = LISTED + 2;
+    PlanWorld world(1, options, MakeTestSite());
+    for (std::size_t i = 0; i < options.maximumPlans; ++i)
+    {
+        world.Submit(MakeLogisticsPlan("P" + std::to_string(i)));
+    }
+    const std::vector<WaitReason> reasons = world.engine->GetWaitReasons();
+    REQUIRE(reasons.size() == options.maximumPlans);
+    CHECK(
+        std::ranges::count(reasons, CANDIDATES, [](const WaitReason& reason) { return reason.robots.size(); })
+        == LISTED);
+    CHECK(reasons[LISTED - 1].robots.size() == CANDIDATES);
+    CHECK(reasons[LISTED].robots.empty());
+    WaitReason last = *world.engine->GetWaitReasonOrNull(reasons.back().planID);
+    CHECK(last.robots.size() == CANDIDATES);
+    last.robots.clear();
+    CHECK(last == reasons.back());
 }
 
 TEST_CASE("Wait reason: the position in the queue, and for each suitable robot why it is not used")
