@@ -74,6 +74,11 @@ void ReportUnusedMembers(const std::string& map, AcsdConfig& config)
 void WarnOfParking(AcsdConfig& config)
 {
     const Planning::Router router(*config.site);
+    std::vector<std::size_t> docks;
+    for (const Planning::SiteStation& station : config.site->GetStations())
+    {
+        docks.push_back(*config.site->FindNodeIndexOrNull(station.nodeIDs.front()));
+    }
     for (const Planning::RobotOptions& robot : config.engine.robots)
     {
         const std::optional<std::string>& parking =
@@ -84,11 +89,7 @@ void WarnOfParking(AcsdConfig& config)
         }
         const std::size_t dock =
             *config.site->FindNodeIndexOrNull(config.site->FindStationOrNull(*parking)->nodeIDs.front());
-        std::vector<std::size_t> others;
-        for (const Planning::SiteStation& station : config.site->GetStations())
-        {
-            others.push_back(*config.site->FindNodeIndexOrNull(station.nodeIDs.front()));
-        }
+        std::vector<std::size_t> others = docks;
         std::erase(others, dock);
         const auto isReached = [&](Planning::ELoad load) {
             return router.FindQuickestStartOrNull(robot.vehicleTypeID, load, others, dock).has_value();

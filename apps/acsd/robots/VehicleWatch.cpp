@@ -76,8 +76,8 @@ VehicleWatch::VehicleWatch(
 
 VehicleWatch::Range VehicleWatch::FindRange(const Planning::SiteMap& site, double Planning::SiteNode::*coordinate)
 {
-    const auto [low, high] = std::ranges::minmax(site.GetNodes(), {}, coordinate);
-    return {low.*coordinate - MARGIN, high.*coordinate + MARGIN};
+    const auto [low, high] = std::ranges::minmax_element(site.GetNodes(), {}, coordinate);
+    return {(*low).*coordinate - MARGIN, (*high).*coordinate + MARGIN};
 }
 
 void VehicleWatch::Note(std::string_view kind, std::string_view detail)
