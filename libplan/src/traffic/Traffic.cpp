@@ -13,6 +13,7 @@ Traffic::Traffic(const SiteMap& site, double clearance)
     : _holders(site.GetNodes().size()),
       _covers(_holders.size(), 0),
       _homes(_holders.size(), 0),
+      _arriving(_holders.size()),
       _seen(_holders.size(), 0)
 {
     FindNear(site, clearance);
@@ -261,6 +262,31 @@ void Traffic::HoldPossible(std::size_t robot, std::span<const std::size_t> nodes
             _awaited.push_back(awaited);
         }
     }
+}
+
+void Traffic::SetDestination(std::size_t robot, std::optional<std::size_t> nodeOrNull)
+{
+    std::optional<std::size_t>& destination = _vehicles[robot].destination;
+    if (destination.has_value())
+    {
+        std::erase(_arriving[*destination], robot);
+    }
+    destination = nodeOrNull;
+    if (destination.has_value())
+    {
+        _arriving[*destination].push_back(robot);
+    }
+}
+
+std::vector<std::size_t> Traffic::GetArriving(std::size_t node) const
+{
+    std::vector<std::size_t> robots;
+    for (const std::uint32_t near : _near[node])
+    {
+        robots.insert(robots.end(), _arriving[near].begin(), _arriving[near].end());
+    }
+    std::ranges::sort(robots);
+    return robots;
 }
 
 void Traffic::Disown(std::size_t robot, std::size_t node)

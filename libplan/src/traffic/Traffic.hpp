@@ -40,6 +40,7 @@ class Traffic
         std::vector<std::size_t> path;      ///< Held nodes in driving order; it is on the first.
         std::optional<std::size_t> heading; ///< It is stationary between its node and this one, and cannot turn round.
         std::vector<std::size_t> extra;     ///< Other held nodes: where it may be, or may drive uncommanded.
+        std::optional<std::size_t> destination; ///< Last node of its drive.
         bool bMovable = false;
         bool bCanReturn = false; ///< With any load a route leads out of its home and back while all others are parked.
     };
@@ -73,6 +74,7 @@ class Traffic
     std::vector<std::optional<std::size_t>> _holders;
     std::vector<std::uint16_t> _covers; ///< Of each node: how many held nodes exclude it.
     std::vector<std::uint16_t> _homes;  ///< Of each node: how many homes exclude it.
+    std::vector<std::vector<std::size_t>> _arriving; ///< Of each node: the robots that have it as destination.
     std::array<SafeState, 2> _safeStates;
     std::vector<Awaited> _awaited; ///< In the order in which they were asked for.
     bool _bPassedOn = false;       ///< Something that was given back is held by another since the last Note.
@@ -120,6 +122,11 @@ public:
 
     /// The robot may be on these nodes: reserves them in addition, and those of other robots as soon as they are freed.
     void HoldPossible(std::size_t robot, std::span<const std::size_t> nodes);
+
+    /// The last node of the robot's drive; nullopt: it has none. Reserves nothing.
+    void SetDestination(std::size_t robot, std::optional<std::size_t> nodeOrNull);
+    /// Robots whose destination is the node or one within the clearance, in their order.
+    [[nodiscard]] std::vector<std::size_t> GetArriving(std::size_t node) const;
 
     /// Frees one node of HoldPossible.
     void Disown(std::size_t robot, std::size_t node);

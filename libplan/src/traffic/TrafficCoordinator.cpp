@@ -242,6 +242,7 @@ bool TrafficCoordinator::TryBeginDrive(Robot& robot, const PlannedRoute& planned
     _transaction.Command(robot, Drive{drive.driveID, drive.route, drive.releasedCount});
     _transaction.StartTimer(EEngineTimer::DriveExtension, robot.GetID(), _options.extensionDelay);
     robot.drive = std::move(drive);
+    _traffic.SetDestination(robot.index, robot.drive->nodes.back());
     _places.NoteStandingChanged();
     return true;
 }
@@ -417,6 +418,7 @@ void TrafficCoordinator::EndDrive(Robot& robot)
     robot.place.heading = PlaceTracker::GetHeadingOrNull(robot, robot.place.aheadNodes);
     _traffic.SetHeading(robot.index, robot.place.heading);
     robot.drive.reset();
+    _traffic.SetDestination(robot.index, std::nullopt);
     _places.NoteStandingChanged();
     robot.search.plannedRoute.reset();
     robot.search.blockers.clear();

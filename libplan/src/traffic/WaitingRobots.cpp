@@ -29,12 +29,11 @@ std::optional<std::size_t> WaitingRobots::GetTargetOrNull(const Robot& robot) co
 std::vector<std::size_t> WaitingRobots::GetTargetHolders(const Robot& robot, std::size_t target) const
 {
     std::vector<std::size_t> holders = _traffic.GetHolders(target, robot.index);
-    for (const Robot& other : _fleet)
+    for (const std::size_t other : _traffic.GetArriving(target))
     {
-        if (&other != &robot && other.drive.has_value() && _traffic.IsNear(other.drive->nodes.back(), target)
-            && std::ranges::count(holders, other.index) == 0)
+        if (other != robot.index && std::ranges::count(holders, other) == 0)
         {
-            holders.push_back(other.index);
+            holders.push_back(other);
         }
     }
     return holders;
