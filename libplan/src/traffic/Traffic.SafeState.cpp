@@ -66,17 +66,22 @@ void Traffic::FindReturns(const Vehicle& vehicle, LoadGraph& graph) const
     }
 }
 
-/// Dijkstra's algorithm, backwards from the home.
-void Traffic::FindWaysHome(LoadGraph& graph, std::size_t home) const
+/// Dijkstra's algorithm, backwards from the home. Begins anew, with twice as many nodes as before: robots are mostly near their
+/// home, and a search over the whole floor for each robot would delay a start.
+void Traffic::FindWaysHome(const LoadGraph& graph, std::size_t home, std::size_t from) const
 {
     using OpenNode = std::pair<double, std::size_t>;
     const FloorGraph& floor = *graph.floor;
     std::vector<double> seconds(_holders.size(), std::numeric_limits<double>::infinity());
+    std::vector<std::uint32_t> next(_holders.size(), NOWHERE);
     std::priority_queue<OpenNode, std::vector<OpenNode>, std::greater<>> open;
+    const std::size_t least = 2 * graph.nearest;
     graph.nextToHome.assign(_holders.size(), NOWHERE);
+    graph.nearest = 0;
     seconds[home] = 0;
     open.emplace(0, home);
-    while (!open.empty())
+    bool bFound = false;
+    while (!open.empty() && (!bFound || graph.nearest < least))
     {
         const auto [reached, node] = open.top();
         open.pop();
@@ -84,17 +89,21 @@ void Traffic::FindWaysHome(LoadGraph& graph, std::size_t home) const
         {
             continue;
         }
+        graph.nextToHome[node] = next[node];
+        ++graph.nearest;
+        bFound = bFound || node == from;
         for (const std::size_t index : floor.GetLanesTo(node))
         {
             const Lane& lane = floor.GetLanes()[index];
             if (reached + lane.seconds < seconds[lane.from])
             {
                 seconds[lane.from] = reached + lane.seconds;
-                graph.nextToHome[lane.from] = static_cast<std::uint32_t>(node);
+                next[lane.from] = static_cast<std::uint32_t>(node);
                 open.emplace(seconds[lane.from], lane.from);
             }
         }
     }
+    graph.nearest = open.empty() ? _holders.size() : graph.nearest;
 }
 
 void Traffic::Cover(const Vehicle& vehicle, std::vector<std::uint16_t>& covers, bool bAdd) const
@@ -111,9 +120,13 @@ void Traffic::Cover(const Vehicle& vehicle, std::vector<std::uint16_t>& covers, 
 
 bool Traffic::IsAnyFixed() const
 {
-    return std::ranges::any_of(_vehicles, [](const Vehicle& vehicle) {
-        return !vehicle.bMovable && (!vehicle.path.empty() || !vehicle.extra.empty());
-    });
+    if (std::exchange(_anyFixedAt, _fixedChanges) != _fixedChanges)
+    {
+        _bAnyFixed = std::ranges::any_of(_vehicles, [](const Vehicle& vehicle) {
+            return !vehicle.bMovable && (!vehicle.path.empty() || !vehicle.extra.empty());
+        });
+    }
+    return _bAnyFixed;
 }
 
 bool Traffic::IsBlocked(const Lane& lane) const
@@ -191,6 +204,12 @@ bool Traffic::HasStraightWayHome(
     std::size_t from,
     const std::vector<std::uint16_t>& covers) const
 {
+    const bool bKnown = from == *vehicle.home || graph.nearest == _holders.size()
+        || (!graph.nextToHome.empty() && graph.nextToHome[from] != NOWHERE);
+    if (!bKnown)
+    {
+        FindWaysHome(graph, *vehicle.home, from);
+    }
     for (std::size_t node = from; node != *vehicle.home; node = graph.nextToHome[node])
     {
         const std::uint32_t next = graph.nextToHome[node];
@@ -349,6 +368,18 @@ bool Traffic::CanServe(std::size_t robot, std::size_t node) const
     {
         return true;
     }
+    Served& served = vehicle.served;
+    const std::size_t from = vehicle.path.back();
+    if (served.fixedAt != _fixedChanges || served.from != from || served.heading != vehicle.heading
+        || served.node != node)
+    {
+        served = {_fixedChanges, from, vehicle.heading, node, HasWayAround(vehicle, node)};
+    }
+    return served.bCan;
+}
+
+bool Traffic::HasWayAround(const Vehicle& vehicle, std::size_t node) const
+{
     std::vector<std::uint16_t> covers(_covers.size(), 0);
     const std::vector<std::uint16_t> none = covers;
     for (const Vehicle& other : _vehicles)

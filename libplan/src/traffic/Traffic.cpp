@@ -66,18 +66,14 @@ void Traffic::AddRobot(std::string_view vehicleTypeID, std::optional<std::size_t
     for (const FloorGraph& floor :
          found == _graphs.end() ? std::span<const FloorGraph>() : std::span<const FloorGraph>(found->second))
     {
-        LoadGraph& graph = vehicle.graphs.emplace_back();
-        graph.floor = &floor;
-        if (homeOrNull.has_value())
-        {
-            FindWaysHome(graph, *homeOrNull);
-        }
+        vehicle.graphs.emplace_back().floor = &floor;
     }
     for (const std::uint32_t node : homeOrNull.has_value() ? _near[*homeOrNull] : std::vector<std::uint32_t>())
     {
         ++_homes[node];
     }
     _bReturnsKnown = false;
+    ++_fixedChanges;
     Note(false);
 }
 
@@ -86,6 +82,7 @@ void Traffic::SetBlocked(const std::vector<bool>& nodes, const std::vector<bool>
     const bool bAny = std::ranges::count(nodes, true) + std::ranges::count(edges, true) > 0;
     _blockedNodes = bAny ? nodes : std::vector<bool>();
     _blockedEdges = bAny ? edges : std::vector<bool>();
+    ++_fixedChanges;
     Note(false);
 }
 
@@ -93,6 +90,7 @@ void Traffic::SetStandIn(std::size_t robot, std::optional<std::size_t> standInOr
 {
     if (std::exchange(_vehicles[robot].standIn, standInOrNull) != standInOrNull)
     {
+        ++_fixedChanges;
         Note(false);
     }
 }
@@ -130,6 +128,7 @@ void Traffic::SetMovable(std::size_t robot, bool bMovable)
 {
     if (std::exchange(_vehicles[robot].bMovable, bMovable) != bMovable)
     {
+        ++_fixedChanges;
         Note(false);
     }
 }
@@ -155,8 +154,17 @@ void Traffic::Note(bool bOnlyFreed)
     ++_freedCount;
 }
 
+void Traffic::NoteFixed(std::size_t robot)
+{
+    if (!_vehicles[robot].bMovable)
+    {
+        ++_fixedChanges;
+    }
+}
+
 void Traffic::Hold(std::size_t robot, std::size_t node)
 {
+    NoteFixed(robot);
     _holders[node] = robot;
     for (const std::uint32_t near : _near[node])
     {
@@ -166,6 +174,7 @@ void Traffic::Hold(std::size_t robot, std::size_t node)
 
 void Traffic::Free(std::size_t node)
 {
+    NoteFixed(*_holders[node]);
     _holders[node].reset();
     for (const std::uint32_t near : _near[node])
     {

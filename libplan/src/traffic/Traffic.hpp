@@ -28,8 +28,20 @@ class Traffic
     struct LoadGraph
     {
         const FloorGraph* floor = nullptr;
-        std::vector<std::uint32_t> nextToHome; ///< By node: the next one on the quickest route home.
-        std::vector<bool> returns;             ///< By node: whether a route home is free while all others are parked.
+        /// By node: the next one on the quickest route home. Of the nearest nodes, as many as were needed so far.
+        mutable std::vector<std::uint32_t> nextToHome;
+        mutable std::size_t nearest = 0; ///< Number of nodes in nextToHome; all that have a route: the number of nodes.
+        std::vector<bool> returns;       ///< By node: whether a route home is free while all others are parked.
+    };
+
+    /// An answer of CanServe, for as long as the robot and the fixed obstacles stay where they are.
+    struct Served
+    {
+        std::uint64_t fixedAt = 0; ///< Value of _fixedChanges; 0: none yet.
+        std::size_t from = 0;
+        std::optional<std::size_t> heading;
+        std::size_t node = 0;
+        bool bCan = false;
     };
 
     struct Vehicle
@@ -41,6 +53,7 @@ class Traffic
         std::optional<std::size_t> heading; ///< It is stationary between its node and this one, and cannot turn round.
         std::vector<std::size_t> extra;     ///< Other held nodes: where it may be, or may drive uncommanded.
         std::optional<std::size_t> destination; ///< Last node of its drive.
+        mutable Served served;
         bool bMovable = false;
         bool bCanReturn = false; ///< With any load a route leads out of its home and back while all others are parked.
     };
@@ -83,6 +96,9 @@ class Traffic
     std::vector<bool> _blockedEdges;
     bool _bBlocksRefuse = false; ///< The blocks limited the last Extend.
     bool _bReturnsKnown = false;
+    std::uint64_t _fixedChanges = 1;          ///< Of what robots that cannot move hold, and of blocks.
+    mutable std::uint64_t _anyFixedAt = 0;    ///< Value of _fixedChanges.
+    mutable bool _bAnyFixed = false;          ///< As of then.
     std::uint64_t _freedCount = 0;
 
     // Of searches.
@@ -174,7 +190,8 @@ public:
 
 private:
     void FindNear(const SiteMap& site, double clearance);
-    void FindWaysHome(LoadGraph& graph, std::size_t home) const;
+    /// Until the node has its entry in nextToHome.
+    void FindWaysHome(const LoadGraph& graph, std::size_t home, std::size_t from) const;
     void FindReturns();
     void FindReturns(const Vehicle& vehicle, LoadGraph& graph) const;
     [[nodiscard]] static std::size_t GetEnd(const Vehicle& vehicle);
@@ -182,8 +199,11 @@ private:
     void Free(std::size_t node);
     void GiveBack(std::size_t node);
     void Note(bool bOnlyFreed);
+    /// Of its nodes, where it holds them while it cannot move.
+    void NoteFixed(std::size_t robot);
     void Cover(const Vehicle& vehicle, std::vector<std::uint16_t>& covers, bool bAdd) const;
     [[nodiscard]] bool IsAnyFixed() const;
+    [[nodiscard]] bool HasWayAround(const Vehicle& vehicle, std::size_t node) const;
     [[nodiscard]] bool IsAnyBlocked() const noexcept;
     [[nodiscard]] bool IsBlocked(const Lane& lane) const;
     /// Whether the lane on which it is stationary between two nodes is open.
