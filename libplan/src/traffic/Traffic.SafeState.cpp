@@ -9,13 +9,6 @@
 namespace ACS::Planning
 {
 
-namespace
-{
-
-constexpr std::uint32_t NOWHERE = std::numeric_limits<std::uint32_t>::max();
-
-} // namespace
-
 /// A home on a lane, between the homes of others, has no guaranteed route back.
 void Traffic::FindReturns()
 {
@@ -48,10 +41,10 @@ void Traffic::FindReturns(const Vehicle& vehicle, LoadGraph& graph) const
 {
     graph.returns.assign(_holders.size(), false);
     graph.returns[*vehicle.home] = true;
-    _open.assign(1, static_cast<std::uint32_t>(*vehicle.home));
-    for (std::size_t next = 0; next < _open.size(); ++next)
+    _scratch.open.assign(1, static_cast<std::uint32_t>(*vehicle.home));
+    for (std::size_t next = 0; next < _scratch.open.size(); ++next)
     {
-        for (const std::size_t index : graph.floor->GetLanesTo(_open[next]))
+        for (const std::size_t index : graph.floor->GetLanesTo(_scratch.open[next]))
         {
             const std::size_t from = graph.floor->GetLanes()[index].from;
             if (!graph.returns[from])
@@ -59,14 +52,14 @@ void Traffic::FindReturns(const Vehicle& vehicle, LoadGraph& graph) const
                 graph.returns[from] = true;
                 if (!IsHomeOfOther(vehicle, from))
                 {
-                    _open.push_back(static_cast<std::uint32_t>(from));
+                    _scratch.open.push_back(static_cast<std::uint32_t>(from));
                 }
             }
         }
     }
 }
 
-/// Dijkstra's algorithm, backwards from the home. Begins anew, with twice as many nodes as before: robots are mostly near their
+/// Dijkstra's algorithm, backwards from the home. Starts again, with twice as many nodes as before: robots are mostly near their
 /// home, and a search over the whole floor for each robot would delay a start.
 void Traffic::FindWaysHome(const LoadGraph& graph, std::size_t home, std::size_t from) const
 {
@@ -120,13 +113,13 @@ void Traffic::Cover(const Vehicle& vehicle, std::vector<std::uint16_t>& covers, 
 
 bool Traffic::IsAnyFixed() const
 {
-    if (std::exchange(_anyFixedAt, _fixedChanges) != _fixedChanges)
+    if (std::exchange(_anyFixed.at, _changes.fixed) != _changes.fixed)
     {
-        _bAnyFixed = std::ranges::any_of(_vehicles, [](const Vehicle& vehicle) {
+        _anyFixed.bAny = std::ranges::any_of(_vehicles, [](const Vehicle& vehicle) {
             return !vehicle.bMovable && (!vehicle.path.empty() || !vehicle.extra.empty());
         });
     }
-    return _bAnyFixed;
+    return _anyFixed.bAny;
 }
 
 bool Traffic::IsBlocked(const Lane& lane) const
@@ -173,12 +166,12 @@ bool Traffic::HasWay(
     {
         return false;
     }
-    ++_search;
-    _open.assign(1, static_cast<std::uint32_t>(from));
-    _seen[from] = _search;
-    for (std::size_t next = 0; next < _open.size(); ++next)
+    ++_scratch.search;
+    _scratch.open.assign(1, static_cast<std::uint32_t>(from));
+    _scratch.seen[from] = _scratch.search;
+    for (std::size_t next = 0; next < _scratch.open.size(); ++next)
     {
-        for (const Lane& lane : graph.floor->GetLanesFrom(_open[next]))
+        for (const Lane& lane : graph.floor->GetLanesFrom(_scratch.open[next]))
         {
             if (bAround && IsBlocked(lane))
             {
@@ -188,10 +181,10 @@ bool Traffic::HasWay(
             {
                 return true;
             }
-            if (_seen[lane.to] != _search && covers[lane.to] == 0 && !IsHomeOfOther(vehicle, lane.to))
+            if (_scratch.seen[lane.to] != _scratch.search && covers[lane.to] == 0 && !IsHomeOfOther(vehicle, lane.to))
             {
-                _seen[lane.to] = _search;
-                _open.push_back(static_cast<std::uint32_t>(lane.to));
+                _scratch.seen[lane.to] = _scratch.search;
+                _scratch.open.push_back(static_cast<std::uint32_t>(lane.to));
             }
         }
     }
@@ -290,76 +283,6 @@ const Traffic::SafeState& Traffic::GetSafeState(ESafeStateScope standing)
     return _safeStates[static_cast<std::size_t>(standing)];
 }
 
-/// Whether each robot that could park before still can with the nodes held on trial. One that cannot is a blocker.
-bool Traffic::IsAsGood(ESafeStateScope standing, std::size_t robot)
-{
-    const SafeState after = FindSafeState(standing);
-    bool bGood = true;
-    for (std::size_t other = 0; other < _vehicles.size(); ++other)
-    {
-        const bool bLost = _safeStates[static_cast<std::size_t>(standing)].reachable[other] && !after.reachable[other];
-        bGood = bGood && !bLost;
-        if (bLost && other != robot && std::ranges::count(_blockers, other) == 0)
-        {
-            _blockers.push_back(other);
-        }
-    }
-    return bGood;
-}
-
-bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
-{
-    Vehicle& vehicle = _vehicles[robot];
-    // A robot that can park before all others leaves the floor as if it had never been there.
-    Cover(vehicle, _covers, false);
-    const bool bFirst = vehicle.bMovable && CanGoHome(vehicle, ahead.back(), _covers, ESafeStateScope::AllMove)
-        && (!IsAnyBlocked() || CanGoHome(vehicle, ahead.back(), _covers, ESafeStateScope::AsIs));
-    Cover(vehicle, _covers, true);
-    if (bFirst)
-    {
-        return true;
-    }
-    // The present state, before the nodes are held on trial.
-    static_cast<void>(GetSafeState(ESafeStateScope::AllMove));
-    const std::size_t heldCount = vehicle.path.size();
-    const std::optional<std::size_t> heading = vehicle.heading;
-    std::vector<std::size_t> held;
-    const auto take = [this, robot, ahead, &vehicle, &held] {
-        vehicle.heading.reset();
-        for (const std::size_t node : ahead)
-        {
-            vehicle.path.push_back(node);
-            if (std::ranges::count(vehicle.extra, node) == 0)
-            {
-                Hold(robot, node);
-                held.push_back(node);
-            }
-        }
-    };
-    const auto giveBack = [this, heldCount, heading, &vehicle, &held] {
-        vehicle.heading = heading;
-        vehicle.path.resize(heldCount);
-        std::ranges::for_each(held, [this](std::size_t node) { Free(node); });
-        held.clear();
-    };
-    take();
-    bool bSafe = IsAsGood(ESafeStateScope::AllMove, robot);
-    giveBack();
-    if (bSafe && (IsAnyFixed() || IsAnyBlocked()))
-    {
-        static_cast<void>(GetSafeState(ESafeStateScope::AsIs));
-        take();
-        bSafe = IsAsGood(ESafeStateScope::AsIs, robot);
-        giveBack();
-        _bBlocksRefuse = !bSafe && IsAnyBlocked();
-    }
-    if (!bSafe && _blockers.empty())
-    {
-        _blockers = GetFixed(robot);
-    }
-    return bSafe;
-}
-
 bool Traffic::CanServe(std::size_t robot, std::size_t node) const
 {
     const Vehicle& vehicle = _vehicles[robot];
@@ -370,10 +293,10 @@ bool Traffic::CanServe(std::size_t robot, std::size_t node) const
     }
     Served& served = vehicle.served;
     const std::size_t from = vehicle.path.back();
-    if (served.fixedAt != _fixedChanges || served.from != from || served.heading != vehicle.heading
+    if (served.fixedAt != _changes.fixed || served.from != from || served.heading != vehicle.heading
         || served.node != node)
     {
-        served = {_fixedChanges, from, vehicle.heading, node, HasWayAround(vehicle, node)};
+        served = {_changes.fixed, from, vehicle.heading, node, HasWayAround(vehicle, node)};
     }
     return served.bCan;
 }

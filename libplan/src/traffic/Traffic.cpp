@@ -13,9 +13,9 @@ Traffic::Traffic(const SiteMap& site, double clearance)
     : _holders(site.GetNodes().size()),
       _covers(_holders.size(), 0),
       _homes(_holders.size(), 0),
-      _arriving(_holders.size()),
-      _seen(_holders.size(), 0)
+      _arriving(_holders.size())
 {
+    _scratch.seen.assign(_holders.size(), 0);
     FindNear(site, clearance);
     for (const SiteEdge& edge : site.GetEdges())
     {
@@ -73,7 +73,7 @@ void Traffic::AddRobot(std::string_view vehicleTypeID, std::optional<std::size_t
         ++_homes[node];
     }
     _bReturnsKnown = false;
-    ++_fixedChanges;
+    ++_changes.fixed;
     Note(false);
 }
 
@@ -82,7 +82,7 @@ void Traffic::SetBlocked(const std::vector<bool>& nodes, const std::vector<bool>
     const bool bAny = std::ranges::count(nodes, true) + std::ranges::count(edges, true) > 0;
     _blockedNodes = bAny ? nodes : std::vector<bool>();
     _blockedEdges = bAny ? edges : std::vector<bool>();
-    ++_fixedChanges;
+    ++_changes.fixed;
     Note(false);
 }
 
@@ -90,7 +90,7 @@ void Traffic::SetStandIn(std::size_t robot, std::optional<std::size_t> standInOr
 {
     if (std::exchange(_vehicles[robot].standIn, standInOrNull) != standInOrNull)
     {
-        ++_fixedChanges;
+        ++_changes.fixed;
         Note(false);
     }
 }
@@ -128,7 +128,7 @@ void Traffic::SetMovable(std::size_t robot, bool bMovable)
 {
     if (std::exchange(_vehicles[robot].bMovable, bMovable) != bMovable)
     {
-        ++_fixedChanges;
+        ++_changes.fixed;
         Note(false);
     }
 }
@@ -151,14 +151,16 @@ void Traffic::Note(bool bOnlyFreed)
     {
         safeState.bValid = safeState.bValid && bOnlyFreed && safeState.bAll;
     }
-    ++_freedCount;
+    _changes.disturbs += bOnlyFreed ? 0U : 1U;
+    ++_changes.freed;
 }
 
 void Traffic::NoteFixed(std::size_t robot)
 {
+    _vehicles[robot].changes += _bTrial ? 0U : 1U;
     if (!_vehicles[robot].bMovable)
     {
-        ++_fixedChanges;
+        ++_changes.fixed;
     }
 }
 
@@ -219,6 +221,7 @@ bool Traffic::TryStand(
     };
     const bool bHeld = isOwn(node) && std::ranges::all_of(wanted, isOwn);
     Vehicle& vehicle = _vehicles[robot];
+    ++vehicle.changes;
     vehicle.heading.reset();
     std::vector<std::size_t> held = std::exchange(vehicle.path, {node});
     std::ranges::move(std::exchange(vehicle.extra, {}), std::back_inserter(held));
@@ -345,6 +348,7 @@ std::size_t Traffic::Extend(std::size_t robot, std::span<const std::size_t> ahea
     }
     if (count > 0)
     {
+        ++vehicle.changes;
         vehicle.heading.reset();
         _blockers.clear();
         _bBlocksRefuse = false;
@@ -468,7 +472,7 @@ std::vector<std::size_t> Traffic::GetFixed(std::size_t robot) const
 
 std::uint64_t Traffic::GetFreedCount() const noexcept
 {
-    return _freedCount;
+    return _changes.freed;
 }
 
 } // namespace ACS::Planning

@@ -6,11 +6,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace ACS::Planning
@@ -24,6 +26,8 @@ namespace ACS::Planning
 /// present load: a job may change that on any station.
 class Traffic
 {
+    static constexpr std::uint32_t NOWHERE = std::numeric_limits<std::uint32_t>::max();
+
     /// What a vehicle can drive along with one load.
     struct LoadGraph
     {
@@ -34,14 +38,26 @@ class Traffic
         std::vector<bool> returns;       ///< By node: whether a route home is free while all others are parked.
     };
 
-    /// An answer of CanServe, for as long as the robot and the fixed obstacles stay where they are.
+    /// An answer of CanServe, while the robot and the fixed obstacles stay where they are.
     struct Served
     {
-        std::uint64_t fixedAt = 0; ///< Value of _fixedChanges; 0: none yet.
+        std::uint64_t fixedAt = 0; ///< Value of Changes::fixed; 0: none yet.
         std::size_t from = 0;
         std::optional<std::size_t> heading;
         std::size_t node = 0;
         bool bCan = false;
+    };
+
+    /// Why a grant was refused: with the nodes ahead, these robots could not park any more, whatever all others do. Nothing but
+    /// a change of what they hold makes the grant possible.
+    struct Refusal
+    {
+        std::vector<std::size_t> ahead;
+        std::vector<std::pair<std::size_t, std::uint64_t>> stuck; ///< Robots, itself among them, with Vehicle::changes.
+        std::vector<std::size_t> blockers;
+        bool bForBlocks = false;
+        std::uint64_t disturbedAt = 0; ///< Value of Changes::disturbs.
+        std::uint64_t fixedAt = 0;     ///< Value of Changes::fixed.
     };
 
     struct Vehicle
@@ -54,6 +70,8 @@ class Traffic
         std::vector<std::size_t> extra;     ///< Other held nodes: where it may be, or may drive uncommanded.
         std::optional<std::size_t> destination; ///< Last node of its drive.
         mutable Served served;
+        std::array<Refusal, 2> refusals; ///< The last ones: of several nodes, and of the next one only.
+        std::uint64_t changes = 0;       ///< Of what it holds and where it is.
         bool bMovable = false;
         bool bCanReturn = false; ///< With any load a route leads out of its home and back while all others are parked.
     };
@@ -75,6 +93,29 @@ class Traffic
         bool operator==(const Awaited&) const = default;
     };
 
+    /// Numbers of changes.
+    struct Changes
+    {
+        std::uint64_t freed = 0;    ///< See GetFreedCount.
+        std::uint64_t disturbs = 0; ///< Other than nodes that were given back or granted.
+        std::uint64_t fixed = 1;    ///< Of what robots that cannot move hold, and of blocks.
+    };
+
+    /// Whether robots that cannot move hold nodes.
+    struct AnyFixed
+    {
+        std::uint64_t at = 0; ///< Value of Changes::fixed then; 0: not known yet.
+        bool bAny = false;
+    };
+
+    /// Of searches.
+    struct Scratch
+    {
+        std::vector<std::uint32_t> seen;
+        std::uint32_t search = 0;
+        std::vector<std::uint32_t> open;
+    };
+
     enum class ESafeStateScope : std::uint8_t
     {
         AllMove, ///< As if every robot could move and nothing was blocked.
@@ -85,8 +126,8 @@ class Traffic
     std::map<std::string, std::vector<FloorGraph>, std::less<>> _graphs; ///< By type: of empty and loaded vehicles.
     std::vector<Vehicle> _vehicles;
     std::vector<std::optional<std::size_t>> _holders;
-    std::vector<std::uint16_t> _covers; ///< Of each node: how many held nodes exclude it.
-    std::vector<std::uint16_t> _homes;  ///< Of each node: how many homes exclude it.
+    std::vector<std::uint16_t> _covers;              ///< Of each node: how many held nodes exclude it.
+    std::vector<std::uint16_t> _homes;               ///< Of each node: how many homes exclude it.
     std::vector<std::vector<std::size_t>> _arriving; ///< Of each node: the robots that have it as destination.
     std::array<SafeState, 2> _safeStates;
     std::vector<Awaited> _awaited; ///< In the order in which they were asked for.
@@ -96,15 +137,10 @@ class Traffic
     std::vector<bool> _blockedEdges;
     bool _bBlocksRefuse = false; ///< The blocks limited the last Extend.
     bool _bReturnsKnown = false;
-    std::uint64_t _fixedChanges = 1;          ///< Of what robots that cannot move hold, and of blocks.
-    mutable std::uint64_t _anyFixedAt = 0;    ///< Value of _fixedChanges.
-    mutable bool _bAnyFixed = false;          ///< As of then.
-    std::uint64_t _freedCount = 0;
-
-    // Of searches.
-    mutable std::vector<std::uint32_t> _seen;
-    mutable std::uint32_t _search = 0;
-    mutable std::vector<std::uint32_t> _open;
+    bool _bTrial = false; ///< Nodes are held on trial.
+    Changes _changes;
+    mutable AnyFixed _anyFixed;
+    mutable Scratch _scratch;
 
 public:
     /// clearance: nodes of one map within this distance (metres) exclude each other; nodes at the same position always do.
@@ -229,7 +265,13 @@ private:
         ESafeStateScope scope);
     [[nodiscard]] SafeState FindSafeState(ESafeStateScope standing);
     [[nodiscard]] const SafeState& GetSafeState(ESafeStateScope standing);
-    [[nodiscard]] bool IsAsGood(ESafeStateScope standing, std::size_t robot);
+    [[nodiscard]] bool IsAsGood(ESafeStateScope standing, std::size_t robot, Refusal& refusal);
+    /// Whether the robot can park after those in its way, as far as they can. False: not known.
+    [[nodiscard]] bool CanParkSoon(std::size_t robot, ESafeStateScope scope);
+    [[nodiscard]] bool CanPark(const Vehicle& vehicle, const std::vector<std::uint16_t>& covers, ESafeStateScope scope);
+    void AddInTheWay(const Vehicle& vehicle, std::vector<std::size_t>& robots) const;
+    void AddBlockers(const std::vector<std::size_t>& robots);
+    [[nodiscard]] bool IsRefusedStill(const Refusal& refusal, std::span<const std::size_t> ahead) const;
     [[nodiscard]] bool IsSafe(std::size_t robot, std::span<const std::size_t> ahead);
 };
 

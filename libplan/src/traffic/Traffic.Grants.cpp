@@ -1,0 +1,208 @@
+#include "traffic/Traffic.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+// Whether nodes can be granted.
+
+namespace ACS::Planning
+{
+
+/// Whether each robot that could park before still can with the nodes held on trial. One that cannot is a blocker.
+bool Traffic::IsAsGood(ESafeStateScope standing, std::size_t robot, Refusal& refusal)
+{
+    const SafeState after = FindSafeState(standing);
+    bool bGood = true;
+    refusal.stuck.clear();
+    for (std::size_t other = 0; other < _vehicles.size(); ++other)
+    {
+        const bool bLost = _safeStates[static_cast<std::size_t>(standing)].reachable[other] && !after.reachable[other];
+        bGood = bGood && !bLost;
+        if (bLost && other != robot && std::ranges::count(_blockers, other) == 0)
+        {
+            _blockers.push_back(other);
+        }
+        if (!after.reachable[other] && !_vehicles[other].path.empty())
+        {
+            refusal.stuck.emplace_back(other, _vehicles[other].changes);
+        }
+    }
+    return bGood;
+}
+
+bool Traffic::CanPark(const Vehicle& vehicle, const std::vector<std::uint16_t>& covers, ESafeStateScope scope)
+{
+    if (vehicle.path.empty() || (scope == ESafeStateScope::AsIs && !vehicle.bMovable))
+    {
+        return false;
+    }
+    return (scope == ESafeStateScope::AllMove || HasOpenStart(vehicle))
+        && CanGoHome(vehicle, GetEnd(vehicle), covers, scope);
+}
+
+/// Others that hold nodes on its quickest route home.
+void Traffic::AddInTheWay(const Vehicle& vehicle, std::vector<std::size_t>& robots) const
+{
+    if (vehicle.path.empty())
+    {
+        return;
+    }
+    for (const LoadGraph& graph : vehicle.graphs)
+    {
+        if (graph.nextToHome.empty())
+        {
+            continue;
+        }
+        for (std::uint32_t node = graph.nextToHome[GetEnd(vehicle)]; node != NOWHERE; node = graph.nextToHome[node])
+        {
+            for (const std::uint32_t near : _near[node])
+            {
+                const std::optional<std::size_t>& holder = _holders[near];
+                if (holder.has_value() && std::ranges::count(robots, *holder) == 0)
+                {
+                    robots.push_back(*holder);
+                }
+            }
+        }
+    }
+}
+
+/// If the robot can park before the others, all others can do afterwards what they could do before: the grant is safe. So the
+/// floor need not be searched beyond the robots that are in its way.
+bool Traffic::CanParkSoon(std::size_t robot, ESafeStateScope scope)
+{
+    constexpr std::size_t MOST_ROBOTS = 32;
+    std::vector<std::uint16_t> covers = _covers;
+    std::vector<std::size_t> robots{robot};
+    std::vector<bool> gone(1, false);
+    for (bool bChanged = true; std::exchange(bChanged, false);)
+    {
+        for (std::size_t i = 0; i < robots.size() && robots.size() <= MOST_ROBOTS; ++i)
+        {
+            gone.resize(robots.size(), false);
+            const Vehicle& vehicle = _vehicles[robots[i]];
+            if (gone[i])
+            {
+                continue;
+            }
+            Cover(vehicle, covers, false);
+            gone[i] = CanPark(vehicle, covers, scope);
+            bChanged = bChanged || gone[i];
+            if (gone[i] && i == 0)
+            {
+                return true;
+            }
+            if (!gone[i])
+            {
+                Cover(vehicle, covers, true);
+                AddInTheWay(vehicle, robots);
+            }
+        }
+    }
+    return false;
+}
+
+bool Traffic::IsRefusedStill(const Refusal& refusal, std::span<const std::size_t> ahead) const
+{
+    return refusal.disturbedAt == _changes.disturbs && refusal.fixedAt == _changes.fixed && !refusal.stuck.empty()
+        && std::ranges::equal(refusal.ahead, ahead)
+        && std::ranges::all_of(refusal.stuck, [this](const std::pair<std::size_t, std::uint64_t>& robot) {
+               return _vehicles[robot.first].changes == robot.second;
+           });
+}
+
+void Traffic::AddBlockers(const std::vector<std::size_t>& robots)
+{
+    std::ranges::copy_if(robots, std::back_inserter(_blockers), [this](std::size_t robot) {
+        return std::ranges::count(_blockers, robot) == 0;
+    });
+}
+
+bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
+{
+    Vehicle& vehicle = _vehicles[robot];
+    Refusal& refusal = vehicle.refusals[ahead.size() == 1 ? 1 : 0];
+    if (IsRefusedStill(refusal, ahead))
+    {
+        AddBlockers(refusal.blockers);
+        _bBlocksRefuse = _bBlocksRefuse || refusal.bForBlocks;
+        return false;
+    }
+    // A robot that can park before all others leaves the floor as if it had never been there.
+    Cover(vehicle, _covers, false);
+    const bool bFirst = vehicle.bMovable && CanGoHome(vehicle, ahead.back(), _covers, ESafeStateScope::AllMove)
+        && (!IsAnyBlocked() || CanGoHome(vehicle, ahead.back(), _covers, ESafeStateScope::AsIs));
+    Cover(vehicle, _covers, true);
+    if (bFirst)
+    {
+        return true;
+    }
+    const std::size_t heldCount = vehicle.path.size();
+    const std::optional<std::size_t> heading = vehicle.heading;
+    std::vector<std::size_t> held;
+    const auto take = [this, robot, ahead, &vehicle, &held] {
+        _bTrial = true;
+        vehicle.heading.reset();
+        for (const std::size_t node : ahead)
+        {
+            vehicle.path.push_back(node);
+            if (std::ranges::count(vehicle.extra, node) == 0)
+            {
+                Hold(robot, node);
+                held.push_back(node);
+            }
+        }
+    };
+    const auto giveBack = [this, heldCount, heading, &vehicle, &held] {
+        vehicle.heading = heading;
+        vehicle.path.resize(heldCount);
+        std::ranges::for_each(held, [this](std::size_t node) { Free(node); });
+        held.clear();
+        _bTrial = false;
+    };
+    const bool bAsIs = IsAnyFixed() || IsAnyBlocked();
+    // FindSafeState takes such a node for held twice.
+    const bool bHeldAlready = std::ranges::any_of(ahead, [&vehicle](std::size_t node) {
+        return std::ranges::count(vehicle.extra, node) > 0;
+    });
+    take();
+    const bool bSoon = !bHeldAlready && CanParkSoon(robot, ESafeStateScope::AllMove)
+        && (!bAsIs || (vehicle.bMovable && CanParkSoon(robot, ESafeStateScope::AsIs)));
+    giveBack();
+    if (bSoon)
+    {
+        return true;
+    }
+    const std::vector<std::size_t> former = std::exchange(_blockers, {});
+    // The present state, before the nodes are held on trial.
+    static_cast<void>(GetSafeState(ESafeStateScope::AllMove));
+    take();
+    bool bSafe = IsAsGood(ESafeStateScope::AllMove, robot, refusal);
+    giveBack();
+    if (bSafe && bAsIs)
+    {
+        static_cast<void>(GetSafeState(ESafeStateScope::AsIs));
+        take();
+        bSafe = IsAsGood(ESafeStateScope::AsIs, robot, refusal);
+        giveBack();
+        _bBlocksRefuse = !bSafe && IsAnyBlocked();
+    }
+    if (!bSafe && _blockers.empty() && former.empty())
+    {
+        _blockers = GetFixed(robot);
+    }
+    refusal.ahead.assign(ahead.begin(), ahead.end());
+    refusal.blockers = std::exchange(_blockers, former);
+    AddBlockers(refusal.blockers);
+    refusal.bForBlocks = _bBlocksRefuse;
+    refusal.disturbedAt = _changes.disturbs;
+    refusal.fixedAt = _changes.fixed;
+    if (bSafe || bHeldAlready)
+    {
+        refusal.stuck.clear();
+    }
+    return bSafe;
+}
+
+} // namespace ACS::Planning
