@@ -48,21 +48,6 @@ enum class ESampleTimer : std::uint8_t
     Plans
 };
 
-/// When acsd connects, it sends several requests to every vehicle at once, and every vehicle sends its messages: the limits of
-/// the connection grow with the fleet.
-VDA5050::MosquittoOptions MakeLinkOptions(
-    const AcsdConfig& config,
-    Core::IRandom& random,
-    const std::string& identity)
-{
-    constexpr std::size_t MESSAGES_OF_ROBOT = 20;
-    VDA5050::MosquittoOptions options = MakeMqttOptions(*config.mqtt, random, identity);
-    const std::size_t messages = MESSAGES_OF_ROBOT * config.robots.size();
-    options.maxUnsent = std::max(options.maxUnsent, messages);
-    options.maxEarly = std::max(options.maxEarly, messages);
-    return options;
-}
-
 } // namespace
 
 class Acsd::Impl final : private IAcsdOutput
@@ -157,7 +142,10 @@ public:
                 _dependencies.executor,
                 _dependencies.random,
                 _dependencies.logger.MakeFor("mqtt"),
-                MakeLinkOptions(_config, _dependencies.random, identity),
+                MakeMqttOptions(
+                    *_config.mqtt,
+                    _dependencies.random,
+                    {identity, _config.robots.size(), _dependencies.mayCommand}),
                 _mqttRouter);
             _mqttRouter.SetLink(*_mqtt);
         }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <optional>
@@ -25,6 +26,9 @@ using Apps::ConfigSection;
 using Apps::EUrlScheme;
 
 constexpr std::int64_t MOST_QOS = 2;
+
+/// That may wait at the same time.
+constexpr std::size_t MESSAGES_OF_ROBOT = 20;
 
 std::vector<Apps::Url> ReadURLs(const ConfigSection& mqtt)
 {
@@ -185,10 +189,10 @@ std::string WarnOfTopics(const MqttConfig& config, const std::vector<std::string
         *found);
 }
 
-VDA5050::MosquittoOptions MakeMqttOptions(const MqttConfig& config, Core::IRandom& random, const std::string& identity)
+VDA5050::MosquittoOptions MakeMqttOptions(const MqttConfig& config, Core::IRandom& random, const MqttUse& use)
 {
     VDA5050::MosquittoOptions options;
-    options.clientID = "acsd-" + (identity.empty() ? Core::MakeUUID(random) : identity);
+    options.clientID = "acsd-" + (use.identity.empty() ? Core::MakeUUID(random) : use.identity);
     options.host = config.urls.front().peer.host;
     options.port = config.urls.front().peer.port;
     std::transform(
@@ -199,6 +203,9 @@ VDA5050::MosquittoOptions MakeMqttOptions(const MqttConfig& config, Core::IRando
             return VDA5050::MosquittoBroker{url.peer.host, url.peer.port};
         });
     options.maxQos = config.maxQos;
+    options.maySend = use.maySend;
+    options.maxUnsent = std::max(options.maxUnsent, MESSAGES_OF_ROBOT * use.robotCount);
+    options.maxEarly = std::max(options.maxEarly, MESSAGES_OF_ROBOT * use.robotCount);
     options.username = config.username;
     options.password = config.password;
     if (Apps::IsSecure(config.urls.front().scheme))

@@ -5,7 +5,9 @@
 #include <acs/core/IRandom.hpp>
 #include <acs/vda5050_mosquitto/MosquittoOptions.hpp>
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,11 +36,21 @@ void ReadMqttConfig(
 /// The warning that nats-server does not accept these prefixes of topics, where it may be the broker; empty if there is none to give.
 [[nodiscard]] std::string WarnOfTopics(const MqttConfig& config, const std::vector<std::string>& topicPrefixes);
 
-/// The client id is made from the identity of a shared store: when a standby takes over, the broker disconnects the former leader.
-/// Without one it is random, because the broker would disconnect one acsd when a second one connects.
+/// What the options of the connection depend on besides the table `mqtt`.
+struct MqttUse
+{
+    /// Of a shared store: the client id is made from it, so that the broker disconnects the former leader when a standby takes over.
+    /// Empty: the id is random, because the broker would disconnect one acsd when a second one connects.
+    std::string identity;
+    /// When acsd connects, it sends several requests to every vehicle at once, and every vehicle sends its messages: the limits of
+    /// the connection grow with the fleet.
+    std::size_t robotCount = 0;
+    std::function<bool()> maySend{}; ///< MosquittoOptions::maySend
+};
+
 [[nodiscard]] VDA5050::MosquittoOptions MakeMqttOptions(
     const MqttConfig& config,
     Core::IRandom& random,
-    const std::string& identity = {});
+    const MqttUse& use = {});
 
 } // namespace ACS::Acsd

@@ -75,6 +75,11 @@ std::error_code MosquittoConnection::Open(
     std::optional<MosquittoClient> clientOrNull,
     MosquittoConnector& connector)
 {
+    _maySend = options.maySend;
+    if (_maySend && !_maySend())
+    {
+        return std::make_error_code(std::errc::operation_not_permitted);
+    }
     _bPersistent = !options.bCleanSession;
     _bGoesOn = clientOrNull.has_value();
     if (!_bGoesOn)
@@ -217,7 +222,7 @@ void MosquittoConnection::HandleSent(int messageID)
 
 Core::Result<int> MosquittoConnection::Publish(const MqttMessage& message)
 {
-    if (!IsUp())
+    if (!IsUp() || !TryPermit())
     {
         return Core::Fail(std::make_error_code(std::errc::not_connected));
     }
@@ -322,7 +327,7 @@ void MosquittoConnection::WaitToRead()
         boost::asio::posix::stream_descriptor::wait_read,
         [weak = weak_from_this()](const boost::system::error_code& error) {
             const std::shared_ptr<MosquittoConnection> self = weak.lock();
-            if (self == nullptr || error || self->_bClosed)
+            if (self == nullptr || error || self->_bClosed || !self->TryPermit())
             {
                 return;
             }
@@ -341,7 +346,7 @@ void MosquittoConnection::WaitToWrite()
         boost::asio::posix::stream_descriptor::wait_write,
         [weak = weak_from_this()](const boost::system::error_code& error) {
             const std::shared_ptr<MosquittoConnection> self = weak.lock();
-            if (self == nullptr || error || self->_bClosed)
+            if (self == nullptr || error || self->_bClosed || !self->TryPermit())
             {
                 return;
             }
@@ -357,7 +362,7 @@ void MosquittoConnection::WaitForHouseKeeping()
     _houseKeeping.expires_after(HOUSE_KEEPING_PERIOD);
     _houseKeeping.async_wait([weak = weak_from_this()](const boost::system::error_code& error) {
         const std::shared_ptr<MosquittoConnection> self = weak.lock();
-        if (self == nullptr || error || self->_bClosed)
+        if (self == nullptr || error || self->_bClosed || !self->TryPermit())
         {
             return;
         }
@@ -369,6 +374,18 @@ void MosquittoConnection::WaitForHouseKeeping()
             self->WaitForHouseKeeping();
         }
     });
+}
+
+/// Before each call of libmosquitto that may send, which includes those that read: an acknowledgement makes room for messages that
+/// wait. Closes the connection if nothing may be sent.
+bool MosquittoConnection::TryPermit()
+{
+    const bool bPermitted = !_maySend || _maySend();
+    if (!bPermitted)
+    {
+        Close(std::make_error_code(std::errc::operation_not_permitted));
+    }
+    return bPermitted;
 }
 
 void MosquittoConnection::ReadAll()

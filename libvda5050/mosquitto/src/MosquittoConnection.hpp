@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -84,6 +85,7 @@ class MosquittoConnection final : public std::enable_shared_from_this<MosquittoC
     std::size_t _unsent = 0; ///< Of QoS 0.
     std::size_t _maxUnsent = 0;
     std::size_t _maxPayloadBytes = 0;
+    std::function<bool()> _maySend; ///< MosquittoOptions::maySend
     std::chrono::milliseconds _connectTimeout{};
     std::uint8_t _maxQos = 0;
     int _closeCode = 0;
@@ -136,6 +138,7 @@ private:
     void WaitToRead();
     void WaitToWrite();
     void WaitForHouseKeeping();
+    [[nodiscard]] bool TryPermit();
     void ReadAll();
     /// After each call of libmosquitto: what it left to do.
     void Settle(int code, int systemError);

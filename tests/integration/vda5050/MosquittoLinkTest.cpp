@@ -203,6 +203,29 @@ TEST_CASE("A broker that rejects the password is distinguished from one that is 
     CHECK_THAT(link.log.GetLines().front().message, Catch::Contains("check user name"));
 }
 
+TEST_CASE_METHOD(LinkTest, "A link that may not send closes its connection, and connects again when it may")
+{
+    bool bAllowed = true;
+    VDA5050::MosquittoOptions options = MakeOptions(_broker.GetPort(), "leader");
+    options.maySend = [&bAllowed] {
+        return bAllowed;
+    };
+    TestLink watcher(_context, MakeOptions(_broker.GetPort(), "watcher"));
+    watcher.link.Subscribe({{"topic", 1}});
+    watcher.link.Start();
+    TestLink link(_context, options);
+    link.link.Start();
+    REQUIRE(TryRunUntil(_context, [&]() { return watcher.listener.ups == 1 && link.listener.ups == 1; }));
+    bAllowed = false;
+    CHECK_FALSE(link.link.Publish({"topic", "late", 1, false}).has_value());
+    REQUIRE(TryRunUntil(_context, [&]() { return link.listener.downs == 1; }));
+    bAllowed = true;
+    REQUIRE(TryRunUntil(_context, [&]() { return link.listener.ups == 2; }));
+    REQUIRE(link.link.Publish({"topic", "in time", 1, false}).has_value());
+    REQUIRE(TryRunUntil(_context, [&]() { return watcher.listener.Contains("topic", "in time"); }));
+    CHECK_FALSE(watcher.listener.Contains("topic", "late"));
+}
+
 TEST_CASE_METHOD(LinkTest, "Stopping a link that has no connection ends at once")
 {
     _broker.Kill();

@@ -56,7 +56,7 @@ TEST_CASE("Without further keys the connection to the broker has neither TLS nor
     CHECK(options.password.empty());
     CHECK_FALSE(options.tls.has_value());
     CHECK(MakeMqttOptions(config.mqtt.value(), random).clientID != options.clientID);
-    CHECK(MakeMqttOptions(config.mqtt.value(), random, "plant").clientID == "acsd-plant");
+    CHECK(MakeMqttOptions(config.mqtt.value(), random, {"plant", 0, {}}).clientID == "acsd-plant");
     CHECK(config.warnings.empty());
 }
 

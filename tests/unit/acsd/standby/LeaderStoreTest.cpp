@@ -91,7 +91,7 @@ TEST_CASE("A leader stores a batch again until it is stored or the lease has end
         CHECK(refused.error().code == EPlanningError::StoreTaken);
         CHECK(attempts == 3);
     }
-    SECTION("a failure that does not end is no lost connection: it gives up the lead")
+    SECTION("a failure that does not end is no lost connection: the lead is lost")
     {
         failures = 2;
         error = EPlanningError::StoreCorrupt;

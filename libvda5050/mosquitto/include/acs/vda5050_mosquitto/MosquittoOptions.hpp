@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -71,6 +72,9 @@ struct MosquittoOptions
     std::size_t maxEarlyBytes = 64U << 20U; ///< See maxEarly.
     /// Longer received payloads are dropped and logged.
     std::size_t maxPayloadBytes = 4U << 20U;
+    /// Asked on the executor before anything is sent, also what waits since an earlier call: false closes the connection instead. For
+    /// a program that may command for a time only. May be empty: it may always send.
+    std::function<bool()> maySend{};
 };
 
 } // namespace ACS::VDA5050
