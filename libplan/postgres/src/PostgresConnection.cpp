@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <optional>
 #include <poll.h>
@@ -86,6 +87,13 @@ std::string MakeSessionScript(Core::Duration timeout)
 }
 
 } // namespace
+
+std::int64_t ReadCount(const std::string& text)
+{
+    std::int64_t count = 0;
+    std::from_chars(text.data(), text.data() + text.size(), count);
+    return count;
+}
 
 PostgresConnection::PostgresConnection(
     std::unique_ptr<PGconn, Closer> connection,

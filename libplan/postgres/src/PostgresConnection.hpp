@@ -6,6 +6,7 @@
 #include <acs/plan_postgres/PostgresOptions.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -31,6 +32,9 @@ struct TransactionFault
     bool bUnknown = false;    ///< The connection was lost: the transaction may have been stored.
     bool bRepeatable = false; ///< It may succeed if it is repeated.
 };
+
+/// A number that the database has written itself.
+[[nodiscard]] std::int64_t ReadCount(const std::string& text);
 
 /// A connection to PostgreSQL. Every call ends within the timeout, except that the resolution of a host's name may take longer. A
 /// connection that has failed is not used again.

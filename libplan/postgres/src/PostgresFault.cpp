@@ -136,7 +136,8 @@ Core::Error MakeStatementError(const PGresult& result, const std::string& name, 
 
 Core::Error MakeConnectionError(const PGconn* connectionOrNull, const std::string& name, std::string_view operation)
 {
-    std::string text = MakeOneLine(connectionOrNull == nullptr ? "no memory" : PQerrorMessage(connectionOrNull));
+    std::string text =
+        MakeOneLine(connectionOrNull == nullptr ? "the connection was lost before" : PQerrorMessage(connectionOrNull));
     return {
         make_error_code(EPlanningError::StoreFailed),
         name,

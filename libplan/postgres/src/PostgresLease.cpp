@@ -3,7 +3,6 @@
 #include "PostgresSchema.hpp"
 #include <acs/plan_postgres/PostgresLease.hpp>
 
-#include <charconv>
 #include <chrono>
 #include <string>
 #include <string_view>
@@ -16,14 +15,6 @@ namespace ACS::Planning
 
 namespace
 {
-
-/// The database writes these numbers itself.
-std::int64_t ReadCount(const std::string& text)
-{
-    std::int64_t count = 0;
-    std::from_chars(text.data(), text.data() + text.size(), count);
-    return count;
-}
 
 std::int64_t ToCount(std::uint64_t number)
 {

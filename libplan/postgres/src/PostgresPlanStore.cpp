@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <functional>
 #include <limits>
@@ -39,13 +38,6 @@ constexpr std::string_view RESTORE_REMEDY =
 void PauseFor(std::chrono::milliseconds duration)
 {
     std::ignore = ::poll(nullptr, 0, static_cast<int>(duration.count()));
-}
-
-std::int64_t ReadNumber(const std::string& text)
-{
-    std::int64_t number = 0;
-    std::from_chars(text.data(), text.data() + text.size(), number);
-    return number;
 }
 
 /// Collects the statements of a transaction.
@@ -326,8 +318,8 @@ private:
                 {
                     return RefuseTaken("another process leads");
                 }
-                _session = ReadNumber(rows.front()[0]);
-                _number = ReadNumber(rows.front()[1]);
+                _session = ReadCount(rows.front()[0]);
+                _number = ReadCount(rows.front()[1]);
                 return Core::Result<void>();
             });
     }

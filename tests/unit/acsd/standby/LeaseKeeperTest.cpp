@@ -256,7 +256,7 @@ TEST_CASE_METHOD(LeaseKeeperFixture, "A store that cannot be read is a reason to
     row.Fail(true);
     keeper->Start();
     RunUntil([&] { return keeper->GetWaitReason().starts_with("standby: the store cannot be used: "); });
-    CHECK_THAT(keeper->GetPublicReason(), !Catch::Contains("db"));
+    CHECK_THAT(keeper->GetPublicReason(), !Catch::Contains("found none"));
     row.Fail(false);
     RunUntil([&] { return !taken.empty(); });
     row.Fail(true); // it is destroyed while a call may be under way
