@@ -72,7 +72,7 @@ public:
         return _port;
     }
 
-    [[nodiscard]] std::string GetURL(const std::string& database, std::uint16_t port) const
+    [[nodiscard]] static std::string GetURL(const std::string& database, std::uint16_t port)
     {
         return "postgresql://acsd@127.0.0.1:" + std::to_string(port) + "/" + database;
     }
@@ -83,6 +83,7 @@ public:
     }
 
     /// Statements separated by semicolons. Returns what psql prints, without headers.
+    // NOLINTNEXTLINE(modernize-use-nodiscard): most statements have no result
     std::string Execute(const std::string& sql, const std::string& database = "postgres") const
     {
         return Run({"psql", "-X", "-q", "-A", "-t", "-v", "ON_ERROR_STOP=1", "-c", sql, GetURL(database)});

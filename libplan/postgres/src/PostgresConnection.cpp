@@ -248,7 +248,7 @@ tl::expected<void, TransactionFault> PostgresConnection::Commit(const std::vecto
     {
         return tl::unexpected(TransactionFault{Fail(OPERATION, deadline), true});
     }
-    const tl::expected<void, TransactionFault> outcome = ReadOutcome(statements.size() + 2, deadline);
+    tl::expected<void, TransactionFault> outcome = ReadOutcome(statements.size() + 2, deadline);
     if (!outcome.has_value() && IsUsable() && PQexitPipelineMode(_connection.get()) == 1)
     {
         std::ignore = RunScript("ROLLBACK", "ending a transaction"); // a connection that fails here is not used again

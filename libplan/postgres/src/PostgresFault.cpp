@@ -101,7 +101,7 @@ std::string_view FindConnectionRemedy(std::string_view text)
         {"read-only", "a server that accepts writes; name the primary in the URL, or all servers"},
         {"certificate", "a certificate that can be verified; give its issuer as sslrootcert in the URL"},
     }};
-    const auto found = std::ranges::find_if(TEXTS, [text](const auto& entry) {
+    const auto* const found = std::ranges::find_if(TEXTS, [text](const auto& entry) {
         return text.find(entry.first) != std::string_view::npos;
     });
     return found == TEXTS.end() ? "a database server that can be reached; check the URL, the network and the server"

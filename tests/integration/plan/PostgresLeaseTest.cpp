@@ -86,6 +86,7 @@ TEST_CASE("Lease: several processes create the tables of an empty database at th
     const PostgresPlace place;
     std::vector<std::thread> threads;
     std::vector<std::string> errors(4);
+    threads.reserve(errors.size());
     for (std::string& error : errors)
     {
         threads.emplace_back([&place, &error] {

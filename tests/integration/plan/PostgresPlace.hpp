@@ -87,6 +87,7 @@ public:
         return OpenWith(GetOptions());
     }
 
+    // NOLINTNEXTLINE(modernize-use-nodiscard): most statements have no result
     std::string Execute(const std::string& sql) const
     {
         return GetServer().Execute("SET search_path TO acsd; " + sql, _database);

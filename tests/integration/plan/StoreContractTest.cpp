@@ -140,9 +140,10 @@ TEMPLATE_TEST_CASE(
     const TestType place;
     const std::unique_ptr<IPlanStore> store = place.Open();
     const std::vector<std::string> sorted{"B", "a'; DROP TABLE plans; --", "b", "\xC3\xA9", "\xEA\xB0\x80"};
-    for (auto id = sorted.rbegin(); id != sorted.rend(); ++id)
+    const std::vector<std::string> reversed(sorted.rbegin(), sorted.rend());
+    for (const std::string& id : reversed)
     {
-        REQUIRE(store->Append({{MaintenanceChanged{*id, true}}}).has_value());
+        REQUIRE(store->Append({{MaintenanceChanged{id, true}}}).has_value());
     }
     CHECK(store->Load()->robotsInMaintenance == sorted);
     CHECK(store->Check().has_value());
