@@ -127,7 +127,7 @@ void AcsdService::OnOpened(std::uint64_t epoch, Core::Result<OpenedStore> store)
     _watchdog.reset();
     if (const Core::Result<void> led = Lead(std::move(*store)); !led.has_value())
     {
-        _handlers.onFailed(Core::Describe(led.error()));
+        Fail(led.error());
     }
 }
 
@@ -146,7 +146,10 @@ void AcsdService::LoseLead(const std::string& reason)
     _guard.End();
     if (!_config.store.postgres.has_value())
     {
-        _handlers.onFailed(reason);
+        _dependencies.logger.Error(
+            "another program has taken the path of the store: acsd ends now; its own store is where it was moved to",
+            {{"reason", reason}});
+        _handlers.onFailed();
         return;
     }
     if (_state == EState::Stopping)
@@ -184,7 +187,7 @@ void AcsdService::BecomeStandbyLater()
         }
         if (const Core::Result<void> standing = StartStandby(); !standing.has_value())
         {
-            _handlers.onFailed(Core::Describe(standing.error()));
+            Fail(standing.error());
         }
     });
 }
@@ -213,6 +216,14 @@ void AcsdService::Finish()
         return;
     }
     _keeper->ReleaseAsync([this] { _handlers.onStopped(); });
+}
+
+void AcsdService::Fail(const Core::Error& error)
+{
+    _dependencies.logger.Error(
+        "acsd ends, because it cannot open again what it had opened",
+        {{"reason", Core::Describe(error)}});
+    _handlers.onFailed();
 }
 
 void AcsdService::Reload(const AcsdConfig& fresh)

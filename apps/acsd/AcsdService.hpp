@@ -32,8 +32,8 @@ public:
     {
         std::function<void()> onStopped; ///< The end of a stop.
         /// It cannot continue: another program has taken the store of this machine, or an address or the audit log cannot be opened
-        /// again.
-        std::function<void(const std::string& reason)> onFailed;
+        /// again. It is logged.
+        std::function<void()> onFailed;
     };
 
 private:
@@ -89,6 +89,7 @@ private:
     void LoseLead(const std::string& reason);
     void BecomeStandbyLater();
     void Finish();
+    void Fail(const Core::Error& error);
     void KeepPorts(const std::vector<Apps::ReadyAddress>& addresses);
 };
 

@@ -123,8 +123,7 @@ int Serve(const ProgramOptions& options, const RobotDrivers& drivers, AcsdConfig
         std::move(dependencies),
         std::move(config),
         {[&context] { context.stop(); },
-         [&context, &exitCode, &logger](const std::string& reason) {
-             logger.Error("acsd ends", {{"reason", reason}});
+         [&context, &exitCode] {
              exitCode = 1;
              context.stop();
          }});

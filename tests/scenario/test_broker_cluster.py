@@ -18,7 +18,7 @@ import urllib.request
 from nats_cluster import NatsCluster
 from scenario_case import PLANS, TIME_SCALE, ScenarioCase
 from scenario_case import main as run_tests
-from test_kill import Trace, make_expected
+from kill_case import Trace, make_expected
 
 VEHICLES = {"LR01": "LR01,type=LR,node=D-CHG01", "CR01": "CR01,type=CR,node=D-CHG02"}
 VEHICLE_NODES = {"LR01": 1, "CR01": 2}  # acsd begins with node 0
