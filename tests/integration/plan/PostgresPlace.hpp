@@ -49,7 +49,7 @@ public:
     /// The options for a port that leads to the server.
     [[nodiscard]] PostgresOptions GetOptions(std::uint16_t port) const
     {
-        return {GetServer().GetURL(_database, port), {}, std::chrono::seconds(5)};
+        return {Testing::PostgresServer::GetURL(_database, port), {}, std::chrono::seconds(5)};
     }
 
     [[nodiscard]] std::unique_ptr<PostgresLease> OpenLease() const
