@@ -218,7 +218,7 @@ void AcsdService::Finish()
     _keeper->ReleaseAsync([this] { _handlers.onStopped(); });
 }
 
-void AcsdService::Fail(const Core::Error& error)
+void AcsdService::Fail(const Core::Error& error) const
 {
     _dependencies.logger.Error(
         "acsd ends, because it cannot open again what it had opened",

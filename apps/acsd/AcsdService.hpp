@@ -89,7 +89,7 @@ private:
     void LoseLead(const std::string& reason);
     void BecomeStandbyLater();
     void Finish();
-    void Fail(const Core::Error& error);
+    void Fail(const Core::Error& error) const;
     void KeepPorts(const std::vector<Apps::ReadyAddress>& addresses);
 };
 
