@@ -196,16 +196,20 @@ class Network(ScenarioCase):
             time.sleep(REQUEST_PERIOD)
         self.assertFalse(self.read_status(acsd.addresses["operator"])["links"]["mqtt"])
 
-    def test_a_silent_name_server_does_not_stop_acsd(self):
+    def hold_resolver(self):
+        """A file that is to be opened before names are resolved, and the environment of the program that waits for it."""
         library = self.line.bin_dir / "libscenario_held_resolver.so"
         if not library.exists():
             self.skipTest("not built with sanitizers")
         gate = self.line.folder / "resolver"
         os.mkfifo(gate)
+        return gate, os.environ | {"LD_PRELOAD": str(library), "ACS_HELD_RESOLVER": str(gate)}
+
+    def test_a_silent_name_server_does_not_stop_acsd(self):
+        gate, environment = self.hold_resolver()
         stub = self.start_stub()
         arm = self.start_robots()
         url = f"mqtt.url=mqtt://broker.test:{self.line.broker_port}"
-        environment = os.environ | {"LD_PRELOAD": str(library), "ACS_HELD_RESOLVER": str(gate)}
         acsd = self.line.start_acsd(stub.address, arm, url, environment=environment)
         address = acsd.wait_ready()["operator"]
         self.assert_lively(acsd)
@@ -223,16 +227,11 @@ class Network(ScenarioCase):
         self.assertEqual(acsd.wait(STOP_SECONDS), 0)
 
     def test_a_silent_name_server_of_one_broker_does_not_delay_the_next_broker(self):
-        library = self.line.bin_dir / "libscenario_held_resolver.so"
-        if not library.exists():
-            self.skipTest("not built with sanitizers")
-        gate = self.line.folder / "resolver"
-        os.mkfifo(gate)
+        _, environment = self.hold_resolver()
         stub = self.start_stub()
         arm = self.start_robots()
         port = self.line.broker_port
         urls = [f"mqtt://broker.test:{port}", f"mqtt://127.0.0.1:{port}"]
-        environment = os.environ | {"LD_PRELOAD": str(library), "ACS_HELD_RESOLVER": str(gate)}
         acsd = self.line.start_acsd(stub.address, arm, f"mqtt.urls={json.dumps(urls)}", config=self.write_cluster_config(),
                                     environment=environment)
         address = acsd.wait_ready()["operator"]

@@ -1,7 +1,6 @@
 #include "standby/LeaseKeeper.hpp"
 
 #include <boost/asio/post.hpp>
-#include <boost/asio/thread_pool.hpp>
 #include <fmt/format.h>
 
 #include <atomic>
@@ -18,15 +17,6 @@ constexpr int READINGS = 12;
 
 } // namespace
 
-struct LeaseKeeper::Worker
-{
-    boost::asio::any_io_executor executor;
-    std::unique_ptr<Planning::ILease> lease;
-    LeaseKeeper* ownerOrNull = nullptr; ///< Null after its destruction. Read on the executor's thread only.
-    std::atomic<bool> bStopping = false;
-    boost::asio::thread_pool thread{1};
-};
-
 LeaseKeeper::LeaseKeeper(
     Dependencies dependencies,
     const LeaseMaker& makeLease,
@@ -36,40 +26,15 @@ LeaseKeeper::LeaseKeeper(
       _claim(std::move(claim)),
       _handlers(std::move(handlers)),
       _watch(_claim.config),
-      _worker(std::make_shared<Worker>()),
+      _stopping(std::make_shared<std::atomic<bool>>(false)),
+      _lease(_dependencies.executor, makeLease([stopping = _stopping] { return stopping->load(); })),
       _timers(_dependencies.executor, [this](ETimer timer) { OnTimer(timer); })
 {
-    _worker->executor = _dependencies.executor;
-    _worker->lease = makeLease([&bStopping = _worker->bStopping] { return bStopping.load(); });
-    _worker->ownerOrNull = this;
 }
 
 LeaseKeeper::~LeaseKeeper()
 {
-    _worker->ownerOrNull = nullptr;
-    _worker->bStopping = true;
-    _worker->thread.join();
-}
-
-/// Does the work in the thread and handles its result on the executor. The lease outlives the work: the destructor waits.
-template <typename TWork, typename TAnswer>
-void LeaseKeeper::Ask(TWork work, TAnswer answer)
-{
-    boost::asio::post(_worker->thread, [weak = std::weak_ptr(_worker), &lease = *_worker->lease, work, answer]() {
-        auto result = work(lease);
-        const std::shared_ptr<Worker> worker = weak.lock();
-        if (worker == nullptr)
-        {
-            return;
-        }
-        boost::asio::post(worker->executor, [weak, answer, result = std::move(result)]() {
-            const std::shared_ptr<Worker> owned = weak.lock();
-            if (owned != nullptr && owned->ownerOrNull != nullptr)
-            {
-                answer(*owned->ownerOrNull, result);
-            }
-        });
-    });
+    *_stopping = true;
 }
 
 void LeaseKeeper::Start()
@@ -97,8 +62,9 @@ void LeaseKeeper::OnTimer(ETimer timer)
 
 void LeaseKeeper::Read()
 {
-    Ask([](Planning::ILease& lease) { return lease.Read(); },
-        [](LeaseKeeper& owner, const Core::Result<Planning::LeaseState>& state) { owner.OnRead(state); });
+    _lease.Do(
+        [](Planning::ILease& lease) { return lease.Read(); },
+        [this](const Core::Result<Planning::LeaseState>& state) { OnRead(state); });
 }
 
 void LeaseKeeper::OnRead(const Core::Result<Planning::LeaseState>& state)
@@ -125,10 +91,9 @@ void LeaseKeeper::Take(const Planning::LeaseState& seen)
 {
     _bTaking = true;
     const Core::SteadyTime askedAt = _dependencies.clock.GetNow().steady;
-    Ask([seen, claim = _claim](Planning::ILease& lease) { return lease.TryTakeOrNull(seen, claim); },
-        [askedAt](LeaseKeeper& owner, const Core::Result<std::optional<std::uint64_t>>& taken) {
-            owner.OnTaken(taken, askedAt);
-        });
+    _lease.Do(
+        [seen, claim = _claim](Planning::ILease& lease) { return lease.TryTakeOrNull(seen, claim); },
+        [this, askedAt](const Core::Result<std::optional<std::uint64_t>>& taken) { OnTaken(taken, askedAt); });
 }
 
 void LeaseKeeper::OnTaken(const Core::Result<std::optional<std::uint64_t>>& taken, Core::SteadyTime askedAt)
@@ -175,8 +140,9 @@ void LeaseKeeper::Renew()
         return; // the store has not answered the last request yet
     }
     const Core::SteadyTime askedAt = _dependencies.clock.GetNow().steady;
-    Ask([epoch = _epoch](Planning::ILease& lease) { return lease.TryRenew(epoch); },
-        [askedAt](LeaseKeeper& owner, const Core::Result<bool>& renewed) { owner.OnRenewed(renewed, askedAt); });
+    _lease.Do(
+        [epoch = _epoch](Planning::ILease& lease) { return lease.TryRenew(epoch); },
+        [this, askedAt](const Core::Result<bool>& renewed) { OnRenewed(renewed, askedAt); });
 }
 
 void LeaseKeeper::OnRenewed(const Core::Result<bool>& renewed, Core::SteadyTime askedAt)
@@ -260,11 +226,12 @@ void LeaseKeeper::ReleaseAsync(std::function<void()> handler)
 
 void LeaseKeeper::ReleaseTaken(std::uint64_t epoch, std::function<void()> handler)
 {
-    Ask([epoch](Planning::ILease& lease) { return lease.Release(epoch); },
-        [handler = std::move(handler)](LeaseKeeper& owner, const Core::Result<void>& released) {
+    _lease.Do(
+        [epoch](Planning::ILease& lease) { return lease.Release(epoch); },
+        [this, handler = std::move(handler)](const Core::Result<void>& released) {
             if (!released.has_value())
             {
-                owner._dependencies.logger.Warning(
+                _dependencies.logger.Warning(
                     "the lease could not be released: a standby waits until it ends",
                     {{"reason", Core::Describe(released.error())}});
             }

@@ -2,6 +2,7 @@
 
 #include "common/process/TimerSet.hpp"
 #include "standby/LeaseGuard.hpp"
+#include "store/ResourceThread.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
@@ -11,6 +12,7 @@
 
 #include <boost/asio/any_io_executor.hpp>
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -58,13 +60,12 @@ private:
         End
     };
 
-    struct Worker;
-
     Dependencies _dependencies;
     Planning::LeaseClaim _claim;
     Handlers _handlers;
     Planning::LeaseWatch _watch;
-    std::shared_ptr<Worker> _worker;
+    std::shared_ptr<std::atomic<bool>> _stopping; ///< Ends the call that is under way.
+    ResourceThread<Planning::ILease> _lease;
     Apps::TimerSet<ETimer> _timers;
     EState _state = EState::Watching;
     std::uint64_t _epoch = 0;
@@ -95,8 +96,6 @@ public:
     [[nodiscard]] std::string GetPublicReason() const;
 
 private:
-    template <typename TWork, typename TAnswer>
-    void Ask(TWork work, TAnswer answer);
     void OnTimer(ETimer timer);
     void Read();
     void OnRead(const Core::Result<Planning::LeaseState>& state);

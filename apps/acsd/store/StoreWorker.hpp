@@ -1,5 +1,6 @@
 #pragma once
 
+#include "store/ResourceThread.hpp"
 #include <acs/core/Result.hpp>
 #include <acs/plan/IPlanStore.hpp>
 #include <acs/plan/StoreLog.hpp>
@@ -21,22 +22,19 @@ public:
     using CheckedHandler = std::function<void(const Core::Result<Planning::StoreLog>& result)>;
 
 private:
-    struct Impl;
-
-    std::shared_ptr<Impl> _impl;
+    StoredHandler _handler;
+    CheckedHandler _checkedHandler;
+    bool _bChecking = false;
+    ResourceThread<Planning::IPlanStore> _store;
 
 public:
-    /// The second handler is called after each check.
+    /// The second handler is called after each check. The worker waits in its destructor until all batches that were appended are
+    /// written, and calls no handler any more.
     StoreWorker(
         const boost::asio::any_io_executor& executor,
         std::unique_ptr<Planning::IPlanStore> store,
         StoredHandler handler,
         CheckedHandler checkedHandler);
-    StoreWorker(const StoreWorker&) = delete;
-    StoreWorker& operator=(const StoreWorker&) = delete;
-
-    /// Waits until all batches that were appended are written. Calls no handler any more.
-    ~StoreWorker();
 
     /// Batches are written one after the other. Each is answered by one call of the handler, never from within this call.
     void Append(const Planning::StoreBatch& batch);
@@ -44,10 +42,6 @@ public:
     /// Checks whether a restart would find the stored data, and then the log of the store. Does nothing while the previous check
     /// is not answered.
     void CheckAsync();
-
-private:
-    template <typename TWork, typename TAnswer>
-    void Do(TWork work, TAnswer answer);
 };
 
 } // namespace ACS::Acsd

@@ -1,18 +1,17 @@
 #include "BrokerRotation.hpp"
+#include "LinkLog.hpp"
 #include "MosquittoConnection.hpp"
 #include "MosquittoError.hpp"
 #include <acs/vda5050_mosquitto/MosquittoLink.hpp>
 
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <deque>
 #include <exception>
 #include <map>
-#include <set>
 #include <utility>
 
 namespace ACS::VDA5050
@@ -28,9 +27,9 @@ class MosquittoLink::Impl final : public IMosquittoConnectionOwner, public std::
     };
 
     boost::asio::any_io_executor _executor;
-    Core::Logger _logger;
     MosquittoOptions _options;
     BrokerRotation _rotation;
+    LinkLog _log;
     IMqttLinkListener* _listenerOrNull;
     Core::IRandom* _random;
     Core::Backoff _backoff;
@@ -52,11 +51,6 @@ class MosquittoLink::Impl final : public IMosquittoConnectionOwner, public std::
     std::chrono::steady_clock::time_point _upSince;
     std::size_t _shortLives = 0; ///< Consecutive connections that ended right after they were established.
     bool _bUp = false;
-    std::set<std::size_t> _outagesLogged;  ///< Brokers, since the last connection.
-    std::set<std::size_t> _refusalsLogged; ///< Brokers, since the last connection.
-    bool _bLaterRefusalLogged = false;     ///< In this connection.
-    bool _bTooLongLogged = false;          ///< In this connection.
-    bool _bRivalTold = false;
     bool _bStopping = false;
     bool _bStopped = false;
 
@@ -98,18 +92,10 @@ private:
     void Retry(std::chrono::milliseconds pause);
     [[nodiscard]] bool HasRival(bool bWasUp, const std::error_code& reason);
     void LogEnd(bool bWasUp, bool bRenewal, bool bRival, const std::error_code& reason);
-    void LogRival(const std::error_code& reason);
-    void LogOutage(bool bWasUp, const std::error_code& reason);
-    void LogRefusal(const std::string& filter);
     void GiveUp(const std::string& filter);
     void AnnounceWhenConfirmed();
     void FinishStop();
     void AbandonConnectors() noexcept;
-    [[nodiscard]] MosquittoBroker GetBroker(std::size_t index) const;
-    [[nodiscard]] std::string GetAddress(std::size_t index) const;
-    [[nodiscard]] std::string GetAddress() const;
-    /// What follows a failure, as the end of a sentence.
-    [[nodiscard]] std::string MakePlan(std::string_view until) const;
 };
 
 namespace
@@ -131,9 +117,9 @@ MosquittoLink::Impl::Impl(
     MosquittoOptions options,
     IMqttLinkListener& listener)
     : _executor(executor),
-      _logger(std::move(logger)),
       _options(std::move(options)),
       _rotation(_options.furtherBrokers.size() + 1),
+      _log(std::move(logger), _options, _rotation),
       _listenerOrNull(&listener),
       _random(&random),
       _backoff(_options.backoff),
@@ -224,7 +210,7 @@ void MosquittoLink::Impl::SendSubscriptions()
         }
         else if (_connectionOrNull->IsUp())
         {
-            _logger.Error("cannot subscribe", {{"filter", filter}});
+            _log.OnUnsent(filter);
         }
     }
 }
@@ -263,30 +249,6 @@ std::size_t MosquittoLink::Impl::GetBrokerIndex() const noexcept
     return _rotation.GetCurrent();
 }
 
-MosquittoBroker MosquittoLink::Impl::GetBroker(std::size_t index) const
-{
-    return index == 0 ? MosquittoBroker{_options.host, _options.port} : _options.furtherBrokers.at(index - 1);
-}
-
-std::string MosquittoLink::Impl::GetAddress(std::size_t index) const
-{
-    const MosquittoBroker broker = GetBroker(index);
-    const bool bAddressV6 = broker.host.find(':') != std::string::npos;
-    return bAddressV6 ? fmt::format("[{}]:{}", broker.host, broker.port)
-                      : fmt::format("{}:{}", broker.host, broker.port);
-}
-
-std::string MosquittoLink::Impl::GetAddress() const
-{
-    return GetAddress(_rotation.GetCurrent());
-}
-
-std::string MosquittoLink::Impl::MakePlan(std::string_view until) const
-{
-    return _options.furtherBrokers.empty() ? fmt::format("trying again until it {}", until)
-                                           : fmt::format("trying {} next", GetAddress(_rotation.GetNext()));
-}
-
 /// The exchanges of a persistent session are in the client that the thread has; without it they would be lost.
 bool MosquittoLink::Impl::IsConnectorBusy() const
 {
@@ -321,8 +283,7 @@ void MosquittoLink::Impl::Connect()
     _unconfirmed.clear();
     _later.clear();
     _refusedFilter.clear();
-    _bLaterRefusalLogged = false;
-    _bTooLongLogged = false;
+    _log.OnAttempt();
     if (_options.bCleanSession)
     {
         _earlyBytes = 0;
@@ -332,15 +293,16 @@ void MosquittoLink::Impl::Connect()
     _connectionOrNull = std::make_shared<MosquittoConnection>(_executor, *this);
     const std::size_t index = _rotation.GetCurrent();
     MosquittoOptions options = _options;
-    options.host = GetBroker(index).host;
-    options.port = GetBroker(index).port;
+    const MosquittoBroker broker = GetBroker(_options, index);
+    options.host = broker.host;
+    options.port = broker.port;
     const std::error_code refused =
         _connectionOrNull->Open(options, std::exchange(_clientOrNull, std::nullopt), *_connectors.at(index));
     if (refused)
     {
         _connectionOrNull->Abandon();
         _connectionOrNull.reset();
-        LogOutage(false, refused);
+        _log.OnOutage(false, refused);
         TryNext();
     }
 }
@@ -366,23 +328,6 @@ void MosquittoLink::Impl::Retry(std::chrono::milliseconds pause)
     });
 }
 
-void MosquittoLink::Impl::LogOutage(bool bWasUp, const std::error_code& reason)
-{
-    if (!_outagesLogged.insert(_rotation.GetCurrent()).second)
-    {
-        _logger.Debug("still no MQTT broker", {{"broker", GetAddress()}, {"reason", reason.message()}});
-        return;
-    }
-    const std::string_view event = bWasUp ? "lost the MQTT broker at" : "cannot reach the MQTT broker at";
-    _logger.Warning(fmt::format(
-        "{} {} ({}): {}; {}",
-        event,
-        GetAddress(),
-        reason.message(),
-        MakeConnectAdvice(reason),
-        MakePlan("answers")));
-}
-
 /// MQTT 5 reports it. 3.1.1 only closes the connection, which is detected by repeated short connections.
 bool MosquittoLink::Impl::HasRival(bool bWasUp, const std::error_code& reason)
 {
@@ -390,7 +335,7 @@ bool MosquittoLink::Impl::HasRival(bool bWasUp, const std::error_code& reason)
         bWasUp ? std::chrono::steady_clock::now() - _upSince : std::chrono::steady_clock::duration::zero();
     if (life > 2 * _options.backoff.maximum + STABLE_AFTER)
     {
-        _bRivalTold = false; // he would have been back
+        _log.ForgetRival();
     }
     if (IsSessionTakenOver(reason))
     {
@@ -408,55 +353,20 @@ void MosquittoLink::Impl::LogEnd(bool bWasUp, bool bRenewal, bool bRival, const 
 {
     if (!_refusedFilter.empty())
     {
-        LogRefusal(_refusedFilter);
+        _log.OnRefused(_refusedFilter);
     }
     else if (bRival)
     {
-        LogRival(reason);
+        _log.OnRival(reason);
     }
     else if (bRenewal)
     {
-        _logger.Info("starts a new session on the MQTT broker", {{"broker", GetAddress()}});
+        _log.OnRenewal();
     }
     else
     {
-        LogOutage(bWasUp, reason);
+        _log.OnOutage(bWasUp, reason);
     }
-}
-
-void MosquittoLink::Impl::LogRefusal(const std::string& filter)
-{
-    if (!_refusalsLogged.insert(_rotation.GetCurrent()).second)
-    {
-        _logger.Debug("the MQTT broker refuses a subscription still", {{"filter", filter}});
-        return;
-    }
-    _logger.Warning(fmt::format(
-        "the MQTT broker {} refuses the subscription {}: check its access rules; {}",
-        GetAddress(),
-        filter,
-        MakePlan("accepts it")));
-}
-
-void MosquittoLink::Impl::LogRival(const std::error_code& reason)
-{
-    if (_bRivalTold)
-    {
-        _logger.Debug("disconnected again: another client uses the same client id", {{"client", _options.clientID}});
-        return;
-    }
-    _bRivalTold = true;
-    const std::string what = IsSessionTakenOver(reason)
-        ? fmt::format(
-            "another client took over the client id {} at the MQTT broker {}; give each client an id of its own",
-            _options.clientID,
-            GetAddress())
-        : fmt::format(
-            "the MQTT broker {} ends each connection at once: if another client uses the client id {}, give each client an id of "
-            "its own; otherwise the broker may not support the QoS or a character of a topic, see its log",
-            GetAddress(),
-            _options.clientID);
-    _logger.Error(fmt::format("{}. Trying again every {} ms", what, _options.backoff.maximum.count()));
 }
 
 void MosquittoLink::Impl::OnConnectionUp()
@@ -479,10 +389,7 @@ void MosquittoLink::Impl::OnSubscribed(int messageID, bool bGranted)
     {
         if (!bGranted)
         {
-            _logger.Write(
-                std::exchange(_bLaterRefusalLogged, true) ? Core::ELogLevel::Debug : Core::ELogLevel::Error,
-                "the MQTT broker refuses a subscription: check its access rules",
-                {{"broker", GetAddress()}, {"filter", later->second}});
+            _log.OnLaterRefused(later->second);
         }
         _later.erase(later);
         SendSubscriptions();
@@ -524,20 +431,9 @@ void MosquittoLink::Impl::AnnounceWhenConfirmed()
         return;
     }
     _bUp = true;
-    _outagesLogged.clear();
-    _refusalsLogged.clear();
     _connectionOrNull->Confirm();
     _upSince = std::chrono::steady_clock::now();
-    _logger.Write(
-        _bRivalTold ? Core::ELogLevel::Debug : Core::ELogLevel::Info,
-        "connected to the MQTT broker",
-        {{"broker", GetAddress()}, {"client", _options.clientID}});
-    if (_earlyDropped > 0)
-    {
-        _logger.Error(
-            "too many messages before the subscriptions were confirmed: the rest is dropped",
-            {{"broker", GetAddress()}, {"dropped", std::to_string(_earlyDropped)}});
-    }
+    _log.OnUp(_earlyDropped);
     _timer.expires_after(STABLE_AFTER);
     _timer.async_wait([weak = weak_from_this()](const boost::system::error_code& error) {
         const std::shared_ptr<Impl> self = weak.lock();
@@ -581,10 +477,7 @@ void MosquittoLink::Impl::OnConnectionMessage(const MqttMessage& message)
 
 void MosquittoLink::Impl::OnTooLong(const std::string& topic, std::size_t bytes)
 {
-    _logger.Write(
-        std::exchange(_bTooLongLogged, true) ? Core::ELogLevel::Debug : Core::ELogLevel::Warning,
-        "a message that is too long is dropped",
-        {{"topic", Core::QuoteForError(topic)}, {"bytes", std::to_string(bytes)}});
+    _log.OnTooLong(topic, bytes);
 }
 
 void MosquittoLink::Impl::OnConnectionClosed(std::error_code reason)

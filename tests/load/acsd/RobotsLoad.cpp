@@ -1,5 +1,6 @@
 #include "BoundLine.hpp"
 #include "common/config/CommandLine.hpp"
+#include "LoadOptions.hpp"
 #include "RobotsRun.hpp"
 
 #include <CLI/CLI.hpp>
@@ -29,13 +30,6 @@ constexpr double TOLERANCE = 0.02;
 constexpr double FLAT = 1.5; ///< Cost of a robot among the most, relative to that among the fewest.
 constexpr std::size_t MOST_ROBOTS = 1000;
 constexpr std::size_t LEAST_CELLS = 100; ///< Of the site.
-
-struct Options
-{
-    std::vector<std::size_t> robots{10, 25, 50, 100};
-    int seconds = 30;
-    bool bCountsOnly = false;
-};
 
 double GetCostOfRobot(const RobotsMetrics& metrics)
 {
@@ -132,7 +126,7 @@ bool IsCurveKept(const std::vector<RobotsMetrics>& rows)
         fmt::format("{} times", FLAT));
 }
 
-int Run(Options options)
+int Run(LoadOptions options)
 {
     constexpr int INTERRUPTED = 130;
     std::ranges::sort(options.robots);
@@ -164,22 +158,12 @@ int main(int argc, char** argv)
 {
     using namespace ACS; // NOLINT(google-build-using-namespace)
     return Apps::RunProgram("acsd_robots_load", [argc, argv]() {
-        Load::Options options;
+        Load::LoadOptions options{{10, 25, 50, 100}, 30};
         CLI::App app{
             "Measures acsd with a working fleet of vda-sim and an MCS that keeps a plan running for each robot, on its own broker; "
             "fails if a plan or a report fails, or a value is out of its bound",
             "acsd_robots_load"};
-        app.add_option("--robots", options.robots, "Numbers of robots, a row each, for example 10,100")
-            ->delimiter(',')
-            ->check(CLI::Range(std::size_t{1}, Load::MOST_ROBOTS))
-            ->capture_default_str();
-        app.add_option("--seconds", options.seconds, "Measuring time of each row in seconds")
-            ->check(CLI::Range(1, 100'000))
-            ->capture_default_str();
-        app.add_flag(
-            "--counts-only",
-            options.bCountsOnly,
-            "Show the bounds, but do not fail if a value is out of them");
+        Load::AddLoadOptions(app, options, "10,100", 1, Load::MOST_ROBOTS);
         const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);
         return exitCode.has_value() ? *exitCode : Load::Run(options);
     });

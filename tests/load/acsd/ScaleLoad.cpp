@@ -1,5 +1,6 @@
 #include "BoundLine.hpp"
 #include "common/config/CommandLine.hpp"
+#include "LoadOptions.hpp"
 #include "RobotsRun.hpp"
 
 #include <CLI/CLI.hpp>
@@ -32,12 +33,9 @@ constexpr double PERIOD = 0.2;        ///< Of position updates, in seconds.
 constexpr double FLAT = 1.5;          ///< Cost of a robot among the most, relative to that among the fewest.
 constexpr double KIB = 1024.0;
 
-struct Options
+struct Options : LoadOptions
 {
-    std::vector<std::size_t> robots{100, 250, 500, 1000};
     std::size_t storedPlans = 10'000;
-    int seconds = 60;
-    bool bCountsOnly = false;
 };
 
 double GetCostOfRobot(const RobotsMetrics& metrics)
@@ -246,28 +244,18 @@ int main(int argc, char** argv)
 {
     using namespace ACS; // NOLINT(google-build-using-namespace)
     return Apps::RunProgram("acsd_scale_load", [argc, argv]() {
-        Load::Options options;
+        Load::Options options{{{100, 250, 500, 1000}, 60}};
         CLI::App app{
             "Measures acsd on a map of 5,000 nodes with a growing number of vda-sim vehicles, half of them with a plan, on its own "
             "broker, and its start with many stored plans; fails if a plan or a report fails, or a value is out of its bound",
             "acsd_scale_load"};
-        app.add_option("--robots", options.robots, "Numbers of robots, a row each, for example 100,1000")
-            ->delimiter(',')
-            ->check(CLI::Range(std::size_t{2}, Load::MOST_ROBOTS))
-            ->capture_default_str();
+        Load::AddLoadOptions(app, options, "100,1000", 2, Load::MOST_ROBOTS);
         app.add_option(
                "--stored",
                options.storedPlans,
                "Number of plans that wait in the store at the last start; 0: no such start")
             ->check(CLI::Range(std::size_t{0}, std::size_t{90'000}))
             ->capture_default_str();
-        app.add_option("--seconds", options.seconds, "Measuring time of each row in seconds")
-            ->check(CLI::Range(1, 100'000))
-            ->capture_default_str();
-        app.add_flag(
-            "--counts-only",
-            options.bCountsOnly,
-            "Show the bounds, but do not fail if a value is out of them");
         const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);
         if (exitCode.has_value())
         {
