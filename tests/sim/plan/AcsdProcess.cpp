@@ -41,13 +41,22 @@ Acsd::AcsdConfig AcsdProcess::MakeConfig(const Scenario& scenario)
 AcsdProcess::AcsdProcess(const Dependencies& around, CrashHandler onCrash, CommitHandler onCommit)
     : _around(around),
       _onCrash(std::move(onCrash)),
-      _onCommit(std::move(onCommit)),
       _bCrashing(_around.scenario.Has(EFault::Crashes)),
       _core(MakeDependencies(), MakeConfig(_around.scenario)),
       _session(MakeSessionOptions(), _around.ownRandom),
       _timers(_around.timeline),
       _sessionTimers(_around.timeline),
-      _mutator(_around.mutation, _around.chance, _around.ownRandom)
+      _mutator(_around.mutation, _around.chance, _around.ownRandom),
+      _disk(
+          {_around.timeline,
+           _around.trace,
+           _around.chance,
+           _around.store,
+           _around.scenario,
+           _mutator,
+           *this,
+           _around.epoch,
+           std::move(onCommit)})
 {
 }
 
@@ -84,11 +93,7 @@ void AcsdProcess::Begin()
                 OnRobotEvent(robotID, event);
             }));
     }
-    if (_around.scenario.bShared)
-    {
-        _term.emplace(LEASE, _around.timeline.GetNow().steady);
-        RenewLease();
-    }
+    _disk.Begin();
     _core.Restore(_mutator.OnRestore(_around.store.Load()));
     if (_bDead)
     {
@@ -112,73 +117,13 @@ void AcsdProcess::Crash(std::string_view where)
     _timers.CancelAll();
     _sessionTimers.CancelAll();
     _core.Close();
-    if (_writing.has_value() && _around.scenario.bShared)
-    {
-        LeaveOnItsWay(*_writing);
-    }
-    else if (_writing.has_value() && _around.chance.IsHit(500))
-    {
-        _around.trace.Add("acsd: the batch being written is stored");
-        static_cast<void>(TryCommit(*_writing));
-    }
+    _disk.End();
     _onCrash();
-}
-
-/// A shared store is another machine: what was sent may arrive much later, or never.
-void AcsdProcess::LeaveOnItsWay(const Planning::StoreBatch& batch)
-{
-    if (_around.chance.IsHit(300))
-    {
-        return;
-    }
-    const Core::Duration delay = _around.chance.IsHit(300) ? Core::Duration(1ms) : _around.chance.GetBetween(1ms, 12s);
-    _around.timeline.Post(
-        delay,
-        [&store = _around.store,
-         &trace = _around.trace,
-         epoch = _around.epoch,
-         written = _mutator.OnWrite(batch),
-         onCommit = _onCommit] {
-            const bool bStored = store.Commit(written, epoch).has_value();
-            trace.Add("disk: a batch of epoch {} arrives late: {}", epoch, bStored ? "stored" : "refused");
-            if (bStored)
-            {
-                onCommit();
-            }
-        });
-}
-
-void AcsdProcess::CutOff()
-{
-    _around.trace.Add("acsd: cut off from the store");
-    _bCutOff = true;
 }
 
 std::uint64_t AcsdProcess::GetNumber() const noexcept
 {
     return _around.number;
-}
-
-void AcsdProcess::RenewLease()
-{
-    const Core::SteadyTime now = _around.timeline.GetNow().steady;
-    if (!_term->IsHeld(now) && !_mutator.Is(EMutation::LeaseEndIgnored))
-    {
-        Crash("because its lease has ended");
-        return;
-    }
-    if (!_bCutOff && _around.store.TryRenew(_around.epoch))
-    {
-        _term->OnRenewed(now);
-    }
-    _timers.Post(_term->GetRenewInterval(), [this] { RenewLease(); });
-}
-
-/// As acsd asks before each message to a robot.
-bool AcsdProcess::MayCommand()
-{
-    return !_term.has_value() || _mutator.Is(EMutation::LeaseEndIgnored)
-        || _term->IsHeld(_around.timeline.GetNow().steady);
 }
 
 void AcsdProcess::EndCrashes()
@@ -207,83 +152,26 @@ const Planning::PlanEngine& AcsdProcess::GetEngine() const noexcept
 
 void AcsdProcess::Store(const Planning::StoreBatch& batch)
 {
-    if (_bDead)
-    {
-        return;
-    }
-    CrashByChance(20, "before a write");
-    if (_bDead)
-    {
-        return;
-    }
-    _writing = batch;
-    const bool bSlow = _around.scenario.Has(EFault::Disk) && _around.chance.IsHit(30);
-    const Core::Duration time = _around.chance.GetBetween(1ms, bSlow ? 3s : 6ms);
-    const bool bEarly = _mutator.Is(EMutation::StoreConfirmsEarly);
-    _timers.Post(bEarly ? time + 300ms : time, [this, bEarly] {
-        if (!bEarly)
-        {
-            Commit();
-        }
-        else if (_writing.has_value())
-        {
-            static_cast<void>(TryCommit(*std::exchange(_writing, std::nullopt)));
-        }
-    });
-    if (bEarly)
-    {
-        // Otherwise the batch before this one would be lost for another reason.
-        _timers.Post(0ms, [this] { _core.OnStored({}); });
-    }
-}
-
-Core::Result<void> AcsdProcess::TryCommit(const Planning::StoreBatch& batch)
-{
-    Core::Result<void> stored = _around.store.Commit(_mutator.OnWrite(batch), _around.epoch);
-    _around.trace.Add("disk: {} changes {}", batch.changes.size(), stored.has_value() ? "stored" : "refused");
-    if (stored.has_value())
-    {
-        _onCommit();
-    }
-    return stored;
-}
-
-/// As LeaderStore: again and again until it is stored, or the lease has ended.
-void AcsdProcess::CommitShared(Core::Duration retry)
-{
-    const Core::Result<void> stored = _bCutOff
-        ? Core::Fail(Planning::EPlanningError::StoreFailed, "acsd.db", "a connection", "none")
-        : TryCommit(*_writing);
-    if (!stored.has_value() && stored.error().code != Planning::EPlanningError::StoreTaken)
-    {
-        _timers.Post(retry, [this, retry] { CommitShared(retry); });
-        return;
-    }
-    _writing.reset();
-    CrashByChance(20, "after a write");
     if (!_bDead)
     {
-        _core.OnStored(stored);
+        _disk.Write(batch);
     }
 }
 
-void AcsdProcess::Commit()
+bool AcsdProcess::HasCrashed(std::string_view where)
 {
-    if (_around.scenario.bShared)
-    {
-        CommitShared(100ms);
-        return;
-    }
-    const bool bStored = TryCommit(*std::exchange(_writing, std::nullopt)).has_value();
-    CrashByChance(20, "after a write");
-    if (_bDead)
-    {
-        return;
-    }
-    const bool bConfirmed = bStored || _mutator.Is(EMutation::StoreHidesFailure);
-    _core.OnStored(
-        bConfirmed ? Core::Result<void>()
-                   : Core::Fail(Planning::EPlanningError::StoreFailed, "acsd.db", "room", "disk full"));
+    CrashByChance(20, where);
+    return _bDead;
+}
+
+void AcsdProcess::OnStored(const Core::Result<void>& result)
+{
+    _core.OnStored(result);
+}
+
+void AcsdProcess::CutOff()
+{
+    _disk.CutOff();
 }
 
 void AcsdProcess::OnAction(const Planning::EngineAction& action, const Acsd::AcsdCore::ActionHandler& execute)
@@ -366,7 +254,7 @@ void AcsdProcess::ObserveAckWait(Core::Duration /*wait*/)
 
 void AcsdProcess::CommandRobot(const Planning::CommandRobot& command)
 {
-    if (!MayCommand())
+    if (!_disk.MayCommand())
     {
         return;
     }

@@ -10,13 +10,13 @@
 #include "ISimulatedRobot.hpp"
 #include "mcs/IMcsOutput.hpp"
 #include "Mutator.hpp"
+#include "ProcessStore.hpp"
 #include "replay/CoreRecorder.hpp"
 #include "Scenario.hpp"
 #include "TextNetwork.hpp"
 #include "TimerBank.hpp"
 #include "Trace.hpp"
 #include "WorkChecker.hpp"
-#include <acs/plan/LeaseTerm.hpp>
 #include <acs/plan/PlanEngine.hpp>
 #include <acs/protocol/AcsSession.hpp>
 
@@ -33,7 +33,7 @@ namespace ACS::Simulation
 
 /// acsd from one start to its crash: AcsdCore with a simulated disk, network and radios. All inputs and outputs of the
 /// core pass the mutator.
-class AcsdProcess final : private Acsd::IAcsdOutput, private Acsd::IMcsOutput, private ITextPeer
+class AcsdProcess final : private Acsd::IAcsdOutput, private Acsd::IMcsOutput, private ITextPeer, private IStoreOwner
 {
 public:
     /// All references must outlive it.
@@ -55,9 +55,6 @@ public:
         Acsd::CoreRecorder::RecordHandler onRecord = {};
     };
 
-    /// Of a shared store.
-    static constexpr std::chrono::milliseconds LEASE{3'000};
-
     /// Called once at the crash, possibly from within a call of this class. Afterwards it does nothing.
     using CrashHandler = std::function<void()>;
     /// Called after each batch that is on the disk.
@@ -66,7 +63,6 @@ public:
 private:
     Dependencies _around;
     CrashHandler _onCrash;
-    CommitHandler _onCommit;
     bool _bDead = false;
     bool _bCrashing; ///< Crashes at random; ends with the faults.
 
@@ -81,10 +77,8 @@ private:
     bool _bActing = false;
     std::optional<Protocol::ConnectionID> _connection;
     Core::SteadyTime _lastDelivery{};
-    std::optional<Planning::StoreBatch> _writing; ///< Being written to the disk.
-    std::optional<Planning::LeaseTerm> _term;     ///< Of a shared store.
-    bool _bCutOff = false;                        ///< From the shared store.
     Mutator _mutator;
+    ProcessStore _disk;
 
 public:
     AcsdProcess(const Dependencies& around, CrashHandler onCrash, CommitHandler onCommit);
@@ -99,7 +93,7 @@ public:
     void Begin();
 
     /// Ends it at this moment, whatever it is doing.
-    void Crash(std::string_view where);
+    void Crash(std::string_view where) override;
     /// No random crashes from now on.
     void EndCrashes();
     /// It loses its connection to the shared store, until it ends.
@@ -111,12 +105,6 @@ public:
 
 private:
     [[nodiscard]] Acsd::AcsdCore::Dependencies MakeDependencies();
-    void Commit();
-    [[nodiscard]] Core::Result<void> TryCommit(const Planning::StoreBatch& batch);
-    void CommitShared(Core::Duration retry);
-    void LeaveOnItsWay(const Planning::StoreBatch& batch);
-    void RenewLease();
-    [[nodiscard]] bool MayCommand();
     void OnAction(const Planning::EngineAction& action, const Acsd::AcsdCore::ActionHandler& execute);
     void OnReport(const Planning::SendReport& report, const Acsd::AcsdCore::ActionHandler& execute);
     void OnRobotEvent(const std::string& robotID, const Planning::RobotEvent& event);
@@ -126,6 +114,9 @@ private:
     void RunSession(TCall call);
     void Act(const Protocol::SessionAction& action);
     void OnSessionEvent(const Protocol::SessionEvent& event);
+
+    [[nodiscard]] bool HasCrashed(std::string_view where) override;
+    void OnStored(const Core::Result<void>& result) override;
 
     void Store(const Planning::StoreBatch& batch) override;
     void CheckStore() override;

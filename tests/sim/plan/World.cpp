@@ -166,7 +166,7 @@ void World::StartAcsd()
         _scenario,
         _mutation,
         _starts,
-        _store.Take(AcsdProcess::LEASE),
+        _store.Take(ProcessStore::LEASE),
         _onRecording ? _onRecording(_starts) : Acsd::CoreRecorder::RecordHandler()};
     _process = std::make_unique<AcsdProcess>(
         around,
@@ -228,7 +228,7 @@ void World::WatchLease()
     {
         StartAcsd();
     }
-    _behaviours.Start(EBehaviour::Standby, AcsdProcess::LEASE / 12, [this] { WatchLease(); });
+    _behaviours.Start(EBehaviour::Standby, ProcessStore::LEASE / 12, [this] { WatchLease(); });
 }
 
 void World::CutOffSometime()

@@ -1,0 +1,170 @@
+#include "ProcessStore.hpp"
+
+#include <acs/plan/EPlanningError.hpp>
+
+#include <utility>
+
+namespace ACS::Simulation
+{
+
+using namespace std::chrono_literals;
+
+ProcessStore::ProcessStore(Dependencies around)
+    : _around(std::move(around)),
+      _timers(_around.timeline)
+{
+}
+
+void ProcessStore::Begin()
+{
+    if (_around.scenario.bShared)
+    {
+        _term.emplace(LEASE, _around.timeline.GetNow().steady);
+        RenewLease();
+    }
+}
+
+void ProcessStore::End()
+{
+    _timers.CancelAll();
+    if (!_writing.has_value())
+    {
+        return;
+    }
+    if (_around.scenario.bShared)
+    {
+        LeaveOnItsWay(*_writing);
+    }
+    else if (_around.chance.IsHit(500))
+    {
+        _around.trace.Add("acsd: the batch being written is stored");
+        static_cast<void>(TryCommit(*_writing));
+    }
+}
+
+void ProcessStore::Write(const Planning::StoreBatch& batch)
+{
+    if (_around.owner.HasCrashed("before a write"))
+    {
+        return;
+    }
+    _writing = batch;
+    const bool bSlow = _around.scenario.Has(EFault::Disk) && _around.chance.IsHit(30);
+    const Core::Duration time = _around.chance.GetBetween(1ms, bSlow ? 3s : 6ms);
+    const bool bEarly = _around.mutator.Is(EMutation::StoreConfirmsEarly);
+    _timers.Post(bEarly ? time + 300ms : time, [this, bEarly] {
+        if (!bEarly)
+        {
+            Commit();
+        }
+        else if (_writing.has_value())
+        {
+            static_cast<void>(TryCommit(*std::exchange(_writing, std::nullopt)));
+        }
+    });
+    if (bEarly)
+    {
+        // Otherwise the batch before this one would be lost for another reason.
+        _timers.Post(0ms, [this] { _around.owner.OnStored({}); });
+    }
+}
+
+Core::Result<void> ProcessStore::TryCommit(const Planning::StoreBatch& batch)
+{
+    Core::Result<void> stored = _around.store.Commit(_around.mutator.OnWrite(batch), _around.epoch);
+    _around.trace.Add("disk: {} changes {}", batch.changes.size(), stored.has_value() ? "stored" : "refused");
+    if (stored.has_value())
+    {
+        _around.onCommit();
+    }
+    return stored;
+}
+
+/// As LeaderStore: again and again until it is stored, or the lease has ended.
+void ProcessStore::CommitShared(Core::Duration retry)
+{
+    const Core::Result<void> stored = _bCutOff
+        ? Core::Fail(Planning::EPlanningError::StoreFailed, "acsd.db", "a connection", "none")
+        : TryCommit(*_writing);
+    if (!stored.has_value() && stored.error().code != Planning::EPlanningError::StoreTaken)
+    {
+        _timers.Post(retry, [this, retry] { CommitShared(retry); });
+        return;
+    }
+    _writing.reset();
+    if (!_around.owner.HasCrashed("after a write"))
+    {
+        _around.owner.OnStored(stored);
+    }
+}
+
+void ProcessStore::Commit()
+{
+    if (_around.scenario.bShared)
+    {
+        CommitShared(100ms);
+        return;
+    }
+    const bool bStored = TryCommit(*std::exchange(_writing, std::nullopt)).has_value();
+    if (_around.owner.HasCrashed("after a write"))
+    {
+        return;
+    }
+    const bool bConfirmed = bStored || _around.mutator.Is(EMutation::StoreHidesFailure);
+    _around.owner.OnStored(
+        bConfirmed ? Core::Result<void>()
+                   : Core::Fail(Planning::EPlanningError::StoreFailed, "acsd.db", "room", "disk full"));
+}
+
+/// A shared store is another machine: what was sent may arrive much later, or never.
+void ProcessStore::LeaveOnItsWay(const Planning::StoreBatch& batch)
+{
+    if (_around.chance.IsHit(300))
+    {
+        return;
+    }
+    const Core::Duration delay = _around.chance.IsHit(300) ? Core::Duration(1ms) : _around.chance.GetBetween(1ms, 12s);
+    _around.timeline.Post(
+        delay,
+        [&store = _around.store,
+         &trace = _around.trace,
+         epoch = _around.epoch,
+         written = _around.mutator.OnWrite(batch),
+         onCommit = _around.onCommit] {
+            const bool bStored = store.Commit(written, epoch).has_value();
+            trace.Add("disk: a batch of epoch {} arrives late: {}", epoch, bStored ? "stored" : "refused");
+            if (bStored)
+            {
+                onCommit();
+            }
+        });
+}
+
+void ProcessStore::CutOff()
+{
+    _around.trace.Add("acsd: cut off from the store");
+    _bCutOff = true;
+}
+
+void ProcessStore::RenewLease()
+{
+    const Core::SteadyTime now = _around.timeline.GetNow().steady;
+    if (!_term->IsHeld(now) && !_around.mutator.Is(EMutation::LeaseEndIgnored))
+    {
+        _around.owner.Crash("because its lease has ended");
+        return;
+    }
+    if (!_bCutOff && _around.store.TryRenew(_around.epoch))
+    {
+        _term->OnRenewed(now);
+    }
+    _timers.Post(_term->GetRenewInterval(), [this] { RenewLease(); });
+}
+
+bool ProcessStore::MayCommand() const
+{
+    return !_term.has_value() || _around.mutator.Is(EMutation::LeaseEndIgnored)
+        || _term->IsHeld(_around.timeline.GetNow().steady);
+}
+
+} // namespace ACS::Simulation
