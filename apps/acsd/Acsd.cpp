@@ -232,7 +232,7 @@ private:
 
     void CommandRobot(const Planning::CommandRobot& command) override
     {
-        if (MayCommand())
+        if (CanCommand())
         {
             _robots.Handle(command);
         }
@@ -264,7 +264,7 @@ private:
         _mcs.StopAsync([this] { OnLinkClosed(); });
     }
 
-    [[nodiscard]] bool MayCommand() const
+    [[nodiscard]] bool CanCommand() const
     {
         return !_dependencies.mayCommand || _dependencies.mayCommand();
     }
@@ -378,7 +378,7 @@ private:
              }});
         AddActionRoutes(
             commands,
-            {[this] { return _core.IsClosed() || !MayCommand(); },
+            {[this] { return _core.IsClosed() || !CanCommand(); },
              [this](const std::string& robotID) -> std::optional<RobotActionsView> {
                  const RobotRunner* const robotOrNull = _robots.FindOrNull(robotID);
                  return robotOrNull == nullptr

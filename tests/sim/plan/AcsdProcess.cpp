@@ -254,7 +254,7 @@ void AcsdProcess::ObserveAckWait(Core::Duration /*wait*/)
 
 void AcsdProcess::CommandRobot(const Planning::CommandRobot& command)
 {
-    if (!_disk.MayCommand())
+    if (!_disk.CanCommand())
     {
         return;
     }

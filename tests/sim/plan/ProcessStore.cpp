@@ -161,7 +161,7 @@ void ProcessStore::RenewLease()
     _timers.Post(_term->GetRenewInterval(), [this] { RenewLease(); });
 }
 
-bool ProcessStore::MayCommand() const
+bool ProcessStore::CanCommand() const
 {
     return !_term.has_value() || _around.mutator.Is(EMutation::LeaseEndIgnored)
         || _term->IsHeld(_around.timeline.GetNow().steady);

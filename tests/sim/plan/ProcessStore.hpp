@@ -84,7 +84,7 @@ public:
     void Write(const Planning::StoreBatch& batch);
 
     /// As acsd asks before each message to a robot.
-    [[nodiscard]] bool MayCommand() const;
+    [[nodiscard]] bool CanCommand() const;
 
 private:
     void Commit();
