@@ -124,7 +124,7 @@ Core::Error MakeStatementError(const PGresult& result, const std::string& name, 
     const std::string_view state = GetState(result);
     const char* const message = PQresultErrorField(&result, PG_DIAG_MESSAGE_PRIMARY);
     std::string found = fmt::format("{} failed: {} ({})", operation, message == nullptr ? "no reason" : message, state);
-    const auto remedy =
+    const auto* const remedy =
         std::ranges::find_if(REMEDIES, [state](const Remedy& entry) { return state.starts_with(entry.state); });
     const EPlanningError error = remedy == REMEDIES.end() ? EPlanningError::StoreFailed : remedy->error;
     return {

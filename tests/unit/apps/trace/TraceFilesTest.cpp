@@ -135,7 +135,7 @@ TEST_CASE("The newest file is continued at a start if that is wanted, and the ne
 TEST_CASE("Only regular files are read, continued and deleted; the others keep their names")
 {
     const Testing::TemporaryFolder place;
-    const auto folder = place.GetPath();
+    const auto& folder = place.GetPath();
     const TraceLimits limits{100, 2};
     std::ofstream(folder / "elsewhere") << "secret\n";
     const bool bContinued = GENERATE(false, true);
@@ -172,7 +172,7 @@ TEST_CASE("Only regular files are read, continued and deleted; the others keep t
 TEST_CASE("A file whose name has no usable number is left alone")
 {
     const Testing::TemporaryFolder place;
-    const auto folder = place.GetPath();
+    const auto& folder = place.GetPath();
     for (const char* name :
          {"acsd-18446744073709551615.ndjson", "acsd-99999999999999999999999.ndjson", "acsd--1.ndjson"})
     {
