@@ -1,20 +1,27 @@
 #include "Catch.hpp"
+#include "EngineControl.hpp"
 #include "FleetWorld.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
 
+using ACS::Testing::EngineControl;
 using ACS::Testing::FleetOptions;
 using ACS::Testing::FleetWorld;
+using ACS::Testing::Floor;
+using ACS::Testing::MakeGridFloor;
 
 namespace
 {
 
-void Run(const FleetOptions& options)
+void Run(const Floor& floor, const FleetOptions& options)
 {
     INFO("seed " << options.seed << (options.bFaults ? " with faults" : ""));
-    FleetWorld world(options);
+    FleetWorld world(floor, options, std::make_unique<EngineControl>(floor, options.vehicles));
     const bool bDone = world.TryRun();
     INFO(world.Describe());
     CHECK(world.violations == std::vector<std::string>{});
@@ -39,11 +46,11 @@ void Run(const FleetOptions& options)
 TEST_CASE("20 vehicles do 1,000 random transports on one-way and two-way lanes: no conflict, no deadlock")
 {
     FleetOptions options;
-    Run(options);
+    Run(MakeGridFloor(false), options);
     FleetOptions alone;
     alone.vehicles = 1;
     alone.transports = 50;
-    Run(alone);
+    Run(MakeGridFloor(false), alone);
 }
 
 TEST_CASE("20 vehicles that pause, are slow, are lost and recover do all transports")
@@ -54,7 +61,7 @@ TEST_CASE("20 vehicles that pause, are slow, are lost and recover do all transpo
         options.seed = seed;
         options.transports = 120;
         options.bFaults = true;
-        Run(options);
+        Run(MakeGridFloor(false), options);
     }
 }
 
@@ -65,18 +72,18 @@ TEST_CASE("36 vehicles on the same floor do all transports")
     options.transports = 100;
     options.plansAtOnce = 72;
     options.seed = 7;
-    Run(options);
+    Run(MakeGridFloor(false), options);
 }
 
 TEST_CASE("20 vehicles use lanes for empty and for loaded vehicles only, with faults and without")
 {
+    const Floor floor = MakeGridFloor(true);
     for (const bool bFaults : {false, true})
     {
         FleetOptions options;
         options.transports = 200;
         options.seed = 3;
         options.bFaults = bFaults;
-        options.bLoadRestrictions = true;
-        Run(options);
+        Run(floor, options);
     }
 }

@@ -134,22 +134,42 @@ TEST_CASE("Traffic: robots may meet in a corridor where each can retreat, and dr
 
 TEST_CASE("Traffic: a grant after which the state is not safe is refused, all others are given")
 {
-    // Robot 0 is on 5 and has the parking position 6. Robot 1 is on 6, has 7, and must enter it first.
+    // Robot 0 is on 0 and has the parking position 6. Robot 1 is on 6, has 7, and must enter it first. Robot 2 has 5.
     Traffic traffic(MakeCorridor(), 0);
-    traffic.AddRobot("lr", 6);
-    traffic.AddRobot("lr", 7);
-    REQUIRE(traffic.TryStand(0, 5));
-    REQUIRE(traffic.TryStand(1, 6));
-    traffic.SetMovable(0, true);
-    traffic.SetMovable(1, true);
+    const Nodes homes{6, 7, 5};
+    const Nodes places{0, 6, 5};
+    for (std::size_t robot = 0; robot < homes.size(); ++robot)
+    {
+        traffic.AddRobot("lr", homes[robot]);
+        REQUIRE(traffic.TryStand(robot, places[robot]));
+        traffic.SetMovable(robot, true);
+    }
     // Robot 0 on 2 or beyond would block robot 1 from 7, and robot 1 would block robot 0 from 6.
-    REQUIRE(traffic.Extend(0, Nodes{0, 1}) == 2);
-    traffic.Pass(0, 2);
+    REQUIRE(traffic.Extend(0, Nodes{1}) == 1);
+    traffic.Pass(0, 1);
     CHECK(traffic.Extend(0, Nodes{2}) == 0);
     CHECK(traffic.GetBlockers() == Nodes{1});
     CHECK(traffic.Extend(1, Nodes{4, 3, 2, 7}) == 4);
     traffic.Pass(1, 4);
     CHECK(traffic.Extend(0, Nodes{2, 3, 4, 6}) == 4);
+}
+
+TEST_CASE(
+    "Traffic: a robot may drive where it can wait beside the lane, even if it cannot park, and others leave that place free")
+{
+    // As before, but node 5 is a refuge: robot 0 waits there while robot 1 parks.
+    Traffic traffic(MakeCorridor(), 0);
+    traffic.AddRobot("lr", 6);
+    traffic.AddRobot("lr", 7);
+    REQUIRE(traffic.TryStand(0, 0));
+    REQUIRE(traffic.TryStand(1, 6));
+    traffic.SetMovable(0, true);
+    traffic.SetMovable(1, true);
+    CHECK(traffic.Extend(0, Nodes{1, 2}) == 2);
+    CHECK_FALSE(traffic.FindRefugeOrNull(0) == 6);
+    CHECK(traffic.FindRefugeOrNull(0) == 5);
+    CHECK(traffic.IsRefuge(5));
+    CHECK_FALSE(traffic.IsRefuge(1));
 }
 
 TEST_CASE("Traffic: a robot that cannot move is an obstacle, and no robot drives where it would be cut off by it")
@@ -324,19 +344,33 @@ TEST_CASE("Traffic: a robot is not granted nodes from where blocks cut off its p
     std::vector<bool> blocked(14, false);
     blocked[3] = true; // the edge from 2 to 1
     traffic.SetBlocked(std::vector<bool>(9, false), blocked);
+    traffic.AddRobot("lr", 7);
     CHECK(traffic.Extend(0, Nodes{0, 1}) == 2);
     CHECK(traffic.Extend(0, Nodes{2}) == 0);
     CHECK(traffic.IsRefusedForBlocks());
+}
+
+TEST_CASE(
+    "Traffic: where blocks cut off its parking position, a robot may use a refuge, but serves only what its stand-in allows")
+{
+    Traffic traffic = MakeTraffic();
+    std::vector<bool> blocked(14, false);
+    blocked[3] = true; // the edge from 2 to 1
+    traffic.SetBlocked(std::vector<bool>(9, false), blocked);
+    CHECK(traffic.Extend(0, Nodes{0, 1, 2}) == 3);
+    traffic.Pass(0, 3);
+    CHECK(traffic.FindRefugeOrNull(0) == 7); // beside node 2
     CHECK_FALSE(traffic.CanServe(0, 7));
-    traffic.SetStandIn(0, 7); // it may park beside node 2
+    traffic.SetStandIn(0, 7);
     CHECK(traffic.CanServe(0, 7));
-    CHECK(traffic.Extend(0, Nodes{2, 7}) == 2);
+    CHECK(traffic.Extend(0, Nodes{7}) == 1);
 }
 
 TEST_CASE("Traffic: while there are blocks, the state stays safe for the time after them")
 {
     Traffic traffic = MakeTraffic();
     REQUIRE(traffic.TryStand(0, 4)); // parks by 3, 2, 1 and 0
+    traffic.AddRobot("lr", 7);       // so that it is no refuge
     REQUIRE(traffic.TryStand(1, 7)); // parks by 2, 3 and 4, after robot 0
     std::vector<bool> blocked(9, false);
     blocked[0] = true;

@@ -1,6 +1,5 @@
 #include "FleetWorld.hpp"
 
-#include "FleetSite.hpp"
 #include <acs/core/Overloaded.hpp>
 
 #include <fmt/format.h>
@@ -29,20 +28,21 @@ Core::Duration ToDuration(double seconds)
 
 } // namespace
 
-FleetWorld::FleetWorld(const FleetOptions& options)
+FleetWorld::FleetWorld(const Floor& floor, const FleetOptions& options, std::unique_ptr<IFleetControl> control)
     : _options(options),
       _random(options.seed),
-      _site(MakeFleetSite(options.bLoadRestrictions)),
+      _floor(floor),
+      _site(floor.site),
       _router(_site),
-      _engine(MakeFleetEngineOptions(options.vehicles), _site, _random)
+      _demands(MakeDemands(floor, options.seed, options.transports, options.priorities)),
+      _control(std::move(control))
 {
-    const EngineOptions engineOptions = MakeFleetEngineOptions(options.vehicles);
-    for (const RobotOptions& robot : engineOptions.robots)
+    for (std::size_t i = 0; i < options.vehicles; ++i)
     {
         Vehicle& vehicle = _vehicles.emplace_back();
-        vehicle.robotID = robot.robotID.GetText();
-        vehicle.nodeID = *robot.startNodeID;
-        _indices.emplace(vehicle.robotID, _vehicles.size() - 1);
+        vehicle.robotID = fmt::format("LR{:02}", i + 1);
+        vehicle.nodeID = MakeDockID(_floor.parking.at(i));
+        _indices.emplace(vehicle.robotID, i);
     }
     for (Vehicle& vehicle : _vehicles)
     {
@@ -67,25 +67,26 @@ void FleetWorld::Push(EHappening happening, std::size_t vehicle, std::uint64_t g
     _entries.push({_clock.GetNow().steady + delay, _order, happening, vehicle, {}, generation});
 }
 
+Plan FleetWorld::MakePlan(const std::string& planID, const Demand& demand)
+{
+    return {
+        planID,
+        "",
+        demand.priority,
+        {{1, "CassetteLoad", demand.from, {"C"}, {{planID + "-1", demand.from, "AMR.CP01"}}},
+         {2, "CassetteUnload", demand.to, {"C"}, {{planID + "-2", "AMR.CP01", demand.to}}}}};
+}
+
 void FleetWorld::SubmitMore()
 {
     while (_submitted < _options.transports && _submitted - completed - failed < _options.plansAtOnce)
     {
+        const std::size_t demand = _submitted;
         ++_submitted;
         const std::string planID = fmt::format("P{}", _submitted);
-        const std::uint64_t from = GetRandom(FLEET_PLACES);
-        const std::uint64_t to = (from + 1 + GetRandom(FLEET_PLACES - 1)) % FLEET_PLACES;
-        const std::string fromID = fmt::format("A01.CP{:02}", from + 1);
-        const std::string toID = fmt::format("A01.CP{:02}", to + 1);
-        Plan plan{
-            planID,
-            "",
-            static_cast<std::int32_t>(GetRandom(3)),
-            {{1, "CassetteLoad", fromID, {"C"}, {{planID + "-1", fromID, "AMR.CP01"}}},
-             {2, "CassetteUnload", toID, {"C"}, {{planID + "-2", "AMR.CP01", toID}}}}};
-        _plans.emplace(planID, plan);
+        _transports[planID] = {demand, _clock.GetNow().steady, {}, 0};
         EngineActions out;
-        _engine.Handle(SubmitPlan{std::move(plan), _submitted}, _clock.GetNow(), out);
+        _control->Submit(MakePlan(planID, _demands[demand]), _submitted, _clock.GetNow(), out);
         Execute(out);
     }
 }
@@ -122,7 +123,7 @@ void FleetWorld::Happen(const Entry& entry)
             if (_timers[entry.timer] == entry.order)
             {
                 EngineActions out;
-                _engine.OnTimer(entry.timer, _clock.GetNow(), out);
+                _control->OnTimer(entry.timer, _clock.GetNow(), out);
                 Execute(out);
             }
             break;
@@ -161,7 +162,7 @@ void FleetWorld::Execute(const EngineActions& actions)
             Core::Overloaded{
                 [this](const StorePlans&) {
                     EngineActions released;
-                    _engine.OnStored({}, _clock.GetNow(), released);
+                    _control->OnStored(_clock.GetNow(), released);
                     Execute(released);
                 },
                 [this](const ReplyCommand& typed) {
@@ -173,7 +174,7 @@ void FleetWorld::Execute(const EngineActions& actions)
                 [this](const SendReport& typed) {
                     OnReport(typed.entry.report);
                     EngineActions out;
-                    _engine.Handle(MessageAcknowledged{typed.entry.sequence}, _clock.GetNow(), out);
+                    _control->OnReportSent(typed.entry.sequence, _clock.GetNow(), out);
                     Execute(out);
                 },
                 [this](const CommandRobot& typed) { Obey(_vehicles[_indices.at(typed.robotID)], typed.command); },
@@ -198,30 +199,34 @@ void FleetWorld::OnReport(const Report& report)
         return;
     }
     const std::string& planID = planOrNull->planID;
+    Transport& transport = _transports.at(planID);
     if (planOrNull->state == EPlanState::InProgress)
     {
-        const Plan& plan = _plans.at(planID);
-        const std::string robotID = _engine.GetPlanOrNull(planID)->robotID.value_or("");
-        const std::string first = "D-" + plan.steps[0].position;
-        Transport transport;
-        transport.begin = _clock.GetNow().steady;
-        transport.idealSeconds = GetSeconds(_vehicles[_indices.at(robotID)].nodeID, first)
-            + GetSeconds(first, "D-" + plan.steps[1].position);
-        _running[planID] = transport;
+        Begin(transport, _control->GetRobotIDOrNull(planID).value_or(""));
         return;
     }
     if (planOrNull->state == EPlanState::Completed)
     {
         ++completed;
-        const std::chrono::duration<double> taken = _clock.GetNow().steady - _running.at(planID).begin;
-        _slowdowns.push_back(taken.count() / _running.at(planID).idealSeconds);
+        const std::chrono::duration<double> taken = _clock.GetNow().steady - transport.begin;
+        const std::chrono::duration<double> total = _clock.GetNow().steady - transport.submitted;
+        _finished.push_back({taken.count() / transport.idealSeconds, total.count()});
     }
     else
     {
         ++failed;
         violations.push_back(fmt::format("{} is {}: {}", planID, GetText(planOrNull->state), planOrNull->message));
     }
-    _running.erase(planID);
+    _transports.erase(planID);
+}
+
+void FleetWorld::Begin(Transport& transport, const std::string& robotID)
+{
+    const Demand& demand = _demands[transport.demand];
+    const std::string from = MakeDockID(demand.from);
+    transport.begin = _clock.GetNow().steady;
+    transport.idealSeconds = GetSeconds(_vehicles[_indices.at(robotID)].nodeID, from)
+        + GetSeconds(from, MakeDockID(demand.to)) + demand.loadSeconds + demand.unloadSeconds;
 }
 
 void FleetWorld::Obey(Vehicle& vehicle, const RobotCommand& command)
@@ -278,7 +283,9 @@ void FleetWorld::Obey(Vehicle& vehicle, const RobotCommand& command)
             },
             [this, &vehicle, number](const StartJob& job) {
                 vehicle.jobID = job.jobID;
-                Push(EHappening::Job, number, 0, std::chrono::seconds(3 + GetRandom(8)));
+                const Demand& demand = _demands[_transports.at(job.planID).demand];
+                const double seconds = job.stepNo == 1 ? demand.loadSeconds : demand.unloadSeconds;
+                Push(EHappening::Job, number, 0, ToDuration(seconds));
             },
             [this, &vehicle](const auto&) {
                 violations.push_back(vehicle.robotID + " received an unexpected command");
@@ -318,7 +325,7 @@ void FleetWorld::RaiseTold()
         _raised.pop_front();
         ++events;
         EngineActions out;
-        _engine.Handle(_vehicles[raised.first].robotID, raised.second, _clock.GetNow(), out);
+        _control->OnEvent(_vehicles[raised.first].robotID, raised.second, _clock.GetNow(), out);
         Execute(out);
     }
 }
@@ -495,16 +502,24 @@ std::pair<double, double> FleetWorld::GetPosition(const Vehicle& vehicle) const
     return {node.x + done * (next.x - node.x), node.y + done * (next.y - node.y)};
 }
 
-/// The time on an empty floor, with the mean duration of a job.
+/// On an empty floor.
 double FleetWorld::GetSeconds(const std::string& from, const std::string& to) const
 {
-    constexpr double JOB_SECONDS = 6.5;
-    return _router.FindRouteOrNull("lr-base", from, to)->travelSeconds + JOB_SECONDS;
+    return _router.FindRouteOrNull(FLEET_TYPE, from, to)->travelSeconds;
+}
+
+const std::vector<FinishedTransport>& FleetWorld::GetFinished() const noexcept
+{
+    return _finished;
 }
 
 double FleetWorld::GetMeanSlowdown() const
 {
-    return std::accumulate(_slowdowns.begin(), _slowdowns.end(), 0.0) / static_cast<double>(_slowdowns.size());
+    const double sum =
+        std::accumulate(_finished.begin(), _finished.end(), 0.0, [](double before, const FinishedTransport& transport) {
+            return before + transport.slowdown;
+        });
+    return sum / static_cast<double>(_finished.size());
 }
 
 double FleetWorld::GetVirtualHours() const
@@ -517,11 +532,9 @@ double FleetWorld::GetVirtualHours() const
 std::string FleetWorld::Describe() const
 {
     std::string text = fmt::format("{} of {} done", completed, _options.transports);
-    const std::vector<RobotStatus> statuses = _engine.GetRobotStatuses();
-    for (std::size_t i = 0; i < _vehicles.size(); ++i)
+    for (const Vehicle& vehicle : _vehicles)
     {
-        const Vehicle& vehicle = _vehicles[i];
-        text += fmt::format("\n{} {} on {}", vehicle.robotID, GetText(statuses[i].status), vehicle.nodeID);
+        text += fmt::format("\n{} on {}", vehicle.robotID, vehicle.nodeID);
         if (vehicle.drive.has_value())
         {
             const std::vector<RouteNode>& nodes = vehicle.drive->route.nodes;
@@ -535,10 +548,13 @@ std::string FleetWorld::Describe() const
                 text += " " + node.nodeID;
             }
         }
-        if (statuses[i].planID.has_value())
+        for (const auto& [planID, transport] : _transports)
         {
-            const Plan& plan = _plans.at(*statuses[i].planID);
-            text += fmt::format(" {} {}>{}", plan.planID, plan.steps[0].position, plan.steps[1].position);
+            if (_control->GetRobotIDOrNull(planID) == vehicle.robotID)
+            {
+                const Demand& demand = _demands[transport.demand];
+                text += fmt::format(" {} {}>{}", planID, demand.from, demand.to);
+            }
         }
         text += vehicle.bPaused ? " paused" : "";
         text += vehicle.bLost ? " lost" : "";

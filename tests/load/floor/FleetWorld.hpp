@@ -1,14 +1,16 @@
 #pragma once
 
+#include "Floor.hpp"
+#include "IFleetControl.hpp"
 #include "ManualClock.hpp"
 #include "SeededRandom.hpp"
-#include <acs/plan/PlanEngine.hpp>
 #include <acs/plan/Router.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <queue>
 #include <string>
@@ -17,19 +19,26 @@
 namespace ACS::Testing
 {
 
-/// The floor, the number of vehicles and their faults.
+/// The vehicles, their work and their faults.
 struct FleetOptions
 {
     std::uint64_t seed = 1;
     std::size_t vehicles = 20;
     std::size_t transports = 1'000;
     std::size_t plansAtOnce = 40; ///< Plans that are submitted and not finished.
-    bool bFaults = false;         ///< Vehicles pause, are slow, are lost, and recover.
-    bool bLoadRestrictions = false;
+    std::uint64_t priorities = 3;
+    bool bFaults = false; ///< Vehicles pause, are slow, are lost, and recover.
 };
 
-/// A fleet in virtual time on a floor of one-way and two-way lanes, with dead ends that two vehicles cannot share.
-/// Vehicles drive along what is released to them; their positions are independent of the data of the engine.
+/// A transport that is completed.
+struct FinishedTransport
+{
+    double slowdown = 0;     ///< Its time divided by the time on an empty floor, from its start.
+    double totalSeconds = 0; ///< Since it was submitted.
+};
+
+/// A fleet in virtual time. Vehicles drive along what is released to them; their positions are independent of the data of what
+/// controls them.
 class FleetWorld
 {
     enum class EHappening : std::uint8_t
@@ -79,6 +88,8 @@ class FleetWorld
 
     struct Transport
     {
+        std::size_t demand = 0;
+        Core::SteadyTime submitted;
         Core::SteadyTime begin;
         double idealSeconds = 0;
     };
@@ -86,38 +97,40 @@ class FleetWorld
     FleetOptions _options;
     ManualClock _clock;
     SeededRandom _random;
-    Planning::SiteMap _site;
+    const Floor& _floor;
+    const Planning::SiteMap& _site;
     Planning::Router _router;
+    std::vector<Demand> _demands;
+    std::unique_ptr<IFleetControl> _control;
     std::vector<Vehicle> _vehicles;
     std::map<std::string, std::size_t> _indices;
     std::map<std::string, std::uint64_t> _onNode;
-    Planning::PlanEngine _engine;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> _entries;
     std::map<Planning::EngineTimer, std::uint64_t> _timers;
     std::deque<std::pair<std::size_t, Planning::RobotEvent>> _raised;
     std::uint64_t _order = 0;
     std::size_t _submitted = 0;
-    std::map<std::string, Planning::Plan> _plans;
-    std::map<std::string, Transport> _running;
-    std::vector<double> _slowdowns;
+    std::map<std::string, Transport> _transports; ///< Not finished, by plan.
+    std::vector<FinishedTransport> _finished;
 
 public:
     std::vector<std::string> violations;
     std::size_t completed = 0;
     std::size_t failed = 0;
-    std::size_t events = 0; ///< Events that the engine has received.
+    std::size_t events = 0; ///< Events that were raised.
     std::size_t drives = 0;
     std::size_t cancels = 0; ///< Drives that were cancelled for a reroute or to yield.
 
-    explicit FleetWorld(const FleetOptions& options);
+    /// The floor must outlive the world.
+    FleetWorld(const Floor& floor, const FleetOptions& options, std::unique_ptr<IFleetControl> control);
 
     /// Runs until all transports are done. False: they are not, and no event is left or a week has passed.
     [[nodiscard]] bool TryRun();
 
-    /// The mean over all transports of their time divided by the time on an empty floor.
+    [[nodiscard]] const std::vector<FinishedTransport>& GetFinished() const noexcept;
     [[nodiscard]] double GetMeanSlowdown() const;
     [[nodiscard]] double GetVirtualHours() const;
-    /// The position of each vehicle and what it waits for, for a run that does not end.
+    /// The position and the drive of each vehicle, for a run that does not end.
     [[nodiscard]] std::string Describe() const;
 
 private:
@@ -142,6 +155,8 @@ private:
     [[nodiscard]] double GetLegDone(const Vehicle& vehicle) const;
     [[nodiscard]] static double GetLegLength(const Vehicle& vehicle);
     [[nodiscard]] double GetSeconds(const std::string& from, const std::string& to) const;
+    [[nodiscard]] static Planning::Plan MakePlan(const std::string& planID, const Demand& demand);
+    void Begin(Transport& transport, const std::string& robotID);
 };
 
 } // namespace ACS::Testing
