@@ -118,23 +118,17 @@ bool DeadlockResolver::TryMakeWay(Robot& leader, const std::vector<Robot*>& stuc
 
 bool DeadlockResolver::TryRetreat(Robot& robot, const Robot& leader)
 {
-    const std::optional<std::size_t> parking = robot.parking.GetParkingOrNull();
-    const bool bGoesHome = robot.drive.has_value() && robot.drive->nodes.back() == parking;
-    if (!_traffic.IsMovable(robot.index) || _waiting.IsMoving(robot) || bGoesHome || robot.parking.bRefused
-        || robot.control.bConfirming || (robot.parking.retreatNode.has_value() && robot.parking.retreatNode == parking)
-        || !parking.has_value() || robot.place.IsOn(parking) || !_coordinator.IsOpenDock(*parking)
-        || !_waiting.GetTargetHolders(robot, *parking).empty())
+    if (!_traffic.IsMovable(robot.index) || _waiting.IsMoving(robot) || robot.parking.bRefused
+        || robot.control.bConfirming)
     {
         return false;
     }
-    std::optional<PlannedRoute> plannedRoute =
-        _coordinator.PlanRouteOrNull(robot, *parking, [this, &robot](std::size_t node) {
-            return !_traffic.IsOpenFor(node, robot.index);
-        });
+    std::optional<PlannedRoute> plannedRoute = PlanRetreatOrNull(robot, leader);
     if (!plannedRoute.has_value())
     {
         return false;
     }
+    const std::size_t target = plannedRoute->target;
     bool bBegun = false;
     if (robot.drive.has_value())
     {
@@ -142,7 +136,7 @@ bool DeadlockResolver::TryRetreat(Robot& robot, const Robot& leader)
     }
     else
     {
-        robot.parking.retreatNode = parking;
+        robot.parking.retreatNode = target;
         bBegun = _coordinator.TryBeginDrive(robot, *plannedRoute);
         robot.parking.retreatNode = bBegun ? robot.parking.retreatNode : std::nullopt;
     }
@@ -151,12 +145,35 @@ bool DeadlockResolver::TryRetreat(Robot& robot, const Robot& leader)
         WaitingRobots::YieldTo(robot, leader);
         _transaction.Note(
             robot,
-            fmt::format(
-                "drives to node {} to clear the route of {}",
-                _site.GetNodes()[*parking].nodeID,
-                leader.GetID()));
+            fmt::format("drives to node {} to clear the route of {}", _site.GetNodes()[target].nodeID, leader.GetID()));
     }
     return bBegun;
+}
+
+/// To its parking position or, if that is nearer or the way there is not free, to its refuge.
+std::optional<PlannedRoute> DeadlockResolver::PlanRetreatOrNull(const Robot& robot, const Robot& leader)
+{
+    const std::optional<std::size_t> parking = robot.parking.GetParkingOrNull();
+    std::optional<PlannedRoute> best;
+    for (const std::optional<std::size_t>& target : {parking, _traffic.FindRefugeOrNull(robot.index)})
+    {
+        const bool bGoesThere = robot.drive.has_value() && robot.drive->nodes.back() == target;
+        if (!target.has_value() || bGoesThere || robot.place.IsOn(target) || robot.parking.retreatNode == target
+            || !_coordinator.IsOpenDock(*target) || !_traffic.GetHolders(*target, robot.index).empty()
+            || (target != parking && target == _waiting.GetTargetOrNull(leader)))
+        {
+            continue;
+        }
+        std::optional<PlannedRoute> route =
+            _coordinator.PlanRouteOrNull(robot, *target, [this, &robot](std::size_t node) {
+                return !_traffic.IsOpenFor(node, robot.index);
+            });
+        if (route.has_value() && (!best.has_value() || route->route.travelSeconds < best->route.travelSeconds))
+        {
+            best = std::move(route);
+        }
+    }
+    return best;
 }
 
 bool DeadlockResolver::TryStepAside(Robot& robot, const Robot& leader)

@@ -33,7 +33,7 @@ private:
     const TscControl& _tsc;
     WaitingRobots& _waiting;
     TrafficCoordinator& _coordinator;
-    const Traffic& _traffic;
+    Traffic& _traffic;
 
 public:
     DeadlockResolver(
@@ -54,6 +54,7 @@ private:
     /// Sends the robot to its parking position until the leader has arrived.
     [[nodiscard]] bool TryRetreat(Robot& robot, const Robot& leader);
     /// Sends an idle robot on the leader's route to the nearest station that no planned route uses.
+    [[nodiscard]] std::optional<PlannedRoute> PlanRetreatOrNull(const Robot& robot, const Robot& leader);
     [[nodiscard]] bool TryStepAside(Robot& robot, const Robot& leader);
 };
 

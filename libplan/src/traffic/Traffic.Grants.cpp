@@ -31,14 +31,16 @@ bool Traffic::IsAsGood(ESafeStateScope standing, std::size_t robot, Refusal& ref
     return bGood;
 }
 
-bool Traffic::CanPark(const Vehicle& vehicle, const std::vector<std::uint16_t>& covers, ESafeStateScope scope)
+std::optional<std::size_t> Traffic::ParkOrNull(
+    Vehicle& vehicle,
+    const std::vector<std::uint16_t>& covers,
+    ESafeStateScope scope)
 {
-    if (vehicle.path.empty() || (scope == ESafeStateScope::AsIs && !vehicle.bMovable))
+    if (vehicle.path.empty() || (scope == ESafeStateScope::AsIs && (!vehicle.bMovable || !HasOpenStart(vehicle))))
     {
-        return false;
+        return std::nullopt;
     }
-    return (scope == ESafeStateScope::AllMove || HasOpenStart(vehicle))
-        && CanGoHome(vehicle, GetEnd(vehicle), covers, scope);
+    return FindParkingOrNull(vehicle, GetEnd(vehicle), covers, scope);
 }
 
 /// Others that hold nodes on its quickest route home.
@@ -81,19 +83,24 @@ bool Traffic::CanParkSoon(std::size_t robot, ESafeStateScope scope)
         for (std::size_t i = 0; i < robots.size() && robots.size() <= MOST_ROBOTS; ++i)
         {
             gone.resize(robots.size(), false);
-            const Vehicle& vehicle = _vehicles[robots[i]];
+            Vehicle& vehicle = _vehicles[robots[i]];
             if (gone[i])
             {
                 continue;
             }
             Cover(vehicle, covers, false);
-            gone[i] = CanPark(vehicle, covers, scope);
+            const std::optional<std::size_t> parking = ParkOrNull(vehicle, covers, scope);
+            gone[i] = parking.has_value();
             bChanged = bChanged || gone[i];
             if (gone[i] && i == 0)
             {
                 return true;
             }
-            if (!gone[i])
+            if (gone[i])
+            {
+                CoverNode(*parking, covers);
+            }
+            else
             {
                 Cover(vehicle, covers, true);
                 AddInTheWay(vehicle, robots);
@@ -105,8 +112,8 @@ bool Traffic::CanParkSoon(std::size_t robot, ESafeStateScope scope)
 
 bool Traffic::IsRefusedStill(const Refusal& refusal, std::span<const std::size_t> ahead) const
 {
-    return refusal.disturbedAt == _changes.disturbs && refusal.fixedAt == _changes.fixed && !refusal.stuck.empty()
-        && std::ranges::equal(refusal.ahead, ahead)
+    return refusal.disturbedAt == _changes.disturbs && refusal.fixedAt == _changes.fixed
+        && refusal.refugesAt == _changes.refuges && !refusal.stuck.empty() && std::ranges::equal(refusal.ahead, ahead)
         && std::ranges::all_of(refusal.stuck, [this](const std::pair<std::size_t, std::uint64_t>& robot) {
                return _vehicles[robot.first].changes == robot.second;
            });
@@ -131,8 +138,9 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
     }
     // A robot that can park before all others leaves the floor as if it had never been there.
     Cover(vehicle, _covers, false);
-    const bool bFirst = vehicle.bMovable && CanGoHome(vehicle, ahead.back(), _covers, ESafeStateScope::AllMove)
-        && (!IsAnyBlocked() || CanGoHome(vehicle, ahead.back(), _covers, ESafeStateScope::AsIs));
+    const bool bFirst = vehicle.bMovable
+        && FindParkingOrNull(vehicle, ahead.back(), _covers, ESafeStateScope::AllMove).has_value()
+        && (!IsAnyBlocked() || FindParkingOrNull(vehicle, ahead.back(), _covers, ESafeStateScope::AsIs).has_value());
     Cover(vehicle, _covers, true);
     if (bFirst)
     {
@@ -198,6 +206,7 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
     refusal.bForBlocks = _bBlocksRefuse;
     refusal.disturbedAt = _changes.disturbs;
     refusal.fixedAt = _changes.fixed;
+    refusal.refugesAt = _changes.refuges;
     if (bSafe || bHeldAlready)
     {
         refusal.stuck.clear();

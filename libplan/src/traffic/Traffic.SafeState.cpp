@@ -16,6 +16,7 @@ void Traffic::FindReturns()
     {
         return;
     }
+    FindRefuges();
     for (Vehicle& vehicle : _vehicles)
     {
         vehicle.bCanReturn = vehicle.home.has_value() && !vehicle.graphs.empty();
@@ -256,11 +257,11 @@ Traffic::SafeState Traffic::FindSafeState(ESafeStateScope standing)
     for (bool bChanged = true; std::exchange(bChanged, false);)
     {
         const auto isGone = [this, &covers, &found, &bChanged, standing](std::size_t robot) {
-            const Vehicle& vehicle = _vehicles[robot];
+            Vehicle& vehicle = _vehicles[robot];
             Cover(vehicle, covers, false);
-            const bool bStarts = standing == ESafeStateScope::AllMove || HasOpenStart(vehicle);
-            if (bStarts && CanGoHome(vehicle, GetEnd(vehicle), covers, standing))
+            if (const std::optional<std::size_t> parking = ParkOrNull(vehicle, covers, standing); parking.has_value())
             {
+                CoverNode(*parking, covers);
                 found.reachable[robot] = true;
                 bChanged = true;
                 return true;

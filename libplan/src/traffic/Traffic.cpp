@@ -13,6 +13,7 @@ Traffic::Traffic(const SiteMap& site, double clearance)
     : _holders(site.GetNodes().size()),
       _covers(_holders.size(), 0),
       _homes(_holders.size(), 0),
+      _claims{std::vector<std::uint16_t>(_holders.size(), 0), std::vector<std::uint16_t>(_holders.size(), 0)},
       _arriving(_holders.size())
 {
     _scratch.seen.assign(_holders.size(), 0);
@@ -178,6 +179,7 @@ void Traffic::Free(std::size_t node)
 {
     NoteFixed(*_holders[node]);
     _holders[node].reset();
+    _changes.refuges += !_bTrial && !_refuges.empty() && _refuges[node] ? 1U : 0U;
     for (const std::uint32_t near : _near[node])
     {
         --_covers[near];

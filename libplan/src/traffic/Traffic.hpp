@@ -58,6 +58,7 @@ class Traffic
         bool bForBlocks = false;
         std::uint64_t disturbedAt = 0; ///< Value of Changes::disturbs.
         std::uint64_t fixedAt = 0;     ///< Value of Changes::fixed.
+        std::uint64_t refugesAt = 0;   ///< Value of Changes::refuges.
     };
 
     struct Vehicle
@@ -65,6 +66,8 @@ class Traffic
         std::vector<LoadGraph> graphs; ///< None where no edge is for its type; one where loads make no difference.
         std::optional<std::size_t> home;
         std::optional<std::size_t> standIn; ///< Instead of the home, while the way there is blocked.
+        /// By ESafeStateScope: where it can wait instead of parking; no other robot has it.
+        std::array<std::optional<std::size_t>, 2> refuges;
         std::vector<std::size_t> path;      ///< Held nodes in driving order; it is on the first.
         std::optional<std::size_t> heading; ///< It is stationary between its node and this one, and cannot turn round.
         std::vector<std::size_t> extra;     ///< Other held nodes: where it may be, or may drive uncommanded.
@@ -99,6 +102,7 @@ class Traffic
         std::uint64_t freed = 0;    ///< See GetFreedCount.
         std::uint64_t disturbs = 0; ///< Other than nodes that were given back or granted.
         std::uint64_t fixed = 1;    ///< Of what robots that cannot move hold, and of blocks.
+        std::uint64_t refuges = 0;  ///< Of refuges that became free.
     };
 
     /// Whether robots that cannot move hold nodes.
@@ -126,9 +130,11 @@ class Traffic
     std::map<std::string, std::vector<FloorGraph>, std::less<>> _graphs; ///< By type: of empty and loaded vehicles.
     std::vector<Vehicle> _vehicles;
     std::vector<std::optional<std::size_t>> _holders;
-    std::vector<std::uint16_t> _covers;              ///< Of each node: how many held nodes exclude it.
-    std::vector<std::uint16_t> _homes;               ///< Of each node: how many homes exclude it.
-    std::vector<std::vector<std::size_t>> _arriving; ///< Of each node: the robots that have it as destination.
+    std::vector<std::uint16_t> _covers;                ///< Of each node: how many held nodes exclude it.
+    std::vector<std::uint16_t> _homes;                 ///< Of each node: how many homes exclude it.
+    std::vector<bool> _refuges;                        ///< Of each node: whether it is a refuge (IsRefuge).
+    std::array<std::vector<std::uint16_t>, 2> _claims; ///< Of each node: how many refuges of robots exclude it.
+    std::vector<std::vector<std::size_t>> _arriving;   ///< Of each node: the robots that have it as destination.
     std::array<SafeState, 2> _safeStates;
     std::vector<Awaited> _awaited; ///< In the order in which they were asked for.
     bool _bPassedOn = false;       ///< Something that was given back is held by another since the last Note.
@@ -209,6 +215,11 @@ public:
     [[nodiscard]] std::vector<std::size_t> GetHolders(std::size_t node, std::size_t robot) const;
     /// Whether the node is a dead end for the vehicle type with any load, so that no route passes through it.
     [[nodiscard]] bool IsSpur(std::string_view vehicleTypeID, std::size_t node) const;
+    /// Whether a robot that is stationary there blocks no route of others: a dead end for all vehicle types, and so are all nodes
+    /// within the clearance.
+    [[nodiscard]] bool IsRefuge(std::size_t node) const;
+    /// Where the robot can drive now, to wait there instead of parking.
+    [[nodiscard]] std::optional<std::size_t> FindRefugeOrNull(std::size_t robot);
     /// Whether two nodes exclude each other.
     [[nodiscard]] bool IsNear(std::size_t left, std::size_t right) const;
 
@@ -263,12 +274,40 @@ private:
         std::size_t from,
         const std::vector<std::uint16_t>& covers,
         ESafeStateScope scope);
+    void FindRefuges();
+    /// Whether no other robot has the node, or one within the clearance, as its home or as its refuge.
+    [[nodiscard]] bool IsRefugeFor(const Vehicle& vehicle, std::size_t node, ESafeStateScope scope) const;
+    /// nullopt: it has none.
+    void ClaimRefuge(Vehicle& vehicle, std::optional<std::size_t> nodeOrNull, ESafeStateScope scope);
+    /// covers: of all other robots. Where the robot can go home or to a refuge; it has the refuge from then on.
+    [[nodiscard]] std::optional<std::size_t> FindParkingOrNull(
+        Vehicle& vehicle,
+        std::size_t from,
+        const std::vector<std::uint16_t>& covers,
+        ESafeStateScope scope);
+    [[nodiscard]] bool CanGoTo(
+        const Vehicle& vehicle,
+        std::size_t from,
+        std::size_t refuge,
+        const std::vector<std::uint16_t>& covers,
+        ESafeStateScope scope) const;
+    [[nodiscard]] std::optional<std::size_t> FindRefugeOrNull(
+        const Vehicle& vehicle,
+        std::size_t from,
+        const std::vector<std::uint16_t>& covers,
+        ESafeStateScope scope) const;
     [[nodiscard]] SafeState FindSafeState(ESafeStateScope standing);
     [[nodiscard]] const SafeState& GetSafeState(ESafeStateScope standing);
     [[nodiscard]] bool IsAsGood(ESafeStateScope standing, std::size_t robot, Refusal& refusal);
     /// Whether the robot can park after those in its way, as far as they can. False: not known.
     [[nodiscard]] bool CanParkSoon(std::size_t robot, ESafeStateScope scope);
-    [[nodiscard]] bool CanPark(const Vehicle& vehicle, const std::vector<std::uint16_t>& covers, ESafeStateScope scope);
+    /// Where it can park, if it can.
+    [[nodiscard]] std::optional<std::size_t> ParkOrNull(
+        Vehicle& vehicle,
+        const std::vector<std::uint16_t>& covers,
+        ESafeStateScope scope);
+    /// Adds or removes what excludes the node.
+    void CoverNode(std::size_t node, std::vector<std::uint16_t>& covers) const;
     void AddInTheWay(const Vehicle& vehicle, std::vector<std::size_t>& robots) const;
     void AddBlockers(const std::vector<std::size_t>& robots);
     [[nodiscard]] bool IsRefusedStill(const Refusal& refusal, std::span<const std::size_t> ahead) const;

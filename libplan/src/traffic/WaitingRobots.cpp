@@ -118,7 +118,7 @@ bool WaitingRobots::IsHelpable(const Robot& robot) const
 
 bool WaitingRobots::IsYielding(const Robot& robot) const
 {
-    if (!robot.search.yield.has_value() || robot.parking.retreatNode.has_value() || robot.planOrNull == nullptr)
+    if (!robot.search.yield.has_value() || robot.parking.retreatNode.has_value())
     {
         return false;
     }
