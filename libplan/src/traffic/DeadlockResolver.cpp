@@ -89,7 +89,7 @@ bool DeadlockResolver::TryDetour(Robot& robot)
 
 bool DeadlockResolver::TryMakeWay(Robot& leader, const std::vector<Robot*>& stuck)
 {
-    if (leader.planOrNull == nullptr || leader.parking.retreatNode.has_value() || !_waiting.IsHelpable(leader))
+    if (leader.parking.retreatNode.has_value() || !_waiting.IsHelpable(leader))
     {
         return false;
     }
