@@ -142,6 +142,7 @@ void MemoryRobot::OnMoveTimer()
     if (IsHalted())
     {
         _bMoveHalted = true;
+        ShowBetween();
         Show();
         return;
     }
@@ -185,12 +186,8 @@ void MemoryRobot::LoseDrive()
     }
     if (std::exchange(_bMoving, false))
     {
-        const Planning::RouteNode& node = _drive->route.nodes[_index];
-        const Planning::RouteNode& next = _drive->route.nodes[_index + 1];
-        _nextNodeID = next.nodeID;
-        _snapshot.state.x = (node.x + next.x) / 2;
-        _snapshot.state.y = (node.y + next.y) / 2;
-        _snapshot.state.bPoseKnown = true;
+        _nextNodeID = _drive->route.nodes[_index + 1].nodeID;
+        ShowBetween();
     }
     _timers.Cancel(ETimer::Move);
     _snapshot.drives.erase(_drive->driveID);
@@ -198,6 +195,16 @@ void MemoryRobot::LoseDrive()
     _drive.reset();
     _bMoveHalted = _bStopping = false;
     ShowPlace();
+}
+
+/// Its pose is that in the middle between two nodes.
+void MemoryRobot::ShowBetween()
+{
+    const Planning::RouteNode& node = _drive->route.nodes[_index];
+    const Planning::RouteNode& next = _drive->route.nodes[_index + 1];
+    _snapshot.state.x = (node.x + next.x) / 2;
+    _snapshot.state.y = (node.y + next.y) / 2;
+    _snapshot.state.bPoseKnown = true;
 }
 
 void MemoryRobot::BeginJob(const Planning::StartJob& job)

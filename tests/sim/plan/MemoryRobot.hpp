@@ -94,6 +94,7 @@ private:
     void FinishJob();
     void EndDrive(EDriveState state);
     void LoseDrive();
+    void ShowBetween();
     [[nodiscard]] bool CanBegin(const Planning::Route& route) const;
     void EndJob(EJobState state, const std::string& reason);
     void Unhalt();
