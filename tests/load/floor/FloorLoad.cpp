@@ -30,7 +30,6 @@ struct Options
     std::string only;                                           ///< Of the floors; empty: all.
     std::size_t transportsEach = 25;                            ///< Of a vehicle.
     std::uint64_t seed = 1;
-    bool bEngineOnly = false;
 };
 
 struct Outcome
@@ -87,30 +86,60 @@ Outcome Run(const Floor& floor, const FleetOptions& options, const MakeControl& 
 
 std::string Describe(const Outcome& outcome)
 {
-    return outcome.bDone
-        ? fmt::format("{:8.0f} {:5.2f} {:5.2f}", outcome.perHour, outcome.meanSlowdown, outcome.slowdown95)
-        : fmt::format("{:>20}", fmt::format("deadlock after {}", outcome.completed));
+    return outcome.bDone ? fmt::format("{:>12.0f}", outcome.perHour)
+                         : fmt::format("{:>12}", fmt::format("stuck at {}", outcome.completed));
 }
 
-/// Whether the engine did all transports without a collision.
-bool TryRow(const Floor& floor, std::size_t density, const Options& options)
+FleetOptions MakeFleet(const Floor& floor, std::size_t density, const Options& options)
 {
+    constexpr std::size_t HUNDRED = 100;
     FleetOptions fleet;
-    fleet.vehicles = std::max<std::size_t>(1, floor.parking.size() * density / 100);
+    fleet.vehicles = std::max<std::size_t>(1, floor.parking.size() * density / HUNDRED);
     fleet.transports = options.transportsEach * fleet.vehicles;
     fleet.plansAtOnce = 2 * fleet.vehicles;
     fleet.priorities = 1;
     fleet.seed = options.seed;
+    return fleet;
+}
+
+void PrintHead(const Floor& floor)
+{
+    fmt::print(
+        "\n{}: {} nodes, {} parking positions\n"
+        "{:>7} {:>8} | {:>12} {:>8} {:>8} {:>7} {:>7} | {:>12} {:>12} | {:>8} {:>8} {:>6}\n",
+        floor.name,
+        floor.site.GetNodes().size(),
+        floor.parking.size(),
+        "density",
+        "vehicles",
+        "engine, 1/h",
+        "slowdown",
+        "95th",
+        "longest",
+        "CPU, ms",
+        "zones, 1/h",
+        "in order",
+        "fleet",
+        "node",
+        "ratio");
+}
+
+/// False: the engine did not do all transports, vehicles were in one place, or a rule did more.
+bool TryRow(const Floor& floor, std::size_t density, const Options& options)
+{
+    const FleetOptions fleet = MakeFleet(floor, density, options);
     const FloorBound bound =
         FindBound(floor, MakeDemands(floor, fleet.seed, fleet.transports, fleet.priorities), fleet.vehicles);
     const Outcome engine = Run(floor, fleet, &Make<EngineControl>);
-    const Outcome zone = options.bEngineOnly ? Outcome{} : Run(floor, fleet, &Make<ZoneControl>);
-    const Outcome ordered = options.bEngineOnly ? Outcome{} : Run(floor, fleet, &Make<OrderedControl>);
+    const Outcome zone = Run(floor, fleet, &Make<ZoneControl>);
+    const Outcome ordered = Run(floor, fleet, &Make<OrderedControl>);
     fmt::print(
-        "{:>3} % {:>4} | {} {:5.1f} {:6.3f} | {} | {} | {:6.0f} {:6.0f} {:5.2f}\n",
+        "{:>5} % {:>8} | {} {:>8.2f} {:>8.2f} {:>7.1f} {:>7.2f} | {} {} | {:>8.0f} {:>8.0f} {:>6.2f}\n",
         density,
         fleet.vehicles,
         Describe(engine),
+        engine.meanSlowdown,
+        engine.slowdown95,
         engine.unfairness,
         engine.cpu,
         Describe(zone),
@@ -130,7 +159,14 @@ bool TryRow(const Floor& floor, std::size_t density, const Options& options)
     {
         fmt::print("  {}\n", engine.description);
     }
-    return engine.bDone && engine.violations.empty();
+    const auto isBetter = [&engine](const Outcome& rule) {
+        return rule.bDone && rule.perHour > engine.perHour;
+    };
+    if (isBetter(zone) || isBetter(ordered))
+    {
+        fmt::print("  a rule did more than the engine\n");
+    }
+    return engine.bDone && engine.violations.empty() && !isBetter(zone) && !isBetter(ordered);
 }
 
 } // namespace
@@ -141,26 +177,35 @@ int main(int argc, char** argv)
 {
     using namespace ACS::Testing; // NOLINT(google-build-using-namespace): this program
     Options options;
-    CLI::App app("Throughput of fleets on several floors, in virtual time");
+    CLI::App app(
+        "Transports of a fleet on several floors, in virtual time: of the engine, of simple rules, and what no control can exceed.\n"
+        "The columns are described in docs/design/performance.md.");
     app.add_option("--floor", options.only, "Only the floor of this name");
-    app.add_option("--density", options.densities, "Vehicles, in % of the parking positions")->delimiter(',');
-    app.add_option("--transports", options.transportsEach, "Transports of each vehicle");
-    app.add_option("--seed", options.seed, "Of the transports");
-    app.add_flag("--engine-only", options.bEngineOnly, "Without the rules that the engine is compared with");
+    app.add_option("--density", options.densities, "Vehicles, in % of the parking positions, a row each")
+        ->delimiter(',')
+        ->check(CLI::Range(1, 100))
+        ->capture_default_str();
+    app.add_option("--transports", options.transportsEach, "Transports of each vehicle")
+        ->check(CLI::Range(1, 10'000))
+        ->capture_default_str();
+    app.add_option("--seed", options.seed, "Of the transports")->capture_default_str();
     CLI11_PARSE(app, argc, argv);
-    bool bOK = true;
     const std::vector<Floor> floors{MakeGridFloor(false), MakeLaneFloor(), MakeDocumentFloor(), MakePlantFloor()};
+    if (!options.only.empty() && std::ranges::count(floors, options.only, &Floor::name) == 0)
+    {
+        fmt::print(stderr, "--floor: there is no floor {}; expected one of", options.only);
+        std::ranges::for_each(floors, [](const Floor& floor) { fmt::print(stderr, " '{}'", floor.name); });
+        fmt::print(stderr, "\n");
+        return 2;
+    }
+    bool bOK = true;
     for (const Floor& floor : floors)
     {
         if (!options.only.empty() && floor.name != options.only)
         {
             continue;
         }
-        fmt::print(
-            "{}: {} nodes, {} parking positions\n",
-            floor.name,
-            floor.site.GetNodes().size(),
-            floor.parking.size());
+        PrintHead(floor);
         for (const std::size_t density : options.densities)
         {
             bOK = TryRow(floor, density, options) && bOK;
