@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -55,6 +56,8 @@ std::vector<WaitReason> WaitReasons::GetWaitReasons() const
     }
     std::size_t position = 0;
     std::size_t listed = 0;
+    const StationForecast stations(_fleet, _coordinator.GetVisits());
+    FirstPlans firstPlans;
     for (const auto& [key, plan] : _plans.GetQueue())
     {
         ++position;
@@ -68,8 +71,9 @@ std::vector<WaitReason> WaitReasons::GetWaitReasons() const
             listed += plan->resolved.candidates.size();
             bCanStart = reason.robots.size() < plan->resolved.candidates.size();
         }
-        reason.message = DescribeWaiting(*plan, bCanStart);
+        reason.message = DescribeWaiting(*plan, bCanStart, stations, firstPlans);
         reasons.push_back(std::move(reason));
+        AddStations(*plan, firstPlans);
     }
     return reasons;
 }
@@ -91,8 +95,22 @@ std::optional<WaitReason> WaitReasons::GetWaitReasonOrNull(std::string_view plan
     reason.planID = planOrNull->record.plan.planID;
     reason.queuePosition = static_cast<std::size_t>(std::distance(queue.begin(), queued)) + 1;
     reason.robots = ListUnavailable(*planOrNull);
-    reason.message = DescribeWaiting(*planOrNull, reason.robots.size() < planOrNull->resolved.candidates.size());
+    FirstPlans firstPlans;
+    std::for_each(queue.begin(), queued, [&firstPlans](const auto& entry) { AddStations(*entry.second, firstPlans); });
+    reason.message = DescribeWaiting(
+        *planOrNull,
+        reason.robots.size() < planOrNull->resolved.candidates.size(),
+        StationForecast(_fleet, _coordinator.GetVisits()),
+        firstPlans);
     return reason;
+}
+
+void WaitReasons::AddStations(const ActivePlan& plan, FirstPlans& firstPlans)
+{
+    for (const ResolvedStep& step : plan.resolved.steps)
+    {
+        firstPlans.try_emplace(step.stationID, &plan);
+    }
 }
 
 std::optional<std::string> WaitReasons::DescribeUnavailabilityOrNull(const ActivePlan& plan, const Robot& robot) const
@@ -145,7 +163,11 @@ std::vector<RobotUnavailability> WaitReasons::ListUnavailable(const ActivePlan& 
     return robots;
 }
 
-std::string WaitReasons::DescribeWaiting(const ActivePlan& plan, bool bCanStart) const
+std::string WaitReasons::DescribeWaiting(
+    const ActivePlan& plan,
+    bool bCanStart,
+    const StationForecast& stations,
+    const FirstPlans& firstPlans) const
 {
     if (_hold.IsActive())
     {
@@ -171,7 +193,34 @@ std::string WaitReasons::DescribeWaiting(const ActivePlan& plan, bool bCanStart)
     {
         return _dispatcher.DescribeRejections(plan);
     }
-    return bCanStart ? "The plan is about to start." : "No suitable robot is free.";
+    return bCanStart ? DescribeStart(plan, stations, firstPlans) : "No suitable robot is free.";
+}
+
+std::string WaitReasons::DescribeStart(
+    const ActivePlan& plan,
+    const StationForecast& stations,
+    const FirstPlans& firstPlans) const
+{
+    if (const std::optional<std::string_view> taken = stations.FindTakenOrNull(plan); taken.has_value())
+    {
+        const Robot& robot = _fleet[stations.ListRobots(*taken).front()];
+        return fmt::format(
+            "{} uses station {} for plan {}. The plan starts when it can arrive there afterwards.",
+            robot.GetID(),
+            *taken,
+            robot.planOrNull->record.plan.planID);
+    }
+    for (const ResolvedStep& step : plan.resolved.steps)
+    {
+        if (const auto first = firstPlans.find(step.stationID); first != firstPlans.end())
+        {
+            return fmt::format(
+                "Plan {} is before it in the queue and uses station {} too.",
+                first->second->record.plan.planID,
+                step.stationID);
+        }
+    }
+    return "The plan is about to start.";
 }
 
 const Block* WaitReasons::FindBlockOrNull(const ActivePlan& plan) const

@@ -4,6 +4,7 @@
 #include "control/TscControl.hpp"
 #include "dispatch/Dispatcher.hpp"
 #include "dispatch/PortCheck.hpp"
+#include "dispatch/StationForecast.hpp"
 #include "traffic/TrafficCoordinator.hpp"
 #include "traffic/WaitingRobots.hpp"
 #include "transaction/EngineState.hpp"
@@ -11,8 +12,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ACS::Planning
@@ -50,13 +53,26 @@ public:
     [[nodiscard]] std::optional<WaitReason> DescribeBegunOrNull(const ActivePlan& plan) const;
 
 private:
+    /// By station: the first plan of the queue that uses it.
+    using FirstPlans = std::map<std::string_view, const ActivePlan*>;
+
     [[nodiscard]] std::string DescribeHold() const;
     /// Why the plan is not assigned to the robot now.
     [[nodiscard]] std::optional<std::string> DescribeUnavailabilityOrNull(const ActivePlan& plan, const Robot& robot)
         const;
     [[nodiscard]] std::vector<RobotUnavailability> ListUnavailable(const ActivePlan& plan) const;
     /// Of a plan in the queue: what it waits for.
-    [[nodiscard]] std::string DescribeWaiting(const ActivePlan& plan, bool bCanStart) const;
+    [[nodiscard]] std::string DescribeWaiting(
+        const ActivePlan& plan,
+        bool bCanStart,
+        const StationForecast& stations,
+        const FirstPlans& firstPlans) const;
+    /// Of a plan for which a robot is free.
+    [[nodiscard]] std::string DescribeStart(
+        const ActivePlan& plan,
+        const StationForecast& stations,
+        const FirstPlans& firstPlans) const;
+    static void AddStations(const ActivePlan& plan, FirstPlans& firstPlans);
     /// Of a robot that waits to start its drive, or at the end of its base.
     [[nodiscard]] std::string DescribeStanding(const Robot& robot) const;
     /// Of the first station of the plan that is blocked.

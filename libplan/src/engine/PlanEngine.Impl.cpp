@@ -2,6 +2,7 @@
 
 #include "control/ErrorWatch.hpp"
 #include "control/StoreLogWatch.hpp"
+#include "dispatch/StationForecast.hpp"
 #include "robot/ValidState.hpp"
 #include <acs/core/Overloaded.hpp>
 
@@ -323,16 +324,37 @@ void PlanEngine::Impl::AssignPlans()
     {
         return;
     }
+    constexpr std::size_t MOST_PASSED_OVER = 64; // limits the time of a pass
+    std::vector<std::pair<const ActivePlan*, const Robot*>> passedOver;
+    StationForecast stations(_engine.fleet, _coordinator.GetVisits());
     for (ActivePlan* plan : _engine.plans.ListStoredQueue())
     {
+        // A plan of another priority does not get the robot of one that is before it.
+        const auto getPriority = [this](const ActivePlan& other) {
+            return other.record.GetPriorityOrNull().value_or(_engine.options.defaultPriority);
+        };
+        std::erase_if(passedOver, [&free, &getPriority, plan](const auto& before) {
+            const bool bKept = getPriority(*before.first) != getPriority(*plan);
+            if (bKept)
+            {
+                free.Remove(*before.second);
+            }
+            return bKept;
+        });
         const std::vector<Robot*>& robots = free.List(plan->resolved.candidates);
         Robot* const robotOrNull = robots.empty() ? nullptr : _dispatcher.FindNearestOrNull(*plan, robots);
-        if (robotOrNull != nullptr)
+        if (robotOrNull != nullptr && stations.CanBegin(*plan, *robotOrNull))
         {
             _work.GetAssignment().Offer(*plan, *robotOrNull);
             free.Remove(*robotOrNull);
+            stations.Add(*plan, *robotOrNull);
         }
-        if (free.IsEmpty())
+        else if (robotOrNull != nullptr)
+        {
+            stations.PassOver(*plan);
+            passedOver.emplace_back(plan, robotOrNull);
+        }
+        if (free.IsEmpty() || passedOver.size() >= MOST_PASSED_OVER)
         {
             return;
         }

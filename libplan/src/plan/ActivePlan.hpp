@@ -80,6 +80,7 @@ struct ActivePlan
     bool bJobBegun = false;    ///< Any of its jobs.
     bool bUnstored = false;    ///< Its start is not stored yet: the first job waits for that.
     JobRepetition repetition;
+    std::optional<Core::SteadyTime> jobBegunAt; ///< When the present job was commanded.
     std::optional<Core::SteadyTime> jobDeadline;
     std::optional<Core::Duration> jobTimeLeft; ///< Of a job that is paused.
     JobVerdicts verdicts;

@@ -175,4 +175,32 @@ std::optional<std::size_t> Traffic::FindRefugeOrNull(
     return std::nullopt;
 }
 
+std::size_t Traffic::CountBeforeWayOut(std::size_t robot, std::span<const std::size_t> ahead, std::size_t target) const
+{
+    const std::vector<std::size_t> holders = GetHolders(target, robot);
+    if (holders.empty() || ahead.empty())
+    {
+        return ahead.size();
+    }
+    std::vector<std::uint16_t> covers(_covers.size(), 0);
+    Cover(_vehicles[robot], covers, true);
+    const auto isClosed = [this, &covers](std::size_t holder) {
+        const Vehicle& vehicle = _vehicles[holder];
+        return vehicle.home.has_value() && !vehicle.path.empty()
+            && std::ranges::none_of(vehicle.graphs, [this, &vehicle, &covers](const LoadGraph& graph) {
+                   return HasWay(vehicle, graph, GetEnd(vehicle), *vehicle.home, covers, ESafeStateScope::AllMove);
+               });
+    };
+    std::size_t count = 0;
+    for (; count < ahead.size(); ++count)
+    {
+        CoverNode(ahead[count], covers);
+        if (std::ranges::any_of(holders, isClosed))
+        {
+            break;
+        }
+    }
+    return count;
+}
+
 } // namespace ACS::Planning

@@ -223,6 +223,13 @@ public:
     /// Whether two nodes exclude each other.
     [[nodiscard]] bool IsNear(std::size_t left, std::size_t right) const;
 
+    /// Of the nodes ahead, how many the robot may hold without closing the way to the parking position of a robot that is on the
+    /// target.
+    [[nodiscard]] std::size_t CountBeforeWayOut(
+        std::size_t robot,
+        std::span<const std::size_t> ahead,
+        std::size_t target) const;
+
     /// Robots whose reservations, or whose routes to their parking positions, limited the last Extend.
     [[nodiscard]] const std::vector<std::size_t>& GetBlockers() const noexcept;
 

@@ -33,6 +33,7 @@ TrafficCoordinator::TrafficCoordinator(
       _places(places),
       _waiting(waiting),
       _routes(engine.site, engine.blocks),
+      _visits(engine, _routes),
       _traffic(places.GetTraffic())
 {
 }
@@ -80,11 +81,11 @@ void TrafficCoordinator::ExtendBase(Robot& robot)
             drive.CountReachable(_site, robot.options->vehicleTypeID, robot.GetLoad()),
             reached + 2 * _options.baseLength);
         const std::span<const std::size_t> nodes(drive.nodes);
+        const std::vector<std::size_t> formerBlockers = robot.search.blockers;
         const std::size_t granted =
-            _traffic.Extend(robot.index, nodes.subspan(drive.grantedCount, wanted - drive.grantedCount));
+            Extend(robot, nodes.subspan(drive.grantedCount, wanted - drive.grantedCount), drive.nodes.back());
         drive.grantedCount += granted;
-        robot.changes.MarkStatus(granted > 0 || robot.search.blockers != _traffic.GetBlockers());
-        robot.search.blockers = _traffic.GetBlockers();
+        robot.changes.MarkStatus(granted > 0 || robot.search.blockers != formerBlockers);
         robot.search.refusedAt = _traffic.GetFreedCount();
         NoteBlock(robot, _traffic.IsRefusedForBlocks() ? CUT_OFF : "");
     }
@@ -122,7 +123,7 @@ EDriveAttempt TrafficCoordinator::TryDrive(Robot& robot)
         robot.search.blockers.assign(1, robot.search.yield->leader);
         return EDriveAttempt::Waits;
     }
-    std::vector<std::size_t> holders = _waiting.GetTargetHolders(robot, *target);
+    std::vector<std::size_t> holders = ListLasting(robot, *target);
     if (!holders.empty())
     {
         robot.search.blockers = std::move(holders);
@@ -210,8 +211,8 @@ bool TrafficCoordinator::TryBeginDrive(Robot& robot, const PlannedRoute& planned
         return false; // the robot is still stopping: its position is not final
     }
     const std::size_t wanted = std::min(_options.baseLength, plannedRoute.nodes.size() - 1);
-    const std::size_t granted = _traffic.Extend(robot.index, std::span(plannedRoute.nodes).subspan(1, wanted));
-    robot.search.blockers = _traffic.GetBlockers();
+    const std::size_t granted =
+        Extend(robot, std::span(plannedRoute.nodes).subspan(1, wanted), plannedRoute.nodes.back());
     robot.search.block = _traffic.IsRefusedForBlocks() ? CUT_OFF : "";
     if (granted == 0)
     {
@@ -424,6 +425,35 @@ void TrafficCoordinator::EndDrive(Robot& robot)
     robot.search.blockers.clear();
     robot.search.block.clear();
     _transaction.RequestDispatch();
+}
+
+std::size_t TrafficCoordinator::Extend(Robot& robot, std::span<const std::size_t> ahead, std::size_t target)
+{
+    const std::size_t open = _traffic.CountBeforeWayOut(robot.index, ahead, target);
+    const std::size_t granted = open == 0 ? 0 : _traffic.Extend(robot.index, ahead.first(open));
+    robot.search.blockers = open == 0 ? _traffic.GetHolders(target, robot.index) : _traffic.GetBlockers();
+    return granted;
+}
+
+const VisitForecast& TrafficCoordinator::GetVisits() const noexcept
+{
+    return _visits;
+}
+
+std::vector<std::size_t> TrafficCoordinator::ListLasting(const Robot& robot, std::size_t target) const
+{
+    constexpr double SLACK_SECONDS = 10; ///< It may wait so long on the lane.
+    std::vector<std::size_t> holders = _waiting.GetTargetHolders(robot, target);
+    if (holders.empty() || robot.planOrNull == nullptr || robot.parking.retreatNode.has_value())
+    {
+        return holders;
+    }
+    const double travel = _visits.GetTravelSeconds(robot, *robot.place.node, target);
+    std::erase_if(holders, [this, target, travel](std::size_t other) {
+        const Robot& holder = _fleet[other];
+        return _waiting.IsMoving(holder) && _visits.GetDeparture(holder, target) <= travel + SLACK_SECONDS;
+    });
+    return holders;
 }
 
 const Router& TrafficCoordinator::GetRouter() const noexcept

@@ -4,6 +4,7 @@
 #include "control/ControlAnswers.hpp"
 #include "traffic/PlaceTracker.hpp"
 #include "traffic/RoutePlanner.hpp"
+#include "traffic/VisitForecast.hpp"
 #include "traffic/WaitingRobots.hpp"
 #include "transaction/EngineState.hpp"
 #include <acs/plan/Router.hpp>
@@ -11,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,6 +42,7 @@ class TrafficCoordinator
     PlaceTracker& _places;
     const WaitingRobots& _waiting;
     RoutePlanner _routes;
+    VisitForecast _visits;
     Traffic& _traffic;
     bool _bStandIns = false; ///< Robots may have them.
 
@@ -54,6 +57,7 @@ public:
     /// Chooses the parking positions. Without a home it is the first free station beside the lanes with a route there and back,
     /// used only to clear the routes of others.
     void AssignParking();
+    [[nodiscard]] const VisitForecast& GetVisits() const noexcept;
     /// Of the map, as if nothing was blocked.
     [[nodiscard]] const Router& GetRouter() const noexcept;
     /// Around the blocks.
@@ -106,6 +110,10 @@ public:
     void EndDrive(Robot& robot);
 
 private:
+    /// Of the robots that are on the target or drive there, those that will still be there when the robot arrives.
+    [[nodiscard]] std::vector<std::size_t> ListLasting(const Robot& robot, std::size_t target) const;
+    /// Traffic::Extend, but does not close the way of a robot that is on the target: it waits before.
+    [[nodiscard]] std::size_t Extend(Robot& robot, std::span<const std::size_t> ahead, std::size_t target);
     [[nodiscard]] std::optional<std::size_t> ChooseStandInOrNull(const Robot& robot) const;
     /// Whether the robot can park there: nothing on the way is blocked.
     [[nodiscard]] bool IsParkingOpen(const Robot& robot, std::size_t node) const;

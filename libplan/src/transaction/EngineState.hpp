@@ -1,5 +1,6 @@
 #pragma once
 
+#include "plan/JobTimes.hpp"
 #include "plan/PlanAdmission.hpp"
 #include "plan/PlanBook.hpp"
 #include "restart/RestartHold.hpp"
@@ -29,6 +30,7 @@ struct EngineState
     PlanAdmission admission{options, site};
     BlockBook blocks{site};
     PlanBook plans{options};
+    JobTimes jobTimes;
     Fleet fleet{options};
     AlarmBook alarms;
     ReportOutbox outbox;

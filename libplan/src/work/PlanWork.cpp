@@ -18,6 +18,7 @@ PlanWork::PlanWork(EngineState& engine, ControlAnswers& answers, LoadWatch& load
       _hold(engine.hold),
       _random(engine.random),
       _plans(engine.plans),
+      _jobTimes(engine.jobTimes),
       _fleet(engine.fleet),
       _alarms(engine.alarms),
       _transaction(engine.transaction),
@@ -103,6 +104,7 @@ void PlanWork::BeginJob(Robot& robot)
     job.nodeID = robot.place.node.has_value() ? _site.GetNodes()[*robot.place.node].nodeID : std::string();
     robot.work.AddCommand(job.commandID);
     robot.job.Begin(job);
+    plan.jobBegunAt = _transaction.GetNow().steady;
     _transaction.Command(robot, std::move(job));
     LimitJob(robot);
 }
@@ -136,6 +138,10 @@ void PlanWork::EndJob(Robot& robot, std::string message)
 {
     ActivePlan& plan = *robot.planOrNull;
     StopJobTimer(robot);
+    if (plan.jobBegunAt.has_value())
+    {
+        _jobTimes.Note(plan.resolved.steps[plan.step].stationID, _transaction.GetNow().steady - *plan.jobBegunAt);
+    }
     ReleaseJob(robot);
     plan.jobTimeLeft.reset();
     _loads.MoveCarrier(robot, MakeStartJob(robot));
@@ -396,6 +402,10 @@ void PlanWork::ReleaseJob(Robot& robot)
     }
     _transaction.ClearAlarm(MakeUnresolvedAlarm(robot));
     robot.job.Release();
+    if (robot.planOrNull != nullptr)
+    {
+        robot.planOrNull->jobBegunAt.reset();
+    }
     robot.changes.MarkWork();
 }
 

@@ -24,6 +24,7 @@ class PlanWork
     const RestartHold& _hold;
     Core::IRandom& _random;
     PlanBook& _plans;
+    JobTimes& _jobTimes;
     Fleet& _fleet;
     AlarmBook& _alarms;
     EngineTransaction& _transaction;

@@ -28,6 +28,17 @@ Plan MakeLoadPlan(const std::string& planID, const std::string& carrierID)
     return {planID, "", 1, {{1, "CassetteLoad", "A01.CP01", {carrierID}, {{planID + "-l", "A01.CP01", "AMR.CP01"}}}}};
 }
 
+Plan MakeTransport(const std::string& planID, std::int32_t priority, const std::string& from)
+{
+    Plan plan = MakeLogisticsPlan(planID);
+    plan.priority = priority;
+    plan.steps[0].position = from;
+    plan.steps[0].jobs[0].from = from;
+    plan.steps[1].position = from == "A01.CP01" ? "A02.CP03" : "A02.CP04";
+    plan.steps[1].jobs[0].to = plan.steps[1].position;
+    return plan;
+}
+
 void SetCarrier(PlanWorld& world, const std::string& robotID, std::optional<std::string> carrierIDOrNull)
 {
     world.Ask(SetCarriers{robotID, {std::move(carrierIDOrNull)}, 77});
@@ -264,7 +275,13 @@ TEST_CASE("A robot that loses its drive while it moves keeps the nodes ahead unt
     PlanWorld world;
     ACS::Testing::BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
     REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").GetOccupied().front() == "L01"; }));
-    world.Submit(MakeControlPlan("P2"));
+    Plan second = MakeControlPlan("P2");
+    second.steps[0].position = "A01.CP02"; // not where LR01 drives to
+    for (Job& job : second.steps[0].jobs)
+    {
+        job.from->replace(0, 8, "A01.CP02");
+    }
+    world.Submit(second);
     static_cast<void>(ACS::Testing::TryRunFor(world, std::chrono::milliseconds(1)));
     StateChanged state;
     state.lastNodeID = "L01";
@@ -282,4 +299,56 @@ TEST_CASE("A robot that loses its drive while it moves keeps the nodes ahead unt
     state.x = 0;
     world.Raise("LR01", state);
     CHECK(ACS::Testing::FindLine(world, "command CR01", line) < world.trace.size());
+}
+
+TEST_CASE("A plan whose station is taken lets plans of its priority begin before it, and keeps its robot from others")
+{
+    for (const std::int32_t priority : {10, 5})
+    {
+        INFO("priority " << priority);
+        PlanWorld world(1, true);
+        world.Connect();
+        world.Submit(MakeTransport("P1", 10, "A01.CP01"));
+        REQUIRE(TryRunUntil(world, "P1", "Plan InProgress"));
+        world.Submit(MakeTransport("P2", 10, "A01.CP01"));
+        world.Submit(MakeTransport("P3", priority, "A01.CP05"));
+        REQUIRE(world.TryRun());
+        const std::size_t second = ACS::Testing::FindLine(world, "report P2 Plan InProgress", 0);
+        const std::size_t third = ACS::Testing::FindLine(world, "report P3 Plan InProgress", 0);
+        CHECK((third < second) == (priority == 10));
+        for (const char* const planID : {"P1", "P2", "P3"})
+        {
+            CHECK(world.GetReportsOf(planID).back() == "Plan Completed");
+        }
+        CHECK(world.violations == Lines{});
+    }
+}
+
+TEST_CASE("Wait reason: a plan that waits for its station names the robot that uses it, or the plan before it")
+{
+    PlanWorld world(1, true);
+    world.Connect();
+    world.Submit(MakeLogisticsPlan("P1"));
+    REQUIRE(TryRunUntil(world, "P1", "Plan InProgress"));
+    Plan second = MakeTransport("P2", 10, "A01.CP01");
+    second.steps[1].position = "A02.CP04";
+    second.steps[1].jobs[0].to = "A02.CP04";
+    world.Submit(second);
+    static_cast<void>(ACS::Testing::TryRunFor(world, std::chrono::milliseconds(1)));
+    CHECK(
+        world.engine->GetWaitReasonOrNull("P2")->message
+        == GetRobotOf(world, "P1")
+            + " uses station A01.CP01 for plan P1. The plan starts when it can arrive there afterwards.");
+    world.Submit(MakeTransport("P3", 10, "A01.CP05"));
+    static_cast<void>(ACS::Testing::TryRunFor(world, std::chrono::milliseconds(1)));
+    CHECK(
+        world.engine->GetWaitReasonOrNull("P3")->message
+        == "Plan P2 is before it in the queue and uses station A02.CP04 too.");
+    CHECK(world.engine->GetWaitReasons().back() == *world.engine->GetWaitReasonOrNull("P3"));
+    REQUIRE(world.TryRun());
+    for (const char* const planID : {"P1", "P2", "P3"})
+    {
+        CHECK(world.GetReportsOf(planID).back() == "Plan Completed");
+    }
+    CHECK(world.violations == Lines{});
 }

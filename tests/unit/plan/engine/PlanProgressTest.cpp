@@ -134,6 +134,8 @@ TEST_CASE("drive.stall_timeout: a robot that waits at the end of its base raises
     second.steps[0].jobs[0].from = "A01.CP06";
     second.steps[0].carrierIDs = {"CASSETTE_02"};
     second.steps[1].carrierIDs = {"CASSETTE_02"};
+    second.steps[1].position = "A02.CP04"; // both plans may begin
+    second.steps[1].jobs[0].to = "A02.CP04";
     world.Submit(second);
     REQUIRE(world.TryRun());
     CHECK(world.GetReportsOf("P2").back() == "Step 1 InProgress");
