@@ -369,7 +369,7 @@ void OperatorCommands::SkipUnresolved(Robot& robot)
 {
     _work.StopJobTimer(robot);
     _work.ReleaseJob(robot);
-    robot.planOrNull->jobTimeLeft.reset();
+    robot.planOrNull->jobClock.timeLeft.reset();
     _work.LeaveStep(robot);
 }
 

@@ -65,6 +65,14 @@ struct JobVerdicts
     mutable JobAcceptance acceptance;
 };
 
+/// Of the present job.
+struct JobClock
+{
+    std::optional<Core::SteadyTime> begunAt; ///< When it was commanded.
+    std::optional<Core::SteadyTime> deadline;
+    std::optional<Core::Duration> timeLeft; ///< While it is paused.
+};
+
 /// A plan that is not finished.
 struct ActivePlan
 {
@@ -80,9 +88,7 @@ struct ActivePlan
     bool bJobBegun = false;    ///< Any of its jobs.
     bool bUnstored = false;    ///< Its start is not stored yet: the first job waits for that.
     JobRepetition repetition;
-    std::optional<Core::SteadyTime> jobBegunAt; ///< When the present job was commanded.
-    std::optional<Core::SteadyTime> jobDeadline;
-    std::optional<Core::Duration> jobTimeLeft; ///< Of a job that is paused.
+    JobClock jobClock;
     JobVerdicts verdicts;
 };
 

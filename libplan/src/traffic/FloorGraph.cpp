@@ -118,4 +118,22 @@ double FloorGraph::GetTurnSeconds(const Lane& from, const Lane& to)
     return speed > 0 ? GetAngleBetween(from.heading, to.heading) / speed : 0;
 }
 
+bool IsDeadEnd(std::span<const FloorGraph> graphs, std::size_t node)
+{
+    if (graphs.empty() || graphs.front().GetLanesFrom(node).empty())
+    {
+        return false;
+    }
+    const std::size_t neighbour = graphs.front().GetLanesFrom(node).front().to;
+    return std::ranges::all_of(graphs, [node, neighbour](const FloorGraph& graph) {
+        return !graph.GetLanesFrom(node).empty() && !graph.GetLanesTo(node).empty()
+            && std::ranges::all_of(
+                graph.GetLanesFrom(node),
+                [neighbour](const Lane& lane) { return lane.to == neighbour; })
+            && std::ranges::all_of(graph.GetLanesTo(node), [&graph, neighbour](std::size_t lane) {
+                   return graph.GetLanes()[lane].from == neighbour;
+               });
+    });
+}
+
 } // namespace ACS::Planning

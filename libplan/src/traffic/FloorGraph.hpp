@@ -51,6 +51,9 @@ public:
 /// Whether the map restricts any edge of the vehicle type to vehicles with a load, or to those without.
 [[nodiscard]] bool IsLoadRestricted(const SiteMap& site, std::string_view vehicleTypeID);
 
+/// Whether no route passes through the node, with any load: it has one neighbour only, from which it is entered and left.
+[[nodiscard]] bool IsDeadEnd(std::span<const FloorGraph> graphs, std::size_t node);
+
 /// The smallest angle between two headings, in radians.
 [[nodiscard]] double GetAngleBetween(double left, double right);
 

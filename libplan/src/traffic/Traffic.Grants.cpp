@@ -40,7 +40,7 @@ std::optional<std::size_t> Traffic::ParkOrNull(
     {
         return std::nullopt;
     }
-    return FindParkingOrNull(vehicle, GetEnd(vehicle), covers, scope);
+    return _ways.FindParkingOrNull(vehicle.parking, GetEnd(vehicle), covers, scope);
 }
 
 /// Others that hold nodes on its quickest route home.
@@ -50,15 +50,16 @@ void Traffic::AddInTheWay(const Vehicle& vehicle, std::vector<std::size_t>& robo
     {
         return;
     }
-    for (const LoadGraph& graph : vehicle.graphs)
+    for (const LoadGraph& graph : vehicle.parking.graphs)
     {
         if (graph.nextToHome.empty())
         {
             continue;
         }
-        for (std::uint32_t node = graph.nextToHome[GetEnd(vehicle)]; node != NOWHERE; node = graph.nextToHome[node])
+        for (std::uint32_t node = graph.nextToHome[GetEnd(vehicle)]; node != ParkingWays::NOWHERE;
+             node = graph.nextToHome[node])
         {
-            for (const std::uint32_t near : _near[node])
+            for (const std::uint32_t near : _ways.GetNear(node))
             {
                 const std::optional<std::size_t>& holder = _holders[near];
                 if (holder.has_value() && std::ranges::count(robots, *holder) == 0)
@@ -113,7 +114,8 @@ bool Traffic::CanParkSoon(std::size_t robot, ESafeStateScope scope)
 bool Traffic::IsRefusedStill(const Refusal& refusal, std::span<const std::size_t> ahead) const
 {
     return refusal.disturbedAt == _changes.disturbs && refusal.fixedAt == _changes.fixed
-        && refusal.refugesAt == _changes.refuges && !refusal.stuck.empty() && std::ranges::equal(refusal.ahead, ahead)
+        && refusal.refugesAt == _changes.refuges + _ways.GetReleasedCount() && !refusal.stuck.empty()
+        && std::ranges::equal(refusal.ahead, ahead)
         && std::ranges::all_of(refusal.stuck, [this](const std::pair<std::size_t, std::uint64_t>& robot) {
                return _vehicles[robot.first].changes == robot.second;
            });
@@ -128,6 +130,7 @@ void Traffic::AddBlockers(const std::vector<std::size_t>& robots)
 
 bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
 {
+    FindReturns();
     Vehicle& vehicle = _vehicles[robot];
     Refusal& refusal = vehicle.refusals[ahead.size() == 1 ? 1 : 0];
     if (IsRefusedStill(refusal, ahead))
@@ -139,8 +142,9 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
     // A robot that can park before all others leaves the floor as if it had never been there.
     Cover(vehicle, _covers, false);
     const bool bFirst = vehicle.bMovable
-        && FindParkingOrNull(vehicle, ahead.back(), _covers, ESafeStateScope::AllMove).has_value()
-        && (!IsAnyBlocked() || FindParkingOrNull(vehicle, ahead.back(), _covers, ESafeStateScope::AsIs).has_value());
+        && _ways.FindParkingOrNull(vehicle.parking, ahead.back(), _covers, ESafeStateScope::AllMove).has_value()
+        && (!_ways.IsAnyBlocked()
+            || _ways.FindParkingOrNull(vehicle.parking, ahead.back(), _covers, ESafeStateScope::AsIs).has_value());
     Cover(vehicle, _covers, true);
     if (bFirst)
     {
@@ -169,7 +173,7 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
         held.clear();
         _bTrial = false;
     };
-    const bool bAsIs = IsAnyFixed() || IsAnyBlocked();
+    const bool bAsIs = IsAnyFixed() || _ways.IsAnyBlocked();
     // FindSafeState takes such a node for held twice.
     const bool bHeldAlready = std::ranges::any_of(ahead, [&vehicle](std::size_t node) {
         return std::ranges::count(vehicle.extra, node) > 0;
@@ -194,7 +198,7 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
         take();
         bSafe = IsAsGood(ESafeStateScope::AsIs, robot, refusal);
         giveBack();
-        _bBlocksRefuse = !bSafe && IsAnyBlocked();
+        _bBlocksRefuse = !bSafe && _ways.IsAnyBlocked();
     }
     if (!bSafe && _blockers.empty() && former.empty())
     {
@@ -206,7 +210,7 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
     refusal.bForBlocks = _bBlocksRefuse;
     refusal.disturbedAt = _changes.disturbs;
     refusal.fixedAt = _changes.fixed;
-    refusal.refugesAt = _changes.refuges;
+    refusal.refugesAt = _changes.refuges + _ways.GetReleasedCount();
     if (bSafe || bHeldAlready)
     {
         refusal.stuck.clear();

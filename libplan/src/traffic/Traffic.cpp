@@ -10,14 +10,11 @@ namespace ACS::Planning
 {
 
 Traffic::Traffic(const SiteMap& site, double clearance)
-    : _holders(site.GetNodes().size()),
+    : _ways(site, clearance),
+      _holders(site.GetNodes().size()),
       _covers(_holders.size(), 0),
-      _homes(_holders.size(), 0),
-      _claims{std::vector<std::uint16_t>(_holders.size(), 0), std::vector<std::uint16_t>(_holders.size(), 0)},
       _arriving(_holders.size())
 {
-    _scratch.seen.assign(_holders.size(), 0);
-    FindNear(site, clearance);
     for (const SiteEdge& edge : site.GetEdges())
     {
         for (const SiteEdgeRule& rule : edge.rules)
@@ -36,42 +33,19 @@ Traffic::Traffic(const SiteMap& site, double clearance)
     }
 }
 
-void Traffic::FindNear(const SiteMap& site, double clearance)
-{
-    const std::vector<SiteNode>& nodes = site.GetNodes();
-    _near.resize(nodes.size());
-    std::vector<std::uint32_t> byX(nodes.size());
-    std::iota(byX.begin(), byX.end(), 0U);
-    std::ranges::sort(byX, {}, [&nodes](std::uint32_t node) { return nodes[node].x; });
-    for (std::size_t i = 0; i < byX.size(); ++i)
-    {
-        const SiteNode& left = nodes[byX[i]];
-        _near[byX[i]].push_back(byX[i]);
-        for (std::size_t next = i + 1; next < byX.size() && nodes[byX[next]].x - left.x <= clearance; ++next)
-        {
-            const SiteNode& right = nodes[byX[next]];
-            if (left.mapID == right.mapID && GetDistance(left, right) <= clearance)
-            {
-                _near[byX[i]].push_back(byX[next]);
-                _near[byX[next]].push_back(byX[i]);
-            }
-        }
-    }
-}
-
 void Traffic::AddRobot(std::string_view vehicleTypeID, std::optional<std::size_t> homeOrNull)
 {
     Vehicle& vehicle = _vehicles.emplace_back();
     const auto found = _graphs.find(vehicleTypeID);
-    vehicle.home = homeOrNull;
+    vehicle.parking.home = homeOrNull;
     for (const FloorGraph& floor :
          found == _graphs.end() ? std::span<const FloorGraph>() : std::span<const FloorGraph>(found->second))
     {
-        vehicle.graphs.emplace_back().floor = &floor;
+        vehicle.parking.graphs.emplace_back().floor = &floor;
     }
-    for (const std::uint32_t node : homeOrNull.has_value() ? _near[*homeOrNull] : std::vector<std::uint32_t>())
+    if (homeOrNull.has_value())
     {
-        ++_homes[node];
+        _ways.AddHome(*homeOrNull);
     }
     _bReturnsKnown = false;
     ++_changes.fixed;
@@ -80,16 +54,14 @@ void Traffic::AddRobot(std::string_view vehicleTypeID, std::optional<std::size_t
 
 void Traffic::SetBlocked(const std::vector<bool>& nodes, const std::vector<bool>& edges)
 {
-    const bool bAny = std::ranges::count(nodes, true) + std::ranges::count(edges, true) > 0;
-    _blockedNodes = bAny ? nodes : std::vector<bool>();
-    _blockedEdges = bAny ? edges : std::vector<bool>();
+    _ways.SetBlocked(nodes, edges);
     ++_changes.fixed;
     Note(false);
 }
 
 void Traffic::SetStandIn(std::size_t robot, std::optional<std::size_t> standInOrNull)
 {
-    if (std::exchange(_vehicles[robot].standIn, standInOrNull) != standInOrNull)
+    if (std::exchange(_vehicles[robot].parking.standIn, standInOrNull) != standInOrNull)
     {
         ++_changes.fixed;
         Note(false);
@@ -101,28 +73,15 @@ bool Traffic::IsRefusedForBlocks() const noexcept
     return _bBlocksRefuse;
 }
 
-bool Traffic::IsAnyBlocked() const noexcept
-{
-    return !_blockedNodes.empty();
-}
-
 bool Traffic::IsSpur(std::string_view vehicleTypeID, std::size_t node) const
 {
     const auto found = _graphs.find(vehicleTypeID);
-    if (found == _graphs.end() || found->second.front().GetLanesFrom(node).empty())
-    {
-        return false;
-    }
-    const std::size_t neighbour = found->second.front().GetLanesFrom(node).front().to;
-    return std::ranges::all_of(found->second, [node, neighbour](const FloorGraph& graph) {
-        return !graph.GetLanesFrom(node).empty() && !graph.GetLanesTo(node).empty()
-            && std::ranges::all_of(
-                graph.GetLanesFrom(node),
-                [neighbour](const Lane& lane) { return lane.to == neighbour; })
-            && std::ranges::all_of(graph.GetLanesTo(node), [&graph, neighbour](std::size_t lane) {
-                   return graph.GetLanes()[lane].from == neighbour;
-               });
-    });
+    return found != _graphs.end() && IsDeadEnd(found->second, node);
+}
+
+bool Traffic::IsNear(std::size_t left, std::size_t right) const
+{
+    return _ways.IsNear(left, right);
 }
 
 void Traffic::SetMovable(std::size_t robot, bool bMovable)
@@ -169,7 +128,7 @@ void Traffic::Hold(std::size_t robot, std::size_t node)
 {
     NoteFixed(robot);
     _holders[node] = robot;
-    for (const std::uint32_t near : _near[node])
+    for (const std::uint32_t near : _ways.GetNear(node))
     {
         ++_covers[near];
     }
@@ -179,8 +138,8 @@ void Traffic::Free(std::size_t node)
 {
     NoteFixed(*_holders[node]);
     _holders[node].reset();
-    _changes.refuges += !_bTrial && !_refuges.empty() && _refuges[node] ? 1U : 0U;
-    for (const std::uint32_t near : _near[node])
+    _changes.refuges += !_bTrial && _ways.IsRefuge(node) ? 1U : 0U;
+    for (const std::uint32_t near : _ways.GetNear(node))
     {
         --_covers[near];
     }
@@ -295,7 +254,7 @@ void Traffic::SetDestination(std::size_t robot, std::optional<std::size_t> nodeO
 std::vector<std::size_t> Traffic::GetArriving(std::size_t node) const
 {
     std::vector<std::size_t> robots;
-    for (const std::uint32_t near : _near[node])
+    for (const std::uint32_t near : _ways.GetNear(node))
     {
         robots.insert(robots.end(), _arriving[near].begin(), _arriving[near].end());
     }
@@ -321,7 +280,7 @@ std::size_t Traffic::Extend(std::size_t robot, std::span<const std::size_t> ahea
     assert(!vehicle.path.empty());
     std::size_t count = 0;
     const auto isBlocked = [this](std::size_t node) {
-        return IsAnyBlocked() && _blockedNodes[node];
+        return _ways.IsBlocked(node);
     };
     // A node that it holds already and is to pass again is granted when it has passed it the first time.
     while (count < ahead.size() && IsFreeFor(ahead[count], robot) && !isBlocked(ahead[count])
@@ -424,20 +383,20 @@ std::vector<std::size_t> Traffic::ListReserved(std::size_t robot) const
 
 bool Traffic::IsFreeFor(std::size_t node, std::size_t robot) const
 {
-    return _covers[node] == 0 || std::ranges::all_of(_near[node], [this, robot](std::uint32_t near) {
+    return _covers[node] == 0 || std::ranges::all_of(_ways.GetNear(node), [this, robot](std::uint32_t near) {
                return !_holders[near].has_value() || _holders[near] == robot;
            });
 }
 
 bool Traffic::IsOpenFor(std::size_t node, std::size_t robot) const
 {
-    return IsFreeFor(node, robot) && !IsHomeOfOther(_vehicles[robot], node);
+    return IsFreeFor(node, robot) && !_ways.IsHomeOfOther(_vehicles[robot].parking, node);
 }
 
 std::vector<std::size_t> Traffic::GetHolders(std::size_t node, std::size_t robot) const
 {
     std::vector<std::size_t> holders;
-    for (const std::uint32_t near : _near[node])
+    for (const std::uint32_t near : _ways.GetNear(node))
     {
         const std::optional<std::size_t>& holder = _holders[near];
         if (holder.has_value() && *holder != robot && std::ranges::count(holders, *holder) == 0)
@@ -446,11 +405,6 @@ std::vector<std::size_t> Traffic::GetHolders(std::size_t node, std::size_t robot
         }
     }
     return holders;
-}
-
-bool Traffic::IsNear(std::size_t left, std::size_t right) const
-{
-    return std::ranges::count(_near[left], right) > 0;
 }
 
 const std::vector<std::size_t>& Traffic::GetBlockers() const noexcept

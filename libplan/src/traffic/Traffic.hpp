@@ -1,12 +1,13 @@
 #pragma once
 
+#include "traffic/ESafeStateScope.hpp"
 #include "traffic/FloorGraph.hpp"
+#include "traffic/ParkingWays.hpp"
 #include <acs/plan/SiteMap.hpp>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <optional>
 #include <span>
@@ -26,17 +27,8 @@ namespace ACS::Planning
 /// present load: a job may change that on any station.
 class Traffic
 {
-    static constexpr std::uint32_t NOWHERE = std::numeric_limits<std::uint32_t>::max();
-
-    /// What a vehicle can drive along with one load.
-    struct LoadGraph
-    {
-        const FloorGraph* floor = nullptr;
-        /// By node: the next one on the quickest route home. Of the nearest nodes, as many as were needed so far.
-        mutable std::vector<std::uint32_t> nextToHome;
-        mutable std::size_t nearest = 0; ///< Number of nodes in nextToHome; all that have a route: the number of nodes.
-        std::vector<bool> returns;       ///< By node: whether a route home is free while all others are parked.
-    };
+    using Parking = ParkingWays::Parking;
+    using LoadGraph = ParkingWays::LoadGraph;
 
     /// An answer of CanServe, while the robot and the fixed obstacles stay where they are.
     struct Served
@@ -63,11 +55,7 @@ class Traffic
 
     struct Vehicle
     {
-        std::vector<LoadGraph> graphs; ///< None where no edge is for its type; one where loads make no difference.
-        std::optional<std::size_t> home;
-        std::optional<std::size_t> standIn; ///< Instead of the home, while the way there is blocked.
-        /// By ESafeStateScope: where it can wait instead of parking; no other robot has it.
-        std::array<std::optional<std::size_t>, 2> refuges;
+        Parking parking;
         std::vector<std::size_t> path;      ///< Held nodes in driving order; it is on the first.
         std::optional<std::size_t> heading; ///< It is stationary between its node and this one, and cannot turn round.
         std::vector<std::size_t> extra;     ///< Other held nodes: where it may be, or may drive uncommanded.
@@ -76,7 +64,6 @@ class Traffic
         std::array<Refusal, 2> refusals; ///< The last ones: of several nodes, and of the next one only.
         std::uint64_t changes = 0;       ///< Of what it holds and where it is.
         bool bMovable = false;
-        bool bCanReturn = false; ///< With any load a route leads out of its home and back while all others are parked.
     };
 
     /// Which robots can park; kept until it may have changed.
@@ -112,41 +99,21 @@ class Traffic
         bool bAny = false;
     };
 
-    /// Of searches.
-    struct Scratch
-    {
-        std::vector<std::uint32_t> seen;
-        std::uint32_t search = 0;
-        std::vector<std::uint32_t> open;
-    };
-
-    enum class ESafeStateScope : std::uint8_t
-    {
-        AllMove, ///< As if every robot could move and nothing was blocked.
-        AsIs,    ///< Robots that cannot move and blocks are fixed obstacles.
-    };
-
-    std::vector<std::vector<std::uint32_t>> _near; ///< Of each node: those that it excludes, itself among them.
+    ParkingWays _ways;
     std::map<std::string, std::vector<FloorGraph>, std::less<>> _graphs; ///< By type: of empty and loaded vehicles.
     std::vector<Vehicle> _vehicles;
     std::vector<std::optional<std::size_t>> _holders;
-    std::vector<std::uint16_t> _covers;                ///< Of each node: how many held nodes exclude it.
-    std::vector<std::uint16_t> _homes;                 ///< Of each node: how many homes exclude it.
-    std::vector<bool> _refuges;                        ///< Of each node: whether it is a refuge (IsRefuge).
-    std::array<std::vector<std::uint16_t>, 2> _claims; ///< Of each node: how many refuges of robots exclude it.
-    std::vector<std::vector<std::size_t>> _arriving;   ///< Of each node: the robots that have it as destination.
+    std::vector<std::uint16_t> _covers;              ///< Of each node: how many held nodes exclude it.
+    std::vector<std::vector<std::size_t>> _arriving; ///< Of each node: the robots that have it as destination.
     std::array<SafeState, 2> _safeStates;
     std::vector<Awaited> _awaited; ///< In the order in which they were asked for.
     bool _bPassedOn = false;       ///< Something that was given back is held by another since the last Note.
     std::vector<std::size_t> _blockers;
-    std::vector<bool> _blockedNodes; ///< By the operator; empty: there are no blocks.
-    std::vector<bool> _blockedEdges;
     bool _bBlocksRefuse = false; ///< The blocks limited the last Extend.
     bool _bReturnsKnown = false;
     bool _bTrial = false; ///< Nodes are held on trial.
     Changes _changes;
     mutable AnyFixed _anyFixed;
-    mutable Scratch _scratch;
 
 public:
     /// clearance: nodes of one map within this distance (metres) exclude each other; nodes at the same position always do.
@@ -215,9 +182,6 @@ public:
     [[nodiscard]] std::vector<std::size_t> GetHolders(std::size_t node, std::size_t robot) const;
     /// Whether the node is a dead end for the vehicle type with any load, so that no route passes through it.
     [[nodiscard]] bool IsSpur(std::string_view vehicleTypeID, std::size_t node) const;
-    /// Whether a robot that is stationary there blocks no route of others: a dead end for all vehicle types, and so are all nodes
-    /// within the clearance.
-    [[nodiscard]] bool IsRefuge(std::size_t node) const;
     /// Where the robot can drive now, to wait there instead of parking.
     [[nodiscard]] std::optional<std::size_t> FindRefugeOrNull(std::size_t robot);
     /// Whether two nodes exclude each other.
@@ -243,11 +207,8 @@ public:
     [[nodiscard]] bool CanServe(std::size_t robot, std::size_t node) const;
 
 private:
-    void FindNear(const SiteMap& site, double clearance);
-    /// Until the node has its entry in nextToHome.
-    void FindWaysHome(const LoadGraph& graph, std::size_t home, std::size_t from) const;
+    /// Of all robots, once after robots were added.
     void FindReturns();
-    void FindReturns(const Vehicle& vehicle, LoadGraph& graph) const;
     [[nodiscard]] static std::size_t GetEnd(const Vehicle& vehicle);
     void Hold(std::size_t robot, std::size_t node);
     void Free(std::size_t node);
@@ -258,51 +219,8 @@ private:
     void Cover(const Vehicle& vehicle, std::vector<std::uint16_t>& covers, bool bAdd) const;
     [[nodiscard]] bool IsAnyFixed() const;
     [[nodiscard]] bool HasWayAround(const Vehicle& vehicle, std::size_t node) const;
-    [[nodiscard]] bool IsAnyBlocked() const noexcept;
-    [[nodiscard]] bool IsBlocked(const Lane& lane) const;
     /// Whether the lane on which it is stationary between two nodes is open.
     [[nodiscard]] bool HasOpenStart(const Vehicle& vehicle) const;
-    [[nodiscard]] std::size_t GetParking(const Vehicle& vehicle, ESafeStateScope scope) const;
-    [[nodiscard]] bool IsHomeOfOther(const Vehicle& vehicle, std::size_t node) const;
-    [[nodiscard]] bool HasWay(
-        const Vehicle& vehicle,
-        const LoadGraph& graph,
-        std::size_t from,
-        std::size_t to,
-        const std::vector<std::uint16_t>& covers,
-        ESafeStateScope scope) const;
-    [[nodiscard]] bool HasStraightWayHome(
-        const Vehicle& vehicle,
-        const LoadGraph& graph,
-        std::size_t from,
-        const std::vector<std::uint16_t>& covers) const;
-    [[nodiscard]] bool CanGoHome(
-        const Vehicle& vehicle,
-        std::size_t from,
-        const std::vector<std::uint16_t>& covers,
-        ESafeStateScope scope);
-    void FindRefuges();
-    /// Whether no other robot has the node, or one within the clearance, as its home or as its refuge.
-    [[nodiscard]] bool IsRefugeFor(const Vehicle& vehicle, std::size_t node, ESafeStateScope scope) const;
-    /// nullopt: it has none.
-    void ClaimRefuge(Vehicle& vehicle, std::optional<std::size_t> nodeOrNull, ESafeStateScope scope);
-    /// covers: of all other robots. Where the robot can go home or to a refuge; it has the refuge from then on.
-    [[nodiscard]] std::optional<std::size_t> FindParkingOrNull(
-        Vehicle& vehicle,
-        std::size_t from,
-        const std::vector<std::uint16_t>& covers,
-        ESafeStateScope scope);
-    [[nodiscard]] bool CanGoTo(
-        const Vehicle& vehicle,
-        std::size_t from,
-        std::size_t refuge,
-        const std::vector<std::uint16_t>& covers,
-        ESafeStateScope scope) const;
-    [[nodiscard]] std::optional<std::size_t> FindRefugeOrNull(
-        const Vehicle& vehicle,
-        std::size_t from,
-        const std::vector<std::uint16_t>& covers,
-        ESafeStateScope scope) const;
     [[nodiscard]] SafeState FindSafeState(ESafeStateScope standing);
     [[nodiscard]] const SafeState& GetSafeState(ESafeStateScope standing);
     [[nodiscard]] bool IsAsGood(ESafeStateScope standing, std::size_t robot, Refusal& refusal);

@@ -442,7 +442,7 @@ const VisitForecast& TrafficCoordinator::GetVisits() const noexcept
 
 std::vector<std::size_t> TrafficCoordinator::ListLasting(const Robot& robot, std::size_t target) const
 {
-    constexpr double SLACK_SECONDS = 10; ///< It may wait so long on the lane.
+    constexpr double SLACK_SECONDS = 10; ///< It may wait this time on the lane.
     std::vector<std::size_t> holders = _waiting.GetTargetHolders(robot, target);
     if (holders.empty() || robot.planOrNull == nullptr || robot.parking.retreatNode.has_value())
     {

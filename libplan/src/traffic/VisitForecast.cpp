@@ -37,11 +37,11 @@ double VisitForecast::GetJobSeconds(const ActivePlan& plan, std::size_t step) co
     const ResolvedStep& resolved = plan.resolved.steps[step];
     const std::size_t count = std::max<std::size_t>(resolved.jobs.size(), 1) - (step == plan.step ? plan.job : 0);
     const double seconds = static_cast<double>(count) * _jobTimes.GetSeconds(resolved.stationID);
-    if (step != plan.step || !plan.jobBegunAt.has_value())
+    if (step != plan.step || !plan.jobClock.begunAt.has_value())
     {
         return seconds;
     }
-    const std::chrono::duration<double> worked = _transaction.GetNow().steady - *plan.jobBegunAt;
+    const std::chrono::duration<double> worked = _transaction.GetNow().steady - *plan.jobClock.begunAt;
     return std::max(0.0, seconds - worked.count());
 }
 

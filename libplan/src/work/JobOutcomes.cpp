@@ -87,7 +87,7 @@ void JobOutcomes::OnJobTimeout(Robot& robot)
     {
         return;
     }
-    robot.planOrNull->jobDeadline.reset();
+    robot.planOrNull->jobClock.deadline.reset();
     if (robot.view.state.has_value() && !robot.view.state->bAutomatic)
     {
         _work.LimitJob(robot); // the operator has interrupted it

@@ -229,9 +229,9 @@ void PlanControls::Abort(ActivePlan& plan, EControlOrigin origin)
         return;
     }
     _answers.ReleasePause(robot);
-    if (plan.jobTimeLeft.has_value())
+    if (plan.jobClock.timeLeft.has_value())
     {
-        _work.StartJobTimer(robot, *std::exchange(plan.jobTimeLeft, std::nullopt));
+        _work.StartJobTimer(robot, *std::exchange(plan.jobClock.timeLeft, std::nullopt));
     }
 }
 
@@ -278,9 +278,9 @@ void PlanControls::ContinueAfterControl(Robot& robot)
         _work.EndPlan(plan, EPlanState::Completed, {});
         return;
     }
-    if (plan.jobTimeLeft.has_value())
+    if (plan.jobClock.timeLeft.has_value())
     {
-        _work.StartJobTimer(robot, *std::exchange(plan.jobTimeLeft, std::nullopt));
+        _work.StartJobTimer(robot, *std::exchange(plan.jobClock.timeLeft, std::nullopt));
     }
     if (plan.next == EContinuation::Step)
     {

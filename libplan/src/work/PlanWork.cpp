@@ -104,7 +104,7 @@ void PlanWork::BeginJob(Robot& robot)
     job.nodeID = robot.place.node.has_value() ? _site.GetNodes()[*robot.place.node].nodeID : std::string();
     robot.work.AddCommand(job.commandID);
     robot.job.Begin(job);
-    plan.jobBegunAt = _transaction.GetNow().steady;
+    plan.jobClock.begunAt = _transaction.GetNow().steady;
     _transaction.Command(robot, std::move(job));
     LimitJob(robot);
 }
@@ -121,15 +121,15 @@ void PlanWork::LimitJob(Robot& robot)
 
 void PlanWork::StartJobTimer(Robot& robot, Core::Duration limit)
 {
-    robot.planOrNull->jobDeadline = _transaction.GetNow().steady + limit;
+    robot.planOrNull->jobClock.deadline = _transaction.GetNow().steady + limit;
     _transaction.StartTimer(EEngineTimer::JobTimeout, robot.GetID(), limit);
 }
 
 void PlanWork::StopJobTimer(Robot& robot)
 {
-    if (robot.planOrNull->jobDeadline.has_value())
+    if (robot.planOrNull->jobClock.deadline.has_value())
     {
-        robot.planOrNull->jobDeadline.reset();
+        robot.planOrNull->jobClock.deadline.reset();
         _transaction.CancelTimer(EEngineTimer::JobTimeout, robot.GetID());
     }
 }
@@ -138,12 +138,12 @@ void PlanWork::EndJob(Robot& robot, std::string message)
 {
     ActivePlan& plan = *robot.planOrNull;
     StopJobTimer(robot);
-    if (plan.jobBegunAt.has_value())
+    if (plan.jobClock.begunAt.has_value())
     {
-        _jobTimes.Note(plan.resolved.steps[plan.step].stationID, _transaction.GetNow().steady - *plan.jobBegunAt);
+        _jobTimes.Note(plan.resolved.steps[plan.step].stationID, _transaction.GetNow().steady - *plan.jobClock.begunAt);
     }
     ReleaseJob(robot);
-    plan.jobTimeLeft.reset();
+    plan.jobClock.timeLeft.reset();
     _loads.MoveCarrier(robot, MakeStartJob(robot));
     _transaction.ChangeJob(plan, EJobState::Completed, std::move(message));
     const bool bStepDone = plan.job + 1 >= plan.record.plan.steps[plan.step].jobs.size();
@@ -222,10 +222,10 @@ void PlanWork::BeginNext(Robot& robot)
 void PlanWork::ConfirmPause(Robot& robot)
 {
     ActivePlan& plan = *robot.planOrNull;
-    if (plan.jobDeadline.has_value())
+    if (plan.jobClock.deadline.has_value())
     {
         const Core::Duration least = std::chrono::milliseconds(1);
-        plan.jobTimeLeft = std::max(least, *plan.jobDeadline - _transaction.GetNow().steady);
+        plan.jobClock.timeLeft = std::max(least, *plan.jobClock.deadline - _transaction.GetNow().steady);
         StopJobTimer(robot);
     }
     _status.PublishStatus(robot, ERobotStatus::Stopped);
@@ -404,7 +404,7 @@ void PlanWork::ReleaseJob(Robot& robot)
     robot.job.Release();
     if (robot.planOrNull != nullptr)
     {
-        robot.planOrNull->jobBegunAt.reset();
+        robot.planOrNull->jobClock.begunAt.reset();
     }
     robot.changes.MarkWork();
 }
@@ -435,7 +435,8 @@ void PlanWork::EndRecovery(Robot& robot)
     {
         const std::chrono::milliseconds timeout =
             robot.planOrNull->resolved.steps[robot.planOrNull->step].rule->timeout;
-        robot.planOrNull->jobTimeLeft = timeout.count() > 0 ? std::optional<Core::Duration>(timeout) : std::nullopt;
+        robot.planOrNull->jobClock.timeLeft =
+            timeout.count() > 0 ? std::optional<Core::Duration>(timeout) : std::nullopt;
         return;
     }
     LimitJob(robot);

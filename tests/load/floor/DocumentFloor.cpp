@@ -48,6 +48,50 @@ class DocumentPlan
     std::vector<std::string> _ports;
     std::vector<std::string> _sets;
 
+public:
+    DocumentPlan()
+    {
+        for (int i = 0; i < 6; ++i)
+        {
+            AddDock(_stocker, fmt::format("ST01.CP{:02}", i + 1), {24 + 2 * i, SOUTH}, {0, -1});
+        }
+        AddArea("A01", "A11", 5);
+        AddArea("A02", "A12", 23);
+        for (int i = 0; i < 7; ++i)
+        {
+            AddParking({5 + 2 * i, SOUTH}, {0, -1});
+            AddParking({5 + 2 * i, NORTH}, {0, 1});
+            AddParking({23 + 2 * i, NORTH}, {0, 1});
+        }
+        for (int i = 0; i < 3; ++i)
+        {
+            AddParking({WEST, 14 - 2 * i}, {-1, 0});
+        }
+    }
+
+    [[nodiscard]] Floor Build()
+    {
+        AddLane({WEST, SOUTH}, {EAST, SOUTH});
+        AddLane({EAST, SOUTH}, {EAST, NORTH});
+        AddLane({EAST, NORTH}, {WEST, NORTH});
+        AddLane({WEST, NORTH}, {WEST, SOUTH});
+        AddLane({WEST, MIDDLE}, {EAST, MIDDLE});
+        AddLane({UP, SOUTH}, {UP, NORTH});
+        AddLane({DOWN, NORTH}, {DOWN, SOUTH});
+        for (const Dock& dock : _docks)
+        {
+            const double x = dock.lane.first + SPUR * dock.side.first;
+            const double y = dock.lane.second + SPUR * dock.side.second;
+            _builder.AddDock(MakeID(dock.lane), dock.stationID, x, y);
+        }
+        return {
+            "document's area twice",
+            _builder.Build(),
+            _parking,
+            {{_stocker, _ports, 2}, {_ports, _sets, 3}, {_sets, _ports, 3}, {_ports, _stocker, 2}}};
+    }
+
+private:
     static std::string MakeID(Point point)
     {
         return fmt::format("N{:02}{:02}", point.first, point.second);
@@ -115,49 +159,6 @@ class DocumentPlan
                 last = next;
             }
         }
-    }
-
-public:
-    DocumentPlan()
-    {
-        for (int i = 0; i < 6; ++i)
-        {
-            AddDock(_stocker, fmt::format("ST01.CP{:02}", i + 1), {24 + 2 * i, SOUTH}, {0, -1});
-        }
-        AddArea("A01", "A11", 5);
-        AddArea("A02", "A12", 23);
-        for (int i = 0; i < 7; ++i)
-        {
-            AddParking({5 + 2 * i, SOUTH}, {0, -1});
-            AddParking({5 + 2 * i, NORTH}, {0, 1});
-            AddParking({23 + 2 * i, NORTH}, {0, 1});
-        }
-        for (int i = 0; i < 3; ++i)
-        {
-            AddParking({WEST, 14 - 2 * i}, {-1, 0});
-        }
-    }
-
-    [[nodiscard]] Floor Build()
-    {
-        AddLane({WEST, SOUTH}, {EAST, SOUTH});
-        AddLane({EAST, SOUTH}, {EAST, NORTH});
-        AddLane({EAST, NORTH}, {WEST, NORTH});
-        AddLane({WEST, NORTH}, {WEST, SOUTH});
-        AddLane({WEST, MIDDLE}, {EAST, MIDDLE});
-        AddLane({UP, SOUTH}, {UP, NORTH});
-        AddLane({DOWN, NORTH}, {DOWN, SOUTH});
-        for (const Dock& dock : _docks)
-        {
-            const double x = dock.lane.first + SPUR * dock.side.first;
-            const double y = dock.lane.second + SPUR * dock.side.second;
-            _builder.AddDock(MakeID(dock.lane), dock.stationID, x, y);
-        }
-        return {
-            "document's area twice",
-            _builder.Build(),
-            _parking,
-            {{_stocker, _ports, 2}, {_ports, _sets, 3}, {_sets, _ports, 3}, {_ports, _stocker, 2}}};
     }
 };
 

@@ -168,8 +168,6 @@ TEST_CASE(
     CHECK(traffic.Extend(0, Nodes{1, 2}) == 2);
     CHECK_FALSE(traffic.FindRefugeOrNull(0) == 6);
     CHECK(traffic.FindRefugeOrNull(0) == 5);
-    CHECK(traffic.IsRefuge(5));
-    CHECK_FALSE(traffic.IsRefuge(1));
 }
 
 TEST_CASE("Traffic: a robot that cannot move is an obstacle, and no robot drives where it would be cut off by it")

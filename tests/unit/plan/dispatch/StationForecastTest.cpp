@@ -65,7 +65,7 @@ TEST_CASE("StationForecast: a plan that would meet another robot at a station do
     CHECK(stations.ListRobots("A02.CP03") == std::vector<std::size_t>{floor.parts.lr.index});
 }
 
-TEST_CASE("StationForecast: a station is taken as long as a robot that cannot move has a plan to it")
+TEST_CASE("StationForecast: a station is taken while a robot that cannot move has a plan to it")
 {
     BusyFloor floor;
     const ActivePlan& plan = floor.parts.Add(MakeTransport("P2", "A01.CP05", "A02.CP03"));
@@ -76,7 +76,7 @@ TEST_CASE("StationForecast: a station is taken as long as a robot that cannot mo
 TEST_CASE("StationForecast: a plan that arrives long after the other robot has left begins")
 {
     BusyFloor floor;
-    // Of the plan of LR01 only the last job is left, and it takes as long as it did before: a moment.
+    // Of the plan of LR01 only the last job is left, which took a moment before.
     floor.begun.step = 1;
     floor.parts.PutOn(floor.parts.lr, "D-A02.CP03");
     floor.parts.engine.jobTimes.Note("A02.CP03", std::chrono::milliseconds(1));

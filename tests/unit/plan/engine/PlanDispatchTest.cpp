@@ -7,6 +7,7 @@
 #include <vector>
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using ACS::Testing::Lines;
 using ACS::Testing::MakeControlPlan;
 using ACS::Testing::MakeLogisticsPlan;
 using ACS::Testing::MakeTestOptions;
