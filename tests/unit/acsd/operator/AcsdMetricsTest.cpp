@@ -57,10 +57,7 @@ TEST_CASE("Plans that wait are counted by cause")
 TEST_CASE("A plan whose robot waits for its route, and one whose job has no known outcome, have causes of their own")
 {
     Testing::PlanWorld world;
-    world.Connect();
-    world.Submit(Testing::MakeLogisticsPlan("P1"));
-    REQUIRE(Testing::TryRunUntil(world, "P1", "Step 1 InProgress"));
-    world.Submit(Testing::MakeControlPlan("P2"));
+    Testing::BeginRouteWait(world);
     CHECK(world.TryRun([&world] { return ListCauses(world) == "route 1"; }));
 
     Testing::PlanWorld other;

@@ -52,9 +52,7 @@ TEST_CASE("The time for which a robot waits for another one to clear its route i
     CHECK_THAT(metrics.Render(), Contains(R"(acsd_robot_route_wait_seconds_total{robot="LR01"} 0)"));
     REQUIRE(world.TryRun());
 
-    world.Submit(Testing::MakeLogisticsPlan("P1"));
-    REQUIRE(Testing::TryRunUntil(world, "P1", "Step 1 InProgress"));
-    world.Submit(Testing::MakeControlPlan("P2"));
+    Testing::BeginRouteWait(world);
     const auto isWaiting = [&world] {
         const auto statuses = world.engine->GetRobotStatuses();
         const auto robot = std::ranges::find(statuses, "CR01", &Planning::RobotStatus::robotID);

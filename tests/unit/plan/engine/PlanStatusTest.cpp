@@ -131,10 +131,7 @@ TEST_CASE("5.9 A robot that is at its place already arrives there without a driv
 TEST_CASE("5.9 A robot that waits for its route is Moving, and its message names the robot in the way")
 {
     PlanWorld world;
-    BeginPlan(world, MakeLoadPlan("A01.CP05"), "Step 1 InProgress");
-    REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").GetOccupied().front() == "L02"; })); // before CHG02
-    world.GetRobot("LR01").bStuck = true;
-    world.Submit(MakeControlPlan("P2"));
+    ACS::Testing::BeginRouteWait(world);
     REQUIRE(world.TryRun([&world] { return GetStatus(world, "CR01").planID == "P2"; }));
     const RobotStatus waiting = GetStatus(world, "CR01");
     CHECK(waiting.status == ERobotStatus::Moving);
