@@ -20,8 +20,6 @@ namespace
 
 using Apps::ConfigSection;
 
-constexpr std::chrono::minutes LONGEST_LEASE{1};
-
 constexpr std::size_t LONGEST_HOST_NAME = 256;
 
 std::string GetHostName()
@@ -102,7 +100,8 @@ void ReadPostgres(
     Planning::PostgresOptions& options = config.postgres.emplace();
     options.url = store.GetString("url");
     ReadPassword(store, fileName, options);
-    config.lease = store.GetDuration("lease", Planning::LeaseTerm::SHORTEST, LONGEST_LEASE, config.lease);
+    config.lease =
+        store.GetDuration("lease", Planning::LeaseTerm::SHORTEST, Planning::LeaseTerm::LONGEST, config.lease);
     config.instance = store.GetString("instance", GetHostName());
     const Core::Result<Planning::PostgresTarget> target = Planning::ReadPostgresURL(options.url);
     if (!target.has_value())

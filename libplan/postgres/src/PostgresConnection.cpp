@@ -77,7 +77,8 @@ std::string MakeSessionScript(Core::Duration timeout)
     const std::int64_t limit = ToMilliseconds(timeout);
     return fmt::format(
         "SET search_path TO acsd; SET client_encoding TO 'UTF8'; SET client_min_messages TO error; "
-        "SET default_transaction_isolation TO 'read committed'; SET statement_timeout TO {}; SET lock_timeout TO {}; "
+        "SET default_transaction_isolation TO 'read committed'; SET idle_session_timeout TO 0; "
+        "SET statement_timeout TO {}; SET lock_timeout TO {}; "
         "SET idle_in_transaction_session_timeout TO {};"
         // Durable when Append returns, whatever the default of the database is.
         "SELECT set_config('synchronous_commit', 'on', false) WHERE current_setting('synchronous_commit') IN ('off', 'local')",

@@ -26,7 +26,8 @@ constexpr std::array REMEDIES{
     Remedy{
         "42501",
         EPlanningError::StoreFailed,
-        "a role that may create the schema acsd in this database, or that owns it; as its owner: GRANT CREATE ON DATABASE … TO …"},
+        "a role that may create the schema acsd in this database (GRANT CREATE ON DATABASE … TO …), or that owns the schema and its "
+        "tables"},
     Remedy{
         "25006",
         EPlanningError::StoreFailed,

@@ -32,7 +32,7 @@ constexpr int MOST_REPETITIONS = 3;
 constexpr std::chrono::milliseconds RETRY_DELAY{100};
 
 constexpr std::string_view RESTORE_REMEDY =
-    "restore a backup with pg_restore, or drop the schema acsd to start with an empty store";
+    "stop all processes, then restore a backup with pg_restore, or drop the schema acsd to start with an empty store";
 
 /// Between two attempts to connect: a server that is being restarted refuses at once.
 void PauseFor(std::chrono::milliseconds duration)

@@ -65,6 +65,35 @@ END $$;
 
 } // namespace
 
+namespace
+{
+
+/// A standby that can read the tables and not write them would only learn it when it has to lead.
+Core::Result<void> CheckRights(PostgresConnection& connection, const std::string& name)
+{
+    return connection
+        .Query(
+            {"SELECT string_agg(relname, ', ' ORDER BY relname) FROM pg_class WHERE relnamespace = 'acsd'::regnamespace AND relkind = 'r' "
+             "AND NOT (has_table_privilege(oid, 'SELECT') AND has_table_privilege(oid, 'INSERT') "
+             "AND has_table_privilege(oid, 'UPDATE') AND has_table_privilege(oid, 'DELETE'))",
+             {}},
+            "reading the rights")
+        .and_then([&name](const std::vector<SqlRow>& rows) -> Core::Result<void> {
+            const std::string& tables = rows.front().front();
+            if (tables.empty())
+            {
+                return {};
+            }
+            return RefuseStore(
+                EPlanningError::StoreFailed,
+                name,
+                "a role that may read and write all tables of the schema acsd; give the role that owns them",
+                "a role that may not write " + tables);
+        });
+}
+
+} // namespace
+
 int GetNewestPostgresSchema() noexcept
 {
     return static_cast<int>(MIGRATIONS.size());
@@ -127,7 +156,7 @@ Core::Result<int> ReadPostgresSchema(PostgresConnection& connection, const std::
                         GetNewestPostgresSchema()),
                     fmt::format("version {}", version));
             }
-            return version;
+            return CheckRights(connection, name).map([version] { return version; });
         });
 }
 

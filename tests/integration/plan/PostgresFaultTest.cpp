@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <string>
+#include <thread>
 
 using namespace ACS::Planning;       // NOLINT(google-build-using-namespace): a test of that namespace
 using namespace ACS::Planning::Test; // NOLINT(google-build-using-namespace)
@@ -71,12 +72,30 @@ TEST_CASE("PostgreSQL: each reason why it cannot be used has its remedy")
     GetServer().Execute("CREATE ROLE reader LOGIN");
     const std::string reader = "postgresql://reader@127.0.0.1:" + port + "/" + place.GetDatabase();
     CHECK_THAT(Explain(reader), Catch::Contains("a role that may create the schema acsd"));
+    PostgresLease lease({reader, {}, std::chrono::seconds(5)});
+    for (int call = 0; call < 2; ++call) // each call has the same reason
+    {
+        const Core::Result<LeaseState> state = lease.Read();
+        REQUIRE_FALSE(state.has_value());
+        CHECK_THAT(Core::Describe(state.error()), Catch::Contains("a role that may create the schema acsd"));
+    }
     GetServer().Execute("ALTER ROLE reader SET default_transaction_read_only TO on");
     CHECK_THAT(Explain(reader), Catch::Contains("a server that accepts writes"));
     GetServer().Execute("ALTER ROLE reader RESET default_transaction_read_only");
     static_cast<void>(place.OpenLease());
     CHECK_THAT(Explain(reader), Catch::Contains("permission denied")); // it may not read the tables either
+    place.Execute(
+        "GRANT USAGE ON SCHEMA acsd TO reader; GRANT SELECT, UPDATE, DELETE ON ALL TABLES IN SCHEMA acsd TO reader; "
+        "GRANT INSERT ON ALL TABLES IN SCHEMA acsd TO reader; REVOKE INSERT ON plans, reports FROM reader");
+    CHECK_THAT(Explain(reader), Catch::Contains("a role that may not write plans, reports"));
+    place.Execute("GRANT INSERT ON plans, reports TO reader");
+    CHECK(PostgresLease({reader, {}, std::chrono::seconds(5)}).Read().has_value());
 
+    GetServer().Execute("ALTER ROLE reader SET idle_session_timeout TO '50ms'");
+    PostgresLease idle({reader, {}, std::chrono::seconds(5)});
+    REQUIRE(idle.Read().has_value());
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    CHECK(idle.Read().has_value()); // acsd overrides limits that a role or a database has
     GetServer().Execute("CREATE DATABASE latin ENCODING 'LATIN1' TEMPLATE template0");
     CHECK_THAT(Explain(GetServer().GetURL("latin")), Catch::Contains("the encoding UTF8"));
     CHECK_THAT(Explain("postgresql://acsd@127.0.0.1:" + port + "/postgres?sslmode=require"), Catch::Contains("SSL"));

@@ -1,4 +1,5 @@
 #include "PostgresPlace.hpp"
+#include <acs/plan/EPlanningError.hpp>
 
 #include <chrono>
 #include <memory>
@@ -79,6 +80,64 @@ TEST_CASE("Lease: a store that is taken waits for a transaction of the former le
     CHECK(taken->has_value());
     CHECK(client.WaitForExitOrNull(std::chrono::seconds(10)) != 0);
     CHECK(place.Execute("SELECT number FROM batches") == "1\n");
+}
+
+TEST_CASE("Lease: rows that acsd has not written are reported, and nothing is taken")
+{
+    const PostgresPlace place;
+    const std::unique_ptr<PostgresLease> lease = place.OpenLease();
+    REQUIRE(lease->TryTakeOrNull(*lease->Read(), MakeClaim("leader"))->has_value());
+    const LeaseState seen = *lease->Read();
+    const std::string change = GENERATE(
+        as<std::string>{},
+        "DELETE FROM lease",
+        "DELETE FROM batches",
+        "UPDATE lease SET duration_ms = 0",
+        "UPDATE lease SET duration_ms = 9000000000000000000",
+        "UPDATE lease SET epoch = -1",
+        "UPDATE lease SET epoch = 9223372036854775807",
+        "ALTER TABLE lease ALTER epoch DROP NOT NULL; UPDATE lease SET epoch = NULL",
+        "UPDATE lease SET renewal = -1");
+    INFO(change);
+    place.Execute(change);
+    const Core::Result<LeaseState> state = lease->Read();
+    REQUIRE_FALSE(state.has_value());
+    CHECK(state.error().code == EPlanningError::StoreCorrupt);
+    CHECK_THAT(Core::Describe(state.error()), Catch::Contains("stop all processes, then restore a backup"));
+    if (change == "DELETE FROM batches")
+    {
+        CHECK_FALSE(lease->TryTakeOrNull(seen, MakeClaim("standby"))->has_value());
+        CHECK(place.Execute("SELECT epoch, holder FROM lease") == "1|leader\n");
+    }
+}
+
+TEST_CASE("Lease: an epoch is never used again, also if the row was changed by hand")
+{
+    const PostgresPlace place;
+    const std::unique_ptr<PostgresLease> lease = place.OpenLease();
+    REQUIRE(lease->TryTakeOrNull(*lease->Read(), MakeClaim("leader"))->has_value());
+    REQUIRE(**lease->TryTakeOrNull(*lease->Read(), MakeClaim("leader")) == 2);
+    place.Execute("UPDATE lease SET epoch = 0");
+    CHECK_FALSE(*lease->TryRenew(2));
+    CHECK(**lease->TryTakeOrNull(*lease->Read(), MakeClaim("standby")) == 3);
+}
+
+TEST_CASE("Lease: tables that are missing later are not created again")
+{
+    const PostgresPlace place;
+    const std::unique_ptr<PostgresLease> lease = place.OpenLease();
+    place.Execute("DROP SCHEMA acsd CASCADE");
+    GetServer().Execute("SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE application_name = 'acsd'");
+    CHECK_FALSE(lease->Read().has_value()); // the connection was lost
+    const Core::Result<LeaseState> state = lease->Read();
+    REQUIRE_FALSE(state.has_value());
+    CHECK_THAT(Core::Describe(state.error()), Catch::Contains("the tables that this process has used"));
+
+    PostgresOptions options = place.GetOptions();
+    options.bMayCreate = false;
+    CHECK_FALSE(PostgresLease(options).Read().has_value());
+    CHECK(place.OpenLease()->Read().has_value()); // a process that starts
+    CHECK(PostgresLease(options).Read().has_value());
 }
 
 TEST_CASE("Lease: several processes create the tables of an empty database at the same time")

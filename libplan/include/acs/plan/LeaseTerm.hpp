@@ -19,6 +19,9 @@ public:
     /// The shortest lease. Half of it is left to work after the margin.
     static constexpr std::chrono::milliseconds SHORTEST{2'000};
 
+    /// The longest lease.
+    static constexpr std::chrono::milliseconds LONGEST{60'000};
+
 private:
     Core::Duration _duration;
     Core::SteadyTime _renewedAt;

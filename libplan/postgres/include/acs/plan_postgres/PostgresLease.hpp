@@ -20,8 +20,8 @@ class ACS_API PostgresLease final : public ILease
     std::unique_ptr<Impl> _impl;
 
 public:
-    /// Opens no connection. The first call creates the tables in an empty database. The errors of all calls include those of the
-    /// URL.
+    /// Opens no connection. The first call creates the tables in an empty database, unless the options forbid it. Tables that are
+    /// missing later are not created again, because the plans in them are lost. The errors of all calls include those of the URL.
     explicit PostgresLease(PostgresOptions options);
     PostgresLease(const PostgresLease&) = delete;
     PostgresLease& operator=(const PostgresLease&) = delete;

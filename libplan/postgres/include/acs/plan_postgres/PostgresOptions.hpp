@@ -23,6 +23,8 @@ struct PostgresOptions
     Core::Duration timeout{std::chrono::seconds(5)}; ///< For connecting, and for each transaction.
     /// Asked several times a second, by the thread that calls: true ends a call that waits for the server. May be empty.
     std::function<bool()> shouldStop{};
+    /// Whether a PostgresLease may create the tables in an empty database. False for a process that has used them before.
+    bool bMayCreate = true;
 };
 
 /// A server that a URL names.
