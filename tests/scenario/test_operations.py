@@ -101,7 +101,7 @@ class Operations(ScenarioCase):
             urllib.request.urlopen(f"http://{addresses['http']}/readyz", timeout=LOG_SECONDS)
         with refused.exception as answer:
             self.assertEqual((answer.code, answer.read()), (503, b"the store does not answer\nisConnected=true\n"))
-        self.wait_for_log(acsd, "the disk does not answer")
+        self.wait_for_log(acsd, "the store does not answer")
         self.assertFalse([message for message in stub.get(start) if message.command == "ExecutionPlanAck"])
 
         writer = os.open(gate, os.O_WRONLY)
@@ -109,7 +109,7 @@ class Operations(ScenarioCase):
         os.close(writer)
         _, answer = stub.wait_for("ExecutionPlanAck", start=start)
         self.assertEqual(answer.body["result"], "Success")
-        self.wait_for_log(acsd, "the disk has answered")
+        self.wait_for_log(acsd, "the store has answered")
         self.wait_for_status(address, lambda status: not status["notReadyReasons"])
 
     def list_stored_keys(self):

@@ -21,7 +21,7 @@ void StoreWatch::OnBegun(Core::SteadyTime now)
 void StoreWatch::OnLate()
 {
     _bHangs = true;
-    _logger.Error("the disk does not answer: plans, controls and reports wait for it", {{"for", "5 s"}});
+    _logger.Error("the store does not answer: plans, controls and reports wait for it", {{"for", "5 s"}});
 }
 
 Core::Duration StoreWatch::OnStored(const Core::Result<void>& result, Core::SteadyTime now)
@@ -30,7 +30,7 @@ Core::Duration StoreWatch::OnStored(const Core::Result<void>& result, Core::Stea
     if (std::exchange(_bHangs, false))
     {
         const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(took);
-        _logger.Warning("the disk has answered", {{"after", fmt::format("{} s", seconds.count())}});
+        _logger.Warning("the store has answered", {{"after", fmt::format("{} s", seconds.count())}});
     }
     if (!result.has_value())
     {

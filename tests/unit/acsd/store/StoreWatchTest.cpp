@@ -20,7 +20,7 @@ TEST_CASE("A write that takes too long is logged and is a not-ready reason until
     clock.Advance(StoreWatch::LIMIT);
     watch.OnLate();
     CHECK(watch.GetFaultOrNull() == std::string("the store does not answer"));
-    CHECK(sink.Contains(Core::ELogLevel::Error, "the disk does not answer"));
+    CHECK(sink.Contains(Core::ELogLevel::Error, "the store does not answer"));
     clock.Advance(2s);
     CHECK(watch.OnStored({}, clock.GetNow().steady) == StoreWatch::LIMIT + 2s);
     CHECK_FALSE(watch.GetFaultOrNull().has_value());
