@@ -35,7 +35,7 @@ AcsdService::AcsdService(Acsd::Dependencies dependencies, AcsdConfig config, Han
     }
     _dependencies.onStoreTaken = [this](const std::string& reason) {
         // Acsd cannot be destroyed from within its own call.
-        boost::asio::post(_dependencies.executor, [this, reason] { LoseLead(reason); });
+        boost::asio::post(_dependencies.executor, [this, reason] { LoseStore(reason); });
     };
 }
 
@@ -59,10 +59,12 @@ Core::Result<void> AcsdService::StartStandby()
     _state = EState::Standby;
     _keeper = std::make_unique<LeaseKeeper>(
         LeaseKeeper::Dependencies{_dependencies.executor, _leaseClock, _dependencies.logger.MakeFor("lease"), _guard},
-        [store = _config.store](std::function<bool()> shouldStop) -> std::unique_ptr<Planning::ILease> {
+        [store = _config.store,
+         bMayCreate = _epoch == 0](std::function<bool()> shouldStop) -> std::unique_ptr<Planning::ILease> {
             Planning::PostgresOptions options = *store.postgres;
             options.timeout = store.lease / CALLS_PER_LEASE;
             options.shouldStop = std::move(shouldStop);
+            options.bMayCreate = bMayCreate;
             return std::make_unique<Planning::PostgresLease>(std::move(options));
         },
         Planning::LeaseClaim{_config.store.instance, _fingerprint, _config.store.lease},
@@ -96,7 +98,7 @@ Core::Result<void> AcsdService::StartStandby()
                 Apps::LoopWatchdog::Options{_config.operations.stallLimit, _dependencies.aliveInterval},
                 Apps::LoopWatchdog::Handlers{{}, _dependencies.onAlive});
             _watchdog->Start();
-            _keeper->Start();
+            _keeper->StartAfter(std::exchange(_pause, {}), std::exchange(_storeFault, {}));
         });
 }
 
@@ -119,7 +121,7 @@ void AcsdService::OnOpened(std::uint64_t epoch, Core::Result<OpenedStore> store)
     }
     if (!store.has_value())
     {
-        LoseLead(Core::Describe(store.error()));
+        LoseStore(Core::Describe(store.error()));
         return;
     }
     _standby->Stop();
@@ -139,6 +141,17 @@ Core::Result<void> AcsdService::Lead(OpenedStore store)
         KeepPorts(_acsd->GetAddresses());
         _acsd->Start();
     });
+}
+
+/// A store that no process can use is not taken several times a second, each time with new connections to all robots.
+void AcsdService::LoseStore(const std::string& reason)
+{
+    if (_config.store.postgres.has_value() && (_state == EState::Opening || _state == EState::Leading))
+    {
+        _pause = _takeoverPause.OnFault(_leaseClock.GetNow().steady, _config.store.lease);
+        _storeFault = reason;
+    }
+    LoseLead(reason);
 }
 
 void AcsdService::LoseLead(const std::string& reason)

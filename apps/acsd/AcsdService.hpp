@@ -7,6 +7,7 @@
 #include "standby/LeaseGuard.hpp"
 #include "standby/LeaseKeeper.hpp"
 #include "standby/StandbyServer.hpp"
+#include "standby/TakeoverPause.hpp"
 #include "store/OpenStore.hpp"
 #include <acs/core/Result.hpp>
 
@@ -56,6 +57,9 @@ private:
     std::optional<Apps::LoopWatchdog> _watchdog; ///< While there is no Acsd, which has its own.
     std::unique_ptr<StandbyServer> _standby;
     std::unique_ptr<Acsd> _acsd; ///< Set while this process leads.
+    TakeoverPause _takeoverPause;
+    Core::Duration _pause{}; ///< Before the lease is taken again.
+    std::string _storeFault; ///< Why the store could not be used when this process led; empty: it was not the reason.
     EState _state = EState::Starting;
     std::uint64_t _epoch = 0;            ///< Of the lease that was taken last.
     boost::asio::thread_pool _opener{1}; ///< Reads a shared store while the lease is renewed.
@@ -86,6 +90,7 @@ private:
     [[nodiscard]] Core::Result<void> Lead(OpenedStore store);
     void OnTaken(std::uint64_t epoch);
     void OnOpened(std::uint64_t epoch, Core::Result<OpenedStore> store);
+    void LoseStore(const std::string& reason);
     void LoseLead(const std::string& reason);
     void BecomeStandbyLater();
     void Finish();

@@ -42,6 +42,13 @@ void LeaseKeeper::Start()
     Read();
 }
 
+void LeaseKeeper::StartAfter(Core::Duration pause, std::string reason)
+{
+    _pauseReason = std::move(reason);
+    _pauseEnd = _dependencies.clock.GetNow().steady + pause;
+    Read();
+}
+
 void LeaseKeeper::OnTimer(ETimer timer)
 {
     switch (timer)
@@ -73,12 +80,13 @@ void LeaseKeeper::OnRead(const Core::Result<Planning::LeaseState>& state)
     {
         return;
     }
-    SetFault(state.has_value() ? std::string() : Core::Describe(state.error()));
-    if (state.has_value() && _watch.ShouldTake(*state, _dependencies.clock.GetNow().steady))
+    const Core::SteadyTime now = _dependencies.clock.GetNow().steady;
+    if (state.has_value() && _watch.ShouldTake(*state, now) && now >= _pauseEnd)
     {
-        Take(*state);
+        Take(*state); // a former fault may be that of taking it, and is known again after that
         return;
     }
+    SetFault(state.has_value() ? std::string() : Core::Describe(state.error()));
     ReadLater();
 }
 
@@ -155,7 +163,7 @@ void LeaseKeeper::OnRenewed(const Core::Result<bool>& renewed, Core::SteadyTime 
     SetFault(renewed.has_value() ? std::string() : Core::Describe(renewed.error()));
     if (renewed.has_value() && !*renewed)
     {
-        Lose("another process has taken the lease");
+        Lose("another process has taken the lease, or its row was changed");
         return;
     }
     if (!renewed.has_value())
@@ -245,9 +253,9 @@ std::string LeaseKeeper::GetWaitReason() const
     {
         return "standby that takes over: it reads the store";
     }
-    if (!_fault.empty())
+    if (const std::string fault = GetStoreFault(); !fault.empty())
     {
-        return fmt::format("standby: the store cannot be used: {}", _fault);
+        return fmt::format("standby: the store cannot be used: {}", fault);
     }
     const std::optional<Planning::LeaseState>& seen = _watch.GetSeenOrNull();
     if (!seen.has_value())
@@ -262,12 +270,27 @@ std::string LeaseKeeper::GetWaitReason() const
             seen->holder,
             seen->holder);
     }
+    if (seen->holder == _claim.holder)
+    {
+        return fmt::format(
+            "standby: the lease has the name of this process, {}, and is taken when it ends; if it is renewed, another process has "
+            "the same store.instance",
+            seen->holder);
+    }
     return fmt::format("standby: {} leads", seen->holder);
+}
+
+/// Why this process cannot use the store; empty: it can, or another process leads.
+std::string LeaseKeeper::GetStoreFault() const
+{
+    const std::optional<Planning::LeaseState>& seen = _watch.GetSeenOrNull();
+    const bool bOtherLeads = seen.has_value() && !seen->bReleased;
+    return _fault.empty() && !bOtherLeads ? _pauseReason : _fault;
 }
 
 std::string LeaseKeeper::GetPublicReason() const
 {
-    return _state != EState::Leading && !_fault.empty()
+    return _state != EState::Leading && !GetStoreFault().empty()
         ? "standby: the store cannot be used; /readyz on the monitoring address has the reason"
         : GetWaitReason();
 }

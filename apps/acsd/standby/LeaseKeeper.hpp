@@ -70,7 +70,9 @@ private:
     EState _state = EState::Watching;
     std::uint64_t _epoch = 0;
     std::optional<Planning::LeaseTerm> _term;
-    std::string _fault; ///< Why the store could not be asked the last time; empty: it could.
+    std::string _fault;       ///< Why the store could not be asked the last time; empty: it could.
+    std::string _pauseReason; ///< Of StartAfter.
+    Core::SteadyTime _pauseEnd{};
     bool _bRenewing = false;
     bool _bTaking = false;
     std::function<void()> _onReleased; ///< Of ReleaseAsync, while the lease is being taken.
@@ -85,6 +87,10 @@ public:
     ~LeaseKeeper();
 
     void Start();
+
+    /// Likewise, for a process that could not use the store: does not take the lease before the pause has ended. The reason is shown
+    /// while no other process leads.
+    void StartAfter(Core::Duration pause, std::string reason);
 
     /// Ends: a lease that is held is released, then the handler is called, later. Call it when nothing is commanded any more.
     void ReleaseAsync(std::function<void()> handler);
@@ -108,6 +114,7 @@ private:
     void ReadLater();
     void ReleaseTaken(std::uint64_t epoch, std::function<void()> handler);
     void SetFault(std::string fault);
+    [[nodiscard]] std::string GetStoreFault() const;
     void Lose(const std::string& reason);
 };
 

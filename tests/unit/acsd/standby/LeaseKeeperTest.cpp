@@ -28,6 +28,7 @@ class LeaseRow
     mutable std::mutex _mutex;
     Planning::LeaseState _state;
     bool _bFails = false;
+    bool _bReadOnly = false;
     std::function<void()> _onTaken; ///< Set while no call is under way.
 
 public:
@@ -55,6 +56,18 @@ public:
     {
         const std::lock_guard lock(_mutex);
         _bFails = bFails;
+    }
+
+    void SetReadOnly(bool bReadOnly)
+    {
+        const std::lock_guard lock(_mutex);
+        _bReadOnly = bReadOnly;
+    }
+
+    [[nodiscard]] bool IsReadOnly() const
+    {
+        const std::lock_guard lock(_mutex);
+        return _bReadOnly;
     }
 
     [[nodiscard]] Core::Result<Planning::LeaseState> Get() const
@@ -87,6 +100,10 @@ public:
         const Planning::LeaseState& seen,
         const Planning::LeaseClaim& claim) override
     {
+        if (_row.IsReadOnly())
+        {
+            return Core::Fail(make_error_code(Planning::EPlanningError::StoreFailed), "db", "writes", "none");
+        }
         return _row.Get().map([&](const Planning::LeaseState& state) -> std::optional<std::uint64_t> {
             if (state != seen)
             {
@@ -207,7 +224,7 @@ TEST_CASE_METHOD(
     {
         row.Change([](Planning::LeaseState& state) { state.epoch = 2; });
         RunUntil([&] { return !lost.empty(); });
-        CHECK(lost.front() == "another process has taken the lease");
+        CHECK_THAT(lost.front(), Catch::Contains("another process has taken the lease"));
     }
     SECTION("no answer")
     {
@@ -260,6 +277,52 @@ TEST_CASE_METHOD(LeaseKeeperFixture, "A store that cannot be read is a reason to
     row.Fail(false);
     RunUntil([&] { return !taken.empty(); });
     row.Fail(true); // it is destroyed while a call may be under way
+}
+
+TEST_CASE_METHOD(LeaseKeeperFixture, "A lease that can be read and not taken is one reason, logged once")
+{
+    row.SetReadOnly(true);
+    keeper->Start();
+    RunUntil([&] { return keeper->GetWaitReason().starts_with("standby: the store cannot be used: "); });
+    bool bStays = true;
+    const auto end = std::chrono::steady_clock::now() + 3 * (DURATION / 12);
+    RunUntil([&] {
+        bStays = bStays && keeper->GetWaitReason().starts_with("standby: the store cannot be used: ");
+        return std::chrono::steady_clock::now() >= end;
+    });
+    CHECK(bStays);
+    CHECK(log.CountLevel(Core::ELogLevel::Warning) == 1);
+    row.SetReadOnly(false);
+    RunUntil([&] { return !taken.empty(); });
+}
+
+TEST_CASE_METHOD(LeaseKeeperFixture, "A process that could not use the store pauses before it takes the lease again")
+{
+    keeper->StartAfter(std::chrono::seconds(6), "the table reports is missing");
+    CHECK_THAT(keeper->GetWaitReason(), Catch::Contains("cannot be used: the table reports is missing"));
+    SECTION("no other process leads")
+    {
+        const auto end = std::chrono::steady_clock::now() + 3 * (DURATION / 12);
+        RunUntil([&] { return std::chrono::steady_clock::now() >= end; });
+        CHECK(taken.empty());
+        CHECK_THAT(keeper->GetWaitReason(), Catch::Contains("the table reports is missing"));
+        CHECK_THAT(keeper->GetPublicReason(), !Catch::Contains("reports"));
+        clock.Advance(std::chrono::seconds(6));
+        RunUntil([&] { return !taken.empty(); });
+    }
+    SECTION("another process leads")
+    {
+        row.Change([](Planning::LeaseState& state) { state = {7, 3, "other", "config", DURATION, false}; });
+        RunUntil([&] { return keeper->GetWaitReason() == "standby: other leads"; });
+    }
+}
+
+TEST_CASE_METHOD(LeaseKeeperFixture, "A lease in the name of this process is not that of another leader")
+{
+    row.Change([](Planning::LeaseState& state) { state = {7, 3, "this one", "config", DURATION, false}; });
+    keeper->Start();
+    RunUntil([&] { return keeper->GetWaitReason() != "standby: the store was not read yet"; });
+    CHECK_THAT(keeper->GetWaitReason(), Catch::Contains("the same store.instance"));
 }
 
 } // namespace ACS::Acsd::Test
