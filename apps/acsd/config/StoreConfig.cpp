@@ -30,6 +30,11 @@ std::string GetHostName()
 
 void ReadDirectory(const ConfigSection& store, const std::string& fileName, bool bInspected, StoreConfig& config)
 {
+    if (!store.HasKey("directory"))
+    {
+        store.AddError("directory", "missing; give the path of a directory, or store.url for a store in PostgreSQL");
+        return;
+    }
     const std::string directory = store.GetString("directory");
     config.directory = ResolvePath(fileName, directory);
     if (directory.empty())

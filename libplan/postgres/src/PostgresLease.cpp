@@ -53,11 +53,16 @@ Core::Result<LeaseState> DecodeLease(const std::string& name, const std::vector<
     const bool bInRange = duration >= LeaseTerm::SHORTEST && duration <= LeaseTerm::LONGEST;
     if (!IsCount(row[0]) || !IsCount(row[1]) || (!bReleased && !bInRange))
     {
+        // Without the renewal of a leader, which changes: the same fault has the same text.
         return RefuseStore(
             EPlanningError::StoreCorrupt,
             name,
             fmt::format("a row in acsd.lease that acsd has written{}", REMEDY),
-            fmt::format(R"(epoch "{}", renewal "{}", duration_ms "{}")", row[0], row[1], row[4]));
+            fmt::format(
+                R"(epoch "{}", renewal "{}", duration_ms "{}")",
+                row[0],
+                IsCount(row[1]) ? "valid" : row[1],
+                row[4]));
     }
     return LeaseState{
         static_cast<std::uint64_t>(ReadCount(row[0])),

@@ -73,7 +73,15 @@ std::string MakeName(const std::string& user, const std::vector<PostgresHost>& h
     std::string_view separator;
     for (const PostgresHost& host : hosts)
     {
-        name += fmt::format("{}{}{}{}", separator, host.host, host.port.empty() ? "" : ":", host.port);
+        const bool bV6 = host.host.find(':') != std::string::npos;
+        name += fmt::format(
+            "{}{}{}{}{}{}",
+            separator,
+            bV6 ? "[" : "",
+            host.host,
+            bV6 ? "]" : "",
+            host.port.empty() ? "" : ":",
+            host.port);
         separator = ",";
     }
     return fmt::format("{}/{}", name, database);
@@ -134,6 +142,13 @@ Core::Result<PostgresTarget> ReadPostgresURL(const std::string& url)
     const std::string& mode = parameters["sslmode"];
     PostgresTarget target;
     target.hosts = MakeHosts(hosts, ports);
+    // libpq takes what follows the first @ of a password for the host. A name of a local socket begins with one.
+    if (std::ranges::any_of(target.hosts, [](const PostgresHost& host) {
+            return host.host.find('@', 1) != std::string::npos;
+        }))
+    {
+        return Refuse("a host name with @, or a password with this character");
+    }
     target.name = MakeName(parameters["user"], target.hosts, database);
     target.bPassword = parameters.contains("password");
     target.bOtherMachine = std::ranges::any_of(target.hosts, [&parameters](const PostgresHost& host) {

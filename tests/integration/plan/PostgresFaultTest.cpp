@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <string>
-#include <thread>
 
 using namespace ACS::Planning;       // NOLINT(google-build-using-namespace): a test of that namespace
 using namespace ACS::Planning::Test; // NOLINT(google-build-using-namespace)
@@ -34,6 +33,8 @@ TEST_CASE("PostgreSQL: a URL is read without its password")
     CHECK(ReadPostgresURL("postgresql://db1,db2/acs?port=5433")->name == "postgresql://db1:5433,db2:5433/acs");
     CHECK(ReadPostgresURL("postgresql://kim:pa?ss@db.plant/acs")->name == "postgresql://kim@db.plant/acs");
     CHECK(ReadPostgresURL("postgresql://kim:s%2Fecret@db.plant/acs")->name == "postgresql://kim@db.plant/acs");
+    CHECK(ReadPostgresURL("postgresql://kim@[fd00::5]:5433/acs")->name == "postgresql://kim@[fd00::5]:5433/acs");
+    CHECK_FALSE(ReadPostgresURL("postgresql:///acs?host=@socket")->bOtherMachine);
     CHECK(target.bPassword);
     CHECK(target.bOtherMachine);
     CHECK_FALSE(target.bVerified);
@@ -49,6 +50,7 @@ TEST_CASE("PostgreSQL: a URL is read without its password")
           "dbname=acs password=secret",
           "postgresql://kim:secret@db/acs?odd=1",
           "postgresql://kim:100%secret@db/acs",
+          "postgresql://kim:pa@secret@db/acs",
           "postgresql://kim:secret/x@db/acs",
           "postgresql://kim:12/secret@db/acs"})
     {
@@ -94,7 +96,7 @@ TEST_CASE("PostgreSQL: each reason why it cannot be used has its remedy")
     GetServer().Execute("ALTER ROLE reader SET idle_session_timeout TO '50ms'");
     PostgresLease idle({reader, {}, std::chrono::seconds(5)});
     REQUIRE(idle.Read().has_value());
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    GetServer().Execute("SELECT pg_sleep(0.2)");
     CHECK(idle.Read().has_value()); // acsd overrides limits that a role or a database has
     GetServer().Execute("CREATE DATABASE latin ENCODING 'LATIN1' TEMPLATE template0");
     CHECK_THAT(Explain(GetServer().GetURL("latin")), Catch::Contains("the encoding UTF8"));
