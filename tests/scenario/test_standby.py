@@ -298,6 +298,35 @@ class Refusals(StandbyCase):
         self.expect_standby(member, "the store cannot be used", "version 99")
         self.assertTrue(self.members[0].is_ready(), "the leader is not disturbed")
 
+    def count_leads(self):
+        return sum("this process leads" in line for line in self.members[0].program.tail(100000))  # they share a log
+
+    def test_a_store_that_is_damaged_while_it_is_used(self):
+        self.start_line()
+        member = self.join()
+        self.expect_standby(member, "standby: one leads")
+        self.server.execute("UPDATE acsd.lease SET duration_ms = 0")
+        self.expect_standby(member, "the store cannot be used", "acsd.lease")
+        self.assertTrue(self.members[0].is_ready(), "the leader is not disturbed")
+        self.server.execute(f"UPDATE acsd.lease SET duration_ms = {LEASE_SECONDS * 1000}")
+        self.expect_standby(member, "standby: one leads")
+
+        self.server.execute("DROP TABLE acsd.reports")
+        before = self.count_leads()
+        self.supply_for(1.0)
+        for each in self.members:
+            self.expect_standby(each, "the store cannot be used", "reports")
+        self.stopped.wait(LEASE_SECONDS)
+        self.assertLess(self.count_leads(), before + 8, "a store that cannot be used is not taken again at once")
+
+        self.server.execute("DROP SCHEMA acsd CASCADE")
+        for each in self.members:
+            self.expect_standby(each, "the store cannot be used", "the tables")
+        self.stopped.wait(1.0)
+        self.assertEqual(self.server.execute("SELECT to_regnamespace('acsd') IS NULL"), "t", "they are not created again")
+        for each in self.members:
+            self.assertEqual(each.program.stop(), 0)
+
 
 if __name__ == "__main__":
     run_kill_tests()
