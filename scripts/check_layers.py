@@ -54,7 +54,7 @@ THIRD_PARTY = {
     "openstream_asio": (
         "fmt/", "tl/", "boost/asio", "boost/system/", "netinet/", "linux/sockios.h", "pthread.h", "sched.h", "sys/ioctl.h", "sys/mman.h", "sys/prctl.h",
         "sys/socket.h"),
-    "plan_postgres": ("fmt/", "tl/", "libpq-fe.h", "poll.h"),
+    "plan_postgres": ("fmt/", "tl/", "arpa/inet.h", "libpq-fe.h", "netdb.h", "poll.h"),
     "plan_sqlite": ("fmt/", "tl/", "SQLiteCpp/", "sqlite3.h", "fcntl.h", "sys/file.h", "sys/stat.h", "unistd.h"),
 }
 PUBLIC_THIRD_PARTY = ("fmt/", "tl/", "boost/asio/any_io_executor.hpp")

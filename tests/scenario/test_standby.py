@@ -8,6 +8,7 @@ nothing is done twice. Judged as in test_kill.py.
 """
 
 import json
+import os
 import re
 import shutil
 import signal
@@ -40,8 +41,9 @@ def get(url):
 class Member:
     """One of the processes, with networks of its own to the store and to the broker, which a test can cut."""
 
-    def __init__(self, case, name, settings=(), url=None):
+    def __init__(self, case, name, settings=(), url=None, environment=None):
         self.name = name
+        self._environment = environment
         self._settings = settings
         self._case = case
         self.store_link = case.make_proxy(case.server.port)
@@ -55,7 +57,7 @@ class Member:
             case.mcs_address, case.arm, "robot.taken_port=load", f"mqtt.url=mqtt://127.0.0.1:{self.broker_link.port}",
             f"store.url={self._url}", f"store.lease={LEASE_SECONDS}s",
             f"store.instance={self.name}", f"operator.audit.directory={case.line.folder / self.name}", *self._settings,
-            config=case.config)
+            config=case.config, environment=self._environment)
         self.addresses = self.program.wait_ready()
         self.is_killed = False
 
@@ -297,6 +299,39 @@ class Refusals(StandbyCase):
         member = self.join()
         self.expect_standby(member, "the store cannot be used", "version 99")
         self.assertTrue(self.members[0].is_ready(), "the leader is not disturbed")
+
+    def test_a_silent_name_server(self):
+        library = self.line.bin_dir / "libscenario_held_resolver.so"
+        if not library.exists():
+            self.skipTest("not built with sanitizers")
+        self.start_line()
+        gate = self.line.folder / "resolver"
+        os.mkfifo(gate)
+        environment = os.environ | {"LD_PRELOAD": str(library), "ACS_HELD_RESOLVER": str(gate)}
+        link = self.make_proxy(self.server.port)
+        url = f"postgresql://acsd@db.test:{link.port}/postgres?sslmode=disable"
+        member = Member(self, "two", (), url, environment)
+        self.members.append(member)
+        self.expect_standby(member, "the store cannot be used", "an answer of the name server")
+        self.line.forget(member.program)
+        member.is_killed = True
+        self.assertEqual(member.program.stop(timeout=5), 0, "it ends although the name server is silent")
+        gate.unlink()  # from then on names are resolved
+        member = Member(self, "two", (), url, environment)
+        self.members[1:] = [member]
+        self.expect_standby(member, "standby: one leads")
+
+        # The leader loses its connections, and cannot find the server again.
+        self.members[0].kill()
+        self.wait_until(member.is_ready, "the standby takes over", TAKEOVER_SECONDS)
+        os.mkfifo(gate)
+        link.cut()
+        self.expect_standby(member, "the store cannot be used", "an answer of the name server")
+        link.mend()
+        writer = os.open(gate, os.O_RDWR)  # the name server answers
+        gate.unlink()
+        os.close(writer)
+        self.wait_until(member.is_ready, "it leads again", TAKEOVER_SECONDS)
 
     def count_leads(self):
         return sum("this process leads" in line for line in self.members[0].program.tail(100000))  # they share a log

@@ -1,6 +1,7 @@
 #include "PostgresConnection.hpp"
 
 #include "PostgresFault.hpp"
+#include "PostgresResolver.hpp"
 
 #include <fmt/format.h>
 
@@ -128,8 +129,36 @@ Core::Result<PostgresConnection> PostgresConnection::Open(const PostgresOptions&
     return opened;
 }
 
-/// The parameters before the URL are defaults, those after it override it.
+/// The first of its addresses that answers.
 Core::Result<PostgresConnection> PostgresConnection::OpenHost(
+    const PostgresOptions& options,
+    const PostgresTarget& target,
+    const PostgresHost& host,
+    Core::Duration timeout)
+{
+    const Core::SteadyTime deadline = GetSteadyNow() + timeout;
+    if (!host.address.empty())
+    {
+        return OpenAddress(options, target, host, timeout);
+    }
+    return ResolveHost(host.host, deadline, options.shouldStop, target.name)
+        .and_then([&](const std::vector<std::string>& addresses) {
+            if (addresses.empty())
+            {
+                return OpenAddress(options, target, host, timeout);
+            }
+            const Core::Duration share = (deadline - GetSteadyNow()) / static_cast<int>(addresses.size());
+            Core::Result<PostgresConnection> opened = tl::unexpected(Core::Error());
+            for (auto address = addresses.begin(); address != addresses.end() && !opened.has_value(); ++address)
+            {
+                opened = OpenAddress(options, target, {host.host, host.port, *address}, share);
+            }
+            return opened;
+        });
+}
+
+/// The parameters before the URL are defaults, those after it override it.
+Core::Result<PostgresConnection> PostgresConnection::OpenAddress(
     const PostgresOptions& options,
     const PostgresTarget& target,
     const PostgresHost& host,
@@ -152,6 +181,10 @@ Core::Result<PostgresConnection> PostgresConnection::OpenHost(
     {
         parameters.emplace_back("host", host.host.c_str());
         parameters.emplace_back("port", host.port.c_str());
+    }
+    if (!host.address.empty())
+    {
+        parameters.emplace_back("hostaddr", host.address.c_str()); // the certificate is still that of the host
     }
     if (!options.password.empty())
     {

@@ -78,6 +78,11 @@ private:
         const PostgresTarget& target,
         const PostgresHost& host,
         Core::Duration timeout);
+    [[nodiscard]] static Core::Result<PostgresConnection> OpenAddress(
+        const PostgresOptions& options,
+        const PostgresTarget& target,
+        const PostgresHost& host,
+        Core::Duration timeout);
     [[nodiscard]] Core::Result<void> Connect(Core::Duration timeout);
     [[nodiscard]] bool TrySend(const SqlStatement& statement);
     [[nodiscard]] bool TryWait(bool bForWriting, Core::SteadyTime deadline);

@@ -53,15 +53,20 @@ std::vector<std::string> SplitList(std::string_view list)
     return parts;
 }
 
-/// One port is that of all hosts.
-std::vector<PostgresHost> MakeHosts(const std::string& hosts, const std::string& ports)
+/// One port is that of all hosts. A host may have a name, an address or both.
+std::vector<PostgresHost> MakeHosts(const std::string& hosts, const std::string& addresses, const std::string& ports)
 {
     const std::vector<std::string> numbers = SplitList(ports);
+    const std::vector<std::string> known = addresses.empty() ? std::vector<std::string>() : SplitList(addresses);
     std::vector<PostgresHost> made;
-    for (std::string& host : SplitList(hosts))
+    for (std::string& host : SplitList(hosts.empty() ? addresses : hosts))
     {
-        const std::size_t index = numbers.size() == 1 ? 0 : made.size();
-        made.push_back({std::move(host), index < numbers.size() ? numbers[index] : std::string()});
+        const std::size_t place = made.size();
+        const std::size_t index = numbers.size() == 1 ? 0 : place;
+        made.push_back(
+            {std::move(host),
+             index < numbers.size() ? numbers[index] : std::string(),
+             place < known.size() ? known[place] : std::string()});
     }
     return made;
 }
@@ -138,10 +143,9 @@ Core::Result<PostgresTarget> ReadPostgresURL(const std::string& url)
     {
         return Refuse("a port that is no number, or a password with these characters");
     }
-    const std::string& hosts = parameters.contains("hostaddr") ? parameters["hostaddr"] : parameters["host"];
     const std::string& mode = parameters["sslmode"];
     PostgresTarget target;
-    target.hosts = MakeHosts(hosts, ports);
+    target.hosts = MakeHosts(parameters["host"], parameters["hostaddr"], ports);
     // libpq takes what follows the first @ of a password for the host. A name of a local socket begins with one.
     if (std::ranges::any_of(target.hosts, [](const PostgresHost& host) {
             return host.host.find('@', 1) != std::string::npos;
@@ -152,7 +156,8 @@ Core::Result<PostgresTarget> ReadPostgresURL(const std::string& url)
     target.name = MakeName(parameters["user"], target.hosts, database);
     target.bPassword = parameters.contains("password");
     target.bOtherMachine = std::ranges::any_of(target.hosts, [&parameters](const PostgresHost& host) {
-        return host.host.empty() ? HasHostElsewhere(parameters) : !IsOfThisMachine(host.host);
+        const std::string& place = host.address.empty() ? host.host : host.address;
+        return place.empty() ? HasHostElsewhere(parameters) : !IsOfThisMachine(place);
     });
     target.bVerified = mode == "verify-full" || (mode.empty() && target.bOtherMachine);
     return target;

@@ -35,6 +35,10 @@ TEST_CASE("PostgreSQL: a URL is read without its password")
     CHECK(ReadPostgresURL("postgresql://kim:s%2Fecret@db.plant/acs")->name == "postgresql://kim@db.plant/acs");
     CHECK(ReadPostgresURL("postgresql://kim@[fd00::5]:5433/acs")->name == "postgresql://kim@[fd00::5]:5433/acs");
     CHECK_FALSE(ReadPostgresURL("postgresql:///acs?host=@socket")->bOtherMachine);
+    const PostgresTarget both = *ReadPostgresURL("postgresql://a.plant,b.plant/acs?hostaddr=10.0.0.5,10.0.0.6");
+    CHECK(both.name == "postgresql://a.plant,b.plant/acs");
+    CHECK(both.hosts.back().address == "10.0.0.6");
+    CHECK(ReadPostgresURL("postgresql:///acs?hostaddr=10.0.0.5")->name == "postgresql://10.0.0.5/acs");
     CHECK(target.bPassword);
     CHECK(target.bOtherMachine);
     CHECK_FALSE(target.bVerified);
@@ -67,6 +71,19 @@ TEST_CASE("PostgreSQL: each reason why it cannot be used has its remedy")
     const std::string port = std::to_string(GetServer().GetPort());
     CHECK_THAT(Explain("postgresql://acsd@127.0.0.1:1/acs"), Catch::Contains("a database server that can be reached"));
     CHECK_THAT(Explain("postgresql://acsd@127.0.0.1:" + port + "/absent"), Catch::Contains("a database of this name"));
+    CHECK_THAT(Explain("postgresql://acsd@db.invalid/acs"), Catch::Contains("the host name db.invalid has no address"));
+    for (const std::string& host : {"localhost:" + port, "127.0.0.1:1,localhost:" + port})
+    {
+        CHECK(PostgresLease({"postgresql://acsd@" + host + "/" + place.GetDatabase(), {}, std::chrono::seconds(5)})
+                  .Read()
+                  .has_value());
+    }
+    const std::string addresses = "?hostaddr=127.0.0.1,127.0.0.1&port=1," + port;
+    CHECK(PostgresLease(
+              {"postgresql://acsd@a.invalid,b.invalid/" + place.GetDatabase() + addresses, {}, std::chrono::seconds(5)})
+              .Read()
+              .has_value());
+    GetServer().Execute("DROP SCHEMA acsd CASCADE", place.GetDatabase());
     CHECK_THAT(
         Explain("postgresql://absent@127.0.0.1:" + port + "/postgres"),
         Catch::Contains("the right user and password"));

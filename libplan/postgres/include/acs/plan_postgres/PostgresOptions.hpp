@@ -30,8 +30,9 @@ struct PostgresOptions
 /// A server that a URL names.
 struct PostgresHost
 {
-    std::string host; ///< Empty: the local socket.
-    std::string port; ///< Empty: the default.
+    std::string host;      ///< Empty: the local socket.
+    std::string port;      ///< Empty: the default.
+    std::string address{}; ///< The hostaddr of the URL; empty: that of the host.
 };
 
 /// What a URL of a store gives.
