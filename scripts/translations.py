@@ -45,7 +45,8 @@ def make_mark(original, text):
 
 def show_changes(original, old):
     """What the translation lacks."""
-    ran = subprocess.run(["git", "-C", ROOT, "--no-pager", "diff", "--word-diff", old, original], stderr=subprocess.DEVNULL, check=False)
+    command = ["git", "-C", ROOT, "--no-pager", "diff", "--word-diff", old, original]
+    ran = subprocess.run(command, stderr=subprocess.DEVNULL, check=False)
     if ran.returncode != 0:
         print(f"this clone does not have the version of {original} that was translated: compare both pages from begin to end")
 
@@ -54,7 +55,8 @@ def main():
     parser = argparse.ArgumentParser(
         description="Lists the translations of documents. With files: shows what has changed in their originals since they were "
         "translated.")
-    parser.add_argument("--done", action="store_true", help="the files translate today's originals: writes that into their first lines")
+    parser.add_argument("--done", action="store_true",
+                        help="writes into the first line of each file that it translates the original as it is now")
     parser.add_argument("files", nargs="*", help="translations, such as README.ko.md")
     arguments = parser.parse_args()
     translations = find_translations(list_files(ROOT))

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Plants one violation after another in an otherwise right tree, and requires that scripts/check_api.py, scripts/check_layers.py,
-scripts/check_files.py, scripts/check_members.py, scripts/check_references.py, scripts/check_sizes.py and
-scripts/check_words.py report it at its line; the tree without it must pass."""
+scripts/check_files.py, scripts/check_members.py, scripts/check_references.py, scripts/check_sizes.py, scripts/check_translations.py
+and scripts/check_words.py report it at its line; the tree without it must pass."""
 
 import os
 import subprocess
@@ -17,10 +17,13 @@ import check_layers  # noqa: E402
 import check_members  # noqa: E402
 import check_references  # noqa: E402
 import check_sizes  # noqa: E402
+import check_translations  # noqa: E402
 import check_words  # noqa: E402
+from translations import make_mark  # noqa: E402
 
 CHECKS = {"api": check_api, "layers": check_layers, "files": check_files, "members": check_members,
-          "references": check_references, "sizes": check_sizes, "words": check_words}
+          "references": check_references, "sizes": check_sizes,
+          "translations": check_translations, "words": check_words}
 
 RIGHT = {
     "libacs-core/include/acs/core/Location.hpp": "#pragma once\n#include <fmt/core.h>\nclass Location\n{\n};\n",
@@ -60,6 +63,11 @@ RIGHT = {
     "docs/reference/keys.md": "# Reference\n\n## The keys\n\n`look at` and `[1](2)` are code.\n\n```\nnobody gives up\n# Not a heading\n"
                               "```\n\n    so many\n\n[Guide](../guide.md#parking-positions)\n",
 }
+
+ALARMS, KOREAN_ALARMS = "docs/reference/alarms.md", "docs/reference/ko/alarms.md"
+MARK = make_mark(ALARMS, RIGHT[ALARMS])
+KOREAN = "| 코드 | 레벨 |\n|---|---|\n| `ACS-1005` | `ACS-1004`와 같음 |\n"
+RIGHT[KOREAN_ALARMS] = f"{MARK}\n{KOREAN}"
 
 # check, file, content, line that must be named, what the sentence must hold
 PLANTED = [
@@ -159,6 +167,17 @@ PLANTED = [
      "inline constexpr std::string_view ALARM_STALL = \"ACS-1009\";\n", 3, "ACS-1009 is not listed in docs/reference/alarms.md"),
     ("references", "docs/reference/alarms.md", "| `ACS-1005` |\n| `ARM-motorOff` |\n", 2, "ARM-motorOff is not defined"),
     ("references", "docs/reference/metrics.md", "| `acsd_link_up{link}`, `acsd_plans` |\n", 1, "acsd_plans is not defined"),
+    ("translations", KOREAN_ALARMS, make_mark(ALARMS, "| Code |\n") + f"\n{KOREAN}", 1, "has changed since it was translated"),
+    ("translations", KOREAN_ALARMS, KOREAN, 1, "names no version of its original"),
+    ("translations", KOREAN_ALARMS, f"\n{MARK}\n{KOREAN}", 1, "names no version of its original"),
+    ("translations", KOREAN_ALARMS, make_mark("docs/guide.md", RIGHT[ALARMS]) + f"\n{KOREAN}", 1, "names docs/guide.md"),
+    ("translations", KOREAN_ALARMS, f"{MARK}\n{KOREAN}| `ACS-1005` |\n", 1, "not as many rows"),
+    ("translations", KOREAN_ALARMS, f"{MARK}\n{KOREAN}\n## 코드\n", 1, "headings"),
+    ("translations", KOREAN_ALARMS, f"{MARK}\n{KOREAN.replace('1004', '1003')}", 1, "`ACS-1003`, `ACS-1004`"),
+    ("translations", KOREAN_ALARMS, f"{MARK}\n{KOREAN}\n```\none\n```\n", 1, "code blocks"),
+    ("translations", KOREAN_ALARMS, f"{MARK}\n{RIGHT[ALARMS]}", 1, "no Korean"),
+    ("translations", "docs/guide/ko/none.md", f"{MARK}\n없음\n", 1, "docs/guide/none.md, which this page would translate, does not exist"),
+    ("translations", "docs/guide/get-started.md", "# One\n", 1, "no translation"),
     ("words", "docs/guide.md", "The alarm\ntells that\n", 2, "'tells': write report"),
     ("words", "README.md", "A robot waits for\never.\n", 1, "'for ever': write indefinitely"),
     ("words", "docs/guide.md", "1. Nobody\n   is notified.\n", 1, "'Nobody': write the operator"),
@@ -226,6 +245,8 @@ ACCEPTED = [
     ("members", "libacs-core/src/Box.cpp", "// orderId\nint HttpCode = GetURL(\"mapId\", ParseRapidJson);\n"),
     ("members", "libacs-core/src/Box.cpp", "struct Pair\n{\n    int Sum();\n    int one = 0;\n};\n"
      "void Run() { if (const std::optional<int> next = Get()) { Use(2 * next); } }\n"),
+    ("translations", KOREAN_ALARMS, f"{MARK}\r\n{KOREAN}"),
+    ("translations", "docs/guide/other.md", "# A page that needs no translation\n"),
     ("words", "docs/guide.md", "`nobody` stands for [it](told.md); a look-up, on-going, wished. They mistake the order for another.\n"),
     ("words", "tests/install/consumer_Core.cpp", "int mistake = nobody(told); // counts\n"),
     ("words", "libplan/src/codec/StoreCodec.cpp", "Optional(\"doubtful\", &Work::bUnresolved);\n"),
