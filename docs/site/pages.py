@@ -59,7 +59,8 @@ def add_anchors(_, tree):
 
 def link_translation(app, page, _, context, __):
     """The language of the page, for browsers and screen readers, and a link to the same page in the other language."""
-    pairs = {path[:-3]: original[:-3] for path, original in find_translations(app.config.include_patterns).items()}
+    files = app.config.include_patterns
+    pairs = {path[:-3]: original[:-3] for path, original in find_translations(files).items() if original in files}
     language = get_language(page)
     context["language"] = language
     other = pairs.get(page) or next((path for path, original in pairs.items() if original == page), None)
