@@ -64,9 +64,11 @@ def link_translation(app, page, _, context, __):
     language = get_language(page)
     context["language"] = language
     other = pairs.get(page) or next((path for path, original in pairs.items() if original == page), None)
-    if other is not None and "body" in context:
-        code = get_language(other)
-        target = app.builder.get_relative_uri(page, other)
+    if other is None or "body" not in context:
+        return
+    code = get_language(other)
+    target = app.builder.get_relative_uri(page, other)
+    if f'href="{target}"' not in context["body"]:
         context["body"] = (f'<p class="translation"><a href="{target}" hreflang="{code}" lang="{code}">{NAMES[code]}</a></p>'
                            + context["body"])
 

@@ -2,7 +2,6 @@
 """Runs scripts/site --check on small trees: a right one passes, and each planted violation is reported with its file and line."""
 
 import os
-import re
 import shutil
 import subprocess
 import sys
@@ -16,13 +15,17 @@ RIGHT = {
     "README.md": "# SDK\n\n[한국어](README.ko.md)\n\n<!-- run -->\n```\ntrue\n```\n\n[Guide](docs/guide/guide.md#the-first-step), "
                  "[source](docs/guide/source.cpp), [elsewhere](https://example.org/a?b=c#d), [documents](docs/README.md)\n",
     "README.ko.md": "# SDK\n\n[English](README.md), [안내](docs/guide/ko/guide.md#첫-단계), [같은 쪽](#sdk)\n",
-    "docs/README.md": "# Documents\n\n| Guide | |\n|---|---|\n| [Guide](guide/guide.md) ([한국어](guide/ko/guide.md)) | the guide |\n",
+    "docs/README.md": "# Documents\n\n| Guide | |\n|---|---|\n| [Guide](guide/guide.md) ([한국어](guide/ko/guide.md)) | the guide |\n"
+                      "| [Runbook](runbook/README.md) | the runbook |\n",
     "docs/guide/guide.md": "# Guide\n\n## The first step\n\n[Start](../../README.md#sdk), [this](#the-first-step)\n\n"
                            "![Picture](pictures/one.svg)\n",
     "docs/guide/ko/guide.md": "# 안내\n\n## 첫 단계\n\n[위](#첫-단계)\n",
     "docs/guide/source.cpp": "int one;\n",
     "docs/guide/pictures/one.svg": '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"/>\n',
     "docs/runbook/ko/README.md": "# 런북\n",
+    "docs/runbook/en/ACS-1001.md": "# An alarm\n",
+    "docs/runbook/ko/ACS-1001.md": "# 알람\n",
+    "docs/runbook/README.md": "# Runbook\n",
     "tests/fixtures/README.md": "# Not a page [a](missing.md)\n",
 }
 
@@ -47,8 +50,17 @@ BROKEN = (
 )
 
 
+# page, what it contains: the same anchors as on GitHub, the language, a link to the translation unless the page has one
+SHOWN = {
+    "README.html": ('<html class="no-js" lang="en">', 'href="docs/guide/guide.html#the-first-step"'),
+    "docs/guide/ko/guide.html": ('lang="ko"', 'href="../guide.html" hreflang="en"', 'id="첫-단계"'),
+    "docs/runbook/en/ACS-1001.html": ('href="../ko/ACS-1001.html" hreflang="ko" lang="ko">한국어</a>',),
+    "index.html": ("url=README.html",),
+}
+
+
 def run(files):
-    """The exit code of scripts/site --check on a tree with these files, its errors, and the start page."""
+    """The exit code of scripts/site --check on a tree with these files, its errors, and the text of SHOWN."""
     with tempfile.TemporaryDirectory() as root:
         for path in COPIED:
             os.makedirs(os.path.dirname(os.path.join(root, path)), exist_ok=True)
@@ -60,18 +72,24 @@ def run(files):
                 file.write(text)
         ran = subprocess.run([os.path.join(root, "scripts/site"), "--check"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False,
                              text=True)
-        start = os.path.join(root, "build/site/html/README.html")
-        page = open(start, encoding="utf-8").read() if os.path.exists(start) else ""
-        return ran.returncode, ran.stderr, page
+        pages = {}
+        for name in SHOWN:
+            place = os.path.join(root, "build/site/html", name)
+            if os.path.exists(place):
+                with open(place, encoding="utf-8") as file:
+                    pages[name] = file.read()
+        return ran.returncode, ran.stderr, pages
 
 
 def main():
     faults = []
-    code, errors, page = run(RIGHT)
+    code, errors, pages = run(RIGHT)
     if code != 0:
         faults.append(f"a right tree fails:\n{errors}")
-    if not re.search(r'<p class="translation"><a href="README.ko.html"', page) or "docs/guide/guide.html#the-first-step" not in page:
-        faults.append("the start page has no link to its translation, or another anchor than on GitHub")
+    for page, texts in SHOWN.items():
+        faults += [f"{page} does not contain {text}" for text in texts if text not in pages.get(page, "")]
+    if "translation" in pages.get("README.html", ""):
+        faults.append("README.html has two links to its translation")
     code, errors, _ = run(RIGHT | {path: text for path, text, _, _ in UNREADABLE})
     if code != 1:
         faults.append(f"the exit code is {code} for a tree with warnings, not 1")
