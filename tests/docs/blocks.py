@@ -6,8 +6,8 @@ the documentation site shows:
     <!-- run: file examples/a.toml -->  the block is the content of this file
     <!-- run: output -->                each line is in the output of the scripts above
 
-Several are separated by commas; of the commands, `only TEXT` runs those that begin with TEXT, and `after NAME` waits until the service
-of that name has ended.
+Several are separated by commas. `only TEXT` runs only the lines that begin with TEXT; `after NAME` waits until the service of that
+name has ended.
 """
 
 import re

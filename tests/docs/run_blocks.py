@@ -17,7 +17,7 @@ import private_network
 from blocks import MarkError, find_blocks
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-PAGES = ("README.md", "docs/guide/get-started.md", "docs/reference/configuration.md")
+PAGES = ("README.md", "docs/guide/get-started.md", "docs/reference/acsctl.md", "docs/reference/configuration.md")
 PORTS = (1883, 8080, 8081, 8888, 9001, 49000)
 TIME_SCALE = "16"
 SECONDS = 90  # of one script, and of waiting for a service to end

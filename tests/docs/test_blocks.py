@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What run_blocks.py must refuse: commands that fail, services that end with an error, output that differs, marks that mean nothing."""
+"""What run_blocks.py must refuse: commands and services that fail, output that differs, marks without a meaning."""
 
 import contextlib
 import io
@@ -56,7 +56,8 @@ FAILING = (
     ("<!-- run -->\n```\ntrue\n\nfalse\ntrue\n```\n", "page.md:5: the command ended with 1"),
     ("<!-- run -->\n```\nfalse | true\n```\n", "page.md:3: the command ended with 1"),
     ("<!-- run -->\n```\nno-such-program\n```\n", "ended with 127"),
-    ("\n<!-- run: services -->\n```\nsleep 100\nfalse\n```\n\n<!-- run -->\n```\nsleep 1\n```\n", "page.md:5: 'false' ended with 1"),
+    ("\n<!-- run: services -->\n```\nsleep 100\nfalse\n```\n\n<!-- run -->\n```\nsleep 1\n```\n",
+     "page.md:5: 'false' ended with 1"),
     ("<!-- run -->\n```\necho one\n```\n\n<!-- run: output -->\n```\none two\n```\n", "page.md:8: 'one two' is not in the output"),
     ("<!-- run: after nothing -->\n```\ntrue\n```\n", "no service 'nothing'"),
 )

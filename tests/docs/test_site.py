@@ -8,8 +8,8 @@ import sys
 import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-COPIED = ("scripts/lib.sh", "scripts/setup", "scripts/site", "scripts/site_links.py", "scripts/source_tree.py", "scripts/translations.py",
-          "libacs-core/include/acs/core/Version.hpp")
+COPIED = ("scripts/lib.sh", "scripts/setup", "scripts/site", "scripts/site_links.py", "scripts/source_tree.py",
+          "scripts/translations.py", "libacs-core/include/acs/core/Version.hpp")
 
 RIGHT = {
     "README.md": "# SDK\n\n[한국어](README.ko.md)\n\n<!-- run -->\n```\ntrue\n```\n\n[Guide](docs/guide/guide.md#the-first-step), "
@@ -70,8 +70,8 @@ def run(files):
             os.makedirs(os.path.dirname(os.path.join(root, path)), exist_ok=True)
             with open(os.path.join(root, path), "w", encoding="utf-8") as file:
                 file.write(text)
-        ran = subprocess.run([os.path.join(root, "scripts/site"), "--check"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False,
-                             text=True)
+        command = [os.path.join(root, "scripts/site"), "--check"]
+        ran = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False, text=True)
         pages = {}
         for name in SHOWN:
             place = os.path.join(root, "build/site/html", name)
