@@ -10,9 +10,6 @@ from translations import find_translations, get_language
 
 INDEX = "docs/README.md"
 START = "README"
-# Pages that the index does not list, by the heading that they get in the navigation.
-MORE = {"Project": ("docs/README", "examples/README", "examples/site/README", "examples/scenarios/README",
-                    "examples/own-driver/README", "CONTRIBUTING", "SECURITY", "CHANGELOG")}
 LINK = re.compile(r"\]\(([^)#\s]+)\.md\)")
 NAMES = {"en": "English", "ko": "한국어"}
 
@@ -35,8 +32,10 @@ def add_navigation(app, document, source):
     if document == START:
         for heading, pages in list_chapters(read_text(root, INDEX)):
             source[0] += write_tree(heading, [f"/{page}" for page in pages])
-        for heading, pages in MORE.items():
-            source[0] += write_tree(heading, [f"/{page}" for page in pages if f"{page}.md" in app.config.include_patterns])
+        # Documents outside docs need no entry in its index.
+        others = [path[:-3] for path in app.config.include_patterns if not path.startswith("docs/") and get_language(path) == "en"]
+        others = sorted((page for page in others if page != START), key=lambda page: ("/" not in page, page))
+        source[0] += write_tree("Project", [f"/{page}" for page in (INDEX[:-3], *others)])
         korean = [path[:-3] for path in app.config.include_patterns
                   if get_language(path) == "ko" and ("/runbook/" not in path or path.endswith("README.md"))]
         source[0] += write_tree("한국어", [f"/{page}" for page in sorted(korean, key=lambda page: (page != "README.ko", page))])
