@@ -144,6 +144,7 @@ void ReadStoreConfig(
     StoreConfig& config,
     std::vector<std::string>& warnings)
 {
+    config.bNewStorePaused = root.GetSection("tsc").GetWord("new_store", {"auto", "paused"}, "auto") == "paused";
     const ConfigSection store = root.GetSection("store");
     if (!store.HasKey("url"))
     {

@@ -11,7 +11,7 @@
 namespace ACS::Acsd
 {
 
-/// The table `store`, except what the engine uses of it.
+/// The table `store`, except what the engine uses of it, and `tsc.new_store`.
 struct StoreConfig
 {
     /// `store.directory`: of a store in SQLite; empty: it is in PostgreSQL.
@@ -22,12 +22,14 @@ struct StoreConfig
     std::chrono::milliseconds lease{3'000};
     /// `store.instance`: the name of this process in the messages of the others.
     std::string instance;
+    /// `tsc.new_store` is "paused": with a new store the TSC is Paused until the operator resumes it.
+    bool bNewStorePaused = false;
 
     /// The directory, or the URL without its password.
     [[nodiscard]] std::string GetName() const;
 };
 
-/// Reads the table. With bInspected, checks whether a start could open the store. Does not create, change or lock it.
+/// Reads the keys. With bInspected, checks whether a start could open the store. Does not create, change or lock it.
 void ReadStoreConfig(
     const Apps::ConfigSection& root,
     const std::string& fileName,

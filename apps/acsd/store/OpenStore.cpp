@@ -11,11 +11,30 @@
 namespace ACS::Acsd
 {
 
+namespace
+{
+
+/// The pause is stored: it outlasts a restart until the operator resumes the TSC.
+template <typename TStore>
+Core::Result<Planning::StoredState> Load(TStore& store, const StoreConfig& config)
+{
+    return store.Load().and_then([&](Planning::StoredState state) -> Core::Result<Planning::StoredState> {
+        if (!store.GetOrigin().bNew || !config.bNewStorePaused)
+        {
+            return state;
+        }
+        state.tscState = Planning::ETscState::Paused;
+        return store.Append({{Planning::TscChanged{state.tscState}}}).map([&state] { return std::move(state); });
+    });
+}
+
+} // namespace
+
 Core::Result<OpenedStore> OpenDirectoryStore(const StoreConfig& config)
 {
     return Planning::SqlitePlanStore::Open(config.directory)
-        .and_then([](std::unique_ptr<Planning::SqlitePlanStore> store) {
-            return store->Load().map([&store](Planning::StoredState state) {
+        .and_then([&config](std::unique_ptr<Planning::SqlitePlanStore> store) {
+            return Load(*store, config).map([&store](Planning::StoredState state) {
                 std::string summary = MakeStoreSummary(store->GetOrigin(), state);
                 return OpenedStore{std::move(store), std::move(state), std::move(summary), {}};
             });
@@ -31,8 +50,8 @@ Core::Result<OpenedStore> OpenSharedStore(const StoreConfig& config, std::uint64
         return !guard.IsHeld();
     };
     return Planning::PostgresPlanStore::Open(std::move(options), epoch)
-        .and_then([&guard](std::unique_ptr<Planning::PostgresPlanStore> store) {
-            return store->Load().map([&store, &guard](Planning::StoredState state) {
+        .and_then([&config, &guard](std::unique_ptr<Planning::PostgresPlanStore> store) {
+            return Load(*store, config).map([&store, &guard](Planning::StoredState state) {
                 std::string summary = MakeStoreSummary(store->GetOrigin(), state);
                 std::string identity = store->GetIdentity();
                 return OpenedStore{
