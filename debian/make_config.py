@@ -28,12 +28,15 @@ def make_config(text):
     return text
 
 
-def main():
-    site, output = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+def make_config_folder(site, output):
     output.mkdir(parents=True, exist_ok=True)
     text = make_config((site / "acsd.toml").read_text(encoding="utf-8"))
     (output / "acsd.toml").write_text(text, encoding="utf-8")
     shutil.copyfile(site / "site.lif.json", output / "site.lif.json")
+
+
+def main():
+    make_config_folder(pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]))
 
 
 if __name__ == "__main__":
