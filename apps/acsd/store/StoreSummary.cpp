@@ -29,7 +29,8 @@ std::string MakeStoreSummary(const Planning::StoreOrigin& origin, const Planning
         return fmt::format(
             "new, schema {}{}",
             origin.version,
-            state.tscState == Planning::ETscState::Auto ? "" : ", TSC Paused until an operator resumes it (tsc.new_store)");
+            state.tscState == Planning::ETscState::Auto ? ""
+                                                        : ", TSC Paused until an operator resumes it (tsc.new_store)");
     }
     const auto ended = static_cast<std::size_t>(
         std::ranges::count_if(state.plans, [](const auto& record) { return IsFinal(record.progress.state); }));
