@@ -35,6 +35,7 @@ class Machine:
     def __init__(self, folder, archive):
         self.folder = pathlib.Path(folder)
         self._log = self.folder.parent / "console.log"
+        self._name = f"acs-trial-{os.getpid()}"
         self._process = None
         self._leader = None
         self.folder.mkdir()
@@ -48,12 +49,13 @@ class Machine:
 
     def run_outside(self, *command):
         """In the folder, before the machine is booted, with the network of this machine."""
-        return run("systemd-nspawn", "--quiet", "--register=no", "--keep-unit", "--pipe", "-D", self.folder, *command)
+        return run("systemd-nspawn", "--quiet", "--register=no", "--keep-unit", f"--machine={self._name}", "--pipe", "-D", self.folder, *command)
 
     def boot(self):
         with open(self._log, "wb") as log:
             self._process = subprocess.Popen(
-                ["systemd-nspawn", "--quiet", "--register=no", "--keep-unit", "--private-network", "--boot", "-D", str(self.folder)],
+                ["systemd-nspawn", "--quiet", "--register=no", "--keep-unit", f"--machine={self._name}", "--private-network", "--boot", "-D",
+                 str(self.folder)],
                 stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT, start_new_session=True)
         end = time.monotonic() + BOOT_SECONDS
         while time.monotonic() < end:

@@ -14,7 +14,6 @@ import stat
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 REPOSITORY = pathlib.Path(__file__).resolve().parent.parent.parent
