@@ -35,7 +35,8 @@ def make_changelog(root, commit, version=None):
     maintainer = MAINTAINER.search(git(root, "show", f"{commit}:debian/control")).group(1)
     if version is None:
         version = make_version(project, git(root, "tag", "--points-at", commit).split(), time, commit)
-    return (f"acs ({version}) unstable; urgency=medium\n\n  * Commit {commit}; CHANGELOG.md lists the changes of each version.\n\n"
+    return (f"acs ({version}) unstable; urgency=medium\n\n  * Commit {commit}.\n"
+            "    CHANGELOG.md lists the changes of each version.\n\n"
             f" -- {maintainer}  {time:%a, %d %b %Y %H:%M:%S} +0000\n")
 
 

@@ -57,12 +57,15 @@ class Trial(unittest.TestCase):
     """The steps build on each other; unittest runs them by name."""
 
     def install(self, folder, *options):
-        output = machine.execute("apt-get", "-q", "-y", "--no-download", "--no-install-recommends", *options, "install", *list_debs(folder))
+        output = machine.execute("apt-get", "-q", "-y", "--no-install-recommends", *options, "install", *list_debs(folder))
         self.assertNotIn("warning", output.lower())
         return output
 
     def acsctl(self, *words):
-        return machine.execute("acsctl", "--token-file", TOKEN, "--yes", *words)
+        try:
+            return machine.execute("acsctl", "--token-file", TOKEN, "--yes", *words)
+        except RuntimeError as error:
+            self.fail(f"{error}\n{self.get_log()}")
 
     def get_status(self):
         return json.loads(self.acsctl("status", "--json"))
@@ -143,7 +146,7 @@ class Trial(unittest.TestCase):
 
     def test_5_a_downgrade_is_refused(self):
         version = read_field(machine.folder / list_debs("newer")[0].lstrip("/"), "Version")
-        output = machine.execute("apt-get", "-q", "-y", "--no-download", "--allow-downgrades", "install", *list_debs("older"), may_fail=True)
+        output = machine.execute("apt-get", "-q", "-y", "--allow-downgrades", "install", *list_debs("older"), may_fail=True)
         self.assertIn(f"acsd {version} is installed and is not replaced by the older version {OLDER}", output)
         self.assertEqual(machine.execute("dpkg-query", "-W", "-f=${Version} ${db:Status-Abbrev}", "acsd").strip(), f"{version} ii")
         self.assertIn(f"libacs0 {version} is not replaced by the older version {OLDER}", output)
