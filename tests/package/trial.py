@@ -149,10 +149,12 @@ class Trial(unittest.TestCase):
         output = machine.execute("apt-get", "-q", "-y", "--allow-downgrades", "install", *list_debs("older"), may_fail=True)
         self.assertIn(f"acsd {version} is installed and is not replaced by the older version {OLDER}", output)
         self.assertEqual(machine.execute("dpkg-query", "-W", "-f=${Version} ${db:Status-Abbrev}", "acsd").strip(), f"{version} ii")
-        self.assertIn(f"libacs0 {version} is not replaced by the older version {OLDER}", output)
-        self.assertEqual(machine.execute("dpkg-query", "-W", "-f=${Version}", "libacs0"), version)
-        self.install("newer")
+        for name in ("libacs0", "libacs-dev", "acsctl", "acs-sims"):
+            self.assertIn(f"{name} {version} is not replaced by the older version {OLDER} while acsd {version} is installed", output)
+            self.assertEqual(machine.execute("dpkg-query", "-W", "-f=${Version} ${db:Status-Abbrev}", name).strip(), f"{version} ii")
+        machine.execute("apt-get", "check")
         self.wait_for(lambda: machine.execute("systemctl", "is-active", "acsd", may_fail=True).strip() == "active", "acsd is active")
+        self.assertEqual(self.get_status()["tsc"], "Auto")
 
     def test_6_reload_and_watchdog(self):
         former = self.get_main_pid()
