@@ -7,7 +7,6 @@ import itertools
 import json
 import pathlib
 import re
-import signal
 import socket
 
 from api_client import EventReader
@@ -229,7 +228,6 @@ class Clients(ScenarioCase):
         self.wait_for_blocked(*NODES)
 
         self.line.forget(self.acsd)
-        self.acsd.send_signal(signal.SIGTERM)
         self.assertEqual(self.acsd.stop(), 0)
         self.start_acsd()
         self.assertEqual(block(self.kim, NODES[0]), (202, "true", first[2]))
