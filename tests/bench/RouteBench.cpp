@@ -1,3 +1,4 @@
+#include "EngineControl.hpp"
 #include "FleetWorld.hpp"
 #include <acs/plan/Router.hpp>
 
@@ -7,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -187,13 +189,14 @@ BENCHMARK(BenchRouteBoost);
 void BenchFleetEvents(benchmark::State& state)
 {
     std::size_t events = 0;
+    const Testing::Floor floor = Testing::MakeGridFloor(false);
     for (auto iteration : state)
     {
         static_cast<void>(iteration);
         Testing::FleetOptions options;
         options.vehicles = static_cast<std::size_t>(state.range(0));
         options.transports = 10 * options.vehicles;
-        Testing::FleetWorld world(options);
+        Testing::FleetWorld world(floor, options, std::make_unique<Testing::EngineControl>(floor, options.vehicles));
         if (!world.TryRun())
         {
             state.SkipWithError("the transports were not done");

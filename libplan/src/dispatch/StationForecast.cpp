@@ -107,10 +107,10 @@ bool StationForecast::IsExpected(const Robot& robot, std::string_view stationID,
     const ActivePlan& plan = *robot.planOrNull;
     const std::vector<Visit> visits = _visits.ListVisits(robot, plan);
     return IsAnyStep(plan, [&plan, &visits, &visit, stationID](std::size_t step) {
-        const std::size_t i = step - plan.step;
-        return i < visits.size() && plan.resolved.steps[step].stationID == stationID
-            && visit.departure + MARGIN_SECONDS > visits[i].arrival
-            && visit.arrival < visits[i].departure + MARGIN_SECONDS;
+        const std::size_t index = step - plan.step;
+        return index < visits.size() && plan.resolved.steps[step].stationID == stationID
+            && visit.departure + MARGIN_SECONDS > visits[index].arrival
+            && visit.arrival < visits[index].departure + MARGIN_SECONDS;
     });
 }
 

@@ -1,3 +1,4 @@
+#include "common/config/CommandLine.hpp"
 #include "EngineControl.hpp"
 #include "FleetWorld.hpp"
 #include "FloorBound.hpp"
@@ -13,6 +14,7 @@
 #include <functional>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -169,27 +171,8 @@ bool TryRow(const Floor& floor, std::size_t density, const Options& options)
     return engine.bDone && engine.violations.empty() && !isBetter(zone) && !isBetter(ordered);
 }
 
-} // namespace
-
-} // namespace ACS::Testing
-
-int main(int argc, char** argv)
+int RunAll(const Options& options)
 {
-    using namespace ACS::Testing; // NOLINT(google-build-using-namespace): this program
-    Options options;
-    CLI::App app(
-        "Transports of a fleet on several floors, in virtual time: of the engine, of simple rules, and what no control can exceed.\n"
-        "The columns are described in docs/design/performance.md.");
-    app.add_option("--floor", options.only, "Only the floor of this name");
-    app.add_option("--density", options.densities, "Vehicles, in % of the parking positions, a row each")
-        ->delimiter(',')
-        ->check(CLI::Range(1, 100))
-        ->capture_default_str();
-    app.add_option("--transports", options.transportsEach, "Transports of each vehicle")
-        ->check(CLI::Range(1, 10'000))
-        ->capture_default_str();
-    app.add_option("--seed", options.seed, "Of the transports")->capture_default_str();
-    CLI11_PARSE(app, argc, argv);
     const std::vector<Floor> floors{MakeGridFloor(false), MakeLaneFloor(), MakeDocumentFloor(), MakePlantFloor()};
     if (!options.only.empty() && std::ranges::count(floors, options.only, &Floor::name) == 0)
     {
@@ -212,4 +195,31 @@ int main(int argc, char** argv)
         }
     }
     return bOK ? 0 : 1;
+}
+
+} // namespace
+
+} // namespace ACS::Testing
+
+int main(int argc, char** argv)
+{
+    using namespace ACS; // NOLINT(google-build-using-namespace)
+    return Apps::RunProgram("floor_load", [argc, argv]() {
+        Testing::Options options;
+        CLI::App app{
+            "Transports of a fleet on several floors, in virtual time: of the engine, of simple rules, and what no control can exceed; "
+            "fails if a transport does not end or a rule does more. docs/design/performance.md describes the columns",
+            "floor_load"};
+        app.add_option("--floor", options.only, "Only the floor of this name");
+        app.add_option("--density", options.densities, "Vehicles, in % of the parking positions, a row each")
+            ->delimiter(',')
+            ->check(CLI::Range(1, 100))
+            ->capture_default_str();
+        app.add_option("--transports", options.transportsEach, "Transports of each vehicle")
+            ->check(CLI::Range(1, 10'000))
+            ->capture_default_str();
+        app.add_option("--seed", options.seed, "Of the transports")->capture_default_str();
+        const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);
+        return exitCode.has_value() ? *exitCode : Testing::RunAll(options);
+    });
 }

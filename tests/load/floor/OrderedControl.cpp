@@ -8,7 +8,7 @@ namespace ACS::Testing
 using namespace Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 
 OrderedControl::OrderedControl(const Floor& floor, std::size_t vehicles)
-    : RuleControl(floor, vehicles),
+    : IRuleControl(floor, vehicles),
       _holders(floor.site.GetNodes().size())
 {
     for (std::size_t i = 0; i < vehicles; ++i)

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "RuleControl.hpp"
+#include "IRuleControl.hpp"
 
 namespace ACS::Testing
 {
 
 /// The rule that openTCS documents for its scheduler: a vehicle allocates the resources of its route step by step, in their order and
 /// exclusively, and frees those that it has left. Nothing prevents a deadlock.
-class OrderedControl final : public RuleControl
+class OrderedControl final : public IRuleControl
 {
     std::vector<std::optional<std::size_t>> _holders; ///< By node.
 

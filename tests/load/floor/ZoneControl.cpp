@@ -11,7 +11,7 @@ namespace ACS::Testing
 using namespace Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 
 ZoneControl::ZoneControl(const Floor& floor, std::size_t vehicles)
-    : RuleControl(floor, vehicles),
+    : IRuleControl(floor, vehicles),
       _remaining(vehicles)
 {
     FindZones(floor);

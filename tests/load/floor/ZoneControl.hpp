@@ -1,13 +1,13 @@
 #pragma once
 
-#include "RuleControl.hpp"
+#include "IRuleControl.hpp"
 
 namespace ACS::Testing
 {
 
 /// One vehicle at a time in each zone, a square of the floor. A vehicle takes all zones of a transport before it starts, to its parking
 /// position at the end, and frees each one that it has left for the last time: so there is no deadlock.
-class ZoneControl final : public RuleControl
+class ZoneControl final : public IRuleControl
 {
     std::vector<std::size_t> _zones;                  ///< By node; docks belong to that of their lane.
     std::vector<std::optional<std::size_t>> _holders; ///< By zone.

@@ -17,7 +17,7 @@ namespace ACS::Testing
 /// Controls vehicles by a simple rule, to compare the engine with it: plans in their order, each to the nearest free vehicle, which
 /// takes the quickest route. A vehicle without a plan drives to its parking position. What a vehicle may drive onto is up to the
 /// derived class.
-class RuleControl : public IFleetControl
+class IRuleControl : public IFleetControl
 {
 protected:
     struct Vehicle
@@ -43,7 +43,7 @@ private:
     std::uint64_t _driveCount = 0;
 
 public:
-    RuleControl(const Floor& floor, std::size_t vehicles);
+    IRuleControl(const Floor& floor, std::size_t vehicles);
 
     void Submit(Planning::Plan plan, std::uint64_t number, Core::Now now, Planning::EngineActions& out) override;
     void OnEvent(
@@ -78,7 +78,7 @@ private:
     void Move(Vehicle& vehicle, Planning::EngineActions& out);
     void BeginDrive(Vehicle& vehicle, std::size_t target, Planning::EngineActions& out);
     void Extend(Vehicle& vehicle, Planning::EngineActions& out);
-    void EndJob(Vehicle& vehicle, Planning::EngineActions& out);
+    static void EndJob(Vehicle& vehicle, Planning::EngineActions& out);
     static void Report(const Vehicle& vehicle, Planning::EPlanState state, Planning::EngineActions& out);
 };
 

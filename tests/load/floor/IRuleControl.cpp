@@ -1,4 +1,4 @@
-#include "RuleControl.hpp"
+#include "IRuleControl.hpp"
 
 #include <acs/core/Overloaded.hpp>
 
@@ -13,7 +13,7 @@ namespace ACS::Testing
 
 using namespace Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 
-RuleControl::RuleControl(const Floor& floor, std::size_t vehicles)
+IRuleControl::IRuleControl(const Floor& floor, std::size_t vehicles)
     : _site(floor.site),
       _router(floor.site)
 {
@@ -26,13 +26,13 @@ RuleControl::RuleControl(const Floor& floor, std::size_t vehicles)
     }
 }
 
-void RuleControl::Submit(Plan plan, std::uint64_t /*number*/, Core::Now /*now*/, EngineActions& out)
+void IRuleControl::Submit(Plan plan, std::uint64_t /*number*/, Core::Now /*now*/, EngineActions& out)
 {
     _queue.push_back(std::move(plan));
     Run(out);
 }
 
-void RuleControl::OnEvent(const std::string& robotID, const RobotEvent& event, Core::Now /*now*/, EngineActions& out)
+void IRuleControl::OnEvent(const std::string& robotID, const RobotEvent& event, Core::Now /*now*/, EngineActions& out)
 {
     Vehicle& vehicle = *std::ranges::find(_vehicles, robotID, &Vehicle::robotID);
     std::visit(
@@ -53,7 +53,7 @@ void RuleControl::OnEvent(const std::string& robotID, const RobotEvent& event, C
     Run(out);
 }
 
-void RuleControl::EndJob(Vehicle& vehicle, EngineActions& out)
+void IRuleControl::EndJob(Vehicle& vehicle, EngineActions& out)
 {
     vehicle.bWorks = false;
     ++vehicle.step;
@@ -64,57 +64,57 @@ void RuleControl::EndJob(Vehicle& vehicle, EngineActions& out)
     }
 }
 
-void RuleControl::Report(const Vehicle& vehicle, EPlanState state, EngineActions& out)
+void IRuleControl::Report(const Vehicle& vehicle, EPlanState state, EngineActions& out)
 {
     SendReport report;
     report.entry.report = PlanReport{vehicle.plan->planID, state, {}};
     out.emplace_back(std::move(report));
 }
 
-void RuleControl::OnTimer(const EngineTimer& /*timer*/, Core::Now /*now*/, EngineActions& /*out*/)
+void IRuleControl::OnTimer(const EngineTimer& /*timer*/, Core::Now /*now*/, EngineActions& /*out*/)
 {
 }
 
-void RuleControl::OnStored(Core::Now /*now*/, EngineActions& /*out*/)
+void IRuleControl::OnStored(Core::Now /*now*/, EngineActions& /*out*/)
 {
 }
 
-void RuleControl::OnReportSent(std::uint64_t /*sequence*/, Core::Now /*now*/, EngineActions& /*out*/)
+void IRuleControl::OnReportSent(std::uint64_t /*sequence*/, Core::Now /*now*/, EngineActions& /*out*/)
 {
 }
 
-std::optional<std::string> RuleControl::GetRobotIDOrNull(const std::string& planID) const
+std::optional<std::string> IRuleControl::GetRobotIDOrNull(const std::string& planID) const
 {
     const auto found = _robotIDs.find(planID);
     return found == _robotIDs.end() ? std::nullopt : std::optional(found->second);
 }
 
-const SiteMap& RuleControl::GetSite() const noexcept
+const SiteMap& IRuleControl::GetSite() const noexcept
 {
     return _site;
 }
 
-std::size_t RuleControl::CountVehicles() const noexcept
+std::size_t IRuleControl::CountVehicles() const noexcept
 {
     return _vehicles.size();
 }
 
-std::size_t RuleControl::GetIndex(const Vehicle& vehicle) const
+std::size_t IRuleControl::GetIndex(const Vehicle& vehicle) const
 {
     return static_cast<std::size_t>(&vehicle - _vehicles.data());
 }
 
-const RuleControl::Vehicle& RuleControl::GetVehicle(std::size_t index) const
+const IRuleControl::Vehicle& IRuleControl::GetVehicle(std::size_t index) const
 {
     return _vehicles[index];
 }
 
-std::size_t RuleControl::GetDock(const std::string& stationID) const
+std::size_t IRuleControl::GetDock(const std::string& stationID) const
 {
     return *_site.FindNodeIndexOrNull(MakeDockID(stationID));
 }
 
-std::vector<std::size_t> RuleControl::FindRoute(std::size_t from, std::size_t to) const
+std::vector<std::size_t> IRuleControl::FindRoute(std::size_t from, std::size_t to) const
 {
     const std::vector<SiteNode>& nodes = _site.GetNodes();
     const std::optional<Route> route = _router.FindRouteOrNull(FLEET_TYPE, nodes[from].nodeID, nodes[to].nodeID);
@@ -126,7 +126,7 @@ std::vector<std::size_t> RuleControl::FindRoute(std::size_t from, std::size_t to
     return indices;
 }
 
-void RuleControl::Run(EngineActions& out)
+void IRuleControl::Run(EngineActions& out)
 {
     Assign(out);
     for (Vehicle& vehicle : _vehicles)
@@ -135,7 +135,7 @@ void RuleControl::Run(EngineActions& out)
     }
 }
 
-void RuleControl::Assign(EngineActions& out)
+void IRuleControl::Assign(EngineActions& out)
 {
     for (auto plan = _queue.begin(); plan != _queue.end();)
     {
@@ -157,7 +157,7 @@ void RuleControl::Assign(EngineActions& out)
     }
 }
 
-RuleControl::Vehicle* RuleControl::FindNearestOrNull(const Plan& plan)
+IRuleControl::Vehicle* IRuleControl::FindNearestOrNull(const Plan& plan)
 {
     std::vector<std::size_t> starts;
     for (const Vehicle& vehicle : _vehicles)
@@ -176,7 +176,7 @@ RuleControl::Vehicle* RuleControl::FindNearestOrNull(const Plan& plan)
     return nearest == _vehicles.end() ? nullptr : &*nearest;
 }
 
-void RuleControl::Move(Vehicle& vehicle, EngineActions& out)
+void IRuleControl::Move(Vehicle& vehicle, EngineActions& out)
 {
     if (vehicle.bWorks)
     {
@@ -205,7 +205,7 @@ void RuleControl::Move(Vehicle& vehicle, EngineActions& out)
     }
 }
 
-void RuleControl::BeginDrive(Vehicle& vehicle, std::size_t target, EngineActions& out)
+void IRuleControl::BeginDrive(Vehicle& vehicle, std::size_t target, EngineActions& out)
 {
     vehicle.route = FindRoute(vehicle.node, target);
     vehicle.passed = 0;
@@ -225,7 +225,7 @@ void RuleControl::BeginDrive(Vehicle& vehicle, std::size_t target, EngineActions
     out.emplace_back(CommandRobot{vehicle.robotID, std::move(drive)});
 }
 
-void RuleControl::Extend(Vehicle& vehicle, EngineActions& out)
+void IRuleControl::Extend(Vehicle& vehicle, EngineActions& out)
 {
     vehicle.granted = std::max(vehicle.granted, Grant(vehicle));
     if (vehicle.granted > vehicle.drive->releasedCount)
