@@ -46,7 +46,7 @@ void IRuleControl::OnEvent(const std::string& robotID, const RobotEvent& event, 
                 }
             },
             [&vehicle](const Arrived& /*arrived*/) { vehicle.drive.reset(); },
-            [this, &vehicle, &out](const JobFinished& /*job*/) { EndJob(vehicle, out); },
+            [&vehicle, &out](const JobFinished& /*job*/) { EndJob(vehicle, out); },
             [](const auto& /*other*/) {
             }},
         event);
