@@ -78,11 +78,16 @@ std::optional<std::string_view> StationForecast::FindTakenOrNull(const ActivePla
     return taken;
 }
 
-bool StationForecast::CanBegin(const ActivePlan& plan, const Robot& robot) const
+bool StationForecast::IsReserved(const ActivePlan& plan) const
 {
-    const bool bReserved = std::ranges::any_of(plan.resolved.steps, [this](const ResolvedStep& step) {
+    return std::ranges::any_of(plan.resolved.steps, [this](const ResolvedStep& step) {
         return _reserved.contains(step.stationID);
     });
+}
+
+bool StationForecast::CanBegin(const ActivePlan& plan, const Robot& robot) const
+{
+    const bool bReserved = IsReserved(plan);
     if (bReserved || !FindTakenOrNull(plan).has_value())
     {
         return !bReserved;

@@ -4,10 +4,10 @@
 #include "traffic/VisitForecast.hpp"
 
 #include <cstddef>
-#include <map>
 #include <optional>
-#include <set>
 #include <string_view>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 namespace ACS::Planning
@@ -19,15 +19,17 @@ class StationForecast
 {
     const Fleet& _fleet;
     const VisitForecast& _visits;
-    std::map<std::string_view, std::vector<std::size_t>> _robots; ///< By station: those whose plans lead there.
-    std::set<std::string_view> _reserved;                         ///< Stations of plans that were passed over.
+    std::unordered_map<std::string_view, std::vector<std::size_t>> _robots; ///< By station: those whose plans lead there.
+    std::unordered_set<std::string_view> _reserved; ///< Stations of plans that were passed over.
 
 public:
     /// Fleet and forecast must outlive it.
     StationForecast(const Fleet& fleet, const VisitForecast& visits);
 
-    /// Whether no other robot is expected at the stations of the plan's first steps when this robot is there, and no plan before it
-    /// waits for one of its stations.
+    /// Whether a plan before it waits for one of its stations.
+    [[nodiscard]] bool IsReserved(const ActivePlan& plan) const;
+    /// Whether no other robot is expected at the stations of the plan's first steps when this robot is there, and the plan is not
+    /// reserved.
     [[nodiscard]] bool CanBegin(const ActivePlan& plan, const Robot& robot) const;
     /// The robot has got the plan.
     void Add(const ActivePlan& plan, const Robot& robot);

@@ -324,15 +324,22 @@ void PlanEngine::Impl::AssignPlans()
     {
         return;
     }
-    constexpr std::size_t MOST_PASSED_OVER = 64; // limits the time of a pass
+    constexpr std::size_t MOST_PASSED_OVER = 16; // a robot is looked for: limits the time of a pass
     std::vector<std::pair<const ActivePlan*, const Robot*>> passedOver;
     StationForecast stations(_engine.fleet, _coordinator.GetVisits());
-    for (ActivePlan* plan : _engine.plans.ListStoredQueue())
+    const auto getPriority = [this](const ActivePlan& plan) {
+        return plan.record.GetPriorityOrNull().value_or(_engine.options.defaultPriority);
+    };
+    for (ActivePlan* plan = _engine.plans.FindNextStoredOrNull(nullptr);
+         plan != nullptr && !free.IsEmpty() && passedOver.size() < MOST_PASSED_OVER;
+         plan = _engine.plans.FindNextStoredOrNull(plan))
     {
+        if (stations.IsReserved(*plan))
+        {
+            stations.PassOver(*plan);
+            continue;
+        }
         // A plan of another priority does not get the robot of one that is before it.
-        const auto getPriority = [this](const ActivePlan& other) {
-            return other.record.GetPriorityOrNull().value_or(_engine.options.defaultPriority);
-        };
         std::erase_if(passedOver, [&free, &getPriority, plan](const auto& before) {
             const bool bKept = getPriority(*before.first) != getPriority(*plan);
             if (bKept)
@@ -353,10 +360,6 @@ void PlanEngine::Impl::AssignPlans()
         {
             stations.PassOver(*plan);
             passedOver.emplace_back(plan, robotOrNull);
-        }
-        if (free.IsEmpty() || passedOver.size() >= MOST_PASSED_OVER)
-        {
-            return;
         }
     }
 }

@@ -206,17 +206,13 @@ const PlanBook::Queue& PlanBook::GetQueue() const noexcept
     return _queue;
 }
 
-std::vector<ActivePlan*> PlanBook::ListStoredQueue() const
+ActivePlan* PlanBook::FindNextStoredOrNull(const ActivePlan* afterOrNull) const
 {
-    std::vector<ActivePlan*> plans;
-    for (const auto& [key, plan] : _queue)
-    {
-        if (plan->record.sequence <= _lastStoredSequence)
-        {
-            plans.push_back(plan);
-        }
-    }
-    return plans;
+    auto next = afterOrNull == nullptr ? _queue.begin() : _queue.upper_bound(afterOrNull->key);
+    next = std::find_if(next, _queue.end(), [this](const auto& entry) {
+        return entry.second->record.sequence <= _lastStoredSequence;
+    });
+    return next == _queue.end() ? nullptr : next->second;
 }
 
 ActivePlan* PlanBook::FindActiveOrNull(std::string_view planID) const

@@ -86,8 +86,8 @@ public:
 
     [[nodiscard]] const ActivePlans& GetActive() const noexcept;
     [[nodiscard]] const Queue& GetQueue() const noexcept;
-    /// Queued plans that were accepted before this call: only those are stored.
-    [[nodiscard]] std::vector<ActivePlan*> ListStoredQueue() const;
+    /// The first queued plan after this one, or of all, that was accepted before this call: only those are stored.
+    [[nodiscard]] ActivePlan* FindNextStoredOrNull(const ActivePlan* afterOrNull) const;
     [[nodiscard]] ActivePlan* FindActiveOrNull(std::string_view planID) const;
     [[nodiscard]] PlanRecord* FindFinishedOrNull(std::string_view planID);
     [[nodiscard]] const PlanRecord* FindFinishedOrNull(std::string_view planID) const;

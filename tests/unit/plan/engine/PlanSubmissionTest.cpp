@@ -47,7 +47,7 @@ TEST_CASE("PlanSubmission: an accepted plan is stored and queued, and its dispat
     CHECK(outcome.GetDelayOrNull(EEngineTimer::Dispatch).has_value());
     CHECK(outcome.ListActions<ReplyCommand>().front().bAccepted);
     CHECK(parts.engine.plans.GetQueue().size() == 1);
-    CHECK(parts.engine.plans.ListStoredQueue().empty());
+    CHECK(parts.engine.plans.FindNextStoredOrNull(nullptr) == nullptr);
 }
 
 TEST_CASE("PlanSubmission: a planID is accepted once, and the same request is answered as before")

@@ -43,8 +43,10 @@ TEST_CASE("RestartRecovery: plans are queued again, finished ones are history")
     }
     parts.recovery.Restore(stored);
     CHECK(parts.engine.plans.FindFinishedOrNull("P1") != nullptr);
-    REQUIRE(parts.engine.plans.ListStoredQueue().size() == 1);
-    CHECK(parts.engine.plans.ListStoredQueue().front()->record.plan.planID == "P2");
+    const ActivePlan* const firstOrNull = parts.engine.plans.FindNextStoredOrNull(nullptr);
+    REQUIRE(firstOrNull != nullptr);
+    CHECK(firstOrNull->record.plan.planID == "P2");
+    CHECK(parts.engine.plans.FindNextStoredOrNull(firstOrNull) == nullptr);
     CHECK(parts.Collect().GetDelayOrNull(EEngineTimer::Dispatch).has_value());
 }
 

@@ -98,9 +98,9 @@ TEST_CASE("PlanBook: only plans of earlier calls are stored")
     PlanBook book(options);
     book.BeginCall({});
     ActivePlan& plan = Accept(book, "P1");
-    CHECK(book.ListStoredQueue().empty());
+    CHECK(book.FindNextStoredOrNull(nullptr) == nullptr);
     book.BeginCall({});
-    CHECK(book.ListStoredQueue() == std::vector<ActivePlan*>{&plan});
+    CHECK(book.FindNextStoredOrNull(nullptr) == &plan);
 }
 
 TEST_CASE("PlanBook: changes of state are collected once for each plan")
@@ -183,7 +183,7 @@ TEST_CASE("PlanBook: after a restart numbers continue and restored plans are sto
     ActivePlan& plan = book.RestoreActive(waiting);
     CHECK(book.GetQueue().empty());
     book.Enqueue(plan);
-    CHECK(book.ListStoredQueue() == std::vector<ActivePlan*>{&plan});
+    CHECK(book.FindNextStoredOrNull(nullptr) == &plan);
     CHECK(Accept(book, "P3").record.sequence == 8);
     CHECK(book.FindRecordOrNull("P1")->progress.state == EPlanState::Completed);
 }
