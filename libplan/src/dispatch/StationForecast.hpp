@@ -19,7 +19,8 @@ class StationForecast
 {
     const Fleet& _fleet;
     const VisitForecast& _visits;
-    std::unordered_map<std::string_view, std::vector<std::size_t>> _robots; ///< By station: those whose plans lead there.
+    std::unordered_map<std::string_view, std::vector<std::size_t>>
+        _robots;                                    ///< By station: those whose plans lead there.
     std::unordered_set<std::string_view> _reserved; ///< Stations of plans that were passed over.
 
 public:

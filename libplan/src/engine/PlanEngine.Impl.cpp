@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <utility>
 
 namespace ACS::Planning
@@ -324,19 +325,32 @@ void PlanEngine::Impl::AssignPlans()
     {
         return;
     }
-    constexpr std::size_t MOST_PASSED_OVER = 16; // a robot is looked for: limits the time of a pass
+    constexpr std::size_t MOST_PLANS = 1'000; // limits the time of a pass, as the next two do
+    constexpr std::size_t MOST_TAKEN = 32;
+    constexpr std::chrono::seconds TAKEN_FOR{1};
+    const Core::SteadyTime now = _engine.transaction.GetNow().steady;
+    std::size_t seen = 0;
+    std::size_t taken = 0;
     std::vector<std::pair<const ActivePlan*, const Robot*>> passedOver;
     StationForecast stations(_engine.fleet, _coordinator.GetVisits());
     const auto getPriority = [this](const ActivePlan& plan) {
         return plan.record.GetPriorityOrNull().value_or(_engine.options.defaultPriority);
     };
     for (ActivePlan* plan = _engine.plans.FindNextStoredOrNull(nullptr);
-         plan != nullptr && !free.IsEmpty() && passedOver.size() < MOST_PASSED_OVER;
+         plan != nullptr && !free.IsEmpty() && seen < MOST_PLANS;
          plan = _engine.plans.FindNextStoredOrNull(plan))
     {
-        if (stations.IsReserved(*plan))
+        ++seen;
+        const bool bTaken = stations.FindTakenOrNull(*plan).has_value();
+        const std::optional<TakenStation>& known = plan->verdicts.taken;
+        const bool bKnown = bTaken && known.has_value() && now < known->at + TAKEN_FOR;
+        if (bKnown || stations.IsReserved(*plan) || (bTaken && taken == MOST_TAKEN))
         {
             stations.PassOver(*plan);
+            if (bKnown)
+            {
+                passedOver.emplace_back(plan, &_engine.fleet[known->robot]);
+            }
             continue;
         }
         // A plan of another priority does not get the robot of one that is before it.
@@ -360,6 +374,8 @@ void PlanEngine::Impl::AssignPlans()
         {
             stations.PassOver(*plan);
             passedOver.emplace_back(plan, robotOrNull);
+            plan->verdicts.taken = TakenStation{now, robotOrNull->index};
+            ++taken;
         }
     }
 }
