@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <utility>
 
 namespace ACS::Planning
@@ -325,10 +324,8 @@ void PlanEngine::Impl::AssignPlans()
     {
         return;
     }
-    constexpr std::size_t MOST_PLANS = 1'000; // limits the time of a pass, as the next two do
-    constexpr std::size_t MOST_TAKEN = 32;
-    constexpr std::chrono::seconds TAKEN_FOR{1};
-    const Core::SteadyTime now = _engine.transaction.GetNow().steady;
+    constexpr std::size_t MOST_PLANS = 1'000; // limits the time of a pass, as the next one does
+    constexpr std::size_t MOST_TAKEN = 16;    // plans whose station is taken and for which a robot is looked for
     std::size_t seen = 0;
     std::size_t taken = 0;
     std::vector<std::pair<const ActivePlan*, const Robot*>> passedOver;
@@ -342,15 +339,9 @@ void PlanEngine::Impl::AssignPlans()
     {
         ++seen;
         const bool bTaken = stations.FindTakenOrNull(*plan).has_value();
-        const std::optional<TakenStation>& known = plan->verdicts.taken;
-        const bool bKnown = bTaken && known.has_value() && now < known->at + TAKEN_FOR;
-        if (bKnown || stations.IsReserved(*plan) || (bTaken && taken == MOST_TAKEN))
+        if (stations.IsReserved(*plan) || (bTaken && taken == MOST_TAKEN))
         {
             stations.PassOver(*plan);
-            if (bKnown)
-            {
-                passedOver.emplace_back(plan, &_engine.fleet[known->robot]);
-            }
             continue;
         }
         // A plan of another priority does not get the robot of one that is before it.
@@ -374,7 +365,6 @@ void PlanEngine::Impl::AssignPlans()
         {
             stations.PassOver(*plan);
             passedOver.emplace_back(plan, robotOrNull);
-            plan->verdicts.taken = TakenStation{now, robotOrNull->index};
             ++taken;
         }
     }

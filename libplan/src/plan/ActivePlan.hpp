@@ -58,19 +58,11 @@ struct JobAcceptance
     std::size_t robot = 0;
 };
 
-/// A station of the plan was taken by another robot. It is looked at again later.
-struct TakenStation
-{
-    Core::SteadyTime at;
-    std::size_t robot = 0; ///< That would have got the plan.
-};
-
 /// What is known of the robots and the jobs of a plan.
 struct JobVerdicts
 {
     std::map<std::size_t, JobRejection> rejections; ///< By robot, of those that were to have the plan.
     mutable JobAcceptance acceptance;
-    std::optional<TakenStation> taken;
 };
 
 /// Of the present job.
