@@ -8,6 +8,7 @@
 #include <cassert>
 #include <iterator>
 #include <utility>
+#include <vector>
 
 namespace ACS::Planning
 {
@@ -289,6 +290,7 @@ void StoreGate::WithdrawPause(Robot& robot)
     PlanProgress& progress = robot.planOrNull->record.progress;
     if (progress.control == EPlanControl::Pause)
     {
+        std::erase(progress.requestIDs, *_call.controlID); // it has no effect: repeated, it is executed
         progress.control.reset();
         progress.controlCount = 0;
         _plans.MarkProgressed(robot.planOrNull->record.plan.planID);

@@ -174,6 +174,29 @@ TEST_CASE("A robot is not paused by a request that cannot be stored: after a cra
     FinishPlan(world);
 }
 
+TEST_CASE("A pause that was refused, because it could not be stored, is executed when it is repeated")
+{
+    for (const bool bCrashes : {false, true})
+    {
+        INFO("crash " << bCrashes);
+        PlanWorld world;
+        BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
+        world.store.bFails = true;
+        world.Control(EPlanControl::Pause, "P1", 5, "T5");
+        CHECK_FALSE(world.replies.at(5).bAccepted);
+        world.store.bFails = false;
+        static_cast<void>(TryRunFor(world, 2s)); // what was not stored is stored now
+        if (bCrashes)
+        {
+            world.Crash();
+            RestartEngine(world);
+        }
+        world.Control(EPlanControl::Pause, "P1", 6, "T5");
+        CHECK(world.replies.at(6).bAccepted);
+        REQUIRE(TryRunUntil(world, "P1", "PauseResult Success"));
+    }
+}
+
 TEST_CASE("A control that cannot be stored is refused: after a crash it would be lost")
 {
     PlanWorld world;
