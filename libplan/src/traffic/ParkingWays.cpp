@@ -316,6 +316,20 @@ void ParkingWays::Claim(Parking& parking, std::optional<std::size_t> nodeOrNull,
     }
 }
 
+bool ParkingWays::TryClaimHome(
+    Parking& parking,
+    std::size_t from,
+    const std::vector<std::uint16_t>& covers,
+    ESafeStateScope scope)
+{
+    const bool bGoes = CanGoHome(parking, from, covers, scope);
+    if (bGoes)
+    {
+        Claim(parking, std::nullopt, scope);
+    }
+    return bGoes;
+}
+
 /// What is found for one state holds for each state in which others hold less: so a refuge may be claimed even if the grant is
 /// refused in the end.
 std::optional<std::size_t> ParkingWays::FindParkingOrNull(
@@ -324,9 +338,8 @@ std::optional<std::size_t> ParkingWays::FindParkingOrNull(
     const std::vector<std::uint16_t>& covers,
     ESafeStateScope scope)
 {
-    if (CanGoHome(parking, from, covers, scope))
+    if (TryClaimHome(parking, from, covers, scope))
     {
-        Claim(parking, std::nullopt, scope);
         return GetParking(parking, scope);
     }
     const std::optional<std::size_t> refuge = FindRefugeOrNull(parking, from, covers, scope);

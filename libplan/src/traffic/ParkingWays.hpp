@@ -96,6 +96,12 @@ public:
         std::size_t to,
         const std::vector<std::uint16_t>& covers,
         ESafeStateScope scope) const;
+    /// Whether the robot can go to its parking position; then it drops its refuge.
+    [[nodiscard]] bool TryClaimHome(
+        Parking& parking,
+        std::size_t from,
+        const std::vector<std::uint16_t>& covers,
+        ESafeStateScope scope);
     /// Where the robot can go: its parking position, or a refuge that it has from then on.
     [[nodiscard]] std::optional<std::size_t> FindParkingOrNull(
         Parking& parking,

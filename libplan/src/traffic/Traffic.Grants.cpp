@@ -128,6 +128,29 @@ void Traffic::AddBlockers(const std::vector<std::size_t>& robots)
     });
 }
 
+/// A robot that can go home before all others leaves the floor as if it had never been there.
+bool Traffic::CanLeaveFirst(std::size_t robot, std::size_t from)
+{
+    Vehicle& vehicle = _vehicles[robot];
+    Cover(vehicle, _covers, false);
+    const bool bLeaves = vehicle.bMovable
+        && _ways.TryClaimHome(vehicle.parking, from, _covers, ESafeStateScope::AllMove)
+        && (!_ways.IsAnyBlocked() || _ways.TryClaimHome(vehicle.parking, from, _covers, ESafeStateScope::AsIs));
+    Cover(vehicle, _covers, true);
+    return bLeaves;
+}
+
+bool Traffic::CanTakeRefuge(std::size_t robot, std::size_t from, bool bAsIs)
+{
+    Vehicle& vehicle = _vehicles[robot];
+    Cover(vehicle, _covers, false);
+    const bool bTakes = vehicle.bMovable
+        && _ways.FindParkingOrNull(vehicle.parking, from, _covers, ESafeStateScope::AllMove).has_value()
+        && (!bAsIs || _ways.FindParkingOrNull(vehicle.parking, from, _covers, ESafeStateScope::AsIs).has_value());
+    Cover(vehicle, _covers, true);
+    return bTakes;
+}
+
 bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
 {
     FindReturns();
@@ -139,14 +162,18 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
         _bBlocksRefuse = _bBlocksRefuse || refusal.bForBlocks;
         return false;
     }
-    // A robot that can park before all others leaves the floor as if it had never been there.
-    Cover(vehicle, _covers, false);
-    const bool bFirst = vehicle.bMovable
-        && _ways.FindParkingOrNull(vehicle.parking, ahead.back(), _covers, ESafeStateScope::AllMove).has_value()
-        && (!_ways.IsAnyBlocked()
-            || _ways.FindParkingOrNull(vehicle.parking, ahead.back(), _covers, ESafeStateScope::AsIs).has_value());
-    Cover(vehicle, _covers, true);
-    if (bFirst)
+    const bool bAsIs = IsAnyFixed() || _ways.IsAnyBlocked();
+    if (CanLeaveFirst(robot, ahead.back()))
+    {
+        return true;
+    }
+    // Which refuges the other robots need, before this one takes one; also the state before the nodes are held on trial.
+    static_cast<void>(GetSafeState(ESafeStateScope::AllMove));
+    if (bAsIs)
+    {
+        static_cast<void>(GetSafeState(ESafeStateScope::AsIs));
+    }
+    if (CanTakeRefuge(robot, ahead.back(), bAsIs))
     {
         return true;
     }
@@ -173,7 +200,6 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
         held.clear();
         _bTrial = false;
     };
-    const bool bAsIs = IsAnyFixed() || _ways.IsAnyBlocked();
     // FindSafeState takes such a node for held twice.
     const bool bHeldAlready = std::ranges::any_of(ahead, [&vehicle](std::size_t node) {
         return std::ranges::count(vehicle.extra, node) > 0;
@@ -187,14 +213,11 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
         return true;
     }
     const std::vector<std::size_t> former = std::exchange(_blockers, {});
-    // The present state, before the nodes are held on trial.
-    static_cast<void>(GetSafeState(ESafeStateScope::AllMove));
     take();
     bool bSafe = IsAsGood(ESafeStateScope::AllMove, robot, refusal);
     giveBack();
     if (bSafe && bAsIs)
     {
-        static_cast<void>(GetSafeState(ESafeStateScope::AsIs));
         take();
         bSafe = IsAsGood(ESafeStateScope::AsIs, robot, refusal);
         giveBack();

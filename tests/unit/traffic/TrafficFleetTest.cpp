@@ -14,6 +14,7 @@ using ACS::Testing::FleetOptions;
 using ACS::Testing::FleetWorld;
 using ACS::Testing::Floor;
 using ACS::Testing::MakeGridFloor;
+using ACS::Testing::MakeLaneFloor;
 
 namespace
 {
@@ -84,6 +85,20 @@ TEST_CASE("20 vehicles use lanes for empty and for loaded vehicles only, with fa
         options.transports = 200;
         options.seed = 3;
         options.bFaults = bFaults;
+        Run(floor, options);
+    }
+}
+
+TEST_CASE("Vehicles on one two-way lane let each other pass in the bays beside it, up to one on each parking position")
+{
+    const Floor floor = MakeLaneFloor();
+    for (const std::size_t vehicles : std::vector<std::size_t>{5, 10})
+    {
+        FleetOptions options;
+        options.vehicles = vehicles;
+        options.transports = 125;
+        options.plansAtOnce = 2 * vehicles;
+        options.priorities = 1;
         Run(floor, options);
     }
 }

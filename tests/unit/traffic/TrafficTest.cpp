@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
@@ -68,11 +70,11 @@ struct Way
     EUse use = EUse::Always;
 };
 
-/// Four nodes in a row.
-SiteMap MakeRow(const std::vector<Way>& ways)
+/// Nodes in a row.
+SiteMap MakeNodes(std::size_t count, const std::vector<Way>& ways)
 {
     std::vector<SiteNode> nodes;
-    for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t i = 0; i < count; ++i)
     {
         nodes.push_back({std::to_string(i), static_cast<double>(i), 0, "floor", {{"lr", std::nullopt}}});
     }
@@ -87,6 +89,12 @@ SiteMap MakeRow(const std::vector<Way>& ways)
         edges.push_back({fmt::format("{}>{}", from, to), from, to, {rule}});
     }
     return *SiteMap::Create(std::move(nodes), std::move(edges), {});
+}
+
+/// Four nodes in a row.
+SiteMap MakeRow(const std::vector<Way>& ways)
+{
+    return MakeNodes(4, ways);
 }
 
 /// Robot 0 on its parking position 0; robot 1 on node 3, from where it cannot park.
@@ -376,4 +384,72 @@ TEST_CASE("Traffic: while there are blocks, the state stays safe for the time af
     CHECK(traffic.Extend(1, Nodes{2}) == 0); // none of the two could ever park
     CHECK(traffic.GetBlockers() == Nodes{0});
     CHECK_FALSE(traffic.IsRefusedForBlocks());
+}
+
+TEST_CASE("Traffic: no robot takes the refuge that another one needs")
+{
+    // Lane 0-1-2-3-4 with spurs 5 on 0, 6 and 9 on 4, 7 and 8 on 2. Robots 0 and 1 are in each other's way to their parking positions 6
+    // and 5: one of them must wait in 7, because 8 and 9 have robots of their own.
+    std::vector<Way> ways;
+    for (const auto& [from, to] : std::vector<std::pair<std::size_t, std::size_t>>{
+             {0, 1},
+             {1, 2},
+             {2, 3},
+             {3, 4},
+             {0, 5},
+             {4, 6},
+             {2, 7},
+             {2, 8},
+             {4, 9}})
+    {
+        ways.push_back({from, to});
+        ways.push_back({to, from});
+    }
+    Traffic traffic(MakeNodes(10, ways), 0);
+    const Nodes homes{6, 5, 9};
+    const Nodes places{1, 3, 8};
+    for (std::size_t robot = 0; robot < homes.size(); ++robot)
+    {
+        traffic.AddRobot("lr", homes[robot]);
+        REQUIRE(traffic.TryStand(robot, places[robot]));
+        traffic.SetMovable(robot, true);
+    }
+    traffic.AddRobot("lr", 8); // it is elsewhere
+    // Robot 2 could not leave 7 any more.
+    CHECK(traffic.Extend(2, Nodes{2, 7}) == 0);
+    CHECK(traffic.Extend(0, Nodes{2, 7}) == 2);
+    traffic.Pass(0, 2);
+    CHECK(traffic.Extend(1, Nodes{2, 1, 0, 5}) == 4);
+}
+
+TEST_CASE("Traffic: a dead end within the clearance of a lane, or without a way back, is no refuge")
+{
+    for (const double clearance : {0.0, 2.5})
+    {
+        Traffic traffic = MakeTraffic(clearance);
+        REQUIRE(traffic.TryStand(0, 2));
+        CHECK(traffic.FindRefugeOrNull(0) == (clearance > 0 ? std::nullopt : std::optional<std::size_t>(7)));
+    }
+    for (const bool bBack : {false, true})
+    {
+        std::vector<Way> ways{{0, 1}, {1, 0}, {1, 2}, {2, 3}, {3, 2}};
+        if (bBack)
+        {
+            ways.push_back({2, 1});
+        }
+        Traffic traffic = MakeRestricted(ways);
+        REQUIRE(traffic.TryStand(1, 2));
+        REQUIRE(traffic.TryStand(0, 1));
+        REQUIRE(traffic.TryStand(1, 0)); // on the parking position of robot 0
+        CHECK(traffic.FindRefugeOrNull(0) == (bBack ? std::optional<std::size_t>(3) : std::nullopt));
+    }
+}
+
+TEST_CASE("Traffic: a robot stops before it closes the way of the robot at its target")
+{
+    Traffic traffic = MakeTraffic();
+    CHECK(traffic.CountBeforeWayOut(1, Nodes{4, 3, 2, 1, 0, 5}, 7) == 6); // 7 is free
+    REQUIRE(traffic.TryStand(0, 7));                                      // its way to 5 begins with 2
+    CHECK(traffic.CountBeforeWayOut(1, Nodes{4, 3, 2, 7}, 7) == 2);
+    CHECK(traffic.CountBeforeWayOut(1, Nodes{4}, 7) == 1);
 }
