@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace ACS::Testing
@@ -33,8 +32,7 @@ FleetWorld::FleetWorld(const Floor& floor, const FleetOptions& options, std::uni
       _random(options.seed),
       _floor(floor),
       _site(floor.site),
-      _router(_site),
-      _demands(MakeDemands(floor, options.seed, options.transports, options.priorities)),
+      _transports(floor, options.seed, options.transports, options.priorities),
       _control(std::move(control))
 {
     for (std::size_t i = 0; i < options.vehicles; ++i)
@@ -67,26 +65,14 @@ void FleetWorld::Push(EHappening happening, std::size_t vehicle, std::uint64_t g
     _entries.push({_clock.GetNow().steady + delay, _order, happening, vehicle, {}, generation});
 }
 
-Plan FleetWorld::MakePlan(const std::string& planID, const Demand& demand)
-{
-    return {
-        planID,
-        "",
-        demand.priority,
-        {{1, "CassetteLoad", demand.from, {"C"}, {{planID + "-1", demand.from, "AMR.CP01"}}},
-         {2, "CassetteUnload", demand.to, {"C"}, {{planID + "-2", "AMR.CP01", demand.to}}}}};
-}
-
 void FleetWorld::SubmitMore()
 {
-    while (_submitted < _options.transports && _submitted - completed - failed < _options.plansAtOnce)
+    while (_transports.HasMore() && _transports.CountOpen() < _options.plansAtOnce)
     {
-        const std::size_t demand = _submitted;
+        Plan plan = _transports.Submit(_clock.GetNow().steady);
         ++_submitted;
-        const std::string planID = fmt::format("P{}", _submitted);
-        _transports[planID] = {demand, _clock.GetNow().steady, {}, 0};
         EngineActions out;
-        _control->Submit(MakePlan(planID, _demands[demand]), _submitted, _clock.GetNow(), out);
+        _control->Submit(std::move(plan), _submitted, _clock.GetNow(), out);
         Execute(out);
     }
 }
@@ -96,7 +82,7 @@ bool FleetWorld::TryRun()
     const Core::SteadyTime end = _clock.GetNow().steady + TIME_LIMIT;
     SubmitMore();
     RaiseTold();
-    while (completed + failed < _options.transports)
+    while (!_transports.IsDone())
     {
         if (_entries.empty() || _entries.top().time > end || !violations.empty())
         {
@@ -128,7 +114,7 @@ void FleetWorld::Happen(const Entry& entry)
             }
             break;
         case EHappening::Accept:
-            vehicle.bAccepted = true;
+            vehicle.phase = EDrivePhase::OnNode;
             RaiseEvent(vehicle, NodePassed{vehicle.drive->driveID, vehicle.nodeID});
             BeginLeg(vehicle);
             break;
@@ -199,34 +185,19 @@ void FleetWorld::OnReport(const Report& report)
         return;
     }
     const std::string& planID = planOrNull->planID;
-    Transport& transport = _transports.at(planID);
     if (planOrNull->state == EPlanState::InProgress)
     {
-        Begin(transport, _control->GetRobotIDOrNull(planID).value_or(""));
-        return;
+        const std::string robotID = _control->GetRobotIDOrNull(planID).value_or("");
+        _transports.Begin(planID, _vehicles[_indices.at(robotID)].nodeID, _clock.GetNow().steady);
     }
-    if (planOrNull->state == EPlanState::Completed)
+    else if (planOrNull->state == EPlanState::Completed)
     {
-        ++completed;
-        const std::chrono::duration<double> taken = _clock.GetNow().steady - transport.begin;
-        const std::chrono::duration<double> total = _clock.GetNow().steady - transport.submitted;
-        _finished.push_back({taken.count() / transport.idealSeconds, total.count()});
+        _transports.Complete(planID, _clock.GetNow().steady);
     }
     else
     {
-        ++failed;
         violations.push_back(fmt::format("{} is {}: {}", planID, GetText(planOrNull->state), planOrNull->message));
     }
-    _transports.erase(planID);
-}
-
-void FleetWorld::Begin(Transport& transport, const std::string& robotID)
-{
-    const Demand& demand = _demands[transport.demand];
-    const std::string from = MakeDockID(demand.from);
-    transport.begin = _clock.GetNow().steady;
-    transport.idealSeconds = GetSeconds(_vehicles[_indices.at(robotID)].nodeID, from)
-        + GetSeconds(from, MakeDockID(demand.to)) + demand.loadSeconds + demand.unloadSeconds;
 }
 
 void FleetWorld::Obey(Vehicle& vehicle, const RobotCommand& command)
@@ -256,7 +227,7 @@ void FleetWorld::Obey(Vehicle& vehicle, const RobotCommand& command)
                 ++drives;
                 vehicle.drive = drive;
                 vehicle.index = 0;
-                vehicle.bAccepted = false;
+                vehicle.phase = EDrivePhase::Sent;
                 vehicle.bStopping = false;
                 Push(EHappening::Accept, number, 0, std::chrono::milliseconds(50));
             },
@@ -275,7 +246,7 @@ void FleetWorld::Obey(Vehicle& vehicle, const RobotCommand& command)
                 {
                     ++cancels;
                     vehicle.bStopping = true;
-                    if (!vehicle.bMoving && vehicle.bAccepted)
+                    if (vehicle.phase == EDrivePhase::OnNode)
                     {
                         Stop(vehicle);
                     }
@@ -283,7 +254,7 @@ void FleetWorld::Obey(Vehicle& vehicle, const RobotCommand& command)
             },
             [this, &vehicle, number](const StartJob& job) {
                 vehicle.jobID = job.jobID;
-                const Demand& demand = _demands[_transports.at(job.planID).demand];
+                const Demand& demand = _transports.GetDemand(job.planID);
                 const double seconds = job.stepNo == 1 ? demand.loadSeconds : demand.unloadSeconds;
                 Push(EHappening::Job, number, 0, ToDuration(seconds));
             },
@@ -312,7 +283,7 @@ void FleetWorld::PublishState(Vehicle& vehicle)
     state.bPoseKnown = true;
     state.batteryPercent = 80;
     state.lastNodeID = vehicle.nodeID;
-    state.bDriving = vehicle.bMoving && !vehicle.bPaused;
+    state.bDriving = vehicle.phase == EDrivePhase::OnLeg && !vehicle.bPaused;
     state.bPaused = vehicle.bPaused;
     RaiseEvent(vehicle, std::move(state));
 }
@@ -332,12 +303,12 @@ void FleetWorld::RaiseTold()
 
 void FleetWorld::BeginLeg(Vehicle& vehicle)
 {
-    if (!vehicle.drive.has_value() || !vehicle.bAccepted || vehicle.bMoving || vehicle.bPaused || vehicle.bStopping
+    if (vehicle.phase != EDrivePhase::OnNode || vehicle.bPaused || vehicle.bStopping
         || vehicle.index + 1 >= vehicle.drive->releasedCount)
     {
         return;
     }
-    vehicle.bMoving = true;
+    vehicle.phase = EDrivePhase::OnLeg;
     vehicle.legDone = 0;
     vehicle.legTime = _clock.GetNow().steady;
     ChangeSpeed(vehicle, vehicle.speed, false);
@@ -351,7 +322,7 @@ void FleetWorld::ChangeSpeed(Vehicle& vehicle, double speed, bool bPaused)
     vehicle.speed = speed;
     vehicle.bPaused = bPaused;
     ++vehicle.generation;
-    if (vehicle.bMoving && !bPaused)
+    if (vehicle.phase == EDrivePhase::OnLeg && !bPaused)
     {
         const double seconds = (1 - vehicle.legDone) * GetLegLength(vehicle) / speed;
         Push(
@@ -367,13 +338,14 @@ void FleetWorld::EndLeg(Vehicle& vehicle)
     const Drive& drive = *vehicle.drive;
     ++vehicle.index;
     vehicle.nodeID = drive.route.nodes[vehicle.index].nodeID;
-    vehicle.bMoving = false;
+    vehicle.phase = EDrivePhase::OnNode;
     vehicle.legDone = 0;
     RaiseEvent(vehicle, NodePassed{drive.driveID, vehicle.nodeID});
     if (vehicle.index + 1 == drive.route.nodes.size())
     {
         RaiseEvent(vehicle, Arrived{drive.driveID});
         vehicle.drive.reset();
+        vehicle.phase = EDrivePhase::None;
         PublishState(vehicle);
     }
     else if (vehicle.bStopping)
@@ -390,6 +362,7 @@ void FleetWorld::Stop(Vehicle& vehicle)
 {
     const std::string driveID = vehicle.drive->driveID;
     vehicle.drive.reset();
+    vehicle.phase = EDrivePhase::None;
     RaiseEvent(vehicle, DriveCancelled{driveID, vehicle.nodeID});
     PublishState(vehicle);
 }
@@ -457,7 +430,7 @@ void FleetWorld::CheckPlaces()
     {
         const Vehicle& vehicle = _vehicles[i];
         occupy(i, vehicle.nodeID);
-        if (vehicle.bMoving)
+        if (vehicle.phase == EDrivePhase::OnLeg)
         {
             occupy(i, vehicle.drive->route.nodes[vehicle.index + 1].nodeID);
         }
@@ -482,7 +455,7 @@ double FleetWorld::GetLegLength(const Vehicle& vehicle)
 
 double FleetWorld::GetLegDone(const Vehicle& vehicle) const
 {
-    if (!vehicle.bMoving || vehicle.bPaused)
+    if (vehicle.phase != EDrivePhase::OnLeg || vehicle.bPaused)
     {
         return vehicle.legDone;
     }
@@ -493,7 +466,7 @@ double FleetWorld::GetLegDone(const Vehicle& vehicle) const
 std::pair<double, double> FleetWorld::GetPosition(const Vehicle& vehicle) const
 {
     const SiteNode& node = *_site.FindNodeOrNull(vehicle.nodeID);
-    if (!vehicle.bMoving)
+    if (vehicle.phase != EDrivePhase::OnLeg)
     {
         return {node.x, node.y};
     }
@@ -502,24 +475,9 @@ std::pair<double, double> FleetWorld::GetPosition(const Vehicle& vehicle) const
     return {node.x + done * (next.x - node.x), node.y + done * (next.y - node.y)};
 }
 
-/// On an empty floor.
-double FleetWorld::GetSeconds(const std::string& from, const std::string& to) const
+const TransportLog& FleetWorld::GetTransports() const noexcept
 {
-    return _router.FindRouteOrNull(FLEET_TYPE, from, to)->travelSeconds;
-}
-
-const std::vector<FinishedTransport>& FleetWorld::GetFinished() const noexcept
-{
-    return _finished;
-}
-
-double FleetWorld::GetMeanSlowdown() const
-{
-    const double sum =
-        std::accumulate(_finished.begin(), _finished.end(), 0.0, [](double before, const FinishedTransport& transport) {
-            return before + transport.slowdown;
-        });
-    return sum / static_cast<double>(_finished.size());
+    return _transports;
 }
 
 double FleetWorld::GetVirtualHours() const
@@ -531,7 +489,7 @@ double FleetWorld::GetVirtualHours() const
 
 std::string FleetWorld::Describe() const
 {
-    std::string text = fmt::format("{} of {} done", completed, _options.transports);
+    std::string text = fmt::format("{} of {} done", _transports.GetFinished().size(), _options.transports);
     for (const Vehicle& vehicle : _vehicles)
     {
         text += fmt::format("\n{} on {}", vehicle.robotID, vehicle.nodeID);
@@ -548,11 +506,11 @@ std::string FleetWorld::Describe() const
                 text += " " + node.nodeID;
             }
         }
-        for (const auto& [planID, transport] : _transports)
+        for (const std::string& planID : _transports.ListOpen())
         {
             if (_control->GetRobotIDOrNull(planID) == vehicle.robotID)
             {
-                const Demand& demand = _demands[transport.demand];
+                const Demand& demand = _transports.GetDemand(planID);
                 text += fmt::format(" {} {}>{}", planID, demand.from, demand.to);
             }
         }

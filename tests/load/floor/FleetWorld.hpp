@@ -4,7 +4,7 @@
 #include "IFleetControl.hpp"
 #include "ManualClock.hpp"
 #include "SeededRandom.hpp"
-#include <acs/plan/Router.hpp>
+#include "TransportLog.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -30,13 +30,6 @@ struct FleetOptions
     bool bFaults = false; ///< Vehicles pause, are slow, are lost, and recover.
 };
 
-/// A transport that is completed.
-struct FinishedTransport
-{
-    double slowdown = 0;     ///< Its time divided by the time on an empty floor, from its start.
-    double totalSeconds = 0; ///< Since it was submitted.
-};
-
 /// A fleet in virtual time. Vehicles drive along what is released to them; their positions are independent of the data of what
 /// controls them.
 class FleetWorld
@@ -49,6 +42,14 @@ class FleetWorld
         Job,
         Fault,
         Recovery,
+    };
+
+    enum class EDrivePhase : std::uint8_t
+    {
+        None,
+        Sent,   ///< Not accepted yet.
+        OnNode, ///< On the node of Vehicle::index.
+        OnLeg,  ///< Between this node and the next one, also while it is paused there.
     };
 
     struct Entry
@@ -72,8 +73,7 @@ class FleetWorld
         std::string nodeID;
         std::optional<Planning::Drive> drive;
         std::size_t index = 0;
-        bool bAccepted = false;
-        bool bMoving = false; ///< Between index and the next node of its drive, also while it is paused there.
+        EDrivePhase phase = EDrivePhase::None;
         bool bStopping = false;
         bool bPaused = false;
         bool bLost = false;
@@ -86,21 +86,12 @@ class FleetWorld
         std::vector<Planning::RobotEvent> untold;
     };
 
-    struct Transport
-    {
-        std::size_t demand = 0;
-        Core::SteadyTime submitted;
-        Core::SteadyTime begin;
-        double idealSeconds = 0;
-    };
-
     FleetOptions _options;
     ManualClock _clock;
     SeededRandom _random;
     const Floor& _floor;
     const Planning::SiteMap& _site;
-    Planning::Router _router;
-    std::vector<Demand> _demands;
+    TransportLog _transports;
     std::unique_ptr<IFleetControl> _control;
     std::vector<Vehicle> _vehicles;
     std::map<std::string, std::size_t> _indices;
@@ -109,14 +100,10 @@ class FleetWorld
     std::map<Planning::EngineTimer, std::uint64_t> _timers;
     std::deque<std::pair<std::size_t, Planning::RobotEvent>> _raised;
     std::uint64_t _order = 0;
-    std::size_t _submitted = 0;
-    std::map<std::string, Transport> _transports; ///< Not finished, by plan.
-    std::vector<FinishedTransport> _finished;
+    std::uint64_t _submitted = 0; ///< Number of plans.
 
 public:
     std::vector<std::string> violations;
-    std::size_t completed = 0;
-    std::size_t failed = 0;
     std::size_t events = 0; ///< Events that were raised.
     std::size_t drives = 0;
     std::size_t cancels = 0; ///< Drives that were cancelled for a reroute or to yield.
@@ -127,8 +114,7 @@ public:
     /// Runs until all transports are done. False: they are not, and no event is left or a week has passed.
     [[nodiscard]] bool TryRun();
 
-    [[nodiscard]] const std::vector<FinishedTransport>& GetFinished() const noexcept;
-    [[nodiscard]] double GetMeanSlowdown() const;
+    [[nodiscard]] const TransportLog& GetTransports() const noexcept;
     [[nodiscard]] double GetVirtualHours() const;
     /// The position and the drive of each vehicle, for a run that does not end.
     [[nodiscard]] std::string Describe() const;
@@ -154,9 +140,6 @@ private:
     [[nodiscard]] std::pair<double, double> GetPosition(const Vehicle& vehicle) const;
     [[nodiscard]] double GetLegDone(const Vehicle& vehicle) const;
     [[nodiscard]] static double GetLegLength(const Vehicle& vehicle);
-    [[nodiscard]] double GetSeconds(const std::string& from, const std::string& to) const;
-    [[nodiscard]] static Planning::Plan MakePlan(const std::string& planID, const Demand& demand);
-    void Begin(Transport& transport, const std::string& robotID);
 };
 
 } // namespace ACS::Testing

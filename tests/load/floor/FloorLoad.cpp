@@ -63,23 +63,23 @@ Outcome Run(const Floor& floor, const FleetOptions& options, const MakeControl& 
     Outcome outcome;
     outcome.bDone = world.TryRun();
     outcome.violations = world.violations;
-    outcome.completed = world.completed;
+    outcome.completed = world.GetTransports().GetFinished().size();
     outcome.description = outcome.bDone ? std::string() : world.Describe();
-    if (world.completed == 0)
+    if (outcome.completed == 0)
     {
         return outcome;
     }
-    const auto count = static_cast<double>(world.completed);
+    const auto count = static_cast<double>(outcome.completed);
     std::vector<double> slowdowns;
     std::vector<double> totals;
-    for (const FinishedTransport& transport : world.GetFinished())
+    for (const FinishedTransport& transport : world.GetTransports().GetFinished())
     {
         slowdowns.push_back(transport.slowdown);
         totals.push_back(transport.totalSeconds);
     }
     std::ranges::sort(slowdowns);
     outcome.perHour = count / world.GetVirtualHours();
-    outcome.meanSlowdown = world.GetMeanSlowdown();
+    outcome.meanSlowdown = world.GetTransports().GetMeanSlowdown();
     outcome.slowdown95 = slowdowns[slowdowns.size() * 95 / 100];
     outcome.unfairness = *std::ranges::max_element(totals) * count / std::accumulate(totals.begin(), totals.end(), 0.0);
     outcome.cpu = cpu * MILLISECONDS / count;
