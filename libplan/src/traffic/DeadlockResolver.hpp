@@ -15,7 +15,7 @@
 namespace ACS::Planning
 {
 
-/// Breaks cycles of waiting robots: one takes a detour, retreats to its parking position or moves aside. Owns no data.
+/// Breaks cycles of waiting robots: one takes a detour, retreats to its parking position or to a refuge, or moves aside. Owns no data.
 class DeadlockResolver
 {
 public:
@@ -51,7 +51,7 @@ private:
     [[nodiscard]] bool TryDetour(Robot& robot);
     /// One of the robots that block the leader retreats; else the leader does, or an idle robot moves aside.
     [[nodiscard]] bool TryMakeWay(Robot& leader, const std::vector<Robot*>& stuck);
-    /// Sends the robot to its parking position until the leader has arrived.
+    /// Sends the robot to its parking position or to a refuge until the leader has arrived.
     [[nodiscard]] bool TryRetreat(Robot& robot, const Robot& leader);
     /// Sends an idle robot on the leader's route to the nearest station that no planned route uses.
     [[nodiscard]] std::optional<PlannedRoute> PlanRetreatOrNull(const Robot& robot, const Robot& leader);

@@ -12,12 +12,13 @@ namespace ACS::Planning
 /// Whether each robot that could park before still can with the nodes held on trial. One that cannot is a blocker.
 bool Traffic::IsAsGood(ESafeStateScope standing, std::size_t robot, Refusal& refusal)
 {
+    const SafeState& before = *_safeStates[static_cast<std::size_t>(standing)]; // known: see IsSafe
     const SafeState after = FindSafeState(standing);
     bool bGood = true;
     refusal.stuck.clear();
     for (std::size_t other = 0; other < _vehicles.size(); ++other)
     {
-        const bool bLost = _safeStates[static_cast<std::size_t>(standing)].reachable[other] && !after.reachable[other];
+        const bool bLost = before.reachable[other] && !after.reachable[other];
         bGood = bGood && !bLost;
         if (bLost && other != robot && std::ranges::count(_blockers, other) == 0)
         {

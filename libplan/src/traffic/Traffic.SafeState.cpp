@@ -58,7 +58,6 @@ Traffic::SafeState Traffic::FindSafeState(ESafeStateScope standing)
 {
     SafeState found;
     found.reachable.assign(_vehicles.size(), false);
-    found.bValid = true;
     FindReturns();
     std::vector<std::uint16_t> covers = _covers;
     std::vector<std::size_t> waiting;
@@ -92,11 +91,12 @@ Traffic::SafeState Traffic::FindSafeState(ESafeStateScope standing)
 
 const Traffic::SafeState& Traffic::GetSafeState(ESafeStateScope standing)
 {
-    if (!_safeStates[static_cast<std::size_t>(standing)].bValid)
+    std::optional<SafeState>& safeState = _safeStates[static_cast<std::size_t>(standing)];
+    if (!safeState.has_value())
     {
-        _safeStates[static_cast<std::size_t>(standing)] = FindSafeState(standing);
+        safeState = FindSafeState(standing);
     }
-    return _safeStates[static_cast<std::size_t>(standing)];
+    return *safeState;
 }
 
 bool Traffic::CanServe(std::size_t robot, std::size_t node) const

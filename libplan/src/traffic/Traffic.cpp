@@ -107,9 +107,12 @@ std::size_t Traffic::GetEnd(const Vehicle& vehicle)
 void Traffic::Note(bool bOnlyFreed)
 {
     bOnlyFreed = !std::exchange(_bPassedOn, false) && bOnlyFreed;
-    for (SafeState& safeState : _safeStates)
+    for (std::optional<SafeState>& safeState : _safeStates)
     {
-        safeState.bValid = safeState.bValid && bOnlyFreed && safeState.bAll;
+        if (!bOnlyFreed || !safeState.has_value() || !safeState->bAll)
+        {
+            safeState.reset();
+        }
     }
     _changes.disturbs += bOnlyFreed ? 0U : 1U;
     ++_changes.freed;

@@ -71,7 +71,6 @@ class Traffic
     {
         std::vector<bool> reachable;
         bool bAll = false;
-        bool bValid = false;
     };
 
     /// A node that another robot holds, and that this one gets as soon as it is freed.
@@ -103,11 +102,11 @@ class Traffic
     std::map<std::string, std::vector<FloorGraph>, std::less<>> _graphs; ///< By type: of empty and loaded vehicles.
     std::vector<Vehicle> _vehicles;
     std::vector<std::optional<std::size_t>> _holders;
-    std::vector<std::uint16_t> _covers;              ///< Of each node: how many held nodes exclude it.
-    std::vector<std::vector<std::size_t>> _arriving; ///< Of each node: the robots that have it as destination.
-    std::array<SafeState, 2> _safeStates;
-    std::vector<Awaited> _awaited; ///< In the order in which they were asked for.
-    bool _bPassedOn = false;       ///< Something that was given back is held by another since the last Note.
+    std::vector<std::uint16_t> _covers;                  ///< Of each node: how many held nodes exclude it.
+    std::vector<std::vector<std::size_t>> _arriving;     ///< Of each node: the robots that have it as destination.
+    std::array<std::optional<SafeState>, 2> _safeStates; ///< By ESafeStateScope; nullopt: it must be found again.
+    std::vector<Awaited> _awaited;                       ///< In the order in which they were asked for.
+    bool _bPassedOn = false; ///< Something that was given back is held by another since the last Note.
     std::vector<std::size_t> _blockers;
     bool _bBlocksRefuse = false; ///< The blocks limited the last Extend.
     bool _bReturnsKnown = false;
