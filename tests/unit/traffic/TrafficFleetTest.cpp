@@ -27,14 +27,14 @@ void Run(const Floor& floor, const FleetOptions& options)
     INFO(world.Describe());
     CHECK(world.violations == std::vector<std::string>{});
     REQUIRE(bDone);
-    CHECK(world.completed == options.transports);
+    CHECK(world.GetTransports().GetFinished().size() == options.transports);
     const std::string line = fmt::format(
         "{} vehicles, {} transports, seed {}{}: mean slowdown {:.2f}, {:.1f} h, {} drives, {} cancelled, {} events\n",
         options.vehicles,
         options.transports,
         options.seed,
         options.bFaults ? ", with faults" : "",
-        world.GetMeanSlowdown(),
+        world.GetTransports().GetMeanSlowdown(),
         world.GetVirtualHours(),
         world.drives,
         world.cancels,

@@ -10,7 +10,6 @@ using ACS::Testing::MakeLogisticsPlan;
 using ACS::Testing::PlanWorld;
 using ACS::Testing::RestartEngine;
 using ACS::Testing::TryRunFor;
-using ACS::Testing::TryRunUntil;
 
 namespace
 {
