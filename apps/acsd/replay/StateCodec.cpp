@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <utility>
 #include <variant>
@@ -48,7 +49,7 @@ struct StoreText
     std::vector<std::string> carriers;
     std::vector<std::string> alarms;
     std::vector<std::string> robotsInMaintenance;
-    std::string tscState;
+    std::string tscState; ///< Empty: none was ever stored.
     std::string holdReason;
     std::vector<std::string> robotWorks;
     std::vector<std::string> blocks;
@@ -93,7 +94,7 @@ struct JsonFields<Acsd::StoreText>
         Optional("carriers", &Acsd::StoreText::carriers),
         Optional("alarms", &Acsd::StoreText::alarms),
         Optional("robotsInMaintenance", &Acsd::StoreText::robotsInMaintenance),
-        Required("tsc", &Acsd::StoreText::tscState),
+        Optional("tsc", &Acsd::StoreText::tscState),
         Optional("holdReason", &Acsd::StoreText::holdReason),
         Optional("robotWorks", &Acsd::StoreText::robotWorks),
         Optional("blocks", &Acsd::StoreText::blocks),
@@ -150,8 +151,12 @@ Core::Result<Planning::OutboxEntry> DecodeEntry(const ReportLine& text)
     });
 }
 
-Core::Result<Planning::ETscState> ReadTscState(const std::string& text)
+Core::Result<std::optional<Planning::ETscState>> ReadTscStateOrNull(const std::string& text)
 {
+    if (text.empty())
+    {
+        return std::nullopt;
+    }
     for (const Planning::ETscState state :
          {Planning::ETscState::Auto, Planning::ETscState::Paused, Planning::ETscState::Pausing})
     {
@@ -170,9 +175,9 @@ Core::Result<Planning::StoredState> MakeStoredState(const StoreText& text)
     state.robotsInMaintenance = text.robotsInMaintenance;
     state.holdReason = text.holdReason;
     std::ranges::transform(text.receipts, std::back_inserter(state.receipts), MakeReceipt);
-    return ReadTscState(text.tscState)
-        .and_then([&](Planning::ETscState tsc) {
-            state.tscState = tsc;
+    return ReadTscStateOrNull(text.tscState)
+        .and_then([&](std::optional<Planning::ETscState> tscOrNull) {
+            state.tscState = tscOrNull;
             return DecodeAll(text.plans, DecodeRecordOfPlan, state.plans);
         })
         .and_then([&] { return DecodeAll(text.outbox, DecodeEntry, state.outbox); })
@@ -316,7 +321,7 @@ std::string EncodeState(const Planning::StoredState& state)
     std::ranges::transform(state.carriers, std::back_inserter(text.carriers), Planning::EncodeCarriers);
     std::ranges::transform(state.alarms, std::back_inserter(text.alarms), Planning::EncodeAlarm);
     text.robotsInMaintenance = state.robotsInMaintenance;
-    text.tscState = GetText(state.tscState);
+    text.tscState = state.tscState.has_value() ? GetText(*state.tscState) : "";
     text.holdReason = state.holdReason;
     std::ranges::transform(state.robotWorks, std::back_inserter(text.robotWorks), Planning::EncodeRobotWork);
     std::ranges::transform(state.blocks, std::back_inserter(text.blocks), Planning::EncodeBlock);

@@ -14,17 +14,24 @@ namespace ACS::Acsd
 namespace
 {
 
-/// The pause is stored: it outlasts a restart until the operator resumes the TSC.
+/// Reads the store. A new one begins with the TSC state of the configuration. That is stored before anything else, so that a start
+/// that was killed before it does not make the store look used.
 template <typename TStore>
-Core::Result<Planning::StoredState> Load(TStore& store, const StoreConfig& config)
+Core::Result<OpenedStore> Load(std::unique_ptr<TStore> store, const StoreConfig& config)
 {
-    return store.Load().and_then([&](Planning::StoredState state) -> Core::Result<Planning::StoredState> {
-        if (!store.GetOrigin().bNew || !config.bNewStorePaused)
+    return store->Load().and_then([&](Planning::StoredState state) {
+        Planning::StoreOrigin origin = store->GetOrigin();
+        origin.bNew = state == Planning::StoredState();
+        Core::Result<void> begun;
+        if (origin.bNew)
         {
-            return state;
+            state.tscState = config.bNewStorePaused ? Planning::ETscState::Paused : Planning::ETscState::Auto;
+            begun = store->Append({{Planning::TscChanged{*state.tscState}}});
         }
-        state.tscState = Planning::ETscState::Paused;
-        return store.Append({{Planning::TscChanged{state.tscState}}}).map([&state] { return std::move(state); });
+        return begun.map([&] {
+            std::string summary = MakeStoreSummary(origin, state);
+            return OpenedStore{std::move(store), std::move(state), std::move(summary), {}};
+        });
     });
 }
 
@@ -33,12 +40,8 @@ Core::Result<Planning::StoredState> Load(TStore& store, const StoreConfig& confi
 Core::Result<OpenedStore> OpenDirectoryStore(const StoreConfig& config)
 {
     return Planning::SqlitePlanStore::Open(config.directory)
-        .and_then([&config](std::unique_ptr<Planning::SqlitePlanStore> store) {
-            return Load(*store, config).map([&store](Planning::StoredState state) {
-                std::string summary = MakeStoreSummary(store->GetOrigin(), state);
-                return OpenedStore{std::move(store), std::move(state), std::move(summary), {}};
-            });
-        });
+        .and_then(
+            [&config](std::unique_ptr<Planning::SqlitePlanStore> store) { return Load(std::move(store), config); });
 }
 
 Core::Result<OpenedStore> OpenSharedStore(const StoreConfig& config, std::uint64_t epoch, LeaseGuard& guard)
@@ -51,14 +54,11 @@ Core::Result<OpenedStore> OpenSharedStore(const StoreConfig& config, std::uint64
     };
     return Planning::PostgresPlanStore::Open(std::move(options), epoch)
         .and_then([&config, &guard](std::unique_ptr<Planning::PostgresPlanStore> store) {
-            return Load(*store, config).map([&store, &guard](Planning::StoredState state) {
-                std::string summary = MakeStoreSummary(store->GetOrigin(), state);
-                std::string identity = store->GetIdentity();
-                return OpenedStore{
-                    std::make_unique<LeaderStore>(std::move(store), guard),
-                    std::move(state),
-                    std::move(summary),
-                    std::move(identity)};
+            std::string identity = store->GetIdentity();
+            return Load(std::move(store), config).map([&](OpenedStore opened) {
+                opened.store = std::make_unique<LeaderStore>(std::move(opened.store), guard);
+                opened.identity = std::move(identity);
+                return opened;
             });
         });
 }

@@ -24,13 +24,13 @@ std::string CountOf(std::size_t count, std::string_view one, std::string_view ma
 
 std::string MakeStoreSummary(const Planning::StoreOrigin& origin, const Planning::StoredState& state)
 {
+    const Planning::ETscState tsc = state.tscState.value_or(Planning::ETscState::Auto);
     if (origin.bNew)
     {
         return fmt::format(
             "new, schema {}{}",
             origin.version,
-            state.tscState == Planning::ETscState::Auto ? ""
-                                                        : ", TSC Paused until an operator resumes it (tsc.new_store)");
+            tsc == Planning::ETscState::Auto ? "" : ", TSC Paused until an operator resumes it (tsc.new_store)");
     }
     const auto ended = static_cast<std::size_t>(
         std::ranges::count_if(state.plans, [](const auto& record) { return IsFinal(record.progress.state); }));
@@ -49,9 +49,9 @@ std::string MakeStoreSummary(const Planning::StoreOrigin& origin, const Planning
     {
         text += fmt::format(", in maintenance {}", fmt::join(state.robotsInMaintenance, " "));
     }
-    if (state.tscState != Planning::ETscState::Auto)
+    if (tsc != Planning::ETscState::Auto)
     {
-        text += fmt::format(", TSC {}", GetText(state.tscState));
+        text += fmt::format(", TSC {}", GetText(tsc));
     }
     if (!state.holdReason.empty())
     {

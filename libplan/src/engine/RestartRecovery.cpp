@@ -74,7 +74,7 @@ void RestartRecovery::Restore(StoredState state)
     {
         RestoreOverdue(robot);
     }
-    _tsc.RestoreTSC(state.tscState);
+    _tsc.RestoreTSC(state.tscState.value_or(ETscState::Auto));
     BeginStartup(!_plans.GetActive().empty() || !state.robotWorks.empty());
     _transaction.StartTimer(EEngineTimer::Dispatch, {}, {});
 }

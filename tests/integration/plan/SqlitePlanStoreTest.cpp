@@ -84,7 +84,7 @@ TEST_CASE("Store: databases of the first and second schema are migrated without 
         CHECK(loaded->alarms.size() == 1);
         CHECK(loaded->carriers.size() == 1);
         CHECK(loaded->robotWorks.empty());
-        CHECK(loaded->tscState == (version == 2 ? ETscState::Paused : ETscState::Auto));
+        CHECK(loaded->tscState.value_or(ETscState::Auto) == (version == 2 ? ETscState::Paused : ETscState::Auto));
         REQUIRE(store->Append(
             {{PlanAdded{MakeRecord(2, "P2")}, RobotWorkChanged{"LR01", "C", {}, {}, {}, false, false, {"N1"}}}}));
         CHECK(store->Load()->plans.back().transactionID == "request-P2");

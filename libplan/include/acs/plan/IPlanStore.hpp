@@ -181,7 +181,7 @@ struct StoredState
     std::vector<CarriersChanged> carriers;        ///< The last one of each robot.
     std::vector<Alarm> alarms;                    ///< Those that are set.
     std::vector<std::string> robotsInMaintenance; ///< Their robotIDs.
-    ETscState tscState = ETscState::Auto;         ///< Auto if none was ever stored.
+    std::optional<ETscState> tscState;            ///< The last one; nullopt if none was ever stored: Auto.
     /// Why the content may be out of date, for example a restored backup; empty: it is not. The engine then starts with the TSC
     /// Paused and commands no robot to move or work until the operator resumes it. TscChanged to Auto clears the reason.
     std::string holdReason;
