@@ -43,6 +43,12 @@ void ControlAnswers::Remember(PlanProgress& progress, const ControlPlan& command
     _plans.MarkProgressed(command.planID);
 }
 
+void ControlAnswers::Forget(ActivePlan& plan, const std::string& requestID)
+{
+    std::erase(plan.record.progress.requestIDs, requestID);
+    _plans.MarkProgressed(plan.record.plan.planID);
+}
+
 void ControlAnswers::Ask(ActivePlan& plan, EPlanControl control, EControlOrigin origin)
 {
     _plans.MarkProgressed(plan.record.plan.planID);

@@ -28,6 +28,8 @@ public:
     [[nodiscard]] bool IsRepetition(const ControlPlan& command) const;
     /// Remembers the request to recognise a repetition.
     void Remember(PlanProgress& progress, const ControlPlan& command);
+    /// The request has no effect: repeated, it is executed.
+    void Forget(ActivePlan& plan, const std::string& requestID);
     /// Opens a control, until Answer.
     void Ask(ActivePlan& plan, EPlanControl control, EControlOrigin origin);
     /// "PausePlan", or "the operator": who began the open control of the plan.

@@ -290,10 +290,9 @@ void StoreGate::WithdrawPause(Robot& robot)
     PlanProgress& progress = robot.planOrNull->record.progress;
     if (progress.control == EPlanControl::Pause)
     {
-        std::erase(progress.requestIDs, *_call.controlID); // it has no effect: repeated, it is executed
+        _answers.Forget(*robot.planOrNull, *_call.controlID);
         progress.control.reset();
         progress.controlCount = 0;
-        _plans.MarkProgressed(robot.planOrNull->record.plan.planID);
         _answers.StopConfirmingControl(robot);
     }
 }
