@@ -1,6 +1,7 @@
 #include "traffic/Traffic.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <utility>
 
@@ -12,13 +13,14 @@ namespace ACS::Planning
 /// Whether each robot that could park before still can with the nodes held on trial. One that cannot is a blocker.
 bool Traffic::IsAsGood(ESafeStateScope standing, std::size_t robot, Refusal& refusal)
 {
-    const SafeState& before = *_safeStates[static_cast<std::size_t>(standing)]; // known: see IsSafe
+    const std::optional<SafeState>& before = _safeStates[static_cast<std::size_t>(standing)];
+    assert(before.has_value()); // see IsSafe
     const SafeState after = FindSafeState(standing);
     bool bGood = true;
     refusal.stuck.clear();
     for (std::size_t other = 0; other < _vehicles.size(); ++other)
     {
-        const bool bLost = before.reachable[other] && !after.reachable[other];
+        const bool bLost = before->reachable[other] && !after.reachable[other];
         bGood = bGood && !bLost;
         if (bLost && other != robot && std::ranges::count(_blockers, other) == 0)
         {
@@ -130,7 +132,7 @@ void Traffic::AddBlockers(const std::vector<std::size_t>& robots)
 }
 
 /// A robot that can go home before all others leaves the floor as if it had never been there.
-bool Traffic::CanLeaveFirst(std::size_t robot, std::size_t from)
+bool Traffic::TryLeaveFirst(std::size_t robot, std::size_t from)
 {
     Vehicle& vehicle = _vehicles[robot];
     Cover(vehicle, _covers, false);
@@ -141,7 +143,7 @@ bool Traffic::CanLeaveFirst(std::size_t robot, std::size_t from)
     return bLeaves;
 }
 
-bool Traffic::CanTakeRefuge(std::size_t robot, std::size_t from, bool bAsIs)
+bool Traffic::TryTakeRefuge(std::size_t robot, std::size_t from, bool bAsIs)
 {
     Vehicle& vehicle = _vehicles[robot];
     Cover(vehicle, _covers, false);
@@ -164,7 +166,7 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
         return false;
     }
     const bool bAsIs = IsAnyFixed() || _ways.IsAnyBlocked();
-    if (CanLeaveFirst(robot, ahead.back()))
+    if (TryLeaveFirst(robot, ahead.back()))
     {
         return true;
     }
@@ -174,7 +176,7 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
     {
         static_cast<void>(GetSafeState(ESafeStateScope::AsIs));
     }
-    if (CanTakeRefuge(robot, ahead.back(), bAsIs))
+    if (TryTakeRefuge(robot, ahead.back(), bAsIs))
     {
         return true;
     }

@@ -235,10 +235,10 @@ private:
     void AddInTheWay(const Vehicle& vehicle, std::vector<std::size_t>& robots) const;
     void AddBlockers(const std::vector<std::size_t>& robots);
     [[nodiscard]] bool IsRefusedStill(const Refusal& refusal, std::span<const std::size_t> ahead) const;
-    /// Whether its route home from the node is free, whatever the others do.
-    [[nodiscard]] bool CanLeaveFirst(std::size_t robot, std::size_t from);
-    /// Whether it can go from there, before the others, to a refuge that none of them needs. The safe states are known.
-    [[nodiscard]] bool CanTakeRefuge(std::size_t robot, std::size_t from, bool bAsIs);
+    /// Claims its parking position if the route there from the node is free, whatever the others do.
+    [[nodiscard]] bool TryLeaveFirst(std::size_t robot, std::size_t from);
+    /// Claims a refuge that no other robot needs, if the robot can go there from the node before the others. The safe states are known.
+    [[nodiscard]] bool TryTakeRefuge(std::size_t robot, std::size_t from, bool bAsIs);
     [[nodiscard]] bool IsSafe(std::size_t robot, std::span<const std::size_t> ahead);
 };
 

@@ -42,9 +42,10 @@ namespace ACS::Planning
 ///
 /// Traffic (docs/design/traffic.md): a node is reserved for at most one robot. Further nodes of a route are granted only if
 /// the state stays safe: all robots that could leave the lanes one after another, to their parking positions or to other dead ends,
-/// still can. A reservation ends when the robot has reported the next node. A deadlock is resolved by a detour of one robot or by
-/// sending it there. A robot without a plan drives to its parking position, and yields if it blocks another robot. A plan begins when
-/// no other robot is expected at its first two stations at the same time; plans that share a station begin in the queue's order.
+/// still can. A reservation ends when the robot has reported the next node. A deadlock is resolved by a detour of one robot, or by
+/// sending it to its parking position or another dead end. A robot without a plan drives to its parking position, and yields if it
+/// blocks another robot. A plan begins when no other robot is expected at its first two stations at the same time; plans that share
+/// a station begin in the queue's order.
 class ACS_API PlanEngine
 {
     class ACS_HIDDEN Impl;
