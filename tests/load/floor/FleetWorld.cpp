@@ -47,7 +47,7 @@ FleetWorld::FleetWorld(const Floor& floor, const FleetOptions& options, std::uni
         RaiseEvent(vehicle, LinkChanged{true});
         PublishState(vehicle);
     }
-    RaiseTold();
+    DeliverEvents();
     if (options.bFaults)
     {
         Push(EHappening::Fault, 0, 0, std::chrono::seconds(10));
@@ -81,7 +81,7 @@ bool FleetWorld::TryRun()
 {
     const Core::SteadyTime end = _clock.GetNow().steady + TIME_LIMIT;
     SubmitMore();
-    RaiseTold();
+    DeliverEvents();
     while (!_transports.IsDone())
     {
         if (_entries.empty() || _entries.top().time > end || !violations.empty())
@@ -92,10 +92,10 @@ bool FleetWorld::TryRun()
         _entries.pop();
         _clock.Advance(std::chrono::duration_cast<std::chrono::milliseconds>(entry.time - _clock.GetNow().steady));
         Happen(entry);
-        RaiseTold();
+        DeliverEvents();
         CheckPlaces();
         SubmitMore();
-        RaiseTold();
+        DeliverEvents();
     }
     return true;
 }
@@ -116,7 +116,7 @@ void FleetWorld::Happen(const Entry& entry)
         case EHappening::Accept:
             vehicle.phase = EDrivePhase::OnNode;
             RaiseEvent(vehicle, NodePassed{vehicle.drive->driveID, vehicle.nodeID});
-            BeginLeg(vehicle);
+            Continue(vehicle);
             break;
         case EHappening::Leg:
             if (vehicle.generation == entry.generation)
@@ -268,7 +268,7 @@ void FleetWorld::RaiseEvent(Vehicle& vehicle, RobotEvent event)
 {
     if (vehicle.bLost)
     {
-        vehicle.untold.push_back(std::move(event));
+        vehicle.undelivered.push_back(std::move(event));
         return;
     }
     _raised.emplace_back(static_cast<std::size_t>(&vehicle - _vehicles.data()), std::move(event));
@@ -288,7 +288,7 @@ void FleetWorld::PublishState(Vehicle& vehicle)
     RaiseEvent(vehicle, std::move(state));
 }
 
-void FleetWorld::RaiseTold()
+void FleetWorld::DeliverEvents()
 {
     while (!_raised.empty())
     {
@@ -348,7 +348,16 @@ void FleetWorld::EndLeg(Vehicle& vehicle)
         vehicle.phase = EDrivePhase::None;
         PublishState(vehicle);
     }
-    else if (vehicle.bStopping)
+    else
+    {
+        Continue(vehicle);
+    }
+}
+
+/// On a node of its drive.
+void FleetWorld::Continue(Vehicle& vehicle)
+{
+    if (vehicle.bStopping)
     {
         Stop(vehicle);
     }
@@ -399,7 +408,7 @@ void FleetWorld::Recover(Vehicle& vehicle)
     if (std::exchange(vehicle.bLost, false))
     {
         RaiseEvent(vehicle, LinkChanged{true});
-        for (RobotEvent& event : std::exchange(vehicle.untold, {}))
+        for (RobotEvent& event : std::exchange(vehicle.undelivered, {}))
         {
             RaiseEvent(vehicle, std::move(event));
         }

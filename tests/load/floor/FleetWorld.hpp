@@ -83,7 +83,7 @@ class FleetWorld
         std::string jobID;
         bool bLoaded = false;
         std::uint64_t generation = 0; ///< Number of its latest leg.
-        std::vector<Planning::RobotEvent> untold;
+        std::vector<Planning::RobotEvent> undelivered;
     };
 
     FleetOptions _options;
@@ -128,10 +128,11 @@ private:
     void Obey(Vehicle& vehicle, const Planning::RobotCommand& command);
     void RaiseEvent(Vehicle& vehicle, Planning::RobotEvent event);
     void PublishState(Vehicle& vehicle);
-    void RaiseTold();
+    void DeliverEvents();
     void Happen(const Entry& entry);
     void BeginLeg(Vehicle& vehicle);
     void EndLeg(Vehicle& vehicle);
+    void Continue(Vehicle& vehicle);
     void Stop(Vehicle& vehicle);
     void ChangeSpeed(Vehicle& vehicle, double speed, bool bPaused);
     void Fault();
