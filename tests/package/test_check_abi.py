@@ -28,8 +28,8 @@ class CheckAbi(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
         self.former = self.make_packages("former")
 
-    def make_packages(self, name, field="", function=False, soversion="0.1", without_drive=False):
-        """Packages as of scripts/package, with a library of one function."""
+    def make_packages(self, name, field="", function=False, libraries=(("toy", "0.1"),), without_drive=False, without=()):
+        """Packages as of scripts/package, with libraries of one function: (name, soversion)."""
         root = self.folder / f"{name}-build"
         header = root / "libacs-dev/usr/include/acs/toy.hpp"
         header.parent.mkdir(parents=True)
@@ -37,22 +37,27 @@ class CheckAbi(unittest.TestCase):
         source = root / "toy.cpp"
         text = SOURCE.format(function="int ACS::Stop() { return 1; }" if function else "")
         source.write_text("int unused() { return 0; }\n" if without_drive else text, encoding="utf-8")
-        library = root / f"libacs0/usr/lib/x86_64-linux-gnu/libacs_toy.so.{soversion}"
-        library.parent.mkdir(parents=True)
-        run(COMPILER, "-g", "-shared", "-fPIC", "-Wl,--build-id", f"-Wl,-soname,{library.name}", "-I", header.parent.parent, source, "-o", library)
-        identity = re.search(r"Build ID: ([0-9a-f]+)", run("readelf", "-n", library)).group(1)
-        symbols = root / "libacs0-dbgsym/usr/lib/debug/.build-id" / identity[:2] / f"{identity[2:]}.debug"
-        symbols.parent.mkdir(parents=True)
-        run("objcopy", "--only-keep-debug", library, symbols)
-        run("strip", "--strip-unneeded", library)
+        for library_name, soversion in libraries:
+            self.make_library(root, root / f"libacs0/usr/lib/x86_64-linux-gnu/libacs_{library_name}.so.{soversion}")
         output = self.folder / name
         output.mkdir()
-        for package in ("libacs0", "libacs0-dbgsym", "libacs-dev"):
+        for package in {"libacs0", "libacs0-dbgsym", "libacs-dev"} - set(without):
             control = root / package / "DEBIAN" / "control"
             control.parent.mkdir()
             control.write_text(f"Package: {package}\nVersion: 1\nArchitecture: all\nMaintainer: X <x@x.org>\nDescription: x\n", encoding="utf-8")
             run("dpkg-deb", "--build", "--root-owner-group", root / package, output / f"{package}_1_all.deb")
         return output
+
+    @staticmethod
+    def make_library(root, library):
+        library.parent.mkdir(parents=True, exist_ok=True)
+        run(COMPILER, "-g", "-shared", "-fPIC", "-Wl,--build-id", f"-Wl,-soname,{library.name}", "-I", root / "libacs-dev/usr/include",
+            root / "toy.cpp", "-o", library)
+        identity = re.search(r"Build ID: ([0-9a-f]+)", run("readelf", "-n", library)).group(1)
+        symbols = root / "libacs0-dbgsym/usr/lib/debug/.build-id" / identity[:2] / f"{identity[2:]}.debug"
+        symbols.parent.mkdir(parents=True, exist_ok=True)
+        run("objcopy", "--only-keep-debug", library, symbols)
+        run("strip", "--strip-unneeded", library)
 
     def check(self, current):
         done = subprocess.run([CHECK, self.former, current], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
@@ -78,9 +83,32 @@ class CheckAbi(unittest.TestCase):
         self.assertIn("not compatible", text)
 
     def test_another_soversion_is_another_interface(self):
-        code, text = self.check(self.make_packages("next", field="    int speed;\n", soversion="0.2"))
+        code, text = self.check(self.make_packages("next", field="    int speed;\n", libraries=(("toy", "0.2"), ("new", "0.2"))))
         self.assertEqual(code, 0, text)
-        self.assertIn("other soversions", text)
+        self.assertIn("not compared, since their soversions differ: libacs_toy.so.0.1", text)
+
+    def test_a_library_that_kept_its_soversion_is_compared(self):
+        self.former = self.make_packages("two", libraries=(("toy", "0.1"), ("c", "1")))
+        both = (("toy", "0.2"), ("c", "1"))
+        code, text = self.check(self.make_packages("kept", libraries=both))
+        self.assertEqual(code, 0, text)
+        self.assertIn("not compared, since their soversions differ: libacs_toy.so.0.1", text)
+        self.assertIn("has not changed", text)
+        code, text = self.check(self.make_packages("broken", field="    int speed;\n", libraries=both))
+        self.assertEqual(code, 1, text)
+        self.assertIn("not compatible", text)
+
+    def test_a_library_is_missing(self):
+        self.former = self.make_packages("two", libraries=(("toy", "0.1"), ("c", "1")))
+        code, text = self.check(self.make_packages("one"))
+        self.assertEqual(code, 1, text)
+        self.assertIn("libraries are missing: libacs_c", text)
+
+    def test_a_package_is_missing(self):
+        for package in ("libacs0", "libacs0-dbgsym", "libacs-dev"):
+            code, text = self.check(self.make_packages(f"without-{package}", field="    int speed;\n", without=(package,)))
+            self.assertEqual(code, 2, text)
+            self.assertIn(f"needs exactly one package {package}", text)
 
     def test_a_wrong_command_line(self):
         for words in ([], [self.former], ["--unknown", self.former, self.former], [self.former, self.folder]):
