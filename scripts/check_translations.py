@@ -2,6 +2,7 @@
 """Korean pages translate the English page as it is today: each names the version of its original (scripts/translations.py), and has
 the same headings, tables, code and names."""
 
+import os
 import re
 import sys
 
@@ -13,6 +14,7 @@ REQUIRED = re.compile(r"README\.md|docs/guide/get-started\.md|docs/reference/(?:
                       r"docs/runbook/(?:README|en/[^/]+)\.md")
 FENCE = re.compile(r"^```.*?^```", re.DOTALL | re.MULTILINE)
 SPAN = re.compile(r"`([^`\n]+)`")
+LINK = re.compile(r"\]\(([^)#\s]+\.md)(?:#[^)\s]*)?\)")
 HANGUL = re.compile(r"[\uac00-\ud7a3]")
 
 
@@ -49,13 +51,23 @@ def check_structure(path, text, original, english):
         yield f"it differs from {original} in {', '.join(f'`{span}`' for span in sorted(spans))}; names are not translated"
 
 
+def check_links(path, text, original, translations):
+    """A reader of Korean stays with Korean pages, but for the link to the original."""
+    korean = {english: page for page, english in translations.items()}
+    for link in LINK.findall(FENCE.sub("", text)):
+        target = os.path.normpath(os.path.join(os.path.dirname(path), link))
+        if target != original and target in korean:
+            yield f"links to {target}; link to its translation {korean[target]}"
+
+
 def check_tree(root):
     files = set(list_files(root))
     translations = find_translations(files)
     for path, original in translations.items():
         reasons = list(check_version(root, path, original, files))
         if not reasons:
-            reasons = check_structure(path, read_text(root, path), original, read_text(root, original))
+            text = read_text(root, path)
+            reasons = [*check_structure(path, text, original, read_text(root, original)), *check_links(path, text, original, translations)]
         for reason in reasons:
             yield f"{path}:1: {reason}"
     for original in sorted(files - set(translations.values())):

@@ -24,7 +24,7 @@ templates_path = []
 
 extensions = ["myst_parser", "pages", "korean_search"]
 root_doc = "README"
-# Tests describe themselves; what git does not know is no document.
+# Pages are the Markdown files that git lists, except those of tests.
 include_patterns = [path for path in list_files(ROOT) if path.endswith(".md") and not path.startswith("tests/")]
 exclude_patterns = ["build", ".git", "tests"]
 myst_heading_anchors = 6  # links to headings as on GitHub

@@ -68,6 +68,8 @@ ALARMS, KOREAN_ALARMS = "docs/reference/alarms.md", "docs/reference/ko/alarms.md
 MARK = make_mark(ALARMS, RIGHT[ALARMS])
 KOREAN = "| 코드 | 레벨 |\n|---|---|\n| `ACS-1005` | `ACS-1004`와 같음 |\n"
 RIGHT[KOREAN_ALARMS] = f"{MARK}\n{KOREAN}"
+RIGHT["README.md"] = "# Robots\n"
+RIGHT["README.ko.md"] = f"{make_mark('README.md', RIGHT['README.md'])}\n# 로봇\n[English](README.md)\n"
 
 # check, file, content, line that must be named, what the sentence must hold
 PLANTED = [
@@ -176,6 +178,7 @@ PLANTED = [
     ("translations", KOREAN_ALARMS, f"{MARK}\n{KOREAN.replace('1004', '1003')}", 1, "`ACS-1003`, `ACS-1004`"),
     ("translations", KOREAN_ALARMS, f"{MARK}\n{KOREAN}\n```\none\n```\n", 1, "code blocks"),
     ("translations", KOREAN_ALARMS, f"{MARK}\n{RIGHT[ALARMS]}", 1, "no Korean"),
+    ("translations", KOREAN_ALARMS, f"{MARK}\n{KOREAN}[처음](../../../README.md#run)\n", 1, "links to README.md; link to its translation"),
     ("translations", "docs/guide/ko/none.md", f"{MARK}\n없음\n", 1, "docs/guide/none.md, which this page would translate, does not exist"),
     ("translations", "docs/guide/get-started.md", "# One\n", 1, "no translation"),
     ("words", "docs/guide.md", "The alarm\ntells that\n", 2, "'tells': write report"),
