@@ -13,11 +13,13 @@ import sys
 import tempfile
 import time
 
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.append(str(ROOT / "scripts"))
+
 import private_network
 from blocks import MarkError, find_blocks
+from source_tree import list_files, read_text
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-PAGES = ("README.md", "docs/guide/get-started.md", "docs/reference/acsctl.md", "docs/reference/configuration.md")
 PORTS = (1883, 8080, 8081, 8888, 9001, 49000)
 TIME_SCALE = "16"
 SECONDS = 90  # of one script, and of waiting for a service to end
@@ -88,7 +90,8 @@ class Page:
                 code = process.wait(SECONDS)
             except subprocess.TimeoutExpired:
                 code = None
-            self._end(process)
+            finally:
+                self._end(process)
             log.seek(0)
             output = log.read()
         self._output += output
@@ -173,10 +176,16 @@ def count_marks(text):
     return len(re.findall(r"^<!-- run\b", text, re.MULTILINE))
 
 
+def list_pages():
+    """The documents that have marked blocks, except those of the tests."""
+    pages = [path for path in list_files(str(ROOT)) if path.endswith(".md") and not path.startswith("tests/")]
+    return [path for path in pages if count_marks(read_text(str(ROOT), path)) > 0]
+
+
 def main():
     parser = argparse.ArgumentParser(description="Runs the code blocks of documents that are marked to be run.")
     parser.add_argument("--bin", required=True, type=pathlib.Path, help="folder of the built programs")
-    parser.add_argument("pages", nargs="*", default=PAGES, help=f"documents, relative to the tree (default: {' '.join(PAGES)})")
+    parser.add_argument("pages", nargs="*", help="documents, relative to the tree (default: all that have marked blocks)")
     arguments = parser.parse_args()
     if not private_network.enter():
         busy = private_network.list_busy(PORTS)
@@ -184,7 +193,7 @@ def main():
             print(f"skipped: this system permits no private network, and other programs use the ports {busy}")
             return 77
     failures = 0
-    for page in arguments.pages:
+    for page in arguments.pages or list_pages():
         text = (ROOT / page).read_text(encoding="utf-8")
         try:
             if run_page(page, text, arguments.bin.resolve()) == 0 or count_marks(text) == 0:
