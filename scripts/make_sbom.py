@@ -24,7 +24,7 @@ SPDX_NAMES = {
 GNU_NAME = re.compile(r"(A?GPL|LGPL|GFDL)-?([123])(?:\.([0-9]))?(\+|-or-later|-only)?", re.IGNORECASE)
 LICENSE = re.compile(r"^License: *(.*(?:\n[ \t].*)*)", re.MULTILINE)
 DEPENDENCY = re.compile(r"^\s*([a-z0-9][a-z0-9+.-]*)")
-PRODUCT_LICENSE = "LicenseRef-not-chosen"
+PRODUCT_COPYRIGHT = pathlib.Path(__file__).resolve().parent.parent / "debian" / "copyright"
 
 
 def run(*command):
@@ -69,9 +69,10 @@ class Licenses:
     def read(self, package):
         """The expression of an installed package."""
         path = pathlib.Path("/usr/share/doc") / package / "copyright"
-        if not path.is_file():
-            return "NOASSERTION"
-        text = path.read_text(encoding="utf-8", errors="replace")
+        return self.read_text(path.read_text(encoding="utf-8", errors="replace"), package) if path.is_file() else "NOASSERTION"
+
+    def read_text(self, text, package):
+        """The expression of a copyright file."""
         if not text.startswith("Format: http"):
             return self.add_text(f"debian-{package}-copyright", text)
         used, texts = [], {}
@@ -135,13 +136,11 @@ def read_deb(path):
 
 def make_document(debs, compiled, version, commit, epoch):
     licenses, packages, relations = Licenses(), {}, []
-    licenses.texts[PRODUCT_LICENSE] = {
-        "name": "not chosen", "text": "The owner of the ACS SDK has not chosen a licence yet. Until then only the owner may copy, change "
-                                      "or distribute it."}
+    product_license = licenses.read_text(PRODUCT_COPYRIGHT.read_text(encoding="utf-8"), "acs")
     products = {}
     for path in sorted(debs):
         fields = read_deb(path)
-        package = make_package(fields["Package"], fields["Version"], fields["Architecture"], PRODUCT_LICENSE)
+        package = make_package(fields["Package"], fields["Version"], fields["Architecture"], product_license)
         package.update({"supplier": "Organization: ACS SDK maintainers", "packageFileName": path.name,
                         "checksums": [{"algorithm": "SHA256", "checksumValue": hashlib.sha256(path.read_bytes()).hexdigest()}],
                         "sourceInfo": f"commit {commit}"})
@@ -158,7 +157,7 @@ def make_document(debs, compiled, version, commit, epoch):
         waiting += foreign
         if fields["Architecture"] != "all" and fields["Package"] != "libacs-dev":
             for name in compiled:
-                relations.append(relate(make_id("Package", name), "STATIC_LINK", package["SPDXID"]))
+                relations.append(relate(package["SPDXID"], "STATIC_LINK", make_id("Package", name)))
     for name in compiled:
         # Headers and archives: what the binaries need of their packages is among the dependencies of the binaries.
         installed = read_installed(name) or sys.exit(f"make_sbom: {name} is not installed")

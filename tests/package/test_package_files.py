@@ -171,6 +171,16 @@ class Tokens(PackageCase):
         self.assertEqual(done.returncode, 1)
         self.assertEqual(list(self.folder.iterdir()), [])
 
+    def test_a_signal_leaves_no_file(self):
+        acsd = self.folder / "acsd"
+        acsd.write_text("#!/bin/sh\nkill -TERM $PPID\n", encoding="ascii")
+        acsd.chmod(0o755)
+        etc = self.folder / "etc"
+        etc.mkdir()
+        done = run(DEBIAN / "make-tokens", etc, str(os.getgid()), env={**os.environ, "ACSD": str(acsd)})
+        self.assertEqual(done.returncode, 143)
+        self.assertEqual(list(etc.iterdir()), [])
+
 
 class ManPages(PackageCase):
     def list_programs(self):
@@ -216,13 +226,42 @@ class ManPages(PackageCase):
             with self.subTest(program=program):
                 done = run("man", "-l", self.make_page(program), env={**os.environ, "MANWIDTH": "200", "LC_ALL": "C.UTF-8",
                                                                       "MAN_KEEP_FORMATTING": ""})
-                words = set(re.split(r"[\s,]+", done.stdout))
+                page = " ".join(done.stdout.split())
                 options = self.list_options(program)
                 if program == "acsd":
                     options |= {"token", "store check", "store accept", "store backup", "store restore", "replay"}
                 self.assertGreater(len(options), 5)
-                missing = [option for option in options if not set(option.split()) <= words]
+                missing = [option for option in options if not re.search(rf"(?<![\w-]){re.escape(option)}(?![\w-])", page)]
                 self.assertEqual(missing, [])
+
+
+class Completions(PackageCase):
+    def complete(self, *words):
+        """What bash offers for the last word, in the order of the file."""
+        script = self.folder / words[0]
+        shutil.copy(REPOSITORY / "apps" / "common" / "completion" / "program.bash", script)
+        text = ('source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _acs_program "$1" "${@: -1}"; printf "%s\\n" "${COMPREPLY[@]}"')
+        done = run("bash", "--norc", "-c", text, "bash", script, *words, env={**os.environ, "PATH": f"{PROGRAMS}:{os.environ['PATH']}"})
+        self.assertEqual(done.returncode, 0, done.stdout)
+        return done.stdout.split()
+
+    def test_options_and_commands(self):
+        self.assertEqual(self.complete("acsd", "--check"), ["--check-config"])
+        self.assertEqual(sorted(self.complete("acsd", "")), ["replay", "store", "token"])
+        self.assertEqual(sorted(self.complete("acsd", "store", "")), ["accept", "backup", "check", "restore"])
+        self.assertEqual(self.complete("acsd", "--config", "x"), [])
+        for program in ("acs-sim", "mcs-sim", "openstream-sim", "vda-sim"):
+            self.assertIn("--version", self.complete(program, "--"))
+            self.assertEqual(self.complete(program, ""), [])
+        self.assertEqual(self.complete("vda-sim", "--vehicle", "LR01", "--bro"), ["--broker"])
+
+    def test_every_installed_program_has_completions(self):
+        installed = "".join(path.read_text(encoding="utf-8") for path in DEBIAN.glob("*.install"))
+        programs = re.findall(r"^usr/bin/(\S+)$", installed, re.MULTILINE)
+        self.assertEqual(len(programs), 6)
+        for program in programs:
+            self.assertIn(f"usr/share/bash-completion/completions/{program}\n", installed)
+            self.assertIn(f"usr/share/zsh/site-functions/_{program} usr/share/zsh/vendor-completions\n", installed)
 
 
 class Version(PackageCase):
@@ -249,12 +288,12 @@ class Version(PackageCase):
 
 
 class Sbom(PackageCase):
-    def make_deb(self):
+    def make_deb(self, architecture="all"):
         control = self.folder / "deb" / "DEBIAN" / "control"
         control.parent.mkdir(parents=True, mode=0o755)
-        control.write_text("Package: acsd\nVersion: 1.0\nArchitecture: all\nMaintainer: X <x@x.org>\nDepends: libc6, libssl3\nDescription: x\n",
-                           encoding="utf-8")
-        path = self.folder / "acsd_1.0_all.deb"
+        control.write_text(f"Package: acsd\nVersion: 1.0\nArchitecture: {architecture}\nMaintainer: X <x@x.org>\nDepends: libc6, libssl3\n"
+                           "Description: x\n", encoding="utf-8")
+        path = self.folder / f"acsd_1.0_{architecture}.deb"
         self.assertEqual(run("dpkg-deb", "--build", "--root-owner-group", self.folder / "deb", path).returncode, 0)
         return path
 
@@ -269,6 +308,19 @@ class Sbom(PackageCase):
         self.assertIn("libgcc-s1", packages)  # of libc6
         self.assertIn("MIT", packages["rapidjson-dev"]["licenseDeclared"])
         self.assertEqual(document["creationInfo"]["created"], "2023-11-14T22:13:20Z")
+
+    def test_a_package_links_what_is_compiled_into_it(self):
+        document = make_sbom.make_document([self.make_deb("amd64")], ["rapidjson-dev"], "1.0", "0" * 40, 0)
+        links = [(relation["spdxElementId"], relation["relatedSpdxElement"]) for relation in document["relationships"]
+                 if relation["relationshipType"] == "STATIC_LINK"]
+        self.assertEqual(links, [("SPDXRef-Package-acsd", "SPDXRef-Package-rapidjson-dev")])
+
+    def test_the_licence_is_that_of_the_copyright_file(self):
+        document = make_sbom.make_document([self.make_deb()], [], "1.0", "0" * 40, 0)
+        declared = {package["name"]: package["licenseDeclared"] for package in document["packages"]}["acsd"]
+        text = (DEBIAN / "copyright").read_text(encoding="utf-8")
+        self.assertEqual(declared, make_sbom.Licenses().read_text(text, "acs"))
+        self.assertEqual(make_sbom.Licenses().read_text(text.replace("License: not-chosen", "License: Apache-2.0"), "acs"), "Apache-2.0")
 
     def test_a_missing_field_is_an_error(self):
         text = json.dumps(make_sbom.make_document([self.make_deb()], ["rapidjson-dev"], "1.0", "0" * 40, 0))
@@ -307,5 +359,5 @@ class Scripts(PackageCase):
 
 
 if __name__ == "__main__":
-    PROGRAMS = pathlib.Path(sys.argv.pop(1))
+    PROGRAMS = pathlib.Path(sys.argv.pop(1)).resolve()
     unittest.main(verbosity=2)

@@ -71,13 +71,21 @@ class Packages(unittest.TestCase):
         self.assertEqual(run("dpkg-deb", "-I", deb, "conffiles").stdout.split(), ["/etc/acsd/acsd.toml", "/etc/acsd/site.lif.json"])
 
     def test_links_of_the_documents(self):
-        docs = self.extract() / "usr/share/doc/acs"
+        """Every page has its target; sources of the repository are in the site only."""
+        docs = (self.extract() / "usr/share/doc/acs").resolve()
         code = re.compile(r"^```.*?^```|`[^`\n]+`", re.DOTALL | re.MULTILINE)
-        for path in (docs / "docs").rglob("*.md"):
+        pages = [path for path in docs.rglob("*.md") if not path.is_relative_to(docs / "html")]
+        self.assertGreater(len(pages), 100)
+        for path in pages:
             for target in re.findall(r"\]\((?![a-z]+:)([^)#\s]+)", code.sub("", path.read_text(encoding="utf-8"))):
                 place = (path.parent / target).resolve()
-                if place.is_relative_to(docs.resolve() / "docs"):
-                    self.assertTrue(place.exists(), f"{path}: {target}")
+                name = place.relative_to(docs)
+                is_source = (REPOSITORY / name).exists() and name.suffix != ".md" and name.parts[0] not in ("docs", "examples")
+                self.assertTrue(place.exists() or is_source, f"{path}: {target}")
+
+    def test_every_link_of_the_site(self):
+        done = run("/usr/bin/python3", "-B", REPOSITORY / "scripts" / "site_links.py", self.extract() / "usr/share/doc/acs/html")
+        self.assertEqual(done.returncode, 0, done.stdout)
 
     def test_the_sbom_lists_every_package_with_its_hash(self):
         document = json.loads(next(PACKAGES.glob("*.spdx.json")).read_text(encoding="utf-8"))
