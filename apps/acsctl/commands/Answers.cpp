@@ -254,6 +254,10 @@ Outcome<std::string> GetBodyFrom(std::string_view listenKey, const ApiAnswer& an
     {
         text += fmt::format(" Try again in {} s.", answer.retryAfter);
     }
+    if (answer.status == HTTP_UNAUTHORIZED)
+    {
+        text += " Give --token-file FILE; the Debian package has made /etc/acsd/operator.token.";
+    }
     return FailWith(bDenied ? EXIT_NOT_AUTHORIZED : EXIT_REFUSED, std::move(text));
 }
 

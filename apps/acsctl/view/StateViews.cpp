@@ -127,7 +127,7 @@ std::string PrintStatus(const StatusInfo& status, const ViewContext& context)
     }
     else
     {
-        details.Add("Ready", "no: " + Join(status.notReadyReasons, " "), EStyle::Bad);
+        details.Add("Ready", "no: " + Join(status.notReadyReasons, "; "), EStyle::Bad);
     }
     if (status.bConnected.has_value())
     {

@@ -293,7 +293,7 @@ AcsdConfig Read(
     config.relayIndex = bByte ? EArmRelayIndex::Byte : EArmRelayIndex::Value;
     ReadSite(root, fileName, config);
     ReadStoreConfig(root, fileName, bStoreInspected, config.store, config.warnings);
-    ReadHttpConfig(root, fileName, config.store.directory, config.http);
+    ReadHttpConfig(root, fileName, config.store.directory, config.http, config.warnings);
     ReadEngineConfig(root, config.engine);
     ReadStations(root, config);
     ReadRobots(root, drivers, config);

@@ -45,7 +45,11 @@ void ReadListen(const ConfigSection& section, HttpListenConfig& config)
     }
 }
 
-void ReadTokens(const ConfigSection& section, const std::string& fileName, OperatorConfig& config)
+void ReadTokens(
+    const ConfigSection& section,
+    const std::string& fileName,
+    OperatorConfig& config,
+    std::vector<std::string>& warnings)
 {
     const std::optional<std::string> path = section.GetStringOrNull("tokens_file");
     if (!path.has_value())
@@ -70,6 +74,12 @@ void ReadTokens(const ConfigSection& section, const std::string& fileName, Opera
     {
         section.AddError("tokens_file", fmt::format("{}: {}", config.tokensFile, Core::Describe(tokens.error())));
         return;
+    }
+    if (tokens->empty())
+    {
+        warnings.push_back(fmt::format(
+            "operator.tokens_file: {} has no token, so every token is refused; acsd token ROLE NAME prints its lines",
+            config.tokensFile));
     }
     config.access.tokens = std::move(*tokens);
 }
@@ -180,12 +190,13 @@ void ReadHttpConfig(
     const ConfigSection& root,
     const std::string& fileName,
     const std::string& storeDirectory,
-    HttpConfig& config)
+    HttpConfig& config,
+    std::vector<std::string>& warnings)
 {
     const ConfigSection control = root.GetSection("operator");
     ReadListen(root.GetSection("http"), config.monitoring);
     ReadListen(control, config.control.http);
-    ReadTokens(control, fileName, config.control);
+    ReadTokens(control, fileName, config.control, warnings);
     ReadOperatorTLS(control, fileName, config.control);
     ReadCertificates(control, config.control);
     DemandIdentity(control, config.control);

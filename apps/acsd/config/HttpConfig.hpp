@@ -43,6 +43,7 @@ void ReadHttpConfig(
     const Apps::ConfigSection& root,
     const std::string& fileName,
     const std::string& storeDirectory,
-    HttpConfig& config);
+    HttpConfig& config,
+    std::vector<std::string>& warnings);
 
 } // namespace ACS::Acsd

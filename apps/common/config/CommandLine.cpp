@@ -141,6 +141,19 @@ CLI::Option& AddRepeatedOption(CLI::App& app, const std::string& name, TextReade
         CLI::MultiOptionPolicy::TakeAll);
 }
 
+namespace
+{
+
+/// An unknown word explains more than what is missing because of it.
+std::string Explain(const CLI::App& app, const CLI::ParseError& error)
+{
+    const std::vector<std::string> unknown = app.remaining(true);
+    const bool bMissing = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+    return bMissing && !unknown.empty() ? CLI::ExtrasError(unknown).what() : error.what();
+}
+
+} // namespace
+
 std::optional<int> ParseCommandLineOrNull(CLI::App& app, int argc, const char* const* argv)
 {
     try
@@ -160,7 +173,7 @@ std::optional<int> ParseCommandLineOrNull(CLI::App& app, int argc, const char* c
     }
     catch (const CLI::ParseError& error)
     {
-        PrintError(app.get_name(), fmt::format("{}; try {} --help", error.what(), app.get_name()));
+        PrintError(app.get_name(), fmt::format("{}; try {} --help", Explain(app, error), app.get_name()));
         return EXIT_BAD_COMMAND_LINE;
     }
 }

@@ -28,6 +28,9 @@ TEST_CASE("The status of an answer decides the exit code")
     CHECK(GetCode(301, "") == 6);
     CHECK(GetCode(401, R"({"error":"No."})") == 4);
     CHECK(GetCode(403, "<html>") == 4);
+    CHECK_THAT(
+        Acsctl::GetBody(ApiAnswer{401, "", R"({"error":"A token is required."})", ""}).error().text,
+        Catch::StartsWith("A token is required. Give --token-file FILE"));
     CHECK(Acsctl::GetBody(ApiAnswer{503, "", R"({"error":"Full."})", "2"}).error().text == "Full. Try again in 2 s.");
 }
 

@@ -45,6 +45,18 @@ TEST_CASE("operator.tokens_file has valid lines, and not every user can read it"
     CheckErrors({{{override}, "operator.tokens_file: " + file + ": expected "}});
 }
 
+TEST_CASE("A tokens file without a token, with which no operator has access, is reported and permitted")
+{
+    const Testing::TemporaryFolder folder;
+    const std::string file = (folder.GetPath() / "tokens").string();
+    std::ofstream(file) << "";
+    SetReadableByAll(file, false);
+    const AcsdConfig config = ReadSite({"operator.tokens_file=" + file});
+    CHECK(config.errors.empty());
+    const std::string expected = "operator.tokens_file: " + file + " has no token, so every token is refused";
+    CHECK(std::ranges::any_of(config.warnings, [&](const std::string& text) { return text.starts_with(expected); }));
+}
+
 TEST_CASE("A key of operator.tls that every user can read is rejected")
 {
     const Testing::TemporaryFolder folder;

@@ -164,6 +164,20 @@ TEST_CASE("An invalid command line prints one line with program and option; the 
     REQUIRE(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') == 1);
 }
 
+TEST_CASE("An unknown word is named before what is missing")
+{
+    CLI::App app{"A program for tests", "some-sim"};
+    std::string file;
+    Apps::AddFileOption(app, "--config", file, "The configuration").required();
+    app.add_subcommand("plans", "Lists plans");
+    app.require_subcommand(1);
+    const std::vector<const char*> words{"some-sim", "plnas"};
+    const StreamCapture errors(std::cerr);
+    CHECK(
+        Apps::ParseCommandLineOrNull(app, static_cast<int>(words.size()), words.data()) == Apps::EXIT_BAD_COMMAND_LINE);
+    CHECK_THAT(errors.GetText(), Contains("plnas"));
+}
+
 TEST_CASE("An uncaught exception prints one line; the exit code is 1")
 {
     const StreamCapture errors(std::cerr);
