@@ -8,6 +8,7 @@ import subprocess
 import sys
 
 PROJECT = re.compile(r"^project\(acs VERSION ([0-9]+(?:\.[0-9]+){2}) ", re.MULTILINE)
+DEBIAN_VERSION = re.compile(r"[0-9][A-Za-z0-9.+~]*")
 MAINTAINER = re.compile(r"^Maintainer: (.+)$", re.MULTILINE)
 
 
@@ -30,6 +31,8 @@ def make_version(project, tags, time, commit):
 
 
 def make_changelog(root, commit, version=None):
+    if version is not None and not DEBIAN_VERSION.fullmatch(version):
+        sys.exit(f"package: '{version}' is no Debian version, such as 0.1.0 or 0.1.0+site1")
     time = datetime.datetime.fromtimestamp(int(git(root, "show", "-s", "--format=%ct", commit)), datetime.timezone.utc)
     project = read_project_version(git(root, "show", f"{commit}:CMakeLists.txt"))
     maintainer = MAINTAINER.search(git(root, "show", f"{commit}:debian/control")).group(1)
