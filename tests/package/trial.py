@@ -184,13 +184,31 @@ class Trial(unittest.TestCase):
         machine.execute("test", "-f", "/etc/acsd/tokens")
         self.assertEqual(machine.execute("pgrep", "-x", "acsd", may_fail=True), "")
 
-    def test_8_a_purge_leaves_nothing(self):
+    @staticmethod
+    def purge():
         names = [read_field(deb, "Package") for deb in pathlib.Path(machine.folder, "trial", "newer").glob("*.deb")]
         machine.execute("apt-get", "-q", "-y", "purge", *names)
         machine.execute("apt-get", "-q", "-y", "autoremove", "--purge")
+
+    def test_8_a_purge_leaves_nothing(self):
+        self.purge()
         self.assertEqual(machine.execute("getent", "passwd", "acsd", may_fail=True), "")
         self.assertEqual(machine.execute("getent", "group", "acsd", may_fail=True), "")
         self.assertEqual(sorted((self.list_files() | self.list_named_files()) - self.files_before), [])
+
+    def test_9_what_was_there_before_the_installation_stays(self):
+        machine.execute("useradd", "--create-home", "acsd")
+        machine.execute("ln", "-s", "/srv", "/var/lib/acsd")
+        output = machine.execute("apt-get", "-q", "-y", "--no-install-recommends", "install", *list_debs("newer"), may_fail=True)
+        self.assertIn("/var/lib/acsd must not be a symbolic link", output)
+        machine.execute("rm", "/var/lib/acsd")
+        machine.execute("mkdir", "/var/lib/acsd")
+        machine.execute("mount", "-t", "tmpfs", "tmpfs", "/var/lib/acsd")
+        machine.execute("dpkg", "--configure", "-a")
+        self.assertEqual(machine.execute("systemctl", "is-active", "acsd").strip(), "active")
+        self.purge()
+        self.assertEqual(machine.execute("ls", "-A", "/var/lib/acsd"), "")
+        self.assertIn("/home/acsd", machine.execute("getent", "passwd", "acsd"))
 
     @staticmethod
     def list_named_files():
