@@ -197,7 +197,7 @@ class Trial(unittest.TestCase):
         self.assertEqual(sorted((self.list_files() | self.list_named_files()) - self.files_before), [])
 
     def test_9_what_was_there_before_the_installation_stays(self):
-        machine.execute("useradd", "--create-home", "acsd")
+        machine.execute("useradd", "--home-dir", "/trial/acsd", "--create-home", "acsd")
         machine.execute("ln", "-s", "/srv", "/var/lib/acsd")
         output = machine.execute("apt-get", "-q", "-y", "--no-install-recommends", "install", *list_debs("newer"), may_fail=True)
         self.assertIn("/var/lib/acsd must not be a symbolic link", output)
@@ -208,7 +208,7 @@ class Trial(unittest.TestCase):
         self.assertEqual(machine.execute("systemctl", "is-active", "acsd").strip(), "active")
         self.purge()
         self.assertEqual(machine.execute("ls", "-A", "/var/lib/acsd"), "")
-        self.assertIn("/home/acsd", machine.execute("getent", "passwd", "acsd"))
+        self.assertIn("/trial/acsd", machine.execute("getent", "passwd", "acsd"))
 
     @staticmethod
     def list_named_files():
