@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace ACS::Testing
@@ -37,12 +38,12 @@ FleetWorld::FleetWorld(const Floor& floor, const FleetOptions& options, std::uni
 {
     for (std::size_t i = 0; i < options.vehicles; ++i)
     {
-        Vehicle& vehicle = _vehicles.emplace_back();
+        FloorVehicle& vehicle = _vehicles.emplace_back();
         vehicle.robotID = fmt::format("LR{:02}", i + 1);
         vehicle.nodeID = MakeDockID(_floor.parking.at(i));
         _indices.emplace(vehicle.robotID, i);
     }
-    for (Vehicle& vehicle : _vehicles)
+    for (FloorVehicle& vehicle : _vehicles)
     {
         RaiseEvent(vehicle, LinkChanged{true});
         PublishState(vehicle);
@@ -102,7 +103,7 @@ bool FleetWorld::TryRun()
 
 void FleetWorld::Happen(const Entry& entry)
 {
-    Vehicle& vehicle = _vehicles[entry.vehicle];
+    FloorVehicle& vehicle = _vehicles[entry.vehicle];
     switch (entry.happening)
     {
         case EHappening::Engine:
@@ -200,7 +201,7 @@ void FleetWorld::OnReport(const Report& report)
     }
 }
 
-void FleetWorld::Obey(Vehicle& vehicle, const RobotCommand& command)
+void FleetWorld::Obey(FloorVehicle& vehicle, const RobotCommand& command)
 {
     const auto number = static_cast<std::size_t>(&vehicle - _vehicles.data());
     if (vehicle.bLost)
@@ -264,7 +265,7 @@ void FleetWorld::Obey(Vehicle& vehicle, const RobotCommand& command)
         command);
 }
 
-void FleetWorld::RaiseEvent(Vehicle& vehicle, RobotEvent event)
+void FleetWorld::RaiseEvent(FloorVehicle& vehicle, RobotEvent event)
 {
     if (vehicle.bLost)
     {
@@ -274,9 +275,9 @@ void FleetWorld::RaiseEvent(Vehicle& vehicle, RobotEvent event)
     _raised.emplace_back(static_cast<std::size_t>(&vehicle - _vehicles.data()), std::move(event));
 }
 
-void FleetWorld::PublishState(Vehicle& vehicle)
+void FleetWorld::PublishState(FloorVehicle& vehicle)
 {
-    const auto [x, y] = GetPosition(vehicle);
+    const auto [x, y] = vehicle.GetPosition(_site, _clock.GetNow().steady);
     StateChanged state;
     state.x = x;
     state.y = y;
@@ -301,7 +302,7 @@ void FleetWorld::DeliverEvents()
     }
 }
 
-void FleetWorld::BeginLeg(Vehicle& vehicle)
+void FleetWorld::BeginLeg(FloorVehicle& vehicle)
 {
     if (vehicle.phase != EDrivePhase::OnNode || vehicle.bPaused || vehicle.bStopping
         || vehicle.index + 1 >= vehicle.drive->releasedCount)
@@ -314,26 +315,21 @@ void FleetWorld::BeginLeg(Vehicle& vehicle)
     ChangeSpeed(vehicle, vehicle.speed, false);
 }
 
-/// Takes effect at the present point of the leg.
-void FleetWorld::ChangeSpeed(Vehicle& vehicle, double speed, bool bPaused)
+void FleetWorld::ChangeSpeed(FloorVehicle& vehicle, double speed, bool bPaused)
 {
-    vehicle.legDone = GetLegDone(vehicle);
-    vehicle.legTime = _clock.GetNow().steady;
-    vehicle.speed = speed;
-    vehicle.bPaused = bPaused;
-    ++vehicle.generation;
-    if (vehicle.phase == EDrivePhase::OnLeg && !bPaused)
+    vehicle.ChangeSpeed(speed, bPaused, _clock.GetNow().steady);
+    const std::optional<double> seconds = vehicle.GetLegSecondsOrNull();
+    if (seconds.has_value())
     {
-        const double seconds = (1 - vehicle.legDone) * GetLegLength(vehicle) / speed;
         Push(
             EHappening::Leg,
             static_cast<std::size_t>(&vehicle - _vehicles.data()),
             vehicle.generation,
-            ToDuration(seconds));
+            ToDuration(*seconds));
     }
 }
 
-void FleetWorld::EndLeg(Vehicle& vehicle)
+void FleetWorld::EndLeg(FloorVehicle& vehicle)
 {
     const Drive& drive = *vehicle.drive;
     ++vehicle.index;
@@ -355,7 +351,7 @@ void FleetWorld::EndLeg(Vehicle& vehicle)
 }
 
 /// On a node of its drive.
-void FleetWorld::Continue(Vehicle& vehicle)
+void FleetWorld::Continue(FloorVehicle& vehicle)
 {
     if (vehicle.bStopping)
     {
@@ -367,7 +363,7 @@ void FleetWorld::Continue(Vehicle& vehicle)
     }
 }
 
-void FleetWorld::Stop(Vehicle& vehicle)
+void FleetWorld::Stop(FloorVehicle& vehicle)
 {
     const std::string driveID = vehicle.drive->driveID;
     vehicle.drive.reset();
@@ -380,7 +376,7 @@ void FleetWorld::Stop(Vehicle& vehicle)
 void FleetWorld::Fault()
 {
     const std::size_t number = GetRandom(_vehicles.size());
-    Vehicle& vehicle = _vehicles[number];
+    FloorVehicle& vehicle = _vehicles[number];
     const bool bWell = !vehicle.bPaused && !vehicle.bLost && vehicle.speed >= 1;
     if (bWell)
     {
@@ -403,7 +399,7 @@ void FleetWorld::Fault()
     Push(EHappening::Fault, 0, 0, std::chrono::seconds(1 + GetRandom(15)));
 }
 
-void FleetWorld::Recover(Vehicle& vehicle)
+void FleetWorld::Recover(FloorVehicle& vehicle)
 {
     if (std::exchange(vehicle.bLost, false))
     {
@@ -437,13 +433,13 @@ void FleetWorld::CheckPlaces()
     };
     for (std::size_t i = 0; i < _vehicles.size(); ++i)
     {
-        const Vehicle& vehicle = _vehicles[i];
+        const FloorVehicle& vehicle = _vehicles[i];
         occupy(i, vehicle.nodeID);
         if (vehicle.phase == EDrivePhase::OnLeg)
         {
             occupy(i, vehicle.drive->route.nodes[vehicle.index + 1].nodeID);
         }
-        const std::pair<double, double> position = GetPosition(vehicle);
+        const std::pair<double, double> position = vehicle.GetPosition(_site, _clock.GetNow().steady);
         for (std::size_t other = 0; other < i; ++other)
         {
             const double x = positions[other].first - position.first;
@@ -455,33 +451,6 @@ void FleetWorld::CheckPlaces()
         }
         positions.push_back(position);
     }
-}
-
-double FleetWorld::GetLegLength(const Vehicle& vehicle)
-{
-    return vehicle.drive->route.edges[vehicle.index].length;
-}
-
-double FleetWorld::GetLegDone(const Vehicle& vehicle) const
-{
-    if (vehicle.phase != EDrivePhase::OnLeg || vehicle.bPaused)
-    {
-        return vehicle.legDone;
-    }
-    const std::chrono::duration<double> driven = _clock.GetNow().steady - vehicle.legTime;
-    return std::min(1.0, vehicle.legDone + driven.count() * vehicle.speed / GetLegLength(vehicle));
-}
-
-std::pair<double, double> FleetWorld::GetPosition(const Vehicle& vehicle) const
-{
-    const SiteNode& node = *_site.FindNodeOrNull(vehicle.nodeID);
-    if (vehicle.phase != EDrivePhase::OnLeg)
-    {
-        return {node.x, node.y};
-    }
-    const RouteNode& next = vehicle.drive->route.nodes[vehicle.index + 1];
-    const double done = GetLegDone(vehicle);
-    return {node.x + done * (next.x - node.x), node.y + done * (next.y - node.y)};
 }
 
 const TransportLog& FleetWorld::GetTransports() const noexcept
@@ -499,22 +468,9 @@ double FleetWorld::GetVirtualHours() const
 std::string FleetWorld::Describe() const
 {
     std::string text = fmt::format("{} of {} done", _transports.GetFinished().size(), _options.transports);
-    for (const Vehicle& vehicle : _vehicles)
+    for (const FloorVehicle& vehicle : _vehicles)
     {
-        text += fmt::format("\n{} on {}", vehicle.robotID, vehicle.nodeID);
-        if (vehicle.drive.has_value())
-        {
-            const std::vector<RouteNode>& nodes = vehicle.drive->route.nodes;
-            text += fmt::format(
-                " to {}, node {} of {} released",
-                nodes.back().nodeID,
-                vehicle.index,
-                vehicle.drive->releasedCount);
-            for (const RouteNode& node : nodes)
-            {
-                text += " " + node.nodeID;
-            }
-        }
+        text += "\n" + vehicle.Describe();
         for (const std::string& planID : _transports.ListOpen())
         {
             if (_control->GetRobotIDOrNull(planID) == vehicle.robotID)
@@ -523,8 +479,6 @@ std::string FleetWorld::Describe() const
                 text += fmt::format(" {} {}>{}", planID, demand.from, demand.to);
             }
         }
-        text += vehicle.bPaused ? " paused" : "";
-        text += vehicle.bLost ? " lost" : "";
     }
     return text;
 }

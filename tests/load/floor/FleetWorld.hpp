@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Floor.hpp"
+#include "FloorVehicle.hpp"
 #include "IFleetControl.hpp"
 #include "ManualClock.hpp"
 #include "SeededRandom.hpp"
@@ -44,14 +45,6 @@ class FleetWorld
         Recovery,
     };
 
-    enum class EDrivePhase : std::uint8_t
-    {
-        None,
-        Sent,   ///< Not accepted yet.
-        OnNode, ///< On the node of Vehicle::index.
-        OnLeg,  ///< Between this node and the next one, also while it is paused there.
-    };
-
     struct Entry
     {
         Core::SteadyTime time;
@@ -67,25 +60,6 @@ class FleetWorld
         }
     };
 
-    struct Vehicle
-    {
-        std::string robotID;
-        std::string nodeID;
-        std::optional<Planning::Drive> drive;
-        std::size_t index = 0;
-        EDrivePhase phase = EDrivePhase::None;
-        bool bStopping = false;
-        bool bPaused = false;
-        bool bLost = false;
-        double speed = 1;   ///< Metres per second.
-        double legDone = 0; ///< Part of the leg that was done at legTime.
-        Core::SteadyTime legTime;
-        std::string jobID;
-        bool bLoaded = false;
-        std::uint64_t generation = 0; ///< Number of its latest leg.
-        std::vector<Planning::RobotEvent> undelivered;
-    };
-
     FleetOptions _options;
     ManualClock _clock;
     SeededRandom _random;
@@ -93,7 +67,7 @@ class FleetWorld
     const Planning::SiteMap& _site;
     TransportLog _transports;
     std::unique_ptr<IFleetControl> _control;
-    std::vector<Vehicle> _vehicles;
+    std::vector<FloorVehicle> _vehicles;
     std::map<std::string, std::size_t> _indices;
     std::map<std::string, std::uint64_t> _onNode;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> _entries;
@@ -125,22 +99,19 @@ private:
     void SubmitMore();
     void Execute(const Planning::EngineActions& actions);
     void OnReport(const Planning::Report& report);
-    void Obey(Vehicle& vehicle, const Planning::RobotCommand& command);
-    void RaiseEvent(Vehicle& vehicle, Planning::RobotEvent event);
-    void PublishState(Vehicle& vehicle);
+    void Obey(FloorVehicle& vehicle, const Planning::RobotCommand& command);
+    void RaiseEvent(FloorVehicle& vehicle, Planning::RobotEvent event);
+    void PublishState(FloorVehicle& vehicle);
     void DeliverEvents();
     void Happen(const Entry& entry);
-    void BeginLeg(Vehicle& vehicle);
-    void EndLeg(Vehicle& vehicle);
-    void Continue(Vehicle& vehicle);
-    void Stop(Vehicle& vehicle);
-    void ChangeSpeed(Vehicle& vehicle, double speed, bool bPaused);
+    void BeginLeg(FloorVehicle& vehicle);
+    void EndLeg(FloorVehicle& vehicle);
+    void Continue(FloorVehicle& vehicle);
+    void Stop(FloorVehicle& vehicle);
+    void ChangeSpeed(FloorVehicle& vehicle, double speed, bool bPaused);
     void Fault();
-    void Recover(Vehicle& vehicle);
+    void Recover(FloorVehicle& vehicle);
     void CheckPlaces();
-    [[nodiscard]] std::pair<double, double> GetPosition(const Vehicle& vehicle) const;
-    [[nodiscard]] double GetLegDone(const Vehicle& vehicle) const;
-    [[nodiscard]] static double GetLegLength(const Vehicle& vehicle);
 };
 
 } // namespace ACS::Testing
