@@ -4,6 +4,7 @@ import os
 import pathlib
 import signal
 import subprocess
+import sys
 import time
 
 PATH = "/usr/sbin:/usr/bin:/sbin:/bin"
@@ -17,6 +18,19 @@ def run(*command, timeout=900, **options):
     if done.returncode != 0:
         raise RuntimeError(f"{' '.join(str(word) for word in command)} ended with {done.returncode}:\n{done.stdout[-4000:]}")
     return done.stdout
+
+
+def take_arguments():
+    """PACKAGES and WORK of the command line. A test without root or packages is skipped."""
+    packages, work = sys.argv.pop(1), sys.argv.pop(1)
+    if os.geteuid() != 0:
+        print("skipped: a machine in a folder needs root")
+        sys.exit(77)
+    if not list(pathlib.Path(packages).glob("*.deb")):
+        print(f"skipped: {packages} has no packages; scripts/package makes them")
+        sys.exit(77)
+    os.makedirs(work, exist_ok=True)
+    return packages, work
 
 
 def make_base(archive, packages):

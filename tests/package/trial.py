@@ -5,15 +5,13 @@ system for the next time."""
 
 import atexit
 import json
-import os
 import pathlib
 import shutil
-import sys
 import tempfile
 import time
 import unittest
 
-from machine import Machine, make_base
+from machine import Machine, make_base, take_arguments
 from repack import read_field, repack
 
 # What the packages need is added.
@@ -224,12 +222,5 @@ class Trial(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    if os.geteuid() != 0:
-        print("skipped: a machine in a folder needs root")
-        sys.exit(77)
-    PACKAGES, WORK = sys.argv.pop(1), sys.argv.pop(1)
-    os.makedirs(WORK, exist_ok=True)
-    if not list(pathlib.Path(PACKAGES).glob("*.deb")):
-        print(f"skipped: {PACKAGES} has no packages; scripts/package makes them")
-        sys.exit(77)
+    PACKAGES, WORK = take_arguments()
     unittest.main(verbosity=2, failfast=True)

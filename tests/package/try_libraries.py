@@ -3,15 +3,13 @@
 on a Debian 12 machine that has nothing else but a compiler and CMake. Needs root. WORK keeps the base system for the next time."""
 
 import atexit
-import os
 import pathlib
 import re
 import shutil
-import sys
 import tempfile
 import unittest
 
-from machine import Machine, make_base
+from machine import Machine, make_base, take_arguments
 
 INSTALL_TESTS = pathlib.Path(__file__).resolve().parent.parent / "install"
 BASE_PACKAGES = ("cmake", "g++", "ninja-build", "pkg-config")
@@ -60,12 +58,5 @@ class Libraries(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    if os.geteuid() != 0:
-        print("skipped: a machine in a folder needs root")
-        sys.exit(77)
-    PACKAGES, WORK = sys.argv.pop(1), sys.argv.pop(1)
-    os.makedirs(WORK, exist_ok=True)
-    if not list(pathlib.Path(PACKAGES).glob("*.deb")):
-        print(f"skipped: {PACKAGES} has no packages; scripts/package makes them")
-        sys.exit(77)
+    PACKAGES, WORK = take_arguments()
     unittest.main(verbosity=2)
