@@ -114,6 +114,17 @@ Nodes GetHeld(const Traffic& traffic, std::size_t robot)
     return {traffic.GetHeld(robot).begin(), traffic.GetHeld(robot).end()};
 }
 
+/// Adds a movable robot for each parking position.
+void PlaceRobots(Traffic& traffic, const Nodes& homes, const Nodes& places)
+{
+    for (std::size_t robot = 0; robot < homes.size(); ++robot)
+    {
+        traffic.AddRobot("lr", homes[robot]);
+        REQUIRE(traffic.TryStand(robot, places[robot]));
+        traffic.SetMovable(robot, true);
+    }
+}
+
 } // namespace
 
 TEST_CASE("Traffic: nodes are granted up to the first that another robot holds, and released as they are passed")
@@ -146,12 +157,7 @@ TEST_CASE("Traffic: a grant after which the state is not safe is refused, all ot
     Traffic traffic(MakeCorridor(), 0);
     const Nodes homes{6, 7, 5};
     const Nodes places{0, 6, 5};
-    for (std::size_t robot = 0; robot < homes.size(); ++robot)
-    {
-        traffic.AddRobot("lr", homes[robot]);
-        REQUIRE(traffic.TryStand(robot, places[robot]));
-        traffic.SetMovable(robot, true);
-    }
+    PlaceRobots(traffic, homes, places);
     // Robot 0 on 2 or beyond would block robot 1 from 7, and robot 1 would block robot 0 from 6.
     REQUIRE(traffic.Extend(0, Nodes{1}) == 1);
     traffic.Pass(0, 1);
@@ -408,12 +414,7 @@ TEST_CASE("Traffic: no robot takes the refuge that another one needs")
     Traffic traffic(MakeNodes(10, ways), 0);
     const Nodes homes{6, 5, 9};
     const Nodes places{1, 3, 8};
-    for (std::size_t robot = 0; robot < homes.size(); ++robot)
-    {
-        traffic.AddRobot("lr", homes[robot]);
-        REQUIRE(traffic.TryStand(robot, places[robot]));
-        traffic.SetMovable(robot, true);
-    }
+    PlaceRobots(traffic, homes, places);
     traffic.AddRobot("lr", 8); // it is elsewhere
     // Robot 2 could not leave 7 any more.
     CHECK(traffic.Extend(2, Nodes{2, 7}) == 0);
