@@ -256,7 +256,8 @@ Outcome<std::string> GetBodyFrom(std::string_view listenKey, const ApiAnswer& an
     }
     if (answer.status == HTTP_UNAUTHORIZED)
     {
-        text += " Give --token-file FILE; the Debian package has made /etc/acsd/operator.token.";
+        text +=
+            " Identify with --token-file FILE (of the Debian package: /etc/acsd/operator.token), or with --certificate and --key.";
     }
     return FailWith(bDenied ? EXIT_NOT_AUTHORIZED : EXIT_REFUSED, std::move(text));
 }

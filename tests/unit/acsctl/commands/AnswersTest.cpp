@@ -30,7 +30,7 @@ TEST_CASE("The status of an answer decides the exit code")
     CHECK(GetCode(403, "<html>") == 4);
     CHECK_THAT(
         Acsctl::GetBody(ApiAnswer{401, "", R"({"error":"A token is required."})", ""}).error().text,
-        Catch::StartsWith("A token is required. Give --token-file FILE"));
+        Catch::StartsWith("A token is required. Identify with --token-file FILE"));
     CHECK(Acsctl::GetBody(ApiAnswer{503, "", R"({"error":"Full."})", "2"}).error().text == "Full. Try again in 2 s.");
 }
 
