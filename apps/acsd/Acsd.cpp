@@ -76,6 +76,7 @@ class Acsd::Impl final : private IAcsdOutput
 public:
     Impl(
         Dependencies dependencies,
+        HttpAddresses& addresses,
         AcsdConfig config,
         std::unique_ptr<Planning::IPlanStore> store,
         const std::string& identity,
@@ -124,7 +125,10 @@ public:
               {_config.operations.stallLimit, _dependencies.aliveInterval},
               {[this](Core::Duration stall) { OnStall(stall); }, _dependencies.onAlive}),
           _traceRoute(_dependencies.executor, _dependencies.traceOrNull),
-          _http({_dependencies.executor, _dependencies.clock, _dependencies.logger}, _config.http, std::move(audit)),
+          _http(
+              {_dependencies.executor, _dependencies.clock, _dependencies.logger, addresses},
+              _config.http.control.access,
+              std::move(audit)),
           _feed(
               {_dependencies.executor,
                _dependencies.clock,
@@ -153,20 +157,11 @@ public:
 
     [[nodiscard]] Core::Result<void> Open(Planning::StoredState state)
     {
-        Core::Result<void> opened =
-            _mcs.Open(_dependencies.executor, _dependencies.random, _config, _dependencies.traceOrNull);
-        if (!opened)
-        {
-            return opened;
-        }
-        opened = _http.Listen(_config.http);
-        if (!opened)
-        {
-            return opened;
-        }
-        _http.GetGate().Restore(state.receipts);
-        _core.Restore(std::move(state));
-        return {};
+        return _mcs.Open(_dependencies.executor, _dependencies.random, _config, _dependencies.traceOrNull).map([&] {
+            _http.GetGate().Restore(state.receipts);
+            _core.Restore(std::move(state));
+            _http.Open();
+        });
     }
 
     void Start()
@@ -196,16 +191,11 @@ public:
         _core.Reload(_config);
         _mcs.SetLimits(_config.mcs);
         _mcs.ReloadTLS();
-        _http.Reload(fresh.http.control, _config.http.control);
+        _http.ReloadTokens(fresh.http.control, _config.http.control);
         if (_dependencies.traceOrNull != nullptr)
         {
             _dependencies.traceOrNull->SetLimits(_config.operations.trace);
         }
-    }
-
-    [[nodiscard]] const std::vector<Apps::ReadyAddress>& GetAddresses() const noexcept
-    {
-        return _http.GetAddresses();
     }
 
 private:
@@ -280,7 +270,7 @@ private:
     void OnStopped() override
     {
         _feed.Stop();
-        _http.Stop();
+        _http.Close();
         _watchdog.Stop();
         _sampling.CancelAll();
         if (_stopHandler)
@@ -440,7 +430,11 @@ Acsd::Acsd(std::unique_ptr<Impl> impl)
 
 Acsd::~Acsd() = default;
 
-Core::Result<std::unique_ptr<Acsd>> Acsd::Create(Dependencies dependencies, AcsdConfig config, OpenedStore store)
+Core::Result<std::unique_ptr<Acsd>> Acsd::Create(
+    Dependencies dependencies,
+    HttpAddresses& addresses,
+    AcsdConfig config,
+    OpenedStore store)
 {
     assert(config.errors.empty());
     dependencies.logger.MakeFor("store").Info(store.summary, {{"store", config.store.GetName()}});
@@ -456,6 +450,7 @@ Core::Result<std::unique_ptr<Acsd>> Acsd::Create(Dependencies dependencies, Acsd
     }
     auto impl = std::make_unique<Impl>(
         std::move(dependencies),
+        addresses,
         std::move(config),
         std::move(store.store),
         store.identity,
@@ -481,11 +476,6 @@ void Acsd::StopAsync(StopHandler handler)
 void Acsd::Reload(const AcsdConfig& fresh)
 {
     _impl->Reload(fresh);
-}
-
-std::vector<Apps::ReadyAddress> Acsd::GetAddresses() const
-{
-    return _impl->GetAddresses();
 }
 
 } // namespace ACS::Acsd

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "common/process/ReadyLine.hpp"
 #include "config/AcsdConfig.hpp"
+#include "operator/HttpAddresses.hpp"
 #include "store/OpenStore.hpp"
 #include "trace/MessageTrace.hpp"
 #include <acs/core/IRandom.hpp>
@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <vector>
+#include <string>
 
 namespace ACS::Acsd
 {
@@ -58,10 +58,11 @@ public:
     Acsd& operator=(const Acsd&) = delete;
     ~Acsd();
 
-    /// Restores the contents of the store and listens on its HTTP addresses; opens no connection. The configuration must be
-    /// without errors. Fails with a sentence about an HTTP address or the audit log and its remedy.
+    /// Restores the contents of the store and answers at the HTTP addresses, which outlive acsd; opens no connection. The
+    /// configuration must be without errors. Fails with a sentence about the TLS files of the MCS or the audit log and its remedy.
     [[nodiscard]] static Core::Result<std::unique_ptr<Acsd>> Create(
         Dependencies dependencies,
+        HttpAddresses& addresses,
         AcsdConfig config,
         OpenedStore store);
 
@@ -75,9 +76,6 @@ public:
     /// Refuses plans and controls from now on, waits until the MCS has acknowledged all reports (at most
     /// `shutdown.drain_timeout`), closes all links within AcsdCore::STOP_LIMIT, then calls back, once. Robots continue.
     void StopAsync(StopHandler handler);
-
-    /// The addresses in use, with their actual ports: "http" for monitoring, "operator".
-    [[nodiscard]] std::vector<Apps::ReadyAddress> GetAddresses() const;
 };
 
 } // namespace ACS::Acsd

@@ -25,7 +25,13 @@ AcsdService::AcsdService(Acsd::Dependencies dependencies, AcsdConfig config, Han
       _config(std::move(config)),
       _fingerprint(_config.store.postgres.has_value() ? MakeConfigFingerprint(_config) : std::string()),
       _handlers(std::move(handlers)),
-      _guard(_leaseClock)
+      _guard(_leaseClock),
+      _addresses(_dependencies.executor, _dependencies.logger, _config.http),
+      _standby(
+          {[this] { return _keeper->GetWaitReason(); },
+           [this] {
+               return _keeper->GetPublicReason();
+           }})
 {
     if (_config.store.postgres.has_value())
     {
@@ -49,12 +55,29 @@ Core::Result<void> AcsdService::Start()
 {
     if (_config.store.postgres.has_value())
     {
-        return StartStandby();
+        return CheckAuditLog().and_then([this] { return _addresses.Listen(_config.http); }).map([this] {
+            BeStandby();
+        });
     }
-    return OpenDirectoryStore(_config.store).and_then([this](OpenedStore store) { return Lead(std::move(store)); });
+    return OpenDirectoryStore(_config.store)
+        .and_then([this](OpenedStore store) { return CreateAcsd(std::move(store)); })
+        .and_then([this] { return _addresses.Listen(_config.http); })
+        .map([this] { Lead(); });
 }
 
-Core::Result<void> AcsdService::StartStandby()
+/// So that an error in it is found at the start, and not when this process takes over.
+Core::Result<void> AcsdService::CheckAuditLog() const
+{
+    const OperatorConfig& control = _config.http.control;
+    return AuditLog::Create(
+               control.auditDirectory,
+               control.auditLimits,
+               _dependencies.clock,
+               _dependencies.logger.MakeFor("audit"))
+        .map([](const std::unique_ptr<AuditLog>& /*audit*/) {});
+}
+
+void AcsdService::BeStandby()
 {
     _state = EState::Standby;
     _keeper = std::make_unique<LeaseKeeper>(
@@ -73,33 +96,13 @@ Core::Result<void> AcsdService::StartStandby()
             [this](const std::string& reason) {
                 LoseLead(reason);
             }});
-    const OperatorConfig& control = _config.http.control;
-    return AuditLog::Create(
-               control.auditDirectory,
-               control.auditLimits,
-               _dependencies.clock,
-               _dependencies.logger.MakeFor("audit"))
-        .and_then([this](std::unique_ptr<AuditLog> audit) {
-            _standby = std::make_unique<StandbyServer>(
-                HttpInterfaces::Dependencies{_dependencies.executor, _dependencies.clock, _dependencies.logger},
-                _config.http,
-                std::move(audit),
-                StandbyServer::Reasons{
-                    [this] { return _keeper->GetWaitReason(); },
-                    [this] {
-                        return _keeper->GetPublicReason();
-                    }});
-            return _standby->Listen(_config.http);
-        })
-        .map([this] {
-            KeepPorts(_standby->GetAddresses());
-            _watchdog.emplace(
-                _dependencies.executor,
-                Apps::LoopWatchdog::Options{_config.operations.stallLimit, _dependencies.aliveInterval},
-                Apps::LoopWatchdog::Handlers{{}, _dependencies.onAlive});
-            _watchdog->Start();
-            _keeper->StartAfter(std::exchange(_pause, {}), std::exchange(_storeFault, {}));
-        });
+    _addresses.SetHandlers(_standby.MakeHandlers());
+    _watchdog.emplace(
+        _dependencies.executor,
+        Apps::LoopWatchdog::Options{_config.operations.stallLimit, _dependencies.aliveInterval},
+        Apps::LoopWatchdog::Handlers{{}, _dependencies.onAlive});
+    _watchdog->Start();
+    _keeper->StartAfter(std::exchange(_pause, {}), std::exchange(_storeFault, {}));
 }
 
 /// The lease is renewed while the store is read, however long that takes.
@@ -124,23 +127,26 @@ void AcsdService::OnOpened(std::uint64_t epoch, Core::Result<OpenedStore> store)
         LoseStore(Core::Describe(store.error()));
         return;
     }
-    _standby->Stop();
-    _standby.reset();
-    _watchdog.reset();
-    if (const Core::Result<void> led = Lead(std::move(*store)); !led.has_value())
+    if (const Core::Result<void> created = CreateAcsd(std::move(*store)); !created.has_value())
     {
-        Fail(led.error());
+        Fail(created.error());
+        return;
     }
+    _watchdog.reset();
+    Lead();
 }
 
-Core::Result<void> AcsdService::Lead(OpenedStore store)
+Core::Result<void> AcsdService::CreateAcsd(OpenedStore store)
 {
-    return Acsd::Create(_dependencies, _config, std::move(store)).map([this](std::unique_ptr<Acsd> acsd) {
-        _state = EState::Leading;
+    return Acsd::Create(_dependencies, _addresses, _config, std::move(store)).map([this](std::unique_ptr<Acsd> acsd) {
         _acsd = std::move(acsd);
-        KeepPorts(_acsd->GetAddresses());
-        _acsd->Start();
     });
+}
+
+void AcsdService::Lead()
+{
+    _state = EState::Leading;
+    _acsd->Start();
 }
 
 /// A store that no process can use is not taken several times a second, each time with new connections to all robots.
@@ -182,26 +188,15 @@ void AcsdService::LoseLead(const std::string& reason)
         {{"reason", reason}});
     _state = EState::Standby;
     _acsd.reset();
+    _addresses.SetHandlers(_standby.MakeHandlers());
     // Released, so that this process or another one can take it at once. Not from within a call of the keeper.
-    _keeper->ReleaseAsync([this] { BecomeStandbyLater(); });
-}
-
-void AcsdService::BecomeStandbyLater()
-{
-    boost::asio::post(_dependencies.executor, [this] {
-        if (_state != EState::Standby)
-        {
-            return;
-        }
-        if (_standby != nullptr)
-        {
-            _standby->Stop();
-            _standby.reset();
-        }
-        if (const Core::Result<void> standing = StartStandby(); !standing.has_value())
-        {
-            Fail(standing.error());
-        }
+    _keeper->ReleaseAsync([this] {
+        boost::asio::post(_dependencies.executor, [this] {
+            if (_state == EState::Standby)
+            {
+                BeStandby();
+            }
+        });
     });
 }
 
@@ -218,10 +213,7 @@ void AcsdService::StopAsync()
 
 void AcsdService::Finish()
 {
-    if (_standby != nullptr)
-    {
-        _standby->Stop();
-    }
+    _addresses.Stop();
     _watchdog.reset();
     if (_keeper == nullptr)
     {
@@ -250,29 +242,17 @@ void AcsdService::Reload(const AcsdConfig& fresh)
         LogChange(_config, fresh, _dependencies.logger.MakeFor("config"));
     }
     ApplyLiveKeys(fresh, _config);
-    if (_standby != nullptr)
+    OperatorConfig& control = _config.http.control;
+    _addresses.ReloadTLS(control.tls);
+    if (TryTakeTokens(fresh.http.control, control))
     {
-        _standby->Reload(fresh.http.control, _config.http.control);
-    }
-    else if (fresh.http.control.tokensFile == _config.http.control.tokensFile)
-    {
-        _config.http.control.access.tokens = fresh.http.control.access.tokens;
+        _dependencies.logger.MakeFor("operator").Info("tokens reloaded", {{"file", control.tokensFile}});
     }
 }
 
-std::vector<Apps::ReadyAddress> AcsdService::GetAddresses() const
+const std::vector<Apps::ReadyAddress>& AcsdService::GetAddresses() const noexcept
 {
-    return _acsd != nullptr ? _acsd->GetAddresses() : _standby->GetAddresses();
-}
-
-/// Port 0 selects a free port once.
-void AcsdService::KeepPorts(const std::vector<Apps::ReadyAddress>& addresses)
-{
-    for (const Apps::ReadyAddress& address : addresses)
-    {
-        HttpListenConfig& config = address.name == "http" ? _config.http.monitoring : _config.http.control.http;
-        config.listen.port = address.endpoint.port;
-    }
+    return _addresses.GetAddresses();
 }
 
 } // namespace ACS::Acsd

@@ -6,7 +6,7 @@
 #include "standby/BootClock.hpp"
 #include "standby/LeaseGuard.hpp"
 #include "standby/LeaseKeeper.hpp"
-#include "standby/StandbyServer.hpp"
+#include "standby/StandbyRoutes.hpp"
 #include "standby/TakeoverPause.hpp"
 #include "store/OpenStore.hpp"
 #include <acs/core/Result.hpp>
@@ -32,8 +32,8 @@ public:
     struct Handlers
     {
         std::function<void()> onStopped; ///< The end of a stop.
-        /// It cannot continue: another program has taken the store of this machine, or an address or the audit log cannot be opened
-        /// again. It is logged.
+        /// It cannot continue: another program has taken the store of this machine, or the audit log or a TLS file cannot be
+        /// opened again. It is logged.
         std::function<void()> onFailed;
     };
 
@@ -53,9 +53,10 @@ private:
     Handlers _handlers;
     BootClock _leaseClock;
     LeaseGuard _guard;
+    HttpAddresses _addresses;
     std::unique_ptr<LeaseKeeper> _keeper;        ///< Of a shared store.
     std::optional<Apps::LoopWatchdog> _watchdog; ///< While there is no Acsd, which has its own.
-    std::unique_ptr<StandbyServer> _standby;
+    StandbyRoutes _standby;
     std::unique_ptr<Acsd> _acsd; ///< Set while this process leads.
     TakeoverPause _takeoverPause;
     Core::Duration _pause{}; ///< Before the lease is taken again.
@@ -82,20 +83,20 @@ public:
     /// As Acsd::Reload, also for the times when this process is a standby and when it leads again.
     void Reload(const AcsdConfig& fresh);
 
-    /// As Acsd::GetAddresses. They stay the same when the process begins or ceases to lead.
-    [[nodiscard]] std::vector<Apps::ReadyAddress> GetAddresses() const;
+    /// As HttpAddresses::GetAddresses. They stay open when the process begins or ceases to lead.
+    [[nodiscard]] const std::vector<Apps::ReadyAddress>& GetAddresses() const noexcept;
 
 private:
-    [[nodiscard]] Core::Result<void> StartStandby();
-    [[nodiscard]] Core::Result<void> Lead(OpenedStore store);
+    [[nodiscard]] Core::Result<void> CheckAuditLog() const;
+    [[nodiscard]] Core::Result<void> CreateAcsd(OpenedStore store);
+    void BeStandby();
+    void Lead();
     void OnTaken(std::uint64_t epoch);
     void OnOpened(std::uint64_t epoch, Core::Result<OpenedStore> store);
     void LoseStore(const std::string& reason);
     void LoseLead(const std::string& reason);
-    void BecomeStandbyLater();
     void Finish();
     void Fail(const Core::Error& error) const;
-    void KeepPorts(const std::vector<Apps::ReadyAddress>& addresses);
 };
 
 } // namespace ACS::Acsd

@@ -13,6 +13,7 @@ import re
 import shutil
 import signal
 import sys
+import threading
 import time
 import urllib.error
 import urllib.request
@@ -79,6 +80,29 @@ class Member:
     def restart(self):
         self.kill()
         self.start()
+
+
+class LivenessProbe:
+    """Asks a process without a pause whether it is alive; what it answered but yes is kept."""
+
+    def __init__(self, member):
+        self.refusals = []
+        self.answers = 0
+        self._url = f"http://{member.addresses['http']}/livez"
+        self._ended = threading.Event()
+        self._thread = threading.Thread(target=self._ask)
+        self._thread.start()
+
+    def _ask(self):
+        while not self._ended.is_set():
+            answer = get(self._url)
+            self.answers += 1
+            if answer != (200, "alive\n"):
+                self.refusals.append(answer)
+
+    def end(self):
+        self._ended.set()
+        self._thread.join()
 
 
 class StandbyCase(KillCase):
@@ -244,8 +268,14 @@ class Refusals(StandbyCase):
         self.wait_until_leading()
 
     def expect_standby(self, member, *parts):
-        self.wait_until(lambda: all(part in member.read_ready()[1] for part in parts), f"{parts} is shown")
-        status, text = member.read_ready()
+        shown = []
+
+        def is_shown():
+            shown[:] = member.read_ready()
+            return all(part in shown[1] for part in parts)
+
+        self.wait_until(is_shown, f"{parts} is shown")
+        status, text = shown
         self.assertEqual(status, 503)
         self.assertEqual(len(text.splitlines()), 1)
         self.assertEqual(get(f"http://{member.addresses['http']}/livez"), (200, "alive\n"))
@@ -346,6 +376,9 @@ class Refusals(StandbyCase):
         self.server.execute(f"UPDATE acsd.lease SET duration_ms = {LEASE_SECONDS * 1000}")
         self.expect_standby(member, "standby: one leads")
 
+        probes = [LivenessProbe(each) for each in self.members]
+        for probe in probes:
+            self.addCleanup(probe.end)
         self.server.execute("DROP TABLE acsd.reports")
         before = self.count_leads()
         self.supply_for(1.0)
@@ -353,6 +386,9 @@ class Refusals(StandbyCase):
             self.expect_standby(each, "the store cannot be used", "reports")
         self.stopped.wait(LEASE_SECONDS)
         self.assertLess(self.count_leads(), before + 8, "a store that cannot be used is not taken again at once")
+        for probe in probes:
+            probe.end()
+            self.assertEqual(probe.refusals, [], f"of {probe.answers} answers: it answers while it begins or ceases to lead")
 
         self.server.execute("DROP SCHEMA acsd CASCADE")
         for each in self.members:

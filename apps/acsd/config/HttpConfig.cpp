@@ -186,6 +186,16 @@ void ReadAudit(
 
 } // namespace
 
+bool TryTakeTokens(const OperatorConfig& fresh, OperatorConfig& present)
+{
+    if (fresh.tokensFile != present.tokensFile || fresh.access.tokens == present.access.tokens)
+    {
+        return false;
+    }
+    present.access.tokens = fresh.access.tokens;
+    return true;
+}
+
 void ReadHttpConfig(
     const ConfigSection& root,
     const std::string& fileName,

@@ -37,6 +37,9 @@ struct HttpConfig
     OperatorConfig control;
 };
 
+/// Takes the tokens of the same file. Returns whether they differ.
+[[nodiscard]] bool TryTakeTokens(const OperatorConfig& fresh, OperatorConfig& present);
+
 /// Reads the tables `http` and `operator`. Relative paths are relative to the folder of the file; the audit log is by default
 /// in the directory of the store.
 void ReadHttpConfig(

@@ -85,6 +85,7 @@ struct HttpServer::Impl final : public IHttpConnectionOwner, public std::enable_
     [[nodiscard]] std::shared_ptr<HttpConnection> FindReplaceableOrNull(const Asio::ip::address& peer) const;
     void OnAccepted(Tcp::socket socket);
     void TakeNext();
+    void SetHandler(Handler next);
     void Stop();
 };
 
@@ -124,6 +125,10 @@ HttpResponse HttpServer::Impl::Respond(HttpRequest& request, const HttpConnectio
     {
         LogRefusal("forbidden", *rejection);
         return MakeHttpRefusal(Http::status::forbidden, *rejection);
+    }
+    if (!handler)
+    {
+        return MakeHttpRefusal(Http::status::service_unavailable, "nothing is served here at present");
     }
     request.bCanStream = CanStream(connection.GetGroup());
     HttpResponse response = handler(request);
@@ -248,6 +253,26 @@ void HttpServer::Impl::TakeNext()
     }
 }
 
+void HttpServer::Impl::SetHandler(Handler next)
+{
+    handler = std::move(next);
+    // Removed first: a stream that ends calls its owner, and a delayed response has no operation that would end.
+    ConnectionList unanswered;
+    for (auto place = connections.begin(); place != connections.end();)
+    {
+        const auto connection = place++;
+        if (const EState state = (*connection)->GetState(); state == EState::Answering || state == EState::Streaming)
+        {
+            unanswered.splice(unanswered.end(), connections, connection);
+        }
+    }
+    for (const std::shared_ptr<HttpConnection>& connection : unanswered)
+    {
+        connection->Close();
+    }
+    TakeNext();
+}
+
 void HttpServer::Impl::Stop()
 {
     listener->Stop();
@@ -282,6 +307,11 @@ void HttpServer::UseTLS(std::shared_ptr<Asio::ssl::context> context)
 Core::Result<Endpoint> HttpServer::Listen(const Endpoint& endpoint)
 {
     return _impl->Listen(endpoint);
+}
+
+void HttpServer::SetHandler(Handler handler)
+{
+    _impl->SetHandler(std::move(handler));
 }
 
 void HttpServer::Stop()

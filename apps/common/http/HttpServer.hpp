@@ -55,6 +55,10 @@ public:
     /// port is in use; it may be called again then.
     [[nodiscard]] Core::Result<Endpoint> Listen(const Endpoint& endpoint);
 
+    /// Later requests are for this handler; empty: they are answered with 503. Connections that wait for a delayed response or
+    /// have a stream of the former handler are closed.
+    void SetHandler(Handler handler);
+
     /// Closes the port and all connections. The handler is not called any more.
     void Stop();
 };

@@ -2,6 +2,7 @@
 #include "Catch.hpp"
 #include "common/process/SystemClock.hpp"
 #include "LinkFixture.hpp"
+#include "operator/HttpAddresses.hpp"
 #include "TemporaryFolder.hpp"
 #include <acs/acsd/IRobotDriver.hpp>
 
@@ -150,6 +151,7 @@ struct BuoyFixture
     Apps::SystemClock clock;
     Testing::SeededRandom random{1};
     Testing::RecordingLogSink log;
+    std::optional<HttpAddresses> addresses;
     std::unique_ptr<Acsd> acsd;
     Testing::TestLink robots{context, Testing::MakeOptions(broker.GetPort(), "robots")};
 
@@ -169,7 +171,8 @@ struct BuoyFixture
             dependencies{context.get_executor(), clock, random, Core::Logger(log, "acsd"), nullptr, {}, {}};
         auto store = OpenDirectoryStore(config.store);
         REQUIRE(store.has_value());
-        auto created = Acsd::Create(std::move(dependencies), std::move(config), std::move(*store));
+        addresses.emplace(dependencies.executor, dependencies.logger, config.http);
+        auto created = Acsd::Create(std::move(dependencies), *addresses, std::move(config), std::move(*store));
         REQUIRE(created.has_value());
         acsd = std::move(*created);
         robots.link.Subscribe({{"buoys/+/answer", 1}});

@@ -95,6 +95,21 @@ TEST_CASE("A stream sends its header at once, then each piece, and ends with the
     CHECK(client.TakeReceived().empty());
 }
 
+TEST_CASE("A stream of the former handler ends; the port stays open for the next one")
+{
+    StreamFixture fixture;
+    RawClient client(fixture.context, fixture.port);
+    client.Send(STREAM);
+    REQUIRE(client.HasReceived("\r\n\r\n"));
+    fixture.server->SetHandler([&fixture](const Apps::HttpRequest&) { return fixture.answer; });
+    CHECK_FALSE(fixture.bodies[0]->stream->IsOpen());
+    REQUIRE(client.WasClosed());
+    RawClient next(fixture.context, fixture.port);
+    next.Send(STREAM);
+    CHECK(next.HasReceived("<answer>"));
+    CHECK(fixture.bodies.size() == 1);
+}
+
 TEST_CASE("A stream learns that its peer is gone, and that the server stops")
 {
     StreamFixture fixture;

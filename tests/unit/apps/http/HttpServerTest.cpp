@@ -138,6 +138,56 @@ TEST_CASE("A response that is completed later delays no other one, and is droppe
     pending.front()->Complete({200, "text/plain", "<again>"});
 }
 
+TEST_CASE("The next handler answers later requests, also on connections of before; without a handler they are refused")
+{
+    Fixture fixture;
+    RawClient client(fixture.context, fixture.port);
+    const auto ask = [&client](const std::string& end) {
+        client.Send("GET / HTTP/1.1\r\nHost: x\r\n\r\n");
+        REQUIRE(client.HasReceived(end));
+        return client.TakeReceived();
+    };
+    CHECK_THAT(ask("<answer>"), StartsWith("HTTP/1.1 200 OK\r\n"));
+    fixture.server->SetHandler({});
+    CHECK_THAT(ask("present\n"), StartsWith("HTTP/1.1 503 "));
+    fixture.server->SetHandler([](const Apps::HttpRequest&) {
+        return Apps::HttpResponse{200, "text/plain", "<next>"};
+    });
+    CHECK_THAT(ask("<next>"), StartsWith("HTTP/1.1 200 OK\r\n"));
+    CHECK(fixture.requests.size() == 1);
+}
+
+TEST_CASE("The next handler does not inherit delayed responses of the former one: their connections are closed")
+{
+    Fixture fixture({.maxConnections = 2});
+    auto pending = std::make_shared<Apps::HttpPendingResponse>();
+    fixture.respond = [&](const Apps::HttpRequest& request) {
+        Apps::HttpResponse response = fixture.answer;
+        if (request.path == "/pending")
+        {
+            response.pending = pending;
+        }
+        else
+        {
+            response.delay = 1h;
+        }
+        return response;
+    };
+    RawClient unknown(fixture.context, fixture.port);
+    unknown.Send("GET /pending HTTP/1.1\r\nHost: x\r\n\r\n");
+    RawClient slow(fixture.context, fixture.port);
+    slow.Send("GET /slow HTTP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(fixture.IsReached([&fixture] { return fixture.requests.size() == 2; }));
+    RawClient waiting(fixture.context, fixture.port); // both connections are being answered
+    waiting.Send("GET /next HTTP/1.1\r\nHost: x\r\n\r\n");
+    fixture.server->SetHandler([&fixture](const Apps::HttpRequest&) { return fixture.answer; });
+    CHECK(unknown.WasClosed());
+    CHECK(slow.WasClosed());
+    CHECK(waiting.HasReceived("<answer>"));
+    CHECK(unknown.TakeReceived() + slow.TakeReceived() == "");
+    pending->Complete({200, "text/plain", "<late>"}); // no effect
+}
+
 TEST_CASE("Expect: 100-continue is answered with 100, unless the body is too long")
 {
     Fixture fixture;
