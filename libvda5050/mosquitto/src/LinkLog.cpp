@@ -18,8 +18,8 @@ LinkLog::LinkLog(Core::Logger logger, const MosquittoOptions& options, const Bro
 
 void LinkLog::OnAttempt() noexcept
 {
-    _bLaterRefusalTold = false;
-    _bTooLongTold = false;
+    _bLaterRefusalLogged = false;
+    _bTooLongLogged = false;
 }
 
 void LinkLog::OnUp(std::size_t earlyDropped)
@@ -27,7 +27,7 @@ void LinkLog::OnUp(std::size_t earlyDropped)
     _outages.clear();
     _refusals.clear();
     _logger.Write(
-        _bRivalTold ? Core::ELogLevel::Debug : Core::ELogLevel::Info,
+        _bRivalLogged ? Core::ELogLevel::Debug : Core::ELogLevel::Info,
         "connected to the MQTT broker",
         {{"broker", GetAddress()}, {"client", _options.clientID}});
     if (earlyDropped > 0)
@@ -40,7 +40,7 @@ void LinkLog::OnUp(std::size_t earlyDropped)
 
 void LinkLog::ForgetRival() noexcept
 {
-    _bRivalTold = false;
+    _bRivalLogged = false;
 }
 
 void LinkLog::OnRenewal() const
@@ -51,7 +51,7 @@ void LinkLog::OnRenewal() const
 void LinkLog::OnTooLong(const std::string& topic, std::size_t bytes)
 {
     _logger.Write(
-        std::exchange(_bTooLongTold, true) ? Core::ELogLevel::Debug : Core::ELogLevel::Warning,
+        std::exchange(_bTooLongLogged, true) ? Core::ELogLevel::Debug : Core::ELogLevel::Warning,
         "a message that is too long is dropped",
         {{"topic", Core::QuoteForError(topic)}, {"bytes", std::to_string(bytes)}});
 }
@@ -59,7 +59,7 @@ void LinkLog::OnTooLong(const std::string& topic, std::size_t bytes)
 void LinkLog::OnLaterRefused(const std::string& filter)
 {
     _logger.Write(
-        std::exchange(_bLaterRefusalTold, true) ? Core::ELogLevel::Debug : Core::ELogLevel::Error,
+        std::exchange(_bLaterRefusalLogged, true) ? Core::ELogLevel::Debug : Core::ELogLevel::Error,
         "the MQTT broker refuses a subscription: check its access rules",
         {{"broker", GetAddress()}, {"filter", filter}});
 }
@@ -102,12 +102,12 @@ void LinkLog::OnRefused(const std::string& filter)
 
 void LinkLog::OnRival(const std::error_code& reason)
 {
-    if (_bRivalTold)
+    if (_bRivalLogged)
     {
         _logger.Debug("disconnected again: another client uses the same client id", {{"client", _options.clientID}});
         return;
     }
-    _bRivalTold = true;
+    _bRivalLogged = true;
     const std::string what = IsSessionTakenOver(reason)
         ? fmt::format(
             "another client took over the client id {} at the MQTT broker {}; give each client an id of its own",

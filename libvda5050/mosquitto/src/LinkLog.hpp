@@ -19,11 +19,11 @@ class LinkLog
     Core::Logger _logger;
     const MosquittoOptions& _options;
     const BrokerRotation& _rotation;
-    std::set<std::size_t> _outages;  ///< Brokers, since the last connection.
-    std::set<std::size_t> _refusals; ///< Brokers, since the last connection.
-    bool _bLaterRefusalTold = false; ///< In this connection.
-    bool _bTooLongTold = false;      ///< In this connection.
-    bool _bRivalTold = false;
+    std::set<std::size_t> _outages;    ///< Brokers, since the last connection.
+    std::set<std::size_t> _refusals;   ///< Brokers, since the last connection.
+    bool _bLaterRefusalLogged = false; ///< In this connection.
+    bool _bTooLongLogged = false;      ///< In this connection.
+    bool _bRivalLogged = false;
 
 public:
     /// Both outlive the log.

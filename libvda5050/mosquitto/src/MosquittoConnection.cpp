@@ -21,10 +21,7 @@ namespace ACS::VDA5050
 namespace
 {
 
-constexpr std::chrono::seconds HOUSE_KEEPING_PERIOD{1}; ///< Interval of libmosquitto's keep-alive check.
-constexpr int MAX_READS = 64;                           ///< Before others on the executor have their turn.
-constexpr int SUBSCRIPTION_REFUSED = 0x80;              ///< And above: the reasons of MQTT 5.
-constexpr int PACKETS_PER_CALL = 1;
+constexpr int SUBSCRIPTION_REFUSED = 0x80; ///< And above: the reasons of MQTT 5.
 constexpr int EXACTLY_ONCE = 2;
 
 /// libmosquitto's own state, once for the process.
@@ -42,16 +39,6 @@ public:
         mosquitto_lib_cleanup();
     }
 };
-
-/// Reads a packet. What libmosquitto sends meanwhile is queued and not written at once: it drops a message of QoS 2 that the
-/// broker has released if it cannot write the PUBCOMP.
-int ReadPacket(mosquitto* client)
-{
-    mosquitto_threaded_set(client, true);
-    const int code = mosquitto_loop_read(client, PACKETS_PER_CALL);
-    mosquitto_threaded_set(client, false);
-    return code;
-}
 
 } // namespace
 
@@ -81,8 +68,8 @@ std::error_code MosquittoConnection::Open(
         return std::make_error_code(std::errc::operation_not_permitted);
     }
     _bPersistent = !options.bCleanSession;
-    _bGoesOn = clientOrNull.has_value();
-    if (!_bGoesOn)
+    _bContinued = clientOrNull.has_value();
+    if (!_bContinued)
     {
         const char* const idOrNull = options.clientID.empty() ? nullptr : options.clientID.c_str();
         errno = 0;
@@ -93,17 +80,14 @@ std::error_code MosquittoConnection::Open(
         }
         clientOrNull.emplace(made);
     }
-    _maxUnsent = options.maxUnsent;
-    _maxPayloadBytes = options.maxPayloadBytes;
-    _maxQos = options.maxQos;
-    _connectTimeout = options.connectTimeout;
+    _limits = {options.maxUnsent, options.maxPayloadBytes, options.connectTimeout, options.maxQos};
     ProlongConnect();
     connector.ConnectAsync(
         std::move(*clientOrNull),
         options,
         [weak = weak_from_this()](MosquittoConnector::Outcome& outcome) {
             const std::shared_ptr<MosquittoConnection> self = weak.lock();
-            if (self != nullptr && !self->_bClosed)
+            if (self != nullptr && !self->IsClosed())
             {
                 self->OnConnecting(outcome);
             }
@@ -129,7 +113,7 @@ void MosquittoConnection::OnConnecting(MosquittoConnector::Outcome& outcome)
     }
     WaitToRead();
     WaitForHouseKeeping();
-    Settle(MOSQ_ERR_SUCCESS, 0);
+    FinishCall(MOSQ_ERR_SUCCESS, 0);
 }
 
 void MosquittoConnection::SetCallbacks()
@@ -173,21 +157,25 @@ void MosquittoConnection::SetCallbacks()
 
 void MosquittoConnection::HandleConnect(int returnCode, bool bSessionPresent)
 {
+    if (IsClosed())
+    {
+        return;
+    }
     if (returnCode != 0)
     {
         Close(MakeConnackError(returnCode));
         return;
     }
-    if (_bGoesOn && !bSessionPresent && !(_client->IsQuiet() && !_client->IsSpoilt()))
+    if (_bContinued && !bSessionPresent && !(_client->IsQuiet() && !_client->IsSpoilt()))
     {
         // The packet ids of the one side mean nothing to the other any more. Leaving comes before what libmosquitto
         // would send again as soon as this call is over.
-        _bForgotten = true;
+        _clientUse = EClientUse::Forgotten;
         mosquitto_disconnect(GetClientOrNull());
         Close({});
         return;
     }
-    _bUp = true;
+    _state = EState::Up;
     _events.emplace_back(Up{});
 }
 
@@ -198,7 +186,7 @@ void MosquittoConnection::HandleMessage(const mosquitto_message& message)
         _client->OnReleased(message.mid);
     }
     const auto length = static_cast<std::size_t>(message.payloadlen);
-    if (length > _maxPayloadBytes)
+    if (length > _limits.maxPayloadBytes)
     {
         _events.emplace_back(TooLong{message.topic, length});
         return;
@@ -226,12 +214,12 @@ Core::Result<int> MosquittoConnection::Publish(const MqttMessage& message)
     {
         return Core::Fail(std::make_error_code(std::errc::not_connected));
     }
-    if (_unsent + _client->CountUnacknowledged() >= _maxUnsent)
+    if (_unsent + _client->CountUnacknowledged() >= _limits.maxUnsent)
     {
         return Core::Fail(Core::ECoreError::QueueFull, message.topic);
     }
     int messageID = 0;
-    const std::uint8_t qos = std::min(message.qos, _maxQos);
+    const std::uint8_t qos = std::min(message.qos, _limits.maxQos);
     const std::size_t ofQosZero = qos == 0 ? 1U : 0U;
     _unsent += ofQosZero; // before the call, which may report such a message as sent
     errno = 0;
@@ -253,13 +241,13 @@ Core::Result<int> MosquittoConnection::Publish(const MqttMessage& message)
     {
         _client->OnSending(messageID);
     }
-    Settle(MOSQ_ERR_SUCCESS, 0);
+    FinishCall(MOSQ_ERR_SUCCESS, 0);
     return messageID;
 }
 
 std::optional<int> MosquittoConnection::SubscribeOrNull(const MqttSubscription& subscription)
 {
-    const int qos = std::min(subscription.qos, _maxQos);
+    const int qos = std::min(subscription.qos, _limits.maxQos);
     int messageID = 0;
     if (!IsUp()
         || mosquitto_subscribe(GetClientOrNull(), &messageID, subscription.topicFilter.c_str(), qos)
@@ -267,7 +255,7 @@ std::optional<int> MosquittoConnection::SubscribeOrNull(const MqttSubscription& 
     {
         return std::nullopt;
     }
-    Settle(MOSQ_ERR_SUCCESS, 0);
+    FinishCall(MOSQ_ERR_SUCCESS, 0);
     return messageID;
 }
 
@@ -276,13 +264,13 @@ void MosquittoConnection::Unsubscribe(const std::string& topicFilter)
     if (IsUp())
     {
         std::ignore = mosquitto_unsubscribe(GetClientOrNull(), nullptr, topicFilter.c_str());
-        Settle(MOSQ_ERR_SUCCESS, 0);
+        FinishCall(MOSQ_ERR_SUCCESS, 0);
     }
 }
 
 void MosquittoConnection::ProlongConnect()
 {
-    _connectTimer.expires_after(_connectTimeout);
+    _connectTimer.expires_after(_limits.connectTimeout);
     _connectTimer.async_wait([weak = weak_from_this()](const boost::system::error_code& error) {
         const std::shared_ptr<MosquittoConnection> self = weak.lock();
         if (self != nullptr && !error)
@@ -297,11 +285,11 @@ void MosquittoConnection::Confirm()
     _connectTimer.cancel();
 }
 
-void MosquittoConnection::TakeLeave()
+void MosquittoConnection::Disconnect()
 {
     errno = 0;
     const int code = mosquitto_disconnect(GetClientOrNull());
-    Settle(code, errno);
+    FinishCall(code, errno);
 }
 
 void MosquittoConnection::Abandon()
@@ -313,7 +301,12 @@ void MosquittoConnection::Abandon()
 
 bool MosquittoConnection::IsUp() const
 {
-    return _bUp && !_bClosed;
+    return _state == EState::Up;
+}
+
+bool MosquittoConnection::IsClosed() const noexcept
+{
+    return _state == EState::Closed;
 }
 
 bool MosquittoConnection::HasUnsent() const
@@ -321,137 +314,21 @@ bool MosquittoConnection::HasUnsent() const
     return _unsent > 0 || (_client.has_value() && _client->CountUnacknowledged() > 0);
 }
 
-void MosquittoConnection::WaitToRead()
-{
-    _socket.async_wait(
-        boost::asio::posix::stream_descriptor::wait_read,
-        [weak = weak_from_this()](const boost::system::error_code& error) {
-            const std::shared_ptr<MosquittoConnection> self = weak.lock();
-            if (self == nullptr || error || self->_bClosed || !self->TryPermit())
-            {
-                return;
-            }
-            self->ReadAll();
-            if (!self->_bClosed)
-            {
-                self->WaitToRead();
-            }
-        });
-}
-
-void MosquittoConnection::WaitToWrite()
-{
-    _bWaitsToWrite = true;
-    _socket.async_wait(
-        boost::asio::posix::stream_descriptor::wait_write,
-        [weak = weak_from_this()](const boost::system::error_code& error) {
-            const std::shared_ptr<MosquittoConnection> self = weak.lock();
-            if (self == nullptr || error || self->_bClosed || !self->TryPermit())
-            {
-                return;
-            }
-            self->_bWaitsToWrite = false;
-            errno = 0;
-            const int code = mosquitto_loop_write(self->GetClientOrNull(), PACKETS_PER_CALL);
-            self->Settle(code, errno);
-        });
-}
-
-void MosquittoConnection::WaitForHouseKeeping()
-{
-    _houseKeeping.expires_after(HOUSE_KEEPING_PERIOD);
-    _houseKeeping.async_wait([weak = weak_from_this()](const boost::system::error_code& error) {
-        const std::shared_ptr<MosquittoConnection> self = weak.lock();
-        if (self == nullptr || error || self->_bClosed || !self->TryPermit())
-        {
-            return;
-        }
-        errno = 0;
-        const int code = mosquitto_loop_misc(self->GetClientOrNull());
-        self->Settle(code, errno);
-        if (!self->_bClosed)
-        {
-            self->WaitForHouseKeeping();
-        }
-    });
-}
-
-/// Before each call of libmosquitto that may send, which includes those that read: an acknowledgement makes room for messages that
-/// wait. Closes the connection if nothing may be sent.
-bool MosquittoConnection::TryPermit()
-{
-    const bool bPermitted = !_maySend || _maySend();
-    if (!bPermitted)
-    {
-        Close(std::make_error_code(std::errc::operation_not_permitted));
-    }
-    return bPermitted;
-}
-
-void MosquittoConnection::ReadAll()
-{
-    // With TLS bytes may wait where the socket does not show them: read until a read brings nothing.
-    for (int i = 0; i < MAX_READS && !_bClosed; ++i)
-    {
-        const std::size_t before = _events.size();
-        errno = 0;
-        const int code = ReadPacket(GetClientOrNull());
-        Settle(code, errno);
-        if (_events.size() == before)
-        {
-            return;
-        }
-    }
-}
-
-void MosquittoConnection::Settle(int code, int systemError)
-{
-    if (_bClosed)
-    {
-        return;
-    }
-    const bool bSocketGone = mosquitto_socket(GetClientOrNull()) < 0;
-    if (code != MOSQ_ERR_SUCCESS || bSocketGone)
-    {
-        const int reason = code != MOSQ_ERR_SUCCESS ? code : _closeCode;
-        Close(MakeMosquittoError(reason, systemError));
-        return;
-    }
-    if (!_bWaitsToWrite && mosquitto_want_write(GetClientOrNull()))
-    {
-        WaitToWrite();
-    }
-    if (!_events.empty())
-    {
-        PostDispatch();
-    }
-}
-
 void MosquittoConnection::Close(std::error_code reason)
 {
-    if (_bClosed)
+    if (std::exchange(_state, EState::Closed) == EState::Closed)
     {
         return;
     }
-    _bClosed = true;
     _events.emplace_back(Closed{reason});
     CloseSocket();
     PostDispatch();
 }
 
-void MosquittoConnection::CloseSocket()
-{
-    _houseKeeping.cancel();
-    _connectTimer.cancel();
-    boost::system::error_code ignored;
-    _socket.close(ignored); // NOLINT(bugprone-unused-return-value): nothing to do about it
-    // The client itself goes with this object, or to the next one: this may be one of its own callbacks.
-}
-
 std::optional<MosquittoClient> MosquittoConnection::TakeClientOrNull()
 {
-    const bool bKept =
-        _client.has_value() && _bPersistent && !_bForgotten && !(_client->IsSpoilt() && _client->IsQuiet());
+    const bool bKept = _client.has_value() && _bPersistent && _clientUse != EClientUse::Forgotten
+        && !(_client->IsSpoilt() && _client->IsQuiet());
     if (!bKept)
     {
         return std::nullopt;
@@ -462,16 +339,16 @@ std::optional<MosquittoClient> MosquittoConnection::TakeClientOrNull()
 
 bool MosquittoConnection::IsRenewal() const
 {
-    return _bForgotten || _bRenewing;
+    return _clientUse != EClientUse::Kept;
 }
 
 void MosquittoConnection::RenewWhenSpoilt()
 {
-    if (_bUp && !_bClosed && !_bRenewing && _ownerOrNull != nullptr && _client->IsSpoilt() && _client->IsQuiet()
+    if (IsUp() && _clientUse == EClientUse::Kept && _ownerOrNull != nullptr && _client->IsSpoilt() && _client->IsQuiet()
         && _events.empty())
     {
-        _bRenewing = true;
-        TakeLeave();
+        _clientUse = EClientUse::Renewed;
+        Disconnect();
     }
 }
 
@@ -494,7 +371,7 @@ void MosquittoConnection::PostDispatch()
 
 void MosquittoConnection::Dispatch()
 {
-    // What the owner does adds events of its own: those are for the round that Settle has posted.
+    // What the owner does adds events of its own: those are for the round that FinishCall has posted.
     const std::vector<Event> events = std::exchange(_events, {});
     for (const Event& event : events)
     {
@@ -502,12 +379,12 @@ void MosquittoConnection::Dispatch()
         {
             return;
         }
-        Tell(event);
+        Notify(event);
     }
     RenewWhenSpoilt();
 }
 
-void MosquittoConnection::Tell(const Event& event)
+void MosquittoConnection::Notify(const Event& event)
 {
     IMosquittoConnectionOwner& owner = *_ownerOrNull;
     std::visit(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "IMosquittoConnectionOwner.hpp"
 #include "MosquittoClient.hpp"
 #include "MosquittoConnector.hpp"
 #include <acs/core/Result.hpp>
@@ -26,26 +27,6 @@ struct mosquitto_message;
 
 namespace ACS::VDA5050
 {
-
-/// Events of a MosquittoConnection, never sent during a call of it.
-class IMosquittoConnectionOwner
-{
-public:
-    IMosquittoConnectionOwner() = default;
-    IMosquittoConnectionOwner(const IMosquittoConnectionOwner&) = delete;
-    IMosquittoConnectionOwner& operator=(const IMosquittoConnectionOwner&) = delete;
-    virtual ~IMosquittoConnectionOwner() = default;
-
-    virtual void OnConnectionUp() = 0;
-    virtual void OnConnectionMessage(const MqttMessage& message) = 0;
-    /// A message was dropped because of its length.
-    virtual void OnTooLong(const std::string& topic, std::size_t bytes) = 0;
-    virtual void OnSent(int messageID) = 0;
-    /// The broker has answered a Subscribe; the id is the one that it returned.
-    virtual void OnSubscribed(int messageID, bool bGranted) = 0;
-    /// The last call. No reason where we took leave ourselves.
-    virtual void OnConnectionClosed(std::error_code reason) = 0;
-};
 
 /// One connection, from CONNECT to its end. With a clean session it has a libmosquitto client of its own, so that nothing
 /// of the attempt before (unacknowledged messages, an old will) leaks into it; a persistent session hands its client on
@@ -75,6 +56,30 @@ class MosquittoConnection final : public std::enable_shared_from_this<MosquittoC
     };
     using Event = std::variant<Up, MqttMessage, TooLong, Sent, Subscribed, Closed>;
 
+    enum class EState : std::uint8_t
+    {
+        Connecting,
+        Up,
+        Closed
+    };
+
+    /// What the next connection of a persistent session does with the client.
+    enum class EClientUse : std::uint8_t
+    {
+        Kept,
+        Renewed,  ///< It cannot be used any more, and nothing is in flight: the connection ends for another client.
+        Forgotten ///< The broker has forgotten its session.
+    };
+
+    /// Of MosquittoOptions.
+    struct Limits
+    {
+        std::size_t maxUnsent = 0;
+        std::size_t maxPayloadBytes = 0;
+        std::chrono::milliseconds connectTimeout{};
+        std::uint8_t maxQos = 0;
+    };
+
     boost::asio::any_io_executor _executor;
     IMosquittoConnectionOwner* _ownerOrNull;
     std::optional<MosquittoClient> _client;
@@ -83,18 +88,13 @@ class MosquittoConnection final : public std::enable_shared_from_this<MosquittoC
     boost::asio::steady_timer _connectTimer;
     std::vector<Event> _events;
     std::size_t _unsent = 0; ///< Of QoS 0.
-    std::size_t _maxUnsent = 0;
-    std::size_t _maxPayloadBytes = 0;
+    Limits _limits;
     std::function<bool()> _maySend; ///< MosquittoOptions::maySend
-    std::chrono::milliseconds _connectTimeout{};
-    std::uint8_t _maxQos = 0;
-    int _closeCode = 0;
+    int _closeCode = 0;             ///< Of libmosquitto.
+    EState _state = EState::Connecting;
+    EClientUse _clientUse = EClientUse::Kept;
     bool _bPersistent = false;
-    bool _bGoesOn = false;    ///< With the client of the previous connection.
-    bool _bForgotten = false; ///< The broker has forgotten the session of the client.
-    bool _bRenewing = false;
-    bool _bUp = false;
-    bool _bClosed = false;
+    bool _bContinued = false; ///< With the client of the previous connection.
     bool _bWaitsToWrite = false;
     bool _bDispatchPosted = false;
 
@@ -114,7 +114,7 @@ public:
 
     /// The id of the message, with which OnSent comes. Fails with not_connected, QueueFull, or an error of libmosquitto.
     [[nodiscard]] Core::Result<int> Publish(const MqttMessage& message);
-    /// The id with which OnSubscribed comes; nothing where there is no connection or the filter is none.
+    /// The id with which OnSubscribed comes; nothing without a connection, or if the filter is invalid.
     [[nodiscard]] std::optional<int> SubscribeOrNull(const MqttSubscription& subscription);
     /// Without an answer. Does nothing where there is no connection.
     void Unsubscribe(const std::string& topicFilter);
@@ -122,8 +122,8 @@ public:
     void ProlongConnect();
     /// The owner has all that it waited for: the time to connect is no longer counted.
     void Confirm();
-    /// Ends with OnConnectionClosed.
-    void TakeLeave();
+    /// Ends with OnConnectionClosed; the broker sends no will.
+    void Disconnect();
     /// Ends at once; the owner is not called any more.
     void Abandon();
 
@@ -132,6 +132,7 @@ public:
     [[nodiscard]] bool HasUnsent() const;
 
 private:
+    [[nodiscard]] bool IsClosed() const noexcept;
     /// Takes the client, whose connect has begun or failed.
     void OnConnecting(MosquittoConnector::Outcome& outcome);
     void SetCallbacks();
@@ -140,13 +141,13 @@ private:
     void WaitForHouseKeeping();
     [[nodiscard]] bool TryPermit();
     void ReadAll();
-    /// After each call of libmosquitto: what it left to do.
-    void Settle(int code, int systemError);
+    /// After each call of libmosquitto: closes after an error, writes what it has queued, and dispatches events.
+    void FinishCall(int code, int systemError);
     void Close(std::error_code reason);
     void CloseSocket();
     void PostDispatch();
     void Dispatch();
-    void Tell(const Event& event);
+    void Notify(const Event& event);
 
     void RenewWhenSpoilt();
     /// Null while the connector has the client, and after TakeClientOrNull.
