@@ -1,57 +1,40 @@
 #pragma once
 
 #include "common/config/Endpoint.hpp"
-#include "floor/FloorChecker.hpp"
+#include "common/process/TimerSet.hpp"
+#include "console/ConsoleCommand.hpp"
+#include "console/RunOutput.hpp"
 #include "plans/PlannedPlan.hpp"
-#include "scenario/Scenario.hpp"
-#include "wire/Profile.hpp"
-#include "world/IWorld.hpp"
+#include "plans/PlanRefresher.hpp"
+#include "plans/PlanSender.hpp"
+#include "RunJudge.hpp"
+#include "scenario/ScenarioPlayer.hpp"
+#include "SimulatorOptions.hpp"
+#include "wire/SimulatedMcsSession.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
-#include <acs/protocol_beast/ServerOptions.hpp>
+#include <acs/protocol_beast/ISessionHandler.hpp>
+#include <acs/protocol_beast/McsServer.hpp>
 
 #include <boost/asio/any_io_executor.hpp>
 
-#include <chrono>
-#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ACS::McsSim
 {
 
-class Screen;
-
-struct SimulatorOptions
-{
-    Apps::Endpoint listen{"127.0.0.1", 0};
-    std::string path = "/acs/";
-    std::chrono::minutes siteOffset{0}; ///< Of the timestamps that are sent.
-    bool bKeep = false;                 ///< Do not end by itself.
-    std::size_t columns = 100;          ///< Of the live view and the closing table.
-    std::size_t rows = 24;
-    std::optional<ProtocolBeast::TlsOptions> tls{}; ///< There: wss.
-    ProtocolBeast::WireObserver onWire;             ///< For a trace; may be empty.
-    std::vector<Scenario> scenarios; ///< Where there are any, they decide what is sent, and there are no plans.
-    std::string date; ///< Eight digits (20261121), for the fresh planIds of scenarios and of the console.
-    EProfile profile = EProfile::Spec;
-    bool bFreshPlans = false; ///< The plans were made for this run: in the profile nexus they name their robot.
-    bool bConsole = false;    ///< Execute is called; the run ends on request.
-    Sim::IWorld* worldOrNull =
-        nullptr; ///< What the robots have moved, to compare the reports with. Outlives the simulator.
-    EStocking stocking = EStocking::Leave; ///< With a world. Carriers get fresh ids only where the floor is restocked.
-};
-
 /// The MCS of a run: serves one ACS at a time, sends it the plans or plays scenarios, shows what it reports, and closes
 /// with a table.
 /// One thread: the executor's.
-class McsSimulator
+class McsSimulator final : private ProtocolBeast::ISessionHandler
 {
 public:
     /// Called once, after the table was printed: 0 if every plan was completed (with scenarios: every expectation held), no
@@ -59,9 +42,39 @@ public:
     using DoneHandler = std::function<void(int exitCode)>;
 
 private:
-    class Impl;
+    enum class ETimer : std::uint8_t
+    {
+        Tick,   ///< Time to draw, and to see whether an Ack is overdue.
+        Linger, ///< All plans have ended: late messages of the ACS are still checked.
+        Close,  ///< The ACS does not answer the closing handshake.
+        Delay,  ///< A delayed Ack is due.
+    };
 
-    std::unique_ptr<Impl> _impl;
+    enum class EPhase : std::uint8_t
+    {
+        Waiting,  ///< For Release.
+        Released, ///< Plans are sent.
+        Ending,   ///< The connection is being closed.
+        Done
+    };
+
+    const Core::IClock& _clock;
+    Core::IRandom& _random;
+    Core::Logger _logger;
+    SimulatorOptions _options;
+    RunOutput _output;
+    PlanTracker::Lines& _lines; ///< Of the output.
+    DoneHandler _onDone;
+    boost::asio::any_io_executor _executor;
+    RunJudge _judge;
+    PlanTracker& _tracker; ///< Of the judge.
+    PlanRefresher _refresher;
+    PlanSender _sender;
+    ScenarioPlayer _scenarios;
+    EPhase _phase = EPhase::Waiting;
+    std::unique_ptr<ProtocolBeast::McsServer> _server;
+    SimulatedMcsSession* _sessionOrNull = nullptr; ///< Of the server.
+    Apps::TimerSet<ETimer> _timers;
 
 public:
     /// Clock, random source, log sink and output outlive the simulator; so does the screen. Without a screen the output
@@ -76,9 +89,6 @@ public:
         std::ostream& out,
         Screen* screenOrNull,
         DoneHandler onDone);
-    McsSimulator(const McsSimulator&) = delete;
-    McsSimulator& operator=(const McsSimulator&) = delete;
-    ~McsSimulator();
 
     /// Listens; returns the address. The error names the address and the remedy.
     [[nodiscard]] Core::Result<Apps::Endpoint> Start();
@@ -91,6 +101,28 @@ public:
 
     /// Ends the run now, whatever its state. Harmless when it is ending already.
     void Interrupt();
+
+private:
+    void Execute(const ConsoleCommand& command);
+    void AddPlanOfFile(const std::string& path);
+    void SendControl(const Protocol::AcsPayload& payload);
+    void OnSessionEvent(const Protocol::SessionEvent& event) override;
+    void CheckFinished();
+    void OnWire(ProtocolBeast::EWireDirection direction, Protocol::ConnectionID connection, std::string_view text);
+    void OnRegistered();
+    void OnLinkLost(const Protocol::LinkLost& lost);
+    void SendDue();
+    [[nodiscard]] bool TrySendPlan(const Protocol::ExecutionPlan& plan, const std::string& transactionID);
+    void OnTimer(ETimer timer);
+    void OnPlayed();
+    void OnFinished();
+    void End();
+    void FinishRun();
+    void PrintSummary();
+    void FinishPlans();
+    void FinishScenarios();
+    void PrintDeliveries();
+    void Draw();
 };
 
 } // namespace ACS::McsSim

@@ -1,0 +1,109 @@
+#include "RunJudge.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <variant>
+
+namespace ACS::McsSim
+{
+
+RunJudge::RunJudge(const SimulatorOptions& options, std::vector<PlannedPlan> plans, PlanTracker::Lines& lines)
+    : _lines(lines),
+      _tracker(std::move(plans), options.profile == EProfile::Spec)
+{
+    if (options.worldOrNull != nullptr)
+    {
+        _floor.emplace(_tracker, *options.worldOrNull, options.stocking);
+    }
+}
+
+PlanTracker& RunJudge::GetTracker() noexcept
+{
+    return _tracker;
+}
+
+RobotBoard& RunJudge::GetBoard() noexcept
+{
+    return _board;
+}
+
+NoteJudge& RunJudge::GetNotes() noexcept
+{
+    return _notes;
+}
+
+FloorChecker* RunJudge::GetFloorOrNull() noexcept
+{
+    return _floor.has_value() ? &*_floor : nullptr;
+}
+
+void RunJudge::OnRequest(const Protocol::RequestReceived& received)
+{
+    if (received.bDuplicate)
+    {
+        return;
+    }
+    const Protocol::AcsPayload& payload = received.request.payload;
+    if (const auto* const statusOrNull = std::get_if<Protocol::RobotStatusUpdate>(&payload))
+    {
+        _board.OnStatus(*statusOrNull, _lines);
+    }
+    else if (const auto* const positionOrNull = std::get_if<Protocol::RobotPositionUpdate>(&payload))
+    {
+        _board.OnPosition(*positionOrNull, _lines);
+    }
+    else
+    {
+        _tracker.OnRequest(payload, _lines);
+    }
+    if (_floor.has_value())
+    {
+        _floor->OnRequest(payload, _lines);
+    }
+}
+
+void RunJudge::OnUnanswered(const Protocol::RequestUnanswered& unanswered)
+{
+    _notes.Excuse();
+    // Overdue Acks of plans are the tracker's to see.
+    if (unanswered.command != Protocol::EAcsCommand::ExecutionPlan)
+    {
+        _lines.push_back(fmt::format("{} was not answered", GetText(unanswered.command)));
+    }
+}
+
+void RunJudge::OnNoted(const Protocol::ProtocolNoted& noted)
+{
+    std::optional<NoteJudge::Verdict> verdict = _notes.JudgeOrNull(noted);
+    if (!verdict.has_value())
+    {
+        return;
+    }
+    if (verdict->bViolation)
+    {
+        _tracker.AddViolation(std::move(verdict->text), _lines);
+    }
+    else
+    {
+        _lines.push_back(std::move(verdict->text));
+    }
+}
+
+void RunJudge::EndPlans()
+{
+    if (_floor.has_value())
+    {
+        _floor->EndPlans(_lines);
+    }
+}
+
+void RunJudge::Finish()
+{
+    if (_floor.has_value())
+    {
+        _floor->Finish(_lines);
+    }
+}
+
+} // namespace ACS::McsSim

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "console/RobotBoard.hpp"
+#include "floor/FloorChecker.hpp"
+#include "plans/PlannedPlan.hpp"
+#include "plans/PlanTracker.hpp"
+#include "SimulatorOptions.hpp"
+#include "wire/NoteJudge.hpp"
+#include <acs/protocol/SessionEvent.hpp>
+
+#include <optional>
+#include <vector>
+
+namespace ACS::McsSim
+{
+
+/// Judges what the ACS reports: against the protocol, against its own reports before, and against the world if there is one.
+class RunJudge final
+{
+    PlanTracker::Lines& _lines;
+    PlanTracker _tracker;
+    std::optional<FloorChecker> _floor; ///< If there is a world.
+    RobotBoard _board;
+    NoteJudge _notes;
+
+public:
+    /// The world, if there is one, and the lines, which the judge appends to, outlive the judge.
+    RunJudge(const SimulatorOptions& options, std::vector<PlannedPlan> plans, PlanTracker::Lines& lines);
+    RunJudge(const RunJudge&) = delete;
+    RunJudge& operator=(const RunJudge&) = delete;
+    ~RunJudge() = default;
+
+    [[nodiscard]] PlanTracker& GetTracker() noexcept;
+    [[nodiscard]] RobotBoard& GetBoard() noexcept;
+    [[nodiscard]] NoteJudge& GetNotes() noexcept;
+    [[nodiscard]] FloorChecker* GetFloorOrNull() noexcept;
+
+    void OnRequest(const Protocol::RequestReceived& received);
+    void OnUnanswered(const Protocol::RequestUnanswered& unanswered);
+    void OnNoted(const Protocol::ProtocolNoted& noted);
+
+    /// After each event.
+    void EndPlans();
+
+    /// At the end of the run.
+    void Finish();
+};
+
+} // namespace ACS::McsSim
