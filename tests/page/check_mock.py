@@ -46,6 +46,7 @@ class Mock(unittest.TestCase):
         snapshot = self.read("/v1/snapshot")
         self.assertEqual({alarm["level"] for alarm in snapshot["alarms"]}, {"heavy", "light"})
         for path in ("/v1/status", "/v1/robots", "/v1/alarms", "/v1/links", "/v1/site", "/v1/plans", "/v1/plans?state=finished",
+                     "/v1/robots/LR01/actions",
                      *(f"/v1/plans/{plan['planId']}" for plan in snapshot["plans"])):
             self.read(path)
 
@@ -83,7 +84,7 @@ class Mock(unittest.TestCase):
     def test_commands(self):
         plan = next(iter(self.mock.simulation.plans))
         for path, body in ((f"/v1/plans/{plan}/pause", {}), ("/v1/robots/LR01/maintenance", {"on": True}),
-                           ("/v1/site/block", {"kind": "node", "id": "N020"}), ("/v1/tsc/pause", {})):
+                           ("/v1/robots/LR01/actions", {"actionType": "stateRequest"}), ("/v1/site/block", {"kind": "node", "id": "N020"}), ("/v1/tsc/pause", {})):
             self.assertEqual(self.ask(path, body)[0], 202, path)
         self.assertEqual(self.ask("/v1/plans/none/pause", {})[0], 404)
 

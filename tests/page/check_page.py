@@ -70,6 +70,7 @@ class Texts(unittest.TestCase):
         words = {"alarmLevel": schemas["AlarmLevel"], "planStatus": schemas["PlanStatus"], "stepStatus": schemas["StepStatus"],
                  "jobStatus": schemas["JobStatus"], "robotStatus": schemas["RobotStatus"], "tsc": schemas["TscState"],
                  "link": schemas["Link"]["properties"]["name"], "entry": schemas["EventEntry"]["properties"]["kind"],
+                 "actionStatus": schemas["Action"]["properties"]["status"],
                  "kind": schemas["Block"]["properties"]["kind"]}
         for kind, schema in words.items():
             for word in schema["enum"]:

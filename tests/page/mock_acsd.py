@@ -212,6 +212,8 @@ class MockAcsd:
                 return self.find_plan(parts[1]).describe(is_detailed=True)
             if parts == ["robots"]:
                 return {"robots": [robot.describe() for robot in simulation.robots.values()]}
+            if parts[0] == "robots" and parts[2:] == ["actions"]:
+                return {"actions": self.find_robot(parts[1]).actions, "offered": OFFERED_ACTIONS}
             if parts == ["alarms"]:
                 return {"alarms": simulation.alarms}
             if parts == ["links"]:
@@ -228,6 +230,12 @@ class MockAcsd:
         if plan is None:
             raise Refusal(404, f"Unknown plan {plan_id}.")
         return plan
+
+    def find_robot(self, robot_id):
+        robot = self.simulation.robots.get(robot_id)
+        if robot is None:
+            raise Refusal(404, f"Unknown robot {robot_id}.")
+        return robot
 
     def make_trace(self, query):
         if not self.is_traced:
@@ -257,7 +265,8 @@ class MockAcsd:
             self.posts.append((path, body, key))
             if key in self._answers:
                 return self._answers[key]
-            answer = {"message": self.execute(path.split("/")[2:], body or {})}
+            answer = self.execute(path.split("/")[2:], body or {})
+            answer = {"message": answer} if isinstance(answer, str) else answer
             if key is not None:
                 self._answers[key] = answer
             self.publish()
@@ -267,10 +276,10 @@ class MockAcsd:
         simulation = self.simulation
         if parts[0] == "plans":
             return self.control_plan(self.find_plan(parts[1]), parts[2:], body)
+        if parts[0] == "robots" and parts[2] == "actions":
+            return self.request_action(self.find_robot(parts[1]), body)
         if parts[0] == "robots" and parts[2] == "maintenance":
-            robot = simulation.robots.get(parts[1])
-            if robot is None:
-                raise Refusal(404, f"Unknown robot {parts[1]}.")
+            robot = self.find_robot(parts[1])
             robot.is_in_maintenance = body["on"]
             simulation.changed_robots.add(robot.robot_id)
             return f"Maintenance of {robot.robot_id} is {'on' if body['on'] else 'off'}."
@@ -291,6 +300,26 @@ class MockAcsd:
             self.site_revision += 1
             return f"The {body['kind']} {body['id']} is {'blocked' if parts[1] == 'block' else 'open'}."
         raise Refusal(404, "Unknown path.")
+
+    def request_action(self, robot, body):
+        action_type = body["actionType"]
+        if all(offer["actionType"] != action_type for offer in OFFERED_ACTIONS):
+            raise Refusal(400, f"{robot.robot_id} does not offer {action_type}.")
+        action_id = f"acs-{action_type}-{len(robot.actions) + 1}"
+        robot.actions.append({
+            "actionId": action_id, "actionType": action_type, "parameters": body.get("parameters", {}),
+            "reason": body.get("reason", ""), "requestedAt": format_time(get_now()), "status": "Waiting", "resultDescription": "",
+            "endedAt": None})
+        self.simulation.note("action", f"{action_type} requested", robot)
+        return {"message": f"{action_type} is sent to {robot.robot_id}.", "actionId": action_id}
+
+    def end_action(self, robot_id, status, result):
+        """The last action of the robot."""
+        with self.lock:
+            robot = self.simulation.robots[robot_id]
+            robot.actions[-1].update(status=status, resultDescription=result, endedAt=format_time(get_now()))
+            self.simulation.note("action", f"{robot.actions[-1]['actionType']} {status}", robot)
+            self.publish()
 
     def control_plan(self, plan, parts, body):
         simulation = self.simulation
@@ -314,6 +343,14 @@ class MockAcsd:
             plan.steps[int(parts[1]) - 1]["status"] = "Skipped"
         simulation.changed_plans.add(plan.plan_id)
         return f"{parts[0].capitalize()} of plan {plan.plan_id} accepted."
+
+
+OFFERED_ACTIONS = [
+    {"actionType": "initPosition", "description": "Sets the position of the vehicle.", "parameters": [
+        {"key": "x", "valueType": "NUMBER", "required": True}, {"key": "count", "valueType": "INTEGER", "required": False},
+        {"key": "lastNodeId", "valueType": "STRING", "required": True}, {"key": "exact", "valueType": "BOOL", "required": False}]},
+    {"actionType": "stateRequest", "description": "", "parameters": []},
+]
 
 
 class Server(socketserver.ThreadingMixIn, http.server.HTTPServer):

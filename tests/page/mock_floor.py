@@ -179,6 +179,7 @@ class Robot:
         self.carrier_ids = [None]
         self.is_fixed = False  # does not move
         self.is_in_maintenance = False
+        self.actions = []  # instant actions, the oldest first
         self.reason = None
         self.errors = []
         self.warnings = []

@@ -79,6 +79,16 @@ class AnyAcsd(PageCase):
         self.press(Keys.ESCAPE)
         wait_until(lambda: not self.find("#detail").is_displayed(), "the detail is closed")
 
+    def test_an_instant_action(self):
+        self.open()
+        robot_id = self.run_script("return [...acsdPage.model.robots.keys()].sort()[0]")
+        self.open(f"?lang=en#robot/{robot_id}")
+        self.click_button("Show", "#detail .actions")
+        self.click_button("stateRequest", "#detail .actions")
+        self.click("#confirm-action")
+        self.wait_for_text("#toasts", "stateRequest is sent")
+        self.wait_for_text("#detail .actions ol", "waiting" if self.url is None else "finished")
+
     def test_wall(self):
         self.browser.resize(1920, 1080)
         self.open("?lang=en#wall")
@@ -435,6 +445,35 @@ class Alarms(PageCase):
         self.click("#confirm-action")
         self.wait_for_post("/v1/tsc/resume")
         self.wait_for_text("#strip-tsc", "Auto")
+
+
+    def test_instant_actions(self):
+        """They are offered with their parameters, sent after a question, and shown with their outcome."""
+        mock = self.start_mock()
+        self.open("?lang=en#robot/LR01")
+        self.click_button("Show", "#detail .actions")
+        self.click_button("initPosition", "#detail .actions")
+        self.wait_for_text("#confirm-dialog", "Sets the position of the vehicle.")
+        self.wait_for_text("#confirm-dialog", "count (INTEGER, optional)")
+        self.find("#parameter-lastNodeId").send_keys("7", Keys.ENTER)  # a string, although it is a number
+        self.click("#confirm-action")  # x is missing
+        self.assertTrue(self.find("#confirm-dialog").is_displayed())
+        self.find("#parameter-x").send_keys("1.5")
+        self.find("#confirm-reason").send_keys("moved by hand")
+        self.assertEqual(self.list_posts(), [])
+        self.click("#confirm-action")
+        self.wait_for_post("/v1/robots/LR01/actions", {
+            "actionType": "initPosition", "parameters": {"x": 1.5, "lastNodeId": "7"}, "reason": "moved by hand"})
+        self.wait_for_text("#detail .actions", "waiting")
+        mock.end_action("LR01", "Failed", "the position is unknown")
+        self.wait_for_text("#detail .actions", "failed")
+        self.wait_for_text("#detail .actions", "the position is unknown · moved by hand")
+        self.click_button("stateRequest", "#detail .actions")
+        self.click_button("Back", "#confirm-dialog")
+        self.click_button("stateRequest", "#detail .actions")
+        self.click("#confirm-action")
+        wait_until(lambda: [body for _, body, _ in self.list_posts()][1:] == [{"actionType": "stateRequest", "parameters": {}}],
+                   "the second action is sent, the one that was cancelled is not")
 
 
 class Causes(PlanCase):

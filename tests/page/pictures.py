@@ -35,7 +35,7 @@ def take(browser, base, picture, folder):
     wait_until(lambda: driver.execute_script("return globalThis.acsdPage?.feedState.name === 'live'"), "the page is live")
     if tab is not None and "#" not in address:
         driver.execute_script("document.getElementById(arguments[0]).click()", f"tab-{tab}")
-    driver.execute_script("document.querySelectorAll('#detail .trace button').forEach((button) => button.click())")
+    driver.execute_script("document.querySelectorAll('#detail h3 button').forEach((button) => button.click())")
     # Everything is drawn: two frames of the browser later.
     driver.execute_async_script("const done = arguments[0]; document.activeElement.blur();"
                                 "setTimeout(() => requestAnimationFrame(() => requestAnimationFrame(done)), 900)")

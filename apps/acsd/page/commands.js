@@ -1,7 +1,7 @@
 // What the operator may do: each command is one POST. Those with consequences ask first.
 
 import {post} from "./api.js";
-import {askConfirmation, askNumber, showToast} from "./dialogs.js";
+import {askAction, askConfirmation, askNumber, showToast} from "./dialogs.js";
 import {make} from "./dom.js";
 import {t} from "./text.js";
 
@@ -28,6 +28,8 @@ export const Commands = {
     setMaintenance: (robot) => ({label: t(robot.maintenance ? "command.maintenanceOff" : "command.maintenanceOn"),
         path: `/v1/robots/${encode(robot.robotId)}/maintenance`, body: {on: !robot.maintenance},
         ask: robot.maintenance ? "ask.maintenanceOff" : null, values: {id: robot.robotId}}),
+    sendAction: (robotId, offer) => ({label: offer.actionType, path: `/v1/robots/${encode(robotId)}/actions`, offer,
+        values: {id: robotId, action: offer.actionType}}),
     clearAlarm: (alarm) => ({label: t("command.clear"), path: "/v1/alarms/clear", ask: "ask.clear", body: {
         robotId: alarm.robotId, errorCode: alarm.errorCode, ...(alarm.planId ? {planId: alarm.planId} : {}),
         ...(alarm.jobId ? {jobId: alarm.jobId} : {})}, values: {id: alarm.errorCode, robot: alarm.robotId}}),
@@ -45,25 +47,30 @@ export function listNamedCommands(text) {
         Commands.setMaintenance({robotId, maintenance: word === "off"}));
 }
 
-/** Asks if need be, sends, and shows the answer. */
-export async function runCommand(command) {
-    let body = command.body;
+/** What the questions of the command add to its body; null if the user cancels. */
+async function askBody(command) {
     if (command.number !== undefined) {
         const value = await askNumber({title: command.label, label: t("ask.priority", command.values), value: command.value});
-        if (value === null) {
-            return;
-        }
-        body = {[command.number]: value};
-    } else if (command.ask) {
-        const answer = await askConfirmation({
-            title: command.label, text: t(command.ask, command.values), action: command.label, hasReason: command.hasReason});
-        if (answer === null) {
-            return;
-        }
-        if (answer.reason !== "") {
-            body = {...body, reason: answer.reason};
-        }
+        return value === null ? null : {[command.number]: value};
     }
+    if (command.offer !== undefined) {
+        return askAction({title: command.label, text: t("ask.action", command.values), offer: command.offer});
+    }
+    if (!command.ask) {
+        return {};
+    }
+    const answer = await askConfirmation({
+        title: command.label, text: t(command.ask, command.values), action: command.label, hasReason: command.hasReason});
+    return answer === null || answer.reason !== "" ? answer : {};
+}
+
+/** Asks if need be, sends, and shows the answer. */
+export async function runCommand(command) {
+    const answers = await askBody(command);
+    if (answers === null) {
+        return;
+    }
+    const body = Object.keys(answers).length === 0 ? command.body : {...command.body, ...answers};
     try {
         const response = await post(command.path, body);
         showToast((await response.json()).message);

@@ -1,5 +1,6 @@
 // The detail of a robot.
 
+import {ActionList} from "./action-list.js";
 import {AlarmRow, getAlarmKey} from "./alarm-view.js";
 import {CauseRow, explainRobot} from "./causes.js";
 import {Commands, makeCommandButton} from "./commands.js";
@@ -22,7 +23,8 @@ export class RobotDetail {
         this.causes = new KeyedList(this.causeList, (cause) => cause.key, (cause) => new CauseRow(cause, context.select));
         this.alarmList = make("ul", {class: "alarms"});
         this.alarms = new KeyedList(this.alarmList, getAlarmKey, (alarm) => new AlarmRow(alarm, context.select));
-        this.node = make("div", {class: "detail-body"}, this.causeList, this.alarmList, this.facts, this.buttons,
+        this.actions = new ActionList(id);
+        this.node = make("div", {class: "detail-body"}, this.causeList, this.alarmList, this.facts, this.buttons, this.actions.node,
             new TraceList(`robot=${encodeURIComponent(id)}`).node);
         this.update(null);
     }
@@ -42,6 +44,7 @@ export class RobotDetail {
             this.buttons.replaceChildren();
             return;
         }
+        this.actions.update(model.entries);
         if (changes === null || changes.isAll || changes.robots.has(this.id)) {
             this.#showFacts(robot);
             if (this.isInMaintenance !== robot.maintenance) {

@@ -210,6 +210,16 @@ export default {
     "place.station": "Station",
     "place.nodes": "Nodes",
 
+    "action.title": "Instant actions",
+    "action.noneOffered": "This robot offers no instant actions.",
+    "actionStatus.Waiting": "waiting",
+    "actionStatus.Initializing": "initializing",
+    "actionStatus.Running": "running",
+    "actionStatus.Paused": "paused",
+    "actionStatus.Finished": "finished",
+    "actionStatus.Failed": "failed",
+    "actionStatus.Unknown": "unknown",
+
     "trace.title": "Messages",
     "trace.show": "Show",
     "trace.refresh": "Refresh",
@@ -243,6 +253,7 @@ export default {
     "ask.resolve.again": "Job {id} was not done and nothing was moved. The robot starts the job again.",
     "ask.skip": "Skip step {n} of plan {id}? The record of the ports does not change.",
     "ask.maintenanceOff": "End the maintenance of {id}? The robot may drive at once: check that no person is beside it.",
+    "ask.action": "Send {action} to {id}? The robot performs it at once: check that no person is beside it.",
     "ask.clear": "Clear alarm {id} of {robot}? It is set again if its cause remains.",
     "ask.tscResume": "Resume the TSC? Robots may drive at once.",
     "ask.block": "Block {kind} {id}? No further robot is routed over it.",
@@ -251,6 +262,8 @@ export default {
     "dialog.cancel": "Back",
     "dialog.close": "Close",
     "dialog.set": "Set",
+    "dialog.send": "Send",
+    "dialog.optional": "optional",
     "dialog.reason": "Reason (optional)",
     "error.connection": "acsd does not answer: {reason}",
 

@@ -210,6 +210,16 @@ export default {
     "place.station": "스테이션",
     "place.nodes": "노드",
 
+    "action.title": "즉시 액션",
+    "action.noneOffered": "이 로봇이 제공하는 즉시 액션이 없습니다.",
+    "actionStatus.Waiting": "대기",
+    "actionStatus.Initializing": "준비 중",
+    "actionStatus.Running": "실행 중",
+    "actionStatus.Paused": "일시정지",
+    "actionStatus.Finished": "완료",
+    "actionStatus.Failed": "실패",
+    "actionStatus.Unknown": "확인 불가",
+
     "trace.title": "통신 메시지",
     "trace.show": "보기",
     "trace.refresh": "새로 고침",
@@ -243,6 +253,7 @@ export default {
     "ask.resolve.again": "Job {id}: 수행되지 않았고 캐리어도 움직이지 않았습니다. 로봇이 Job을 다시 시작합니다.",
     "ask.skip": "Plan {id}의 Step {n} 건너뛰기를 진행하시겠습니까? 포트의 적재 정보는 바뀌지 않습니다.",
     "ask.maintenanceOff": "{id}의 정비를 해제하시겠습니까? 로봇이 바로 움직일 수 있으니 주변에 사람이 없는지 확인하십시오.",
+    "ask.action": "{id}에 {action} 전송을 진행하시겠습니까? 로봇이 바로 수행하니 주변에 사람이 없는지 확인하십시오.",
     "ask.clear": "{robot}의 알람 {id} 해제를 진행하시겠습니까? 원인이 남아 있으면 다시 발생합니다.",
     "ask.tscResume": "TSC를 재개하시겠습니까? 로봇이 바로 움직일 수 있습니다.",
     "ask.block": "{kind} {id} 사용을 금지하시겠습니까? 이후 로봇이 이곳을 지나지 않습니다.",
@@ -251,6 +262,8 @@ export default {
     "dialog.cancel": "돌아가기",
     "dialog.close": "닫기",
     "dialog.set": "적용",
+    "dialog.send": "전송",
+    "dialog.optional": "선택",
     "dialog.reason": "사유(선택)",
     "error.connection": "acsd가 응답하지 않습니다: {reason}",
 

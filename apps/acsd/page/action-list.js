@@ -1,0 +1,71 @@
+// The instant actions of a robot: those that it offers, and the last ones with their outcome.
+
+import {getJson} from "./api.js";
+import {Commands, makeCommandButton} from "./commands.js";
+import {make, setHidden, setText} from "./dom.js";
+import {formatClock} from "./format.js";
+import {nameState, t} from "./text.js";
+
+let areShown = false; // kept for the next detail
+
+function makeRow(action) {
+    const rest = [action.resultDescription, action.reason].filter(Boolean).join(" · ");
+    return make("li", {class: "message action"},
+        make("p", {class: "action-head"},
+            make("time", {datetime: action.requestedAt, text: formatClock(Date.parse(action.requestedAt))}),
+            make("span", {class: "message-name", text: action.actionType}),
+            make("span", {class: "tag", text: nameState("actionStatus", action.status)})),
+        rest ? make("p", {class: "muted", text: rest}) : null);
+}
+
+export class ActionList {
+    constructor(robotId) {
+        this.robotId = robotId;
+        this.lastEntry = 0; // newest event about an action of this robot
+        this.offers = make("div", {class: "row-buttons no-wall", hidden: true});
+        this.list = make("ol", {class: "messages"});
+        this.note = make("p", {class: "muted"});
+        this.button = make("button", {type: "button", class: "button small", text: t("trace.show"), onclick: () => this.load()});
+        this.node = make("section", {class: "actions"},
+            make("h3", {}, make("span", {text: t("action.title")}), this.button), this.note, this.offers, this.list);
+        if (areShown) {
+            this.load();
+        }
+    }
+
+    /** Loads again after each event about an action of the robot. */
+    update(entries) {
+        const newest = entries.find((entry) => entry.kind === "action" && entry.robotId === this.robotId);
+        if (newest !== undefined && newest.id > this.lastEntry) {
+            this.lastEntry = newest.id;
+            if (areShown) {
+                this.load();
+            }
+        }
+    }
+
+    async load() {
+        areShown = true;
+        this.button.disabled = true;
+        this.button.textContent = t("trace.refresh");
+        try {
+            const {actions, offered} = await getJson(`/v1/robots/${encodeURIComponent(this.robotId)}/actions`);
+            setText(this.note, offered.length === 0 ? t("action.noneOffered") : "");
+            this.#showOffers(offered);
+            this.list.replaceChildren(...actions.reverse().map(makeRow));
+        } catch (error) {
+            setText(this.note, error.message);
+        }
+        this.button.disabled = false;
+    }
+
+    /** The buttons stay while the robot offers the same actions: one of them may have the focus. */
+    #showOffers(offered) {
+        const text = JSON.stringify(offered);
+        if (text !== this.offersText) {
+            this.offersText = text;
+            setHidden(this.offers, offered.length === 0);
+            this.offers.replaceChildren(...offered.map((offer) => makeCommandButton(Commands.sendAction(this.robotId, offer))));
+        }
+    }
+}
