@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cstddef>
 #include <system_error>
-#include <utility>
 
 namespace ACS::McsSim
 {
@@ -97,6 +96,24 @@ std::optional<Core::Error> FindInTextOrNull(std::string_view text, const std::st
 }
 
 } // namespace
+
+FoundMessage ReadFoundMessage(std::string_view text)
+{
+    FoundMessage envelope;
+    Json::JsonDocument document;
+    const Core::Result<const Json::Value*> value = document.Parse(text, {});
+    if (value.has_value() && (*value)->IsObject())
+    {
+        const auto read = [value](const char* name) {
+            const auto member = (*value)->FindMember(name);
+            return member != (*value)->MemberEnd() && member->value.IsString()
+                ? std::string(member->value.GetString(), member->value.GetStringLength())
+                : std::string();
+        };
+        envelope = {read("transactionId"), read("timestamp")};
+    }
+    return envelope;
+}
 
 bool IsScenarioName(std::string_view text)
 {

@@ -20,6 +20,9 @@ struct FoundMessage
     std::string timestamp; ///< As it was on the wire.
 };
 
+/// The envelope of a message on the wire; empty texts where there is none.
+[[nodiscard]] FoundMessage ReadFoundMessage(std::string_view text);
+
 /// The plans and messages of a scenario by the names that it gave them.
 using ScenarioNames = std::map<std::string, std::variant<PlannedPlan, FoundMessage>, std::less<>>;
 
