@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -28,7 +27,8 @@ ClientSession::Impl::Impl(const ClientSessionOptions& options, Core::IRandom& ra
       _random(random),
       _backoff(options.reconnect),
       _framer(options.longestLine),
-      _outbox(options.maximumOutput),
+      _output(options.maximumOutput),
+      _monitor(_options),
       _controls(options.maximumControls)
 {
 }
@@ -45,10 +45,7 @@ void ClientSession::Impl::Start(Core::Now now, ClientActions& out)
 void ClientSession::Impl::Connect(Core::Now now, ClientActions& out)
 {
     _framer.Reset();
-    _outbox.Reset();
-    _stopMark = 0;
-    _waitingDue = Core::SteadyTime::max();
-    _sendingDue = Core::SteadyTime::max();
+    _output.Reset();
     _state = EClientState::Connecting;
     out.emplace_back(ClientStartTimer{EClientTimer::Connect, now.steady + _options.connectTimeout});
     out.emplace_back(ClientConnect{});
@@ -65,10 +62,10 @@ void ClientSession::Impl::Stop(Core::Now now, ClientActions& out)
         End(out);
         return;
     }
-    SettleInFlight(EControlOutcome::Unknown, "the session was stopped", out);
-    SettleWaiting("the session was stopped", out);
+    _controls.SettleCurrent(EControlOutcome::Unknown, "the session was stopped", out);
+    _controls.SettleWaiting("the session was stopped", out);
     _state = EClientState::Ending;
-    SendAwaited(StopRequest{EStopTarget::Session}, EInFlight::StopSession, now, out);
+    SendAwaited(StopRequest{EStopTarget::Session}, now, out);
 }
 
 void ClientSession::Impl::OnConnected(Core::Now now, ClientActions& out)
@@ -79,7 +76,7 @@ void ClientSession::Impl::OnConnected(Core::Now now, ClientActions& out)
     }
     out.emplace_back(ClientCancelTimer{EClientTimer::Connect});
     _state = EClientState::Handshaking;
-    SendAwaited(HandshakeRequest{}, EInFlight::Handshake, now, out);
+    SendAwaited(HandshakeRequest{}, now, out);
 }
 
 void ClientSession::Impl::OnConnectFailed(std::string_view detail, Core::Now now, ClientActions& out)
@@ -127,7 +124,7 @@ void ClientSession::Impl::ProcessLine(std::string_view text, Core::Now now, Clie
 
 void ClientSession::Impl::Handle(HandshakeAck& ack, Core::Now now, ClientActions& out)
 {
-    if (_inFlight != EInFlight::Handshake)
+    if (_state != EClientState::Handshaking)
     {
         return;
     }
@@ -136,16 +133,32 @@ void ClientSession::Impl::Handle(HandshakeAck& ack, Core::Now now, ClientActions
         HandleLoss(EClientLossReason::HandshakeFailed, "the controller did not accept the HANDSHAKE", now, out);
         return;
     }
-    FinishInFlight(out);
+    out.emplace_back(ClientCancelTimer{EClientTimer::Answer});
     ++_stats.connects;
     _backoff.Reset();
     _state = EClientState::Ready;
-    _bMonitorOn = false;
-    _startedMonitorNumber = 0;
-    _bMonitorStopFirst = false;
-    _bMonitorDue = _monitor.has_value();
     Report(ClientReady{std::move(ack.version)}, out);
     SendNext(now, out);
+}
+
+void ClientSession::Impl::Handle(MonitorAck& /*ack*/, Core::Now now, ClientActions& out)
+{
+    if (_state == EClientState::Ready && _monitor.IsStarting() && _output.WasCommandTaken())
+    {
+        _monitor.OnStarted(now, out);
+        SendNext(now, out);
+    }
+}
+
+void ClientSession::Impl::Handle(DataLine& line, Core::Now now, ClientActions& out)
+{
+    if (_state != EClientState::Ready || !_monitor.IsWanted())
+    {
+        return; // still on its way when the stream was stopped
+    }
+    ++_stats.dataLines;
+    _controls.OnSample(line, out);
+    _stats.missingLines += _monitor.OnSample(std::move(line), now, out);
 }
 
 void ClientSession::Impl::Handle(StopAck& ack, Core::Now now, ClientActions& out)
@@ -159,14 +172,38 @@ void ClientSession::Impl::Handle(StopAck& ack, Core::Now now, ClientActions& out
     {
         return;
     }
-    if (IsAwaited(EInFlight::StopMonitor) && ack.target == EStopTarget::Monitor)
+    if (ack.target == EStopTarget::Monitor && _monitor.IsStopping() && _output.WasCommandTaken())
     {
-        FinishInFlight(out);
-        _bMonitorOn = false;
-        _bMonitorStopFirst = false;
+        _monitor.OnStopped(out);
     }
     Report(ClientStopped{ack.target}, out);
     SendNext(now, out);
+}
+
+void ClientSession::Impl::Handle(ControlError& error, Core::Now now, ClientActions& out)
+{
+    RefuseControl(
+        error.status,
+        std::move(error.body),
+        fmt::format("the controller refused the CONTROL with status {}", error.status),
+        out);
+    SendNext(now, out);
+}
+
+void ClientSession::Impl::RefuseControl(
+    int status,
+    std::optional<Core::JsonText> bodyOrNull,
+    std::string detail,
+    ClientActions& out)
+{
+    if (_controls.IsInFlight() && _output.WasCommandTaken())
+    {
+        _controls.Refuse(status, std::move(bodyOrNull), std::move(detail), out);
+    }
+    else
+    {
+        Report(ClientControlFault{status, std::move(bodyOrNull), std::move(detail)}, out);
+    }
 }
 
 void ClientSession::Impl::Handle(ErrorLine& error, Core::Now now, ClientActions& out)
@@ -196,16 +233,17 @@ void ClientSession::Impl::HandleErrorWhenReady(ErrorLine& error, Core::Now now, 
 {
     const EErrorScope scope = GetErrorScope(error.code);
     const bool bOfRequest = scope == EErrorScope::Request;
+    const bool bTaken = _output.WasCommandTaken();
     if (scope == EErrorScope::Fatal)
     {
         HandleLoss(EClientLossReason::SessionEnded, Describe(error), now, out);
         return;
     }
-    if (IsAwaited(EInFlight::Monitor) && (bOfRequest || scope == EErrorScope::Monitor))
+    if (_monitor.IsStarting() && bTaken && (bOfRequest || scope == EErrorScope::Monitor))
     {
-        HandleMonitorError(error, out);
+        _monitor.OnRefused(std::move(error), out);
     }
-    else if (scope == EErrorScope::Stop || (bOfRequest && IsAwaited(EInFlight::StopMonitor)))
+    else if (scope == EErrorScope::Stop || (bOfRequest && _monitor.IsStopping() && bTaken))
     {
         HandleStopError(error, out);
     }
@@ -222,12 +260,10 @@ void ClientSession::Impl::HandleErrorWhenReady(ErrorLine& error, Core::Now now, 
 
 void ClientSession::Impl::HandleStopError(ErrorLine& error, ClientActions& out)
 {
-    const bool bOfMonitor = IsAwaited(EInFlight::StopMonitor);
+    const bool bOfMonitor = _monitor.IsStopping() && _output.WasCommandTaken();
     if (bOfMonitor)
     {
-        FinishInFlight(out);
-        _bMonitorOn = false;
-        _bMonitorStopFirst = false;
+        _monitor.OnStopped(out);
     }
     if (error.code == EOpenStreamErrorCode::NothingToStop)
     {
@@ -239,72 +275,17 @@ void ClientSession::Impl::HandleStopError(ErrorLine& error, ClientActions& out)
     }
 }
 
-void ClientSession::Impl::FinishInFlight(ClientActions& out)
-{
-    _inFlight = EInFlight::Nothing;
-    out.emplace_back(ClientCancelTimer{EClientTimer::Answer});
-}
-
-/// One command in flight at a time: the MONITOR precedes the CONTROLs.
-void ClientSession::Impl::SendNext(Core::Now now, ClientActions& out)
-{
-    if (_state != EClientState::Ready || _inFlight != EInFlight::Nothing || TrySendMonitor(now, out))
-    {
-        return;
-    }
-    if (std::optional<PendingControl> control = _controls.PopFrontOrNull())
-    {
-        SendControlInTurn(std::move(*control), out);
-    }
-}
-
-void ClientSession::Impl::SendNow(const OpenStreamRequest& request, ClientActions& out)
-{
-    OpenStreamCodec::EncodeRequest(request, _outbox.GetLines());
-    Flush(out);
-}
-
-bool ClientSession::Impl::IsAwaited(EInFlight kind) const noexcept
-{
-    return _inFlight == kind && _outbox.WasTaken(_inFlightMark);
-}
-
-void ClientSession::Impl::SendAwaited(
-    const OpenStreamRequest& request,
-    EInFlight kind,
-    Core::Now now,
-    ClientActions& out)
-{
-    _inFlight = kind;
-    out.emplace_back(ClientStartTimer{EClientTimer::Answer, now.steady + _options.answerTimeout});
-    SendNow(request, out);
-    _inFlightMark = _outbox.GetMark();
-}
-
-void ClientSession::Impl::Flush(ClientActions& out)
-{
-    if (const std::string_view text = _outbox.TakeForSend(); !text.empty())
-    {
-        _sendingDue = std::exchange(_waitingDue, Core::SteadyTime::max());
-        out.emplace_back(ClientSend{text});
-    }
-}
-
 void ClientSession::Impl::OnSendCompleted(Core::Now now, ClientActions& out)
 {
-    if (!IsConnected() || !_outbox.IsSending())
+    if (!IsConnected() || !_output.TryCompleteSend())
     {
         return;
     }
-    static_cast<void>(_outbox.CompleteSend());
-    _sendingDue = Core::SteadyTime::max();
-    if (_inFlight == EInFlight::Control && !_bControlLeft && _outbox.WasSent(_inFlightMark))
+    if (_output.WasCommandSent() && _controls.TryBeginWindow(now))
     {
-        _bControlLeft = true;
-        _controlLeftAt = now.steady;
         out.emplace_back(ClientStartTimer{EClientTimer::Answer, now.steady + _options.controlWindow});
     }
-    Flush(out);
+    _output.Flush(out);
 }
 
 void ClientSession::Impl::OnPeerClosed(Core::Now now, ClientActions& out)
@@ -347,11 +328,13 @@ void ClientSession::Impl::OnTimer(EClientTimer timer, Core::Now now, ClientActio
             OnAnswerTimeout(now, out);
             break;
         case EClientTimer::DataAge:
-            _bDataAgeArmed = false;
-            CheckDataAge(now, out);
+            if (_state == EClientState::Ready && !_monitor.TryAwaitData(now, out))
+            {
+                HandleLoss(EClientLossReason::DataSilent, "the controller sent no data", now, out);
+            }
             break;
         case EClientTimer::Control:
-            _bControlTimerArmed = false;
+            _controlTimer.Reset();
             CheckControls(now, out);
             break;
         case EClientTimer::Retry:
@@ -368,25 +351,21 @@ void ClientSession::Impl::OnTimer(EClientTimer timer, Core::Now now, ClientActio
 
 void ClientSession::Impl::OnAnswerTimeout(Core::Now now, ClientActions& out)
 {
-    switch (_inFlight)
+    if (_state == EClientState::Ending)
     {
-        case EInFlight::Nothing:
-            break;
-        case EInFlight::Control:
-            FinishControlWindow(now, out);
-            SendNext(now, out);
-            break;
-        case EInFlight::StopSession:
-            End(out);
-            break;
-        case EInFlight::Handshake:
-        case EInFlight::Monitor:
-        case EInFlight::StopMonitor:
-            HandleLoss(EClientLossReason::AnswerTimeout, "the controller did not answer in time", now, out);
-            break;
-        default:
-            assert(false && "unhandled EInFlight");
-            break;
+        End(out);
+    }
+    else if (_state == EClientState::Handshaking || _monitor.IsInFlight())
+    {
+        HandleLoss(EClientLossReason::AnswerTimeout, "the controller did not answer in time", now, out);
+    }
+    else if (_controls.IsInFlight())
+    {
+        if (!_controls.TryAccept(out))
+        {
+            CheckControls(now, out);
+        }
+        SendNext(now, out);
     }
 }
 
@@ -412,16 +391,12 @@ void ClientSession::Impl::HandleLoss(
 
 void ClientSession::Impl::DropConnection(std::string_view detail, ClientActions& out)
 {
-    const bool bLeft = _outbox.WasTaken(_inFlightMark);
-    SettleInFlight(bLeft ? EControlOutcome::Unknown : EControlOutcome::NotSent, detail, out);
-    SettleConfirmations(detail, out);
-    SettleWaiting(detail, out);
-    _inFlight = EInFlight::Nothing;
-    _latest.reset();
-    _bControlTimerArmed = false;
-    _bMonitorOn = false;
-    _bStale = false;
-    _bDataAgeArmed = false;
+    const bool bTaken = _output.WasCommandTaken();
+    _controls.SettleCurrent(bTaken ? EControlOutcome::Unknown : EControlOutcome::NotSent, detail, out);
+    _controls.SettleConfirmations(detail, out);
+    _controls.SettleWaiting(detail, out);
+    _controlTimer.Reset();
+    _monitor.OnDisconnected();
     for (const EClientTimer timer :
          {EClientTimer::Connect,
           EClientTimer::Answer,
@@ -449,6 +424,16 @@ EClientState ClientSession::Impl::GetState() const noexcept
 const ClientSessionStats& ClientSession::Impl::GetStats() const noexcept
 {
     return _stats;
+}
+
+const ClientData* ClientSession::Impl::GetLatestOrNull() const noexcept
+{
+    return _monitor.GetLatestOrNull();
+}
+
+StreamQuality ClientSession::Impl::GetQuality() const
+{
+    return _monitor.GetQuality();
 }
 
 } // namespace ACS::OpenStream

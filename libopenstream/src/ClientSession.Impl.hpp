@@ -1,16 +1,16 @@
 #pragma once
 
+#include "ClientControls.hpp"
+#include "ClientMonitor.hpp"
+#include "ClientOutput.hpp"
+#include "LazyTimer.hpp"
 #include "LineFramer.hpp"
-#include "LineOutbox.hpp"
-#include "StreamMeter.hpp"
 #include <acs/core/Backoff.hpp>
-#include <acs/core/BoundedQueue.hpp>
 #include <acs/openstream/ClientSession.hpp>
 #include <acs/openstream/OpenStreamCodec.hpp>
 
 #include <chrono>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,70 +20,18 @@ namespace ACS::OpenStream
 
 class ClientSession::Impl
 {
-    struct PendingControl
-    {
-        std::uint64_t token = 0;
-        Core::SteadyTime deadline; ///< For sending it.
-        ControlCall call;
-    };
-
-    /// A CONTROL whose window has passed and whose confirmation is pending.
-    struct Confirmation
-    {
-        std::uint64_t token = 0;
-        Core::SteadyTime deadline;
-        std::function<bool(const DataLine& sample)> isConfirmed;
-    };
-
-    enum class EInFlight : std::uint8_t
-    {
-        Nothing,
-        Handshake,
-        Monitor,
-        Control,
-        StopMonitor,
-        StopSession,
-    };
-
     ClientSessionOptions _options;
     Core::IRandom& _random;
     Core::Backoff _backoff;
     OpenStreamCodec _codec;
     LineFramer _framer;
-    LineOutbox _outbox;
     ClientSessionStats _stats;
     EClientState _state = EClientState::Stopped;
 
-    EInFlight _inFlight = EInFlight::Nothing;
-    std::uint64_t _inFlightMark = 0; ///< Position of its last byte in the outbox.
-    PendingControl _control;         ///< The one in flight.
-    Core::SteadyTime _controlLeftAt;
-    bool _bControlLeft = false;
-    bool _bControlConfirmed = false;
-    std::vector<Confirmation> _confirmations;
-    Core::SteadyTime _waitingDue = Core::SteadyTime::max(); ///< Deadline for sending the CONTROLs in the outbox.
-    Core::SteadyTime _sendingDue =
-        Core::SteadyTime::max(); ///< Likewise for those in flight, except for the tracked one.
-    Core::SteadyTime _controlTimerAt;
-    bool _bControlTimerArmed = false;
-
-    std::optional<MonitorRequest> _monitor;
-    std::uint64_t _monitorNumber = 0;        ///< Of the last SetMonitor call.
-    std::uint64_t _sentMonitorNumber = 0;    ///< Of the last MONITOR sent.
-    std::uint64_t _startedMonitorNumber = 0; ///< Of the last MONITOR that the server accepted in this session; 0: none.
-    std::string _sentMonitorURL;             ///< Likewise.
-    bool _bMonitorDue = false;               ///< SetMonitor was called and nothing was sent yet.
-    bool _bMonitorOn = false;                ///< The server streams, as far as known.
-    bool _bMonitorStopFirst = false;         ///< The server answered monitor_already_active.
-    bool _bStale = false;
-    bool _bDataAgeArmed = false;
-    Core::SteadyTime _dataAgeAt;
-    Core::SteadyTime _lastDataAt;
-    StreamMeter _meter;
-    std::optional<ClientData> _latest;
-
-    std::uint64_t _stopMark = 0; ///< Position of the last byte of the last STOP control in the outbox.
-    Core::BoundedQueue<PendingControl> _controls;
+    ClientOutput _output;
+    ClientMonitor _monitor;
+    ClientControls _controls;
+    LazyTimer _controlTimer;
     std::uint64_t _lastToken = 0;
 
 public:
@@ -121,35 +69,17 @@ private:
     void Handle(ControlError& error, Core::Now now, ClientActions& out);
     void Handle(ErrorLine& error, Core::Now now, ClientActions& out);
     void HandleErrorWhenReady(ErrorLine& error, Core::Now now, ClientActions& out);
-    void HandleMonitorError(ErrorLine& error, ClientActions& out);
     void HandleStopError(ErrorLine& error, ClientActions& out);
     void RefuseControl(int status, std::optional<Core::JsonText> bodyOrNull, std::string detail, ClientActions& out);
-    void SettleInFlight(EControlOutcome outcome, std::string_view detail, ClientActions& out);
-    void SettleWaiting(std::string_view detail, ClientActions& out);
-    void FinishInFlight(ClientActions& out);
     void SendNext(Core::Now now, ClientActions& out);
-    [[nodiscard]] bool TrySendMonitor(Core::Now now, ClientActions& out);
-    void SendNow(const OpenStreamRequest& request, ClientActions& out);
+    void SendAwaited(const OpenStreamRequest& request, Core::Now now, ClientActions& out);
     void SendUntil(const OpenStreamRequest& request, Core::SteadyTime deadline, ClientActions& out);
     [[nodiscard]] Core::SteadyTime GetControlDeadline(std::chrono::milliseconds own, Core::Now now) const;
+    /// When the first of the CONTROLs that have been given to the socket has to have left.
     [[nodiscard]] Core::SteadyTime GetSendDeadline() const noexcept;
-    void SendAwaited(const OpenStreamRequest& request, EInFlight kind, Core::Now now, ClientActions& out);
-    void Flush(ClientActions& out);
-    void FinishControlWindow(Core::Now now, ClientActions& out);
-    void Confirm(const DataLine& sample, ClientActions& out);
     void CheckControls(Core::Now now, ClientActions& out);
     void ArmControlTimer(ClientActions& out);
-    void SettleConfirmations(std::string_view detail, ClientActions& out);
-    void SendControlInTurn(PendingControl control, ClientActions& out);
-    /// Whether a command of this kind has been given to the socket and has no answer. What has not left has no answer
-    /// either: a server that does not read could otherwise fill the outbox.
-    [[nodiscard]] bool IsAwaited(EInFlight kind) const noexcept;
-    /// Whether the server streams the MONITOR of the last SetMonitor call.
-    [[nodiscard]] bool IsMonitorCurrent() const noexcept;
     [[nodiscard]] bool IsConnected() const noexcept;
-    [[nodiscard]] std::chrono::milliseconds GetDataLimit() const noexcept;
-    void ArmDataAge(ClientActions& out);
-    void CheckDataAge(Core::Now now, ClientActions& out);
     void OnAnswerTimeout(Core::Now now, ClientActions& out);
     void HandleLoss(EClientLossReason reason, std::string_view detail, Core::Now now, ClientActions& out);
     void Disconnect(EClientLossReason reason, std::string_view detail, Core::Now now, ClientActions& out);

@@ -1,0 +1,125 @@
+#include "ClientMonitor.hpp"
+
+#include "Catch.hpp"
+#include "ManualClock.hpp"
+
+#include <chrono>
+#include <optional>
+
+using namespace ACS::OpenStream; // NOLINT(google-build-using-namespace)
+using namespace std::chrono_literals;
+
+namespace
+{
+
+/// A ClientMonitor for which a MONITOR with a period of 10 ms was set.
+class MonitorFixture
+{
+public:
+    ACS::Testing::ManualClock clock;
+    ClientSessionOptions options;
+    ClientMonitor monitor{options};
+    ClientActions actions;
+
+    MonitorFixture()
+    {
+        Set("/first");
+    }
+
+    void Set(const char* url)
+    {
+        monitor.Set(MonitorRequest{url, 10ms, {}, {}});
+    }
+
+    [[nodiscard]] bool HasBegunStart()
+    {
+        const std::optional<OpenStreamRequest> request = monitor.BeginNextOrNull();
+        return request.has_value() && std::holds_alternative<MonitorRequest>(*request) && monitor.IsStarting();
+    }
+
+    [[nodiscard]] bool HasBegunStop()
+    {
+        const std::optional<OpenStreamRequest> request = monitor.BeginNextOrNull();
+        return request.has_value() && std::holds_alternative<StopRequest>(*request) && monitor.IsStopping();
+    }
+
+    void Start()
+    {
+        REQUIRE(HasBegunStart());
+        monitor.OnStarted(clock.GetNow(), actions);
+    }
+
+    void Receive()
+    {
+        monitor.OnSample(DataLine{}, clock.GetNow(), actions);
+    }
+};
+
+} // namespace
+
+TEST_CASE("A MONITOR is sent once, and again after a disconnect")
+{
+    MonitorFixture fixture;
+    fixture.Start();
+    CHECK_FALSE(fixture.monitor.IsInFlight());
+    CHECK_FALSE(fixture.monitor.BeginNextOrNull().has_value());
+    fixture.monitor.OnDisconnected();
+    CHECK(fixture.HasBegunStart());
+}
+
+TEST_CASE("A server that is occupied by another MONITOR is stopped first")
+{
+    MonitorFixture fixture;
+    REQUIRE(fixture.HasBegunStart());
+    ErrorLine error;
+    error.code = EOpenStreamErrorCode::MonitorAlreadyActive;
+    fixture.monitor.OnRefused(error, fixture.actions);
+    fixture.Receive();
+    CHECK(fixture.monitor.GetLatestOrNull() == nullptr);
+    REQUIRE(fixture.HasBegunStop());
+    fixture.monitor.OnStopped(fixture.actions);
+    CHECK(fixture.HasBegunStart());
+}
+
+TEST_CASE("A MONITOR that is not wanted any more is stopped only where the server streams")
+{
+    MonitorFixture fixture;
+    SECTION("it streams")
+    {
+        fixture.Start();
+        fixture.monitor.Set(std::nullopt);
+        CHECK(fixture.HasBegunStop());
+    }
+    SECTION("it does not")
+    {
+        fixture.monitor.Set(std::nullopt);
+    }
+    CHECK_FALSE(fixture.monitor.BeginNextOrNull().has_value());
+}
+
+TEST_CASE("The latest sample is of the current MONITOR")
+{
+    MonitorFixture fixture;
+    fixture.Start();
+    fixture.Receive();
+    CHECK(fixture.monitor.GetLatestOrNull() != nullptr);
+    fixture.Set("/second");
+    fixture.Receive(); // of the first one
+    CHECK(fixture.monitor.GetLatestOrNull() == nullptr);
+    fixture.Start();
+    fixture.Receive();
+    CHECK(fixture.monitor.GetLatestOrNull() != nullptr);
+}
+
+TEST_CASE("Samples that are overdue are reported as stale once, and then as lost")
+{
+    MonitorFixture fixture;
+    fixture.Start();
+    fixture.actions.clear();
+    fixture.clock.Advance(10ms + fixture.options.staleAfter);
+    CHECK(fixture.monitor.TryAwaitData(fixture.clock.GetNow(), fixture.actions));
+    CHECK(fixture.actions.size() == 2); // stale, and the timer for lostAfter
+    fixture.clock.Advance(fixture.options.lostAfter - fixture.options.staleAfter);
+    CHECK_FALSE(fixture.monitor.TryAwaitData(fixture.clock.GetNow(), fixture.actions));
+    CHECK(fixture.actions.size() == 2);
+}
