@@ -1,53 +1,11 @@
 #include "ServerSession.Impl.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cassert>
 #include <string>
 #include <utility>
 
 namespace ACS::OpenStream
 {
-
-namespace
-{
-
-constexpr std::string_view VERSION = "1.0.0";
-
-enum class EVerdict : std::uint8_t
-{
-    Run,
-    HandshakeRequired,
-    Busy,
-};
-
-/// The verdict of each state on each command, before its payload is checked.
-struct GateRow
-{
-    EServerState state;
-    std::array<EVerdict, std::variant_size_v<OpenStreamRequest>> verdicts; ///< Handshake, Monitor, Control, Stop.
-};
-
-constexpr EVerdict RUN = EVerdict::Run;
-constexpr EVerdict SHAKE = EVerdict::HandshakeRequired;
-constexpr EVerdict BUSY = EVerdict::Busy;
-
-constexpr std::array GATE{
-    GateRow{EServerState::Connected, {RUN, SHAKE, SHAKE, SHAKE}},
-    GateRow{EServerState::Ready, {RUN, RUN, RUN, RUN}},
-    GateRow{EServerState::Streaming, {BUSY, RUN, RUN, RUN}},
-    GateRow{EServerState::Closing, {SHAKE, SHAKE, SHAKE, SHAKE}},
-    GateRow{EServerState::Closed, {SHAKE, SHAKE, SHAKE, SHAKE}},
-};
-
-std::string_view GetRefusalMessage(EOpenStreamErrorCode code)
-{
-    return code == EOpenStreamErrorCode::BusySessionActive
-        ? "a MONITOR is active or a CONTROL is being worked on: STOP it before another HANDSHAKE"
-        : "send HANDSHAKE first";
-}
-
-} // namespace
 
 ServerSessionStats& ServerSessionStats::operator+=(const ServerSessionStats& other) noexcept
 {
@@ -64,7 +22,8 @@ ServerSession::Impl::Impl(const ServerSessionOptions& options)
     : _options(options),
       _framer(options.longestLine),
       _outbox(options.maximumOutput),
-      _controls(options.maximumControls)
+      _monitor(options.serviceTimeout),
+      _controls(options)
 {
 }
 
@@ -94,159 +53,59 @@ void ServerSession::Impl::OnBytes(std::string_view bytes, Core::Now now, ServerA
 
 void ServerSession::Impl::OnContinue(Core::Now now, ServerActions& out)
 {
-    _bContinuing = false;
+    _reading = _reading == EReading::Continuing ? EReading::Blocked : _reading;
     ProcessLines(now, out);
 }
 
-/// Processes lines while there is room for their commands and their turn lasts.
 void ServerSession::Impl::ProcessLines(Core::Now now, ServerActions& out)
 {
     if (_state == EServerState::Closed)
     {
         return;
     }
-    std::size_t count = 0;
-    bool bDrained = false;
-    while (!_bContinuing)
-    {
-        const bool bBlocked = !HasRoomForControls() && !_bRefusingControls;
-        if (bBlocked || count == _options.commandsPerTurn)
-        {
-            break;
-        }
-        const std::optional<std::string_view> line = _framer.TakeLineOrNull();
-        if (!line.has_value())
-        {
-            bDrained = true;
-            break;
-        }
-        ++count;
-        ProcessLine(*line, now, out);
-    }
+    const bool bDrained = _reading != EReading::Continuing && TryDrainInput(now, out);
     _framer.Keep();
     if (_framer.HasOverflown() && _state < EServerState::Closing)
     {
         AppendError(EOpenStreamErrorCode::RxBufOverflow, "the line is longer than this server reads");
         BeginClosing(EServerCloseReason::LineTooLong, now, out);
     }
-    if (!bDrained && !_bReadingPaused)
+    if (!bDrained && _reading == EReading::Open)
     {
-        _bReadingPaused = true;
         out.emplace_back(ServerPauseReading{});
     }
-    else if (bDrained && _bReadingPaused)
+    if (bDrained)
     {
-        _bReadingPaused = false;
-        out.emplace_back(ServerResumeReading{});
+        if (std::exchange(_reading, EReading::Open) != EReading::Open)
+        {
+            out.emplace_back(ServerResumeReading{});
+        }
     }
-    if (!HasRoomForControls() && !_bRefusingControls)
+    else if (_controls.IsBlocking())
     {
+        _reading = EReading::Blocked;
         out.emplace_back(ServerStartTimer{EServerTimer::ControlBusy, now.steady + _options.controlBusyAfter});
     }
-    else if (!bDrained && !_bContinuing)
+    else if (std::exchange(_reading, EReading::Continuing) != EReading::Continuing)
     {
-        _bContinuing = true;
         out.emplace_back(ServerContinue{});
     }
     Flush(out);
 }
 
-void ServerSession::Impl::ProcessLine(std::string_view line, Core::Now now, ServerActions& out)
+/// Processes lines while there is room for their commands and their turn lasts. False: more may be there.
+bool ServerSession::Impl::TryDrainInput(Core::Now now, ServerActions& out)
 {
-    if (_state == EServerState::Closing && _closeReason != EServerCloseReason::StopSession)
+    for (std::size_t count = 0; count < _options.commandsPerTurn && !_controls.IsBlocking(); ++count)
     {
-        return;
+        const std::optional<std::string_view> line = _framer.TakeLineOrNull();
+        if (!line.has_value())
+        {
+            return true;
+        }
+        ProcessLine(*line, now, out);
     }
-    const Core::Result<EOpenStreamCommand> command = _codec.ReadCommand(line);
-    if (!command.has_value())
-    {
-        AppendError(static_cast<EOpenStreamErrorCode>(command.error().code.value()), Core::Describe(command.error()));
-        return;
-    }
-    if (const std::optional<EOpenStreamErrorCode> refusal = GetGateErrorOrNull(*command))
-    {
-        AppendError(*refusal, GetRefusalMessage(*refusal));
-        return;
-    }
-    const Core::Result<OpenStreamRequest> request = _codec.ReadRequest();
-    if (!request.has_value())
-    {
-        AppendError(static_cast<EOpenStreamErrorCode>(request.error().code.value()), Core::Describe(request.error()));
-        return;
-    }
-    ++_stats.commands;
-    _lastCommandAt = now.steady;
-    std::visit([this, now, &out](const auto& payload) { Handle(payload, now, out); }, *request);
-}
-
-std::optional<EOpenStreamErrorCode> ServerSession::Impl::GetGateErrorOrNull(EOpenStreamCommand command) const
-{
-    const auto* const row = std::ranges::find(GATE, _state, &GateRow::state);
-    assert(row != GATE.end());
-    const EVerdict verdict = row->verdicts.at(static_cast<std::size_t>(command));
-    const bool bControlBusy = command == EOpenStreamCommand::Handshake && !_controls.IsEmpty();
-    if (verdict == EVerdict::HandshakeRequired)
-    {
-        return EOpenStreamErrorCode::HandshakeRequired;
-    }
-    return verdict == EVerdict::Busy || bControlBusy ? std::optional(EOpenStreamErrorCode::BusySessionActive)
-                                                     : std::nullopt;
-}
-
-void ServerSession::Impl::Handle(const HandshakeRequest& request, Core::Now /*now*/, ServerActions& /*out*/)
-{
-    if (request.major != PROTOCOL_MAJOR)
-    {
-        AppendError(EOpenStreamErrorCode::VersionMismatch, "this server speaks major version 1");
-        return;
-    }
-    _state = EServerState::Ready;
-    _bControlled = false;
-    OpenStreamCodec::EncodeLine(HandshakeAck{true, std::string(VERSION)}, _outbox.GetLines());
-}
-
-void ServerSession::Impl::FillRequest(
-    EApiMethod method,
-    std::string_view url,
-    const std::optional<Core::JsonText>& argsOrNull,
-    ApiRequest& request)
-{
-    request.method = method;
-    SplitURL(url, request);
-    if (argsOrNull.has_value())
-    {
-        AddArguments(*argsOrNull, request);
-    }
-}
-
-void ServerSession::Impl::Handle(const StopRequest& request, Core::Now now, ServerActions& out)
-{
-    bool bThere = true;
-    switch (request.target)
-    {
-        case EStopTarget::Monitor:
-            bThere = _state == EServerState::Streaming;
-            StopMonitor(out);
-            break;
-        case EStopTarget::Control:
-            bThere = TryStopControl(out);
-            break;
-        case EStopTarget::Session:
-            StopMonitor(out);
-            OpenStreamCodec::EncodeLine(StopAck{request.target}, _outbox.GetLines());
-            BeginClosing(EServerCloseReason::StopSession, now, out);
-            return;
-        default:
-            assert(false && "unhandled EStopTarget");
-            return;
-    }
-    if (!bThere)
-    {
-        AppendError(EOpenStreamErrorCode::NothingToStop, "there is nothing to stop");
-        return;
-    }
-    OpenStreamCodec::EncodeLine(StopAck{request.target}, _outbox.GetLines());
-    ArmWatchdog(out);
+    return false;
 }
 
 void ServerSession::Impl::OnServiceAnswer(
@@ -259,15 +118,70 @@ void ServerSession::Impl::OnServiceAnswer(
     {
         return;
     }
-    if (token == _controlToken)
+    if (_controls.IsCall(token))
     {
         FinishControl(response, now, out);
     }
-    else if (token == _monitorToken)
+    else if (_monitor.IsCall(token))
     {
-        FinishMonitor(response, now, out);
+        FinishMonitor(response, now);
     }
     Flush(out);
+}
+
+void ServerSession::Impl::FinishControl(const ApiResponse& response, Core::Now now, ServerActions& out)
+{
+    if (!response.IsSuccess())
+    {
+        ++_stats.controlErrors;
+        OpenStreamCodec::EncodeLine(ControlError{response.status, response.body}, _outbox.GetLines());
+    }
+    const bool bResume = _controls.ShouldResumeAfterAnswer();
+    _controls.CallNext(++_lastToken, out);
+    if (bResume)
+    {
+        out.emplace_back(ServerCancelTimer{EServerTimer::ControlBusy});
+        ProcessLines(now, out);
+    }
+}
+
+void ServerSession::Impl::FinishMonitor(const ApiResponse& response, Core::Now now)
+{
+    Apply(_monitor.OnAnswer(response));
+    if (!response.bNoSample)
+    {
+        bool bReplaced = false;
+        std::string& data = _outbox.BeginData(bReplaced);
+        _stats.replacedLines += bReplaced ? 1U : 0U;
+        _monitor.Encode(response, now, data);
+    }
+}
+
+void ServerSession::Impl::Tick(Core::Now now, ServerActions& out)
+{
+    if (_state == EServerState::Streaming)
+    {
+        Apply(_monitor.OnTick(++_lastToken, now, out));
+    }
+}
+
+void ServerSession::Impl::Apply(const ServerMonitor::Outcome& outcome)
+{
+    _stats.skippedTicks += outcome.skipped;
+    if (outcome.bFailureBegan)
+    {
+        AppendError(EOpenStreamErrorCode::MonitorInternalError, "the controller's service failed");
+    }
+}
+
+void ServerSession::Impl::StopMonitor(ServerActions& out)
+{
+    if (_state == EServerState::Streaming)
+    {
+        _outbox.SealData();
+        _state = EServerState::Ready;
+        _monitor.Stop(out);
+    }
 }
 
 void ServerSession::Impl::OnTimer(EServerTimer timer, Core::Now now, ServerActions& out)
@@ -285,7 +199,7 @@ void ServerSession::Impl::OnTimer(EServerTimer timer, Core::Now now, ServerActio
             CheckWatchdog(now, out);
             break;
         case EServerTimer::ControlBusy:
-            _bRefusingControls = !HasRoomForControls();
+            _controls.BeginRefusing();
             ProcessLines(now, out);
             break;
         case EServerTimer::Close:
@@ -313,22 +227,17 @@ Core::SteadyTime ServerSession::Impl::GetWatchdogDeadline() const
         return _connectedAt + _options.handshakeTimeout;
     }
     // While streaming, silence counts from when the next line was due: the longest period is longer than the limit.
-    return _state == EServerState::Streaming ? _lastDataAt + _period + _options.streamingTimeout
+    return _state == EServerState::Streaming ? _monitor.GetDataDue() + _options.streamingTimeout
                                              : _lastCommandAt + _options.idleTimeout;
 }
 
-/// The timer is only moved forward. Where the deadline has moved back when it fires, it is started again: so feeding the
-/// watchdog costs nothing at each line.
 void ServerSession::Impl::ArmWatchdog(ServerActions& out)
 {
     const Core::SteadyTime deadline = GetWatchdogDeadline();
-    if (_state >= EServerState::Closing || (_bWatchdogArmed && _watchdogAt <= deadline))
+    if (_state < EServerState::Closing && _watchdog.ShouldStart(deadline))
     {
-        return;
+        out.emplace_back(ServerStartTimer{EServerTimer::Watchdog, deadline});
     }
-    _bWatchdogArmed = true;
-    _watchdogAt = deadline;
-    out.emplace_back(ServerStartTimer{EServerTimer::Watchdog, deadline});
 }
 
 void ServerSession::Impl::CheckWatchdog(Core::Now now, ServerActions& out)
@@ -337,7 +246,7 @@ void ServerSession::Impl::CheckWatchdog(Core::Now now, ServerActions& out)
     {
         return;
     }
-    _bWatchdogArmed = false;
+    _watchdog.Reset();
     if (now.steady < GetWatchdogDeadline())
     {
         ArmWatchdog(out);
@@ -375,7 +284,7 @@ void ServerSession::Impl::OnSendCompleted(Core::Now now, ServerActions& out)
     _stats.dataLines += dataLines;
     if (dataLines > 0)
     {
-        _lastDataAt = now.steady;
+        _monitor.OnDataSent(now);
     }
     Flush(out);
 }
@@ -415,7 +324,7 @@ void ServerSession::Impl::BeginClosing(EServerCloseReason reason, Core::Now now,
     StopMonitor(out);
     _state = EServerState::Closing;
     _closeReason = reason;
-    _bWatchdogArmed = false;
+    _watchdog.Reset();
     out.emplace_back(ServerCancelTimer{EServerTimer::Watchdog});
     out.emplace_back(ServerStartTimer{EServerTimer::Close, now.steady + _options.closeTimeout});
 }
@@ -423,8 +332,6 @@ void ServerSession::Impl::BeginClosing(EServerCloseReason reason, Core::Now now,
 void ServerSession::Impl::Close(ServerActions& out)
 {
     _state = EServerState::Closed;
-    _monitorToken = 0;
-    _controlToken = 0;
     for (const EServerTimer timer :
          {EServerTimer::MonitorTick, EServerTimer::Watchdog, EServerTimer::ControlBusy, EServerTimer::Close})
     {

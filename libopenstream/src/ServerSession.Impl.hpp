@@ -1,13 +1,13 @@
 #pragma once
 
+#include "LazyTimer.hpp"
 #include "LineFramer.hpp"
 #include "LineOutbox.hpp"
-#include <acs/core/BoundedQueue.hpp>
+#include "ServerControls.hpp"
+#include "ServerMonitor.hpp"
 #include <acs/openstream/OpenStreamCodec.hpp>
 #include <acs/openstream/ServerSession.hpp>
 
-#include <chrono>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -17,39 +17,32 @@ namespace ACS::OpenStream
 
 class ServerSession::Impl
 {
+    /// Whether the session reads, and what it waits for otherwise.
+    enum class EReading : std::uint8_t
+    {
+        Open,
+        Blocked,    ///< Paused until there is room for CONTROLs.
+        Continuing, ///< Paused until OnContinue.
+    };
+
     ServerSessionOptions _options;
     OpenStreamCodec _codec;
     LineFramer _framer;
     LineOutbox _outbox;
     ServerSessionStats _stats;
     EServerState _state = EServerState::Connected;
+    EReading _reading = EReading::Open;
     EServerCloseReason _closeReason = EServerCloseReason::PeerClosed;
+    bool _bPeerClosed = false;
+    bool _bSendShutDown = false;
 
-    ApiRequest _monitorCall;
-    std::optional<Core::JsonText> _monitorID;
-    std::chrono::milliseconds _period{};
-    Core::SteadyTime _monitorBegin;
-    Core::SteadyTime _nextTick;
-    Core::SteadyTime _monitorAskedAt;
-    std::uint64_t _monitorToken = 0; ///< Of the call in flight; 0: none.
-    bool _bMonitorFailing = false;   ///< Internal errors persist and were reported.
-
-    Core::BoundedQueue<ApiRequest> _controls; ///< The first one is in flight.
-    std::size_t _controlBytes = 0;            ///< Of all of them.
-    std::uint64_t _controlToken = 0;
-    std::uint64_t _lastToken = 0;
-    bool _bControlled = false; ///< A CONTROL was received since HANDSHAKE or the last STOP control.
+    ServerMonitor _monitor;
+    ServerControls _controls;
+    std::uint64_t _lastToken = 0; ///< Of the calls of both.
 
     Core::SteadyTime _connectedAt;
     Core::SteadyTime _lastCommandAt;
-    Core::SteadyTime _lastDataAt;
-    Core::SteadyTime _watchdogAt;
-    bool _bWatchdogArmed = false;
-    bool _bReadingPaused = false;
-    bool _bContinuing = false;
-    bool _bRefusingControls = false;
-    bool _bPeerClosed = false;
-    bool _bSendShutDown = false;
+    LazyTimer _watchdog;
 
 public:
     explicit Impl(const ServerSessionOptions& options);
@@ -68,25 +61,18 @@ public:
 
 private:
     void ProcessLines(Core::Now now, ServerActions& out);
+    [[nodiscard]] bool TryDrainInput(Core::Now now, ServerActions& out);
     void ProcessLine(std::string_view line, Core::Now now, ServerActions& out);
     [[nodiscard]] std::optional<EOpenStreamErrorCode> GetGateErrorOrNull(EOpenStreamCommand command) const;
     void Handle(const HandshakeRequest& request, Core::Now now, ServerActions& out);
     void Handle(const MonitorRequest& request, Core::Now now, ServerActions& out);
     void Handle(const ControlRequest& request, Core::Now now, ServerActions& out);
     void Handle(const StopRequest& request, Core::Now now, ServerActions& out);
-    static void FillRequest(
-        EApiMethod method,
-        std::string_view url,
-        const std::optional<Core::JsonText>& argsOrNull,
-        ApiRequest& request);
     void StopMonitor(ServerActions& out);
-    [[nodiscard]] bool TryStopControl(ServerActions& out);
-    [[nodiscard]] bool HasRoomForControls() const noexcept;
-    void CallNextControl(ServerActions& out);
     void FinishControl(const ApiResponse& response, Core::Now now, ServerActions& out);
-    void FinishMonitor(const ApiResponse& response, Core::Now now, ServerActions& out);
+    void FinishMonitor(const ApiResponse& response, Core::Now now);
     void Tick(Core::Now now, ServerActions& out);
-    void ReportMonitorFailure();
+    void Apply(const ServerMonitor::Outcome& outcome);
     void CheckWatchdog(Core::Now now, ServerActions& out);
     void EndForTimeout(Core::Now now, ServerActions& out);
     void ArmWatchdog(ServerActions& out);
