@@ -71,13 +71,12 @@ ServerConnection::ServerConnection(
       _onReceived(options.onReceived),
       _onSent(options.onSent),
       _onEnded(options.onClosed),
-      _service(service),
+      _service(_socket.get_executor(), service, [this](const ServiceCaller::Answer& answer) { OnAnswerDue(answer); }),
       _onClosed(std::move(onClosed)),
       _peer(DescribePeer(_socket)),
       _session(options.session),
       _timers(
-          std::make_shared<Timers>(_socket.get_executor(), [this](OpenStream::EServerTimer timer) { OnTimer(timer); })),
-      _answerTimers(std::make_shared<AnswerTimers>(_socket.get_executor(), [this](EAnswer kind) { OnAnswerDue(kind); }))
+          std::make_shared<Timers>(_socket.get_executor(), [this](OpenStream::EServerTimer timer) { OnTimer(timer); }))
 {
 }
 
@@ -103,7 +102,7 @@ void ServerConnection::Abort()
 {
     const bool bEnds = !std::exchange(_bClosed, true);
     _timers->CancelAll();
-    _answerTimers->CancelAll();
+    _service.Cancel();
     boost::system::error_code ignored;
     static_cast<void>(_socket.close(ignored));
     if (bEnds && _onEnded)
@@ -166,27 +165,16 @@ void ServerConnection::OnWritten(const boost::system::error_code& error, std::si
 
 void ServerConnection::Do(const OpenStream::ServerCall& action)
 {
-    const EAnswer kind = action.request->method == OpenStream::EApiMethod::Get ? EAnswer::Sample : EAnswer::Control;
-    Answer& answer = _answers.at(static_cast<std::size_t>(kind));
-    answer.token = action.token;
-    _service.Call(*action.request, _clock.GetNow(), answer.response);
-    if (_bClosed)
+    const ServiceCaller::Answer& answer = _service.Call(action, _clock.GetNow());
+    if (!_bClosed && !_service.TryDelay(answer))
     {
-        return;
+        _session.OnServiceAnswer(answer.token, answer.response, _clock.GetNow(), _actions);
     }
-    if (answer.response.delay > Core::Duration::zero())
-    {
-        // A pending answer belongs to a MONITOR that was replaced: discard it.
-        _answerTimers->Start(kind, answer.response.delay);
-        return;
-    }
-    _session.OnServiceAnswer(answer.token, answer.response, _clock.GetNow(), _actions);
 }
 
-void ServerConnection::OnAnswerDue(EAnswer kind)
+void ServerConnection::OnAnswerDue(const ServiceCaller::Answer& answer)
 {
     const std::shared_ptr<ServerConnection> self = shared_from_this(); // the closed handler lets go of it
-    const Answer& answer = _answers.at(static_cast<std::size_t>(kind));
     _session.OnServiceAnswer(answer.token, answer.response, _clock.GetNow(), _actions);
     Execute();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "HandlerMemory.hpp"
+#include "ServiceCaller.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
 #include <acs/net/TimerArray.hpp>
@@ -29,23 +30,7 @@ public:
     using ClosedHandler = std::function<void(ServerConnection& connection)>;
 
 private:
-    /// What an answer of the service is to. Of each kind one is waited for at a time.
-    enum class EAnswer : std::uint8_t
-    {
-        Sample,
-        Control,
-    };
-
-    static constexpr std::size_t ANSWERS = 2;
-
-    struct Answer
-    {
-        OpenStream::ApiResponse response; ///< The next one uses its room.
-        std::uint64_t token = 0;
-    };
-
     using Timers = Net::TimerArray<OpenStream::EServerTimer, OpenStream::SERVER_TIMER_COUNT>;
-    using AnswerTimers = Net::TimerArray<EAnswer, ANSWERS>;
 
     static constexpr std::size_t READ_BYTES = 64U * 1024U;
 
@@ -58,14 +43,12 @@ private:
         _onReceived; ///< May be empty, as the next two.
     std::function<void(std::uint64_t connection, std::string_view bytes)> _onSent;
     std::function<void(std::uint64_t connection)> _onEnded;
-    OpenStream::IOpenApiService& _service;
+    ServiceCaller _service;
     ClosedHandler _onClosed;
     std::string _peer;
     OpenStream::ServerSession _session;
     OpenStream::ServerActions _actions;
-    std::array<Answer, ANSWERS> _answers; ///< By EAnswer.
     std::shared_ptr<Timers> _timers;
-    std::shared_ptr<AnswerTimers> _answerTimers;
     std::array<char, READ_BYTES> _input{};
     bool _bReading = false;
     bool _bPaused = false;
@@ -107,7 +90,7 @@ private:
     void OnRead(const boost::system::error_code& error, std::size_t size);
     void OnWritten(const boost::system::error_code& error, std::size_t size);
     void OnTimer(OpenStream::EServerTimer timer);
-    void OnAnswerDue(EAnswer kind);
+    void OnAnswerDue(const ServiceCaller::Answer& answer);
     void OnContinue();
 };
 
