@@ -37,45 +37,25 @@ EBlockingType ChooseBlockingType(const Action& action)
 
 void MasterSession::Impl::PublishInstantActions(std::vector<Action> actions, Core::Now now, MasterActions& out)
 {
-    const std::size_t most = GetMaximumInstantActions();
+    const std::size_t most = _rules.GetMaximumInstantActions();
     while (!actions.empty())
     {
         const auto end = actions.begin() + static_cast<std::ptrdiff_t>(std::min(most, actions.size()));
         InstantActionsMessage message;
-        message.header = MakeHeader(ETopic::InstantActions, now);
         message.actions.assign(std::move_iterator(actions.begin()), std::move_iterator(end));
         actions.erase(actions.begin(), end);
-        PublishPayload(ETopic::InstantActions, _codec.Encode(message, _options.version), out);
+        _topics.Publish(ETopic::InstantActions, message, now, out);
     }
 }
 
 void MasterSession::Impl::ResendInstantActions(Core::Now now, MasterActions& out)
 {
-    if (_link != EVehicleLink::Online || !IsUnderMasterControl())
+    if (!_vehicle.CanReceive())
     {
         return;
     }
-    std::vector<Action> actions;
-    const auto isSpent = [this, &actions, &out](PendingAction& pending) {
-        if (_options.resendCount != 0 && pending.sendCount > _options.resendCount)
-        {
-            out.emplace_back(InstantActionRejected{pending.action.actionID, {}, "the vehicle never showed the action"});
-            RemoveTrackedAction(pending.action.actionID);
-            return true;
-        }
-        ++pending.sendCount;
-        actions.push_back(pending.action);
-        return false;
-    };
-    std::vector<PendingAction> kept;
-    for (PendingAction& pending : _pendingActions)
-    {
-        if (!isSpent(pending))
-        {
-            kept.push_back(std::move(pending));
-        }
-    }
-    _pendingActions = std::move(kept);
+    RemoveTracked(_pendingActions.TakeSpent(_options.resendCount, out));
+    std::vector<Action> actions = _pendingActions.Resend();
     if (!actions.empty())
     {
         PublishInstantActions(std::move(actions), now, out);
@@ -84,20 +64,29 @@ void MasterSession::Impl::ResendInstantActions(Core::Now now, MasterActions& out
     UpdateCancel(out);
 }
 
-const ActionState* MasterSession::Impl::FindShownOrNull(std::string_view actionID) const
+void MasterSession::Impl::RemoveTracked(const std::vector<std::string>& actionIDs)
 {
-    if (!_state.has_value())
+    for (const std::string& actionID : actionIDs)
     {
-        return nullptr;
+        _actions.Remove(actionID);
     }
-    const auto found = std::ranges::find(_state->actionStates, actionID, &ActionState::actionID);
-    return found == _state->actionStates.end() ? nullptr : &*found;
+}
+
+std::string MasterSession::Impl::MakeActionID(std::string_view actionType, Core::Now now)
+{
+    constexpr int MOST_TRIES = 100; // an id that has to be short may be in use
+    std::string id = _rules.MakeActionID(actionType, ++_ownActionCount, now);
+    for (int i = 1; i < MOST_TRIES && (_actions.IsTracked(id) || _vehicle.FindActionOrNull(id) != nullptr); ++i)
+    {
+        id = _rules.MakeActionID(actionType, ++_ownActionCount, now);
+    }
+    return id;
 }
 
 Core::Result<std::string> MasterSession::Impl::SendInstantAction(Action action, Core::Now now, MasterActions& out)
 {
-    const bool bTaken = IsUnderMasterControl() || IsRequest(action.actionType);
-    if (_link != EVehicleLink::Online || !bTaken)
+    const bool bTaken = _vehicle.IsUnderMasterControl() || IsRequest(action.actionType);
+    if (!_vehicle.IsOnline() || !bTaken)
     {
         return Core::Fail(
             EVda5050Error::VehicleNotReady,
@@ -110,14 +99,14 @@ Core::Result<std::string> MasterSession::Impl::SendInstantAction(Action action, 
         action.actionID = MakeActionID(action.actionType, now);
     }
     action.blockingType = ChooseBlockingType(action);
-    const Core::Result<void> fit = FitInstantAction(action, now);
+    const Core::Result<void> fit = _rules.FitInstantAction(action, _topics, now);
     if (!fit)
     {
         return tl::unexpected(fit.error());
     }
     std::string actionID = action.actionID;
-    const ActionState* const shown = FindShownOrNull(actionID);
-    if (IsTracked(actionID) || (shown != nullptr && shown->actionType != action.actionType))
+    const ActionState* const shown = _vehicle.FindActionOrNull(actionID);
+    if (_actions.IsTracked(actionID) || (shown != nullptr && shown->actionType != action.actionType))
     {
         return Core::Fail(EVda5050Error::InvalidOrder, "actionId", "an actionId that no other action uses", actionID);
     }
@@ -127,14 +116,15 @@ Core::Result<std::string> MasterSession::Impl::SendInstantAction(Action action, 
             ActionChanged{shown->actionID, shown->actionType, shown->actionStatus, shown->resultDescription});
         if (!IsTerminal(shown->actionStatus))
         {
-            _tracked.push_back(TrackedAction{action.actionID, action.actionType, true, true});
+            _actions.TrackInstant(action, true);
         }
         return actionID;
     }
     if (!IsRequest(action.actionType))
     {
-        _pendingActions.push_back(PendingAction{action, 1, _state.has_value() ? _state->orderID : std::string()});
-        _tracked.push_back(TrackedAction{action.actionID, action.actionType, true, false});
+        const StateMessage* const state = _vehicle.GetStateOrNull();
+        _pendingActions.Add(action, state == nullptr ? std::string() : state->orderID);
+        _actions.TrackInstant(action, false);
         out.emplace_back(StartMasterTimer{EMasterTimer::ResendInstantActions, _options.resendInterval});
     }
     PublishInstantActions({std::move(action)}, now, out);
@@ -143,14 +133,11 @@ Core::Result<std::string> MasterSession::Impl::SendInstantAction(Action action, 
 
 bool MasterSession::Impl::TryWithdrawInstantAction(std::string_view actionID)
 {
-    const auto isMeant = [actionID](const PendingAction& pending) {
-        return pending.action.actionID == actionID;
-    };
-    if (actionID == _cancelActionID || std::erase_if(_pendingActions, isMeant) == 0)
+    if (actionID == _cancelActionID || !_pendingActions.TryRemove(actionID))
     {
         return false;
     }
-    RemoveTrackedAction(actionID);
+    _actions.Remove(actionID);
     return true;
 }
 

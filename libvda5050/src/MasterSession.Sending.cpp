@@ -1,11 +1,8 @@
-#include "ActionIndex.hpp"
 #include "MasterSession.Impl.hpp"
-#include <acs/vda5050/ActionMachine.hpp>
 #include <acs/vda5050/EVda5050Error.hpp>
 #include <acs/vda5050/OrderValidator.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace ACS::VDA5050
@@ -89,85 +86,26 @@ bool HasHorizon(const OrderMessage& order)
 
 } // namespace
 
-Header MasterSession::Impl::MakeHeader(ETopic topic, Core::Now now)
-{
-    Header header = PeekHeader(topic, now);
-    ++_headerIDs.at(static_cast<std::size_t>(topic));
-    return header;
-}
-
-Header MasterSession::Impl::PeekHeader(ETopic topic, Core::Now now) const
-{
-    return Header{
-        _headerIDs.at(static_cast<std::size_t>(topic)),
-        now.wall,
-        std::string(GetVersionText(_options.version)),
-        _options.address.manufacturer,
-        _options.address.serialNumber};
-}
-
-void MasterSession::Impl::PublishPayload(ETopic topic, std::string payload, MasterActions& out)
-{
-    ++_statistics.messagesSent;
-    out.emplace_back(PublishMessage{MqttMessage{
-        _topics.at(static_cast<std::size_t>(topic)),
-        std::move(payload),
-        _options.qos.Get(topic),
-        IsRetained(topic)}});
-}
-
 void MasterSession::Impl::PublishOrder(Core::Now now, MasterActions& out)
 {
-    if (_link != EVehicleLink::Online || !IsUnderMasterControl())
+    if (_outbox.GetInFlightOrNull() == nullptr || !_vehicle.CanReceive())
     {
         return; // sent when it comes online, and back to a mode that takes orders
     }
-    const Core::SteadyTime earliest = _lastOrderTime.value_or(now.steady) + GetOrderInterval();
-    if (_lastOrderTime.has_value() && now.steady < earliest)
-    {
-        const Core::Duration delay = earliest - now.steady;
-        out.emplace_back(StartMasterTimer{EMasterTimer::ResendOrder, delay});
-        if (_sendCount == 0)
-        {
-            out.emplace_back(OrderDelayed{_inFlight->orderID, _inFlight->orderUpdateID, delay});
-        }
-        return;
-    }
-    _lastOrderTime = now.steady;
-    _inFlight->header = MakeHeader(ETopic::Order, now);
-    PublishPayload(ETopic::Order, _codec.Encode(*_inFlight, _options.version), out);
-    _echo = EEcho::Possible;
-    _firstHeaderID = _sendCount == 0 ? _inFlight->header.headerID : _firstHeaderID;
-    ++_sendCount;
-    out.emplace_back(StartMasterTimer{EMasterTimer::ResendOrder, _options.resendInterval});
-}
-
-void MasterSession::Impl::ResendOrder(Core::Now now, MasterActions& out)
-{
-    if (!_inFlight.has_value() || _link != EVehicleLink::Online || !IsUnderMasterControl())
-    {
-        return;
-    }
-    if (_options.resendCount != 0 && _sendCount > _options.resendCount)
+    if (_outbox.IsSpent())
     {
         RejectInFlight({}, "the vehicle never showed the order", out);
         return;
     }
-    const std::uint32_t sentBefore = _sendCount;
-    PublishOrder(now, out);
-    _statistics.ordersResent += sentBefore != 0 && _sendCount != sentBefore ? 1U : 0U;
+    _outbox.Publish(_topics, _rules.GetOrderInterval(), now, out);
 }
 
-void MasterSession::Impl::BeginOrder(std::string orderID, std::uint32_t lastUpdateID)
+void MasterSession::Impl::BeginOrder(std::string orderID, OrderNumbers numbers)
 {
-    std::erase_if(_withdrawnOrders, [&orderID](const WithdrawnOrder& order) { return order.orderID == orderID; });
-    _phase = EOrderPhase::Sent;
+    _withdrawnOrders.Remove(orderID);
     _orderID = std::move(orderID);
-    _lastSentUpdateID = lastUpdateID;
-    _bAccepted = false;
-    _route.clear();
-    _reachedNodes = 0;
-    _continuedUpdateIDs.clear();
+    _outbox.BeginOrder(std::move(numbers));
+    _route.Clear();
 }
 
 Core::Result<bool> MasterSession::Impl::Prepare(OrderMessage& order, Core::Now now) const
@@ -192,41 +130,9 @@ Core::Result<bool> MasterSession::Impl::Prepare(OrderMessage& order, Core::Now n
     return bContinues;
 }
 
-void MasterSession::Impl::NoteContinuation(std::uint32_t orderUpdateID, bool bContinues)
-{
-    if (bContinues)
-    {
-        _continuedUpdateIDs.push_back(orderUpdateID);
-    }
-}
-
 void MasterSession::Impl::SetHorizonOmitted(bool bOmitted) noexcept
 {
     _bHorizonOmitted = bOmitted;
-}
-
-std::optional<std::uint32_t> MasterSession::Impl::TakeUpdateIDOrNull()
-{
-    const std::uint32_t shownID = _state.has_value() && _state->orderID == _orderID ? _state->orderUpdateID : 0;
-    const std::uint32_t lastID = std::max(_lastSentUpdateID, shownID);
-    if (lastID == std::numeric_limits<std::uint32_t>::max())
-    {
-        return std::nullopt;
-    }
-    _lastSentUpdateID = lastID + 1;
-    return _lastSentUpdateID;
-}
-
-void MasterSession::Impl::StartWaitingForEcho(OrderMessage order, EEcho echo, Core::Now now, MasterActions& out)
-{
-    _errorsBeforeSend = _state->errors;
-    std::ranges::sort(_errorsBeforeSend);
-    _orderIDBeforeSend = _state->orderID;
-    _bAwaySinceSend = false;
-    _echo = echo;
-    _sendCount = 0;
-    _inFlight = std::move(order);
-    PublishOrder(now, out);
 }
 
 void MasterSession::Impl::SetZoneSet(OrderMessage& order) const
@@ -237,13 +143,23 @@ void MasterSession::Impl::SetZoneSet(OrderMessage& order) const
     }
 }
 
+Core::Result<void> MasterSession::Impl::FitOrder(OrderMessage& order, Core::Now now) const
+{
+    const EOrderPhase phase = GetOrderPhase();
+    const bool bUpdate = order.orderID == _orderID && (phase == EOrderPhase::Sent || phase == EOrderPhase::Active);
+    const StateMessage* const state =
+        bUpdate && _vehicle.IsShowingOrder(_orderID) ? _vehicle.GetStateOrNull() : nullptr;
+    return _rules.FitOrder(order, state, _topics, now);
+}
+
 Core::Result<void> MasterSession::Impl::SendOrder(OrderMessage order, Core::Now now, MasterActions& out)
 {
-    if (_phase != EOrderPhase::None)
+    if (!_orderID.empty())
     {
         return Core::Fail(EVda5050Error::OrderActive, {}, "no order", _orderID);
     }
-    if (IsReady() && IsUnderMasterControl() && _state->orderID == order.orderID)
+    const bool bReady = _vehicle.IsReady() && _vehicle.IsUnderMasterControl();
+    if (bReady && _vehicle.IsShowingOrder(order.orderID))
     {
         return Core::Fail(
             EVda5050Error::InvalidOrder,
@@ -251,9 +167,9 @@ Core::Result<void> MasterSession::Impl::SendOrder(OrderMessage order, Core::Now 
             "an id that the vehicle does not show, or else ResumeOrder",
             order.orderID);
     }
-    if (IsReady() && IsUnderMasterControl() && IsBusy())
+    if (bReady && _vehicle.IsBusy())
     {
-        return Core::Fail(EVda5050Error::OrderActive, {}, "no order", _state->orderID);
+        return Core::Fail(EVda5050Error::OrderActive, {}, "no order", _vehicle.GetStateOrNull()->orderID);
     }
     if (!CanTakeOrder())
     {
@@ -268,33 +184,30 @@ Core::Result<void> MasterSession::Impl::SendOrder(OrderMessage order, Core::Now 
     {
         return tl::unexpected(prepared.error());
     }
-    BeginOrder(order.orderID, order.orderUpdateID);
-    NoteContinuation(order.orderUpdateID, *prepared);
-    StartWaitingForEcho(std::move(order), EEcho::Impossible, now, out);
+    std::vector<std::uint32_t> continuedIDs;
+    if (*prepared)
+    {
+        continuedIDs.push_back(order.orderUpdateID);
+    }
+    BeginOrder(order.orderID, OrderNumbers(order.orderUpdateID, std::move(continuedIDs)));
+    _outbox.Start(std::move(order), OrderOutbox::EEcho::Impossible, *_vehicle.GetStateOrNull());
+    PublishOrder(now, out);
     return {};
 }
 
 std::pair<std::string, std::uint32_t> MasterSession::Impl::GetDecisionPoint() const
 {
-    if (_inFlight.has_value())
-    {
-        return FindDecisionPoint(*_inFlight);
-    }
-    std::pair<std::string, std::uint32_t> point;
-    for (const RouteNode& node : _route)
-    {
-        point = node.bReleased ? std::pair(node.nodeID, node.sequenceID) : point;
-    }
-    return point;
+    const OrderMessage* const inFlight = _outbox.GetInFlightOrNull();
+    return inFlight != nullptr ? FindDecisionPoint(*inFlight) : _route.GetDecisionPoint();
 }
 
 Core::Result<void> MasterSession::Impl::SendOrderUpdate(OrderMessage update, Core::Now now, MasterActions& out)
 {
-    if (_phase != EOrderPhase::Sent && _phase != EOrderPhase::Active)
+    if (_orderID.empty() || !_cancelActionID.empty())
     {
         return Core::Fail(EVda5050Error::NoOrder, {}, "an order that runs", update.orderID);
     }
-    if (_queued.has_value())
+    if (_outbox.HasQueued())
     {
         return Core::Fail(EVda5050Error::UpdatePending, {}, "at most one update that waits", _orderID);
     }
@@ -309,8 +222,7 @@ Core::Result<void> MasterSession::Impl::SendOrderUpdate(OrderMessage update, Cor
     {
         return check;
     }
-    const std::optional<std::uint32_t> updateID = TakeUpdateIDOrNull();
-    if (!updateID.has_value())
+    if (!_outbox.TryNumber(update, *prepared, GetShownUpdateID()))
     {
         return Core::Fail(
             EVda5050Error::InvalidOrder,
@@ -318,20 +230,17 @@ Core::Result<void> MasterSession::Impl::SendOrderUpdate(OrderMessage update, Cor
             "a new order: the last orderUpdateId of this one was used",
             _orderID);
     }
-    update.orderUpdateID = *updateID;
-    NoteContinuation(update.orderUpdateID, *prepared);
-    if (_inFlight.has_value())
+    _outbox.Queue(std::move(update));
+    if (_outbox.TryStartQueued(*_vehicle.GetStateOrNull()))
     {
-        _queued = std::move(update);
-        return {};
+        PublishOrder(now, out);
     }
-    StartWaitingForEcho(std::move(update), EEcho::Impossible, now, out);
     return {};
 }
 
 Core::Result<void> MasterSession::Impl::ResumeOrder(OrderRecord record, Core::Now now, MasterActions& out)
 {
-    if (_phase != EOrderPhase::None)
+    if (!_orderID.empty())
     {
         return Core::Fail(EVda5050Error::OrderActive, {}, "no order", _orderID);
     }
@@ -342,9 +251,9 @@ Core::Result<void> MasterSession::Impl::ResumeOrder(OrderRecord record, Core::No
         return check;
     }
     const std::string orderID = messages.front().orderID;
-    const bool bShown = IsReady() && _state->orderID == orderID;
+    const bool bShown = _vehicle.IsReady() && _vehicle.IsShowingOrder(orderID);
     // Whose order was lost needs not be able to take another.
-    if (bShown || record.acceptedUpdateID.has_value() ? !IsReady() : !CanTakeOrder())
+    if (bShown || record.acceptedUpdateID.has_value() ? !_vehicle.IsReady() : !CanTakeOrder())
     {
         return Core::Fail(
             EVda5050Error::VehicleNotReady,
@@ -357,8 +266,9 @@ Core::Result<void> MasterSession::Impl::ResumeOrder(OrderRecord record, Core::No
         out.emplace_back(OrderLost{orderID, "the vehicle does not hold it any more"});
         return {};
     }
-    const auto open = std::ranges::find_if(messages, [this, bShown](const OrderMessage& message) {
-        return !bShown || message.orderUpdateID > _state->orderUpdateID;
+    const StateMessage& state = *_vehicle.GetStateOrNull();
+    const auto open = std::ranges::find_if(messages, [&state, bShown](const OrderMessage& message) {
+        return !bShown || message.orderUpdateID > state.orderUpdateID;
     });
     constexpr std::ptrdiff_t MOST_OPEN = 2; // one in flight, one that waits for its echo
     if (messages.end() - open > MOST_OPEN)
@@ -379,27 +289,26 @@ Core::Result<void> MasterSession::Impl::ResumeOrder(OrderRecord record, Core::No
             continuedUpdateIDs.push_back(message->orderUpdateID);
         }
     }
-    BeginOrder(orderID, messages.back().orderUpdateID);
-    _continuedUpdateIDs = std::move(continuedUpdateIDs);
+    BeginOrder(orderID, OrderNumbers(messages.back().orderUpdateID, std::move(continuedUpdateIDs)));
     for (auto message = messages.begin(); message != open; ++message)
     {
-        AddToRoute(*message);
+        AddToRoute(*message, message != messages.begin());
     }
-    if (_bAccepted)
+    if (open != messages.begin())
     {
-        _acceptedUpdateID = _state->orderUpdateID;
-        _lastSentUpdateID = std::max(_lastSentUpdateID, _acceptedUpdateID);
-        out.emplace_back(OrderAccepted{orderID, _acceptedUpdateID});
+        _outbox.SetAccepted(state.orderUpdateID);
+        out.emplace_back(OrderAccepted{orderID, state.orderUpdateID});
     }
     if (messages.end() - open == MOST_OPEN)
     {
-        _queued = std::move(messages.back());
+        _outbox.Queue(std::move(messages.back()));
     }
     if (open != messages.end())
     {
-        StartWaitingForEcho(std::move(*open), EEcho::Possible, now, out);
+        _outbox.Start(std::move(*open), OrderOutbox::EEcho::Possible, state);
+        PublishOrder(now, out);
     }
-    UpdateActions(ActionIndex(_state->actionStates), out);
+    _actions.Update(ActionIndex(state.actionStates), out);
     UpdateOrder(out);
     return {};
 }

@@ -33,7 +33,7 @@ Core::Result<MasterSession> MasterSession::Create(MasterOptions options)
 
 std::vector<MqttSubscription> MasterSession::GetSubscriptions() const
 {
-    return _impl->GetSubscriptions();
+    return _impl->GetTopics().GetSubscriptions();
 }
 
 void MasterSession::OnLinkUp(Core::Now now, MasterActions& out)
@@ -109,7 +109,7 @@ std::vector<ReservedElement> MasterSession::ListReserved() const
 
 EVehicleLink MasterSession::GetLink() const noexcept
 {
-    return _impl->GetLink();
+    return _impl->GetVehicle().GetLink();
 }
 
 EOrderPhase MasterSession::GetOrderPhase() const noexcept
@@ -129,22 +129,22 @@ bool MasterSession::CanTakeOrder() const
 
 bool MasterSession::IsReady() const
 {
-    return _impl->IsReady();
+    return _impl->GetVehicle().IsReady();
 }
 
 const StateMessage* MasterSession::GetStateOrNull() const noexcept
 {
-    return _impl->GetStateOrNull();
+    return _impl->GetVehicle().GetStateOrNull();
 }
 
 const FactsheetMessage* MasterSession::GetFactsheetOrNull() const noexcept
 {
-    return _impl->GetFactsheetOrNull();
+    return _impl->GetRules().GetFactsheetOrNull();
 }
 
 const MasterStatistics& MasterSession::GetStatistics() const noexcept
 {
-    return _impl->GetStatistics();
+    return _impl->GetTopics().GetStatistics();
 }
 
 const MasterOptions& MasterSession::GetOptions() const noexcept

@@ -1,5 +1,6 @@
+#include "FactsheetRules.hpp"
+
 #include "ActionFault.hpp"
-#include "MasterSession.Impl.hpp"
 #include "OrderCapability.hpp"
 #include "OrderErrors.hpp"
 #include "StateRoom.hpp"
@@ -79,12 +80,33 @@ struct SizeLimit
 
 } // namespace
 
-const FactsheetMessage* MasterSession::Impl::GetRulesOrNull() const
+FactsheetRules::FactsheetRules(const MasterOptions& options)
+    : _options(options),
+      _factsheet(options.factsheet)
 {
-    return _options.bFactsheetObeyed && _factsheet.has_value() ? &*_factsheet : nullptr;
 }
 
-Core::Result<void> MasterSession::Impl::FitOrder(OrderMessage& order, Core::Now now) const
+void FactsheetRules::OnFactsheet(FactsheetMessage factsheet, MasterActions& out)
+{
+    _factsheet = std::move(factsheet);
+    out.emplace_back(FactsheetReceived{});
+}
+
+const FactsheetMessage* FactsheetRules::GetFactsheetOrNull() const noexcept
+{
+    return _factsheet.has_value() ? &*_factsheet : nullptr;
+}
+
+const FactsheetMessage* FactsheetRules::GetRulesOrNull() const
+{
+    return _options.bFactsheetObeyed ? GetFactsheetOrNull() : nullptr;
+}
+
+Core::Result<void> FactsheetRules::FitOrder(
+    OrderMessage& order,
+    const StateMessage* stateOrNull,
+    const MasterTopics& topics,
+    Core::Now now) const
 {
     const FactsheetMessage* const rules = GetRulesOrNull();
     if (rules == nullptr)
@@ -94,16 +116,14 @@ Core::Result<void> MasterSession::Impl::FitOrder(OrderMessage& order, Core::Now 
     AdaptToFactsheet(order, *rules);
     OrderContext context;
     context.factsheet = rules;
-    const bool bUpdate = order.orderID == _orderID && (_phase == EOrderPhase::Sent || _phase == EOrderPhase::Active);
-    if (bUpdate && _state.has_value() && _state->orderID == _orderID)
+    if (stateOrNull != nullptr)
     {
-        AddKept(order, *_state, context);
+        AddKept(order, *stateOrNull, context);
     }
-    const auto check = [this, now, rules, &context](OrderMessage& candidate) -> Core::Result<void> {
+    const auto check = [now, rules, &topics, &context](OrderMessage& candidate) -> Core::Result<void> {
         if (rules->protocolLimits.maxStringLengths.message.value_or(0) != 0)
         {
-            candidate.header = PeekHeader(ETopic::Order, now);
-            context.payloadBytes = _codec.Encode(candidate, _options.version).size();
+            context.payloadBytes = topics.Measure(ETopic::Order, candidate, now);
         }
         const std::vector<OrderViolation> violations = FindUnusable(candidate, context);
         if (violations.empty())
@@ -146,28 +166,16 @@ Core::Result<void> MasterSession::Impl::FitOrder(OrderMessage& order, Core::Now 
     return checked;
 }
 
-std::string MasterSession::Impl::MakeActionID(std::string_view actionType, Core::Now now)
-{
-    constexpr int MOST_TRIES = 100; // an id that has to be short may be in use
-    std::string id = MakeNextActionID(actionType, now);
-    for (int i = 1; i < MOST_TRIES && (IsTracked(id) || FindShownOrNull(id) != nullptr); ++i)
-    {
-        id = MakeNextActionID(actionType, now);
-    }
-    return id;
-}
-
-std::string MasterSession::Impl::MakeNextActionID(std::string_view actionType, Core::Now now)
+std::string FactsheetRules::MakeActionID(std::string_view actionType, std::uint32_t count, Core::Now now) const
 {
     const auto milliseconds = std::chrono::duration_cast<std::chrono::milliseconds>(now.wall.time_since_epoch());
     const std::string moment = std::to_string(milliseconds.count());
-    const std::string count = std::to_string(++_ownActionCount);
     const FactsheetMessage* const rules = GetRulesOrNull();
     const MaximumStringLengths limits =
         rules == nullptr ? MaximumStringLengths{} : rules->protocolLimits.maxStringLengths;
     std::string id = limits.bIdentifierNumericalOnly.value_or(false)
-        ? moment + count
-        : _options.actionIDPrefix + "-" + std::string(actionType) + "-" + moment + "-" + count;
+        ? moment + std::to_string(count)
+        : _options.actionIDPrefix + "-" + std::string(actionType) + "-" + moment + "-" + std::to_string(count);
     const std::size_t most = limits.identifier.value_or(0);
     if (most != 0 && id.size() > most)
     {
@@ -176,7 +184,7 @@ std::string MasterSession::Impl::MakeNextActionID(std::string_view actionType, C
     return id;
 }
 
-Core::Result<void> MasterSession::Impl::FitInstantAction(Action& action, Core::Now now) const
+Core::Result<void> FactsheetRules::FitInstantAction(Action& action, const MasterTopics& topics, Core::Now now) const
 {
     const FactsheetMessage* const rules = GetRulesOrNull();
     if (rules == nullptr)
@@ -198,7 +206,6 @@ Core::Result<void> MasterSession::Impl::FitInstantAction(Action& action, Core::N
         action.blockingType = row->blockingTypes.front();
     }
     InstantActionsMessage message;
-    message.header = PeekHeader(ETopic::InstantActions, now);
     message.actions.push_back(action);
     const ProtocolLimits& limits = rules->protocolLimits;
     const std::array sizes{
@@ -209,7 +216,7 @@ Core::Result<void> MasterSession::Impl::FitInstantAction(Action& action, Core::N
             limits.maxArrayLengths.actionParameters},
         SizeLimit{
             "maxStringLens.msgLen",
-            _codec.Encode(message, _options.version).size(),
+            topics.Measure(ETopic::InstantActions, message, now),
             limits.maxStringLengths.message}};
     for (const SizeLimit& size : sizes)
     {
@@ -231,13 +238,13 @@ Core::Result<void> MasterSession::Impl::FitInstantAction(Action& action, Core::N
     return {};
 }
 
-Core::Duration MasterSession::Impl::GetOrderInterval() const
+Core::Duration FactsheetRules::GetOrderInterval() const
 {
     const FactsheetMessage* const rules = GetRulesOrNull();
     return rules == nullptr ? Core::Duration::zero() : ToDuration(rules->protocolLimits.timing.minOrderInterval);
 }
 
-Core::Duration MasterSession::Impl::GetAllowedSilence() const
+Core::Duration FactsheetRules::GetAllowedSilence() const
 {
     Core::Duration interval = _options.stateInterval;
     if (_factsheet.has_value())
@@ -248,7 +255,7 @@ Core::Duration MasterSession::Impl::GetAllowedSilence() const
     return interval + _options.stateMargin;
 }
 
-std::size_t MasterSession::Impl::GetMaximumInstantActions() const
+std::size_t FactsheetRules::GetMaximumInstantActions() const
 {
     const FactsheetMessage* const rules = GetRulesOrNull();
     if (rules == nullptr || rules->protocolLimits.maxStringLengths.message.value_or(0) != 0)

@@ -1,0 +1,119 @@
+#pragma once
+
+#include "MasterTopics.hpp"
+#include "OrderNumbers.hpp"
+#include <acs/vda5050/MasterAction.hpp>
+#include <acs/vda5050/MasterOptions.hpp>
+#include <acs/vda5050/OrderMessage.hpp>
+#include <acs/vda5050/StateMessage.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ACS::VDA5050
+{
+
+/// The messages of an order that the vehicle has not shown: at most one in flight, which is resent until the vehicle shows
+/// or refuses it, and one update that waits for it. Numbers the updates.
+class OrderOutbox
+{
+public:
+    /// Whether the vehicle can show the message in flight.
+    enum class EEcho : std::uint8_t
+    {
+        Impossible, ///< It was never sent.
+        Possible,   ///< It was sent, perhaps before a restart of the master.
+    };
+
+    /// What a state means for the message in flight.
+    enum class EAnswer : std::uint8_t
+    {
+        None,
+        Shown,
+        Rejected,
+        Unresolved, ///< The vehicle may have executed the order without showing it, and forgotten it by a restart.
+        SendAgain,  ///< The vehicle was away, and the order is not lost.
+    };
+
+    struct Answer
+    {
+        EAnswer kind = EAnswer::None;
+        std::string errorType = {}; ///< Of Rejected.
+        std::string reason = {};    ///< Of Rejected.
+    };
+
+private:
+    struct InFlight
+    {
+        OrderMessage message;
+        EEcho echo = EEcho::Impossible;
+        std::uint32_t sendCount = 0;
+        std::uint32_t firstHeaderID = 0; ///< Increases with each resend.
+        bool bAwaySinceSend = false;     ///< The vehicle was not connected for a time since the message was sent.
+        std::vector<VehicleError> errorsBefore; ///< Of the vehicle before the message was sent; sorted.
+        std::string orderIDBefore;              ///< Of the vehicle before the message was sent.
+    };
+
+    const MasterOptions& _options;
+    OrderNumbers _numbers;
+    std::optional<InFlight> _inFlight;
+    std::optional<OrderMessage> _queued;
+    std::optional<OrderMessage> _withdrawn;         ///< In flight when the cancel was sent; the vehicle may receive it.
+    std::optional<Core::SteadyTime> _lastOrderTime; ///< Of the last published message of any order.
+
+public:
+    /// The options must outlive the outbox.
+    explicit OrderOutbox(const MasterOptions& options);
+
+    void BeginOrder(OrderNumbers numbers);
+    void EndOrder(MasterActions& out);
+    /// False: no number is left for the update. shownID is the number that the vehicle shows for the order, or 0.
+    [[nodiscard]] bool TryNumber(OrderMessage& update, bool bContinues, std::uint32_t shownID);
+    /// The message is in flight from now on; the state is the vehicle's before it. Publish sends it.
+    void Start(OrderMessage message, EEcho echo, const StateMessage& state);
+    void Queue(OrderMessage update);
+    /// False: nothing waits, or a message is in flight.
+    [[nodiscard]] bool TryStartQueued(const StateMessage& state);
+    /// Delayed by the minimum interval of orders.
+    void Publish(MasterTopics& topics, Core::Duration minimumInterval, Core::Now now, MasterActions& out);
+    void OnVehicleOnline();
+    [[nodiscard]] Answer OnState(const StateMessage& state);
+    /// Returns the message in flight, which the state shows.
+    [[nodiscard]] OrderMessage Accept(const StateMessage& state, MasterActions& out);
+    /// The vehicle shows a message of the order that was not sent by this session.
+    void SetAccepted(std::uint32_t updateID);
+    /// Drops the message in flight, and what waits for it: an update on top of a refused one has no place to begin.
+    void Reject(const std::string& errorType, const std::string& reason, MasterActions& out);
+    /// The order is being cancelled: whether or not the vehicle has seen what is in flight, it must not come again.
+    void Withdraw(MasterActions& out);
+    /// The cancel failed.
+    void DropWithdrawn();
+
+    [[nodiscard]] bool IsEmpty() const noexcept;
+    [[nodiscard]] bool HasQueued() const noexcept;
+    /// Whether the vehicle has shown a message of the order.
+    [[nodiscard]] bool IsAccepted() const noexcept;
+    /// Whether more nodes follow after the accepted message.
+    [[nodiscard]] bool IsContinued() const;
+    /// The message in flight was resent as often as the options allow.
+    [[nodiscard]] bool IsSpent() const noexcept;
+    /// The vehicle was away: its next state decides whether the message in flight is sent again.
+    [[nodiscard]] bool ShouldAwaitState() const noexcept;
+    [[nodiscard]] const OrderMessage* GetInFlightOrNull() const noexcept;
+    /// The message in flight if the vehicle can show it.
+    [[nodiscard]] const OrderMessage* GetShowableOrNull() const noexcept;
+    /// What was sent, in flight or withdrawn, and may reach the vehicle.
+    [[nodiscard]] const OrderMessage* GetSentOrNull() const noexcept;
+
+private:
+    /// Keeps the numbers of what was not sent above the one that the vehicle shows.
+    [[nodiscard]] Answer RenumberUnsent(const StateMessage& state);
+    [[nodiscard]] bool IsUnresolved(const StateMessage& state) const;
+    [[nodiscard]] bool IsRejection(const VehicleError& error) const;
+    [[nodiscard]] bool IsSentHeader(std::string_view headerID) const;
+};
+
+} // namespace ACS::VDA5050
