@@ -155,7 +155,7 @@ void MasterSession::Impl::OnState(std::string_view payload, Core::Now now, Maste
     }
     const bool bWasLed = _vehicle.IsUnderMasterControl();
     const std::optional<StateMessage> previous =
-        _vehicle.OnState(std::move(*state), _rules.GetAllowedSilence(), now, out);
+        _vehicle.ReplaceStateOrNull(std::move(*state), _rules.GetAllowedSilence(), now, out);
     SettleInFlight(now, out);
     const StateMessage& present = *_vehicle.GetStateOrNull();
     const ActionIndex shown(present.actionStates);

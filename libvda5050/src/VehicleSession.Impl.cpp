@@ -1,14 +1,10 @@
 #include "VehicleSession.Impl.hpp"
 
-#include "AngleBound.hpp"
 #include "OrderCapability.hpp"
-#include "OrderErrors.hpp"
 #include "StateBounds.hpp"
+#include <acs/vda5050/EVda5050Error.hpp>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace ACS::VDA5050
@@ -16,11 +12,6 @@ namespace ACS::VDA5050
 
 namespace
 {
-
-bool IsFinite(const AgvPosition& position)
-{
-    return std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.theta);
-}
 
 double ToSeconds(std::chrono::milliseconds interval)
 {
@@ -30,8 +21,7 @@ double ToSeconds(std::chrono::milliseconds interval)
 } // namespace
 
 VehicleSession::Impl::Impl(VehicleOptions options)
-    : _options(std::move(options)),
-      _lastNodeID(_options.initialNodeID)
+    : _options(std::move(options))
 {
     // The factsheet states the actual timing of the vehicle.
     ProtocolTiming& timing = _options.factsheet.protocolLimits.timing;
@@ -47,9 +37,98 @@ VehicleSession::Impl::Impl(VehicleOptions options)
     {
         list = ListOptionalParameters(); // the schema demands a list
     }
-    for (std::size_t index = 0; index < TOPIC_COUNT; ++index)
+}
+
+MqttWill VehicleSession::Impl::MakeWill(Core::Now now)
+{
+    return MqttWill{_topics.MakeConnection(EConnectionState::ConnectionBroken, now)};
+}
+
+void VehicleSession::Impl::OnLinkUp(Core::Now now, VehicleActions& out)
+{
+    _schedule.OnLinkUp();
+    out.emplace_back(PublishMessage{_topics.MakeConnection(EConnectionState::Online, now)});
+    PublishFactsheet(now, out);
+    Settle(now, out);
+    if (_options.visualizationInterval.count() > 0)
     {
-        _topics.at(index) = BuildTopic(_options.address, static_cast<ETopic>(index));
+        out.emplace_back(StartVehicleTimer{EVehicleTimer::Visualization, _options.visualizationInterval});
+    }
+}
+
+void VehicleSession::Impl::OnLinkDown(Core::Now /*now*/, VehicleActions& out)
+{
+    _schedule.OnLinkDown(out);
+}
+
+void VehicleSession::Impl::Leave(Core::Now now, VehicleActions& out)
+{
+    if (_schedule.IsLinkUp())
+    {
+        out.emplace_back(PublishMessage{_topics.MakeConnection(EConnectionState::Offline, now)});
+        OnLinkDown(now, out);
+    }
+}
+
+void VehicleSession::Impl::OnMessage(
+    std::string_view topic,
+    std::string_view payload,
+    bool bRetained,
+    Core::Now now,
+    VehicleActions& out)
+{
+    const std::optional<ETopic> recognized = _topics.RecognizeOrNull(topic);
+    if (!recognized.has_value())
+    {
+        return;
+    }
+    if (bRetained || payload.empty())
+    {
+        // An order of yesterday, replayed by the broker to a vehicle that has restarted; or a master that removes it there.
+        out.emplace_back(MessageIgnored{
+            *recognized,
+            Core::Error{
+                make_error_code(EVda5050Error::InvalidOrder),
+                {},
+                "a message sent now",
+                bRetained ? "a retained one" : "an empty one, which removes a retained one"}});
+        return;
+    }
+    if (*recognized == ETopic::Order)
+    {
+        OnOrder(payload, out);
+    }
+    else
+    {
+        OnInstantActions(payload, now, out);
+    }
+    Settle(now, out);
+}
+
+void VehicleSession::Impl::OnTimer(EVehicleTimer timer, Core::Now now, VehicleActions& out)
+{
+    if (!_schedule.IsLinkUp())
+    {
+        return;
+    }
+    switch (timer)
+    {
+        case EVehicleTimer::MinimumStateInterval:
+            _schedule.OnMinimumTimer();
+            Settle(now, out);
+            break;
+        case EVehicleTimer::MaximumStateInterval:
+            Settle(true, now, out);
+            break;
+        case EVehicleTimer::Visualization:
+            if (std::optional<VisualizationMessage> message = _reports.MakeVisualizationOrNull())
+            {
+                _topics.Publish(ETopic::Visualization, *message, now, out);
+            }
+            out.emplace_back(StartVehicleTimer{EVehicleTimer::Visualization, _options.visualizationInterval});
+            break;
+        default:
+            break;
     }
 }
 
@@ -58,87 +137,104 @@ void VehicleSession::Impl::OnPosition(
     const Velocity& velocity,
     std::optional<double> distanceSinceLastNodeOrNull)
 {
-    if (!IsFinite(position))
-    {
-        return;
-    }
-    _position = position;
-    DropNonFinite(*_position);
-    // A heading that was counted on past a half turn; what rounding added is the codec's.
-    if (std::abs(position.theta) > PI_BOUND)
-    {
-        _position->theta = std::remainder(position.theta, 2.0 * std::numbers::pi);
-    }
-    _velocity = velocity;
-    DropNonFinite(*_velocity);
-    _distanceSinceLastNode = distanceSinceLastNodeOrNull;
-    if (!std::isfinite(distanceSinceLastNodeOrNull.value_or(0.0)))
-    {
-        _distanceSinceLastNode.reset();
-    }
+    _reports.SetPosition(position, velocity, distanceSinceLastNodeOrNull);
 }
 
 void VehicleSession::Impl::OnBattery(const BatteryState& battery, Core::Now now, VehicleActions& out)
 {
-    _bStateDue = _bStateDue || battery.bCharging != _battery.bCharging;
-    const double lastCharge = _battery.batteryCharge;
-    _battery = battery;
-    DropNonFinite(_battery);
-    if (!std::isfinite(_battery.batteryCharge))
-    {
-        _battery.batteryCharge = lastCharge;
-    }
-    Settle(now, out);
+    Settle(_reports.TryChangeBattery(battery), now, out);
 }
 
 void VehicleSession::Impl::OnLoads(std::optional<std::vector<Load>> loadsOrNull, Core::Now now, VehicleActions& out)
 {
-    if (loadsOrNull.has_value())
-    {
-        std::ranges::for_each(*loadsOrNull, [](Load& load) { DropNonFinite(load); });
-    }
-    _bStateDue = _bStateDue || loadsOrNull != _loads;
-    _loads = std::move(loadsOrNull);
-    Settle(now, out);
+    Settle(_reports.TryChangeLoads(std::move(loadsOrNull)), now, out);
 }
 
 void VehicleSession::Impl::OnMaps(std::optional<std::vector<MapState>> mapsOrNull, Core::Now now, VehicleActions& out)
 {
-    _bStateDue = _bStateDue || mapsOrNull != _maps;
-    _maps = std::move(mapsOrNull);
-    Settle(now, out);
+    Settle(_reports.TryChangeMaps(std::move(mapsOrNull)), now, out);
 }
 
 void VehicleSession::Impl::OnErrors(std::vector<VehicleError> errors, Core::Now now, VehicleActions& out)
 {
-    for (VehicleError& error : errors)
-    {
-        // There are masters that take every error without an orderId and a topic for the refusal of the last order.
-        if (FindReferenceOrNull(error, ReferenceKeys::TOPIC) == nullptr)
-        {
-            AddReference(error, ReferenceKeys::TOPIC, GetTopicName(ETopic::State));
-        }
-    }
-    _bStateDue = _bStateDue || errors != _ownerErrors;
-    _ownerErrors = std::move(errors);
-    Settle(now, out);
+    Settle(_reports.TryChangeErrors(std::move(errors)), now, out);
 }
 
 void VehicleSession::Impl::OnInformation(std::vector<Information> information)
 {
-    _information = std::move(information);
+    _reports.SetInformation(std::move(information));
 }
 
 void VehicleSession::Impl::OnSafetyState(const SafetyState& safety, Core::Now now, VehicleActions& out)
 {
-    _bStateDue = _bStateDue || safety != _safety;
-    _safety = safety;
-    Settle(now, out);
+    Settle(_reports.TryChangeSafety(safety), now, out);
+}
+
+const VehicleTopics& VehicleSession::Impl::GetTopics() const noexcept
+{
+    return _topics;
 }
 
 bool VehicleSession::Impl::IsOrderRunning() const noexcept
 {
-    return _bOrderRunning;
+    return _order.IsRunning();
+}
+
+bool VehicleSession::Impl::IsPaused() const noexcept
+{
+    return _pause.IsPaused();
+}
+
+StateMessage VehicleSession::Impl::GetState() const
+{
+    StateMessage state;
+    state.header.manufacturer = _options.address.manufacturer;
+    state.header.serialNumber = _options.address.serialNumber;
+    _order.Fill(state);
+    _reports.Fill(state);
+    _errors.AppendTo(state.errors);
+    // 6.6.3: a cancelled vehicle on its way to the next node shows that node alone, once the edge's actions have ended.
+    const bool bEdgesShown = !_drive.IsOnLastLeg() || _actions.HasOpenOnEdge(_drive.GetRoute().GetEdgeSequenceID(0));
+    _drive.Fill(state, bEdgesShown);
+    _actions.Fill(state);
+    state.bPaused = IsPaused() && _drive.IsStationary();
+    state.bNewBaseRequest = _drive.NeedsNewBase(_options.lowBaseNodes) && !_order.IsCancelling();
+    FitState(state, _options.factsheet.protocolLimits.maxArrayLengths);
+    return state;
+}
+
+void VehicleSession::Impl::PublishState(Core::Now now, VehicleActions& out)
+{
+    StateMessage state = GetState();
+    _topics.Publish(ETopic::State, state, now, out);
+    _actions.MarkShown();
+    _errors.MarkShown();
+    _schedule.OnPublished(now, out);
+}
+
+void VehicleSession::Impl::PublishFactsheet(Core::Now now, VehicleActions& out)
+{
+    if (_schedule.IsLinkUp())
+    {
+        _topics.Publish(ETopic::Factsheet, _options.factsheet, now, out);
+    }
+}
+
+void VehicleSession::Impl::Settle(bool bChanged, Core::Now now, VehicleActions& out)
+{
+    if (bChanged)
+    {
+        _schedule.Request();
+    }
+    Settle(now, out);
+}
+
+void VehicleSession::Impl::Settle(Core::Now now, VehicleActions& out)
+{
+    if (_schedule.ShouldPublish(now, out))
+    {
+        PublishState(now, out);
+    }
 }
 
 } // namespace ACS::VDA5050

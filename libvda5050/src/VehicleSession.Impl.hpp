@@ -1,18 +1,18 @@
 #pragma once
 
+#include "ActionBook.hpp"
 #include "ActionFault.hpp"
-#include "RemainingRoute.hpp"
-#include "ReportedActions.hpp"
-#include <acs/vda5050/OrderValidator.hpp>
-#include <acs/vda5050/Vda5050Codec.hpp>
+#include "HeldOrder.hpp"
+#include "OwnerReports.hpp"
+#include "PauseControl.hpp"
+#include "RouteDrive.hpp"
+#include "SessionErrors.hpp"
+#include "StateSchedule.hpp"
+#include "VehicleTopics.hpp"
 #include <acs/vda5050/VehicleSession.hpp>
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,86 +20,22 @@
 namespace ACS::VDA5050
 {
 
+/// Routes each input to the parts that it concerns, and what one of them has found out to the next.
 class VehicleSession::Impl
 {
-    /// All errors end with the next accepted order; some earlier. None ends before a state has shown it.
-    enum class EErrorLifetime : std::uint8_t
-    {
-        UntilOrder,
-        UntilInstantAction, ///< Until an instant action of a later message is accepted.
-        UntilMode,          ///< Until the operating mode allows orders.
-    };
-
-    struct SessionError
-    {
-        VehicleError error;
-        EErrorLifetime lifetime = EErrorLifetime::UntilOrder;
-        bool bShown = false; ///< Was published in a state.
-    };
-
-    struct EvictedAction
-    {
-        std::string actionID;
-        std::string actionType;
-    };
-
     VehicleOptions _options;
-    Vda5050Codec _codec;
-    std::array<std::uint32_t, TOPIC_COUNT> _headerIDs{};
-    std::array<std::string, TOPIC_COUNT> _topics;
-    std::array<std::size_t, TOPIC_COUNT> _payloadBytes{}; ///< Size of the last message, to reserve that of the next.
-
-    // Reported by the owner.
-    std::optional<AgvPosition> _position;
-    std::optional<Velocity> _velocity;
-    std::optional<double> _distanceSinceLastNode;
-    std::optional<std::vector<Load>> _loads;
-    std::optional<std::vector<MapState>> _maps;
-    BatteryState _battery;
-    SafetyState _safety;
-    std::vector<VehicleError> _ownerErrors;
-    std::vector<Information> _information;
-    EOperatingMode _operatingMode = EOperatingMode::Automatic;
-    bool _bDriving = false;
-
-    // The order.
-    std::string _orderID;
-    std::string _zoneSetID;
-    std::string _lastNodeID;
-    std::uint32_t _orderUpdateID = 0;
-    std::uint32_t _lastNodeSequenceID = 0;
-    RemainingRoute _route; ///< Remaining nodes and edges.
-    ReportedActions _actions;
-    std::deque<std::string> _actionQueue; ///< Actions of reached nodes and entered edges that are not started.
-    std::vector<EvictedAction> _evicted;  ///< The latest shown instant actions that were removed for new ones.
-    std::vector<SessionError> _sessionErrors;
-    std::optional<VehicleError> _corridorError; ///< Set while the vehicle is outside the corridor.
-    std::vector<std::string> _pauseActionIDs;   ///< startPause actions that wait until the vehicle is stationary.
-    std::vector<std::string> _cancelActionIDs;
-    bool _bOrderRunning = false; ///< Accepted, and OrderCompleted not sent.
-    bool _bCleared = false;      ///< The order was cancelled.
-    bool _bEdgeEntered = false;
-    bool _bHeldByFailure = false; ///< A critical action failed.
-    bool _bLegActive = false;     ///< DriveTo was sent last.
-    bool _bLegBegun = false;      ///< Between two nodes, driving or not.
-    bool _bLegStops = true;
-    bool _bLastLeg = false;    ///< After a cancel, a line-guided vehicle drives to the next node.
-    bool _bEndReached = false; ///< The last node of a cancelled order, which is shown until the cancel is finished.
-    bool _bHalting = false;    ///< StopDriving was sent, and the vehicle is not stationary yet.
-    bool _bMasterPause = false;
-    bool _bHardwarePause = false;
-    bool _bPauseOverridden = false;
-
-    // Publishing.
-    bool _bLinkUp = false;
-    bool _bStateDue = false;
-    bool _bMinimumTimerRuns = false;
-    std::optional<Core::SteadyTime> _lastStateTime;
+    VehicleTopics _topics{_options};
+    StateSchedule _schedule{_options};
+    OwnerReports _reports{_options};
+    SessionErrors _errors;
+    HeldOrder _order;
+    RouteDrive _drive{_options.initialNodeID};
+    ActionBook _actions{_options.factsheet};
+    PauseControl _pause;
 
 public:
     explicit Impl(VehicleOptions options);
 
-    [[nodiscard]] std::vector<MqttSubscription> GetSubscriptions() const;
     [[nodiscard]] MqttWill MakeWill(Core::Now now);
     void OnLinkUp(Core::Now now, VehicleActions& out);
     void OnLinkDown(Core::Now now, VehicleActions& out);
@@ -134,6 +70,7 @@ public:
     void OnSafetyState(const SafetyState& safety, Core::Now now, VehicleActions& out);
     void OnHardwarePause(bool bPaused, bool bOverridesMaster, Core::Now now, VehicleActions& out);
     void OnOperatingMode(EOperatingMode mode, Core::Now now, VehicleActions& out);
+    [[nodiscard]] const VehicleTopics& GetTopics() const noexcept;
     [[nodiscard]] StateMessage GetState() const;
     [[nodiscard]] bool IsPaused() const noexcept;
     [[nodiscard]] bool IsOrderRunning() const noexcept;
@@ -141,99 +78,62 @@ public:
 private:
     void OnOrder(std::string_view payload, VehicleActions& out);
     void OnInstantActions(std::string_view payload, Core::Now now, VehicleActions& out);
+    void RefusePayload(ETopic topic, std::string_view payload, const Core::Error& error, VehicleActions& out);
+    [[nodiscard]] bool ShouldAccept(ETopic topic, const Header& header, VehicleActions& out);
+
+    // The order.
+    [[nodiscard]] OrderContext MakeContext() const;
+    void AcceptOrder(OrderMessage order, VehicleActions& out);
+    void AcceptUpdate(OrderMessage order, VehicleActions& out);
+    void AppendElements(OrderMessage order);
+    void AddActions(
+        const std::vector<Action>& actions,
+        EActionScope scope,
+        const std::string& elementID,
+        std::uint32_t sequenceID);
+    void Advance(VehicleActions& out);
+    void StartQueuedActions(VehicleActions& out);
+    void ContinueDriving(VehicleActions& out);
+    void LeaveEdge(std::vector<EdgeActionEnd> ends, VehicleActions& out);
+    void PassFrontNode();
+    void ClearOrder(VehicleActions& out);
+    void SetLastNode(std::string nodeID);
+    [[nodiscard]] bool IsExecuting() const;
+
+    // Actions.
+    /// One that cannot succeed, by what the session knows itself, fails instead.
+    void Start(ReportedAction& tracked, VehicleActions& out);
+    bool TryChangeStatus(
+        ReportedAction& tracked,
+        EActionStatus status,
+        std::string resultDescription,
+        VehicleActions& out);
+    void OnActionFailed(const ReportedAction& failed, VehicleActions& out);
+    void ReportUnlistedParameters(const Action& action, ETopic topic);
     [[nodiscard]] bool TryHandleInstantAction(
         const Action& action,
         const Header& header,
         bool bTooMany,
         Core::Now now,
         VehicleActions& out);
-    [[nodiscard]] bool IsForeign(ETopic topic, const Header& header, VehicleActions& out) const;
-    void RefusePayload(ETopic topic, std::string_view payload, const Core::Error& error, VehicleActions& out);
-    [[nodiscard]] bool ShouldAccept(ETopic topic, const Header& header, VehicleActions& out);
-    void AddSessionError(VehicleError error, EErrorLifetime lifetime);
-    [[nodiscard]] OrderContext MakeContext() const;
-    void RefuseOrder(const OrderMessage& order, OrderJudgement judgement, VehicleActions& out);
-    void AcceptOrder(OrderMessage order, VehicleActions& out);
-    void AcceptUpdate(OrderMessage order, VehicleActions& out);
-    void AppendElements(OrderMessage order);
-    void DropHorizon();
-
-    void Advance(VehicleActions& out);
-    void StartQueuedActions(VehicleActions& out);
-    void ContinueDriving(VehicleActions& out);
-    void DriveToFront(bool bStopAtNode, VehicleActions& out);
-    void DriveLastLeg(VehicleActions& out);
-    void FinishOrderIfDone(VehicleActions& out);
-    void LeaveEdge(std::vector<EdgeActionEnd> ends, VehicleActions& out);
-    void PassFrontNode();
-    [[nodiscard]] bool HasRunningEdgeAction() const;
-    [[nodiscard]] bool CanDrive() const;
-    [[nodiscard]] bool NeedsStopAtFront() const;
-    [[nodiscard]] bool IsExecuting() const;
-    [[nodiscard]] bool NeedsNewBase() const;
-    [[nodiscard]] bool CanMoveByItself() const;
-
-    void AddActions(
-        const std::vector<Action>& actions,
-        EActionScope scope,
-        const std::string& elementID,
-        std::uint32_t sequenceID);
-    void ReportUnlistedParameters(const Action& action, ETopic topic);
-    void Enqueue(std::span<const Action> actions);
-    void Start(ReportedAction& tracked, VehicleActions& out);
-    [[nodiscard]] bool TryChangeStatus(
-        ReportedAction& tracked,
-        EActionStatus status,
-        std::string resultDescription,
-        VehicleActions& out);
-    void SetStatus(std::string_view actionID, EActionStatus status, const std::string& result = {});
-    ReportedAction& AddInstantAction(const Action& action, EActionStatus status, const std::string& result = {});
-    [[nodiscard]] bool TryEvict();
-    [[nodiscard]] bool TryMakeRoomFor(const Action& action);
-    [[nodiscard]] bool IsRepeated(const Action& action);
-    [[nodiscard]] std::string FindClash(const Action& action);
     [[nodiscard]] std::optional<ActionFault> FindRefusalOrNull(const Action& action, bool bTooMany) const;
-    void ReportInstantAction(
-        const Action& action,
-        std::optional<std::uint32_t> headerIDOrNull,
-        std::string_view errorType,
-        const ActionFault& fault);
+    void PerformInstantAction(const Action& action, const Header& header, Core::Now now, VehicleActions& out);
     void FailInstantAction(
         const Action& action,
         const Header& header,
         std::string_view errorType,
         const ActionFault& fault);
-    [[nodiscard]] bool IsPauseOverridden(const Action& action, const Header& header);
-    void StartPause(const Action& action, const Header& header, VehicleActions& out);
-    void StopPause(const Action& action, const Header& header, VehicleActions& out);
-    void EnterPause(VehicleActions& out);
-    void LeavePause(VehicleActions& out) const;
-    [[nodiscard]] bool IsStationary() const;
+    void ChangePause(const Action& action, const Header& header, VehicleActions& out);
+    /// After a change of what pauses the vehicle.
+    void FollowPause(bool bWasPaused, VehicleActions& out);
     void StartCancel(const Action& action, const Header& header, VehicleActions& out);
-    void StopOrderActions(const std::string& reason, VehicleActions& out);
-    void StopMoving(VehicleActions& out);
-    void DiscardRoute();
-    void ClearOrder(VehicleActions& out);
-    void ForgetOrder(bool bBetweenNodes);
-    void FinishCancelIfStationary(VehicleActions& out);
-    void FinishPauseIfStationary();
-    [[nodiscard]] std::string FindOwnFault(const Action& action, EActionScope scope);
-    [[nodiscard]] std::string FindPoseFault(const Action& action, EActionScope scope) const;
-    void ApplyOwnEffect(const Action& action, EActionScope scope);
-    void EnableOnlyVersion(const std::string& mapID);
-    void ApplyMapEffect(const Action& action);
-    void SetLastNode(std::string nodeID);
-    void OnActionFailed(const ReportedAction& tracked, VehicleActions& out);
-    void OnOrderActionFailed(const ReportedAction& tracked, VehicleActions& out);
-    void PerformOwnInstantAction(const Action& action, const Header& header, Core::Now now, VehicleActions& out);
+    /// Ends what waits until the vehicle is stationary: startPause, cancelOrder.
+    void FinishIfStationary(VehicleActions& out);
 
-    [[nodiscard]] Header MakeHeader(ETopic topic, Core::Now now);
-    template <typename TMessage>
-    [[nodiscard]] MqttMessage MakeMessage(ETopic topic, const TMessage& message);
     void PublishState(Core::Now now, VehicleActions& out);
     void PublishFactsheet(Core::Now now, VehicleActions& out);
-    void PublishVisualization(Core::Now now, VehicleActions& out);
-    void PublishConnection(EConnectionState state, Core::Now now, VehicleActions& out);
+    /// Requests a state if something has changed.
+    void Settle(bool bChanged, Core::Now now, VehicleActions& out);
     /// Ends each public call: sends a state that has become due, now or after the minimum interval.
     void Settle(Core::Now now, VehicleActions& out);
 };

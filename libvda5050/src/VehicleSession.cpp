@@ -18,7 +18,7 @@ VehicleSession::~VehicleSession() = default;
 
 std::vector<MqttSubscription> VehicleSession::GetSubscriptions() const
 {
-    return _impl->GetSubscriptions();
+    return _impl->GetTopics().GetSubscriptions();
 }
 
 MqttWill VehicleSession::MakeWill(Core::Now now)

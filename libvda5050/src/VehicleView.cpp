@@ -68,7 +68,7 @@ void VehicleView::OnGone(EVehicleLink link, MasterActions& out)
     }
 }
 
-std::optional<StateMessage> VehicleView::OnState(
+std::optional<StateMessage> VehicleView::ReplaceStateOrNull(
     StateMessage state,
     Core::Duration allowedSilence,
     Core::Now now,

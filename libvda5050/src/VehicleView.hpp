@@ -37,7 +37,7 @@ public:
     /// Offline or Broken.
     void OnGone(EVehicleLink link, MasterActions& out);
     /// Returns the state before.
-    std::optional<StateMessage> OnState(
+    std::optional<StateMessage> ReplaceStateOrNull(
         StateMessage state,
         Core::Duration allowedSilence,
         Core::Now now,
