@@ -132,47 +132,14 @@ void VehicleSession::Impl::OnTimer(EVehicleTimer timer, Core::Now now, VehicleAc
     }
 }
 
-void VehicleSession::Impl::OnPosition(
-    const AgvPosition& position,
-    const Velocity& velocity,
-    std::optional<double> distanceSinceLastNodeOrNull)
-{
-    _reports.SetPosition(position, velocity, distanceSinceLastNodeOrNull);
-}
-
-void VehicleSession::Impl::OnBattery(const BatteryState& battery, Core::Now now, VehicleActions& out)
-{
-    Settle(_reports.TryChangeBattery(battery), now, out);
-}
-
-void VehicleSession::Impl::OnLoads(std::optional<std::vector<Load>> loadsOrNull, Core::Now now, VehicleActions& out)
-{
-    Settle(_reports.TryChangeLoads(std::move(loadsOrNull)), now, out);
-}
-
-void VehicleSession::Impl::OnMaps(std::optional<std::vector<MapState>> mapsOrNull, Core::Now now, VehicleActions& out)
-{
-    Settle(_reports.TryChangeMaps(std::move(mapsOrNull)), now, out);
-}
-
-void VehicleSession::Impl::OnErrors(std::vector<VehicleError> errors, Core::Now now, VehicleActions& out)
-{
-    Settle(_reports.TryChangeErrors(std::move(errors)), now, out);
-}
-
-void VehicleSession::Impl::OnInformation(std::vector<Information> information)
-{
-    _reports.SetInformation(std::move(information));
-}
-
-void VehicleSession::Impl::OnSafetyState(const SafetyState& safety, Core::Now now, VehicleActions& out)
-{
-    Settle(_reports.TryChangeSafety(safety), now, out);
-}
-
 const VehicleTopics& VehicleSession::Impl::GetTopics() const noexcept
 {
     return _topics;
+}
+
+OwnerReports& VehicleSession::Impl::GetReports() noexcept
+{
+    return _reports;
 }
 
 bool VehicleSession::Impl::IsOrderRunning() const noexcept

@@ -51,10 +51,6 @@ public:
     bool TrySetLastNode(std::string nodeID, Core::Now now, VehicleActions& out);
     bool TrySetOutsideCorridor(bool bOutside, Core::Now now, VehicleActions& out);
     bool TrySetTrajectory(std::uint32_t edgeSequenceID, Trajectory trajectory, Core::Now now, VehicleActions& out);
-    void OnPosition(
-        const AgvPosition& position,
-        const Velocity& velocity,
-        std::optional<double> distanceSinceLastNodeOrNull);
     void OnDrivingChanged(bool bDriving, Core::Now now, VehicleActions& out);
     bool TrySetActionStatus(
         std::string_view actionID,
@@ -62,14 +58,11 @@ public:
         std::string resultDescription,
         Core::Now now,
         VehicleActions& out);
-    void OnBattery(const BatteryState& battery, Core::Now now, VehicleActions& out);
-    void OnLoads(std::optional<std::vector<Load>> loadsOrNull, Core::Now now, VehicleActions& out);
-    void OnMaps(std::optional<std::vector<MapState>> mapsOrNull, Core::Now now, VehicleActions& out);
-    void OnErrors(std::vector<VehicleError> errors, Core::Now now, VehicleActions& out);
-    void OnInformation(std::vector<Information> information);
-    void OnSafetyState(const SafetyState& safety, Core::Now now, VehicleActions& out);
     void OnHardwarePause(bool bPaused, bool bOverridesMaster, Core::Now now, VehicleActions& out);
     void OnOperatingMode(EOperatingMode mode, Core::Now now, VehicleActions& out);
+    /// Ends a change of the reports: requests a state if one must show it soon.
+    void Settle(bool bChanged, Core::Now now, VehicleActions& out);
+    [[nodiscard]] OwnerReports& GetReports() noexcept;
     [[nodiscard]] const VehicleTopics& GetTopics() const noexcept;
     [[nodiscard]] StateMessage GetState() const;
     [[nodiscard]] bool IsPaused() const noexcept;
@@ -132,8 +125,6 @@ private:
 
     void PublishState(Core::Now now, VehicleActions& out);
     void PublishFactsheet(Core::Now now, VehicleActions& out);
-    /// Requests a state if something has changed.
-    void Settle(bool bChanged, Core::Now now, VehicleActions& out);
     /// Ends each public call: sends a state that has become due, now or after the minimum interval.
     void Settle(Core::Now now, VehicleActions& out);
 };

@@ -90,7 +90,7 @@ void VehicleSession::OnPosition(
     const Velocity& velocity,
     std::optional<double> distanceSinceLastNodeOrNull)
 {
-    _impl->OnPosition(position, velocity, distanceSinceLastNodeOrNull);
+    _impl->GetReports().SetPosition(position, velocity, distanceSinceLastNodeOrNull);
 }
 
 void VehicleSession::OnDrivingChanged(bool bDriving, Core::Now now, VehicleActions& out)
@@ -110,32 +110,32 @@ bool VehicleSession::TrySetActionStatus(
 
 void VehicleSession::OnBattery(const BatteryState& battery, Core::Now now, VehicleActions& out)
 {
-    _impl->OnBattery(battery, now, out);
+    _impl->Settle(_impl->GetReports().TryChangeBattery(battery), now, out);
 }
 
 void VehicleSession::OnLoads(std::optional<std::vector<Load>> loadsOrNull, Core::Now now, VehicleActions& out)
 {
-    _impl->OnLoads(std::move(loadsOrNull), now, out);
+    _impl->Settle(_impl->GetReports().TryChangeLoads(std::move(loadsOrNull)), now, out);
 }
 
 void VehicleSession::OnMaps(std::optional<std::vector<MapState>> mapsOrNull, Core::Now now, VehicleActions& out)
 {
-    _impl->OnMaps(std::move(mapsOrNull), now, out);
+    _impl->Settle(_impl->GetReports().TryChangeMaps(std::move(mapsOrNull)), now, out);
 }
 
 void VehicleSession::OnErrors(std::vector<VehicleError> errors, Core::Now now, VehicleActions& out)
 {
-    _impl->OnErrors(std::move(errors), now, out);
+    _impl->Settle(_impl->GetReports().TryChangeErrors(std::move(errors)), now, out);
 }
 
 void VehicleSession::OnInformation(std::vector<Information> information)
 {
-    _impl->OnInformation(std::move(information));
+    _impl->GetReports().SetInformation(std::move(information));
 }
 
 void VehicleSession::OnSafetyState(const SafetyState& safety, Core::Now now, VehicleActions& out)
 {
-    _impl->OnSafetyState(safety, now, out);
+    _impl->Settle(_impl->GetReports().TryChangeSafety(safety), now, out);
 }
 
 void VehicleSession::OnHardwarePause(bool bPaused, bool bOverridesMaster, Core::Now now, VehicleActions& out)
