@@ -70,6 +70,13 @@ OrderMessage MakeOrder(std::size_t nodeCount, std::size_t releasedNodes, std::st
     return std::move(*order);
 }
 
+OrderMessage MakeUpdate(std::size_t nodeCount, std::size_t releasedBefore, std::size_t releasedNow)
+{
+    OrderBuilder builder = MakeBuilder(nodeCount);
+    REQUIRE(builder.MakeOrder(releasedBefore).has_value());
+    return *builder.MakeUpdate(releasedNow);
+}
+
 std::vector<std::string> ListNodes(const StateMessage& state)
 {
     std::vector<std::string> ids;

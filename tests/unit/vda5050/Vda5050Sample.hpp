@@ -26,6 +26,8 @@ namespace ACS::VDA5050::Test
 [[nodiscard]] OrderBuilder MakeBuilder(std::size_t nodeCount, std::string orderID = "order-1");
 /// All nodes, the first releasedNodes of them as base.
 [[nodiscard]] OrderMessage MakeOrder(std::size_t nodeCount, std::size_t releasedNodes, std::string orderID = "order-1");
+/// The order whose base grows from releasedBefore to releasedNow.
+[[nodiscard]] OrderMessage MakeUpdate(std::size_t nodeCount, std::size_t releasedBefore, std::size_t releasedNow);
 
 /// The actions of one kind, in order.
 template <typename TWanted, typename TAction>

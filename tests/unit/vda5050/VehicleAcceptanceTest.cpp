@@ -22,13 +22,6 @@ struct Leaf
     std::uint32_t heldUpdateID;
 };
 
-OrderMessage MakeUpdate(std::size_t nodeCount, std::size_t releasedBefore, std::size_t releasedNow)
-{
-    OrderBuilder builder = MakeBuilder(nodeCount);
-    REQUIRE(builder.MakeOrder(releasedBefore).has_value());
-    return *builder.MakeUpdate(releasedNow);
-}
-
 OrderMessage With(OrderMessage order, const std::function<void(OrderMessage&)>& change)
 {
     change(order);

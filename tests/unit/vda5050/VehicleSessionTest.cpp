@@ -12,13 +12,6 @@ namespace
 
 using Names = std::vector<std::string>;
 
-OrderMessage MakeUpdate(std::size_t nodeCount, std::size_t releasedBefore, std::size_t releasedNow)
-{
-    OrderBuilder builder = MakeBuilder(nodeCount);
-    REQUIRE(builder.MakeOrder(releasedBefore).has_value());
-    return *builder.MakeUpdate(releasedNow);
-}
-
 } // namespace
 
 TEST_CASE("4.2 A new order is accepted when none runs and the vehicle is on its first node")
