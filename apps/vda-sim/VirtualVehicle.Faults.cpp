@@ -99,7 +99,7 @@ void VirtualVehicle::ApplyFault(const FaultChange& change, Core::Now now, Virtua
     }
     if (fault.kind == EFaultKind::Battery && change.bBegun)
     {
-        _charge = fault.charge;
+        _battery.SetCharge(fault.charge);
         ReportBattery(now);
     }
     if (fault.kind == EFaultKind::Drop && change.bBegun)
@@ -209,10 +209,12 @@ std::vector<VehicleError> VirtualVehicle::MakeErrors() const
     {
         errors.push_back(MakeError(ERROR_EMERGENCY_STOP, EErrorLevel::Fatal, "the emergency stop is pressed"));
     }
-    if (_bBatteryLow)
+    if (_battery.IsLow())
     {
-        errors.push_back(
-            MakeError(ERROR_BATTERY_LOW, EErrorLevel::Warning, fmt::format("the charge is below {} %", LOW_CHARGE)));
+        errors.push_back(MakeError(
+            ERROR_BATTERY_LOW,
+            EErrorLevel::Warning,
+            fmt::format("the charge is below {} %", Battery::LOW_CHARGE)));
     }
     std::ranges::copy(_orderErrors, std::back_inserter(errors));
     return errors;

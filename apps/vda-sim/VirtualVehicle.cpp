@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <iterator>
 #include <set>
 #include <utility>
@@ -22,11 +21,6 @@ using namespace std::chrono_literals;
 
 constexpr double SLICE_SECONDS = 0.02;   ///< Simulated time: the step of all motion.
 constexpr double MAX_TICK_SECONDS = 5.0; ///< Real time: a process that was suspended does not skip ahead.
-constexpr double CHARGE_PER_METRE = 0.02;
-constexpr double CHARGE_PER_SECOND = 0.5;
-constexpr double MIN_CHARGE = 5.0;
-constexpr double FULL_CHARGE = 100.0;
-constexpr double REACH_PER_PERCENT = 50.0; ///< m
 constexpr Core::Duration STATE_WHILE_DRIVING = 1s;
 
 VDA5050::VehicleOptions MakeSessionOptions(const VirtualVehicleOptions& options, const Planning::SiteMap& site)
@@ -90,7 +84,7 @@ VirtualVehicle::VirtualVehicle(
           _options.actionSeconds,
           LoadDevice(_options.address.serialNumber, _options.type, _options.handling, _options.worldOrNull)),
       _nodeID(_options.startNodeID),
-      _charge(_options.charge),
+      _battery(_options.charge),
       _incoming(EFaultDirection::In, GetProfile(_options.profile).traits.acceptanceTime),
       _warnings(_logger)
 {
@@ -241,12 +235,10 @@ void VirtualVehicle::AdvanceSlice(Core::Now now, VirtualActions& out)
 {
     const double drivenBefore = _motion.GetDriven();
     const bool bArrived = _motion.TryFinishLeg(SLICE_SECONDS);
-    const double driven = std::max(0.0, _motion.GetDriven() - drivenBefore);
-    // Driving does not discharge the battery below the reserve.
-    _charge = std::max(std::min(_charge, MIN_CHARGE), _charge - driven * CHARGE_PER_METRE);
+    _battery.Discharge(std::max(0.0, _motion.GetDriven() - drivenBefore));
     if (_actionRunner.IsCharging())
     {
-        _charge = std::min(FULL_CHARGE, _charge + SLICE_SECONDS * CHARGE_PER_SECOND);
+        _battery.Charge(SLICE_SECONDS);
     }
     if (bArrived)
     {
@@ -450,14 +442,9 @@ void VirtualVehicle::ReportDriving(bool bDriving, Core::Now now)
 
 void VirtualVehicle::ReportBattery(Core::Now now)
 {
-    VDA5050::BatteryState battery;
-    battery.batteryCharge = _charge;
-    battery.bCharging = _actionRunner.IsCharging();
-    battery.reach = std::floor(_charge * REACH_PER_PERCENT);
-    _session.OnBattery(battery, now, _sessionActions);
-    if (_bBatteryLow != (_charge < LOW_CHARGE))
+    _session.OnBattery(_battery.MakeState(_actionRunner.IsCharging()), now, _sessionActions);
+    if (_battery.TryUpdateLow())
     {
-        _bBatteryLow = !_bBatteryLow;
         _session.OnErrors(MakeErrors(), now, _sessionActions);
     }
 }

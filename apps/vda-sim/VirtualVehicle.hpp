@@ -2,6 +2,7 @@
 
 #include "common/log/LogRateLimiter.hpp"
 #include "vda-sim/ActionRunner.hpp"
+#include "vda-sim/Battery.hpp"
 #include "vda-sim/Fault.hpp"
 #include "vda-sim/MessageGate.hpp"
 #include "vda-sim/VehicleMotion.hpp"
@@ -79,11 +80,6 @@ struct VirtualVehicleOptions
 /// without one. The site and the random source must outlive it.
 class VirtualVehicle
 {
-public:
-    /// %; a lower charge is reported as an error.
-    static constexpr double LOW_CHARGE = 15.0;
-
-private:
     static constexpr std::uint64_t KEY_TICK = 100;  ///< Above the keys of the session's own timers.
     static constexpr std::uint64_t KEY_EVENT = 101; ///< A fault or a delayed message is due.
 
@@ -100,7 +96,7 @@ private:
     std::optional<Core::SteadyTime> _lastTime;
     std::string _nodeID; ///< Its current or last node.
     std::string _mapID;
-    double _charge;               ///< %
+    Battery _battery;
     double _pendingSeconds = 0.0; ///< Simulated, not yet processed: less than a slice.
     std::vector<VDA5050::Load> _reportedLoads;
     std::string _dockNodeID;    ///< Where it was docked last; empty: nowhere.
@@ -119,7 +115,6 @@ private:
     std::optional<Core::SteadyTime> _nextEvent;      ///< What the event timer runs for.
     Apps::LogRateLimiter _warnings;                  ///< Those that a peer can trigger.
     bool _bWasOnline = false;
-    bool _bBatteryLow = false;
 
 public:
     VirtualVehicle(
