@@ -142,11 +142,11 @@ void VirtualVehicle::LogUnlisted(const std::string& actionID, Core::Now now)
     }
 }
 
-void VirtualVehicle::EndActions(Core::Now now, VirtualActions& out)
+void VirtualVehicle::EndActions(std::vector<ActionOutcome> outcomes, Core::Now now, VirtualActions& out)
 {
     ReportLoads(now);
     ReportBattery(now);
-    for (ActionOutcome& outcome : std::exchange(_outcomes, {}))
+    for (ActionOutcome& outcome : outcomes)
     {
         if (outcome.error.has_value())
         {
@@ -168,12 +168,7 @@ void VirtualVehicle::LogFailure(const ActionOutcome& outcome, Core::Now now)
 
 void VirtualVehicle::ReportLoads(Core::Now now)
 {
-    const std::vector<VDA5050::Load>& loads = _actionRunner.GetDevice().GetLoads();
-    if (_reportedLoads != loads)
-    {
-        _reportedLoads = loads;
-        _session.OnLoads(loads, now, _sessionActions);
-    }
+    _session.OnLoads(_actionRunner.GetDevice().GetLoads(), now, _sessionActions);
 }
 
 void VirtualVehicle::UpdateDock(Core::Now now)

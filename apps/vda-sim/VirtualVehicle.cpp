@@ -117,8 +117,7 @@ void VirtualVehicle::OnLinkUp(Core::Now now, VirtualActions& out)
     PassTime(now, out);
     UpdateDock(now);
     _actionRunner.GetDevice().UpdateLoads();
-    _reportedLoads = _actionRunner.GetDevice().GetLoads();
-    _session.OnLoads(_reportedLoads, now, _sessionActions);
+    ReportLoads(now);
     if (!_bWasOnline && !_mapID.empty() && GetProfile(_options.profile).traits.bReportsPosition)
     {
         const VDA5050::MapState map{_mapID, "1", VDA5050::EMapStatus::Enabled, {}};
@@ -244,13 +243,14 @@ void VirtualVehicle::AdvanceSlice(Core::Now now, VirtualActions& out)
     {
         ReachNode(now, out); // first: it ends the edge's actions
     }
+    std::vector<ActionOutcome> outcomes;
     if (!_faults.IsActive(EFaultKind::EmergencyStop))
     {
-        _actionRunner.Advance(SLICE_SECONDS, _outcomes);
+        _actionRunner.Advance(SLICE_SECONDS, outcomes);
     }
-    if (!_outcomes.empty())
+    if (!outcomes.empty())
     {
-        EndActions(now, out);
+        EndActions(std::move(outcomes), now, out);
     }
     if (_bAbandons && _motion.IsStanding())
     {

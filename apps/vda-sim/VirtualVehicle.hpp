@@ -91,14 +91,12 @@ class VirtualVehicle
     VDA5050::VehicleActions _sessionActions;
     VehicleMotion _motion;
     ActionRunner _actionRunner;
-    std::vector<ActionOutcome> _outcomes;
     std::optional<VDA5050::DriveTo> _leg;
     std::optional<Core::SteadyTime> _lastTime;
     std::string _nodeID; ///< Its current or last node.
     std::string _mapID;
     Battery _battery;
     double _pendingSeconds = 0.0; ///< Simulated, not yet processed: less than a slice.
-    std::vector<VDA5050::Load> _reportedLoads;
     std::string _dockNodeID;    ///< Where it was docked last; empty: nowhere.
     bool _bDockUnknown = false; ///< That it docked or left is not recorded in the world: retry at the next tick.
     bool _bDriving = false;
@@ -151,7 +149,7 @@ private:
     void PassTime(Core::Now now, VirtualActions& out);
     void AdvanceSlice(Core::Now now, VirtualActions& out);
     void ReachNode(Core::Now now, VirtualActions& out);
-    void EndActions(Core::Now now, VirtualActions& out);
+    void EndActions(std::vector<ActionOutcome> outcomes, Core::Now now, VirtualActions& out);
     /// Executes the session's actions, and those that result from them.
     void Pump(Core::Now now, VirtualActions& out);
     void CarryOut(VDA5050::VehicleAction& action, Core::Now now, VirtualActions& out);
