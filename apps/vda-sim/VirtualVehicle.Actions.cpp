@@ -174,11 +174,10 @@ void VirtualVehicle::ReportLoads(Core::Now now)
 void VirtualVehicle::UpdateDock(Core::Now now)
 {
     const std::string nodeID = _motion.HasLeg() || !_motion.IsStanding() ? std::string() : _nodeID;
-    if (nodeID == _dockNodeID && !_bDockUnknown)
+    if (_dockNodeID == nodeID)
     {
         return;
     }
-    _dockNodeID = nodeID;
     std::vector<std::string> stationIDs;
     for (const Planning::SiteStation& station : _site->GetStations())
     {
@@ -188,7 +187,8 @@ void VirtualVehicle::UpdateDock(Core::Now now)
         }
     }
     const Core::Result<void> docked = _actionRunner.GetDevice().Dock(std::move(stationIDs));
-    _bDockUnknown = !docked.has_value() && docked.error().code == Sim::EWorldError::JournalFailed;
+    const bool bRecorded = docked.has_value() || docked.error().code != Sim::EWorldError::JournalFailed;
+    _dockNodeID = bRecorded ? std::optional(nodeID) : std::nullopt;
     if (!docked.has_value())
     {
         LogWarning(

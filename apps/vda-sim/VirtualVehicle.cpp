@@ -452,7 +452,7 @@ void VirtualVehicle::ReportBattery(Core::Now now)
 void VirtualVehicle::KeepTicking(VirtualActions& out)
 {
     const bool bMoving = _bDriving || (_motion.HasLeg() && !_motion.IsStanding());
-    if (_bTicking || !(bMoving || _actionRunner.IsBusy() || _actionRunner.IsCharging() || _bDockUnknown))
+    if (_bTicking || !(bMoving || _actionRunner.IsBusy() || _actionRunner.IsCharging() || !_dockNodeID.has_value()))
     {
         return;
     }

@@ -97,8 +97,8 @@ class VirtualVehicle
     std::string _mapID;
     Battery _battery;
     double _pendingSeconds = 0.0; ///< Simulated, not yet processed: less than a slice.
-    std::string _dockNodeID;    ///< Where it was docked last; empty: nowhere.
-    bool _bDockUnknown = false; ///< That it docked or left is not recorded in the world: retry at the next tick.
+    /// As the world has it; empty: not docked; nullopt: not recorded yet, retry at the next tick.
+    std::optional<std::string> _dockNodeID{""};
     bool _bDriving = false;
     bool _bTicking = false;
     bool _bStopWanted = false; ///< By the session.
