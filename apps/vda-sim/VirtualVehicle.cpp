@@ -19,8 +19,6 @@ namespace
 
 using namespace std::chrono_literals;
 
-constexpr double SLICE_SECONDS = 0.02;   ///< Simulated time: the step of all motion.
-constexpr double MAX_TICK_SECONDS = 5.0; ///< Real time: a process that was suspended does not skip ahead.
 constexpr Core::Duration STATE_WHILE_DRIVING = 1s;
 
 VDA5050::VehicleOptions MakeSessionOptions(const VirtualVehicleOptions& options, const Planning::SiteMap& site)
@@ -85,6 +83,7 @@ VirtualVehicle::VirtualVehicle(
           LoadDevice(_options.address.serialNumber, _options.type, _options.handling, _options.worldOrNull)),
       _nodeID(_options.startNodeID),
       _battery(_options.charge),
+      _clock(_options.timeScale),
       _incoming(EFaultDirection::In, GetProfile(_options.profile).traits.acceptanceTime),
       _warnings(_logger)
 {
@@ -162,7 +161,7 @@ void VirtualVehicle::OnTimer(std::uint64_t key, Core::Now now, VirtualActions& o
     PassTime(now, out);
     if (key == KEY_TICK)
     {
-        _bTicking = false;
+        _clock.OnTick();
     }
     else if (key == KEY_EVENT)
     {
@@ -211,18 +210,13 @@ const std::string& VirtualVehicle::GetName() const noexcept
 
 void VirtualVehicle::PassTime(Core::Now now, VirtualActions& out)
 {
-    const Core::SteadyTime last = _lastTime.value_or(now.steady);
-    _lastTime = now.steady;
-    if (!_bTicking)
+    const std::size_t slices = _clock.CountSlices(now.steady);
+    if (!_clock.IsTicking())
     {
         return; // it was stationary, with nothing to do
     }
-    const double passed = std::chrono::duration<double>(now.steady - last).count();
-    // Whole slices only, so that the motion does not depend on when the timers fire.
-    _pendingSeconds += std::clamp(passed, 0.0, MAX_TICK_SECONDS) * _options.timeScale;
-    while (_pendingSeconds >= SLICE_SECONDS)
+    for (std::size_t i = 0; i < slices; ++i)
     {
-        _pendingSeconds -= SLICE_SECONDS;
         AdvanceSlice(now, out);
     }
     ReportPosition();
@@ -233,11 +227,11 @@ void VirtualVehicle::PassTime(Core::Now now, VirtualActions& out)
 void VirtualVehicle::AdvanceSlice(Core::Now now, VirtualActions& out)
 {
     const double drivenBefore = _motion.GetDriven();
-    const bool bArrived = _motion.TryFinishLeg(SLICE_SECONDS);
+    const bool bArrived = _motion.TryFinishLeg(SliceClock::SLICE_SECONDS);
     _battery.Discharge(std::max(0.0, _motion.GetDriven() - drivenBefore));
     if (_actionRunner.IsCharging())
     {
-        _battery.Charge(SLICE_SECONDS);
+        _battery.Charge(SliceClock::SLICE_SECONDS);
     }
     if (bArrived)
     {
@@ -246,7 +240,7 @@ void VirtualVehicle::AdvanceSlice(Core::Now now, VirtualActions& out)
     std::vector<ActionOutcome> outcomes;
     if (!_faults.IsActive(EFaultKind::EmergencyStop))
     {
-        _actionRunner.Advance(SLICE_SECONDS, outcomes);
+        _actionRunner.Advance(SliceClock::SLICE_SECONDS, outcomes);
     }
     if (!outcomes.empty())
     {
@@ -452,14 +446,11 @@ void VirtualVehicle::ReportBattery(Core::Now now)
 void VirtualVehicle::KeepTicking(VirtualActions& out)
 {
     const bool bMoving = _bDriving || (_motion.HasLeg() && !_motion.IsStanding());
-    if (_bTicking || !(bMoving || _actionRunner.IsBusy() || _actionRunner.IsCharging() || !_dockNodeID.has_value()))
+    const bool bActive = bMoving || _actionRunner.IsBusy() || _actionRunner.IsCharging() || !_dockNodeID.has_value();
+    if (bActive && !_clock.IsTicking())
     {
-        return;
+        out.emplace_back(StartVirtualTimer{KEY_TICK, _clock.StartTick()});
     }
-    _bTicking = true;
-    // The faster the simulated time, the shorter the tick, so that arrivals are not reported late in simulated time.
-    const auto tick = std::chrono::duration_cast<Core::Duration>(50ms / std::clamp(_options.timeScale, 1.0, 5.0));
-    out.emplace_back(StartVirtualTimer{KEY_TICK, tick});
 }
 
 } // namespace ACS::VdaSim

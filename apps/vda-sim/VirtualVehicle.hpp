@@ -5,6 +5,7 @@
 #include "vda-sim/Battery.hpp"
 #include "vda-sim/Fault.hpp"
 #include "vda-sim/MessageGate.hpp"
+#include "vda-sim/SliceClock.hpp"
 #include "vda-sim/VehicleMotion.hpp"
 #include "vda-sim/VehicleProfile.hpp"
 #include "vda-sim/VehicleSpec.hpp"
@@ -92,15 +93,13 @@ class VirtualVehicle
     VehicleMotion _motion;
     ActionRunner _actionRunner;
     std::optional<VDA5050::DriveTo> _leg;
-    std::optional<Core::SteadyTime> _lastTime;
     std::string _nodeID; ///< Its current or last node.
     std::string _mapID;
     Battery _battery;
-    double _pendingSeconds = 0.0; ///< Simulated, not yet processed: less than a slice.
+    SliceClock _clock;
     /// As the world has it; empty: not docked; nullopt: not recorded yet, retry at the next tick.
     std::optional<std::string> _dockNodeID{""};
     bool _bDriving = false;
-    bool _bTicking = false;
     bool _bStopWanted = false; ///< By the session.
     bool _bAbandons = false;   ///< The order is cleared, and it still brakes.
 
