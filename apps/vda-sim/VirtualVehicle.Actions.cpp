@@ -90,7 +90,7 @@ std::string VirtualVehicle::InitialisePosition(const VDA5050::Action& action, Co
     _motion.Place({*x, *y, NormaliseAngle(*theta)});
     _nodeID = FindNodeAt(*_site, *x, *y);
     _mapID = *mapID;
-    _faults.End(EFaultKind::Lost, "initPosition", _faultChanges);
+    _faults.End(EFaultKind::Lost, "initPosition");
     ReportCondition(now);
     return {};
 }

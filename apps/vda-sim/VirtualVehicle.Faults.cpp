@@ -39,29 +39,20 @@ VehicleError MakeError(std::string_view type, EErrorLevel level, std::string des
 bool VirtualVehicle::TryInject(const Fault& fault, Core::Now now, VirtualActions& out)
 {
     PassTime(now, out);
-    const bool bRoom = _faults.CountFaults() + _waitingFaults.size() < FaultBoard::MAX_FAULTS;
-    if (bRoom && !_bWasOnline)
+    const bool bAdded = _faults.TryAdd(fault, now.steady);
+    if (_faults.WasOnline())
     {
-        _waitingFaults.push_back(fault);
-        return true;
+        Settle(now, out);
     }
-    if (bRoom)
-    {
-        _faults.Add(fault, now.steady, _faultChanges);
-    }
-    Settle(now, out);
-    return bRoom;
+    return bAdded;
 }
 
 std::size_t VirtualVehicle::EndFaults(std::optional<EFaultKind> kindOrNull, Core::Now now, VirtualActions& out)
 {
     PassTime(now, out);
-    const std::size_t waiting = std::erase_if(_waitingFaults, [kindOrNull](const Fault& fault) {
-        return !kindOrNull.has_value() || fault.kind == *kindOrNull;
-    });
-    const std::size_t ended = _faults.End(kindOrNull, "ended by command", _faultChanges);
+    const std::size_t ended = _faults.End(kindOrNull, "ended by command");
     Settle(now, out);
-    return waiting + ended;
+    return ended;
 }
 
 std::size_t VirtualVehicle::Trigger(Core::Now now, VirtualActions& out)
@@ -75,9 +66,9 @@ std::size_t VirtualVehicle::Trigger(Core::Now now, VirtualActions& out)
 void VirtualVehicle::ApplyFaults(Core::Now now, VirtualActions& out)
 {
     // A fault may use up another one.
-    while (!_faultChanges.empty())
+    for (FaultChanges changes = _faults.TakeChanges(); !changes.empty(); changes = _faults.TakeChanges())
     {
-        for (const FaultChange& change : std::exchange(_faultChanges, {}))
+        for (const FaultChange& change : changes)
         {
             ApplyFault(change, now, out);
         }
@@ -110,7 +101,7 @@ void VirtualVehicle::ApplyFault(const FaultChange& change, Core::Now now, Virtua
         Pump(now, out);
         out.emplace_back(CutLink{fault.bWill});
     }
-    if (fault.kind == EFaultKind::Drop && !change.bBegun && !_faults.IsActive(EFaultKind::Drop))
+    if (fault.kind == EFaultKind::Drop && !change.bBegun && !_faults.GetBoard().IsActive(EFaultKind::Drop))
     {
         out.emplace_back(OpenLink{});
     }
@@ -120,10 +111,10 @@ void VirtualVehicle::ApplyFault(const FaultChange& change, Core::Now now, Virtua
 void VirtualVehicle::ReportCondition(Core::Now now)
 {
     ReportPosition();
-    const Fault* const mode = _faults.FindOrNull(EFaultKind::Mode);
+    const Fault* const mode = _faults.GetBoard().FindOrNull(EFaultKind::Mode);
     _session.OnOperatingMode(mode != nullptr ? mode->mode : VDA5050::EOperatingMode::Automatic, now, _sessionActions);
     UpdateBrake(now);
-    const Fault* const stop = _faults.FindOrNull(EFaultKind::EmergencyStop);
+    const Fault* const stop = _faults.GetBoard().FindOrNull(EFaultKind::EmergencyStop);
     VDA5050::SafetyState safety;
     safety.emergencyStop = stop != nullptr ? stop->emergencyStop : VDA5050::EEmergencyStop::None;
     safety.bFieldViolation = IsBlocked();
@@ -134,19 +125,19 @@ void VirtualVehicle::ReportCondition(Core::Now now)
 void VirtualVehicle::UpdateBrake(Core::Now now)
 {
     EBrake brake = EBrake::None;
-    if (_faults.IsActive(EFaultKind::Stuck))
+    if (_faults.GetBoard().IsActive(EFaultKind::Stuck))
     {
         brake = EBrake::Block;
     }
-    else if (_faults.IsActive(EFaultKind::EmergencyStop))
+    else if (_faults.GetBoard().IsActive(EFaultKind::EmergencyStop))
     {
         brake = EBrake::Emergency;
     }
-    else if (_bStopWanted || _bAbandons || IsBlocked() || _faults.IsActive(EFaultKind::Lost))
+    else if (_bStopWanted || _bAbandons || IsBlocked() || _faults.GetBoard().IsActive(EFaultKind::Lost))
     {
         brake = EBrake::Service;
     }
-    const Fault* const obstacle = _faults.FindOrNull(EFaultKind::Blocked);
+    const Fault* const obstacle = _faults.GetBoard().FindOrNull(EFaultKind::Blocked);
     _motion.SetOffset(obstacle != nullptr ? GetSwerveOrNull(*obstacle).value_or(0.0) : 0.0);
     _motion.SetBrake(brake);
     ReportDriving(_motion.HasLeg() && !_motion.IsStanding(), now);
@@ -172,7 +163,7 @@ std::optional<double> VirtualVehicle::GetSwerveOrNull(const Fault& obstacle) con
 
 bool VirtualVehicle::IsBlocked() const
 {
-    const Fault* const obstacle = _faults.FindOrNull(EFaultKind::Blocked);
+    const Fault* const obstacle = _faults.GetBoard().FindOrNull(EFaultKind::Blocked);
     if (obstacle == nullptr)
     {
         return false;
@@ -196,16 +187,16 @@ std::vector<VehicleError> VirtualVehicle::MakeErrors() const
             error.errorReferences.push_back({"nodeId", _leg->node.nodeID});
         }
     }
-    const Fault* const stuck = _faults.FindOrNull(EFaultKind::Stuck);
+    const Fault* const stuck = _faults.GetBoard().FindOrNull(EFaultKind::Stuck);
     if (stuck != nullptr && !stuck->errorType.empty())
     {
         errors.push_back(MakeError(stuck->errorType, stuck->errorLevel, "the vehicle cannot move"));
     }
-    if (_faults.IsActive(EFaultKind::Lost))
+    if (_faults.GetBoard().IsActive(EFaultKind::Lost))
     {
         errors.push_back(MakeError(ERROR_LOST, EErrorLevel::Fatal, "the vehicle has lost its position"));
     }
-    if (_faults.IsActive(EFaultKind::EmergencyStop))
+    if (_faults.GetBoard().IsActive(EFaultKind::EmergencyStop))
     {
         errors.push_back(MakeError(ERROR_EMERGENCY_STOP, EErrorLevel::Fatal, "the emergency stop is pressed"));
     }
@@ -238,7 +229,7 @@ void VirtualVehicle::AddOrderError(VehicleError error, Core::Now now)
 
 bool VirtualVehicle::TryRefuse(const VDA5050::MqttMessage& message, Core::Now now, VirtualActions& out)
 {
-    const Fault* const refusal = _faults.FindOrNull(EFaultKind::Refuse);
+    const Fault* const refusal = _faults.GetBoard().FindOrNull(EFaultKind::Refuse);
     const Core::Result<VDA5050::ParsedTopic> topic = VDA5050::ParseTopic(message.topic);
     if (refusal == nullptr || !topic.has_value() || topic->topic != VDA5050::ETopic::Order)
     {
@@ -263,7 +254,7 @@ bool VirtualVehicle::TryRefuse(const VDA5050::MqttMessage& message, Core::Now no
         {"orderUpdateId", std::to_string(identity->orderUpdateID.value_or(0))}};
     LogRefusal({identity->orderID, identity->orderUpdateID.value_or(0), error.errorType, "fault"}, now);
     AddOrderError(std::move(error), now);
-    _faults.Use(*refusal, _faultChanges);
+    _faults.Use(*refusal);
     Pump(now, out);
     return true;
 }
@@ -271,7 +262,7 @@ bool VirtualVehicle::TryRefuse(const VDA5050::MqttMessage& message, Core::Now no
 /// Uses up a fault of the action and returns its error.
 std::optional<VehicleError> VirtualVehicle::UseActionFaultOrNull(const VDA5050::Action& action, bool bAtStart)
 {
-    const Fault* const fault = _faults.FindOrNull(EFaultKind::ActionFails, [&](const Fault& candidate) {
+    const Fault* const fault = _faults.GetBoard().FindOrNull(EFaultKind::ActionFails, [&](const Fault& candidate) {
         return candidate.bAtStart == bAtStart
             && (candidate.actionType.empty() || candidate.actionType == action.actionType)
             && (candidate.actionID.empty() || candidate.actionID == action.actionID);
@@ -285,7 +276,7 @@ std::optional<VehicleError> VirtualVehicle::UseActionFaultOrNull(const VDA5050::
         fault->errorLevel,
         fmt::format("{} failed by an injected fault", action.actionType));
     error.errorReferences = {{"actionId", action.actionID}};
-    _faults.Use(*fault, _faultChanges);
+    _faults.Use(*fault);
     return error;
 }
 
@@ -301,7 +292,7 @@ void VirtualVehicle::Deliver(const VDA5050::MqttMessage& message, Core::Now now,
 void VirtualVehicle::Send(VDA5050::MqttMessage message, Core::Now now, VirtualActions& out)
 {
     std::vector<VDA5050::MqttMessage> passed;
-    _outgoing.Pass(std::move(message), _faults, *_random, now.steady, passed);
+    _outgoing.Pass(std::move(message), _faults.GetBoard(), *_random, now.steady, passed);
     LogOverflow(_outgoing.TakeOverflow(), now);
     for (VDA5050::MqttMessage& through : passed)
     {
@@ -327,7 +318,7 @@ void VirtualVehicle::ReleaseMessages(Core::Now now, VirtualActions& out)
 
 void VirtualVehicle::ScheduleEvents(Core::Now now, VirtualActions& out)
 {
-    std::optional<Core::SteadyTime> next = _faults.GetNextTimeOrNull();
+    std::optional<Core::SteadyTime> next = _faults.GetBoard().GetNextTimeOrNull();
     for (const std::optional<Core::SteadyTime>& other : {_incoming.GetNextTimeOrNull(), _outgoing.GetNextTimeOrNull()})
     {
         next = !next.has_value() || (other.has_value() && *other < *next) ? other : next;

@@ -117,7 +117,7 @@ void VirtualVehicle::OnLinkUp(Core::Now now, VirtualActions& out)
     UpdateDock(now);
     _actionRunner.GetDevice().UpdateLoads();
     ReportLoads(now);
-    if (!_bWasOnline && !_mapID.empty() && GetProfile(_options.profile).traits.bReportsPosition)
+    if (!_faults.WasOnline() && !_mapID.empty() && GetProfile(_options.profile).traits.bReportsPosition)
     {
         const VDA5050::MapState map{_mapID, "1", VDA5050::EMapStatus::Enabled, {}};
         _session.OnMaps(std::vector<VDA5050::MapState>{map}, now, _sessionActions);
@@ -126,11 +126,7 @@ void VirtualVehicle::OnLinkUp(Core::Now now, VirtualActions& out)
     ReportBattery(now);
     _session.OnLinkUp(now, _sessionActions);
     Pump(now, out);
-    _bWasOnline = true;
-    for (Fault& fault : std::exchange(_waitingFaults, {}))
-    {
-        _faults.Add(std::move(fault), now.steady, _faultChanges);
-    }
+    _faults.OnLinkUp(now.steady);
     Settle(now, out);
 }
 
@@ -147,7 +143,7 @@ void VirtualVehicle::OnMessage(const VDA5050::MqttMessage& message, Core::Now no
 {
     PassTime(now, out);
     std::vector<VDA5050::MqttMessage> passed;
-    _incoming.Pass(message, _faults, *_random, now.steady, passed);
+    _incoming.Pass(message, _faults.GetBoard(), *_random, now.steady, passed);
     LogOverflow(_incoming.TakeOverflow(), now);
     for (const VDA5050::MqttMessage& through : passed)
     {
@@ -166,7 +162,7 @@ void VirtualVehicle::OnTimer(std::uint64_t key, Core::Now now, VirtualActions& o
     else if (key == KEY_EVENT)
     {
         _nextEvent.reset();
-        _faults.OnTime(now.steady, _faultChanges);
+        _faults.OnTime(now.steady);
         ReleaseMessages(now, out);
     }
     else
@@ -238,7 +234,7 @@ void VirtualVehicle::AdvanceSlice(Core::Now now, VirtualActions& out)
         ReachNode(now, out); // first: it ends the edge's actions
     }
     std::vector<ActionOutcome> outcomes;
-    if (!_faults.IsActive(EFaultKind::EmergencyStop))
+    if (!_faults.GetBoard().IsActive(EFaultKind::EmergencyStop))
     {
         _actionRunner.Advance(SliceClock::SLICE_SECONDS, outcomes);
     }
@@ -293,7 +289,7 @@ void VirtualVehicle::ReachNode(Core::Now now, VirtualActions& out)
     {
         _motion.Abandon(); // it passed the node without a stop, but the order has changed: no leg follows
     }
-    _faults.OnPlace(_nodeID, now.steady, _faultChanges);
+    _faults.OnPlace(_nodeID, now.steady);
     ApplyFaults(now, out);
 }
 
@@ -412,7 +408,7 @@ void VirtualVehicle::ReportPosition()
     }
     const Pose& pose = _motion.GetPose();
     VDA5050::AgvPosition position;
-    position.bPositionInitialized = !_faults.IsActive(EFaultKind::Lost);
+    position.bPositionInitialized = !_faults.GetBoard().IsActive(EFaultKind::Lost);
     position.localizationScore = position.bPositionInitialized ? 1.0 : 0.0;
     position.x = pose.x;
     position.y = pose.y;

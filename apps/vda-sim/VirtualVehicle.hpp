@@ -3,7 +3,7 @@
 #include "common/log/LogRateLimiter.hpp"
 #include "vda-sim/ActionRunner.hpp"
 #include "vda-sim/Battery.hpp"
-#include "vda-sim/Fault.hpp"
+#include "vda-sim/FaultSchedule.hpp"
 #include "vda-sim/MessageGate.hpp"
 #include "vda-sim/SliceClock.hpp"
 #include "vda-sim/VehicleMotion.hpp"
@@ -103,15 +103,12 @@ class VirtualVehicle
     bool _bStopWanted = false; ///< By the session.
     bool _bAbandons = false;   ///< The order is cleared, and it still brakes.
 
-    FaultBoard _faults;
-    FaultChanges _faultChanges;
-    std::vector<Fault> _waitingFaults; ///< Until it is online for the first time.
+    FaultSchedule _faults;
     MessageGate _incoming;
     MessageGate _outgoing{EFaultDirection::Out};
     std::vector<VDA5050::VehicleError> _orderErrors; ///< Until an order is accepted.
     std::optional<Core::SteadyTime> _nextEvent;      ///< What the event timer runs for.
     Apps::LogRateLimiter _warnings;                  ///< Those that a peer can trigger.
-    bool _bWasOnline = false;
 
 public:
     VirtualVehicle(
