@@ -1,5 +1,6 @@
 #include "vda-sim/VirtualVehicle.hpp"
 
+#include "vda-sim/LegPlan.hpp"
 #include "vda-sim/OrderLimits.hpp"
 #include "vda-sim/ProfileRules.hpp"
 #include "vda-sim/VehicleFactsheet.hpp"
@@ -369,6 +370,29 @@ void VirtualVehicle::CarryOut(VDA5050::VehicleAction& action, Core::Now now, Vir
                 LogIgnored(ignored, now);
             }},
         action);
+}
+
+void VirtualVehicle::Drive(const VDA5050::DriveTo& drive, Core::Now now)
+{
+    const bool bSameLeg = _motion.HasLeg() && _leg.has_value() && _leg->node.sequenceID == drive.node.sequenceID
+        && _leg->edge.edgeID == drive.edge.edgeID;
+    MotionLeg leg = PlanLeg(drive, _motion.GetPose(), *_site, _options.limits);
+    if (bSameLeg)
+    {
+        _motion.SetExitSpeed(leg.exitSpeed);
+    }
+    else
+    {
+        _motion.Begin(std::move(leg));
+    }
+    _leg = drive;
+    _bStopWanted = false;
+    _bAbandons = false;
+    _actionRunner.Undock();
+    UpdateDock(now);
+    // Whether an obstacle can be passed depends on the edge.
+    ReportCondition(now);
+    ReportBattery(now);
 }
 
 void VirtualVehicle::LogRefusal(const VDA5050::OrderRefused& refused, Core::Now now)

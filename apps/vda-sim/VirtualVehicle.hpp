@@ -177,9 +177,6 @@ private:
     void ScheduleEvents(Core::Now now, VirtualActions& out);
 
     void Drive(const VDA5050::DriveTo& drive, Core::Now now);
-    [[nodiscard]] MotionLeg MakeLeg(const VDA5050::DriveTo& drive) const;
-    [[nodiscard]] double GetExitSpeed(const VDA5050::DriveTo& drive, const MotionLeg& leg) const;
-    [[nodiscard]] Pose GetNodePose(const VDA5050::OrderNode& node) const;
     void Start(const VDA5050::StartAction& start, Core::Now now);
     [[nodiscard]] std::string InitialisePosition(const VDA5050::Action& action, Core::Now now);
     /// Logs why a pick or a drop has failed.
