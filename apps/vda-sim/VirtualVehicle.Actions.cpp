@@ -7,7 +7,6 @@
 #include <acs/vda5050/ActionMachine.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace ACS::VdaSim
@@ -16,17 +15,6 @@ namespace
 {
 
 constexpr std::string_view CHARGER_PREFIX = "CHG";
-
-/// The nearest node within the tolerance of this point; empty if there is none.
-std::string FindNodeAt(const Planning::SiteMap& site, double x, double y)
-{
-    constexpr double TOLERANCE = 0.5; // as for a first node without an allowed deviation
-    const auto getDistance = [x, y](const Planning::SiteNode& node) {
-        return std::hypot(node.x - x, node.y - y);
-    };
-    const auto nearest = std::ranges::min_element(site.GetNodes(), {}, getDistance);
-    return nearest != site.GetNodes().end() && getDistance(*nearest) <= TOLERANCE ? nearest->nodeID : std::string();
-}
 
 } // namespace
 
@@ -83,13 +71,10 @@ std::string VirtualVehicle::InitialisePosition(const VDA5050::Action& action, Co
     {
         return "the position is too far from the site";
     }
-    if (_motion.HasLeg() && !_motion.IsStanding())
+    if (!_drive.TryPlace({*x, *y, NormaliseAngle(*theta)}, *mapID))
     {
         return "the vehicle is driving";
     }
-    _motion.Place({*x, *y, NormaliseAngle(*theta)});
-    _nodeID = FindNodeAt(*_site, *x, *y);
-    _mapID = *mapID;
     _faults.End(EFaultKind::Lost, "initPosition");
     ReportCondition(now);
     return {};
@@ -110,8 +95,8 @@ void VirtualVehicle::SetStatus(
 
 bool VirtualVehicle::IsAtCharger() const
 {
-    const Planning::SiteStation* const station = _site->FindStationAtOrNull(_nodeID);
-    return station != nullptr && station->stationID.starts_with(CHARGER_PREFIX) && !_motion.HasLeg();
+    const Planning::SiteStation* const station = _site->FindStationAtOrNull(_drive.GetNodeID());
+    return station != nullptr && station->stationID.starts_with(CHARGER_PREFIX) && !_drive.GetMotion().HasLeg();
 }
 
 void VirtualVehicle::LogUnlisted(const std::string& actionID, Core::Now now)
@@ -173,7 +158,8 @@ void VirtualVehicle::ReportLoads(Core::Now now)
 
 void VirtualVehicle::UpdateDock(Core::Now now)
 {
-    const std::string nodeID = _motion.HasLeg() || !_motion.IsStanding() ? std::string() : _nodeID;
+    const VehicleMotion& motion = _drive.GetMotion();
+    const std::string nodeID = motion.HasLeg() || !motion.IsStanding() ? std::string() : _drive.GetNodeID();
     if (_dockNodeID == nodeID)
     {
         return;

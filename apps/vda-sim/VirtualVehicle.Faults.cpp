@@ -23,8 +23,6 @@ constexpr std::string_view ERROR_LOST = "localizationError";
 constexpr std::string_view ERROR_EMERGENCY_STOP = "emergencyStop";
 constexpr std::string_view ERROR_BATTERY_LOW = "batteryLow";
 
-constexpr double HALF_WIDTH = 0.4; ///< m, as in the factsheet: a corridor for the contour has this much less room.
-
 VehicleError MakeError(std::string_view type, EErrorLevel level, std::string description)
 {
     VehicleError error;
@@ -117,74 +115,30 @@ void VirtualVehicle::ReportCondition(Core::Now now)
     const Fault* const stop = _faults.GetBoard().FindOrNull(EFaultKind::EmergencyStop);
     VDA5050::SafetyState safety;
     safety.emergencyStop = stop != nullptr ? stop->emergencyStop : VDA5050::EEmergencyStop::None;
-    safety.bFieldViolation = IsBlocked();
+    safety.bFieldViolation = _drive.IsBlocked(_faults.GetBoard());
     _session.OnSafetyState(safety, now, _sessionActions);
     _session.OnErrors(MakeErrors(), now, _sessionActions);
 }
 
 void VirtualVehicle::UpdateBrake(Core::Now now)
 {
-    EBrake brake = EBrake::None;
-    if (_faults.GetBoard().IsActive(EFaultKind::Stuck))
-    {
-        brake = EBrake::Block;
-    }
-    else if (_faults.GetBoard().IsActive(EFaultKind::EmergencyStop))
-    {
-        brake = EBrake::Emergency;
-    }
-    else if (_bStopWanted || _bAbandons || IsBlocked() || _faults.GetBoard().IsActive(EFaultKind::Lost))
-    {
-        brake = EBrake::Service;
-    }
-    const Fault* const obstacle = _faults.GetBoard().FindOrNull(EFaultKind::Blocked);
-    _motion.SetOffset(obstacle != nullptr ? GetSwerveOrNull(*obstacle).value_or(0.0) : 0.0);
-    _motion.SetBrake(brake);
-    ReportDriving(_motion.HasLeg() && !_motion.IsStanding(), now);
-}
-
-/// Section 6.10.4 of 2.1: within the corridor of its edge a vehicle may leave the route to pass an obstacle. Metres to the
-/// left; nullopt if there is no room.
-std::optional<double> VirtualVehicle::GetSwerveOrNull(const Fault& obstacle) const
-{
-    if (obstacle.swerve <= 0.0 || !_leg.has_value() || !_leg->edge.corridor.has_value())
-    {
-        return std::nullopt;
-    }
-    const VDA5050::Corridor& corridor = *_leg->edge.corridor;
-    const bool bContour = corridor.corridorReferencePoint == VDA5050::ECorridorReferencePoint::Contour;
-    const double needed = obstacle.swerve + (bContour ? HALF_WIDTH : 0.0);
-    if (corridor.leftWidth >= needed)
-    {
-        return obstacle.swerve;
-    }
-    return corridor.rightWidth >= needed ? std::optional(-obstacle.swerve) : std::nullopt;
-}
-
-bool VirtualVehicle::IsBlocked() const
-{
-    const Fault* const obstacle = _faults.GetBoard().FindOrNull(EFaultKind::Blocked);
-    if (obstacle == nullptr)
-    {
-        return false;
-    }
-    // Only an edge has a corridor.
-    return _leg.has_value() ? !GetSwerveOrNull(*obstacle).has_value() : obstacle->swerve <= 0.0;
+    _drive.UpdateBrake(_faults.GetBoard());
+    ReportDriving(_drive.IsMoving(), now);
 }
 
 std::vector<VehicleError> VirtualVehicle::MakeErrors() const
 {
     std::vector<VehicleError> errors;
-    if (IsBlocked())
+    if (_drive.IsBlocked(_faults.GetBoard()))
     {
         VehicleError& error = errors.emplace_back(MakeError(
             ERROR_BLOCKED,
             EErrorLevel::Warning,
             "an obstacle blocks the vehicle; it continues when the obstacle is removed"));
-        if (_leg.has_value())
+        if (const VDA5050::DriveTo* const leg = _drive.GetLegOrNull(); leg != nullptr)
         {
-            error.errorReferences.push_back({"edgeId", _leg->edge.edgeID});
-            error.errorReferences.push_back({"nodeId", _leg->node.nodeID});
+            error.errorReferences.push_back({"edgeId", leg->edge.edgeID});
+            error.errorReferences.push_back({"nodeId", leg->node.nodeID});
         }
     }
     const Fault* const stuck = _faults.GetBoard().FindOrNull(EFaultKind::Stuck);

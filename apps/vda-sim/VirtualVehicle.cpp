@@ -1,6 +1,5 @@
 #include "vda-sim/VirtualVehicle.hpp"
 
-#include "vda-sim/LegPlan.hpp"
 #include "vda-sim/OrderLimits.hpp"
 #include "vda-sim/ProfileRules.hpp"
 #include "vda-sim/VehicleFactsheet.hpp"
@@ -60,14 +59,6 @@ VDA5050::VehicleOptions MakeSessionOptions(const VirtualVehicleOptions& options,
 
 } // namespace
 
-Pose GetStartPose(const Planning::SiteNode& node)
-{
-    const auto rule = std::ranges::find_if(node.rules, [](const Planning::SiteNodeRule& candidate) {
-        return candidate.theta.has_value();
-    });
-    return {node.x, node.y, rule != node.rules.end() ? NormaliseAngle(rule->theta.value_or(0.0)) : 0.0};
-}
-
 VirtualVehicle::VirtualVehicle(
     VirtualVehicleOptions options,
     const Planning::SiteMap& site,
@@ -78,28 +69,15 @@ VirtualVehicle::VirtualVehicle(
       _random(&random),
       _logger(std::move(logger)),
       _session(MakeSessionOptions(_options, site)),
-      _motion(_options.limits, {}),
+      _drive(site, _options.limits, _options.startNodeID, _options.startPosition),
       _actionRunner(
           _options.actionSeconds,
           LoadDevice(_options.address.serialNumber, _options.type, _options.handling, _options.worldOrNull)),
-      _nodeID(_options.startNodeID),
       _battery(_options.charge),
       _clock(_options.timeScale),
       _incoming(EFaultDirection::In, GetProfile(_options.profile).traits.acceptanceTime),
       _warnings(_logger)
 {
-    const Planning::SiteNode* const node = site.FindNodeOrNull(_nodeID);
-    if (node != nullptr)
-    {
-        Pose pose = GetStartPose(*node);
-        if (_options.startPosition.has_value())
-        {
-            pose.x = _options.startPosition->x;
-            pose.y = _options.startPosition->y;
-        }
-        _motion = VehicleMotion(_options.limits, pose);
-        _mapID = node->mapID;
-    }
 }
 
 std::vector<VDA5050::MqttSubscription> VirtualVehicle::GetSubscriptions() const
@@ -118,9 +96,9 @@ void VirtualVehicle::OnLinkUp(Core::Now now, VirtualActions& out)
     UpdateDock(now);
     _actionRunner.GetDevice().UpdateLoads();
     ReportLoads(now);
-    if (!_faults.WasOnline() && !_mapID.empty() && GetProfile(_options.profile).traits.bReportsPosition)
+    if (!_faults.WasOnline() && !_drive.GetMapID().empty() && GetProfile(_options.profile).traits.bReportsPosition)
     {
-        const VDA5050::MapState map{_mapID, "1", VDA5050::EMapStatus::Enabled, {}};
+        const VDA5050::MapState map{_drive.GetMapID(), "1", VDA5050::EMapStatus::Enabled, {}};
         _session.OnMaps(std::vector<VDA5050::MapState>{map}, now, _sessionActions);
     }
     ReportPosition();
@@ -197,7 +175,7 @@ VDA5050::StateMessage VirtualVehicle::GetState() const
 
 const Pose& VirtualVehicle::GetPose() const noexcept
 {
-    return _motion.GetPose();
+    return _drive.GetMotion().GetPose();
 }
 
 const std::string& VirtualVehicle::GetName() const noexcept
@@ -223,16 +201,15 @@ void VirtualVehicle::PassTime(Core::Now now, VirtualActions& out)
 
 void VirtualVehicle::AdvanceSlice(Core::Now now, VirtualActions& out)
 {
-    const double drivenBefore = _motion.GetDriven();
-    const bool bArrived = _motion.TryFinishLeg(SliceClock::SLICE_SECONDS);
-    _battery.Discharge(std::max(0.0, _motion.GetDriven() - drivenBefore));
+    const DriveStep step = _drive.Advance(SliceClock::SLICE_SECONDS);
+    _battery.Discharge(step.metres);
     if (_actionRunner.IsCharging())
     {
         _battery.Charge(SliceClock::SLICE_SECONDS);
     }
-    if (bArrived)
+    if (step.reached.has_value())
     {
-        ReachNode(now, out); // first: it ends the edge's actions
+        OnNodeReached(*step.reached, now, out); // first: it ends the edge's actions
     }
     std::vector<ActionOutcome> outcomes;
     if (!_faults.GetBoard().IsActive(EFaultKind::EmergencyStop))
@@ -243,30 +220,16 @@ void VirtualVehicle::AdvanceSlice(Core::Now now, VirtualActions& out)
     {
         EndActions(std::move(outcomes), now, out);
     }
-    if (_bAbandons && _motion.IsStanding())
-    {
-        _bAbandons = false;
-        _motion.Abandon();
-    }
-    if (_bDriving && _motion.IsStanding())
+    _drive.EndAbandoned();
+    if (_bDriving && _drive.GetMotion().IsStanding())
     {
         ReportDriving(false, now);
         Pump(now, out);
     }
 }
 
-void VirtualVehicle::ReachNode(Core::Now now, VirtualActions& out)
+void VirtualVehicle::OnNodeReached(const VDA5050::DriveTo& leg, Core::Now now, VirtualActions& out)
 {
-    if (!_leg.has_value())
-    {
-        return;
-    }
-    const VDA5050::DriveTo leg = *std::exchange(_leg, std::nullopt);
-    _nodeID = leg.node.nodeID;
-    if (leg.node.nodePosition.has_value())
-    {
-        _mapID = leg.node.nodePosition->mapID;
-    }
     ReportPosition();
     UpdateDock(now);
     VDA5050::NodeArrival arrival{leg.node.sequenceID, leg.bStopAtNode};
@@ -283,14 +246,11 @@ void VirtualVehicle::ReachNode(Core::Now now, VirtualActions& out)
     }
     else
     {
-        _logger.Warning("reached a node that the session does not expect", {{"node", _nodeID}});
+        _logger.Warning("reached a node that the session does not expect", {{"node", leg.node.nodeID}});
     }
     Pump(now, out);
-    if (!_motion.HasLeg())
-    {
-        _motion.Abandon(); // it passed the node without a stop, but the order has changed: no leg follows
-    }
-    _faults.OnPlace(_nodeID, now.steady);
+    _drive.EndPassing();
+    _faults.OnPlace(_drive.GetNodeID(), now.steady);
     ApplyFaults(now, out);
 }
 
@@ -321,9 +281,9 @@ void VirtualVehicle::CarryOut(VDA5050::VehicleAction& action, Core::Now now, Vir
             },
             [&](const VDA5050::DriveTo& drive) { Drive(drive, now); },
             [&](const VDA5050::StopDriving&) {
-                _bStopWanted = true;
+                _drive.Stop();
                 UpdateBrake(now);
-                if (_motion.IsStanding())
+                if (_drive.GetMotion().IsStanding())
                 {
                     // Also if it was reported before: the session waits for it.
                     _session.OnDrivingChanged(false, now, _sessionActions);
@@ -358,12 +318,7 @@ void VirtualVehicle::CarryOut(VDA5050::VehicleAction& action, Core::Now now, Vir
                 _logger.Info("order completed", {{"orderId", Core::ShortenText(completed.orderID)}});
             },
             [&](const VDA5050::OrderCleared& cleared) {
-                _leg.reset();
-                _bAbandons = !_motion.IsStanding();
-                if (!_bAbandons)
-                {
-                    _motion.Abandon();
-                }
+                _drive.Abandon();
                 _logger.Info("order cancelled", {{"orderId", Core::ShortenText(cleared.orderID)}});
             },
             [&](const VDA5050::MessageIgnored& ignored) {
@@ -374,20 +329,7 @@ void VirtualVehicle::CarryOut(VDA5050::VehicleAction& action, Core::Now now, Vir
 
 void VirtualVehicle::Drive(const VDA5050::DriveTo& drive, Core::Now now)
 {
-    const bool bSameLeg = _motion.HasLeg() && _leg.has_value() && _leg->node.sequenceID == drive.node.sequenceID
-        && _leg->edge.edgeID == drive.edge.edgeID;
-    MotionLeg leg = PlanLeg(drive, _motion.GetPose(), *_site, _options.limits);
-    if (bSameLeg)
-    {
-        _motion.SetExitSpeed(leg.exitSpeed);
-    }
-    else
-    {
-        _motion.Begin(std::move(leg));
-    }
-    _leg = drive;
-    _bStopWanted = false;
-    _bAbandons = false;
+    _drive.Begin(drive);
     _actionRunner.Undock();
     UpdateDock(now);
     // Whether an obstacle can be passed depends on the edge.
@@ -430,19 +372,20 @@ void VirtualVehicle::ReportPosition()
     {
         return;
     }
-    const Pose& pose = _motion.GetPose();
+    const VehicleMotion& motion = _drive.GetMotion();
+    const Pose& pose = motion.GetPose();
     VDA5050::AgvPosition position;
     position.bPositionInitialized = !_faults.GetBoard().IsActive(EFaultKind::Lost);
     position.localizationScore = position.bPositionInitialized ? 1.0 : 0.0;
     position.x = pose.x;
     position.y = pose.y;
     position.theta = pose.theta;
-    position.mapID = _mapID;
+    position.mapID = _drive.GetMapID();
     VDA5050::Velocity velocity;
-    velocity.vx = _motion.GetForwardSpeed();
-    velocity.vy = _motion.GetSidewaysSpeed();
-    velocity.omega = _motion.GetTurnSpeed();
-    _session.OnPosition(position, velocity, _motion.HasLeg() ? _motion.GetDriven() : 0.0);
+    velocity.vx = motion.GetForwardSpeed();
+    velocity.vy = motion.GetSidewaysSpeed();
+    velocity.omega = motion.GetTurnSpeed();
+    _session.OnPosition(position, velocity, motion.HasLeg() ? motion.GetDriven() : 0.0);
 }
 
 void VirtualVehicle::ReportDriving(bool bDriving, Core::Now now)
@@ -465,8 +408,8 @@ void VirtualVehicle::ReportBattery(Core::Now now)
 
 void VirtualVehicle::KeepTicking(VirtualActions& out)
 {
-    const bool bMoving = _bDriving || (_motion.HasLeg() && !_motion.IsStanding());
-    const bool bActive = bMoving || _actionRunner.IsBusy() || _actionRunner.IsCharging() || !_dockNodeID.has_value();
+    const bool bActive = _bDriving || _drive.IsMoving() || _actionRunner.IsBusy() || _actionRunner.IsCharging()
+        || !_dockNodeID.has_value();
     if (bActive && !_clock.IsTicking())
     {
         out.emplace_back(StartVirtualTimer{KEY_TICK, _clock.StartTick()});

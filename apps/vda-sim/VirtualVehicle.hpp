@@ -6,7 +6,7 @@
 #include "vda-sim/FaultSchedule.hpp"
 #include "vda-sim/MessageGate.hpp"
 #include "vda-sim/SliceClock.hpp"
-#include "vda-sim/VehicleMotion.hpp"
+#include "vda-sim/VehicleDrive.hpp"
 #include "vda-sim/VehicleProfile.hpp"
 #include "vda-sim/VehicleSpec.hpp"
 #include <acs/core/IRandom.hpp>
@@ -90,19 +90,13 @@ class VirtualVehicle
     Core::Logger _logger;
     VDA5050::VehicleSession _session;
     VDA5050::VehicleActions _sessionActions;
-    VehicleMotion _motion;
+    VehicleDrive _drive;
     ActionRunner _actionRunner;
-    std::optional<VDA5050::DriveTo> _leg;
-    std::string _nodeID; ///< Its current or last node.
-    std::string _mapID;
     Battery _battery;
     SliceClock _clock;
     /// As the world has it; empty: not docked; nullopt: not recorded yet, retry at the next tick.
     std::optional<std::string> _dockNodeID{""};
-    bool _bDriving = false;
-    bool _bStopWanted = false; ///< By the session.
-    bool _bAbandons = false;   ///< The order is cleared, and it still brakes.
-
+    bool _bDriving = false; ///< As the session has it.
     FaultSchedule _faults;
     MessageGate _incoming;
     MessageGate _outgoing{EFaultDirection::Out};
@@ -144,7 +138,7 @@ public:
 private:
     void PassTime(Core::Now now, VirtualActions& out);
     void AdvanceSlice(Core::Now now, VirtualActions& out);
-    void ReachNode(Core::Now now, VirtualActions& out);
+    void OnNodeReached(const VDA5050::DriveTo& leg, Core::Now now, VirtualActions& out);
     void EndActions(std::vector<ActionOutcome> outcomes, Core::Now now, VirtualActions& out);
     /// Executes the session's actions, and those that result from them.
     void Pump(Core::Now now, VirtualActions& out);
@@ -163,8 +157,6 @@ private:
     void ApplyFault(const FaultChange& change, Core::Now now, VirtualActions& out);
     void ReportCondition(Core::Now now);
     void UpdateBrake(Core::Now now);
-    [[nodiscard]] bool IsBlocked() const;
-    [[nodiscard]] std::optional<double> GetSwerveOrNull(const Fault& obstacle) const;
     [[nodiscard]] std::vector<VDA5050::VehicleError> MakeErrors() const;
     void AddOrderError(VDA5050::VehicleError error, Core::Now now);
     [[nodiscard]] bool TryRefuse(const VDA5050::MqttMessage& message, Core::Now now, VirtualActions& out);
@@ -191,8 +183,5 @@ private:
     void LogWarning(Core::Now now, std::string_view message, std::initializer_list<Core::LogField> fields);
     [[nodiscard]] bool IsAtCharger() const;
 };
-
-/// The pose of a vehicle on the node, with the heading that the site defines there.
-[[nodiscard]] Pose GetStartPose(const Planning::SiteNode& node);
 
 } // namespace ACS::VdaSim
