@@ -52,8 +52,9 @@ void ControllerMachine::Advance(Core::Now now)
     {
         RaiseAlarm(EAlarm::AxisTooFast);
     }
-    _runner.Advance(_now, _events);
-    HandleEvents(_runner.GetDuration());
+    ProgramEvents events;
+    _runner.Advance(_now, events);
+    HandleEvents(std::move(events), _runner.GetDuration());
 }
 
 std::optional<Core::SteadyTime> ControllerMachine::GetNextTimeOrNull() const
@@ -67,9 +68,9 @@ std::optional<Core::SteadyTime> ControllerMachine::GetNextTimeOrNull() const
     return _startedAt + std::chrono::ceil<Core::Duration>(FloatingDuration(*end) / _timeScale);
 }
 
-void ControllerMachine::HandleEvents(Core::Duration elapsed)
+void ControllerMachine::HandleEvents(ProgramEvents events, Core::Duration elapsed)
 {
-    for (ProgramEvent& event : _events)
+    for (ProgramEvent& event : events)
     {
         const std::string number = fmt::to_string(event.number);
         if (event.kind == EProgramEvent::Finished)
@@ -100,7 +101,6 @@ void ControllerMachine::HandleEvents(Core::Duration elapsed)
                 break;
         }
     }
-    _events.clear();
 }
 
 void ControllerMachine::BeginWork()
@@ -140,8 +140,9 @@ void ControllerMachine::Count(std::size_t byte)
 void ControllerMachine::AbandonProgram()
 {
     const Core::Duration elapsed = _runner.GetElapsed(_now);
-    _runner.Reset(_events);
-    HandleEvents(elapsed);
+    ProgramEvents events;
+    _runner.Reset(events);
+    HandleEvents(std::move(events), elapsed);
 }
 
 void ControllerMachine::RaiseAlarm(EAlarm alarm)
@@ -208,9 +209,10 @@ EApiError ControllerMachine::StartProgram()
         return EApiError::NoProgram;
     }
     _bCursorMoved = true;
-    _runner.Start(_now, _events);
-    const bool bBegins = !_events.empty(); // Else it continues after a stop.
-    HandleEvents({});
+    ProgramEvents events;
+    _runner.Start(_now, events);
+    const bool bBegins = !events.empty(); // Else it continues after a stop.
+    HandleEvents(std::move(events), {});
     if (bBegins && _shouldFail && _shouldFail(_runner.GetSelected(), true))
     {
         ResetTasks();
@@ -294,8 +296,9 @@ EApiError ControllerMachine::SelectProgram(int number)
     }
     _console.Reset();
     const Core::Duration elapsed = _runner.GetElapsed(_now);
-    _runner.Select(number, _events);
-    HandleEvents(elapsed);
+    ProgramEvents events;
+    _runner.Select(number, events);
+    HandleEvents(std::move(events), elapsed);
     return EApiError::None;
 }
 
@@ -349,8 +352,9 @@ void ControllerMachine::ResetTasks()
 
 void ControllerMachine::ClearSelection()
 {
-    _runner.Select(0, _events);
-    HandleEvents({});
+    ProgramEvents events;
+    _runner.Select(0, events);
+    HandleEvents(std::move(events), {});
 }
 
 void ControllerMachine::PressEmergencyStop(bool bPressed)

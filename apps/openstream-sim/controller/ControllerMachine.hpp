@@ -74,7 +74,6 @@ class ControllerMachine
     ConsoleProgram _console;
     Arm _arm;
     EAlarm _alarm = EAlarm::None;
-    ProgramEvents _events;
     RelayMemory _relays;
     ControllerSettings _settings;
     bool _bProtectiveStop = false;
@@ -171,7 +170,7 @@ public:
     [[nodiscard]] JointStates GetJointStates() const;
 
 private:
-    void HandleEvents(Core::Duration elapsed);
+    void HandleEvents(ProgramEvents events, Core::Duration elapsed);
     void BeginWork();
     /// Makes the program fail if it cannot do its work.
     void FinishWork(ProgramEvent& event);
