@@ -1,10 +1,11 @@
 #include "common/trace/TraceWriter.hpp"
 
+#include "common/trace/TraceQueue.hpp"
+
 #include <fmt/format.h>
 
 #include <chrono>
 #include <condition_variable>
-#include <deque>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -18,29 +19,18 @@ namespace
 
 /// Time between two attempts to write after a failure.
 constexpr std::chrono::seconds RETRY{10};
-/// Memory of a queued line besides its text.
-constexpr std::size_t ENTRY_BYTES = 96;
 
 } // namespace
 
 struct TraceWriter::Impl
 {
-    struct Entry
-    {
-        std::string line;
-        Core::Now now;
-        std::uint64_t lostBefore = 0; ///< Lines for which the queue had no room.
-    };
-
     const Core::IClock& clock;
     Core::Logger logger;
     Options options; ///< The mutex protects its limits.
 
     std::mutex mutex; ///< Protects the members up to the thread's own.
     std::condition_variable wake;
-    std::deque<Entry> queue;
-    std::size_t queuedBytes = 0;
-    std::uint64_t unqueued = 0; ///< Number of lost lines that no queue entry states yet.
+    TraceQueue queue;
     std::uint64_t lost = 0;
     std::optional<std::string> failureOrNull; ///< Error to be logged by the caller's thread.
     bool bRecovered = false;                  ///< Recovery to be logged by the caller's thread.
@@ -56,6 +46,7 @@ struct TraceWriter::Impl
         : clock(writerClock),
           logger(std::move(writerLogger)),
           options(std::move(writerOptions)),
+          queue(options.maxQueuedBytes),
           files(options.path, options.files)
     {
     }
@@ -63,13 +54,12 @@ struct TraceWriter::Impl
     void Run()
     {
         std::unique_lock lock(mutex);
-        while (!bClosing || !queue.empty() || unqueued > 0)
+        while (!bClosing || !queue.IsEmpty() || queue.HasLost())
         {
             WaitForWork(lock);
-            const std::deque<Entry> entries = std::exchange(queue, {});
-            const std::uint64_t lostAtEnd = bClosing ? std::exchange(unqueued, 0) : 0;
+            const TraceQueue::Entries entries = queue.TakeEntries();
+            const std::uint64_t lostAtEnd = bClosing ? queue.TakeLost() : 0;
             const TraceLimits limits = options.limits;
-            queuedBytes = 0;
             lock.unlock();
             WriteAll(entries, lostAtEnd, limits);
             lock.lock();
@@ -83,7 +73,7 @@ struct TraceWriter::Impl
     void WaitForWork(std::unique_lock<std::mutex>& lock)
     {
         const auto hasWork = [this] {
-            return bClosing || !queue.empty();
+            return bClosing || !queue.IsEmpty();
         };
         if (failedAt.has_value())
         {
@@ -95,9 +85,9 @@ struct TraceWriter::Impl
         }
     }
 
-    void WriteAll(const std::deque<Entry>& entries, std::uint64_t lostAtEnd, const TraceLimits& limits)
+    void WriteAll(const TraceQueue::Entries& entries, std::uint64_t lostAtEnd, const TraceLimits& limits)
     {
-        for (const Entry& entry : entries)
+        for (const TraceQueue::Entry& entry : entries)
         {
             unwritten += entry.lostBefore;
             const bool bPausing = failedAt.has_value() && entry.now.steady - *failedAt < RETRY;
@@ -203,18 +193,10 @@ void TraceWriter::Write(std::string line, Core::Now now)
     bool bWake = false;
     {
         const std::lock_guard lock(_impl->mutex);
-        const std::size_t size = ENTRY_BYTES + line.size();
-        if (_impl->queuedBytes + size > _impl->options.maxQueuedBytes)
-        {
-            ++_impl->unqueued;
-            ++_impl->lost;
-        }
-        else
-        {
-            bWake = _impl->queue.empty();
-            _impl->queuedBytes += size;
-            _impl->queue.push_back({std::move(line), now, std::exchange(_impl->unqueued, 0)});
-        }
+        const bool bWasEmpty = _impl->queue.IsEmpty();
+        const bool bQueued = _impl->queue.TryPush(std::move(line), now);
+        bWake = bWasEmpty && bQueued;
+        _impl->lost += bQueued ? 0 : 1;
         failure = std::exchange(_impl->failureOrNull, std::nullopt);
         bRecovered = std::exchange(_impl->bRecovered, false);
     }
