@@ -350,6 +350,8 @@ OFFERED_ACTIONS = [
         {"key": "x", "valueType": "NUMBER", "required": True}, {"key": "count", "valueType": "INTEGER", "required": False},
         {"key": "lastNodeId", "valueType": "STRING", "required": True}, {"key": "exact", "valueType": "BOOL", "required": False}]},
     {"actionType": "stateRequest", "description": "", "parameters": []},
+    {"actionType": "tune", "description": "", "parameters": [
+        {"key": "__proto__", "valueType": "NUMBER", "required": True}, {"key": "a \"b\"", "valueType": "OBJECT", "required": False}]},
 ]
 
 

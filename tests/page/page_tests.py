@@ -455,10 +455,10 @@ class Alarms(PageCase):
         self.click_button("initPosition", "#detail .actions")
         self.wait_for_text("#confirm-dialog", "Sets the position of the vehicle.")
         self.wait_for_text("#confirm-dialog", "count (INTEGER, optional)")
-        self.find("#parameter-lastNodeId").send_keys("7", Keys.ENTER)  # a string, although it is a number
+        self.find("#parameter-2").send_keys("7", Keys.ENTER)  # a string, although it is a number
         self.click("#confirm-action")  # x is missing
         self.assertTrue(self.find("#confirm-dialog").is_displayed())
-        self.find("#parameter-x").send_keys("1.5")
+        self.find("#parameter-0").send_keys("1.5")
         self.find("#confirm-reason").send_keys("moved by hand")
         self.assertEqual(self.list_posts(), [])
         self.click("#confirm-action")
@@ -474,6 +474,80 @@ class Alarms(PageCase):
         self.click("#confirm-action")
         wait_until(lambda: [body for _, body, _ in self.list_posts()][1:] == [{"actionType": "stateRequest", "parameters": {}}],
                    "the second action is sent, the one that was cancelled is not")
+
+
+    def open_actions(self, robot_id="LR01"):
+        self.open(f"?lang=en#robot/{robot_id}")
+        self.click_button("Show", "#detail .actions")
+        wait_until(lambda: self.find_all("#detail .actions .row-buttons button"), "the actions are offered")
+
+    def test_values_of_parameters_are_sent_as_they_are(self):
+        self.start_mock()
+        self.open_actions()
+        for number, expected in ((".5", 0.5), ("007", 7), ("-0.25", -0.25)):
+            self.click_button("tune", "#detail .actions")
+            self.find("#parameter-0").send_keys(number)
+            self.find("#parameter-1").send_keys('{"n": [1, null]}')
+            self.click("#confirm-action")
+            wait_until(lambda: not self.find("#confirm-dialog").is_displayed(), "it is sent")
+            wait_until(lambda value=expected: self.list_posts()[-1:] and self.list_posts()[-1][1]["parameters"] == {
+                "__proto__": value, 'a "b"': {"n": [1, None]}}, f"{number} is sent as {expected}")
+        for number, text in (("9007199254740993", ""), ("1", "{"), ("1", '{"n": 12345678901234567890}'), ("1", '{"n": 1e999}')):
+            self.click_button("tune", "#detail .actions")
+            self.find("#parameter-0").send_keys(number)
+            self.find("#parameter-1").send_keys(text)
+            self.click("#confirm-action")
+            self.assertTrue(self.find("#confirm-dialog").is_displayed(), f"{number} {text} is refused")
+            self.click_button("Back", "#confirm-dialog")
+        self.assertEqual(len(self.list_posts()), 3)
+
+    def test_enter_that_is_held_down_sends_no_action(self):
+        self.start_mock()
+        self.open_actions()
+        self.click_button("initPosition", "#detail .actions")
+        self.find("#parameter-2").send_keys("N1")
+        self.find("#parameter-0").send_keys("1")
+        for is_repeated in (False, True, True):
+            self.driver.execute_cdp_cmd("Input.dispatchKeyEvent", {
+                "type": "keyDown", "key": "Enter", "code": "Enter", "windowsVirtualKeyCode": 13, "text": "\r",
+                "autoRepeat": is_repeated})
+        self.assertEqual(self.run_script("return document.activeElement.id"), "confirm-action")
+        self.assertTrue(self.find("#confirm-dialog").is_displayed())
+        self.assertEqual(self.list_posts(), [])
+        self.press(Keys.ENTER)
+        wait_until(lambda: len(self.list_posts()) == 1, "a second Enter sends it")
+
+    def test_actions_are_current(self):
+        """After a snapshot without events, and when an older answer comes last; without the robot there are none."""
+        mock = self.start_mock()
+        self.open_actions()
+        self.click_button("stateRequest", "#detail .actions")
+        self.click("#confirm-action")
+        self.wait_for_text("#detail .actions ol", "waiting")
+        with mock.lock:
+            mock.simulation.robots["LR01"].actions[-1]["status"] = "Finished"
+        mock.send_reset()
+        self.wait_for_text("#detail .actions ol", "finished")
+        self.run_script("const fetched = window.fetch; let held = true; window.fetch = async (...all) => {"
+                        "  const answer = await fetched(...all);"
+                        "  if (held && String(all[0]).endsWith('/actions')) {"
+                        "    held = false; await new Promise((go) => { window.letGo = go; });"
+                        "  }"
+                        "  return answer;"
+                        "};")
+        self.click_button("Refresh", "#detail .actions")
+        wait_until(lambda: self.run_script("return window.letGo !== undefined"), "the first answer is held")
+        mock.end_action("LR01", "Failed", "the newest")
+        self.run_script("window.letGo()")
+        self.wait_for_text("#detail .actions ol", "the newest")
+        with mock.lock:
+            robot = mock.simulation.robots.pop("LR01")
+        mock.send_reset()
+        wait_until(lambda: not self.find("#detail .actions").is_displayed(), "a robot that is gone has no actions")
+        with mock.lock:
+            mock.simulation.robots["LR01"] = robot
+        mock.send_reset()
+        wait_until(lambda: "Maintenance on" in self.get_text("#detail button"), "it is back")
 
 
 class Causes(PlanCase):

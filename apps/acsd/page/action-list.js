@@ -19,9 +19,9 @@ function makeRow(action) {
 }
 
 export class ActionList {
-    constructor(robotId) {
+    constructor(robotId, entries) {
         this.robotId = robotId;
-        this.lastEntry = 0; // newest event about an action of this robot
+        this.lastEntry = this.#findNewest(entries);
         this.offers = make("div", {class: "row-buttons no-wall", hidden: true});
         this.list = make("ol", {class: "messages"});
         this.note = make("p", {class: "muted"});
@@ -33,21 +33,39 @@ export class ActionList {
         }
     }
 
-    /** Loads again after each event about an action of the robot. */
-    update(entries) {
-        const newest = entries.find((entry) => entry.kind === "action" && entry.robotId === this.robotId);
-        if (newest !== undefined && newest.id > this.lastEntry) {
-            this.lastEntry = newest.id;
+    /** Loads again after each event about an action of the robot, and when all may have changed. */
+    update(isAll, entries) {
+        const newest = this.#findNewest(entries);
+        if (isAll || newest > this.lastEntry) {
+            this.lastEntry = newest;
             if (areShown) {
                 this.load();
             }
         }
     }
 
+    /** One request at a time, so that the last answer is the newest. */
     async load() {
         areShown = true;
-        this.button.disabled = true;
         this.button.textContent = t("trace.refresh");
+        this.isStale = true;
+        if (this.isLoading) {
+            return;
+        }
+        this.isLoading = true;
+        while (this.isStale) {
+            this.isStale = false;
+            await this.#loadOnce();
+        }
+        this.isLoading = false;
+    }
+
+    /** The number of the newest event about an action of the robot; 0 without one. */
+    #findNewest(entries) {
+        return entries.find((entry) => entry.kind === "action" && entry.robotId === this.robotId)?.id ?? 0;
+    }
+
+    async #loadOnce() {
         try {
             const {actions, offered} = await getJson(`/v1/robots/${encodeURIComponent(this.robotId)}/actions`);
             setText(this.note, offered.length === 0 ? t("action.noneOffered") : "");
@@ -56,7 +74,6 @@ export class ActionList {
         } catch (error) {
             setText(this.note, error.message);
         }
-        this.button.disabled = false;
     }
 
     /** The buttons stay while the robot offers the same actions: one of them may have the focus. */

@@ -1,7 +1,8 @@
 // What the operator may do: each command is one POST. Those with consequences ask first.
 
+import {askAction} from "./action-dialog.js";
 import {post} from "./api.js";
-import {askAction, askConfirmation, askNumber, showToast} from "./dialogs.js";
+import {askConfirmation, askNumber, showToast} from "./dialogs.js";
 import {make} from "./dom.js";
 import {t} from "./text.js";
 

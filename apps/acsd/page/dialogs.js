@@ -18,7 +18,7 @@ export function showToast(text, kind = "info") {
     setTimeout(() => toast.remove(), kind === "error" ? 2 * TOAST_TIME : TOAST_TIME);
 }
 
-function openDialog(id) {
+export function openDialog(id) {
     const dialog = document.getElementById(id);
     if (!dialog.open) {
         dialog.showModal();
@@ -26,14 +26,22 @@ function openDialog(id) {
     return dialog;
 }
 
-/** Enter goes from the input to the button that confirms, and does not press it. */
-function leaveByEnter(input) {
-    input.addEventListener("keydown", (event) => {
-        if (event.key === "Enter") {
+/** Enter goes from the inputs to the button that confirms, and does not press it, not even if the key is held down. */
+export function leaveByEnter(inputs) {
+    const confirm = document.getElementById("confirm-action");
+    confirm.addEventListener("keydown", (event) => {
+        if (event.repeat) {
             event.preventDefault();
-            document.getElementById("confirm-action").focus();
         }
     });
+    for (const input of inputs) {
+        input.addEventListener("keydown", (event) => {
+            if (event.key === "Enter" && !event.isComposing) {
+                event.preventDefault();
+                confirm.focus();
+            }
+        });
+    }
 }
 
 /** Asks before a command with consequences. Resolves to {reason}, or null if the user cancels. */
@@ -50,9 +58,7 @@ export function askConfirmation({title, text, action, hasReason = false}) {
     openDialog("confirm-dialog");
     // Enter must not confirm by accident.
     (reason ?? cancel).focus();
-    if (reason !== null) {
-        leaveByEnter(reason);
-    }
+    leaveByEnter(reason === null ? [] : [reason]);
     return new Promise((resolve) => {
         dialog.addEventListener("close", () => {
             resolve(dialog.returnValue === "confirm" ? {reason: reason?.value.trim() ?? ""} : null);
@@ -76,73 +82,6 @@ export function askNumber({title, label, value}) {
     return new Promise((resolve) => {
         dialog.addEventListener("close", () => {
             resolve(dialog.returnValue === "confirm" && input.checkValidity() ? Number(input.value) : null);
-        }, {once: true});
-    });
-}
-
-/** The input of a parameter, by the type that the robot names. */
-function makeParameterInput({key, valueType, required}) {
-    const attributes = {id: `parameter-${key}`, name: key, required, autocomplete: "off"};
-    if (valueType === "BOOL") {
-        return make("select", attributes, make("option", {value: "", text: "–"}),
-            make("option", {value: "true", text: "true"}), make("option", {value: "false", text: "false"}));
-    }
-    if (["NUMBER", "FLOAT", "INTEGER"].includes(valueType)) {
-        return make("input", {...attributes, type: "number", step: valueType === "INTEGER" ? 1 : "any"});
-    }
-    return make("input", {...attributes, type: "text"});
-}
-
-/** The value that was entered; undefined without one. A text that is no JSON is sent as a string: acsd checks its type. */
-function readParameter(input, valueType) {
-    if (input.value === "") {
-        return undefined;
-    }
-    if (valueType === "STRING") {
-        return input.value;
-    }
-    try {
-        return JSON.parse(input.value) ?? input.value;
-    } catch {
-        return input.value;
-    }
-}
-
-/** Asks for the parameters of an instant action. Resolves to the body of its request, or null if the user cancels. */
-export function askAction({title, text, offer}) {
-    const dialog = document.getElementById("confirm-dialog");
-    const inputs = offer.parameters.map(makeParameterInput);
-    const reason = make("input", {id: "confirm-reason", type: "text", maxlength: 200, autocomplete: "off"});
-    const cancel = make("button", {
-        type: "button", class: "button", text: t("dialog.cancel"), onclick: () => dialog.close("cancel")});
-    dialog.replaceChildren(make("form", {method: "dialog"},
-        make("h2", {id: "confirm-title", text: title}), make("p", {text}),
-        offer.description ? make("p", {class: "muted", text: offer.description}) : null,
-        ...offer.parameters.flatMap(({key, valueType, required}, i) => {
-            const type = required ? valueType : `${valueType}, ${t("dialog.optional")}`;
-            return [make("label", {for: inputs[i].id, text: `${key} (${type})`}), inputs[i]];
-        }),
-        make("label", {for: "confirm-reason", text: t("dialog.reason")}), reason,
-        make("div", {class: "dialog-buttons"}, cancel,
-            make("button", {
-                type: "submit", value: "confirm", class: "button danger", id: "confirm-action", text: t("dialog.send")}))));
-    dialog.returnValue = "";
-    openDialog("confirm-dialog");
-    (inputs[0] ?? cancel).focus();
-    for (const input of [...inputs, reason]) {
-        leaveByEnter(input);
-    }
-    return new Promise((resolve) => {
-        dialog.addEventListener("close", () => {
-            if (dialog.returnValue !== "confirm") {
-                resolve(null);
-                return;
-            }
-            const parameters = {};
-            offer.parameters.forEach(({key, valueType}, i) => {
-                parameters[key] = readParameter(inputs[i], valueType); // JSON leaves out what is undefined
-            });
-            resolve({actionType: offer.actionType, parameters, reason: reason.value.trim() || undefined});
         }, {once: true});
     });
 }

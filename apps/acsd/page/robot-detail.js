@@ -23,7 +23,7 @@ export class RobotDetail {
         this.causes = new KeyedList(this.causeList, (cause) => cause.key, (cause) => new CauseRow(cause, context.select));
         this.alarmList = make("ul", {class: "alarms"});
         this.alarms = new KeyedList(this.alarmList, getAlarmKey, (alarm) => new AlarmRow(alarm, context.select));
-        this.actions = new ActionList(id);
+        this.actions = new ActionList(id, context.model.entries);
         this.node = make("div", {class: "detail-body"}, this.causeList, this.alarmList, this.facts, this.buttons, this.actions.node,
             new TraceList(`robot=${encodeURIComponent(id)}`).node);
         this.update(null);
@@ -39,12 +39,14 @@ export class RobotDetail {
         this.causes.show(causes);
         setHidden(this.alarmList, alarms.length === 0);
         this.alarms.show(alarms);
+        setHidden(this.actions.node, robot === undefined);
         if (robot === undefined) {
+            this.isInMaintenance = undefined;
             this.facts.replaceChildren(make("dd", {text: t("detail.gone")}));
             this.buttons.replaceChildren();
             return;
         }
-        this.actions.update(model.entries);
+        this.actions.update(changes?.isAll ?? false, model.entries);
         if (changes === null || changes.isAll || changes.robots.has(this.id)) {
             this.#showFacts(robot);
             if (this.isInMaintenance !== robot.maintenance) {

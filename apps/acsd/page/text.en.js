@@ -263,6 +263,8 @@ export default {
     "dialog.close": "Close",
     "dialog.set": "Set",
     "dialog.send": "Send",
+    "parameter.json": "Enter JSON of the type {type}.",
+    "parameter.inexact": "This number has too many digits to be sent exactly.",
     "dialog.optional": "optional",
     "dialog.reason": "Reason (optional)",
     "error.connection": "acsd does not answer: {reason}",

@@ -1,0 +1,77 @@
+// The question before an instant action, with its parameters.
+
+import {leaveByEnter, openDialog} from "./dialogs.js";
+import {make} from "./dom.js";
+import {t} from "./text.js";
+
+const NUMBERS = ["NUMBER", "FLOAT", "INTEGER"];
+
+function makeInput({valueType, required}, i) {
+    const attributes = {id: `parameter-${i}`, required, autocomplete: "off"};
+    if (valueType === "BOOL") {
+        return make("select", attributes, make("option", {value: "", text: "–"}),
+            make("option", {value: "true", text: "true"}), make("option", {value: "false", text: "false"}));
+    }
+    if (NUMBERS.includes(valueType)) {
+        return make("input", {...attributes, type: "number", step: valueType === "INTEGER" ? 1 : "any"});
+    }
+    return make("input", {...attributes, type: "text"});
+}
+
+/** Whether all numbers in the value are those that were entered. */
+function isExact(value) {
+    if (typeof value === "number") {
+        return Number.isFinite(value) && (!Number.isInteger(value) || Number.isSafeInteger(value));
+    }
+    return typeof value !== "object" || value === null || Object.values(value).every(isExact);
+}
+
+/** {value, fault} of what was entered: acsd checks the type. A text that is no JSON is a string, but of an OBJECT or ARRAY. */
+function readInput(input, valueType) {
+    if (input.value === "") {
+        return {};
+    }
+    if (valueType === "STRING") {
+        return {value: input.value};
+    }
+    let value;
+    try {
+        value = NUMBERS.includes(valueType) ? Number(input.value) : JSON.parse(input.value);
+    } catch {
+        return ["OBJECT", "ARRAY"].includes(valueType) ? {fault: t("parameter.json", {type: valueType})} : {value: input.value};
+    }
+    return isExact(value) ? {value: value ?? input.value} : {fault: t("parameter.inexact")};
+}
+
+/** Asks for the parameters. Resolves to the body of the request, or null if the user cancels. */
+export function askAction({title, text, offer}) {
+    const dialog = document.getElementById("confirm-dialog");
+    const inputs = offer.parameters.map(makeInput);
+    const reason = make("input", {id: "confirm-reason", type: "text", maxlength: 200, autocomplete: "off"});
+    const cancel = make("button", {
+        type: "button", class: "button", text: t("dialog.cancel"), onclick: () => dialog.close("cancel")});
+    dialog.replaceChildren(make("form", {method: "dialog"},
+        make("h2", {id: "confirm-title", text: title}), make("p", {text}),
+        offer.description ? make("p", {class: "muted", text: offer.description}) : null,
+        ...offer.parameters.flatMap(({key, valueType, required}, i) => {
+            const type = required ? valueType : `${valueType}, ${t("dialog.optional")}`;
+            inputs[i].addEventListener("input", () => inputs[i].setCustomValidity(readInput(inputs[i], valueType).fault ?? ""));
+            return [make("label", {for: inputs[i].id, text: `${key} (${type})`}), inputs[i]];
+        }),
+        make("label", {for: "confirm-reason", text: t("dialog.reason")}), reason,
+        make("div", {class: "dialog-buttons"}, cancel,
+            make("button", {
+                type: "submit", value: "confirm", class: "button danger", id: "confirm-action", text: t("dialog.send")}))));
+    dialog.returnValue = "";
+    openDialog("confirm-dialog");
+    (inputs[0] ?? cancel).focus();
+    leaveByEnter([...inputs, reason]);
+    return new Promise((resolve) => {
+        dialog.addEventListener("close", () => {
+            const values = offer.parameters.map(({key, valueType}, i) => [key, readInput(inputs[i], valueType).value]);
+            resolve(dialog.returnValue !== "confirm" ? null : {
+                actionType: offer.actionType, parameters: Object.fromEntries(values.filter(([, value]) => value !== undefined)),
+                reason: reason.value.trim() || undefined});
+        }, {once: true});
+    });
+}
