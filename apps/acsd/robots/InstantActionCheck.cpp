@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
+#include <string>
 #include <utility>
 
 namespace ACS::Acsd
@@ -42,6 +44,15 @@ constexpr std::array<ManagedAction, 5> MANAGED{{
     {ActionTypes::STOP_CHARGING,
      "acsd charges its robots itself, and ends the charging before each drive. It does not send stopCharging on request."},
 }};
+
+/// Of two parameters of a key the first one is in effect.
+void KeepFirstOfEachKey(std::vector<VDA5050::AgvActionParameter>& parameters)
+{
+    std::set<std::string> keys;
+    std::erase_if(parameters, [&keys](const VDA5050::AgvActionParameter& parameter) {
+        return !keys.insert(parameter.key).second;
+    });
+}
 
 std::string_view GetTypeText(VDA5050::EValueDataType type)
 {
@@ -267,6 +278,10 @@ std::vector<VDA5050::AgvAction> InstantActionCheck::ListActions(const VDA5050::F
         return left.actionType == right.actionType;
     });
     actions.erase(end, actions.end());
+    for (VDA5050::AgvAction& action : actions)
+    {
+        KeepFirstOfEachKey(action.actionParameters);
+    }
     return actions;
 }
 

@@ -85,12 +85,15 @@ TEST_CASE("Without a factsheet a vehicle offers the instant actions of its versi
 TEST_CASE("A factsheet decides which instant actions a vehicle offers; it always has the two requests")
 {
     VDA5050::FactsheetMessage factsheet = MakeFactsheet();
+    factsheet.protocolFeatures.agvActions.front().actionParameters.push_back(
+        {"b", EValueDataType::Number, {}, false});                                                  // a second b
     factsheet.protocolFeatures.agvActions.push_back(factsheet.protocolFeatures.agvActions.front()); // a second entry
     factsheet.protocolFeatures.agvActions.push_back({"dance", {}, {VDA5050::EActionScope::Node}, {}, {}, {}});
     const InstantActionCheck check = MakeCheck();
     CHECK(ListTypes(check, &factsheet) == "beep factsheetRequest stateRequest");
     const RobotActionOffer offer = check.ListOffers(&factsheet).front();
     CHECK(offer.description == "sounds a horn");
+    CHECK(offer.parameters.size() == 7);
     CHECK(offer.parameters.front() == RobotParameterOffer{"b", "BOOL", false});
     CHECK(check.ListOffers(nullptr).back().parameters.empty());
     CHECK(
