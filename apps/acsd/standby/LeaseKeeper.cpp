@@ -253,6 +253,10 @@ std::string LeaseKeeper::GetWaitReason() const
     {
         return "standby that takes over: it reads the store";
     }
+    if (_state == EState::Ended)
+    {
+        return "standby: this process releases its lease";
+    }
     if (const std::string fault = GetStoreFault(); !fault.empty())
     {
         return fmt::format("standby: the store cannot be used: {}", fault);
@@ -290,7 +294,7 @@ std::string LeaseKeeper::GetStoreFault() const
 
 std::string LeaseKeeper::GetPublicReason() const
 {
-    return _state != EState::Leading && !GetStoreFault().empty()
+    return _state != EState::Leading && _state != EState::Ended && !GetStoreFault().empty()
         ? "standby: the store cannot be used; /readyz on the monitoring address has the reason"
         : GetWaitReason();
 }

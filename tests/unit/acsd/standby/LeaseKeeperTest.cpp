@@ -188,6 +188,8 @@ TEST_CASE_METHOD(LeaseKeeperFixture, "A lease that is free is taken, renewed and
     bool bReleased = false;
     keeper->ReleaseAsync([&] { bReleased = true; });
     CHECK_FALSE(guard.IsHeld());
+    CHECK(keeper->GetWaitReason() == "standby: this process releases its lease");
+    CHECK(keeper->GetPublicReason() == keeper->GetWaitReason());
     RunUntil([&] { return bReleased; });
     CHECK(row.Get()->bReleased);
     CHECK(lost.empty());
