@@ -24,9 +24,16 @@ RivalDetector::End RivalDetector::OnEnd(Time now, const std::error_code& reason)
     if (upSince.has_value())
     {
         end.upTime = now - *upSince;
-        _shortCount = end.upTime >= STABLE_AFTER ? 0 : _shortCount + 1;
     }
-    end.bRival = IsSessionTakenOver(reason) || (!_bUniqueID && upSince.has_value() && _shortCount >= SUSPICIOUS_COUNT);
+    if (IsSessionTakenOver(reason))
+    {
+        end.bRival = true; // known, and no sign of another one
+    }
+    else if (upSince.has_value())
+    {
+        _shortCount = end.upTime >= STABLE_AFTER ? 0 : _shortCount + 1;
+        end.bRival = !_bUniqueID && _shortCount >= SUSPICIOUS_COUNT;
+    }
     return end;
 }
 
