@@ -244,7 +244,7 @@ void AcsdService::Reload(const AcsdConfig& fresh)
     ApplyLiveKeys(fresh, _config);
     OperatorConfig& control = _config.http.control;
     _addresses.ReloadTLS(control.tls);
-    if (TryTakeTokens(fresh.http.control, control))
+    if (TryReplaceTokens(fresh.http.control, control))
     {
         _dependencies.logger.MakeFor("operator").Info("tokens reloaded", {{"file", control.tokensFile}});
     }

@@ -192,7 +192,7 @@ bool OrderOutbox::IsRejection(const VehicleError& error) const
         topicOrNull != nullptr || std::ranges::find(ORDER_ERROR_TYPES, error.errorType) != ORDER_ERROR_TYPES.end();
     if (orderOrNull == nullptr)
     {
-        // Where a header is named it must be of ours: others may write to the topic, and their junk is no word about us.
+        // A header that is named must be one of ours: other clients may write to the topic, and the error is about their message.
         const std::string* headerOrNull = FindReferenceOrNull(error, ReferenceKeys::HEADER_ID);
         return !bBefore && bAnswer && (headerOrNull == nullptr || IsSentHeader(*headerOrNull));
     }
@@ -204,7 +204,7 @@ bool OrderOutbox::IsRejection(const VehicleError& error) const
     {
         return *updateOrNull == std::to_string(_inFlight->message.orderUpdateID);
     }
-    // Of an order that runs it may be any trouble, such as an action that failed, and no word about the update.
+    // While the order runs, the error may be about something else than the update, such as an action that failed.
     return bAnswer || !IsAccepted();
 }
 

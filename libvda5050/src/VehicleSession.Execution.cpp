@@ -235,7 +235,7 @@ bool VehicleSession::Impl::TryChangeStatus(
     return true;
 }
 
-/// The owner's word that an action did not succeed. 2.x does not stop an order for it; a vehicle may, for the kinds that it
+/// The owner reports that an action did not succeed. 2.x does not stop an order for it; a vehicle may, for the kinds that it
 /// names.
 void VehicleSession::Impl::OnActionFailed(const ReportedAction& failed, VehicleActions& out)
 {

@@ -186,7 +186,7 @@ void ReadAudit(
 
 } // namespace
 
-bool TryTakeTokens(const OperatorConfig& fresh, OperatorConfig& present)
+bool TryReplaceTokens(const OperatorConfig& fresh, OperatorConfig& present)
 {
     if (fresh.tokensFile != present.tokensFile || fresh.access.tokens == present.access.tokens)
     {

@@ -37,8 +37,8 @@ struct HttpConfig
     OperatorConfig control;
 };
 
-/// Takes the tokens of the same file. Returns whether they differ.
-[[nodiscard]] bool TryTakeTokens(const OperatorConfig& fresh, OperatorConfig& present);
+/// Replaces the tokens by those of the same file. Returns whether they differ.
+[[nodiscard]] bool TryReplaceTokens(const OperatorConfig& fresh, OperatorConfig& present);
 
 /// Reads the tables `http` and `operator`. Relative paths are relative to the folder of the file; the audit log is by default
 /// in the directory of the store.

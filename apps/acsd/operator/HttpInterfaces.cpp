@@ -68,7 +68,7 @@ void HttpInterfaces::Close()
 
 void HttpInterfaces::ReloadTokens(const OperatorConfig& fresh, OperatorConfig& present)
 {
-    if (TryTakeTokens(fresh, present))
+    if (TryReplaceTokens(fresh, present))
     {
         _gate.SetPolicy(AccessPolicy(present.access));
         _events->EndAll(); // of a withdrawn token perhaps

@@ -65,7 +65,7 @@ public:
     /// Answers no request from now on, and ends all streams.
     void Close();
 
-    /// Takes the tokens of the same file into `present`: a token can be withdrawn without a restart.
+    /// Replaces the tokens of `present` by those of the same file: a token can be withdrawn without a restart.
     void ReloadTokens(const OperatorConfig& fresh, OperatorConfig& present);
 
     /// Lines that are missing in the audit log.

@@ -56,7 +56,7 @@ public:
     [[nodiscard]] Core::Result<Endpoint> Listen(const Endpoint& endpoint);
 
     /// Later requests are for this handler; empty: they are answered with 503. Connections that wait for a delayed response or
-    /// have a stream of the former handler are closed.
+    /// have a stream of the former handler are closed. Not to be called by a handler.
     void SetHandler(Handler handler);
 
     /// Closes the port and all connections. The handler is not called any more.
