@@ -108,7 +108,10 @@ class Traces(ScenarioCase):
             return found
 
         sent, shown = collect(acsd, "out", COMMANDS), collect(acsd, "in", STATES)
-        self.assertEqual(sent, collect(vda, "in", COMMANDS))
+        received = collect(vda, "in", COMMANDS)
+        self.assertEqual(set(sent), set(received))
+        for key, texts in received.items():  # vda-sim ends first, perhaps while a vehicle drives to its parking position
+            self.assertEqual(sent[key][:len(texts)], texts, key)
         self.assertEqual(shown, collect(vda, "out", STATES))
         for robot in ("LR01", "CR01"):
             self.assertGreater(len(sent[robot, "order"]), 1)
