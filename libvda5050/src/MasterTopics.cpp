@@ -2,40 +2,26 @@
 
 #include <acs/vda5050/EVda5050Error.hpp>
 
-#include <algorithm>
 #include <utility>
 
 namespace ACS::VDA5050
 {
 
 MasterTopics::MasterTopics(const MasterOptions& options)
-    : _options(options)
+    : _options(options),
+      _table(options.address, options.qos, options.version)
 {
-    for (std::size_t index = 0; index < TOPIC_COUNT; ++index)
-    {
-        _topics.at(index) = BuildTopic(_options.address, static_cast<ETopic>(index));
-    }
 }
 
 std::vector<MqttSubscription> MasterTopics::GetSubscriptions() const
 {
-    std::vector<MqttSubscription> subscriptions;
-    for (const ETopic topic : {ETopic::State, ETopic::Visualization, ETopic::Connection, ETopic::Factsheet})
-    {
-        subscriptions.push_back(MqttSubscription{_topics.at(static_cast<std::size_t>(topic)), _options.qos.Get(topic)});
-    }
-    return subscriptions;
+    return _table.MakeSubscriptions({ETopic::State, ETopic::Visualization, ETopic::Connection, ETopic::Factsheet});
 }
 
 std::optional<ETopic> MasterTopics::RecognizeOrNull(std::string_view topic, bool bRetained)
 {
-    const auto* const found = std::ranges::find(_topics, topic);
-    if (found == _topics.end())
-    {
-        return std::nullopt;
-    }
-    const auto recognized = static_cast<ETopic>(found - _topics.begin());
-    if (bRetained && !IsRetained(recognized))
+    const std::optional<ETopic> recognized = _table.FindOrNull(topic);
+    if (bRetained && recognized.has_value() && !IsRetained(*recognized))
     {
         // Its age is unknown, so it proves neither life nor progress of an order.
         ++_statistics.retainedIgnored;
@@ -86,23 +72,11 @@ void MasterTopics::Refuse(ETopic topic, Core::Error error, MasterActions& out)
     out.emplace_back(MessageRefused{topic, std::move(error)});
 }
 
-Header MasterTopics::MakeHeader(ETopic topic, Core::Now now) const
-{
-    return Header{
-        _headerIDs.at(static_cast<std::size_t>(topic)),
-        now.wall,
-        std::string(GetVersionText(_options.version)),
-        _options.address.manufacturer,
-        _options.address.serialNumber};
-}
-
 void MasterTopics::PublishPayload(ETopic topic, std::string payload, MasterActions& out)
 {
-    const auto index = static_cast<std::size_t>(topic);
-    ++_headerIDs.at(index);
+    _table.CountMessage(topic);
     ++_statistics.messagesSent;
-    out.emplace_back(
-        PublishMessage{MqttMessage{_topics.at(index), std::move(payload), _options.qos.Get(topic), IsRetained(topic)}});
+    out.emplace_back(PublishMessage{_table.MakeMessage(topic, std::move(payload))});
 }
 
 } // namespace ACS::VDA5050

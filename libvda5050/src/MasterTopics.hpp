@@ -1,13 +1,12 @@
 #pragma once
 
+#include "TopicTable.hpp"
 #include <acs/vda5050/MasterAction.hpp>
 #include <acs/vda5050/MasterOptions.hpp>
 #include <acs/vda5050/MasterSession.hpp>
 #include <acs/vda5050/Vda5050Codec.hpp>
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,8 +20,7 @@ class MasterTopics
 {
     const MasterOptions& _options;
     Vda5050Codec _codec;
-    std::array<std::uint32_t, TOPIC_COUNT> _headerIDs{};
-    std::array<std::string, TOPIC_COUNT> _topics;
+    TopicTable _table;
     MasterStatistics _statistics;
 
 public:
@@ -51,14 +49,14 @@ public:
     template <typename TMessage>
     [[nodiscard]] std::size_t Measure(ETopic topic, TMessage& message, Core::Now now) const
     {
-        message.header = MakeHeader(topic, now);
+        message.header = _table.MakeHeader(topic, now);
         return _codec.Encode(message, _options.version).size();
     }
     /// Sets the header of the message.
     template <typename TMessage>
     void Publish(ETopic topic, TMessage& message, Core::Now now, MasterActions& out)
     {
-        message.header = MakeHeader(topic, now);
+        message.header = _table.MakeHeader(topic, now);
         PublishPayload(topic, _codec.Encode(message, _options.version), out);
     }
     void CountResentOrder() noexcept;
@@ -68,7 +66,6 @@ public:
 private:
     [[nodiscard]] std::optional<Core::Error> FindHeaderFaultOrNull(const Header& header);
     void Refuse(ETopic topic, Core::Error error, MasterActions& out);
-    [[nodiscard]] Header MakeHeader(ETopic topic, Core::Now now) const;
     void PublishPayload(ETopic topic, std::string payload, MasterActions& out);
 };
 

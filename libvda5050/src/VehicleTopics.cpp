@@ -1,40 +1,25 @@
 #include "VehicleTopics.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace ACS::VDA5050
 {
 
 VehicleTopics::VehicleTopics(const VehicleOptions& options)
-    : _options(options)
+    : _options(options),
+      _table(options.address, options.qos, options.version)
 {
-    for (std::size_t index = 0; index < TOPIC_COUNT; ++index)
-    {
-        _topics.at(index) = BuildTopic(_options.address, static_cast<ETopic>(index));
-    }
 }
 
 std::vector<MqttSubscription> VehicleTopics::GetSubscriptions() const
 {
-    std::vector<MqttSubscription> subscriptions;
-    for (const ETopic topic : {ETopic::Order, ETopic::InstantActions})
-    {
-        subscriptions.push_back(MqttSubscription{_topics.at(static_cast<std::size_t>(topic)), _options.qos.Get(topic)});
-    }
-    return subscriptions;
+    return _table.MakeSubscriptions({ETopic::Order, ETopic::InstantActions});
 }
 
 std::optional<ETopic> VehicleTopics::RecognizeOrNull(std::string_view topic) const
 {
-    for (const ETopic known : {ETopic::Order, ETopic::InstantActions})
-    {
-        if (topic == _topics.at(static_cast<std::size_t>(known)))
-        {
-            return known;
-        }
-    }
-    return std::nullopt;
+    const std::optional<ETopic> known = _table.FindOrNull(topic);
+    return known == ETopic::Order || known == ETopic::InstantActions ? known : std::nullopt;
 }
 
 Core::Result<MessageIdentity> VehicleTopics::DecodeIdentity(std::string_view payload)
@@ -62,12 +47,9 @@ MqttMessage VehicleTopics::MakeConnection(EConnectionState state, Core::Now now)
 
 Header VehicleTopics::MakeHeader(ETopic topic, Core::Now now)
 {
-    return Header{
-        _headerIDs.at(static_cast<std::size_t>(topic))++,
-        now.wall,
-        std::string(GetVersionText(_options.version)),
-        _options.address.manufacturer,
-        _options.address.serialNumber};
+    Header header = _table.MakeHeader(topic, now);
+    _table.CountMessage(topic);
+    return header;
 }
 
 } // namespace ACS::VDA5050

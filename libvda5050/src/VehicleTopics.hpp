@@ -1,6 +1,7 @@
 #pragma once
 
 #include "StateRoom.hpp"
+#include "TopicTable.hpp"
 #include <acs/vda5050/ConnectionMessage.hpp>
 #include <acs/vda5050/Vda5050Codec.hpp>
 #include <acs/vda5050/VehicleAction.hpp>
@@ -8,7 +9,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,8 +23,7 @@ class VehicleTopics
 {
     const VehicleOptions& _options;
     Vda5050Codec _codec;
-    std::array<std::uint32_t, TOPIC_COUNT> _headerIDs{};
-    std::array<std::string, TOPIC_COUNT> _topics;
+    TopicTable _table;
     std::array<std::size_t, TOPIC_COUNT> _payloadBytes{}; ///< Size of the last message, to reserve that of the next.
 
 public:
@@ -68,7 +67,7 @@ private:
     {
         constexpr std::size_t SLACK = 64; // numbers have more digits at one time than at another
         const auto index = static_cast<std::size_t>(topic);
-        MqttMessage made{_topics.at(index), {}, _options.qos.Get(topic), IsRetained(topic)};
+        MqttMessage made = _table.MakeMessage(topic, {});
         made.payload.reserve(_payloadBytes.at(index) + SLACK);
         _codec.Encode(message, _options.version, made.payload);
         _payloadBytes.at(index) = made.payload.size();
