@@ -23,9 +23,3 @@ endif()
 add_library(acs_rapidjson INTERFACE)
 target_include_directories(acs_rapidjson SYSTEM INTERFACE ${RAPIDJSON_INCLUDE_DIRS})
 target_compile_definitions(acs_rapidjson INTERFACE RAPIDJSON_HAS_STDSTRING=1)
-# Its headers add to null pointers and normalise a zero ("0e5"), harmlessly, but UBSan reports it in every program that
-# parses. Only their code is passed over, not ours around it.
-if(ACS_SANITIZE MATCHES "undefined")
-  target_compile_options(acs_rapidjson INTERFACE
-    $<$<CXX_COMPILER_ID:Clang>:-fsanitize-ignorelist=${CMAKE_CURRENT_LIST_DIR}/sanitizer-ignorelist.txt>)
-endif()
