@@ -38,6 +38,7 @@ void ReadQueue(const ConfigSection& root, Planning::EngineOptions& engine)
         std::numeric_limits<std::int32_t>::max(),
         engine.defaultPriority));
     engine.queueAgeing = queue.GetDuration("ageing", 0ms, 24h, engine.queueAgeing);
+    engine.queueOvertaking = queue.GetDuration("overtaking", 0ms, 24h, engine.queueOvertaking);
 
     const ConfigSection traffic = root.GetSection("traffic");
     engine.clearance = traffic.GetNumber("clearance", 0, MOST_CLEARANCE, engine.clearance);

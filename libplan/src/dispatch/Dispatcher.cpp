@@ -163,10 +163,25 @@ Robot* Dispatcher::FindQuickestOrNull(const ActivePlan& plan, const std::vector<
 
 bool Dispatcher::HasWay(const ActivePlan& plan, const Robot& robot) const
 {
+    return FindTravelSecondsOrNull(_router, plan, robot).has_value();
+}
+
+std::optional<double> Dispatcher::GetTravelSecondsOrNull(const ActivePlan& plan, const Robot& robot) const
+{
+    return FindTravelSecondsOrNull(_coordinator.GetOpenRouter(), plan, robot);
+}
+
+std::optional<double> Dispatcher::FindTravelSecondsOrNull(
+    const Router& router,
+    const ActivePlan& plan,
+    const Robot& robot) const
+{
     const std::string& vehicleTypeID = robot.options->vehicleTypeID;
     const std::size_t dock = *_admission.FindDockOrNull(plan.resolved.steps.front().stationID, vehicleTypeID);
     const std::array start{*robot.place.node};
-    return _router.FindQuickestStartOrNull(vehicleTypeID, robot.GetLoad(), start, dock).has_value();
+    const std::optional<QuickestStart> way =
+        router.FindQuickestStartOrNull(vehicleTypeID, robot.GetLoad(), start, dock);
+    return way.has_value() ? std::optional(way->travelSeconds) : std::nullopt;
 }
 
 void Dispatcher::OnJobCheck(Robot& robot, const JobCheckChanged& event)

@@ -43,8 +43,10 @@ public:
     /// The nearest robot that can take over a plan from its robot, which is not free.
     [[nodiscard]] Robot* FindSuccessorOrNull(ActivePlan& plan);
     [[nodiscard]] const PortCheck& GetPorts() const noexcept;
-    /// Whether a route leads to the plan's first station. Uses the router's cached times instead of a route search.
+    /// Whether a route leads to the plan's first station, as if nothing was blocked.
     [[nodiscard]] bool HasWay(const ActivePlan& plan, const Robot& robot) const;
+    /// Driving time to the plan's first station around the blocks; null without a route.
+    [[nodiscard]] std::optional<double> GetTravelSecondsOrNull(const ActivePlan& plan, const Robot& robot) const;
     /// Unassigned plans are checked again when the robot is chosen. An assigned plan stays with its robot, whose adapter refuses
     /// the job.
     void OnJobCheck(Robot& robot, const JobCheckChanged& event);
@@ -64,6 +66,11 @@ private:
     [[nodiscard]] bool HasPorts(const ActivePlan& plan, const Robot& robot) const;
     /// Whether robots that cannot move leave the way free, and the robot rejects no job. Records a rejection.
     [[nodiscard]] bool CanExecute(ActivePlan& plan, const Robot& robot) const;
+    /// Uses the router's cached times instead of a route search.
+    [[nodiscard]] std::optional<double> FindTravelSecondsOrNull(
+        const Router& router,
+        const ActivePlan& plan,
+        const Robot& robot) const;
     /// The robot with the quickest route to the plan's first station; null without a route.
     [[nodiscard]] Robot* FindQuickestOrNull(const ActivePlan& plan, const std::vector<Robot*>& robots) const;
 };

@@ -55,10 +55,7 @@ void StationForecast::Add(const ActivePlan& plan, const Robot& robot)
 
 void StationForecast::PassOver(const ActivePlan& plan)
 {
-    for (const ResolvedStep& step : plan.resolved.steps)
-    {
-        _reserved.insert(step.stationID);
-    }
+    _reserved.Add(plan);
 }
 
 std::vector<std::size_t> StationForecast::ListRobots(std::string_view stationID) const
@@ -80,9 +77,7 @@ std::optional<std::string_view> StationForecast::FindTakenOrNull(const ActivePla
 
 bool StationForecast::IsReserved(const ActivePlan& plan) const
 {
-    return std::ranges::any_of(plan.resolved.steps, [this](const ResolvedStep& step) {
-        return _reserved.contains(step.stationID);
-    });
+    return _reserved.IsAnyOf(plan);
 }
 
 bool StationForecast::CanBegin(const ActivePlan& plan, const Robot& robot) const

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "dispatch/ReservedStations.hpp"
 #include "robot/Fleet.hpp"
 #include "traffic/VisitForecast.hpp"
 
@@ -7,7 +8,6 @@
 #include <optional>
 #include <string_view>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 namespace ACS::Planning
@@ -20,8 +20,8 @@ class StationForecast
     const Fleet& _fleet;
     const VisitForecast& _visits;
     std::unordered_map<std::string_view, std::vector<std::size_t>>
-        _robots;                                    ///< By station: those whose plans lead there.
-    std::unordered_set<std::string_view> _reserved; ///< Stations of plans that were passed over.
+        _robots;                ///< By station: those whose plans lead there.
+    ReservedStations _reserved; ///< Of plans that were passed over.
 
 public:
     /// Fleet and forecast must outlive it.
@@ -34,8 +34,7 @@ public:
     [[nodiscard]] bool CanBegin(const ActivePlan& plan, const Robot& robot) const;
     /// The robot has got the plan.
     void Add(const ActivePlan& plan, const Robot& robot);
-    /// The plan does not begin now. Plans after it that use one of its stations do not either, so that the queue's order remains at
-    /// each station.
+    /// The plan does not begin now, and its stations are reserved.
     void PassOver(const ActivePlan& plan);
     /// A station of the plan's first steps to which other robots have plans.
     [[nodiscard]] std::optional<std::string_view> FindTakenOrNull(const ActivePlan& plan) const;

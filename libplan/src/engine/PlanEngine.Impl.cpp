@@ -2,7 +2,7 @@
 
 #include "control/ErrorWatch.hpp"
 #include "control/StoreLogWatch.hpp"
-#include "dispatch/StationForecast.hpp"
+#include "dispatch/QueuePass.hpp"
 #include "robot/ValidState.hpp"
 #include <acs/core/Overloaded.hpp>
 
@@ -324,49 +324,10 @@ void PlanEngine::Impl::AssignPlans()
     {
         return;
     }
-    constexpr std::size_t MOST_PLANS = 1'000; // limits the time of a pass, as the next one does
-    constexpr std::size_t MOST_TAKEN = 16;    // plans whose station is taken and for which a robot is looked for
-    std::size_t seen = 0;
-    std::size_t taken = 0;
-    std::vector<std::pair<const ActivePlan*, const Robot*>> passedOver;
-    StationForecast stations(_engine.fleet, _coordinator.GetVisits());
-    const auto getPriority = [this](const ActivePlan& plan) {
-        return plan.record.GetPriorityOrNull().value_or(_engine.options.defaultPriority);
-    };
-    for (ActivePlan* plan = _engine.plans.FindNextStoredOrNull(nullptr);
-         plan != nullptr && !free.IsEmpty() && seen < MOST_PLANS;
-         plan = _engine.plans.FindNextStoredOrNull(plan))
+    QueuePass pass(_engine, _coordinator.GetVisits(), _dispatcher, free);
+    while (const std::optional<QueuePass::Choice> choice = pass.FindNextOrNull())
     {
-        ++seen;
-        const bool bTaken = stations.FindTakenOrNull(*plan).has_value();
-        if (stations.IsReserved(*plan) || (bTaken && taken == MOST_TAKEN))
-        {
-            stations.PassOver(*plan);
-            continue;
-        }
-        // A plan of another priority does not get the robot of one that is before it.
-        std::erase_if(passedOver, [&free, &getPriority, plan](const auto& before) {
-            const bool bKept = getPriority(*before.first) != getPriority(*plan);
-            if (bKept)
-            {
-                free.Remove(*before.second);
-            }
-            return bKept;
-        });
-        const std::vector<Robot*>& robots = free.List(plan->resolved.candidates);
-        Robot* const robotOrNull = robots.empty() ? nullptr : _dispatcher.FindNearestOrNull(*plan, robots);
-        if (robotOrNull != nullptr && stations.CanBegin(*plan, *robotOrNull))
-        {
-            _work.GetAssignment().Offer(*plan, *robotOrNull);
-            free.Remove(*robotOrNull);
-            stations.Add(*plan, *robotOrNull);
-        }
-        else if (robotOrNull != nullptr)
-        {
-            stations.PassOver(*plan);
-            passedOver.emplace_back(plan, robotOrNull);
-            ++taken;
-        }
+        _work.GetAssignment().Offer(choice->plan, choice->robot);
     }
 }
 

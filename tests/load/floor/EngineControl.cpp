@@ -7,8 +7,20 @@ namespace ACS::Testing
 
 using namespace Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 
-EngineControl::EngineControl(const Floor& floor, std::size_t vehicles)
-    : _engine(MakeEngineOptions(floor, vehicles), floor.site, _random)
+namespace
+{
+
+EngineOptions MakeOptions(const Floor& floor, std::size_t vehicles, std::chrono::milliseconds overtaking)
+{
+    EngineOptions options = MakeEngineOptions(floor, vehicles);
+    options.queueOvertaking = overtaking;
+    return options;
+}
+
+} // namespace
+
+EngineControl::EngineControl(const Floor& floor, std::size_t vehicles, std::chrono::milliseconds overtaking)
+    : _engine(MakeOptions(floor, vehicles, overtaking), floor.site, _random)
 {
 }
 

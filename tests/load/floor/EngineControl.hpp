@@ -5,6 +5,9 @@
 #include "SeededRandom.hpp"
 #include <acs/plan/PlanEngine.hpp>
 
+#include <chrono>
+#include <cstddef>
+
 namespace ACS::Testing
 {
 
@@ -15,7 +18,8 @@ class EngineControl final : public IFleetControl
     Planning::PlanEngine _engine;
 
 public:
-    EngineControl(const Floor& floor, std::size_t vehicles);
+    /// Overtaking is EngineOptions::queueOvertaking.
+    EngineControl(const Floor& floor, std::size_t vehicles, std::chrono::milliseconds overtaking = {});
 
     void Submit(Planning::Plan plan, std::uint64_t number, Core::Now now, Planning::EngineActions& out) override;
     void OnEvent(

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <functional>
 #include <memory>
@@ -32,6 +33,7 @@ struct Options
     std::string only;                                           ///< Of the floors; empty: all.
     std::size_t transportsEach = 25;                            ///< Of a vehicle.
     std::uint64_t seed = 1;
+    std::uint64_t overtakingSeconds = 0; ///< EngineOptions::queueOvertaking.
 };
 
 struct Outcome
@@ -132,7 +134,9 @@ bool TryRow(const Floor& floor, std::size_t density, const Options& options)
     const FleetOptions fleet = MakeFleet(floor, density, options);
     const FloorBound bound =
         FindBound(floor, MakeDemands(floor, fleet.seed, fleet.transports, fleet.priorities), fleet.vehicles);
-    const Outcome engine = Run(floor, fleet, &Make<EngineControl>);
+    const Outcome engine = Run(floor, fleet, [&options](const Floor& ofEngine, std::size_t vehicles) {
+        return std::make_unique<EngineControl>(ofEngine, vehicles, std::chrono::seconds(options.overtakingSeconds));
+    });
     const Outcome zone = Run(floor, fleet, &Make<ZoneControl>);
     const Outcome ordered = Run(floor, fleet, &Make<OrderedControl>);
     fmt::print(
@@ -219,6 +223,9 @@ int main(int argc, char** argv)
             ->check(CLI::Range(1, 10'000))
             ->capture_default_str();
         app.add_option("--seed", options.seed, "Of the transports")->capture_default_str();
+        app.add_option("--overtaking", options.overtakingSeconds, "queue.overtaking of the engine, in seconds")
+            ->check(CLI::Range(0, 86'400))
+            ->capture_default_str();
         const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);
         return exitCode.has_value() ? *exitCode : Testing::RunAll(options);
     });

@@ -18,6 +18,7 @@ constexpr std::uint64_t SCENARIO_PART = 1;
 constexpr std::uint64_t ARM_PART = 2; ///< Whether a run has arms: separate from the other random numbers.
 constexpr std::uint64_t LEASE_PART = 900;
 constexpr std::uint64_t SERVICE_PART = 3; ///< Maintenance and batteries, likewise.
+constexpr std::uint64_t QUEUE_PART = 4;   ///< The order of the queue, likewise.
 constexpr double SPACING = 2.0;
 
 /// Nodes and edges for both types of vehicles.
@@ -221,6 +222,10 @@ void ChooseOptions(Scenario& scenario, ChanceModel& chance)
     options.baseLength = chance.GetBetween(1, 4);
     options.bInitialPendingReported = chance.IsHit(200);
     options.bLowerPriorityFirst = chance.IsHit(200);
+    if (ChanceModel({scenario.seed, QUEUE_PART}).IsHit(300))
+    {
+        options.queueOvertaking = std::chrono::minutes(2);
+    }
     options.controls.cancelUntil = static_cast<Planning::ECancelWindow>(chance.GetBelow(3));
     options.controls.bPausesAfterJob = chance.IsHit(250);
     options.controls.bAbortStopsJob = chance.IsHit(250);

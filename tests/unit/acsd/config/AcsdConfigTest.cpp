@@ -374,6 +374,7 @@ TEST_CASE("The keys of the decision register have its defaults, in the example f
         CHECK(config.engine.defaultPriority == 0);
         CHECK_FALSE(config.engine.bLowerPriorityFirst);
         CHECK(config.engine.queueAgeing == std::chrono::minutes(10));
+        CHECK(config.engine.queueOvertaking == std::chrono::minutes(0));
         CHECK_FALSE(config.engine.bFinishedIDsReused);
         CHECK_FALSE(config.engine.bInitialPendingReported);
         CHECK_FALSE(config.engine.bTscStartsPaused);
@@ -400,6 +401,7 @@ TEST_CASE("The keys of the decision register are read")
          "queue.priority_order=lower_first",
          "queue.default_priority=-3",
          "queue.ageing=1m",
+         "queue.overtaking=2m",
          "plan.reuse_finished_id=true",
          "tsc.initial=paused",
          "tsc.paused_accepts_plans=false",
@@ -429,6 +431,7 @@ TEST_CASE("The keys of the decision register are read")
     CHECK(config.engine.bLowerPriorityFirst);
     CHECK(config.engine.defaultPriority == -3);
     CHECK(config.engine.queueAgeing == std::chrono::minutes(1));
+    CHECK(config.engine.queueOvertaking == std::chrono::minutes(2));
     CHECK(config.engine.bFinishedIDsReused);
     CHECK(config.engine.bTscStartsPaused);
     CHECK_FALSE(config.engine.bTscPausedAcceptsPlans);
