@@ -102,7 +102,7 @@ void AcsdService::BeStandby()
         Apps::LoopWatchdog::Options{_config.operations.stallLimit, _dependencies.aliveInterval},
         Apps::LoopWatchdog::Handlers{{}, _dependencies.onAlive});
     _watchdog->Start();
-    _keeper->StartAfter(std::exchange(_pause, {}), std::exchange(_storeFault, {}));
+    _keeper->Start(std::exchange(_pause, {}), std::exchange(_storeFault, {}));
 }
 
 /// The lease is renewed while the store is read, however long that takes.

@@ -7,8 +7,7 @@
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/plan/ILease.hpp>
-#include <acs/plan/LeaseTerm.hpp>
-#include <acs/plan/LeaseWatch.hpp>
+#include <acs/plan/LeaseMachine.hpp>
 
 #include <boost/asio/any_io_executor.hpp>
 
@@ -16,14 +15,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 
 namespace ACS::Acsd
 {
 
-/// Takes the lease of a shared store when it is free, and renews it until it is released or lost. The store is asked in a thread of
-/// its own; everything else runs on the executor's thread.
+/// A LeaseMachine with the lease of a store, which is asked in a thread of its own; everything else runs on the executor's thread.
 class LeaseKeeper final
 {
 public:
@@ -46,36 +43,14 @@ public:
     };
 
 private:
-    enum class EState : std::uint8_t
-    {
-        Watching,
-        Leading,
-        Ended
-    };
-
-    enum class ETimer : std::uint8_t
-    {
-        Read,
-        Renew,
-        End
-    };
-
     Dependencies _dependencies;
     Planning::LeaseClaim _claim;
     Handlers _handlers;
-    Planning::LeaseWatch _watch;
     std::shared_ptr<std::atomic<bool>> _stopping; ///< Ends the call that is under way.
     ResourceThread<Planning::ILease> _lease;
-    Apps::TimerSet<ETimer> _timers;
-    EState _state = EState::Watching;
-    std::uint64_t _epoch = 0;
-    std::optional<Planning::LeaseTerm> _term;
-    std::string _fault;       ///< Why the store could not be asked the last time; empty: it could.
-    std::string _pauseReason; ///< Of StartAfter.
-    Core::SteadyTime _pauseEnd{};
-    bool _bRenewing = false;
-    bool _bTaking = false;
-    std::function<void()> _onReleased; ///< Of ReleaseAsync, while the lease is being taken.
+    Apps::TimerSet<Planning::ELeaseTimer> _timers;
+    Planning::LeaseMachine _machine;
+    std::function<void()> _onReleased; ///< Of ReleaseAsync.
 
 public:
     /// The clock, the sink of the logger and the guard outlive it.
@@ -86,11 +61,9 @@ public:
     /// Ends the call of the store that is under way. Calls no handler any more.
     ~LeaseKeeper();
 
-    void Start();
-
-    /// Likewise, for a process that could not use the store: does not take the lease before the pause has ended. The reason is shown
-    /// while no other process leads.
-    void StartAfter(Core::Duration pause, std::string reason);
+    /// The lease is not taken before the pause has ended: for a process that could not use the store. The reason is shown while no other
+    /// process leads.
+    void Start(Core::Duration pause = {}, std::string reason = {});
 
     /// Ends: a lease that is held is released, then the handler is called, later. Call it when nothing is commanded any more.
     void ReleaseAsync(std::function<void()> handler);
@@ -102,20 +75,19 @@ public:
     [[nodiscard]] std::string GetPublicReason() const;
 
 private:
-    void OnTimer(ETimer timer);
-    void Read();
-    void OnRead(const Core::Result<Planning::LeaseState>& state);
-    void Take(const Planning::LeaseState& seen);
-    void OnTaken(const Core::Result<std::optional<std::uint64_t>>& taken, Core::SteadyTime askedAt);
-    void Renew();
-    void OnRenewed(const Core::Result<bool>& renewed, Core::SteadyTime askedAt);
-    [[nodiscard]] bool HasEnded();
-    void Extend();
-    void ReadLater();
-    void ReleaseTaken(std::uint64_t epoch, std::function<void()> handler);
-    void SetFault(std::string fault);
-    [[nodiscard]] std::string GetStoreFault() const;
-    void Lose(const std::string& reason);
+    /// Carries out what the machine asks for.
+    void Execute(const Planning::LeaseActions& actions);
+    void Execute(const Planning::ReadLease& action);
+    void Execute(const Planning::TakeLease& action);
+    void Execute(const Planning::RenewLease& action);
+    void Execute(const Planning::ReleaseLease& action);
+    void Execute(const Planning::StartLeaseTimer& action);
+    void Execute(const Planning::LeaseExtended& action);
+    void Execute(const Planning::LeaseTaken& action);
+    void Execute(const Planning::LeaseLost& action);
+    void Execute(const Planning::LeaseFault& action);
+    void Execute(const Planning::LeaseEnded& action);
+    [[nodiscard]] Core::SteadyTime GetNow() const;
 };
 
 } // namespace ACS::Acsd

@@ -12,7 +12,7 @@ namespace ACS::Planning
 namespace
 {
 
-constexpr double NEVER = std::numeric_limits<double>::infinity();
+constexpr double NO_DEPARTURE = std::numeric_limits<double>::infinity();
 
 } // namespace
 
@@ -51,7 +51,7 @@ std::vector<Visit> VisitForecast::ListVisits(const Robot& robot, const ActivePla
     std::vector<Visit> visits;
     const std::vector<ResolvedStep>& steps = plan.resolved.steps;
     std::optional<std::size_t> from = robot.place.node;
-    double time = robot.IsUsable() ? 0 : NEVER;
+    double time = robot.IsUsable() ? 0 : NO_DEPARTURE;
     for (std::size_t i = plan.step; i < std::min(steps.size(), plan.step + STEPS) && from.has_value(); ++i)
     {
         const std::optional<std::size_t> dock =
@@ -76,7 +76,7 @@ double VisitForecast::GetDeparture(const Robot& robot, std::size_t dock) const
     const bool bLeaves = robot.drive.has_value() && robot.drive->nodes.back() != dock;
     if (!robot.IsUsable() || robot.planOrNull == nullptr)
     {
-        return robot.IsUsable() && bLeaves ? 0 : NEVER;
+        return robot.IsUsable() && bLeaves ? 0 : NO_DEPARTURE;
     }
     const ActivePlan& plan = *robot.planOrNull;
     const std::vector<Visit> visits = ListVisits(robot, plan);
@@ -89,7 +89,7 @@ double VisitForecast::GetDeparture(const Robot& robot, std::size_t dock) const
             departure = visits[i].departure;
         }
     }
-    return departure.value_or(bLeaves ? 0 : NEVER);
+    return departure.value_or(bLeaves ? 0 : NO_DEPARTURE);
 }
 
 } // namespace ACS::Planning

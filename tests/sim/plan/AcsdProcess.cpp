@@ -38,7 +38,11 @@ Acsd::AcsdConfig AcsdProcess::MakeConfig(const Scenario& scenario)
     return config;
 }
 
-AcsdProcess::AcsdProcess(const Dependencies& around, CrashHandler onCrash, CommitHandler onCommit)
+AcsdProcess::AcsdProcess(
+    const Dependencies& around,
+    std::unique_ptr<SimulatedLease> leaseOrNull,
+    CrashHandler onCrash,
+    CommitHandler onCommit)
     : _around(around),
       _onCrash(std::move(onCrash)),
       _bCrashing(_around.scenario.Has(EFault::Crashes)),
@@ -56,7 +60,8 @@ AcsdProcess::AcsdProcess(const Dependencies& around, CrashHandler onCrash, Commi
            _mutator,
            *this,
            _around.epoch,
-           std::move(onCommit)})
+           std::move(onCommit)},
+          std::move(leaseOrNull))
 {
 }
 
@@ -93,7 +98,6 @@ void AcsdProcess::Begin()
                 OnRobotEvent(robotID, event);
             }));
     }
-    _disk.Begin();
     _core.Restore(_mutator.OnRestore(_around.store.Load()));
     if (_bDead)
     {

@@ -50,7 +50,7 @@ public:
         const Scenario& scenario;
         EMutation mutation = EMutation::None;
         std::uint64_t number = 0; ///< The number of this start.
-        std::uint64_t epoch = 0;  ///< With which it has taken the lease of the store.
+        std::uint64_t epoch = 0;  ///< With which it has taken the lease of a shared store.
         /// Receives the inputs and outputs of the core; may be empty.
         Acsd::CoreRecorder::RecordHandler onRecord = {};
     };
@@ -81,7 +81,12 @@ private:
     ProcessStore _disk;
 
 public:
-    AcsdProcess(const Dependencies& around, CrashHandler onCrash, CommitHandler onCommit);
+    /// With the lease of a shared store, which is taken.
+    AcsdProcess(
+        const Dependencies& around,
+        std::unique_ptr<SimulatedLease> leaseOrNull,
+        CrashHandler onCrash,
+        CommitHandler onCommit);
     AcsdProcess(const AcsdProcess&) = delete;
     AcsdProcess& operator=(const AcsdProcess&) = delete;
     ~AcsdProcess() override;

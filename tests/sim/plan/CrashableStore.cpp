@@ -8,31 +8,67 @@
 namespace ACS::Simulation
 {
 
+namespace
+{
+
+tl::unexpected<Core::Error> MakeDiskFault()
+{
+    return Core::Fail(Planning::EPlanningError::StoreFailed, "acsd.db", "room", "disk full");
+}
+
+} // namespace
+
 CrashableStore::CrashableStore(bool bEpochChecked)
     : _bEpochChecked(bEpochChecked)
 {
 }
 
-const Planning::LeaseState& CrashableStore::GetLease() const noexcept
+Core::Result<Planning::LeaseState> CrashableStore::ReadLease() const
 {
     return _lease;
 }
 
-std::uint64_t CrashableStore::Take(Core::Duration duration)
+Core::Result<std::optional<std::uint64_t>> CrashableStore::TryTakeOrNull(
+    const Planning::LeaseState& seen,
+    std::chrono::milliseconds duration)
 {
-    const auto milliseconds = std::chrono::duration_cast<std::chrono::milliseconds>(duration);
-    _lease = {_lease.epoch + 1, 0, "acsd", "", milliseconds, false};
+    if (bFails)
+    {
+        return MakeDiskFault();
+    }
+    if (seen != _lease)
+    {
+        return std::nullopt;
+    }
+    _lease = {_lease.epoch + 1, 0, "acsd", "", duration, false};
     return _lease.epoch;
 }
 
-bool CrashableStore::TryRenew(std::uint64_t epoch)
+Core::Result<bool> CrashableStore::TryRenew(std::uint64_t epoch)
 {
-    if (bFails || epoch != _lease.epoch)
+    if (bFails)
+    {
+        return MakeDiskFault();
+    }
+    if (epoch != _lease.epoch)
     {
         return false;
     }
     ++_lease.renewal;
     return true;
+}
+
+Core::Result<void> CrashableStore::Release(std::uint64_t epoch)
+{
+    if (bFails)
+    {
+        return MakeDiskFault();
+    }
+    if (epoch == _lease.epoch)
+    {
+        _lease.bReleased = true;
+    }
+    return {};
 }
 
 Core::Result<void> CrashableStore::Commit(const Planning::StoreBatch& batch, std::uint64_t epoch)
@@ -43,7 +79,7 @@ Core::Result<void> CrashableStore::Commit(const Planning::StoreBatch& batch, std
     }
     if (bFails)
     {
-        return Core::Fail(Planning::EPlanningError::StoreFailed, "acsd.db", "room", "disk full");
+        return MakeDiskFault();
     }
     for (const Planning::StoreChange& change : batch.changes)
     {

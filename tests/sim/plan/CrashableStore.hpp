@@ -31,10 +31,13 @@ public:
     /// bEpochChecked: not with the mutation that accepts every epoch.
     explicit CrashableStore(bool bEpochChecked);
 
-    [[nodiscard]] const Planning::LeaseState& GetLease() const noexcept;
-    /// Takes the lease. Returns the new epoch.
-    [[nodiscard]] std::uint64_t Take(Core::Duration duration);
-    [[nodiscard]] bool TryRenew(std::uint64_t epoch);
+    /// As those of ILease.
+    [[nodiscard]] Core::Result<Planning::LeaseState> ReadLease() const;
+    [[nodiscard]] Core::Result<std::optional<std::uint64_t>> TryTakeOrNull(
+        const Planning::LeaseState& seen,
+        std::chrono::milliseconds duration);
+    [[nodiscard]] Core::Result<bool> TryRenew(std::uint64_t epoch);
+    [[nodiscard]] Core::Result<void> Release(std::uint64_t epoch);
 
     /// Called when the batch is on the disk. Fails with StoreTaken for an epoch of a former leader.
     [[nodiscard]] Core::Result<void> Commit(const Planning::StoreBatch& batch, std::uint64_t epoch);

@@ -9,24 +9,29 @@ namespace ACS::Simulation
 
 using namespace std::chrono_literals;
 
-ProcessStore::ProcessStore(Dependencies around)
+ProcessStore::ProcessStore(Dependencies around, std::unique_ptr<SimulatedLease> leaseOrNull)
     : _around(std::move(around)),
-      _timers(_around.timeline)
+      _timers(_around.timeline),
+      _leaseOrNull(std::move(leaseOrNull))
 {
-}
-
-void ProcessStore::Begin()
-{
-    if (_around.scenario.bShared)
+    if (_leaseOrNull != nullptr)
     {
-        _term.emplace(LEASE, _around.timeline.GetNow().steady);
-        RenewLease();
+        _leaseOrNull->SetOnLost([this] {
+            if (!_around.mutator.Is(EMutation::LeaseEndIgnored))
+            {
+                _around.owner.Crash("because its lease has ended");
+            }
+        });
     }
 }
 
 void ProcessStore::End()
 {
     _timers.CancelAll();
+    if (_leaseOrNull != nullptr)
+    {
+        _leaseOrNull->End();
+    }
     if (!_writing.has_value())
     {
         return;
@@ -142,29 +147,13 @@ void ProcessStore::LeaveOnItsWay(const Planning::StoreBatch& batch)
 
 void ProcessStore::CutOff()
 {
-    _around.trace.Add("acsd: cut off from the store");
     _bCutOff = true;
-}
-
-void ProcessStore::RenewLease()
-{
-    const Core::SteadyTime now = _around.timeline.GetNow().steady;
-    if (!_term->IsHeld(now) && !_around.mutator.Is(EMutation::LeaseEndIgnored))
-    {
-        _around.owner.Crash("because its lease has ended");
-        return;
-    }
-    if (!_bCutOff && _around.store.TryRenew(_around.epoch))
-    {
-        _term->OnRenewed(now);
-    }
-    _timers.Post(_term->GetRenewInterval(), [this] { RenewLease(); });
+    _leaseOrNull->CutOff();
 }
 
 bool ProcessStore::CanCommand() const
 {
-    return !_term.has_value() || _around.mutator.Is(EMutation::LeaseEndIgnored)
-        || _term->IsHeld(_around.timeline.GetNow().steady);
+    return _leaseOrNull == nullptr || _around.mutator.Is(EMutation::LeaseEndIgnored) || _leaseOrNull->IsHeld();
 }
 
 } // namespace ACS::Simulation

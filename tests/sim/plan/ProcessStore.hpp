@@ -4,17 +4,18 @@
 #include "CrashableStore.hpp"
 #include "Mutator.hpp"
 #include "Scenario.hpp"
+#include "SimulatedLease.hpp"
 #include "Timeline.hpp"
 #include "TimerBank.hpp"
 #include "Trace.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/plan/IPlanStore.hpp>
-#include <acs/plan/LeaseTerm.hpp>
 
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string_view>
 
@@ -36,7 +37,7 @@ public:
     virtual void OnStored(const Core::Result<void>& result) = 0;
 };
 
-/// The store as one acsd uses it: writes take time, and fail. With a shared store also the lease, as LeaseKeeper and LeaderStore.
+/// The store as one acsd uses it: writes take time, and fail. A shared store is used as LeaderStore does.
 class ProcessStore final
 {
 public:
@@ -50,12 +51,9 @@ public:
         const Scenario& scenario;
         const Mutator& mutator;
         IStoreOwner& owner;
-        std::uint64_t epoch = 0;        ///< With which the process has taken the lease.
+        std::uint64_t epoch = 0;        ///< With which the process has taken the lease; 0: the store is not shared.
         std::function<void()> onCommit; ///< Called after each batch that is on the disk.
     };
-
-    /// Of a shared store.
-    static constexpr std::chrono::milliseconds LEASE{3'000};
 
 private:
     enum class ETimer : std::uint8_t
@@ -66,14 +64,12 @@ private:
     Dependencies _around;
     TimerBank<ETimer> _timers;
     std::optional<Planning::StoreBatch> _writing; ///< Being written to the disk.
-    std::optional<Planning::LeaseTerm> _term;     ///< Of a shared store.
+    std::unique_ptr<SimulatedLease> _leaseOrNull; ///< Of a shared store.
     bool _bCutOff = false;                        ///< From the shared store.
 
 public:
-    explicit ProcessStore(Dependencies around);
-
-    /// Begins to renew the lease of a shared store.
-    void Begin();
+    /// With the lease of a shared store, which is taken.
+    ProcessStore(Dependencies around, std::unique_ptr<SimulatedLease> leaseOrNull);
 
     /// The process has crashed: what is being written is stored or not, and in a shared store perhaps later.
     void End();
@@ -91,7 +87,6 @@ private:
     [[nodiscard]] Core::Result<void> TryCommit(const Planning::StoreBatch& batch);
     void CommitShared(Core::Duration retry);
     void LeaveOnItsWay(const Planning::StoreBatch& batch);
-    void RenewLease();
 };
 
 } // namespace ACS::Simulation

@@ -28,6 +28,7 @@ constexpr std::uint64_t FAULT_PART = 303;
 constexpr std::uint64_t ROBOT_PART = 304;
 constexpr std::uint64_t BROKER_PART = 305;
 constexpr std::uint64_t OPERATOR_PART = 306;
+constexpr std::uint64_t LEASE_PART = 308;
 constexpr std::uint64_t INTERVENTION_PART = 307; ///< Whether the operator intervenes.
 constexpr std::uint64_t FIRST_ROBOT_PART = 400;
 constexpr std::uint64_t FIRST_RADIO_PART = 500;
@@ -50,6 +51,7 @@ World::World(Scenario scenario, EMutation mutation, bool bPrinting, RecordingHan
       _ownRandom({_scenario.seed, OWN_RANDOM_PART}),
       _faultChance({_scenario.seed, FAULT_PART}),
       _robotChance({_scenario.seed, ROBOT_PART}),
+      _leaseChance({_scenario.seed, LEASE_PART}),
       _store(mutation != EMutation::EpochNotChecked),
       _site(_scenario.MakeSite()),
       _workChecker(_trace, _site, GetHandling(_scenario.robots)),
@@ -81,10 +83,13 @@ std::vector<std::string> World::Run()
         _scenario.options.robots.size(),
         _scenario.planCount);
     AddRobots();
-    StartAcsd();
     if (_scenario.bShared)
     {
-        WatchLease();
+        BeStandby();
+    }
+    else
+    {
+        StartAcsd(0, nullptr);
     }
     _mcs.Begin();
     BeginFaults();
@@ -148,7 +153,7 @@ void World::AddRobots()
     }
 }
 
-void World::StartAcsd()
+void World::StartAcsd(std::uint64_t epoch, std::unique_ptr<SimulatedLease> leaseOrNull)
 {
     ++_starts;
     _former = std::move(_process); // null, unless it ignores the end of its lease
@@ -166,10 +171,11 @@ void World::StartAcsd()
         _scenario,
         _mutation,
         _starts,
-        _store.Take(ProcessStore::LEASE),
+        epoch,
         _onRecording ? _onRecording(_starts) : Acsd::CoreRecorder::RecordHandler()};
     _process = std::make_unique<AcsdProcess>(
         around,
+        std::move(leaseOrNull),
         [this, number = _starts] { OnCrash(number); },
         [this] { _judge.CheckKept(); });
     if (_bSettling)
@@ -217,18 +223,19 @@ void World::OnCrash(std::uint64_t number)
     }
     _behaviours.Post(0ms, [this] { _process.reset(); });
     _behaviours.Start(EBehaviour::Restart, _faultChance.GetBetween(1ms, _faultChance.IsHit(300) ? 30s : 2s), [this] {
-        StartAcsd();
+        StartAcsd(0, nullptr);
     });
 }
 
-/// The standby reads the lease of the shared store and takes it when it has ended.
-void World::WatchLease()
+/// There is always one standby, which becomes the leader when it has taken the lease.
+void World::BeStandby()
 {
-    if (_watch.ShouldTake(_store.GetLease(), _timeline.GetNow().steady))
-    {
-        StartAcsd();
-    }
-    _behaviours.Start(EBehaviour::Standby, ProcessStore::LEASE / 12, [this] { WatchLease(); });
+    const SimulatedLease::Dependencies around{_timeline, _trace, _leaseChance, _store, _scenario};
+    _standby = std::make_unique<SimulatedLease>(around, [this](std::uint64_t epoch) {
+        StartAcsd(epoch, std::move(_standby));
+        BeStandby();
+    });
+    _standby->Start();
 }
 
 void World::CutOffSometime()

@@ -15,7 +15,6 @@
 #include "TimerBank.hpp"
 #include "Trace.hpp"
 #include "WorkChecker.hpp"
-#include <acs/plan/LeaseWatch.hpp>
 
 #include <functional>
 #include <map>
@@ -43,7 +42,6 @@ private:
         Crash,
         Operator,
         Broker,
-        Standby,
         Partition,
         EndFaults,
         Watch,
@@ -57,6 +55,7 @@ private:
     ChanceModel _ownRandom;   ///< For acsd's ids.
     ChanceModel _faultChance; ///< For faults from outside.
     ChanceModel _robotChance; ///< For events of robots.
+    ChanceModel _leaseChance; ///< For latencies of the lease.
     CrashableStore _store;
     Planning::SiteMap _site;
     WorkChecker _workChecker;
@@ -69,8 +68,8 @@ private:
     TimerBank<std::string> _robotBehaviours;
     TimerBank<std::string> _radioBehaviours;
     std::unique_ptr<AcsdProcess> _process;
-    std::unique_ptr<AcsdProcess> _former;       ///< A leader that has not ended in time, by a mutation.
-    Planning::LeaseWatch _watch{std::string()}; ///< Of the standby.
+    std::unique_ptr<AcsdProcess> _former;     ///< A leader that has not ended in time, by a mutation.
+    std::unique_ptr<SimulatedLease> _standby; ///< Of a shared store.
     OperatorSimulator _operator;
     RecordingHandler _onRecording; ///< May be empty.
     std::uint64_t _starts = 0;
@@ -89,10 +88,11 @@ public:
 
 private:
     void AddRobots();
-    void StartAcsd();
+    /// With the lease of a shared store.
+    void StartAcsd(std::uint64_t epoch, std::unique_ptr<SimulatedLease> leaseOrNull);
     void BringIntoReach();
     void OnCrash(std::uint64_t number);
-    void WatchLease();
+    void BeStandby();
     void CutOffSometime();
     void BeginFaults();
     void EndFaults();

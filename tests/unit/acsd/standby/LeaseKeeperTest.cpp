@@ -300,7 +300,7 @@ TEST_CASE_METHOD(LeaseKeeperFixture, "A lease that can be read and not taken is 
 
 TEST_CASE_METHOD(LeaseKeeperFixture, "A process that could not use the store pauses before it takes the lease again")
 {
-    keeper->StartAfter(std::chrono::seconds(6), "the table reports is missing");
+    keeper->Start(std::chrono::seconds(6), "the table reports is missing");
     CHECK_THAT(keeper->GetWaitReason(), Catch::Contains("cannot be used: the table reports is missing"));
     SECTION("no other process leads")
     {

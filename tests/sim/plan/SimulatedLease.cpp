@@ -1,0 +1,164 @@
+#include "SimulatedLease.hpp"
+
+#include <acs/plan/EPlanningError.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <variant>
+
+namespace ACS::Simulation
+{
+
+using namespace Planning; // NOLINT(google-build-using-namespace): what is simulated
+using namespace std::chrono_literals;
+
+SimulatedLease::SimulatedLease(Dependencies around, std::function<void(std::uint64_t epoch)> onTaken)
+    : _around(around),
+      _onTaken(std::move(onTaken)),
+      _timers(_around.timeline),
+      _machine(LeaseClaim{"acsd", {}, DURATION})
+{
+}
+
+void SimulatedLease::Start()
+{
+    LeaseActions actions;
+    _machine.Start({}, {}, GetNow(), actions);
+    Execute(actions);
+}
+
+void SimulatedLease::SetOnLost(std::function<void()> onLost)
+{
+    _onLost = std::move(onLost);
+}
+
+void SimulatedLease::CutOff()
+{
+    _around.trace.Add("acsd: cut off from the store");
+    _connection = EConnection::CutOff;
+}
+
+void SimulatedLease::End()
+{
+    _timers.CancelAll();
+}
+
+bool SimulatedLease::IsHeld() const
+{
+    return GetNow() < _heldUntil;
+}
+
+void SimulatedLease::Execute(const LeaseActions& actions)
+{
+    for (const LeaseAction& action : actions)
+    {
+        std::visit([this](const auto& kind) { Execute(kind); }, action);
+    }
+}
+
+void SimulatedLease::Execute(const ReadLease& /*action*/)
+{
+    Call(
+        [](CrashableStore& store) { return store.ReadLease(); },
+        [](LeaseMachine& machine, const Core::Result<LeaseState>& state, Core::SteadyTime now, LeaseActions& out) {
+            machine.OnRead(state, now, out);
+        });
+}
+
+void SimulatedLease::Execute(const TakeLease& action)
+{
+    Call(
+        [seen = action.seen](CrashableStore& store) { return store.TryTakeOrNull(seen, DURATION); },
+        [](LeaseMachine& machine,
+           const Core::Result<std::optional<std::uint64_t>>& taken,
+           Core::SteadyTime now,
+           LeaseActions& out) { machine.OnTaken(taken, now, out); });
+}
+
+void SimulatedLease::Execute(const RenewLease& action)
+{
+    Call(
+        [epoch = action.epoch](CrashableStore& store) { return store.TryRenew(epoch); },
+        [](LeaseMachine& machine, const Core::Result<bool>& renewed, Core::SteadyTime now, LeaseActions& out) {
+            machine.OnRenewed(renewed, now, out);
+        });
+}
+
+void SimulatedLease::Execute(const ReleaseLease& action)
+{
+    Call(
+        [epoch = action.epoch](CrashableStore& store) { return store.Release(epoch); },
+        [](LeaseMachine& machine, const Core::Result<void>& /*released*/, Core::SteadyTime /*now*/, LeaseActions& out) {
+            machine.OnReleased(out);
+        });
+}
+
+void SimulatedLease::Execute(const StartLeaseTimer& action)
+{
+    _timers.Start(action.timer, action.delay, [this, timer = action.timer] {
+        LeaseActions actions;
+        _machine.OnTimer(timer, GetNow(), actions);
+        Execute(actions);
+    });
+}
+
+void SimulatedLease::Execute(const LeaseExtended& action)
+{
+    _heldUntil = action.end;
+}
+
+void SimulatedLease::Execute(const LeaseTaken& action)
+{
+    const auto onTaken = std::exchange(_onTaken, {});
+    onTaken(action.epoch);
+}
+
+void SimulatedLease::Execute(const LeaseLost& action)
+{
+    _around.trace.Add("acsd: the lease is lost: {}", action.reason);
+    _heldUntil = {};
+    _timers.CancelAll();
+    _onLost();
+}
+
+void SimulatedLease::Execute(const LeaseFault& action)
+{
+    _around.trace.Add("acsd: the lease: {}", action.reason);
+}
+
+void SimulatedLease::Execute(const LeaseEnded& /*action*/)
+{
+}
+
+template <typename TCall, typename TAnswer>
+void SimulatedLease::Call(TCall call, TAnswer answer)
+{
+    using Answer = std::invoke_result_t<TCall, CrashableStore&>;
+    const Core::SteadyTime calledAt = std::max(GetNow(), _answeredAt) + ChooseLatency();
+    const Core::Duration back = ChooseLatency();
+    _answeredAt = calledAt + back;
+    _timers.Post(calledAt - GetNow(), [this, call = std::move(call), answer = std::move(answer), back] {
+        Answer result = _connection == EConnection::CutOff
+            ? Answer(Core::Fail(EPlanningError::StoreFailed, "acsd.db", "a connection", "none"))
+            : call(_around.store);
+        _timers.Post(back, [this, answer, result = std::move(result)] {
+            LeaseActions actions;
+            answer(_machine, result, GetNow(), actions);
+            Execute(actions);
+        });
+    });
+}
+
+Core::Duration SimulatedLease::ChooseLatency()
+{
+    const bool bFaulty = _around.scenario.Has(EFault::Disk) && _around.timeline.GetAge() < _around.scenario.faultsEnd;
+    return _around.chance.GetBetween(1ms, bFaulty && _around.chance.IsHit(10) ? 4s : 20ms);
+}
+
+Core::SteadyTime SimulatedLease::GetNow() const
+{
+    return _around.timeline.GetNow().steady;
+}
+
+} // namespace ACS::Simulation
