@@ -283,6 +283,11 @@ class MockAcsd:
             robot.is_in_maintenance = body["on"]
             simulation.changed_robots.add(robot.robot_id)
             return f"Maintenance of {robot.robot_id} is {'on' if body['on'] else 'off'}."
+        if parts[0] == "robots" and parts[2] == "carriers":
+            robot = self.find_robot(parts[1])
+            robot.carrier_ids = body["carrierIds"]
+            simulation.changed_robots.add(robot.robot_id)
+            return f"The ports of {robot.robot_id} are corrected."
         if parts == ["alarms", "clear"]:
             if not simulation.clear_alarms(body["robotId"], body["errorCode"]):
                 raise Refusal(404, f"{body['robotId']} has no alarm {body['errorCode']}.")

@@ -447,6 +447,37 @@ class Alarms(PageCase):
         self.wait_for_text("#strip-tsc", "Auto")
 
 
+    def test_carriers_are_corrected(self):
+        """The record as it is when the dialog opens, and only if something was entered."""
+        mock = self.start_mock()
+        with mock.lock:
+            robot = mock.simulation.robots["LR01"]
+            robot.is_fixed = True
+            robot.carrier_ids = ["C_1"]
+            mock.simulation.changed_robots.add("LR01")
+        self.open("?lang=en#robot/LR01")
+        self.wait_for_text("#detail .ports", "C_1")
+        self.click_button("Correct carriers")
+        self.wait_for_text("#confirm-dialog", "LR01.CP01")
+        self.assertEqual(self.find("#port-0").get_attribute("value"), "C_1")
+        self.click("#confirm-action")  # nothing was entered
+        wait_until(lambda: not self.find("#confirm-dialog").is_displayed(), "the dialog is closed")
+        self.click_button("Correct carriers")
+        self.find("#port-0").send_keys("x" * 129)
+        self.click("#confirm-action")
+        self.assertTrue(self.find("#confirm-dialog").is_displayed(), "an id that is too long is refused")
+        self.find("#port-0").clear()
+        self.find("#port-0").send_keys(" C_2 ", Keys.ENTER)
+        self.assertEqual(self.list_posts(), [])
+        self.press(Keys.ENTER)
+        self.wait_for_post("/v1/robots/LR01/carriers", {"carrierIds": ["C_2"]})
+        self.wait_for_text("#detail .ports", "C_2")
+        self.click_button("Correct carriers")
+        self.find("#port-0").clear()
+        self.click("#confirm-action")
+        wait_until(lambda: [body for _, body, _ in self.list_posts()][1:] == [{"carrierIds": [None]}], "the port is empty")
+        self.wait_for_text("#detail .ports", "empty")
+
     def test_instant_actions(self):
         """They are offered with their parameters, sent after a question, and shown with their outcome."""
         mock = self.start_mock()

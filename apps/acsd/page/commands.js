@@ -2,6 +2,7 @@
 
 import {askAction} from "./action-dialog.js";
 import {post} from "./api.js";
+import {askCarriers} from "./carriers-dialog.js";
 import {askConfirmation, askNumber, showToast} from "./dialogs.js";
 import {make} from "./dom.js";
 import {t} from "./text.js";
@@ -29,6 +30,9 @@ export const Commands = {
     setMaintenance: (robot) => ({label: t(robot.maintenance ? "command.maintenanceOff" : "command.maintenanceOn"),
         path: `/v1/robots/${encode(robot.robotId)}/maintenance`, body: {on: !robot.maintenance},
         ask: robot.maintenance ? "ask.maintenanceOff" : null, values: {id: robot.robotId}}),
+    /** getRobot: the robot when the dialog opens. */
+    setCarriers: (robotId, getRobot) => ({label: t("command.carriers"), path: `/v1/robots/${encode(robotId)}/carriers`, getRobot,
+        values: {id: robotId}}),
     sendAction: (robotId, offer) => ({label: offer.actionType, path: `/v1/robots/${encode(robotId)}/actions`, offer,
         values: {id: robotId, action: offer.actionType}}),
     clearAlarm: (alarm) => ({label: t("command.clear"), path: "/v1/alarms/clear", ask: "ask.clear", body: {
@@ -53,6 +57,10 @@ async function askBody(command) {
     if (command.number !== undefined) {
         const value = await askNumber({title: command.label, label: t("ask.priority", command.values), value: command.value});
         return value === null ? null : {[command.number]: value};
+    }
+    if (command.getRobot !== undefined) {
+        const {ports, carrierIds} = command.getRobot();
+        return askCarriers({title: command.label, text: t("ask.carriers", command.values), ports, carrierIds});
     }
     if (command.offer !== undefined) {
         return askAction({title: command.label, text: t("ask.action", command.values), offer: command.offer});

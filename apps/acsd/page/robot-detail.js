@@ -51,7 +51,11 @@ export class RobotDetail {
             this.#showFacts(robot);
             if (this.isInMaintenance !== robot.maintenance) {
                 this.isInMaintenance = robot.maintenance;
-                this.buttons.replaceChildren(makeCommandButton(Commands.setMaintenance(robot)));
+                const commands = [Commands.setMaintenance(robot)];
+                if (robot.ports.length > 0) {
+                    commands.push(Commands.setCarriers(this.id, () => model.robots.get(this.id) ?? robot));
+                }
+                this.buttons.replaceChildren(...commands.map((command) => makeCommandButton(command)));
             }
         }
     }
