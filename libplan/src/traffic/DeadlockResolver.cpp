@@ -150,30 +150,38 @@ bool DeadlockResolver::TryRetreat(Robot& robot, const Robot& leader)
     return bBegun;
 }
 
-/// To its parking position or, if that is nearer or the way there is not free, to its refuge.
+/// To its parking position or, if that is nearer or the way there is not free, to its refuge. Where that is the target of the leader
+/// and the only place that the robot could go to, to another refuge.
 std::optional<PlannedRoute> DeadlockResolver::PlanRetreatOrNull(const Robot& robot, const Robot& leader)
 {
     const std::optional<std::size_t> parking = robot.parking.GetParkingOrNull();
-    std::optional<PlannedRoute> best;
-    for (const std::optional<std::size_t>& target : {parking, _traffic.FindRefugeOrNull(robot.index)})
+    const std::optional<std::size_t> ofLeader = _waiting.GetTargetOrNull(leader);
+    const std::optional<std::size_t> refuge = _traffic.FindRefugeOrNull(robot.index);
+    std::optional<PlannedRoute> best = PlanRetreatToOrNull(robot, parking);
+    if (refuge == ofLeader && refuge != parking)
     {
-        const bool bGoesThere = robot.drive.has_value() && robot.drive->nodes.back() == target;
-        if (!target.has_value() || bGoesThere || robot.place.IsOn(target) || robot.parking.retreatNode == target
-            || !_coordinator.IsOpenDock(*target) || !_traffic.GetHolders(*target, robot.index).empty()
-            || (target != parking && target == _waiting.GetTargetOrNull(leader)))
-        {
-            continue;
-        }
-        std::optional<PlannedRoute> route =
-            _coordinator.PlanRouteOrNull(robot, *target, [this, &robot](std::size_t node) {
-                return !_traffic.IsOpenFor(node, robot.index);
-            });
-        if (route.has_value() && (!best.has_value() || route->route.travelSeconds < best->route.travelSeconds))
-        {
-            best = std::move(route);
-        }
+        return best.has_value() ? best : PlanRetreatToOrNull(robot, _traffic.FindRefugeOrNull(robot.index, ofLeader));
     }
-    return best;
+    std::optional<PlannedRoute> route = PlanRetreatToOrNull(robot, refuge);
+    const bool bNearer =
+        route.has_value() && (!best.has_value() || route->route.travelSeconds < best->route.travelSeconds);
+    return bNearer ? route : best;
+}
+
+std::optional<PlannedRoute> DeadlockResolver::PlanRetreatToOrNull(
+    const Robot& robot,
+    std::optional<std::size_t> targetOrNull) const
+{
+    const bool bGoesThere = robot.drive.has_value() && robot.drive->nodes.back() == targetOrNull;
+    if (!targetOrNull.has_value() || bGoesThere || robot.place.IsOn(targetOrNull)
+        || robot.parking.retreatNode == targetOrNull || !_coordinator.IsOpenDock(*targetOrNull)
+        || !_traffic.GetHolders(*targetOrNull, robot.index).empty())
+    {
+        return std::nullopt;
+    }
+    return _coordinator.PlanRouteOrNull(robot, *targetOrNull, [this, &robot](std::size_t node) {
+        return !_traffic.IsOpenFor(node, robot.index);
+    });
 }
 
 bool DeadlockResolver::TryStepAside(Robot& robot, const Robot& leader)

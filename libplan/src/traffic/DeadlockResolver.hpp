@@ -53,8 +53,12 @@ private:
     [[nodiscard]] bool TryMakeWay(Robot& leader, const std::vector<Robot*>& stuck);
     /// Sends the robot to its parking position or to a refuge until the leader has arrived.
     [[nodiscard]] bool TryRetreat(Robot& robot, const Robot& leader);
-    /// Sends an idle robot on the leader's route to the nearest station that no planned route uses.
     [[nodiscard]] std::optional<PlannedRoute> PlanRetreatOrNull(const Robot& robot, const Robot& leader);
+    /// Null where the robot cannot retreat to the target.
+    [[nodiscard]] std::optional<PlannedRoute> PlanRetreatToOrNull(
+        const Robot& robot,
+        std::optional<std::size_t> targetOrNull) const;
+    /// Sends an idle robot on the leader's route to the nearest station that no planned route uses.
     [[nodiscard]] bool TryStepAside(Robot& robot, const Robot& leader);
 };
 

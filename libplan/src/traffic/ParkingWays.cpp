@@ -373,19 +373,21 @@ std::optional<std::size_t> ParkingWays::FindRefugeOrNull(
     const Parking& parking,
     std::size_t from,
     const std::vector<std::uint16_t>& covers,
-    ESafeStateScope scope) const
+    ESafeStateScope scope,
+    std::optional<std::size_t> avoidedOrNull) const
 {
     if (!parking.bCanReturn)
     {
         return std::nullopt;
     }
     const std::optional<std::size_t> former = parking.refuges[static_cast<std::size_t>(scope)];
-    if (former.has_value() && IsRefugeFor(parking, *former, scope) && CanGoTo(parking, from, *former, covers, scope))
+    if (former.has_value() && former != avoidedOrNull && IsRefugeFor(parking, *former, scope)
+        && CanGoTo(parking, from, *former, covers, scope))
     {
         return former;
     }
-    const auto isFound = [this, &parking, &covers, from, scope](std::size_t node) {
-        return IsRefugeFor(parking, node, scope) && (node == from || covers[node] == 0)
+    const auto isFound = [this, &parking, &covers, from, scope, avoidedOrNull](std::size_t node) {
+        return node != avoidedOrNull && IsRefugeFor(parking, node, scope) && (node == from || covers[node] == 0)
             && (parking.graphs.size() == 1 || CanGoTo(parking, from, node, covers, scope));
     };
     if (isFound(from))

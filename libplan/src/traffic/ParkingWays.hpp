@@ -108,12 +108,13 @@ public:
         std::size_t from,
         const std::vector<std::uint16_t>& covers,
         ESafeStateScope scope);
-    /// A refuge to which it can go: the one that it has, else the nearest one by the number of nodes.
+    /// A refuge to which it can go, not the avoided one: the one that it has, else the nearest one by the number of nodes.
     [[nodiscard]] std::optional<std::size_t> FindRefugeOrNull(
         const Parking& parking,
         std::size_t from,
         const std::vector<std::uint16_t>& covers,
-        ESafeStateScope scope) const;
+        ESafeStateScope scope,
+        std::optional<std::size_t> avoidedOrNull = std::nullopt) const;
     /// How often a robot has dropped its refuge.
     [[nodiscard]] std::uint64_t GetReleasedCount() const noexcept;
 

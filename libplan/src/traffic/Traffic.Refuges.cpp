@@ -8,7 +8,7 @@
 namespace ACS::Planning
 {
 
-std::optional<std::size_t> Traffic::FindRefugeOrNull(std::size_t robot)
+std::optional<std::size_t> Traffic::FindRefugeOrNull(std::size_t robot, std::optional<std::size_t> avoidedOrNull)
 {
     FindReturns();
     Vehicle& vehicle = _vehicles[robot];
@@ -19,7 +19,8 @@ std::optional<std::size_t> Traffic::FindRefugeOrNull(std::size_t robot)
         return std::nullopt;
     }
     Cover(vehicle, _covers, false);
-    const std::optional<std::size_t> refuge = _ways.FindRefugeOrNull(vehicle.parking, GetEnd(vehicle), _covers, scope);
+    const std::optional<std::size_t> refuge =
+        _ways.FindRefugeOrNull(vehicle.parking, GetEnd(vehicle), _covers, scope, avoidedOrNull);
     Cover(vehicle, _covers, true);
     return refuge;
 }

@@ -181,8 +181,10 @@ public:
     [[nodiscard]] std::vector<std::size_t> GetHolders(std::size_t node, std::size_t robot) const;
     /// Whether the node is a dead end for the vehicle type with any load, so that no route passes through it.
     [[nodiscard]] bool IsSpur(std::string_view vehicleTypeID, std::size_t node) const;
-    /// Where the robot can drive now, to wait there instead of parking.
-    [[nodiscard]] std::optional<std::size_t> FindRefugeOrNull(std::size_t robot);
+    /// Where the robot can drive now, to wait there instead of parking; not the avoided node.
+    [[nodiscard]] std::optional<std::size_t> FindRefugeOrNull(
+        std::size_t robot,
+        std::optional<std::size_t> avoidedOrNull = std::nullopt);
     /// Whether two nodes exclude each other.
     [[nodiscard]] bool IsNear(std::size_t left, std::size_t right) const;
 

@@ -10,6 +10,43 @@ using namespace ACS::Testing;  // NOLINT(google-build-using-namespace): its fixt
 namespace
 {
 
+/// One two-way lane with a dock at each of its nodes. LR01 parks at its right end, CR01 at its left one.
+SiteMap MakeLane()
+{
+    const std::vector<std::string> stations{"CHG02", "A01.CP03", "A01.CP01", "A01.CP02", "A01.CP04", "CHG01"};
+    const SiteMap loop = MakeTestSite();
+    SiteEdge edge = loop.GetEdges().front();
+    std::vector<SiteNode> nodes;
+    std::vector<SiteEdge> edges;
+    std::vector<SiteStation> sites;
+    const auto connect = [&edges, &edge](const std::string& from, const std::string& to) {
+        for (const auto& [start, end] : {std::pair{from, to}, std::pair{to, from}})
+        {
+            edge.edgeID = start + ">" + end;
+            edge.startNodeID = start;
+            edge.endNodeID = end;
+            edges.push_back(edge);
+        }
+    };
+    for (std::size_t i = 0; i < stations.size(); ++i)
+    {
+        SiteNode node = loop.GetNodes().front();
+        node.nodeID = "L" + std::to_string(i);
+        node.x = static_cast<double>(i);
+        nodes.push_back(node);
+        node.nodeID = "D-" + stations[i];
+        node.y += 1;
+        nodes.push_back(node);
+        connect("L" + std::to_string(i), node.nodeID);
+        if (i > 0)
+        {
+            connect("L" + std::to_string(i - 1), "L" + std::to_string(i));
+        }
+        sites.push_back({stations[i], {node.nodeID}});
+    }
+    return *SiteMap::Create(std::move(nodes), std::move(edges), std::move(sites));
+}
+
 /// Each robot is where the other one has its step.
 void Exchange(EngineParts& parts)
 {
@@ -70,6 +107,28 @@ TEST_CASE("DeadlockResolver: the first robot stops yielding where nothing else c
     CHECK_FALSE(round.bMoved);
     CHECK(round.releasedOrNull == &parts.lr);
     CHECK_FALSE(parts.lr.search.yield.has_value());
+}
+
+TEST_CASE("DeadlockResolver: where the nearest refuge is the target of the leader, a robot retreats to the next one")
+{
+    EngineParts parts(MakeTestOptions(false), MakeLane());
+    DeadlockResolver resolver(parts.engine, parts.tsc, parts.places, parts.waiting, parts.coordinator);
+    Plan plan = MakeLogisticsPlan("P2");
+    plan.steps[0].position = "A01.CP02";
+    plan.steps[0].jobs[0].from = "A01.CP02";
+    plan.steps.resize(1);
+    Plan other = MakeControlPlan("P3");
+    other.steps.resize(1);
+    // Head on: each has its target behind the other one, and so has its parking position.
+    parts.PutOn(parts.lr, "L2");
+    parts.PutOn(parts.cr, "L3");
+    parts.assignment.Offer(parts.Add(plan), parts.lr);
+    parts.assignment.Offer(parts.Add(other), parts.cr);
+    REQUIRE(parts.coordinator.TryDrive(parts.lr) == EDriveAttempt::Waits);
+    REQUIRE(parts.coordinator.TryDrive(parts.cr) == EDriveAttempt::Waits);
+    CHECK(resolver.TryResolveDeadlock().bMoved);
+    REQUIRE(parts.cr.drive.has_value());
+    CHECK(parts.cr.parking.retreatNode == parts.FindNode("D-A01.CP04"));
 }
 
 TEST_CASE("DeadlockResolver: an idle robot in its parking position steps aside")
