@@ -101,7 +101,7 @@ Alarm ChargingControl::MakeChargeAlarm(const Robot& robot)
 bool ChargingControl::IsChargeDue(const Robot& robot) const
 {
     return robot.parking.chargeNode.has_value() && robot.planOrNull == nullptr && !robot.drive.has_value()
-        && robot.IsUsable() && robot.place.IsOn(robot.parking.chargeNode)
+        && robot.IsUsable() && !robot.IsStopping() && robot.place.IsOn(robot.parking.chargeNode)
         && robot.view.state->batteryPercent < _options.dispatch.batteryResume;
 }
 

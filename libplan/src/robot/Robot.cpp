@@ -117,7 +117,12 @@ bool Robot::IsUnfit() const
 
 bool Robot::IsFree() const
 {
-    return planOrNull == nullptr && !drive.has_value() && !charging.IsBatteryLow() && IsUsable();
+    return planOrNull == nullptr && !drive.has_value() && !IsStopping() && !charging.IsBatteryLow() && IsUsable();
+}
+
+bool Robot::IsStopping() const
+{
+    return !drive.has_value() && !place.aheadNodes.empty() && view.state.has_value() && view.state->bDriving;
 }
 
 bool Robot::CanAdvance() const

@@ -68,6 +68,8 @@ struct Robot
     [[nodiscard]] bool IsUnfit() const;
     /// Whether a plan may be assigned to it.
     [[nodiscard]] bool IsFree() const;
+    /// Without a drive: whether it still moves on its former route as far as is known, so that its place is not final.
+    [[nodiscard]] bool IsStopping() const;
     /// Whether its drive may be extended. A disconnected robot may still report nodes, and then continues.
     [[nodiscard]] bool CanAdvance() const;
     /// Whether its plan is paused or being paused.

@@ -103,6 +103,11 @@ EDriveAttempt TrafficCoordinator::TryDrive(Robot& robot)
     {
         return EDriveAttempt::Waits;
     }
+    if (robot.IsStopping())
+    {
+        robot.search.blockers.clear();
+        return EDriveAttempt::Waits;
+    }
     // Between two nodes it is not at its target, even if it has just left it.
     if (robot.place.node == target && !_routes.FindLaneOrNull(robot, *target).has_value())
     {
@@ -205,10 +210,10 @@ std::optional<PlannedRoute> TrafficCoordinator::PlanRouteOrNull(
 
 bool TrafficCoordinator::TryBeginDrive(Robot& robot, const PlannedRoute& plannedRoute)
 {
-    if (!robot.place.aheadNodes.empty() && robot.view.state.has_value() && robot.view.state->bDriving)
+    if (robot.IsStopping())
     {
         robot.search.blockers.clear();
-        return false; // the robot is still stopping: its position is not final
+        return false;
     }
     const std::size_t wanted = std::min(_options.baseLength, plannedRoute.nodes.size() - 1);
     const std::size_t granted =

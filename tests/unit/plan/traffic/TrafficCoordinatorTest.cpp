@@ -50,6 +50,35 @@ TEST_CASE("TrafficCoordinator: a robot at its target has retreated")
     CHECK_FALSE(parts.lr.parking.retreatNode.has_value());
 }
 
+TEST_CASE("TrafficCoordinator: a robot that lost its drive while it drove is nowhere before it has stopped")
+{
+    EngineParts parts;
+    parts.PutOn(parts.lr, "D-A01.CP01");
+    const SiteNode& dock = parts.engine.site.GetNodes()[parts.FindNode("D-A01.CP01")];
+    parts.lr.view.state->x = dock.x;
+    parts.lr.view.state->y = dock.y;
+    parts.lr.view.state->bPoseKnown = true;
+    parts.BeginDrive(parts.lr, "D-CHG01");
+    parts.lr.drive->bConfirmed = true;
+    parts.lr.view.state->bDriving = true; // it has reported nothing since it set out
+    parts.coordinator.EndDrive(parts.lr);
+    parts.assignment.Offer(parts.AddLoad(), parts.lr); // from A01.CP01
+    CHECK(parts.coordinator.TryDrive(parts.lr) == EDriveAttempt::Waits);
+    parts.lr.view.state->bDriving = false;
+    SECTION("it has not left")
+    {
+        parts.places.Place(parts.lr);
+        CHECK(parts.coordinator.TryDrive(parts.lr) == EDriveAttempt::AtTarget);
+    }
+    SECTION("it has left")
+    {
+        parts.lr.view.state->y -= 0.7;
+        parts.places.Place(parts.lr);
+        CHECK(parts.coordinator.TryDrive(parts.lr) == EDriveAttempt::Begun);
+        CHECK(parts.lr.drive->route.nodes[1].nodeID == "L03");
+    }
+}
+
 TEST_CASE("TrafficCoordinator: the base is extended as the robot passes nodes, and not while it is cancelling")
 {
     EngineParts parts;
