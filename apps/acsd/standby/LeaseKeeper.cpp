@@ -48,8 +48,6 @@ void LeaseKeeper::Start(Core::Duration pause, std::string reason)
 
 void LeaseKeeper::ReleaseAsync(std::function<void()> handler)
 {
-    _dependencies.guard.End();
-    _timers.CancelAll();
     _onReleased = std::move(handler);
     LeaseActions actions;
     _machine.Release(actions);
@@ -124,6 +122,12 @@ void LeaseKeeper::Execute(const Planning::LeaseExtended& action)
     _dependencies.guard.Extend(action.end);
 }
 
+void LeaseKeeper::Execute(const Planning::LeaseRevoked& /*action*/)
+{
+    _dependencies.guard.End();
+    _timers.CancelAll();
+}
+
 void LeaseKeeper::Execute(const Planning::LeaseTaken& action)
 {
     _dependencies.logger.Info("this process leads", {{"epoch", std::to_string(action.epoch)}});
@@ -132,8 +136,6 @@ void LeaseKeeper::Execute(const Planning::LeaseTaken& action)
 
 void LeaseKeeper::Execute(const Planning::LeaseLost& action)
 {
-    _dependencies.guard.End();
-    _timers.CancelAll();
     _handlers.onLost(action.reason);
 }
 
@@ -144,7 +146,14 @@ void LeaseKeeper::Execute(const Planning::LeaseFault& action)
 
 void LeaseKeeper::Execute(const Planning::LeaseEnded& /*action*/)
 {
-    boost::asio::post(_dependencies.executor, std::exchange(_onReleased, {}));
+    boost::asio::post(
+        _dependencies.executor,
+        [weak = std::weak_ptr(_stopping), handler = std::exchange(_onReleased, {})] {
+            if (!weak.expired())
+            {
+                handler();
+            }
+        });
 }
 
 Core::SteadyTime LeaseKeeper::GetNow() const

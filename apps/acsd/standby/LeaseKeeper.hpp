@@ -46,7 +46,7 @@ private:
     Dependencies _dependencies;
     Planning::LeaseClaim _claim;
     Handlers _handlers;
-    std::shared_ptr<std::atomic<bool>> _stopping; ///< Ends the call that is under way.
+    std::shared_ptr<std::atomic<bool>> _stopping; ///< Ends the call that is under way. Ends with this object.
     ResourceThread<Planning::ILease> _lease;
     Apps::TimerSet<Planning::ELeaseTimer> _timers;
     Planning::LeaseMachine _machine;
@@ -65,7 +65,7 @@ public:
     /// process leads.
     void Start(Core::Duration pause = {}, std::string reason = {});
 
-    /// Ends: a lease that is held is released, then the handler is called, later. Call it when nothing is commanded any more.
+    /// Ends: a lease that is held is released, then the handler is called, later. It replaces a handler that was not called yet.
     void ReleaseAsync(std::function<void()> handler);
 
     /// Why this process does not lead, as one sentence.
@@ -83,6 +83,7 @@ private:
     void Execute(const Planning::ReleaseLease& action);
     void Execute(const Planning::StartLeaseTimer& action);
     void Execute(const Planning::LeaseExtended& action);
+    void Execute(const Planning::LeaseRevoked& action);
     void Execute(const Planning::LeaseTaken& action);
     void Execute(const Planning::LeaseLost& action);
     void Execute(const Planning::LeaseFault& action);

@@ -69,25 +69,26 @@ void LeaseMachine::OnTaken(
     _call = ECall::None;
     SetFault(taken.has_value() ? std::string() : Core::Describe(taken.error()), out);
     const std::optional<std::uint64_t> epochOrNull = taken.value_or(std::nullopt);
-    if (_state == EState::Releasing)
-    {
-        epochOrNull.has_value() ? static_cast<void>(out.emplace_back(ReleaseLease{*epochOrNull})) : OnReleased(out);
-        return;
-    }
-    if (!epochOrNull.has_value())
-    {
-        ReadLater(out);
-        return;
-    }
     const LeaseTerm term(_claim.duration, _askedAt);
-    if (!term.IsHeld(now))
+    if (epochOrNull.has_value() && _state == EState::Watching && term.IsHeld(now))
     {
-        SetFault("it took too long to take the lease", out);
-        out.emplace_back(ReleaseLease{*epochOrNull});
-        ReadLater(out);
+        Lead(*epochOrNull, term, now, out);
         return;
     }
-    Lead(*epochOrNull, term, now, out);
+    if (epochOrNull.has_value())
+    {
+        _call = ECall::Release;
+        out.emplace_back(ReleaseLease{*epochOrNull});
+    }
+    if (_state == EState::Watching)
+    {
+        SetFault(epochOrNull.has_value() ? "it took too long to take the lease" : _fault, out);
+        ReadLater(out);
+    }
+    else if (!epochOrNull.has_value())
+    {
+        End(out);
+    }
 }
 
 void LeaseMachine::Lead(std::uint64_t epoch, const LeaseTerm& term, Core::SteadyTime now, LeaseActions& out)
@@ -112,8 +113,12 @@ void LeaseMachine::Renew(Core::SteadyTime now, LeaseActions& out)
 
 void LeaseMachine::OnRenewed(const Core::Result<bool>& renewed, Core::SteadyTime now, LeaseActions& out)
 {
+    if (_state != EState::Leading)
+    {
+        return;
+    }
     _call = ECall::None;
-    if (_state != EState::Leading || HasEnded(now, out))
+    if (HasEnded(now, out))
     {
         return;
     }
@@ -151,31 +156,43 @@ void LeaseMachine::Extend(Core::SteadyTime now, LeaseActions& out) const
 void LeaseMachine::Lose(std::string reason, LeaseActions& out)
 {
     _state = EState::Ended;
+    out.emplace_back(LeaseRevoked{});
     out.emplace_back(LeaseLost{std::move(reason)});
 }
 
 void LeaseMachine::Release(LeaseActions& out)
 {
+    if (_state == EState::Releasing)
+    {
+        return;
+    }
     const EState before = std::exchange(_state, EState::Releasing);
+    out.emplace_back(LeaseRevoked{});
     if (before == EState::Leading)
     {
+        _call = ECall::Release;
         out.emplace_back(ReleaseLease{_epoch});
     }
     else if (
-        before != EState::Releasing
-        && _call != ECall::Take) // otherwise it is released when it is known whether it was taken
+        before == EState::Ended || _call == ECall::None) // otherwise the result of the call decides what is left to do
     {
-        OnReleased(out);
+        End(out);
     }
 }
 
 void LeaseMachine::OnReleased(LeaseActions& out)
 {
+    _call = ECall::None;
     if (_state == EState::Releasing)
     {
-        _state = EState::Ended;
-        out.emplace_back(LeaseEnded{});
+        End(out);
     }
+}
+
+void LeaseMachine::End(LeaseActions& out)
+{
+    _state = EState::Ended;
+    out.emplace_back(LeaseEnded{});
 }
 
 void LeaseMachine::ReadLater(LeaseActions& out) const

@@ -173,6 +173,11 @@ void AcsdProcess::OnStored(const Core::Result<void>& result)
     _core.OnStored(result);
 }
 
+void AcsdProcess::Stop()
+{
+    _disk.Release();
+}
+
 void AcsdProcess::CutOff()
 {
     _disk.CutOff();

@@ -103,6 +103,8 @@ public:
     void EndCrashes();
     /// It loses its connection to the shared store, until it ends.
     void CutOff();
+    /// It is stopped by an operator, and ends when it has released the lease of the shared store.
+    void Stop();
     [[nodiscard]] std::uint64_t GetNumber() const noexcept;
 
     void PushCommand(Planning::PlanCommand command);

@@ -25,6 +25,10 @@ CrashableStore::CrashableStore(bool bEpochChecked)
 
 Core::Result<Planning::LeaseState> CrashableStore::ReadLease() const
 {
+    if (bFails)
+    {
+        return MakeDiskFault();
+    }
     return _lease;
 }
 
@@ -50,7 +54,7 @@ Core::Result<bool> CrashableStore::TryRenew(std::uint64_t epoch)
     {
         return MakeDiskFault();
     }
-    if (epoch != _lease.epoch)
+    if (epoch != _lease.epoch || _lease.bReleased)
     {
         return false;
     }

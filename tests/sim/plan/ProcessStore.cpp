@@ -16,12 +16,16 @@ ProcessStore::ProcessStore(Dependencies around, std::unique_ptr<SimulatedLease> 
 {
     if (_leaseOrNull != nullptr)
     {
-        _leaseOrNull->SetOnLost([this] {
-            if (!_around.mutator.Is(EMutation::LeaseEndIgnored))
-            {
-                _around.owner.Crash("because its lease has ended");
-            }
-        });
+        _leaseOrNull->SetHandlers(
+            {[this] {
+                 if (!_around.mutator.Is(EMutation::LeaseEndIgnored))
+                 {
+                     _around.owner.Crash("because its lease has ended");
+                 }
+             },
+             [this] {
+                 _around.owner.Crash("after it has released its lease");
+             }});
     }
 }
 
@@ -149,6 +153,12 @@ void ProcessStore::CutOff()
 {
     _bCutOff = true;
     _leaseOrNull->CutOff();
+}
+
+void ProcessStore::Release()
+{
+    _around.trace.Add("acsd: stops, and releases its lease");
+    _leaseOrNull->Release();
 }
 
 bool ProcessStore::CanCommand() const

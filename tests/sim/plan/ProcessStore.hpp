@@ -77,6 +77,9 @@ public:
     /// The connection to the shared store is lost.
     void CutOff();
 
+    /// The process is stopped: it crashes when the lease of the shared store is released.
+    void Release();
+
     void Write(const Planning::StoreBatch& batch);
 
     /// As acsd asks before each message to a robot.

@@ -21,6 +21,11 @@ SimulatedLease::SimulatedLease(Dependencies around, std::function<void(std::uint
 {
 }
 
+SimulatedLease::~SimulatedLease()
+{
+    End();
+}
+
 void SimulatedLease::Start()
 {
     LeaseActions actions;
@@ -28,20 +33,28 @@ void SimulatedLease::Start()
     Execute(actions);
 }
 
-void SimulatedLease::SetOnLost(std::function<void()> onLost)
+void SimulatedLease::SetHandlers(Handlers handlers)
 {
-    _onLost = std::move(onLost);
+    _handlers = std::move(handlers);
+}
+
+void SimulatedLease::Release()
+{
+    LeaseActions actions;
+    _machine.Release(actions);
+    Execute(actions);
 }
 
 void SimulatedLease::CutOff()
 {
     _around.trace.Add("acsd: cut off from the store");
-    _connection = EConnection::CutOff;
+    _connection->bCutOff = true;
 }
 
 void SimulatedLease::End()
 {
     _timers.CancelAll();
+    _connection->bEnded = true;
 }
 
 bool SimulatedLease::IsHeld() const
@@ -108,6 +121,12 @@ void SimulatedLease::Execute(const LeaseExtended& action)
     _heldUntil = action.end;
 }
 
+void SimulatedLease::Execute(const LeaseRevoked& /*action*/)
+{
+    _heldUntil = {};
+    _timers.CancelAll();
+}
+
 void SimulatedLease::Execute(const LeaseTaken& action)
 {
     const auto onTaken = std::exchange(_onTaken, {});
@@ -117,9 +136,7 @@ void SimulatedLease::Execute(const LeaseTaken& action)
 void SimulatedLease::Execute(const LeaseLost& action)
 {
     _around.trace.Add("acsd: the lease is lost: {}", action.reason);
-    _heldUntil = {};
-    _timers.CancelAll();
-    _onLost();
+    _handlers.onLost();
 }
 
 void SimulatedLease::Execute(const LeaseFault& action)
@@ -129,6 +146,7 @@ void SimulatedLease::Execute(const LeaseFault& action)
 
 void SimulatedLease::Execute(const LeaseEnded& /*action*/)
 {
+    _handlers.onReleased();
 }
 
 template <typename TCall, typename TAnswer>
@@ -138,16 +156,21 @@ void SimulatedLease::Call(TCall call, TAnswer answer)
     const Core::SteadyTime calledAt = std::max(GetNow(), _answeredAt) + ChooseLatency();
     const Core::Duration back = ChooseLatency();
     _answeredAt = calledAt + back;
-    _timers.Post(calledAt - GetNow(), [this, call = std::move(call), answer = std::move(answer), back] {
-        Answer result = _connection == EConnection::CutOff
-            ? Answer(Core::Fail(EPlanningError::StoreFailed, "acsd.db", "a connection", "none"))
-            : call(_around.store);
-        _timers.Post(back, [this, answer, result = std::move(result)] {
-            LeaseActions actions;
-            answer(_machine, result, GetNow(), actions);
-            Execute(actions);
+    _around.timeline.Post(
+        calledAt - GetNow(),
+        [this, connection = _connection, &store = _around.store, &timeline = _around.timeline, call, answer, back] {
+            Answer result = connection->bCutOff
+                ? Answer(Core::Fail(EPlanningError::StoreFailed, "acsd.db", "a connection", "none"))
+                : call(store);
+            timeline.Post(back, [this, connection, answer, result = std::move(result)] {
+                if (!connection->bEnded)
+                {
+                    LeaseActions actions;
+                    answer(_machine, result, GetNow(), actions);
+                    Execute(actions);
+                }
+            });
         });
-    });
 }
 
 Core::Duration SimulatedLease::ChooseLatency()

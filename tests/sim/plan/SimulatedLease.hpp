@@ -12,11 +12,13 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <memory>
 
 namespace ACS::Simulation
 {
 
-/// A LeaseMachine on the timeline, as LeaseKeeper of acsd uses it: the calls of the store follow each other and take time.
+/// A LeaseMachine on the timeline, as LeaseKeeper of acsd uses it: the calls of the store follow each other and take time. A call that
+/// was made reaches the store also when its process has crashed meanwhile.
 class SimulatedLease final
 {
 public:
@@ -30,36 +32,47 @@ public:
         const Scenario& scenario;
     };
 
+    /// Of its process, once the lease is taken.
+    struct Handlers
+    {
+        std::function<void()> onLost;
+        std::function<void()> onReleased;
+    };
+
     /// Of the simulated acsd.
     static constexpr std::chrono::milliseconds DURATION{3'000};
 
 private:
-    enum class EConnection : std::uint8_t
+    /// Outlives its process, for calls that are under way.
+    struct Connection
     {
-        Working,
-        CutOff
+        bool bCutOff = false;
+        bool bEnded = false; ///< No result is handled any more.
     };
 
     Dependencies _around;
     std::function<void(std::uint64_t epoch)> _onTaken;
-    std::function<void()> _onLost; ///< Empty before it is taken.
+    Handlers _handlers; ///< Empty before it is taken.
     TimerBank<Planning::ELeaseTimer> _timers;
     Planning::LeaseMachine _machine;
-    EConnection _connection = EConnection::Working;
-    Core::SteadyTime _answeredAt{}; ///< When the call under way will be answered.
+    std::shared_ptr<Connection> _connection = std::make_shared<Connection>();
+    Core::SteadyTime _answeredAt{}; ///< When the last call has its result.
     Core::SteadyTime _heldUntil{};  ///< As LeaseGuard.
 
 public:
     SimulatedLease(Dependencies around, std::function<void(std::uint64_t epoch)> onTaken);
     SimulatedLease(const SimulatedLease&) = delete;
     SimulatedLease& operator=(const SimulatedLease&) = delete;
-    ~SimulatedLease() = default;
+    ~SimulatedLease();
 
     /// A standby from now on.
     void Start();
 
-    /// Call it when it is taken, in onTaken.
-    void SetOnLost(std::function<void()> onLost);
+    /// Call it in onTaken.
+    void SetHandlers(Handlers handlers);
+
+    /// The process stops: onReleased follows.
+    void Release();
 
     /// The store does not answer any more.
     void CutOff();
@@ -77,6 +90,7 @@ private:
     void Execute(const Planning::ReleaseLease& action);
     void Execute(const Planning::StartLeaseTimer& action);
     void Execute(const Planning::LeaseExtended& action);
+    void Execute(const Planning::LeaseRevoked& action);
     void Execute(const Planning::LeaseTaken& action);
     void Execute(const Planning::LeaseLost& action);
     void Execute(const Planning::LeaseFault& action);

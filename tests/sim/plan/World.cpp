@@ -247,6 +247,15 @@ void World::CutOffSometime()
     _behaviours.Start(EBehaviour::Partition, _faultChance.GetBetween(5s, 90s), [this] { CutOffSometime(); });
 }
 
+void World::StopSometime()
+{
+    if (_process != nullptr)
+    {
+        _process->Stop();
+    }
+    _behaviours.Start(EBehaviour::Stop, _leaseChance.GetBetween(20s, 200s), [this] { StopSometime(); });
+}
+
 void World::BeginFaults()
 {
     _behaviours.Start(EBehaviour::EndFaults, _scenario.faultsEnd, [this] { EndFaults(); });
@@ -281,6 +290,7 @@ void World::BeginFaults()
     if (_scenario.bShared && _scenario.Has(EFault::Partitions))
     {
         _behaviours.Start(EBehaviour::Partition, _faultChance.GetBetween(5s, 90s), [this] { CutOffSometime(); });
+        _behaviours.Start(EBehaviour::Stop, _leaseChance.GetBetween(20s, 200s), [this] { StopSometime(); });
     }
     for (const auto& [robotID, robot] : _robots)
     {
@@ -306,7 +316,8 @@ void World::EndFaults()
           EBehaviour::Operator,
           EBehaviour::Crash,
           EBehaviour::Broker,
-          EBehaviour::Partition})
+          EBehaviour::Partition,
+          EBehaviour::Stop})
     {
         _behaviours.Cancel(behaviour);
     }

@@ -43,6 +43,7 @@ private:
         Operator,
         Broker,
         Partition,
+        Stop,
         EndFaults,
         Watch,
     };
@@ -94,6 +95,7 @@ private:
     void OnCrash(std::uint64_t number);
     void BeStandby();
     void CutOffSometime();
+    void StopSometime();
     void BeginFaults();
     void EndFaults();
     void TurnDisk();

@@ -49,7 +49,7 @@ struct ReleaseLease
     bool operator==(const ReleaseLease&) const = default;
 };
 
-/// Call LeaseMachine::OnTimer after the delay. A running timer of this kind starts again.
+/// Call LeaseMachine::OnTimer after the delay. A running timer of this kind starts again; LeaseRevoked cancels all.
 struct StartLeaseTimer
 {
     ELeaseTimer timer = ELeaseTimer::Read;
@@ -58,7 +58,7 @@ struct StartLeaseTimer
     bool operator==(const StartLeaseTimer&) const = default;
 };
 
-/// This process may command until then, checked before each message: a process can stall.
+/// This process may command until then, or until LeaseRevoked. Check the time before each message: a process can stall.
 struct LeaseExtended
 {
     Core::SteadyTime end;
@@ -66,7 +66,13 @@ struct LeaseExtended
     bool operator==(const LeaseExtended&) const = default;
 };
 
-/// This process leads.
+/// Nothing may be commanded any more. Cancel all timers.
+struct LeaseRevoked
+{
+    bool operator==(const LeaseRevoked&) const = default;
+};
+
+/// This process leads. Always the last action of its list.
 struct LeaseTaken
 {
     std::uint64_t epoch = 0;
@@ -74,7 +80,7 @@ struct LeaseTaken
     bool operator==(const LeaseTaken&) const = default;
 };
 
-/// This process does not lead any more and may command nothing. The machine has ended.
+/// This process does not lead any more; the machine has ended. Always the last action of its list.
 struct LeaseLost
 {
     std::string reason;
@@ -90,7 +96,7 @@ struct LeaseFault
     bool operator==(const LeaseFault&) const = default;
 };
 
-/// What LeaseMachine::Release began is complete.
+/// What LeaseMachine::Release began is complete. Always the last action of its list.
 struct LeaseEnded
 {
     bool operator==(const LeaseEnded&) const = default;
@@ -104,6 +110,7 @@ using LeaseAction = std::variant<
     ReleaseLease,
     StartLeaseTimer,
     LeaseExtended,
+    LeaseRevoked,
     LeaseTaken,
     LeaseLost,
     LeaseFault,

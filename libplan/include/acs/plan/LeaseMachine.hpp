@@ -17,23 +17,25 @@ namespace ACS::Planning
 {
 
 /// Takes the lease of a shared store when it is free, and renews it until it is released or lost. Pure: its owner calls the store, one
-/// call after the other, and runs the timers. All functions append to out what the owner has to do. Used by one thread.
+/// call after the other, and passes the results in this order; it also runs the timers. All functions append to out what the owner has
+/// to do. Used by one thread.
 class ACS_API LeaseMachine
 {
     enum class EState : std::uint8_t
     {
         Watching,
         Leading,
-        Releasing, ///< Release was called, and the store has not answered yet.
+        Releasing, ///< Release was called, and is not complete.
         Ended
     };
 
-    /// A call of the store that has no answer yet and that no other may follow.
+    /// The call of the store that has no result yet, if the next decision depends on it.
     enum class ECall : std::uint8_t
     {
         None,
         Take,
-        Renew
+        Renew,
+        Release
     };
 
     LeaseClaim _claim;
@@ -55,18 +57,23 @@ public:
     /// which may be empty, is shown while no other process leads.
     void Start(Core::Duration pause, std::string reason, Core::SteadyTime now, LeaseActions& out);
 
+    /// Of StartLeaseTimer. A lease whose time is over is lost.
     void OnTimer(ELeaseTimer timer, Core::SteadyTime now, LeaseActions& out);
 
+    /// The result of ReadLease. A lease that is free is taken.
     void OnRead(const Core::Result<LeaseState>& state, Core::SteadyTime now, LeaseActions& out);
 
+    /// The result of TakeLease. This process leads, unless it took too long: then the lease is released, and read again.
     void OnTaken(const Core::Result<std::optional<std::uint64_t>>& taken, Core::SteadyTime now, LeaseActions& out);
 
+    /// The result of RenewLease. A failed renewal is repeated until the time of the lease is over.
     void OnRenewed(const Core::Result<bool>& renewed, Core::SteadyTime now, LeaseActions& out);
 
-    /// Whether it was released does not matter here: it ends in any case.
+    /// ReleaseLease has a result: also a failed release ends.
     void OnReleased(LeaseActions& out);
 
-    /// Nothing is commanded any more: a lease that is held, or is being taken, is released. LeaseEnded follows, once.
+    /// Ends the machine: revokes and releases a lease that is held or is being taken. One LeaseEnded follows, at once or later; none for
+    /// a call before that.
     void Release(LeaseActions& out);
 
     [[nodiscard]] LeaseWait GetWait() const;
@@ -79,6 +86,7 @@ private:
     /// A lease that has ended is lost.
     [[nodiscard]] bool HasEnded(Core::SteadyTime now, LeaseActions& out);
     void Lose(std::string reason, LeaseActions& out);
+    void End(LeaseActions& out);
     void SetFault(std::string fault, LeaseActions& out);
     /// Empty: the store can be used, or another process leads.
     [[nodiscard]] std::string GetStoreFault() const;

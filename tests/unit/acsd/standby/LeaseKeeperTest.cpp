@@ -270,6 +270,30 @@ TEST_CASE_METHOD(LeaseKeeperFixture, "A lease that is being taken when the proce
     CHECK(row.Get()->bReleased);
 }
 
+TEST_CASE_METHOD(LeaseKeeperFixture, "A second release replaces the handler of the first, and waits as that did")
+{
+    bool bFirst = false;
+    bool bSecond = false;
+    keeper->Start();
+    RunUntil([&] { return !taken.empty(); });
+    keeper->ReleaseAsync([&] { bFirst = true; });
+    keeper->ReleaseAsync([&] {
+        bSecond = true;
+        CHECK(row.Get()->bReleased);
+    });
+    RunUntil([&] { return bSecond; });
+    CHECK_FALSE(bFirst);
+}
+
+TEST_CASE_METHOD(LeaseKeeperFixture, "No handler is called after the end of the keeper")
+{
+    bool bReleased = false;
+    keeper->ReleaseAsync([&] { bReleased = true; });
+    keeper.reset();
+    context.run();
+    CHECK_FALSE(bReleased);
+}
+
 TEST_CASE_METHOD(LeaseKeeperFixture, "A store that cannot be read is a reason to wait")
 {
     row.Fail(true);

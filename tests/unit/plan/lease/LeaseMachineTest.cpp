@@ -17,7 +17,7 @@ namespace
 constexpr std::chrono::milliseconds DURATION{3'000};
 
 /// A machine, and the time.
-struct LeaseBench
+struct LeaseMachineFixture
 {
     LeaseMachine machine{LeaseClaim{"this one", "config", DURATION}};
     Core::SteadyTime now{1h};
@@ -100,175 +100,199 @@ const LeaseActions READ_LATER{StartLeaseTimer{ELeaseTimer::Read, 250ms}};
 
 TEST_CASE("LeaseMachine: a free lease is taken, renewed at intervals, and released")
 {
-    LeaseBench bench;
-    CHECK(bench.machine.GetWait() == LeaseWait{ELeaseWait::NotRead, {}});
-    bench.Lead();
-    CHECK(bench.machine.GetWait() == LeaseWait{ELeaseWait::TakesOver, {}});
-    bench.now += 500ms;
-    const Core::SteadyTime askedAt = bench.now;
-    CHECK(bench.Fire(ELeaseTimer::Renew) == LeaseActions{StartLeaseTimer{ELeaseTimer::Renew, 500ms}, RenewLease{1}});
-    bench.now += 100ms;
+    LeaseMachineFixture fixture;
+    CHECK(fixture.machine.GetWait() == LeaseWait{ELeaseWait::NotRead, {}});
+    fixture.Lead();
+    CHECK(fixture.machine.GetWait() == LeaseWait{ELeaseWait::TakesOver, {}});
+    fixture.now += 500ms;
+    const Core::SteadyTime askedAt = fixture.now;
+    CHECK(fixture.Fire(ELeaseTimer::Renew) == LeaseActions{StartLeaseTimer{ELeaseTimer::Renew, 500ms}, RenewLease{1}});
+    fixture.now += 100ms;
     CHECK(
-        bench.Renew(true)
+        fixture.Renew(true)
         == LeaseActions{LeaseExtended{askedAt + 2'500ms}, StartLeaseTimer{ELeaseTimer::End, 2'400ms}});
-    CHECK(bench.Release() == LeaseActions{ReleaseLease{1}});
-    CHECK(bench.machine.GetWait() == LeaseWait{ELeaseWait::Releases, {}});
-    CHECK(bench.Release().empty());
-    CHECK(bench.EndRelease() == LeaseActions{LeaseEnded{}});
-    CHECK(bench.EndRelease().empty());
+    CHECK(fixture.Release() == LeaseActions{LeaseRevoked{}, ReleaseLease{1}});
+    CHECK(fixture.machine.GetWait() == LeaseWait{ELeaseWait::Releases, {}});
+    CHECK(fixture.Release().empty());
+    CHECK(fixture.EndRelease() == LeaseActions{LeaseEnded{}});
+    CHECK(fixture.EndRelease().empty());
+    CHECK(fixture.Release() == LeaseActions{LeaseRevoked{}, LeaseEnded{}});
+}
+
+TEST_CASE("LeaseMachine: a lease is released while it is being renewed")
+{
+    LeaseMachineFixture fixture;
+    fixture.Lead();
+    CHECK(fixture.Fire(ELeaseTimer::Renew).size() == 2);
+    CHECK(fixture.Release() == LeaseActions{LeaseRevoked{}, ReleaseLease{1}});
+    CHECK(fixture.Renew(true).empty());
+    CHECK(fixture.Release().empty());
+    CHECK(fixture.EndRelease() == LeaseActions{LeaseEnded{}});
 }
 
 TEST_CASE("LeaseMachine: a lease of another process is taken when it was not renewed for its duration")
 {
-    LeaseBench bench;
+    LeaseMachineFixture fixture;
     const LeaseState other{7, 3, "other", "config", 3s, false};
-    static_cast<void>(bench.Start());
-    CHECK(bench.Read(other) == READ_LATER);
-    CHECK(bench.machine.GetWait() == LeaseWait{ELeaseWait::OtherLeads, "other"});
-    CHECK(bench.Fire(ELeaseTimer::Read) == LeaseActions{ReadLease{}});
-    bench.now += 2'999ms;
-    CHECK(bench.Read(other) == READ_LATER);
-    bench.now += 1ms;
-    CHECK(bench.Read(other) == LeaseActions{TakeLease{other}});
-    CHECK(bench.Take(std::nullopt) == READ_LATER); // another standby was faster
+    static_cast<void>(fixture.Start());
+    CHECK(fixture.Read(other) == READ_LATER);
+    CHECK(fixture.machine.GetWait() == LeaseWait{ELeaseWait::OtherLeads, "other"});
+    CHECK(fixture.Fire(ELeaseTimer::Read) == LeaseActions{ReadLease{}});
+    fixture.now += 2'999ms;
+    CHECK(fixture.Read(other) == READ_LATER);
+    fixture.now += 1ms;
+    CHECK(fixture.Read(other) == LeaseActions{TakeLease{other}});
+    CHECK(fixture.Take(std::nullopt) == READ_LATER); // another standby was faster
 }
 
 TEST_CASE("LeaseMachine: the leader's name and configuration are reasons to wait")
 {
-    LeaseBench bench;
-    static_cast<void>(bench.Start());
-    CHECK(bench.Read(LeaseState{7, 3, "this one", "config", 3s, false}) == READ_LATER);
-    CHECK(bench.machine.GetWait() == LeaseWait{ELeaseWait::OwnName, "this one"});
-    CHECK(bench.Read(LeaseState{7, 4, "other", "another", 3s, false}) == READ_LATER);
-    CHECK(bench.machine.GetWait() == LeaseWait{ELeaseWait::OtherConfig, "other"});
+    LeaseMachineFixture fixture;
+    static_cast<void>(fixture.Start());
+    CHECK(fixture.Read(LeaseState{7, 3, "this one", "config", 3s, false}) == READ_LATER);
+    CHECK(fixture.machine.GetWait() == LeaseWait{ELeaseWait::OwnName, "this one"});
+    CHECK(fixture.Read(LeaseState{7, 4, "other", "another", 3s, false}) == READ_LATER);
+    CHECK(fixture.machine.GetWait() == LeaseWait{ELeaseWait::OtherConfig, "other"});
 }
 
 TEST_CASE("LeaseMachine: a request without an answer is not repeated, and the lease ends")
 {
-    LeaseBench bench;
-    bench.Lead();
-    bench.now += 500ms;
-    CHECK(bench.Fire(ELeaseTimer::Renew).size() == 2);
-    bench.now += 500ms;
-    CHECK(bench.Fire(ELeaseTimer::Renew) == LeaseActions{StartLeaseTimer{ELeaseTimer::Renew, 500ms}});
-    bench.now += 1'490ms;
-    CHECK(bench.Fire(ELeaseTimer::End) == LeaseActions{LeaseLost{"the lease could not be renewed: the store is slow"}});
-    CHECK(bench.Renew(true).empty());
-    CHECK(bench.Fire(ELeaseTimer::Renew).empty());
-    CHECK(bench.Fire(ELeaseTimer::End).empty());
-    CHECK(bench.Release() == LeaseActions{LeaseEnded{}});
+    LeaseMachineFixture fixture;
+    fixture.Lead();
+    fixture.now += 500ms;
+    CHECK(fixture.Fire(ELeaseTimer::Renew).size() == 2);
+    fixture.now += 500ms;
+    CHECK(fixture.Fire(ELeaseTimer::Renew) == LeaseActions{StartLeaseTimer{ELeaseTimer::Renew, 500ms}});
+    fixture.now += 1'490ms;
+    CHECK(
+        fixture.Fire(ELeaseTimer::End)
+        == LeaseActions{LeaseRevoked{}, LeaseLost{"the lease could not be renewed: the store is slow"}});
+    CHECK(fixture.Renew(true).empty());
+    CHECK(fixture.Fire(ELeaseTimer::Renew).empty());
+    CHECK(fixture.Fire(ELeaseTimer::End).empty());
+    CHECK(fixture.Release() == LeaseActions{LeaseRevoked{}, LeaseEnded{}});
 }
 
 TEST_CASE("LeaseMachine: a failed renewal is tried again until the lease ends; each fault is reported once")
 {
-    LeaseBench bench;
-    bench.Lead();
-    bench.now += 500ms;
-    CHECK(bench.Fire(ELeaseTimer::Renew).size() == 2);
-    CHECK(bench.Renew(MakeFault()) == LeaseActions{LeaseFault{FAULT}});
-    bench.now += 500ms;
-    CHECK(bench.Fire(ELeaseTimer::Renew).size() == 2);
-    CHECK(bench.Renew(MakeFault()).empty());
-    CHECK(bench.Fire(ELeaseTimer::End) == LeaseActions{LeaseLost{"the lease could not be renewed: " + FAULT}});
+    LeaseMachineFixture fixture;
+    fixture.Lead();
+    fixture.now += 500ms;
+    CHECK(fixture.Fire(ELeaseTimer::Renew).size() == 2);
+    CHECK(fixture.Renew(MakeFault()) == LeaseActions{LeaseFault{FAULT}});
+    fixture.now += 500ms;
+    CHECK(fixture.Fire(ELeaseTimer::Renew).size() == 2);
+    CHECK(fixture.Renew(MakeFault()).empty());
+    CHECK(
+        fixture.Fire(ELeaseTimer::End)
+        == LeaseActions{LeaseRevoked{}, LeaseLost{"the lease could not be renewed: " + FAULT}});
 }
 
 TEST_CASE("LeaseMachine: a leader that another one has replaced, or that stalled, has lost the lease")
 {
-    LeaseBench bench;
-    bench.Lead();
+    LeaseMachineFixture fixture;
+    fixture.Lead();
     SECTION("replaced")
     {
-        CHECK(bench.Fire(ELeaseTimer::Renew).size() == 2);
+        CHECK(fixture.Fire(ELeaseTimer::Renew).size() == 2);
         CHECK(
-            bench.Renew(false)
-            == LeaseActions{LeaseLost{"another process has taken the lease, or its row was changed"}});
+            fixture.Renew(false)
+            == LeaseActions{LeaseRevoked{}, LeaseLost{"another process has taken the lease, or its row was changed"}});
     }
     SECTION("stalled until a timer")
     {
-        bench.now += 2'490ms;
+        fixture.now += 2'490ms;
         CHECK(
-            bench.Fire(ELeaseTimer::Renew)
-            == LeaseActions{LeaseLost{"this process has stalled for longer than its lease"}});
+            fixture.Fire(ELeaseTimer::Renew)
+            == LeaseActions{LeaseRevoked{}, LeaseLost{"this process has stalled for longer than its lease"}});
     }
     SECTION("stalled until the answer, which does not revive the lease")
     {
-        CHECK(bench.Fire(ELeaseTimer::Renew).size() == 2);
-        bench.now += 2'490ms;
-        CHECK(bench.Renew(true) == LeaseActions{LeaseLost{"this process has stalled for longer than its lease"}});
+        CHECK(fixture.Fire(ELeaseTimer::Renew).size() == 2);
+        fixture.now += 2'490ms;
+        CHECK(
+            fixture.Renew(true)
+            == LeaseActions{LeaseRevoked{}, LeaseLost{"this process has stalled for longer than its lease"}});
     }
 }
 
 TEST_CASE("LeaseMachine: a lease that took too long to be taken is released and taken again")
 {
-    LeaseBench bench;
-    static_cast<void>(bench.Start());
-    CHECK(bench.Read(LeaseState{}) == LeaseActions{TakeLease{}});
-    bench.now += 2'500ms;
+    LeaseMachineFixture fixture;
+    static_cast<void>(fixture.Start());
+    CHECK(fixture.Read(LeaseState{}) == LeaseActions{TakeLease{}});
+    fixture.now += 2'500ms;
     CHECK(
-        bench.Take(1)
-        == LeaseActions{LeaseFault{"it took too long to take the lease"}, ReleaseLease{1}, READ_LATER.front()});
-    CHECK(bench.EndRelease().empty());
+        fixture.Take(1)
+        == LeaseActions{ReleaseLease{1}, LeaseFault{"it took too long to take the lease"}, READ_LATER.front()});
+    SECTION("the process ends meanwhile")
+    {
+        CHECK(fixture.Release() == LeaseActions{LeaseRevoked{}});
+        CHECK(fixture.EndRelease() == LeaseActions{LeaseEnded{}});
+        return;
+    }
+    CHECK(fixture.EndRelease().empty());
     const LeaseState released{1, 0, "this one", "config", 3s, true};
-    CHECK(bench.Fire(ELeaseTimer::Read) == LeaseActions{ReadLease{}});
-    CHECK(bench.Read(released) == LeaseActions{TakeLease{released}});
+    CHECK(fixture.Fire(ELeaseTimer::Read) == LeaseActions{ReadLease{}});
+    CHECK(fixture.Read(released) == LeaseActions{TakeLease{released}});
 }
 
 TEST_CASE("LeaseMachine: a process that ends while it takes the lease releases it")
 {
-    LeaseBench bench;
-    static_cast<void>(bench.Start());
-    CHECK(bench.Read(LeaseState{}) == LeaseActions{TakeLease{}});
-    CHECK(bench.Release().empty());
+    LeaseMachineFixture fixture;
+    static_cast<void>(fixture.Start());
+    CHECK(fixture.Read(LeaseState{}) == LeaseActions{TakeLease{}});
+    CHECK(fixture.Release() == LeaseActions{LeaseRevoked{}});
     SECTION("taken")
     {
-        CHECK(bench.Take(1) == LeaseActions{ReleaseLease{1}});
-        CHECK(bench.EndRelease() == LeaseActions{LeaseEnded{}});
+        CHECK(fixture.Take(1) == LeaseActions{ReleaseLease{1}});
+        CHECK(fixture.EndRelease() == LeaseActions{LeaseEnded{}});
     }
     SECTION("not taken")
     {
-        CHECK(bench.Take(std::nullopt) == LeaseActions{LeaseEnded{}});
+        CHECK(fixture.Take(std::nullopt) == LeaseActions{LeaseEnded{}});
     }
-    CHECK(bench.Read(LeaseState{}).empty());
-    CHECK(bench.Fire(ELeaseTimer::Read).empty());
+    CHECK(fixture.Read(LeaseState{}).empty());
+    CHECK(fixture.Fire(ELeaseTimer::Read).empty());
 }
 
 TEST_CASE("LeaseMachine: a standby that ends has nothing to release")
 {
-    LeaseBench bench;
-    static_cast<void>(bench.Start());
-    CHECK(bench.Release() == LeaseActions{LeaseEnded{}});
-    CHECK(bench.Read(LeaseState{}).empty());
+    LeaseMachineFixture fixture;
+    static_cast<void>(fixture.Start());
+    CHECK(fixture.Release() == LeaseActions{LeaseRevoked{}, LeaseEnded{}});
+    CHECK(fixture.Read(LeaseState{}).empty());
 }
 
 TEST_CASE("LeaseMachine: a store that can be read and not written is one fault")
 {
-    LeaseBench bench;
-    static_cast<void>(bench.Start());
-    CHECK(bench.Read(LeaseState{}) == LeaseActions{TakeLease{}});
-    CHECK(bench.Take(MakeFault()) == LeaseActions{LeaseFault{FAULT}, READ_LATER.front()});
-    CHECK(bench.machine.GetWait() == LeaseWait{ELeaseWait::StoreFailed, FAULT});
-    CHECK(bench.Read(LeaseState{}) == LeaseActions{TakeLease{}});
-    CHECK(bench.Take(MakeFault()) == READ_LATER);
-    CHECK(bench.Read(LeaseState{}) == LeaseActions{TakeLease{}});
-    CHECK(bench.Take(1).size() == 4);
+    LeaseMachineFixture fixture;
+    static_cast<void>(fixture.Start());
+    CHECK(fixture.Read(LeaseState{}) == LeaseActions{TakeLease{}});
+    CHECK(fixture.Take(MakeFault()) == LeaseActions{LeaseFault{FAULT}, READ_LATER.front()});
+    CHECK(fixture.machine.GetWait() == LeaseWait{ELeaseWait::StoreFailed, FAULT});
+    CHECK(fixture.Read(LeaseState{}) == LeaseActions{TakeLease{}});
+    CHECK(fixture.Take(MakeFault()) == READ_LATER);
+    CHECK(fixture.Read(LeaseState{}) == LeaseActions{TakeLease{}});
+    CHECK(fixture.Take(1).size() == 4);
 }
 
 TEST_CASE("LeaseMachine: after a fault of its own, a process pauses before it takes the lease")
 {
-    LeaseBench bench;
-    static_cast<void>(bench.Start(6s, "the table reports is missing"));
-    CHECK(bench.machine.GetWait() == LeaseWait{ELeaseWait::StoreFailed, "the table reports is missing"});
-    bench.now += 5'999ms;
-    CHECK(bench.Read(LeaseState{}) == READ_LATER);
+    LeaseMachineFixture fixture;
+    static_cast<void>(fixture.Start(6s, "the table reports is missing"));
+    CHECK(fixture.machine.GetWait() == LeaseWait{ELeaseWait::StoreFailed, "the table reports is missing"});
+    fixture.now += 5'999ms;
+    CHECK(fixture.Read(LeaseState{}) == READ_LATER);
     SECTION("no other process leads")
     {
-        CHECK(bench.machine.GetWait() == LeaseWait{ELeaseWait::StoreFailed, "the table reports is missing"});
-        bench.now += 1ms;
-        CHECK(bench.Read(LeaseState{}) == LeaseActions{TakeLease{}});
+        CHECK(fixture.machine.GetWait() == LeaseWait{ELeaseWait::StoreFailed, "the table reports is missing"});
+        fixture.now += 1ms;
+        CHECK(fixture.Read(LeaseState{}) == LeaseActions{TakeLease{}});
     }
     SECTION("another process leads")
     {
-        CHECK(bench.Read(LeaseState{7, 3, "other", "config", 3s, false}) == READ_LATER);
-        CHECK(bench.machine.GetWait() == LeaseWait{ELeaseWait::OtherLeads, "other"});
+        CHECK(fixture.Read(LeaseState{7, 3, "other", "config", 3s, false}) == READ_LATER);
+        CHECK(fixture.machine.GetWait() == LeaseWait{ELeaseWait::OtherLeads, "other"});
     }
 }
