@@ -177,10 +177,15 @@ std::optional<double> Dispatcher::FindTravelSecondsOrNull(
     const Robot& robot) const
 {
     const std::string& vehicleTypeID = robot.options->vehicleTypeID;
-    const std::size_t dock = *_admission.FindDockOrNull(plan.resolved.steps.front().stationID, vehicleTypeID);
+    const std::optional<std::size_t> dock =
+        _admission.FindDockOrNull(plan.resolved.steps.front().stationID, vehicleTypeID);
+    if (!dock.has_value())
+    {
+        return std::nullopt;
+    }
     const std::array start{*robot.place.node};
     const std::optional<QuickestStart> way =
-        router.FindQuickestStartOrNull(vehicleTypeID, robot.GetLoad(), start, dock);
+        router.FindQuickestStartOrNull(vehicleTypeID, robot.GetLoad(), start, *dock);
     return way.has_value() ? std::optional(way->travelSeconds) : std::nullopt;
 }
 

@@ -45,7 +45,7 @@ public:
     [[nodiscard]] const PortCheck& GetPorts() const noexcept;
     /// Whether a route leads to the plan's first station, as if nothing was blocked.
     [[nodiscard]] bool HasWay(const ActivePlan& plan, const Robot& robot) const;
-    /// Driving time to the plan's first station around the blocks; null without a route.
+    /// Driving time to the plan's first station around the blocks; null without a route, or if the vehicle type has no dock there.
     [[nodiscard]] std::optional<double> GetTravelSecondsOrNull(const ActivePlan& plan, const Robot& robot) const;
     /// Unassigned plans are checked again when the robot is chosen. An assigned plan stays with its robot, whose adapter refuses
     /// the job.

@@ -101,15 +101,12 @@ ActivePlan& QueuePass::ChoosePlan(ActivePlan& first, const Robot& robot)
     for (std::size_t i = 0; i < MOST_COMPARED && planOrNull != nullptr && CanOvertake(*planOrNull, first); ++i)
     {
         ActivePlan& plan = *planOrNull;
-        // Only candidates are known to have a dock at the station.
-        if (!before.IsAnyOf(plan) && std::ranges::binary_search(plan.resolved.candidates, robot.index))
+        const std::optional<double> seconds =
+            before.IsAnyOf(plan) ? std::nullopt : _dispatcher.GetTravelSecondsOrNull(plan, robot);
+        if (seconds.has_value() && *seconds < shortest && IsBestWith(plan, robot))
         {
-            const std::optional<double> seconds = _dispatcher.GetTravelSecondsOrNull(plan, robot);
-            if (seconds.has_value() && *seconds < shortest && IsBestWith(plan, robot))
-            {
-                chosen = &plan;
-                shortest = *seconds;
-            }
+            chosen = &plan;
+            shortest = *seconds;
         }
         before.Add(plan);
         planOrNull = _plans.FindNextStoredOrNull(&plan);

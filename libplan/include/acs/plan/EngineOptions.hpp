@@ -146,8 +146,9 @@ struct EngineOptions
     bool bLowerPriorityFirst = false; ///< Lower values are more urgent.
     /// A waiting plan gains one priority level per this duration. 0: a higher priority always comes first.
     std::chrono::milliseconds queueAgeing{600'000};
-    /// A plan begins before one of the same priority that was accepted at most this long before it, if its first station is nearer to
-    /// the free robot and no plan between them uses one of its stations. 0: never.
+    /// A plan begins before one that was accepted at most this long before it, if the free robot is nearer to its first station. At most
+    /// 16 plans are compared with the first one. All plans up to it have the same priority, none uses one of its stations, and no other
+    /// free robot is nearer to it. 0: never.
     std::chrono::milliseconds queueOvertaking{0};
     bool bFinishedIDsReused = false;      ///< Accept the planID of a finished plan again; deletes the finished plan.
     bool bInitialPendingReported = false; ///< Send PlanReport(Pending) for each accepted plan (D-24).

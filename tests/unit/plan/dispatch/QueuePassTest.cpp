@@ -22,12 +22,12 @@ EngineOptions MakeOptions(std::chrono::milliseconds overtaking)
 }
 
 /// LR01 is on its parking position. The map is one-way: of the stations A01.CP01 is the nearest, A01.CP05 is far.
-struct Floor
+struct QueuePassFixture
 {
     EngineParts parts;
     Robot& other = parts.engine.fleet[2]; ///< LR02, offline.
 
-    explicit Floor(std::chrono::milliseconds overtaking = 1min)
+    explicit QueuePassFixture(std::chrono::milliseconds overtaking = 1min)
         : parts(MakeOptions(overtaking))
     {
         parts.PutOn(parts.lr, "D-CHG01");
@@ -68,107 +68,113 @@ struct Floor
 
 TEST_CASE("QueuePass: without overtaking, plans begin in the order of the queue")
 {
-    Floor floor(0ms);
-    floor.Add("far", "A01.CP05", "A02.CP03");
-    floor.Add("near", "A01.CP01", "A02.CP04");
-    CHECK(floor.Run() == Lines{"far LR01"});
-    CHECK(floor.Run() == Lines{});
+    QueuePassFixture fixture(0ms);
+    fixture.Add("far", "A01.CP05", "A02.CP03");
+    fixture.Add("near", "A01.CP01", "A02.CP04");
+    CHECK(fixture.Run() == Lines{"far LR01"});
+    CHECK(fixture.Run() == Lines{});
 }
 
 TEST_CASE("queue.overtaking: the robot gets the plan with the shortest empty drive")
 {
-    Floor floor;
-    floor.Add("far", "A01.CP05", "A02.CP03");
-    floor.Add("nearer", "A01.CP04", "A01.CP06");
-    floor.Add("near", "A01.CP01", "A02.CP04");
-    CHECK(floor.Run() == Lines{"near LR01"});
-    floor.parts.PutOn(floor.other, "D-CHG03");
-    CHECK(floor.Run() == Lines{"nearer LR02"});
+    QueuePassFixture fixture;
+    fixture.Add("far", "A01.CP05", "A02.CP03");
+    fixture.Add("nearer", "A01.CP04", "A01.CP06");
+    fixture.Add("near", "A01.CP01", "A02.CP04");
+    CHECK(fixture.Run() == Lines{"near LR01"});
+    fixture.parts.PutOn(fixture.other, "D-CHG03");
+    CHECK(fixture.Run() == Lines{"nearer LR02"});
 }
 
 TEST_CASE("queue.overtaking: the plan that is overtaken gets the next robot of the same pass")
 {
-    Floor floor;
-    floor.parts.PutOn(floor.other, "D-CHG03");
-    floor.Add("far", "A01.CP05", "A02.CP03");
-    floor.Add("near", "A01.CP01", "A02.CP04");
-    CHECK(floor.Run() == Lines{"near LR01", "far LR02"});
+    QueuePassFixture fixture;
+    fixture.parts.PutOn(fixture.other, "D-CHG03");
+    fixture.Add("far", "A01.CP05", "A02.CP03");
+    fixture.Add("near", "A01.CP01", "A02.CP04");
+    CHECK(fixture.Run() == Lines{"near LR01", "far LR02"});
 }
 
 TEST_CASE("queue.overtaking: a plan is overtaken only by plans that were accepted within this time after it")
 {
     for (const auto seconds : {60, 61})
     {
-        Floor floor;
-        floor.Add("far", "A01.CP05", "A02.CP03");
-        floor.parts.Advance(std::chrono::seconds(seconds));
-        floor.parts.engine.plans.BeginCall(floor.parts.engine.transaction.GetNow().steady);
-        floor.Add("near", "A01.CP01", "A02.CP04");
-        CHECK(floor.Run() == Lines{seconds == 60 ? "near LR01" : "far LR01"});
+        QueuePassFixture fixture;
+        fixture.Add("far", "A01.CP05", "A02.CP03");
+        fixture.parts.Advance(std::chrono::seconds(seconds));
+        fixture.parts.engine.plans.BeginCall(fixture.parts.engine.transaction.GetNow().steady);
+        fixture.Add("near", "A01.CP01", "A02.CP04");
+        CHECK(fixture.Run() == Lines{seconds == 60 ? "near LR01" : "far LR01"});
     }
 }
 
-TEST_CASE("queue.overtaking: a plan of another priority does not overtake")
+TEST_CASE("queue.overtaking: no plan of another priority overtakes or is overtaken")
 {
-    Floor floor;
-    floor.Add("far", "A01.CP05", "A02.CP03", "AMR", 5);
-    floor.Add("less urgent", "A01.CP01", "A02.CP04", "AMR", 4);
-    CHECK(floor.Run() == Lines{"far LR01"});
+    QueuePassFixture fixture(1h);
+    fixture.Add("far", "A01.CP05", "A02.CP03", "AMR", 5);
+    fixture.Add("less urgent", "A01.CP01", "A02.CP04", "AMR", 4);
+    SECTION("by its age, the plan of another priority is before this one")
+    {
+        fixture.parts.Advance(20min);
+        fixture.parts.engine.plans.BeginCall(fixture.parts.engine.transaction.GetNow().steady);
+        fixture.Add("near", "A01.CP02", "A01.CP06", "AMR", 5);
+    }
+    CHECK(fixture.Run() == Lines{"far LR01"});
 }
 
 TEST_CASE("queue.overtaking: plans that share a station keep their order")
 {
-    Floor floor;
-    floor.Add("far", "A01.CP05", "A02.CP03");
-    floor.Add("between", "A01.CP06", "A02.CP04");
+    QueuePassFixture fixture;
+    fixture.Add("far", "A01.CP05", "A02.CP03");
+    fixture.Add("between", "A01.CP06", "A02.CP04");
     SECTION("with the first one")
     {
-        floor.Add("near", "A01.CP01", "A02.CP03");
+        fixture.Add("near", "A01.CP01", "A02.CP03");
     }
     SECTION("with one between them")
     {
-        floor.Add("near", "A01.CP01", "A02.CP04");
+        fixture.Add("near", "A01.CP01", "A02.CP04");
     }
-    CHECK(floor.Run() == Lines{"far LR01"});
+    CHECK(fixture.Run() == Lines{"far LR01"});
 }
 
 TEST_CASE("queue.overtaking: 16 plans are compared with the first one")
 {
     for (const int between : {15, 16})
     {
-        Floor floor;
-        floor.Add("far", "A01.CP05", "A02.CP03");
+        QueuePassFixture fixture;
+        fixture.Add("far", "A01.CP05", "A02.CP03");
         for (int i = 0; i < between; ++i)
         {
-            floor.Add("P" + std::to_string(i), "A01.CP05", "A02.CP03");
+            fixture.Add("P" + std::to_string(i), "A01.CP05", "A02.CP03");
         }
-        floor.Add("near", "A01.CP01", "A02.CP04");
-        CHECK(floor.Run() == Lines{between == 15 ? "near LR01" : "far LR01"});
+        fixture.Add("near", "A01.CP01", "A02.CP04");
+        CHECK(fixture.Run() == Lines{between == 15 ? "near LR01" : "far LR01"});
     }
 }
 
 TEST_CASE("queue.overtaking: no plan overtakes to which another free robot is nearer")
 {
-    Floor floor;
-    floor.parts.PutOn(floor.other, "D-A01.CP01");
-    floor.Add("far", "A01.CP05", "A02.CP03", "LR01");
-    floor.Add("near", "A01.CP02", "A02.CP04");
-    CHECK(floor.Run() == Lines{"far LR01", "near LR02"});
+    QueuePassFixture fixture;
+    fixture.parts.PutOn(fixture.other, "D-A01.CP01");
+    fixture.Add("far", "A01.CP05", "A02.CP03", "LR01");
+    fixture.Add("near", "A01.CP02", "A02.CP04");
+    CHECK(fixture.Run() == Lines{"far LR01", "near LR02"});
 }
 
 TEST_CASE("queue.overtaking: the robot must be able to do the plan that overtakes")
 {
-    Floor floor;
-    floor.Add("far", "A01.CP05", "A02.CP03");
+    QueuePassFixture fixture;
+    fixture.Add("far", "A01.CP05", "A02.CP03");
     SECTION("it is not a candidate")
     {
-        floor.Add("near", "A01.CP01", "A02.CP04", "LR02");
+        fixture.Add("near", "A01.CP01", "A02.CP04", "LR02");
     }
     SECTION("its dock is blocked")
     {
-        floor.Add("near", "A01.CP01", "A02.CP04");
-        floor.parts.engine.blocks.Add({EBlockKind::Node, "D-A01.CP01", "oil", {}});
-        floor.parts.coordinator.OnBlocksChanged();
+        fixture.Add("near", "A01.CP01", "A02.CP04");
+        fixture.parts.engine.blocks.Add({EBlockKind::Node, "D-A01.CP01", "oil", {}});
+        fixture.parts.coordinator.OnBlocksChanged();
     }
-    CHECK(floor.Run() == Lines{"far LR01"});
+    CHECK(fixture.Run() == Lines{"far LR01"});
 }
