@@ -177,6 +177,7 @@ class Robot:
         self.plan = None
         self.position = ""
         self.carrier_ids = [None]
+        self.ports = [f"{robot_id}.CP01"]
         self.is_fixed = False  # does not move
         self.is_in_maintenance = False
         self.actions = []  # instant actions, the oldest first
@@ -195,7 +196,7 @@ class Robot:
             "jobId": plan and plan.describe()["jobId"],
             "route": [{"nodeId": node, "reserved": i < self.reserved} for i, node in enumerate(self.route)],
             "reservedNodes": [self.node, *self.route[:self.reserved]], "carrierIds": self.carrier_ids,
-            "ports": [f"{self.robot_id}.CP01"], "maintenance": self.is_in_maintenance, "reason": self.reason,
+            "ports": self.ports, "maintenance": self.is_in_maintenance, "reason": self.reason,
             "armUp": self.status != "Error" if self.type == "CR" else None, "topic": f"uagv/v2/ACME/{self.robot_id}",
             "protocolVersion": "2.0.0", "mode": "AUTOMATIC", "errors": self.errors, "warnings": self.warnings,
             "lastMessageAt": format_time(self.last_message_at)}

@@ -447,36 +447,69 @@ class Alarms(PageCase):
         self.wait_for_text("#strip-tsc", "Auto")
 
 
-    def test_carriers_are_corrected(self):
-        """The record as it is when the dialog opens, and only if something was entered."""
+    def start_with_carriers(self, *carrier_ids):
+        """LR01 has a port for each and stays where it is."""
         mock = self.start_mock()
         with mock.lock:
             robot = mock.simulation.robots["LR01"]
             robot.is_fixed = True
-            robot.carrier_ids = ["C_1"]
-            mock.simulation.changed_robots.add("LR01")
+            robot.ports = [f"LR01.CP0{i + 1}" for i in range(len(carrier_ids))]
+        self.set_carriers(*carrier_ids)
+        return mock
+
+    def set_carriers(self, *carrier_ids):
+        with self.mock.lock:
+            self.mock.simulation.robots["LR01"].carrier_ids = list(carrier_ids)
+            self.mock.simulation.changed_robots.add("LR01")
+            self.mock.publish()
+
+    def test_carriers_are_corrected(self):
+        """A port that was not edited keeps what a plan has recorded while the dialog was open."""
+        self.start_with_carriers("C_0", None)
         self.open("?lang=en#robot/LR01")
+        self.set_carriers("C_1", None)
         self.wait_for_text("#detail .ports", "C_1")
         self.click_button("Correct carriers")
-        self.wait_for_text("#confirm-dialog", "LR01.CP01")
-        self.assertEqual(self.find("#port-0").get_attribute("value"), "C_1")
-        self.click("#confirm-action")  # nothing was entered
-        wait_until(lambda: not self.find("#confirm-dialog").is_displayed(), "the dialog is closed")
+        self.wait_for_text("#confirm-dialog", "LR01.CP02")
+        self.assertEqual([self.find(f"#port-{i}").get_attribute("value") for i in range(2)], ["C_1", ""])
+        self.set_carriers("C_9", None)
+        self.wait_for_text("#detail .ports", "C_9")
+        self.find("#port-1").send_keys(" C_2 ", Keys.ENTER)
+        self.assertEqual(self.list_posts(), [])
+        self.press(Keys.ENTER)
+        self.wait_for_post("/v1/robots/LR01/carriers", {"carrierIds": ["C_9", "C_2"]})
+        self.wait_for_text("#detail .ports", "C_2")
+
+    def test_carriers_are_removed_or_confirmed(self):
+        self.start_with_carriers("C_1")
+        self.open("?lang=en#robot/LR01")
+        for entered, expected in ((None, "C_1"), ("", None)):
+            self.click_button("Correct carriers")
+            if entered is not None:
+                self.find("#port-0").clear()
+            self.click("#confirm-action")
+            wait_until(lambda: not self.find("#confirm-dialog").is_displayed(), "the dialog is closed")
+            wait_until(lambda value=expected: self.list_posts()[-1:] and self.list_posts()[-1][1] == {"carrierIds": [value]},
+                       f"{expected} is sent")
+        self.wait_for_text("#detail .ports", "empty")
         self.click_button("Correct carriers")
         self.find("#port-0").send_keys("x" * 129)
         self.click("#confirm-action")
         self.assertTrue(self.find("#confirm-dialog").is_displayed(), "an id that is too long is refused")
-        self.find("#port-0").clear()
-        self.find("#port-0").send_keys(" C_2 ", Keys.ENTER)
-        self.assertEqual(self.list_posts(), [])
-        self.press(Keys.ENTER)
-        self.wait_for_post("/v1/robots/LR01/carriers", {"carrierIds": ["C_2"]})
-        self.wait_for_text("#detail .ports", "C_2")
-        self.click_button("Correct carriers")
-        self.find("#port-0").clear()
+        self.click_button("Back", "#confirm-dialog")
+        self.assertEqual(len(self.list_posts()), 2)
+
+    def test_a_remedy_offers_to_correct_the_carriers(self):
+        mock = self.start_with_carriers("C_1")
+        with mock.lock:
+            mock.simulation.set_alarm("LR01", "ACS-1004", "light", "A port is taken.", "Port taken", "",
+                                      "Then correct the record with `acsctl carriers LR01`.")
+        self.open()
+        self.click("#tab-alarms")
+        self.click_button("Correct carriers", "#view-alarms")
+        self.assertEqual(self.find("#port-0").get_attribute("value"), "C_1")
         self.click("#confirm-action")
-        wait_until(lambda: [body for _, body, _ in self.list_posts()][1:] == [{"carrierIds": [None]}], "the port is empty")
-        self.wait_for_text("#detail .ports", "empty")
+        self.wait_for_post("/v1/robots/LR01/carriers", {"carrierIds": ["C_1"]})
 
     def test_instant_actions(self):
         """They are offered with their parameters, sent after a question, and shown with their outcome."""

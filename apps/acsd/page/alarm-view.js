@@ -13,8 +13,9 @@ export function getAlarmKey(alarm) {
 
 /** Also used in the detail of a robot or plan. */
 export class AlarmRow {
-    constructor(alarm, select) {
+    constructor(alarm, {select, model}) {
         this.select = select;
+        this.model = model;
         this.glyph = make("span", {class: "row-glyph"});
         this.code = make("span", {class: "tag"});
         this.title = make("span", {class: "row-id"});
@@ -51,7 +52,8 @@ export class AlarmRow {
         setText(this.message, alarm.message);
         setMarkedText(this.cause, text.cause);
         setMarkedText(this.remedy, text.remedy);
-        this.named.replaceChildren(...listNamedCommands(text.remedy).map((command) => makeCommandButton(command)));
+        const commands = listNamedCommands(text.remedy, this.model.robots);
+        this.named.replaceChildren(...commands.map((command) => makeCommandButton(command)));
         setHidden(this.named, this.named.childElementCount === 0);
         setHidden(this.explanation, text.cause === "" && text.remedy === "");
         const makeLink = (kind, id, label) => make("button", {
@@ -73,7 +75,7 @@ export class AlarmView {
         const list = make("ul", {class: "alarms", "aria-label": t("tab.alarms")});
         const causes = make("ul", {class: "alarms", "aria-label": t("strip.links")});
         this.causes = new KeyedList(causes, (cause) => cause.key, (cause) => new CauseRow(cause, this.context.select));
-        this.list = new KeyedList(list, getAlarmKey, (alarm) => new AlarmRow(alarm, this.context.select));
+        this.list = new KeyedList(list, getAlarmKey, (alarm) => new AlarmRow(alarm, this.context));
         this.empty = make("p", {class: "empty", text: t("alarm.none")});
         this.root.replaceChildren(causes, this.empty, list);
         this.update();

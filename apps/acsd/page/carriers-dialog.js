@@ -8,19 +8,20 @@ const LONGEST_ID = 128; // bytes
 
 const isTooLong = (text) => new TextEncoder().encode(text).length > LONGEST_ID;
 
-/** Asks what is on each port. Resolves to the body of the request, or null if the user cancels or changes nothing. */
-export function askCarriers({title, text, ports, carrierIds}) {
+/** Asks what is on each port. Resolves to the body of the request, null if the user cancels. getRobot: the robot as it is then. */
+export function askCarriers({title, text, getRobot}) {
     const dialog = document.getElementById("confirm-dialog");
+    const {ports, carrierIds: shown} = getRobot();
     const inputs = ports.map((port, i) => make("input", {
         id: `port-${i}`, type: "text", autocomplete: "off", spellcheck: "false", placeholder: t("robot.empty"),
-        value: carrierIds[i] ?? ""}));
+        value: shown[i] ?? ""}));
     for (const input of inputs) {
         input.addEventListener("input", () => {
             input.setCustomValidity(isTooLong(input.value.trim()) ? t("carriers.tooLong", {n: LONGEST_ID}) : "");
         });
     }
     dialog.replaceChildren(make("form", {method: "dialog"},
-        make("h2", {id: "confirm-title", text: title}), make("p", {text}),
+        make("h2", {id: "confirm-title", text: title}), make("p", {text}), make("p", {class: "muted", text: t("carriers.note")}),
         make("div", {class: "port-inputs"}, ...ports.flatMap((port, i) => [
             make("label", {for: inputs[i].id, text: port}), inputs[i]])),
         make("div", {class: "dialog-buttons"},
@@ -33,9 +34,10 @@ export function askCarriers({title, text, ports, carrierIds}) {
     leaveByEnter(inputs);
     return new Promise((resolve) => {
         dialog.addEventListener("close", () => {
-            const isChanged = ({value}, i) => value !== (carrierIds[i] ?? "");
-            resolve(dialog.returnValue !== "confirm" || !inputs.some(isChanged) ? null : {
-                carrierIds: inputs.map((input, i) => (isChanged(input, i) ? input.value.trim() : input.value) || null)});
+            // A plan may have changed the record meanwhile: a port that was not edited keeps what it has now.
+            const {carrierIds: present} = getRobot();
+            const read = ({value}, i) => value === (shown[i] ?? "") ? present[i] ?? null : value.trim() || null;
+            resolve(dialog.returnValue === "confirm" ? {carrierIds: inputs.map(read)} : null);
         }, {once: true});
     });
 }

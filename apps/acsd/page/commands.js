@@ -30,9 +30,9 @@ export const Commands = {
     setMaintenance: (robot) => ({label: t(robot.maintenance ? "command.maintenanceOff" : "command.maintenanceOn"),
         path: `/v1/robots/${encode(robot.robotId)}/maintenance`, body: {on: !robot.maintenance},
         ask: robot.maintenance ? "ask.maintenanceOff" : null, values: {id: robot.robotId}}),
-    /** getRobot: the robot when the dialog opens. */
-    setCarriers: (robotId, getRobot) => ({label: t("command.carriers"), path: `/v1/robots/${encode(robotId)}/carriers`, getRobot,
-        values: {id: robotId}}),
+    /** getRobot: the robot as it is then. */
+    setCarriers: (robot, robots) => ({label: t("command.carriers"), path: `/v1/robots/${encode(robot.robotId)}/carriers`,
+        getRobot: () => robots.get(robot.robotId) ?? robot, values: {id: robot.robotId}}),
     sendAction: (robotId, offer) => ({label: offer.actionType, path: `/v1/robots/${encode(robotId)}/actions`, offer,
         values: {id: robotId, action: offer.actionType}}),
     clearAlarm: (alarm) => ({label: t("command.clear"), path: "/v1/alarms/clear", ask: "ask.clear", body: {
@@ -47,9 +47,12 @@ export const Commands = {
 };
 
 /** The commands that a text of acsd names between backticks and for which the page has a button. */
-export function listNamedCommands(text) {
-    return [...text.matchAll(/`acsctl maintenance (\S+) (on|off)`/g)].map(([, robotId, word]) =>
+export function listNamedCommands(text, robots) {
+    const maintenance = [...text.matchAll(/`acsctl maintenance (\S+) (on|off)`/g)].map(([, robotId, word]) =>
         Commands.setMaintenance({robotId, maintenance: word === "off"}));
+    const carriers = [...text.matchAll(/`acsctl carriers (\S+)`/g)].map(([, robotId]) => robots.get(robotId))
+        .filter((robot) => robot?.ports.length > 0).map((robot) => Commands.setCarriers(robot, robots));
+    return [...maintenance, ...carriers];
 }
 
 /** What the questions of the command add to its body; null if the user cancels. */
@@ -59,8 +62,7 @@ async function askBody(command) {
         return value === null ? null : {[command.number]: value};
     }
     if (command.getRobot !== undefined) {
-        const {ports, carrierIds} = command.getRobot();
-        return askCarriers({title: command.label, text: t("ask.carriers", command.values), ports, carrierIds});
+        return askCarriers({title: command.label, text: t("ask.carriers", command.values), getRobot: command.getRobot});
     }
     if (command.offer !== undefined) {
         return askAction({title: command.label, text: t("ask.action", command.values), offer: command.offer});

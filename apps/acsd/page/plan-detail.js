@@ -21,7 +21,7 @@ export class PlanDetail {
         this.causeList = make("ul", {class: "alarms"});
         this.causes = new KeyedList(this.causeList, (cause) => cause.key, (cause) => new CauseRow(cause, context.select));
         this.alarmList = make("ul", {class: "alarms"});
-        this.alarms = new KeyedList(this.alarmList, getAlarmKey, (alarm) => new AlarmRow(alarm, context.select));
+        this.alarms = new KeyedList(this.alarmList, getAlarmKey, (alarm) => new AlarmRow(alarm, context));
         this.node = make("div", {class: "detail-body"}, this.steps.node, this.causeList, this.alarmList, this.facts, this.buttons,
             make("h3", {text: t("plan.steps")}), this.stepList, new TraceList(`plan=${encodeURIComponent(id)}`).node);
         this.plan = null;

@@ -22,7 +22,7 @@ export class RobotDetail {
         this.causeList = make("ul", {class: "alarms"});
         this.causes = new KeyedList(this.causeList, (cause) => cause.key, (cause) => new CauseRow(cause, context.select));
         this.alarmList = make("ul", {class: "alarms"});
-        this.alarms = new KeyedList(this.alarmList, getAlarmKey, (alarm) => new AlarmRow(alarm, context.select));
+        this.alarms = new KeyedList(this.alarmList, getAlarmKey, (alarm) => new AlarmRow(alarm, context));
         this.actions = new ActionList(id, context.model.entries);
         this.node = make("div", {class: "detail-body"}, this.causeList, this.alarmList, this.facts, this.buttons, this.actions.node,
             new TraceList(`robot=${encodeURIComponent(id)}`).node);
@@ -53,7 +53,7 @@ export class RobotDetail {
                 this.isInMaintenance = robot.maintenance;
                 const commands = [Commands.setMaintenance(robot)];
                 if (robot.ports.length > 0) {
-                    commands.push(Commands.setCarriers(this.id, () => model.robots.get(this.id) ?? robot));
+                    commands.push(Commands.setCarriers(robot, model.robots));
                 }
                 this.buttons.replaceChildren(...commands.map((command) => makeCommandButton(command)));
             }
