@@ -38,10 +38,14 @@ PauseTracker::ERepeat PauseTracker::OnState(bool bPaused, bool bWasPaused, bool 
     {
         return ERepeat::None;
     }
-    // In manual mode the robot may not have received the pause, and may still stop.
-    if (!bPaused && bAutomatic)
+    if (bPaused)
     {
-        Reset();
+        Resume();
+    }
+    // In manual mode the robot may not have received the pause, and may still stop.
+    else if (bAutomatic)
+    {
+        _state = bWasPaused || _state == EState::Ending ? EState::Running : EState::Ending;
     }
     // Also if it shows no pause: its base may drive while its arm is still stopped.
     return bBack ? ERepeat::Resume : ERepeat::None;
@@ -54,7 +58,7 @@ bool PauseTracker::IsPaused() const noexcept
 
 bool PauseTracker::IsResuming() const noexcept
 {
-    return _state == EState::Resuming;
+    return _state == EState::Resuming || _state == EState::Ending;
 }
 
 } // namespace ACS::Planning

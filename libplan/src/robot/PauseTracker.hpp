@@ -23,6 +23,7 @@ private:
         Running,
         Paused,   ///< A pause was commanded, and no resume since.
         Resuming, ///< A resume was commanded, and no state has confirmed it.
+        Ending,   ///< Likewise; one state showed no pause, which may be older than the pause.
     };
 
     EState _state = EState::Running;

@@ -30,6 +30,26 @@ TEST_CASE("PauseTracker: a pause is commanded again after a reconnect, or when t
     CHECK(tracker.IsPaused());
 }
 
+TEST_CASE("PauseTracker: a state from before the pause does not confirm the resume")
+{
+    PauseTracker tracker;
+    tracker.Pause();
+    CHECK(tracker.TryResume()); // before the robot has shown the pause
+    CHECK(tracker.OnState(false, false, true, false) == ERepeat::None);
+    CHECK(tracker.IsResuming());
+    SECTION("the robot received the pause only")
+    {
+        CHECK(tracker.OnState(true, false, true, true) == ERepeat::Resume);
+        CHECK(tracker.OnState(false, true, true, false) == ERepeat::None);
+    }
+    SECTION("a later state shows no pause either")
+    {
+        CHECK(tracker.OnState(false, false, true, false) == ERepeat::None);
+    }
+    CHECK_FALSE(tracker.IsResuming());
+    CHECK_FALSE(tracker.IsPaused());
+}
+
 TEST_CASE("PauseTracker: a resume is pending until the robot shows in automatic mode that it is not paused")
 {
     PauseTracker tracker;
