@@ -28,7 +28,7 @@ struct ReadLease
 /// Call ILease::TryTakeOrNull, then LeaseMachine::OnTaken.
 struct TakeLease
 {
-    LeaseState seen;
+    LeaseState seen; ///< The lease as it was read; it is taken only if it is still so.
 
     bool operator==(const TakeLease&) const = default;
 };
@@ -36,7 +36,7 @@ struct TakeLease
 /// Call ILease::TryRenew, then LeaseMachine::OnRenewed.
 struct RenewLease
 {
-    std::uint64_t epoch = 0;
+    std::uint64_t epoch = 0; ///< Of this process's lease.
 
     bool operator==(const RenewLease&) const = default;
 };
@@ -44,7 +44,7 @@ struct RenewLease
 /// Call ILease::Release, then LeaseMachine::OnReleased.
 struct ReleaseLease
 {
-    std::uint64_t epoch = 0;
+    std::uint64_t epoch = 0; ///< Of this process's lease.
 
     bool operator==(const ReleaseLease&) const = default;
 };
@@ -61,7 +61,7 @@ struct StartLeaseTimer
 /// This process may command until then, or until LeaseRevoked. Check the time before each message: a process can stall.
 struct LeaseExtended
 {
-    Core::SteadyTime end;
+    Core::SteadyTime end; ///< From then on nothing may be commanded.
 
     bool operator==(const LeaseExtended&) const = default;
 };
@@ -75,7 +75,7 @@ struct LeaseRevoked
 /// This process leads. Always the last action of its list.
 struct LeaseTaken
 {
-    std::uint64_t epoch = 0;
+    std::uint64_t epoch = 0; ///< For each transaction of this process: LeaseState::epoch.
 
     bool operator==(const LeaseTaken&) const = default;
 };

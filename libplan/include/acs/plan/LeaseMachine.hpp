@@ -76,6 +76,7 @@ public:
     /// a call before that.
     void Release(LeaseActions& out);
 
+    /// Why this process does not lead; while it does: TakesOver.
     [[nodiscard]] LeaseWait GetWait() const;
 
 private:
