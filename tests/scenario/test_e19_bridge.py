@@ -86,7 +86,8 @@ class Bridge(ScenarioCase):
         self.recorder = self.line.start("states", "-p", self.port, "-t", f"{TOPIC}/state", "-F", "%p",
                                         binary=shutil.which("mosquitto_sub"))
         self.bridge = self.line.start("e19_bridge", "127.0.0.1", self.port, "V1", "127.0.0.1", self.vehicle.port)
-        self.wait_for(lambda state: not state["errors"] and state["agvPosition"]["positionInitialized"])
+        # A state from before the vehicle has reported has no position.
+        self.wait_for(lambda state: not state["errors"] and state.get("agvPosition", {}).get("positionInitialized"))
 
     def read_states(self):
         return [json.loads(line) for line in self.recorder.log.read_text().splitlines() if line.endswith("}")]
