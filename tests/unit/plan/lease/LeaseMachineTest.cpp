@@ -14,12 +14,12 @@ using namespace std::chrono_literals;
 namespace
 {
 
-constexpr std::chrono::milliseconds DURATION{3'000};
+constexpr std::chrono::milliseconds LEASE{3'000};
 
 /// A machine, and the time.
 struct LeaseMachineFixture
 {
-    LeaseMachine machine{LeaseClaim{"this one", "config", DURATION}};
+    LeaseMachine machine{LeaseClaim{"this one", "config", LEASE}};
     Core::SteadyTime now{1h};
 
     [[nodiscard]] LeaseActions Start(Core::Duration pause = {}, const std::string& reason = {})
