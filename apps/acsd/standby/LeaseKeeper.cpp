@@ -128,18 +128,18 @@ void LeaseKeeper::Execute(const Planning::LeaseRevoked& /*action*/)
     _timers.CancelAll();
 }
 
-void LeaseKeeper::Execute(const Planning::LeaseTaken& action)
+void LeaseKeeper::Execute(const Planning::LeaseTaken& action) const
 {
     _dependencies.logger.Info("this process leads", {{"epoch", std::to_string(action.epoch)}});
     _handlers.onTaken(action.epoch);
 }
 
-void LeaseKeeper::Execute(const Planning::LeaseLost& action)
+void LeaseKeeper::Execute(const Planning::LeaseLost& action) const
 {
     _handlers.onLost(action.reason);
 }
 
-void LeaseKeeper::Execute(const Planning::LeaseFault& action)
+void LeaseKeeper::Execute(const Planning::LeaseFault& action) const
 {
     _dependencies.logger.Warning("the lease of the store cannot be read or renewed", {{"reason", action.reason}});
 }

@@ -84,9 +84,9 @@ private:
     void Execute(const Planning::StartLeaseTimer& action);
     void Execute(const Planning::LeaseExtended& action);
     void Execute(const Planning::LeaseRevoked& action);
-    void Execute(const Planning::LeaseTaken& action);
-    void Execute(const Planning::LeaseLost& action);
-    void Execute(const Planning::LeaseFault& action);
+    void Execute(const Planning::LeaseTaken& action) const;
+    void Execute(const Planning::LeaseLost& action) const;
+    void Execute(const Planning::LeaseFault& action) const;
     void Execute(const Planning::LeaseEnded& action);
     [[nodiscard]] Core::SteadyTime GetNow() const;
 };

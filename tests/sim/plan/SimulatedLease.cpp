@@ -133,18 +133,18 @@ void SimulatedLease::Execute(const LeaseTaken& action)
     onTaken(action.epoch);
 }
 
-void SimulatedLease::Execute(const LeaseLost& action)
+void SimulatedLease::Execute(const LeaseLost& action) const
 {
     _around.trace.Add("acsd: the lease is lost: {}", action.reason);
     _handlers.onLost();
 }
 
-void SimulatedLease::Execute(const LeaseFault& action)
+void SimulatedLease::Execute(const LeaseFault& action) const
 {
     _around.trace.Add("acsd: the lease: {}", action.reason);
 }
 
-void SimulatedLease::Execute(const LeaseEnded& /*action*/)
+void SimulatedLease::Execute(const LeaseEnded& /*action*/) const
 {
     _handlers.onReleased();
 }

@@ -92,9 +92,9 @@ private:
     void Execute(const Planning::LeaseExtended& action);
     void Execute(const Planning::LeaseRevoked& action);
     void Execute(const Planning::LeaseTaken& action);
-    void Execute(const Planning::LeaseLost& action);
-    void Execute(const Planning::LeaseFault& action);
-    void Execute(const Planning::LeaseEnded& action);
+    void Execute(const Planning::LeaseLost& action) const;
+    void Execute(const Planning::LeaseFault& action) const;
+    void Execute(const Planning::LeaseEnded& action) const;
     /// The call reaches the store after some time, and its result comes back after some more.
     template <typename TCall, typename TAnswer>
     void Call(TCall call, TAnswer answer);

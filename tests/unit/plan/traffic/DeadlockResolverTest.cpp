@@ -4,6 +4,12 @@
 #include "fixtures/EngineParts.hpp"
 #include "fixtures/PlanWorld.hpp"
 
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 using namespace ACS::Testing;  // NOLINT(google-build-using-namespace): its fixtures
 
@@ -22,7 +28,7 @@ SiteMap MakeLane()
     const auto connect = [&edges, &edge](const std::string& from, const std::string& to) {
         for (const auto& [start, end] : {std::pair{from, to}, std::pair{to, from}})
         {
-            edge.edgeID = start + ">" + end;
+            edge.edgeID = fmt::format("{}>{}", start, end);
             edge.startNodeID = start;
             edge.endNodeID = end;
             edges.push_back(edge);
