@@ -337,7 +337,7 @@ std::string WaitReasons::DescribeUnfree(const Robot& robot) const
             ? fmt::format("battery {:.0f} % is below {:.0f} %", percent, dispatch.batteryFloor)
             : fmt::format("charging, battery {:.0f} % of {:.0f} %", percent, dispatch.batteryResume);
     }
-    return "drives to " + robot.drive->route.nodes.back().nodeID;
+    return robot.IsStopping() ? "is coming to a stop" : "drives to " + robot.drive->route.nodes.back().nodeID;
 }
 
 } // namespace ACS::Planning

@@ -2,6 +2,7 @@
 #include "fixtures/EngineParts.hpp"
 #include "fixtures/PlanWorld.hpp"
 
+#include <algorithm>
 #include <set>
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
@@ -72,6 +73,23 @@ TEST_CASE("WaitReasons: a plan whose robot makes progress has no reason")
         parts.lr.drive->passed = parts.lr.drive->releasedCount - 1;
         CHECK(parts.waits.GetWaitReasonOrNull("P1").has_value());
     }
+}
+
+TEST_CASE("WaitReasons: a robot that lost its drive while it drove has a reason until it has stopped")
+{
+    EngineParts parts;
+    parts.PutOn(parts.lr, "D-A01.CP01");
+    parts.BeginDrive(parts.lr, "D-CHG01");
+    parts.lr.drive->bConfirmed = true;
+    parts.lr.view.state->bDriving = true;
+    parts.coordinator.EndDrive(parts.lr);
+    parts.AddLoad();
+    REQUIRE_FALSE(parts.lr.IsFree());
+    const std::optional<WaitReason> stopping = parts.waits.GetWaitReasonOrNull("P1");
+    REQUIRE(stopping.has_value());
+    CHECK(std::ranges::any_of(stopping->robots, [](const RobotUnavailability& robot) {
+        return robot.robotID == "LR01" && robot.reason == "is coming to a stop";
+    }));
 }
 
 TEST_CASE("WaitReasons: a paused plan and an unresolved job have a reason, a running job has none")
