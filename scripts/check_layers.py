@@ -31,6 +31,7 @@ FOLDERS = {
     "libopenstream/asio/": "openstream_asio",
     "libplan/": "plan",
     "libplan/adapter-test/": "adapter_test",
+    "libplan/json/": "plan_json",
     "libplan/postgres/": "plan_postgres",
     "libplan/sqlite/": "plan_sqlite",
     "apps/common/": "apps/common",
@@ -45,6 +46,7 @@ SIMULATORS = ("apps/mcs-sim", "apps/openstream-sim", "apps/vda-sim")
 THIRD_PARTY = {
     "core": ("fmt/", "tl/"),
     "json": ("fmt/", "tl/", "rapidjson/"),
+    "plan_json": (),
     "net": ("fmt/", "tl/", "boost/asio", "boost/system/"),
     **{layer: ("fmt/", "tl/") for layer in (*PURE, *KITS)},
     **{layer: ("fmt/", "tl/", "acs/c/") for layer in BINDINGS},
@@ -114,9 +116,15 @@ def explain_refusal(path, layer, used):
     if used == "examples":
         return "is an example; no other file may include it"
     if used == "json":
-        if layer in PURE and (path.endswith(".cpp") or "/src/codec/" in path):
+        if layer == "plan_json" or layer in PURE and (path.endswith(".cpp") or "/src/codec/" in path):
             return None
         return "is internal; only .cpp files and src/codec/ of the pure libraries may include acs/json"
+    if used == "plan_json":
+        if layer in ("plan", "apps/acsd") and path.endswith(".cpp"):
+            return None
+        return "is internal; only .cpp files of libplan and apps/acsd may include acs/plan_json"
+    if layer == "plan_json":
+        return None if used in ("core", "json", "plan") else "lies above libplan: it sees acs/core, acs/json and acs/plan only"
     if used == "net":
         if layer in IO and "/src/" in path:
             return None
@@ -149,7 +157,7 @@ def explain_refusal(path, layer, used):
 def explain_foreign(path, layer, name):
     """Why a header that is not of this tree must not be included here; None where it may."""
     bStandard = "/" not in name and "." not in name
-    if layer in ("core", "json", *PURE, *KITS, *BINDINGS) and (name in IMPURE_STANDARD or name in ("time.h", "pthread.h")):
+    if layer in ("core", "json", "plan_json", *PURE, *KITS, *BINDINGS) and (name in IMPURE_STANDARD or name in ("time.h", "pthread.h")):
         return "is not for a pure library: no threads, files or clocks below the I/O libraries"
     if bStandard or layer not in THIRD_PARTY:
         return None
@@ -171,7 +179,7 @@ def check_cpp(root, path, layer, resolver):
             reason = explain_foreign(path, layer, name)
         if reason is not None:
             yield line, f"<{name}> {reason}"
-    pure = layer in ("core", "json", *PURE, *KITS, *BINDINGS)
+    pure = layer in ("core", "json", "plan_json", *PURE, *KITS, *BINDINGS)
     for line, content in enumerate(code.splitlines(), 1):
         if SLEEP.search(content):
             yield line, "sleeps; wait for the event with a timer or a bounded wait"

@@ -15,7 +15,7 @@ EXCEPTIONS = (
 
 # (path, literal with its quotes): names that existing files on disk have, so that they cannot be changed.
 STORED_NAMES = (
-    ("libplan/src/codec/StoreCodec.cpp", '"doubtful"'),  # key of RobotWorkChanged::bUnresolved in acsd.db
+    ("libplan/json/include/acs/plan_json/PlanFields.hpp", '"doubtful"'),  # key of RobotWorkChanged::bUnresolved in acsd.db
 )
 
 # What is rejected, and what to write in its place.

@@ -1,57 +1,15 @@
 #include "world/WorldEventCodec.hpp"
 
 #include "world/MemoryEnumNames.hpp"
-#include <acs/json/JsonDecoder.hpp>
-#include <acs/json/JsonDocument.hpp>
-#include <acs/json/JsonEncoder.hpp>
+#include <acs/json/TaggedVariant.hpp>
+#include <acs/json/TextCodec.hpp>
 
 #include <array>
-#include <cstdint>
+#include <string_view>
 #include <tuple>
-#include <variant>
-
-namespace ACS::Sim
-{
-namespace
-{
-
-/// The kinds of events, in the order of the alternatives of WorldEvent.
-enum class EWorldEvent : std::uint8_t
-{
-    RobotDocked,
-    CarrierMoved,
-    MemoryMoved,
-    CoverMoved,
-    ButtonPushed,
-    CarrierPlaced,
-    MemoryPlaced,
-};
-
-template <typename TEvent>
-struct JournalLine
-{
-    EWorldEvent kind{};
-    TEvent event{};
-};
-
-} // namespace
-} // namespace ACS::Sim
 
 namespace ACS::Json
 {
-
-template <>
-struct EnumNames<Sim::EWorldEvent>
-{
-    static constexpr std::array WORDS{
-        EnumWord<Sim::EWorldEvent>{Sim::EWorldEvent::RobotDocked, "RobotDocked"},
-        EnumWord<Sim::EWorldEvent>{Sim::EWorldEvent::CarrierMoved, "CarrierMoved"},
-        EnumWord<Sim::EWorldEvent>{Sim::EWorldEvent::MemoryMoved, "MemoryMoved"},
-        EnumWord<Sim::EWorldEvent>{Sim::EWorldEvent::CoverMoved, "CoverMoved"},
-        EnumWord<Sim::EWorldEvent>{Sim::EWorldEvent::ButtonPushed, "ButtonPushed"},
-        EnumWord<Sim::EWorldEvent>{Sim::EWorldEvent::CarrierPlaced, "CarrierPlaced"},
-        EnumWord<Sim::EWorldEvent>{Sim::EWorldEvent::MemoryPlaced, "MemoryPlaced"}};
-};
 
 template <>
 struct JsonFields<Sim::RobotDocked>
@@ -111,11 +69,18 @@ struct JsonFields<Sim::MemoryPlaced>
         std::make_tuple(Required("place", &Sim::MemoryPlaced::place), Required("memory", &Sim::MemoryPlaced::memory));
 };
 
-template <typename TEvent>
-struct JsonFields<Sim::JournalLine<TEvent>>
+template <>
+struct VariantTag<Sim::WorldEvent>
 {
-    static constexpr auto FIELDS =
-        std::make_tuple(Required("event", &Sim::JournalLine<TEvent>::kind), Flat(&Sim::JournalLine<TEvent>::event));
+    static constexpr std::string_view NAME = "event";
+    static constexpr std::array<std::string_view, 7> WORDS{
+        "RobotDocked",
+        "CarrierMoved",
+        "MemoryMoved",
+        "CoverMoved",
+        "ButtonPushed",
+        "CarrierPlaced",
+        "MemoryPlaced"};
 };
 
 } // namespace ACS::Json
@@ -127,46 +92,11 @@ namespace
 
 constexpr Json::ParseLimits LINE_LIMITS{64U * 1024U, 4};
 
-template <typename TEvent>
-Core::Result<WorldEvent> DecodeAs(const Json::Value& value)
-{
-    Json::DecodeOptions options;
-    options.bUnknownMembersRefused = true;
-    options.bWordsInAnyCase = false;
-    Json::DecodeContext context(options);
-    JournalLine<TEvent> line;
-    if (!Json::TryDecode(value, line, {}, context))
-    {
-        return tl::make_unexpected(context.TakeError());
-    }
-    return std::move(line.event);
-}
-
-using DecodeFunction = Core::Result<WorldEvent> (*)(const Json::Value&);
-
-/// Indexed by EWorldEvent.
-constexpr std::array<DecodeFunction, std::variant_size_v<WorldEvent>> DECODERS{
-    DecodeAs<RobotDocked>,
-    DecodeAs<CarrierMoved>,
-    DecodeAs<MemoryMoved>,
-    DecodeAs<CoverMoved>,
-    DecodeAs<ButtonPushed>,
-    DecodeAs<CarrierPlaced>,
-    DecodeAs<MemoryPlaced>};
-
 } // namespace
 
 std::string EncodeWorldEvent(const WorldEvent& event)
 {
-    std::string text;
-    Json::JsonWriter writer(text);
-    const auto kind = static_cast<EWorldEvent>(event.index());
-    std::visit(
-        [&writer, kind](const auto& happened) {
-            Json::Encode(JournalLine<std::remove_cvref_t<decltype(happened)>>{kind, happened}, writer);
-        },
-        event);
-    return text;
+    return Json::EncodeText(event);
 }
 
 Core::Result<WorldEvent> DecodeWorldEvent(std::string_view line)
@@ -177,19 +107,16 @@ Core::Result<WorldEvent> DecodeWorldEvent(std::string_view line)
     {
         return tl::make_unexpected(root.error());
     }
-    const Json::Value* const word = Json::FindFirstOrNull(**root, "event");
-    EWorldEvent kind{};
-    bool bExact = false;
-    if (word == nullptr || !word->IsString()
-        || !Json::TryReadWord(std::string_view(word->GetString(), word->GetStringLength()), kind, bExact) || !bExact)
+    Json::DecodeOptions options;
+    options.bUnknownMembersRefused = true;
+    options.bWordsInAnyCase = false;
+    Json::DecodeContext context(options);
+    WorldEvent event;
+    if (!Json::TryDecode(**root, event, {}, context))
     {
-        return Core::Fail(
-            Core::ECoreError::UnknownWord,
-            "event",
-            Json::ListWords<EWorldEvent>(),
-            word == nullptr ? "nothing" : Json::ShortenForError(*word));
+        return tl::make_unexpected(context.TakeError());
     }
-    return DECODERS[static_cast<std::size_t>(kind)](**root);
+    return event;
 }
 
 } // namespace ACS::Sim

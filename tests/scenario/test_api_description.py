@@ -8,7 +8,7 @@ import unittest
 
 from api_description import REPOSITORY, ApiDescription, load_description
 
-ENUM_NAMES = REPOSITORY / "libplan" / "src" / "codec" / "PlanEnumNames.hpp"
+ENUM_NAMES = REPOSITORY / "libplan" / "json" / "include" / "acs" / "plan_json" / "PlanEnumNames.hpp"
 ENUMS = {"PlanStatus": "EPlanState", "StepStatus": "EStepState", "JobStatus": "EJobState", "RobotStatus": "ERobotStatus",
          "TscState": "ETscState", "AlarmLevel": "EAlarmLevel"}
 

@@ -3,6 +3,7 @@
 #include "operator/CommandBodies.hpp"
 #include "operator/OperatorAnswer.hpp"
 #include <acs/core/Result.hpp>
+#include <acs/plan_json/PlanEnumNames.hpp>
 
 #include <fmt/format.h>
 
@@ -301,15 +302,9 @@ HttpResponse SetPriority(
 
 std::optional<Planning::EBlockKind> ReadBlockKindOrNull(std::string_view word)
 {
-    for (const Planning::EBlockKind kind :
-         {Planning::EBlockKind::Node, Planning::EBlockKind::Edge, Planning::EBlockKind::Station})
-    {
-        if (word == GetText(kind))
-        {
-            return kind;
-        }
-    }
-    return std::nullopt;
+    Planning::EBlockKind kind{};
+    bool bExact = false;
+    return Json::TryReadWord(word, kind, bExact) && bExact ? std::optional(kind) : std::nullopt;
 }
 
 HttpResponse RefuseKind(std::string_view kind)

@@ -1,13 +1,13 @@
 #include "replay/InputCodec.hpp"
 
 #include "replay/OperatorCommandCodec.hpp"
-#include "replay/RecordJson.hpp"
 #include "replay/RobotEventCodec.hpp"
 #include "replay/SessionEventCodec.hpp"
 #include "replay/StateCodec.hpp"
 #include "replay/TimerText.hpp"
 #include <acs/core/ECoreError.hpp>
 #include <acs/core/Overloaded.hpp>
+#include <acs/json/TextCodec.hpp>
 #include <acs/plan/EPlanningError.hpp>
 
 #include <optional>
@@ -87,7 +87,7 @@ namespace
 std::string EncodeError(const Core::Error& error)
 {
     const bool bOfPlanning = error.code.category() == make_error_code(Planning::EPlanningError::StoreFailed).category();
-    return EncodeRecord(ErrorOfStore{
+    return Json::EncodeText(ErrorOfStore{
         bOfPlanning ? std::optional(error.code.value()) : std::nullopt,
         error.path,
         error.expected,
@@ -96,7 +96,7 @@ std::string EncodeError(const Core::Error& error)
 
 Core::Result<Core::Error> DecodeError(std::string_view text)
 {
-    return DecodeRecord<ErrorOfStore>(text).map([](ErrorOfStore&& read) {
+    return Json::DecodeText<ErrorOfStore>(text).map([](ErrorOfStore&& read) {
         const std::error_code failed = make_error_code(Planning::EPlanningError::StoreFailed);
         return Core::Error{
             {read.code.value_or(failed.value()), failed.category()},
@@ -159,7 +159,7 @@ CoreRecord EncodeInput(const CoreInput& input)
                     : MakeInputRecord(STORED_KIND);
             },
             [](const StoreLostInput& lost) { return MakeInputRecord(STORE_LOST_KIND, EncodeError(lost.error)); },
-            [](const Planning::StoreLog& log) { return MakeInputRecord(STORE_LOG_KIND, EncodeRecord(log)); },
+            [](const Planning::StoreLog& log) { return MakeInputRecord(STORE_LOG_KIND, Json::EncodeText(log)); },
             [](const OfferInput& offer) {
                 CoreRecord record = MakeInputRecord(OPERATOR_KIND, EncodeOffer(offer));
                 record.planID = FindPlanID(offer.command);
@@ -219,7 +219,7 @@ Core::Result<CoreInput> DecodeInput(const CoreRecord& record)
     }
     if (kind == STORE_LOG_KIND)
     {
-        return AsInput(DecodeRecord<Planning::StoreLog>(record.text));
+        return AsInput(Json::DecodeText<Planning::StoreLog>(record.text));
     }
     if (kind == OPERATOR_KIND)
     {

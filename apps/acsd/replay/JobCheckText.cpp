@@ -1,7 +1,7 @@
 #include "replay/JobCheckText.hpp"
 
-#include "replay/RecordJson.hpp"
 #include "replay/RecordKind.hpp"
+#include <acs/json/TextCodec.hpp>
 
 #include <utility>
 
@@ -41,13 +41,13 @@ CoreRecord EncodeRejection(const JobRejection& rejection)
     CoreRecord record;
     record.kind = JOB_CHECK_KIND;
     record.robotID = rejection.robotID;
-    record.text = EncodeRecord(RejectionText{rejection.job, rejection.reason});
+    record.text = Json::EncodeText(RejectionText{rejection.job, rejection.reason});
     return record;
 }
 
 Core::Result<JobRejection> DecodeRejection(const CoreRecord& record)
 {
-    return DecodeRecord<RejectionText>(record.text).map([&record](RejectionText&& read) {
+    return Json::DecodeText<RejectionText>(record.text).map([&record](RejectionText&& read) {
         return JobRejection{record.robotID, std::move(read.job), std::move(read.reason)};
     });
 }

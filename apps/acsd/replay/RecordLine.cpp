@@ -1,7 +1,7 @@
 #include "replay/RecordLine.hpp"
 
-#include "replay/RecordJson.hpp"
 #include <acs/core/Timestamp.hpp>
+#include <acs/json/TextCodec.hpp>
 
 #include <chrono>
 #include <string>
@@ -145,7 +145,7 @@ Core::Result<std::optional<std::variant<CoreRecord, LostLines>>> ReadRecord(std:
     {
         return Line();
     }
-    return DecodeRecord<LineText>(line).and_then([](LineText&& text) { return MakeLine(std::move(text)); });
+    return Json::DecodeText<LineText>(line).and_then([](LineText&& text) { return MakeLine(std::move(text)); });
 }
 
 } // namespace ACS::Acsd

@@ -5,8 +5,8 @@
 #include "common/Version.hpp"
 #include "config/LiveConfig.hpp"
 #include "operator/OperatorToken.hpp"
-#include "replay/RecordJson.hpp"
 #include "replay/RecordKind.hpp"
+#include <acs/json/TextCodec.hpp>
 
 #include <fmt/format.h>
 
@@ -208,13 +208,13 @@ CoreRecord MakeBeginRecord(const AcsdConfig& config, Core::Now now)
     CoreRecord record;
     record.now = now;
     record.kind = BEGIN_KIND;
-    record.text = EncodeRecord(run);
+    record.text = Json::EncodeText(run);
     return record;
 }
 
 Core::Result<RecordedRun> DecodeBegin(std::string_view text)
 {
-    return DecodeRecord<RecordedRun>(text);
+    return Json::DecodeText<RecordedRun>(text);
 }
 
 AcsdConfig ReadRecordedConfig(const RecordedRun& run, const std::string& folder, const RobotDrivers& drivers)

@@ -1,18 +1,15 @@
 #include "replay/RobotEventCodec.hpp"
 
-#include "replay/RecordJson.hpp"
-#include <acs/core/ECoreError.hpp>
-#include <acs/core/Overloaded.hpp>
+#include <acs/json/TaggedVariant.hpp>
+#include <acs/json/TextCodec.hpp>
+#include <acs/plan_json/PlanEnumNames.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <iterator>
-#include <limits>
-#include <optional>
+#include <array>
+#include <memory>
+#include <string_view>
+#include <tuple>
 #include <utility>
 #include <variant>
-#include <vector>
 
 namespace ACS::Acsd
 {
@@ -20,63 +17,11 @@ namespace ACS::Acsd
 namespace
 {
 
-struct RobotErrorText
+/// Reads of an event whether it has a job check.
+struct JobCheckMark
 {
-    std::string errorCode;
-    std::string level;
-    std::string message;
+    bool bOn = false;
 };
-
-/// A StateChanged; of its numbers those that are not finite are absent.
-struct RobotStateText
-{
-    std::optional<double> x;
-    std::optional<double> y;
-    std::optional<double> theta;
-    std::optional<double> batteryPercent;
-    bool bPoseKnown = false;
-    std::string lastNodeID;
-    bool bDriving = false;
-    bool bCharging = false;
-    bool bPaused = false;
-    bool bAutomatic = true;
-    bool bSafetyStop = false;
-    bool bOccupied = false;
-    std::vector<RobotErrorText> errors;
-    std::size_t omittedErrors = 0;
-    std::vector<std::string> heldNodeIDs;
-    std::optional<std::string> commandID;
-    std::string progressToken;
-    std::optional<std::vector<Planning::PortLoad>> loads;
-};
-
-/// An event of any kind: what a kind does not have is absent.
-struct RobotEventText
-{
-    std::string event;
-    std::optional<RobotStateText> state;
-    std::optional<bool> bOn; ///< Online, or a job check.
-    std::string driveID;
-    std::string nodeID;
-    std::string jobID;
-    std::string reason;
-};
-
-constexpr std::string_view LINK_EVENT = "LinkChanged";
-constexpr std::string_view STATE_EVENT = "StateChanged";
-constexpr std::string_view PASSED_EVENT = "NodePassed";
-constexpr std::string_view ARRIVED_EVENT = "Arrived";
-constexpr std::string_view DRIVE_REJECTED_EVENT = "DriveRejected";
-constexpr std::string_view DRIVE_CANCELLED_EVENT = "DriveCancelled";
-constexpr std::string_view JOB_STARTED_EVENT = "JobStarted";
-constexpr std::string_view JOB_FINISHED_EVENT = "JobFinished";
-constexpr std::string_view JOB_FAILED_EVENT = "JobFailed";
-constexpr std::string_view JOB_REJECTED_EVENT = "JobRejected";
-constexpr std::string_view JOB_INTERRUPTED_EVENT = "JobInterrupted";
-constexpr std::string_view JOB_UNKNOWN_EVENT = "JobUnknown";
-constexpr std::string_view JOB_UNRESOLVED_EVENT = "JobUnresolved";
-constexpr std::string_view JOB_CHECK_EVENT = "JobCheckChanged";
-constexpr std::string_view COMPATIBILITY_EVENT = "CompatibilityChanged";
 
 } // namespace
 
@@ -85,13 +30,38 @@ constexpr std::string_view COMPATIBILITY_EVENT = "CompatibilityChanged";
 namespace ACS::Json
 {
 
+/// Of a check only whether there is one; what is read has none.
 template <>
-struct JsonFields<Acsd::RobotErrorText>
+struct ValueEncoder<decltype(Planning::JobCheckChanged::jobCheck)>
+{
+    static void Encode(const decltype(Planning::JobCheckChanged::jobCheck)& jobCheck, JsonWriter& writer)
+    {
+        writer.WriteBoolean(jobCheck != nullptr);
+    }
+};
+
+template <>
+struct ValueDecoder<decltype(Planning::JobCheckChanged::jobCheck)>
+{
+    [[nodiscard]] static bool TryDecode(
+        const Value& value,
+        decltype(Planning::JobCheckChanged::jobCheck)& out,
+        const FieldBounds& bounds,
+        DecodeContext& context)
+    {
+        out = nullptr;
+        bool bOn = false;
+        return ValueDecoder<bool>::TryDecode(value, bOn, bounds, context);
+    }
+};
+
+template <>
+struct JsonFields<Planning::RobotError>
 {
     static constexpr auto FIELDS = std::make_tuple(
-        Required("errorCode", &Acsd::RobotErrorText::errorCode),
-        Required("level", &Acsd::RobotErrorText::level),
-        Required("message", &Acsd::RobotErrorText::message));
+        Required("errorCode", &Planning::RobotError::errorCode),
+        Required("level", &Planning::RobotError::level),
+        Required("message", &Planning::RobotError::message));
 };
 
 template <>
@@ -104,40 +74,161 @@ struct JsonFields<Planning::PortLoad>
 };
 
 template <>
-struct JsonFields<Acsd::RobotStateText>
+struct JsonFields<Planning::RestartEvidence>
 {
     static constexpr auto FIELDS = std::make_tuple(
-        Optional("x", &Acsd::RobotStateText::x),
-        Optional("y", &Acsd::RobotStateText::y),
-        Optional("theta", &Acsd::RobotStateText::theta),
-        Optional("battery", &Acsd::RobotStateText::batteryPercent),
-        Required("poseKnown", &Acsd::RobotStateText::bPoseKnown),
-        Optional("lastNodeId", &Acsd::RobotStateText::lastNodeID),
-        Required("driving", &Acsd::RobotStateText::bDriving),
-        Required("charging", &Acsd::RobotStateText::bCharging),
-        Required("paused", &Acsd::RobotStateText::bPaused),
-        Required("automatic", &Acsd::RobotStateText::bAutomatic),
-        Required("safetyStop", &Acsd::RobotStateText::bSafetyStop),
-        Required("occupied", &Acsd::RobotStateText::bOccupied),
-        Optional("errors", &Acsd::RobotStateText::errors),
-        Defaulted("omittedErrors", &Acsd::RobotStateText::omittedErrors),
-        Optional("heldNodeIds", &Acsd::RobotStateText::heldNodeIDs),
-        Optional("commandId", &Acsd::RobotStateText::commandID),
-        Optional("progressToken", &Acsd::RobotStateText::progressToken),
-        Optional("loads", &Acsd::RobotStateText::loads));
+        Optional("commandId", &Planning::RestartEvidence::commandID),
+        Optional("progressToken", &Planning::RestartEvidence::progressToken));
 };
 
 template <>
-struct JsonFields<Acsd::RobotEventText>
+struct JsonFields<Planning::LinkChanged>
+{
+    static constexpr auto FIELDS = std::make_tuple(Required("on", &Planning::LinkChanged::bOnline));
+};
+
+template <>
+struct JsonFields<Planning::StateChanged>
 {
     static constexpr auto FIELDS = std::make_tuple(
-        Required("event", &Acsd::RobotEventText::event),
-        Optional("state", &Acsd::RobotEventText::state),
-        Optional("on", &Acsd::RobotEventText::bOn),
-        Optional("driveId", &Acsd::RobotEventText::driveID),
-        Optional("nodeId", &Acsd::RobotEventText::nodeID),
-        Optional("jobId", &Acsd::RobotEventText::jobID),
-        Optional("reason", &Acsd::RobotEventText::reason));
+        Nullable("x", &Planning::StateChanged::x),
+        Nullable("y", &Planning::StateChanged::y),
+        Nullable("theta", &Planning::StateChanged::theta),
+        Nullable("battery", &Planning::StateChanged::batteryPercent),
+        Required("poseKnown", &Planning::StateChanged::bPoseKnown),
+        Optional("lastNodeId", &Planning::StateChanged::lastNodeID),
+        Required("driving", &Planning::StateChanged::bDriving),
+        Required("charging", &Planning::StateChanged::bCharging),
+        Required("paused", &Planning::StateChanged::bPaused),
+        Required("automatic", &Planning::StateChanged::bAutomatic),
+        Required("safetyStop", &Planning::StateChanged::bSafetyStop),
+        Required("occupied", &Planning::StateChanged::bOccupied),
+        Optional("errors", &Planning::StateChanged::errors),
+        Defaulted("omittedErrors", &Planning::StateChanged::omittedErrors),
+        Optional("heldNodeIds", &Planning::StateChanged::heldNodeIDs),
+        Flat(&Planning::StateChanged::restartEvidence),
+        Optional("loads", &Planning::StateChanged::loads));
+};
+
+template <>
+struct JsonFields<Planning::NodePassed>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("driveId", &Planning::NodePassed::driveID),
+        Required("nodeId", &Planning::NodePassed::nodeID));
+};
+
+template <>
+struct JsonFields<Planning::Arrived>
+{
+    static constexpr auto FIELDS = std::make_tuple(Required("driveId", &Planning::Arrived::driveID));
+};
+
+template <>
+struct JsonFields<Planning::DriveRejected>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("driveId", &Planning::DriveRejected::driveID),
+        Optional("reason", &Planning::DriveRejected::reason));
+};
+
+template <>
+struct JsonFields<Planning::DriveCancelled>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("driveId", &Planning::DriveCancelled::driveID),
+        Optional("nodeId", &Planning::DriveCancelled::nodeID));
+};
+
+template <>
+struct JsonFields<Planning::JobStarted>
+{
+    static constexpr auto FIELDS = std::make_tuple(Required("jobId", &Planning::JobStarted::jobID));
+};
+
+template <>
+struct JsonFields<Planning::JobFinished>
+{
+    static constexpr auto FIELDS = std::make_tuple(Required("jobId", &Planning::JobFinished::jobID));
+};
+
+template <>
+struct JsonFields<Planning::JobFailed>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("jobId", &Planning::JobFailed::jobID),
+        Optional("reason", &Planning::JobFailed::reason));
+};
+
+template <>
+struct JsonFields<Planning::JobRejected>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("jobId", &Planning::JobRejected::jobID),
+        Optional("reason", &Planning::JobRejected::reason));
+};
+
+template <>
+struct JsonFields<Planning::JobInterrupted>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("jobId", &Planning::JobInterrupted::jobID),
+        Optional("reason", &Planning::JobInterrupted::reason));
+};
+
+template <>
+struct JsonFields<Planning::JobUnknown>
+{
+    static constexpr auto FIELDS = std::make_tuple(Required("jobId", &Planning::JobUnknown::jobID));
+};
+
+template <>
+struct JsonFields<Planning::JobUnresolved>
+{
+    static constexpr auto FIELDS = std::make_tuple(
+        Required("jobId", &Planning::JobUnresolved::jobID),
+        Optional("reason", &Planning::JobUnresolved::reason));
+};
+
+template <>
+struct JsonFields<Planning::JobCheckChanged>
+{
+    static constexpr auto FIELDS = std::make_tuple(Required("on", &Planning::JobCheckChanged::jobCheck));
+};
+
+template <>
+struct JsonFields<Planning::CompatibilityChanged>
+{
+    static constexpr auto FIELDS =
+        std::make_tuple(Optional("reason", &Planning::CompatibilityChanged::incompatibility));
+};
+
+template <>
+struct VariantTag<Planning::RobotEvent>
+{
+    static constexpr std::string_view NAME = "event";
+    static constexpr std::array<std::string_view, 15> WORDS{
+        "LinkChanged",
+        "StateChanged",
+        "NodePassed",
+        "Arrived",
+        "DriveRejected",
+        "DriveCancelled",
+        "JobStarted",
+        "JobFinished",
+        "JobFailed",
+        "JobRejected",
+        "JobInterrupted",
+        "JobUnknown",
+        "JobUnresolved",
+        "JobCheckChanged",
+        "CompatibilityChanged"};
+};
+
+template <>
+struct JsonFields<Acsd::JobCheckMark>
+{
+    static constexpr auto FIELDS = std::make_tuple(Defaulted("on", &Acsd::JobCheckMark::bOn));
 };
 
 } // namespace ACS::Json
@@ -145,221 +236,25 @@ struct JsonFields<Acsd::RobotEventText>
 namespace ACS::Acsd
 {
 
-namespace
-{
-
-std::optional<double> MakeFiniteOrNull(double value)
-{
-    return std::isfinite(value) ? std::optional(value) : std::nullopt;
-}
-
-double ReadFinite(const std::optional<double>& valueOrNull)
-{
-    return valueOrNull.value_or(std::numeric_limits<double>::quiet_NaN());
-}
-
-RobotStateText MakeRobotStateText(const Planning::StateChanged& state)
-{
-    RobotStateText text{
-        MakeFiniteOrNull(state.x),
-        MakeFiniteOrNull(state.y),
-        MakeFiniteOrNull(state.theta),
-        MakeFiniteOrNull(state.batteryPercent),
-        state.bPoseKnown,
-        state.lastNodeID,
-        state.bDriving,
-        state.bCharging,
-        state.bPaused,
-        state.bAutomatic,
-        state.bSafetyStop,
-        state.bOccupied,
-        {},
-        state.omittedErrors,
-        state.heldNodeIDs,
-        state.restartEvidence.commandID,
-        state.restartEvidence.progressToken,
-        state.loads};
-    std::ranges::transform(state.errors, std::back_inserter(text.errors), [](const Planning::RobotError& error) {
-        return RobotErrorText{error.errorCode, std::string(GetText(error.level)), error.message};
-    });
-    return text;
-}
-
-Planning::StateChanged MakeRobotState(RobotStateText text)
-{
-    Planning::StateChanged state;
-    state.x = ReadFinite(text.x);
-    state.y = ReadFinite(text.y);
-    state.theta = ReadFinite(text.theta);
-    state.batteryPercent = ReadFinite(text.batteryPercent);
-    state.bPoseKnown = text.bPoseKnown;
-    state.lastNodeID = std::move(text.lastNodeID);
-    state.bDriving = text.bDriving;
-    state.bCharging = text.bCharging;
-    state.bPaused = text.bPaused;
-    state.bAutomatic = text.bAutomatic;
-    state.bSafetyStop = text.bSafetyStop;
-    state.bOccupied = text.bOccupied;
-    for (RobotErrorText& error : text.errors)
-    {
-        const bool bHeavy = error.level == GetText(Planning::EAlarmLevel::Heavy);
-        state.errors.push_back(
-            {std::move(error.errorCode),
-             bHeavy ? Planning::EAlarmLevel::Heavy : Planning::EAlarmLevel::Light,
-             std::move(error.message)});
-    }
-    state.omittedErrors = text.omittedErrors;
-    state.heldNodeIDs = std::move(text.heldNodeIDs);
-    state.restartEvidence = {std::move(text.commandID), std::move(text.progressToken)};
-    state.loads = std::move(text.loads);
-    return state;
-}
-
-RobotEventText MakeJobText(std::string_view event, const std::string& jobID, const std::string& reason)
-{
-    return {std::string(event), {}, {}, {}, {}, jobID, reason};
-}
-
-RobotEventText MakeRobotEventText(const Planning::RobotEvent& event)
-{
-    using namespace Planning; // NOLINT(google-build-using-namespace): all alternatives of a variant
-    return std::visit(
-        Core::Overloaded{
-            [](const LinkChanged& link) {
-                return RobotEventText{std::string(LINK_EVENT), {}, link.bOnline, {}, {}, {}, {}};
-            },
-            [](const StateChanged& state) {
-                return RobotEventText{std::string(STATE_EVENT), MakeRobotStateText(state), {}, {}, {}, {}, {}};
-            },
-            [](const NodePassed& passed) {
-                return RobotEventText{std::string(PASSED_EVENT), {}, {}, passed.driveID, passed.nodeID, {}, {}};
-            },
-            [](const Arrived& arrived) {
-                return RobotEventText{std::string(ARRIVED_EVENT), {}, {}, arrived.driveID, {}, {}, {}};
-            },
-            [](const DriveRejected& rejected) {
-                return RobotEventText{
-                    std::string(DRIVE_REJECTED_EVENT),
-                    {},
-                    {},
-                    rejected.driveID,
-                    {},
-                    {},
-                    rejected.reason};
-            },
-            [](const DriveCancelled& cancelled) {
-                return RobotEventText{
-                    std::string(DRIVE_CANCELLED_EVENT),
-                    {},
-                    {},
-                    cancelled.driveID,
-                    cancelled.nodeID,
-                    {},
-                    {}};
-            },
-            [](const JobStarted& job) { return MakeJobText(JOB_STARTED_EVENT, job.jobID, {}); },
-            [](const JobFinished& job) { return MakeJobText(JOB_FINISHED_EVENT, job.jobID, {}); },
-            [](const JobFailed& job) { return MakeJobText(JOB_FAILED_EVENT, job.jobID, job.reason); },
-            [](const JobRejected& job) { return MakeJobText(JOB_REJECTED_EVENT, job.jobID, job.reason); },
-            [](const JobInterrupted& job) { return MakeJobText(JOB_INTERRUPTED_EVENT, job.jobID, job.reason); },
-            [](const JobUnknown& job) { return MakeJobText(JOB_UNKNOWN_EVENT, job.jobID, {}); },
-            [](const JobUnresolved& job) { return MakeJobText(JOB_UNRESOLVED_EVENT, job.jobID, job.reason); },
-            [](const JobCheckChanged& changed) {
-                return RobotEventText{std::string(JOB_CHECK_EVENT), {}, changed.jobCheck != nullptr, {}, {}, {}, {}};
-            },
-            [](const CompatibilityChanged& changed) {
-                return RobotEventText{std::string(COMPATIBILITY_EVENT), {}, {}, {}, {}, {}, changed.incompatibility};
-            }},
-        event);
-}
-
-Core::Result<Planning::RobotEvent> MakeJobEvent(RobotEventText& text)
-{
-    if (text.event == JOB_STARTED_EVENT)
-    {
-        return Planning::JobStarted{std::move(text.jobID)};
-    }
-    if (text.event == JOB_FINISHED_EVENT)
-    {
-        return Planning::JobFinished{std::move(text.jobID)};
-    }
-    if (text.event == JOB_FAILED_EVENT)
-    {
-        return Planning::JobFailed{std::move(text.jobID), std::move(text.reason)};
-    }
-    if (text.event == JOB_REJECTED_EVENT)
-    {
-        return Planning::JobRejected{std::move(text.jobID), std::move(text.reason)};
-    }
-    if (text.event == JOB_INTERRUPTED_EVENT)
-    {
-        return Planning::JobInterrupted{std::move(text.jobID), std::move(text.reason)};
-    }
-    if (text.event == JOB_UNKNOWN_EVENT)
-    {
-        return Planning::JobUnknown{std::move(text.jobID)};
-    }
-    if (text.event == JOB_UNRESOLVED_EVENT)
-    {
-        return Planning::JobUnresolved{std::move(text.jobID), std::move(text.reason)};
-    }
-    return Core::Fail(Core::ECoreError::UnknownWord, "event", "an event of a robot", Core::QuoteForError(text.event));
-}
-
-Core::Result<Planning::RobotEvent> MakeRobotEvent(RobotEventText text)
-{
-    if (text.event == LINK_EVENT)
-    {
-        return Planning::LinkChanged{text.bOn.value_or(false)};
-    }
-    if (text.event == STATE_EVENT)
-    {
-        return MakeRobotState(std::move(text.state).value_or(RobotStateText()));
-    }
-    if (text.event == PASSED_EVENT)
-    {
-        return Planning::NodePassed{std::move(text.driveID), std::move(text.nodeID)};
-    }
-    if (text.event == ARRIVED_EVENT)
-    {
-        return Planning::Arrived{std::move(text.driveID)};
-    }
-    if (text.event == DRIVE_REJECTED_EVENT)
-    {
-        return Planning::DriveRejected{std::move(text.driveID), std::move(text.reason)};
-    }
-    if (text.event == DRIVE_CANCELLED_EVENT)
-    {
-        return Planning::DriveCancelled{std::move(text.driveID), std::move(text.nodeID)};
-    }
-    if (text.event == JOB_CHECK_EVENT)
-    {
-        return Planning::JobCheckChanged{};
-    }
-    if (text.event == COMPATIBILITY_EVENT)
-    {
-        return Planning::CompatibilityChanged{std::move(text.reason)};
-    }
-    return MakeJobEvent(text);
-}
-
-} // namespace
-
 std::string EncodeRobotEvent(const Planning::RobotEvent& event)
 {
-    return EncodeRecord(MakeRobotEventText(event));
+    return Json::EncodeText(event);
 }
 
 Core::Result<Planning::RobotEvent> DecodeRobotEvent(std::string_view text)
 {
-    return DecodeRecord<RobotEventText>(text).and_then(
-        [](RobotEventText&& read) { return MakeRobotEvent(std::move(read)); });
+    return Json::DecodeText<Planning::RobotEvent>(text);
 }
 
 bool HasJobCheck(std::string_view text)
 {
-    const Core::Result<RobotEventText> read = DecodeRecord<RobotEventText>(text);
-    return read.has_value() && read->event == JOB_CHECK_EVENT && read->bOn.value_or(false);
+    const Core::Result<Planning::RobotEvent> event = DecodeRobotEvent(text);
+    if (!event.has_value() || !std::holds_alternative<Planning::JobCheckChanged>(*event))
+    {
+        return false;
+    }
+    const Core::Result<JobCheckMark> mark = Json::DecodeText<JobCheckMark>(text);
+    return mark.has_value() && mark->bOn;
 }
 
 } // namespace ACS::Acsd

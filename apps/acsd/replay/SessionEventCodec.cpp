@@ -1,9 +1,10 @@
 #include "replay/SessionEventCodec.hpp"
 
-#include "replay/RecordJson.hpp"
+#include "replay/FindMember.hpp"
 #include <acs/core/ECoreError.hpp>
 #include <acs/core/JsonText.hpp>
 #include <acs/core/Overloaded.hpp>
+#include <acs/json/TextCodec.hpp>
 #include <acs/protocol/AcsCodec.hpp>
 
 #include <cstddef>
@@ -214,27 +215,19 @@ Core::Result<Protocol::SessionEvent> MakeSessionEvent(SessionText text)
 
 std::string EncodeSessionEvent(const Protocol::SessionEvent& event)
 {
-    return EncodeRecord(MakeEventText(event));
+    return Json::EncodeText(MakeEventText(event));
 }
 
 Core::Result<Protocol::SessionEvent> DecodeSessionEvent(std::string_view text)
 {
-    return DecodeRecord<SessionText>(text).and_then(
+    return Json::DecodeText<SessionText>(text).and_then(
         [](SessionText&& read) { return MakeSessionEvent(std::move(read)); });
 }
 
 std::string FindTransactionID(const Protocol::SessionEvent& event)
 {
-    return std::visit(
-        Core::Overloaded{
-            [](const Protocol::RequestReceived& received) { return received.request.transactionID; },
-            [](const Protocol::RequestRefused& refused) { return refused.transactionID; },
-            [](const Protocol::Acked& acked) { return acked.transactionID; },
-            [](const Protocol::RequestUnanswered& unanswered) { return unanswered.transactionID; },
-            [](const auto& /*other*/) {
-                return std::string();
-            }},
-        event);
+    const auto* const receivedOrNull = std::get_if<Protocol::RequestReceived>(&event);
+    return receivedOrNull == nullptr ? FindMember(event, TRANSACTION_ID) : receivedOrNull->request.transactionID;
 }
 
 std::string FindPlanID(const Protocol::SessionEvent& event)
@@ -245,30 +238,12 @@ std::string FindPlanID(const Protocol::SessionEvent& event)
 
 std::string FindPlanID(const Protocol::AcsPayload& payload)
 {
-    std::optional<std::string> planIDOrNull;
-    std::visit(
-        [&planIDOrNull](const auto& content) {
-            if constexpr (requires { content.planID; })
-            {
-                planIDOrNull = content.planID;
-            }
-        },
-        payload);
-    return planIDOrNull.value_or(std::string());
+    return FindMember(payload, PLAN_ID);
 }
 
 std::string FindRobotID(const Protocol::AcsPayload& payload)
 {
-    std::optional<std::string> robotIDOrNull;
-    std::visit(
-        [&robotIDOrNull](const auto& content) {
-            if constexpr (requires { robotIDOrNull = content.robotID; })
-            {
-                robotIDOrNull = content.robotID;
-            }
-        },
-        payload);
-    return robotIDOrNull.value_or(std::string());
+    return FindMember(payload, ROBOT_ID);
 }
 
 } // namespace ACS::Acsd

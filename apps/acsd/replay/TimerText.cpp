@@ -1,7 +1,7 @@
 #include "replay/TimerText.hpp"
 
-#include "replay/RecordJson.hpp"
 #include <acs/core/ECoreError.hpp>
+#include <acs/json/TextCodec.hpp>
 
 #include <fmt/format.h>
 
@@ -124,12 +124,12 @@ std::string EncodeTimer(const AcsdTimer& timer, std::optional<Core::SteadyTime> 
     {
         record.due = std::chrono::floor<std::chrono::microseconds>(dueOrNull->time_since_epoch()).count();
     }
-    return EncodeRecord(record);
+    return Json::EncodeText(record);
 }
 
 Core::Result<AcsdTimer> DecodeTimer(std::string_view text, const std::string& robotID)
 {
-    return DecodeRecord<TimerRecord>(text).and_then(
+    return Json::DecodeText<TimerRecord>(text).and_then(
         [&robotID](const TimerRecord& read) { return FindTimer(read.timer, robotID); });
 }
 

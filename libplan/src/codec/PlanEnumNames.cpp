@@ -1,4 +1,4 @@
-#include "codec/PlanEnumNames.hpp"
+#include <acs/plan_json/PlanEnumNames.hpp>
 
 namespace ACS::Planning
 {

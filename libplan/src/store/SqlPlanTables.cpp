@@ -2,6 +2,7 @@
 #include <acs/plan/EPlanningError.hpp>
 #include <acs/plan/SqlPlanTables.hpp>
 #include <acs/plan/StoreCodec.hpp>
+#include <acs/plan_json/PlanEnumNames.hpp>
 
 #include <fmt/format.h>
 
@@ -271,14 +272,9 @@ private:
 
     [[nodiscard]] static std::optional<ETscState> FindTscStateOrNull(std::string_view text)
     {
-        for (const ETscState candidate : {ETscState::Auto, ETscState::Paused, ETscState::Pausing})
-        {
-            if (text == GetText(candidate))
-            {
-                return candidate;
-            }
-        }
-        return std::nullopt;
+        ETscState state{};
+        bool bExact = false;
+        return Json::TryReadWord(text, state, bExact) && bExact ? std::optional(state) : std::nullopt;
     }
 };
 

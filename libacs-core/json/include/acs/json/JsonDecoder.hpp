@@ -206,14 +206,22 @@ template <DescribedStruct T, std::size_t INDEX>
 [[nodiscard]] bool TryDecodeField(const Value& value, T& object, DecodeContext& context)
 {
     constexpr auto FIELD = std::get<INDEX>(EXPANDED_FIELDS<T>);
-    auto& member = FIELD.accessor(object);
+    auto&& member = FIELD.accessor(object);
     using Member = std::remove_cvref_t<decltype(member)>;
     if constexpr (FIELD.presence != EPresence::Required && FIELD.presence != EPresence::Alias)
     {
         if (value.IsNull() && !std::same_as<Member, Core::JsonText>)
         {
-            context.GetNotes().nullOptionals += FIELD.presence == EPresence::Nullable ? 0U : 1U;
-            member = Member{};
+            constexpr bool B_NULLABLE = FIELD.presence == EPresence::Nullable;
+            context.GetNotes().nullOptionals += B_NULLABLE ? 0U : 1U;
+            if constexpr (B_NULLABLE && std::same_as<Member, double>)
+            {
+                member = std::numeric_limits<double>::quiet_NaN();
+            }
+            else
+            {
+                member = Member{};
+            }
             return true;
         }
     }

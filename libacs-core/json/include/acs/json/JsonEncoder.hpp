@@ -215,6 +215,15 @@ void EncodeField(const T& object, JsonWriter& writer)
         }
         using Key = KeyText<T, INDEX>;
         writer.WriteKeyText({Key::TEXT.data(), Key::LENGTH});
+        if constexpr (
+            FIELD.presence == EPresence::Nullable && std::same_as<std::remove_cvref_t<decltype(member)>, double>)
+        {
+            if (!std::isfinite(member))
+            {
+                writer.WriteNull();
+                return;
+            }
+        }
         if constexpr (B_FREE || FIELD.written == WrittenForm{})
         {
             ValueEncoder<std::remove_cvref_t<decltype(member)>>::Encode(member, writer);

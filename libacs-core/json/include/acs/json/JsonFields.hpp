@@ -14,9 +14,9 @@ namespace ACS::Json
 /// How a member may be missing, and what is written when it has no value.
 enum class EPresence : std::uint8_t
 {
-    Required,  ///< Must be there and not null; always written.
-    Optional,  ///< May be absent (null is read as absent and counted); left out when nullopt or empty.
-    Nullable,  ///< Of a std::optional: null or absent is nullopt; nullopt is written as null.
+    Required, ///< Must be there and not null; always written.
+    Optional, ///< May be absent (null is read as absent and counted); left out when nullopt or empty.
+    Nullable, ///< Of a std::optional: null or absent is nullopt; nullopt is written as null. Of a number: null if not finite.
     Defaulted, ///< Absent or null leaves the struct's default; always written.
     Alias,     ///< Another name of the field in front of it: read as that field, never written, refused beside it.
 };
@@ -232,11 +232,15 @@ template <typename TAccessor>
     return std::make_tuple(field);
 }
 
+/// The fields of a struct with the flat ones expanded.
+template <DescribedStruct TStruct>
+[[nodiscard]] constexpr auto ExpandFields();
+
 template <typename TStruct, typename TMember>
 [[nodiscard]] constexpr auto ExpandField(const FlatField<TStruct, TMember>& flat)
 {
     const auto nest = [&flat](const auto&... fields) {
-        const auto wrap = [&flat](const auto& field) {
+        [[maybe_unused]] const auto wrap = [&flat](const auto& field) { // unused where there are no fields
             using Inner = std::remove_cvref_t<decltype(field.accessor)>;
             using Nested = NestedAccessor<MemberAccessor<TStruct, TMember>, Inner>;
             return JsonField<Nested>{
@@ -249,14 +253,21 @@ template <typename TStruct, typename TMember>
         };
         return std::make_tuple(wrap(fields)...);
     };
-    return std::apply(nest, JsonFields<TMember>::FIELDS);
+    return std::apply(nest, ExpandFields<TMember>());
 }
 
-/// The fields of a struct with the flat ones expanded, in the order in which they are written.
 template <DescribedStruct TStruct>
-inline constexpr auto EXPANDED_FIELDS = std::apply(
-    [](const auto&... fields) { return std::tuple_cat(ExpandField(fields)...); },
-    JsonFields<TStruct>::FIELDS);
+constexpr auto ExpandFields()
+{
+    const auto expand = [](const auto&... fields) {
+        return std::tuple_cat(ExpandField(fields)...);
+    };
+    return std::apply(expand, JsonFields<TStruct>::FIELDS);
+}
+
+/// In the order in which they are written.
+template <DescribedStruct TStruct>
+inline constexpr auto EXPANDED_FIELDS = ExpandFields<TStruct>();
 
 template <DescribedStruct TStruct>
 inline constexpr std::size_t FIELD_COUNT = std::tuple_size_v<std::remove_cvref_t<decltype(EXPANDED_FIELDS<TStruct>)>>;
