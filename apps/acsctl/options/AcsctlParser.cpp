@@ -201,7 +201,7 @@ void AddStateCommands(CLI::App& app, AcsctlOptions& options)
     AddCommand(app, options, "alarms", ECommand::Alarms, "List active alarms");
     AddCommand(app, options, "links", ECommand::Links, "Show the links to the MCS and to the MQTT broker");
     AddCommand(app, options, "queue", ECommand::Queue, "Show plans that wait, in their order, and the outbox");
-    AddCommand(app, options, "site", ECommand::Site, "Show the size of the map and the blocked places");
+    AddCommand(app, options, "site", ECommand::Site, "Show the size of the map and what is blocked");
 }
 
 void AddHistoryCommands(CLI::App& app, AcsctlOptions& options)
@@ -307,13 +307,14 @@ void AddSiteCommands(CLI::App& app, AcsctlOptions& options)
     tsc->require_subcommand(1);
     AddCommand(*tsc, options, "pause", ECommand::TscPause, "No robot begins new work");
     AddCommand(*tsc, options, "resume", ECommand::TscResume, "Robots continue");
-    CLI::App& block = AddCommand(app, options, "block", ECommand::Block, "Block a place of the map for all robots");
+    CLI::App& block =
+        AddCommand(app, options, "block", ECommand::Block, "Block a node, an edge or a station for all robots");
     AddWord(block, "KIND", arguments.word, {"node", "edge", "station"}, "node, edge or station");
-    AddPositional(block, "ID", arguments.id, "The place");
+    AddPositional(block, "ID", arguments.id, "Its id on the map");
     AddReason(block, arguments);
-    CLI::App& unblock = AddCommand(app, options, "unblock", ECommand::Unblock, "Release a blocked place");
+    CLI::App& unblock = AddCommand(app, options, "unblock", ECommand::Unblock, "Unblock a node, an edge or a station");
     AddWord(unblock, "KIND", arguments.word, {"node", "edge", "station"}, "node, edge or station");
-    AddPositional(unblock, "ID", arguments.id, "The place");
+    AddPositional(unblock, "ID", arguments.id, "Its id on the map");
 }
 
 void AddRobotCommands(CLI::App& app, AcsctlOptions& options)

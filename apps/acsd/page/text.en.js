@@ -35,7 +35,7 @@ export default {
     "banner.silent": "acsd has sent nothing for more than 30 s.",
     "banner.lost": "The connection to acsd is lost. Reconnecting.",
     "banner.lostWhy": "The connection to acsd is lost: {reason}. Reconnecting.",
-    "banner.standby": "This acsd has no live data ({reason}). Open the page of the one that leads.",
+    "banner.standby": "This acsd has no live data ({reason}). Open the page of the leader.",
     "banner.old": "This page shows the state of {time} ({age} ago).",
 
     "floor.label": "Floor with robots. Arrow keys pan, + and - zoom; / finds a robot, a plan or a place by its id",
@@ -302,7 +302,7 @@ export default {
     "key.events": "events",
     "key.system": "system",
     "key.wall": "view for a wall screen",
-    "key.theme": "light, dark, or as the system has it",
+    "key.theme": "theme: light, dark or that of the system",
     "key.language": "English or Korean",
     "key.help": "this help",
     "key.close": "close",

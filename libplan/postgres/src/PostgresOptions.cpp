@@ -151,7 +151,7 @@ Core::Result<PostgresTarget> ReadPostgresURL(const std::string& url)
             return host.host.find('@', 1) != std::string::npos;
         }))
     {
-        return Refuse("a host name with @, or a password with this character");
+        return Refuse("a host name with @, or a password with @ that is not written as %40");
     }
     target.name = MakeName(parameters["user"], target.hosts, database);
     target.bPassword = parameters.contains("password");

@@ -95,8 +95,8 @@ Core::Result<void> CheckFormerLog(SQLite::Database& database, const std::string&
         EPlanningError::StoreCorrupt,
         path,
         fmt::format(
-            "the changes stored last, which are in {}, because the store was not closed; put that file back; or, to continue "
-            "with the database as it is, such as a restored backup, remove {}",
+            "the log {}, which has the latest changes because the store was not closed; put it back, or, to continue without "
+            "them, such as with a restored backup, remove {}",
             StoreFiles::GetLogPath(path),
             lockPath),
         "a database that was not closed, without its log");

@@ -66,7 +66,7 @@ struct Robot
     [[nodiscard]] bool IsUsable() const;
     /// It rejects all its commands or cannot do them: another robot may take over its plan.
     [[nodiscard]] bool IsUnfit() const;
-    /// Whether a plan may be assigned to it.
+    /// Whether a plan may be assigned to it. Each condition has its sentence in WaitReasons::DescribeUnfree.
     [[nodiscard]] bool IsFree() const;
     /// Without a drive: whether it still moves on its former route as far as is known, so that its place is not final.
     [[nodiscard]] bool IsStopping() const;

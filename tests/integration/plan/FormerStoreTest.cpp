@@ -128,7 +128,9 @@ TEST_CASE("Store: a store of the former layout that was not closed is migrated w
         const auto refused = SqlitePlanStore::Open(path);
         REQUIRE_FALSE(refused.has_value());
         CHECK(refused.error().code == EPlanningError::StoreCorrupt);
-        CHECK(Contains(Core::Describe(refused.error()), path + "-wal, because the store was not closed"));
+        CHECK(Contains(
+            Core::Describe(refused.error()),
+            "the log " + path + "-wal, which has the latest changes because the store was not closed"));
         CHECK_FALSE(SqlitePlanStore::Inspect(path).has_value());
         CHECK(folder.ListNames() == before);
         Files::remove(path + ".lock");

@@ -37,6 +37,8 @@ enum class EClientState : std::uint8_t
 /// order to match a refusal to its command: the next one follows the ack of the previous one or, for a CONTROL, the end of
 /// its window (ClientSessionOptions::controlWindow) without a refusal. A Streamed CONTROL does not wait; do not mix both
 /// kinds, because the refusal of a streamed one would be matched to the tracked one in flight.
+///
+/// "→" lists the actions that a function may append.
 class ACS_API ClientSession
 {
     class ACS_HIDDEN Impl;

@@ -24,7 +24,8 @@ enum class EServerState : std::uint8_t
 
 /// The controller side of one Open Stream connection, without I/O: events and the time go in, actions come out, appended
 /// to a vector that the caller reuses. The caller carries out each batch of actions, in order, before the next event;
-/// events that result from them (OnServiceAnswer, OnSendCompleted) append to the same batch.
+/// events that result from them (OnServiceAnswer, OnSendCompleted) append to the same batch. "→" lists the actions that a
+/// function may append.
 class ACS_API ServerSession
 {
     class ACS_HIDDEN Impl;

@@ -77,7 +77,7 @@ struct ReplyCommand
 /// has acknowledged the report; until then it is in PlanEngine::GetUnacknowledged too.
 struct SendReport
 {
-    OutboxEntry entry; ///< Its transactionID and time are the same in every replay.
+    OutboxEntry entry; ///< Its transactionID and time are the same each time that it is sent.
     /// Sequence of an earlier report of the same alarm, which need not be sent any more: the engine has removed it.
     std::optional<std::uint64_t> replaced{};
 

@@ -42,8 +42,8 @@ struct RouteEdge
     std::optional<double> orientation;          ///< Radians; orientation of the vehicle on the edge.
     std::string orientationType;                ///< "TANGENTIAL" or "GLOBAL"; empty: not given.
     std::optional<bool> bRotationAllowed;       ///< Absent: not stated by the map.
-    std::optional<double> minHeight = {};       ///< As in SiteEdgeRule, like the following.
-    std::optional<double> maxHeight = {};       ///< See minHeight.
+    std::optional<double> minHeight = {};       ///< SiteEdgeRule::minHeight.
+    std::optional<double> maxHeight = {};       ///< SiteEdgeRule::maxHeight.
     std::optional<Core::Nurbs> trajectory = {}; ///< Absent: a straight line.
     std::optional<SiteCorridor> corridor = {};  ///< Absent: the robot stays on the edge.
     std::vector<SiteAction> actions = {};       ///< Performed each time that the robot drives along the edge.

@@ -107,7 +107,8 @@ struct OrderRejected
     bool operator==(const OrderRejected&) const = default;
 };
 
-/// A message of the order waits for the minOrderInterval of the vehicle's factsheet. It is sent by itself then.
+/// A message of the order waits for the minOrderInterval of the vehicle's factsheet. The session sends it when the
+/// interval has passed.
 struct OrderDelayed
 {
     std::string orderID;

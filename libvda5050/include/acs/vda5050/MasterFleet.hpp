@@ -120,7 +120,7 @@ private:
     [[nodiscard]] const std::size_t* FindNumberOrNull(std::string_view topic) const;
     void Discover(const MqttMessage& message, Core::Now now, FleetActions& out);
     void Ignore(const MqttMessage& message, Core::Error reason);
-    /// The version that an unknown vehicle's message names, or why it makes none known.
+    /// The version that the message of a vehicle outside of the fleet names; an error if it names none that is supported.
     [[nodiscard]] Core::Result<EVda5050Version> ReadVersion(const MqttMessage& message);
     [[nodiscard]] std::unique_ptr<MasterSession> MakeSession(const VehicleAddress& address, EVda5050Version version)
         const;

@@ -21,7 +21,7 @@ class ACS_API PostgresLease final : public ILease
 
 public:
     /// Opens no connection. The first call creates the tables in an empty database, unless the options forbid it. Tables that are
-    /// missing later are not created again, because the plans in them are lost. The errors of all calls include those of the URL.
+    /// missing later are not created again, because the plans in them are lost. With an invalid URL every call fails.
     explicit PostgresLease(PostgresOptions options);
     PostgresLease(const PostgresLease&) = delete;
     PostgresLease& operator=(const PostgresLease&) = delete;
