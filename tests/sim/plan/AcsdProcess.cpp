@@ -305,6 +305,20 @@ void AcsdProcess::OnRobotEvent(const std::string& robotID, const Planning::Robot
     {
         _core.OnRobotEvent(robotID, heard);
     }
+    CheckWaitReasons();
+}
+
+void AcsdProcess::CheckWaitReasons() const
+{
+    for (const Planning::WaitReason& reason : GetEngine().GetWaitReasons())
+    {
+        const bool bComplete = !reason.message.empty()
+            && std::ranges::none_of(reason.robots, &std::string::empty, &Planning::RobotUnavailability::reason);
+        if (!bComplete)
+        {
+            _around.trace.Violate("plan {} waits without a reason", reason.planID);
+        }
+    }
 }
 
 template <typename TCall>

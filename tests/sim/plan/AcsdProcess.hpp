@@ -115,6 +115,8 @@ private:
     void OnAction(const Planning::EngineAction& action, const Acsd::AcsdCore::ActionHandler& execute);
     void OnReport(const Planning::SendReport& report, const Acsd::AcsdCore::ActionHandler& execute);
     void OnRobotEvent(const std::string& robotID, const Planning::RobotEvent& event);
+    /// An operator may ask at any time, and each plan that waits has its reason.
+    void CheckWaitReasons() const;
     void CrashByChance(std::size_t permyriad, std::string_view where);
 
     template <typename TCall>
