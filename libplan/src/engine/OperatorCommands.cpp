@@ -382,7 +382,7 @@ std::optional<std::size_t> OperatorCommands::FindWorkerOrNull(const ResolveJob& 
     return robot == _fleet.end() ? std::nullopt : std::optional(robot->index);
 }
 
-void OperatorCommands::Settle(const ResolveJob& command)
+void OperatorCommands::Resolve(const ResolveJob& command)
 {
     if (std::optional<std::string> reason = GetRejectionReasonOrNull(command))
     {

@@ -65,7 +65,7 @@ public:
     [[nodiscard]] BlockControl& GetBlocks() noexcept;
     [[nodiscard]] const BlockControl& GetBlocks() const noexcept;
     /// Resolves a job whose outcome is unknown.
-    void Settle(const ResolveJob& command);
+    void Resolve(const ResolveJob& command);
 
 private:
     /// Whether the cause of the alarm remains, as far as the engine knows.

@@ -1,7 +1,6 @@
 #include "engine/PlanEngine.Impl.hpp"
 
 #include "control/ErrorWatch.hpp"
-#include "control/StoreLogWatch.hpp"
 #include "dispatch/QueuePass.hpp"
 #include "robot/ValidState.hpp"
 #include <acs/core/Overloaded.hpp>
@@ -12,23 +11,6 @@
 
 namespace ACS::Planning
 {
-
-namespace
-{
-
-/// If a batch cannot be stored, plans and controls are refused; commands of the operator stay in effect.
-[[maybe_unused]] bool CanShareTransaction(std::span<const PlanCommand> commands)
-{
-    const auto isPlan = [](const PlanCommand& command) {
-        return std::holds_alternative<SubmitPlan>(command);
-    };
-    const auto isOfMCS = [&isPlan](const PlanCommand& command) {
-        return isPlan(command) || std::holds_alternative<ControlPlan>(command);
-    };
-    return std::ranges::all_of(commands, isPlan) || std::ranges::none_of(commands, isOfMCS);
-}
-
-} // namespace
 
 PlanEngine::Impl::Impl(EngineOptions options, SiteMap site, Core::IRandom& random)
     : _engine(std::move(options), std::move(site), random),
@@ -63,41 +45,6 @@ PlanEngine::Impl::Impl(EngineOptions options, SiteMap site, Core::IRandom& rando
     _coordinator.AssignParking();
 }
 
-void PlanEngine::Impl::SetObserver(IPlanObserver& observer)
-{
-    _engine.transaction.SetObserver(observer);
-}
-
-void PlanEngine::Impl::Restore(StoredState state, Core::Now now, EngineActions& out)
-{
-    Begin(now);
-    _operator.GetBlocks().Restore(std::move(state.blocks));
-    _recovery.Restore(std::move(state));
-    End(out);
-}
-
-void PlanEngine::Impl::HandleCommands(
-    std::span<const PlanCommand> commands,
-    std::span<const CommandReceipt> receipts,
-    Core::Now now,
-    EngineActions& out)
-{
-    const auto isAcknowledgement = [](const PlanCommand& command) {
-        return std::holds_alternative<MessageAcknowledged>(command);
-    };
-    assert(commands.size() == 1 || CanShareTransaction(commands));
-    Begin(now);
-    std::ranges::for_each(commands, [this](const PlanCommand& command) { HandleCommand(command); });
-    std::ranges::for_each(receipts, [this](const CommandReceipt& receipt) {
-        _engine.transaction.Store(ReceiptAdded{receipt});
-    });
-    if (!std::ranges::all_of(commands, isAcknowledgement))
-    {
-        std::ranges::for_each(_engine.fleet, [this](const Robot& robot) { _places.NoteMovable(robot); });
-    }
-    End(out);
-}
-
 void PlanEngine::Impl::HandleCommand(const PlanCommand& command)
 {
     std::visit(
@@ -106,7 +53,7 @@ void PlanEngine::Impl::HandleCommand(const PlanCommand& command)
             [this](const ControlPlan& control) { _controls.Control(control); },
             [this](const MessageAcknowledged& acknowledged) { _store.Acknowledge(acknowledged); },
             [this](const ControlTSC& control) { _tsc.SwitchTSC(control); },
-            [this](const ResolveJob& settle) { _operator.Settle(settle); },
+            [this](const ResolveJob& resolve) { _operator.Resolve(resolve); },
             [this](const SetMaintenance& maintenance) { _operator.Maintain(maintenance); },
             [this](const ClearAlarms& clear) { _operator.ClearByOperator(clear); },
             [this](const SetCarriers& carriers) { _operator.CorrectCarriers(carriers); },
@@ -122,17 +69,8 @@ void PlanEngine::Impl::HandleCommand(const PlanCommand& command)
         command);
 }
 
-void PlanEngine::Impl::HandleEvent(std::string_view robotID, const RobotEvent& event, Core::Now now, EngineActions& out)
+void PlanEngine::Impl::HandleEvent(Robot& robot, const RobotEvent& event)
 {
-    Robot* robotOrNull = _engine.fleet.FindOrNull(robotID);
-    if (robotOrNull == nullptr)
-    {
-        return;
-    }
-    Begin(now);
-    Robot& robot = *robotOrNull;
-    robot.changes.MarkStatus();
-    robot.changes.MarkWork();
     std::visit(
         Core::Overloaded{
             [this, &robot](const LinkChanged& typed) { OnLink(robot, typed); },
@@ -156,14 +94,11 @@ void PlanEngine::Impl::HandleEvent(std::string_view robotID, const RobotEvent& e
                 _rejections.OnCompatibility(robot, typed);
             }},
         event);
-    _places.NoteMovable(robot);
-    End(out);
 }
 
-void PlanEngine::Impl::OnTimer(const EngineTimer& timer, Core::Now now, EngineActions& out)
+void PlanEngine::Impl::OnEngineTimer(EEngineTimer kind)
 {
-    Begin(now);
-    switch (timer.kind)
+    switch (kind)
     {
         case EEngineTimer::Dispatch:
             _submission.ReportAccepted();
@@ -194,12 +129,6 @@ void PlanEngine::Impl::OnTimer(const EngineTimer& timer, Core::Now now, EngineAc
         default:
             break;
     }
-    if (Robot* robotOrNull = _engine.fleet.FindOrNull(timer.robotID); robotOrNull != nullptr)
-    {
-        OnRobotTimer(timer.kind, *robotOrNull);
-        _places.NoteMovable(*robotOrNull);
-    }
-    End(out);
 }
 
 void PlanEngine::Impl::OnRobotTimer(EEngineTimer kind, Robot& robot)
@@ -242,28 +171,6 @@ void PlanEngine::Impl::OnRobotTimer(EEngineTimer kind, Robot& robot)
             assert(false && "not a timer of a robot");
             break;
     }
-}
-
-void PlanEngine::Impl::OnStored(const Core::Result<void>& result, Core::Now now, EngineActions& out)
-{
-    _store.OnStored(result, now, out);
-}
-
-bool PlanEngine::Impl::IsStoring() const noexcept
-{
-    return _store.IsStoring();
-}
-
-void PlanEngine::Impl::OnStoreLost(std::string_view reason, Core::Now now, EngineActions& out)
-{
-    _store.OnStoreLost(reason, now, out);
-}
-
-void PlanEngine::Impl::OnStoreLog(const StoreLog& log, Core::Now now, EngineActions& out)
-{
-    Begin(now);
-    StoreLogWatch(_engine).OnStoreLog(log);
-    End(out);
 }
 
 void PlanEngine::Impl::Begin(Core::Now now)

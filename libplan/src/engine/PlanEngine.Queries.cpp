@@ -39,23 +39,23 @@ std::optional<std::string> FindNextNodeOrNull(const Robot& robot, const SiteMap&
 
 } // namespace
 
-std::vector<OutboxEntry> PlanEngine::Impl::GetUnacknowledged() const
+std::vector<OutboxEntry> PlanEngine::GetUnacknowledged() const
 {
     std::vector<OutboxEntry> entries;
     std::ranges::copy_if(
-        _engine.outbox.GetUnacknowledged(),
+        _impl->_engine.outbox.GetUnacknowledged(),
         std::back_inserter(entries),
-        [this](const OutboxEntry& entry) { return !_engine.backlog.IsHeldBack(entry); });
+        [this](const OutboxEntry& entry) { return !_impl->_engine.backlog.IsHeldBack(entry); });
     return entries;
 }
 
-OutboxSummary PlanEngine::Impl::GetOutboxSummary() const
+OutboxSummary PlanEngine::GetOutboxSummary() const
 {
-    const std::deque<OutboxEntry>& outbox = _engine.outbox.GetUnacknowledged();
+    const std::deque<OutboxEntry>& outbox = _impl->_engine.outbox.GetUnacknowledged();
     const auto oldest = std::ranges::find_if_not(outbox, [this](const OutboxEntry& entry) {
-        return _engine.backlog.IsHeldBack(entry);
+        return _impl->_engine.backlog.IsHeldBack(entry);
     });
-    OutboxSummary summary{outbox.size() - _engine.backlog.CountHeldBack(), std::nullopt};
+    OutboxSummary summary{outbox.size() - _impl->_engine.backlog.CountHeldBack(), std::nullopt};
     if (oldest != outbox.end())
     {
         summary.oldest = oldest->time;
@@ -63,10 +63,10 @@ OutboxSummary PlanEngine::Impl::GetOutboxSummary() const
     return summary;
 }
 
-std::vector<RobotPose> PlanEngine::Impl::GetRobotPoses() const
+std::vector<RobotPose> PlanEngine::GetRobotPoses() const
 {
     std::vector<RobotPose> poses;
-    for (const Robot& robot : _engine.fleet)
+    for (const Robot& robot : _impl->_engine.fleet)
     {
         if (robot.view.state.has_value() && robot.view.state->bPoseKnown)
         {
@@ -77,10 +77,10 @@ std::vector<RobotPose> PlanEngine::Impl::GetRobotPoses() const
     return poses;
 }
 
-std::vector<RobotDetail> PlanEngine::Impl::GetRobotDetails() const
+std::vector<RobotDetail> PlanEngine::GetRobotDetails() const
 {
     std::vector<RobotDetail> details;
-    for (const Robot& robot : _engine.fleet)
+    for (const Robot& robot : _impl->_engine.fleet)
     {
         RobotDetail& made = details.emplace_back();
         made.robotID = robot.GetID();
@@ -88,20 +88,20 @@ std::vector<RobotDetail> PlanEngine::Impl::GetRobotDetails() const
         made.bHasJob = robot.job.GetOrNull() != nullptr;
         if (robot.place.bPlaced && robot.place.node.has_value())
         {
-            made.nodeID = _engine.site.GetNodes()[*robot.place.node].nodeID;
-            made.nextNodeID = FindNextNodeOrNull(robot, _engine.site);
+            made.nodeID = _impl->_engine.site.GetNodes()[*robot.place.node].nodeID;
+            made.nextNodeID = FindNextNodeOrNull(robot, _impl->_engine.site);
         }
     }
     return details;
 }
 
-std::vector<RobotRoute> PlanEngine::Impl::GetRobotRoutes() const
+std::vector<RobotRoute> PlanEngine::GetRobotRoutes() const
 {
-    const std::vector<SiteNode>& nodes = _engine.site.GetNodes();
-    const Traffic& traffic = _places.GetTraffic();
+    const std::vector<SiteNode>& nodes = _impl->_engine.site.GetNodes();
+    const Traffic& traffic = _impl->_places.GetTraffic();
     std::vector<RobotRoute> routes;
-    routes.reserve(_engine.fleet.size());
-    for (const Robot& robot : _engine.fleet)
+    routes.reserve(_impl->_engine.fleet.size());
+    for (const Robot& robot : _impl->_engine.fleet)
     {
         RobotRoute& made = routes.emplace_back();
         made.robotID = robot.GetID();
@@ -118,15 +118,15 @@ std::vector<RobotRoute> PlanEngine::Impl::GetRobotRoutes() const
     return routes;
 }
 
-std::vector<std::reference_wrapper<const PlanRecord>> PlanEngine::Impl::GetActivePlanRecords() const
+std::vector<std::reference_wrapper<const PlanRecord>> PlanEngine::GetActivePlanRecords() const
 {
     const auto rank = [](const ActivePlan* planOrNull) {
         const EPlanState state = planOrNull->record.progress.state;
         return state == EPlanState::InProgress ? 0 : (state == EPlanState::Paused ? 1 : 2);
     };
     std::vector<const ActivePlan*> ordered;
-    ordered.reserve(_engine.plans.GetActive().size());
-    for (const auto& [planID, plan] : _engine.plans.GetActive())
+    ordered.reserve(_impl->_engine.plans.GetActive().size());
+    for (const auto& [planID, plan] : _impl->_engine.plans.GetActive())
     {
         ordered.push_back(plan.get());
     }
@@ -142,12 +142,12 @@ std::vector<std::reference_wrapper<const PlanRecord>> PlanEngine::Impl::GetActiv
     return records;
 }
 
-std::vector<std::reference_wrapper<const PlanRecord>> PlanEngine::Impl::GetFinishedPlanRecords(std::size_t limit) const
+std::vector<std::reference_wrapper<const PlanRecord>> PlanEngine::GetFinishedPlanRecords(std::size_t limit) const
 {
-    return _engine.plans.ListFinished(limit);
+    return _impl->_engine.plans.ListFinished(limit);
 }
 
-std::vector<PlanSummary> PlanEngine::Impl::GetActivePlans() const
+std::vector<PlanSummary> PlanEngine::GetActivePlans() const
 {
     std::vector<PlanSummary> summaries;
     for (const PlanRecord& record : GetActivePlanRecords())
@@ -157,95 +157,95 @@ std::vector<PlanSummary> PlanEngine::Impl::GetActivePlans() const
     return summaries;
 }
 
-const PlanRecord* PlanEngine::Impl::GetPlanRecordOrNull(std::string_view planID) const
+const PlanRecord* PlanEngine::GetPlanRecordOrNull(std::string_view planID) const
 {
-    return _engine.plans.FindRecordOrNull(planID);
+    return _impl->_engine.plans.FindRecordOrNull(planID);
 }
 
-std::optional<PlanSummary> PlanEngine::Impl::GetPlanOrNull(std::string_view planID) const
+std::optional<PlanSummary> PlanEngine::GetPlanOrNull(std::string_view planID) const
 {
-    const PlanRecord* recordOrNull = _engine.plans.FindRecordOrNull(planID);
+    const PlanRecord* recordOrNull = _impl->_engine.plans.FindRecordOrNull(planID);
     return recordOrNull == nullptr ? std::nullopt : std::optional(MakeSummary(*recordOrNull));
 }
 
-std::vector<RobotStatus> PlanEngine::Impl::GetRobotStatuses() const
+std::vector<RobotStatus> PlanEngine::GetRobotStatuses() const
 {
-    return _status.GetRobotStatuses();
+    return _impl->_status.GetRobotStatuses();
 }
 
-std::vector<WaitReason> PlanEngine::Impl::GetWaitReasons() const
+std::vector<WaitReason> PlanEngine::GetWaitReasons() const
 {
-    return _waits.GetWaitReasons();
+    return _impl->_waits.GetWaitReasons();
 }
 
-std::optional<WaitReason> PlanEngine::Impl::GetWaitReasonOrNull(std::string_view planID) const
+std::optional<WaitReason> PlanEngine::GetWaitReasonOrNull(std::string_view planID) const
 {
-    return _waits.GetWaitReasonOrNull(planID);
+    return _impl->_waits.GetWaitReasonOrNull(planID);
 }
 
-std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const SetCarriers& command) const
+std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const SetCarriers& command) const
 {
-    return _operator.GetRejectionReasonOrNull(command);
+    return _impl->_operator.GetRejectionReasonOrNull(command);
 }
 
-std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const ResolveJob& command) const
+std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const ResolveJob& command) const
 {
-    return _operator.GetRejectionReasonOrNull(command);
+    return _impl->_operator.GetRejectionReasonOrNull(command);
 }
 
-std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const SkipStep& command) const
+std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const SkipStep& command) const
 {
-    return _operator.GetRejectionReasonOrNull(command);
+    return _impl->_operator.GetRejectionReasonOrNull(command);
 }
 
-std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const ControlPlan& command) const
+std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const ControlPlan& command) const
 {
-    return _controls.GetRejectionReasonOrNull(command);
+    return _impl->_controls.GetRejectionReasonOrNull(command);
 }
 
-std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const SetPlanPriority& command) const
+std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const SetPlanPriority& command) const
 {
-    return _operator.GetRejectionReasonOrNull(command);
+    return _impl->_operator.GetRejectionReasonOrNull(command);
 }
 
-std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const BlockPlace& command) const
+std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const BlockPlace& command) const
 {
-    return _operator.GetBlocks().GetRejectionReasonOrNull(command);
+    return _impl->_operator.GetBlocks().GetRejectionReasonOrNull(command);
 }
 
-std::optional<std::string> PlanEngine::Impl::GetRejectionReasonOrNull(const UnblockPlace& command) const
+std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const UnblockPlace& command) const
 {
-    return _operator.GetBlocks().GetRejectionReasonOrNull(command);
+    return _impl->_operator.GetBlocks().GetRejectionReasonOrNull(command);
 }
 
-const std::vector<Alarm>& PlanEngine::Impl::GetActiveAlarms() const noexcept
+const std::vector<Alarm>& PlanEngine::GetActiveAlarms() const noexcept
 {
-    return _engine.alarms.GetAlarms();
+    return _impl->_engine.alarms.GetAlarms();
 }
 
-const std::vector<Block>& PlanEngine::Impl::GetBlocks() const noexcept
+const std::vector<Block>& PlanEngine::GetBlocks() const noexcept
 {
-    return _engine.blocks.GetBlocks();
+    return _impl->_engine.blocks.GetBlocks();
 }
 
-const EngineOptions& PlanEngine::Impl::GetOptions() const noexcept
+const EngineOptions& PlanEngine::GetOptions() const noexcept
 {
-    return _engine.options;
+    return _impl->_engine.options;
 }
 
-const SiteMap& PlanEngine::Impl::GetSite() const noexcept
+const SiteMap& PlanEngine::GetSite() const noexcept
 {
-    return _engine.site;
+    return _impl->_engine.site;
 }
 
-const std::string& PlanEngine::Impl::GetHoldReason() const noexcept
+const std::string& PlanEngine::GetHoldReason() const noexcept
 {
-    return _engine.hold.GetReason();
+    return _impl->_engine.hold.GetReason();
 }
 
-ETscState PlanEngine::Impl::GetTscState() const noexcept
+ETscState PlanEngine::GetTscState() const noexcept
 {
-    return _tsc.GetTscState();
+    return _impl->_tsc.GetTscState();
 }
 
 } // namespace ACS::Planning

@@ -1,7 +1,30 @@
+#include "control/StoreLogWatch.hpp"
 #include "engine/PlanEngine.Impl.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+#include <variant>
 
 namespace ACS::Planning
 {
+
+namespace
+{
+
+/// If a batch cannot be stored, plans and controls are refused; commands of the operator stay in effect.
+[[maybe_unused]] bool CanShareTransaction(std::span<const PlanCommand> commands)
+{
+    const auto isPlan = [](const PlanCommand& command) {
+        return std::holds_alternative<SubmitPlan>(command);
+    };
+    const auto isOfMCS = [&isPlan](const PlanCommand& command) {
+        return isPlan(command) || std::holds_alternative<ControlPlan>(command);
+    };
+    return std::ranges::all_of(commands, isPlan) || std::ranges::none_of(commands, isOfMCS);
+}
+
+} // namespace
 
 PlanEngine::PlanEngine(EngineOptions options, SiteMap site, Core::IRandom& random)
     : _impl(std::make_unique<Impl>(std::move(options), std::move(site), random))
@@ -12,17 +35,20 @@ PlanEngine::~PlanEngine() = default;
 
 void PlanEngine::SetObserver(IPlanObserver& observer)
 {
-    _impl->SetObserver(observer);
+    _impl->_engine.transaction.SetObserver(observer);
 }
 
 void PlanEngine::Restore(StoredState state, Core::Now now, EngineActions& out)
 {
-    _impl->Restore(std::move(state), now, out);
+    _impl->Begin(now);
+    _impl->_operator.GetBlocks().Restore(std::move(state.blocks));
+    _impl->_recovery.Restore(std::move(state));
+    _impl->End(out);
 }
 
 void PlanEngine::Handle(const PlanCommand& command, Core::Now now, EngineActions& out)
 {
-    _impl->HandleCommands({&command, 1}, {}, now, out);
+    Handle({&command, 1}, {}, now, out);
 }
 
 void PlanEngine::Handle(
@@ -31,167 +57,70 @@ void PlanEngine::Handle(
     Core::Now now,
     EngineActions& out)
 {
-    _impl->HandleCommands(commands, receipts, now, out);
+    const auto isAcknowledgement = [](const PlanCommand& command) {
+        return std::holds_alternative<MessageAcknowledged>(command);
+    };
+    assert(commands.size() == 1 || CanShareTransaction(commands));
+    _impl->Begin(now);
+    std::ranges::for_each(commands, [this](const PlanCommand& command) { _impl->HandleCommand(command); });
+    std::ranges::for_each(receipts, [this](const CommandReceipt& receipt) {
+        _impl->_engine.transaction.Store(ReceiptAdded{receipt});
+    });
+    if (!std::ranges::all_of(commands, isAcknowledgement))
+    {
+        std::ranges::for_each(_impl->_engine.fleet, [this](const Robot& robot) { _impl->_places.NoteMovable(robot); });
+    }
+    _impl->End(out);
 }
 
 void PlanEngine::Handle(std::string_view robotID, const RobotEvent& event, Core::Now now, EngineActions& out)
 {
-    _impl->HandleEvent(robotID, event, now, out);
+    Robot* robotOrNull = _impl->_engine.fleet.FindOrNull(robotID);
+    if (robotOrNull == nullptr)
+    {
+        return;
+    }
+    _impl->Begin(now);
+    Robot& robot = *robotOrNull;
+    robot.changes.MarkStatus();
+    robot.changes.MarkWork();
+    _impl->HandleEvent(robot, event);
+    _impl->_places.NoteMovable(robot);
+    _impl->End(out);
 }
 
 void PlanEngine::OnTimer(const EngineTimer& timer, Core::Now now, EngineActions& out)
 {
-    _impl->OnTimer(timer, now, out);
+    _impl->Begin(now);
+    _impl->OnEngineTimer(timer.kind);
+    if (Robot* robotOrNull = _impl->_engine.fleet.FindOrNull(timer.robotID); robotOrNull != nullptr)
+    {
+        _impl->OnRobotTimer(timer.kind, *robotOrNull);
+        _impl->_places.NoteMovable(*robotOrNull);
+    }
+    _impl->End(out);
 }
 
 void PlanEngine::OnStored(const Core::Result<void>& result, Core::Now now, EngineActions& out)
 {
-    _impl->OnStored(result, now, out);
+    _impl->_store.OnStored(result, now, out);
 }
 
 bool PlanEngine::IsStoring() const noexcept
 {
-    return _impl->IsStoring();
+    return _impl->_store.IsStoring();
 }
 
 void PlanEngine::OnStoreLost(std::string_view reason, Core::Now now, EngineActions& out)
 {
-    _impl->OnStoreLost(reason, now, out);
+    _impl->_store.OnStoreLost(reason, now, out);
 }
 
 void PlanEngine::OnStoreLog(const StoreLog& log, Core::Now now, EngineActions& out)
 {
-    _impl->OnStoreLog(log, now, out);
-}
-
-std::vector<OutboxEntry> PlanEngine::GetUnacknowledged() const
-{
-    return _impl->GetUnacknowledged();
-}
-
-OutboxSummary PlanEngine::GetOutboxSummary() const
-{
-    return _impl->GetOutboxSummary();
-}
-
-std::vector<RobotStatus> PlanEngine::GetRobotStatuses() const
-{
-    return _impl->GetRobotStatuses();
-}
-
-std::vector<RobotPose> PlanEngine::GetRobotPoses() const
-{
-    return _impl->GetRobotPoses();
-}
-
-std::vector<RobotDetail> PlanEngine::GetRobotDetails() const
-{
-    return _impl->GetRobotDetails();
-}
-
-std::vector<RobotRoute> PlanEngine::GetRobotRoutes() const
-{
-    return _impl->GetRobotRoutes();
-}
-
-std::vector<PlanSummary> PlanEngine::GetActivePlans() const
-{
-    return _impl->GetActivePlans();
-}
-
-std::optional<PlanSummary> PlanEngine::GetPlanOrNull(std::string_view planID) const
-{
-    return _impl->GetPlanOrNull(planID);
-}
-
-const PlanRecord* PlanEngine::GetPlanRecordOrNull(std::string_view planID) const
-{
-    return _impl->GetPlanRecordOrNull(planID);
-}
-
-std::vector<std::reference_wrapper<const PlanRecord>> PlanEngine::GetActivePlanRecords() const
-{
-    return _impl->GetActivePlanRecords();
-}
-
-std::vector<std::reference_wrapper<const PlanRecord>> PlanEngine::GetFinishedPlanRecords(std::size_t limit) const
-{
-    return _impl->GetFinishedPlanRecords(limit);
-}
-
-std::vector<WaitReason> PlanEngine::GetWaitReasons() const
-{
-    return _impl->GetWaitReasons();
-}
-
-std::optional<WaitReason> PlanEngine::GetWaitReasonOrNull(std::string_view planID) const
-{
-    return _impl->GetWaitReasonOrNull(planID);
-}
-
-std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const SetCarriers& command) const
-{
-    return _impl->GetRejectionReasonOrNull(command);
-}
-
-std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const ResolveJob& command) const
-{
-    return _impl->GetRejectionReasonOrNull(command);
-}
-
-std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const SkipStep& command) const
-{
-    return _impl->GetRejectionReasonOrNull(command);
-}
-
-std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const ControlPlan& command) const
-{
-    return _impl->GetRejectionReasonOrNull(command);
-}
-
-std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const SetPlanPriority& command) const
-{
-    return _impl->GetRejectionReasonOrNull(command);
-}
-
-std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const BlockPlace& command) const
-{
-    return _impl->GetRejectionReasonOrNull(command);
-}
-
-std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const UnblockPlace& command) const
-{
-    return _impl->GetRejectionReasonOrNull(command);
-}
-
-const std::vector<Alarm>& PlanEngine::GetActiveAlarms() const noexcept
-{
-    return _impl->GetActiveAlarms();
-}
-
-const std::vector<Block>& PlanEngine::GetBlocks() const noexcept
-{
-    return _impl->GetBlocks();
-}
-
-const EngineOptions& PlanEngine::GetOptions() const noexcept
-{
-    return _impl->GetOptions();
-}
-
-const SiteMap& PlanEngine::GetSite() const noexcept
-{
-    return _impl->GetSite();
-}
-
-const std::string& PlanEngine::GetHoldReason() const noexcept
-{
-    return _impl->GetHoldReason();
-}
-
-ETscState PlanEngine::GetTscState() const noexcept
-{
-    return _impl->GetTscState();
+    _impl->Begin(now);
+    StoreLogWatch(_impl->_engine).OnStoreLog(log);
+    _impl->End(out);
 }
 
 } // namespace ACS::Planning

@@ -100,21 +100,21 @@ TEST_CASE("OperatorCommands: the operator resolves a job whose outcome is unknow
     ActivePlan& plan = parts.BeginUnresolvedLoad();
     SECTION("it was done")
     {
-        parts.commands.Settle(ResolveJob{"P1", "P1-a4", EJobResolution::Done, 7});
+        parts.commands.Resolve(ResolveJob{"P1", "P1-a4", EJobResolution::Done, 7});
         CHECK(IsReplyAccepted(parts.Collect()));
         CHECK(plan.record.progress.steps[0].state == EStepState::Completed);
         CHECK(parts.lr.ports.FindCarrierOrNull("CASSETTE_01").has_value());
     }
     SECTION("it has failed")
     {
-        parts.commands.Settle(ResolveJob{"P1", "P1-a4", EJobResolution::Failed, 7});
+        parts.commands.Resolve(ResolveJob{"P1", "P1-a4", EJobResolution::Failed, 7});
         CHECK(parts.Collect().ListClearedAlarms() == std::vector<std::string>{"ACS-1008"});
         CHECK(plan.record.progress.state == EPlanState::Failed);
     }
     SECTION("it is to be done again, under another command")
     {
         const std::string commandID = parts.lr.job.GetOrNull()->commandID;
-        parts.commands.Settle(ResolveJob{"P1", "P1-a4", EJobResolution::Again, 7});
+        parts.commands.Resolve(ResolveJob{"P1", "P1-a4", EJobResolution::Again, 7});
         parts.Discard();
         parts.work.BeginWork(parts.lr);
         const auto jobs = parts.Collect().ListCommands<StartJob>();
@@ -123,7 +123,7 @@ TEST_CASE("OperatorCommands: the operator resolves a job whose outcome is unknow
     }
     SECTION("it is another job")
     {
-        parts.commands.Settle(ResolveJob{"P1", "P1-b2", EJobResolution::Done, 7});
+        parts.commands.Resolve(ResolveJob{"P1", "P1-b2", EJobResolution::Done, 7});
         CHECK_FALSE(IsReplyAccepted(parts.Collect()));
     }
 }
@@ -133,11 +133,11 @@ TEST_CASE("OperatorCommands: the outcome of a known job is the robot's to report
     OperatorParts parts;
     ActivePlan& plan = parts.BeginLoad();
     const ResolveJob settle{"P1", "P1-a4", EJobResolution::Failed, 7};
-    parts.commands.Settle(settle);
+    parts.commands.Resolve(settle);
     CHECK_FALSE(IsReplyAccepted(parts.Collect()));
     parts.lr.view.bOnline = false;
     CHECK(parts.commands.GetRejectionReasonOrNull(ResolveJob{"P1", "P1-a4", EJobResolution::Again, 7}).has_value());
-    parts.commands.Settle(settle);
+    parts.commands.Resolve(settle);
     CHECK(IsReplyAccepted(parts.Collect()));
     CHECK(plan.record.progress.state == EPlanState::Failed);
 }
