@@ -85,7 +85,7 @@ public:
           _config(std::move(config)),
           _metrics(_metricsEndpoint, _dependencies.clock.GetNow()),
           _planLog(_dependencies.logger.MakeFor("plan"), _metricsEndpoint),
-          _runTrace(_dependencies.traceOrNull, _config, _dependencies.clock.GetNow(), _planLog),
+          _runTrace(_dependencies.traceOrNull, _config, _dependencies.clock.GetNow()),
           _core(
               _runTrace.Wrap({_dependencies.clock, _dependencies.random, _dependencies.logger, *this, _mcs}),
               _config),
@@ -134,10 +134,11 @@ public:
                _dependencies.clock,
                _core.GetEngine(),
                [this] { return GetProgramState(); },
-               _http.GetEvents(),
-               _runTrace.GetObserver()})
+               _http.GetEvents()})
     {
-        _core.SetObserver(_feed.GetObserver());
+        _core.AddObserver(_feed.GetObserver());
+        _core.AddObserver(_runTrace.GetObserver());
+        _core.AddObserver(_planLog);
         _planLog.CreateSeries(_config.engine);
         AddRoutes();
         if (_config.mqtt.has_value())

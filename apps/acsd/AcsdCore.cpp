@@ -64,9 +64,9 @@ AcsdCore::AcsdCore(Dependencies dependencies, const AcsdConfig& config)
     _gateway.SetAckObserver([this](Core::Duration wait) { _dependencies.output.ObserveAckWait(wait); });
 }
 
-void AcsdCore::SetObserver(Planning::IPlanObserver& observer)
+void AcsdCore::AddObserver(Planning::IPlanObserver& observer)
 {
-    _engine.SetObserver(observer);
+    _engine.AddObserver(observer);
 }
 
 void AcsdCore::Restore(Planning::StoredState state)

@@ -88,8 +88,8 @@ public:
     AcsdCore& operator=(const AcsdCore&) = delete;
     ~AcsdCore() = default;
 
-    /// The observer must outlive the core.
-    void SetObserver(Planning::IPlanObserver& observer);
+    /// The observers must outlive the core. They are called in the order in which they were added.
+    void AddObserver(Planning::IPlanObserver& observer);
 
     /// Call once, before anything else, with what the store held.
     void Restore(Planning::StoredState state);

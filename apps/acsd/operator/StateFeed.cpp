@@ -15,11 +15,9 @@ namespace ACS::Acsd
 StateFeed::StateFeed(Dependencies dependencies)
     : _dependencies(std::move(dependencies)),
       _maker(_dependencies.engine, _dependencies.clock.GetNow().wall),
-      _entries(
-          [this](const ChangeEntry& entry, Core::Now now) {
-              _dependencies.events.Publish("entry", EncodeEntry(entry, now.wall));
-          },
-          _dependencies.nextObserver),
+      _entries([this](const ChangeEntry& entry, Core::Now now) {
+          _dependencies.events.Publish("entry", EncodeEntry(entry, now.wall));
+      }),
       _timer(_dependencies.executor, [this](int) { OnTimer(); })
 {
 }

@@ -30,7 +30,6 @@ public:
         const Planning::PlanEngine& engine;
         std::function<ProgramState()> getProgram;
         EventFeed& events;
-        Planning::IPlanObserver& nextObserver; ///< Receives what GetObserver receives.
     };
 
     /// Between two events at least.

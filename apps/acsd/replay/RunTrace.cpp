@@ -34,15 +34,13 @@ void AddToTrace(const ChangeEntry& entry, MessageTrace& trace)
 
 } // namespace
 
-RunTrace::RunTrace(MessageTrace* traceOrNull, const AcsdConfig& config, Core::Now now, Planning::IPlanObserver& next)
-    : _observer(
-        [traceOrNull](const ChangeEntry& entry, Core::Now /*now*/) {
-            if (traceOrNull != nullptr)
-            {
-                AddToTrace(entry, *traceOrNull);
-            }
-        },
-        next)
+RunTrace::RunTrace(MessageTrace* traceOrNull, const AcsdConfig& config, Core::Now now)
+    : _observer([traceOrNull](const ChangeEntry& entry, Core::Now /*now*/) {
+          if (traceOrNull != nullptr)
+          {
+              AddToTrace(entry, *traceOrNull);
+          }
+      })
 {
     if (traceOrNull != nullptr)
     {

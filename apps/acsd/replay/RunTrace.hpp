@@ -21,13 +21,13 @@ class RunTrace final
     std::unique_ptr<CoreRecorder> _recorder; ///< Null without a trace.
 
 public:
-    /// Begins the run in the trace, which may be null. The trace and the next observer outlive it.
-    RunTrace(MessageTrace* traceOrNull, const AcsdConfig& config, Core::Now now, Planning::IPlanObserver& next);
+    /// Begins the run in the trace, which may be null. The trace outlives it.
+    RunTrace(MessageTrace* traceOrNull, const AcsdConfig& config, Core::Now now);
 
     /// The dependencies to give to the core instead of these. Call it once.
     [[nodiscard]] AcsdCore::Dependencies Wrap(const AcsdCore::Dependencies& real);
 
-    /// The observer to be called instead of the next one.
+    /// For the engine.
     [[nodiscard]] Planning::IPlanObserver& GetObserver() noexcept;
 };
 

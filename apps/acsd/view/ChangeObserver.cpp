@@ -27,9 +27,8 @@ std::string DescribeReason(std::string_view message)
 
 } // namespace
 
-ChangeObserver::ChangeObserver(Handler handler, Planning::IPlanObserver& next)
-    : _handler(std::move(handler)),
-      _next(next)
+ChangeObserver::ChangeObserver(Handler handler)
+    : _handler(std::move(handler))
 {
 }
 
@@ -56,7 +55,6 @@ void ChangeObserver::OnPlanChanged(
          transactionID,
          Planning::IsFinal(record.progress.state)},
         now);
-    _next.OnPlanChanged(record, from, transactionID, now);
 }
 
 void ChangeObserver::OnStepChanged(
@@ -76,7 +74,6 @@ void ChangeObserver::OnStepChanged(
         step.action,
         step.position);
     _handler({"step", record.progress.robotID, record.plan.planID, step.stepNo, {}, text, transactionID}, now);
-    _next.OnStepChanged(record, stepIndex, from, transactionID, now);
 }
 
 void ChangeObserver::OnJobChanged(
@@ -98,7 +95,6 @@ void ChangeObserver::OnJobChanged(
         GetText(record.progress.steps[stepIndex].jobs[jobIndex]),
         DescribeRobot(record.progress.robotID));
     _handler({"job", record.progress.robotID, record.plan.planID, step.stepNo, jobID, text, transactionID}, now);
-    _next.OnJobChanged(record, stepIndex, jobIndex, from, transactionID, now);
 }
 
 void ChangeObserver::OnAlarmChanged(
@@ -123,7 +119,6 @@ void ChangeObserver::OnAlarmChanged(
          text,
          transactionID},
         now);
-    _next.OnAlarmChanged(alarm, bSet, transactionID, now);
 }
 
 void ChangeObserver::OnRobotStatusChanged(const Planning::RobotStatus& status, Core::Now now)
@@ -143,20 +138,17 @@ void ChangeObserver::OnRobotStatusChanged(const Planning::RobotStatus& status, C
          text,
          {}},
         now);
-    _next.OnRobotStatusChanged(status, now);
 }
 
 void ChangeObserver::OnTscChanged(Planning::ETscState state, Planning::ETscState from, Core::Now now)
 {
     const std::string text = fmt::format("TSC: {} -> {}", GetText(from), GetText(state));
     _handler({"tsc", {}, {}, 0, {}, text, {}}, now);
-    _next.OnTscChanged(state, from, now);
 }
 
 void ChangeObserver::OnNote(std::string_view robotID, std::string_view text, Core::Now now)
 {
     _handler({"note", robotID, {}, 0, {}, text, {}}, now);
-    _next.OnNote(robotID, text, now);
 }
 
 } // namespace ACS::Acsd

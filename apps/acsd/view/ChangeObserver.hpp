@@ -23,7 +23,7 @@ struct ChangeEntry
     bool bPlanEnded = false;        ///< The plan has reached its last state.
 };
 
-/// Makes an entry of each change of state, and passes the change to the next observer.
+/// Makes an entry of each change of state.
 class ChangeObserver final : public Planning::IPlanObserver
 {
 public:
@@ -31,11 +31,9 @@ public:
 
 private:
     Handler _handler;
-    Planning::IPlanObserver& _next;
 
 public:
-    /// The next observer must outlive this one.
-    ChangeObserver(Handler handler, Planning::IPlanObserver& next);
+    explicit ChangeObserver(Handler handler);
 
     void OnPlanChanged(
         const Planning::PlanRecord& record,

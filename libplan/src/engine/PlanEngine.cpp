@@ -33,9 +33,9 @@ PlanEngine::PlanEngine(EngineOptions options, SiteMap site, Core::IRandom& rando
 
 PlanEngine::~PlanEngine() = default;
 
-void PlanEngine::SetObserver(IPlanObserver& observer)
+void PlanEngine::AddObserver(IPlanObserver& observer)
 {
-    _impl->_engine.transaction.SetObserver(observer);
+    _impl->_engine.transaction.AddObserver(observer);
 }
 
 void PlanEngine::Restore(StoredState state, Core::Now now, EngineActions& out)

@@ -23,9 +23,9 @@ EngineTransaction::EngineTransaction(
 {
 }
 
-void EngineTransaction::SetObserver(IPlanObserver& observer)
+void EngineTransaction::AddObserver(IPlanObserver& observer)
 {
-    _observerOrNull = &observer;
+    _observers.emplace_back(observer);
 }
 
 void EngineTransaction::SetNow(Core::Now now)
@@ -50,9 +50,9 @@ void EngineTransaction::Store(StoreChange change)
 
 void EngineTransaction::PublishRobotStatus(const RobotStatus& status)
 {
-    if (_observerOrNull != nullptr)
+    for (IPlanObserver& observer : _observers)
     {
-        _observerOrNull->OnRobotStatusChanged(status, _now);
+        observer.OnRobotStatusChanged(status, _now);
     }
     _actions.emplace_back(RobotStatusChanged{status});
 }
@@ -60,9 +60,9 @@ void EngineTransaction::PublishRobotStatus(const RobotStatus& status)
 void EngineTransaction::PublishTscState(ETscState state, ETscState from)
 {
     _actions.emplace_back(TscStateChanged{state});
-    if (_observerOrNull != nullptr)
+    for (IPlanObserver& observer : _observers)
     {
-        _observerOrNull->OnTscChanged(state, from, _now);
+        observer.OnTscChanged(state, from, _now);
     }
 }
 
@@ -167,9 +167,9 @@ void EngineTransaction::Command(Robot& robot, RobotCommand command)
 
 void EngineTransaction::Note(const Robot& robot, const std::string& text)
 {
-    if (_observerOrNull != nullptr)
+    for (IPlanObserver& observer : _observers)
     {
-        _observerOrNull->OnNote(robot.GetID(), text, _now);
+        observer.OnNote(robot.GetID(), text, _now);
     }
 }
 
@@ -177,9 +177,9 @@ void EngineTransaction::ChangePlan(ActivePlan& plan, EPlanState state, std::stri
 {
     const EPlanState from = _plans.Change(plan, state, message, _now.wall);
     const std::string_view transactionID = AddReport(PlanReport{plan.record.plan.planID, state, std::move(message)});
-    if (_observerOrNull != nullptr)
+    for (IPlanObserver& observer : _observers)
     {
-        _observerOrNull->OnPlanChanged(plan.record, from, transactionID, _now);
+        observer.OnPlanChanged(plan.record, from, transactionID, _now);
     }
 }
 
@@ -197,9 +197,9 @@ void EngineTransaction::ChangeStepAt(ActivePlan& plan, std::size_t index, EStepS
         plan.record.plan.steps[index].stepNo,
         state,
         std::move(message)});
-    if (_observerOrNull != nullptr)
+    for (IPlanObserver& observer : _observers)
     {
-        _observerOrNull->OnStepChanged(plan.record, index, from, transactionID, _now);
+        observer.OnStepChanged(plan.record, index, from, transactionID, _now);
     }
 }
 
@@ -217,9 +217,9 @@ void EngineTransaction::ChangeJob(ActivePlan& plan, EJobState state, std::string
         GetJobID(plan),
         state,
         std::move(message)});
-    if (_observerOrNull != nullptr)
+    for (IPlanObserver& observer : _observers)
     {
-        _observerOrNull->OnJobChanged(plan.record, plan.step, plan.job, from, transactionID, _now);
+        observer.OnJobChanged(plan.record, plan.step, plan.job, from, transactionID, _now);
     }
 }
 
@@ -236,9 +236,9 @@ void EngineTransaction::ReportAlarms(const std::vector<ErrorReport>& reports)
         _changes.push_back(report.bSet ? StoreChange(AlarmSet{alarm}) : StoreChange(AlarmCleared{alarm}));
         const std::string_view transactionID =
             AddReport(report, _room.ShouldMergeAlarms() ? RemoveReportOrNull(alarm) : std::nullopt);
-        if (_observerOrNull != nullptr)
+        for (IPlanObserver& observer : _observers)
         {
-            _observerOrNull->OnAlarmChanged(alarm, report.bSet, transactionID, _now);
+            observer.OnAlarmChanged(alarm, report.bSet, transactionID, _now);
         }
     }
 }

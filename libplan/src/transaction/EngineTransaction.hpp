@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,7 +32,7 @@ class EngineTransaction
     AlarmBook& _alarms;
     ReportOutbox& _outbox;
     const OutboxRoom& _room;
-    IPlanObserver* _observerOrNull = nullptr;
+    std::vector<std::reference_wrapper<IPlanObserver>> _observers;
     Core::Now _now;
     std::vector<StoreChange> _changes;
     EngineActions _actions;
@@ -46,7 +47,7 @@ public:
         ReportOutbox& outbox,
         const OutboxRoom& room);
 
-    void SetObserver(IPlanObserver& observer);
+    void AddObserver(IPlanObserver& observer);
     void SetNow(Core::Now now);
     [[nodiscard]] const Core::Now& GetNow() const noexcept;
 
@@ -57,7 +58,7 @@ public:
     void Command(Robot& robot, RobotCommand command);
     void StartTimer(EEngineTimer kind, const std::string& robotID, Core::Duration delay);
     void CancelTimer(EEngineTimer kind, const std::string& robotID);
-    /// A line for the log, by the observer.
+    /// A line for the log, by the observers.
     void Note(const Robot& robot, const std::string& text);
     void Store(StoreChange change);
     void Store(std::vector<StoreChange> changes);

@@ -59,8 +59,9 @@ public:
     PlanEngine& operator=(const PlanEngine&) = delete;
     ~PlanEngine();
 
-    /// The observer must outlive the engine. Call it at most once, before any other function.
-    void SetObserver(IPlanObserver& observer);
+    /// The observers must outlive the engine. They are called in the order in which they were added. Add them before any other
+    /// call.
+    void AddObserver(IPlanObserver& observer);
 
     /// Restores the content of the store. Call it once, before any command or event. Plans keep their states and robots, and
     /// pending controls are still answered by a result report. A robot whose job has no reported end receives RecoverJob; a

@@ -3,8 +3,6 @@
 #include "Catch.hpp"
 #include "fixtures/PlanWorldSteps.hpp"
 #include "ManualClock.hpp"
-#include "operator/PlanLog.hpp"
-#include "RecordingLogSink.hpp"
 
 #include <boost/asio/io_context.hpp>
 
@@ -18,13 +16,10 @@ TEST_CASE("Reading the state publishes nothing; an update publishes what differs
     boost::asio::io_context context;
     Testing::ManualClock clock;
     Testing::PlanWorld world{1, true};
-    Testing::RecordingLogSink sink;
-    Apps::MetricsEndpoint metrics;
-    PlanLog log(Core::Logger(sink, "plan"), metrics);
     EventFeed events(clock, [] {});
     ProgramState program;
     program.links = {{"mcs", true}};
-    StateFeed feed({context.get_executor(), clock, *world.engine, [&program] { return program; }, events, log});
+    StateFeed feed({context.get_executor(), clock, *world.engine, [&program] { return program; }, events});
 
     static_cast<void>(feed.Update());
     const std::uint64_t first = events.GetLastID();

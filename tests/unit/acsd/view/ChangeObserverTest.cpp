@@ -2,10 +2,7 @@
 
 #include "Catch.hpp"
 #include "fixtures/PlanWorldSteps.hpp"
-#include "operator/PlanLog.hpp"
-#include "RecordingLogSink.hpp"
 #include "view/ViewCodec.hpp"
-#include <acs/core/Logger.hpp>
 
 #include <string>
 #include <vector>
@@ -31,15 +28,11 @@ std::vector<std::string> ListTexts(const std::vector<std::string>& entries)
 
 } // namespace
 
-TEST_CASE("Each change of state is an entry with its objects and a line, and reaches the next observer")
+TEST_CASE("Each change of state is an entry with its objects and a line")
 {
-    Testing::RecordingLogSink sink;
-    Apps::MetricsEndpoint metrics;
-    PlanLog log(Core::Logger(sink, "plan"), metrics);
     std::vector<std::string> entries;
     ChangeObserver feed(
-        [&entries](const ChangeEntry& entry, Core::Now now) { entries.push_back(EncodeEntry(entry, now.wall)); },
-        log);
+        [&entries](const ChangeEntry& entry, Core::Now now) { entries.push_back(EncodeEntry(entry, now.wall)); });
 
     const Planning::Alarm alarm{"LR01", "ACS-1008", Planning::EAlarmLevel::Heavy, "job \"J\" unknown", "P1", 3, "J1"};
     feed.OnAlarmChanged(alarm, true, "t1", {});
@@ -62,7 +55,27 @@ TEST_CASE("Each change of state is an entry with its objects and a line, and rea
     CHECK(texts[1] == "heavy alarm ACS-1008 of LR01 cleared");
     CHECK(texts[3] == "entered N1");
     CHECK(texts[4] == "robot LR01: Disconnected: LR01: no connection.");
-    CHECK(sink.GetLines().size() == entries.size());
+    CHECK(texts.size() == 5);
+}
+
+TEST_CASE("Each observer of an engine receives each change, in the order in which they were added")
+{
+    Testing::PlanWorld world{1, true};
+    std::vector<std::string> received;
+    const auto recordAs = [&received](const std::string& name) {
+        return [&received, name](const ChangeEntry& entry, Core::Now /*now*/) {
+            received.push_back(name + std::string(entry.text));
+        };
+    };
+    ChangeObserver first(recordAs("1 "));
+    ChangeObserver second(recordAs("2 "));
+    world.engine->AddObserver(first);
+    world.engine->AddObserver(second);
+    Planning::EngineActions actions;
+    world.engine->Handle(Planning::ControlTSC{true, 0}, {}, actions);
+    REQUIRE(received.size() >= 2);
+    CHECK(received[0].starts_with("1 TSC: Auto -> "));
+    CHECK(received[1] == "2" + received[0].substr(1));
 }
 
 } // namespace ACS::Acsd::Test
