@@ -1,11 +1,16 @@
 #pragma once
 
 #include "common/http/MetricsEndpoint.hpp"
+#include "common/log/LogRateLimiter.hpp"
+#include "common/process/TimerSet.hpp"
 #include "config/AcsdConfig.hpp"
 #include "drivers/ActionHistory.hpp"
+#include "drivers/DriverMetrics.hpp"
 #include "drivers/MqttRouter.hpp"
+#include "drivers/OpenStreamService.hpp"
 #include "trace/MessageTrace.hpp"
 #include <acs/acsd/IRobot.hpp>
+#include <acs/acsd/RobotServices.hpp>
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Logger.hpp>
 #include <acs/core/Now.hpp>
@@ -15,9 +20,11 @@
 #include <boost/asio/any_io_executor.hpp>
 #include <tl/expected.hpp>
 
+#include <deque>
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ACS::Acsd
@@ -49,16 +56,28 @@ public:
     };
 
 private:
-    class Impl;
-
-    std::unique_ptr<Impl> _impl;
+    Dependencies _dependencies;
+    const std::string _robotID;
+    const std::string _driver;
+    const std::vector<std::string> _ports;
+    EventHandler _handler;
+    DriverMetrics _metrics;
+    const std::unique_ptr<IMqttService> _mqtt; ///< Null if the robot does not use the broker.
+    OpenStreamService _openStream;
+    std::unique_ptr<IRobot> _robot;
+    std::deque<Planning::AdapterAction> _actions; ///< Not executed yet.
+    bool _bExecuting = false;
+    bool _bStopped = false;
+    Apps::LogRateLimiter _ignored; ///< A robot may send a bad value with each state.
+    Apps::TimerSet<Planning::AdapterTimerID> _timers;
+    ActionHistory _history;
 
 public:
     /// Makes the robot by its setup, which is set.
     RobotRunner(Dependencies dependencies, const RobotLinkConfig& link, EventHandler handler);
     RobotRunner(const RobotRunner&) = delete;
     RobotRunner& operator=(const RobotRunner&) = delete;
-    ~RobotRunner();
+    ~RobotRunner() = default;
 
     void Start();
     void Stop();
@@ -75,6 +94,20 @@ public:
     [[nodiscard]] const std::vector<RobotActionRecord>& GetActions() const noexcept;
     /// Those that RequestAction accepts at present; none after Stop.
     [[nodiscard]] std::vector<RobotActionOffer> ListActionOffers() const;
+
+private:
+    [[nodiscard]] RobotServices MakeServices();
+    /// Calls the adapter and executes its actions. An event may lead to another call of the adapter: its actions are executed
+    /// after the rest of these, which may for instance cancel a timer that the new call starts.
+    template <typename TCall>
+    void Call(const TCall& adapterCall);
+    template <typename TCall>
+    void CallAdapter(const TCall& adapterCall, Planning::AdapterActions& out) const;
+    void Execute(const Planning::AdapterAction& action);
+    void UpdateHistory();
+    void PublishAction(const RobotActionRecord& record) const;
+    void LogDefects(const Planning::RobotEvent& event);
+    void Trace(ETraceDirection direction, std::string_view text) const;
 };
 
 } // namespace ACS::Acsd
