@@ -61,6 +61,21 @@ int Finish(const Terminal& terminal, int exitCode)
     return terminal.IsFailed() ? Report({EXIT_LOCAL_FAILURE, "the output could not be written"}) : exitCode;
 }
 
+int PrintShown(const Outcome<Shown>& shown, Terminal& terminal)
+{
+    if (!shown.has_value())
+    {
+        return Report(shown.error());
+    }
+    terminal.Write(shown->text);
+    return Finish(terminal, shown->exitCode);
+}
+
+int Print(const Outcome<std::string>& text, Terminal& terminal)
+{
+    return PrintShown(text.map([](const std::string& shown) { return Shown{shown}; }), terminal);
+}
+
 Outcome<Shown> Read(Session& session, const AcsctlOptions& options, const Terminal& terminal)
 {
     const ViewContext context{terminal.GetScreen(), Apps::SystemClock().GetNow().wall};
@@ -109,17 +124,8 @@ int Watch(Session& session, const AcsctlOptions& options, Terminal& terminal)
 
 int RunRead(Session& session, const AcsctlOptions& options, Terminal& terminal)
 {
-    if (options.watch.has_value())
-    {
-        return Watch(session, options, terminal);
-    }
-    const Outcome<Shown> shown = Read(session, options, terminal);
-    if (!shown.has_value())
-    {
-        return Report(shown.error());
-    }
-    terminal.Write(shown->text);
-    return Finish(terminal, shown->exitCode);
+    return options.watch.has_value() ? Watch(session, options, terminal)
+                                     : PrintShown(Read(session, options, terminal), terminal);
 }
 
 /// Nullopt: the command may be sent.
@@ -151,13 +157,7 @@ int RunChange(Session& session, ApiRequest request, const AcsctlOptions& options
     {
         return Report(MakeError(answer.error(), true));
     }
-    const Outcome<Shown> shown = ShowChange(options, *answer);
-    if (!shown.has_value())
-    {
-        return Report(shown.error());
-    }
-    terminal.Write(shown->text);
-    return Finish(terminal, EXIT_DONE);
+    return PrintShown(ShowChange(options, *answer), terminal);
 }
 
 int RunActionCommand(Session& session, const AcsctlOptions& options, Terminal& terminal)
@@ -167,39 +167,13 @@ int RunActionCommand(Session& session, const AcsctlOptions& options, Terminal& t
         return *exitCode;
     }
     Apps::SystemRandom random;
-    const Outcome<Shown> shown = RunAction(session, options, Core::MakeUUID(random));
-    if (!shown.has_value())
-    {
-        return Report(shown.error());
-    }
-    terminal.Write(shown->text);
-    return Finish(terminal, shown->exitCode);
+    return PrintShown(RunAction(session, options, Core::MakeUUID(random)), terminal);
 }
 
 bool IsContextCommand(ECommand command)
 {
     return command == ECommand::ContextList || command == ECommand::ContextUse || command == ECommand::ContextSet
         || command == ECommand::ContextRemove;
-}
-
-int Print(const Outcome<std::string>& text, Terminal& terminal)
-{
-    if (!text.has_value())
-    {
-        return Report(text.error());
-    }
-    terminal.Write(*text);
-    return Finish(terminal, EXIT_DONE);
-}
-
-int PrintShown(const Outcome<Shown>& shown, Terminal& terminal)
-{
-    if (!shown.has_value())
-    {
-        return Report(shown.error());
-    }
-    terminal.Write(shown->text);
-    return Finish(terminal, shown->exitCode);
 }
 
 int RunEvents(Session& session, const AcsctlOptions& options, Terminal& terminal)
