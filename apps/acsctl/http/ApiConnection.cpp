@@ -148,13 +148,8 @@ tl::expected<void, ApiFailure> ApiConnection::Write(const ApiRequest& request)
 {
     const Message message = MakeMessage(request);
     _bSent = true;
-    const ErrorCode error = Await([this, &message](const auto& handler) {
-        _stream.Use([&message, &handler](auto& stream) {
-            Http::async_write(stream, message, [handler](const ErrorCode& code, std::size_t /*bytes*/) {
-                handler(code);
-            });
-        });
-    });
+    const ErrorCode error =
+        AwaitTransfer([&message](auto& stream, const auto& handler) { Http::async_write(stream, message, handler); });
     if (error.failed())
     {
         return tl::make_unexpected(MakeFailure(error));
@@ -170,12 +165,8 @@ tl::expected<ApiAnswer, ApiFailure> ApiConnection::Read()
         parser.emplace();
         parser->body_limit(MAX_ANSWER_BYTES);
         parser->header_limit(LONGEST_HEADER);
-        const ErrorCode error = Await([this, &parser](const auto& handler) {
-            _stream.Use([this, &parser, &handler](auto& stream) {
-                Http::async_read(stream, _buffer, *parser, [handler](const ErrorCode& code, std::size_t /*bytes*/) {
-                    handler(code);
-                });
-            });
+        const ErrorCode error = AwaitTransfer([this, &parser](auto& stream, const auto& handler) {
+            Http::async_read(stream, _buffer, *parser, handler);
         });
         if (error.failed())
         {
@@ -200,14 +191,8 @@ tl::expected<ApiAnswer, ApiFailure> ApiConnection::ReadStream(const std::functio
         answer.emplace();
         answer->body_limit(std::numeric_limits<std::uint64_t>::max());
         answer->header_limit(LONGEST_HEADER);
-        error = Await([this, &answer](const auto& handler) {
-            _stream.Use([this, &answer, &handler](auto& stream) {
-                Http::async_read_header(
-                    stream,
-                    _buffer,
-                    *answer,
-                    [handler](const ErrorCode& code, std::size_t /*bytes*/) { handler(code); });
-            });
+        error = AwaitTransfer([this, &answer](auto& stream, const auto& handler) {
+            Http::async_read_header(stream, _buffer, *answer, handler);
         });
         ++interim;
     }
@@ -221,12 +206,8 @@ tl::expected<ApiAnswer, ApiFailure> ApiConnection::ReadStream(const std::functio
     {
         parser.get().body().data = part.data();
         parser.get().body().size = part.size();
-        error = Await([this, &parser](const auto& handler) {
-            _stream.Use([this, &parser, &handler](auto& stream) {
-                Http::async_read_some(stream, _buffer, parser, [handler](const ErrorCode& code, std::size_t /*bytes*/) {
-                    handler(code);
-                });
-            });
+        error = AwaitTransfer([this, &parser](auto& stream, const auto& handler) {
+            Http::async_read_some(stream, _buffer, parser, handler);
         });
         if (error == Http::error::need_buffer)
         {
@@ -342,6 +323,16 @@ ErrorCode ApiConnection::Await(TStart start)
     });
     _loop.Run(bDone, [this] { _stream.GetTCP().cancel(); });
     return error;
+}
+
+template <typename TStart>
+ErrorCode ApiConnection::AwaitTransfer(TStart start)
+{
+    return Await([this, &start](const auto& handler) {
+        _stream.Use([&start, &handler](auto& stream) {
+            start(stream, [handler](const ErrorCode& code, std::size_t /*bytes*/) { handler(code); });
+        });
+    });
 }
 
 } // namespace ACS::Acsctl

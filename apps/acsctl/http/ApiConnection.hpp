@@ -54,6 +54,9 @@ private:
     /// Starts an operation with a time limit and returns its error when it is done.
     template <typename TStart>
     [[nodiscard]] boost::system::error_code Await(TStart start);
+    /// The same for a transfer over the stream, with or without TLS. The handler receives the number of bytes too.
+    template <typename TStart>
+    [[nodiscard]] boost::system::error_code AwaitTransfer(TStart start);
 };
 
 } // namespace ACS::Acsctl
