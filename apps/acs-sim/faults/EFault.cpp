@@ -1,5 +1,7 @@
 #include "faults/EFault.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace ACS::AcsSim
@@ -39,12 +41,7 @@ std::optional<EFault> ReadFaultOrNull(std::string_view name)
 
 std::string ListFaults()
 {
-    std::string list;
-    for (const std::string_view name : NAMES)
-    {
-        list += (list.empty() ? "" : ", ") + std::string(name);
-    }
-    return list;
+    return fmt::format("{}", fmt::join(NAMES, ", "));
 }
 
 } // namespace ACS::AcsSim

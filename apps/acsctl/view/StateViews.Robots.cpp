@@ -71,16 +71,6 @@ std::string MakeRoute(const RobotInfo& robot)
     return text;
 }
 
-std::string JoinNames(const std::vector<std::string>& names)
-{
-    std::string text;
-    for (const std::string& name : names)
-    {
-        text.append(text.empty() ? "" : " ").append(name);
-    }
-    return text;
-}
-
 std::string MakePose(const RobotInfo& robot)
 {
     if (!robot.pose.has_value())
@@ -169,7 +159,7 @@ std::string PrintRobot(const RobotInfo& robot, const ViewContext& context)
     details.AddIfAny("Job", robot.jobID.value_or(""));
     details.AddIfAny("Ports", MakePorts(robot, true));
     details.AddIfAny("Route", MakeRoute(robot));
-    details.AddIfAny("Reserved", JoinNames(robot.reservedNodes));
+    details.AddIfAny("Reserved", fmt::format("{}", fmt::join(robot.reservedNodes, " ")));
     if (robot.bArmUp.has_value())
     {
         details.Add("Arm", *robot.bArmUp ? "connected" : "not connected", *robot.bArmUp ? EStyle::Plain : EStyle::Bad);

@@ -23,16 +23,6 @@ constexpr int LATE = 1;
 constexpr int EARLY = 2;
 constexpr int FIRST = 3;
 
-std::string Join(const std::vector<std::string>& texts, std::string_view separator)
-{
-    std::string joined;
-    for (const std::string& text : texts)
-    {
-        joined.append(joined.empty() ? "" : separator).append(text);
-    }
-    return joined;
-}
-
 /// "1 node", "2 nodes"
 std::string MakeCount(std::uint64_t count, std::string_view noun)
 {
@@ -127,7 +117,7 @@ std::string PrintStatus(const StatusInfo& status, const ViewContext& context)
     }
     else
     {
-        details.Add("Ready", "no: " + Join(status.notReadyReasons, "; "), EStyle::Bad);
+        details.Add("Ready", fmt::format("no: {}", fmt::join(status.notReadyReasons, "; ")), EStyle::Bad);
     }
     if (status.bConnected.has_value())
     {
