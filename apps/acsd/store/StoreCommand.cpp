@@ -32,11 +32,11 @@ bool IsShared(const std::string& place)
     return place.starts_with("postgres://") || place.starts_with("postgresql://");
 }
 
-Outcome CheckShared(const std::string& url)
+template <typename TStore, typename TPlace>
+Outcome CheckStore(const TPlace& place)
 {
-    const Planning::PostgresOptions options{url, {}};
-    return Planning::PostgresPlanStore::Inspect(options).and_then([&](const Planning::StoreOrigin& origin) {
-        return Planning::PostgresPlanStore::InspectState(options).map(
+    return TStore::Inspect(place).and_then([&](const Planning::StoreOrigin& origin) {
+        return TStore::InspectState(place).map(
             [&](const Planning::StoredState& state) { return MakeStoreSummary(origin, state); });
     });
 }
@@ -51,14 +51,10 @@ tl::unexpected<Core::Error> RefuseShared(const std::string& command)
         "a URL");
 }
 
-Outcome Check(const std::string& directory)
+Outcome Check(const std::string& place)
 {
-    return IsShared(directory)
-        ? CheckShared(directory)
-        : Planning::SqlitePlanStore::Inspect(directory).and_then([&](const Planning::StoreOrigin& origin) {
-              return Planning::SqlitePlanStore::InspectState(directory).map(
-                  [&](const Planning::StoredState& state) { return MakeStoreSummary(origin, state); });
-          });
+    return IsShared(place) ? CheckStore<Planning::PostgresPlanStore>(Planning::PostgresOptions{place, {}})
+                           : CheckStore<Planning::SqlitePlanStore>(place);
 }
 
 Outcome Accept(const std::string& directory)
