@@ -154,7 +154,7 @@ void ControlAnswers::RefuseControl(const ControlPlan& command)
     PlanRecord* finishedOrNull = _plans.FindFinishedOrNull(command.planID);
     const bool bKnown = finishedOrNull != nullptr;
     const std::string reason = DescribeInactive(command.planID);
-    _transaction.Emit(ReplyCommand{command.replyToken, bKnown, bKnown ? "Received." : reason});
+    _transaction.Reply(command.replyToken, bKnown, bKnown ? "Received." : reason);
     if (bKnown)
     {
         Remember(finishedOrNull->progress, command);

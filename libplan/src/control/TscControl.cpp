@@ -34,7 +34,7 @@ void TscControl::SwitchTSC(const ControlTSC& command)
         ReleaseHold();
         ChangeTSC(ETscState::Auto);
     }
-    _transaction.Emit(ReplyCommand{command.replyToken, true, fmt::format("The TSC is {}.", GetText(_tscState))});
+    _transaction.Reply(command.replyToken, true, fmt::format("The TSC is {}.", GetText(_tscState)));
 }
 
 void TscControl::ChangeTSC(ETscState state)

@@ -130,11 +130,6 @@ bool Dispatcher::CanExecute(ActivePlan& plan, const Robot& robot) const
     return !reason.has_value();
 }
 
-Robot* Dispatcher::FindSuccessorOrNull(ActivePlan& plan)
-{
-    return FindNearestOrNull(plan);
-}
-
 Robot* Dispatcher::FindQuickestOrNull(const ActivePlan& plan, const std::vector<Robot*>& robots) const
 {
     // One search per vehicle type and load.

@@ -36,12 +36,10 @@ public:
     Dispatcher(EngineState& engine, const TrafficCoordinator& coordinator);
 
     /// The nearest robot that is free, can do the jobs and has suitable ports. Robots whose record has the carriers come before
-    /// those where they are only assumed.
+    /// those where they are only assumed. The robot of the plan is not free: for a plan that has one, the robot that can take over.
     [[nodiscard]] Robot* FindNearestOrNull(ActivePlan& plan);
     /// As above, with the list of FreeRobots for the plan's candidates.
     [[nodiscard]] Robot* FindNearestOrNull(ActivePlan& plan, const std::vector<Robot*>& freeRobots);
-    /// The nearest robot that can take over a plan from its robot, which is not free.
-    [[nodiscard]] Robot* FindSuccessorOrNull(ActivePlan& plan);
     [[nodiscard]] const PortCheck& GetPorts() const noexcept;
     /// Whether a route leads to the plan's first station, as if nothing was blocked.
     [[nodiscard]] bool HasWay(const ActivePlan& plan, const Robot& robot) const;

@@ -386,11 +386,11 @@ void OperatorCommands::Resolve(const ResolveJob& command)
 {
     if (std::optional<std::string> reason = GetRejectionReasonOrNull(command))
     {
-        _transaction.Emit(ReplyCommand{command.replyToken, false, std::move(*reason)});
+        _transaction.Reply(command.replyToken, false, std::move(*reason));
         return;
     }
     Robot& robot = _fleet[*FindWorkerOrNull(command)];
-    _transaction.Emit(ReplyCommand{command.replyToken, true, "Received."});
+    _transaction.Reply(command.replyToken, true, "Received.");
     robot.changes.MarkStatus();
     ApplyAnswer(robot, command.resolution);
 }

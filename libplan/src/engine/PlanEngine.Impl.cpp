@@ -251,7 +251,7 @@ void PlanEngine::Impl::HandOverPlans()
         {
             continue;
         }
-        if (Robot* successorOrNull = _dispatcher.FindSuccessorOrNull(plan); successorOrNull != nullptr)
+        if (Robot* successorOrNull = _dispatcher.FindNearestOrNull(plan); successorOrNull != nullptr)
         {
             _work.GetAssignment().HandOver(plan, *successorOrNull);
         }

@@ -34,13 +34,13 @@ void PlanSubmission::Submit(const SubmitPlan& command)
     if (IsRepetition(plan->record.plan, command.transactionID))
     {
         _call.repeatedPlanIDs.emplace(command.replyToken, command.plan.planID);
-        _transaction.Emit(ReplyCommand{command.replyToken, true, REGISTERED});
+        _transaction.Reply(command.replyToken, true, REGISTERED);
         return;
     }
     Core::Result<ResolvedPlan> resolved = Admit(plan->record.plan);
     if (!resolved.has_value())
     {
-        _transaction.Emit(ReplyCommand{command.replyToken, false, Core::Describe(resolved.error())});
+        _transaction.Reply(command.replyToken, false, Core::Describe(resolved.error()));
         return;
     }
     plan->resolved = std::move(*resolved);
@@ -49,7 +49,7 @@ void PlanSubmission::Submit(const SubmitPlan& command)
         _unreported.push_back(plan->record.plan.planID);
     }
     _transaction.Store(_plans.Accept(std::move(plan), _transaction.GetNow().wall));
-    _transaction.Emit(ReplyCommand{command.replyToken, true, REGISTERED});
+    _transaction.Reply(command.replyToken, true, REGISTERED);
     _transaction.StartTimer(EEngineTimer::Dispatch, {}, {});
 }
 

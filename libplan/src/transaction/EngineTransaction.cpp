@@ -38,11 +38,6 @@ const Core::Now& EngineTransaction::GetNow() const noexcept
     return _now;
 }
 
-void EngineTransaction::Emit(EngineAction action)
-{
-    _actions.push_back(std::move(action));
-}
-
 void EngineTransaction::Store(StoreChange change)
 {
     _changes.push_back(std::move(change));

@@ -53,7 +53,6 @@ public:
 
     /// Adds the report to the outbox. Returns its transactionID, valid until the next report.
     std::string_view AddReport(Report report);
-    void Emit(EngineAction action);
     void Reply(ReplyToken token, bool bAccepted, std::string message);
     void Command(Robot& robot, RobotCommand command);
     void StartTimer(EEngineTimer kind, const std::string& robotID, Core::Duration delay);

@@ -55,11 +55,7 @@ void JobOutcomes::OnJobEndTimeout(Robot& robot)
 
 void JobOutcomes::OnJobFinished(Robot& robot, const JobFinished& event)
 {
-    if (TryEndOverdueJob(robot, event.jobID, true))
-    {
-        return;
-    }
-    if (!IsPresent(robot, event.jobID))
+    if (TryEndOverdueJob(robot, event.jobID, true) || !IsPresent(robot, event.jobID))
     {
         return;
     }
@@ -69,11 +65,7 @@ void JobOutcomes::OnJobFinished(Robot& robot, const JobFinished& event)
 
 void JobOutcomes::OnJobFailed(Robot& robot, const JobFailed& event)
 {
-    if (TryEndOverdueJob(robot, event.jobID, false))
-    {
-        return;
-    }
-    if (!IsPresent(robot, event.jobID))
+    if (TryEndOverdueJob(robot, event.jobID, false) || !IsPresent(robot, event.jobID))
     {
         return;
     }
@@ -136,11 +128,7 @@ void JobOutcomes::OnJobInterrupted(Robot& robot, const JobInterrupted& event)
 
 void JobOutcomes::OnJobUnknown(Robot& robot, const JobUnknown& event)
 {
-    if (TryEndOverdueJob(robot, event.jobID, false))
-    {
-        return;
-    }
-    if (!IsPresent(robot, event.jobID))
+    if (TryEndOverdueJob(robot, event.jobID, false) || !IsPresent(robot, event.jobID))
     {
         return;
     }

@@ -11,6 +11,8 @@ namespace ACS::Planning
 namespace
 {
 
+constexpr const char* STORE_FAILING = "The request cannot be stored because the store is failing. Send it again.";
+
 std::string DescribeResume(const ActivePlan& plan)
 {
     return fmt::format("Resumed by {}.", ControlAnswers::DescribeOrigin(plan, EPlanControl::Resume));
@@ -55,23 +57,20 @@ void PlanControls::Control(const ControlPlan& command)
     if (_backlog.IsFailing()
         && (!bRepeated || _call.unstoredControlIDs.contains(ControlAnswers::MakeRequestID(command))))
     {
-        _transaction.Emit(ReplyCommand{
-            command.replyToken,
-            false,
-            "The request cannot be stored because the store is failing. Send it again."});
+        _transaction.Reply(command.replyToken, false, STORE_FAILING);
         return;
     }
     if (bRepeated)
     {
-        _transaction.Emit(ReplyCommand{command.replyToken, true, "Received."});
+        _transaction.Reply(command.replyToken, true, "Received.");
         return;
     }
     if (!_room.HasRoomForControl())
     {
-        _transaction.Emit(ReplyCommand{
+        _transaction.Reply(
             command.replyToken,
             false,
-            "Outbox Full: the request has no room for its result. Acknowledge reports, then send it again."});
+            "Outbox Full: the request has no room for its result. Acknowledge reports, then send it again.");
         return;
     }
     _call.controlID = ControlAnswers::MakeRequestID(command);
@@ -81,7 +80,7 @@ void PlanControls::Control(const ControlPlan& command)
         _answers.RefuseControl(command);
         return;
     }
-    _transaction.Emit(ReplyCommand{command.replyToken, true, "Received."});
+    _transaction.Reply(command.replyToken, true, "Received.");
     ActivePlan& plan = *planOrNull;
     _answers.Remember(plan.record.progress, command);
     if (plan.record.progress.control == command.control)
@@ -132,7 +131,7 @@ std::optional<std::string> PlanControls::GetRejectionReasonOrNull(const ControlP
     const PlanProgress& progress = planOrNull->record.progress;
     if (_backlog.IsFailing())
     {
-        return "The request cannot be stored because the store is failing. Send it again.";
+        return STORE_FAILING;
     }
     if (progress.controlCount > 0)
     {
