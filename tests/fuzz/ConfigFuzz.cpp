@@ -35,7 +35,7 @@ void ReadTable(const Apps::ConfigSection& section, int depth)
                 static_cast<void>(section.GetEndpoint(name, {}));
                 break;
             case 5:
-                static_cast<void>(section.GetUrlOrNull(name, {Apps::EUrlScheme::Ws, Apps::EUrlScheme::Mqtts}));
+                static_cast<void>(section.GetURL(name, {Apps::EUrlScheme::Ws, Apps::EUrlScheme::Mqtts}));
                 break;
             case 6:
                 static_cast<void>(section.GetStringList(name));

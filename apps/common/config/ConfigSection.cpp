@@ -175,11 +175,6 @@ Url ConfigSection::GetURL(const std::string& key, const std::vector<EUrlScheme>&
     return GetParsed<Url>(key, [&allowed](std::string_view text) { return ParseURL(text, allowed); });
 }
 
-std::optional<Url> ConfigSection::GetUrlOrNull(const std::string& key, const std::vector<EUrlScheme>& allowed) const
-{
-    return HasKey(key) ? std::optional<Url>(GetURL(key, allowed)) : std::nullopt;
-}
-
 std::vector<std::string> ConfigSection::GetStringList(const std::string& key) const
 {
     std::vector<std::string> values;

@@ -70,7 +70,6 @@ public:
 
     [[nodiscard]] Endpoint GetEndpoint(const std::string& key, const Endpoint& fallback) const;
     [[nodiscard]] Url GetURL(const std::string& key, const std::vector<EUrlScheme>& allowed) const;
-    [[nodiscard]] std::optional<Url> GetUrlOrNull(const std::string& key, const std::vector<EUrlScheme>& allowed) const;
 
     /// A list of strings; empty if the key is absent.
     [[nodiscard]] std::vector<std::string> GetStringList(const std::string& key) const;

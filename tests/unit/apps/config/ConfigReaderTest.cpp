@@ -82,7 +82,6 @@ TEST_CASE("Absent optional keys have their defaults, also in an absent table")
     CHECK(http.IsEnabled("e", true));
     CHECK(http.GetStringList("l").empty());
     CHECK(http.GetSectionList("s").empty());
-    CHECK_FALSE(http.GetUrlOrNull("u", {Apps::EUrlScheme::Http}).has_value());
     CHECK_FALSE(http.HasKey("listen"));
     CHECK(reader.GetErrors().empty());
 }
