@@ -1,6 +1,5 @@
 #include "AcsSimOptions.hpp"
 
-#include "common/config/DurationText.hpp"
 #include "faults/EFault.hpp"
 #include <acs/core/Result.hpp>
 #include <acs/core/RobotID.hpp>
@@ -20,21 +19,6 @@ namespace
 // The readers return an empty text, or what is wrong with the value.
 
 constexpr std::size_t MAX_PLANS = 1'000'000;
-
-std::string ReadDuration(const std::string& text, std::chrono::milliseconds& duration)
-{
-    const Core::Result<std::chrono::milliseconds> read = Apps::ParseDuration(text);
-    if (!read.has_value())
-    {
-        return Core::Describe(read.error());
-    }
-    if (read->count() == 0)
-    {
-        return "expected a duration above 0";
-    }
-    duration = *read;
-    return {};
-}
 
 std::string ReadRobot(const std::string& text, std::vector<std::string>& robots)
 {
@@ -104,16 +88,6 @@ void AddLinkOptions(CLI::App& app, AcsSimOptions& options)
         .type_name("FILE.pem");
 }
 
-void AddDuration(CLI::App& app, const std::string& name, std::chrono::milliseconds& duration, const std::string& help)
-{
-    Apps::AddTextOption(
-        app,
-        name,
-        [&duration](const std::string& text) { return ReadDuration(text, duration); },
-        help)
-        .type_name("DURATION");
-}
-
 } // namespace
 
 std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, AcsSimOptions& options)
@@ -141,8 +115,12 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, AcsSimO
            options.plans,
            "End when this number of plans have ended and all faults have occurred (default 0: no limit)")
         ->check(CLI::Range(std::size_t{0}, MAX_PLANS));
-    AddDuration(app, "--for", options.duration, "End after this time, for example 30s (default: at SIGINT or SIGTERM)");
-    AddDuration(app, "--ack-timeout", options.ackTimeout, "Maximum time of the MCS to an Ack (default 5s)");
+    Apps::AddDurationOption(
+        app,
+        "--for",
+        options.duration,
+        "End after this time, for example 30s (default: at SIGINT or SIGTERM)");
+    Apps::AddDurationOption(app, "--ack-timeout", options.ackTimeout, "Maximum time of the MCS to an Ack (default 5s)");
     app.add_option(
            "--queue",
            options.queue,

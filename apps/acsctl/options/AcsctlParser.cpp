@@ -1,7 +1,6 @@
 #include "options/AcsctlParser.hpp"
 
 #include "common/config/CommandLine.hpp"
-#include "common/config/DurationText.hpp"
 #include "common/Version.hpp"
 #include <acs/core/Result.hpp>
 
@@ -26,21 +25,6 @@ constexpr std::uint64_t MAX_FILE_LIMIT = 1'000'000;
 constexpr double SHORTEST_WATCH = 0.1;
 constexpr double LONGEST_WATCH = 86'400;
 constexpr double MILLISECONDS = 1'000;
-
-std::string ReadTimeout(const std::string& text, std::chrono::milliseconds& timeout)
-{
-    const Core::Result<std::chrono::milliseconds> read = Apps::ParseDuration(text);
-    if (!read.has_value())
-    {
-        return Core::Describe(read.error());
-    }
-    if (read->count() == 0)
-    {
-        return "expected a duration above 0";
-    }
-    timeout = *read;
-    return {};
-}
 
 std::optional<double> ReadNumberOrNull(const std::string& text)
 {
@@ -144,12 +128,7 @@ void AddGlobalOptions(CLI::App& app, AcsctlOptions& options)
     AddText(app, "--certificate", connection.certificate, "With https: the client's certificate").type_name("FILE.pem");
     AddText(app, "--key", connection.key, "The private key of --certificate, without a passphrase")
         .type_name("FILE.pem");
-    Apps::AddTextOption(
-        app,
-        "--timeout",
-        [&options](const std::string& text) { return ReadTimeout(text, options.timeout); },
-        "Maximum time for an answer (default 10s)")
-        .type_name("DURATION");
+    Apps::AddDurationOption(app, "--timeout", options.timeout, "Maximum time for an answer (default 10s)");
     app.add_flag("--json", options.bJSON, "Print the answer of the API: one JSON document, or one for each line");
     Apps::AddTextOption(
         app,

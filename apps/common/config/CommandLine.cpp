@@ -1,5 +1,6 @@
 #include "common/config/CommandLine.hpp"
 
+#include "common/config/DurationText.hpp"
 #include "common/log/LogText.hpp"
 #include "common/Version.hpp"
 #include <acs/core/ControlCharacter.hpp>
@@ -81,6 +82,24 @@ CLI::Option& AddUrlOption(
     {
         option.default_str(MakeText(target));
     }
+    return option;
+}
+
+CLI::Option& AddDurationOption(
+    CLI::App& app,
+    const std::string& name,
+    std::chrono::milliseconds& target,
+    const std::string& help)
+{
+    CLI::Option& option = AddTextOption(
+        app,
+        name,
+        [&target](const std::string& text) {
+            std::string error = Take(ParseDuration(text), target);
+            return error.empty() && target.count() == 0 ? std::string("expected a duration above 0") : error;
+        },
+        help);
+    option.type_name("DURATION");
     return option;
 }
 

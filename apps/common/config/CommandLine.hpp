@@ -4,6 +4,7 @@
 #include "common/config/Url.hpp"
 #include <acs/core/Logger.hpp>
 
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -41,6 +42,13 @@ CLI::Option& AddUrlOption(
     const std::string& name,
     Url& target,
     const std::vector<EUrlScheme>& allowed,
+    const std::string& help);
+
+/// An option whose value is a duration above 0, as ParseDuration reads it.
+CLI::Option& AddDurationOption(
+    CLI::App& app,
+    const std::string& name,
+    std::chrono::milliseconds& target,
     const std::string& help);
 
 /// --time-scale X: speed of a simulator relative to real time, 0.01 to 1000 (default: the value of the target).
