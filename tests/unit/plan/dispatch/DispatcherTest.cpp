@@ -118,9 +118,9 @@ TEST_CASE("Dispatcher: the successor of a plan's robot is free and can do its jo
     EngineParts parts(MakeTestOptions(true));
     Robot& other = parts.engine.fleet[2];
     ActivePlan& plan = parts.BeginDriveToLoad();
-    CHECK(parts.dispatcher.FindSuccessorOrNull(plan) == nullptr);
+    CHECK(parts.dispatcher.FindNearestOrNull(plan) == nullptr);
     parts.PutOn(other, "D-CHG03");
-    CHECK(parts.dispatcher.FindSuccessorOrNull(plan) == &other);
+    CHECK(parts.dispatcher.FindNearestOrNull(plan) == &other);
     parts.dispatcher.OnJobCheck(other, JobCheckChanged{std::make_shared<SingleActionCheck>("CassetteUnload")});
-    CHECK(parts.dispatcher.FindSuccessorOrNull(plan) == nullptr);
+    CHECK(parts.dispatcher.FindNearestOrNull(plan) == nullptr);
 }
