@@ -3,13 +3,13 @@
 #include "common/config/DurationText.hpp"
 #include "common/faults/FaultOptions.hpp"
 #include "programs/ProgramFile.hpp"
+#include <acs/core/ParseNumber.hpp>
 #include <acs/core/RobotID.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <map>
 #include <set>
 #include <utility>
@@ -24,23 +24,18 @@ constexpr std::string_view FAIL_SUFFIX = ",fail";
 
 std::optional<int> ParseProgramNumberOrNull(std::string_view text)
 {
-    int number = 0;
-    const char* const last = text.data() + text.size();
-    const auto [end, error] = std::from_chars(text.data(), last, number);
-    const bool bProgram = error == std::errc{} && end == last && number >= FIRST_PROGRAM && number <= LAST_PROGRAM;
-    return bProgram ? std::optional(number) : std::nullopt;
+    const std::optional<int> number = Core::ParseNumberOrNull<int>(text);
+    return number.has_value() && *number >= FIRST_PROGRAM && *number <= LAST_PROGRAM ? number : std::nullopt;
 }
 
 std::string ReadCount(std::string_view text, std::size_t maximum, std::size_t& target)
 {
-    std::size_t count = 0;
-    const char* const last = text.data() + text.size();
-    const auto [end, error] = std::from_chars(text.data(), last, count);
-    if (error != std::errc{} || end != last || count < 1 || count > maximum)
+    const std::optional<std::size_t> count = Core::ParseNumberOrNull<std::size_t>(text);
+    if (!count.has_value() || *count < 1 || *count > maximum)
     {
         return fmt::format("expected a number from 1 to {}, found {}", maximum, Core::QuoteForError(text));
     }
-    target = count;
+    target = *count;
     return {};
 }
 

@@ -1,12 +1,12 @@
 #include "vda-sim/LoadHandling.hpp"
 
+#include <acs/core/ParseNumber.hpp>
 #include <acs/vda5050/PredefinedActions.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <set>
 #include <utility>
 
@@ -57,13 +57,12 @@ bool IsStandardParameter(std::string_view key)
 
 Core::Result<bool> ReadPorts(std::string_view value, LoadHandling& handling)
 {
-    std::size_t count = 0;
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), count);
-    if (error != std::errc() || end != value.data() + value.size() || count > LoadHandling::MAX_PORTS)
+    const std::optional<std::size_t> count = Core::ParseNumberOrNull<std::size_t>(value);
+    if (!count.has_value() || *count > LoadHandling::MAX_PORTS)
     {
         return Refuse("ports", fmt::format("a number from 0 to {}", LoadHandling::MAX_PORTS), value);
     }
-    handling.ports = count;
+    handling.ports = *count;
     return true;
 }
 

@@ -5,6 +5,7 @@
 #include "common/config/TextFile.hpp"
 #include "common/faults/FaultOptions.hpp"
 #include "vda-sim/VehicleFactsheet.hpp"
+#include <acs/core/ParseNumber.hpp>
 #include <acs/core/RobotID.hpp>
 #include <acs/plan/LifReader.hpp>
 #include <acs/vda5050/PredefinedActions.hpp>
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -90,14 +90,10 @@ bool HasDuration(std::string_view actionType)
 
 std::string ReadSeed(const std::string& text, std::optional<std::uint64_t>& seed)
 {
-    std::uint64_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size())
-    {
-        return fmt::format("expected a number from 0 to {}, found {}", UINT64_MAX, Core::QuoteForError(text));
-    }
-    seed = number;
-    return {};
+    seed = Core::ParseNumberOrNull<std::uint64_t>(text);
+    return seed.has_value()
+        ? ""
+        : fmt::format("expected a number from 0 to {}, found {}", UINT64_MAX, Core::QuoteForError(text));
 }
 
 std::string ReadActionTime(const std::string& text, std::map<std::string, double, std::less<>>& seconds)

@@ -1,9 +1,10 @@
 #include "vda-sim/VehicleSpec.hpp"
 
+#include <acs/core/ParseNumber.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -43,27 +44,24 @@ Core::Result<void> Store(Core::Result<TValue> value, TTarget& target)
 Core::Result<double> ParsePercent(std::string_view text)
 {
     constexpr double FULL = 100.0;
-    double percent = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), percent);
-    if (error != std::errc() || end != text.data() + text.size() || !(percent >= 0.0 && percent <= FULL))
+    const std::optional<double> percent = Core::ParseNumberOrNull<double>(text);
+    if (!percent.has_value() || !(*percent >= 0.0 && *percent <= FULL))
     {
         return Core::Fail(Core::ECoreError::OutOfRange, "battery", "a number from 0 to 100", Core::QuoteForError(text));
     }
-    return percent;
+    return *percent;
 }
 
 Core::Result<StartPosition> ParsePosition(std::string_view text)
 {
-    StartPosition position;
-    const char* const end = text.data() + text.size();
-    const auto x = std::from_chars(text.data(), end, position.x);
-    const bool bColon = x.ec == std::errc() && x.ptr != end && *x.ptr == ':';
-    const auto y = bColon ? std::from_chars(x.ptr + 1, end, position.y) : x;
-    if (!bColon || y.ec != std::errc() || y.ptr != end || !std::isfinite(position.x) || !std::isfinite(position.y))
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    const std::optional<double> x = Core::ParseNumberOrNull<double>(text.substr(0, colon));
+    const std::optional<double> y = Core::ParseNumberOrNull<double>(text.substr(std::min(colon + 1, text.size())));
+    if (!x.has_value() || !y.has_value() || !std::isfinite(*x) || !std::isfinite(*y))
     {
         return Core::Fail(Core::ECoreError::OutOfRange, "position", "X:Y in metres", Core::QuoteForError(text));
     }
-    return position;
+    return StartPosition{*x, *y};
 }
 
 Core::Result<void> ReadPart(std::string_view part, VehicleSpec& spec, std::set<std::string_view>& known)

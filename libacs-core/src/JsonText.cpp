@@ -1,4 +1,5 @@
 #include <acs/core/JsonText.hpp>
+#include <acs/core/ParseNumber.hpp>
 
 #include <fmt/format.h>
 
@@ -360,13 +361,8 @@ std::optional<std::string> JsonText::GetStringOrNull() const
 
 std::optional<double> JsonText::GetNumberOrNull() const
 {
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(_text.data(), _text.data() + _text.size(), value);
-    if (error != std::errc() || end != _text.data() + _text.size() || !std::isfinite(value))
-    {
-        return std::nullopt;
-    }
-    return value;
+    const std::optional<double> value = ParseNumberOrNull<double>(_text);
+    return value.has_value() && std::isfinite(*value) ? value : std::nullopt;
 }
 
 std::optional<bool> JsonText::GetBooleanOrNull() const

@@ -1,9 +1,9 @@
 #include "ActionFault.hpp"
 
+#include <acs/core/ParseNumber.hpp>
 #include <acs/vda5050/PredefinedActions.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
@@ -21,10 +21,8 @@ std::optional<double> ReadNumberOrNull(const Core::JsonText& value)
     {
         return value.GetNumberOrNull();
     }
-    double number = 0.0;
-    const char* const end = text->data() + text->size();
-    const auto [rest, error] = std::from_chars(text->data(), end, number);
-    return error == std::errc() && rest == end && std::isfinite(number) ? std::optional(number) : std::nullopt;
+    const std::optional<double> number = Core::ParseNumberOrNull<double>(*text);
+    return number.has_value() && std::isfinite(*number) ? number : std::nullopt;
 }
 
 bool IsOfType(const Core::JsonText& value, EValueDataType type, bool bTextTaken)

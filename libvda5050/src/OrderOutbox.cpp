@@ -1,10 +1,10 @@
 #include "OrderOutbox.hpp"
 
 #include "OrderErrors.hpp"
+#include <acs/core/ParseNumber.hpp>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <utility>
 
 namespace ACS::VDA5050
@@ -210,10 +210,8 @@ bool OrderOutbox::IsRejection(const VehicleError& error) const
 
 bool OrderOutbox::IsSentHeader(std::string_view headerID) const
 {
-    std::uint32_t number = 0;
-    const char* const end = headerID.data() + headerID.size();
-    const auto [rest, error] = std::from_chars(headerID.data(), end, number);
-    return error == std::errc() && rest == end && number - _inFlight->firstHeaderID < _inFlight->sendCount;
+    const std::optional<std::uint32_t> number = Core::ParseNumberOrNull<std::uint32_t>(headerID);
+    return number.has_value() && *number - _inFlight->firstHeaderID < _inFlight->sendCount;
 }
 
 OrderMessage OrderOutbox::Accept(const StateMessage& state, MasterActions& out)

@@ -1,10 +1,11 @@
 #include "common/config/Endpoint.hpp"
 
+#include <acs/core/ParseNumber.hpp>
+
 #include <boost/asio/ip/address.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <utility>
 
@@ -37,17 +38,6 @@ std::optional<std::string> ReadHostOrNull(std::string_view text)
     return bValid ? std::optional<std::string>(host) : std::nullopt;
 }
 
-std::optional<std::uint16_t> ReadPortOrNull(std::string_view text)
-{
-    std::uint16_t port = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
-    if (error != std::errc() || end != text.data() + text.size())
-    {
-        return std::nullopt;
-    }
-    return port;
-}
-
 } // namespace
 
 Core::Result<Endpoint> ParseEndpoint(std::string_view text)
@@ -56,7 +46,7 @@ Core::Result<Endpoint> ParseEndpoint(std::string_view text)
     if (colon != std::string_view::npos)
     {
         std::optional<std::string> host = ReadHostOrNull(text.substr(0, colon));
-        const std::optional<std::uint16_t> port = ReadPortOrNull(text.substr(colon + 1));
+        const std::optional<std::uint16_t> port = Core::ParseNumberOrNull<std::uint16_t>(text.substr(colon + 1));
         if (host.has_value() && port.has_value())
         {
             return Endpoint{std::move(*host), *port};

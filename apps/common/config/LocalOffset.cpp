@@ -1,6 +1,7 @@
 #include "common/config/LocalOffset.hpp"
 
-#include <charconv>
+#include <acs/core/ParseNumber.hpp>
+
 #include <ctime>
 #include <string>
 
@@ -15,18 +16,7 @@ constexpr std::size_t OFFSET_LENGTH = 6;
 constexpr std::size_t COLON = 3;
 constexpr std::chrono::minutes MIN_OFFSET{-12 * 60};
 constexpr std::chrono::minutes MAX_OFFSET{14 * 60};
-constexpr int MINUTES_PER_HOUR = 60;
-
-std::optional<int> ReadTwoDigitsOrNull(std::string_view text)
-{
-    int value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || value < 0 || text.front() == '-')
-    {
-        return std::nullopt;
-    }
-    return value;
-}
+constexpr unsigned MINUTES_PER_HOUR = 60;
 
 std::optional<std::chrono::minutes> ReadOffsetOrNull(std::string_view text)
 {
@@ -34,8 +24,8 @@ std::optional<std::chrono::minutes> ReadOffsetOrNull(std::string_view text)
     {
         return std::nullopt;
     }
-    const std::optional<int> hours = ReadTwoDigitsOrNull(text.substr(1, 2));
-    const std::optional<int> minutes = ReadTwoDigitsOrNull(text.substr(COLON + 1, 2));
+    const std::optional<unsigned> hours = Core::ParseNumberOrNull<unsigned>(text.substr(1, 2));
+    const std::optional<unsigned> minutes = Core::ParseNumberOrNull<unsigned>(text.substr(COLON + 1, 2));
     if (!hours.has_value() || !minutes.has_value() || *minutes >= MINUTES_PER_HOUR)
     {
         return std::nullopt;

@@ -3,10 +3,10 @@
 #include "common/config/DurationText.hpp"
 #include "common/config/WordReader.hpp"
 #include <acs/core/JsonText.hpp>
+#include <acs/core/ParseNumber.hpp>
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 
 namespace ACS::Apps
@@ -36,26 +36,23 @@ std::string ReadDurationValue(std::string_view text, Core::Duration& target)
 
 std::string ReadNumberValue(std::string_view text, double max, double& target)
 {
-    double number = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number) || number < 0.0
-        || number > max)
+    const std::optional<double> number = Core::ParseNumberOrNull<double>(text);
+    if (!number.has_value() || !std::isfinite(*number) || *number < 0.0 || *number > max)
     {
         return fmt::format("a number from 0 to {}", max);
     }
-    target = number;
+    target = *number;
     return {};
 }
 
 std::string ReadCountValue(std::string_view text, std::uint32_t max, std::uint32_t& target)
 {
-    std::uint32_t count = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-    if (error != std::errc() || end != text.data() + text.size() || count < 1 || count > max)
+    const std::optional<std::uint32_t> count = Core::ParseNumberOrNull<std::uint32_t>(text);
+    if (!count.has_value() || *count < 1 || *count > max)
     {
         return fmt::format("a number from 1 to {}", max);
     }
-    target = count;
+    target = *count;
     return {};
 }
 

@@ -1,7 +1,8 @@
 #include "common/process/ServiceNotifier.hpp"
 
+#include <acs/core/ParseNumber.hpp>
+
 #include <algorithm>
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -20,14 +21,6 @@ std::string_view GetEnvironment(const char* name)
 {
     const char* const value = std::getenv(name);
     return value == nullptr ? std::string_view() : std::string_view(value);
-}
-
-std::optional<std::uint64_t> ParseNumberOrNull(std::string_view text)
-{
-    std::uint64_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    const bool bNumber = error == std::errc() && end == text.data() + text.size();
-    return bNumber ? std::optional(number) : std::nullopt;
 }
 
 } // namespace
@@ -78,11 +71,12 @@ std::string GetNotifyAddress()
 std::optional<std::chrono::microseconds> GetWatchdogTimeoutOrNull()
 {
     const std::string_view process = GetEnvironment("WATCHDOG_PID");
-    if (!process.empty() && ParseNumberOrNull(process) != static_cast<std::uint64_t>(getpid()))
+    if (!process.empty() && Core::ParseNumberOrNull<std::uint64_t>(process) != static_cast<std::uint64_t>(getpid()))
     {
         return std::nullopt;
     }
-    const std::optional<std::uint64_t> timeoutOrNull = ParseNumberOrNull(GetEnvironment("WATCHDOG_USEC"));
+    const std::optional<std::uint64_t> timeoutOrNull =
+        Core::ParseNumberOrNull<std::uint64_t>(GetEnvironment("WATCHDOG_USEC"));
     if (!timeoutOrNull.has_value() || *timeoutOrNull == 0)
     {
         return std::nullopt;

@@ -1,10 +1,11 @@
 #include "common/trace/TraceFiles.hpp"
 
+#include <acs/core/ParseNumber.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <fcntl.h>
 #include <filesystem>
 #include <functional>
@@ -37,10 +38,8 @@ std::uint64_t ReadNumber(const std::string& name, std::string_view prefix)
     }
     const std::string_view digits =
         std::string_view(name).substr(prefix.size(), name.size() - prefix.size() - SUFFIX.size());
-    std::uint64_t number = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    const bool bNumber = error == std::errc() && end == digits.data() + digits.size();
-    return bNumber && number <= LARGEST_NUMBER ? number : 0;
+    const std::uint64_t number = Core::ParseNumberOrNull<std::uint64_t>(digits).value_or(0);
+    return number <= LARGEST_NUMBER ? number : 0;
 }
 
 using NumberedFiles = std::vector<std::pair<std::uint64_t, std::filesystem::path>>;

@@ -1,12 +1,12 @@
 #include "common/trace/TraceOptions.hpp"
 
 #include "common/config/CommandLine.hpp"
+#include <acs/core/ParseNumber.hpp>
 #include <acs/core/Result.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstdint>
 
 namespace ACS::Apps
@@ -18,13 +18,12 @@ namespace
 template <typename TNumber>
 std::string ReadLimit(const std::string& text, std::int64_t smallest, std::int64_t largest, TNumber& target)
 {
-    std::int64_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size() || number < smallest || number > largest)
+    const std::optional<std::int64_t> number = Core::ParseNumberOrNull<std::int64_t>(text);
+    if (!number.has_value() || *number < smallest || *number > largest)
     {
         return fmt::format("expected a number from {} to {}, found {}", smallest, largest, Core::QuoteForError(text));
     }
-    target = static_cast<TNumber>(number);
+    target = static_cast<TNumber>(*number);
     return {};
 }
 

@@ -1,8 +1,9 @@
 #include "console/Screen.hpp"
 
+#include <acs/core/ParseNumber.hpp>
+
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstdlib>
 #include <string>
 #include <string_view>
@@ -26,9 +27,8 @@ void TakeVariable(const char* name, std::size_t& size)
 {
     const char* const textOrNull = std::getenv(name); // NOLINT(concurrency-mt-unsafe): one thread
     const std::string_view text = textOrNull == nullptr ? "" : textOrNull;
-    std::size_t value = 0;
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (code == std::errc() && end == text.data() + text.size() && value > 0 && value <= MAX_SIZE)
+    const std::size_t value = Core::ParseNumberOrNull<std::size_t>(text).value_or(0);
+    if (value > 0 && value <= MAX_SIZE)
     {
         size = value;
     }

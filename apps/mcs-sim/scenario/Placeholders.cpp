@@ -1,9 +1,10 @@
 #include "scenario/Placeholders.hpp"
 
+#include <acs/core/ParseNumber.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstddef>
 #include <system_error>
 
@@ -31,9 +32,7 @@ bool IsPlaceholderLike(std::string_view text)
 /// From 1; 0: it is none.
 std::size_t ReadNumber(std::string_view text)
 {
-    std::size_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return error == std::errc() && end == text.data() + text.size() ? number : 0;
+    return Core::ParseNumberOrNull<std::size_t>(text).value_or(0);
 }
 
 /// "1": its first job; "carrier.1": its first carrier.

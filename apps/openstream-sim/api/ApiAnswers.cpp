@@ -1,8 +1,8 @@
 #include "api/ApiAnswers.hpp"
 
-#include <fmt/format.h>
+#include <acs/core/ParseNumber.hpp>
 
-#include <charconv>
+#include <fmt/format.h>
 
 namespace ACS::OpenStreamSim
 {
@@ -113,10 +113,8 @@ Core::Result<std::int64_t> ReadInteger(
     {
         return byDefault;
     }
-    std::int64_t value = 0;
-    const char* const last = textOrNull->data() + textOrNull->size();
-    const auto [end, error] = std::from_chars(textOrNull->data(), last, value);
-    if (error != std::errc{} || end != last || value < lowest || value > highest)
+    const std::optional<std::int64_t> value = Core::ParseNumberOrNull<std::int64_t>(*textOrNull);
+    if (!value.has_value() || *value < lowest || *value > highest)
     {
         return Core::Fail(
             Core::ECoreError::OutOfRange,
@@ -124,7 +122,7 @@ Core::Result<std::int64_t> ReadInteger(
             fmt::format("a whole number from {} to {}", lowest, highest),
             Core::QuoteForError(*textOrNull));
     }
-    return value;
+    return *value;
 }
 
 } // namespace ACS::OpenStreamSim

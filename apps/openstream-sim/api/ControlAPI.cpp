@@ -1,9 +1,9 @@
 #include "api/ControlAPI.hpp"
 
 #include "api/ApiAnswers.hpp"
+#include <acs/core/ParseNumber.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <utility>
 
@@ -71,22 +71,12 @@ ApiResponse ReadSignal(ControllerMachine& machine, const ApiCall& call, RelayBlo
 std::optional<double> ReadNumberOrNull(const Core::JsonText& value)
 {
     const std::optional<std::string> text = value.GetStringOrNull();
-    if (!text.has_value())
-    {
-        return value.GetNumberOrNull();
-    }
-    double number = 0.0;
-    const char* const last = text->data() + text->size();
-    const auto [end, error] = std::from_chars(text->data(), last, number);
-    return error == std::errc{} && end == last ? std::optional(number) : std::nullopt;
+    return text.has_value() ? Core::ParseNumberOrNull<double>(*text) : value.GetNumberOrNull();
 }
 
 bool IsTask(std::string_view argument)
 {
-    std::size_t task = 0;
-    const char* const last = argument.data() + argument.size();
-    const auto [end, error] = std::from_chars(argument.data(), last, task);
-    return error == std::errc{} && end == last && task < TASKS;
+    return Core::ParseNumberOrNull<std::size_t>(argument).value_or(TASKS) < TASKS;
 }
 
 ApiResponse RefuseTask()

@@ -3,10 +3,10 @@
 #include "api/ApiAnswers.hpp"
 #include "arm/FlangePose.hpp"
 #include "common/Version.hpp"
+#include <acs/core/ParseNumber.hpp>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -300,11 +300,9 @@ ApiResponse GetTools(ControllerMachine& machine, const ApiCall& /*call*/)
 
 ApiResponse GetTool(ControllerMachine& machine, const ApiCall& call)
 {
-    std::size_t number = 0;
-    const char* const last = call.argument.data() + call.argument.size();
-    const auto [end, error] = std::from_chars(call.argument.data(), last, number);
     const auto& tools = machine.GetSettings().tools;
-    if (error != std::errc{} || end != last || number >= tools.size() || !tools[number].has_value())
+    const std::size_t number = Core::ParseNumberOrNull<std::size_t>(call.argument).value_or(tools.size());
+    if (number >= tools.size() || !tools[number].has_value())
     {
         return RefusePath("no such tool");
     }

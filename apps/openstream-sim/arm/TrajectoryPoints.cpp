@@ -1,12 +1,12 @@
 #include "arm/TrajectoryPoints.hpp"
 
 #include "arm/TrajectoryFollower.hpp"
+#include <acs/core/ParseNumber.hpp>
 #include <acs/json/JsonDocument.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <string_view>
@@ -67,11 +67,9 @@ std::optional<std::size_t> ParsePointIndexOrNull(std::string_view name, std::siz
         return std::nullopt;
     }
     const std::string_view digits = name.substr(POINT_PREFIX.size());
-    std::size_t number = 0;
-    const char* const last = digits.data() + digits.size();
-    const auto [end, error] = std::from_chars(digits.data(), last, number);
-    const bool bNumber = error == std::errc{} && end == last && digits.front() != '0' && number <= count;
-    return bNumber ? std::optional(number - 1) : std::nullopt;
+    const std::optional<std::size_t> number = Core::ParseNumberOrNull<std::size_t>(digits);
+    const bool bPoint = number.has_value() && digits.front() != '0' && *number <= count;
+    return bPoint ? std::optional(*number - 1) : std::nullopt;
 }
 
 /// Converts radians into degrees; false if one is not a number or out of the axis's range.

@@ -2,11 +2,11 @@
 
 #include "common/faults/FaultText.hpp"
 #include "controller/ControllerOptions.hpp"
+#include <acs/core/ParseNumber.hpp>
 
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <chrono>
 #include <limits>
 #include <set>
@@ -32,13 +32,12 @@ constexpr Apps::ValueEnumNames<EFaultSide, 3> SIDES{
 template <typename TInteger>
 std::string ReadInteger(std::string_view text, TInteger lowest, TInteger highest, TInteger& target)
 {
-    TInteger number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc() || end != text.data() + text.size() || number < lowest || number > highest)
+    const std::optional<TInteger> number = Core::ParseNumberOrNull<TInteger>(text);
+    if (!number.has_value() || *number < lowest || *number > highest)
     {
         return fmt::format("a number from {} to {}", lowest, highest);
     }
-    target = number;
+    target = *number;
     return {};
 }
 

@@ -3,12 +3,12 @@
 #include "common/config/ConfigReader.hpp"
 #include "controller/ControllerMachine.hpp"
 #include <acs/core/Overloaded.hpp>
+#include <acs/core/ParseNumber.hpp>
 #include <acs/core/Result.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <iterator>
 #include <optional>
@@ -33,11 +33,9 @@ constexpr std::string_view DEFAULT_ECHO = "ml105";
 
 std::optional<int> ParseNumberOrNull(const std::string& text)
 {
-    int number = 0;
-    const char* const last = text.data() + text.size();
-    const auto [end, error] = std::from_chars(text.data(), last, number);
-    const bool bWhole = error == std::errc{} && end == last && text == fmt::to_string(number);
-    return bWhole && number >= FIRST_PROGRAM && number <= LAST_PROGRAM ? std::optional(number) : std::nullopt;
+    const std::optional<int> number = Core::ParseNumberOrNull<int>(text);
+    const bool bPlain = number.has_value() && text == fmt::to_string(*number);
+    return bPlain && *number >= FIRST_PROGRAM && *number <= LAST_PROGRAM ? number : std::nullopt;
 }
 
 /// Whether the relay shares a byte with the words in which programs report their progress.

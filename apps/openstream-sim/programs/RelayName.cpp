@@ -1,7 +1,8 @@
 #include "programs/RelayName.hpp"
 
+#include <acs/core/ParseNumber.hpp>
+
 #include <array>
-#include <charconv>
 #include <string>
 #include <utility>
 
@@ -43,17 +44,6 @@ std::string ToLowerCase(std::string_view text)
     return result;
 }
 
-std::optional<std::size_t> ParseNumberOrNull(std::string_view text)
-{
-    std::size_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (text.empty() || error != std::errc{} || end != text.data() + text.size())
-    {
-        return std::nullopt;
-    }
-    return number;
-}
-
 /// Removes the prefix "fb0." or "fn12_" from the text; false if there is an invalid one.
 bool TryTakeBus(char separator, std::string_view& text, RelayBlock& block)
 {
@@ -67,7 +57,7 @@ bool TryTakeBus(char separator, std::string_view& text, RelayBlock& block)
         return false;
     }
     const bool bBlock = text.starts_with("fb");
-    const std::optional<std::size_t> index = ParseNumberOrNull(text.substr(2, end - 2));
+    const std::optional<std::size_t> index = Core::ParseNumberOrNull<std::size_t>(text.substr(2, end - 2));
     if (!index.has_value() || *index >= (bBlock ? FIELDBUS_BLOCKS : FIELDBUS_NODES))
     {
         return false;
@@ -146,7 +136,7 @@ std::optional<RelayName> ParseRelayNameOrNull(std::string_view anyCase)
         return std::nullopt;
     }
     const std::optional<RelayType> type = ParseRelayTypeOrNull(text.substr(0, digits));
-    const std::optional<std::size_t> number = ParseNumberOrNull(text.substr(digits));
+    const std::optional<std::size_t> number = Core::ParseNumberOrNull<std::size_t>(text.substr(digits));
     if (!type.has_value() || !number.has_value())
     {
         return std::nullopt;

@@ -1,9 +1,9 @@
 #include "WebSocketURL.hpp"
 
 #include <acs/core/ECoreError.hpp>
+#include <acs/core/ParseNumber.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 
 namespace ACS::ProtocolBeast
@@ -28,9 +28,7 @@ tl::unexpected<Core::Error> Refuse(std::string_view text)
 
 bool IsPort(std::string_view text)
 {
-    std::uint16_t port = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), port);
-    return error == std::errc() && end == text.data() + text.size() && port != 0;
+    return Core::ParseNumberOrNull<std::uint16_t>(text).value_or(0) != 0;
 }
 
 /// What no URL may have anywhere: it would end up in the lines of the HTTP request.
