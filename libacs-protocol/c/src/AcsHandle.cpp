@@ -131,8 +131,7 @@ using ACS::CInterface::Arguments;
 using ACS::CInterface::CallSession;
 using ACS::CInterface::FillStruct;
 using ACS::CInterface::SendMessage;
-using ACS::Core::Now;
-using ACS::Protocol::SessionActions;
+using ACS::Protocol::AcsSession;
 
 extern "C"
 {
@@ -153,23 +152,17 @@ extern "C"
 
     std::int32_t acs_acs_start(acs_acs* acs, std::int64_t steady_ms, std::int64_t wall_ms)
     {
-        return CallSession(acs, {}, {steady_ms, wall_ms}, [&](auto& session, Now now, SessionActions& out) {
-            session.Start(now, out);
-        });
+        return CallSession(acs, {}, {steady_ms, wall_ms}, &AcsSession::Start);
     }
 
     std::int32_t acs_acs_stop(acs_acs* acs, std::int64_t steady_ms, std::int64_t wall_ms)
     {
-        return CallSession(acs, {}, {steady_ms, wall_ms}, [&](auto& session, Now now, SessionActions& out) {
-            session.Stop(now, out);
-        });
+        return CallSession(acs, {}, {steady_ms, wall_ms}, &AcsSession::Stop);
     }
 
     std::int32_t acs_acs_connected(acs_acs* acs, std::int64_t steady_ms, std::int64_t wall_ms)
     {
-        return CallSession(acs, {}, {steady_ms, wall_ms}, [&](auto& session, Now now, SessionActions& out) {
-            session.OnConnected(now, out);
-        });
+        return CallSession(acs, {}, {steady_ms, wall_ms}, &AcsSession::OnConnected);
     }
 
     std::int32_t acs_acs_received(
@@ -181,9 +174,7 @@ extern "C"
     {
         Arguments arguments;
         const std::string_view bytes = arguments.ReadBytes(text, length);
-        return CallSession(acs, arguments, {steady_ms, wall_ms}, [&](auto& session, Now now, SessionActions& out) {
-            session.OnText(bytes, now, out);
-        });
+        return CallSession(acs, arguments, {steady_ms, wall_ms}, &AcsSession::OnText, bytes);
     }
 
     std::int32_t acs_acs_closed(
@@ -195,18 +186,14 @@ extern "C"
     {
         Arguments arguments;
         const std::string_view reasonText = arguments.ReadText(reason, reason_length);
-        return CallSession(acs, arguments, {steady_ms, wall_ms}, [&](auto& session, Now now, SessionActions& out) {
-            session.OnClosed(reasonText, now, out);
-        });
+        return CallSession(acs, arguments, {steady_ms, wall_ms}, &AcsSession::OnClosed, reasonText);
     }
 
     std::int32_t acs_acs_timer_elapsed(acs_acs* acs, std::int32_t timer, std::int64_t steady_ms, std::int64_t wall_ms)
     {
         Arguments arguments;
         const ACS::Protocol::ESessionTimer name = arguments.ReadTimer(timer);
-        return CallSession(acs, arguments, {steady_ms, wall_ms}, [&](auto& session, Now now, SessionActions& out) {
-            session.OnTimer(name, now, out);
-        });
+        return CallSession(acs, arguments, {steady_ms, wall_ms}, &AcsSession::OnTimer, name);
     }
 
     std::int32_t acs_acs_send(
@@ -217,12 +204,10 @@ extern "C"
         std::int64_t wall_ms,
         acs_message* message)
     {
-        Arguments arguments;
-        const std::string_view bytes = arguments.ReadBytes(text, length);
         return SendMessage<ACS::Protocol::AcsRequest>(
             acs,
-            bytes,
-            arguments,
+            text,
+            length,
             {steady_ms, wall_ms},
             message,
             ACS::CInterface::SendRequest);
@@ -230,9 +215,7 @@ extern "C"
 
     std::int32_t acs_acs_replay_done(acs_acs* acs, std::int64_t steady_ms, std::int64_t wall_ms)
     {
-        return CallSession(acs, {}, {steady_ms, wall_ms}, [&](auto& session, Now now, SessionActions& out) {
-            session.ReplayDone(now, out);
-        });
+        return CallSession(acs, {}, {steady_ms, wall_ms}, &AcsSession::ReplayDone);
     }
 
     std::int32_t acs_acs_answer(
@@ -243,12 +226,10 @@ extern "C"
         std::int64_t wall_ms,
         acs_message* message)
     {
-        Arguments arguments;
-        const std::string_view bytes = arguments.ReadBytes(text, length);
         return SendMessage<ACS::Protocol::AcsAck>(
             acs,
-            bytes,
-            arguments,
+            text,
+            length,
             {steady_ms, wall_ms},
             message,
             ACS::CInterface::SendAnswer);

@@ -143,6 +143,7 @@ using ACS::CInterface::CallSession;
 using ACS::CInterface::FillStruct;
 using ACS::CInterface::SendMessage;
 using ACS::Core::Now;
+using ACS::Protocol::McsSession;
 using ACS::Protocol::SessionActions;
 
 extern "C"
@@ -182,9 +183,7 @@ extern "C"
     {
         Arguments arguments;
         const std::string_view bytes = arguments.ReadBytes(text, length);
-        return CallSession(mcs, arguments, {steady_ms, wall_ms}, [&](auto& session, Now now, SessionActions& out) {
-            session.OnText(connection, bytes, now, out);
-        });
+        return CallSession(mcs, arguments, {steady_ms, wall_ms}, &McsSession::OnText, connection, bytes);
     }
 
     std::int32_t acs_mcs_closed(
@@ -197,18 +196,14 @@ extern "C"
     {
         Arguments arguments;
         const std::string_view reasonText = arguments.ReadText(reason, reason_length);
-        return CallSession(mcs, arguments, {steady_ms, wall_ms}, [&](auto& session, Now now, SessionActions& out) {
-            session.OnClosed(connection, reasonText, now, out);
-        });
+        return CallSession(mcs, arguments, {steady_ms, wall_ms}, &McsSession::OnClosed, connection, reasonText);
     }
 
     std::int32_t acs_mcs_timer_elapsed(acs_mcs* mcs, std::int32_t timer, std::int64_t steady_ms, std::int64_t wall_ms)
     {
         Arguments arguments;
         const ACS::Protocol::ESessionTimer name = arguments.ReadTimer(timer);
-        return CallSession(mcs, arguments, {steady_ms, wall_ms}, [&](auto& session, Now now, SessionActions& out) {
-            session.OnTimer(name, now, out);
-        });
+        return CallSession(mcs, arguments, {steady_ms, wall_ms}, &McsSession::OnTimer, name);
     }
 
     std::int32_t acs_mcs_send(
@@ -219,12 +214,10 @@ extern "C"
         std::int64_t wall_ms,
         acs_message* message)
     {
-        Arguments arguments;
-        const std::string_view bytes = arguments.ReadBytes(text, length);
         return SendMessage<ACS::Protocol::AcsRequest>(
             mcs,
-            bytes,
-            arguments,
+            text,
+            length,
             {steady_ms, wall_ms},
             message,
             ACS::CInterface::SendRequest);

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string_view>
 #include <type_traits>
@@ -49,27 +50,28 @@ template <typename THandle>
     });
 }
 
-/// Calls call(session, now, out), which returns nothing or a result. Nothing is called if an argument is invalid.
-template <typename THandle, typename TCall>
+/// Calls call(session, values..., now, out), which returns nothing or a result. Nothing is called if an argument is invalid.
+template <typename THandle, typename TCall, typename... TValues>
 [[nodiscard]] std::int32_t CallSession(
     THandle* handleOrNull,
     const Arguments& arguments,
     CallTime time,
-    TCall call) noexcept
+    TCall call,
+    const TValues&... values) noexcept
 {
     if (handleOrNull == nullptr)
     {
         return ACS_ERROR_ARGUMENT;
     }
     return handleOrNull->Run(arguments, time, [&](Core::Now now, Protocol::SessionActions& out) -> std::int32_t {
-        if constexpr (std::is_void_v<decltype(call(handleOrNull->session, now, out))>)
+        if constexpr (std::is_void_v<decltype(std::invoke(call, handleOrNull->session, values..., now, out))>)
         {
-            call(handleOrNull->session, now, out);
+            std::invoke(call, handleOrNull->session, values..., now, out);
             return ACS_OK;
         }
         else
         {
-            return call(handleOrNull->session, now, out);
+            return std::invoke(call, handleOrNull->session, values..., now, out);
         }
     });
 }
@@ -78,12 +80,14 @@ template <typename THandle, typename TCall>
 template <typename TMessage, typename THandle, typename TSend>
 [[nodiscard]] std::int32_t SendMessage(
     THandle* handleOrNull,
-    std::string_view text,
-    Arguments arguments,
+    const char* textOrNull,
+    std::size_t length,
     CallTime time,
     acs_message* shownOrNull,
     TSend send) noexcept
 {
+    Arguments arguments;
+    const std::string_view text = arguments.ReadBytes(textOrNull, length);
     arguments.Add(shownOrNull == nullptr ? ACS_OK : CheckStruct(shownOrNull));
     return CallSession(
         handleOrNull,
