@@ -1,6 +1,6 @@
 #pragma once
 
-#include "Words.hpp"
+#include "ProtocolEnumNames.hpp"
 #include <acs/json/JsonDecoder.hpp>
 #include <acs/json/JsonEncoder.hpp>
 #include <acs/protocol/AcsMessage.hpp>

@@ -1,4 +1,4 @@
-#include "Words.hpp"
+#include "ProtocolEnumNames.hpp"
 
 namespace ACS::Protocol
 {
