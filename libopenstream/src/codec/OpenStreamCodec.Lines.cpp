@@ -1,5 +1,7 @@
 #include "CodecParts.hpp"
 
+#include <type_traits>
+
 namespace ACS::Json
 {
 
@@ -61,12 +63,21 @@ using Json::Value;
 
 constexpr std::string_view KEY_TYPE = "type";
 constexpr std::string_view KEY_ERROR = "error";
-constexpr std::string_view TYPE_HANDSHAKE_ACK = "handshake_ack";
-constexpr std::string_view TYPE_MONITOR_ACK = "monitor_ack";
-constexpr std::string_view TYPE_DATA = "data";
 constexpr std::string_view TYPE_DATA_OF_EXAMPLE = "monitor_data"; // what the vendor's Python example listens for
-constexpr std::string_view TYPE_STOP_ACK = "stop_ack";
-constexpr std::string_view TYPE_CONTROL_ERR = "control_err";
+
+/// The type of each kind of line that has one.
+template <typename TLine>
+constexpr std::string_view TYPE;
+template <>
+constexpr std::string_view TYPE<HandshakeAck> = "handshake_ack";
+template <>
+constexpr std::string_view TYPE<MonitorAck> = "monitor_ack";
+template <>
+constexpr std::string_view TYPE<DataLine> = "data";
+template <>
+constexpr std::string_view TYPE<StopAck> = "stop_ack";
+template <>
+constexpr std::string_view TYPE<ControlError> = "control_err";
 
 template <typename TLine>
 Core::Result<OpenStreamLine> DecodeFields(const Value& root)
@@ -93,23 +104,23 @@ Core::Result<OpenStreamLine> DecodeError(const Value& root)
 
 Core::Result<OpenStreamLine> DecodeTyped(std::string_view type, const Value& root)
 {
-    if (type == TYPE_DATA || type == TYPE_DATA_OF_EXAMPLE)
+    if (type == TYPE<DataLine> || type == TYPE_DATA_OF_EXAMPLE)
     {
         return DecodeFields<DataLine>(root);
     }
-    if (type == TYPE_CONTROL_ERR)
+    if (type == TYPE<ControlError>)
     {
         return DecodeFields<ControlError>(root);
     }
-    if (type == TYPE_MONITOR_ACK)
+    if (type == TYPE<MonitorAck>)
     {
         return OpenStreamLine(MonitorAck{});
     }
-    if (type == TYPE_HANDSHAKE_ACK)
+    if (type == TYPE<HandshakeAck>)
     {
         return DecodeFields<HandshakeAck>(root);
     }
-    if (type == TYPE_STOP_ACK)
+    if (type == TYPE<StopAck>)
     {
         return DecodeFields<StopAck>(root);
     }
@@ -117,37 +128,14 @@ Core::Result<OpenStreamLine> DecodeTyped(std::string_view type, const Value& roo
 }
 
 template <typename TLine>
-void WriteTyped(std::string_view type, const TLine& line, Json::JsonWriter& writer)
+void WriteLine(const TLine& line, Json::JsonWriter& writer)
 {
     writer.Key(KEY_TYPE);
-    writer.WriteString(type);
-    Json::EncodeMembers(line, writer);
-}
-
-void WriteLine(const HandshakeAck& line, Json::JsonWriter& writer)
-{
-    WriteTyped(TYPE_HANDSHAKE_ACK, line, writer);
-}
-
-void WriteLine(const MonitorAck& /*line*/, Json::JsonWriter& writer)
-{
-    writer.Key(KEY_TYPE);
-    writer.WriteString(TYPE_MONITOR_ACK);
-}
-
-void WriteLine(const DataLine& line, Json::JsonWriter& writer)
-{
-    WriteTyped(TYPE_DATA, line, writer);
-}
-
-void WriteLine(const StopAck& line, Json::JsonWriter& writer)
-{
-    WriteTyped(TYPE_STOP_ACK, line, writer);
-}
-
-void WriteLine(const ControlError& line, Json::JsonWriter& writer)
-{
-    WriteTyped(TYPE_CONTROL_ERR, line, writer);
+    writer.WriteString(TYPE<TLine>);
+    if constexpr (!std::is_empty_v<TLine>)
+    {
+        Json::EncodeMembers(line, writer);
+    }
 }
 
 void WriteLine(const ErrorLine& line, Json::JsonWriter& writer)
@@ -179,7 +167,7 @@ Core::Result<OpenStreamLine> OpenStreamCodec::DecodeLine(std::string_view line)
     }
     const Value* error = Detail::FindMemberOrNull(root, "error");
     const Value* type = Detail::FindMemberOrNull(root, "type");
-    const bool bControlError = type != nullptr && type->IsString() && Detail::GetText(*type) == TYPE_CONTROL_ERR;
+    const bool bControlError = type != nullptr && type->IsString() && Detail::GetText(*type) == TYPE<ControlError>;
     if (error != nullptr && !bControlError)
     {
         return DecodeError(root);
@@ -211,7 +199,7 @@ void OpenStreamCodec::EncodeData(
     Json::JsonWriter writer(out);
     writer.BeginObject();
     writer.Key(KEY_TYPE);
-    writer.WriteString(TYPE_DATA);
+    writer.WriteString(TYPE<DataLine>);
     writer.Key("ts");
     writer.WriteInteger(ts);
     writer.Key("svc_dur_ms");
