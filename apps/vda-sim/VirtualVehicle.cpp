@@ -178,11 +178,6 @@ const Pose& VirtualVehicle::GetPose() const noexcept
     return _drive.GetMotion().GetPose();
 }
 
-const std::string& VirtualVehicle::GetName() const noexcept
-{
-    return _options.address.serialNumber;
-}
-
 void VirtualVehicle::PassTime(Core::Now now, VirtualActions& out)
 {
     const std::size_t slices = _clock.CountSlices(now.steady);

@@ -133,7 +133,6 @@ public:
 
     [[nodiscard]] VDA5050::StateMessage GetState() const;
     [[nodiscard]] const Pose& GetPose() const noexcept;
-    [[nodiscard]] const std::string& GetName() const noexcept;
 
 private:
     void PassTime(Core::Now now, VirtualActions& out);

@@ -54,11 +54,6 @@ void GapHistogram::Add(double milliseconds)
     _largest = std::max(_largest, milliseconds);
 }
 
-void GapHistogram::Clear()
-{
-    *this = {};
-}
-
 double GapHistogram::GetPercentile(double share) const
 {
     const auto rank = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(_count)));

@@ -23,7 +23,6 @@ class GapHistogram
 public:
     /// Negative values are ignored.
     void Add(double milliseconds);
-    void Clear();
     [[nodiscard]] GapStatistics GetStatistics() const;
 
 private:
