@@ -26,6 +26,23 @@ enum class EServed : std::uint8_t
     SinceRCode,  ///< Earlier versions answer 404.
 };
 
+template <auto HANDLE>
+struct BodyHandler;
+
+template <typename TBody, OpenStream::ApiResponse (*HANDLE)(ControllerMachine&, const TBody&)>
+struct BodyHandler<HANDLE>
+{
+    static OpenStream::ApiResponse Call(ControllerMachine& machine, const ApiCall& call)
+    {
+        const Core::Result<TBody> body = ReadBody<TBody>(call.request);
+        return body.has_value() ? HANDLE(machine, *body) : Refuse(body.error());
+    }
+};
+
+/// The handler of a function that needs only the body of the call; 400 if the body is invalid.
+template <auto HANDLE>
+constexpr ApiHandler WITH_BODY = BodyHandler<HANDLE>::Call;
+
 struct ApiRoute
 {
     OpenStream::EApiMethod method;
@@ -48,15 +65,15 @@ constexpr std::array ROUTES{
     ApiRoute{Post, "/project/robot/motor_on", RobotAPI::SwitchMotorOn},
     ApiRoute{Post, "/project/robot/motor_off", RobotAPI::SwitchMotorOff, EServed::BeforeRCode},
     ApiRoute{Get, "/project/robot/emergency_stop", RobotAPI::GetEmergencyStop},
-    ApiRoute{Post, "/project/robot/emergency_stop", RobotAPI::PressEmergencyStop},
+    ApiRoute{Post, "/project/robot/emergency_stop", WITH_BODY<RobotAPI::PressEmergencyStop>},
     ApiRoute{Get, "/project/robot/cur_tool_data", RobotAPI::GetCurrentTool},
     ApiRoute{Get, "/project/robot/tools", RobotAPI::GetTools},
     ApiRoute{Get, "/project/robot/tools/t_{}", RobotAPI::GetTool},
-    ApiRoute{Post, "/project/robot/tool_no", RobotAPI::SelectTool},
-    ApiRoute{Post, "/project/robot/crd_sys", RobotAPI::SelectCoordinates},
+    ApiRoute{Post, "/project/robot/tool_no", WITH_BODY<RobotAPI::SelectTool>},
+    ApiRoute{Post, "/project/robot/crd_sys", WITH_BODY<RobotAPI::SelectCoordinates>},
 
-    ApiRoute{Post, "/project/robot/trajectory/joint_traject_init", TrajectoryAPI::Init},
-    ApiRoute{Post, "/project/robot/trajectory/joint_traject_insert_point", TrajectoryAPI::InsertPoint},
+    ApiRoute{Post, "/project/robot/trajectory/joint_traject_init", WITH_BODY<TrajectoryAPI::Init>},
+    ApiRoute{Post, "/project/robot/trajectory/joint_traject_insert_point", WITH_BODY<TrajectoryAPI::InsertPoint>},
     ApiRoute{Post, "/project/robot/trajectory/joint_traject_insert_points", TrajectoryAPI::InsertPoints},
     ApiRoute{Get, "/project/robot/trajectory/joint_traject_buf_avail", TrajectoryAPI::GetFree},
     ApiRoute{Get, "/project/robot/trajectory/joint_traject_agility_info", TrajectoryAPI::GetAgility},
@@ -64,29 +81,29 @@ constexpr std::array ROUTES{
     ApiRoute{Get, "/project/robot/trajectory/joint_traject_ready", TrajectoryAPI::GetReady},
     ApiRoute{Post, "/project/robot/trajectory/joint_traject_off", TrajectoryAPI::Finish},
     ApiRoute{Get, "/project/robot/trajectory/joint_traject_log", TrajectoryAPI::GetLog},
-    ApiRoute{Post, "/project/robot/trajectory/joint_traject_log", TrajectoryAPI::SetLog},
+    ApiRoute{Post, "/project/robot/trajectory/joint_traject_log", WITH_BODY<TrajectoryAPI::SetLog>},
 
     ApiRoute{Post, "/project/robot/start", ControlAPI::StartProgram},
     ApiRoute{Post, "/project/robot/stop", ControlAPI::StopProgram},
     ApiRoute{Post, "/project/context/tasks/reset", ControlAPI::ResetTasks, EServed::BeforeRCode},
     ApiRoute{Post, "/project/context/tasks[{}]/reset", ControlAPI::ResetTask, EServed::BeforeRCode},
-    ApiRoute{Post, "/project/service/r_code/execute", ControlAPI::ExecuteServiceCode, EServed::SinceRCode},
-    ApiRoute{Post, "/project/context/tasks[0]/cur_prog_cnt", ControlAPI::SetProgramCounter},
+    ApiRoute{Post, "/project/service/r_code/execute", WITH_BODY<ControlAPI::ExecuteServiceCode>, EServed::SinceRCode},
+    ApiRoute{Post, "/project/context/tasks[0]/cur_prog_cnt", WITH_BODY<ControlAPI::SetProgramCounter>},
     ApiRoute{Post, "/project/context/tasks[{}]/set_cur_pc_idx", ControlAPI::SetPcIndex},
     ApiRoute{Post, "/project/context/tasks[0]/release_wait", ControlAPI::ReleaseWait},
     ApiRoute{Post, "/project/context/tasks[{}]/execute_move", ControlAPI::ExecuteMove},
-    ApiRoute{Post, "/console/execute_cmd", ControlAPI::ExecuteCommand},
+    ApiRoute{Post, "/console/execute_cmd", WITH_BODY<ControlAPI::ExecuteCommand>},
 
     ApiRoute{Get, "/project/control/op_cnd", ControlAPI::GetConditions},
     ApiRoute{Put, "/project/control/op_cnd", ControlAPI::SetConditions},
     ApiRoute{Post, "/project/control/op_cnd", ControlAPI::SetConditions},
     ApiRoute{Get, "/project/control/ios/dio/di_val", ControlAPI::GetInput},
     ApiRoute{Get, "/project/control/ios/dio/do_val", ControlAPI::GetOutput},
-    ApiRoute{Post, "/project/control/ios/dio/do_val", ControlAPI::SetOutput},
+    ApiRoute{Post, "/project/control/ios/dio/do_val", WITH_BODY<ControlAPI::SetOutput>},
     ApiRoute{Get, "/project/control/ios/sio/si_val", ControlAPI::GetSystemInput},
     ApiRoute{Get, "/project/control/ios/sio/so_val", ControlAPI::GetSystemOutput},
     ApiRoute{Get, "/project/plc/{}/val_s32", ControlAPI::GetRelayWords},
-    ApiRoute{Post, "/project/plc/set_relay_value", ControlAPI::SetRelay}};
+    ApiRoute{Post, "/project/plc/set_relay_value", WITH_BODY<ControlAPI::SetRelay>}};
 
 } // namespace
 

@@ -113,22 +113,17 @@ ApiResponse GetOutput(ControllerMachine& machine, const ApiCall& call)
     return ReadSignal(machine, call, RelayBlock{ERelayBus::Fb, 0, ERelayArea::Do}, "do");
 }
 
-ApiResponse SetOutput(ControllerMachine& machine, const ApiCall& call)
+ApiResponse SetOutput(ControllerMachine& machine, const OutputCommand& command)
 {
-    const Core::Result<OutputCommand> command = ReadBody<OutputCommand>(call.request);
-    if (!command.has_value())
-    {
-        return Refuse(command.error());
-    }
-    const RelayBlock block{ERelayBus::Fb, static_cast<std::uint8_t>(command->blkNo), ERelayArea::Do};
-    const Core::Result<RelayName> name = MakeName(command->type, block, command->sigNo);
+    const RelayBlock block{ERelayBus::Fb, static_cast<std::uint8_t>(command.blkNo), ERelayArea::Do};
+    const Core::Result<RelayName> name = MakeName(command.type, block, command.sigNo);
     if (!name.has_value())
     {
         return Refuse(name.error());
     }
     // A manual's own sample sets a bit with the value of a byte.
-    const bool bOn = name->width == ERelayWidth::Bit && command->val != 0.0;
-    const Core::Result<void> written = machine.GetRelays().Write(*name, bOn ? 1.0 : command->val);
+    const bool bOn = name->width == ERelayWidth::Bit && command.val != 0.0;
+    const Core::Result<void> written = machine.GetRelays().Write(*name, bOn ? 1.0 : command.val);
     return written.has_value() ? Succeed() : Refuse(written.error());
 }
 
@@ -174,22 +169,17 @@ ApiResponse GetRelayWords(ControllerMachine& machine, const ApiCall& call)
     return ApiResponse{200, Core::JsonText::FromTrusted(std::move(text))};
 }
 
-ApiResponse SetRelay(ControllerMachine& machine, const ApiCall& call)
+ApiResponse SetRelay(ControllerMachine& machine, const RelayCommand& command)
 {
-    const Core::Result<RelayCommand> command = ReadBody<RelayCommand>(call.request);
-    if (!command.has_value())
-    {
-        return Refuse(command.error());
-    }
-    const std::optional<RelayName> name = ParseRelayNameOrNull(command->name);
+    const std::optional<RelayName> name = ParseRelayNameOrNull(command.name);
     if (!name.has_value())
     {
-        return RefuseInput("name", "a relay (m100, ml100, fb0.di23)", Core::QuoteForError(command->name));
+        return RefuseInput("name", "a relay (m100, ml100, fb0.di23)", Core::QuoteForError(command.name));
     }
-    const std::optional<double> value = ReadNumberOrNull(command->value);
+    const std::optional<double> value = ReadNumberOrNull(command.value);
     if (!value.has_value())
     {
-        return RefuseInput("value", "a number", Core::QuoteForError(command->value.GetText()));
+        return RefuseInput("value", "a number", Core::QuoteForError(command.value.GetText()));
     }
     const Core::Result<void> written = machine.WriteRelay(*name, *value);
     return written.has_value() ? Succeed() : Refuse(written.error());
@@ -225,43 +215,33 @@ ApiResponse ResetTask(ControllerMachine& machine, const ApiCall& call)
     return Succeed();
 }
 
-ApiResponse ExecuteServiceCode(ControllerMachine& machine, const ApiCall& call)
+ApiResponse ExecuteServiceCode(ControllerMachine& machine, const ServiceCode& code)
 {
     constexpr int CLEAR_COUNTER = 0;
-    const Core::Result<ServiceCode> code = ReadBody<ServiceCode>(call.request);
-    if (!code.has_value())
-    {
-        return Refuse(code.error());
-    }
     machine.ResetTasks();
-    if (code->code == CLEAR_COUNTER)
+    if (code.code == CLEAR_COUNTER)
     {
         machine.ClearSelection();
     }
-    return Succeed(*code);
+    return Succeed(code);
 }
 
-ApiResponse SetProgramCounter(ControllerMachine& machine, const ApiCall& call)
+ApiResponse SetProgramCounter(ControllerMachine& machine, const ProgramCounterCommand& command)
 {
-    const Core::Result<ProgramCounterCommand> command = ReadBody<ProgramCounterCommand>(call.request);
-    if (!command.has_value())
-    {
-        return Refuse(command.error());
-    }
-    const EApiError refusal = machine.CheckSelection(command->extSel == 1);
+    const EApiError refusal = machine.CheckSelection(command.extSel == 1);
     if (refusal != EApiError::None)
     {
         return Answer(refusal);
     }
-    if (command->pno == 0)
+    if (command.pno == 0)
     {
         return RefuseInput("pno", "-1 or a program from 1 to 9999", "0");
     }
-    if (command->pno < 0 && command->sno < 0 && command->fno < 0)
+    if (command.pno < 0 && command.sno < 0 && command.fno < 0)
     {
         return Succeed(ProgramCounterAnswer{});
     }
-    const int number = command->pno < 0 ? machine.GetProgram() : command->pno;
+    const int number = command.pno < 0 ? machine.GetProgram() : command.pno;
     if (number == 0)
     {
         return Answer(EApiError::BadCounter);
@@ -305,15 +285,10 @@ ApiResponse ExecuteMove(ControllerMachine& machine, const ApiCall& call)
     return command.has_value() ? Answer(machine.ExecuteMove(command->stmt)) : Refuse(command.error());
 }
 
-ApiResponse ExecuteCommand(ControllerMachine& machine, const ApiCall& call)
+ApiResponse ExecuteCommand(ControllerMachine& machine, const ConsoleCommand& command)
 {
     constexpr std::string_view ADD = "rl.i ";
-    const Core::Result<ConsoleCommand> command = ReadBody<ConsoleCommand>(call.request);
-    if (!command.has_value())
-    {
-        return Refuse(command.error());
-    }
-    const std::string_view line = command->cmdLine;
+    const std::string_view line = command.cmdLine;
     if (line == "rl.start")
     {
         return Answer(machine.StartConsole());

@@ -261,14 +261,9 @@ ApiResponse GetEmergencyStop(ControllerMachine& machine, const ApiCall& /*call*/
     return Succeed(NumberAnswer{ToInteger(machine.IsEmergencyStop())});
 }
 
-ApiResponse PressEmergencyStop(ControllerMachine& machine, const ApiCall& call)
+ApiResponse PressEmergencyStop(ControllerMachine& machine, const EmergencyStopCommand& command)
 {
-    const Core::Result<EmergencyStopCommand> command = ReadBody<EmergencyStopCommand>(call.request);
-    if (!command.has_value())
-    {
-        return Refuse(command.error());
-    }
-    machine.PressEmergencyStop(command->val == 1);
+    machine.PressEmergencyStop(command.val == 1);
     return Succeed();
 }
 
@@ -309,26 +304,16 @@ ApiResponse GetTool(ControllerMachine& machine, const ApiCall& call)
     return Succeed(*tools[number], "Tool");
 }
 
-ApiResponse SelectTool(ControllerMachine& machine, const ApiCall& call)
+ApiResponse SelectTool(ControllerMachine& machine, const ToolCommand& command)
 {
-    const Core::Result<ToolCommand> command = ReadBody<ToolCommand>(call.request);
-    if (!command.has_value())
-    {
-        return Refuse(command.error());
-    }
-    machine.GetSettings().toolNo = command->val;
+    machine.GetSettings().toolNo = command.val;
     return Succeed();
 }
 
-ApiResponse SelectCoordinates(ControllerMachine& machine, const ApiCall& call)
+ApiResponse SelectCoordinates(ControllerMachine& machine, const CoordinatesCommand& command)
 {
-    const Core::Result<CoordinatesCommand> command = ReadBody<CoordinatesCommand>(call.request);
-    if (!command.has_value())
-    {
-        return Refuse(command.error());
-    }
     ControllerSettings& settings = machine.GetSettings();
-    settings.coordinates = command->val < 0 ? (settings.coordinates + 1) % COORDINATE_SYSTEMS : command->val;
+    settings.coordinates = command.val < 0 ? (settings.coordinates + 1) % COORDINATE_SYSTEMS : command.val;
     return Succeed(CoordinatesAnswer{settings.coordinates, settings.userCoordinates});
 }
 

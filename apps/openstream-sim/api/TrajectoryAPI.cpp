@@ -18,21 +18,15 @@ using OpenStream::ApiResponse;
 
 } // namespace
 
-ApiResponse Init(ControllerMachine& machine, const ApiCall& call)
+ApiResponse Init(ControllerMachine& machine, const TrajectoryAgility& agility)
 {
-    const Core::Result<TrajectoryAgility> agility = ReadBody<TrajectoryAgility>(call.request);
-    return agility.has_value() ? Answer(machine.InitTrajectory(*agility)) : Refuse(agility.error());
+    return Answer(machine.InitTrajectory(agility));
 }
 
-ApiResponse InsertPoint(ControllerMachine& machine, const ApiCall& call)
+ApiResponse InsertPoint(ControllerMachine& machine, const StreamedPoint& point)
 {
-    const Core::Result<StreamedPoint> point = ReadBody<StreamedPoint>(call.request);
-    if (!point.has_value())
-    {
-        return Refuse(point.error());
-    }
     JointVector position{};
-    std::ranges::copy(point->point, position.begin());
+    std::ranges::copy(point.point, position.begin());
     const std::size_t outside = FindAxisOutside(position);
     if (outside != AXES)
     {
@@ -42,13 +36,13 @@ ApiResponse InsertPoint(ControllerMachine& machine, const ApiCall& call)
             fmt::format("an angle from {} to {} deg", limits.lowest, limits.highest),
             fmt::to_string(position.at(outside)));
     }
-    const EApiError error = machine.InsertPoint(*point);
+    const EApiError error = machine.InsertPoint(point);
     if (error == EApiError::BadInput)
     {
         return RefuseInput(
             "time_from_start",
             fmt::format("more than {} s, the time of the previous point", machine.GetTrajectory().GetNewestTime()),
-            fmt::to_string(point->timeFromStart));
+            fmt::to_string(point.timeFromStart));
     }
     return Answer(error);
 }
@@ -103,14 +97,9 @@ ApiResponse GetLog(ControllerMachine& machine, const ApiCall& /*call*/)
     return Succeed(NumberAnswer{machine.GetSettings().bTrajectoryLog ? 1 : 0});
 }
 
-ApiResponse SetLog(ControllerMachine& machine, const ApiCall& call)
+ApiResponse SetLog(ControllerMachine& machine, const LogCommand& command)
 {
-    const Core::Result<LogCommand> command = ReadBody<LogCommand>(call.request);
-    if (!command.has_value())
-    {
-        return Refuse(command.error());
-    }
-    machine.GetSettings().bTrajectoryLog = command->bEnable;
+    machine.GetSettings().bTrajectoryLog = command.bEnable;
     return Succeed();
 }
 
