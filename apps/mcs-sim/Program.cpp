@@ -118,21 +118,6 @@ tl::expected<std::vector<Scenario>, std::string> LoadScenarios(const McsSimOptio
     return scenarios;
 }
 
-/// The floor of a world file; none where no file is named.
-Core::Result<std::unique_ptr<Sim::IWorld>> OpenWorld(const std::string& path)
-{
-    if (path.empty())
-    {
-        return nullptr;
-    }
-    Core::Result<std::unique_ptr<Sim::WorldFile>> opened = Sim::WorldFile::Open(path);
-    if (!opened.has_value())
-    {
-        return tl::make_unexpected(std::move(opened.error()));
-    }
-    return std::move(*opened);
-}
-
 /// What standard input is for; nothing where it is not read.
 std::unique_ptr<InputLines> MakeInput(
     const McsSimOptions& options,
@@ -191,10 +176,10 @@ int Run(const McsSimOptions& options)
         Apps::PrintError(PROGRAM_NAME, plans.has_value() ? scenarios.error() : plans.error());
         return Apps::EXIT_BAD_COMMAND_LINE;
     }
-    const Core::Result<std::unique_ptr<Sim::IWorld>> world = OpenWorld(options.worldFile);
+    const tl::expected<std::unique_ptr<Sim::IWorld>, std::string> world = Sim::OpenWorldOption(options.worldFile);
     if (!world.has_value())
     {
-        Apps::PrintError(PROGRAM_NAME, "--world: " + Describe(world.error()));
+        Apps::PrintError(PROGRAM_NAME, world.error());
         return Apps::EXIT_BAD_COMMAND_LINE;
     }
     const std::string work = scenarios->empty() ? fmt::format("send {} plans", plans->size())

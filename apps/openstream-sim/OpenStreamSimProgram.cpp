@@ -12,7 +12,6 @@
 #include <acs/openstream_asio/RealTime.hpp>
 
 #include <boost/asio/io_context.hpp>
-#include <fmt/format.h>
 
 #include <memory>
 #include <optional>
@@ -41,18 +40,13 @@ int RunOpenStreamSim(int argc, const char* const* argv)
             logger.Warning(refusal);
         }
     }
-    std::unique_ptr<Sim::WorldFile> world;
-    if (!options.worldFile.empty())
+    const tl::expected<std::unique_ptr<Sim::IWorld>, std::string> world = Sim::OpenWorldOption(options.worldFile);
+    if (!world.has_value())
     {
-        Core::Result<std::unique_ptr<Sim::WorldFile>> opened = Sim::WorldFile::Open(options.worldFile);
-        if (!opened.has_value())
-        {
-            Apps::PrintError(PROGRAM_NAME, fmt::format("--world: {}", Core::Describe(opened.error())));
-            return Apps::EXIT_BAD_COMMAND_LINE;
-        }
-        world = std::move(*opened);
-        options.fleet.first.controller.world = world.get();
+        Apps::PrintError(PROGRAM_NAME, world.error());
+        return Apps::EXIT_BAD_COMMAND_LINE;
     }
+    options.fleet.first.controller.world = world->get();
     std::unique_ptr<Apps::SimulatorTrace> trace;
     if (!options.trace.folder.empty())
     {

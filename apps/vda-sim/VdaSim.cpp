@@ -327,18 +327,13 @@ int RunVdaSim(const VdaSimOptions& options)
     {
         return Refuse(site.error());
     }
-    std::unique_ptr<Sim::WorldFile> world;
-    if (!options.worldPath.empty())
+    const tl::expected<std::unique_ptr<Sim::IWorld>, std::string> world = Sim::OpenWorldOption(options.worldPath);
+    if (!world.has_value())
     {
-        Core::Result<std::unique_ptr<Sim::WorldFile>> opened = Sim::WorldFile::Open(options.worldPath);
-        if (!opened.has_value())
-        {
-            return Refuse(fmt::format("--world: {}", Core::Describe(opened.error())));
-        }
-        world = std::move(*opened);
+        return Refuse(world.error());
     }
     Apps::RaiseFileLimit(); // Each vehicle has two descriptors.
-    Fleet fleet(options, *site, world.get());
+    Fleet fleet(options, *site, world->get());
     if (const tl::expected<void, std::string> prepared = fleet.Prepare(); !prepared.has_value())
     {
         return Refuse(prepared.error());

@@ -133,4 +133,18 @@ Core::Result<void> WorldFile::ReadNewEvents()
     return done;
 }
 
+tl::expected<std::unique_ptr<IWorld>, std::string> OpenWorldOption(const std::string& path)
+{
+    if (path.empty())
+    {
+        return nullptr;
+    }
+    Core::Result<std::unique_ptr<WorldFile>> opened = WorldFile::Open(path);
+    if (!opened.has_value())
+    {
+        return tl::make_unexpected("--world: " + Core::Describe(opened.error()));
+    }
+    return std::move(*opened);
+}
+
 } // namespace ACS::Sim

@@ -4,6 +4,8 @@
 #include "world/MemoryWorld.hpp"
 #include "world/WorldJournal.hpp"
 
+#include <tl/expected.hpp>
+
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,5 +43,8 @@ public:
 private:
     [[nodiscard]] Core::Result<void> ReadNewEvents();
 };
+
+/// Opens the file of the option --world; null if the path is empty. The error is one sentence that names the option.
+[[nodiscard]] tl::expected<std::unique_ptr<IWorld>, std::string> OpenWorldOption(const std::string& path);
 
 } // namespace ACS::Sim
