@@ -299,12 +299,7 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
     Apps::AddTextOption(
         app,
         "--type",
-        [&row](const std::string& text) {
-            return Read(ParseVehicleType(text), [&row](EVehicleType type) {
-                row.type = type;
-                return std::string();
-            });
-        },
+        [&row](const std::string& text) { return Apps::AssignValue(ParseVehicleType(text), row.type); },
         "Type of the vehicles of --count: LR or CR")
         .default_str("LR");
     Apps::AddTextOption(
@@ -322,23 +317,13 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
     Apps::AddTextOption(
         app,
         "--protocol",
-        [&options](const std::string& text) {
-            return Read(ParseProtocol(text), [&options](VDA5050::EVda5050Version version) {
-                options.version = version;
-                return std::string();
-            });
-        },
+        [&options](const std::string& text) { return Apps::AssignValue(ParseProtocol(text), options.version); },
         "VDA5050 version of vehicles without protocol=VERSION: 2.0.0 or 2.1.0")
         .default_str("2.0.0");
     Apps::AddTextOption(
         app,
         "--profile",
-        [&options](const std::string& text) {
-            return Read(ParseProfile(text), [&options](EVehicleProfile profile) {
-                options.profile = profile;
-                return std::string();
-            });
-        },
+        [&options](const std::string& text) { return Apps::AssignValue(ParseProfile(text), options.profile); },
         "Make that vehicles without profile=NAME imitate, see below; they reject what breaks its rules")
         .default_str(std::string(GetProfile(options.profile).name));
     Apps::AddTimeScaleOption(app, options.timeScale);

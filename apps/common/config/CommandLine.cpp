@@ -25,18 +25,6 @@ namespace
 constexpr double MIN_TIME_SCALE = 0.01;
 constexpr double MAX_TIME_SCALE = 1000.0;
 
-/// Assigns the value, or returns the error.
-template <typename TValue>
-std::string Take(Core::Result<TValue> value, TValue& target)
-{
-    if (!value.has_value())
-    {
-        return Core::Describe(value.error());
-    }
-    target = std::move(*value);
-    return {};
-}
-
 } // namespace
 
 void AddCommonOptions(CLI::App& app, CommonOptions& options)
@@ -45,7 +33,7 @@ void AddCommonOptions(CLI::App& app, CommonOptions& options)
     AddTextOption(
         app,
         "--log-level",
-        [&options](const std::string& text) { return Take(ParseLogLevel(text), options.logLevel); },
+        [&options](const std::string& text) { return AssignValue(ParseLogLevel(text), options.logLevel); },
         "What to log on standard error: debug, info, warning or error")
         .default_str("info");
 }
@@ -55,7 +43,7 @@ CLI::Option& AddEndpointOption(CLI::App& app, const std::string& name, Endpoint&
     CLI::Option& option = AddTextOption(
         app,
         name,
-        [&target](const std::string& text) { return Take(ParseEndpoint(text), target); },
+        [&target](const std::string& text) { return AssignValue(ParseEndpoint(text), target); },
         help);
     option.type_name("HOST:PORT");
     if (!target.host.empty())
@@ -75,7 +63,7 @@ CLI::Option& AddUrlOption(
     CLI::Option& option = AddTextOption(
         app,
         name,
-        [&target, allowed](const std::string& text) { return Take(ParseURL(text, allowed), target); },
+        [&target, allowed](const std::string& text) { return AssignValue(ParseURL(text, allowed), target); },
         help);
     option.type_name("URL");
     if (!target.peer.host.empty())

@@ -3,12 +3,14 @@
 #include "common/config/Endpoint.hpp"
 #include "common/config/Url.hpp"
 #include <acs/core/Logger.hpp>
+#include <acs/core/Result.hpp>
 
 #include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace CLI
@@ -56,6 +58,18 @@ CLI::Option& AddTimeScaleOption(CLI::App& app, double& target);
 
 /// Assigns a value and returns an empty text, or returns what was expected and found.
 using TextReader = std::function<std::string(const std::string& value)>;
+
+/// What a TextReader returns for a value that a function has parsed.
+template <typename TValue>
+[[nodiscard]] std::string AssignValue(Core::Result<TValue> parsed, TValue& target)
+{
+    if (!parsed.has_value())
+    {
+        return Core::Describe(parsed.error());
+    }
+    target = std::move(*parsed);
+    return {};
+}
 
 /// An option that may be given once. The function reads its value.
 CLI::Option& AddTextOption(CLI::App& app, const std::string& name, TextReader reader, const std::string& help);
