@@ -1,33 +1,46 @@
 #pragma once
 
+#include "common/process/TimerSet.hpp"
 #include "vda-sim/MqttTrace.hpp"
 #include "vda-sim/VirtualVehicle.hpp"
 #include <acs/core/IRandom.hpp>
 #include <acs/core/Now.hpp>
-#include <acs/vda5050_mosquitto/MosquittoOptions.hpp>
+#include <acs/vda5050_mosquitto/MosquittoLink.hpp>
 
 #include <boost/asio/any_io_executor.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <system_error>
 
 namespace ACS::VdaSim
 {
 
 /// Runs one virtual vehicle on one MQTT connection: executes its actions and passes it messages, timers and the state of
 /// the connection. One thread: the executor's. The clock and the random source must outlive it.
-class VehicleRunner
+class VehicleRunner final : public VDA5050::IMqttLinkListener
 {
 public:
     /// Both are called from the executor.
     using Handler = std::function<void()>;
 
 private:
-    class Impl;
-
-    std::unique_ptr<Impl> _impl;
+    boost::asio::any_io_executor _executor;
+    const Core::IClock& _clock;
+    Core::IRandom& _random;
+    Core::Logger _logger;
+    VirtualVehicle _vehicle;
+    VirtualActions _actions;
+    Apps::TimerSet<std::uint64_t> _timers;
+    VDA5050::MosquittoOptions _linkOptions;
+    MqttTrace _trace;
+    std::unique_ptr<VDA5050::MosquittoLink> _linkOrNull;    ///< Null while a fault has cut the connection.
+    std::unique_ptr<VDA5050::MosquittoLink> _leavingOrNull; ///< Disconnecting without OFFLINE.
+    Handler _onConnected;
+    bool _bStopping = false;
 
 public:
     /// Adds the will to the link options. The random source varies the pauses between attempts to connect.
@@ -39,9 +52,6 @@ public:
         VirtualVehicle vehicle,
         VDA5050::MosquittoOptions linkOptions,
         MqttTrace trace);
-    VehicleRunner(const VehicleRunner&) = delete;
-    VehicleRunner& operator=(const VehicleRunner&) = delete;
-    ~VehicleRunner();
 
     /// Begins to connect; the handler is called each time the vehicle goes online.
     void Start(Handler onConnected);
@@ -56,6 +66,17 @@ public:
 
     /// Publishes OFFLINE and disconnects, then calls back once.
     void StopAsync(Handler onStopped);
+
+private:
+    void OnLinkUp() override;
+    void OnLinkDown(std::error_code reason) override;
+    void OnMqttMessage(const VDA5050::MqttMessage& message) override;
+
+    void OnTimer(std::uint64_t key);
+    void Execute();
+    void Open();
+    void Cut(bool bWill);
+    void Publish(const VDA5050::MqttMessage& message);
 };
 
 } // namespace ACS::VdaSim
