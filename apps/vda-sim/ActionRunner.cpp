@@ -1,7 +1,5 @@
 #include "vda-sim/ActionRunner.hpp"
 
-#include "vda-sim/VehicleFactsheet.hpp"
-
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -19,13 +17,15 @@ double ActionRunner::GetSeconds(std::string_view actionType) const
 {
     const bool bPick = _device.IsPick(actionType);
     const bool bHandling = bPick || _device.IsDrop(actionType);
-    const std::string_view meaning = !bHandling ? actionType : bPick ? ACTION_PICK : ACTION_DROP;
+    const std::string_view meaning = !bHandling ? actionType
+        : bPick                                 ? VDA5050::ActionTypes::PICK
+                                                : VDA5050::ActionTypes::DROP;
     const auto known = _seconds.find(meaning);
     if (known != _seconds.end())
     {
         return known->second;
     }
-    if (actionType == ACTION_WAIT_FOR_TRIGGER)
+    if (actionType == VDA5050::ActionTypes::WAIT_FOR_TRIGGER)
     {
         return std::numeric_limits<double>::infinity();
     }
@@ -41,7 +41,7 @@ std::string ActionRunner::Start(
     {
         return "no load on board";
     }
-    if (action.actionType == ACTION_START_CHARGING && !bAtCharger)
+    if (action.actionType == VDA5050::ActionTypes::START_CHARGING && !bAtCharger)
     {
         return "no charger at this node";
     }
@@ -54,7 +54,7 @@ std::size_t ActionRunner::Trigger()
     std::size_t count = 0;
     for (RunningAction& running : _running)
     {
-        if (running.action.actionType == ACTION_WAIT_FOR_TRIGGER)
+        if (running.action.actionType == VDA5050::ActionTypes::WAIT_FOR_TRIGGER)
         {
             running.secondsLeft = 0.0;
             ++count;
@@ -101,7 +101,7 @@ std::optional<ActionOutcome> ActionRunner::StopOrNull(std::string_view actionID,
     }
     const RunningAction stopped = std::move(*found);
     _running.erase(found);
-    if (bEdgeEnded && stopped.action.actionType == ACTION_DETECT_OBJECT)
+    if (bEdgeEnded && stopped.action.actionType == VDA5050::ActionTypes::DETECT_OBJECT)
     {
         return Finish(stopped);
     }
@@ -142,16 +142,16 @@ ActionOutcome ActionRunner::Finish(const RunningAction& running)
         const auto status = failure.empty() ? VDA5050::EActionStatus::Finished : VDA5050::EActionStatus::Failed;
         return {action.actionID, status, std::move(failure), {}};
     }
-    if (action.actionType == ACTION_START_CHARGING)
+    if (action.actionType == VDA5050::ActionTypes::START_CHARGING)
     {
         _bCharging = true;
     }
-    else if (action.actionType == ACTION_STOP_CHARGING)
+    else if (action.actionType == VDA5050::ActionTypes::STOP_CHARGING)
     {
         _bCharging = false;
     }
     ActionOutcome outcome{action.actionID, VDA5050::EActionStatus::Finished, {}, {}};
-    if (action.actionType == ACTION_LOG_REPORT)
+    if (action.actionType == VDA5050::ActionTypes::LOG_REPORT)
     {
         outcome.result = "log-" + action.actionID + ".txt";
     }

@@ -18,7 +18,7 @@ using VDA5050::EBlockingType;
 
 bool IsOfLoads(const AgvAction& action)
 {
-    return action.actionType == ACTION_PICK || action.actionType == ACTION_DROP;
+    return action.actionType == VDA5050::ActionTypes::PICK || action.actionType == VDA5050::ActionTypes::DROP;
 }
 
 /// The actions of the standard; pick and drop in the vehicle's form, and only if it has load positions.

@@ -1,7 +1,6 @@
 #include "vda-sim/VirtualVehicle.hpp"
 
 #include "vda-sim/OrderLimits.hpp"
-#include "vda-sim/VehicleFactsheet.hpp"
 #include "world/EWorldError.hpp"
 #include <acs/core/ShortText.hpp>
 #include <acs/vda5050/ActionMachine.hpp>
@@ -35,7 +34,7 @@ void VirtualVehicle::Start(const VDA5050::StartAction& start, Core::Now now)
         refusal = error->errorDescription;
         AddOrderError(std::move(*error), now);
     }
-    if (refusal.empty() && start.action.actionType == ACTION_INIT_POSITION)
+    if (refusal.empty() && start.action.actionType == VDA5050::ActionTypes::INIT_POSITION)
     {
         refusal = InitialisePosition(start.action, now);
     }

@@ -1,5 +1,4 @@
 #include "Catch.hpp"
-#include "vda-sim/VehicleFactsheet.hpp"
 #include "VehicleDriver.hpp"
 #include <acs/core/ShortText.hpp>
 
@@ -305,13 +304,13 @@ TEST_CASE(
         VehicleDriver driver("N0");
         driver.Inject(
             bAtStart ? "action-fails type=pick error=jammed when=start" : "action-fails type=pick error=jammed");
-        driver.Send(MakeOrderWith(driver, VdaSim::ACTION_FINE_POSITIONING, "fine"));
+        driver.Send(MakeOrderWith(driver, VDA5050::ActionTypes::FINE_POSITIONING, "fine"));
         driver.Pass(60s);
         CHECK(driver.GetStatus("fine") == EActionStatus::Finished);
         auto back = driver.MakeRoute("pick", {"N2", "DOCK"});
         VDA5050::OrderMessage order = VehicleDriver::Take(back.MakeOrder(2));
         VDA5050::Action pick;
-        pick.actionType = VdaSim::ACTION_PICK;
+        pick.actionType = VDA5050::ActionTypes::PICK;
         pick.blockingType = VDA5050::EBlockingType::Hard;
         AddMandatoryParameters(pick);
         pick.actionID = "first";
@@ -339,7 +338,7 @@ TEST_CASE(
 TEST_CASE("estop: the vehicle brakes hard, its actions wait, and everything continues after it")
 {
     VehicleDriver driver("N0");
-    driver.Send(MakeOrderWith(driver, VdaSim::ACTION_PICK, "pick"));
+    driver.Send(MakeOrderWith(driver, VDA5050::ActionTypes::PICK, "pick"));
     driver.Pass(4s);
     const double place = driver.GetPose().x;
     driver.Inject("estop ack=REMOTE for=5s");
@@ -398,7 +397,7 @@ TEST_CASE("battery: the charge is set, below 15 % it is an error, and charging m
     driver.Inject("battery charge=12");
     CHECK(driver.GetState().batteryState.batteryCharge == 12.0);
     CHECK(FindErrorOrNull(driver.GetState(), "batteryLow") != nullptr);
-    driver.SendInstantly(VdaSim::ACTION_START_CHARGING, "charge");
+    driver.SendInstantly(VDA5050::ActionTypes::START_CHARGING, "charge");
     driver.Pass(4s);
     CHECK(driver.GetState().batteryState.bCharging);
     CHECK(FindErrorOrNull(driver.GetState(), "batteryLow") != nullptr);
@@ -527,7 +526,7 @@ TEST_CASE("A vehicle with a pause and a fault continues when both have ended")
 TEST_CASE("6.8 waitForTrigger waits for its trigger, however long that takes")
 {
     VehicleDriver driver("N0");
-    driver.Send(MakeOrderWith(driver, VdaSim::ACTION_WAIT_FOR_TRIGGER, "wait"));
+    driver.Send(MakeOrderWith(driver, VDA5050::ActionTypes::WAIT_FOR_TRIGGER, "wait"));
     driver.Pass(300s);
     CHECK(driver.GetStatus("wait") == EActionStatus::Running);
     CHECK(driver.Trigger() == 1);
@@ -543,7 +542,7 @@ TEST_CASE("6.8 logReport names its log, and the time of an action's type can be 
     VdaSim::VirtualVehicleOptions options = VehicleDriver::MakeOptions("N0");
     options.actionSeconds["logReport"] = 7.0;
     VehicleDriver driver(std::move(options));
-    driver.SendInstantly(VdaSim::ACTION_LOG_REPORT, "log", {{"reason", Core::JsonText::FromString("test")}});
+    driver.SendInstantly(VDA5050::ActionTypes::LOG_REPORT, "log", {{"reason", Core::JsonText::FromString("test")}});
     driver.Pass(6900ms);
     CHECK(driver.GetStatus("log") == EActionStatus::Running);
     driver.Pass(200ms);

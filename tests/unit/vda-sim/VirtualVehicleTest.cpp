@@ -1,5 +1,4 @@
 #include "Catch.hpp"
-#include "vda-sim/VehicleFactsheet.hpp"
 #include "VehicleDriver.hpp"
 
 #include <numbers>
@@ -216,7 +215,7 @@ TEST_CASE("7 An orientation of pi on a tangential edge is driven backwards")
 TEST_CASE("6.8 A pick runs at its node, standing, for its time; the load is in the state then, and gone after a drop")
 {
     VehicleDriver driver("N0");
-    auto pick = AddAction(driver, {"N0", "N1", "N2"}, 1, VdaSim::ACTION_PICK);
+    auto pick = AddAction(driver, {"N0", "N1", "N2"}, 1, VDA5050::ActionTypes::PICK);
     driver.Send(VehicleDriver::Take(pick.MakeOrder(3)));
     CHECK(driver.GetStatus("work") == EActionStatus::Waiting);
     REQUIRE(driver.TryPassUntil([&]() { return driver.GetStatus("work") == EActionStatus::Running; }, 60s));
@@ -236,7 +235,7 @@ TEST_CASE("6.8 A pick runs at its node, standing, for its time; the load is in t
     driver.Pass(60s);
     CHECK(driver.GetState().lastNodeID == "N2");
 
-    auto drop = AddAction(driver, {"N2", "DOCK"}, 1, VdaSim::ACTION_DROP);
+    auto drop = AddAction(driver, {"N2", "DOCK"}, 1, VDA5050::ActionTypes::DROP);
     driver.Send(VehicleDriver::Take(drop.MakeOrder(2)));
     driver.Pass(60s);
     CHECK(driver.GetStatus("work") == EActionStatus::Finished);
@@ -246,7 +245,7 @@ TEST_CASE("6.8 A pick runs at its node, standing, for its time; the load is in t
 TEST_CASE("6.8 A drop without a load fails, and the order continues")
 {
     VehicleDriver driver("N0");
-    auto drop = AddAction(driver, {"N0", "N1", "N2"}, 1, VdaSim::ACTION_DROP);
+    auto drop = AddAction(driver, {"N0", "N1", "N2"}, 1, VDA5050::ActionTypes::DROP);
     driver.Send(VehicleDriver::Take(drop.MakeOrder(3)));
     driver.Pass(60s);
     CHECK(driver.GetStatus("work") == EActionStatus::Failed);
@@ -267,7 +266,7 @@ TEST_CASE("6.6 An action that the factsheet does not name refuses the order")
 TEST_CASE("6.6.3 A cancelled vehicle ends on the next node, and is ready for another order")
 {
     VehicleDriver driver("N0");
-    auto route = AddAction(driver, {"N0", "N1", "N2"}, 2, VdaSim::ACTION_PICK);
+    auto route = AddAction(driver, {"N0", "N1", "N2"}, 2, VDA5050::ActionTypes::PICK);
     driver.Send(VehicleDriver::Take(route.MakeOrder(3)));
     driver.Pass(4s);
     driver.SendInstantly(VDA5050::ActionTypes::CANCEL_ORDER, "cancel");
@@ -307,7 +306,7 @@ TEST_CASE("6.8 A pause stops the vehicle smoothly on its path, and stopPause let
 TEST_CASE("Charging needs a charger, and driving drains the battery and ends the charging")
 {
     VehicleDriver driver("N0");
-    driver.SendInstantly(VdaSim::ACTION_START_CHARGING, "nowhere");
+    driver.SendInstantly(VDA5050::ActionTypes::START_CHARGING, "nowhere");
     CHECK(driver.GetStatus("nowhere") == EActionStatus::Failed);
     auto route = driver.MakeRoute("order-1", {"N0", "N1", "N2", "DOCK"});
     driver.Send(VehicleDriver::Take(route.MakeOrder(4)));
@@ -315,7 +314,7 @@ TEST_CASE("Charging needs a charger, and driving drains the battery and ends the
     REQUIRE(driver.GetState().lastNodeID == "DOCK");
     const double drained = driver.GetState().batteryState.batteryCharge;
     CHECK(drained == Approx(100.0 - 16.0 * 0.02).margin(0.001));
-    driver.SendInstantly(VdaSim::ACTION_START_CHARGING, "here");
+    driver.SendInstantly(VDA5050::ActionTypes::START_CHARGING, "here");
     driver.Pass(30s);
     CHECK(driver.GetStatus("here") == EActionStatus::Finished);
     CHECK(driver.GetState().batteryState.bCharging);
@@ -350,7 +349,7 @@ TEST_CASE("6.10 A driving vehicle sends a state at least each second, and its po
 TEST_CASE("The time scale makes driving and handling quicker, and changes no speed in the messages")
 {
     VehicleDriver driver("N0", 10.0);
-    auto pick = AddAction(driver, {"N0", "N1"}, 1, VdaSim::ACTION_PICK);
+    auto pick = AddAction(driver, {"N0", "N1"}, 1, VDA5050::ActionTypes::PICK);
     driver.Send(VehicleDriver::Take(pick.MakeOrder(2)));
     double fastest = 0.0;
     driver.Pass(1100ms, [&]() { fastest = std::max(fastest, driver.GetSpeed()); });
