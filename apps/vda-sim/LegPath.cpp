@@ -1,5 +1,7 @@
 #include "vda-sim/LegPath.hpp"
 
+#include <acs/vda5050/TrajectoryCurve.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -59,7 +61,8 @@ LegPath LegPath::Create(const MapPoint& from, const MapPoint& to, const std::opt
     std::vector<MapPoint> points{from};
     if (curveOrNull.has_value())
     {
-        const std::vector<MapPoint> curve = MakeCurve(*curveOrNull).Sample(SPACING, MAX_SAMPLES);
+        const Core::NurbsCurve nurbs(VDA5050::MakeNurbs(*curveOrNull));
+        const std::vector<MapPoint> curve = nurbs.Sample(SPACING, MAX_SAMPLES);
         // A vehicle that is past the beginning joins the curve after the nearest point.
         const auto nearest =
             std::ranges::min_element(curve, {}, [&from](const MapPoint& point) { return GetDistance(from, point); });

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "vda-sim/NurbsCurve.hpp"
+#include <acs/core/NurbsCurve.hpp>
+#include <acs/vda5050/OrderMessage.hpp>
 
 #include <cstddef>
 #include <optional>
@@ -8,6 +9,8 @@
 
 namespace ACS::VdaSim
 {
+
+using Core::MapPoint;
 
 /// Path of one leg, by distance from its beginning: a straight line, or the samples of a curve. Pure.
 class LegPath

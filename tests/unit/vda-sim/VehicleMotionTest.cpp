@@ -1,6 +1,7 @@
 #include "vda-sim/VehicleMotion.hpp"
 
 #include "Catch.hpp"
+#include <acs/vda5050/TrajectoryCurve.hpp>
 
 #include <cmath>
 #include <functional>
@@ -16,7 +17,6 @@ using VdaSim::EBrake;
 using VdaSim::LegPath;
 using VdaSim::MapPoint;
 using VdaSim::MotionLeg;
-using VdaSim::NurbsCurve;
 using VdaSim::VehicleMotion;
 
 constexpr double SLICE = 0.02;
@@ -31,6 +31,11 @@ VDA5050::Trajectory MakeQuarterCircle(double radius)
     curve.knotVector = {0.0, 0.0, 0.0, 1.0, 1.0, 1.0};
     curve.controlPoints = {{radius, 0.0, 1.0}, {radius, radius, std::numbers::sqrt2 / 2}, {0.0, radius, 1.0}};
     return curve;
+}
+
+Core::NurbsCurve MakeNurbsCurve(const VDA5050::Trajectory& trajectory)
+{
+    return Core::NurbsCurve(VDA5050::MakeNurbs(trajectory));
 }
 
 MotionLeg MakeStraight(double length)
@@ -65,7 +70,7 @@ double RunLeg(VehicleMotion& motion, const std::function<void()>& watch = {}, do
 
 TEST_CASE("7 A NURBS of degree 2 with the right weights is a circle")
 {
-    const NurbsCurve curve = VdaSim::MakeCurve(MakeQuarterCircle(2.0));
+    const Core::NurbsCurve curve = MakeNurbsCurve(MakeQuarterCircle(2.0));
     for (int i = 0; i <= 100; ++i)
     {
         const MapPoint point = curve.GetPoint(i / 100.0);
@@ -96,7 +101,7 @@ TEST_CASE("7 A NURBS without weights and with inner knots goes where the recursi
             + (right > 0.0 ? (knots[index + degree + 1] - place) / right * getBasis(index + 1, degree - 1, place)
                            : 0.0);
     };
-    const NurbsCurve nurbs = VdaSim::MakeCurve(curve);
+    const Core::NurbsCurve nurbs = MakeNurbsCurve(curve);
     for (int step = 0; step < 50; ++step)
     {
         const double place = step / 50.0;
@@ -117,10 +122,10 @@ TEST_CASE("7 A curve of degree 1 is its corners, and knots that all are one plac
     VDA5050::Trajectory corners;
     corners.knotVector = {0.0, 0.0, 0.5, 1.0, 1.0};
     corners.controlPoints = {{0, 0, {}}, {3, 0, {}}, {3, 4, {}}};
-    CHECK(VdaSim::MakeCurve(corners).Sample(0.05, 400) == std::vector<MapPoint>{{0, 0}, {3, 0}, {3, 4}});
+    CHECK(MakeNurbsCurve(corners).Sample(0.05, 400) == std::vector<MapPoint>{{0, 0}, {3, 0}, {3, 4}});
     VDA5050::Trajectory point = MakeQuarterCircle(1.0);
     point.knotVector = {0.5, 0.5, 0.5, 0.5, 0.5, 0.5};
-    CHECK(VdaSim::MakeCurve(point).Sample(0.05, 400).size() == 1);
+    CHECK(MakeNurbsCurve(point).Sample(0.05, 400).size() == 1);
 }
 
 TEST_CASE("However long a curve is, it has no more than some hundred samples")
@@ -151,7 +156,7 @@ TEST_CASE("7 A curve has no more samples than asked for, also where it has more 
     curve.knotVector.insert(curve.knotVector.end(), 3, 1.0);
     for (const std::size_t most : {std::size_t{2}, std::size_t{100}, std::size_t{400}})
     {
-        const std::vector<MapPoint> samples = VdaSim::MakeCurve(curve).Sample(0.05, most);
+        const std::vector<MapPoint> samples = MakeNurbsCurve(curve).Sample(0.05, most);
         CHECK(samples.size() == most);
         CHECK(samples.front() == MapPoint{0.0, 0.0});
         CHECK(samples.back() == MapPoint{1000.0, 0.0});
