@@ -14,13 +14,8 @@
 namespace ACS::McsSim
 {
 
-ScenarioRunner::EProgress ScenarioRunner::Do(const SendPlanStep& step, Core::Now now, ScenarioActions& out)
+ScenarioRunner::EProgress ScenarioRunner::Do(const SendPlanStep& step, Core::Now /*now*/, ScenarioActions& out)
 {
-    const EProgress progress = AwaitACS(now);
-    if (progress != EProgress::Done)
-    {
-        return progress;
-    }
     Forget(_kept.size());
     for (std::size_t i = 0; i < step.times; ++i)
     {
@@ -39,13 +34,8 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const SendPlanStep& step, Core::Now
     return EProgress::Done;
 }
 
-ScenarioRunner::EProgress ScenarioRunner::Do(const SendAgainStep& step, Core::Now now, ScenarioActions& out)
+ScenarioRunner::EProgress ScenarioRunner::Do(const SendAgainStep& step, Core::Now /*now*/, ScenarioActions& out)
 {
-    const EProgress progress = AwaitACS(now);
-    if (progress != EProgress::Done)
-    {
-        return progress;
-    }
     Forget(_kept.size());
     PlannedPlan planned = std::get<PlannedPlan>(_names.at(step.name));
     planned.transactionID = step.bFreshTransaction ? Core::MakeUUID(_random) : planned.transactionID;
@@ -53,13 +43,8 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const SendAgainStep& step, Core::No
     return EProgress::Done;
 }
 
-ScenarioRunner::EProgress ScenarioRunner::Do(const SendRequestStep& step, Core::Now now, ScenarioActions& out)
+ScenarioRunner::EProgress ScenarioRunner::Do(const SendRequestStep& step, Core::Now /*now*/, ScenarioActions& out)
 {
-    const EProgress progress = AwaitACS(now);
-    if (progress != EProgress::Done)
-    {
-        return progress;
-    }
     Core::Result<Protocol::AcsPayload> payload =
         ParsePayload(step.command, FillPlaceholders(step.payload, MakeReader()));
     if (!payload.has_value())
@@ -71,15 +56,11 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const SendRequestStep& step, Core::
     return EProgress::Done;
 }
 
-ScenarioRunner::EProgress ScenarioRunner::Do(const SendTextStep& step, Core::Now now, ScenarioActions& out)
+ScenarioRunner::EProgress ScenarioRunner::Do(const SendTextStep& step, Core::Now /*now*/, ScenarioActions& out)
 {
-    const EProgress progress = AwaitACS(now);
-    if (progress == EProgress::Done)
-    {
-        Forget(_kept.size());
-        out.emplace_back(SendRawText{FillPlaceholders(step.text, MakeReader())});
-    }
-    return progress;
+    Forget(_kept.size());
+    out.emplace_back(SendRawText{FillPlaceholders(step.text, MakeReader())});
+    return EProgress::Done;
 }
 
 ScenarioRunner::EProgress ScenarioRunner::Do(const ExpectStep& step, Core::Now now, ScenarioActions& /*out*/)
@@ -162,27 +143,19 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const WaitStep& /*step*/, Core::Now
     return now.steady < _deadline ? EProgress::Waiting : EProgress::Done;
 }
 
-ScenarioRunner::EProgress ScenarioRunner::Do(const AskStep& step, Core::Now now, ScenarioActions& out)
+ScenarioRunner::EProgress ScenarioRunner::Do(const AskStep& step, Core::Now /*now*/, ScenarioActions& out)
 {
-    const EProgress progress = AwaitACS(now);
-    if (progress == EProgress::Done)
-    {
-        Forget(_kept.size());
-        out.emplace_back(PrintLine{"asked for: " + CleanText(step.text)});
-    }
-    return progress;
+    Forget(_kept.size());
+    out.emplace_back(PrintLine{"asked for: " + CleanText(step.text)});
+    return EProgress::Done;
 }
 
-ScenarioRunner::EProgress ScenarioRunner::Do(const DropStep& step, Core::Now now, ScenarioActions& out)
+ScenarioRunner::EProgress ScenarioRunner::Do(const DropStep& step, Core::Now /*now*/, ScenarioActions& out)
 {
-    const EProgress progress = AwaitACS(now);
-    if (progress == EProgress::Done)
-    {
-        Forget(_kept.size());
-        _bRegistered = false;
-        out.emplace_back(step);
-    }
-    return progress;
+    Forget(_kept.size());
+    _bRegistered = false;
+    out.emplace_back(step);
+    return EProgress::Done;
 }
 
 ScenarioRunner::EProgress ScenarioRunner::Do(const HoldAcksStep& step, Core::Now /*now*/, ScenarioActions& out)
@@ -206,16 +179,6 @@ ScenarioRunner::EProgress ScenarioRunner::Fail(std::string reason)
 {
     _failure = std::move(reason);
     return EProgress::Failed;
-}
-
-ScenarioRunner::EProgress ScenarioRunner::AwaitACS(Core::Now now)
-{
-    if (_bRegistered)
-    {
-        return EProgress::Done;
-    }
-    return now.steady < _deadline ? EProgress::Waiting
-                                  : Fail("no ACS has registered within " + Apps::MakeDurationText(_scenario.within));
 }
 
 } // namespace ACS::McsSim

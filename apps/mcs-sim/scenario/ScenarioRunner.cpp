@@ -1,5 +1,6 @@
 #include "scenario/ScenarioRunner.hpp"
 
+#include "common/config/DurationText.hpp"
 #include "console/CleanText.hpp"
 #include "plans/TrackedPlan.hpp"
 
@@ -39,10 +40,21 @@ const Protocol::PlanReport* FindPlanReportOrNull(const Protocol::DecodeOutcome& 
     return requestOrNull == nullptr ? nullptr : std::get_if<Protocol::PlanReport>(&requestOrNull->payload);
 }
 
+template <typename... TSteps>
+bool IsOneOf(const ScenarioStep& step)
+{
+    return (std::holds_alternative<TSteps>(step.kind) || ...);
+}
+
 bool IsExpectation(const ScenarioStep& step)
 {
-    return std::holds_alternative<ExpectStep>(step.kind) || std::holds_alternative<ExpectNextStep>(step.kind)
-        || std::holds_alternative<ExpectNothingStep>(step.kind) || std::holds_alternative<WaitForPlanStep>(step.kind);
+    return IsOneOf<ExpectStep, ExpectNextStep, ExpectNothingStep, WaitForPlanStep>(step);
+}
+
+/// Whether the step waits until an ACS is registered.
+bool IsForACS(const ScenarioStep& step)
+{
+    return IsOneOf<SendPlanStep, SendAgainStep, SendRequestStep, SendTextStep, AskStep, DropStep>(step);
 }
 
 const MessagePattern* FindPatternOrNull(const ScenarioStep& step)
@@ -222,7 +234,14 @@ void ScenarioRunner::Leave(EProgress progress, Core::Now now, ScenarioActions& o
 
 ScenarioRunner::EProgress ScenarioRunner::Try(Core::Now now, ScenarioActions& out)
 {
-    return std::visit([this, now, &out](const auto& step) { return Do(step, now, out); }, _scenario.steps[_index].kind);
+    const ScenarioStep& current = _scenario.steps[_index];
+    if (IsForACS(current) && !_bRegistered)
+    {
+        return now.steady < _deadline
+            ? EProgress::Waiting
+            : Fail("no ACS has registered within " + Apps::MakeDurationText(_scenario.within));
+    }
+    return std::visit([this, now, &out](const auto& step) { return Do(step, now, out); }, current.kind);
 }
 
 std::optional<std::size_t> ScenarioRunner::FindMatchOrNull(const MessagePattern& pattern)

@@ -126,8 +126,6 @@ private:
     [[nodiscard]] EProgress Do(const HoldAcksStep& step, Core::Now now, ScenarioActions& out);
     [[nodiscard]] EProgress Do(const RefuseRegistrationStep& step, Core::Now now, ScenarioActions& out);
     [[nodiscard]] EProgress Fail(std::string reason);
-    /// Done where an ACS is registered.
-    [[nodiscard]] EProgress AwaitACS(Core::Now now);
     /// Looks on through what is kept; nullopt where nothing matches so far.
     [[nodiscard]] std::optional<std::size_t> FindMatchOrNull(const MessagePattern& pattern);
     /// Takes what is kept for the group; why it does not fit, where it does not.
