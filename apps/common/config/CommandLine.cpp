@@ -83,7 +83,7 @@ CLI::Option& AddDurationOption(
         app,
         name,
         [&target](const std::string& text) {
-            std::string error = Take(ParseDuration(text), target);
+            std::string error = AssignValue(ParseDuration(text), target);
             return error.empty() && target.count() == 0 ? std::string("expected a duration above 0") : error;
         },
         help);
