@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/core/JsonText.hpp>
+#include <acs/core/ParseNumber.hpp>
 #include <acs/openstream/EApiMethod.hpp>
 #include <acs/openstream/OpenStreamLines.hpp>
 #include <acs/openstream/OpenStreamRequests.hpp>
@@ -9,23 +10,12 @@
 #include <boost/json/src.hpp> // The whole library, for the one source of a lesson.
 #include <boost/system/error_code.hpp>
 
-#include <charconv>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
-
-/// Null if the text is no number.
-template <typename TNumber>
-std::optional<TNumber> ReadNumberOrNull(std::string_view text)
-{
-    TNumber number{};
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return error == std::errc() && rest == text.data() + text.size() ? std::optional(number) : std::nullopt;
-}
 
 /// A controller as the command line names it; null where the text is no port.
 inline std::optional<ACS::OpenStreamAsio::OpenStreamClientOptions> ReadControllerOrNull(
@@ -34,7 +24,7 @@ inline std::optional<ACS::OpenStreamAsio::OpenStreamClientOptions> ReadControlle
 {
     ACS::OpenStreamAsio::OpenStreamClientOptions options;
     options.host = std::move(host);
-    options.port = ReadNumberOrNull<std::uint16_t>(port).value_or(0);
+    options.port = ACS::Core::ParseNumberOrNull<std::uint16_t>(port).value_or(0);
     return options.port != 0 ? std::optional(std::move(options)) : std::nullopt;
 }
 

@@ -247,8 +247,8 @@ int main(int argc, char** argv) // NOLINT(bugprone-exception-escape): nothing th
 {
     const std::span<char*> arguments(argv, static_cast<std::size_t>(argc));
     const auto controllerOrNull = argc > 3 ? ReadControllerOrNull(arguments[1], arguments[2]) : std::nullopt;
-    const std::optional<double> target = argc > 3 ? ReadNumberOrNull<double>(arguments[3]) : std::nullopt;
-    const std::optional<double> stopAt = argc > 4 ? ReadNumberOrNull<double>(arguments[4]) : std::nullopt;
+    const std::optional<double> target = argc > 3 ? Core::ParseNumberOrNull<double>(arguments[3]) : std::nullopt;
+    const std::optional<double> stopAt = argc > 4 ? Core::ParseNumberOrNull<double>(arguments[4]) : std::nullopt;
     if (!controllerOrNull || !target || argc > 5 || (argc == 5 && !stopAt))
     {
         fmt::print("Usage: e15_trajectory HOST PORT DEGREES [STOP_AT]\n");

@@ -163,7 +163,7 @@ int main(int argc, char** argv) // NOLINT(bugprone-exception-escape): nothing th
 {
     const std::span<char*> arguments(argv, static_cast<std::size_t>(argc));
     const auto controllerOrNull = argc == 5 ? ReadControllerOrNull(arguments[1], arguments[2]) : std::nullopt;
-    const auto samples = argc == 5 ? ReadNumberOrNull<std::uint64_t>(arguments[4]) : std::nullopt;
+    const auto samples = argc == 5 ? Core::ParseNumberOrNull<std::uint64_t>(arguments[4]) : std::nullopt;
     if (!controllerOrNull.has_value() || samples.value_or(0) == 0)
     {
         fmt::print("Usage: e16_joint_plot HOST PORT CSV SAMPLES\n");

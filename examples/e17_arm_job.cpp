@@ -77,8 +77,9 @@ struct Input
 {
     const std::size_t equals = std::min(text.find('='), text.size());
     const auto number =
-        text.starts_with("ml") ? ReadNumberOrNull<std::size_t>(text.substr(2, equals - 2)) : std::nullopt;
-    const auto value = equals < text.size() ? ReadNumberOrNull<std::int32_t>(text.substr(equals + 1)) : std::nullopt;
+        text.starts_with("ml") ? Core::ParseNumberOrNull<std::size_t>(text.substr(2, equals - 2)) : std::nullopt;
+    const auto value =
+        equals < text.size() ? Core::ParseNumberOrNull<std::int32_t>(text.substr(equals + 1)) : std::nullopt;
     constexpr std::size_t FIRST_INPUT = FIRST_WORD + static_cast<std::size_t>(EWord::JobNumber) + 1;
     const bool bInput = number && value && *number >= FIRST_INPUT && *number < FIRST_WORD + WORDS;
     return bInput ? std::optional(Input{*number - FIRST_WORD, *value}) : std::nullopt;
@@ -248,7 +249,7 @@ int main(int argc, char** argv) // NOLINT(bugprone-exception-escape): nothing th
 {
     const std::span<char*> arguments(argv, static_cast<std::size_t>(argc));
     const auto controllerOrNull = argc > 3 ? ReadControllerOrNull(arguments[1], arguments[2]) : std::nullopt;
-    const auto program = argc > 3 ? ReadNumberOrNull<std::int32_t>(arguments[3]) : std::nullopt;
+    const auto program = argc > 3 ? Core::ParseNumberOrNull<std::int32_t>(arguments[3]) : std::nullopt;
     std::vector<Input> inputs;
     bool bValid = controllerOrNull.has_value() && program.has_value();
     for (const char* const text : arguments.subspan(std::min<std::size_t>(arguments.size(), 4)))

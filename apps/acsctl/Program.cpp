@@ -16,16 +16,15 @@
 #include "terminal/Terminal.hpp"
 #include "trace/TraceCommand.hpp"
 #include "view/DisplayText.hpp"
+#include <acs/core/ParseNumber.hpp>
 #include <acs/core/Uuid.hpp>
 
-#include <charconv>
 #include <chrono>
 #include <cstddef>
 #include <cstdlib>
 #include <functional>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 
 namespace ACS::Acsctl
@@ -43,11 +42,9 @@ std::optional<std::string> GetVariableOrNull(const char* name)
 /// Nullopt if COLUMNS is not a number above 0.
 std::optional<std::size_t> ReadColumnsOrNull()
 {
-    const std::string text = GetVariableOrNull("COLUMNS").value_or("");
-    std::size_t columns = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), columns);
-    const bool bWhole = error == std::errc() && end == text.data() + text.size();
-    return bWhole && columns != 0 ? std::optional(columns) : std::nullopt;
+    const std::optional<std::size_t> columns =
+        Core::ParseNumberOrNull<std::size_t>(GetVariableOrNull("COLUMNS").value_or(""));
+    return columns != 0 ? columns : std::nullopt;
 }
 
 int Report(const CommandError& error)

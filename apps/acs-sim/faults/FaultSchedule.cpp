@@ -1,8 +1,8 @@
 #include "faults/FaultSchedule.hpp"
 
+#include <acs/core/ParseNumber.hpp>
+
 #include <algorithm>
-#include <charconv>
-#include <system_error>
 #include <utility>
 
 namespace ACS::AcsSim
@@ -32,10 +32,8 @@ std::optional<FaultOrder> ReadFaultOrderOrNull(std::string_view text)
     {
         return FaultOrder{*fault, std::nullopt};
     }
-    std::size_t count = 0;
-    const auto [end, error] = std::from_chars(times.data(), times.data() + times.size(), count);
-    const bool bNumber = error == std::errc() && end == times.data() + times.size();
-    return bNumber && count > 0 && count <= MOST_TIMES ? std::optional(FaultOrder{*fault, count}) : std::nullopt;
+    const std::size_t count = Core::ParseNumberOrNull<std::size_t>(times).value_or(0);
+    return count > 0 && count <= MOST_TIMES ? std::optional(FaultOrder{*fault, count}) : std::nullopt;
 }
 
 FaultSchedule::FaultSchedule(std::vector<FaultOrder> orders)

@@ -5,14 +5,13 @@
 #include "common/config/CommandLine.hpp"
 #include "events/EventText.hpp"
 #include "view/DisplayText.hpp"
+#include <acs/core/ParseNumber.hpp>
 #include <acs/core/Result.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
-#include <system_error>
 
 namespace ACS::Acsctl
 {
@@ -24,14 +23,6 @@ constexpr std::uint64_t DEFAULT_EVENTS = 100;
 /// acsd keeps at most this number of events, those of other types among them.
 constexpr std::uint64_t MOST_EVENTS_OF_ACSD = 4'096;
 constexpr std::chrono::milliseconds RECONNECT{2'000};
-
-std::optional<std::uint64_t> ReadIdOrNull(const std::string& text)
-{
-    std::uint64_t number = 0;
-    const char* const end = text.data() + text.size();
-    const auto [last, error] = std::from_chars(text.data(), end, number);
-    return error == std::errc() && last == end ? std::optional(number) : std::nullopt;
-}
 
 } // namespace
 
@@ -208,7 +199,7 @@ bool EventsCommand::TryHandle(const SseEvent& event)
         Apps::PrintError(PROGRAM_NAME, "events before this line are lost");
         return !_options.bJSON || TryShow(event);
     }
-    const std::optional<std::uint64_t> number = ReadIdOrNull(event.id);
+    const std::optional<std::uint64_t> number = Core::ParseNumberOrNull<std::uint64_t>(event.id);
     _after = number.has_value() ? number : _after;
     if (_types.find(event.type) != std::string::npos && !TryShow(event))
     {

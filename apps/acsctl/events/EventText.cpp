@@ -3,17 +3,16 @@
 #include "api/ApiCodec.hpp"
 #include "view/DisplayText.hpp"
 #include "view/LineViews.hpp"
+#include <acs/core/ParseNumber.hpp>
 #include <acs/json/JsonDocument.hpp>
 #include <acs/json/JsonWriter.hpp>
 
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
-#include <system_error>
 
 namespace ACS::Acsctl
 {
@@ -92,16 +91,14 @@ Core::Result<std::string> MakeEventJSON(const SseEvent& event)
     {
         return tl::unexpected<Core::Error>(data.error());
     }
-    std::uint64_t number = 0;
-    const char* const end = event.id.data() + event.id.size();
-    const auto [last, error] = std::from_chars(event.id.data(), end, number);
+    const std::optional<std::uint64_t> number = Core::ParseNumberOrNull<std::uint64_t>(event.id);
     std::string out;
     Json::JsonWriter writer(out);
     writer.BeginObject();
     writer.Key("id");
-    if (error == std::errc() && last == end)
+    if (number.has_value())
     {
-        writer.WriteUnsigned(number);
+        writer.WriteUnsigned(*number);
     }
     else
     {

@@ -2,13 +2,13 @@
 
 #include "common/config/CommandLine.hpp"
 #include "common/Version.hpp"
+#include <acs/core/ParseNumber.hpp>
 #include <acs/core/Result.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <functional>
 #include <iterator>
 #include <limits>
@@ -26,17 +26,9 @@ constexpr double SHORTEST_WATCH = 0.1;
 constexpr double LONGEST_WATCH = 86'400;
 constexpr double MILLISECONDS = 1'000;
 
-std::optional<double> ReadNumberOrNull(const std::string& text)
-{
-    double number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    const bool bWhole = error == std::errc() && end == text.data() + text.size();
-    return bWhole ? std::optional(number) : std::nullopt;
-}
-
 std::string ReadWatch(const std::string& text, std::optional<std::chrono::milliseconds>& watch)
 {
-    const std::optional<double> seconds = ReadNumberOrNull(text);
+    const std::optional<double> seconds = Core::ParseNumberOrNull<double>(text);
     if (!seconds.has_value() || !(*seconds >= SHORTEST_WATCH) || !(*seconds <= LONGEST_WATCH))
     {
         return fmt::format(

@@ -2,18 +2,17 @@
 
 #include "operator/CommandBodies.hpp"
 #include "operator/OperatorAnswer.hpp"
+#include <acs/core/ParseNumber.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/plan_json/PlanEnumNames.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -244,10 +243,8 @@ HttpResponse SkipStep(
     const std::string& planID,
     const std::string& stepText)
 {
-    Planning::SkipStep command{planID, 0, 0};
-    const char* end = stepText.data() + stepText.size();
-    const auto [parsed, error] = std::from_chars(stepText.data(), end, command.stepNo);
-    if (error != std::errc() || parsed != end || command.stepNo < 1)
+    Planning::SkipStep command{planID, Core::ParseNumberOrNull<std::int32_t>(stepText).value_or(0), 0};
+    if (command.stepNo < 1)
     {
         return Refuse(
             OperatorCode::BAD_REQUEST,

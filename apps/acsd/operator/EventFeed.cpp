@@ -1,13 +1,12 @@
 #include "operator/EventFeed.hpp"
 
 #include "operator/OperatorAnswer.hpp"
+#include <acs/core/ParseNumber.hpp>
 #include <acs/core/Result.hpp>
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 namespace ACS::Acsd
@@ -54,15 +53,14 @@ tl::expected<std::uint64_t, std::string> ReadPosition(const Apps::HttpRequest& r
     {
         return newest;
     }
-    std::uint64_t position = 0;
-    const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), position);
-    if (error != std::errc() || end != text->data() + text->size())
+    const std::optional<std::uint64_t> position = Core::ParseNumberOrNull<std::uint64_t>(*text);
+    if (!position.has_value())
     {
         return tl::make_unexpected(fmt::format(
             "Expected the number of an event (after or Last-Event-ID), found {}.",
             Core::QuoteForError(*text)));
     }
-    return position;
+    return *position;
 }
 
 } // namespace

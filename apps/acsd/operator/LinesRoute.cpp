@@ -1,14 +1,13 @@
 #include "operator/LinesRoute.hpp"
 
 #include "operator/OperatorAnswer.hpp"
+#include <acs/core/ParseNumber.hpp>
 #include <acs/core/Result.hpp>
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 
 namespace ACS::Acsd
@@ -30,9 +29,8 @@ tl::expected<std::size_t, std::string> ReadLineLimit(
         return tl::make_unexpected(std::move(*reason));
     }
     const std::string text = request.GetQueryOrNull("limit").value_or(std::to_string(DEFAULT_LINES));
-    std::size_t limit = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), limit);
-    if (error != std::errc() || end != text.data() + text.size() || limit == 0 || limit > MOST_SHOWN_LINES)
+    const std::size_t limit = Core::ParseNumberOrNull<std::size_t>(text).value_or(0);
+    if (limit == 0 || limit > MOST_SHOWN_LINES)
     {
         return tl::make_unexpected(
             fmt::format("Expected limit from 1 to {}, found {}.", MOST_SHOWN_LINES, Core::QuoteForError(text)));

@@ -2,16 +2,15 @@
 
 #include "view/PlanViewMaker.hpp"
 #include <acs/core/ECoreError.hpp>
+#include <acs/core/ParseNumber.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <iterator>
 #include <limits>
 #include <string_view>
-#include <system_error>
 
 namespace ACS::Acsd
 {
@@ -35,9 +34,8 @@ Core::Result<PlanFilter> PlanFilter::Read(const Apps::HttpRequest& request)
     filter._lotID = request.GetQueryOrNull("lot");
     if (const std::optional<std::string> text = request.GetQueryOrNull("limit"))
     {
-        const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), filter._limit);
-        if (error != std::errc() || end != text->data() + text->size() || filter._limit == 0
-            || filter._limit > MOST_PLANS)
+        filter._limit = Core::ParseNumberOrNull<std::size_t>(*text).value_or(0);
+        if (filter._limit == 0 || filter._limit > MOST_PLANS)
         {
             return Core::Fail(
                 Core::ECoreError::OutOfRange,

@@ -1,8 +1,8 @@
 #include "robots/ArmAnswers.hpp"
 
+#include <acs/core/ParseNumber.hpp>
 #include <acs/json/JsonDecoder.hpp>
 
-#include <charconv>
 #include <string>
 #include <tuple>
 
@@ -117,11 +117,7 @@ std::optional<std::int64_t> ReadErrorCodeOrNull(const Core::JsonText& body)
     {
         return numberOrNull->code;
     }
-    const std::string text = ReadOrNull<ErrorText>(body).value_or(ErrorText{}).code;
-    std::int64_t code = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), code);
-    const bool bWhole = !text.empty() && error == std::errc() && end == text.data() + text.size();
-    return bWhole ? std::optional(code) : std::nullopt;
+    return Core::ParseNumberOrNull<std::int64_t>(ReadOrNull<ErrorText>(body).value_or(ErrorText{}).code);
 }
 
 } // namespace ACS::Acsd

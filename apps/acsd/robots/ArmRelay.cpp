@@ -1,10 +1,11 @@
 #include "robots/ArmRelay.hpp"
 
+#include <acs/core/ParseNumber.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -80,14 +81,6 @@ ValueRange GetValueRange(EArmRelayWidth width)
     return {-values / 2, values - 1};
 }
 
-std::optional<std::uint32_t> ReadNumberOrNull(std::string_view text)
-{
-    std::uint32_t number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    const bool bWhole = !text.empty() && error == std::errc() && end == text.data() + text.size();
-    return bWhole ? std::optional(number) : std::nullopt;
-}
-
 /// Whether the text, "fb0", names a block or node of a fieldbus.
 bool IsFieldbus(std::string_view text)
 {
@@ -96,7 +89,7 @@ bool IsFieldbus(std::string_view text)
     {
         return false;
     }
-    const std::optional<std::uint32_t> indexOrNull = ReadNumberOrNull(text.substr(2));
+    const std::optional<std::uint32_t> indexOrNull = Core::ParseNumberOrNull<std::uint32_t>(text.substr(2));
     return indexOrNull.has_value() && *indexOrNull < (bBlock ? FIELDBUS_BLOCKS : FIELDBUS_NODES);
 }
 
@@ -148,7 +141,7 @@ tl::expected<ArmRelay, std::string> ParseArmRelay(std::string_view name, EArmRel
     {
         return fail("its area or width is unknown");
     }
-    const std::optional<std::uint32_t> numberOrNull = ReadNumberOrNull(rest.substr(digits));
+    const std::optional<std::uint32_t> numberOrNull = Core::ParseNumberOrNull<std::uint32_t>(rest.substr(digits));
     const std::uint32_t width = GetBytes(*widthOrNull);
     const std::uint32_t step = index == EArmRelayIndex::Value ? width : 1;
     const bool bBit = *widthOrNull == EArmRelayWidth::Bit;

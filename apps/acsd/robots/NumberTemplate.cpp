@@ -1,11 +1,10 @@
 #include "robots/NumberTemplate.hpp"
 
+#include <acs/core/ParseNumber.hpp>
 #include <acs/core/Result.hpp>
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <system_error>
 #include <utility>
 
 namespace ACS::Acsd
@@ -30,12 +29,9 @@ NumberTemplate::NumberTemplate(std::int64_t number)
 tl::expected<NumberTemplate, std::string> NumberTemplate::Parse(std::string_view text)
 {
     NumberTemplate result;
-    std::int64_t number = 0;
-    const char* const textEnd = text.data() + text.size();
-    const auto [end, error] = std::from_chars(text.data(), textEnd, number);
-    if (!text.empty() && error == std::errc() && end == textEnd)
+    if (const std::optional<std::int64_t> number = Core::ParseNumberOrNull<std::int64_t>(text))
     {
-        result._value = number;
+        result._value = *number;
         return result;
     }
     const bool bOneName =

@@ -2,13 +2,12 @@
 
 #include "mcs/MessageValue.hpp"
 #include <acs/core/Overloaded.hpp>
+#include <acs/core/ParseNumber.hpp>
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <iterator>
-#include <system_error>
 #include <utility>
 
 namespace ACS::Acsd
@@ -67,10 +66,8 @@ std::string WriteText(const JobValue& value)
 
 std::optional<double> ReadNumberOrNull(const std::string& text)
 {
-    double number = 0;
-    const char* const textEnd = text.data() + text.size();
-    const auto [end, error] = std::from_chars(text.data(), textEnd, number);
-    return error == std::errc() && end == textEnd && std::isfinite(number) ? std::optional(number) : std::nullopt;
+    const std::optional<double> number = Core::ParseNumberOrNull<double>(text);
+    return number.has_value() && std::isfinite(*number) ? number : std::nullopt;
 }
 
 std::optional<JsonText> MakeNumberOrNull(const JobValue& value)

@@ -1,12 +1,12 @@
 #include "PostgresConnection.hpp"
 #include "PostgresFault.hpp"
 #include "PostgresSchema.hpp"
+#include <acs/core/ParseNumber.hpp>
 #include <acs/plan/LeaseTerm.hpp>
 #include <acs/plan_postgres/PostgresLease.hpp>
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <chrono>
 #include <limits>
 #include <string>
@@ -29,10 +29,8 @@ std::int64_t ToCount(std::uint64_t number)
 /// A number to which 1 can be added.
 bool IsCount(const std::string& text)
 {
-    std::int64_t count = -1;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-    return error == std::errc() && end == text.data() + text.size() && count >= 0
-        && count < std::numeric_limits<std::int64_t>::max();
+    const std::int64_t count = Core::ParseNumberOrNull<std::int64_t>(text).value_or(-1);
+    return count >= 0 && count < std::numeric_limits<std::int64_t>::max();
 }
 
 /// A row that acsd has not written must not make a standby lead too early.

@@ -1,4 +1,5 @@
 #include <acs/core/Overloaded.hpp>
+#include <acs/core/ParseNumber.hpp>
 #include <acs/plan/EPlanningError.hpp>
 #include <acs/plan/SqlPlanTables.hpp>
 #include <acs/plan/StoreCodec.hpp>
@@ -6,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -122,13 +122,12 @@ private:
 
     [[nodiscard]] Core::Result<std::int64_t> ReadNumber(std::string_view row, const std::string& text) const
     {
-        std::int64_t number = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-        if (error != std::errc() || end != text.data() + text.size())
+        const std::optional<std::int64_t> number = Core::ParseNumberOrNull<std::int64_t>(text);
+        if (!number.has_value())
         {
             return Refuse(row, fmt::format("'{}' is no number", text));
         }
-        return number;
+        return *number;
     }
 
     [[nodiscard]] Core::Result<std::uint64_t> ReadSequence(std::string_view row, const std::string& text) const
