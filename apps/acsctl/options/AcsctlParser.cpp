@@ -368,7 +368,7 @@ void AddLocalCommands(CLI::App& app, AcsctlOptions& options)
 
 bool IsNumber(const std::string& text)
 {
-    return ReadNumberOrNull(text).has_value();
+    return Core::ParseNumberOrNull<double>(text).has_value();
 }
 
 } // namespace
