@@ -105,6 +105,10 @@ def explain_refusal(path, layer, used):
         if used in DRIVER_LIBRARIES:
             return None
         return f"is hidden from robot drivers: they see acs/{', acs/'.join(DRIVER_LIBRARIES)} only"
+    if used == "plan_json":
+        if layer in ("plan", "apps/acsd") and path.endswith(".cpp"):
+            return None
+        return "is internal; only .cpp files of libplan and apps/acsd may include acs/plan_json"
     if used.startswith("apps/"):
         if layer.startswith("apps/") and used == "apps/common":
             return None
@@ -119,10 +123,6 @@ def explain_refusal(path, layer, used):
         if layer == "plan_json" or layer in PURE and (path.endswith(".cpp") or "/src/codec/" in path):
             return None
         return "is internal; only .cpp files and src/codec/ of the pure libraries may include acs/json"
-    if used == "plan_json":
-        if layer in ("plan", "apps/acsd") and path.endswith(".cpp"):
-            return None
-        return "is internal; only .cpp files of libplan and apps/acsd may include acs/plan_json"
     if layer == "plan_json":
         return None if used in ("core", "json", "plan") else "lies above libplan: it sees acs/core, acs/json and acs/plan only"
     if used == "net":

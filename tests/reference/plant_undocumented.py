@@ -10,7 +10,7 @@ import sys
 import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-INTERNAL = ("libacs-core/json/include", "libacs-core/net/include")
+INTERNAL = ("libacs-core/json/include", "libacs-core/net/include", "libplan/json/include")
 COPIED = ("scripts/reference", "scripts/reference_filter.py", "scripts/lib.sh", "docs/reference/api/Doxyfile")
 
 RIGHT = {

@@ -42,6 +42,9 @@ RIGHT = {
     "libvda5050/mosquitto/src/Link.cpp": "#include <acs/vda5050/Header.hpp>\n#include <mosquitto.h>\n",
     "libplan/src/traffic/Router.hpp": "#pragma once\n#include \"../engine/EngineFacts.hpp\"\n",
     "libplan/src/engine/EngineFacts.hpp": "#pragma once\nclass EngineFacts\n{\n};\n",
+    "libplan/json/include/acs/plan_json/Fields.hpp": "#pragma once\n#include <acs/json/JsonReader.hpp>\n",
+    "libplan/src/codec/Codec.cpp": "#include <acs/plan_json/Fields.hpp>\n",
+    "apps/acsd/Record.cpp": "#include <acs/plan_json/Fields.hpp>\n",
     "libplan/sqlite/src/Store.cpp": "#include <SQLiteCpp/Database.h>\n",
     "libplan/adapter-test/include/acs/adapter_test/Finding.hpp": "#pragma once\n#include <acs/core/Location.hpp>\n",
     "apps/common/ConfigReader.hpp": "#pragma once\n#include <acs/core/Location.hpp>\n",
@@ -107,6 +110,10 @@ PLANTED = [
     ("layers", "libplan/src/Engine.cpp", "#include <sqlite3.h>\n", 1, "layer 'plan'"),
     ("layers", "libplan/src/Engine.cpp", "#include <acs/protocol/Codec.hpp>\n", 1, "another library"),
     ("layers", "libplan/src/Engine.cpp", "#include <acs/adapter_test/Finding.hpp>\n", 1, "another library"),
+    ("layers", "libplan/src/Engine.hpp", "#pragma once\n#include <acs/plan_json/Fields.hpp>\n", 2, "internal"),
+    ("layers", "apps/acsctl/Bad.cpp", "#include <acs/plan_json/Fields.hpp>\n", 1, "internal"),
+    ("layers", "apps/acsd/Bad.hpp", "#pragma once\n#include <acs/plan_json/Fields.hpp>\n", 2, "internal"),
+    ("layers", "libplan/json/include/acs/plan_json/Bad.hpp", "#pragma once\n#include <acs/protocol/Codec.hpp>\n", 2, "above"),
     ("layers", "libplan/adapter-test/src/Bad.cpp", "#include <acs/protocol/Codec.hpp>\n", 1, "out of reach"),
     ("layers", "libplan/adapter-test/src/Bad.cpp", "auto now = std::chrono::steady_clock::now();\n", 1, "clock"),
     ("layers", "libacs-protocol/beast/src/Bad.cpp", "#include <acs/vda5050/Header.hpp>\n", 1, "out of reach"),
@@ -216,7 +223,7 @@ PLANTED = [
     ("words", "scripts/setup", "# one\n# two goes\n# on\n", 2, "write continue"),
     ("words", "tests/install/consumer_Core.cpp", "int tells = 1; // the plan\n// is told so\n", 2, "'told': write report"),
     ("words", "tests/install/consumer_Core.cpp", "const char* text = \"a mistake\";\n", 1, "'mistake': write error"),
-    ("words", "libplan/src/codec/StoreCodec.cpp", "// a doubtful job\n", 1, "'doubtful': write unresolved"),
+    ("words", "libplan/json/include/acs/plan_json/PlanFields.hpp", "// a doubtful job\n", 1, "'doubtful': write unresolved"),
     ("words", "libplan/src/Engine.cpp", "const char* key = \"doubtful\";\n", 1, "'doubtful': write unresolved"),
 ]
 
@@ -252,7 +259,7 @@ ACCEPTED = [
     ("translations", "docs/guide/other.md", "# A page that needs no translation\n"),
     ("words", "docs/guide.md", "`nobody` stands for [it](told.md); a look-up, on-going, wished. They mistake the order for another.\n"),
     ("words", "tests/install/consumer_Core.cpp", "int mistake = nobody(told); // counts\n"),
-    ("words", "libplan/src/codec/StoreCodec.cpp", "Optional(\"doubtful\", &Work::bUnresolved);\n"),
+    ("words", "libplan/json/include/acs/plan_json/PlanFields.hpp", "Optional(\"doubtful\", &Work::bUnresolved);\n"),
 ]
 
 

@@ -17,7 +17,7 @@ inline constexpr auto TRANSACTION_ID = [](const auto& content) -> decltype(conte
     return content.transactionID;
 };
 
-/// That member of the variant's alternative; empty if it has none, or if it has no value.
+/// The member that `get` selects, of the alternative that the variant has; empty if there is none, or if it has no value.
 template <typename TVariant, typename TGet>
 [[nodiscard]] std::string FindMember(const TVariant& value, const TGet& get)
 {

@@ -17,7 +17,7 @@ namespace ACS::Acsd
 namespace
 {
 
-/// Reads of an event whether it has a job check.
+/// The member that states whether an event has a job check.
 struct JobCheckMark
 {
     bool bOn = false;
@@ -30,7 +30,7 @@ struct JobCheckMark
 namespace ACS::Json
 {
 
-/// Of a check only whether there is one; what is read has none.
+/// Written as whether there is a check; read as none.
 template <>
 struct ValueEncoder<decltype(Planning::JobCheckChanged::jobCheck)>
 {

@@ -83,8 +83,9 @@ CLI::Option& AddDurationOption(
         app,
         name,
         [&target](const std::string& text) {
-            std::string error = AssignValue(ParseDuration(text), target);
-            return error.empty() && target.count() == 0 ? std::string("expected a duration above 0") : error;
+            const Core::Result<std::chrono::milliseconds> duration = ParseDuration(text);
+            return duration == std::chrono::milliseconds(0) ? std::string("expected a duration above 0")
+                                                            : AssignValue(duration, target);
         },
         help);
     option.type_name("DURATION");

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <system_error>
 
 namespace ACS::McsSim
 {

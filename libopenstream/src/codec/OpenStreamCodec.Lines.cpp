@@ -130,6 +130,7 @@ Core::Result<OpenStreamLine> DecodeTyped(std::string_view type, const Value& roo
 template <typename TLine>
 void WriteLine(const TLine& line, Json::JsonWriter& writer)
 {
+    static_assert(!TYPE<TLine>.empty());
     writer.Key(KEY_TYPE);
     writer.WriteString(TYPE<TLine>);
     if constexpr (!std::is_empty_v<TLine>)

@@ -313,7 +313,9 @@ void AcsdProcess::CheckWaitReasons() const
     for (const Planning::WaitReason& reason : GetEngine().GetWaitReasons())
     {
         const bool bComplete = !reason.message.empty()
-            && std::ranges::none_of(reason.robots, &std::string::empty, &Planning::RobotUnavailability::reason);
+            && std::ranges::none_of(reason.robots, [](const Planning::RobotUnavailability& robot) {
+                   return robot.reason.empty();
+               });
         if (!bComplete)
         {
             _around.trace.Violate("plan {} waits without a reason", reason.planID);

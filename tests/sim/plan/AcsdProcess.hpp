@@ -115,7 +115,8 @@ private:
     void OnAction(const Planning::EngineAction& action, const Acsd::AcsdCore::ActionHandler& execute);
     void OnReport(const Planning::SendReport& report, const Acsd::AcsdCore::ActionHandler& execute);
     void OnRobotEvent(const std::string& robotID, const Planning::RobotEvent& event);
-    /// An operator may ask at any time, and each plan that waits has its reason.
+    /// An operator may ask at any time, and each plan that waits has its reason. What the functions read that they must not
+    /// read, such as the value of an empty optional, is found by builds with sanitizers only.
     void CheckWaitReasons() const;
     void CrashByChance(std::size_t permyriad, std::string_view where);
 

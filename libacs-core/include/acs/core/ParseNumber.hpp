@@ -8,7 +8,7 @@
 namespace ACS::Core
 {
 
-/// The number that the whole text is, in the notation of std::from_chars: decimal, without blanks and without a plus sign.
+/// Reads the whole text as a number, in the notation of std::from_chars: decimal, without blanks and without a plus sign.
 /// nullopt if the text is anything else, or if TNumber cannot represent the number. A floating-point TNumber also accepts
 /// infinity and not-a-number.
 template <typename TNumber>

@@ -24,7 +24,8 @@ struct NodeArrival
     std::uint32_t sequenceID = 0;
     /// The vehicle is stationary: required on a leg with bStopAtNode, and instead of OnDrivingChanged(false).
     bool bStationary = false;
-    /// The results of the actions of the edge that the vehicle has left. Running ones that are not listed fail, and the session requests StopAction.
+    /// The results of the actions of the edge that the vehicle has left. Running ones that are not listed fail, and the session
+    /// requests StopAction.
     std::vector<EdgeActionEnd> edgeActions = {};
 };
 

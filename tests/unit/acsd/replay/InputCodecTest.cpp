@@ -186,6 +186,22 @@ TEST_CASE("A recorded command of the operator is read as it was")
     }
 }
 
+TEST_CASE("The record of a command names its plan and its robot")
+{
+    const auto describe = [](const Planning::PlanCommand& command) {
+        const CoreRecord record = EncodeInput(OfferInput{command, std::nullopt});
+        return record.planID + "/" + record.robotID;
+    };
+    Planning::SubmitPlan submit;
+    submit.plan.planID = "P1";
+    CHECK(describe(submit) == "P1/");
+    CHECK(describe(Planning::SkipStep{"P1", 2, 0}) == "P1/");
+    CHECK(describe(Planning::SetMaintenance{"LR01", true, 0}) == "/LR01");
+    CHECK(describe(Planning::ClearAlarms{"LR01", "AGV-1", "P1", std::nullopt, 0}) == "P1/LR01");
+    CHECK(describe(Planning::ClearAlarms{"LR01", "AGV-1", std::nullopt, std::nullopt, 0}) == "/LR01");
+    CHECK(describe(Planning::ControlTSC{true, 0}) == "/");
+}
+
 TEST_CASE("A recorded event of the session with the MCS is read as it was")
 {
     for (const Protocol::SessionEvent& event : MakeSessionEvents())

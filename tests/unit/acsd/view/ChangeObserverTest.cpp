@@ -43,6 +43,7 @@ TEST_CASE("Each change of state is an entry with its objects and a line")
     status.robotID = "LR01";
     status.message = "LR01: no connection.";
     feed.OnRobotStatusChanged(status, {});
+    REQUIRE(entries.size() == 5);
     CHECK(
         entries[0]
         == R"({"time":"1970-01-01T00:00:00.000Z","kind":"alarm","robotId":"LR01","planId":"P1","stepNo":3,"jobId":"J1",)"
@@ -55,7 +56,6 @@ TEST_CASE("Each change of state is an entry with its objects and a line")
     CHECK(texts[1] == "heavy alarm ACS-1008 of LR01 cleared");
     CHECK(texts[3] == "entered N1");
     CHECK(texts[4] == "robot LR01: Disconnected: LR01: no connection.");
-    CHECK(texts.size() == 5);
 }
 
 TEST_CASE("Each observer of an engine receives each change, in the order in which they were added")

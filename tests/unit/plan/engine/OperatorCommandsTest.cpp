@@ -132,12 +132,12 @@ TEST_CASE("OperatorCommands: the outcome of a known job is the robot's to report
 {
     OperatorParts parts;
     ActivePlan& plan = parts.BeginLoad();
-    const ResolveJob settle{"P1", "P1-a4", EJobResolution::Failed, 7};
-    parts.commands.Resolve(settle);
+    const ResolveJob resolve{"P1", "P1-a4", EJobResolution::Failed, 7};
+    parts.commands.Resolve(resolve);
     CHECK_FALSE(IsReplyAccepted(parts.Collect()));
     parts.lr.view.bOnline = false;
     CHECK(parts.commands.GetRejectionReasonOrNull(ResolveJob{"P1", "P1-a4", EJobResolution::Again, 7}).has_value());
-    parts.commands.Resolve(settle);
+    parts.commands.Resolve(resolve);
     CHECK(IsReplyAccepted(parts.Collect()));
     CHECK(plan.record.progress.state == EPlanState::Failed);
 }

@@ -102,6 +102,64 @@ TEST_CASE("Store texts: every kind of report is decoded as it was encoded")
     }
 }
 
+TEST_CASE("Store texts: the texts of stores that exist are written and read")
+{
+    const auto check = [](const std::string& written, const auto& read, std::string_view text, const auto& value) {
+        CHECK(written == text);
+        CHECK(read(text) == value);
+    };
+    const auto checkReport = [&check](const Report& report, std::string_view text) {
+        check(EncodeReport(report), DecodeReport, text, report);
+    };
+    checkReport(
+        PlanReport{"P1", EPlanState::Failed, "why"},
+        R"({"kind":"Plan","planId":"P1","planState":"Failed","message":"why"})");
+    checkReport(
+        StepReport{"P1", "LR01", 1, EStepState::InProgress, ""},
+        R"({"kind":"Step","planId":"P1","robotId":"LR01","stepNo":1,"stepState":"InProgress"})");
+    checkReport(
+        JobReport{"P1", "LR01", 1, "J1", EJobState::Instructed, "m"},
+        R"({"kind":"Job","planId":"P1","robotId":"LR01","stepNo":1,"jobId":"J1","jobState":"Instructed","message":"m"})");
+    const Alarm alarm{"LR01", "AGV-x", EAlarmLevel::Light, "m", "P1", 2, std::nullopt};
+    checkReport(
+        ErrorReport{alarm, false},
+        R"({"kind":"Error","set":false,"alarm":{"robotId":"LR01","errorCode":"AGV-x","level":"light","message":"m",)"
+        R"("planId":"P1","stepNo":2}})");
+    checkReport(
+        ControlResultReport{EPlanControl::Abort, "P1", true, "late"},
+        R"({"kind":"Control","planId":"P1","control":"Abort","succeeded":true,"message":"late"})");
+    check(
+        EncodeAlarm(alarm),
+        DecodeAlarm,
+        R"({"robotId":"LR01","errorCode":"AGV-x","level":"light","message":"m","planId":"P1","stepNo":2})",
+        alarm);
+
+    const Core::WallTime time(std::chrono::nanoseconds(1'751'457'600'123'456'789));
+    PlanProgress progress;
+    progress.state = EPlanState::InProgress;
+    progress.robotID = "CR01";
+    progress.startedAt = time;
+    progress.steps = {{EStepState::Completed, {EJobState::Completed}}, {EStepState::Dispatched, {}}};
+    progress.queuedAt = std::chrono::milliseconds(7);
+    progress.storedAt = std::chrono::milliseconds(8);
+    progress.requestIDs = {"Pause 1"};
+    check(
+        EncodeProgress(progress),
+        DecodeProgress,
+        R"({"state":"InProgress","robotId":"CR01","startedAt":1751457600123456789,"steps":[{"state":"Completed",)"
+        R"("jobs":["Completed"]},{"state":"Dispatched"}],"arrived":false,"controlCount":0,"controlOrigin":"MCS",)"
+        R"("requestIds":["Pause 1"],"queuedAt":7,"storedAt":8})",
+        progress);
+    const Block block{EBlockKind::Station, "A01.CP01", "cleaning", time};
+    check(
+        EncodeBlock(block),
+        DecodeBlock,
+        R"({"kind":"station","id":"A01.CP01","reason":"cleaning","since":1751457600123456789})",
+        block);
+    const CarriersChanged carriers{"CR01", {std::nullopt, "TRAY_02"}};
+    check(EncodeCarriers(carriers), DecodeCarriers, R"({"robotId":"CR01","carrierIds":[null,"TRAY_02"]})", carriers);
+}
+
 TEST_CASE("Store texts: a damaged text is refused")
 {
     CHECK_FALSE(DecodePlan("").has_value());

@@ -32,7 +32,7 @@ struct DrivenRobotConfig
     const DriverContext* contextOrNull = nullptr; ///< Read by acsd's own drivers only; null in tests of a driver.
 };
 
-/// A kind of robot that acsd can command: the integrator's entry point. Has no state; used by one thread.
+/// A kind of robot that acsd can command: the integrator's entry point. Has no state that changes; used by one thread.
 class ACS_API IRobotDriver
 {
 public:

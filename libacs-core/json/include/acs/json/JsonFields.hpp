@@ -14,9 +14,10 @@ namespace ACS::Json
 /// How a member may be missing, and what is written when it has no value.
 enum class EPresence : std::uint8_t
 {
-    Required, ///< Must be there and not null; always written.
-    Optional, ///< May be absent (null is read as absent and counted); left out when nullopt or empty.
-    Nullable, ///< Of a std::optional: null or absent is nullopt; nullopt is written as null. Of a number: null if not finite.
+    Required,  ///< Must be there and not null; always written.
+    Optional,  ///< May be absent (null is read as absent and counted); left out when nullopt or empty.
+    Nullable,  ///< Of a std::optional: null or absent is nullopt; nullopt is written as null. Of a number: null if not
+               ///< finite; absent leaves the default.
     Defaulted, ///< Absent or null leaves the struct's default; always written.
     Alias,     ///< Another name of the field in front of it: read as that field, never written, refused beside it.
 };
@@ -171,7 +172,7 @@ struct NestedAccessor
     }
 };
 
-/// The description of a message struct; specialise once per struct, in the codec's .cpp:
+/// The description of a message struct; specialise once per struct, in the codec's .cpp or a header that all its users include:
 /// `template <> struct JsonFields<Job> { static constexpr auto FIELDS = std::make_tuple(Required("jobId", &Job::jobID), …); };`
 template <typename TStruct>
 struct JsonFields;

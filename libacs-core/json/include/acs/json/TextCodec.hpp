@@ -11,7 +11,7 @@
 namespace ACS::Json
 {
 
-/// The JSON text of a value, for a file of our own.
+/// The JSON text of a value, for a store or a recording.
 template <typename TValue>
 [[nodiscard]] std::string EncodeText(const TValue& value)
 {
@@ -21,7 +21,7 @@ template <typename TValue>
     return text;
 }
 
-/// Reads what EncodeText wrote, however long it is: what may be long is decided before it is written. Accepts any text.
+/// Reads what EncodeText wrote. Without limits: lengths are limited where the values are accepted. Accepts any text.
 template <typename TValue>
 [[nodiscard]] Core::Result<TValue> DecodeText(std::string_view text)
 {

@@ -114,6 +114,9 @@ struct ValueDecoder<TickCount<TTime>>
 template <typename TStruct, typename TTime>
 [[nodiscard]] constexpr auto RequiredTicks(std::string_view name, TTime TStruct::*member)
 {
+    static_assert(
+        !requires(TTime value) { value.has_value(); },
+        "what is required has a value");
     return JsonField<TickAccessor<TStruct, TTime>>{name, {member}, EPresence::Required};
 }
 
