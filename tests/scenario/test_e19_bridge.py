@@ -86,18 +86,21 @@ class Bridge(ScenarioCase):
         self.recorder = self.line.start("states", "-p", self.port, "-t", f"{TOPIC}/state", "-F", "%p",
                                         binary=shutil.which("mosquitto_sub"))
         self.bridge = self.line.start("e19_bridge", "127.0.0.1", self.port, "V1", "127.0.0.1", self.vehicle.port)
-        # A state from before the vehicle has reported has no position.
-        self.wait_for(lambda state: not state["errors"] and state.get("agvPosition", {}).get("positionInitialized"))
+        # A state from before the vehicle has reported has no position, and a position alone causes no state: ask for the next one.
+        self.wait_for(lambda state: not state["errors"] and state.get("agvPosition", {}).get("positionInitialized"),
+                      is_next_asked_for=True)
 
     def read_states(self):
         return [json.loads(line) for line in self.recorder.log.read_text().splitlines() if line.endswith("}")]
 
-    def wait_for(self, is_reached):
+    def wait_for(self, is_reached, is_next_asked_for=False):
         deadline = time.monotonic() + STATUS_SECONDS
+        count = 0
         while not any(map(is_reached, self.read_states()[-1:])):
             self.assertLess(time.monotonic(), deadline, self.read_states()[-1:])
             time.sleep(0.02)
-            if self.recorder.log.stat().st_size == 0:
+            seen, count = count, len(self.read_states())
+            if count == 0 or is_next_asked_for and count > seen:
                 self.ask_state()
         return self.read_states()[-1]
 
