@@ -49,16 +49,17 @@ template <typename TTime>
 struct TickCount
 {
     TTime* time = nullptr;
-
-    [[nodiscard]] constexpr bool has_value() const // NOLINT(readability-identifier-naming): as of std::optional
-        requires requires(TTime value)
-    {
-        value.has_value();
-    }
-    {
-        return time->has_value();
-    }
 };
+
+template <typename TTime>
+[[nodiscard]] bool IsLeftOut(const TickCount<TTime>& ticks)
+{
+    if constexpr (requires { ticks.time->has_value(); })
+    {
+        return !ticks.time->has_value();
+    }
+    return false;
+}
 
 template <typename TStruct, typename TTime>
 struct TickAccessor
@@ -81,7 +82,7 @@ struct ValueEncoder<TickCount<TTime>>
 {
     static void Encode(const TickCount<TTime>& ticks, JsonWriter& writer)
     {
-        if constexpr (requires { ticks.has_value(); })
+        if constexpr (requires { ticks.time->has_value(); })
         {
             writer.WriteInteger(GetTicks(**ticks.time));
         }
