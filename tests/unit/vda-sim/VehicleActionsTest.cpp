@@ -407,4 +407,31 @@ TEST_CASE("6.6 The base of an arm has no load positions: an order with a pick is
     CHECK(driver.GetState().errors[0].errorType == VDA5050::ErrorTypes::ORDER_ERROR);
 }
 
+TEST_CASE("6.8 waitForTrigger waits for its trigger, however long that takes")
+{
+    VehicleDriver driver("N0");
+    driver.Send(driver.MakeOrderWith(VDA5050::ActionTypes::WAIT_FOR_TRIGGER, "wait"));
+    driver.Pass(300s);
+    CHECK(driver.GetStatus("wait") == EActionStatus::Running);
+    CHECK(driver.Trigger() == 1);
+    driver.Pass(100ms);
+    CHECK(driver.GetStatus("wait") == EActionStatus::Finished);
+    CHECK(driver.Trigger() == 0);
+    driver.Pass(60s);
+    CHECK(driver.GetState().lastNodeID == "N2");
+}
+
+TEST_CASE("6.8 logReport names its log, and the time of an action's type can be set")
+{
+    VdaSim::VirtualVehicleOptions options = VehicleDriver::MakeOptions("N0");
+    options.actionSeconds["logReport"] = 7.0;
+    VehicleDriver driver(std::move(options));
+    driver.SendInstantly(VDA5050::ActionTypes::LOG_REPORT, "log", {{"reason", Core::JsonText::FromString("test")}});
+    driver.Pass(6900ms);
+    CHECK(driver.GetStatus("log") == EActionStatus::Running);
+    driver.Pass(200ms);
+    CHECK(driver.GetStatus("log") == EActionStatus::Finished);
+    CHECK_FALSE(driver.GetState().actionStates.front().resultDescription.empty());
+}
+
 } // namespace ACS::Testing

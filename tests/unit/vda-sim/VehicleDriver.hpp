@@ -119,6 +119,35 @@ public:
         return options;
     }
 
+    /// Ten metres, from N0 to N1, and on to N2.
+    void SendRoute(const std::string& orderID = "order-1")
+    {
+        auto route = MakeRoute(orderID, {"N0", "N1", "N2"});
+        Send(Take(route.MakeOrder(3)));
+    }
+
+    /// The order of the route, its second node with this action on it.
+    [[nodiscard]] VDA5050::OrderMessage MakeOrderWith(std::string_view actionType, const std::string& actionID)
+    {
+        auto route = MakeRoute("with-" + actionID, {"N0", "N1", "N2"});
+        VDA5050::OrderMessage order = Take(route.MakeOrder(3));
+        VDA5050::Action action;
+        action.actionType = std::string(actionType);
+        action.actionID = actionID;
+        action.blockingType = VDA5050::EBlockingType::Hard;
+        AddMandatoryParameters(action);
+        order.nodes[1].actions.push_back(action);
+        return order;
+    }
+
+    /// Whether a line of the log has this message and this fault.
+    [[nodiscard]] bool HasLine(std::string_view message, std::string_view fault) const
+    {
+        return std::ranges::any_of(_log.GetLines(), [&](const RecordedLine& line) {
+            return line.message == message && line.HasField("fault", fault);
+        });
+    }
+
     /// "stuck for=5s"
     void Inject(std::string_view fault)
     {

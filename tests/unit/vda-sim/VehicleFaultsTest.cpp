@@ -18,77 +18,13 @@ using VDA5050::EErrorLevel;
 using VDA5050::EOperatingMode;
 using VdaSim::EFaultKind;
 
-/// Ten metres, from N0 to N1, and on to N2.
-void SendRoute(VehicleDriver& driver, const std::string& orderID = "order-1")
-{
-    auto route = driver.MakeRoute(orderID, {"N0", "N1", "N2"});
-    driver.Send(VehicleDriver::Take(route.MakeOrder(3)));
-}
-
 const VDA5050::VehicleError* FindErrorOrNull(const VDA5050::StateMessage& state, std::string_view type)
 {
     const auto found = std::ranges::find(state.errors, type, &VDA5050::VehicleError::errorType);
     return found != state.errors.end() ? &*found : nullptr;
 }
 
-bool HasLine(const VehicleDriver& driver, std::string_view message, std::string_view fault)
-{
-    return std::ranges::any_of(driver.GetLog().GetLines(), [&](const RecordedLine& line) {
-        return line.message == message && line.HasField("fault", fault);
-    });
-}
-
-/// The order of the route, its second node with this action on it.
-VDA5050::OrderMessage MakeOrderWith(VehicleDriver& driver, std::string_view actionType, const std::string& actionID)
-{
-    auto route = driver.MakeRoute("with-" + actionID, {"N0", "N1", "N2"});
-    VDA5050::OrderMessage order = VehicleDriver::Take(route.MakeOrder(3));
-    VDA5050::Action action;
-    action.actionType = std::string(actionType);
-    action.actionID = actionID;
-    action.blockingType = VDA5050::EBlockingType::Hard;
-    AddMandatoryParameters(action);
-    order.nodes[1].actions.push_back(action);
-    return order;
-}
-
 } // namespace
-
-TEST_CASE("drop: the connection is cut with the will, the vehicle continues and reconnects by itself")
-{
-    VehicleDriver driver("N0");
-    SendRoute(driver);
-    driver.Pass(2s);
-    driver.Inject("drop for=5s");
-    CHECK_FALSE(driver.IsConnected());
-    CHECK(driver.GetCuts() == std::vector<bool>{true});
-    const std::size_t before = driver.GetPublished().size();
-    const double place = driver.GetPose().x;
-    driver.Pass(4900ms);
-    CHECK(driver.GetPublished().size() == before);
-    CHECK(driver.GetPose().x > place + 4.0);
-    driver.Pass(200ms);
-    CHECK(driver.IsConnected());
-    REQUIRE(driver.GetPublished().size() > before);
-    CHECK(driver.GetPublished()[before].second.topic == "uagv/v2/ACS/LR01/connection");
-    CHECK_THAT(driver.GetPublished()[before].second.payload, Catch::Contains("\"ONLINE\""));
-    driver.Pass(60s);
-    CHECK(driver.GetState().lastNodeID == "N2");
-    CHECK(HasLine(driver, "fault begins", "drop for=5s"));
-    CHECK(HasLine(driver, "fault ended", "drop for=5s"));
-}
-
-TEST_CASE("drop will=no: the connection ends without a will; two drops end with the last of them")
-{
-    VehicleDriver driver("N0");
-    driver.Inject("drop will=no for=2s");
-    driver.Inject("drop for=5s");
-    CHECK(driver.GetCuts() == std::vector<bool>{false, true});
-    driver.Pass(3s);
-    CHECK_FALSE(driver.IsConnected());
-    driver.Pass(3s);
-    CHECK(driver.IsConnected());
-}
 
 TEST_CASE("refuse: an order for another vehicle does not use up the fault")
 {
@@ -148,23 +84,10 @@ TEST_CASE("Of many bad messages the first ones are logged, each in a short line"
     }
 }
 
-TEST_CASE("silence: nothing is published, and the vehicle works on")
-{
-    VehicleDriver driver("N0");
-    SendRoute(driver);
-    driver.Inject("silence for=8s");
-    const std::size_t before = driver.GetPublished().size();
-    driver.Pass(7900ms);
-    CHECK(driver.GetPublished().size() == before);
-    CHECK(driver.GetPose().x > 5.0);
-    driver.Pass(1500ms);
-    CHECK(driver.GetPublished().size() > before);
-}
-
 TEST_CASE("stuck: the vehicle stops at once without an error and continues when the fault ends")
 {
     VehicleDriver driver("N0");
-    SendRoute(driver);
+    driver.SendRoute();
     driver.Pass(4s);
     const double place = driver.GetPose().x;
     driver.Inject("stuck");
@@ -183,7 +106,7 @@ TEST_CASE("stuck error=: the vehicle reports the error; an order that comes mean
 {
     VehicleDriver driver("N0");
     driver.Inject("stuck error=driveFault level=FATAL");
-    SendRoute(driver);
+    driver.SendRoute();
     driver.Pass(10s);
     const VDA5050::StateMessage state = driver.GetState();
     REQUIRE(FindErrorOrNull(state, "driveFault") != nullptr);
@@ -200,7 +123,7 @@ TEST_CASE("stuck error=: the vehicle reports the error; an order that comes mean
 TEST_CASE("blocked: the vehicle brakes, reports fieldViolation, and continues when the fault ends")
 {
     VehicleDriver driver("N0");
-    SendRoute(driver);
+    driver.SendRoute();
     driver.Pass(4s);
     const double place = driver.GetPose().x;
     driver.Inject("blocked for=10s");
@@ -260,7 +183,7 @@ TEST_CASE("lost: the vehicle is not localized and refuses orders until initPosit
     const VDA5050::StateMessage lost = driver.GetState();
     CHECK_FALSE(lost.agvPosition->bPositionInitialized);
     CHECK(FindErrorOrNull(lost, "localizationError") != nullptr);
-    SendRoute(driver);
+    driver.SendRoute();
     CHECK(driver.GetState().orderID.empty());
     CHECK(FindErrorOrNull(driver.GetState(), VDA5050::ErrorTypes::NO_ROUTE_ERROR) != nullptr);
     driver.SendInstantly("initPosition", "half", {{"x", Core::JsonText::FromNumber(0.25)}});
@@ -278,7 +201,7 @@ TEST_CASE("lost: the vehicle is not localized and refuses orders until initPosit
     driver.Pass(2s);
     CHECK(driver.GetStatus("whole") == EActionStatus::Finished);
     CHECK(FindErrorOrNull(driver.GetState(), "localizationError") == nullptr);
-    SendRoute(driver);
+    driver.SendRoute();
     driver.Pass(60s);
     CHECK(driver.GetState().lastNodeID == "N2");
 }
@@ -286,7 +209,7 @@ TEST_CASE("lost: the vehicle is not localized and refuses orders until initPosit
 TEST_CASE("lost while driving: the vehicle brakes, and continues when it is localized again")
 {
     VehicleDriver driver("N0");
-    SendRoute(driver);
+    driver.SendRoute();
     driver.Pass(4s);
     driver.Inject("lost for=10s");
     driver.Pass(9s);
@@ -304,7 +227,7 @@ TEST_CASE(
         VehicleDriver driver("N0");
         driver.Inject(
             bAtStart ? "action-fails type=pick error=jammed when=start" : "action-fails type=pick error=jammed");
-        driver.Send(MakeOrderWith(driver, VDA5050::ActionTypes::FINE_POSITIONING, "fine"));
+        driver.Send(driver.MakeOrderWith(VDA5050::ActionTypes::FINE_POSITIONING, "fine"));
         driver.Pass(60s);
         CHECK(driver.GetStatus("fine") == EActionStatus::Finished);
         auto back = driver.MakeRoute("pick", {"N2", "DOCK"});
@@ -338,7 +261,7 @@ TEST_CASE(
 TEST_CASE("estop: the vehicle brakes hard, its actions wait, and everything continues after it")
 {
     VehicleDriver driver("N0");
-    driver.Send(MakeOrderWith(driver, VDA5050::ActionTypes::PICK, "pick"));
+    driver.Send(driver.MakeOrderWith(VDA5050::ActionTypes::PICK, "pick"));
     driver.Pass(4s);
     const double place = driver.GetPose().x;
     driver.Inject("estop ack=REMOTE for=5s");
@@ -360,7 +283,7 @@ TEST_CASE("estop: the vehicle brakes hard, its actions wait, and everything cont
 TEST_CASE("6.10.6 mode: MANUAL clears the order and refuses others; the vehicle brakes and is free when it is over")
 {
     VehicleDriver driver("N0");
-    SendRoute(driver);
+    driver.SendRoute();
     driver.Pass(4s);
     driver.Inject("mode for=20s");
     CHECK(driver.GetState().operatingMode == EOperatingMode::Manual);
@@ -370,7 +293,7 @@ TEST_CASE("6.10.6 mode: MANUAL clears the order and refuses others; the vehicle 
     CHECK(driver.GetSpeed() == 0.0);
     CHECK_FALSE(driver.GetState().bDriving);
     const double place = driver.GetPose().x;
-    SendRoute(driver, "order-2");
+    driver.SendRoute("order-2");
     CHECK(driver.GetState().orderID == "order-1");
     driver.Pass(60s);
     CHECK(driver.GetPose().x == place);
@@ -380,7 +303,7 @@ TEST_CASE("6.10.6 mode: MANUAL clears the order and refuses others; the vehicle 
 TEST_CASE("6.10.6 mode SERVICE: the order is kept and continues after it")
 {
     VehicleDriver driver("N0");
-    SendRoute(driver);
+    driver.SendRoute();
     driver.Pass(4s);
     driver.Inject("mode mode=SERVICE for=20s");
     driver.Pass(10s);
@@ -410,7 +333,7 @@ TEST_CASE("Driving never empties a battery below its reserve, and leaves one tha
 {
     VehicleDriver driver("N0");
     driver.Inject("battery charge=2");
-    SendRoute(driver);
+    driver.SendRoute();
     driver.Pass(60s);
     CHECK(driver.GetState().batteryState.batteryCharge == 2.0);
     driver.Inject("battery charge=5.1");
@@ -423,64 +346,22 @@ TEST_CASE("refuse: the next order is refused with the given error, the one after
 {
     VehicleDriver driver("N0");
     driver.Inject("refuse error=noRouteError");
-    SendRoute(driver, "order-1");
+    driver.SendRoute("order-1");
     const VDA5050::StateMessage state = driver.GetState();
     CHECK(state.orderID.empty());
     REQUIRE(FindErrorOrNull(state, "noRouteError") != nullptr);
     CHECK(*VDA5050::FindReferenceOrNull(*FindErrorOrNull(state, "noRouteError"), "orderId") == "order-1");
-    CHECK(HasLine(driver, "fault ended", "refuse error=noRouteError"));
-    SendRoute(driver, "order-2");
+    CHECK(driver.HasLine("fault ended", "refuse error=noRouteError"));
+    driver.SendRoute("order-2");
     CHECK(driver.GetState().orderID == "order-2");
     CHECK(driver.GetState().errors.empty());
-}
-
-TEST_CASE("loss and delay: an order that is lost never comes, one that is held back comes late")
-{
-    VehicleDriver driver("N0");
-    driver.Inject("loss topic=order for=1s");
-    SendRoute(driver, "lost");
-    driver.Pass(1s);
-    CHECK(driver.GetState().orderID.empty());
-    driver.Inject("delay time=700ms direction=in");
-    SendRoute(driver, "late");
-    driver.Pass(690ms);
-    CHECK(driver.GetState().orderID.empty());
-    driver.Pass(20ms);
-    CHECK(driver.GetState().orderID == "late");
-}
-
-TEST_CASE("delay: what is published comes late and in its order; a vehicle that leaves holds nothing back")
-{
-    VehicleDriver driver("N0");
-    driver.Inject("delay time=1s jitter=500ms direction=out");
-    const std::size_t before = driver.GetPublished().size();
-    SendRoute(driver);
-    driver.Pass(950ms);
-    CHECK(driver.GetPublished().size() == before);
-    driver.Pass(8s);
-    VDA5050::Vda5050Codec codec;
-    std::optional<std::uint32_t> last;
-    for (std::size_t i = before; i < driver.GetPublished().size(); ++i)
-    {
-        const VDA5050::MqttMessage& message = driver.GetPublished()[i].second;
-        if (message.topic.ends_with("/state"))
-        {
-            const VDA5050::StateMessage state =
-                VehicleDriver::Take(codec.Decode<VDA5050::StateMessage>(message.payload));
-            CHECK((!last.has_value() || state.header.headerID == *last + 1));
-            last = state.header.headerID;
-        }
-    }
-    CHECK(last.has_value());
-    driver.Leave();
-    CHECK_THAT(driver.GetLast().payload, Catch::Contains("\"OFFLINE\""));
 }
 
 TEST_CASE("A fault that waits for a node begins there")
 {
     VehicleDriver driver("N0");
     driver.Inject("stuck node=N1 for=5s");
-    SendRoute(driver);
+    driver.SendRoute();
     REQUIRE(driver.TryPassUntil([&]() { return driver.GetState().lastNodeID == "N1"; }, 60s));
     driver.Pass(1s);
     CHECK_FALSE(driver.GetState().bDriving);
@@ -493,7 +374,7 @@ TEST_CASE("The time of a fault is that of the clock, also where the simulated ti
 {
     VehicleDriver driver("N0", 10.0);
     driver.Inject("stuck at=200ms for=3s");
-    SendRoute(driver);
+    driver.SendRoute();
     driver.Pass(300ms);
     CHECK_FALSE(driver.GetState().bDriving);
     driver.Pass(2800ms);
@@ -505,7 +386,7 @@ TEST_CASE("The time of a fault is that of the clock, also where the simulated ti
 TEST_CASE("A vehicle with a pause and a fault continues when both have ended")
 {
     VehicleDriver driver("N0");
-    SendRoute(driver);
+    driver.SendRoute();
     driver.Pass(2s);
     driver.Inject("blocked");
     driver.SendInstantly(VDA5050::ActionTypes::START_PAUSE, "pause");
@@ -521,75 +402,6 @@ TEST_CASE("A vehicle with a pause and a fault continues when both have ended")
     driver.EndFaults();
     driver.Pass(60s);
     CHECK(driver.GetState().lastNodeID == "N2");
-}
-
-TEST_CASE("6.8 waitForTrigger waits for its trigger, however long that takes")
-{
-    VehicleDriver driver("N0");
-    driver.Send(MakeOrderWith(driver, VDA5050::ActionTypes::WAIT_FOR_TRIGGER, "wait"));
-    driver.Pass(300s);
-    CHECK(driver.GetStatus("wait") == EActionStatus::Running);
-    CHECK(driver.Trigger() == 1);
-    driver.Pass(100ms);
-    CHECK(driver.GetStatus("wait") == EActionStatus::Finished);
-    CHECK(driver.Trigger() == 0);
-    driver.Pass(60s);
-    CHECK(driver.GetState().lastNodeID == "N2");
-}
-
-TEST_CASE("6.8 logReport names its log, and the time of an action's type can be set")
-{
-    VdaSim::VirtualVehicleOptions options = VehicleDriver::MakeOptions("N0");
-    options.actionSeconds["logReport"] = 7.0;
-    VehicleDriver driver(std::move(options));
-    driver.SendInstantly(VDA5050::ActionTypes::LOG_REPORT, "log", {{"reason", Core::JsonText::FromString("test")}});
-    driver.Pass(6900ms);
-    CHECK(driver.GetStatus("log") == EActionStatus::Running);
-    driver.Pass(200ms);
-    CHECK(driver.GetStatus("log") == EActionStatus::Finished);
-    CHECK_FALSE(driver.GetState().actionStates.front().resultDescription.empty());
-}
-
-TEST_CASE("7 A vehicle drives along the trajectory of its edge")
-{
-    VehicleDriver driver("N0");
-    VDA5050::OrderMessage order = VehicleDriver::Take(driver.MakeRoute("curve", {"N0", "N1"}).MakeOrder(2));
-    VDA5050::Trajectory curve;
-    curve.degree = 2;
-    curve.knotVector = {0.0, 0.0, 0.0, 1.0, 1.0, 1.0};
-    curve.controlPoints = {{0.0, 0.0, {}}, {5.0, 6.0, {}}, {10.0, 0.0, {}}};
-    order.edges[0].trajectory = curve;
-    driver.Send(order);
-    CHECK(driver.GetState().edgeStates.front().trajectory == curve);
-    double highest = 0.0;
-    driver.Pass(60s, [&]() { highest = std::max(highest, driver.GetPose().y); });
-    CHECK(highest == Approx(3.0).margin(0.01));
-    CHECK(driver.GetState().lastNodeID == "N1");
-    CHECK(driver.GetPose().x == 10.0);
-    CHECK(driver.GetPose().y == 0.0);
-}
-
-TEST_CASE("The same seed and the same messages give the same run, to the last byte")
-{
-    const auto run = [](std::uint64_t seed) {
-        VehicleDriver driver(VehicleDriver::MakeOptions("N0"), seed);
-        driver.Inject("loss percent=20");
-        driver.Inject("delay time=50ms jitter=200ms direction=out");
-        for (int i = 0; i < 20; ++i)
-        {
-            SendRoute(driver, "order-" + std::to_string(i));
-            driver.Pass(3s);
-        }
-        std::string all;
-        for (const auto& [time, message] : driver.GetPublished())
-        {
-            all += std::to_string(time.time_since_epoch().count()) + message.topic + message.payload;
-        }
-        return all;
-    };
-    const std::string first = run(7);
-    CHECK(first == run(7));
-    CHECK(first != run(8));
 }
 
 } // namespace ACS::Testing

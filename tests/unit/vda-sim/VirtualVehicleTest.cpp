@@ -381,4 +381,23 @@ TEST_CASE("A stationary vehicle with nothing to do requests no tick")
     CHECK(driver.GetPose() == VdaSim::Pose{0.0, 0.0, 0.0});
 }
 
+TEST_CASE("7 A vehicle drives along the trajectory of its edge")
+{
+    VehicleDriver driver("N0");
+    VDA5050::OrderMessage order = VehicleDriver::Take(driver.MakeRoute("curve", {"N0", "N1"}).MakeOrder(2));
+    VDA5050::Trajectory curve;
+    curve.degree = 2;
+    curve.knotVector = {0.0, 0.0, 0.0, 1.0, 1.0, 1.0};
+    curve.controlPoints = {{0.0, 0.0, {}}, {5.0, 6.0, {}}, {10.0, 0.0, {}}};
+    order.edges[0].trajectory = curve;
+    driver.Send(order);
+    CHECK(driver.GetState().edgeStates.front().trajectory == curve);
+    double highest = 0.0;
+    driver.Pass(60s, [&]() { highest = std::max(highest, driver.GetPose().y); });
+    CHECK(highest == Approx(3.0).margin(0.01));
+    CHECK(driver.GetState().lastNodeID == "N1");
+    CHECK(driver.GetPose().x == 10.0);
+    CHECK(driver.GetPose().y == 0.0);
+}
+
 } // namespace ACS::Testing
