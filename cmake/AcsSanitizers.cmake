@@ -6,14 +6,18 @@ if(ACS_SANITIZE)
   add_compile_options(-fsanitize=${ACS_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_compile_definitions(_GLIBCXX_ASSERTIONS) # such as the value of an empty optional, which no sanitizer finds
   add_link_options(-fsanitize=${ACS_SANITIZE})
-  # A sanitizer's tables are mostly addresses and names of source lines. These two make a program a fifth smaller; the first needs
-  # glibc 2.36.
+  # lld links these programs in a fifth of the time that GNU ld takes. GNU ld makes them a fifth smaller: a sanitizer's tables are
+  # mostly addresses and names of source lines. Packed relocations need glibc 2.36.
   include(CheckLinkerFlag)
-  check_linker_flag(CXX LINKER:-z,pack-relative-relocs ACS_LINKER_PACKS)
+  check_linker_flag(CXX -fuse-ld=lld ACS_LINKER_LLD)
+  if(ACS_LINKER_LLD)
+    add_link_options(-fuse-ld=lld)
+  else()
+    check_linker_flag(CXX LINKER:-z,pack-relative-relocs ACS_LINKER_PACKS)
+    add_link_options($<$<BOOL:${ACS_LINKER_PACKS}>:LINKER:-z,pack-relative-relocs>)
+  endif()
   check_linker_flag(CXX LINKER:--compress-debug-sections=zlib ACS_LINKER_COMPRESSES)
-  add_link_options(
-    $<$<BOOL:${ACS_LINKER_PACKS}>:LINKER:-z,pack-relative-relocs>
-    $<$<BOOL:${ACS_LINKER_COMPRESSES}>:LINKER:--compress-debug-sections=zlib>)
+  add_link_options($<$<BOOL:${ACS_LINKER_COMPRESSES}>:LINKER:--compress-debug-sections=zlib>)
 endif()
 if(ACS_SANITIZE MATCHES "undefined" AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   add_compile_options(-fsanitize-ignorelist=${CMAKE_CURRENT_LIST_DIR}/sanitizer-ignorelist.txt)
