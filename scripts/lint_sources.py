@@ -27,12 +27,15 @@ ELSEWHERE = ("tests/fuzz/", "tests/install/", "tests/style/bad/", "tests/unit/co
 # Shared by all clones of a machine, as the compiler's cache is: what passed in one is not checked in another.
 CACHE = os.path.join(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"), "acs-lint")
 QUERIES = os.path.join("scripts", "house-rules.clang-query")
-MAX_BUNDLE = 12
-WITHOUT_ANALYZER = "-clang-analyzer-*"
-# The static analyzer checks one source at a time, which is most of the work: only for what others link.
-ONLY_ANALYZER = "-*,clang-analyzer-*,-clang-analyzer-optin.cplusplus.VirtualCall"
+MAX_BUNDLE = 32
+# Where the static analyzer looks: at what others link and, if asked, at the programs.
 ANALYZED = ("lib",)
 ANALYZED_DEEP = ("lib", "apps/", "examples/")
+WITHOUT_ANALYZER = "-clang-analyzer-*"
+ONLY_ANALYZER = "-*,clang-analyzer-*,-clang-analyzer-optin.cplusplus.VirtualCall"
+# Its full depth, which follows calls, takes nine times as long.
+SHALLOW = ("-Xclang", "-analyzer-config", "-Xclang", "mode=shallow")
+QUOTED_INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
 # What changes no answer.
 COMMENT = re.compile(r"^[ \t]*//(?!.*NOLINT).*\n|[ \t]*///<(?!.*NOLINT).*", re.MULTILINE)
 BROKEN_QUERY = re.compile(r"Error (?:parsing|building)|Matcher not found|Invalid token|unknown command", re.IGNORECASE)
@@ -76,20 +79,30 @@ def run(*command):
 
 
 class Source:
-    def __init__(self, path, command, stamp):
+    def __init__(self, path, command, stamp, is_analyzed, depth):
         self.path = path
         self.full_path = os.path.join(ROOT, path)
         self.stamp = stamp
         self.complaint = ""
-        self.looks = 0  # still to come
+        self.is_analyzed = is_analyzed
+        self.depth = depth
         words = shlex.split(command)[1:]
         out = words.index("-o")
         del words[out:out + 2]
         #: All arguments of the compiler except the names of files.
         self.arguments = [word for word in words if word != "-c" and os.path.join(ROOT, word) != self.full_path]
-        #: What must be equal for two sources to be checked together: the arguments and the rules.
-        self.kind = (*self.arguments, *(folder for folder in self.get_folders()
-                                        if os.path.exists(os.path.join(ROOT, folder, ".clang-tidy"))))
+        #: What must be equal for two sources to be checked together: the checks, the arguments and the rules.
+        self.kind = (is_analyzed, *self.arguments,
+                     *(folder for folder in self.get_folders() if os.path.exists(os.path.join(ROOT, folder, ".clang-tidy"))))
+
+    def get_text(self):
+        """Its text, which compiles in another folder, too."""
+        folder = os.path.dirname(self.full_path)
+
+        def find(match):
+            path = os.path.join(folder, match[1])
+            return f'#include "{path}"' if os.path.exists(path) else match[0]
+        return f'#line 1 "{self.full_path}"\n' + QUOTED_INCLUDE.sub(find, read_text(ROOT, self.path)) + "\n"
 
     def get_folders(self):
         folder = os.path.dirname(self.path)
@@ -99,7 +112,8 @@ class Source:
 
 
 class Bundle:
-    """One file that includes several sources of one kind: most of the time goes into the headers that they share."""
+    """One file that includes several sources of one kind, and one with their texts: most of the time goes into the headers that
+    they share."""
 
     def __init__(self, folder, number, sources):
         self._sources = sources
@@ -113,6 +127,10 @@ class Bundle:
         self._path = os.path.join(place, f"bundle{number}.cpp")
         with open(self._path, "w", encoding="utf-8") as file:
             file.writelines(f'#include "{source.full_path}" // NOLINT\n' for source in sources)
+        self._analyzed_path = os.path.join(place, f"text{number}.cpp")
+        if sources[0].is_analyzed:  # The analyzer passes over what is included.
+            with open(self._analyzed_path, "w", encoding="utf-8") as file:
+                file.writelines(source.get_text() for source in sources)
 
     def find_misfits(self):
         """Sources that do not compile behind the others, as when two have a helper of one name."""
@@ -130,7 +148,14 @@ class Bundle:
                            if not re.search(r"\.cpp:.*\[google-global-names-in-headers\b", line)]
         if true_complaints or (code != 0 and not complaints):
             return False
-        return not query(self._path, "--", *self._sources[0].arguments)
+        if query(self._path, "--", *self._sources[0].arguments):
+            return False
+        return not self._sources[0].is_analyzed or self._is_clean_to_analyzer()
+
+    def _is_clean_to_analyzer(self):
+        code, _ = run("clang-tidy-14", "--quiet", "--warnings-as-errors=*", "--checks=" + ONLY_ANALYZER, self._analyzed_path, "--",
+                      *self._sources[0].arguments, *self._sources[0].depth)
+        return code == 0
 
 
 def query(*arguments):
@@ -145,8 +170,10 @@ def query(*arguments):
     return complaint
 
 
-def tidy(path, checks):
-    code, output = run("clang-tidy-14", "--quiet", "--warnings-as-errors=*", "-p", BUILD, "--checks=" + checks, path)
+def tidy(source):
+    code, output = run("clang-tidy-14", "--quiet", "--warnings-as-errors=*", "-p", BUILD,
+                       "--checks=" + ("" if source.is_analyzed else WITHOUT_ANALYZER),
+                       *("--extra-arg=" + word for word in source.depth), source.full_path)
     return output if code != 0 else ""
 
 
@@ -154,9 +181,8 @@ class Linter:
     """Checks bundles of sources; if one is not clean, its halves, so that each finding is of a source that was checked
     alone."""
 
-    def __init__(self, pool, folder, analyzed, progress):
+    def __init__(self, pool, folder, progress):
         self._pool = pool
-        self._analyzed = analyzed
         self._folder = folder
         self._progress = progress
         self._numbers = itertools.count()
@@ -173,9 +199,6 @@ class Linter:
             count = -(-len(members) // MAX_BUNDLE)
             for part in range(count):
                 self._submit(self._look_at, members[part::count], False)
-        for source in sources:
-            if source.path.startswith(self._analyzed):
-                self._submit(self._analyze, source)
         while self._jobs:
             done, self._jobs = wait(self._jobs, return_when=FIRST_COMPLETED)
             for job in done:
@@ -186,8 +209,8 @@ class Linter:
         """Further calls to make."""
         if len(sources) == 1:
             source = sources[0]
-            source.complaint += tidy(source.full_path, WITHOUT_ANALYZER) + query("-p", BUILD, source.full_path)
-            self._progress("style", sources)
+            source.complaint += tidy(source) + query("-p", BUILD, source.full_path)
+            self._progress(sources)
             return []
         bundle = Bundle(self._folder, next(self._numbers), sources)
         misfits = [] if compiles else bundle.find_misfits()
@@ -197,12 +220,7 @@ class Linter:
         if not bundle.is_clean():
             half = len(sources) // 2
             return [(self._look_at, sources[:half], True), (self._look_at, sources[half:], True)]
-        self._progress("style", sources)
-        return []
-
-    def _analyze(self, source):
-        source.complaint += tidy(source.full_path, ONLY_ANALYZER)
-        self._progress("analysis", [source])
+        self._progress(sources)
         return []
 
 
@@ -224,9 +242,12 @@ def select(arguments):
     if unknown:
         print("not compiled by a target of preset tidy, so not checked: " + ", ".join(sorted(unknown)))
     fingerprints = Fingerprints()
+    analyzed = ANALYZED_DEEP if arguments.deep else ANALYZED
+    depth = () if arguments.deep else SHALLOW
     chosen = []
     for path, command in sorted(commands.items()):
-        source = Source(path, command, os.path.join(CACHE, fingerprints.make(path, command)))
+        source = Source(path, command, os.path.join(CACHE, fingerprints.make(path, command)),
+                        path.startswith(analyzed), depth)
         if arguments.all or arguments.deep or not os.path.exists(source.stamp):
             chosen.append(source)
     return chosen, len(commands), bool(unknown)
@@ -243,27 +264,22 @@ def main():
     chosen, total, orphans = select(arguments)
     print(f"{len(chosen)} of {total} sources to check", flush=True)
     begin = time.monotonic()
-    analyzed = ANALYZED_DEEP if arguments.deep else ANALYZED
-    for source in chosen:
-        source.looks = 2 if source.path.startswith(analyzed) else 1
-    steps = sum(source.looks for source in chosen)
     made = itertools.count(1)
     lock = threading.Lock()
 
-    def progress(what, sources):
+    def progress(sources):
         with lock:
             for source in sources:
-                source.looks -= 1
                 if source.complaint:
                     print(f"FAILED {source.path}\n{source.complaint}", flush=True)
-                elif source.looks == 0:
+                else:
                     with open(source.stamp, "w", encoding="utf-8") as file:
                         file.write(source.path + "\n")
-                print(f"[{next(made)}/{steps} {time.monotonic() - begin:.0f}s] {what} {source.path}", flush=True)
+                print(f"[{next(made)}/{len(chosen)} {time.monotonic() - begin:.0f}s] {source.path}", flush=True)
 
     with tempfile.TemporaryDirectory(prefix="lint-", dir=BUILD) as folder:
         with ThreadPoolExecutor(max_workers=arguments.jobs) as pool:
-            Linter(pool, folder, analyzed, progress).run(chosen)
+            Linter(pool, folder, progress).run(chosen)
     failed = [source for source in chosen if source.complaint]
     if failed:
         print("failed: " + " ".join(source.path for source in failed))
