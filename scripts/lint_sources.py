@@ -117,6 +117,8 @@ class Bundle:
 
     def __init__(self, folder, number, sources):
         self._sources = sources
+        # What shadows a name of another source shadows nothing in its own.
+        self._arguments = (*sources[0].arguments, "-Wno-shadow")
         # A place of the same depth: clang-tidy looks for rules in the folders above.
         place = os.path.join(folder, os.path.dirname(sources[0].path))
         os.makedirs(place, exist_ok=True)
@@ -134,27 +136,27 @@ class Bundle:
 
     def find_misfits(self):
         """Sources that do not compile behind the others, as when two have a helper of one name."""
-        _, output = run("clang++-14", "-fsyntax-only", "-w", "-ferror-limit=0", *self._sources[0].arguments, self._path)
+        _, output = run("clang++-14", "-fsyntax-only", "-w", "-ferror-limit=0", *self._arguments, self._path)
         broken = set(re.findall(r"^(\S+?):\d+:\d+: (?:fatal )?error: ", output, re.MULTILINE))
         return [source for source in self._sources if source.full_path in broken]
 
     def is_clean(self):
         code, output = run("clang-tidy-14", "--quiet", "--warnings-as-errors=*", "--checks=" + WITHOUT_ANALYZER,
                            f"--header-filter=^{re.escape(ROOT)}/(lib|apps/|examples/|tests/)", self._path, "--",
-                           *self._sources[0].arguments)
+                           *self._arguments)
         complaints = re.findall(r"^.*: (?:error|warning): .*$", output, re.MULTILINE)
         # What is included counts as a header there.
         true_complaints = [line for line in complaints
                            if not re.search(r"\.cpp:.*\[google-global-names-in-headers\b", line)]
         if true_complaints or (code != 0 and not complaints):
             return False
-        if query(self._path, "--", *self._sources[0].arguments):
+        if query(self._path, "--", *self._arguments):
             return False
         return not self._sources[0].is_analyzed or self._is_clean_to_analyzer()
 
     def _is_clean_to_analyzer(self):
         code, _ = run("clang-tidy-14", "--quiet", "--warnings-as-errors=*", "--checks=" + ONLY_ANALYZER, self._analyzed_path, "--",
-                      *self._sources[0].arguments, *self._sources[0].depth)
+                      *self._arguments, *self._sources[0].depth)
         return code == 0
 
 
