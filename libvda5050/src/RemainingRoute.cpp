@@ -79,8 +79,8 @@ void RemainingRoute::Append(OrderMessage order)
 void RemainingRoute::DropFront()
 {
     assert(!_steps.empty());
-    _startNodeID = std::move(_steps.front().nodeID);
     _bytes -= Measure(0);
+    _startNodeID = std::move(_steps.front().nodeID);
     _steps.pop_front();
     _released -= std::min<std::size_t>(_released, 1);
 }

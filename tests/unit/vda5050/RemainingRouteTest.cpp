@@ -102,8 +102,10 @@ TEST_CASE("A remaining route drops from its front and its end, and knows where i
     CHECK(route.GetSize() == 1);
     CHECK(route.GetEdge(0) == order.edges[1]);
     CHECK(route.CountReleased() == 0);
+    CHECK(route.GetReleasedBytes() == 0);
     route.Cut(0);
     CHECK(route.IsEmpty());
+    CHECK(route.GetReleasedBytes() == 0);
     route.Append(order);
     route.Cut(1);
     CHECK(route.GetEdge(0) == order.edges[0]);
