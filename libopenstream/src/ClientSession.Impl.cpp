@@ -106,7 +106,7 @@ void ClientSession::Impl::OnBytes(std::string_view bytes, Core::Now now, ClientA
     _framer.Keep();
     if (IsConnected() && _framer.HasOverflown())
     {
-        HandleLoss(EClientLossReason::LineTooLong, "the controller sent a line beyond the limit", now, out);
+        Disconnect(EClientLossReason::LineTooLong, "the controller sent a line beyond the limit", now, out);
     }
 }
 

@@ -319,7 +319,9 @@ TEST_CASE("7.20 A line beyond the limit ends the connection")
 
 TEST_CASE("7.21 Stop sends STOP session and waits for its ack; without an answer it ends too")
 {
-    ClientFixture client;
+    ClientSessionOptions options;
+    options.longestLine = 1'000;
+    ClientFixture client(options);
     MakeReady(client);
     static_cast<void>(client.Control("/a"));
     client.session.Stop(client.GetNow(), client.actions);
@@ -338,6 +340,10 @@ TEST_CASE("7.21 Stop sends STOP session and waits for its ack; without an answer
     SECTION("silent")
     {
         client.Pass(2s);
+    }
+    SECTION("an overlong line")
+    {
+        client.Receive(std::string(options.longestLine + 1, 'x'));
     }
     REQUIRE(client.Take<ClientEnded>().size() == 1);
     REQUIRE(client.session.GetState() == EClientState::Stopped);
