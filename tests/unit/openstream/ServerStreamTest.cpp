@@ -137,6 +137,20 @@ TEST_CASE("7.24 Repeating the MONITOR does not count as reading; the longest per
     REQUIRE(server.session.GetState() >= EServerState::Closing);
 }
 
+TEST_CASE("7.24 A shorter period does not make the silence before it an interruption")
+{
+    ServerFixture server;
+    Stream(server, 30'000).Pass(20s);
+    server.Receive(MakeMonitorLine(20));
+    server.Pass(100ms);
+    REQUIRE(server.session.GetState() == EServerState::Streaming);
+    REQUIRE(server.Count("session_timeout") == 0);
+    REQUIRE(server.Count("\"data\"") == 5);
+    server.bSocketTakes = false;
+    server.Pass(5'100ms);
+    REQUIRE(server.session.GetState() == EServerState::Closing);
+}
+
 TEST_CASE("7.26 A slow reader gets the newest sample complete, and every ack")
 {
     ServerFixture server;
