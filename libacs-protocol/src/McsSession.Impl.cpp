@@ -142,6 +142,7 @@ void McsSession::Impl::CloseUnregistered(Core::Now now, SessionActions& out)
     {
         if (unregistered.deadline <= now.steady)
         {
+            std::erase(_connections, unregistered.id); // what it sends until it is closed is ignored
             out.emplace_back(Close{unregistered.id, CLOSE_POLICY, "no Registration has come"});
         }
     }

@@ -76,6 +76,10 @@ TEST_CASE("6.2 A connection without a Registration is closed, so that idle ones 
     CHECK(closes[0].code == 1008);
     CHECK(bench.session.IsRegistered());
     CHECK(bench.recorder.GetAll<Protocol::StartTimer>().empty());
+    bench.recorder.Clear();
+    bench.Text(1, MakeRequestText("Registration", "{}", "late"));
+    CHECK(bench.recorder.out.empty());
+    CHECK(bench.session.GetRegisteredOrNull() == Protocol::ConnectionID(2));
 }
 
 TEST_CASE("6.2 No Registration is awaited once all connections have registered or closed")
