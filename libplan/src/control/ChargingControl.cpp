@@ -78,9 +78,10 @@ void ChargingControl::EndCharging(Robot& robot)
 
 void ChargingControl::OnChargeRetry(Robot& robot)
 {
-    if (!IsChargeDue(robot) || robot.view.state->bCharging || !robot.charging.TryRepeat())
+    const bool bCharging = robot.view.state.has_value() && robot.view.state->bCharging;
+    if (bCharging || !robot.charging.TryRepeat() || !IsChargeDue(robot))
     {
-        return;
+        return; // If it is not due now, ChargeIdle repeats the command once it is.
     }
     if (robot.charging.IsBatteryLow())
     {

@@ -103,6 +103,30 @@ TEST_CASE("ChargingControl: a robot that stops charging by itself is timed again
     CHECK(parts.Collect().GetDelayOrNull(EEngineTimer::ChargeRetry).has_value());
 }
 
+TEST_CASE("ChargingControl: a robot that stopped charging is commanded again once it is due, whenever that is")
+{
+    EngineParts parts(MakeChargingOptions());
+    parts.PutOn(parts.lr, "D-CHG03");
+    ReportBattery(parts, 50, true);
+    SECTION("not usable when the timer expires")
+    {
+        ReportBattery(parts, 50, false);
+        parts.lr.view.state->bSafetyStop = true;
+        parts.charging.OnChargeRetry(parts.lr);
+        parts.lr.view.state->bSafetyStop = false;
+    }
+    SECTION("full when the timer expires")
+    {
+        ReportBattery(parts, 100, true);
+        ReportBattery(parts, 100, false);
+        parts.charging.OnChargeRetry(parts.lr);
+        ReportBattery(parts, 50, false);
+    }
+    parts.Discard();
+    parts.charging.ChargeIdle();
+    CHECK(parts.Collect().ListCommands<StartCharging>().size() == 1);
+}
+
 TEST_CASE("ChargingControl: charging ends once, and only where it was begun")
 {
     EngineParts parts(MakeChargingOptions());
