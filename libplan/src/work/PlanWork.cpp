@@ -375,6 +375,7 @@ void PlanWork::SuspendJob(Robot& robot, const std::string& reason)
         return;
     }
     StopJobTimer(robot);
+    robot.planOrNull->jobClock.timeLeft.reset(); // of a pause: the job is not continued
     if (robot.planOrNull->record.progress.control == EPlanControl::Abort)
     {
         AbortUnresolvedJob(robot);

@@ -138,6 +138,25 @@ TEST_CASE("PlanControls: a pause lasts from the state that shows it to the state
     CHECK(plan.record.progress.state == EPlanState::InProgress);
 }
 
+TEST_CASE("PlanControls: a plan whose job became unresolved during a pause has no time limit after it")
+{
+    EngineOptions options = MakeTestOptions(false);
+    options.actions["CassetteLoad"].timeout = std::chrono::minutes(1);
+    EngineParts parts(options);
+    ActivePlan& plan = parts.BeginLoad();
+    parts.jobs.OnJobStarted(parts.lr, JobStarted{"P1-a4"});
+    RequestControl(parts, EPlanControl::Pause);
+    parts.lr.view.state->bPaused = true;
+    parts.controls.UpdatePause(parts.lr, false, false);
+    parts.jobs.OnJobUnknown(parts.lr, JobUnknown{"P1-a4"});
+    REQUIRE(parts.lr.job.IsUnresolved());
+    RequestControl(parts, EPlanControl::Resume);
+    parts.lr.view.state->bPaused = false;
+    parts.controls.UpdatePause(parts.lr, false, true);
+    CHECK(plan.record.progress.state == EPlanState::InProgress);
+    CHECK_FALSE(parts.Collect().GetDelayOrNull(EEngineTimer::JobTimeout).has_value());
+}
+
 TEST_CASE("PlanControls: a pause that is not shown in time has failed, and the robot resumes")
 {
     EngineParts parts;
