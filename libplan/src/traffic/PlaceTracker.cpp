@@ -66,7 +66,7 @@ void PlaceTracker::Place(Robot& robot)
     if (!_traffic.TryStand(robot.index, *node, std::span(claim).subspan(1), ahead))
     {
         const auto taken = std::ranges::find_if(claim, [this, &robot](std::size_t other) {
-            return !_traffic.IsFreeFor(other, robot.index);
+            return _traffic.GetHolderOrNull(other).value_or(robot.index) != robot.index;
         });
         const std::size_t holder = *_traffic.GetHolderOrNull(*taken);
         robot.place.bPlaced = false;

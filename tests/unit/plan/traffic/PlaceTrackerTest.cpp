@@ -39,6 +39,22 @@ TEST_CASE("PlaceTracker: a robot on the node of another one has no position, wit
     CHECK(parts.Collect().ListClearedAlarms() == std::vector<std::string>{"ACS-1003"});
 }
 
+TEST_CASE("PlaceTracker: the alarm names the node that another robot holds, not one that is only near it")
+{
+    EngineOptions options = MakeTestOptions(false);
+    options.clearance = 1;
+    EngineParts parts(options);
+    parts.PutOn(parts.cr, "L05");
+    parts.PutOn(parts.lr, "L03");
+    parts.Discard();
+    parts.lr.view.state->heldNodeIDs = {"L04", "L05"};
+    parts.places.Place(parts.lr);
+    CHECK_FALSE(parts.lr.place.bPlaced);
+    const std::vector<AlarmSet> alarms = parts.Collect().ListChanges<AlarmSet>();
+    REQUIRE(alarms.size() == 1);
+    CHECK(alarms.front().alarm.message.find("node L05, which is reserved for CR01") != std::string::npos);
+}
+
 TEST_CASE("PlaceTracker: an unknown node is an alarm of a robot that had a position")
 {
     EngineParts parts;
