@@ -339,6 +339,18 @@ void InputQueue::AppendCommand(QueuedCommand queued, Commands& commands)
     }
 }
 
+void InputQueue::Remove(const EngineTimer& timer)
+{
+    if (_timers.erase(timer) == 0)
+    {
+        return;
+    }
+    _urgent.remove_if([&timer](const auto& input) {
+        const auto* const timerOrNull = std::get_if<EngineTimer>(&input);
+        return timerOrNull != nullptr && *timerOrNull == timer;
+    });
+}
+
 std::vector<PlanCommand> InputQueue::Clear()
 {
     std::vector<PlanCommand> commands;

@@ -73,6 +73,8 @@ public:
     [[nodiscard]] bool TryPush(EngineInput& input, std::optional<CommandReceipt> receiptOrNull = std::nullopt);
     /// Only if not empty.
     [[nodiscard]] Next Pop();
+    /// The timer was cancelled or restarted: if it has expired before, it is removed.
+    void Remove(const EngineTimer& timer);
     /// Removes all inputs. Returns the commands among them, except acknowledgements.
     [[nodiscard]] std::vector<PlanCommand> Clear();
     [[nodiscard]] bool IsEmpty() const noexcept;

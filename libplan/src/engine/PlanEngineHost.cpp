@@ -153,6 +153,15 @@ void PlanEngineHost::ExecuteNext()
     }
     else
     {
+        // What it decided on a timer is true of one that has expired while the store worked, too.
+        if (const auto* const startOrNull = std::get_if<StartEngineTimer>(&action))
+        {
+            _inputs->Remove(startOrNull->timer);
+        }
+        else if (const auto* const cancelOrNull = std::get_if<CancelEngineTimer>(&action))
+        {
+            _inputs->Remove(cancelOrNull->timer);
+        }
         _execute(action);
     }
 }

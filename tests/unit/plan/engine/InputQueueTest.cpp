@@ -128,6 +128,25 @@ TEST_CASE_METHOD(InputQueueTest, "Other robots, timers and acknowledgements are 
     CHECK(std::get<InputQueue::Commands>(next).commands == std::vector<PlanCommand>{MessageAcknowledged{7}});
 }
 
+TEST_CASE_METHOD(InputQueueTest, "A timer that was cancelled after it expired is removed, and can expire again")
+{
+    while (!_queue.IsEmpty())
+    {
+        static_cast<void>(_queue.Pop());
+    }
+    const EngineTimer timer{EEngineTimer::JobTimeout, "LR01"};
+    EngineInput expired = timer;
+    _queue.Remove(timer);
+    REQUIRE(_queue.TryPush(expired));
+    Push(LinkChanged{false});
+    _queue.Remove({EEngineTimer::JobTimeout, "CR01"});
+    CHECK(_queue.GetCount() == 2);
+    _queue.Remove(timer);
+    CHECK(PopEvents() == std::vector<RobotEvent>{LinkChanged{false}});
+    REQUIRE(_queue.TryPush(expired));
+    CHECK(_queue.GetCount() == 1);
+}
+
 TEST_CASE_METHOD(InputQueueTest, "Of the states of the store's log, only the latest waits")
 {
     static_cast<void>(PopEvents());

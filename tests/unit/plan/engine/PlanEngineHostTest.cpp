@@ -19,7 +19,7 @@ class HostTest
 protected:
     ManualClock _clock;
     SeededRandom _random{1};
-    PlanEngine _engine{MakeTestOptions(false), MakeTestSite(), _random};
+    PlanEngine _engine;
     PlanEngineHost _host{
         _engine,
         _clock,
@@ -32,6 +32,11 @@ protected:
     std::vector<ReplyCommand> _replies;
     std::vector<EngineTimer> _timers; ///< That were started.
     std::vector<StartJob> _jobs;      ///< That were commanded.
+
+    explicit HostTest(const EngineOptions& options = MakeTestOptions(false))
+        : _engine(options, MakeTestSite(), _random)
+    {
+    }
 
     void OnAction(const EngineAction& action)
     {
@@ -88,6 +93,22 @@ protected:
             list.emplace_back(reply.replyToken, reply.bAccepted);
         }
         return list;
+    }
+};
+
+EngineOptions MakeJobTimeoutOptions()
+{
+    EngineOptions options = MakeTestOptions(false);
+    options.actions["TrayLoad"].timeout = 1min;
+    return options;
+}
+
+class JobTimeoutHostTest : public HostTest
+{
+protected:
+    JobTimeoutHostTest()
+        : HostTest(MakeJobTimeoutOptions())
+    {
     }
 };
 
@@ -333,6 +354,33 @@ TEST_CASE_METHOD(
     REQUIRE(TryStoreAll());
     REQUIRE(_jobs.size() == 2);
     CHECK(_jobs[1].commandID == _jobs[0].commandID);
+}
+
+TEST_CASE_METHOD(
+    JobTimeoutHostTest,
+    "A timer that expired while the disk worked has no effect once an input before it has cancelled or restarted it")
+{
+    StateChanged state;
+    state.lastNodeID = "D-A01.CP01"; // where the plan begins
+    _host.Push(SubmitPlan{MakeControlPlan("P1"), 1});
+    _host.Push(RobotInput{"CR01", LinkChanged{true}});
+    _host.Push(RobotInput{"CR01", state});
+    REQUIRE(TryStoreAll());
+    _host.Push(EngineTimer{EEngineTimer::Dispatch, {}});
+    REQUIRE(TryStoreAll());
+    REQUIRE(_jobs.size() == 1);
+    const EngineTimer timeout{EEngineTimer::JobTimeout, "CR01"};
+    REQUIRE(std::ranges::count(_timers, timeout) == 1);
+    _host.Push(PlanCommand(SetMaintenance{"LR01", true, 2}));
+    REQUIRE(_host.IsStoring());
+    _host.Push(RobotInput{"CR01", JobFinished{"P1-cd"}});
+    _host.Push(timeout);
+    REQUIRE(TryStoreAll());
+    CHECK(_jobs.size() == 2);
+    CHECK(_engine.GetPlanOrNull("P1")->state == EPlanState::InProgress);
+    _host.Push(timeout); // of the second job
+    REQUIRE(TryStoreAll());
+    CHECK(_engine.GetPlanOrNull("P1")->state == EPlanState::Failed);
 }
 
 TEST_CASE_METHOD(
