@@ -215,6 +215,8 @@ void PlanEngine::Impl::Dispatch()
         {
             _drives.SendIdleHome();
         }
+        // A plan that ended above leaves a robot that may not be used.
+        std::ranges::for_each(_engine.fleet, [this](const Robot& robot) { _places.NoteMovable(robot); });
         _drives.ResolveDeadlocks();
         _charging.ChargeIdle();
     }

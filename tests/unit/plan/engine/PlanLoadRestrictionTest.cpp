@@ -59,6 +59,28 @@ TEST_CASE("Load restriction: a plan fails when its robot has no route with its c
     CHECK(world.GetTraceOf("command LR01 Drive to D-A02.CP03").empty());
 }
 
+TEST_CASE("Load restriction: a robot in maintenance whose plan fails for want of a route stays where it is")
+{
+    SiteMap site = MakeTestSite();
+    std::vector<SiteEdge> edges = site.GetEdges();
+    for (SiteEdge& edge : edges)
+    {
+        if (edge.endNodeID == "D-A02.CP03")
+        {
+            std::ranges::for_each(edge.rules, [](SiteEdgeRule& rule) {
+                rule.loadRestriction = SiteLoadRestriction{true, false};
+            });
+        }
+    }
+    site = *SiteMap::Create(site.GetNodes(), edges, site.GetStations());
+    PlanWorld world(1, MakeTestOptions(false), site);
+    BeginPlan(world, MakeTransport("A01.CP01", "A02.CP03"), "Step 1 InProgress");
+    world.Ask(SetMaintenance{"LR01", true, 0});
+    REQUIRE(TryRunUntil(world, "P1", "Plan Failed"));
+    static_cast<void>(TryRunFor(world, std::chrono::minutes(5)));
+    CHECK(world.GetTraceOf("command LR01 Drive to D-CHG01").empty());
+}
+
 TEST_CASE("Load restriction: a robot that is loaded on its way is rerouted before the edge that it may not use")
 {
     EngineOptions options = MakeTestOptions(false);
