@@ -162,11 +162,12 @@ class OwnDriver(ScenarioCase):
         self.start_line()
         self.wait_for_line("in", "job ")
         position = [line.split()[1] for line in self.read_lines("in") if line.startswith("state ")][-1]
+        command = [line.split()[1] for line in self.read_lines("in") if line.startswith("job ")][-1]
         self.kill(self.cart)
         self.assertEqual(self.read_journal(), [])
         self.node = position
         self.cart = self.start_cart(self.cart_address.rsplit(":", 1)[1])
-        self.wait_for_line("in", f"job {self.read_lines('out')[-1].split()[1]} unknown")
+        self.wait_for_line("in", f"job {command} unknown")
         self.judge()
 
     def test_the_project_is_small(self):
