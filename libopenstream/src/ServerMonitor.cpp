@@ -30,8 +30,8 @@ void ServerMonitor::Begin(const MonitorRequest& request, Core::Now now, ServerAc
 
 void ServerMonitor::Replace(const MonitorRequest& request, Core::Now now, ServerActions& out)
 {
-    // The earlier tick stays: a client that sends MONITOR at every period would otherwise starve the stream.
     const Core::SteadyTime due = std::min(GetDataDue(), now.steady + request.period);
+    // The earlier tick stays: a client that sends MONITOR at every period would otherwise starve the stream.
     Apply(request, std::min(_nextTick, now.steady + request.period), out);
     // A silence that the former period allowed is no interruption.
     _lastDataAt = due - request.period;

@@ -215,8 +215,7 @@ void PlanEngine::Impl::Dispatch()
         {
             _drives.SendIdleHome();
         }
-        // A plan that ended above leaves a robot that may not be used.
-        std::ranges::for_each(_engine.fleet, [this](const Robot& robot) { _places.NoteMovable(robot); });
+        _places.NoteAllMovable(); // A robot whose plan ended above may be out of service.
         _drives.ResolveDeadlocks();
         _charging.ChargeIdle();
     }

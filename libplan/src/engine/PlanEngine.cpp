@@ -68,7 +68,7 @@ void PlanEngine::Handle(
     });
     if (!std::ranges::all_of(commands, isAcknowledgement))
     {
-        std::ranges::for_each(_impl->_engine.fleet, [this](const Robot& robot) { _impl->_places.NoteMovable(robot); });
+        _impl->_places.NoteAllMovable();
     }
     _impl->End(out);
 }

@@ -153,7 +153,7 @@ void PlanEngineHost::ExecuteNext()
     }
     else
     {
-        // What it decided on a timer is true of one that has expired while the store worked, too.
+        // The timer may have expired while the store worked, and wait in the queue.
         if (const auto* const startOrNull = std::get_if<StartEngineTimer>(&action))
         {
             _inputs->Remove(startOrNull->timer);

@@ -32,6 +32,11 @@ void PlaceTracker::NoteMovable(const Robot& robot)
     }
 }
 
+void PlaceTracker::NoteAllMovable()
+{
+    std::ranges::for_each(_fleet, [this](const Robot& robot) { NoteMovable(robot); });
+}
+
 void PlaceTracker::Place(Robot& robot)
 {
     const std::optional<std::size_t> node = FindNodeOrNull(robot);

@@ -33,6 +33,8 @@ public:
         std::span<const std::size_t> ahead);
     /// Updates whether the robot can drive; one that cannot is a fixed obstacle.
     void NoteMovable(const Robot& robot);
+    /// The same of all robots.
+    void NoteAllMovable();
     /// Reserves the node of a robot without a drive, and the nodes it may still reach on an order of another master.
     void Place(Robot& robot);
     /// A robot has stopped or started.

@@ -130,10 +130,7 @@ TEST_CASE_METHOD(InputQueueTest, "Other robots, timers and acknowledgements are 
 
 TEST_CASE_METHOD(InputQueueTest, "A timer that was cancelled after it expired is removed, and can expire again")
 {
-    while (!_queue.IsEmpty())
-    {
-        static_cast<void>(_queue.Pop());
-    }
+    static_cast<void>(PopEvents());
     const EngineTimer timer{EEngineTimer::JobTimeout, "LR01"};
     EngineInput expired = timer;
     _queue.Remove(timer);
