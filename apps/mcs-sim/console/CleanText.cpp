@@ -110,6 +110,11 @@ std::string CleanText(std::string_view text)
     return clean;
 }
 
+std::string MakeTail(std::string_view text)
+{
+    return text.empty() ? std::string() : ": " + CleanText(text);
+}
+
 std::size_t GetColumns(std::string_view text)
 {
     std::size_t columns = 0;

@@ -10,6 +10,9 @@ namespace ACS::McsSim
 /// Text from outside made fit for a terminal: control characters and what is not UTF-8 become '?'.
 [[nodiscard]] std::string CleanText(std::string_view text);
 
+/// ": text" with clean text, or nothing for an empty one.
+[[nodiscard]] std::string MakeTail(std::string_view text);
+
 /// Columns that clean text takes on a terminal: 2 for East Asian wide characters, else 1 each.
 [[nodiscard]] std::size_t GetColumns(std::string_view text);
 

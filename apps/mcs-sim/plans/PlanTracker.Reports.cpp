@@ -16,12 +16,6 @@ namespace ACS::McsSim
 namespace
 {
 
-/// ": text", or nothing.
-std::string MakeTail(std::string_view text)
-{
-    return text.empty() ? std::string() : ": " + CleanText(text);
-}
-
 /// What became of a request to cancel, abort, pause or resume.
 template <typename TReport>
 void AddResult(std::string_view name, const TReport& report, PlanTracker::Lines& out)
@@ -30,7 +24,8 @@ void AddResult(std::string_view name, const TReport& report, PlanTracker::Lines&
         fmt::format("{} {} {}{}", CleanText(report.planID), name, GetText(report.result), MakeTail(report.message)));
 }
 
-std::string MakeTail(std::string_view robotID, std::string_view text)
+/// " (robotID): text", or what there is of it.
+std::string MakeRobotTail(std::string_view robotID, std::string_view text)
 {
     return (robotID.empty() ? std::string() : " (" + CleanText(robotID) + ")") + MakeTail(text);
 }
@@ -79,7 +74,7 @@ void PlanTracker::Handle(const Protocol::PlanReport& report, Lines& out)
         "{} PlanReport {}{}",
         CleanText(report.planID),
         GetText(report.status),
-        MakeTail(planOrNull->robotID, report.message)));
+        MakeRobotTail(planOrNull->robotID, report.message)));
 }
 
 void PlanTracker::Handle(const Protocol::StepReport& report, Lines& out)
@@ -115,7 +110,7 @@ void PlanTracker::Handle(const Protocol::StepReport& report, Lines& out)
         CleanText(stepOrNull->action),
         CleanText(stepOrNull->position),
         GetText(report.status),
-        MakeTail(report.robotID, report.message)));
+        MakeRobotTail(report.robotID, report.message)));
 }
 
 void PlanTracker::Handle(const Protocol::JobReport& report, Lines& out)
@@ -163,7 +158,7 @@ void PlanTracker::Handle(const Protocol::JobReport& report, Lines& out)
         number,
         stepOrNull->jobs.size(),
         GetText(report.status),
-        MakeTail(report.robotID, report.message)));
+        MakeRobotTail(report.robotID, report.message)));
 }
 
 void PlanTracker::Handle(const Protocol::ErrorReport& report, Lines& out)
