@@ -171,8 +171,7 @@ public:
     {
         const std::optional<std::size_t> from = _site.FindNodeIndexOrNull(fromNodeID);
         const std::optional<std::size_t> to = _site.FindNodeIndexOrNull(toNodeID);
-        Graph* const graphOrNull = FindGraphOrNull(vehicleTypeID, load);
-        if (!from.has_value() || !to.has_value() || (graphOrNull == nullptr && *from != *to))
+        if (!from.has_value() || !to.has_value())
         {
             return std::nullopt;
         }
@@ -181,6 +180,11 @@ public:
             Route route;
             route.nodes.push_back(MakeNode(*from, vehicleTypeID));
             return route;
+        }
+        Graph* const graphOrNull = FindGraphOrNull(vehicleTypeID, load);
+        if (graphOrNull == nullptr)
+        {
+            return std::nullopt;
         }
         Graph& graph = *graphOrNull;
         Field& field = GetField(graph, *to);

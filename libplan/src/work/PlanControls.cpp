@@ -391,7 +391,7 @@ void PlanControls::Resume(ActivePlan& plan, EControlOrigin origin)
     const bool bShowsPaused = robot.view.state.has_value() && robot.view.state->bPaused;
     if (!robot.control.pause.IsPaused() && !bShowsPaused)
     {
-        ConfirmResume(robot);
+        ConfirmResume(robot, plan);
         return;
     }
     robot.control.pause.Resume();
@@ -417,21 +417,24 @@ void PlanControls::UpdatePause(Robot& robot, bool bBack, bool bWasPaused)
         _transaction.Note(robot, "pause command repeated");
         _transaction.Command(robot, Planning::Pause{});
     }
-    const std::optional<EPlanControl> control =
-        robot.planOrNull == nullptr ? std::nullopt : robot.planOrNull->record.progress.control;
+    if (robot.planOrNull == nullptr)
+    {
+        return;
+    }
+    ActivePlan& plan = *robot.planOrNull;
+    const std::optional<EPlanControl> control = plan.record.progress.control;
     if (control == EPlanControl::Pause && robot.control.pause.IsPaused() && state.bPaused && !state.bDriving)
     {
         _work.ConfirmPause(robot);
     }
     else if (control == EPlanControl::Resume && !state.bPaused)
     {
-        ConfirmResume(robot);
+        ConfirmResume(robot, plan);
     }
 }
 
-void PlanControls::ConfirmResume(Robot& robot)
+void PlanControls::ConfirmResume(Robot& robot, ActivePlan& plan)
 {
-    ActivePlan& plan = *robot.planOrNull;
     _status.PublishStatus(robot, _status.DeriveStatus(robot));
     _answers.LeavePause(plan, DescribeResume(plan));
     _answers.Answer(plan, true, "The plan continues.");

@@ -78,7 +78,7 @@ private:
     /// Section 6.8.
     void Resume(ActivePlan& plan, EControlOrigin origin);
     /// The robot has resumed: reports its status, the plan's state and the result, in this order.
-    void ConfirmResume(Robot& robot);
+    void ConfirmResume(Robot& robot, ActivePlan& plan);
 };
 
 } // namespace ACS::Planning
