@@ -35,7 +35,15 @@ WITHOUT_ANALYZER = "-clang-analyzer-*"
 ONLY_ANALYZER = "-*,clang-analyzer-*,-clang-analyzer-optin.cplusplus.VirtualCall"
 # Its full depth, which follows calls, takes nine times as long.
 SHALLOW = ("-Xclang", "-analyzer-config", "-Xclang", "mode=shallow")
+# What may differ between sources that are checked together: folders, macros and the kind of code that is generated.
+FOLDER_OPTIONS = ("-I", "-isystem")
+CODE_OPTION = re.compile(r"-fPIC|-fPIE|-fvisibility.*|-O\d")
+# What a program has once gets another name in a bundle, unless clang-tidy has a check for that name: whether an exception may
+# escape from main.
+ENTRY_POINT = re.compile(r'^int (main)\(|^extern "C" int (LLVMFuzzerTestOneInput)\(', re.MULTILINE)
+CHECKED_MAIN = re.compile(r"^int main\((?!.*NOLINT)", re.MULTILINE)
 QUOTED_INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
+BROKEN_SOURCE = re.compile(r"^(\S+?):\d+:\d+: (?:fatal )?error: .*\[clang-diagnostic-error\b", re.MULTILINE)
 # What changes no answer.
 COMMENT = re.compile(r"^[ \t]*//(?!.*NOLINT).*\n|[ \t]*///<(?!.*NOLINT).*", re.MULTILINE)
 BROKEN_QUERY = re.compile(r"Error (?:parsing|building)|Matcher not found|Invalid token|unknown command", re.IGNORECASE)
@@ -79,21 +87,42 @@ def run(*command):
 
 
 class Source:
-    def __init__(self, path, command, stamp, is_analyzed, depth):
+    def __init__(self, path, command, stamp, is_analyzed, is_deep):
         self.path = path
         self.full_path = os.path.join(ROOT, path)
         self.stamp = stamp
         self.complaint = ""
         self.is_analyzed = is_analyzed
-        self.depth = depth
+        self.is_deep = is_deep
+        self.depth = () if is_deep else SHALLOW
+        self.folders = []
+        self.macros = {}
+        text = read_text(ROOT, path)
+        self.has_checked_main = bool(CHECKED_MAIN.search(text))
+        self.entry_points = [] if self.has_checked_main else [name for match in ENTRY_POINT.findall(text) for name in match if name]
         words = shlex.split(command)[1:]
         out = words.index("-o")
         del words[out:out + 2]
-        #: All arguments of the compiler except the names of files.
-        self.arguments = [word for word in words if word != "-c" and os.path.join(ROOT, word) != self.full_path]
+        #: All other arguments of the compiler except the names of files.
+        self.arguments = []
+        words = iter(word for word in words if word != "-c" and os.path.join(ROOT, word) != self.full_path)
+        for word in words:
+            option = next((option for option in FOLDER_OPTIONS if word.startswith(option)), None)
+            if option is not None:
+                self.folders.append((option, word.removeprefix(option) or next(words)))
+            elif word.startswith("-D"):
+                name, sign, value = word.removeprefix("-D").partition("=")
+                self.macros[name] = sign + value
+            elif not CODE_OPTION.fullmatch(word):
+                self.arguments.append(word)
         #: What must be equal for two sources to be checked together: the checks, the arguments and the rules.
         self.kind = (is_analyzed, *self.arguments,
                      *(folder for folder in self.get_folders() if os.path.exists(os.path.join(ROOT, folder, ".clang-tidy"))))
+
+    def compiles_alone(self):
+        """In a bundle, or in a unity build, a source could use what another one declares or includes."""
+        code, _ = run("clang++-14", "-fsyntax-only", "-w", *self.arguments, *get_options([self]), self.full_path)
+        return code == 0
 
     def get_text(self):
         """Its text, which compiles in another folder, too."""
@@ -111,6 +140,66 @@ class Source:
             folder = os.path.dirname(folder)
 
 
+def get_options(sources):
+    """Their folders and macros, as arguments of the compiler."""
+    folders = dict.fromkeys(option + folder for source in sources for option, folder in source.folders)
+    macros = dict.fromkeys(macro for source in sources for macro in source.macros.items())
+    return *folders, *(f"-D{name}{value}" for name, value in macros)
+
+
+class HeaderNames:
+    """The names by which the headers of a folder are included. A folder that has a name of another one could hide it."""
+
+    def __init__(self):
+        self._names = {}
+
+    def _get(self, folder):
+        if folder not in self._names:
+            walk = os.walk(folder) if folder.startswith(ROOT) else ()
+            self._names[folder] = {os.path.relpath(os.path.join(place, name), folder)
+                                   for place, _, names in walk for name in names if name.endswith(".hpp")}
+        return self._names[folder]
+
+    def is_disjoint(self, left, right):
+        return left == right or self._get(left).isdisjoint(self._get(right))
+
+
+class Pack:
+    """Sources that can be checked together."""
+
+    def __init__(self, names):
+        self._names = names
+        self._macros = {}
+        self._folders = {}
+        self._has_checked_main = False
+        self.sources = []
+
+    def try_add(self, source):
+        if len(self.sources) == MAX_BUNDLE or (self._has_checked_main and source.has_checked_main):
+            return False
+        if any(self._macros.get(name, value) != value for name, value in source.macros.items()):
+            return False
+        if not all(self._names.is_disjoint(mine[1], other[1]) for mine in self._folders for other in source.folders):
+            return False
+        self._macros.update(source.macros)
+        self._folders.update(dict.fromkeys(source.folders))
+        self._has_checked_main = self._has_checked_main or source.has_checked_main
+        self.sources.append(source)
+        return True
+
+
+def pack(sources):
+    """First fit: in the order of the paths most sources are beside those of their own target."""
+    names = HeaderNames()
+    packs = {}
+    for source in sources:
+        candidates = packs.setdefault(source.kind, [])
+        if not any(candidate.try_add(source) for candidate in candidates):
+            candidates.append(Pack(names))
+            candidates[-1].try_add(source)
+    return [candidate.sources for candidates in packs.values() for candidate in candidates]
+
+
 class Bundle:
     """One file that includes several sources of one kind, and one with their texts: most of the time goes into the headers that
     they share."""
@@ -118,7 +207,7 @@ class Bundle:
     def __init__(self, folder, number, sources):
         self._sources = sources
         # What shadows a name of another source shadows nothing in its own.
-        self._arguments = (*sources[0].arguments, "-Wno-shadow")
+        self._arguments = (*sources[0].arguments, *get_options(sources), "-Wno-shadow")
         # A place of the same depth: clang-tidy looks for rules in the folders above.
         place = os.path.join(folder, os.path.dirname(sources[0].path))
         os.makedirs(place, exist_ok=True)
@@ -128,31 +217,37 @@ class Bundle:
                 shutil.copy(rules, os.path.join(folder, level))
         self._path = os.path.join(place, f"bundle{number}.cpp")
         with open(self._path, "w", encoding="utf-8") as file:
-            file.writelines(f'#include "{source.full_path}" // NOLINT\n' for source in sources)
+            for index, source in enumerate(sources):
+                file.writelines(f"#define {name} EntryPoint{index} // NOLINT\n" for name in source.entry_points)
+                file.write(f'#include "{source.full_path}" // NOLINT\n')
+                file.writelines(f"#undef {name}\n" for name in source.entry_points)
         self._analyzed_path = os.path.join(place, f"text{number}.cpp")
         if sources[0].is_analyzed:  # The analyzer passes over what is included.
             with open(self._analyzed_path, "w", encoding="utf-8") as file:
                 file.writelines(source.get_text() for source in sources)
 
-    def find_misfits(self):
-        """Sources that do not compile behind the others, as when two have a helper of one name."""
-        _, output = run("clang++-14", "-fsyntax-only", "-w", "-ferror-limit=0", *self._arguments, self._path)
-        broken = set(re.findall(r"^(\S+?):\d+:\d+: (?:fatal )?error: ", output, re.MULTILINE))
-        return [source for source in self._sources if source.full_path in broken]
-
-    def is_clean(self):
+    def check(self):
+        """Whether it is clean, and the sources that do not compile behind the others, as when two have a helper of one name, or
+        without them."""
+        if self._sources[0].is_deep:
+            dependent = [source for source in self._sources if not source.compiles_alone()]
+            if dependent:
+                return False, dependent
         code, output = run("clang-tidy-14", "--quiet", "--warnings-as-errors=*", "--checks=" + WITHOUT_ANALYZER,
                            f"--header-filter=^{re.escape(ROOT)}/(lib|apps/|examples/|tests/)", self._path, "--",
-                           *self._arguments)
+                           *self._arguments, "-ferror-limit=0")
+        broken = set(BROKEN_SOURCE.findall(output))
+        if broken:
+            return False, [source for source in self._sources if source.full_path in broken]
         complaints = re.findall(r"^.*: (?:error|warning): .*$", output, re.MULTILINE)
         # What is included counts as a header there.
         true_complaints = [line for line in complaints
                            if not re.search(r"\.cpp:.*\[google-global-names-in-headers\b", line)]
         if true_complaints or (code != 0 and not complaints):
-            return False
+            return False, []
         if query(self._path, "--", *self._arguments):
-            return False
-        return not self._sources[0].is_analyzed or self._is_clean_to_analyzer()
+            return False, []
+        return not self._sources[0].is_analyzed or self._is_clean_to_analyzer(), []
 
     def _is_clean_to_analyzer(self):
         code, _ = run("clang-tidy-14", "--quiet", "--warnings-as-errors=*", "--checks=" + ONLY_ANALYZER, self._analyzed_path, "--",
@@ -194,34 +289,28 @@ class Linter:
         self._jobs.add(self._pool.submit(function, *arguments))
 
     def run(self, sources):
-        kinds = {}
-        for source in sources:
-            kinds.setdefault(source.kind, []).append(source)
-        for members in kinds.values():
-            count = -(-len(members) // MAX_BUNDLE)
-            for part in range(count):
-                self._submit(self._look_at, members[part::count], False)
+        for members in pack(sources):
+            self._submit(self._look_at, members)
         while self._jobs:
             done, self._jobs = wait(self._jobs, return_when=FIRST_COMPLETED)
             for job in done:
-                for function, *arguments in job.result():
-                    self._submit(function, *arguments)
+                for part in job.result():
+                    self._submit(self._look_at, part)
 
-    def _look_at(self, sources, compiles):
-        """Further calls to make."""
+    def _look_at(self, sources):
+        """The parts to check separately."""
         if len(sources) == 1:
             source = sources[0]
             source.complaint += tidy(source) + query("-p", BUILD, source.full_path)
             self._progress(sources)
             return []
-        bundle = Bundle(self._folder, next(self._numbers), sources)
-        misfits = [] if compiles else bundle.find_misfits()
+        is_clean, misfits = Bundle(self._folder, next(self._numbers), sources).check()
         if misfits:
             others = [source for source in sources if source not in misfits] or [misfits.pop(0)]
-            return [(self._look_at, part, False) for part in (others, misfits) if part]
-        if not bundle.is_clean():
+            return [part for part in (others, misfits) if part]
+        if not is_clean:
             half = len(sources) // 2
-            return [(self._look_at, sources[:half], True), (self._look_at, sources[half:], True)]
+            return [sources[:half], sources[half:]]
         self._progress(sources)
         return []
 
@@ -245,11 +334,10 @@ def select(arguments):
         print("not compiled by a target of preset tidy, so not checked: " + ", ".join(sorted(unknown)))
     fingerprints = Fingerprints()
     analyzed = ANALYZED_DEEP if arguments.deep else ANALYZED
-    depth = () if arguments.deep else SHALLOW
     chosen = []
     for path, command in sorted(commands.items()):
         source = Source(path, command, os.path.join(CACHE, fingerprints.make(path, command)),
-                        path.startswith(analyzed), depth)
+                        path.startswith(analyzed), arguments.deep)
         if arguments.all or arguments.deep or not os.path.exists(source.stamp):
             chosen.append(source)
     return chosen, len(commands), bool(unknown)
@@ -258,7 +346,8 @@ def select(arguments):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--all", action="store_true")
-    parser.add_argument("--deep", action="store_true", help="the static analyzer also over programs and examples")
+    parser.add_argument("--deep", action="store_true",
+                        help="each source also compiled alone; the static analyzer at full depth, over programs and examples too")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("files", nargs="*")
     arguments = parser.parse_args()
