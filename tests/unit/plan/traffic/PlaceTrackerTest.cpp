@@ -1,5 +1,6 @@
 #include "Catch.hpp"
 #include "fixtures/EngineParts.hpp"
+#include "fixtures/PlanWorld.hpp"
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 using namespace ACS::Testing;  // NOLINT(google-build-using-namespace): its fixtures
