@@ -1,10 +1,10 @@
 #include "commands/Answers.hpp"
 
 #include "api/ApiCodec.hpp"
+#include "common/config/ShellCommand.hpp"
 #include "view/ActionViews.hpp"
 #include "view/DisplayText.hpp"
 #include "view/LineViews.hpp"
-#include "view/ShellCommand.hpp"
 #include "view/StateViews.hpp"
 #include <acs/core/Result.hpp>
 #include <acs/core/Timestamp.hpp>
@@ -336,7 +336,7 @@ Outcome<Shown> ShowChange(const AcsctlOptions& options, const ApiAnswer& answer)
     }
     if (shown.has_value() && IsPlanControl(options.command) && !options.bJSON)
     {
-        const std::string command = MakeShellCommand("plan", {options.arguments.id});
+        const std::string command = Apps::MakeShellCommand("plan", {options.arguments.id});
         shown->text += MakeDisplayable(command + " and acsctl events show the outcome.") + "\n";
     }
     return shown;

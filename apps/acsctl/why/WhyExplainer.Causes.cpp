@@ -1,7 +1,7 @@
 #include "why/WhyExplainer.hpp"
 
+#include "common/config/ShellCommand.hpp"
 #include "view/AgeText.hpp"
-#include "view/ShellCommand.hpp"
 #include "why/WhyText.hpp"
 
 #include <fmt/format.h>
@@ -103,7 +103,7 @@ std::size_t WhyExplainer::AddWaits(const PlanInfo& plan, std::size_t depth, Chai
             {depth,
              MakeSentence(DescribePause(plan, bStated)),
              {},
-             {"When it may continue: " + MakeShellCommand("resume", {plan.planID})}});
+             {"When it may continue: " + Apps::MakeShellCommand("resume", {plan.planID})}});
     }
     std::size_t stated = NO_CAUSE;
     if (bWaits && !bStated)
@@ -204,7 +204,7 @@ void WhyExplainer::AddOtherPlanRecursive(const PlanInfo& plan, std::size_t depth
     if (depth >= DEEPEST)
     {
         chain.causes.push_back(
-            {depth, std::move(text), {}, {"For its causes: " + MakeShellCommand("why", {plan.planID})}});
+            {depth, std::move(text), {}, {"For its causes: " + Apps::MakeShellCommand("why", {plan.planID})}});
         return;
     }
     chain.causes.push_back({depth, std::move(text), {}, {}});
@@ -250,7 +250,7 @@ void WhyExplainer::AddRobot(const RobotInfo& robot, std::size_t stated, std::siz
                  {}});
         }
         chain.causes[bOwn || stated == NO_CAUSE ? chain.causes.size() - 1 : stated].remedy.push_back(
-            "When it may move: " + MakeShellCommand("maintenance", {robot.robotID, "off"}));
+            "When it may move: " + Apps::MakeShellCommand("maintenance", {robot.robotID, "off"}));
     }
     chain.robots[robot.robotID] = chain.causes.size() != before || robot.bMaintenance;
 }
@@ -300,7 +300,7 @@ void WhyExplainer::AddUnresolvedJobs(const PlanInfo& plan, std::size_t depth, Ch
                 cause.remedy.push_back(fmt::format(
                     "{}: {}",
                     finding,
-                    MakeShellCommand("resolve", {plan.planID, alarm.jobID.value_or("JOB"), outcome})));
+                    Apps::MakeShellCommand("resolve", {plan.planID, alarm.jobID.value_or("JOB"), outcome})));
             }
             chain.causes.push_back(std::move(cause));
         }
@@ -358,7 +358,7 @@ void WhyExplainer::AddBlock(const BlockInfo& block, std::size_t depth, Chain& ch
         {depth,
          MakeSentence(fmt::format("{} is blocked{}{}", Capitalize(name), MakeSince(block.since, _now), reason)),
          {},
-         {"When it is free: " + MakeShellCommand("unblock", {block.kind, block.id})}});
+         {"When it is free: " + Apps::MakeShellCommand("unblock", {block.kind, block.id})}});
 }
 
 Cause WhyExplainer::MakeAlarmCause(const AlarmInfo& alarm, std::size_t depth) const

@@ -1,5 +1,6 @@
 #include "view/StateViewMaker.hpp"
 
+#include "common/config/ShellCommand.hpp"
 #include "operator/AlarmCatalog.hpp"
 #include "view/PlanViewMaker.hpp"
 #include <acs/core/Version.hpp>
@@ -51,7 +52,7 @@ void Forget(std::map<std::string, Core::WallTime, std::less<>>& times, const std
     std::erase_if(times, [&keep](const auto& entry) { return !keep.contains(entry.first); });
 }
 
-/// The members of the alarm in the place of the words that stand for them in the commands between backticks.
+/// The members of the alarm, quoted for a shell, in the place of the words that stand for them in the commands between backticks.
 std::string FillRemedy(std::string_view remedy, const Planning::Alarm& alarm)
 {
     const std::map<std::string_view, std::optional<std::string>> words{
@@ -68,7 +69,7 @@ std::string FillRemedy(std::string_view remedy, const Planning::Alarm& alarm)
         const std::string_view word = remedy.substr(0, end == 0 ? 0 : end);
         const auto found = words.find(word);
         const bool bFilled = bCommand && found != words.end() && found->second.has_value();
-        filled += bFilled ? *found->second : std::string(word);
+        filled += bFilled ? Apps::QuoteForShell(*found->second) : std::string(word);
         filled += remedy[end];
         bCommand = bCommand != (remedy[end] == '`');
         remedy.remove_prefix(end + 1);

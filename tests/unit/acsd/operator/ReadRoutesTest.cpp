@@ -236,6 +236,16 @@ TEST_CASE("An alarm is shown with its time, its cause, and a remedy that names i
     CHECK(HasText(reader.Get("/v1/status"), R"("alarms":{"heavy":1,"light":0})"));
 }
 
+TEST_CASE("The commands of a remedy are quoted for a shell")
+{
+    Reader reader;
+    Planning::Plan plan = MakeLogisticsPlan("$(touch X);x y");
+    plan.steps[0].jobs[0].jobID = "J'1";
+    Testing::BeginPlan(reader.world, std::move(plan), "Job 1 J'1 InProgress");
+    reader.world.Raise("LR01", Planning::JobUnresolved{"J'1", "it was switched off"});
+    CHECK(HasText(reader.Get("/v1/alarms"), R"(`acsctl resolve '$(touch X);x y' 'J'\\''1' done`)"));
+}
+
 TEST_CASE("The snapshot has everything with the number of its last event; the site has nodes, edges and stations")
 {
     Reader reader;

@@ -1,11 +1,11 @@
-#include "view/ShellCommand.hpp"
+#include "common/config/ShellCommand.hpp"
 
 #include "Catch.hpp"
 
 #include <string>
 #include <utility>
 
-namespace Acsctl = ACS::Acsctl;
+namespace Apps = ACS::Apps;
 
 TEST_CASE("A word with a meaning for a shell is quoted, any other stays as it is")
 {
@@ -21,13 +21,13 @@ TEST_CASE("A word with a meaning for a shell is quoted, any other stays as it is
         Row{"*", "'*'"},
         Row{"a\nb", "'a\nb'"},
         Row{"", "''"});
-    CHECK(Acsctl::QuoteForShell(word) == quoted);
+    CHECK(Apps::QuoteForShell(word) == quoted);
 }
 
 TEST_CASE("The words of a command line that begin with - follow --")
 {
-    CHECK(Acsctl::MakeShellCommand("resume", {"P1"}) == "acsctl resume P1");
-    CHECK(Acsctl::MakeShellCommand("resume", {"-P 1"}) == "acsctl resume -- '-P 1'");
-    CHECK(Acsctl::MakeShellCommand("unblock", {"node", "--yes"}) == "acsctl unblock -- node --yes");
-    CHECK(Acsctl::MakeShellCommand("tsc resume", {}) == "acsctl tsc resume");
+    CHECK(Apps::MakeShellCommand("resume", {"P1"}) == "acsctl resume P1");
+    CHECK(Apps::MakeShellCommand("resume", {"-P 1"}) == "acsctl resume -- '-P 1'");
+    CHECK(Apps::MakeShellCommand("unblock", {"node", "--yes"}) == "acsctl unblock -- node --yes");
+    CHECK(Apps::MakeShellCommand("tsc resume", {}) == "acsctl tsc resume");
 }

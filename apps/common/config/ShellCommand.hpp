@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace ACS::Acsctl
+namespace ACS::Apps
 {
 
 /// The word as a shell must read it: between single quotes if it has any character with a meaning for a shell.
@@ -14,4 +14,4 @@ namespace ACS::Acsctl
 /// not quoted; with a word that begins with "-", "--" precedes the words.
 [[nodiscard]] std::string MakeShellCommand(std::string_view command, const std::vector<std::string>& words);
 
-} // namespace ACS::Acsctl
+} // namespace ACS::Apps

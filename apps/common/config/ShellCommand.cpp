@@ -1,8 +1,8 @@
-#include "view/ShellCommand.hpp"
+#include "common/config/ShellCommand.hpp"
 
 #include <algorithm>
 
-namespace ACS::Acsctl
+namespace ACS::Apps
 {
 
 namespace
@@ -51,4 +51,4 @@ std::string MakeShellCommand(std::string_view command, const std::vector<std::st
     return line;
 }
 
-} // namespace ACS::Acsctl
+} // namespace ACS::Apps
