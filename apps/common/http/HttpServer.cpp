@@ -249,7 +249,10 @@ void HttpServer::Impl::TakeNext()
         Tcp::socket socket = std::move(*nextOrNull);
         nextOrNull.reset();
         OnAccepted(std::move(socket));
-        listener->AcceptAsync();
+        if (!nextOrNull.has_value())
+        {
+            listener->AcceptAsync();
+        }
     }
 }
 

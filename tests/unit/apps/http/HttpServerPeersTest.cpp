@@ -1,5 +1,6 @@
 #include "Catch.hpp"
 #include "common/http/HttpPeer.hpp"
+#include "common/http/HttpPendingResponse.hpp"
 #include "common/http/HttpServer.hpp"
 #include "HttpServerFixture.hpp"
 #include "RawHttpClient.hpp"
@@ -125,6 +126,36 @@ TEST_CASE("A peer with its share of connections replaces its own and not those o
     REQUIRE(first.WasClosed());
     other.Send("TP/1.1\r\nHost: x\r\n\r\n");
     REQUIRE(other.HasReceived("<answer>"));
+}
+
+TEST_CASE("A peer that waits keeps its place when the connection of another one ends")
+{
+    Apps::HttpLimits limits;
+    limits.maxPerPeer = 1;
+    Fixture fixture(limits);
+    const auto pending = std::make_shared<Apps::HttpPendingResponse>();
+    fixture.respond = [&](const Apps::HttpRequest& request) {
+        Apps::HttpResponse response = fixture.answer;
+        response.pending = request.path == "/later" ? pending : nullptr;
+        return response;
+    };
+    RawClient other(fixture.context, fixture.port, "127.0.0.2");
+    other.Send("GET / HTTP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(other.HasReceived("<answer>"));
+    RawClient first(fixture.context, fixture.port);
+    first.Send("GET /later HTTP/1.1\r\nHost: x\r\n\r\n");
+    REQUIRE(fixture.IsReached([&fixture] { return fixture.requests.size() == 2; }));
+    RawClient second(fixture.context, fixture.port);
+    second.Send("GET / HTTP/1.1\r\nHost: x\r\n\r\n");
+    RawClient third(fixture.context, fixture.port);
+    third.Send("GET / HTTP/1.1\r\nHost: x\r\n\r\n");
+    other.Send("GET / HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n");
+    REQUIRE(other.WasClosed());
+    fixture.context.poll();
+    pending->Complete({200, "text/plain", "<later>"});
+    REQUIRE(first.HasReceived("<later>"));
+    CHECK(second.HasReceived("<answer>"));
+    CHECK(third.HasReceived("<answer>"));
 }
 
 TEST_CASE("One peer is an IPv4 address, mapped or not, or a /64 of IPv6")
