@@ -152,16 +152,20 @@ HttpResponse SetCarriers(
 HttpResponse ClearAlarms(const Planning::PlanEngine& engine, const CommandAccess& access, ClearBody body)
 {
     const auto isMeant = [&body](const Planning::Alarm& alarm) {
-        return alarm.robotID == body.robotID && alarm.errorCode == body.errorCode;
+        return alarm.robotID == body.robotID && alarm.errorCode == body.errorCode
+            && (!body.planID.has_value() || alarm.planID == body.planID)
+            && (!body.jobID.has_value() || alarm.jobID == body.jobID);
     };
     if (std::ranges::none_of(engine.GetActiveAlarms(), isMeant))
     {
         return Refuse(
             OperatorCode::NOT_FOUND,
             fmt::format(
-                "{} has no alarm {}; /v1/alarms lists the alarms.",
+                "{} has no alarm {}{}{}; /v1/alarms lists the alarms.",
                 Core::QuoteForError(body.robotID),
-                Core::QuoteForError(body.errorCode)));
+                Core::QuoteForError(body.errorCode),
+                body.planID.has_value() ? " of plan " + Core::QuoteForError(*body.planID) : std::string(),
+                body.jobID.has_value() ? " of job " + Core::QuoteForError(*body.jobID) : std::string()));
     }
     return Submit(
         access,

@@ -429,6 +429,9 @@ TEST_CASE("POST /v1/alarms/clear clears by robot and code")
     CHECK(HasText(
         user.Post("/v1/alarms/clear", R"({"robotId":"LR01","errorCode":"ACS-1004"})"),
         "404 {\"error\":\"\\\"LR01\\\" has no alarm \\\"ACS-1004\\\""));
+    CHECK(HasText(
+        user.Post("/v1/alarms/clear", R"({"robotId":"LR01","errorCode":"ACS-1002","planId":"P9"})"),
+        "404 {\"error\":\"\\\"LR01\\\" has no alarm \\\"ACS-1002\\\" of plan \\\"P9\\\";"));
     CHECK(HasText(user.Post("/v1/alarms/clear", R"({"robotId":"LR01"})"), "400 {\"error\":\"Invalid body: "));
     CHECK(HasText(user.Post("/v1/alarms/clear", R"({"robotId":"LR01","errorCode":"ACS-1002","stepNo":1})"), "400 "));
 }
