@@ -15,9 +15,7 @@ namespace ACS::Acsd
 StateFeed::StateFeed(Dependencies dependencies)
     : _dependencies(std::move(dependencies)),
       _maker(_dependencies.engine, _dependencies.clock.GetNow().wall),
-      _entries([this](const ChangeEntry& entry, Core::Now now) {
-          _dependencies.events.Publish("entry", EncodeEntry(entry, now.wall));
-      }),
+      _entries([this](const ChangeEntry& entry, Core::Now now) { OnEntry(entry, now); }),
       _timer(_dependencies.executor, [this](int) { OnTimer(); })
 {
 }
@@ -41,8 +39,9 @@ const StateView& StateFeed::Read()
 const StateView& StateFeed::Update()
 {
     StateView fresh = _maker.Make(_dependencies.getProgram(), _dependencies.clock.GetNow().wall);
-    const StateChanges changes = FindChanges(_state, fresh);
+    StateChanges changes = FindChanges(_state, fresh);
     _state = std::move(fresh);
+    AddEnded(changes);
     if (!changes.IsEmpty())
     {
         Publish(changes);
@@ -58,6 +57,29 @@ Planning::IPlanObserver& StateFeed::GetObserver() noexcept
 std::uint64_t StateFeed::GetEventID() const noexcept
 {
     return _dependencies.events.GetLastID();
+}
+
+void StateFeed::OnEntry(const ChangeEntry& entry, Core::Now now)
+{
+    _dependencies.events.Publish("entry", EncodeEntry(entry, now.wall));
+    if (entry.bPlanEnded && _endedPlanIDs.size() < MAX_ENDED)
+    {
+        _endedPlanIDs.emplace_back(entry.planID);
+    }
+}
+
+/// A plan that has begun and ended between two updates is in neither of their states.
+void StateFeed::AddEnded(StateChanges& changes)
+{
+    for (std::string& planID : std::exchange(_endedPlanIDs, {}))
+    {
+        const bool bListed = std::ranges::find(changes.endedPlanIDs, planID) != changes.endedPlanIDs.end();
+        const bool bBegunAgain = std::ranges::find(_state.plans, planID, &PlanView::planID) != _state.plans.end();
+        if (!bListed && !bBegunAgain)
+        {
+            changes.endedPlanIDs.push_back(std::move(planID));
+        }
+    }
 }
 
 void StateFeed::Publish(const StateChanges& changes)

@@ -12,8 +12,11 @@
 #include <boost/asio/any_io_executor.hpp>
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace ACS::Acsd
 {
@@ -40,11 +43,14 @@ public:
 private:
     /// The view of a long queue takes long: the interval is at least this multiple of its time.
     static constexpr int SHARE = 20;
+    /// Of plans that have ended since the last event.
+    static constexpr std::size_t MAX_ENDED = 1'000;
 
     Dependencies _dependencies;
     StateViewMaker _maker;
-    StateView _state; ///< As it was published last.
-    StateView _read;  ///< As it was read last.
+    StateView _state;                       ///< As it was published last.
+    StateView _read;                        ///< As it was read last.
+    std::vector<std::string> _endedPlanIDs; ///< Since the last update, in this order.
     ChangeObserver _entries;
     Apps::TimerSet<int> _timer;
 
@@ -69,6 +75,8 @@ public:
     [[nodiscard]] std::uint64_t GetEventID() const noexcept;
 
 private:
+    void OnEntry(const ChangeEntry& entry, Core::Now now);
+    void AddEnded(StateChanges& changes);
     void Publish(const StateChanges& changes);
     void OnTimer();
 };

@@ -7,6 +7,7 @@
 #include <boost/asio/io_context.hpp>
 
 #include <cstdint>
+#include <string>
 
 namespace ACS::Acsd::Test
 {
@@ -34,6 +35,30 @@ TEST_CASE("Reading the state publishes nothing; an update publishes what differs
     CHECK(events.GetLastID() == first + 1);
     static_cast<void>(feed.Update());
     CHECK(events.GetLastID() == first + 1);
+}
+
+TEST_CASE("A plan that begins and ends between two updates has ended in the next event, and in no later one")
+{
+    boost::asio::io_context context;
+    Testing::ManualClock clock;
+    Testing::PlanWorld world{1, true};
+    EventFeed events(clock, [] {});
+    StateFeed feed({context.get_executor(), clock, *world.engine, [] { return ProgramState(); }, events});
+    world.engine->AddObserver(feed.GetObserver());
+
+    static_cast<void>(feed.Update());
+    Apps::HttpRequest request = *Apps::ParseHttpTarget("/v1/events");
+    request.bCanStream = true;
+    const Apps::HttpResponse stream = events.Respond(request);
+    world.Submit(Testing::MakeLogisticsPlan("P1"));
+    world.Control(Planning::EPlanControl::Cancel, "P1");
+    REQUIRE(Testing::Contains(world.GetReportsOf("P1"), "Plan Cancelled"));
+    static_cast<void>(feed.Update());
+    const std::string sent = stream.stream->TakeNext();
+    CHECK(sent.find(R"("ended":[{"planId":"P1")") != std::string::npos);
+    CHECK(sent.find(R"("ended")") == sent.rfind(R"("ended")"));
+    static_cast<void>(feed.Update());
+    CHECK(stream.stream->TakeNext().find(R"("ended")") == std::string::npos);
 }
 
 } // namespace ACS::Acsd::Test
