@@ -70,6 +70,7 @@ std::optional<std::string> LoadCheck::FindContradictionOrNull(const std::vector<
 
 ELoadEvidence LoadCheck::GetEvidence(const std::vector<PortLoad>& loads) const
 {
+    std::size_t ports = 0; // of the robot: the other end of a move may be a station
     std::size_t done = 0;
     std::size_t notDone = 0;
     for (const PortLoad& load : loads)
@@ -77,16 +78,17 @@ ELoadEvidence LoadCheck::GetEvidence(const std::vector<PortLoad>& loads) const
         const bool bOther = !load.carrierID.empty() && !_carrierID.empty() && load.carrierID != _carrierID;
         if (load.port == _loadedPort)
         {
+            ++ports;
             done += load.bLoaded && !bOther ? 1U : 0U;
             notDone += load.bLoaded ? 0U : 1U;
         }
         else if (load.port == _emptiedPort)
         {
+            ++ports;
             done += load.bLoaded ? 0U : 1U;
             notDone += load.bLoaded && !bOther ? 1U : 0U;
         }
     }
-    const std::size_t ports = (_loadedPort.has_value() ? 1U : 0U) + (_emptiedPort.has_value() ? 1U : 0U);
     if (ports == 0 || std::max(done, notDone) < ports)
     {
         return ELoadEvidence::None;

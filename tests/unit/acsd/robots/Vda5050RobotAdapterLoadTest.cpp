@@ -295,6 +295,33 @@ TEST_CASE("A job that was interrupted is judged by the loads when the vehicle is
         == 1);
 }
 
+TEST_CASE("An interrupted move between a station and the robot is judged by the port of the robot alone")
+{
+    LoadFixture vehicle;
+    Planning::StartJob job = MakeJob("Shift");
+    job.from = "A01.CP01";
+    job.to = "LR01.CP01";
+    vehicle.Show({});
+    vehicle.Command(job);
+    vehicle.ShowOrder(vehicle.TakeOrders().at(0), {});
+    vehicle.state.operatingMode = VDA5050::EOperatingMode::Manual;
+    vehicle.state.actionStates = {{"U1", "shift", "", VDA5050::EActionStatus::Failed, "the mode changed"}};
+    vehicle.ShowState();
+    vehicle.state.operatingMode = VDA5050::EOperatingMode::Automatic;
+    SECTION("the operator has completed it")
+    {
+        vehicle.Show({LoadFixture::MakeLoad("CP01", "C1")});
+        CHECK(vehicle.TakeEvents<JobFinished>().size() == 1);
+    }
+    SECTION("nothing was moved")
+    {
+        vehicle.ShowState();
+        vehicle.FireLoadTimer();
+        CHECK(vehicle.TakeEvents<Planning::JobInterrupted>().size() == 1);
+    }
+    CHECK(vehicle.TakeEvents<JobUnresolved>().empty());
+}
+
 TEST_CASE("A job whose order the vehicle lost is judged by the loads; without loads an operator resolves it")
 {
     LoadFixture vehicle;
