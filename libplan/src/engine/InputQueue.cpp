@@ -137,7 +137,9 @@ bool InputQueue::TryPushControl(PlanCommand& command, std::optional<CommandRecei
     const bool bPlanWaits =
         std::ranges::any_of(_plans, [&planID = std::get<ControlPlan>(command).planID](const QueuedCommand& waiting) {
             const auto* const planOrNull = std::get_if<SubmitPlan>(&waiting.command);
-            return planOrNull != nullptr && planOrNull->plan.planID == planID;
+            const auto* const controlOrNull = std::get_if<ControlPlan>(&waiting.command);
+            return (planOrNull != nullptr && planOrNull->plan.planID == planID)
+                || (controlOrNull != nullptr && controlOrNull->planID == planID);
         });
     QueuedCommand queued{std::move(command), std::move(receiptOrNull)};
     if (bPlanWaits)

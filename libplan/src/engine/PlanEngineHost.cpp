@@ -153,8 +153,10 @@ void PlanEngineHost::ExecuteNext()
     }
     else
     {
-        // The timer may have expired while the store worked, and wait in the queue.
-        if (const auto* const startOrNull = std::get_if<StartEngineTimer>(&action))
+        // The timer may have expired while the store worked, and wait in the queue. If it is to expire at once, it keeps its place:
+        // behind inputs that arrive without end it would never come.
+        if (const auto* const startOrNull = std::get_if<StartEngineTimer>(&action);
+            startOrNull != nullptr && startOrNull->delay > Core::Duration::zero())
         {
             _inputs->Remove(startOrNull->timer);
         }

@@ -214,6 +214,36 @@ TEST_CASE_METHOD(
     CHECK(ListReplies() == Replies{{1, true}, {4, true}, {3, true}, {5, true}, {2, true}});
 }
 
+TEST_CASE_METHOD(HostTest, "6.5 Controls of a plan that waits are handled in the order of their arrival")
+{
+    Submit("P1", 1);
+    Submit("P2", 2);
+    _host.Push(ControlPlan{EPlanControl::Pause, "P2", {}, 3});
+    _host.OnStored({}); // now P2 is being stored
+    _host.Push(ControlPlan{EPlanControl::Resume, "P2", {}, 4});
+    REQUIRE(TryStoreAll());
+    CHECK(ListReplies() == std::vector<std::pair<ReplyToken, bool>>{{1, true}, {2, true}, {3, true}, {4, true}});
+    CHECK(_engine.GetPlanOrNull("P2")->state == EPlanState::Pending);
+}
+
+TEST_CASE_METHOD(HostTest, "Plans that arrive without end do not keep the dispatch from the plans before them")
+{
+    StateChanged state;
+    state.lastNodeID = "D-CHG01";
+    _host.Push(RobotInput{"LR01", LinkChanged{true}});
+    _host.Push(RobotInput{"LR01", state});
+    REQUIRE(TryStoreAll());
+    Submit("P1", 1);
+    Submit("P2", 2);
+    _host.OnStored({}); // now P2 is being stored
+    _host.Push(EngineTimer{EEngineTimer::Dispatch, {}});
+    Submit("P3", 3);
+    _host.OnStored({});
+    CHECK(ListAdded(_batches.back()).empty()); // the assignment of P1
+    REQUIRE(TryStoreAll());
+    CHECK(_engine.GetRobotStatuses().front().planID == "P1");
+}
+
 TEST_CASE_METHOD(HostTest, "6.5 A control of a plan that still waits is handled after the plan")
 {
     Submit("P1", 1);
