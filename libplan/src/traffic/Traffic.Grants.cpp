@@ -182,6 +182,7 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
     }
     const std::size_t heldCount = vehicle.path.size();
     const std::optional<std::size_t> heading = vehicle.heading;
+    const std::vector<std::size_t> extra = vehicle.extra;
     std::vector<std::size_t> held;
     const auto take = [this, robot, ahead, &vehicle, &held] {
         _bTrial = true;
@@ -189,26 +190,23 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
         for (const std::size_t node : ahead)
         {
             vehicle.path.push_back(node);
-            if (std::ranges::count(vehicle.extra, node) == 0)
+            if (std::erase(vehicle.extra, node) == 0)
             {
                 Hold(robot, node);
                 held.push_back(node);
             }
         }
     };
-    const auto giveBack = [this, heldCount, heading, &vehicle, &held] {
+    const auto giveBack = [this, heldCount, heading, &extra, &vehicle, &held] {
         vehicle.heading = heading;
         vehicle.path.resize(heldCount);
+        vehicle.extra = extra;
         std::ranges::for_each(held, [this](std::size_t node) { Free(node); });
         held.clear();
         _bTrial = false;
     };
-    // FindSafeState takes such a node for held twice.
-    const bool bHeldAlready = std::ranges::any_of(ahead, [&vehicle](std::size_t node) {
-        return std::ranges::count(vehicle.extra, node) > 0;
-    });
     take();
-    const bool bSoon = !bHeldAlready && CanParkSoon(robot, ESafeStateScope::AllMove)
+    const bool bSoon = CanParkSoon(robot, ESafeStateScope::AllMove)
         && (!bAsIs || (vehicle.bMovable && CanParkSoon(robot, ESafeStateScope::AsIs)));
     giveBack();
     if (bSoon)
@@ -237,7 +235,7 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
     refusal.disturbedAt = _changes.disturbs;
     refusal.fixedAt = _changes.fixed;
     refusal.refugesAt = _changes.refuges + _ways.GetReleasedCount();
-    if (bSafe || bHeldAlready)
+    if (bSafe)
     {
         refusal.stuck.clear();
     }

@@ -230,6 +230,25 @@ TEST_CASE("Traffic: a robot that is stationary between two nodes holds both unti
     CHECK(traffic.GetHolderOrNull(1) == 0);
 }
 
+TEST_CASE(
+    "Traffic: a robot between two nodes is granted the second one, whatever is on the way to its parking position")
+{
+    // Lane 0-1-2-3-4-5 with the parking positions 6, 7 and 8 on 5. Robot 1 is in the way of robot 0, and 0 in that of 2.
+    std::vector<Way> ways;
+    for (const auto& [from, to] : std::vector<
+             std::pair<std::size_t, std::size_t>>{{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 6}, {5, 7}, {5, 8}})
+    {
+        ways.push_back({from, to});
+        ways.push_back({to, from});
+    }
+    Traffic traffic(MakeNodes(9, ways), 0);
+    PlaceRobots(traffic, Nodes{6, 7, 8}, Nodes{1, 4, 0});
+    traffic.AddRobot("lr", 0); // so that 0 is no refuge
+    REQUIRE(traffic.TryStand(0, 1, {}, Nodes{2}));
+    traffic.SetHeading(0, 2);
+    CHECK(traffic.Extend(0, Nodes{2, 3}) == 2);
+}
+
 TEST_CASE("Traffic: nodes whose distance is less than the clearance exclude each other")
 {
     for (const double clearance : {0.0, 0.5})
