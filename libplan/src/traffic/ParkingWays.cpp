@@ -12,7 +12,8 @@ namespace ACS::Planning
 ParkingWays::ParkingWays(const SiteMap& site, double clearance)
     : _near(site.GetNodes().size()),
       _homes(_near.size(), 0),
-      _claims{std::vector<std::uint16_t>(_near.size(), 0), std::vector<std::uint16_t>(_near.size(), 0)}
+      _claims{std::vector<std::uint16_t>(_near.size(), 0), std::vector<std::uint16_t>(_near.size(), 0)},
+      _standIns(_near.size(), 0)
 {
     _scratch.seen.assign(_near.size(), 0);
     FindNear(site, clearance);
@@ -171,8 +172,7 @@ std::size_t ParkingWays::GetParking(const Parking& parking, ESafeStateScope scop
 
 bool ParkingWays::IsHomeOfOther(const Parking& parking, std::size_t node) const
 {
-    const std::size_t own = parking.home.has_value() && IsNear(*parking.home, node) ? 1 : 0;
-    return _homes[node] > own;
+    return IsOfOther(parking.home, node, _homes);
 }
 
 /// A route around covered nodes and the homes of others, so that the order of parking does not matter.
@@ -287,32 +287,58 @@ bool ParkingWays::IsRefuge(std::size_t node) const
     return !_refuges.empty() && _refuges[node];
 }
 
+void ParkingWays::SetStandIn(Parking& parking, std::optional<std::size_t> standInOrNull)
+{
+    ChangePlace(parking.standIn, standInOrNull, _standIns);
+}
+
+/// Moves what the place adds to the count of each node that it excludes.
+void ParkingWays::ChangePlace(
+    std::optional<std::size_t>& placeOrNull,
+    std::optional<std::size_t> nextOrNull,
+    std::vector<std::uint16_t>& counts) const
+{
+    if (placeOrNull.has_value())
+    {
+        std::ranges::for_each(_near[*placeOrNull], [&counts](std::uint32_t near) { --counts[near]; });
+    }
+    placeOrNull = nextOrNull;
+    if (placeOrNull.has_value())
+    {
+        std::ranges::for_each(_near[*placeOrNull], [&counts](std::uint32_t near) { ++counts[near]; });
+    }
+}
+
+bool ParkingWays::IsOfOther(
+    const std::optional<std::size_t>& ownOrNull,
+    std::size_t node,
+    const std::vector<std::uint16_t>& counts) const
+{
+    const std::size_t own = ownOrNull.has_value() && IsNear(*ownOrNull, node) ? 1 : 0;
+    return counts[node] > own;
+}
+
+bool ParkingWays::IsRefugeOfOther(const Parking& parking, std::size_t node, ESafeStateScope scope) const
+{
+    const auto index = static_cast<std::size_t>(scope);
+    return IsOfOther(parking.refuges[index], node, _claims[index]);
+}
+
 bool ParkingWays::IsRefugeFor(const Parking& parking, std::size_t node, ESafeStateScope scope) const
 {
-    const std::optional<std::size_t>& own = parking.refuges[static_cast<std::size_t>(scope)];
-    const std::size_t ownClaims = own.has_value() && IsNear(*own, node) ? 1 : 0;
-    return _refuges[node] && !IsHomeOfOther(parking, node)
-        && _claims[static_cast<std::size_t>(scope)][node] <= ownClaims
+    const bool bStandIn = scope == ESafeStateScope::AsIs && IsOfOther(parking.standIn, node, _standIns);
+    return _refuges[node] && !IsHomeOfOther(parking, node) && !bStandIn && !IsRefugeOfOther(parking, node, scope)
         && std::ranges::all_of(parking.graphs, [node](const LoadGraph& graph) { return graph.returns[node]; });
 }
 
 void ParkingWays::Claim(Parking& parking, std::optional<std::size_t> nodeOrNull, ESafeStateScope scope)
 {
-    std::vector<std::uint16_t>& claims = _claims[static_cast<std::size_t>(scope)];
-    std::optional<std::size_t>& refuge = parking.refuges[static_cast<std::size_t>(scope)];
-    if (refuge == nodeOrNull)
+    const auto index = static_cast<std::size_t>(scope);
+    std::optional<std::size_t>& refuge = parking.refuges[index];
+    if (refuge != nodeOrNull)
     {
-        return;
-    }
-    if (refuge.has_value())
-    {
-        std::ranges::for_each(_near[*refuge], [&claims](std::uint32_t near) { --claims[near]; });
-        ++_released;
-    }
-    refuge = nodeOrNull;
-    if (refuge.has_value())
-    {
-        std::ranges::for_each(_near[*refuge], [&claims](std::uint32_t near) { ++claims[near]; });
+        _released += refuge.has_value() ? 1U : 0U;
+        ChangePlace(refuge, nodeOrNull, _claims[index]);
     }
 }
 

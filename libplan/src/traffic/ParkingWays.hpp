@@ -57,7 +57,8 @@ private:
     std::vector<std::uint16_t> _homes;             ///< Of each node: how many homes exclude it.
     std::vector<bool> _refuges;                    ///< Of each node; empty: not known yet.
     std::array<std::vector<std::uint16_t>, 2>
-        _claims; ///< By ESafeStateScope, of each node: how many refuges exclude it.
+        _claims;                          ///< By ESafeStateScope, of each node: how many refuges exclude it.
+    std::vector<std::uint16_t> _standIns; ///< Of each node: how many stand-ins exclude it.
     std::uint64_t _released = 0;
     std::vector<bool> _blockedNodes; ///< By the operator; empty: there are no blocks.
     std::vector<bool> _blockedEdges;
@@ -70,6 +71,10 @@ public:
     [[nodiscard]] const std::vector<std::uint32_t>& GetNear(std::size_t node) const;
     /// Whether two nodes exclude each other.
     [[nodiscard]] bool IsNear(std::size_t left, std::size_t right) const;
+    /// The robot's stand-in; nullopt: it has none.
+    void SetStandIn(Parking& parking, std::optional<std::size_t> standInOrNull);
+    /// Whether the node is the refuge of another robot, or excludes it.
+    [[nodiscard]] bool IsRefugeOfOther(const Parking& parking, std::size_t node, ESafeStateScope scope) const;
     /// The node is the home of a robot.
     void AddHome(std::size_t node);
     /// Whether the node is the home of another robot, or excludes it.
@@ -139,8 +144,17 @@ private:
         std::size_t refuge,
         const std::vector<std::uint16_t>& covers,
         ESafeStateScope scope) const;
-    /// Whether no other robot has the node, or one within the clearance, as its home or as its refuge.
+    /// Whether no other robot has the node, or one within the clearance, as its home, stand-in or refuge.
     [[nodiscard]] bool IsRefugeFor(const Parking& parking, std::size_t node, ESafeStateScope scope) const;
+    void ChangePlace(
+        std::optional<std::size_t>& placeOrNull,
+        std::optional<std::size_t> nextOrNull,
+        std::vector<std::uint16_t>& counts) const;
+    /// Whether another place than the own one excludes the node.
+    [[nodiscard]] bool IsOfOther(
+        const std::optional<std::size_t>& ownOrNull,
+        std::size_t node,
+        const std::vector<std::uint16_t>& counts) const;
     /// nullopt: it has none.
     void Claim(Parking& parking, std::optional<std::size_t> nodeOrNull, ESafeStateScope scope);
 };

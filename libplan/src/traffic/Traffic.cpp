@@ -61,8 +61,10 @@ void Traffic::SetBlocked(const std::vector<bool>& nodes, const std::vector<bool>
 
 void Traffic::SetStandIn(std::size_t robot, std::optional<std::size_t> standInOrNull)
 {
-    if (std::exchange(_vehicles[robot].parking.standIn, standInOrNull) != standInOrNull)
+    Parking& parking = _vehicles[robot].parking;
+    if (parking.standIn != standInOrNull)
     {
+        _ways.SetStandIn(parking, standInOrNull);
         ++_changes.fixed;
         Note(false);
     }
@@ -394,6 +396,11 @@ bool Traffic::IsFreeFor(std::size_t node, std::size_t robot) const
 bool Traffic::IsOpenFor(std::size_t node, std::size_t robot) const
 {
     return IsFreeFor(node, robot) && !_ways.IsHomeOfOther(_vehicles[robot].parking, node);
+}
+
+bool Traffic::IsRefugeOfOther(std::size_t node, std::size_t robot) const
+{
+    return _ways.IsRefugeOfOther(_vehicles[robot].parking, node, ESafeStateScope::AsIs);
 }
 
 std::vector<std::size_t> Traffic::GetHolders(std::size_t node, std::size_t robot) const

@@ -177,6 +177,8 @@ public:
     [[nodiscard]] bool IsFreeFor(std::size_t node, std::size_t robot) const;
     /// As IsFreeFor, and the node is not the home of another robot.
     [[nodiscard]] bool IsOpenFor(std::size_t node, std::size_t robot) const;
+    /// Whether the node, or one within the clearance, is the refuge of another robot, around fixed obstacles and blocks.
+    [[nodiscard]] bool IsRefugeOfOther(std::size_t node, std::size_t robot) const;
     /// Other robots that hold the node or one within the clearance.
     [[nodiscard]] std::vector<std::size_t> GetHolders(std::size_t node, std::size_t robot) const;
     /// Whether the node is a dead end for the vehicle type with any load, so that no route passes through it.

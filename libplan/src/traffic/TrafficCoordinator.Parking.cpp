@@ -172,12 +172,13 @@ bool TrafficCoordinator::IsParkingOpen(const Robot& robot, std::size_t node) con
 
 bool TrafficCoordinator::IsParkingTaken(const Robot& robot, std::size_t node) const
 {
-    return !_traffic.IsOpenFor(node, robot.index) || std::ranges::any_of(_fleet, [&robot, node](const Robot& other) {
-        const ParkingPlaces& parking = other.parking;
-        return &other != &robot
-            && (parking.homeNode == node || parking.chargeNode == node || parking.parkingNode == node
-                || parking.standInNode == node);
-    });
+    return !_traffic.IsOpenFor(node, robot.index) || _traffic.IsRefugeOfOther(node, robot.index)
+        || std::ranges::any_of(_fleet, [&robot, node](const Robot& other) {
+               const ParkingPlaces& parking = other.parking;
+               return &other != &robot
+                   && (parking.homeNode == node || parking.chargeNode == node || parking.parkingNode == node
+                       || parking.standInNode == node);
+           });
 }
 
 const Block* TrafficCoordinator::FindTargetBlockOrNull(const Robot& robot, std::size_t target) const

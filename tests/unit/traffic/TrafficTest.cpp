@@ -442,6 +442,36 @@ TEST_CASE("Traffic: no robot takes the refuge that another one needs")
     CHECK(traffic.Extend(1, Nodes{2, 1, 0, 5}) == 4);
 }
 
+TEST_CASE("Traffic: no robot takes as its refuge where another one parks during a block")
+{
+    // As above. Robot 0 cannot get to 9 and parks in 7; after it robot 1 can go to 6.
+    std::vector<Way> ways;
+    for (const auto& [from, to] : std::vector<std::pair<std::size_t, std::size_t>>{
+             {0, 1},
+             {1, 2},
+             {2, 3},
+             {3, 4},
+             {0, 5},
+             {4, 6},
+             {2, 7},
+             {2, 8},
+             {4, 9}})
+    {
+        ways.push_back({from, to});
+        ways.push_back({to, from});
+    }
+    const SiteMap site = MakeNodes(10, ways);
+    Traffic traffic(site, 0);
+    PlaceRobots(traffic, Nodes{9, 6}, Nodes{3, 1});
+    traffic.AddRobot("lr", 5); // they are elsewhere
+    traffic.AddRobot("lr", 8);
+    std::vector<bool> blocked(site.GetNodes().size(), false);
+    blocked[9] = true;
+    traffic.SetBlocked(blocked, std::vector<bool>(site.GetEdges().size(), false));
+    traffic.SetStandIn(0, 7);
+    CHECK(traffic.Extend(1, Nodes{2, 7}) == 0);
+}
+
 TEST_CASE("Traffic: a dead end within the clearance of a lane, or without a way back, is no refuge")
 {
     for (const double clearance : {0.0, 2.5})
