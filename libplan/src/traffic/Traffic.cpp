@@ -81,6 +81,11 @@ bool Traffic::IsSpur(std::string_view vehicleTypeID, std::size_t node) const
     return found != _graphs.end() && IsDeadEnd(found->second, node);
 }
 
+const std::vector<std::uint32_t>& Traffic::GetNear(std::size_t node) const
+{
+    return _ways.GetNear(node);
+}
+
 bool Traffic::IsNear(std::size_t left, std::size_t right) const
 {
     return _ways.IsNear(left, right);

@@ -187,6 +187,8 @@ public:
     [[nodiscard]] std::optional<std::size_t> FindRefugeOrNull(
         std::size_t robot,
         std::optional<std::size_t> avoidedOrNull = std::nullopt);
+    /// The nodes that the node excludes, itself among them.
+    [[nodiscard]] const std::vector<std::uint32_t>& GetNear(std::size_t node) const;
     /// Whether two nodes exclude each other.
     [[nodiscard]] bool IsNear(std::size_t left, std::size_t right) const;
 

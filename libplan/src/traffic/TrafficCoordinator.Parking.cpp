@@ -16,13 +16,16 @@ namespace ACS::Planning
 void TrafficCoordinator::AssignParking()
 {
     std::vector<bool> taken(_site.GetNodes().size(), false);
+    const auto take = [this, &taken](std::size_t node) {
+        std::ranges::for_each(_traffic.GetNear(node), [&taken](std::uint32_t near) { taken[near] = true; });
+    };
     for (const Robot& robot : _fleet)
     {
         for (const std::optional<std::size_t>& own : {robot.parking.homeNode, robot.parking.chargeNode})
         {
             if (own.has_value())
             {
-                taken[*own] = true;
+                take(*own);
             }
         }
     }
@@ -37,7 +40,7 @@ void TrafficCoordinator::AssignParking()
         }
         if (robot.parking.parkingNode.has_value())
         {
-            taken[*robot.parking.parkingNode] = true;
+            take(*robot.parking.parkingNode);
         }
         _traffic.AddRobot(options.vehicleTypeID, robot.parking.parkingNode);
         if (options.startNodeID.has_value())
@@ -49,7 +52,7 @@ void TrafficCoordinator::AssignParking()
     }
 }
 
-/// The first dock that is not taken and where it can park.
+/// The first dock that is not within the clearance of a taken one and where it can park.
 std::optional<std::size_t> TrafficCoordinator::FindParkingOrNull(
     const RobotOptions& robot,
     const std::vector<bool>& taken) const

@@ -298,6 +298,16 @@ TEST_CASE("TrafficCoordinator: a reroute that was planned for another load is no
     }
 }
 
+TEST_CASE("TrafficCoordinator: an assigned parking position is not within the clearance of another one")
+{
+    EngineOptions options = MakeTestOptions(false);
+    options.clearance = 1;
+    options.robots.back().homeStationID.reset();
+    EngineParts parts(options);
+    REQUIRE(parts.cr.parking.parkingNode.has_value());
+    CHECK_FALSE(parts.places.GetTraffic().IsNear(*parts.cr.parking.parkingNode, parts.FindNode("D-CHG01")));
+}
+
 TEST_CASE(
     "TrafficCoordinator: a robot that is stationary between two nodes continues on its lane, if its route allows it")
 {
