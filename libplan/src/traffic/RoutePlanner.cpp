@@ -136,10 +136,13 @@ std::optional<Route> RoutePlanner::FindLaneOrNull(const Robot& robot, std::size_
     const std::string& vehicleTypeID = robot.options->vehicleTypeID;
     const std::string& nextID = nodes[*robot.place.heading].nodeID;
     const ELoad load = robot.GetLoad();
+    const auto isExcluded = [](std::size_t) {
+        return true; // another way there may be quicker
+    };
     std::optional<Route> lane =
-        _router.FindRouteOrNull(vehicleTypeID, load, nodes[*robot.place.node].nodeID, nextID, {});
-    const bool bReaches = lane.has_value() && lane->edges.size() == 1
-        && _router.FindRouteOrNull(vehicleTypeID, load, nextID, nodes[target].nodeID, {}).has_value();
+        _router.FindRouteOrNull(vehicleTypeID, load, nodes[*robot.place.node].nodeID, nextID, isExcluded);
+    const bool bReaches =
+        lane.has_value() && _router.FindRouteOrNull(vehicleTypeID, load, nextID, nodes[target].nodeID, {}).has_value();
     return bReaches ? lane : std::nullopt;
 }
 

@@ -3,6 +3,8 @@
 #include "fixtures/PlanWorld.hpp"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 using namespace ACS::Testing;  // NOLINT(google-build-using-namespace): its fixtures
@@ -306,6 +308,39 @@ TEST_CASE("TrafficCoordinator: an assigned parking position is not within the cl
     EngineParts parts(options);
     REQUIRE(parts.cr.parking.parkingNode.has_value());
     CHECK_FALSE(parts.places.GetTraffic().IsNear(*parts.cr.parking.parkingNode, parts.FindNode("D-CHG01")));
+}
+
+TEST_CASE("TrafficCoordinator: a robot between two nodes stays on its lane where another way to its end is quicker")
+{
+    const SiteMap usual = MakeTestSite();
+    std::vector<SiteNode> nodes = usual.GetNodes();
+    std::vector<SiteEdge> edges = usual.GetEdges();
+    std::vector<SiteEdgeRule>& slow = std::ranges::find(edges, "L05>L06", &SiteEdge::edgeID)->rules;
+    const std::vector<SiteEdgeRule> rules = slow;
+    for (SiteEdgeRule& rule : slow)
+    {
+        rule.maxSpeed = 0.1;
+    }
+    SiteNode around = *usual.FindNodeOrNull("L05");
+    around.nodeID = "AROUND";
+    around.x = 4.5;
+    around.y = -2;
+    nodes.push_back(around);
+    edges.push_back({"L05>AROUND", "L05", "AROUND", rules});
+    edges.push_back({"AROUND>L06", "AROUND", "L06", rules});
+    EngineParts parts(
+        MakeTestOptions(false),
+        *SiteMap::Create(std::move(nodes), std::move(edges), usual.GetStations()));
+    parts.PutOn(parts.lr, "L05");
+    StateChanged& state = *parts.lr.view.state;
+    state.bPoseKnown = true;
+    state.x = 4.6;
+    state.y = 0;
+    parts.places.Place(parts.lr);
+    REQUIRE(parts.lr.place.heading == parts.FindNode("L06"));
+    const auto route = parts.coordinator.PlanRouteOrNull(parts.lr, parts.FindNode("D-A01.CP06"), {});
+    REQUIRE(route.has_value());
+    CHECK(route->nodes[1] == parts.FindNode("L06"));
 }
 
 TEST_CASE(
