@@ -57,6 +57,7 @@ struct ActiveDrive
     bool bConfirmed = false;
     bool bTaken = false;     ///< The robot has confirmed the drive.
     bool bLeftRoute = false; ///< The robot reports a node that the route does not have.
+    bool bOverran = false;   ///< The robot entered a node that another one holds.
     ECancellation cancellation = ECancellation::None;
     std::optional<Reroute> reroute;
 

@@ -321,6 +321,7 @@ bool TrafficCoordinator::TryAdvance(Robot& robot, std::size_t routeIndex)
             nodes.subspan(drive.grantedCount, routeIndex + 1 - drive.grantedCount);
         if (drive.reroute.has_value() || !_traffic.TryOverrun(robot.index, overrun))
         {
+            drive.bOverran = true;
             _transaction.RaiseAlarm(PlaceTracker::MakePlaceAlarm(
                 robot,
                 fmt::format(
@@ -342,6 +343,10 @@ bool TrafficCoordinator::TryAdvance(Robot& robot, std::size_t routeIndex)
     }
     drive.passed = routeIndex;
     robot.place.node = drive.nodes[routeIndex];
+    if (std::exchange(drive.bOverran, false))
+    {
+        _transaction.ClearAlarm(PlaceTracker::MakePlaceAlarm(robot, {}));
+    }
     return true;
 }
 
@@ -374,7 +379,7 @@ void TrafficCoordinator::EndDrive(Robot& robot)
 {
     const std::string& robotID = robot.GetID();
     const ActiveDrive& drive = *robot.drive;
-    if (drive.bLeftRoute)
+    if (drive.bLeftRoute || drive.bOverran)
     {
         _transaction.ClearAlarm(PlaceTracker::MakePlaceAlarm(robot, {}));
     }

@@ -121,6 +121,18 @@ TEST_CASE("TrafficCoordinator: a robot may pass a free node without a grant, and
         CHECK_FALSE(parts.coordinator.TryAdvance(parts.lr, 4));
         CHECK(parts.lr.drive->passed == 0);
         CHECK(parts.Collect().ListSetAlarms() == std::vector<std::string>{"ACS-1003"});
+        SECTION("until that has left it")
+        {
+            parts.PutOn(parts.cr, "D-CHG02");
+            parts.Discard();
+            CHECK(parts.coordinator.TryAdvance(parts.lr, 4));
+            CHECK(parts.Collect().ListClearedAlarms() == std::vector<std::string>{"ACS-1003"});
+        }
+        SECTION("until the drive ends")
+        {
+            parts.coordinator.EndDrive(parts.lr);
+            CHECK(parts.Collect().ListClearedAlarms() == std::vector<std::string>{"ACS-1003"});
+        }
     }
 }
 
@@ -300,16 +312,6 @@ TEST_CASE("TrafficCoordinator: a reroute that was planned for another load is no
     }
 }
 
-TEST_CASE("TrafficCoordinator: an assigned parking position is not within the clearance of another one")
-{
-    EngineOptions options = MakeTestOptions(false);
-    options.clearance = 1;
-    options.robots.back().homeStationID.reset();
-    EngineParts parts(options);
-    REQUIRE(parts.cr.parking.parkingNode.has_value());
-    CHECK_FALSE(parts.places.GetTraffic().IsNear(*parts.cr.parking.parkingNode, parts.FindNode("D-CHG01")));
-}
-
 TEST_CASE("TrafficCoordinator: a robot between two nodes stays on its lane where another way to its end is quicker")
 {
     const SiteMap usual = MakeTestSite();
@@ -341,6 +343,16 @@ TEST_CASE("TrafficCoordinator: a robot between two nodes stays on its lane where
     const auto route = parts.coordinator.PlanRouteOrNull(parts.lr, parts.FindNode("D-A01.CP06"), {});
     REQUIRE(route.has_value());
     CHECK(route->nodes[1] == parts.FindNode("L06"));
+}
+
+TEST_CASE("TrafficCoordinator: an assigned parking position is not within the clearance of another one")
+{
+    EngineOptions options = MakeTestOptions(false);
+    options.clearance = 1;
+    options.robots.back().homeStationID.reset();
+    EngineParts parts(options);
+    REQUIRE(parts.cr.parking.parkingNode.has_value());
+    CHECK_FALSE(parts.places.GetTraffic().IsNear(*parts.cr.parking.parkingNode, parts.FindNode("D-CHG01")));
 }
 
 TEST_CASE(
