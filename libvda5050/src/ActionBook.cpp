@@ -234,12 +234,13 @@ void ActionBook::SetStatus(const std::vector<std::string>& actionIDs, EActionSta
     }
 }
 
-void ActionBook::PauseRunning(VehicleActions& out) const
+void ActionBook::PauseRunning(VehicleActions& out)
 {
-    for (const ReportedAction& tracked : _actions)
+    for (ReportedAction& tracked : _actions)
     {
         if (tracked.IsRunningInOrder())
         {
+            tracked.bPauseAsked = tracked.machine.GetStatus() != EActionStatus::Paused;
             out.emplace_back(PauseAction{tracked.action.actionID});
         }
     }

@@ -70,7 +70,7 @@ public:
     void Start(ReportedAction& action, VehicleActions& out);
     bool TrySetStatus(ReportedAction& action, EActionStatus status, std::string resultDescription = {});
     void SetStatus(const std::vector<std::string>& actionIDs, EActionStatus status, const std::string& result = {});
-    void PauseRunning(VehicleActions& out) const;
+    void PauseRunning(VehicleActions& out);
     void ResumePaused(VehicleActions& out) const;
     void MarkShown();
 

@@ -26,7 +26,8 @@ struct ReportedAction
     std::uint32_t sequenceID = 0; ///< Of its node or edge.
     bool bStarted = false;        ///< StartAction was sent to the owner.
     bool bCancelled = false;
-    bool bShown = false; ///< Its end was published in a state.
+    bool bShown = false;      ///< Its end was published in a state.
+    bool bPauseAsked = false; ///< PauseAction was sent to the owner, who has not reported PAUSED since.
 
     [[nodiscard]] bool IsInstant() const noexcept;
     [[nodiscard]] bool IsEnded() const noexcept;

@@ -224,6 +224,15 @@ bool VehicleSession::Impl::TryChangeStatus(
     {
         OnActionFailed(tracked, out);
     }
+    else if (status == EActionStatus::Paused)
+    {
+        // The pause may have ended before the owner reported that the action is paused.
+        const bool bAsked = std::exchange(tracked.bPauseAsked, false);
+        if (bAsked && !IsPaused() && !tracked.bCancelled)
+        {
+            out.emplace_back(ResumeAction{tracked.action.actionID});
+        }
+    }
     else if (status == EActionStatus::Finished)
     {
         _reports.Apply(tracked.action);

@@ -34,6 +34,44 @@ TEST_CASE("5.3 The effect of a pause on an order action, by its status")
     CHECK(bench.GetStartedActions() == std::vector<std::string>{"later"});
 }
 
+TEST_CASE("5.3 An action that pauses only after stopPause is resumed at once; one that its owner pauses is not")
+{
+    VehicleSessionFixture bench;
+    OrderMessage order = MakeOrder(2, 2);
+    order.nodes[0].actions = {MakeAction("late", EBlockingType::None), MakeAction("own", EBlockingType::None)};
+    bench.Order(order);
+    bench.Status("late", EActionStatus::Running);
+    bench.Status("own", EActionStatus::Running);
+    bench.Status("own", EActionStatus::Paused);
+    bench.Status("own", EActionStatus::Running);
+    bench.Instant("startPause", "p1");
+    bench.Status("own", EActionStatus::Paused);
+    bench.Instant("stopPause", "p2");
+    bench.Status("own", EActionStatus::Running);
+    bench.Clear();
+    bench.Status("own", EActionStatus::Paused);
+    CHECK(Pick<ResumeAction>(bench.GetOutput()).empty());
+    bench.Status("late", EActionStatus::Paused);
+    CHECK(Pick<ResumeAction>(bench.GetOutput()) == std::vector{ResumeAction{"late"}});
+    bench.Status("late", EActionStatus::Running);
+    bench.Status("late", EActionStatus::Finished);
+    CHECK(Pick<ResumeAction>(bench.GetOutput()).size() == 1);
+}
+
+TEST_CASE("5.3 A cancelled action that pauses only after stopPause is not resumed")
+{
+    VehicleSessionFixture bench;
+    OrderMessage order = MakeOrder(2, 2);
+    order.nodes[0].actions = {MakeAction("late", EBlockingType::None)};
+    bench.Order(order);
+    bench.Status("late", EActionStatus::Running);
+    bench.Instant("startPause", "p1");
+    bench.Instant("stopPause", "p2");
+    bench.Instant("cancelOrder", "c1");
+    bench.Status("late", EActionStatus::Paused);
+    CHECK(Pick<ResumeAction>(bench.GetOutput()).empty());
+}
+
 TEST_CASE("5.3 A paused vehicle takes orders and updates, and does not move before stopPause")
 {
     VehicleSessionFixture bench;
