@@ -159,11 +159,12 @@ void MasterSession::Impl::UpdateCancel(MasterActions& out)
 void MasterSession::Impl::EndCancel(EActionStatus status, MasterActions& out)
 {
     const bool bHeld = _outbox.IsAccepted() && _vehicle.IsShowingOrder(_orderID);
+    const bool bOpen = bHeld && (!_vehicle.GetStateOrNull()->nodeStates.empty() || _actions.HasShownOrderAction());
     if (status == EActionStatus::Failed && bHeld && IsOrderDone())
     {
         out.emplace_back(OrderFinished{_orderID});
     }
-    else if (status == EActionStatus::Failed && bHeld && !_vehicle.GetStateOrNull()->nodeStates.empty())
+    else if (status == EActionStatus::Failed && bOpen)
     {
         out.emplace_back(CancelFailed{_orderID, "the vehicle still holds the order"});
         _cancelActionID.clear();

@@ -124,6 +124,25 @@ TEST_CASE("5.4 The order keeps running when the vehicle fails the cancel and con
     CHECK(bench.session.Cancel(bench.GetNow(), bench.Clear()).has_value()); // and may be tried again
 }
 
+TEST_CASE("5.4 The order keeps running when the vehicle fails the cancel while an action runs at the last node")
+{
+    MasterSessionFixture bench;
+    const OrderMessage order = SendFirstOrder(bench);
+    bench.Hold(order, 0);
+    bench.state.actionStates[0].actionStatus = EActionStatus::Running;
+    bench.SendState();
+    const std::string cancelID = CancelOrder(bench);
+    bench.state.actionStates.push_back(ActionState{cancelID, "cancelOrder", {}, EActionStatus::Failed, {}});
+    bench.SendState();
+    CHECK(Pick<CancelFailed>(bench.GetOutput()).size() == 1);
+    CHECK(Pick<OrderCancelled>(bench.GetOutput()).empty());
+    CHECK(Pick<ActionLost>(bench.GetOutput()).empty());
+    CHECK(bench.session.GetOrderPhase() == EOrderPhase::Active);
+    bench.state.actionStates[0].actionStatus = EActionStatus::Finished;
+    bench.SendState();
+    CHECK(Pick<OrderFinished>(bench.GetOutput()).size() == 1);
+}
+
 TEST_CASE("5.4 An order that reaches the vehicle after its cancel is cancelled again automatically")
 {
     MasterSessionFixture bench;
