@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -37,6 +38,23 @@ bool IsAlwaysSent(std::string_view actionType)
         || actionType == ActionTypes::FACTSHEET_REQUEST;
 }
 
+/// The actions of the update that a state may show already, with the horizon that the update replaces.
+std::set<std::string_view> ListReplaced(const OrderMessage& update)
+{
+    std::set<std::string_view> ids;
+    for (std::size_t index = 0; index < update.edges.size(); ++index)
+    {
+        for (const std::vector<Action>* actions : {&update.edges[index].actions, &update.nodes[index + 1].actions})
+        {
+            for (const Action& action : *actions)
+            {
+                ids.insert(action.actionID);
+            }
+        }
+    }
+    return ids;
+}
+
 /// What the vehicle's state keeps when it accepts the update. Ended actions do not count: a vehicle may remove them.
 void AddKept(const OrderMessage& update, const StateMessage& state, OrderContext& context)
 {
@@ -52,9 +70,10 @@ void AddKept(const OrderMessage& update, const StateMessage& state, OrderContext
     {
         context.keptBytes += edge.sequenceID <= stitch ? MeasureEdgeState(edge) : 0;
     }
+    const std::set<std::string_view> replaced = ListReplaced(update);
     for (const ActionState& action : state.actionStates)
     {
-        const bool bKept = !IsTerminal(action.actionStatus);
+        const bool bKept = !IsTerminal(action.actionStatus) && !replaced.contains(action.actionID);
         context.keptActions += bKept ? 1U : 0U;
         context.keptBytes += bKept ? MeasureActionState(action) : 0;
     }

@@ -265,6 +265,47 @@ TEST_CASE("3.7 An update is checked together with the nodes that the vehicle has
     CHECK(bench.Check(update).empty());
 }
 
+TEST_CASE("3.7 Actions of the horizon, which an update replaces, are counted once")
+{
+    constexpr std::size_t SHOWN = 20;
+    FitFixture bench;
+    FactsheetMessage factsheet = MakeBareFactsheet();
+    std::string text;
+    std::string limit;
+    SECTION("by number")
+    {
+        factsheet.protocolLimits.maxArrayLengths.stateActionStates = SHOWN + 1;
+        limit = "maxArrayLens.state.actionStates";
+    }
+    SECTION("by bytes")
+    {
+        text.assign(60'000, 'x'); // 2 MiB for the state: 34 actions fit
+        limit = "maximum length of the state";
+    }
+    bench.Deliver(factsheet);
+    OrderBuilder builder = MakeBuilder(4);
+    const OrderMessage order = *builder.MakeOrder(2);
+    REQUIRE(bench.Send(order).has_value());
+    OrderMessage update = *builder.MakeUpdate(3);
+    bench.Hold(order, 2);
+    for (std::size_t i = 0; i < SHOWN; ++i)
+    {
+        Action action = MakeAction("horizon" + std::to_string(i), EBlockingType::Hard);
+        action.actionDescription = text;
+        bench.state.actionStates.push_back(
+            ActionState{action.actionID, action.actionType, text, EActionStatus::Waiting, {}});
+        (i == 0 ? update.edges[0].actions : update.nodes[1].actions).push_back(std::move(action));
+    }
+    bench.SendState();
+    CHECK(bench.Check(update).empty());
+    for (ActionState& shown : bench.state.actionStates)
+    {
+        shown.actionID += " of the base";
+    }
+    bench.SendState();
+    CHECK(bench.Check(update) == limit);
+}
+
 TEST_CASE("3.7 An update is checked together with the bytes of what the vehicle has left")
 {
     constexpr std::size_t BASE = 20;
