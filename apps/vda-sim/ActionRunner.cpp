@@ -45,7 +45,7 @@ std::string ActionRunner::Start(
     {
         return "no charger at this node";
     }
-    _running.push_back({action, GetSeconds(action.actionType), std::move(failureOrNull), false});
+    _running.push_back({action, GetSeconds(action.actionType), std::move(failureOrNull)});
     return {};
 }
 
@@ -144,6 +144,10 @@ ActionOutcome ActionRunner::Finish(const RunningAction& running)
     }
     if (action.actionType == VDA5050::ActionTypes::START_CHARGING)
     {
+        if (running.bUndocked)
+        {
+            return {action.actionID, VDA5050::EActionStatus::Failed, "the vehicle left the charger", {}};
+        }
         _bCharging = true;
     }
     else if (action.actionType == VDA5050::ActionTypes::STOP_CHARGING)
@@ -161,6 +165,10 @@ ActionOutcome ActionRunner::Finish(const RunningAction& running)
 void ActionRunner::Undock()
 {
     _bCharging = false;
+    for (RunningAction& running : _running)
+    {
+        running.bUndocked = true;
+    }
 }
 
 bool ActionRunner::IsBusy() const noexcept

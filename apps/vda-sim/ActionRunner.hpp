@@ -40,6 +40,7 @@ private:
         double secondsLeft = 0.0;                     ///< Infinite: until it is triggered.
         std::optional<VDA5050::VehicleError> failure; ///< Its result instead of success.
         bool bPaused = false;
+        bool bUndocked = false; ///< The vehicle has left the place where the action began.
     };
 
     std::map<std::string, double, std::less<>> _seconds;
@@ -69,7 +70,7 @@ public:
     /// Advances the simulated time and appends the actions that ended.
     void Advance(double seconds, std::vector<ActionOutcome>& out);
 
-    /// The vehicle leaves its place: charging ends.
+    /// The vehicle leaves its place: charging ends, and a startCharging that runs will fail.
     void Undock();
 
     [[nodiscard]] bool IsBusy() const noexcept;

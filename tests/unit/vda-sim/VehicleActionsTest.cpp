@@ -166,7 +166,10 @@ TEST_CASE("6.8.2 Every action of the factsheet comes to its end in each of its s
             }
             else
             {
-                SendOrder(driver, MakeAction(row.actionType, MakeParameters(row)), scope);
+                Action action = MakeAction(row.actionType, MakeParameters(row));
+                const bool bStays = row.actionType == ActionTypes::START_CHARGING;
+                action.blockingType = bStays ? VDA5050::EBlockingType::Hard : action.blockingType;
+                SendOrder(driver, action, scope);
             }
             driver.Pass(1s);
             if (row.actionType == ActionTypes::WAIT_FOR_TRIGGER)

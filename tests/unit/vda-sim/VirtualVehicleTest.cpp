@@ -324,6 +324,22 @@ TEST_CASE("Charging needs a charger, and driving drains the battery and ends the
     CHECK_FALSE(driver.GetState().batteryState.bCharging);
 }
 
+TEST_CASE("startCharging fails when the vehicle leaves the charger before it has ended")
+{
+    VehicleDriver driver("DOCK");
+    driver.SendInstantly(VDA5050::ActionTypes::START_CHARGING, "charge");
+    driver.Pass(500ms);
+    REQUIRE(driver.GetStatus("charge") == EActionStatus::Running);
+    auto route = driver.MakeRoute("order-1", {"DOCK", "N2"});
+    driver.Send(VehicleDriver::Take(route.MakeOrder(2)));
+    bool bCharged = false;
+    driver.Pass(20s, [&]() { bCharged = bCharged || driver.GetState().batteryState.bCharging; });
+    CHECK_FALSE(bCharged);
+    CHECK(driver.GetStatus("charge") == EActionStatus::Failed);
+    CHECK(driver.GetState().lastNodeID == "N2");
+    CHECK_FALSE(driver.GetState().batteryState.bCharging);
+}
+
 TEST_CASE("6.10 A driving vehicle sends a state at least each second, and its position each 200 ms")
 {
     for (const double timeScale : {0.1, 1.0})
