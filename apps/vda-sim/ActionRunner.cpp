@@ -116,7 +116,7 @@ void ActionRunner::Advance(double seconds, std::vector<ActionOutcome>& out)
         running.secondsLeft -= running.bPaused ? 0.0 : seconds;
     }
     const auto isDone = [](const RunningAction& running) {
-        return running.secondsLeft <= 0.0;
+        return !running.bPaused && running.secondsLeft <= 0.0;
     };
     for (const RunningAction& running : _running)
     {

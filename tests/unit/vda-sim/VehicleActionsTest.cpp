@@ -424,6 +424,24 @@ TEST_CASE("6.8 waitForTrigger waits for its trigger, however long that takes")
     CHECK(driver.GetState().lastNodeID == "N2");
 }
 
+TEST_CASE("6.8 waitForTrigger that is triggered during a pause ends after the pause")
+{
+    VehicleDriver driver("N0");
+    driver.Send(driver.MakeOrderWith(VDA5050::ActionTypes::WAIT_FOR_TRIGGER, "wait"));
+    driver.Pass(60s);
+    REQUIRE(driver.GetStatus("wait") == EActionStatus::Running);
+    driver.SendInstantly(VDA5050::ActionTypes::START_PAUSE, "pause");
+    CHECK(driver.GetStatus("wait") == EActionStatus::Paused);
+    CHECK(driver.Trigger() == 1);
+    driver.Pass(100ms);
+    CHECK(driver.GetStatus("wait") == EActionStatus::Paused);
+    driver.SendInstantly(VDA5050::ActionTypes::STOP_PAUSE, "go");
+    driver.Pass(1s);
+    CHECK(driver.GetStatus("wait") == EActionStatus::Finished);
+    driver.Pass(60s);
+    CHECK(driver.GetState().lastNodeID == "N2");
+}
+
 TEST_CASE("6.8 logReport names its log, and the time of an action's type can be set")
 {
     VdaSim::VirtualVehicleOptions options = VehicleDriver::MakeOptions("N0");
