@@ -68,6 +68,14 @@ std::optional<std::string> FindBadTransitionOrNull(
     return fmt::format("{} after {}", GetText(status), GetText(tracked.status));
 }
 
+template <typename TPredicate>
+bool IsAnyJob(const TrackedPlan& plan, TPredicate predicate)
+{
+    return std::ranges::any_of(plan.steps, [&predicate](const TrackedStep& step) {
+        return std::ranges::any_of(step.jobs, predicate);
+    });
+}
+
 bool IsFailureUntold(const TrackedStep& step)
 {
     const bool bJobFailed = std::any_of(step.jobs.begin(), step.jobs.end(), [](const TrackedJob& job) {
@@ -95,6 +103,13 @@ std::optional<std::string> FindPlanViolationOrNull(const TrackedPlan& plan, EPla
     if (status == EPlanStatus::Completed && !std::all_of(plan.steps.begin(), plan.steps.end(), IsDone))
     {
         return "Completed before all its steps";
+    }
+    const auto isBegun = [](const TrackedJob& job) {
+        return job.status != EJobStatus::Pending;
+    };
+    if (status == EPlanStatus::Cancelled && IsAnyJob(plan, isBegun))
+    {
+        return "Cancelled after a job was begun";
     }
     if (status == EPlanStatus::Failed && std::any_of(plan.steps.begin(), plan.steps.end(), IsFailureUntold))
     {

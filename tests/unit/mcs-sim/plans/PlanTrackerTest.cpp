@@ -332,6 +332,23 @@ TEST_CASE("Cancelled and aborted plans count as failed")
     CHECK(fixture.tracker.IsFinished());
 }
 
+TEST_CASE("6.5 A plan is not Cancelled once a job was begun; it may be Aborted")
+{
+    PlanTrackerFixture fixture;
+    fixture.RunFirstJob();
+    SECTION("cancelled")
+    {
+        fixture.Report({MakePlanReport("P1", EPlanStatus::Cancelled)});
+        CHECK(fixture.GetViolation() == "P1 PlanReport Cancelled after a job was begun");
+        CHECK(fixture.tracker.CountOutcome(EOutcome::Cancelled) == 1);
+    }
+    SECTION("aborted")
+    {
+        fixture.Report({MakePlanReport("P1", EPlanStatus::Aborted)});
+        CHECK(fixture.tracker.CountViolations() == 0);
+    }
+}
+
 TEST_CASE("A report out of causal order is a violation, and followed nevertheless")
 {
     PlanTrackerFixture fixture;
