@@ -176,6 +176,10 @@ std::optional<std::string> FindJobViolationOrNull(
     {
         return fmt::format("{} while its step is {}", GetText(status), GetText(step.status));
     }
+    if (IsAnyJob(plan, [](const TrackedJob& other) { return other.status == EJobStatus::Failed; }))
+    {
+        return fmt::format("{} after a failed job", GetText(status));
+    }
     return std::nullopt;
 }
 

@@ -349,6 +349,21 @@ TEST_CASE("6.5 A plan is not Cancelled once a job was begun; it may be Aborted")
     }
 }
 
+TEST_CASE("6.14 After a failed job no other job of its plan is begun")
+{
+    PlanTrackerFixture fixture;
+    fixture.RunFirstJob();
+    fixture.Report(
+        {MakeStepReport("P1", 1, EStepStatus::Completed),
+         MakeStepReport("P1", 2, EStepStatus::Dispatched),
+         MakeStepReport("P1", 2, EStepStatus::InProgress),
+         MakeJobReport("P1", 2, "J2", EJobStatus::Instructed),
+         MakeJobReport("P1", 2, "J2", EJobStatus::Failed)});
+    CHECK(fixture.tracker.CountViolations() == 0);
+    fixture.Report({MakeJobReport("P1", 2, "J3", EJobStatus::Instructed)});
+    CHECK(fixture.GetViolation() == "P1 JobReport step 2 job 2 Instructed after a failed job");
+}
+
 TEST_CASE("A report out of causal order is a violation, and followed nevertheless")
 {
     PlanTrackerFixture fixture;
