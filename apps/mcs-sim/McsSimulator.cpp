@@ -220,7 +220,7 @@ void McsSimulator::OnSessionEvent(const Protocol::SessionEvent& event)
             [this](const Protocol::Registered& /*event*/) { OnRegistered(); },
             [this](const Protocol::LinkLost& lost) { OnLinkLost(lost); },
             [this](const Protocol::RequestReceived& received) { _judge.OnRequest(received); },
-            [this](const Protocol::AckReceived& received) { _tracker.OnAck(received.ack, _lines); },
+            [this](const Protocol::AckReceived& received) { _judge.OnAck(received); },
             [this](const Protocol::RequestUnanswered& unanswered) { _judge.OnUnanswered(unanswered); },
             [this](const Protocol::ProtocolNoted& noted) { _judge.OnNoted(noted); },
             // The rest is the ACS's side.

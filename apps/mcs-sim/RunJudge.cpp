@@ -63,6 +63,15 @@ void RunJudge::OnRequest(const Protocol::RequestReceived& received)
     }
 }
 
+void RunJudge::OnAck(const Protocol::AckReceived& received)
+{
+    if (received.bLate)
+    {
+        _notes.WithdrawExcuse();
+    }
+    _tracker.OnAck(received.ack, _lines);
+}
+
 void RunJudge::OnUnanswered(const Protocol::RequestUnanswered& unanswered)
 {
     _notes.Excuse();

@@ -36,6 +36,7 @@ public:
     [[nodiscard]] FloorChecker* GetFloorOrNull() noexcept;
 
     void OnRequest(const Protocol::RequestReceived& received);
+    void OnAck(const Protocol::AckReceived& received);
     void OnUnanswered(const Protocol::RequestUnanswered& unanswered);
     void OnNoted(const Protocol::ProtocolNoted& noted);
 

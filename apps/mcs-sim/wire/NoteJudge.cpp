@@ -88,6 +88,11 @@ void NoteJudge::Excuse() noexcept
     ++_excuses;
 }
 
+void NoteJudge::WithdrawExcuse() noexcept
+{
+    _excuses -= _excuses > 0 ? 1U : 0U;
+}
+
 void NoteJudge::OnTextSent(std::string_view text)
 {
     if (IsAnswerable(Protocol::AcsCodec().Decode(text)))

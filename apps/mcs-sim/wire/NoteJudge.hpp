@@ -50,6 +50,9 @@ public:
     /// still come, or a message was cut on purpose.
     void Excuse() noexcept;
 
+    /// The late Ack came and was recognised: it needs no excuse.
+    void WithdrawExcuse() noexcept;
+
     /// A text was sent past the session. Where it can be answered, that is excused, as the session will not know the Ack.
     void OnTextSent(std::string_view text);
 

@@ -73,3 +73,14 @@ TEST_CASE("The Ack of a text that went past the session is excused once, where t
     CHECK(judge.JudgeOrNull({EProtocolNote::AckUnexpected, 1, "Dance"})->bViolation);
     CHECK(judge.GetCounts()[static_cast<std::size_t>(EProtocolNote::AckUnexpected)] == (row.bAnswerable ? 1 : 2));
 }
+
+TEST_CASE("An excuse that is withdrawn hides no fault, and none that came before it")
+{
+    NoteJudge judge;
+    judge.WithdrawExcuse();
+    judge.Excuse();
+    judge.Excuse();
+    judge.WithdrawExcuse();
+    CHECK_FALSE(judge.JudgeOrNull({EProtocolNote::AckUnexpected, 1, "CancelPlan"})->bViolation);
+    CHECK(judge.JudgeOrNull({EProtocolNote::AckUnexpected, 1, "CancelPlan"})->bViolation);
+}
