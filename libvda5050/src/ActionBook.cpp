@@ -60,6 +60,14 @@ void ActionBook::AddOrderAction(
     _actions.Add(ReportedAction{action, ActionMachine(std::move(state)), scope, elementID, sequenceID});
 }
 
+void ActionBook::MarkOvertaken()
+{
+    for (ReportedAction& tracked : _actions)
+    {
+        tracked.bOvertaken = tracked.IsInstant() && !tracked.IsEnded();
+    }
+}
+
 void ActionBook::DropFrom(std::uint32_t firstSequenceID)
 {
     _actions.EraseIf([firstSequenceID](const ReportedAction& tracked) {

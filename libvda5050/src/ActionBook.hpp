@@ -43,6 +43,8 @@ public:
         EActionScope scope,
         const std::string& elementID,
         std::uint32_t sequenceID);
+    /// Marks the instant actions that have not ended: the order decides where the vehicle is from now on.
+    void MarkOvertaken();
     /// An id that comes back with the update would else have to leave a terminal status.
     void DropFrom(std::uint32_t firstSequenceID);
     void EvictSurplus();

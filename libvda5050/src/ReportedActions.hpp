@@ -28,6 +28,7 @@ struct ReportedAction
     bool bCancelled = false;
     bool bShown = false;      ///< Its end was published in a state.
     bool bPauseAsked = false; ///< PauseAction was sent to the owner, who has not reported PAUSED since.
+    bool bOvertaken = false;  ///< An instant action during which an order or update was accepted.
 
     [[nodiscard]] bool IsInstant() const noexcept;
     [[nodiscard]] bool IsEnded() const noexcept;

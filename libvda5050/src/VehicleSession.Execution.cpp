@@ -236,7 +236,8 @@ bool VehicleSession::Impl::TryChangeStatus(
     else if (status == EActionStatus::Finished)
     {
         _reports.Apply(tracked.action);
-        if (tracked.IsInstant() && tracked.action.actionType == ActionTypes::INIT_POSITION)
+        const bool bSetsNode = tracked.IsInstant() && !tracked.bOvertaken;
+        if (bSetsNode && tracked.action.actionType == ActionTypes::INIT_POSITION)
         {
             SetLastNode(GetTextParameterOrNull(tracked.action, "lastNodeId").value_or(std::string()));
         }

@@ -109,6 +109,7 @@ void VehicleSession::Impl::AcceptOrder(OrderMessage order, VehicleActions& out)
     _errors.EndAllShown();
     _order.Accept(order, out);
     _actions.BeginOrder();
+    _actions.MarkOvertaken();
     const OrderNode first = order.nodes.front();
     _drive.Begin(first);
     AddActions(first.actions, EActionScope::Node, first.nodeID, first.sequenceID);
@@ -121,6 +122,7 @@ void VehicleSession::Impl::AcceptUpdate(OrderMessage order, VehicleActions& out)
 {
     _errors.EndAllShown();
     _order.AcceptUpdate(order, out);
+    _actions.MarkOvertaken();
     if (const std::optional<std::uint32_t> firstDropped = _drive.DropHorizonOrNull())
     {
         _actions.DropFrom(*firstDropped);

@@ -3,6 +3,7 @@
 #include <acs/vda5050/PredefinedActions.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace ACS::VDA5050::Test
 {
@@ -487,6 +488,35 @@ TEST_CASE("5.7 initPosition on a node changes pose and map; the order defines th
     CHECK(bench.GetSession().GetState().agvPosition->mapID == "roof");
     CHECK(bench.GetSession().GetState().lastNodeID == "N1");
     CHECK(bench.GetSession().GetState().lastNodeSequenceID == 2);
+}
+
+TEST_CASE("5.7 initPosition that ends after an order has come leaves the last node to the order")
+{
+    VehicleSessionFixture bench(MakeAble());
+    SetMaps(bench, MakeMaps());
+    const bool bUpdate = GENERATE(false, true);
+    CAPTURE(bUpdate);
+    OrderBuilder builder = MakeBuilder(3);
+    OrderMessage order = *builder.MakeOrder(2, 0);
+    if (bUpdate)
+    {
+        bench.Order(std::exchange(order, *builder.MakeUpdate(3, 0)));
+        bench.Reach(2, true);
+    }
+    bench.Instant("initPosition", "i1", MakePose(42.0, 1.5));
+    bench.Status("i1", EActionStatus::Running);
+    bench.Order(order);
+    if (GENERATE(false, true))
+    {
+        bench.Reach(bUpdate ? 4 : 2, true);
+    }
+    const StateMessage before = bench.GetSession().GetState();
+    bench.Status("i1", EActionStatus::Finished);
+    const StateMessage after = bench.GetSession().GetState();
+    CHECK(bench.GetStatus("i1") == EActionStatus::Finished);
+    CHECK(after.lastNodeID == before.lastNodeID);
+    CHECK(after.lastNodeSequenceID == before.lastNodeSequenceID);
+    CHECK(after.nodeStates == before.nodeStates);
 }
 
 TEST_CASE("5.7 A failed action of an order is a warning and the order continues, unless the action is critical")
