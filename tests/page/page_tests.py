@@ -480,6 +480,21 @@ class Alarms(PageCase):
         self.wait_for_post("/v1/robots/LR01/carriers", {"carrierIds": ["C_9", "C_2"]})
         self.wait_for_text("#detail .ports", "C_2")
 
+    def test_carriers_are_current_after_a_snapshot(self):
+        self.start_with_carriers("C_0", None)
+        self.open("?lang=en#robot/LR01")
+        self.wait_for_text("#detail .ports", "C_0")
+        self.run_script("window.firstRobots = acsdPage.model.robots")
+        self.mock.send_reset()
+        wait_until(lambda: self.run_script("return acsdPage.model.robots !== window.firstRobots"), "the new snapshot")
+        self.set_carriers("C_9", None)
+        self.wait_for_text("#detail .ports", "C_9")
+        self.click_button("Correct carriers")
+        self.assertEqual(self.find("#port-0").get_attribute("value"), "C_9")
+        self.find("#port-1").send_keys("C_2")
+        self.click("#confirm-action")
+        self.wait_for_post("/v1/robots/LR01/carriers", {"carrierIds": ["C_9", "C_2"]})
+
     def test_carriers_are_removed_or_confirmed(self):
         self.start_with_carriers("C_1")
         self.open("?lang=en#robot/LR01")

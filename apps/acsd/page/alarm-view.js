@@ -52,7 +52,7 @@ export class AlarmRow {
         setText(this.message, alarm.message);
         setMarkedText(this.cause, text.cause);
         setMarkedText(this.remedy, text.remedy);
-        const commands = listNamedCommands(text.remedy, this.model.robots);
+        const commands = listNamedCommands(text.remedy, this.model);
         this.named.replaceChildren(...commands.map((command) => makeCommandButton(command)));
         setHidden(this.named, this.named.childElementCount === 0);
         setHidden(this.explanation, text.cause === "" && text.remedy === "");

@@ -30,9 +30,9 @@ export const Commands = {
     setMaintenance: (robot) => ({label: t(robot.maintenance ? "command.maintenanceOff" : "command.maintenanceOn"),
         path: `/v1/robots/${encode(robot.robotId)}/maintenance`, body: {on: !robot.maintenance},
         ask: robot.maintenance ? "ask.maintenanceOff" : null, values: {id: robot.robotId}}),
-    /** getRobot: the robot as it is then. */
-    setCarriers: (robot, robots) => ({label: t("command.carriers"), path: `/v1/robots/${encode(robot.robotId)}/carriers`,
-        getRobot: () => robots.get(robot.robotId) ?? robot, values: {id: robot.robotId}}),
+    /** getRobot: the robot as it is then; each snapshot replaces model.robots. */
+    setCarriers: (robot, model) => ({label: t("command.carriers"), path: `/v1/robots/${encode(robot.robotId)}/carriers`,
+        getRobot: () => model.robots.get(robot.robotId) ?? robot, values: {id: robot.robotId}}),
     sendAction: (robotId, offer) => ({label: offer.actionType, path: `/v1/robots/${encode(robotId)}/actions`, offer,
         values: {id: robotId, action: offer.actionType}}),
     clearAlarm: (alarm) => ({label: t("command.clear"), path: "/v1/alarms/clear", ask: "ask.clear", body: {
@@ -47,11 +47,11 @@ export const Commands = {
 };
 
 /** The commands that a text of acsd names between backticks and for which the page has a button. */
-export function listNamedCommands(text, robots) {
+export function listNamedCommands(text, model) {
     const maintenance = [...text.matchAll(/`acsctl maintenance (\S+) (on|off)`/g)].map(([, robotId, word]) =>
         Commands.setMaintenance({robotId, maintenance: word === "off"}));
-    const carriers = [...text.matchAll(/`acsctl carriers (\S+)`/g)].map(([, robotId]) => robots.get(robotId))
-        .filter((robot) => robot?.ports.length > 0).map((robot) => Commands.setCarriers(robot, robots));
+    const carriers = [...text.matchAll(/`acsctl carriers (\S+)`/g)].map(([, robotId]) => model.robots.get(robotId))
+        .filter((robot) => robot?.ports.length > 0).map((robot) => Commands.setCarriers(robot, model));
     return [...maintenance, ...carriers];
 }
 

@@ -53,7 +53,7 @@ export class RobotDetail {
                 this.isInMaintenance = robot.maintenance;
                 const commands = [Commands.setMaintenance(robot)];
                 if (robot.ports.length > 0) {
-                    commands.push(Commands.setCarriers(robot, model.robots));
+                    commands.push(Commands.setCarriers(robot, model));
                 }
                 this.buttons.replaceChildren(...commands.map((command) => makeCommandButton(command)));
             }
