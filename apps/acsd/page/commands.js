@@ -5,6 +5,7 @@ import {post} from "./api.js";
 import {askCarriers} from "./carriers-dialog.js";
 import {askConfirmation, askNumber, showToast} from "./dialogs.js";
 import {make} from "./dom.js";
+import {listCommands} from "./shell.js";
 import {t} from "./text.js";
 
 const encode = encodeURIComponent;
@@ -48,11 +49,14 @@ export const Commands = {
 
 /** The commands that a text of acsd names between backticks and for which the page has a button. */
 export function listNamedCommands(text, model) {
-    const maintenance = [...text.matchAll(/`acsctl maintenance (\S+) (on|off)`/g)].map(([, robotId, word]) =>
-        Commands.setMaintenance({robotId, maintenance: word === "off"}));
-    const carriers = [...text.matchAll(/`acsctl carriers (\S+)`/g)].map(([, robotId]) => model.robots.get(robotId))
-        .filter((robot) => robot?.ports.length > 0).map((robot) => Commands.setCarriers(robot, model));
-    return [...maintenance, ...carriers];
+    return listCommands(text).flatMap(([program, name, robotId, ...rest]) => {
+        const command = [program, name, ...rest].join(" ");
+        if (command === "acsctl maintenance on" || command === "acsctl maintenance off") {
+            return [Commands.setMaintenance({robotId, maintenance: command.endsWith("off")})];
+        }
+        const robot = command === "acsctl carriers" ? model.robots.get(robotId) : undefined;
+        return robot?.ports.length > 0 ? [Commands.setCarriers(robot, model)] : [];
+    });
 }
 
 /** What the questions of the command add to its body; null if the user cancels. */

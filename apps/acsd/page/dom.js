@@ -1,5 +1,7 @@
 // Helpers for the DOM. Every text goes through textContent: ids and messages come from other systems.
 
+import {splitText} from "./shell.js";
+
 const SVG = "http://www.w3.org/2000/svg";
 const SHOWN_ATTRIBUTES = ["title", "aria-label"];
 // Characters without a shape that change how others are shown: the direction of writing, joiners, separators of lines.
@@ -43,7 +45,7 @@ export function makeSvg(tag, attributes, ...children) {
 export function setMarkedText(node, text) {
     if (node.dataset.marked !== text) {
         node.dataset.marked = text;
-        node.replaceChildren(...makeVisible(text).split("`").map((part, i) => (i % 2 === 1 ? make("code", {text: part}) : part)));
+        node.replaceChildren(...splitText(makeVisible(text)).map((part, i) => (i % 2 === 1 ? make("code", {text: part}) : part)));
     }
 }
 

@@ -1,5 +1,6 @@
 // Texts of the page in English and Korean.
 
+import {quote} from "./shell.js";
 import english from "./text.en.js";
 import korean from "./text.ko.js";
 
@@ -32,16 +33,16 @@ export function nameState(kind, state) {
 }
 
 /** Title, cause and remedy of an alarm in the language of the page, else as acsd sends them. Commands in it name the robot, plan
- *  and job of the alarm. */
+ *  and job of the alarm: those of acsd already do. */
 export function explainAlarm(alarm) {
     const own = language === "ko" ? koreanAlarms[alarm.errorCode] : undefined;
     const values = {ROBOT: alarm.robotId, PLAN: alarm.planId, JOB: alarm.jobId, CODE: alarm.errorCode};
-    const fillCommand = (command) => command.replace(/\b[A-Z]+\b/g, (word) => values[word] ?? word);
-    const fill = (text) => text.replace(/`[^`]*`/g, fillCommand);
+    const fillWord = (word) => (values[word] ? quote(values[word]) : word);
+    const fill = (text) => text?.replace(/`[^`]*`/g, (command) => command.replace(/\b[A-Z]+\b/g, fillWord));
     return {
         title: own?.title ?? alarm.title ?? "",
-        cause: fill(own?.cause ?? alarm.cause ?? ""),
-        remedy: fill(own?.remedy ?? alarm.remedy ?? ""),
+        cause: fill(own?.cause) ?? alarm.cause ?? "",
+        remedy: fill(own?.remedy) ?? alarm.remedy ?? "",
     };
 }
 
