@@ -10,6 +10,7 @@ from mock_floor import format_time, get_now
 from page_case import PageCase, wait_until
 from selenium.webdriver.common.keys import Keys
 
+FINISHED_LIMIT = 100
 CPU_LIMIT = 0.2  # of a core, for the renderer
 MEASURED_SECONDS = 20
 NODE = "N020"  # on the east lane of the example site
@@ -324,6 +325,21 @@ class Plans(PlanCase):
         self.wait_for_text("#plans-finished", "LR01: motor fault")
         self.find("#view-plans .filter").send_keys("no such plan")
         wait_until(lambda: not self.find_all("#view-plans .rows li"), "the filter hides all")
+
+    def test_of_ended_plans_the_newest_are_kept(self):
+        with self.mock.lock:
+            simulation = self.mock.simulation
+            plans = [simulation.add_plan("LR") for _ in range(FINISHED_LIMIT + 2)]
+            for plan in plans:
+                simulation.end_plan(plan, "Completed")
+            simulation.ended_plans.append(plans[1])  # it ends again
+            self.mock.publish()
+        expected = [plan.plan_id for plan in plans[3:] + plans[1:2]]
+        get_ids = "return [...acsdPage.model.ended.keys()]"
+        wait_until(lambda: plans[-1].plan_id in self.run_script(get_ids), "the plans have ended")
+        self.assertEqual(self.run_script(get_ids), expected)
+        self.click("#finished-button")
+        wait_until(lambda: len(self.find_all("#plans-finished li")) == FINISHED_LIMIT, "as many are listed")
 
     def test_a_completed_plan_has_all_its_steps(self):
         with self.mock.lock:

@@ -1,5 +1,6 @@
 // What the page knows of acsd: the last snapshot and every event after it.
 
+export const FINISHED_LIMIT = 100; // finished plans, here and in their list
 const KEPT_ENTRIES = 500;
 
 /** Which parts have changed; ids where there are many. */
@@ -27,7 +28,7 @@ export class Model {
     constructor() {
         this.status = null;
         this.plans = new Map(); // unfinished
-        this.ended = new Map(); // finished while the page was open
+        this.ended = new Map(); // the last ones that finished while the page was open, the newest last
         this.robots = new Map();
         this.alarms = [];
         this.entries = []; // with the id of their event, newest first
@@ -79,8 +80,12 @@ export class Model {
         }
         for (const plan of data.ended ?? []) {
             this.plans.delete(plan.planId);
+            this.ended.delete(plan.planId);
             this.ended.set(plan.planId, plan);
             changes.plans.add(plan.planId);
+        }
+        for (const planId of [...this.ended.keys()].slice(0, -FINISHED_LIMIT)) {
+            this.ended.delete(planId);
         }
         for (const robot of data.robots ?? []) {
             this.robots.set(robot.robotId, robot);

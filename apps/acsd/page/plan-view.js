@@ -4,9 +4,8 @@ import {getJson} from "./api.js";
 import {KeyedList, make, setAttribute, setClass, setHidden, setText} from "./dom.js";
 import {formatTime, setSince} from "./format.js";
 import {getPlanGlyph, setGlyph} from "./glyphs.js";
+import {FINISHED_LIMIT} from "./model.js";
 import {nameState, t} from "./text.js";
-
-const FINISHED_LIMIT = 100;
 
 /** One part for each step of the plan. */
 export class StepBar {
@@ -158,14 +157,17 @@ export class PlanView {
             .sort((a, b) => getPlace(a) - getPlace(b) || a.acceptedAt.localeCompare(b.acceptedAt));
         this.#show(this.active, active);
         this.#show(this.queue, queue);
-        const known = new Set(this.finished.map((plan) => plan.planId));
-        const finished = [...[...model.ended.values()].filter((plan) => !known.has(plan.planId)), ...this.finished]
-            .filter((plan) => this.#matches(plan)).sort((a, b) => b.endedAt.localeCompare(a.endedAt)).slice(0, FINISHED_LIMIT);
-        setHidden(this.done.section, !this.isFinishedShown);
-        this.#show(this.done, this.isFinishedShown ? finished : []);
+        this.#show(this.done, this.isFinishedShown ? this.#listFinished() : []);
         setText(this.more, t(this.isFinishedShown ? "plan.hideFinished" : "plan.showFinished"));
         setAttribute(this.more, "aria-pressed", String(this.isFinishedShown));
         setHidden(this.empty, active.length + queue.length > 0);
+    }
+
+    /** Those that acsd has listed, and those that have ended since. */
+    #listFinished() {
+        const known = new Set(this.finished.map((plan) => plan.planId));
+        return [...[...this.context.model.ended.values()].filter((plan) => !known.has(plan.planId)), ...this.finished]
+            .filter((plan) => this.#matches(plan)).sort((a, b) => b.endedAt.localeCompare(a.endedAt)).slice(0, FINISHED_LIMIT);
     }
 
     #show(section, plans) {
