@@ -5,6 +5,7 @@ import unittest
 from datetime import timedelta
 
 from browser import list_processes, read_cpu_seconds
+from mock_acsd import Refusal
 from mock_floor import Floor as MockFloor
 from mock_floor import format_time, get_now
 from page_case import PageCase, wait_until
@@ -340,6 +341,77 @@ class Plans(PlanCase):
         self.assertEqual(self.run_script(get_ids), expected)
         self.click("#finished-button")
         wait_until(lambda: len(self.find_all("#plans-finished li")) == FINISHED_LIMIT, "as many are listed")
+
+    def end_unseen(self, message):
+        """The page gets no event of it. Returns the plan."""
+        with self.mock.lock:
+            simulation = self.mock.simulation
+            plan = simulation.add_plan("LR")
+            clients, self.mock._clients = self.mock._clients, []
+            simulation.end_plan(plan, "Failed", message)
+            self.mock.publish()
+            self.mock._clients = clients
+        return plan
+
+    def test_plans_that_ended_before_a_snapshot_are_listed(self):
+        self.click("#finished-button")
+        self.wait_for_text("#finished-button", "Hide finished")
+        self.end_unseen("ended unseen")
+        self.mock.send_reset()
+        self.wait_for_text("#plans-finished", "ended unseen")
+        self.expected_log = ("/v1/plans",)
+        get = self.mock.get
+
+        def refuse(path, query):
+            if path == "/v1/plans":
+                raise Refusal(500, "the history cannot be read")
+            return get(path, query)
+
+        self.mock.get = refuse
+        self.end_unseen("ended unseen, too")
+        self.mock.send_reset()
+        self.wait_for_text("#toasts", "the history cannot be read")
+        # No list with a gap.
+        self.wait_for_text("#finished-button", "Show finished")
+        self.assertFalse(self.find("#plans-finished").is_displayed())
+        self.mock.get = get
+        self.click("#finished-button")
+        self.wait_for_text("#plans-finished", "ended unseen, too")
+
+    def test_a_late_answer_changes_no_finished_plans(self):
+        """Neither those of a newer answer, nor those of a list that was hidden meanwhile."""
+        self.run_script(
+            "const fetched = window.fetch; window.answers = []; window.fetch = async (...all) => {"
+            "  const answer = await fetched(...all);"
+            "  if (String(all[0]).startsWith('/v1/plans?')) {"
+            "    const text = await answer.text();"
+            "    return new Promise((go) => { window.answers.push(() => go(new Response(text, answer))); });"
+            "  }"
+            "  return answer;"
+            "};")
+
+        def wait_for_answers(count):
+            wait_until(lambda: self.run_script("return window.answers.length") == count, f"{count} answers are held")
+
+        def pass_on(number):
+            self.run_script("window.answers[arguments[0]](); return new Promise((go) => setTimeout(go, 100))", number)
+
+        self.click("#finished-button")
+        wait_for_answers(1)
+        self.end_unseen("ended unseen")
+        self.mock.send_reset()
+        wait_for_answers(2)
+        pass_on(1)
+        self.wait_for_text("#plans-finished", "ended unseen")
+        pass_on(0)
+        self.assertIn("ended unseen", self.get_text("#plans-finished"))
+        self.mock.send_reset()
+        wait_for_answers(3)
+        self.click("#finished-button")
+        self.wait_for_text("#finished-button", "Show finished")
+        pass_on(2)
+        self.assertEqual(self.get_text("#finished-button"), "Show finished")
+        self.assertFalse(self.find("#plans-finished").is_displayed())
 
     def test_a_completed_plan_has_all_its_steps(self):
         with self.mock.lock:

@@ -92,6 +92,13 @@ export class PlanView {
         this.root = document.getElementById("view-plans");
         this.isFinishedShown = false;
         this.finished = [];
+        this.request = null; // for the finished plans
+        context.model.listen((changes) => {
+            // Some may have ended without an event.
+            if (changes.isAll && this.isFinishedShown) {
+                this.#loadFinished();
+            }
+        });
         this.build();
     }
 
@@ -117,15 +124,32 @@ export class PlanView {
         this.update();
     }
 
-    async toggleFinished() {
+    toggleFinished() {
         this.isFinishedShown = !this.isFinishedShown;
         if (this.isFinishedShown) {
-            try {
-                this.finished = (await getJson(`/v1/plans?state=finished&limit=${FINISHED_LIMIT}`)).plans;
-            } catch (error) {
-                this.context.showError(error);
-                this.isFinishedShown = false;
+            this.#loadFinished();
+        } else {
+            this.request = null;
+            this.update();
+        }
+    }
+
+    /** Only the answer to the last request counts, and none after the list was hidden. Without an answer the list is hidden: it
+     *  would have a gap. */
+    async #loadFinished() {
+        const request = this.request = getJson(`/v1/plans?state=finished&limit=${FINISHED_LIMIT}`);
+        try {
+            const {plans} = await request;
+            if (request !== this.request) {
+                return;
             }
+            this.finished = plans;
+        } catch (error) {
+            if (request !== this.request) {
+                return;
+            }
+            this.isFinishedShown = false;
+            this.context.showError(error);
         }
         this.update();
     }
