@@ -171,6 +171,31 @@ class Floor(PageCase):
         self.wait_for_post("/v1/site/unblock", {"kind": "node", "id": NODE})
         wait_until(lambda: "wet floor" not in self.get_text("#detail"), "the node is not blocked")
 
+    def test_the_detail_of_a_station_is_current(self):
+        mock = self.start_mock()
+        mock.freeze()
+        simulation = mock.simulation
+        station, node = next(iter(simulation.floor.stations.items()))
+        self.open()
+        self.run_script("acsdPage.select({kind: 'station', id: arguments[0]})", station)
+        self.wait_for_text("#detail", node)
+        with mock.lock:
+            plan = simulation.add_plan("LR")
+            plan.steps[0]["position"] = station
+            mock.publish()
+        self.wait_for_text("#detail", plan.plan_id)
+        with mock.lock:
+            del simulation.floor.stations[station]
+            mock.site_revision += 1
+            mock.publish()
+        self.wait_for_text("#detail", "acsd does not know it any more.")
+        with mock.lock:
+            simulation.floor.stations[station] = node
+            mock.site_revision += 1
+            mock.publish()
+        self.wait_for_text("#detail", node)
+        self.assertEqual(self.get_text("#detail .row-buttons button"), "Block")
+
     def test_a_selected_place_is_still_blocked(self):
         count = """
             const [x, y, name] = arguments, layer = acsdPage.floor.siteLayer, canvas = layer.context.canvas, size = 60;

@@ -31,6 +31,7 @@ export class PlaceDetail {
         const item = index && {node: index.nodes, edge: index.edges, station: index.stations}[this.kind]?.get(this.id);
         const block = model.findBlock(this.kind, this.id);
         if (!item) {
+            this.shown = "";
             this.facts.replaceChildren(make("dd", {text: t("detail.gone")}));
             this.buttons.replaceChildren();
             return;
@@ -42,8 +43,10 @@ export class PlaceDetail {
         const reserving = this.kind === "edge" ? []
             : robots.filter((robot) => robot.reservedNodes.some((id) => nodes.includes(id)));
         const coming = robots.filter((robot) => robot.route.some((step) => nodes.includes(step.nodeId)));
+        const isAhead = (step) => step.position === this.id && ["Pending", "Dispatched", "InProgress"].includes(step.status);
+        const plans = this.kind === "station" ? [...model.plans.values()].filter((plan) => plan.steps.some(isAhead)) : [];
         const shown = JSON.stringify([block, here.map((robot) => [robot.robotId, robot.carrierIds]),
-            reserving.map((robot) => robot.robotId), coming.map((robot) => robot.robotId)]);
+            reserving.map((robot) => robot.robotId), coming.map((robot) => robot.robotId), plans.map((plan) => plan.planId)]);
         if (shown === this.shown) {
             return;
         }
@@ -63,9 +66,7 @@ export class PlaceDetail {
         if (this.kind === "station") {
             add("robot.carriers", here.flatMap((robot) => robot.carrierIds.filter(Boolean)
                 .map((carrier) => `${carrier} (${robot.robotId})`)).join(", ") || "–");
-            const isAhead = (step) => step.position === this.id && ["Pending", "Dispatched", "InProgress"].includes(step.status);
-            add("place.plans", ...this.#listLinks("plan", [...model.plans.values()].filter((plan) => plan.steps.some(isAhead))
-                .map((plan) => plan.planId)));
+            add("place.plans", ...this.#listLinks("plan", plans.map((plan) => plan.planId)));
         }
         if (this.kind === "node") {
             const stations = index.stationsOfNode.get(this.id) ?? [];
