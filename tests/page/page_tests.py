@@ -243,6 +243,50 @@ class Floor(PageCase):
         self.click_floor(0, 0)
         self.wait_for_text("#detail-title", "UPSTAIRS")
 
+    def test_the_map_of_the_selection_is_shown(self):
+        floor = MockFloor.read_example()
+        floor.add_node("UPSTAIRS", 300, 200, "floor-2")
+        floor.add_node("UPSTAIRS-END", 310, 200, "floor-2")
+        floor.add_edge("UP", "UPSTAIRS", "UPSTAIRS-END")
+        floor.stations["UP.CP01"] = "UPSTAIRS"
+        mock = self.start_mock(floor=floor)
+        mock.freeze()
+        with mock.lock:
+            robot = mock.simulation.robots["LR01"]
+            robot.node, robot.x, robot.y = "UPSTAIRS", 300, 200
+            plan = mock.simulation.add_plan("LR")
+            plan.robot_id = "LR01"
+        selections = [("node", "UPSTAIRS"), ("edge", "UP"), ("station", "UP.CP01"), ("robot", "LR01"), ("plan", plan.plan_id)]
+
+        def check(map_id, what):
+            wait_until(lambda: self.run_script("return acsdPage.floor.mapId") == map_id, f"{what}: {map_id}")
+            self.assertEqual(self.find("#map-tools select").get_property("value"), map_id)
+
+        def is_seen(x, y):
+            return self.run_script("return acsdPage.floor.map.getBounds().contains([arguments[1], arguments[0]])", x, y)
+
+        for kind, id in selections:
+            self.open(f"?lang=en#{kind}/{id}")
+            check("floor-2", kind)
+            self.assertTrue(is_seen(300, 200) and is_seen(310, 200), "the whole map is seen")
+        self.find("#map-tools button[title^='Zoom in']").click()
+        for kind, id in selections:
+            self.run_script("location.hash = arguments[0]", f"#node/{NODE}")
+            check("floor-1", kind)
+            self.assertTrue(is_seen(*floor.places[NODE]), kind)
+            self.run_script("location.hash = `#${arguments[0]}/${arguments[1]}`", kind, id)
+            check("floor-2", kind)
+            self.assertTrue(is_seen(310 if kind == "edge" else 300, 200), kind)
+
+    def test_a_link_to_a_robot_shows_the_whole_floor(self):
+        self.start_mock().freeze()
+        self.open()
+        get_view = "const {map} = acsdPage.floor; return [map.getCenter().lat, map.getCenter().lng, map.getZoom()]"
+        whole = self.run_script(get_view)
+        for robot_id in self.mock.simulation.robots:
+            self.open(f"?lang=en#robot/{robot_id}")
+            self.assertEqual(self.run_script(get_view), whole)
+
     def test_zoom_and_fit(self):
         self.start_mock()
         self.open()

@@ -27,6 +27,7 @@ export class Floor {
         this.mapId = null;
         this.isTouched = false; // by the user; until then the floor fits the window
         this.selection = null;
+        this.isMoveDue = false; // to the selection
         this.#listen();
         this.showTools();
     }
@@ -60,6 +61,7 @@ export class Floor {
         if (changes.isAll) {
             this.robotLayer.setRobots(model.robots);
             this.#highlight();
+            this.#moveToSelection();
         } else if (changes.robots.size > 0) {
             this.robotLayer.updateRobots(changes.robots);
         }
@@ -79,6 +81,11 @@ export class Floor {
             this.fit();
         }
         this.showTools();
+    }
+
+    #switchMap(mapId) {
+        this.mapId = mapId;
+        this.#showMap();
     }
 
     #showMap() {
@@ -115,12 +122,31 @@ export class Floor {
         this.showTools();
     }
 
-    /** {kind: "robot", "plan", "node", "edge" or "station", id}, or null. Moves the map if it cannot be seen. */
+    /** {kind: "robot", "plan", "node", "edge" or "station", id}, or null. If it cannot be seen, shows its map and moves there. */
     setSelection(selection, mayMove) {
         this.selection = selection;
         this.#highlight();
-        const place = selection === null || this.index === null ? null : this.#findPlace(selection);
-        if (mayMove && place !== null && !this.map.getBounds().pad(-0.05).contains([place.y, place.x])) {
+        this.isMoveDue = mayMove;
+        this.#moveToSelection();
+    }
+
+    /** With the first snapshot if the page is opened with a selection: until then its place is unknown. */
+    #moveToSelection() {
+        const {selection} = this;
+        const place = this.isMoveDue && selection !== null && this.index !== null ? this.#findPlace(selection) : null;
+        this.isMoveDue &&= this.context.model.status === null;
+        if (place === null) {
+            return;
+        }
+        if (place.mapId !== this.mapId) {
+            this.#switchMap(place.mapId);
+            this.showTools();
+            if (!this.isTouched) {
+                this.fit();
+            }
+        }
+        const margin = this.isTouched ? 0.05 : 0; // the floor fits the window until the user moves it
+        if (!this.map.getBounds().pad(-margin).contains([place.y, place.x])) {
             this.isTouched = true;
             this.map.setView([place.y, place.x], Math.max(this.map.getZoom(), 4), {animate: false});
         }
@@ -129,15 +155,15 @@ export class Floor {
     #findPlace({kind, id}) {
         const {model} = this.context;
         if (kind === "robot" || kind === "plan") {
-            const robotId = kind === "robot" ? id : model.findPlan(id)?.robotId;
-            return this.robotLayer.getPlace(robotId);
+            return this.robotLayer.getPlace(kind === "robot" ? id : model.findPlan(id)?.robotId);
         }
         const edge = kind === "edge" ? this.index.edges.get(id) : undefined;
         if (edge !== undefined) {
             const [x, y] = edge.points[Math.floor(edge.points.length / 2)];
-            return {x, y};
+            return {x, y, mapId: edge.mapId};
         }
-        return this.index[kind === "node" ? "nodes" : "stations"].get(id) ?? null;
+        const item = this.index[kind === "node" ? "nodes" : "stations"].get(id);
+        return item === undefined ? null : {x: item.x, y: item.y, mapId: item.mapId ?? ""};
     }
 
     #highlight() {
@@ -194,8 +220,7 @@ export class Floor {
         ];
         if ((this.index?.maps.length ?? 0) > 1) {
             const select = make("select", {"aria-label": t("floor.map"), onchange: () => {
-                this.mapId = select.value;
-                this.#showMap();
+                this.#switchMap(select.value);
                 this.fit();
             }}, ...this.index.maps.map((name) => make("option", {value: name, text: name, selected: name === this.mapId})));
             tools.push(select);

@@ -131,9 +131,14 @@ export class RobotLayer extends CanvasLayer {
         return node === undefined ? null : {x: node.x, y: node.y, theta: Math.PI / 2};
     }
 
-    #isOnMap(robot) {
+    /** That of its node; null if the node is unknown and there are several maps. */
+    #findMapId(robot) {
         const node = this.index.nodes.get(robot.node);
-        return node === undefined ? this.index.maps.length <= 1 : (node.mapId ?? "") === this.mapId;
+        return node !== undefined ? node.mapId ?? "" : this.index.maps.length <= 1 ? this.mapId : null;
+    }
+
+    #isOnMap(robot) {
+        return this.#findMapId(robot) === this.mapId;
     }
 
     #schedule() {
@@ -374,8 +379,10 @@ export class RobotLayer extends CanvasLayer {
         return found?.robotId ?? null;
     }
 
-    /** Where the robot is shown, in metres; null if it is not on the floor. */
+    /** Where the robot is shown, in metres, and on which map; null if it is on none. */
     getPlace(robotId) {
-        return this.motions.get(robotId)?.shown ?? null;
+        const motion = this.motions.get(robotId);
+        const mapId = motion === undefined ? null : this.#findMapId(this.robots.get(robotId));
+        return mapId === null ? null : {...motion.shown, mapId};
     }
 }
