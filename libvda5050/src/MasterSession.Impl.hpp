@@ -48,10 +48,8 @@ public:
     void OnLinkDown(Core::Now now, MasterActions& out);
     void OnMessage(std::string_view topic, std::string_view payload, bool bRetained, Core::Now now, MasterActions& out);
     void OnTimer(EMasterTimer timer, Core::Now now, MasterActions& out);
-    /// Sets the zone set of the options where the order has none.
-    void SetZoneSet(OrderMessage& order) const;
-    /// See FactsheetRules::FitOrder.
-    [[nodiscard]] Core::Result<void> FitOrder(OrderMessage& order, Core::Now now) const;
+    /// Changes the order to what the vehicle takes. True: it continues with nodes that are not in its base.
+    [[nodiscard]] Core::Result<bool> Prepare(OrderMessage& order, Core::Now now) const;
     [[nodiscard]] Core::Result<void> SendOrder(OrderMessage order, Core::Now now, MasterActions& out);
     void SetHorizonOmitted(bool bOmitted) noexcept;
     [[nodiscard]] Core::Result<void> SendOrderUpdate(OrderMessage update, Core::Now now, MasterActions& out);
@@ -85,8 +83,10 @@ private:
     /// The number that the vehicle shows for the order; 0 without one.
     [[nodiscard]] std::uint32_t GetShownUpdateID() const;
 
-    /// Changes the order to what the vehicle takes. True: it continues with nodes that are not in its base.
-    [[nodiscard]] Core::Result<bool> Prepare(OrderMessage& order, Core::Now now) const;
+    /// Sets the zone set of the options where the order has none.
+    void SetZoneSet(OrderMessage& order) const;
+    /// See FactsheetRules::FitOrder.
+    [[nodiscard]] Core::Result<void> FitOrder(OrderMessage& order, Core::Now now) const;
     void BeginOrder(std::string orderID, OrderNumbers numbers);
     void AddToRoute(const OrderMessage& order, bool bUpdate);
     /// The start of an update: the last released node of the last message.

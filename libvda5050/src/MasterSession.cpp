@@ -73,8 +73,7 @@ void MasterSession::SetHorizonOmitted(bool bOmitted) noexcept
 
 Core::Result<void> MasterSession::CheckOrder(OrderMessage order, Core::Now now) const
 {
-    _impl->SetZoneSet(order);
-    return _impl->FitOrder(order, now);
+    return _impl->Prepare(order, now).map([](bool) {});
 }
 
 Core::Result<void> MasterSession::SendOrderUpdate(OrderMessage update, Core::Now now, MasterActions& out)

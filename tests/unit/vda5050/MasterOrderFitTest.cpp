@@ -306,6 +306,27 @@ TEST_CASE("3.7 Actions of the horizon, which an update replaces, are counted onc
     CHECK(bench.Check(update) == limit);
 }
 
+TEST_CASE("3.7 An update whose nodes do not match its edges is refused before it is compared with the factsheet")
+{
+    FitFixture bench;
+    FactsheetMessage factsheet = MakeBareFactsheet();
+    factsheet.protocolLimits.maxArrayLengths.stateActionStates = 1;
+    bench.Deliver(factsheet);
+    OrderBuilder builder = MakeBuilder(4);
+    const OrderMessage order = *builder.MakeOrder(2);
+    REQUIRE(bench.Send(order).has_value());
+    OrderMessage update = *builder.MakeUpdate(3);
+    bench.Hold(order, 2);
+    bench.SendState();
+    while (!update.nodes.empty())
+    {
+        update.nodes.pop_back();
+        const auto check = bench.session.CheckOrder(update, bench.GetNow());
+        REQUIRE_FALSE(check.has_value());
+        CHECK(check.error().code == EVda5050Error::InvalidOrder);
+    }
+}
+
 TEST_CASE("3.7 An update is checked together with the bytes of what the vehicle has left")
 {
     constexpr std::size_t BASE = 20;

@@ -121,8 +121,8 @@ public:
     /// For a vehicle that rejects orders with a horizon, which a factsheet cannot state: later orders and updates are sent without
     /// it. The order still ends only with a message that had no horizon before.
     void SetHorizonOmitted(bool bOmitted) noexcept;
-    /// Whether the factsheet allows the order, or the update if its orderID is that of the running order. True without one.
-    /// Error: NotSupported, with the factsheet's name of the member as path.
+    /// Whether the order, or the update if its orderID is that of the running order, is valid and allowed by the factsheet, if there
+    /// is one. Errors: InvalidOrder; NotSupported, with the factsheet's name of the member as path.
     [[nodiscard]] Core::Result<void> CheckOrder(OrderMessage order, Core::Now now) const;
     /// The next update of the running order: nodes from the decision point on. The session sets orderID and orderUpdateID.
     /// The update is sent once the vehicle shows the previous message; at most one update can wait.
