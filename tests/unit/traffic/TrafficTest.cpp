@@ -70,6 +70,17 @@ struct Way
     EUse use = EUse::Always;
 };
 
+/// Each way in both directions.
+std::vector<Way> MakeBothWays(std::vector<Way> ways)
+{
+    const std::size_t count = ways.size();
+    for (std::size_t i = 0; i < count; ++i)
+    {
+        ways.push_back({ways[i].to, ways[i].from, ways[i].use});
+    }
+    return ways;
+}
+
 /// Nodes in a row.
 SiteMap MakeNodes(std::size_t count, const std::vector<Way>& ways)
 {
@@ -234,13 +245,7 @@ TEST_CASE(
     "Traffic: a robot between two nodes is granted the second one, whatever is on the way to its parking position")
 {
     // Lane 0-1-2-3-4-5 with the parking positions 6, 7 and 8 on 5. Robot 1 is in the way of robot 0, and 0 in that of 2.
-    std::vector<Way> ways;
-    for (const auto& [from, to] : std::vector<
-             std::pair<std::size_t, std::size_t>>{{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 6}, {5, 7}, {5, 8}})
-    {
-        ways.push_back({from, to});
-        ways.push_back({to, from});
-    }
+    const std::vector<Way> ways = MakeBothWays({{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 6}, {5, 7}, {5, 8}});
     Traffic traffic(MakeNodes(9, ways), 0);
     PlaceRobots(traffic, Nodes{6, 7, 8}, Nodes{1, 4, 0});
     traffic.AddRobot("lr", 0); // so that 0 is no refuge
@@ -415,21 +420,8 @@ TEST_CASE("Traffic: no robot takes the refuge that another one needs")
 {
     // Lane 0-1-2-3-4 with spurs 5 on 0, 6 and 9 on 4, 7 and 8 on 2. Robots 0 and 1 are in each other's way to their parking positions 6
     // and 5: one of them must wait in 7, because 8 and 9 have robots of their own.
-    std::vector<Way> ways;
-    for (const auto& [from, to] : std::vector<std::pair<std::size_t, std::size_t>>{
-             {0, 1},
-             {1, 2},
-             {2, 3},
-             {3, 4},
-             {0, 5},
-             {4, 6},
-             {2, 7},
-             {2, 8},
-             {4, 9}})
-    {
-        ways.push_back({from, to});
-        ways.push_back({to, from});
-    }
+    const std::vector<Way> ways =
+        MakeBothWays({{0, 1}, {1, 2}, {2, 3}, {3, 4}, {0, 5}, {4, 6}, {2, 7}, {2, 8}, {4, 9}});
     Traffic traffic(MakeNodes(10, ways), 0);
     const Nodes homes{6, 5, 9};
     const Nodes places{1, 3, 8};
@@ -445,21 +437,8 @@ TEST_CASE("Traffic: no robot takes the refuge that another one needs")
 TEST_CASE("Traffic: no robot takes as its refuge where another one parks during a block")
 {
     // As above. Robot 0 cannot get to 9 and parks in 7; after it robot 1 can go to 6.
-    std::vector<Way> ways;
-    for (const auto& [from, to] : std::vector<std::pair<std::size_t, std::size_t>>{
-             {0, 1},
-             {1, 2},
-             {2, 3},
-             {3, 4},
-             {0, 5},
-             {4, 6},
-             {2, 7},
-             {2, 8},
-             {4, 9}})
-    {
-        ways.push_back({from, to});
-        ways.push_back({to, from});
-    }
+    const std::vector<Way> ways =
+        MakeBothWays({{0, 1}, {1, 2}, {2, 3}, {3, 4}, {0, 5}, {4, 6}, {2, 7}, {2, 8}, {4, 9}});
     const SiteMap site = MakeNodes(10, ways);
     Traffic traffic(site, 0);
     PlaceRobots(traffic, Nodes{9, 6}, Nodes{3, 1});
