@@ -1,116 +1,21 @@
 #include "Catch.hpp"
+#include "fixtures/HostTest.hpp"
 #include "fixtures/PlanWorld.hpp"
-#include <acs/plan/PlanEngineHost.hpp>
 
 #include <algorithm>
 #include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace ACS::Testing
-{
-namespace
 {
 
 using namespace Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 using namespace std::chrono_literals;
 
-/// The host with an engine, and a disk that answers when the test lets it.
-class HostTest
+namespace
 {
-protected:
-    ManualClock _clock;
-    SeededRandom _random{1};
-    PlanEngine _engine;
-    PlanEngineHost _host{
-        _engine,
-        _clock,
-        [this](const EngineAction& action) { OnAction(action); },
-        [this](const StoreBatch& batch) {
-            _batches.push_back(batch);
-        }};
-
-    std::vector<StoreBatch> _batches;
-    std::vector<ReplyCommand> _replies;
-    std::vector<EngineTimer> _timers; ///< That were started.
-    std::vector<StartJob> _jobs;      ///< That were commanded.
-
-    explicit HostTest(const EngineOptions& options = MakeTestOptions(false))
-        : _engine(options, MakeTestSite(), _random)
-    {
-    }
-
-    void OnAction(const EngineAction& action)
-    {
-        REQUIRE_FALSE(std::holds_alternative<StorePlans>(action));
-        if (const auto* const replyOrNull = std::get_if<ReplyCommand>(&action))
-        {
-            _replies.push_back(*replyOrNull);
-        }
-        if (const auto* const commandOrNull = std::get_if<CommandRobot>(&action);
-            commandOrNull != nullptr && std::holds_alternative<StartJob>(commandOrNull->command))
-        {
-            _jobs.push_back(std::get<StartJob>(commandOrNull->command));
-        }
-        if (const auto* const startOrNull = std::get_if<StartEngineTimer>(&action))
-        {
-            _timers.push_back(startOrNull->timer);
-        }
-    }
-
-    void Submit(const std::string& planID, ReplyToken token)
-    {
-        _host.Push(SubmitPlan{MakeLogisticsPlan(planID), token});
-    }
-
-    /// The disk answers until nothing is left to store; false: that does not end.
-    [[nodiscard]] bool TryStoreAll()
-    {
-        constexpr int MANY = 100;
-        for (int i = 0; i < MANY && _host.IsStoring(); ++i)
-        {
-            _host.OnStored({});
-        }
-        return !_host.IsStoring();
-    }
-
-    [[nodiscard]] static std::vector<std::string> ListAdded(const StoreBatch& batch)
-    {
-        std::vector<std::string> planIDs;
-        for (const StoreChange& change : batch.changes)
-        {
-            if (const auto* const addedOrNull = std::get_if<PlanAdded>(&change))
-            {
-                planIDs.push_back(addedOrNull->record.plan.planID);
-            }
-        }
-        return planIDs;
-    }
-
-    [[nodiscard]] std::vector<std::pair<ReplyToken, bool>> ListReplies() const
-    {
-        std::vector<std::pair<ReplyToken, bool>> list;
-        for (const ReplyCommand& reply : _replies)
-        {
-            list.emplace_back(reply.replyToken, reply.bAccepted);
-        }
-        return list;
-    }
-};
-
-EngineOptions MakeJobTimeoutOptions()
-{
-    EngineOptions options = MakeTestOptions(false);
-    options.actions["TrayLoad"].timeout = 1min;
-    return options;
-}
-
-class JobTimeoutHostTest : public HostTest
-{
-protected:
-    JobTimeoutHostTest()
-        : HostTest(MakeJobTimeoutOptions())
-    {
-    }
-};
 
 using Texts = std::vector<std::string>;
 using Replies = std::vector<std::pair<ReplyToken, bool>>;
@@ -224,24 +129,6 @@ TEST_CASE_METHOD(HostTest, "6.5 Controls of a plan that waits are handled in the
     REQUIRE(TryStoreAll());
     CHECK(ListReplies() == std::vector<std::pair<ReplyToken, bool>>{{1, true}, {2, true}, {3, true}, {4, true}});
     CHECK(_engine.GetPlanOrNull("P2")->state == EPlanState::Pending);
-}
-
-TEST_CASE_METHOD(HostTest, "Plans that arrive without end do not keep the dispatch from the plans before them")
-{
-    StateChanged state;
-    state.lastNodeID = "D-CHG01";
-    _host.Push(RobotInput{"LR01", LinkChanged{true}});
-    _host.Push(RobotInput{"LR01", state});
-    REQUIRE(TryStoreAll());
-    Submit("P1", 1);
-    Submit("P2", 2);
-    _host.OnStored({}); // now P2 is being stored
-    _host.Push(EngineTimer{EEngineTimer::Dispatch, {}});
-    Submit("P3", 3);
-    _host.OnStored({});
-    CHECK(ListAdded(_batches.back()).empty()); // the assignment of P1
-    REQUIRE(TryStoreAll());
-    CHECK(_engine.GetRobotStatuses().front().planID == "P1");
 }
 
 TEST_CASE_METHOD(HostTest, "6.5 A control of a plan that still waits is handled after the plan")
@@ -384,33 +271,6 @@ TEST_CASE_METHOD(
     REQUIRE(TryStoreAll());
     REQUIRE(_jobs.size() == 2);
     CHECK(_jobs[1].commandID == _jobs[0].commandID);
-}
-
-TEST_CASE_METHOD(
-    JobTimeoutHostTest,
-    "A timer that expired while the disk worked has no effect once an input before it has cancelled or restarted it")
-{
-    StateChanged state;
-    state.lastNodeID = "D-A01.CP01"; // where the plan begins
-    _host.Push(SubmitPlan{MakeControlPlan("P1"), 1});
-    _host.Push(RobotInput{"CR01", LinkChanged{true}});
-    _host.Push(RobotInput{"CR01", state});
-    REQUIRE(TryStoreAll());
-    _host.Push(EngineTimer{EEngineTimer::Dispatch, {}});
-    REQUIRE(TryStoreAll());
-    REQUIRE(_jobs.size() == 1);
-    const EngineTimer timeout{EEngineTimer::JobTimeout, "CR01"};
-    REQUIRE(std::ranges::count(_timers, timeout) == 1);
-    _host.Push(PlanCommand(SetMaintenance{"LR01", true, 2}));
-    REQUIRE(_host.IsStoring());
-    _host.Push(RobotInput{"CR01", JobFinished{"P1-cd"}});
-    _host.Push(timeout);
-    REQUIRE(TryStoreAll());
-    CHECK(_jobs.size() == 2);
-    CHECK(_engine.GetPlanOrNull("P1")->state == EPlanState::InProgress);
-    _host.Push(timeout); // of the second job
-    REQUIRE(TryStoreAll());
-    CHECK(_engine.GetPlanOrNull("P1")->state == EPlanState::Failed);
 }
 
 TEST_CASE_METHOD(
