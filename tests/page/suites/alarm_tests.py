@@ -1,0 +1,136 @@
+"""Alarms and their remedies."""
+
+from page_case import PageCase, wait_until
+
+
+class Alarms(PageCase):
+    def test_an_alarm_appears_and_clears(self):
+        mock = self.start_mock()
+        self.open()
+        with mock.lock:
+            mock.simulation.set_alarm("LR01", "ACS-1002", "heavy", "LR01 is disconnected.", "Robot disconnected", "No state.",
+                                      "Check the network.", minutes=3)
+            mock.publish()
+        self.wait_for_text("#strip-alarms", "1 heavy")
+        self.click("#tab-alarms")
+        for text in ("Robot disconnected", "LR01 is disconnected.", "No state.", "Check the network.", "3 min"):
+            self.wait_for_text("#view-alarms", text)
+        self.assertEqual(self.driver.title, "(1) acsd")
+        self.click_button("Clear alarm", "#view-alarms")
+        self.click("#confirm-action")
+        self.wait_for_post("/v1/alarms/clear", {"robotId": "LR01", "errorCode": "ACS-1002"})
+        self.wait_for_text("#view-alarms", "No alarms.")
+
+    def test_heavy_alarms_come_first_and_look_heavy(self):
+        mock = self.start_mock()
+        with mock.lock:
+            mock.simulation.set_alarm("LR01", "ACS-1002", "heavy", "LR01 is disconnected.", "Robot disconnected", "", "", minutes=9)
+            mock.simulation.set_alarm("LR02", "ACS-1009", "light", "LR02 does not move.", "Robot stalled", "", "")
+        self.open("?lang=en")
+        self.click("#tab-alarms")
+        list_codes = "return [...document.querySelectorAll('#view-alarms .alarm')].map((row) => row.dataset.id)"
+        wait_until(lambda: self.run_script(list_codes) == ["ACS-1002", "ACS-1009"], "the heavy alarm is first")
+        for code, level, shape, text in (("ACS-1002", "heavy", "error", "Heavy"), ("ACS-1009", "light", "light", "Light")):
+            row = f"#view-alarms .alarm[data-id='{code}']"
+            self.assertIn(level, self.find(row).get_attribute("class").split())
+            self.assertEqual(self.find(f"{row} .row-glyph svg").get_attribute("data-name"), shape)
+            self.assertEqual(self.get_text(f"{row} .alarm-level"), text)
+        self.assertIn("heavy", self.find("#tab-alarms .count").get_attribute("class"))
+        self.click("#language-button")
+        self.wait_for_text("#view-alarms .heavy .alarm-level", "중알람")
+        self.assertEqual(self.get_text("#view-alarms .light .alarm-level"), "경알람")
+
+    def test_korean_alarm(self):
+        self.start_mock()
+        self.open("?lang=ko")
+        self.run_script("return import('/page/text.js').then((text) => text.setKoreanAlarms({'ACS-1002': {title: '로봇 통신 끊김', "
+                        "cause: '원인 문구', remedy: '조치 문구 `acsctl robot ROBOT`'}}))")
+        with self.mock.lock:
+            self.mock.simulation.set_alarm("LR01", "ACS-1002", "heavy", "LR01 is disconnected.", "Robot disconnected", "", "")
+            self.mock.publish()
+        self.click("#tab-alarms")
+        for text in ("로봇 통신 끊김", "원인 문구", "조치 문구 acsctl robot LR01", "LR01 is disconnected."):
+            self.wait_for_text("#view-alarms", text)
+
+    def test_a_command_of_a_remedy_has_its_button(self):
+        mock = self.start_mock()
+        with mock.lock:
+            mock.simulation.set_alarm("LR01", "ACS-1002", "heavy", "LR01 is disconnected.", "Robot disconnected", "",
+                                      "If the robot has left the floor, run `acsctl maintenance LR01 on`.")
+        self.open()
+        self.click("#tab-alarms")
+        self.click_button("Maintenance on", "#view-alarms")
+        self.wait_for_post("/v1/robots/LR01/maintenance", {"on": True})
+
+    def list_commands(self, code):
+        """Those that the alarm with this code names."""
+        return [node.text for node in self.find_all(f"#view-alarms .alarm[data-id='{code}'] code")]
+
+    def test_a_remedy_of_acsd_is_shown_as_it_is(self):
+        """acsd has filled it; the id of the plan begins with a word that stands for one."""
+        mock = self.start_mock()
+        with mock.lock:
+            plan = next(iter(mock.simulation.plans.values()))
+            command = f"acsctl resolve {plan.plan_id} {plan.get_job_id()} done"
+            mock.simulation.set_alarm("LR01", "ACS-1008", "heavy", "unknown", "Job outcome unknown", "", f"Run `{command}`.", plan)
+        self.open()
+        self.click("#tab-alarms")
+        self.wait_for_text("#view-alarms", "Job outcome unknown")
+        self.assertEqual(self.list_commands("ACS-1008"), [command])
+
+    def test_ids_in_commands_are_quoted_for_a_shell(self):
+        mock = self.start_mock()
+        mock.freeze()
+        ids = ("A B", "it's", "A`B", "A` `acsctl maintenance CR01 on` `B")
+        quoted = ["'" + id.replace("'", r"'\''") + "'" for id in ids]
+        commands = [[f"acsctl maintenance {id} on", f"acsctl carriers {id}"] for id in quoted]
+        with mock.lock:
+            simulation = mock.simulation
+            for code, id in enumerate(ids):
+                robot = simulation.robots.pop(f"LR0{code + 1}")
+                robot.robot_id = id
+                simulation.robots[id] = robot
+                simulation.set_alarm(id, str(code), "light", "", "", "", "Run `{}`, then `{}`.".format(*commands[code]))
+        self.open()
+        self.click("#tab-alarms")
+        for code, id in enumerate(ids):
+            row = f"#view-alarms .alarm[data-id='{code}']"
+            self.wait_for_text(row, "Clear alarm")
+            self.assertEqual(self.list_commands(code), commands[code])
+            self.assertEqual([button.text for button in self.find_all(f"{row} button.button")],
+                             ["Maintenance on", "Correct carriers", "Clear alarm"])
+            self.click_button("Maintenance on", row)
+            self.wait_for_post(f"/v1/robots/{id}/maintenance", {"on": True})
+
+    def test_a_korean_command_is_filled_once_and_quoted(self):
+        mock = self.start_mock()
+        mock.freeze()
+        with mock.lock:
+            simulation = mock.simulation
+            robot = simulation.robots.pop("LR01")
+            robot.robot_id = "PLAN's"
+            simulation.robots["PLAN's"] = robot
+            alarm = simulation.set_alarm("PLAN's", "ACS-1008", "heavy", "", "", "", "", next(iter(simulation.plans.values())))
+            alarm["planId"], alarm["jobId"] = "JOB ROBOT", "J-1._:@%+/,"
+        self.open("?lang=ko")
+        self.run_script("return import('/page/text.js').then((text) => text.setKoreanAlarms({'ACS-1008': {title: '제목', "
+                        "cause: '원인 ROBOT', remedy: '`acsctl maintenance ROBOT on`을 `acsctl resolve PLAN JOB done`'}}))")
+        mock.send_reset()
+        self.click("#tab-alarms")
+        self.wait_for_text("#view-alarms", "원인 ROBOT")
+        self.assertEqual(self.list_commands("ACS-1008"), [
+            "acsctl maintenance 'PLAN'\\''s' on", "acsctl resolve 'JOB ROBOT' J-1._:@%+/, done"])
+        self.click_button("정비 시작", "#view-alarms")
+        self.wait_for_post("/v1/robots/PLAN's/maintenance", {"on": True})
+
+    def test_a_phone_opens_heavy_alarms(self):
+        mock = self.start_mock()
+        self.browser.resize(360, 740, 2, True)
+        self.open()
+        self.assertTrue(self.find("#view-floor").is_displayed())
+        with mock.lock:
+            mock.simulation.set_alarm("LR01", "ACS-1002", "heavy", "LR01 is disconnected.", "Robot disconnected", "", "")
+        self.open()
+        wait_until(lambda: self.find("#view-alarms").is_displayed(), "the alarms")
+        self.open("?lang=en#robot/LR01")
+        self.wait_for_text("#detail-title", "LR01")
