@@ -64,6 +64,7 @@ constexpr std::array<std::string_view, 11> PAYLOAD_MEMBERS{
     "isConnected",
     "result",
     "message"};
+constexpr std::array<std::string_view, 2> ACK_MEMBERS{"result", "message"};
 constexpr std::array<std::string_view, 9> VEHICLE_MEMBERS{
     "orderId",
     "orderUpdateId",
@@ -98,12 +99,11 @@ std::string SummarizeMessage(const TraceLine& line, const Json::Value& message)
 {
     if (const std::string command = GetText(message, "command"); !command.empty())
     {
+        // An Ack has its result beside its payload.
         const Json::Value* const payloadOrNull = Json::FindFirstOrNull(message, "payload");
-        const Json::Value* const resultOrNull = Json::FindFirstOrNull(message, "result");
-        const Json::Value* const partOrNull = payloadOrNull != nullptr ? payloadOrNull : resultOrNull;
-        return command
-            + (partOrNull == nullptr || !partOrNull->IsObject() ? ListMembers(message, PAYLOAD_MEMBERS)
-                                                                : ListMembers(*partOrNull, PAYLOAD_MEMBERS));
+        return payloadOrNull != nullptr && payloadOrNull->IsObject()
+            ? command + ListMembers(*payloadOrNull, PAYLOAD_MEMBERS) + ListMembers(message, ACK_MEMBERS)
+            : command + ListMembers(message, PAYLOAD_MEMBERS);
     }
     if (line.topic.has_value())
     {

@@ -29,6 +29,14 @@ TEST_CASE("A message is summarised by what it is about")
         Acsctl::Summarize(MakeLine(R"({"command":"ExecutionPlanAck","result":"Success","message":""})"))
         == "ExecutionPlanAck result=Success");
     CHECK(
+        Acsctl::Summarize(
+            MakeLine(R"({"command":"PlanReportAck","result":"Fail","message":"no such plan","payload":{}})"))
+        == "PlanReportAck result=Fail message=no such plan");
+    CHECK(
+        Acsctl::Summarize(
+            MakeLine(R"({"command":"ExecutionPlanAck","payload":{"planId":"P1"},"result":"Success","message":null})"))
+        == "ExecutionPlanAck planId=P1 result=Success");
+    CHECK(
         Acsctl::Summarize(MakeLine(R"({"orderId":"O","lastNodeId":"N1","driving":true})", "uagv/v2/A/1/state"))
         == "state orderId=O lastNodeId=N1 driving=true");
     CHECK(Acsctl::Summarize(MakeLine("not json", "uagv/v2/A/1/state")) == "state not json");
