@@ -119,12 +119,17 @@ class _Handler(http.server.BaseHTTPRequestHandler):
         with mock.lock:
             mock.requests.append(request)
             lost, mock.losses = mock.losses > 0, max(0, mock.losses - 1)
+            stream_refusal = mock.stream_refusal
         if lost:
             self.lose_connection()
         elif mock.token is not None and request["authorization"] != f"Bearer {mock.token}":
             self.answer(401, {"error": "The token is not valid."})
         elif mock.raw is not None:
             self.answer(*mock.raw)
+        elif mock.raw_post is not None and self.command == "POST":
+            self.answer(*mock.raw_post)
+        elif stream_refusal is not None and url.path == "/v1/events":
+            self.answer(*stream_refusal)
         elif url.path == "/v1/events":
             self.send_events(request)
         elif self.command == "GET":
@@ -172,9 +177,13 @@ class OperatorMock:
         self.losses = 0  # requests whose connection is lost
         self.token = None
         self.raw = None  # (status, body, content type): the answer to everything
+        self.raw_post = None  # to every command
+        self.stream_refusal = None  # to every request for events
         self.interim = 0  # answers "100 Continue" before each answer
         self.refusal = None  # (status, sentence, headers...): the answer to every command
         self.events = None
+        self.newest_event = len(ENTRIES)
+        self.oldest_event = 1
         self.events_end = True
         self.actions = []
         self.outcomes = [("Running", ""), ("Finished", "done")]  # of an action, one for each read
@@ -198,7 +207,7 @@ class OperatorMock:
         """(status, body[, content type])"""
         fixed = {"/v1/status": self.status, "/v1/robots": {"robots": self.robots}, "/v1/alarms": {"alarms": self.alarms},
                  "/v1/links": {"links": self.status["links"]}, "/v1/site": self.site,
-                 "/v1/snapshot": {"eventId": 2, "status": self.status, "plans": self.plans, "robots": self.robots,
+                 "/v1/snapshot": {"eventId": self.newest_event, "status": self.status, "plans": self.plans, "robots": self.robots,
                                   "alarms": self.alarms},
                  "/v1/queue": {"plans": [{"position": 1, "planId": "PLAN_2", "priority": 5, "acceptedAt": NOW, "waits": WAITS}],
                                "outbox": self.status["outbox"]},
@@ -236,8 +245,10 @@ class OperatorMock:
     def make_events(self, after):
         if self.events is not None:
             return self.events
+        if 0 < after < self.oldest_event - 1:
+            return [b"event: reset\ndata: {}\n\n"]
         parts = [b": keep-alive\n\n"]
-        for number, entry in enumerate(ENTRIES, 1):
-            if number > after:
-                parts.append(f"event: entry\nid: {number}\ndata: {json.dumps(entry)}\n\n".encode())
+        for number in range(max(after + 1, self.oldest_event), self.newest_event + 1):
+            entry = ENTRIES[(number - 1) % len(ENTRIES)]
+            parts.append(f"event: entry\nid: {number}\ndata: {json.dumps(entry)}\n\n".encode())
         return parts

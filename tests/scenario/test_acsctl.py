@@ -356,6 +356,12 @@ class Following(AcsctlCase):
         self.addCleanup(process.kill)
         return process
 
+    def wait_for_requests(self, count):
+        deadline = time.monotonic() + SECONDS
+        while len(self.mock.requests) < count:
+            self.assertLess(time.monotonic(), deadline, "it does not connect again")
+            time.sleep(0.02)
+
     def test_events_of_the_past_end(self):
         self.assertEqual(self.check(0, "events").splitlines(),
                          ["23:10:00.000 plan    plan PLAN_1: Pending -> InProgress on LR01",
@@ -388,12 +394,28 @@ class Following(AcsctlCase):
         process = self.start("events", "--follow", "--after", "0")
         for _ in range(2):
             process.stdout.readline()
-        deadline = time.monotonic() + SECONDS
-        while len(self.mock.requests) < 2:
-            self.assertLess(time.monotonic(), deadline, "it does not connect again")
-            time.sleep(0.02)
+        self.wait_for_requests(2)
         self.assertEqual([request["query"]["after"] for request in self.mock.requests[:2]], ["0", "2"])
         process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(SECONDS), 0)
+
+    def test_all_events_that_acsd_still_has_are_shown(self):
+        self.mock.newest_event = 5000
+        for oldest in (4998, 4996, 4979, 905):
+            self.mock.oldest_event = oldest
+            lines = self.check(0, "events", "--limit", "1000", "--json").splitlines()
+            self.assertEqual([json.loads(line)["id"] for line in lines], list(range(max(oldest, 4001), 5001)))
+
+    def test_follow_continues_after_a_standby_and_misses_nothing(self):
+        process = self.start("events", "--follow")
+        self.wait_for_requests(2)
+        self.mock.stream_refusal = (503, b'{"error":"This acsd does not lead."}', "application/json")
+        self.wait_for_requests(3)
+        self.mock.stream_refusal = None
+        self.wait_for_requests(4)
+        requests = [(request["path"], request["query"].get("after")) for request in self.mock.requests[:4]]
+        self.assertEqual(requests, [("/v1/snapshot", None)] + 3 * [("/v1/events", "2")])
+        process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(SECONDS), 0)
 
     def test_watch_repeats_until_an_interrupt(self):

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 namespace ACS::Acsctl
 {
@@ -23,6 +24,7 @@ constexpr std::uint64_t DEFAULT_EVENTS = 100;
 /// acsd keeps at most this number of events, those of other types among them.
 constexpr std::uint64_t MOST_EVENTS_OF_ACSD = 4'096;
 constexpr std::chrono::milliseconds RECONNECT{2'000};
+constexpr unsigned STATUS_UNAVAILABLE = 503;
 
 } // namespace
 
@@ -92,21 +94,36 @@ Outcome<void> EventsCommand::RunHistory()
             ? FailWith(EXIT_REFUSED, fmt::format("acsd no longer has all events after {}", *_after))
             : done;
     }
+    return ReadAll();
+}
+
+Outcome<void> EventsCommand::ReadAll()
+{
     // acsd does not state how many events it has: it answers with reset when they are fewer.
-    for (std::uint64_t count = MOST_EVENTS_OF_ACSD; count != 0; count /= 2)
+    std::uint64_t had = 0;
+    std::uint64_t lacked = std::min(MOST_EVENTS_OF_ACSD, _newest) + 1;
+    std::deque<std::string> all;
+    for (std::uint64_t count = lacked - 1; count != had; count = had + (lacked - had) / 2)
     {
-        _after = *newest - std::min(count, *newest);
-        if (*_after == *newest)
-        {
-            break;
-        }
+        _after = _newest - count;
+        _history.clear();
         Outcome<void> done = ReadOnce();
-        if (!done.has_value() || _end != EEnd::Reset)
+        if (!done.has_value())
         {
             return done;
         }
+        if (_end == EEnd::Reset)
+        {
+            lacked = count;
+        }
+        else
+        {
+            had = count;
+            all = std::move(_history);
+        }
     }
-    _after = *newest;
+    _history = std::move(all);
+    _after = _newest;
     return {};
 }
 
@@ -114,6 +131,16 @@ Outcome<void> EventsCommand::Follow()
 {
     EventLoop& loop = _session.GetLoop();
     bool bConnected = false;
+    if (!_after.has_value())
+    {
+        // Without it, what happens before the first event would be lost at a new connection.
+        const Outcome<std::uint64_t> newest = ReadNewest();
+        if (!newest.has_value())
+        {
+            return loop.IsInterrupted() ? Outcome<void>() : tl::make_unexpected(newest.error());
+        }
+        _after = *newest;
+    }
     while (!loop.IsInterrupted() && !_terminal.IsFailed())
     {
         Outcome<void> done = ReadOnce();
@@ -123,7 +150,8 @@ Outcome<void> EventsCommand::Follow()
         }
         if (!done.has_value())
         {
-            if (!bConnected || done.error().exitCode != EXIT_NO_CONNECTION)
+            const bool bPassing = done.error().exitCode == EXIT_NO_CONNECTION || _end == EEnd::Refused;
+            if (!bConnected || !bPassing)
             {
                 return done;
             }
@@ -162,6 +190,7 @@ Outcome<void> EventsCommand::ReadOnce()
     }
     if (const Outcome<std::string> body = GetBody(*answer); !body.has_value())
     {
+        _end = answer->status == STATUS_UNAVAILABLE ? EEnd::Refused : _end;
         return tl::make_unexpected(body.error());
     }
     if (!answer->contentType.starts_with("text/event-stream"))

@@ -25,6 +25,7 @@ class EventsCommand final
         Stopped,   ///< The last wanted event was read.
         Reset,     ///< acsd no longer has the events after the wanted one.
         Ended,     ///< acsd has ended the stream.
+        Refused,   ///< acsd has no stream now: it does not lead, or too many streams are open.
         Malformed, ///< An event cannot be read.
     };
 
@@ -50,6 +51,8 @@ private:
     /// What is shown of a history without events.
     [[nodiscard]] std::string MakeEmptyText() const;
     [[nodiscard]] Outcome<void> RunHistory();
+    /// All events that acsd still has.
+    [[nodiscard]] Outcome<void> ReadAll();
     [[nodiscard]] Outcome<void> Follow();
     /// One request, until its end.
     [[nodiscard]] Outcome<void> ReadOnce();
