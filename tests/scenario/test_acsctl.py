@@ -339,6 +339,21 @@ class Acting(AcsctlCase):
         self.assertIn("There is no actions.", self.check(1, "action", "--yes", "LR09", "stateRequest"))
         self.assertIn("Send stateRequest to LR01? Without a terminal", self.check(2, "action", "LR01", "stateRequest"))
 
+    def test_an_action_that_may_have_been_executed_is_stated(self):
+        warning = "acsd may have executed the command"
+        for raw in ((504, b"<html>", "text/html"), (202, b"{}", "application/json")):
+            self.mock.raw_post = raw
+            self.assertIn(warning, self.act(6, "stateRequest"))
+        self.mock.raw_post = (404, b"<html>", "text/html")
+        self.assertNotIn(warning, self.act(6, "stateRequest"))
+        self.mock.raw_post = None
+        self.mock.read_actions = (lambda read: lambda: {} if self.mock.actions else read())(self.mock.read_actions)
+        self.assertIn("stateRequest was sent", self.act(6, "stateRequest"))
+
+    def test_an_outcome_controls_no_terminal(self):
+        self.mock.outcomes = [("Failed", "\u009b2J")]
+        self.assertIn("\\u009b2J", self.act(5, "stateRequest", "--json"))
+
     def test_a_lost_outcome_is_stated(self):
         self.mock.add_action = lambda request: "A9"  # as after a restart
         result = self.run_acsctl("action", "-y", "LR01", "stateRequest")

@@ -3,6 +3,7 @@
 #include "api/ApiCodec.hpp"
 #include "commands/Requests.hpp"
 #include "view/ActionViews.hpp"
+#include "view/DisplayText.hpp"
 #include <acs/core/JsonText.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/json/JsonDocument.hpp>
@@ -80,16 +81,22 @@ std::string FindActionText(const std::string& body, const std::string& actionID)
         if (idOrNull != nullptr && idOrNull->IsString()
             && std::string_view(idOrNull->GetString(), idOrNull->GetStringLength()) == actionID)
         {
-            return Json::WriteText(action) + "\n";
+            return MakeDisplayableJSON(Json::WriteText(action)) + "\n";
         }
     }
     return {};
 }
 
-Outcome<std::string> SendAction(IApi& api, const ApiRequest& request)
+/// The error of a read after the action was sent.
+tl::unexpected<CommandError> FailAfterSending(const AcsctlOptions& options, const CommandError& error)
 {
-    const tl::expected<ApiAnswer, ApiFailure> answer = api.Send(request);
-    return answer.has_value() ? GetBody(*answer) : tl::make_unexpected(MakeError(answer.error(), true));
+    return FailWith(
+        error.exitCode,
+        fmt::format(
+            "{}; {} was sent: acsctl actions {} shows its outcome",
+            error.text,
+            options.arguments.word,
+            options.arguments.id));
 }
 
 Outcome<Shown> AwaitOutcome(Session& session, const AcsctlOptions& options, const ActionAcceptedAnswer& accepted)
@@ -101,18 +108,12 @@ Outcome<Shown> AwaitOutcome(Session& session, const AcsctlOptions& options, cons
         const Outcome<std::string> body = Get(session.GetAPI(), MakeReadTarget(options));
         if (!body.has_value())
         {
-            return FailWith(
-                body.error().exitCode,
-                fmt::format(
-                    "{}; {} was sent: acsctl actions {} shows its outcome",
-                    body.error().text,
-                    options.arguments.word,
-                    robotID));
+            return FailAfterSending(options, body.error());
         }
         const Outcome<ActionsAnswer> answer = DecodeBody<ActionsAnswer>(*body);
         if (!answer.has_value())
         {
-            return tl::make_unexpected(answer.error());
+            return FailAfterSending(options, answer.error());
         }
         const auto action = std::ranges::find(answer->actions, accepted.actionID, &ActionInfo::actionID);
         if (action == answer->actions.end())
@@ -190,16 +191,21 @@ Outcome<Shown> RunAction(Session& session, const AcsctlOptions& options, const s
     {
         return tl::make_unexpected(request.error());
     }
-    const Outcome<std::string> body =
-        SendAction(session.GetAPI(), {"POST", target, std::move(*request), idempotencyKey});
+    const tl::expected<ApiAnswer, ApiFailure> answer =
+        session.GetAPI().Send({"POST", target, std::move(*request), idempotencyKey});
+    if (!answer.has_value())
+    {
+        return tl::make_unexpected(MakeError(answer.error(), true));
+    }
+    const Outcome<std::string> body = GetBody(*answer);
     if (!body.has_value())
     {
-        return tl::make_unexpected(body.error());
+        return tl::make_unexpected(MakeChangeError(*answer, body.error()));
     }
     const Outcome<ActionAcceptedAnswer> accepted = DecodeBody<ActionAcceptedAnswer>(*body);
     if (!accepted.has_value())
     {
-        return tl::make_unexpected(accepted.error());
+        return tl::make_unexpected(MakeChangeError(*answer, accepted.error()));
     }
     return options.arguments.bNotAwaited ? ShowAccepted(options.bJSON, *body)
                                          : AwaitOutcome(session, options, *accepted);

@@ -281,6 +281,21 @@ CommandError MakeError(const ApiFailure& failure, bool bChange)
     return {exitCode, bUnknown ? failure.text + std::string(MAY_BE_EXECUTED) : failure.text};
 }
 
+CommandError MakeChangeError(const ApiAnswer& answer, CommandError error)
+{
+    constexpr unsigned HTTP_BAD_GATEWAY = 502;
+    constexpr unsigned HTTP_GATEWAY_TIMEOUT = 504;
+    constexpr unsigned HUNDRED = 100;
+    constexpr unsigned CLIENT_ERRORS = 4;
+    const bool bProxy = answer.status == HTTP_BAD_GATEWAY || answer.status == HTTP_GATEWAY_TIMEOUT;
+    const bool bNotExecuted = answer.status / HUNDRED == CLIENT_ERRORS;
+    if (bProxy || (error.exitCode == EXIT_BAD_ANSWER && !bNotExecuted))
+    {
+        error.text += MAY_BE_EXECUTED;
+    }
+    return error;
+}
+
 Outcome<Shown> ShowAnswer(const AcsctlOptions& options, std::string_view body, const ViewContext& context)
 {
     if (options.command == ECommand::Status)
@@ -321,20 +336,14 @@ Outcome<Shown> ShowAccepted(bool bJSON, std::string_view body)
 
 Outcome<Shown> ShowChange(const AcsctlOptions& options, const ApiAnswer& answer)
 {
-    constexpr unsigned HTTP_BAD_GATEWAY = 502;
-    constexpr unsigned HTTP_GATEWAY_TIMEOUT = 504;
-    constexpr unsigned HUNDRED = 100;
-    constexpr unsigned CLIENT_ERRORS = 4;
     const Outcome<std::string> body = GetBody(answer);
     Outcome<Shown> shown =
         body.has_value() ? ShowAccepted(options.bJSON, *body) : Outcome<Shown>(tl::make_unexpected(body.error()));
-    const bool bProxy = answer.status == HTTP_BAD_GATEWAY || answer.status == HTTP_GATEWAY_TIMEOUT;
-    const bool bNotExecuted = answer.status / HUNDRED == CLIENT_ERRORS;
-    if (!shown.has_value() && (bProxy || (shown.error().exitCode == EXIT_BAD_ANSWER && !bNotExecuted)))
+    if (!shown.has_value())
     {
-        shown.error().text += MAY_BE_EXECUTED;
+        return tl::make_unexpected(MakeChangeError(answer, std::move(shown.error())));
     }
-    if (shown.has_value() && IsPlanControl(options.command) && !options.bJSON)
+    if (IsPlanControl(options.command) && !options.bJSON)
     {
         const std::string command = Apps::MakeShellCommand("plan", {options.arguments.id});
         shown->text += MakeDisplayable(command + " and acsctl events show the outcome.") + "\n";

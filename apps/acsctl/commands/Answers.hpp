@@ -41,6 +41,10 @@ struct Shown
 /// The error of a request without an answer; of a change it warns that acsd may have executed it.
 [[nodiscard]] CommandError MakeError(const ApiFailure& failure, bool bChange);
 
+/// The error that the answer to a change gave. Where the answer is not acsd's, unless its status shows that nothing was done (4xx),
+/// it warns that acsd may have executed the change.
+[[nodiscard]] CommandError MakeChangeError(const ApiAnswer& answer, CommandError error);
+
 /// The lines for an answer to the GET of a command, or its JSON.
 [[nodiscard]] Outcome<Shown> ShowAnswer(
     const AcsctlOptions& options,
@@ -50,8 +54,7 @@ struct Shown
 /// The sentence of an accepted command, or its JSON.
 [[nodiscard]] Outcome<Shown> ShowAccepted(bool bJSON, std::string_view body);
 
-/// What is shown for the answer to a command that changes something. The error of an answer that is not acsd's states that acsd may
-/// have executed the command, unless its status shows that it did not (4xx).
+/// What is shown for the answer to a command that changes something; an error is that of MakeChangeError.
 [[nodiscard]] Outcome<Shown> ShowChange(const AcsctlOptions& options, const ApiAnswer& answer);
 
 } // namespace ACS::Acsctl
