@@ -51,7 +51,9 @@ tl::expected<Connection, std::string> ResolveConnection(
 {
     Connection connection;
     const std::optional<std::string>& named = PickFirst(options.context, environment.context);
-    const std::optional<std::string>& url = PickFirst(options.url, environment.url);
+    // A context that an option names is not combined with the address of the environment: its token would be sent to that address.
+    const std::optional<std::string>& url =
+        options.context.has_value() ? options.url : PickFirst(options.url, environment.url);
     const std::string name = named.has_value() ? *named : url.has_value() ? std::string() : contexts.current;
     Context context;
     if (!name.empty())

@@ -51,6 +51,8 @@ TEST_CASE("The token of the current context is not sent to another address")
     CHECK(Resolve({}, environment) == "https://other:1/ ");
     options.context = "line1"; // named: on purpose
     CHECK(Resolve(options, environment) == "https://other:443/ T1");
+    options.url.reset();
+    CHECK(Resolve(options, environment) == "https://10.0.0.5:8081/ T1");
 }
 
 TEST_CASE("The option of the token comes before the environment, and this before the context")
