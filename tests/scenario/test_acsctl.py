@@ -120,6 +120,16 @@ class Reading(AcsctlCase):
         self.assertRegex(self.check(0, "plan", "P1"), r"Step +2/2\n")
         self.assertRegex(self.check(0, "plans"), r" 2/2 ")
 
+    def test_the_numbers_of_steps_may_have_gaps(self):
+        plan = make_plan("P1", "InProgress", stepNo=20)
+        plan["steps"] = [{**step, "stepNo": 10 * step["stepNo"]} for step in plan["steps"]]
+        self.mock.plans = [plan]
+        self.assertRegex(self.check(0, "plans"), r" 2/2 ")
+        plan["stepNo"] = 10
+        self.assertRegex(self.check(0, "plan", "P1"), r"Step +1/2\n")
+        plan["stepNo"] = 0
+        self.assertRegex(self.check(0, "plans"), r" 0/2 ")
+
     def test_a_terminal_has_colours_unless_they_are_refused(self):
         self.assertIn("\x1b[1mROBOT", self.run_on_terminal("robots")[1])
         self.assertNotIn("\x1b", self.run_on_terminal("robots", "--no-color")[1])

@@ -19,7 +19,7 @@ constexpr int CUT_LATE = 1;
 constexpr int CUT_EARLY = 2;
 constexpr int CUT_FIRST = 3;
 
-/// Of a finished plan the number of steps that it has done.
+/// Number of steps begun; of a finished plan, number of steps done. Step numbers may have gaps.
 std::string MakeStepText(const PlanInfo& plan)
 {
     if (plan.steps.empty())
@@ -29,7 +29,11 @@ std::string MakeStepText(const PlanInfo& plan)
     const auto done = std::ranges::count_if(plan.steps, [](const StepInfo& step) {
         return step.status == "Completed" || step.status == "Skipped";
     });
-    return fmt::format("{}/{}", plan.endedAt.has_value() ? done : plan.stepNo, plan.steps.size());
+    const auto begun = std::ranges::count_if(
+        plan.steps,
+        [&plan](std::int64_t stepNo) { return stepNo <= plan.stepNo; },
+        &StepInfo::stepNo);
+    return fmt::format("{}/{}", plan.endedAt.has_value() ? done : begun, plan.steps.size());
 }
 
 /// Why the plan makes no progress, or how it ended.

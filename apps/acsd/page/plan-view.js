@@ -26,11 +26,11 @@ export class StepBar {
     }
 }
 
-/** The current step; before the start the first one, of a completed plan (stepNo 0) the last one. */
+/** The current step; before the start the first one, of a completed plan (stepNo 0) the last one. Step numbers may have gaps. */
 export function describeStep(plan) {
     const step = plan.steps.find((candidate) => candidate.stepNo === plan.stepNo)
         ?? plan.steps.find((candidate) => candidate.status === "Pending") ?? plan.steps.at(-1);
-    return step === undefined ? "" : `${step.stepNo}/${plan.steps.length} ${step.action} @ ${step.position}`;
+    return step === undefined ? "" : `${plan.steps.indexOf(step) + 1}/${plan.steps.length} ${step.action} @ ${step.position}`;
 }
 
 class PlanRow {

@@ -183,6 +183,12 @@ class Plans(PlanCase):
         self.assertEqual(self.get_text("#finished-button"), "Show finished")
         self.assertFalse(self.find("#plans-finished").is_displayed())
 
+    def test_the_numbers_of_steps_may_have_gaps(self):
+        described = self.run_script(
+            "const steps = [10, 20, 30].map((stepNo) => ({stepNo, action: 'Load', position: 'A01', status: 'Pending'}));"
+            "return import('/page/plan-view.js').then((view) => view.describeStep({stepNo: 20, steps}))")
+        self.assertEqual(described, "2/3 Load @ A01")
+
     def test_a_completed_plan_has_all_its_steps(self):
         with self.mock.lock:
             for step in self.plan.steps:
