@@ -2,7 +2,9 @@
 """mcs-sim as a tool: every ready scenario passes against acsd, a scenario that must fail fails, and the trace is complete."""
 
 import dataclasses
+import fcntl
 import json
+import os
 import signal
 import subprocess
 import unittest
@@ -297,6 +299,22 @@ class Scenarios(ScenarioCase):
         mcs = self.line.start("mcs-sim", "--listen", "127.0.0.1:0", "--plan", PLANS[0], "--tls-certificate", certificate,
                               "--tls-key", key)
         self.assertEqual(list(mcs.wait_ready()), ["wss"])
+
+    def test_the_console_leaves_the_terminal_as_it_is_for_other_programs(self):
+        terminal, of_program = os.openpty()
+        self.addCleanup(os.close, terminal)
+        self.addCleanup(os.close, of_program)
+        process = subprocess.Popen([self.bin_dir / "mcs-sim", "--listen", "127.0.0.1:0", "--console"], stdin=of_program,
+                                   stdout=of_program, stderr=of_program)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        os.write(terminal, b"help\n")
+        shown = b""
+        while b"abort" not in shown:  # which is in the help, not in what was typed
+            shown += os.read(terminal, 65536)
+        self.assertEqual(fcntl.fcntl(of_program, fcntl.F_GETFL) & os.O_NONBLOCK, 0)
+        os.write(terminal, b"quit\n")
+        process.wait(FINISH_SECONDS)
 
     def test_a_trace_that_cannot_be_written_fails_the_run(self):
         _, code = self.play("--scenario", SCENARIOS / "sync-config.json", "--trace", "/dev/full")

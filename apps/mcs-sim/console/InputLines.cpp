@@ -5,6 +5,7 @@
 #include <boost/asio/read_until.hpp>
 
 #include <cstddef>
+#include <fcntl.h>
 #include <unistd.h>
 #include <utility>
 
@@ -15,6 +16,20 @@ namespace
 {
 
 constexpr std::size_t MAX_LINE = 4096;
+
+/// A copy of standard input, so that closing it leaves standard input alone. A terminal is opened again: Asio makes the copy
+/// non-blocking, which it would share with standard output and with other programs on the terminal.
+int CopyInput()
+{
+    int copy = -1;
+    if (::isatty(STDIN_FILENO) == 1)
+    {
+        // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): the system's interface
+        copy = ::open("/proc/self/fd/0", O_RDONLY | O_CLOEXEC | O_NOCTTY);
+    }
+    // A terminal of another user cannot be opened.
+    return copy >= 0 ? copy : ::dup(STDIN_FILENO); // NOLINT(android-cloexec-dup): starts no programs
+}
 
 } // namespace
 
@@ -75,9 +90,8 @@ InputLines::InputLines(
     std::function<void()> onEnd)
     : _impl(std::make_shared<Impl>(executor, std::move(onLine), std::move(onEnd)))
 {
-    // A copy, so that closing it leaves standard input alone.
     boost::system::error_code code;
-    _impl->input.assign(::dup(STDIN_FILENO), code); // NOLINT(android-cloexec-dup): starts no programs
+    _impl->input.assign(CopyInput(), code);
     _impl->onMore = [impl = _impl.get()] {
         impl->ReadAsync();
     };
