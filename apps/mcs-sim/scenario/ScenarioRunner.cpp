@@ -172,6 +172,11 @@ bool ScenarioRunner::IsFinished() const noexcept
     return _index >= _scenario.steps.size();
 }
 
+bool ScenarioRunner::IsRegistered() const noexcept
+{
+    return _bRegistered;
+}
+
 const std::vector<StepVerdict>& ScenarioRunner::GetVerdicts() const noexcept
 {
     return _verdicts;

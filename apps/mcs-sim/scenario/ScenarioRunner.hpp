@@ -102,6 +102,8 @@ public:
 
     [[nodiscard]] const std::string& GetName() const noexcept;
     [[nodiscard]] bool IsFinished() const noexcept;
+    /// Whether the ACS was registered by the last event that the scenario got. After a drop it is not, before the link is gone.
+    [[nodiscard]] bool IsRegistered() const noexcept;
     /// One per step.
     [[nodiscard]] const std::vector<StepVerdict>& GetVerdicts() const noexcept;
     /// Whether every expectation held, and everything else could be done.

@@ -90,6 +90,7 @@ void ScenarioSequence::Run(const std::function<void(ScenarioRunner&)>& call, Cor
     {
         // The faults of one scenario are not those of the next.
         out.emplace_back(EndFaults{});
+        _bRegistered = _bRegistered && _runners[_index]->IsRegistered();
         ++_index;
         if (!IsFinished())
         {

@@ -385,6 +385,29 @@ TEST_CASE("Messages that no expectation names are not kept, those that one names
     CHECK(fixture.GetVerdict(2).verdict == EVerdict::Failed);
 }
 
+TEST_CASE("After a drop at its end, the next scenario waits for the next registration")
+{
+    ACS::Testing::ManualClock clock;
+    ACS::Testing::SeededRandom random;
+    ScenarioSequence sequence(
+        {MakeScenario(R"({"drop":"cut"})"), MakeScenario(R"({"send":"SyncConfig"})")},
+        random,
+        PlanRefresher(random, "20250702", ECarrierNames::Fresh));
+    const auto countSent = [](const ScenarioActions& out) {
+        return std::count_if(out.begin(), out.end(), [](const ScenarioAction& action) {
+            return std::holds_alternative<SendPayload>(action);
+        });
+    };
+    ScenarioActions out;
+    sequence.OnRegistered(clock.GetNow(), out);
+    sequence.Start(clock.GetNow(), out);
+    CHECK(countSent(out) == 0);
+    sequence.OnLinkLost();
+    sequence.OnRegistered(clock.GetNow(), out);
+    CHECK(countSent(out) == 1);
+    CHECK(sequence.HasHeld());
+}
+
 TEST_CASE("Scenarios follow one another, the faults of one end with it, and the table has every verdict")
 {
     ACS::Testing::ManualClock clock;
