@@ -95,7 +95,7 @@ ScenarioRunner::EProgress ScenarioRunner::Do(const ExpectNextStep& step, Core::N
     std::optional<std::string> misfit = TakeNextOrNull(step);
     if (misfit.has_value())
     {
-        return Fail(std::move(*misfit));
+        return Fail(CleanText(*misfit));
     }
     if (_open.empty())
     {
