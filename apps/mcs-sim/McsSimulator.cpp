@@ -5,6 +5,7 @@
 #include "plans/PlanFile.hpp"
 #include "scenario/ScenarioSummary.hpp"
 #include <acs/core/Overloaded.hpp>
+#include <acs/protocol/AcsCodec.hpp>
 
 #include <fmt/format.h>
 
@@ -308,7 +309,22 @@ bool McsSimulator::TrySendPlan(const Protocol::ExecutionPlan& plan, const std::s
 {
     Protocol::AcsRequest request = _server->MakeRequest(plan);
     request.transactionID = transactionID;
-    return _server->TrySend(request);
+    const std::uint64_t sent = _server->GetStatistics().Of(Protocol::EAcsCommand::ExecutionPlan).sent;
+    if (!_server->TrySend(request))
+    {
+        return false;
+    }
+    if (_server->GetStatistics().Of(Protocol::EAcsCommand::ExecutionPlan).sent != sent)
+    {
+        return true;
+    }
+    // The session sends nothing twice that still waits for its Ack.
+    std::string text;
+    Protocol::AcsCodec::EncodeRequest(request, text);
+    _judge.GetNotes().OnTextSent(text);
+    bool bSent = false;
+    _server->Run([&](Core::Now /*now*/, auto& out) { bSent = _sessionOrNull->TrySendText(text, out); });
+    return bSent;
 }
 
 void McsSimulator::OnTimer(ETimer timer)

@@ -462,6 +462,24 @@ TEST_CASE("A scenario sends the plan again that it names, not the last one")
     CHECK_FALSE(Contains(output, " PB ExecutionPlan sent again\n"));
 }
 
+TEST_CASE("A scenario sends a plan again before its Ack, with the same transactionId")
+{
+    ACS::McsSim::SimulatorOptions options;
+    const auto scenario = ACS::McsSim::ParseScenario(
+        R"({"name":"test","steps":[{"send":"ExecutionPlan","file":"p","as":"A"},{"sendAgain":"A"},
+            {"expect":"ExecutionPlanAck","within":"5s"},{"expect":"ExecutionPlanAck","within":"5s"},
+            {"waitFor":"A","status":"Completed"}]})",
+        [](const std::string& /*path*/) { return tl::expected<PlannedPlan, std::string>(MakeSamplePlan("P", "T")); });
+    REQUIRE(scenario.has_value());
+    options.scenarios = {*scenario};
+    McsSimulatorFixture fixture(0, false, options);
+    fixture.simulator->Release();
+    const std::string output = fixture.Run();
+    INFO(output);
+    CHECK(fixture.exitCode == 0);
+    CHECK(GetLastLine(output) == "1 of 1 scenarios passed, 3 of 3 expectations held, 0 violations");
+}
+
 TEST_CASE("With a world plans that share a place wait for each other, and reports without a move make the run fail")
 {
     ACS::Sim::MemoryWorld world;
