@@ -298,7 +298,7 @@ void McsSimulator::SendDue()
         return;
     }
     const Core::Now now = _clock.GetNow();
-    _sender.SendHeld(now, _lines);
+    _sender.SendHeld(_server->IsTakingPlans(), now, _lines);
     if (_scenarios.IsEmpty())
     {
         _sender.SendDue(now, _lines);

@@ -57,25 +57,34 @@ bool PlanSender::TrySendOrHold(
     return true;
 }
 
-void PlanSender::SendHeld(Core::Now now, PlanTracker::Lines& lines)
+void PlanSender::SendHeld(bool bPlansTaken, Core::Now now, PlanTracker::Lines& lines)
 {
-    for (auto held = _heldPlans.begin(); held != _heldPlans.end();)
+    for (auto held = _heldPlans.begin(); bPlansTaken && held != _heldPlans.end();)
     {
-        const bool bBlocked = IsBlocked(*held);
-        if (!bBlocked && !TrySend(*held, now, lines))
+        const bool bWaits = IsBlocked(*held) || !IsNamed(*held);
+        if (!bWaits && !TrySend(*held, now, lines))
         {
             return;
         }
-        held = bBlocked ? std::next(held) : _heldPlans.erase(held);
+        held = bWaits ? std::next(held) : _heldPlans.erase(held);
     }
 }
 
 void PlanSender::SendDue(Core::Now now, PlanTracker::Lines& lines)
 {
-    std::optional<std::size_t> next = _tracker.GetNextToSendOrNull(now);
-    while (next.has_value() && TrySend(*next, now, lines))
+    std::size_t first = 0;
+    std::optional<std::size_t> next = _tracker.GetNextToSendOrNull(now, first);
+    while (next.has_value())
     {
-        next = _tracker.GetNextToSendOrNull(now);
+        if (!IsNamed(*next))
+        {
+            first = *next + 1;
+        }
+        else if (!TrySend(*next, now, lines))
+        {
+            return;
+        }
+        next = _tracker.GetNextToSendOrNull(now, first);
     }
 }
 
@@ -86,10 +95,6 @@ std::optional<Core::SteadyTime> PlanSender::GetFirstSentOrNull() const noexcept
 
 bool PlanSender::TrySend(std::size_t index, Core::Now now, PlanTracker::Lines& lines)
 {
-    if (!IsNamed(index))
-    {
-        return false;
-    }
     if (_floorOrNull != nullptr && _tracker.GetPlans()[index].sends == 0)
     {
         _floorOrNull->OnSending(index, lines);

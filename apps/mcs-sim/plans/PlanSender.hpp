@@ -62,9 +62,9 @@ public:
         PlanTracker::Lines& lines);
 
     /// The plans that wait, as far as they can go now.
-    void SendHeld(Core::Now now, PlanTracker::Lines& lines);
+    void SendHeld(bool bPlansTaken, Core::Now now, PlanTracker::Lines& lines);
 
-    /// Every plan whose time has come. What cannot go now is tried at the next call.
+    /// Every plan whose time has come. What cannot go now is tried at the next call; later plans than one that waits for a robot are sent.
     void SendDue(Core::Now now, PlanTracker::Lines& lines);
 
     [[nodiscard]] std::optional<Core::SteadyTime> GetFirstSentOrNull() const noexcept;

@@ -81,24 +81,26 @@ void PlanTracker::OnLinkLost()
     _bAcsReady = false;
 }
 
-std::optional<std::size_t> PlanTracker::GetNextToSendOrNull(Core::Now now)
+std::optional<std::size_t> PlanTracker::GetNextToSendOrNull(Core::Now now, std::size_t first)
 {
     if (!_bAcsReady)
     {
         return std::nullopt;
     }
     std::size_t unanswered = 0;
-    for (std::size_t i = _firstWaiting; i < _plans.size(); ++i)
+    // Those before `first` count where the number of unanswered plans is limited.
+    for (std::size_t i = _bResending ? _firstWaiting : std::max(_firstWaiting, first); i < _plans.size(); ++i)
     {
         const TrackedPlan& plan = _plans[i];
         const bool bOpen = GetOutcome(plan) == EOutcome::Open;
         const bool bSent = bOpen && plan.delivery == EDelivery::Sent;
         const bool bLate = bSent && _bResending && now.steady - plan.lastSent >= RESEND_AFTER;
-        if ((bOpen && plan.delivery == EDelivery::Waiting) || bLate)
+        const bool bDue = (bOpen && plan.delivery == EDelivery::Waiting) || bLate;
+        if (bDue && i >= first)
         {
             return i;
         }
-        const bool bDueLater = bSent || plan.delivery == EDelivery::Blocked;
+        const bool bDueLater = bDue || bSent || plan.delivery == EDelivery::Blocked;
         _firstWaiting += !bDueLater && i == _firstWaiting ? 1U : 0U;
         unanswered += bSent ? 1U : 0U;
         if (unanswered >= SEND_WINDOW && _bResending)

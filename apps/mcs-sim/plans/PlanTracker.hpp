@@ -62,8 +62,8 @@ public:
     void OnLinkLost();
 
     /// The plan to send now, by its index: none while no ACS is there or it cannot take work (section 6.21), or while too
-    /// many wait for their Ack.
-    [[nodiscard]] std::optional<std::size_t> GetNextToSendOrNull(Core::Now now);
+    /// many wait for their Ack. Plans before `first` are passed over.
+    [[nodiscard]] std::optional<std::size_t> GetNextToSendOrNull(Core::Now now, std::size_t first = 0);
     /// For a plan that was not sent yet: it is not due until it is unblocked.
     void Block(std::size_t index);
     void Unblock(std::size_t index);
