@@ -74,7 +74,12 @@ void RunJudge::OnAck(const Protocol::AckReceived& received)
 
 void RunJudge::OnUnanswered(const Protocol::RequestUnanswered& unanswered)
 {
-    _notes.Excuse();
+    // After a lost connection a plan is sent again, and may be acknowledged twice.
+    const bool bPlan = unanswered.command == Protocol::EAcsCommand::ExecutionPlan;
+    if (bPlan || unanswered.reason == Protocol::EUnansweredReason::Timeout)
+    {
+        _notes.Excuse();
+    }
     // Overdue Acks of plans are the tracker's to see.
     if (unanswered.command != Protocol::EAcsCommand::ExecutionPlan)
     {

@@ -50,6 +50,17 @@ TEST_CASE("An Ack that fits nothing is excused once where a request was not answ
     CHECK(fixture.judge.GetTracker().CountViolations() == 1);
 }
 
+TEST_CASE("Nothing is excused by a request whose connection was lost or replaced")
+{
+    RunJudgeFixture fixture;
+    for (const auto reason : {Protocol::EUnansweredReason::LinkLost, Protocol::EUnansweredReason::Replaced})
+    {
+        fixture.judge.OnUnanswered({Protocol::EAcsCommand::CancelPlan, "T1", reason, 1});
+    }
+    fixture.NoteStrayAck();
+    CHECK(fixture.judge.GetTracker().CountViolations() == 1);
+}
+
 TEST_CASE("An Ack that fits nothing is not excused by a request whose Ack came late")
 {
     RunJudgeFixture fixture;
