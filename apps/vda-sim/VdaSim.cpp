@@ -225,9 +225,22 @@ private:
     /// Returns the answer to a message on the control topic.
     [[nodiscard]] std::string Command(std::string_view text)
     {
-        return Apps::AnswerCommands<Fault>(GetFaultGrammar(), text, _logger, [this](const FaultCommand& command) {
-            return Apply(command);
+        return Apps::AnswerCommands<Fault>(
+            GetFaultGrammar(),
+            text,
+            _logger,
+            [this](const FaultCommand& command) { return CheckTarget(command); },
+            [this](const FaultCommand& command) { return Apply(command); });
+    }
+
+    /// Empty, or why the command fits no vehicle.
+    [[nodiscard]] std::string CheckTarget(const FaultCommand& command) const
+    {
+        const bool bFits = std::ranges::any_of(_members, [&command](const Member& member) {
+            return Apps::IsTarget(command.targets, member.name);
         });
+        return bFits ? std::string()
+                     : fmt::format("no vehicle {}; one of the vehicles is {}", command.targets, _members.front().name);
     }
 
     /// Returns one line with the result.
@@ -242,13 +255,6 @@ private:
                 ++vehicles;
                 count += ApplyTo(*member.runner, command);
             }
-        }
-        if (vehicles == 0)
-        {
-            return fmt::format(
-                "error: no vehicle {}; one of the vehicles is {}",
-                command.targets,
-                _members.front().name);
         }
         if (command.verb != EFaultVerb::Begin)
         {

@@ -3,6 +3,7 @@
 #include "common/faults/FaultCommand.hpp"
 #include <acs/core/Logger.hpp>
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -17,17 +18,23 @@ inline constexpr std::string_view COMMAND_WRONG = "error: ";
 
 /// The answer to a message of a control channel: one line per command, returned by the function that executes it. If a command
 /// is invalid, none is executed.
+/// @param check The error line of a command that fits no target; empty if it fits.
 template <typename TFault>
 [[nodiscard]] std::string AnswerCommands(
     const FaultGrammar<TFault>& grammar,
     std::string_view text,
     const Core::Logger& logger,
+    const std::function<std::string(const FaultCommand<TFault>&)>& check,
     const std::function<std::string(const FaultCommand<TFault>&)>& apply)
 {
     const Core::Result<std::vector<FaultCommand<TFault>>> commands = ParseFaultCommands(grammar, text);
-    if (!commands.has_value())
+    std::string error = commands.has_value() ? std::string() : Core::Describe(commands.error());
+    for (std::size_t i = 0; error.empty() && i < commands->size(); ++i)
     {
-        const std::string error = Core::Describe(commands.error());
+        error = check((*commands)[i]);
+    }
+    if (!error.empty())
+    {
         logger.Warning("invalid command: no command of the message was executed", {{"reason", error}});
         return std::string(COMMAND_WRONG) + error;
     }

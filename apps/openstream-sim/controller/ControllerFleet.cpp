@@ -160,9 +160,24 @@ Apps::HttpResponse ControllerFleet::Answer(const Apps::HttpRequest& request)
 
 std::string ControllerFleet::Command(std::string_view text)
 {
-    return Apps::AnswerCommands<Fault>(GetFaultGrammar(), text, _logger, [this](const FaultCommand& command) {
-        return Apply(command);
-    });
+    return Apps::AnswerCommands<Fault>(
+        GetFaultGrammar(),
+        text,
+        _logger,
+        [this](const FaultCommand& command) { return CheckTarget(command); },
+        [this](const FaultCommand& command) { return Apply(command); });
+}
+
+std::string ControllerFleet::CheckTarget(const FaultCommand& command) const
+{
+    for (std::size_t i = 0; i < _hosts.size(); ++i)
+    {
+        if (Apps::IsTarget(command.targets, std::to_string(i + 1)))
+        {
+            return {};
+        }
+    }
+    return fmt::format("no controller {}; give one from 1 to {}, or * for all", command.targets, _hosts.size());
 }
 
 std::string ControllerFleet::Apply(const FaultCommand& command)
@@ -176,14 +191,6 @@ std::string ControllerFleet::Apply(const FaultCommand& command)
             ++controllers;
             count += ApplyTo(*_hosts[i], command);
         }
-    }
-    if (controllers == 0)
-    {
-        return fmt::format(
-            "{}no controller {}; give one from 1 to {}, or * for all",
-            Apps::COMMAND_WRONG,
-            command.targets,
-            _hosts.size());
     }
     if (command.verb != Apps::EFaultVerb::Begin)
     {

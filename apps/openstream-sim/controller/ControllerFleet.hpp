@@ -70,6 +70,8 @@ private:
     [[nodiscard]] Apps::HttpResponse Handle(const Apps::HttpRequest& request);
     [[nodiscard]] Apps::HttpResponse Answer(const Apps::HttpRequest& request);
     void Trace(bool bIn, std::string_view text) const;
+    /// Empty, or why the command fits no controller.
+    [[nodiscard]] std::string CheckTarget(const FaultCommand& command) const;
     [[nodiscard]] std::string Apply(const FaultCommand& command);
     /// Returns the number of faults begun or ended.
     [[nodiscard]] static std::size_t ApplyTo(ControllerHost& host, const FaultCommand& command);

@@ -116,7 +116,8 @@ class ReadmeClient(unittest.TestCase):
                          (200, "ok: controllers=2 ended=1\nok: controllers=1 estop\n"))
         self.assertEqual((is_pressed("http"), is_pressed("http2")), (1, 0))
         for text, part in (("* end\n2 explode", "line 2, fault: expected one of silence"), ("", "no command"),
-                           ("3 estop", "no controller 3; give one from 1 to 2"), ("\xff", "error: ")):
+                           ("3 estop", "no controller 3; give one from 1 to 2"),
+                           ("2 estop\n3 estop", "no controller 3"), ("\xff", "error: ")):
             with self.subTest(text):
                 status, answer = self.post(control, text)
                 self.assertEqual(status, 400)
