@@ -11,6 +11,7 @@ namespace ACS::VdaSim
 namespace
 {
 
+constexpr double TOLERANCE = 0.5;  ///< m, as for a first node without an allowed deviation.
 constexpr double HALF_WIDTH = 0.4; ///< m, as in the factsheet: a corridor for the contour has this much less room.
 
 /// The pose of a vehicle on the node, with the heading that the site defines there.
@@ -25,7 +26,6 @@ Pose GetStartPose(const Planning::SiteNode& node)
 /// The nearest node within the tolerance of this point; empty if there is none.
 std::string FindNodeAt(const Planning::SiteMap& site, double x, double y)
 {
-    constexpr double TOLERANCE = 0.5; // as for a first node without an allowed deviation
     const auto getDistance = [x, y](const Planning::SiteNode& node) {
         return std::hypot(node.x - x, node.y - y);
     };
@@ -56,6 +56,7 @@ VehicleDrive::VehicleDrive(
         }
         _motion.Place(pose);
         _mapID = node->mapID;
+        FindPlace();
     }
 }
 
@@ -73,6 +74,7 @@ void VehicleDrive::Begin(const VDA5050::DriveTo& leg)
         _motion.Begin(std::move(planned));
     }
     _leg = leg;
+    _placeNodeID.clear();
     _course = ECourse::Continue;
 }
 
@@ -97,6 +99,7 @@ void VehicleDrive::EndAbandoned()
     {
         _course = ECourse::Continue;
         _motion.Abandon();
+        FindPlace();
     }
 }
 
@@ -116,6 +119,7 @@ bool VehicleDrive::TryPlace(const Pose& pose, std::string mapID)
     }
     _motion.Place(pose);
     _nodeID = FindNodeAt(*_site, pose.x, pose.y);
+    _placeNodeID = _nodeID;
     _mapID = std::move(mapID);
     return true;
 }
@@ -131,6 +135,7 @@ DriveStep VehicleDrive::Advance(double seconds)
         step.reached = std::exchange(_leg, std::nullopt);
         const VDA5050::OrderNode& node = step.reached->node;
         _nodeID = node.nodeID;
+        _placeNodeID = _nodeID;
         if (node.nodePosition.has_value())
         {
             _mapID = node.nodePosition->mapID;
@@ -206,6 +211,19 @@ const VDA5050::DriveTo* VehicleDrive::GetLegOrNull() const noexcept
 const std::string& VehicleDrive::GetNodeID() const noexcept
 {
     return _nodeID;
+}
+
+const std::string& VehicleDrive::GetPlaceNodeID() const noexcept
+{
+    return _placeNodeID;
+}
+
+void VehicleDrive::FindPlace()
+{
+    const Planning::SiteNode* const node = _site->FindNodeOrNull(_nodeID);
+    const Pose& pose = _motion.GetPose();
+    const bool bOn = node != nullptr && std::hypot(node->x - pose.x, node->y - pose.y) <= TOLERANCE;
+    _placeNodeID = bOn ? _nodeID : std::string();
 }
 
 const std::string& VehicleDrive::GetMapID() const noexcept

@@ -36,7 +36,8 @@ class VehicleDrive
     VehicleMotion _motion;
     std::optional<VDA5050::DriveTo> _leg;
     ECourse _course = ECourse::Continue;
-    std::string _nodeID; ///< Its current or last node.
+    std::string _nodeID;      ///< Its current or last node.
+    std::string _placeNodeID; ///< The node that it is on; empty between nodes.
     std::string _mapID;
 
 public:
@@ -70,10 +71,15 @@ public:
     [[nodiscard]] const VehicleMotion& GetMotion() const noexcept;
     [[nodiscard]] bool IsMoving() const noexcept;
     [[nodiscard]] const VDA5050::DriveTo* GetLegOrNull() const noexcept;
+    /// Its current or last node.
     [[nodiscard]] const std::string& GetNodeID() const noexcept;
+    /// The node that it is on, stationary or passing; empty between nodes.
+    [[nodiscard]] const std::string& GetPlaceNodeID() const noexcept;
     [[nodiscard]] const std::string& GetMapID() const noexcept;
 
 private:
+    /// Finds whether it is on its current or last node.
+    void FindPlace();
     [[nodiscard]] std::optional<double> GetSwerveOrNull(const Fault& obstacle) const;
 };
 

@@ -94,8 +94,11 @@ void VirtualVehicle::SetStatus(
 
 bool VirtualVehicle::IsAtCharger() const
 {
-    const Planning::SiteStation* const station = _site->FindStationAtOrNull(_drive.GetNodeID());
-    return station != nullptr && station->stationID.starts_with(CHARGER_PREFIX) && !_drive.GetMotion().HasLeg();
+    return !_drive.GetMotion().HasLeg()
+        && std::ranges::any_of(_site->GetStations(), [this](const Planning::SiteStation& station) {
+               return station.stationID.starts_with(CHARGER_PREFIX)
+                   && std::ranges::find(station.nodeIDs, _drive.GetPlaceNodeID()) != station.nodeIDs.end();
+           });
 }
 
 void VirtualVehicle::LogUnlisted(const std::string& actionID, Core::Now now)
@@ -158,7 +161,7 @@ void VirtualVehicle::ReportLoads(Core::Now now)
 void VirtualVehicle::UpdateDock(Core::Now now)
 {
     const VehicleMotion& motion = _drive.GetMotion();
-    const std::string nodeID = motion.HasLeg() || !motion.IsStanding() ? std::string() : _drive.GetNodeID();
+    const std::string nodeID = motion.HasLeg() || !motion.IsStanding() ? std::string() : _drive.GetPlaceNodeID();
     if (_dockNodeID == nodeID)
     {
         return;

@@ -95,7 +95,7 @@ class VirtualVehicle
     Battery _battery;
     SliceClock _clock;
     /// As the world has it; empty: not docked; nullopt: not recorded yet, retry at the next tick.
-    std::optional<std::string> _dockNodeID{""};
+    std::optional<std::string> _dockNodeID;
     bool _bDriving = false; ///< As the session has it.
     FaultSchedule _faults;
     MessageGate _incoming;

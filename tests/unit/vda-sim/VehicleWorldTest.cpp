@@ -261,6 +261,22 @@ TEST_CASE("A vehicle docks at all stations of the node where it is stationary, a
     CHECK((events[1] == Sim::WorldEvent(Sim::RobotDocked{"LR01", {"A02.CP01"}})));
 }
 
+TEST_CASE("A vehicle that stops between two nodes has left its stations")
+{
+    WorldFixture floor;
+    VehicleDriver driver(floor.GetOptions());
+    driver.Pass(1s);
+    static_cast<void>(floor.GetWorld().TakeEvents());
+    auto route = driver.MakeRoute("order-1", {"N1", "N2"});
+    driver.Send(VehicleDriver::Take(route.MakeOrder(2)));
+    driver.Pass(2s);
+    driver.Inject("mode");
+    driver.Pass(5s);
+    REQUIRE_FALSE(driver.GetState().bDriving);
+    const auto events = floor.GetWorld().TakeEvents();
+    CHECK(events == std::vector<Sim::WorldEvent>{Sim::RobotDocked{"LR01", {}}});
+}
+
 TEST_CASE("A vehicle that drives through a node does not dock there")
 {
     WorldFixture floor;

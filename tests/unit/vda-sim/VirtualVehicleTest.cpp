@@ -324,6 +324,20 @@ TEST_CASE("Charging needs a charger, and driving drains the battery and ends the
     CHECK_FALSE(driver.GetState().batteryState.bCharging);
 }
 
+TEST_CASE("A vehicle that stops beside its charger's node is not at the charger")
+{
+    VehicleDriver driver("DOCK");
+    auto route = driver.MakeRoute("order-1", {"DOCK", "N2"});
+    driver.Send(VehicleDriver::Take(route.MakeOrder(2)));
+    driver.Pass(2s);
+    driver.Inject("mode for=1s");
+    driver.Pass(5s);
+    REQUIRE(driver.GetState().lastNodeID == "DOCK");
+    driver.SendInstantly(VDA5050::ActionTypes::START_CHARGING, "charge");
+    driver.Pass(1s);
+    CHECK(driver.GetStatus("charge") == EActionStatus::Failed);
+}
+
 TEST_CASE("startCharging fails when the vehicle leaves the charger before it has ended")
 {
     VehicleDriver driver("DOCK");
