@@ -2,10 +2,12 @@
 
 #include "vda-sim/OrderLimits.hpp"
 #include "world/EWorldError.hpp"
+#include <acs/core/ParseNumber.hpp>
 #include <acs/core/ShortText.hpp>
 #include <acs/vda5050/ActionMachine.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace ACS::VdaSim
@@ -55,7 +57,15 @@ std::string VirtualVehicle::InitialisePosition(const VDA5050::Action& action, Co
 {
     const auto getNumber = [&action](std::string_view key) {
         const VDA5050::ActionParameter* const parameter = VDA5050::FindParameterOrNull(action, key);
-        return parameter != nullptr ? parameter->value.GetNumberOrNull() : std::nullopt;
+        if (parameter == nullptr)
+        {
+            return std::optional<double>();
+        }
+        // A text was refused before, unless the option --lenient-parameters allows it.
+        const std::optional<std::string> text = parameter->value.GetStringOrNull();
+        const std::optional<double> number =
+            text.has_value() ? Core::ParseNumberOrNull<double>(*text) : parameter->value.GetNumberOrNull();
+        return number.has_value() && std::isfinite(*number) ? number : std::nullopt;
     };
     const std::optional<double> x = getNumber("x");
     const std::optional<double> y = getNumber("y");

@@ -384,6 +384,28 @@ TEST_CASE("--lenient-parameters: unlisted parameters are accepted and reported, 
     CHECK(driver.GetState().errors[0].errorType == VDA5050::ErrorTypes::ORDER_ERROR);
 }
 
+TEST_CASE("--lenient-parameters: initPosition accepts numbers as text")
+{
+    VdaSim::VirtualVehicleOptions options = MakeOptions();
+    options.parameterCheck = VDA5050::EParameterCheck::Lenient;
+    VehicleDriver driver(std::move(options));
+    const auto place = [&driver](const std::string& actionID, std::string_view x) {
+        driver.SendInstantly(
+            ActionTypes::INIT_POSITION,
+            actionID,
+            {MakeText("x", x),
+             MakeText("y", "0"),
+             MakeText("theta", "0.5"),
+             MakeText("mapId", driver.GetState().agvPosition->mapID),
+             MakeText("lastNodeId", "N1")});
+        driver.Pass(1s);
+        return driver.GetStatus(actionID);
+    };
+    CHECK(place("good", "4.5") == EActionStatus::Finished);
+    CHECK(driver.GetState().agvPosition->x == Approx(4.5));
+    CHECK(place("bad", "nan") == EActionStatus::Failed);
+}
+
 TEST_CASE("Instant actions are checked against the factsheet, too")
 {
     for (const bool bLenient : {false, true})
