@@ -157,12 +157,12 @@ std::string LoadDevice::PutDown(const VDA5050::Action& action)
     {
         return "this load is not on board";
     }
+    if (!wanted.loadPosition.empty() && found->loadPosition != wanted.loadPosition)
+    {
+        return "this load is in another load position";
+    }
     if (_worldOrNull != nullptr)
     {
-        if (!wanted.loadPosition.empty() && found->loadPosition != wanted.loadPosition)
-        {
-            return "this load is in another load position";
-        }
         const auto place = std::ranges::find(_positions, found->loadPosition, &LoadPosition::name);
         std::string failure = Move(found->loadID.value_or(""), GetPort(*place), GetStation(action));
         if (!failure.empty())

@@ -289,10 +289,11 @@ TEST_CASE("6.8 A pick uses the load position that it names, or the first free on
     add(ActionTypes::PICK, "third", {});
     add(ActionTypes::PICK, "fourth", {});
     add(ActionTypes::PICK, "full", {});
+    add(ActionTypes::DROP, "elsewhere", {MakeText("lhd", "CP01"), MakeText("loadId", "A")});
     add(ActionTypes::DROP, "drop", {MakeText("lhd", "CP03")});
     driver.Send(std::move(order));
     driver.Pass(30s);
-    for (const std::string failed : {"taken", "twice", "nowhere", "long", "full"})
+    for (const std::string failed : {"taken", "twice", "nowhere", "long", "full", "elsewhere"})
     {
         CAPTURE(failed);
         CHECK(driver.GetStatus(failed) == EActionStatus::Failed);
