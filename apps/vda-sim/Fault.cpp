@@ -207,15 +207,11 @@ Core::Result<void> CheckWhole(Fault& fault, const std::set<std::string_view>& ke
             fmt::format("{} level", GetFaultName(fault.kind)),
             "error=ERRORTYPE with the level");
     }
-    if (fault.topic.has_value())
-    {
-        return CheckTopic(fault, *fault.topic);
-    }
     if (fault.kind == EFaultKind::Delay && fault.hold + fault.jitter == Core::Duration::zero())
     {
         return Core::Fail(Core::ECoreError::MissingField, "delay", "time=DURATION, jitter=DURATION or both");
     }
-    return {};
+    return fault.topic.has_value() ? CheckTopic(fault, *fault.topic) : Core::Result<void>();
 }
 
 } // namespace

@@ -86,6 +86,7 @@ TEST_CASE("An invalid fault is refused with what is expected")
              {"stuck for=5", "a duration"},
              {"stuck for=1s for=2s", "each key once"},
              {"stuck node=", "a name"},
+             {"delay topic=state", "time=DURATION"},
              {"stuck level=BAD", "one of WARNING, FATAL"},
              {"battery charge=101", "a number from 0 to 100"},
              {"battery charge=nan", "a number from 0 to 100"},
