@@ -185,7 +185,8 @@ bool VirtualVehicle::TryRefuse(const VDA5050::MqttMessage& message, Core::Now no
 {
     const Fault* const refusal = _faults.GetBoard().FindOrNull(EFaultKind::Refuse);
     const Core::Result<VDA5050::ParsedTopic> topic = VDA5050::ParseTopic(message.topic);
-    if (refusal == nullptr || !topic.has_value() || topic->topic != VDA5050::ETopic::Order)
+    // The session ignores a retained order.
+    if (refusal == nullptr || message.bRetained || !topic.has_value() || topic->topic != VDA5050::ETopic::Order)
     {
         return false;
     }

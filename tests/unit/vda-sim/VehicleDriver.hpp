@@ -229,6 +229,16 @@ public:
         Receive(VDA5050::ETopic::Order, _codec.Encode(order, VDA5050::EVda5050Version::Version200));
     }
 
+    /// As the broker sends a retained message after the subscription.
+    void SendRetained(VDA5050::OrderMessage order)
+    {
+        order.header = MakeHeader();
+        const std::string topic = VDA5050::BuildTopic({"uagv", "ACS", "LR01"}, VDA5050::ETopic::Order);
+        const std::string payload = _codec.Encode(order, VDA5050::EVda5050Version::Version200);
+        _vehicle.OnMessage({topic, payload, 0, true}, _clock.GetNow(), _actions);
+        Execute();
+    }
+
     void Send(VDA5050::OrderMessage order, VDA5050::EVda5050Version version = VDA5050::EVda5050Version::Version200)
     {
         order.header = MakeHeader();

@@ -26,13 +26,14 @@ const VDA5050::VehicleError* FindErrorOrNull(const VDA5050::StateMessage& state,
 
 } // namespace
 
-TEST_CASE("refuse: an order for another vehicle does not use up the fault")
+TEST_CASE("refuse: an order for another vehicle or a retained one does not use up the fault")
 {
     VehicleDriver driver("N0");
     driver.Inject("refuse");
     auto route = driver.MakeRoute("order-1", {"N0", "N1"});
     const VDA5050::OrderMessage order = VehicleDriver::Take(route.MakeOrder(2));
     driver.SendToOther(order);
+    driver.SendRetained(order);
     driver.Pass(1s);
     CHECK(driver.GetState().errors.empty());
     driver.Send(order);
