@@ -52,6 +52,7 @@ std::optional<OpenStreamRequest> ClientMonitor::BeginNextOrNull()
     _bDue = false;
     if (!_wanted.has_value())
     {
+        _stream = EStream::Nothing;
         return std::nullopt;
     }
     _asked = EAsked::Start;
@@ -76,19 +77,21 @@ void ClientMonitor::OnStarted(Core::Now now, ClientActions& out)
 void ClientMonitor::OnRefused(ErrorLine error, ClientActions& out)
 {
     FinishAsked(out);
-    if (error.code == EOpenStreamErrorCode::MonitorAlreadyActive)
+    const bool bOccupied = error.code == EOpenStreamErrorCode::MonitorAlreadyActive;
+    if (bOccupied && _stream != EStream::Freed)
     {
         _stream = EStream::Occupied;
         _bDue = true;
         return;
     }
+    _stream = _stream == EStream::Freed ? EStream::Nothing : _stream;
     Report(ClientMonitorRefused{std::move(error), _sentURL}, out);
 }
 
 void ClientMonitor::OnStopped(ClientActions& out)
 {
     FinishAsked(out);
-    _stream = EStream::Nothing;
+    _stream = _stream == EStream::Occupied ? EStream::Freed : EStream::Nothing;
 }
 
 std::uint64_t ClientMonitor::OnSample(DataLine line, Core::Now now, ClientActions& out)
@@ -101,7 +104,7 @@ std::uint64_t ClientMonitor::OnSample(DataLine line, Core::Now now, ClientAction
     {
         Report(ClientData{line, now}, out);
     }
-    if (_stream == EStream::Nothing || IsCurrent()) // otherwise it was on its way when the stream was replaced
+    if (IsSilent() || IsCurrent()) // otherwise it was on its way when the stream was replaced
     {
         _latest = ClientData{std::move(line), now};
     }
@@ -158,6 +161,11 @@ const ClientData* ClientMonitor::GetLatestOrNull() const noexcept
 StreamQuality ClientMonitor::GetQuality() const
 {
     return _meter.GetQuality();
+}
+
+bool ClientMonitor::IsSilent() const noexcept
+{
+    return _stream == EStream::Nothing || _stream == EStream::Freed;
 }
 
 bool ClientMonitor::IsCurrent() const noexcept

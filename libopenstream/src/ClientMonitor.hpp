@@ -25,6 +25,7 @@ class ClientMonitor
         Nothing,
         Started,  ///< The MONITOR with _startedNumber.
         Occupied, ///< It answered monitor_already_active: STOP monitor has to precede the MONITOR.
+        Freed, ///< Nothing, after that STOP monitor. If it still answers monitor_already_active, the MONITOR is refused.
     };
 
     /// The command in flight.
@@ -87,6 +88,8 @@ public:
     [[nodiscard]] StreamQuality GetQuality() const;
 
 private:
+    /// Whether the server streams nothing, as far as known.
+    [[nodiscard]] bool IsSilent() const noexcept;
     /// Whether the server streams the MONITOR of the last Set call.
     [[nodiscard]] bool IsCurrent() const noexcept;
     [[nodiscard]] std::chrono::milliseconds GetDataLimit() const noexcept;

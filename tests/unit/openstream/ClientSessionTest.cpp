@@ -157,9 +157,26 @@ TEST_CASE("7.7 monitor_already_active means stop and retry")
     REQUIRE(client.lines.back() == R"({"cmd":"STOP","payload":{"target":"monitor"}})");
     client.Receive("{\"type\":\"stop_ack\",\"target\":\"monitor\"}\n");
     REQUIRE(client.CountLines("\"MONITOR\"") == 2);
-    client.Receive("{\"error\":\"monitor_already_active\",\"message\":\"\"}\n");
-    client.Receive("{\"type\":\"stop_ack\",\"target\":\"monitor\"}\n");
-    REQUIRE(client.CountLines("\"MONITOR\"") <= 3);
+    SECTION("once: a MONITOR that another connection holds is refused, and the session continues")
+    {
+        client.Receive("{\"error\":\"monitor_already_active\",\"message\":\"\"}\n");
+        REQUIRE(client.Take<ClientMonitorRefused>().size() == 1);
+        REQUIRE(client.CountLines("\"MONITOR\"") == 2);
+        client.SetMonitor(20ms);
+        client.Receive("{\"error\":\"monitor_already_active\",\"message\":\"\"}\n");
+        client.Receive("{\"error\":\"nothing_to_stop\",\"message\":\"\"}\n");
+        client.Receive("{\"error\":\"monitor_already_active\",\"message\":\"\"}\n");
+        REQUIRE(client.Take<ClientMonitorRefused>().size() == 1);
+        REQUIRE(client.CountLines("\"MONITOR\"") == 4);
+    }
+    SECTION("and it is streamed")
+    {
+        client.Receive(MONITOR_ACK);
+        REQUIRE(client.Take<ClientMonitorStarted>().size() == 1);
+        client.SetMonitor(30ms);
+        client.Receive("{\"error\":\"monitor_already_active\",\"message\":\"\"}\n");
+        REQUIRE(client.lines.back() == R"({"cmd":"STOP","payload":{"target":"monitor"}})");
+    }
 }
 
 TEST_CASE("3 A rejected MONITOR is reported and not repeated until it is set again")
