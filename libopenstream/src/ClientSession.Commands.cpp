@@ -38,7 +38,9 @@ std::uint64_t ClientSession::Impl::SendControlCall(ControlCall call, Core::Now n
 {
     const std::uint64_t token = ++_lastToken;
     const bool bReady = _state == EClientState::Ready && !_output.IsFull();
-    const std::string_view obstacle = bReady ? "too many CONTROLs wait" : "there is no session with the controller";
+    const std::string_view obstacle = bReady ? "too many CONTROLs wait"
+        : _state == EClientState::Ready      ? "the connection takes no more data"
+                                             : "there is no session with the controller";
     const Core::SteadyTime deadline = GetControlDeadline(call.timeout, now);
     if (call.tracking == EControlTracking::Streamed)
     {
