@@ -309,8 +309,8 @@ void OpenStreamRobotAdapter::OnProbed(const ArmProbed& probed, AdapterActions& o
     const bool bMotor = probed.probe == EArmProbe::Motor;
     if (bMotor && probed.bOnOrNull == false && _program.IsMotorDecisive())
     {
+        _monitor.WatchMotor(out); // forgets why the motor could not be switched on earlier
         _monitor.ReportMotorOff();
-        _monitor.WatchMotor(out);
         ReportArm(out); // before a job is returned, because the engine would command it again at once
         _program.OnMotorOff(out);
     }

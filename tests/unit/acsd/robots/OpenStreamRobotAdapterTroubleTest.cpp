@@ -49,6 +49,19 @@ TEST_CASE("A motor that goes off between jobs is detected, reported, and switche
         CHECK(states.front().errors.at(0).message.find("403") != std::string::npos);
         CHECK(arm.TakeRequests() == std::vector<std::string>{MOTOR_ON});
     }
+    SECTION("It was switched on at the controller: the earlier reason is not reported the next time")
+    {
+        arm.Settle(OpenStream::EControlOutcome::Refused, 403);
+        arm.DeliverData(MOTOR_ON_SAMPLE);
+        arm.DeliverData("[5,5,0]");
+        arm.actions.clear();
+        REQUIRE(arm.TakeProbe() == std::vector<std::string>{MONITOR_MOTOR});
+        arm.DeliverData("[5,5,0]");
+        arm.DeliverData(MOTOR_OFF_SAMPLE);
+        const auto states = arm.TakeEvents<Planning::StateChanged>();
+        REQUIRE_FALSE(states.empty());
+        CHECK(states.back().errors.at(0).message.find("403") == std::string::npos);
+    }
 }
 
 TEST_CASE("A probe of a motor that is on takes one sample, after which the counters are shown again")
