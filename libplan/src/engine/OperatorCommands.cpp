@@ -399,25 +399,26 @@ void OperatorCommands::ApplyAnswer(Robot& robot, EJobResolution answer)
 {
     robot.job.Resolve();
     const std::string jobID = robot.job.GetOrNull()->jobID;
-    if (_jobs.TryEndOverdueJob(robot, jobID, answer == EJobResolution::Done))
+    const bool bOverdue = _jobs.TryEndOverdueJob(robot, jobID, answer == EJobResolution::Done);
+    if (answer == EJobResolution::Failed)
+    {
+        _jobs.OnJobFailed(robot, JobFailed{jobID, "Reported as not done by the operator."});
+        robot.job.CancelLater(jobID);
+    }
+    else if (bOverdue)
     {
         return;
     }
-    switch (answer)
+    else if (answer == EJobResolution::Done)
     {
-        case EJobResolution::Done:
-            CatchUp(robot);
-            _jobs.OnJobStarted(robot, JobStarted{jobID});
-            _work.EndJob(robot, "Reported as done by the operator.");
-            break;
-        case EJobResolution::Again:
-            robot.work.TryResolve(); // no later job was done either
-            _work.RepeatJob(robot, {});
-            break;
-        case EJobResolution::Failed:
-        default:
-            _jobs.OnJobFailed(robot, JobFailed{jobID, "Reported as not done by the operator."});
-            break;
+        CatchUp(robot);
+        _jobs.OnJobStarted(robot, JobStarted{jobID});
+        _work.EndJob(robot, "Reported as done by the operator.");
+    }
+    else
+    {
+        robot.work.TryResolve(); // no later job was done either
+        _work.RepeatJob(robot, {});
     }
 }
 

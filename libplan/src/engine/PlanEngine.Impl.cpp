@@ -312,6 +312,11 @@ void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
     }
     robot.changes.MarkWork(robot.work.TryCheckEvidence(event, robot.planOrNull != nullptr));
     _loads.CompareLoads(robot);
+    if (const auto jobID = bBack && event.bAutomatic ? robot.job.TakeCancelOrNull() : std::nullopt; jobID.has_value())
+    {
+        // Before it resumes: it would continue the job.
+        _engine.transaction.Command(robot, CancelJob{*jobID});
+    }
     _controls.UpdatePause(robot, bBack, bWasPaused);
     _controls.UpdateStandstill(robot);
     _charging.UpdateBattery(robot);

@@ -241,6 +241,7 @@ void RestartRecovery::RestoreOverdue(Robot& robot)
     {
         robot.job.MarkOverdue();
         RequestJobOutcome(robot);
+        _transaction.Command(robot, CancelJob{robot.job.GetOrNull()->jobID});
         _transaction.StartTimer(EEngineTimer::JobEnd, robot.GetID(), _options.controls.jobEndTimeout);
     }
 }

@@ -10,12 +10,14 @@ void JobTracker::Begin(StartJob job)
 {
     _job = std::move(job);
     _state = EState::Commanded;
+    _cancelID.reset();
 }
 
 void JobTracker::MarkOverdue()
 {
     assert(_job.has_value());
     _bOverdue = true;
+    _cancelID = _job->jobID;
 }
 
 void JobTracker::BeginRecovery()
@@ -48,6 +50,19 @@ void JobTracker::Resolve()
 void JobTracker::Release()
 {
     *this = {};
+}
+
+void JobTracker::CancelLater(std::string jobID)
+{
+    if (!_job.has_value())
+    {
+        _cancelID = std::move(jobID);
+    }
+}
+
+std::optional<std::string> JobTracker::TakeCancelOrNull()
+{
+    return _job.has_value() ? _cancelID : std::exchange(_cancelID, std::nullopt);
 }
 
 const StartJob* JobTracker::GetOrNull() const noexcept

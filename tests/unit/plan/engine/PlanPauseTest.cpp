@@ -275,6 +275,31 @@ TEST_CASE("D-16 Abort of a paused plan drops its job, an alarm asks for a check,
     CHECK(world.engine->GetActiveAlarms().empty());
 }
 
+TEST_CASE(
+    "D-16 A robot that is disconnected at the Abort of its paused plan is commanded to cancel before it may resume")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
+    PausePlan(world);
+    world.Raise("LR01", LinkChanged{false});
+    world.GetRobot("LR01").bIgnoresJobCancel = true; // it misses the command
+    world.Control(EPlanControl::Abort, "P1");
+    world.GetRobot("LR01").bIgnoresJobCancel = false;
+    const bool bResolved = GENERATE(false, true);
+    if (bResolved)
+    {
+        world.ResolveJob("P1", "P1-a4", EJobResolution::Failed);
+    }
+    const std::size_t line = world.trace.size();
+    world.Connect();
+    const std::size_t cancelled = FindLine(world, "command LR01 CancelJob", line);
+    CHECK(cancelled < FindLine(world, "command LR01 Resume", line));
+    const std::size_t again = world.trace.size();
+    world.Raise("LR01", LinkChanged{false});
+    world.Connect();
+    CHECK(FindLine(world, "command LR01 CancelJob", again) == world.trace.size());
+}
+
 TEST_CASE("D-16 abort.paused_job finish: the paused job is completed, then the plan is aborted")
 {
     PlanWorld world = MakeWorld([](EngineOptions& options) { options.controls.bAbortFinishesPausedJob = true; });

@@ -77,6 +77,7 @@ TEST_CASE("RestartRecovery: the job of a plan that is over is overdue")
     CHECK(parts.lr.job.IsOverdue("P1-a4"));
     const CallOutcome outcome = parts.Collect();
     CHECK(outcome.ListCommands<RecoverJob>().size() == 1);
+    CHECK(outcome.ListCommands<CancelJob>().size() == 1);
     CHECK(outcome.GetDelayOrNull(EEngineTimer::JobEnd).has_value());
 }
 

@@ -71,6 +71,34 @@ TEST_CASE("JobTracker: a decision about a job that is being recovered keeps it s
     CHECK(tracker.IsRecovering());
 }
 
+TEST_CASE("JobTracker: a job that the robot must not continue is to be cancelled when the robot is back")
+{
+    JobTracker tracker = MakeTracker();
+    CHECK_FALSE(tracker.TakeCancelOrNull().has_value());
+    SECTION("each time while it is open")
+    {
+        tracker.MarkOverdue();
+        CHECK(tracker.TakeCancelOrNull() == "J1");
+        CHECK(tracker.TakeCancelOrNull() == "J1");
+        tracker.CancelLater("J2");
+        CHECK(tracker.TakeCancelOrNull() == "J1");
+        tracker.Release();
+    }
+    SECTION("once after its release by an operator")
+    {
+        tracker.Release();
+        tracker.CancelLater("J1");
+        CHECK(tracker.TakeCancelOrNull() == "J1");
+    }
+    SECTION("not after the next command")
+    {
+        tracker.Release();
+        tracker.CancelLater("J1");
+        tracker.Begin(StartJob{});
+    }
+    CHECK_FALSE(tracker.TakeCancelOrNull().has_value());
+}
+
 TEST_CASE("JobTracker: an overdue job is known by its id until it is released")
 {
     JobTracker tracker = MakeTracker();
