@@ -81,7 +81,12 @@ void ArmProgram::Cancel(const std::string& jobID, AdapterActions& out)
         return;
     }
     const bool bRuns = Is<Starting>() || Is<Awaited>() || Is<Running>();
-    _work.bCancelled = _bPauseWanted || !bRuns;
+    _work.bCancelled = _work.bCancelled || _bPauseWanted || !bRuns;
+}
+
+bool ArmProgram::IsPauseWanted() const noexcept
+{
+    return _bPauseWanted;
 }
 
 void ArmProgram::SetPauseWanted(bool bWanted)
@@ -95,9 +100,10 @@ void ArmProgram::SetPauseWanted(bool bWanted)
     VerifyRecovered();
 }
 
-void ArmProgram::OnPauseSeen() noexcept
+void ArmProgram::OnPauseSeen()
 {
     _bPauseKnown = true;
+    VerifyRecovered();
 }
 
 /// A program that was found after a restart may be stopped by an earlier pause. It is stopped and resumed, after which it is
@@ -112,9 +118,10 @@ void ArmProgram::VerifyRecovered()
     }
 }
 
-void ArmProgram::Recover(ArmJob job, bool bBegun, AdapterActions& out)
+void ArmProgram::Recover(ArmJob job, bool bBegun, bool bCancelled, AdapterActions& out)
 {
     SetWork(std::move(job));
+    _work.bCancelled = bCancelled;
     _state = Awaited{bBegun ? EArmStart::Counted : EArmStart::Unknown, {}};
     if (!bBegun)
     {
@@ -182,9 +189,17 @@ void ArmProgram::Advance(bool bFree, bool bProbing, AdapterActions& out)
 
 void ArmProgram::OnProof(const ArmProof& proof, const std::string& echo, AdapterActions& out)
 {
-    if (proof.bBegun)
+    Starting* const startingOrNull = std::get_if<Starting>(&_state);
+    const Awaited* const awaitedOrNull = std::get_if<Awaited>(&_state);
+    if (proof.bBegun && startingOrNull != nullptr && !std::exchange(startingOrNull->bBegun, true))
     {
-        Begin(out);
+        out.emplace_back(RaiseEvent{Planning::JobStarted{_work.jobID}});
+    }
+    else if (proof.bBegun && awaitedOrNull != nullptr)
+    {
+        out.emplace_back(RaiseEvent{Planning::JobStarted{_work.jobID}});
+        _state = Running{awaitedOrNull->start};
+        VerifyRecovered();
     }
     switch (proof.outcome)
     {
@@ -200,21 +215,6 @@ void ArmProgram::OnProof(const ArmProof& proof, const std::string& echo, Adapter
         case ArmProof::EOutcome::Open:
         default:
             break;
-    }
-}
-
-void ArmProgram::Begin(AdapterActions& out)
-{
-    Starting* const startingOrNull = std::get_if<Starting>(&_state);
-    if (startingOrNull != nullptr && !std::exchange(startingOrNull->bBegun, true))
-    {
-        out.emplace_back(RaiseEvent{Planning::JobStarted{_work.jobID}});
-    }
-    else if (const Awaited* const awaitedOrNull = std::get_if<Awaited>(&_state))
-    {
-        out.emplace_back(RaiseEvent{Planning::JobStarted{_work.jobID}});
-        _state = Running{awaitedOrNull->start};
-        VerifyRecovered();
     }
 }
 

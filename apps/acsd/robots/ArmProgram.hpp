@@ -71,14 +71,15 @@ public:
     ArmProgram(ArmOptions options, ArmControls& controls);
 
     void Start(ArmJob job);
-    /// Continues a job of before a restart. bBegun: the counters show that its program has begun.
-    void Recover(ArmJob job, bool bBegun, Planning::AdapterActions& out);
+    /// Continues a job of before a restart. bBegun: the counters show that its program has begun. bCancelled: it was cancelled during
+    /// a pause, so that its program is reset.
+    void Recover(ArmJob job, bool bBegun, bool bCancelled, Planning::AdapterActions& out);
     /// A running program is never aborted, because it may hold material: its end is reported as usual. A program that is
     /// stopped for a pause is reset.
     void Cancel(const std::string& jobID, Planning::AdapterActions& out);
     void SetPauseWanted(bool bWanted);
     /// The vehicle was reported paused.
-    void OnPauseSeen() noexcept;
+    void OnPauseSeen();
 
     /// A CONTROL has settled that was not the motor's.
     void OnSettled(const ArmSettlement& settlement, Planning::AdapterActions& out);
@@ -119,6 +120,7 @@ public:
     [[nodiscard]] std::vector<EArmRequest> TakeRequests();
     [[nodiscard]] const std::vector<ArmInput>& GetInputs() const noexcept;
     [[nodiscard]] bool HasJob() const noexcept;
+    [[nodiscard]] bool IsPauseWanted() const noexcept;
     /// Its counters may change for this job.
     [[nodiscard]] bool IsCounted() const;
     /// It is selected and not started: a program that changes the counters now is another one.
@@ -154,7 +156,6 @@ private:
     void OnControlRefused(EArmControl kind, const ArmRefusal& refusal, Planning::AdapterActions& out);
     void OnStartRefused(const ArmRefusal& refusal, Planning::AdapterActions& out);
     void Refuse(std::string reason);
-    void Begin(Planning::AdapterActions& out);
     /// Returns the ID of the job that has ended.
     [[nodiscard]] std::string End(Planning::AdapterActions& out);
     void Fail(std::string reason, Planning::AdapterActions& out);

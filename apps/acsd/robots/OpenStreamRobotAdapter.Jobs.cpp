@@ -85,6 +85,11 @@ bool OpenStreamRobotAdapter::TryEndRepetition(const Planning::RobotEvent& event,
 
 void OpenStreamRobotAdapter::CancelJob(const std::string& jobID, Core::Now now, AdapterActions& out)
 {
+    if (_recovery.has_value() && _recovery->job.jobID == jobID)
+    {
+        _recovery->bCancelled = _recovery->bCancelled || _program.IsPauseWanted();
+        return;
+    }
     if (!_repetition.has_value() || _repetition->job.jobID != jobID)
     {
         _program.Cancel(jobID, out);
@@ -127,7 +132,8 @@ tl::expected<ArmJob, std::string> OpenStreamRobotAdapter::MakeJob(const Planning
 /// A job that was commanded before a restart: the counters show whether its program has begun.
 void OpenStreamRobotAdapter::RecoverJob(AdapterActions& out)
 {
-    const Planning::StartJob job = *std::exchange(_recovery, std::nullopt);
+    const Recovery recovery = *std::exchange(_recovery, std::nullopt);
+    const Planning::StartJob& job = recovery.job;
     const tl::expected<ArmJob, std::string> made = MakeJob(job);
     const std::int32_t number = made.has_value() ? GetEchoedNumber(job, *made) : job.jobNumber;
     const tl::expected<bool, std::string> begun = _evidence.Recover(job.progressToken, number);
@@ -136,7 +142,7 @@ void OpenStreamRobotAdapter::RecoverJob(AdapterActions& out)
         out.emplace_back(RaiseEvent{Planning::JobUnresolved{job.jobID, begun.error()}});
         return;
     }
-    _program.Recover({job.jobID, 0, {}}, *begun, out);
+    _program.Recover({job.jobID, 0, {}}, *begun, recovery.bCancelled, out);
 }
 
 } // namespace ACS::Acsd

@@ -48,7 +48,7 @@ void OpenStreamRobotAdapter::Handle(const Planning::RobotCommand& command, Core:
     }
     else if (recoverOrNull != nullptr)
     {
-        _recovery = recoverOrNull->job;
+        _recovery = Recovery{recoverOrNull->job};
         if (_monitor.IsReady())
         {
             RecoverJob(out);

@@ -36,6 +36,13 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
         Planning::StartJob job;
     };
 
+    /// A job of before a restart; the counters have not arrived yet.
+    struct Recovery
+    {
+        Planning::StartJob job;
+        bool bCancelled = false; ///< During a pause. Otherwise the program continues to its end.
+    };
+
     Vda5050RobotAdapter _base;
     ArmOptions _options;
     JobMethods _methods;
@@ -45,7 +52,7 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     ArmProgram _program;
     ArmJobEvidence _evidence;
     Planning::AdapterActions _baseActions;
-    std::optional<Planning::StartJob> _recovery; ///< A job of before a restart; the counters have not arrived yet.
+    std::optional<Recovery> _recovery;
 
     std::optional<Repetition> _repetition;
 

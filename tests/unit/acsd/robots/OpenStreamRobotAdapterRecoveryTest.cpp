@@ -87,6 +87,30 @@ TEST_CASE("After a restart counters that are all 0, have fallen or have risen to
 }
 
 TEST_CASE(
+    "After a restart a job that is cancelled during a pause resets its program, also before its counters are known")
+{
+    ArmFixture arm;
+    Planning::RecoverJob recover;
+    recover.job.jobID = "J";
+    recover.job.action = "TrayLoad";
+    recover.job.progressToken = "5 5 0";
+    arm.adapter.Handle(recover, arm.clock.GetNow(), arm.actions);
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    arm.Deliver(OpenStream::ClientReady{});
+    arm.Settle(OpenStream::EControlOutcome::Accepted); // motor_on
+    arm.DeliverData(R"({"_type":"JObject","val":0})");
+    static_cast<void>(arm.TakeRequests());
+    arm.DeliverData("[6,5,0]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
+    arm.Accept("[6,5,0]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{RESET});
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+}
+
+TEST_CASE(
     "After a restart a program that may have been paused is stopped, probed and resumed; any other is not touched")
 {
     ArmRecoveryFixture alone("[6,5,0]");
