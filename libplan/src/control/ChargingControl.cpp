@@ -22,7 +22,23 @@ void ChargingControl::UpdateBattery(Robot& robot)
         return;
     }
     const DispatchOptions& dispatch = _options.dispatch;
+    // First: a robot that is full is then commanded once to end what its state still shows.
+    const EChargingChange charging = robot.charging.UpdateCharging(robot.view.state->bCharging);
+    if (charging == EChargingChange::Begun)
+    {
+        _transaction.CancelTimer(EEngineTimer::ChargeRetry, robot.GetID());
+        _transaction.ClearAlarm(MakeChargeAlarm(robot));
+    }
+    else if (charging == EChargingChange::Interrupted)
+    {
+        _transaction.StartTimer(EEngineTimer::ChargeRetry, robot.GetID(), dispatch.chargeRetry);
+    }
     const EBatteryChange battery = robot.charging.UpdateBattery(robot.view.state->batteryPercent, dispatch);
+    if (!robot.charging.IsBatteryLow())
+    {
+        // It may have been charged by hand, or does not show that it charges.
+        _transaction.ClearAlarm(MakeChargeAlarm(robot));
+    }
     if (battery != EBatteryChange::None)
     {
         const bool bLow = battery == EBatteryChange::Low;
@@ -37,16 +53,6 @@ void ChargingControl::UpdateBattery(Robot& robot)
         {
             EndCharging(robot);
         }
-    }
-    const EChargingChange charging = robot.charging.UpdateCharging(robot.view.state->bCharging);
-    if (charging == EChargingChange::Begun)
-    {
-        _transaction.CancelTimer(EEngineTimer::ChargeRetry, robot.GetID());
-        _transaction.ClearAlarm(MakeChargeAlarm(robot));
-    }
-    else if (charging == EChargingChange::Interrupted)
-    {
-        _transaction.StartTimer(EEngineTimer::ChargeRetry, robot.GetID(), dispatch.chargeRetry);
     }
     if (IsChargeDue(robot) && !robot.charging.IsCommanded())
     {

@@ -127,6 +127,31 @@ TEST_CASE("ChargingControl: a robot that stopped charging is commanded again onc
     CHECK(parts.Collect().ListCommands<StartCharging>().size() == 1);
 }
 
+TEST_CASE("ChargingControl: a full robot that still charges is commanded once to end it")
+{
+    EngineParts parts(MakeChargingOptions());
+    parts.PutOn(parts.lr, "D-CHG03");
+    ReportBattery(parts, 10, true);
+    parts.Discard();
+    ReportBattery(parts, 80, true);
+    parts.charging.EndCharging(parts.lr); // it drives to its parking position
+    CHECK(parts.Collect().ListCommands<StopCharging>().size() == 1);
+}
+
+TEST_CASE("ChargingControl: the alarm of a charger is cleared when the battery is not low, however it was charged")
+{
+    EngineParts parts(MakeChargingOptions());
+    parts.PutOn(parts.lr, "D-CHG03");
+    ReportBattery(parts, 10, false);
+    parts.charging.ChargeIdle();
+    parts.charging.OnChargeRetry(parts.lr);
+    REQUIRE(parts.Collect().ListSetAlarms() == std::vector<std::string>{"ACS-1010"});
+    ReportBattery(parts, 79, false);
+    CHECK(parts.Collect().ListClearedAlarms().empty());
+    ReportBattery(parts, 80, false);
+    CHECK(parts.Collect().ListClearedAlarms() == std::vector<std::string>{"ACS-1010"});
+}
+
 TEST_CASE("ChargingControl: charging ends once, and only where it was begun")
 {
     EngineParts parts(MakeChargingOptions());
