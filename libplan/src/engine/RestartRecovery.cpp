@@ -228,8 +228,11 @@ void RestartRecovery::RestoreAlarms(std::vector<Alarm> alarms)
         _backlog.RestoreFailing();
     }
     _transaction.ReportAlarms(_alarms.ClearIf([this](const Alarm& alarm) {
-        const bool bRobotGone = alarm.robotID != OWN_ROBOT_ID && _fleet.FindOrNull(alarm.robotID) == nullptr;
-        return bRobotGone || alarm.errorCode == ALARM_STALL || alarm.errorCode == ALARM_REJECTIONS
+        const Robot* const robotOrNull = _fleet.FindOrNull(alarm.robotID);
+        const bool bRobotGone = alarm.robotID != OWN_ROBOT_ID && robotOrNull == nullptr;
+        const bool bChargerGone = alarm.errorCode == ALARM_CHARGE && robotOrNull != nullptr
+            && !robotOrNull->options->chargingStationID.has_value();
+        return bRobotGone || bChargerGone || alarm.errorCode == ALARM_STALL || alarm.errorCode == ALARM_REJECTIONS
             || alarm.errorCode == ALARM_INCOMPATIBLE;
     }));
 }

@@ -176,9 +176,10 @@ TEST_CASE("RestartRecovery: alarms of robots that are gone and of drives are cle
         MakeLinkAlarm("LR09", {}),
         MakeAlarm("LR01", ALARM_STALL, EAlarmLevel::Light, {}),
         MakeAlarm("LR01", ALARM_PORT, EAlarmLevel::Light, {}),
+        MakeAlarm("LR01", ALARM_CHARGE, EAlarmLevel::Light, {}), // it has no charger
         MakeAlarm(OWN_ROBOT_ID, ALARM_STORE, EAlarmLevel::Heavy, {})};
     parts.recovery.Restore(stored);
-    CHECK(parts.Collect().ListClearedAlarms() == std::vector<std::string>{"ACS-1002", "ACS-1009"});
+    CHECK(parts.Collect().ListClearedAlarms() == std::vector<std::string>{"ACS-1002", "ACS-1009", "ACS-1010"});
     CHECK(parts.engine.alarms.GetAlarms().size() == 2);
     CHECK(parts.engine.backlog.IsFailing());
 }
