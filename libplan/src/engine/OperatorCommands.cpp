@@ -66,6 +66,12 @@ void OperatorCommands::Maintain(const SetMaintenance& command)
         _transaction.Note(
             robot,
             command.bOn ? "taken out of service by the operator" : "returned to service by the operator");
+        if (!command.bOn && !robot.view.bOnline)
+        {
+            // During maintenance a robot that is not connected after a start has no alarm.
+            _transaction.RaiseAlarm(
+                MakeLinkAlarm(robot.GetID(), "Robot disconnected. Check the robot and its network."));
+        }
     }
     if (command.bOn && !robot.place.bPlaced && !robot.place.possibleNodes.empty())
     {

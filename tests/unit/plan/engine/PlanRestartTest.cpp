@@ -268,6 +268,13 @@ TEST_CASE("After a restart no robot waits for one that is in maintenance")
         world.Raise(robotID, state);
     }
     CHECK(world.GetTraceOf("command ").size() > before);
+    REQUIRE(TryRunFor(world, 31s));
+    const auto countAlarms = [&world] {
+        return world.engine->GetActiveAlarms().size();
+    };
+    CHECK(countAlarms() == 0);
+    world.Ask(SetMaintenance{"LR02", false});
+    CHECK(countAlarms() == 1);
 }
 
 TEST_CASE("After a restart the nodes that a robot may still drive to are reserved for it")
