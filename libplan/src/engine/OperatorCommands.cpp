@@ -149,8 +149,8 @@ bool OperatorCommands::HasCause(const Alarm& alarm) const
     }
     if (alarm.errorCode == ALARM_PLACE)
     {
-        const bool bLeftRoute = robot.drive.has_value() && robot.drive->bLeftRoute;
-        return robot.view.bOnline && (!robot.place.bPlaced || bLeftRoute);
+        const bool bOff = robot.drive.has_value() && (robot.drive->bLeftRoute || robot.drive->bOverran);
+        return robot.view.bOnline && (!robot.place.bPlaced || bOff);
     }
     if (alarm.errorCode == ALARM_UNRESOLVED)
     {

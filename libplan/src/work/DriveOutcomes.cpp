@@ -230,6 +230,9 @@ void DriveOutcomes::OnDriveRejected(Robot& robot, const DriveRejected& event)
 void DriveOutcomes::OnNodeOfOther(Robot& robot)
 {
     constexpr std::string_view REASON = "it entered a node that is reserved for another robot";
+    // The alarm remains until the robot has a place.
+    robot.drive->bOverran = false;
+    robot.drive->bLeftRoute = false;
     if (ActivePlan* planOrNull = EndFailedDriveOrNull(robot, REASON); planOrNull != nullptr)
     {
         _work.FailPlan(*planOrNull, fmt::format("{} did not complete its drive: {}", robot.GetID(), REASON));

@@ -70,6 +70,17 @@ TEST_CASE("OperatorCommands: a cleared alarm is set again while its cause is pre
     CHECK_FALSE(IsReplyAccepted(parts.Collect()));
 }
 
+TEST_CASE("OperatorCommands: the alarm of a robot on the node of another one is set again")
+{
+    OperatorParts parts;
+    parts.BeginDriveToLoad();
+    parts.PutOn(parts.cr, "D-A01.CP01");
+    REQUIRE_FALSE(parts.coordinator.TryAdvance(parts.lr, 4));
+    parts.Discard();
+    parts.commands.ClearByOperator(ClearAlarms{"LR01", "ACS-1003", std::nullopt, std::nullopt, 7});
+    CHECK(parts.Collect().ListSetAlarms() == std::vector<std::string>{"ACS-1003"});
+}
+
 TEST_CASE("OperatorCommands: corrected carriers fit the ports and are on one robot only")
 {
     OperatorParts parts;

@@ -158,4 +158,7 @@ TEST_CASE(
     CHECK(plan.record.progress.state == EPlanState::Failed);
     CHECK_FALSE(parts.lr.place.bPlaced);
     CHECK(parts.lr.view.rejections.GetCount() == 0);
+    const CallOutcome outcome = parts.Collect();
+    CHECK(outcome.ListSetAlarms() == std::vector<std::string>{"ACS-1003"});
+    CHECK(outcome.ListClearedAlarms().empty());
 }
