@@ -51,7 +51,7 @@ std::vector<Visit> VisitForecast::ListVisits(const Robot& robot, const ActivePla
     std::vector<Visit> visits;
     const std::vector<ResolvedStep>& steps = plan.resolved.steps;
     std::optional<std::size_t> from = robot.place.node;
-    double time = robot.IsUsable() ? 0 : NO_DEPARTURE;
+    double time = 0;
     for (std::size_t i = plan.step; i < std::min(steps.size(), plan.step + STEPS) && from.has_value(); ++i)
     {
         const std::optional<std::size_t> dock =
@@ -63,6 +63,11 @@ std::vector<Visit> VisitForecast::ListVisits(const Robot& robot, const ActivePla
         const bool bWaits = robot.planOrNull == &plan && i == plan.step && robot.activity == EActivity::Waits
             && !robot.drive.has_value() && from != dock;
         Visit& visit = visits.emplace_back();
+        if (!robot.IsUsable())
+        {
+            visit = {0, NO_DEPARTURE}; // taken until it can move
+            continue;
+        }
         visit.arrival = time + GetTravelSeconds(robot, *from, *dock) + (bWaits ? WAITING_SECONDS : 0);
         visit.departure = visit.arrival + GetJobSeconds(plan, i);
         time = visit.departure;

@@ -69,7 +69,10 @@ TEST_CASE("StationForecast: a station is taken while a robot that cannot move ha
 {
     BusyFloor floor;
     const ActivePlan& plan = floor.parts.Add(MakeTransport("P2", "A01.CP05", "A02.CP03"));
-    floor.parts.lr.view.bInMaintenance = true;
+    floor.parts.engine.jobTimes.Note("A02.CP03", std::chrono::milliseconds(1));
+    floor.parts.engine.jobTimes.Note("A01.CP05", std::chrono::hours(1));
+    CHECK(floor.Forecast().CanBegin(plan, floor.other));
+    floor.parts.lr.view.state->bAutomatic = false;
     CHECK_FALSE(floor.Forecast().CanBegin(plan, floor.other));
 }
 
