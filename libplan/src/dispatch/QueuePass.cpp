@@ -33,7 +33,8 @@ std::optional<QueuePass::Choice> QueuePass::FindNextOrNull()
         {
             break;
         }
-        ++_seen;
+        // Others cost no search for a route.
+        _seen += _free.List(firstOrNull->resolved.candidates).empty() ? 0U : 1U;
         Robot* const robotOrNull = FindRobotOrNull(*firstOrNull);
         if (robotOrNull == nullptr)
         {

@@ -75,6 +75,21 @@ TEST_CASE("QueuePass: without overtaking, plans begin in the order of the queue"
     CHECK(fixture.Run() == Lines{});
 }
 
+TEST_CASE("QueuePass: plans without a free robot do not count for the limit of a pass")
+{
+    QueuePassFixture fixture(0ms);
+    fixture.parts.lr.view.bOnline = false;
+    fixture.parts.PutOn(fixture.parts.cr, "D-CHG02");
+    for (int i = 0; i < 1'000; ++i)
+    {
+        fixture.Add("LR-" + std::to_string(i), "A01.CP05", "A02.CP03");
+    }
+    Plan last = MakeControlPlan("CR");
+    last.priority.reset();
+    fixture.parts.Add(last);
+    CHECK(fixture.Run() == Lines{"CR CR01"});
+}
+
 TEST_CASE("queue.overtaking: the robot gets the plan with the shortest empty drive")
 {
     QueuePassFixture fixture;
