@@ -88,6 +88,8 @@ void PlanAssignment::FreeRobot(Robot& robot)
     robot.parking.retreatNode.reset();
     robot.changes.MarkStatus();
     robot.search.plannedRoute.reset();
+    robot.search.block.clear();
+    robot.search.blockers.clear();
 }
 
 void PlanAssignment::BeginStep(ActivePlan& plan, Robot& robot)

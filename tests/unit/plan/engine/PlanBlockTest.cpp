@@ -182,6 +182,20 @@ TEST_CASE(
     CHECK(world.violations == Lines{});
 }
 
+TEST_CASE("Block: a robot whose plan has ended waits for no block")
+{
+    EngineOptions options = MakeTestOptions(false);
+    options.baseLength = 1;
+    PlanWorld world(1, options, MakeTestSite());
+    BeginPlan(world, MakeLoadPlan("A01.CP06"), "Step 1 InProgress");
+    AskToBlock(world, EBlockKind::Node, "L05", "oil");
+    REQUIRE(world.TryRun());
+    CHECK(world.engine->GetRobotStatuses()[0].message == "LR01 waits: node L05 is blocked: oil.");
+    world.Control(EPlanControl::Abort, "P1");
+    REQUIRE(world.TryRun());
+    CHECK(world.engine->GetRobotStatuses()[0].message.empty());
+}
+
 TEST_CASE("Block: a robot is rerouted around a blocked edge of its route")
 {
     EngineOptions options = MakeTestOptions(false);
