@@ -59,7 +59,12 @@ void LoadWatch::UpdateLoadAlarm(Robot& robot)
         _transaction.ClearAlarm(alarm);
         return;
     }
-    if (!_alarms.Contains(alarm) && robot.ports.TryBeginReportInterval())
+    if (_alarms.Contains(alarm))
+    {
+        _transaction.RaiseAlarm(std::move(alarm)); // changes nothing but that a delayed clear is dropped
+        return;
+    }
+    if (robot.ports.TryBeginReportInterval())
     {
         _transaction.StartTimer(EEngineTimer::LoadAlarm, robot.GetID(), LOAD_ALARM_INTERVAL);
         _transaction.ReportAlarms(_alarms.Update(std::move(alarm), _transaction.GetNow().steady));

@@ -90,6 +90,26 @@ TEST_CASE("LoadWatch: further differences are reported once in an interval")
     CHECK(parts.Collect().ListReports<ErrorReport>().empty());
 }
 
+TEST_CASE("LoadWatch: the delayed clear of the alarm is dropped when the loads differ again")
+{
+    EngineParts parts;
+    parts.PutOn(parts.lr, "D-CHG01");
+    for (int i = 0; i < 5; ++i)
+    {
+        ReportLoad(parts, "C1");
+        ReportLoad(parts, {});
+        parts.loads.OnLoadAlarmTimer(parts.lr);
+    }
+    REQUIRE(parts.engine.alarms.GetAlarms().size() == 1);
+    parts.Advance(std::chrono::seconds(30));
+    ReportLoad(parts, "C1");
+    parts.Advance(std::chrono::minutes(1));
+    parts.Discard();
+    parts.engine.transaction.ReportAlarms(parts.engine.alarms.ApplyDelayed(parts.engine.transaction.GetNow().steady));
+    CHECK(parts.Collect().ListClearedAlarms().empty());
+    CHECK(parts.engine.alarms.GetAlarms().size() == 1);
+}
+
 TEST_CASE("LoadWatch: loads are no evidence at the ports of an open job, nor for a robot with unstored work")
 {
     EngineParts parts;
