@@ -52,6 +52,12 @@ void Vda5050RobotAdapter::OnLoadTimeout(AdapterActions& out)
     {
         return;
     }
+    if (!_session.IsReady())
+    {
+        // The state that shows the loads may be what was lost.
+        out.emplace_back(Planning::StartAdapterTimer{LOAD_TIMER, _loadTimeout});
+        return;
+    }
     const std::optional<std::vector<Planning::PortLoad>>& loads = _report.GetState().loads;
     const std::optional<std::string> contradiction =
         loads.has_value() ? checkOrNull->FindContradictionOrNull(*loads) : std::nullopt;

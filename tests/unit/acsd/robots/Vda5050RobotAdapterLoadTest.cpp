@@ -158,6 +158,24 @@ TEST_CASE("A job whose loads disagree with its finished action is finished as so
     CHECK(vehicle.TakeEvents<JobUnresolved>().empty());
 }
 
+TEST_CASE("A job whose loads disagree is not judged while the vehicle is disconnected")
+{
+    LoadFixture vehicle;
+    vehicle.Finish("CassetteLoad", "A01.CP01", "LR01.CP02");
+    vehicle.adapter.OnLinkDown(vehicle.clock.GetNow(), vehicle.actions);
+    vehicle.actions.clear();
+    vehicle.FireLoadTimer();
+    CHECK(vehicle.TakeEvents<JobUnresolved>().empty());
+    CHECK(
+        std::ranges::count(
+            vehicle.actions,
+            Planning::AdapterAction(Planning::StartAdapterTimer{LOAD_TIMER, std::chrono::seconds(10)}))
+        == 1);
+    vehicle.state.loads = {LoadFixture::MakeLoad("rear", "C1")};
+    vehicle.ComeOnline();
+    CHECK(vehicle.TakeEvents<JobFinished>() == std::vector<JobFinished>{{"J"}});
+}
+
 TEST_CASE("A job whose loads keep disagreeing is unresolved, with port, expected and reported load")
 {
     const auto find = [](const std::string& action,
