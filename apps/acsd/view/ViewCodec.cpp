@@ -1,6 +1,7 @@
 #include "view/ViewCodec.hpp"
 
 #include "view/ViewFields.hpp"
+#include <acs/plan/EPlanState.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -99,7 +100,8 @@ std::string EncodeQueue(const StateView& state)
                std::int64_t position = 0;
                for (const PlanView& plan : state.plans)
                {
-                   if (!plan.robotID.has_value())
+                   const bool bHeld = plan.status == GetText(Planning::EPlanState::Paused);
+                   if (!plan.robotID.has_value() && !bHeld)
                    {
                        writer.BeginObject();
                        WriteMember(writer, "position", ++position);

@@ -124,6 +124,11 @@ TEST_CASE("A plan is shown with its steps, its jobs, and why and since when it w
     CHECK(HasText(plan, R"("since":")" + accepted + R"(","queuePosition":1,"robots":[{"robotId":"LR01",)"));
     CHECK(HasText(plan, R"("jobs":[{"jobId":"P1-a4",)"));
     CHECK(HasText(reader.Get("/v1/queue"), R"({"plans":[{"position":1,"planId":"P1","priority":)"));
+    reader.world.Submit(MakeLogisticsPlan("P0"));
+    reader.world.Control(Planning::EPlanControl::Pause, "P1");
+    CHECK(HasText(reader.Get("/v1/queue"), R"({"plans":[{"position":1,"planId":"P0","priority":)")); // P1 is held
+    reader.world.Control(Planning::EPlanControl::Resume, "P1");
+    reader.world.Control(Planning::EPlanControl::Cancel, "P0");
     CHECK_FALSE(HasText(reader.Get("/v1/plans"), R"("jobs":)"));
     CHECK(HasText(reader.Get("/v1/plans"), R"("steps":[{"stepNo":1,"action":)"));
 
