@@ -3,6 +3,7 @@
 #include <acs/json/JsonDecoder.hpp>
 #include <acs/json/JsonDocument.hpp>
 #include <acs/json/JsonFields.hpp>
+#include <acs/plan/Block.hpp>
 
 #include <cstddef>
 #include <string>
@@ -124,7 +125,7 @@ struct JsonFields<Acsd::BlockBody>
     static constexpr auto FIELDS = std::make_tuple(
         Required("kind", &Acsd::BlockBody::kind),
         Required("id", &Acsd::BlockBody::placeID),
-        Defaulted("reason", &Acsd::BlockBody::reason).WithLength(0, Acsd::MOST_REASON_BYTES).AsIdentifier());
+        Defaulted("reason", &Acsd::BlockBody::reason).WithLength(0, Planning::MAXIMUM_REASON_LENGTH).AsIdentifier());
 };
 
 template <>

@@ -259,6 +259,16 @@ TEST_CASE("POST /v1/plans/PLAN/priority changes the order of the queue")
     CHECK(HasText(user.Post("/v1/plans/P1/priority"), "400 "));
 }
 
+TEST_CASE("POST /v1/site/block allows a reason of the length that the engine allows")
+{
+    Operator user;
+    const auto makeBlock = [](std::size_t length) {
+        return R"({"kind":"station","id":"CHG02","reason":")" + std::string(length, 'x') + R"("})";
+    };
+    CHECK(HasText(user.Post("/v1/site/block", makeBlock(Planning::MAXIMUM_REASON_LENGTH + 1)), "400 "));
+    CHECK(HasText(user.Post("/v1/site/block", makeBlock(Planning::MAXIMUM_REASON_LENGTH)), "202 "));
+}
+
 TEST_CASE("POST /v1/site/block and unblock close and open a place of the map")
 {
     Operator user;
