@@ -240,6 +240,10 @@ void AcsdService::Reload(const AcsdConfig& fresh)
     else
     {
         LogChange(_config, fresh, _dependencies.logger.MakeFor("config"));
+        if (_dependencies.traceOrNull != nullptr)
+        {
+            _dependencies.traceOrNull->SetLimits(fresh.operations.trace);
+        }
     }
     ApplyLiveKeys(fresh, _config);
     OperatorConfig& control = _config.http.control;
