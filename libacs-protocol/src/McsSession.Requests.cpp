@@ -152,6 +152,7 @@ void McsSession::Impl::AcceptRegistration(
     if (_registered.value_or(connection) != connection)
     {
         out.emplace_back(Close{*_registered, CLOSE_POLICY, "replaced by a new connection"});
+        std::erase(_connections, *_registered); // what it sends until it is closed is ignored
         EndRegistration(EUnansweredReason::Replaced, "replaced by a new connection", out);
     }
     SendAnswer(

@@ -210,8 +210,10 @@ TEST_CASE("12.3 A second client replaces the first, or by option is rejected wit
         CHECK(bench.recorder.GetEvents<Protocol::Registered>().size() == 1);
         CHECK(bench.session.GetRegisteredOrNull() == Protocol::ConnectionID(2));
         bench.recorder.Clear();
+        bench.Text(1, MakeRequestText("Registration", "{}", "late"));
         bench.session.OnClosed(1, "closed", bench.clock.GetNow(), bench.recorder.out);
         CHECK(bench.recorder.out.empty());
+        CHECK(bench.session.GetRegisteredOrNull() == Protocol::ConnectionID(2));
         CHECK(bench.session.IsRegistered());
     }
     SECTION("refused")
