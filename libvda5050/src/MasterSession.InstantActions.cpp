@@ -123,9 +123,12 @@ Core::Result<std::string> MasterSession::Impl::SendInstantAction(Action action, 
     if (!IsRequest(action.actionType))
     {
         const StateMessage* const state = _vehicle.GetStateOrNull();
-        _pendingActions.Add(action, state == nullptr ? std::string() : state->orderID);
+        if (_pendingActions.IsEmpty())
+        {
+            out.emplace_back(StartMasterTimer{EMasterTimer::ResendInstantActions, _options.resendInterval});
+        }
+        _pendingActions.Add(action, state != nullptr ? std::optional(state->orderID) : std::nullopt);
         _actions.TrackInstant(action, false);
-        out.emplace_back(StartMasterTimer{EMasterTimer::ResendInstantActions, _options.resendInterval});
     }
     PublishInstantActions({std::move(action)}, now, out);
     return actionID;

@@ -9,9 +9,9 @@
 namespace ACS::VDA5050
 {
 
-void PendingActions::Add(Action action, std::string orderID)
+void PendingActions::Add(Action action, std::optional<std::string> orderIDOrNull)
 {
-    _actions.push_back(PendingAction{std::move(action), 1, std::move(orderID)});
+    _actions.push_back(PendingAction{std::move(action), 1, std::move(orderIDOrNull)});
 }
 
 bool PendingActions::TryRemove(std::string_view actionID)
@@ -58,6 +58,10 @@ std::vector<std::string> PendingActions::OnState(
         rejected.push_back(actionID);
         return true;
     };
+    for (PendingAction& pending : _actions)
+    {
+        pending.orderID = pending.orderID.value_or(state.orderID);
+    }
     std::erase_if(_actions, isSettled);
     if (_actions.empty())
     {
@@ -100,6 +104,11 @@ bool PendingActions::IsPending(std::string_view actionID) const
     });
 }
 
+bool PendingActions::IsEmpty() const noexcept
+{
+    return _actions.empty();
+}
+
 bool PendingActions::IsCancelLate(const PendingAction& pending, const StateMessage& state)
 {
     if (pending.action.actionType != ActionTypes::CANCEL_ORDER)
@@ -109,7 +118,7 @@ bool PendingActions::IsCancelLate(const PendingAction& pending, const StateMessa
     const bool bActs = std::ranges::any_of(state.actionStates, [](const ActionState& action) {
         return !IsTerminal(action.actionStatus);
     });
-    return state.orderID != pending.orderID || (state.nodeStates.empty() && state.edgeStates.empty() && !bActs);
+    return state.orderID != *pending.orderID || (state.nodeStates.empty() && state.edgeStates.empty() && !bActs);
 }
 
 } // namespace ACS::VDA5050

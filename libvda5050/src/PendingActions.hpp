@@ -6,6 +6,7 @@
 #include <acs/vda5050/StateMessage.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,14 +21,14 @@ class PendingActions
     {
         Action action;
         std::uint32_t sendCount = 0;
-        std::string orderID; ///< Of the vehicle when the action was sent.
+        std::optional<std::string> orderID; ///< Of the vehicle when the action was sent, once a state has shown it.
     };
 
     std::vector<PendingAction> _actions;
 
 public:
     /// The action was sent once.
-    void Add(Action action, std::string orderID);
+    void Add(Action action, std::optional<std::string> orderIDOrNull);
     /// False: the action is not pending.
     [[nodiscard]] bool TryRemove(std::string_view actionID);
     /// Ends the resends of what the state answers. Returns the ids of the actions that were rejected, which out reports.
@@ -43,6 +44,7 @@ public:
     [[nodiscard]] std::vector<Action> Resend();
 
     [[nodiscard]] bool IsPending(std::string_view actionID) const;
+    [[nodiscard]] bool IsEmpty() const noexcept;
 
 private:
     /// The cancelOrder was for an order of another master, which has ended: sent again it would end the next order.
