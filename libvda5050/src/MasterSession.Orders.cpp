@@ -111,6 +111,10 @@ void MasterSession::Impl::EndOrder(MasterActions& out)
 {
     _outbox.EndOrder(out);
     _actions.EndOrder(out);
+    if (_pendingActions.TryRemove(_cancelActionID))
+    {
+        _actions.Remove(_cancelActionID); // sent again it would end the next order
+    }
     _orderID.clear();
     _cancelActionID.clear();
     _route.Clear();

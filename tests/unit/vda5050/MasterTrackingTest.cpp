@@ -1,4 +1,4 @@
-#include "MasterSessionFixture.hpp"
+#include "MasterSteps.hpp"
 #include <acs/vda5050/EVda5050Error.hpp>
 
 #include <algorithm>
@@ -9,44 +9,6 @@
 
 namespace ACS::VDA5050::Test
 {
-
-namespace
-{
-
-/// An accepted order over three nodes with an action on the last.
-OrderMessage SendFirstOrder(MasterSessionFixture& bench)
-{
-    bench.BeReady();
-    OrderMessage order = MakeOrder(3, 3);
-    order.nodes[2].actions.push_back(MakeAction("a1", EBlockingType::Hard));
-    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
-    bench.Hold(order, 2);
-    bench.state.actionStates = {ActionState{"a1", "pick", {}, EActionStatus::Waiting, {}}};
-    bench.SendState();
-    REQUIRE(bench.session.GetOrderPhase() == EOrderPhase::Active);
-    bench.Clear();
-    return order;
-}
-
-std::string CancelOrder(MasterSessionFixture& bench)
-{
-    REQUIRE(bench.session.Cancel(bench.GetNow(), bench.Clear()).has_value());
-    const auto message =
-        Vda5050Codec().Decode<InstantActionsMessage>(bench.GetSent(ETopic::InstantActions).back().payload);
-    return message->actions.front().actionID;
-}
-
-/// The vehicle drives an order of another master, with two nodes left.
-OrderMessage BeginForeignOrder(MasterSessionFixture& bench)
-{
-    OrderMessage foreign = MakeOrder(3, 3);
-    foreign.orderID = "foreign";
-    bench.Hold(foreign, 2);
-    bench.BeReady();
-    return foreign;
-}
-
-} // namespace
 
 TEST_CASE("5.5 An action that vanishes before its end is reported as lost once; one that ended is not")
 {
@@ -98,78 +60,6 @@ TEST_CASE("5.5 An action that an update drops with its horizon is not lost")
     CHECK(Pick<ActionLost>(bench.GetOutput()).empty());
 }
 
-TEST_CASE("5.4 A cancel of an order that has just ended finishes it")
-{
-    MasterSessionFixture bench;
-    const OrderMessage order = SendFirstOrder(bench);
-    const std::string cancelID = CancelOrder(bench);
-    bench.Hold(order, 0);
-    bench.state.actionStates[0].actionStatus = EActionStatus::Finished;
-    bench.state.actionStates.push_back(ActionState{cancelID, "cancelOrder", {}, EActionStatus::Failed, {}});
-    bench.Refuse(ErrorTypes::NO_ORDER_TO_CANCEL, {{"actionId", cancelID}});
-    CHECK(Pick<OrderFinished>(bench.GetOutput()).size() == 1);
-    CHECK(Pick<OrderCancelled>(bench.GetOutput()).empty());
-    CHECK(Pick<ActionLost>(bench.GetOutput()).empty());
-}
-
-TEST_CASE("5.4 The order keeps running when the vehicle fails the cancel and continues")
-{
-    MasterSessionFixture bench;
-    SendFirstOrder(bench);
-    const std::string cancelID = CancelOrder(bench);
-    bench.state.actionStates.push_back(ActionState{cancelID, "cancelOrder", {}, EActionStatus::Failed, {}});
-    bench.SendState();
-    CHECK(Pick<CancelFailed>(bench.GetOutput()).size() == 1);
-    CHECK(bench.session.GetOrderPhase() == EOrderPhase::Active);
-    CHECK(bench.session.Cancel(bench.GetNow(), bench.Clear()).has_value()); // and may be tried again
-}
-
-TEST_CASE("5.4 The order keeps running when the vehicle fails the cancel while an action runs at the last node")
-{
-    MasterSessionFixture bench;
-    const OrderMessage order = SendFirstOrder(bench);
-    bench.Hold(order, 0);
-    bench.state.actionStates[0].actionStatus = EActionStatus::Running;
-    bench.SendState();
-    const std::string cancelID = CancelOrder(bench);
-    bench.state.actionStates.push_back(ActionState{cancelID, "cancelOrder", {}, EActionStatus::Failed, {}});
-    bench.SendState();
-    CHECK(Pick<CancelFailed>(bench.GetOutput()).size() == 1);
-    CHECK(Pick<OrderCancelled>(bench.GetOutput()).empty());
-    CHECK(Pick<ActionLost>(bench.GetOutput()).empty());
-    CHECK(bench.session.GetOrderPhase() == EOrderPhase::Active);
-    bench.state.actionStates[0].actionStatus = EActionStatus::Finished;
-    bench.SendState();
-    CHECK(Pick<OrderFinished>(bench.GetOutput()).size() == 1);
-}
-
-TEST_CASE("5.4 An order that reaches the vehicle after its cancel is cancelled again automatically")
-{
-    MasterSessionFixture bench;
-    bench.BeReady();
-    const OrderMessage order = MakeOrder(3, 3);
-    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
-    const std::string first = CancelOrder(bench);
-    bench.state.actionStates = {ActionState{first, "cancelOrder", {}, EActionStatus::Failed, {}}};
-    bench.SendState();
-    REQUIRE(Pick<OrderCancelled>(bench.GetOutput()).size() == 1);
-    bench.Clear();
-    bench.Hold(order, 2);
-    bench.SendState();
-    CHECK(Pick<OrderReappeared>(bench.GetOutput()) == std::vector{OrderReappeared{"order-1"}});
-    REQUIRE(bench.GetSent(ETopic::InstantActions).size() == 1);
-    CHECK(bench.session.GetOrderPhase() == EOrderPhase::Cancelling);
-    const auto again =
-        Vda5050Codec().Decode<InstantActionsMessage>(bench.GetSent(ETopic::InstantActions).back().payload);
-    bench.state.nodeStates.clear();
-    bench.state.actionStates.push_back(
-        ActionState{again->actions[0].actionID, "cancelOrder", {}, EActionStatus::Finished, {}});
-    bench.SendState();
-    CHECK(Pick<OrderCancelled>(bench.GetOutput()).size() == 1);
-    bench.SendState();
-    CHECK(Pick<OrderReappeared>(bench.GetOutput()).size() == 1);
-}
-
 TEST_CASE("13 Reserved are the nodes that the vehicle shows and those sent but not answered; a rejection frees them")
 {
     MasterSessionFixture bench;
@@ -218,50 +108,6 @@ TEST_CASE("13 A master that resumes an order of which the vehicle has a later up
     CHECK(bench.GetSentOrder().orderUpdateID == 6);
 }
 
-TEST_CASE("4.2 A rejected or never shown order that the vehicle executes after all is reported and cancelled")
-{
-    MasterOptions options = MakeMasterOptions();
-    options.resendCount = 1;
-    MasterSessionFixture bench(options);
-    bench.BeReady();
-    OrderMessage order = MakeOrder(3, 3);
-    order.nodes[2].actions.push_back(MakeAction("a1", EBlockingType::Hard));
-    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
-    if (GENERATE(true, false))
-    {
-        bench.Refuse(ErrorTypes::NO_ROUTE_ERROR, {{"orderId", "order-1"}, {"orderUpdateId", "0"}});
-    }
-    else
-    {
-        bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendOrder);
-        bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendOrder);
-    }
-    REQUIRE(Pick<OrderRejected>(bench.GetOutput()).size() == 1);
-    CHECK(bench.session.CanTakeOrder());
-    if (GENERATE(true, false))
-    {
-        // Another order meanwhile, which the vehicle refuses because of the first.
-        OrderMessage other = MakeOrder(3, 3);
-        other.orderID = "order-2";
-        REQUIRE(bench.session.SendOrder(other, bench.GetNow(), bench.Clear()).has_value());
-        bench.Hold(order, 2);
-        bench.Refuse(ErrorTypes::ORDER_UPDATE_ERROR, {{"orderId", "order-2"}, {"orderUpdateId", "0"}});
-    }
-    const bool bNodesLeft = GENERATE(true, false);
-    bench.Clear();
-    bench.Hold(order, bNodesLeft ? 2 : 0);
-    bench.state.actionStates = {ActionState{"a1", "pick", {}, EActionStatus::Running, {}}};
-    if (bench.session.GetOrderPhase() == EOrderPhase::None)
-    {
-        bench.SendState();
-        CHECK(Pick<OrderReappeared>(bench.GetOutput()) == std::vector{OrderReappeared{"order-1"}});
-        CHECK(bench.GetSent(ETopic::InstantActions).size() == 1);
-    }
-    CHECK(bench.session.GetOrderPhase() == EOrderPhase::Cancelling);
-    CHECK(bench.session.GetOrderID() == "order-1");
-    CHECK_FALSE(bench.session.CanTakeOrder());
-}
-
 TEST_CASE("4.2 A rejected order that the vehicle finished between two states is reported as rejected and as finished")
 {
     MasterSessionFixture bench;
@@ -291,33 +137,6 @@ TEST_CASE("4.2 A vehicle that runs the order of another master gets none, and th
     bench.Hold(foreign, 0);
     bench.SendState();
     CHECK(bench.session.CanTakeOrder());
-}
-
-TEST_CASE("4.2 A cancelOrder for another master's order is not sent again when that order has ended")
-{
-    MasterSessionFixture bench;
-    OrderMessage foreign = BeginForeignOrder(bench);
-    Action cancel;
-    cancel.actionType = ActionTypes::CANCEL_ORDER;
-    REQUIRE(bench.session.SendInstantAction(cancel, bench.GetNow(), bench.Clear()));
-    bench.SendState();
-    CHECK(Pick<InstantActionRejected>(bench.GetOutput()).empty());
-    bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendInstantActions);
-    CHECK(bench.GetSent(ETopic::InstantActions).size() == 2);
-    bench.Clear();
-    SECTION("it is complete")
-    {
-        bench.Hold(foreign, 0);
-    }
-    SECTION("another one follows")
-    {
-        foreign.orderID = "next";
-        bench.Hold(foreign, 2);
-    }
-    bench.SendState();
-    REQUIRE(Pick<InstantActionRejected>(bench.GetOutput()).size() == 1);
-    CHECK(Pick<InstantActionRejected>(bench.GetOutput())[0].reason == "the order has ended before it was cancelled");
-    CHECK(Pick<CancelMasterTimer>(bench.GetOutput()).size() == 1);
 }
 
 TEST_CASE("4.2 An error that names the header of another master's message is no rejection")
@@ -353,44 +172,6 @@ TEST_CASE("13 An update that waits gets a number above the one that the vehicle 
     bench.SendState();
     CHECK(Pick<OrderAccepted>(bench.GetOutput()) == std::vector{OrderAccepted{"order-1", 8}});
     CHECK(Pick<OrderFinished>(bench.GetOutput()).empty()); // its horizon is left
-}
-
-TEST_CASE("5.4 An update that waits is not sent when the vehicle has cleared the order")
-{
-    MasterSessionFixture bench;
-    bench.BeReady();
-    OrderBuilder builder = MakeBuilder(4);
-    REQUIRE(bench.session.SendOrder(*builder.MakeOrder(2), bench.GetNow(), bench.Clear()).has_value());
-    REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(3), bench.GetNow(), bench.Clear()).has_value());
-    bench.Clear();
-    bench.state.orderID = "order-1"; // cancelled by another master as soon as it came
-    bench.SendState();
-    CHECK(Pick<OrderAccepted>(bench.GetOutput()) == std::vector{OrderAccepted{"order-1", 0}});
-    CHECK(Pick<OrderLost>(bench.GetOutput()).size() == 1);
-    CHECK(bench.GetSent(ETopic::Order).empty());
-}
-
-TEST_CASE("5.4 An update that reaches the vehicle after it cleared the order is cancelled")
-{
-    MasterSessionFixture bench;
-    bench.BeReady();
-    OrderBuilder builder = MakeBuilder(4);
-    const OrderMessage order = *builder.MakeOrder(2);
-    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
-    bench.Hold(order, 1);
-    bench.SendState();
-    const OrderMessage update = *builder.MakeUpdate(3);
-    REQUIRE(bench.session.SendOrderUpdate(update, bench.GetNow(), bench.Clear()).has_value());
-    bench.state.nodeStates.clear();
-    bench.state.edgeStates.clear();
-    bench.SendState();
-    CHECK(Pick<OrderLost>(bench.GetOutput()).size() == 1);
-    bench.Clear();
-    bench.Hold(update, 1);
-    bench.state.orderUpdateID = 1;
-    bench.SendState();
-    CHECK(Pick<OrderReappeared>(bench.GetOutput()) == std::vector{OrderReappeared{"order-1"}});
-    CHECK(bench.GetSent(ETopic::InstantActions).size() == 1);
 }
 
 TEST_CASE("13 After the last orderUpdateId no update is sent")
@@ -562,16 +343,18 @@ TEST_CASE("5.6 A withdrawn instant action is not sent again; a late status of it
         == std::vector{ActionChanged{"i1", "takePicture", EActionStatus::Running, {}}});
 }
 
-TEST_CASE("5.6 Neither an instant action that the vehicle shows nor the cancelOrder of Cancel can be withdrawn")
+TEST_CASE("4.2 An action that is sent while another is pending does not delay the resend of that one")
 {
     MasterSessionFixture bench;
-    SendFirstOrder(bench);
-    const Action picture = MakeAction("i1", EBlockingType::None, "takePicture");
-    REQUIRE(bench.session.SendInstantAction(picture, bench.GetNow(), bench.Clear()).has_value());
-    bench.state.actionStates.push_back(ActionState{"i1", "takePicture", {}, EActionStatus::Running, {}});
-    bench.SendState();
-    CHECK_FALSE(bench.session.TryWithdrawInstantAction("i1"));
-    CHECK_FALSE(bench.session.TryWithdrawInstantAction(CancelOrder(bench)));
+    bench.BeReady();
+    for (const std::size_t timers : {std::size_t{1}, std::size_t{0}})
+    {
+        bench.Clear();
+        Action pause;
+        pause.actionType = ActionTypes::START_PAUSE;
+        REQUIRE(bench.session.SendInstantAction(pause, bench.GetNow(), bench.Clear()));
+        CHECK(Pick<StartMasterTimer>(bench.GetOutput()).size() == timers);
+    }
 }
 
 } // namespace ACS::VDA5050::Test

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "MasterSessionFixture.hpp"
+
+#include <string>
+
+namespace ACS::VDA5050::Test
+{
+
+/// An accepted order over three nodes with an action on the last.
+inline OrderMessage SendFirstOrder(MasterSessionFixture& bench)
+{
+    bench.BeReady();
+    OrderMessage order = MakeOrder(3, 3);
+    order.nodes[2].actions.push_back(MakeAction("a1", EBlockingType::Hard));
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    bench.Hold(order, 2);
+    bench.state.actionStates = {ActionState{"a1", "pick", {}, EActionStatus::Waiting, {}}};
+    bench.SendState();
+    REQUIRE(bench.session.GetOrderPhase() == EOrderPhase::Active);
+    bench.Clear();
+    return order;
+}
+
+inline std::string CancelOrder(MasterSessionFixture& bench)
+{
+    REQUIRE(bench.session.Cancel(bench.GetNow(), bench.Clear()).has_value());
+    const auto message =
+        Vda5050Codec().Decode<InstantActionsMessage>(bench.GetSent(ETopic::InstantActions).back().payload);
+    return message->actions.front().actionID;
+}
+
+/// The vehicle drives an order of another master, with two nodes left.
+inline OrderMessage BeginForeignOrder(MasterSessionFixture& bench)
+{
+    OrderMessage foreign = MakeOrder(3, 3);
+    foreign.orderID = "foreign";
+    bench.Hold(foreign, 2);
+    bench.BeReady();
+    return foreign;
+}
+
+} // namespace ACS::VDA5050::Test
