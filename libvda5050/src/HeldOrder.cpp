@@ -34,6 +34,7 @@ void HeldOrder::Complete(VehicleActions& out)
     if (_progress == EProgress::Running)
     {
         _progress = EProgress::Idle;
+        _bHeldByFailure = false;
         out.emplace_back(OrderCompleted{_orderID});
     }
 }

@@ -50,7 +50,10 @@ void SessionErrors::Add(VehicleError error, ELifetime lifetime)
     std::erase_if(_errors, [&error](const SessionError& known) { return IsSameReport(error, known.error); });
     if (_errors.size() >= MAXIMUM_SESSION_ERRORS)
     {
-        _errors.erase(_errors.begin());
+        const auto warning = std::ranges::find_if(_errors, [](const SessionError& known) {
+            return known.error.errorLevel == EErrorLevel::Warning;
+        });
+        _errors.erase(warning != _errors.end() ? warning : _errors.begin());
     }
     _errors.push_back(SessionError{std::move(error), lifetime, false});
 }
@@ -142,6 +145,13 @@ void SessionErrors::End(ELifetime lifetime)
 void SessionErrors::EndAllShown()
 {
     std::erase_if(_errors, [](const SessionError& known) { return known.bShown; });
+}
+
+void SessionErrors::EndShownWarnings()
+{
+    std::erase_if(_errors, [](const SessionError& known) {
+        return known.bShown && known.error.errorLevel == EErrorLevel::Warning;
+    });
 }
 
 void SessionErrors::MarkShown()

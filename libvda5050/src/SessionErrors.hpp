@@ -57,6 +57,8 @@ public:
     void End(ELifetime lifetime);
     /// An order was accepted.
     void EndAllShown();
+    /// An update was accepted of an order that an error holds: FATAL errors remain.
+    void EndShownWarnings();
     void MarkShown();
     void AppendTo(std::vector<VehicleError>& errors) const;
 };

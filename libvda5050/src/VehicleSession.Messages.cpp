@@ -120,7 +120,14 @@ void VehicleSession::Impl::AcceptOrder(OrderMessage order, VehicleActions& out)
 
 void VehicleSession::Impl::AcceptUpdate(OrderMessage order, VehicleActions& out)
 {
-    _errors.EndAllShown();
+    if (_order.IsHeldByFailure())
+    {
+        _errors.EndShownWarnings();
+    }
+    else
+    {
+        _errors.EndAllShown();
+    }
     _order.AcceptUpdate(order, out);
     _actions.MarkOvertaken();
     if (const std::optional<std::uint32_t> firstDropped = _drive.DropHorizonOrNull())

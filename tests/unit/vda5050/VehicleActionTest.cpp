@@ -519,42 +519,4 @@ TEST_CASE("5.7 initPosition that ends after an order has come leaves the last no
     CHECK(after.nodeStates == before.nodeStates);
 }
 
-TEST_CASE("5.7 A failed action of an order is a warning and the order continues, unless the action is critical")
-{
-    for (const bool bCritical : {false, true})
-    {
-        CAPTURE(bCritical);
-        VehicleOptions options = VehicleSessionFixture::MakeOptions();
-        if (bCritical)
-        {
-            options.criticalActionTypes = {"pick"};
-        }
-        VehicleSessionFixture bench(options);
-        OrderMessage order = MakeOrder(2, 2);
-        order.nodes[0].actions = {MakeAction("fails", HARD), MakeAction("next", NONE)};
-        bench.Order(order);
-        bench.Status("fails", EActionStatus::Running);
-        bench.Clear();
-        bench.Status("fails", EActionStatus::Failed);
-        const StateMessage state = bench.GetPublishedState();
-        REQUIRE(state.errors.size() == 1);
-        CHECK(state.errors[0].errorType == ErrorTypes::ACTION_ERROR);
-        CHECK(state.errors[0].errorLevel == (bCritical ? EErrorLevel::Fatal : EErrorLevel::Warning));
-        CHECK(*FindReferenceOrNull(state.errors[0], "actionId") == "fails");
-        CHECK(*FindReferenceOrNull(state.errors[0], "nodeId") == "N0");
-        CHECK(bench.GetStartedActions().empty() == bCritical);
-        CHECK(Pick<DriveTo>(bench.GetOutput()).empty() == bCritical);
-        bench.Instant("cancelOrder", "c1");
-        if (!bCritical)
-        {
-            bench.Status("next", EActionStatus::Running);
-            bench.Status("next", EActionStatus::Failed);
-        }
-        bench.Drive(false);
-        CHECK(bench.GetStatus("c1") == EActionStatus::Finished);
-        bench.Order(MakeOrder(2, 2, "order-2"));
-        CHECK(bench.GetPublishedState().errors.empty());
-    }
-}
-
 } // namespace ACS::VDA5050::Test
