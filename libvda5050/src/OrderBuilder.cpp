@@ -13,6 +13,7 @@ namespace
 {
 
 constexpr std::uint32_t SEQUENCE_INCREMENT = 2; // nodes even, edges odd
+constexpr std::size_t MOST_WITHDRAWN = 2;       // updates, one after the other
 
 void NumberElements(std::vector<OrderNode>& nodes, std::vector<OrderEdge>& edges)
 {
@@ -106,15 +107,23 @@ Core::Result<OrderMessage> OrderBuilder::MakeUpdate(std::size_t releasedNodes, s
             std::to_string(releasedNodes));
     }
     const std::size_t decisionPoint = _releasedNodes - 1;
-    _releasedBefore = std::exchange(_releasedNodes, releasedNodes);
+    _releasedBefore.push_back(std::exchange(_releasedNodes, releasedNodes));
+    if (_releasedBefore.size() > MOST_WITHDRAWN)
+    {
+        _releasedBefore.erase(_releasedBefore.begin());
+    }
     ++_orderUpdateID;
     return Cut(decisionPoint, horizonNodes);
 }
 
 void OrderBuilder::WithdrawUpdate() noexcept
 {
-    assert(_releasedBefore > 0);
-    _releasedNodes = std::exchange(_releasedBefore, 0);
+    assert(!_releasedBefore.empty());
+    if (!_releasedBefore.empty())
+    {
+        _releasedNodes = _releasedBefore.back();
+        _releasedBefore.pop_back();
+    }
 }
 
 Core::Result<void> OrderBuilder::Append(std::vector<OrderNode> nodes, std::vector<OrderEdge> edges)

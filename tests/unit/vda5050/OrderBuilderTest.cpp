@@ -51,6 +51,21 @@ TEST_CASE("4.3 After a rejected update the next one begins at the same decision 
     CHECK(update->nodes.front().nodeID == "N1");
 }
 
+TEST_CASE("4.3 Two updates that were rejected are withdrawn one after the other")
+{
+    OrderBuilder builder = MakeBuilder(5);
+    REQUIRE(builder.MakeOrder(2).has_value());
+    REQUIRE(builder.MakeUpdate(3).has_value());
+    REQUIRE(builder.MakeUpdate(4).has_value());
+    builder.WithdrawUpdate();
+    builder.WithdrawUpdate();
+    CHECK_FALSE(builder.MakeOrder(2).has_value());
+    const auto update = builder.MakeUpdate(3);
+    REQUIRE(update.has_value());
+    CHECK(update->orderUpdateID == 3);
+    CHECK(update->nodes.front().nodeID == "N1");
+}
+
 TEST_CASE("4.3 A base is never taken back, and there is one first message")
 {
     OrderBuilder builder = MakeBuilder(3);

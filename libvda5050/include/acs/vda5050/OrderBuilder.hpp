@@ -27,7 +27,7 @@ private:
     std::vector<OrderNode> _nodes;
     std::vector<OrderEdge> _edges;
     std::size_t _releasedNodes = 0;
-    std::size_t _releasedBefore = 0; ///< Before the last update.
+    std::vector<std::size_t> _releasedBefore; ///< Before each of the last updates.
 
     OrderBuilder(std::string orderID, std::vector<OrderNode> nodes, std::vector<OrderEdge> edges);
 
@@ -51,7 +51,8 @@ public:
         std::size_t releasedNodes,
         std::size_t horizonNodes = WHOLE_ROUTE);
 
-    /// The vehicle has rejected the last update: the next one begins where that one did. Only once for each update.
+    /// The vehicle has rejected the last update: the next one begins where that one did. Once for each update that was rejected, at
+    /// most 2: a MasterSession has one update in flight and one that waits, and reports both as rejected.
     void WithdrawUpdate() noexcept;
 
     /// Extends the route by the same number of edges and nodes, which are not released yet; the first edge starts at the last
