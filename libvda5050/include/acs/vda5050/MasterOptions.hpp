@@ -28,7 +28,7 @@ struct MasterOptions
     std::chrono::milliseconds stateInterval{30'000};
     /// Additional time for a late state.
     std::chrono::milliseconds stateMargin{5'000};
-    /// Request the factsheet when the vehicle comes online, unless the retained one was received.
+    /// Request the factsheet each time the vehicle comes online: it may have changed.
     bool bFactsheetRequested = true;
     /// In effect until the vehicle has sent its own.
     std::optional<FactsheetMessage> factsheet = std::nullopt;
