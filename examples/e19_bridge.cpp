@@ -93,6 +93,7 @@ class Bridge final : public IVehicleHandler
 
     std::map<std::uint64_t, Command> _commands; ///< Those that have not ended, by number.
     std::uint64_t _lastNumber = 0;
+    bool _bStopWanted = false; ///< Until the vehicle shows that it does not move.
     ExampleClock _clock;
     VehicleClient _vehicle;
     MakerLink _maker;
@@ -139,6 +140,7 @@ public:
                 [this](const DriveTo& drive) { Drive(drive); },
                 [this](const StopDriving&) {
                     std::erase_if(_commands, [](const auto& command) { return command.second.actionID.empty(); });
+                    _bStopWanted = true;
                     _maker.Send("stop");
                 },
                 [this](const StartAction& start) {
@@ -163,6 +165,7 @@ private:
         if (!bUnderWay) // Otherwise only bStopAtNode has changed, and this vehicle stops at each node.
         {
             const NodePosition& position = *drive.node.nodePosition; // CheckPositions has seen it.
+            _bStopWanted = false;
             Begin({"goto", fmt::format("{:.3f} {:.3f}", position.x, position.y), {}, drive.node.sequenceID});
         }
     }
@@ -192,6 +195,7 @@ private:
         else if (verb == "moving")
         {
             const bool bDriving = words.get() == ' ' && words.get() == '1';
+            _bStopWanted = _bStopWanted && bDriving;
             _vehicle.Run(
                 [bDriving](auto& session, Core::Now now, auto& out) { session.OnDrivingChanged(bDriving, now, out); });
         }
@@ -262,6 +266,10 @@ private:
             errors.back().errorLevel = EErrorLevel::Fatal;
         }
         _vehicle.Run([&errors](auto& session, Core::Now now, auto& out) { session.OnErrors(errors, now, out); });
+        if (_bStopWanted)
+        {
+            _maker.Send("stop");
+        }
         for (const auto& [number, command] : _commands)
         {
             Send(number, command);

@@ -25,6 +25,7 @@ class MakerVehicle:
         self.executed = []  # each number once
         self.place = (0.0, 0.0)
         self.held = threading.Event()  # While it is set, nothing is executed.
+        self.away = threading.Event()  # While it is set, each connection is closed at once.
         self.received = queue.Queue()
         self._server = socket.create_server(("127.0.0.1", 0))
         self.port = self._server.getsockname()[1]
@@ -37,6 +38,9 @@ class MakerVehicle:
                 self._connection, _ = self._server.accept()
             except OSError:
                 return
+            if self.away.is_set():
+                self._connection.close()
+                continue
             self.send_pose()
             with self._connection.makefile("r") as lines:
                 try:
@@ -170,6 +174,22 @@ class Bridge(ScenarioCase):
                                                 for action in state["actionStates"]))
         self.assertEqual(self.vehicle.commands, ["goto 1 2.000 0.000", "stop"])
         self.assertEqual((state["nodeStates"], state["driving"]), ([], False))
+
+    def test_a_vehicle_that_was_lost_during_a_cancel_is_stopped_when_it_is_back(self):
+        self.vehicle.held.set()
+        self.send_order()
+        self.assertEqual(self.vehicle.received.get(timeout=STATUS_SECONDS), "goto 1 2.000 0.000")
+        self.vehicle.send("moving 1")
+        self.wait_for(lambda state: state["driving"])
+        self.vehicle.away.set()
+        self.vehicle.disconnect()
+        self.wait_for(lambda state: state["errors"])
+        self.publish("instantActions", actions=[{"actionType": "cancelOrder", "actionId": "c1", "blockingType": "HARD"}])
+        self.wait_for(lambda state: any(action["actionId"] == "c1" for action in state["actionStates"]))
+        self.vehicle.away.clear()
+        self.wait_for(lambda state: any(action["actionId"] == "c1" and action["actionStatus"] == "FINISHED"
+                                        for action in state["actionStates"]))
+        self.assertEqual(self.vehicle.commands, ["goto 1 2.000 0.000", "stop"])
 
     def test_an_order_without_positions_is_refused(self):
         self.send_order(places={**PLACES, "N3": None})
