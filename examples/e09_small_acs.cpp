@@ -82,7 +82,7 @@ class SmallACS final : public ProtocolBeast::ISessionHandler
 
 public:
     std::unique_ptr<ProtocolBeast::AcsClient> client;
-    std::function<void()> onStopped;
+    std::function<void(int exitCode)> onStopped;
 
     SmallACS(boost::asio::io_context& io, const Core::IClock& clock, DurableOutbox& outbox)
         : _clock(clock),
@@ -112,7 +112,7 @@ public:
                         OnRequest(received.request);
                     }
                 },
-                [this](const Stopped& /*event*/) { onStopped(); },
+                [this](const Stopped& /*event*/) { onStopped(0); },
                 [](const auto& /*other*/) {
                 }},
             event);
@@ -161,7 +161,7 @@ private:
         if (!stored.has_value())
         {
             fmt::print("{}\n", Core::Describe(stored.error()));
-            onStopped();
+            onStopped(1);
         }
     }
 
@@ -490,12 +490,14 @@ int main(int argc, char** argv) // NOLINT(bugprone-exception-escape): nothing th
             acs.client->Stop();
         }
     });
-    acs.onStopped = [&io] {
+    int exitCode = 0;
+    acs.onStopped = [&io, &exitCode](int code) {
+        exitCode = code;
         io.stop();
     };
     acs.Start();
     fmt::print("ready\n");
     std::fflush(stdout);
     io.run();
-    return 0;
+    return exitCode;
 }

@@ -77,6 +77,7 @@ class FleetMaster final : public IMqttLinkListener
 
 public:
     std::unique_ptr<MosquittoLink> link;
+    int exitCode = 0; ///< Of the program.
 
     explicit FleetMaster(boost::asio::io_context& io)
         : _io(io),
@@ -85,6 +86,7 @@ public:
         // An order that the journal does not remember must not be sent.
         _orders.onBroken = [this](const std::string& reason) {
             fmt::print("cannot write the journal: {}\n", reason);
+            exitCode = 1;
             Stop();
         };
     }
@@ -542,5 +544,5 @@ int main(int argc, char** argv) // NOLINT(bugprone-exception-escape): nothing th
         [&master](const std::string& line) { master.OnCommand(line); },
         [&master]() { master.OnInputEnded(); });
     io.run();
-    return 0;
+    return master.exitCode;
 }
