@@ -162,6 +162,7 @@ MAX_SILENCE = 60.0  # seconds without a byte; acsd sends a ping every 10 s
 MAX_UPGRADE = 10.0  # seconds for the HTTP request
 MAX_CLOSING = 5.0  # seconds between our Close and the end of the connection
 READ_BYTES = 65536
+INTERRUPTED = 130  # exit code after Ctrl-C
 
 GUID = b"258EAFA5-E914-47DA-95CA-C5AB0DC85B11"
 CONTINUATION, TEXT, BINARY, CLOSE_FRAME, PING, PONG = 0, 1, 2, 8, 9, 10
@@ -476,6 +477,8 @@ def main():
     except (AcsError, OSError) as error:
         print(error, file=sys.stderr)
         return 2
+    except KeyboardInterrupt:
+        return INTERRUPTED
 
 
 if __name__ == "__main__":

@@ -77,6 +77,13 @@ class PythonMcs(ScenarioCase):
         self.assertIn("status=Completed", reports[-1])
         self.assertEqual(sum(line.startswith("JobReport ") and "status=Completed" in line for line in lines), 2)
 
+    def test_an_interrupt_ends_it_without_a_traceback(self):
+        self.start_mcs()
+        self.mcs.send_signal(signal.SIGINT)
+        self.assertEqual(self.mcs.wait(FINISH_SECONDS), 130)
+        self.assertFalse([line for line in self.mcs.tail(10_000) if "Traceback" in line])
+        self.line.forget(self.mcs)
+
     def test_acsd_is_killed_and_continues(self):
         self.line.share_world()
         arm = self.start_robots()
