@@ -52,8 +52,10 @@ class Replay(TracedLineCase):
         records = [json.loads(line) for line in lines]
         inputs = [i for i, record in enumerate(records)
                   if record["link"] == "core" and record["direction"] == "in" and "depth" not in record]
-        stored = next(i for i in inputs if records[i]["kind"] == "stored")
-        following = next(i for i in inputs if i > stored)
+        # After it the engine has begun no other one.
+        stored, following = next(
+            (i, j) for i, j in zip(inputs, inputs[1:])
+            if records[i]["kind"] == "stored" and "store" not in [record.get("kind") for record in records[i:j]])
         changed.write_text("\n".join([*lines[:following], lines[stored], ""]))
         replayed = self.replay(changed)
         self.assertEqual(replayed.returncode, 2, replayed.stdout + replayed.stderr)
