@@ -69,8 +69,9 @@ void OperatorCommands::Maintain(const SetMaintenance& command)
         if (!command.bOn && !robot.view.bOnline)
         {
             // During maintenance a robot that is not connected after a start has no alarm.
-            _transaction.RaiseAlarm(
-                MakeLinkAlarm(robot.GetID(), "Robot disconnected. Check the robot and its network."));
+            _transaction.RaiseAlarm(MakeLinkAlarm(
+                robot.GetID(),
+                "Robot returned to service while it is disconnected. Check the robot and its network."));
         }
     }
     if (command.bOn && !robot.place.bPlaced && !robot.place.possibleNodes.empty())
@@ -405,26 +406,33 @@ void OperatorCommands::ApplyAnswer(Robot& robot, EJobResolution answer)
 {
     robot.job.Resolve();
     const std::string jobID = robot.job.GetOrNull()->jobID;
-    const bool bOverdue = _jobs.TryEndOverdueJob(robot, jobID, answer == EJobResolution::Done);
+    if (!_jobs.TryEndOverdueJob(robot, jobID, answer == EJobResolution::Done))
+    {
+        ApplyToPlan(robot, jobID, answer);
+    }
     if (answer == EJobResolution::Failed)
     {
-        _jobs.OnJobFailed(robot, JobFailed{jobID, "Reported as not done by the operator."});
         robot.job.CancelLater(jobID);
     }
-    else if (bOverdue)
+}
+
+void OperatorCommands::ApplyToPlan(Robot& robot, const std::string& jobID, EJobResolution answer)
+{
+    switch (answer)
     {
-        return;
-    }
-    else if (answer == EJobResolution::Done)
-    {
-        CatchUp(robot);
-        _jobs.OnJobStarted(robot, JobStarted{jobID});
-        _work.EndJob(robot, "Reported as done by the operator.");
-    }
-    else
-    {
-        robot.work.TryResolve(); // no later job was done either
-        _work.RepeatJob(robot, {});
+        case EJobResolution::Done:
+            CatchUp(robot);
+            _jobs.OnJobStarted(robot, JobStarted{jobID});
+            _work.EndJob(robot, "Reported as done by the operator.");
+            break;
+        case EJobResolution::Again:
+            robot.work.TryResolve(); // no later job was done either
+            _work.RepeatJob(robot, {});
+            break;
+        case EJobResolution::Failed:
+        default:
+            _jobs.OnJobFailed(robot, JobFailed{jobID, "Reported as not done by the operator."});
+            break;
     }
 }
 

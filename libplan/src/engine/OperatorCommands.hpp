@@ -77,6 +77,8 @@ private:
     /// Index of the robot that has the job.
     [[nodiscard]] std::optional<std::size_t> FindWorkerOrNull(const ResolveJob& command) const;
     void ApplyAnswer(Robot& robot, EJobResolution answer);
+    /// The plan of the job has not ended.
+    void ApplyToPlan(Robot& robot, const std::string& jobID, EJobResolution answer);
     /// Reports a job from its beginning that was done but never stored as commanded.
     void CatchUp(Robot& robot);
 };
