@@ -64,7 +64,8 @@ public:
     /// The plans that wait, as far as they can go now.
     void SendHeld(bool bPlansTaken, Core::Now now, PlanTracker::Lines& lines);
 
-    /// Every plan whose time has come. What cannot go now is tried at the next call; later plans than one that waits for a robot are sent.
+    /// Every plan whose time has come. What cannot go now is tried at the next call. A plan that waits for a robot does not delay
+    /// the others.
     void SendDue(Core::Now now, PlanTracker::Lines& lines);
 
     [[nodiscard]] std::optional<Core::SteadyTime> GetFirstSentOrNull() const noexcept;
