@@ -6,193 +6,33 @@
 #include "plans/SamplePlans.hpp"
 #include "scenario/ScenarioFile.hpp"
 #include "SeededRandom.hpp"
+#include "TinyACS.hpp"
 #include "wire/RawPeer.hpp"
 #include "world/MemoryWorld.hpp"
-#include <acs/core/Uuid.hpp>
 #include <acs/protocol_beast/AcsClient.hpp>
 
 #include <boost/asio/io_context.hpp>
-#include <boost/asio/post.hpp>
 
 #include <chrono>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 using ACS::McsSim::McsSimulator;
 using ACS::McsSim::PlannedPlan;
-using ACS::Protocol::AcsPayload;
-using ACS::Protocol::EAckResult;
-using ACS::Protocol::EJobStatus;
 using ACS::Protocol::EPlanStatus;
-using ACS::Protocol::EStepStatus;
-using ACS::Testing::MakeJobReport;
 using ACS::Testing::MakePlanReport;
 using ACS::Testing::MakeSamplePlan;
-using ACS::Testing::MakeStepReport;
 using ACS::Testing::SeededRandom;
+using ACS::Testing::TinyACS;
 
 namespace
 {
 
 constexpr std::chrono::seconds LONGEST{20};
-
-/// A small ACS: accepts every plan and reports it as completed at once, except as set by a test.
-class TinyACS final : private ACS::ProtocolBeast::ISessionHandler
-{
-public:
-    std::optional<std::string> refusal; ///< Refuses every plan for this reason.
-    std::optional<std::size_t>
-        cutAfter; ///< Disconnects after this number of plans without answering the last, and returns.
-    std::vector<AcsPayload> moreReports;   ///< After the reports of a plan.
-    std::vector<std::string> transactions; ///< Of the plans that came, in order.
-
-private:
-    const ACS::Core::IClock& _clock;
-    SeededRandom _random{7};
-    boost::asio::io_context& _context;
-    std::string _url;
-    std::unique_ptr<ACS::ProtocolBeast::AcsClient> _client;
-    std::deque<ACS::Protocol::AcsRequest> _outbox;
-
-public:
-    TinyACS(boost::asio::io_context& context, const ACS::Core::IClock& clock, std::string url)
-        : _clock(clock),
-          _context(context),
-          _url(std::move(url))
-    {
-    }
-
-    void Connect()
-    {
-        ACS::ProtocolBeast::ClientOptions options;
-        options.url = _url;
-        auto client = ACS::ProtocolBeast::AcsClient::Create(
-            _context.get_executor(),
-            _clock,
-            _random,
-            ACS::Core::Logger(),
-            options,
-            *this);
-        REQUIRE(client.has_value());
-        _client = std::move(*client);
-        _client->Start();
-    }
-
-private:
-    void OnSessionEvent(const ACS::Protocol::SessionEvent& event) override
-    {
-        if (std::holds_alternative<ACS::Protocol::Registered>(event))
-        {
-            _client->ReplayDone();
-        }
-        else if (const auto* const acked = std::get_if<ACS::Protocol::Acked>(&event))
-        {
-            std::erase_if(_outbox, [acked](const auto& request) {
-                return request.transactionID == acked->transactionID;
-            });
-            SendNext();
-        }
-        else if (const auto* const received = std::get_if<ACS::Protocol::RequestReceived>(&event))
-        {
-            const auto* const cancelOrNull = std::get_if<ACS::Protocol::CancelPlan>(&received->request.payload);
-            if (std::holds_alternative<ACS::Protocol::ExecutionPlan>(received->request.payload))
-            {
-                OnPlan(received->request);
-            }
-            else if (cancelOrNull != nullptr)
-            {
-                _client->Answer(
-                    ACS::Protocol::EAcsCommand::CancelPlan,
-                    received->request.transactionID,
-                    EAckResult::Success,
-                    "in progress",
-                    ACS::Protocol::PlanAck{cancelOrNull->planID});
-                Queue(ACS::Protocol::CancelResultReport{
-                    cancelOrNull->planID,
-                    ACS::Protocol::EReportResult::Failed,
-                    "the plan has ended"});
-                SendNext();
-            }
-        }
-    }
-
-    void OnPlan(const ACS::Protocol::AcsRequest& request)
-    {
-        const auto& plan = std::get<ACS::Protocol::ExecutionPlan>(request.payload);
-        transactions.push_back(request.transactionID);
-        if (cutAfter == transactions.size())
-        {
-            // Later: this is called by the client that is destroyed.
-            boost::asio::post(_context, [this] {
-                _client.reset();
-                Connect();
-            });
-            return;
-        }
-        _client->Answer(
-            ACS::Protocol::EAcsCommand::ExecutionPlan,
-            request.transactionID,
-            refusal.has_value() ? EAckResult::Fail : EAckResult::Success,
-            refusal.value_or(""),
-            ACS::Protocol::PlanAck{plan.planID});
-        if (!refusal.has_value())
-        {
-            ReportAll(plan);
-            SendNext();
-        }
-    }
-
-    /// The steps of a sample plan are not in order.
-    void ReportAll(const ACS::Protocol::ExecutionPlan& plan)
-    {
-        const std::string& planID = plan.planID;
-        Queue(MakePlanReport(planID, EPlanStatus::InProgress));
-        const auto& last = plan.steps.at(0).jobs;
-        const std::vector<std::vector<std::string>> jobs{
-            {plan.steps.at(1).jobs.at(0).jobID},
-            {last.at(0).jobID, last.at(1).jobID}};
-        for (std::int32_t stepNo = 1; stepNo <= 2; ++stepNo)
-        {
-            Queue(MakeStepReport(planID, stepNo, EStepStatus::Dispatched));
-            Queue(MakeStepReport(planID, stepNo, EStepStatus::InProgress));
-            for (const std::string& jobID : jobs[static_cast<std::size_t>(stepNo - 1)])
-            {
-                for (const EJobStatus status : {EJobStatus::Instructed, EJobStatus::InProgress, EJobStatus::Completed})
-                {
-                    Queue(MakeJobReport(planID, stepNo, jobID, status));
-                }
-            }
-            Queue(MakeStepReport(planID, stepNo, EStepStatus::Completed));
-        }
-        Queue(MakePlanReport(planID, EPlanStatus::Completed));
-        for (const AcsPayload& report : moreReports)
-        {
-            Queue(report);
-        }
-    }
-
-    void Queue(AcsPayload payload)
-    {
-        _outbox.push_back({ACS::Core::MakeUUID(_random), {_clock.GetNow().wall, {}}, std::move(payload)});
-    }
-
-    void SendNext()
-    {
-        for (const ACS::Protocol::AcsRequest& request : _outbox)
-        {
-            if (!_client->TrySendDurable(request))
-            {
-                return;
-            }
-        }
-    }
-};
 
 /// The simulator with some sample plans, and an ACS at its other end.
 struct McsSimulatorFixture
