@@ -1,0 +1,132 @@
+#include "fixtures/PlanWorldSteps.hpp"
+
+#include <algorithm>
+
+using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using namespace std::chrono_literals;
+using ACS::Testing::BeginPlan;
+using ACS::Testing::Contains;
+using ACS::Testing::FinishPlan;
+using ACS::Testing::Lines;
+using ACS::Testing::MakeLogisticsPlan;
+using ACS::Testing::MakeTestOptions;
+using ACS::Testing::MakeTestSite;
+using ACS::Testing::PausePlan;
+using ACS::Testing::PlanWorld;
+using ACS::Testing::RestartEngine;
+using ACS::Testing::TryRunFor;
+
+namespace
+{
+
+/// P1 was being resumed when the engine ended, and its robot has not received the command.
+void CrashInResume(PlanWorld& world)
+{
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
+    PausePlan(world);
+    world.GetRobot("LR01").bIgnoresPause = true;
+    world.Control(EPlanControl::Resume, "P1");
+    world.Crash();
+    world.GetRobot("LR01").bIgnoresPause = false;
+}
+
+} // namespace
+
+TEST_CASE("After a restart a paused plan is still paused, and continues where it was when it is resumed")
+{
+    for (const char* report :
+         {"Step 1 InProgress", "Job 1 P1-a4 Instructed", "Job 1 P1-a4 InProgress", "Step 2 InProgress"})
+    {
+        INFO(report);
+        PlanWorld world;
+        BeginPlan(world, MakeLogisticsPlan("P1"), report);
+        PausePlan(world);
+        world.Crash();
+        static_cast<void>(TryRunFor(world, 20s));
+        RestartEngine(world);
+        REQUIRE(world.TryRun());
+        CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::Paused);
+        CHECK(world.engine->GetRobotStatuses()[0].status == ERobotStatus::Stopped);
+        world.Control(EPlanControl::Resume, "P1");
+        FinishPlan(world);
+        CHECK(Contains(world.GetReportsOf("P1"), "ResumeResult Success"));
+        CHECK(world.GetRobot("LR01").doneJobs == Lines{"P1-a4", "P1-b2"});
+        CHECK(world.violations == Lines{});
+    }
+}
+
+TEST_CASE("6.5 to 6.8 A control whose outcome was open has one result after the restart, also when it was repeated")
+{
+    struct Case
+    {
+        EPlanControl control;
+        const char* report;
+        const char* result;
+        const char* end;
+    };
+    const std::vector<Case> cases{
+        {EPlanControl::Cancel, "Step 1 InProgress", "CancelResult Success", "Plan Cancelled"},
+        {EPlanControl::Abort, "Step 2 Dispatched", "AbortResult Success", "Plan Aborted"},
+        {EPlanControl::Abort, "Job 1 P1-a4 InProgress", "AbortResult Success", "Plan Aborted"},
+        {EPlanControl::Pause, "Step 1 InProgress", "PauseResult Success", "Plan Paused"},
+        {EPlanControl::Pause, "Job 1 P1-a4 InProgress", "PauseResult Success", "Plan Paused"}};
+    for (const Case& row : cases)
+    {
+        INFO(GetText(row.control) << " at " << row.report);
+        PlanWorld world;
+        BeginPlan(world, MakeLogisticsPlan("P1"), row.report);
+        world.GetRobot("LR01").bIgnoresPause = true;
+        world.GetRobot("LR01").bIgnoresDriveCancel = true;
+        world.Control(row.control, "P1", 5, "T5");
+        CHECK(world.replies.at(5).bAccepted);
+        CHECK_FALSE(Contains(world.GetReportsOf("P1"), row.result));
+        world.Crash();
+        world.GetRobot("LR01").bIgnoresPause = false;
+        world.GetRobot("LR01").bIgnoresDriveCancel = false;
+        RestartEngine(world);
+        world.Control(row.control, "P1", 6, "T5"); // The MCS repeats it because it has no Ack.
+        CHECK(world.replies.at(6).bAccepted);
+        REQUIRE(world.TryRun());
+        CHECK(std::ranges::count(world.GetReportsOf("P1"), row.result) == 1);
+        CHECK(std::ranges::count(world.GetReportsOf("P1"), row.end) == 1);
+        world.Control(row.control, "P1", 7, "T5");
+        CHECK(world.replies.at(7).bAccepted);
+        CHECK(std::ranges::count(world.GetReportsOf("P1"), row.result) == 1);
+    }
+}
+
+TEST_CASE("6.8 A Resume whose outcome was open is carried out after the restart")
+{
+    PlanWorld world;
+    CrashInResume(world);
+    RestartEngine(world);
+    FinishPlan(world);
+    CHECK(std::ranges::count(world.GetReportsOf("P1"), "ResumeResult Success") == 1);
+}
+
+TEST_CASE("6.8 A robot that shows no pause after the restart is still commanded to resume: its arm may be paused")
+{
+    PlanWorld world;
+    CrashInResume(world);
+    world.GetRobot("LR01").bFinishesJobs = true; // It continues.
+    world.GetRobot("LR01").resumesAsked = 0;
+    RestartEngine(world);
+    FinishPlan(world);
+    CHECK(world.GetRobot("LR01").resumesAsked > 0);
+    CHECK(std::ranges::count(world.GetReportsOf("P1"), "ResumeResult Success") == 1);
+}
+
+TEST_CASE("6.5 A cancel that was open and whose robot arrived meanwhile fails, and the plan continues")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
+    world.GetRobot("LR01").bIgnoresDriveCancel = true;
+    world.Control(EPlanControl::Cancel, "P1");
+    world.Restart(MakeTestOptions(false), MakeTestSite());
+    StateChanged state;
+    state.lastNodeID = "D-A01.CP01";
+    world.Raise("LR01", LinkChanged{true});
+    world.Raise("LR01", state);
+    CHECK(world.GetReportsOf("P1").back() == "CancelResult Failed");
+    CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::InProgress);
+}
