@@ -375,6 +375,7 @@ void OperatorCommands::Skip(const SkipStep& command)
 void OperatorCommands::SkipUnresolved(Robot& robot)
 {
     _work.StopJobTimer(robot);
+    _work.AbandonJob(robot);
     _work.ReleaseJob(robot);
     robot.planOrNull->jobClock.timeLeft.reset();
     _work.LeaveStep(robot);
@@ -405,14 +406,14 @@ void OperatorCommands::Resolve(const ResolveJob& command)
 void OperatorCommands::ApplyAnswer(Robot& robot, EJobResolution answer)
 {
     robot.job.Resolve();
+    if (answer == EJobResolution::Failed)
+    {
+        _work.AbandonJob(robot);
+    }
     const std::string jobID = robot.job.GetOrNull()->jobID;
     if (!_jobs.TryEndOverdueJob(robot, jobID, answer == EJobResolution::Done))
     {
         ApplyToPlan(robot, jobID, answer);
-    }
-    if (answer == EJobResolution::Failed)
-    {
-        robot.job.CancelLater(jobID);
     }
 }
 

@@ -315,6 +315,7 @@ void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
     if (const auto jobID = bBack && event.bAutomatic ? robot.job.TakeCancelOrNull() : std::nullopt; jobID.has_value())
     {
         // Before it resumes: it would continue the job.
+        robot.changes.MarkWork();
         _engine.transaction.Command(robot, CancelJob{*jobID});
     }
     _controls.UpdatePause(robot, bBack, bWasPaused);

@@ -92,6 +92,7 @@ void RestartRecovery::RestoreRobot(const RobotWorkChanged& work)
     {
         robot.job.Begin(*work.job);
     }
+    robot.job.RestoreAbandoned(work.abandonedJobID);
     for (const std::string& nodeID : work.nodeIDs)
     {
         if (const std::optional<std::size_t> node = _site.FindNodeIndexOrNull(nodeID); node.has_value())

@@ -101,6 +101,7 @@ void StoreGate::CollectWork()
         {
             work.job = *jobOrNull;
         }
+        work.abandonedJobID = robot.job.GetAbandonedID();
         if (robot.view.state.has_value())
         {
             work.progressToken = robot.view.state->restartEvidence.progressToken;

@@ -10,14 +10,13 @@ void JobTracker::Begin(StartJob job)
 {
     _job = std::move(job);
     _state = EState::Commanded;
-    _cancelID.reset();
+    _abandonedID.clear();
 }
 
 void JobTracker::MarkOverdue()
 {
     assert(_job.has_value());
     _bOverdue = true;
-    _cancelID = _job->jobID;
 }
 
 void JobTracker::BeginRecovery()
@@ -47,27 +46,42 @@ void JobTracker::Resolve()
     _state = IsUnresolved() ? EState::Commanded : _state;
 }
 
-void JobTracker::Release()
+void JobTracker::Abandon()
 {
-    *this = {};
+    assert(_job.has_value());
+    _abandonedID = _job->jobID;
 }
 
-void JobTracker::CancelLater(std::string jobID)
+void JobTracker::Release()
 {
-    if (!_job.has_value())
-    {
-        _cancelID = std::move(jobID);
-    }
+    std::string abandonedID = std::move(_abandonedID);
+    *this = {};
+    _abandonedID = std::move(abandonedID);
+}
+
+void JobTracker::RestoreAbandoned(std::string jobID)
+{
+    _abandonedID = std::move(jobID);
 }
 
 std::optional<std::string> JobTracker::TakeCancelOrNull()
 {
-    return _job.has_value() ? _cancelID : std::exchange(_cancelID, std::nullopt);
+    if (_bOverdue)
+    {
+        return _job->jobID;
+    }
+    std::string abandonedID = std::exchange(_abandonedID, {});
+    return abandonedID.empty() ? std::nullopt : std::optional(std::move(abandonedID));
 }
 
 const StartJob* JobTracker::GetOrNull() const noexcept
 {
     return _job.has_value() ? &*_job : nullptr;
+}
+
+const std::string& JobTracker::GetAbandonedID() const noexcept
+{
+    return _abandonedID;
 }
 
 bool JobTracker::IsRecovering() const noexcept

@@ -23,7 +23,7 @@ class JobTracker
     std::optional<StartJob> _job;
     EState _state = EState::Commanded;
     bool _bOverdue = false;
-    std::optional<std::string> _cancelID; ///< The job that the robot must not continue.
+    std::string _abandonedID; ///< The last job if an operator has abandoned it and the robot may still have it; or empty.
 
 public:
     void Begin(StartJob job);
@@ -35,14 +35,18 @@ public:
     void MarkUnresolved();
     /// By an operator's decision.
     void Resolve();
+    /// By an operator's decision. The robot has not reported its end and must not continue it, also after its release.
+    void Abandon();
     void Release();
-    /// A released job that the robot may still have: it has not reported its end.
-    void CancelLater(std::string jobID);
-    /// The job to cancel at a robot that is back: it may have missed the command. A released job is returned once.
+    /// After a restart: the job was abandoned before.
+    void RestoreAbandoned(std::string jobID);
+    /// The job to cancel at a robot that is back: it may have missed the command. An abandoned job is returned once.
     [[nodiscard]] std::optional<std::string> TakeCancelOrNull();
 
     /// Null where no job is open.
     [[nodiscard]] const StartJob* GetOrNull() const noexcept;
+    /// Empty: the robot has no abandoned job, or was commanded again to cancel it.
+    [[nodiscard]] const std::string& GetAbandonedID() const noexcept;
     [[nodiscard]] bool IsRecovering() const noexcept;
     [[nodiscard]] bool IsUnresolved() const noexcept;
     [[nodiscard]] bool IsOverdue() const noexcept;

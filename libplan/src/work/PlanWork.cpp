@@ -385,7 +385,14 @@ void PlanWork::SuspendJob(Robot& robot, const std::string& reason)
 void PlanWork::AbortUnresolvedJob(Robot& robot)
 {
     RaiseDropped(robot);
+    AbandonJob(robot);
     EndByControl(*robot.planOrNull, EPlanControl::Abort);
+}
+
+void PlanWork::AbandonJob(Robot& robot)
+{
+    _transaction.Command(robot, CancelJob{robot.job.GetOrNull()->jobID});
+    robot.job.Abandon();
 }
 
 Alarm PlanWork::MakeUnresolvedAlarm(const Robot& robot)

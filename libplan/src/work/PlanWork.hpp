@@ -65,6 +65,8 @@ public:
     void SuspendJob(Robot& robot, const std::string& reason);
     /// Aborts the plan without an operator resolving its job.
     void AbortUnresolvedJob(Robot& robot);
+    /// Before an unresolved job is released without having been done: its robot must not continue it.
+    void AbandonJob(Robot& robot);
     /// The job is closed, and its alarm is cleared.
     void ReleaseJob(Robot& robot);
     /// Commands the job again once the robot may work; with the same commandID if the robot never had the job.

@@ -85,6 +85,8 @@ struct RobotWorkChanged
     /// The robot has shown that it received one of these commands. If it shows none later, it was switched off.
     bool bCommandTaken = false;
     std::int32_t jobNumber = 0; ///< StartJob::jobNumber of the last job; 0: none yet.
+    /// The last job if an operator has abandoned it and the robot may still have it: to be cancelled when the robot is back.
+    std::string abandonedJobID;
 
     bool operator==(const RobotWorkChanged&) const = default;
 };

@@ -63,8 +63,8 @@ struct ControlTSC
     bool operator==(const ControlTSC&) const = default;
 };
 
-/// Operator: resolve an unresolved job (alarm ACS-1008). Later events of the robot about this job are ignored. Answered by
-/// one ReplyCommand.
+/// Operator: resolve an unresolved job (alarm ACS-1008). Later events of the robot about this job are ignored; a Failed job is
+/// cancelled at the robot. Answered by one ReplyCommand.
 struct ResolveJob
 {
     std::string planID;
@@ -109,8 +109,8 @@ struct SetCarriers
 };
 
 /// Operator: skip a step (section 6.13). Accepted for a Pending step of a plan that a robot has, and for a step with an
-/// unresolved job (alarm ACS-1008). The job is not reported any more and the record of the robot's ports is unchanged.
-/// Answered by one ReplyCommand.
+/// unresolved job (alarm ACS-1008). That job is cancelled at the robot and not reported any more; the record of the robot's
+/// ports is unchanged. Answered by one ReplyCommand.
 struct SkipStep
 {
     std::string planID;

@@ -6,6 +6,7 @@ using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test o
 using namespace std::chrono_literals;
 using ACS::Testing::BeginPlan;
 using ACS::Testing::Contains;
+using ACS::Testing::FindLine;
 using ACS::Testing::FinishPlan;
 using ACS::Testing::Lines;
 using ACS::Testing::MakeLogisticsPlan;
@@ -129,4 +130,51 @@ TEST_CASE("6.5 A cancel that was open and whose robot arrived meanwhile fails, a
     world.Raise("LR01", state);
     CHECK(world.GetReportsOf("P1").back() == "CancelResult Failed");
     CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::InProgress);
+}
+
+TEST_CASE("D-16 An unresolved job that was abandoned is cancelled before its robot may resume, also after a restart")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
+    PausePlan(world);
+    world.GetRobot("LR01").bIgnoresJobCancel = true; // it has lost the job
+    world.Raise("LR01", JobUnresolved{"P1-a4", "simulated by the test"});
+    const bool bDisconnected = GENERATE(false, true);
+    if (bDisconnected)
+    {
+        world.Raise("LR01", LinkChanged{false});
+    }
+    std::size_t line = world.trace.size();
+    switch (GENERATE(0, 1, 2))
+    {
+        case 0:
+            world.ResolveJob("P1", "P1-a4", EJobResolution::Failed);
+            break;
+        case 1:
+            world.Control(EPlanControl::Abort, "P1");
+            break;
+        default:
+            world.Ask(SkipStep{"P1", 1, 7});
+            CHECK(world.replies.at(7).bAccepted);
+            break;
+    }
+    const std::size_t cancelled = FindLine(world, "command LR01 CancelJob", line);
+    CHECK(cancelled < FindLine(world, "command LR01 Resume", line));
+    world.Raise("LR01", LinkChanged{false});
+    line = world.trace.size();
+    const bool bRestarted = GENERATE(false, true);
+    if (bRestarted)
+    {
+        RestartEngine(world);
+    }
+    else
+    {
+        world.Connect();
+    }
+    const std::size_t again = FindLine(world, "command LR01 CancelJob", line);
+    CHECK(again < FindLine(world, "command LR01 Resume", line));
+    const std::size_t later = world.trace.size();
+    world.Raise("LR01", LinkChanged{false});
+    world.Connect();
+    CHECK(FindLine(world, "command LR01 CancelJob", later) == world.trace.size());
 }

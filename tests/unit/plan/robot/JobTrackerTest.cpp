@@ -80,21 +80,26 @@ TEST_CASE("JobTracker: a job that the robot must not continue is to be cancelled
         tracker.MarkOverdue();
         CHECK(tracker.TakeCancelOrNull() == "J1");
         CHECK(tracker.TakeCancelOrNull() == "J1");
-        tracker.CancelLater("J2");
-        CHECK(tracker.TakeCancelOrNull() == "J1");
         tracker.Release();
     }
-    SECTION("once after its release by an operator")
+    SECTION("once after an operator has abandoned it")
     {
+        tracker.Abandon();
         tracker.Release();
-        tracker.CancelLater("J1");
+        CHECK(tracker.GetAbandonedID() == "J1");
         CHECK(tracker.TakeCancelOrNull() == "J1");
     }
     SECTION("not after the next command")
     {
+        tracker.Abandon();
         tracker.Release();
-        tracker.CancelLater("J1");
         tracker.Begin(StartJob{});
+    }
+    SECTION("once after a restart")
+    {
+        tracker = JobTracker();
+        tracker.RestoreAbandoned("J1");
+        CHECK(tracker.TakeCancelOrNull() == "J1");
     }
     CHECK_FALSE(tracker.TakeCancelOrNull().has_value());
 }

@@ -135,7 +135,8 @@ struct JsonFields<Planning::RobotWorkChanged>
         Optional("doubtful", &Planning::RobotWorkChanged::bUnresolved),
         Optional("nodeIds", &Planning::RobotWorkChanged::nodeIDs),
         Optional("commandTaken", &Planning::RobotWorkChanged::bCommandTaken),
-        Optional("jobNumber", &Planning::RobotWorkChanged::jobNumber));
+        Optional("jobNumber", &Planning::RobotWorkChanged::jobNumber),
+        Optional("abandonedJobId", &Planning::RobotWorkChanged::abandonedJobID));
 };
 
 template <>
