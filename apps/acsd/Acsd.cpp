@@ -369,7 +369,7 @@ private:
              }});
         AddActionRoutes(
             commands,
-            {[this] { return _core.IsClosed() || !CanCommand(); },
+            {[this] { return _core.IsStopping() || !CanCommand(); },
              [this](const std::string& robotID) -> std::optional<RobotActionsView> {
                  const RobotRunner* const robotOrNull = _robots.FindOrNull(robotID);
                  return robotOrNull == nullptr

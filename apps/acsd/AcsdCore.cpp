@@ -224,6 +224,10 @@ Planning::EInputAdmission AcsdCore::Offer(
     std::optional<Planning::CommandReceipt> receiptOrNull)
 {
     const RecordedInput recorded(_dependencies.recorderOrNull, [&] { return OfferInput{command, receiptOrNull}; });
+    if (IsStopping())
+    {
+        return Planning::EInputAdmission::Closed; // what waits for the store when the host closes would be lost
+    }
     return _host.Offer(std::move(command), std::move(receiptOrNull));
 }
 
@@ -247,6 +251,11 @@ bool AcsdCore::IsMqttUp() const noexcept
     return _bMqttUp;
 }
 
+bool AcsdCore::IsStopping() const noexcept
+{
+    return _phase != EPhase::Running;
+}
+
 bool AcsdCore::IsClosed() const noexcept
 {
     return _phase >= EPhase::Closing;
@@ -260,7 +269,7 @@ std::optional<std::string> AcsdCore::GetStoreFaultOrNull() const
 std::vector<std::string> AcsdCore::GetNotReadyReasons() const
 {
     std::vector<std::string> reasons;
-    if (_phase != EPhase::Running)
+    if (IsStopping())
     {
         reasons.emplace_back("acsd draining for shutdown");
     }

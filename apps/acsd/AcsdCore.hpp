@@ -118,7 +118,7 @@ public:
     void OnStoreLog(const Planning::StoreLog& log);
     void OnLinksClosed();
 
-    /// A command of the operator or of a test. Unless Accepted, nothing is done.
+    /// A command of the operator or of a test. Unless Accepted, nothing is done. Closed from Stop on.
     [[nodiscard]] Planning::EInputAdmission Offer(
         Planning::PlanCommand command,
         std::optional<Planning::CommandReceipt> receiptOrNull = std::nullopt);
@@ -128,6 +128,8 @@ public:
     /// isConnected, as it was last published to the MCS; nullopt before the first time.
     [[nodiscard]] std::optional<bool> GetPublishedConnectedOrNull() const noexcept;
     [[nodiscard]] bool IsMqttUp() const noexcept;
+    /// No further plans and commands of the operator are accepted.
+    [[nodiscard]] bool IsStopping() const noexcept;
     /// Inputs have no effect any more.
     [[nodiscard]] bool IsClosed() const noexcept;
     [[nodiscard]] std::optional<std::string> GetStoreFaultOrNull() const;

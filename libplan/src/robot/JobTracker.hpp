@@ -23,7 +23,8 @@ class JobTracker
     std::optional<StartJob> _job;
     EState _state = EState::Commanded;
     bool _bOverdue = false;
-    std::string _abandonedID; ///< The last job if an operator has abandoned it and the robot may still have it; or empty.
+    std::string
+        _abandonedID; ///< The last job if an operator has abandoned it and the robot may still have it; or empty.
 
 public:
     void Begin(StartJob job);

@@ -314,6 +314,8 @@ TEST_CASE_METHOD(AcsdCoreFixture, "A stop refuses plans and waits for the Acks o
     REQUIRE(_answers.size() == 1);
     CHECK(_answers.front().result == Protocol::EAckResult::Fail);
     CHECK(_answers.front().message == "acsd draining for shutdown");
+    CHECK(_core->Offer(Planning::ControlTSC{true, 0}) == Planning::EInputAdmission::Closed);
+    CHECK(_core->IsStopping());
 
     Advance(1s);
     CHECK_FALSE(_core->IsClosed());
@@ -327,7 +329,6 @@ TEST_CASE_METHOD(AcsdCoreFixture, "A stop refuses plans and waits for the Acks o
     CHECK(_stops == 0);
     _core->OnLinksClosed();
     CHECK(_stops == 1);
-    CHECK(_core->Offer(Planning::ControlTSC{true, 0}) == Planning::EInputAdmission::Closed);
 }
 
 TEST_CASE_METHOD(
