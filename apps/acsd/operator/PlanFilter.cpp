@@ -61,7 +61,7 @@ std::vector<PlanView> PlanFilter::List(const Planning::PlanEngine& engine, const
     }
     for (const Planning::PlanRecord& record : engine.GetFinishedPlanRecords(std::numeric_limits<std::size_t>::max()))
     {
-        PlanView plan = MakePlanView(record, *engine.GetPlanOrNull(record.plan.planID), EPlanDetail::Steps);
+        PlanView plan = MakePlanView(record, EPlanDetail::Steps);
         if (IsMeant(plan))
         {
             plans.push_back(std::move(plan));

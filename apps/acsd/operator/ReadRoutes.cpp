@@ -42,12 +42,11 @@ void AddRead(Apps::HttpRoutes& routes, std::string_view pattern, THandle handle)
 HttpResponse ShowPlan(const Planning::PlanEngine& engine, const StateView& state, const std::string& planID)
 {
     const Planning::PlanRecord* recordOrNull = engine.GetPlanRecordOrNull(planID);
-    const std::optional<Planning::PlanSummary> summary = engine.GetPlanOrNull(planID);
-    if (recordOrNull == nullptr || !summary.has_value())
+    if (recordOrNull == nullptr)
     {
         return RefuseUnknown("plan", planID);
     }
-    PlanView plan = MakePlanView(*recordOrNull, *summary, EPlanDetail::Jobs);
+    PlanView plan = MakePlanView(*recordOrNull, EPlanDetail::Jobs);
     if (const auto found = std::ranges::find(state.plans, planID, &PlanView::planID); found != state.plans.end())
     {
         plan.robotID = found->robotID;

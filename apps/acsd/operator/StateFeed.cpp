@@ -4,7 +4,6 @@
 #include "view/ViewCodec.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,12 +38,12 @@ const StateView& StateFeed::Read()
 const StateView& StateFeed::Update()
 {
     StateView fresh = _maker.Make(_dependencies.getProgram(), _dependencies.clock.GetNow().wall);
-    StateChanges changes = FindChanges(_state, fresh);
+    const StateChanges changes = FindChanges(_state, fresh);
     _state = std::move(fresh);
-    AddEnded(changes);
-    if (!changes.IsEmpty())
+    const std::vector<PlanView> ended = TakeEnded(changes);
+    if (!changes.IsEmpty() || !ended.empty())
     {
-        Publish(changes);
+        _dependencies.events.Publish("changes", EncodeChanges(changes, ended));
     }
     return _state;
 }
@@ -62,39 +61,30 @@ std::uint64_t StateFeed::GetEventID() const noexcept
 void StateFeed::OnEntry(const ChangeEntry& entry, Core::Now now)
 {
     _dependencies.events.Publish("entry", EncodeEntry(entry, now.wall));
-    if (entry.bPlanEnded && _endedPlanIDs.size() < MAX_ENDED)
+    if (entry.endedPlanOrNull != nullptr && _ended.size() < MAX_ENDED)
     {
-        _endedPlanIDs.emplace_back(entry.planID);
+        _ended.push_back(MakePlanView(*entry.endedPlanOrNull, EPlanDetail::Steps));
     }
 }
 
-/// A plan that has begun and ended between two updates is in neither of their states.
-void StateFeed::AddEnded(StateChanges& changes)
+/// Of each plan that is not unfinished again. One that has begun and ended between two updates is in neither of their states, and
+/// the engine may keep no record of it.
+std::vector<PlanView> StateFeed::TakeEnded(const StateChanges& changes)
 {
-    for (std::string& planID : std::exchange(_endedPlanIDs, {}))
-    {
-        const bool bListed = std::ranges::find(changes.endedPlanIDs, planID) != changes.endedPlanIDs.end();
-        const bool bBegunAgain = std::ranges::find(_state.plans, planID, &PlanView::planID) != _state.plans.end();
-        if (!bListed && !bBegunAgain)
-        {
-            changes.endedPlanIDs.push_back(std::move(planID));
-        }
-    }
-}
-
-void StateFeed::Publish(const StateChanges& changes)
-{
-    std::vector<PlanView> ended;
+    std::vector<PlanView> ended = std::exchange(_ended, {});
     for (const std::string& planID : changes.endedPlanIDs)
     {
-        const Planning::PlanRecord* recordOrNull = _dependencies.engine.GetPlanRecordOrNull(planID);
-        const std::optional<Planning::PlanSummary> summary = _dependencies.engine.GetPlanOrNull(planID);
-        if (recordOrNull != nullptr && summary.has_value())
+        const bool bNoted = std::ranges::find(ended, planID, &PlanView::planID) != ended.end();
+        if (const Planning::PlanRecord* recordOrNull = _dependencies.engine.GetPlanRecordOrNull(planID);
+            !bNoted && recordOrNull != nullptr)
         {
-            ended.push_back(MakePlanView(*recordOrNull, *summary, EPlanDetail::Steps));
+            ended.push_back(MakePlanView(*recordOrNull, EPlanDetail::Steps));
         }
     }
-    _dependencies.events.Publish("changes", EncodeChanges(changes, ended));
+    std::erase_if(ended, [this](const PlanView& plan) {
+        return std::ranges::find(_state.plans, plan.planID, &PlanView::planID) != _state.plans.end();
+    });
+    return ended;
 }
 
 void StateFeed::OnTimer()

@@ -21,8 +21,8 @@
 namespace ACS::Acsd
 {
 
-/// The present state for operators, the events `changes` with what is different from the state before, and the events `entry`. Used on the executor's
-/// thread.
+/// The present state for operators, the events `changes` with what is different from the state before, and the events `entry`.
+/// Used on the executor's thread.
 class StateFeed final
 {
 public:
@@ -48,9 +48,9 @@ private:
 
     Dependencies _dependencies;
     StateViewMaker _maker;
-    StateView _state;                       ///< As it was published last.
-    StateView _read;                        ///< As it was read last.
-    std::vector<std::string> _endedPlanIDs; ///< Since the last update, in this order.
+    StateView _state;             ///< As it was published last.
+    StateView _read;              ///< As it was read last.
+    std::vector<PlanView> _ended; ///< Plans that have ended since the last update, in this order.
     ChangeObserver _entries;
     Apps::TimerSet<int> _timer;
 
@@ -76,8 +76,7 @@ public:
 
 private:
     void OnEntry(const ChangeEntry& entry, Core::Now now);
-    void AddEnded(StateChanges& changes);
-    void Publish(const StateChanges& changes);
+    [[nodiscard]] std::vector<PlanView> TakeEnded(const StateChanges& changes);
     void OnTimer();
 };
 

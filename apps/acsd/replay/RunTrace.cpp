@@ -28,7 +28,8 @@ void AddToTrace(const ChangeEntry& entry, MessageTrace& trace)
     const bool bStart = entry.kind == "robot" && !entry.planID.empty();
     if ((bStart || entry.kind == "plan" || entry.kind == "step") && !entry.robotID.empty())
     {
-        trace.SetPlan(std::string(entry.robotID), entry.bPlanEnded ? std::string() : std::string(entry.planID));
+        const std::string_view planID = entry.endedPlanOrNull != nullptr ? std::string_view() : entry.planID;
+        trace.SetPlan(std::string(entry.robotID), std::string(planID));
     }
 }
 

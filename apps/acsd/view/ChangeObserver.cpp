@@ -53,7 +53,7 @@ void ChangeObserver::OnPlanChanged(
          {},
          text,
          transactionID,
-         Planning::IsFinal(record.progress.state)},
+         Planning::IsFinal(record.progress.state) ? &record : nullptr},
         now);
 }
 

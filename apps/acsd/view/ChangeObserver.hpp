@@ -19,8 +19,8 @@ struct ChangeEntry
     std::int32_t stepNo = 0; ///< 0: none.
     std::string_view jobID;
     std::string_view text;
-    std::string_view transactionID; ///< Of the report of the change.
-    bool bPlanEnded = false;        ///< The plan has reached its last state.
+    std::string_view transactionID;                        ///< Of the report of the change.
+    const Planning::PlanRecord* endedPlanOrNull = nullptr; ///< The plan if it has reached its last state.
 };
 
 /// Makes an entry of each change of state.

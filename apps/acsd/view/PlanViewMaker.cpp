@@ -1,5 +1,7 @@
 #include "view/PlanViewMaker.hpp"
 
+#include <acs/plan/PlanSummaries.hpp>
+
 #include <cstddef>
 #include <string>
 
@@ -22,8 +24,9 @@ std::vector<JobView> MakeJobs(const Planning::Step& step, const Planning::StepPr
 
 } // namespace
 
-PlanView MakePlanView(const Planning::PlanRecord& record, const Planning::PlanSummary& summary, EPlanDetail detail)
+PlanView MakePlanView(const Planning::PlanRecord& record, EPlanDetail detail)
 {
+    const Planning::PlanSummary summary = MakeSummary(record);
     PlanView plan;
     plan.planID = record.plan.planID;
     plan.lotID = record.plan.lotID;

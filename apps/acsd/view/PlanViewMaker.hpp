@@ -16,11 +16,8 @@ enum class EPlanDetail : std::uint8_t
     Jobs
 };
 
-/// The view of a plan from its record and its summary. PlanView::waits is left to the caller.
-[[nodiscard]] PlanView MakePlanView(
-    const Planning::PlanRecord& record,
-    const Planning::PlanSummary& summary,
-    EPlanDetail detail);
+/// The view of a plan from its record. PlanView::waits is left to the caller.
+[[nodiscard]] PlanView MakePlanView(const Planning::PlanRecord& record, EPlanDetail detail);
 
 [[nodiscard]] WaitView MakeWaitView(const Planning::WaitReason& reason, Core::WallTime since);
 

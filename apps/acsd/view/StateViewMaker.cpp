@@ -212,12 +212,10 @@ std::vector<PlanView> StateViewMaker::MakePlans(Core::WallTime now)
             robots.emplace(*robot.planID, robot.robotID);
         }
     }
-    const std::vector<Planning::PlanSummary> summaries = _engine.GetActivePlans();
-    const auto records = _engine.GetActivePlanRecords(); // in the same order
     std::vector<PlanView> plans;
-    for (std::size_t index = 0; index < summaries.size(); ++index)
+    for (const Planning::PlanRecord& record : _engine.GetActivePlanRecords())
     {
-        PlanView& plan = plans.emplace_back(MakePlanView(records[index], summaries[index], EPlanDetail::Steps));
+        PlanView& plan = plans.emplace_back(MakePlanView(record, EPlanDetail::Steps));
         // The MCS is sent the robot of a plan only when the robot has started it.
         if (const auto robot = robots.find(plan.planID); robot != robots.end())
         {

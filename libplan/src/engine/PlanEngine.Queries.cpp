@@ -1,5 +1,5 @@
 #include "engine/PlanEngine.Impl.hpp"
-#include "plan/PlanSummaries.hpp"
+#include <acs/plan/PlanSummaries.hpp>
 
 #include <algorithm>
 #include <cmath>

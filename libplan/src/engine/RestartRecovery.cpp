@@ -1,7 +1,7 @@
 #include "engine/RestartRecovery.hpp"
 
-#include "plan/PlanSummaries.hpp"
 #include "robot/JobCommand.hpp"
+#include <acs/plan/PlanSummaries.hpp>
 #include <acs/plan/PlanTransitions.hpp>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "plan/PlanSummaries.hpp"
+#include <acs/plan/PlanSummaries.hpp>
 
 #include <cstddef>
 #include <vector>

@@ -61,4 +61,34 @@ TEST_CASE("A plan that begins and ends between two updates has ended in the next
     CHECK(stream.stream->TakeNext().find(R"("ended")") == std::string::npos);
 }
 
+TEST_CASE("A plan that has ended is in the next event also if the engine keeps no record of it")
+{
+    boost::asio::io_context context;
+    Testing::ManualClock clock;
+    Testing::PlanWorld world =
+        Testing::MakeWorld([](Planning::EngineOptions& options) { options.finishedPlansKept = 0; });
+    EventFeed events(clock, [] {});
+    StateFeed feed({context.get_executor(), clock, *world.engine, [] { return ProgramState(); }, events});
+    world.engine->AddObserver(feed.GetObserver());
+    for (const char* planID : {"P1", "P2"})
+    {
+        world.Submit(Testing::MakeLogisticsPlan(planID));
+    }
+    static_cast<void>(feed.Update());
+
+    Apps::HttpRequest request = *Apps::ParseHttpTarget("/v1/events");
+    request.bCanStream = true;
+    const Apps::HttpResponse stream = events.Respond(request);
+    for (const char* planID : {"P1", "P2"})
+    {
+        world.Control(Planning::EPlanControl::Cancel, planID);
+        REQUIRE(Testing::TryRunUntil(world, planID, "Plan Cancelled"));
+    }
+    REQUIRE(world.engine->GetPlanRecordOrNull("P1") == nullptr);
+    static_cast<void>(feed.Update());
+    const std::string sent = stream.stream->TakeNext();
+    CHECK(sent.find(R"("ended":[{"planId":"P1")") != std::string::npos);
+    CHECK(sent.find(R"("status":"Cancelled")") != std::string::npos);
+}
+
 } // namespace ACS::Acsd::Test

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <acs/core/Api.hpp>
+#include <acs/plan/PlanRecord.hpp>
+
+namespace ACS::Planning
+{
+
+/// The fields of a plan in section 4.3. The record must have a step.
+[[nodiscard]] ACS_API PlanSummary MakeSummary(const PlanRecord& record);
+
+} // namespace ACS::Planning
