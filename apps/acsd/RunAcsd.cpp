@@ -54,7 +54,6 @@ struct ProgramOptions
     std::string configFile;
     std::vector<std::string> overrides;
     std::string traceFolder; ///< Empty: no trace.
-    bool bLogLevelGiven = false;
     bool bCheckOnly = false;
 };
 
@@ -76,10 +75,7 @@ void ReadAgain(
         logger.Error("the configuration has errors, the previous one stays in effect", {{"file", options.configFile}});
         return;
     }
-    if (!options.bLogLevelGiven)
-    {
-        sink.SetLevel(fresh.operations.logLevel);
-    }
+    sink.SetLevel(fresh.operations.logLevel);
     acsd.Reload(fresh);
 }
 
@@ -87,9 +83,7 @@ int Serve(const ProgramOptions& options, const RobotDrivers& drivers, AcsdConfig
 {
     Apps::SystemClock clock;
     Apps::SystemRandom random;
-    Apps::SpdlogSink sink(
-        options.bLogLevelGiven ? options.common.logLevel : config.operations.logLevel,
-        Apps::ELogWriting::Queued);
+    Apps::SpdlogSink sink(config.operations.logLevel, Apps::ELogWriting::Queued);
     const Core::Logger logger(sink, NAME);
     for (const std::string& warning : config.warnings)
     {
@@ -194,7 +188,10 @@ int Run(int argc, const char* const* argv, const RobotDrivers& drivers)
         return *exitCodeOrNull;
     }
 
-    options.bLogLevelGiven = app.count("--log-level") > 0;
+    if (const CLI::Option& level = *app.get_option("--log-level"); level.count() > 0)
+    {
+        options.overrides.push_back("log.level=" + level.as<std::string>());
+    }
     AcsdConfig config = options.bCheckOnly ? CheckAcsdConfig(options.configFile, options.overrides, drivers)
                                            : ReadAcsdConfig(options.configFile, options.overrides, drivers);
     if (!config.errors.empty())

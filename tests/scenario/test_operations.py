@@ -56,14 +56,21 @@ class Operations(ScenarioCase):
 
     def test_sighup_applies_what_may_change_and_reports_the_rest(self):
         stub = self.start_stub()
-        acsd = self.line.start_acsd(stub.address, self.start_robots(), config=self.write_config())
+        acsd = self.line.start_acsd(
+            stub.address, self.start_robots(), config=self.write_config(), arguments=("--log-level", "info")
+        )
         acsd.wait_ready()
         self.wait_for_log(acsd, "registered with the MCS")
 
-        self.write_config(('grace = "10s"', 'grace = "9s"'), ('ack_timeout = "5s"', 'ack_timeout = "6s"'))
+        self.write_config(
+            ('grace = "10s"', 'grace = "9s"'),
+            ('ack_timeout = "5s"', 'ack_timeout = "6s"'),
+            ('level = "info"', 'level = "error"'),
+        )
         acsd.send_signal(signal.SIGHUP)
         self.wait_for_log(acsd, "applied key=comm.grace")
         self.wait_for_log(acsd, "needs a restart of acsd key=mcs.ack_timeout")
+        self.assertNotIn("key=log.level", acsd.log.read_text())  # --log-level overrides it
 
         self.write_config(('grace = "10s"', 'grace = "soon"'), ("max_plans = 100", "max_plans = 0"))
         acsd.send_signal(signal.SIGHUP)
