@@ -6,18 +6,18 @@
 namespace ACS::Acsd
 {
 
-bool ForeignOrder::IsExecuted(const VDA5050::MasterSession& session, const OperatorActions& requested)
+bool ForeignOrder::IsExecuted(const VDA5050::MasterSession& session, const ActionTest& isOwn)
 {
     const VDA5050::StateMessage& state = *session.GetStateOrNull();
     if (session.GetOrderPhase() != VDA5050::EOrderPhase::None || state.orderID.empty())
     {
         return false;
     }
-    const bool bActs = std::ranges::any_of(state.actionStates, [&requested](const VDA5050::ActionState& action) {
+    const bool bActs = std::ranges::any_of(state.actionStates, [&isOwn](const VDA5050::ActionState& action) {
         const bool bRuns = action.actionStatus == VDA5050::EActionStatus::Initializing
             || action.actionStatus == VDA5050::EActionStatus::Running
             || action.actionStatus == VDA5050::EActionStatus::Paused;
-        return bRuns && !requested.IsRequested(action.actionID);
+        return bRuns && !isOwn(action.actionID);
     });
     return bActs || !state.nodeStates.empty() || !state.edgeStates.empty();
 }

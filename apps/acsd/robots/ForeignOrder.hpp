@@ -1,10 +1,11 @@
 #pragma once
 
-#include "robots/OperatorActions.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/vda5050/MasterSession.hpp>
 
+#include <functional>
 #include <string>
+#include <string_view>
 
 namespace ACS::Acsd
 {
@@ -13,11 +14,16 @@ namespace ACS::Acsd
 /// per order; running actions are not interrupted.
 class ForeignOrder final
 {
+public:
+    using ActionTest = std::function<bool(std::string_view actionID)>;
+
+private:
     std::string _cancelledID; ///< The latest order for which cancelOrder was sent.
 
 public:
-    /// According to the vehicle's last state, of which there is one. Actions of operators are not of an order.
-    [[nodiscard]] static bool IsExecuted(const VDA5050::MasterSession& session, const OperatorActions& requested);
+    /// According to the vehicle's last state, of which there is one. isOwn: whether an action is an instant action of acsd, which is of no
+    /// order.
+    [[nodiscard]] static bool IsExecuted(const VDA5050::MasterSession& session, const ActionTest& isOwn);
 
     void OnConnected();
     /// While IsExecuted.

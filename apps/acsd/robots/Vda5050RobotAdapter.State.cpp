@@ -20,7 +20,7 @@ void Vda5050RobotAdapter::OnState(Core::Now now, AdapterActions& out)
     _maps.OnReported(state.maps);
     _operatorActions.OnState(state);
     RecoverJob(now, out); // first: a job of before a restart does not make the vehicle occupied
-    const bool bOccupied = ForeignOrder::IsExecuted(_session, _operatorActions);
+    const bool bOccupied = IsOccupied();
     if (!bOccupied && _session.CanTakeOrder())
     {
         RequestMap(now);

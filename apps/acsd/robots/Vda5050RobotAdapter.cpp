@@ -40,6 +40,9 @@ Vda5050RobotAdapter::Vda5050RobotAdapter(
 
 void Vda5050RobotAdapter::Handle(const Planning::RobotCommand& command, Core::Now now, AdapterActions& out)
 {
+    const auto sendAction = [&](std::string_view actionType) {
+        _commandedActions.Send(actionType, _session, now, _sessionActions);
+    };
     std::visit(
         Core::Overloaded{
             [&](const Planning::Drive& drive) { StartDrive(drive, now, out); },
@@ -58,11 +61,11 @@ void Vda5050RobotAdapter::Handle(const Planning::RobotCommand& command, Core::No
                 RecoverJob(now, out);
             },
             [&](const Planning::CancelJob& cancel) { CancelJob(cancel.jobID, now, out); },
-            [&](const Planning::Pause&) { SendInstantAction(VDA5050::ActionTypes::START_PAUSE, now); },
-            [&](const Planning::Resume&) { SendInstantAction(VDA5050::ActionTypes::STOP_PAUSE, now); },
-            [&](const Planning::StartCharging&) { SendInstantAction(VDA5050::ActionTypes::START_CHARGING, now); },
+            [&](const Planning::Pause&) { sendAction(VDA5050::ActionTypes::START_PAUSE); },
+            [&](const Planning::Resume&) { sendAction(VDA5050::ActionTypes::STOP_PAUSE); },
+            [&](const Planning::StartCharging&) { sendAction(VDA5050::ActionTypes::START_CHARGING); },
             [&](const Planning::StopCharging&) {
-                SendInstantAction(VDA5050::ActionTypes::STOP_CHARGING, now);
+                sendAction(VDA5050::ActionTypes::STOP_CHARGING);
             }},
         command);
     Drain(now, out);
@@ -180,17 +183,9 @@ void Vda5050RobotAdapter::CancelOrder(std::string_view id, Core::Now now, Adapte
     }
 }
 
-void Vda5050RobotAdapter::SendInstantAction(std::string_view actionType, Core::Now now)
-{
-    VDA5050::Action action;
-    action.actionType = actionType;
-    // If an offline vehicle did not pause, its next state shows that. The engine has its own time limit for a pause.
-    static_cast<void>(_session.SendInstantAction(std::move(action), now, _sessionActions));
-}
-
 void Vda5050RobotAdapter::SendPendingOrder(Core::Now now, AdapterActions& out)
 {
-    if (!_pendingOrder.has_value() || !_session.CanTakeOrder() || ForeignOrder::IsExecuted(_session, _operatorActions))
+    if (!_pendingOrder.has_value() || !_session.CanTakeOrder() || IsOccupied())
     {
         return;
     }
@@ -245,6 +240,13 @@ void Vda5050RobotAdapter::AbandonDrive(const std::string& reason, Core::Now now,
         return;
     }
     RejectOrder(orderID, reason, out);
+}
+
+bool Vda5050RobotAdapter::IsOccupied() const
+{
+    return ForeignOrder::IsExecuted(_session, [this](std::string_view actionID) {
+        return _operatorActions.IsRequested(actionID) || _commandedActions.IsCommanded(actionID);
+    });
 }
 
 bool Vda5050RobotAdapter::IsDrive(std::string_view orderID) const

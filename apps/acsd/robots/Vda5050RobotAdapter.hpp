@@ -1,5 +1,6 @@
 #pragma once
 
+#include "robots/CommandedActions.hpp"
 #include "robots/DriveCheck.hpp"
 #include "robots/ForeignOrder.hpp"
 #include "robots/IMqttRobotAdapter.hpp"
@@ -66,6 +67,7 @@ private:
     std::size_t _repetitionCount = 0; ///< Of orders that repeat actions of a node before a job.
     ForeignOrder _foreignOrder;
     OperatorActions _operatorActions;
+    CommandedActions _commandedActions;
 
 public:
     /// The outputs must outlive the adapter. loadTimeout: maximum time for the loads to agree with a job whose action is
@@ -122,11 +124,12 @@ private:
     /// Continues the order of the job, which the vehicle shows, as if this adapter had sent it.
     void ResumeJob(const Planning::StartJob& job, Core::Now now, Planning::AdapterActions& out);
     void CancelOrder(std::string_view id, Core::Now now, Planning::AdapterActions& out);
-    void SendInstantAction(std::string_view actionType, Core::Now now);
     /// Has the vehicle download or enable a map that it lacks.
     void RequestMap(Core::Now now);
     void SendPendingOrder(Core::Now now, Planning::AdapterActions& out);
     void SendPendingUpdate(Core::Now now, Planning::AdapterActions& out);
+    /// The vehicle executes a foreign order.
+    [[nodiscard]] bool IsOccupied() const;
     [[nodiscard]] bool IsDrive(std::string_view orderID) const;
     [[nodiscard]] bool IsJob(std::string_view orderID) const;
     void RejectOrder(const std::string& orderID, const std::string& reason, Planning::AdapterActions& out);

@@ -1,5 +1,7 @@
 #include "robots/VehicleFixture.hpp"
 
+#include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -20,6 +22,55 @@ TEST_CASE("6.7 Pause and Resume are the instant actions startPause and stopPause
     vehicle.Command(Planning::Resume{});
     REQUIRE_FALSE(vehicle.outputs.messages.empty());
     CHECK(vehicle.outputs.messages.back().payload.find("\"stopPause\"") != std::string::npos);
+}
+
+TEST_CASE("A command withdraws the former action of its kind that the vehicle has not shown, and no other one")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    vehicle.Command(Planning::StartCharging{});
+    vehicle.Command(Planning::Pause{});
+    vehicle.Command(Planning::Resume{});
+    vehicle.Command(Planning::StartCharging{});
+    vehicle.outputs.messages.clear();
+    std::vector<std::string> resent;
+    for (int round = 0; round < 4; ++round)
+    {
+        vehicle.clock.Advance(std::chrono::seconds(3));
+        vehicle.adapter.OnTimer(
+            static_cast<Planning::AdapterTimerID>(VDA5050::EMasterTimer::ResendInstantActions),
+            vehicle.clock.GetNow(),
+            vehicle.actions);
+    }
+    for (const auto& message : vehicle.outputs.messages)
+    {
+        const auto sent = vehicle.codec.Decode<VDA5050::InstantActionsMessage>(message.payload);
+        REQUIRE(sent);
+        for (const VDA5050::Action& action : sent->actions)
+        {
+            resent.push_back(action.actionType);
+        }
+    }
+    CHECK(std::ranges::count(resent, "startPause") == 0);
+    CHECK(std::ranges::count(resent, "stopPause") > 0);
+    CHECK(std::ranges::count(resent, "startCharging") == std::ranges::count(resent, "stopPause"));
+}
+
+TEST_CASE("An instant action of acsd that lasts is no order of another master")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    vehicle.Command(Planning::StartCharging{});
+    const auto sent = vehicle.codec.Decode<VDA5050::InstantActionsMessage>(vehicle.outputs.messages.back().payload);
+    REQUIRE(sent);
+    vehicle.state.orderID = "before";
+    vehicle.state.actionStates = {
+        {sent->actions.at(0).actionID, "startCharging", "", VDA5050::EActionStatus::Running, ""}};
+    vehicle.ShowState();
+    CHECK_FALSE(vehicle.TakeEvents<Planning::StateChanged>().back().bOccupied);
+    vehicle.state.actionStates[0].actionID = "foreign";
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::StateChanged>().back().bOccupied);
 }
 
 TEST_CASE("StartCharging and StopCharging are the instant actions of these names")

@@ -1,0 +1,30 @@
+#include "robots/CommandedActions.hpp"
+
+#include <tuple>
+#include <utility>
+
+namespace ACS::Acsd
+{
+
+void CommandedActions::Send(
+    std::string_view actionType,
+    VDA5050::MasterSession& session,
+    Core::Now now,
+    VDA5050::MasterActions& out)
+{
+    const bool bPause =
+        actionType == VDA5050::ActionTypes::START_PAUSE || actionType == VDA5050::ActionTypes::STOP_PAUSE;
+    std::string& actionID = bPause ? _pauseID : _chargeID;
+    std::ignore = session.TryWithdrawInstantAction(actionID);
+    VDA5050::Action action;
+    action.actionType = actionType;
+    // If an offline vehicle did not pause, its next state shows that. The engine has its own time limit for a pause.
+    actionID = session.SendInstantAction(std::move(action), now, out).value_or(std::string());
+}
+
+bool CommandedActions::IsCommanded(std::string_view actionID) const noexcept
+{
+    return !actionID.empty() && (actionID == _pauseID || actionID == _chargeID);
+}
+
+} // namespace ACS::Acsd
