@@ -110,10 +110,13 @@ export function showLogin(onLogin) {
             return;
         }
         localStorage.setItem(SESSION, "open");
+        dialog.onclose = null;
         dialog.close();
         onLogin();
     });
     dialog.oncancel = (event) => event.preventDefault();
+    // Browsers close it with the second Esc, whatever oncancel does.
+    dialog.onclose = () => openDialog("login-dialog");
     dialog.replaceChildren(form);
     openDialog("login-dialog");
     token.focus();

@@ -359,7 +359,7 @@ class Page {
                 make("span", {class: "live-text", text: t(`live.${state.name}`)}),
                 make("time", {id: "clock", class: "clock", text: formatClock(Date.now())}));
         }
-        const isWithoutData = ["silent", "lost", "standby"].includes(state.name);
+        const isWithoutData = ["silent", "lost", "standby", "login"].includes(state.name);
         const isOld = isWithoutData && this.model.status !== null;
         document.body.classList.toggle("is-old", isOld);
         const banner = document.getElementById("banner");

@@ -36,6 +36,7 @@ export default {
     "banner.lost": "The connection to acsd is lost. Reconnecting.",
     "banner.lostWhy": "The connection to acsd is lost: {reason}. Reconnecting.",
     "banner.standby": "This acsd has no live data ({reason}). Open the page of the leader.",
+    "banner.login": "acsd requires a login. This page receives no data until you log in.",
     "banner.old": "This page shows the state of {time} ({age} ago).",
 
     "floor.label": "Floor with robots. Arrow keys pan, + and - zoom; / finds a robot, a plan or a place by its id",

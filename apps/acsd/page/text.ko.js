@@ -36,6 +36,7 @@ export default {
     "banner.lost": "acsd와 접속이 끊겼습니다. 재접속 중입니다.",
     "banner.lostWhy": "acsd와 접속이 끊겼습니다({reason}). 재접속 중입니다.",
     "banner.standby": "이 acsd에는 실시간 데이터가 없습니다({reason}). 주(leader) acsd의 페이지를 여십시오.",
+    "banner.login": "로그인이 필요합니다. 로그인할 때까지 데이터가 수신되지 않습니다.",
     "banner.old": "현재 화면은 {time} 시점의 상태입니다({age} 전).",
 
     "floor.label": "로봇 현장 맵. 방향키로 이동, +와 -로 확대·축소, /로 로봇·Plan·위치를 ID로 검색",

@@ -95,3 +95,25 @@ class Connection(PageCase):
         self.click("#tab-system")
         self.click_button("Log out", "#view-system")
         wait_until(lambda: self.find("#login-dialog").is_displayed(), "the login again")
+
+    def test_a_lost_session(self):
+        """The data is old until the next login, and Esc does not close the dialog."""
+        self.expected_log = ("401",)
+        mock = self.start_mock(token="s3cret")
+        self.open(is_live=False)
+        wait_until(lambda: self.find("#login-dialog").is_displayed(), "the login")
+        self.press("s3cret", Keys.ENTER)
+        self.wait_for_state("live")
+        mock.token = "renewed"
+        mock.drop_clients()
+        self.wait_for_state("login")
+        self.wait_for_text("#banner", "acsd requires a login.")
+        self.wait_for_text("#banner", "This page shows the state of")
+        self.assertIn("is-old", self.find("body").get_attribute("class"))
+        for _ in range(3):
+            self.press(Keys.ESCAPE, Keys.ESCAPE)
+            wait_until(lambda: self.run_script("return document.activeElement.id") == "login-token", "the login is still open")
+        self.press("renewed", Keys.ENTER)
+        self.wait_for_state("live")
+        self.assertFalse(self.find("#banner").is_displayed())
+        self.assertFalse(self.find("#login-dialog").is_displayed())
