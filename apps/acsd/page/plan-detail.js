@@ -125,8 +125,9 @@ export class PlanDetail {
     }
 
     #makeStep(plan, step, alarms) {
-        const isUnresolved = (job) => job.status === "Unresolved"
-            || alarms.some((alarm) => alarm.errorCode === UNRESOLVED && alarm.jobId === job.jobId);
+        // The id of a job is unique within its plan only, and some of the alarms are those of other plans.
+        const isOfJob = (alarm, job) => alarm.errorCode === UNRESOLVED && alarm.planId === plan.planId && alarm.jobId === job.jobId;
+        const isUnresolved = (job) => job.status === "Unresolved" || alarms.some((alarm) => isOfJob(alarm, job));
         const jobs = step.jobs ?? [];
         const canSkip = plan.endedAt === null && plan.robotId !== null && (step.status === "Pending" || jobs.some(isUnresolved));
         return make("li", {class: `step-item step-${step.status.replace(/\W/g, "")}`},

@@ -290,6 +290,24 @@ class Causes(PlanCase):
         self.change(wait)
         self.wait_for_text("#detail .alarms", "job of another plan")
 
+    def test_a_job_of_another_plan_with_the_same_id(self):
+        """The id of a job is unique within its plan only."""
+        other = self.mock.simulation.robots["LR02"].plan
+
+        def wait(simulation):
+            self.plan.waits = simulation.make_wait("LR02 is in the way.", None, [("LR02", "busy")])
+            other.waits = simulation.make_wait("Job is unresolved.")
+            simulation.changed_plans.update((self.plan.plan_id, other.plan_id))
+            alarm = simulation.set_alarm("LR02", "ACS-1008", "heavy", "job of LR02", "Job outcome unknown", "", "", other)
+            alarm["jobId"] = self.plan.get_job_id()
+
+        self.change(wait)
+        self.select("plan", self.plan.plan_id)
+        self.wait_for_text("#detail .alarms", "job of LR02")
+        self.wait_for_text("#detail .job-id", self.plan.get_job_id())
+        self.assertNotIn("Unresolved", self.get_text("#detail .jobs"))
+        self.assertNotIn("Job was done", self.get_text("#detail button"))
+
     def test_what_an_operator_has_stopped(self):
         station = self.plan.steps[0]["position"]
 
