@@ -5,7 +5,7 @@ from suites.connection_tests import Connection
 from suites.event_tests import Events
 from suites.floor_tests import Floor
 from suites.general_tests import AnyAcsd, Header
-from suites.keyboard_tests import Keyboard
+from suites.keyboard_tests import Keyboard, Lists
 from suites.performance_tests import Performance
 from suites.plan_tests import Causes, Plans
 from suites.robot_tests import Actions, Carriers

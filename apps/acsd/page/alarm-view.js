@@ -52,15 +52,31 @@ export class AlarmRow {
         setText(this.message, alarm.message);
         setMarkedText(this.cause, text.cause);
         setMarkedText(this.remedy, text.remedy);
-        const commands = listNamedCommands(text.remedy, this.model);
-        this.named.replaceChildren(...commands.map((command) => makeCommandButton(command)));
-        setHidden(this.named, this.named.childElementCount === 0);
         setHidden(this.explanation, text.cause === "" && text.remedy === "");
+        this.#showCommands(listNamedCommands(text.remedy, this.model));
+        this.#showLinks(alarm);
+    }
+
+    /** The buttons stay while the remedy names the same commands: one may have the focus, or its command may run. */
+    #showCommands(commands) {
+        const shown = JSON.stringify(commands);
+        if (this.shownCommands !== shown) {
+            this.shownCommands = shown;
+            this.named.replaceChildren(...commands.map((command) => makeCommandButton(command)));
+            setHidden(this.named, commands.length === 0);
+        }
+    }
+
+    #showLinks({robotId, planId, stepNo}) {
+        const shown = JSON.stringify([robotId, planId, stepNo]);
+        if (this.shownLinks === shown) {
+            return;
+        }
+        this.shownLinks = shown;
         const makeLink = (kind, id, label) => make("button", {
             type: "button", class: "link", text: label, onclick: () => this.select({kind, id})});
-        this.links.replaceChildren(
-            alarm.robotId === "ACS" ? make("span", {text: t("alarm.acsd")}) : makeLink("robot", alarm.robotId, alarm.robotId),
-            ...alarm.planId ? [makeLink("plan", alarm.planId, [alarm.planId, alarm.stepNo].filter(Boolean).join(" / "))] : []);
+        this.links.replaceChildren(robotId === "ACS" ? make("span", {text: t("alarm.acsd")}) : makeLink("robot", robotId, robotId),
+            ...planId ? [makeLink("plan", planId, [planId, stepNo].filter(Boolean).join(" / "))] : []);
     }
 }
 

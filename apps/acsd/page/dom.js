@@ -98,29 +98,37 @@ export class KeyedList {
         this.#container.replaceChildren();
     }
 
+    /** Rows stay in place where possible: one that moves loses the focus and a click that has begun. */
     show(items) {
-        const kept = new Set();
+        const focused = document.activeElement;
+        const kept = new Set(items.map((item) => this.#getKey(item)));
+        for (const [key, row] of this.#rows) {
+            if (!kept.has(key)) {
+                row.node.remove();
+                this.#rows.delete(key);
+            }
+        }
         let next = this.#container.firstElementChild;
         for (const item of items) {
             const key = this.#getKey(item);
-            kept.add(key);
             let row = this.#rows.get(key);
             if (row === undefined) {
                 row = this.#create(item);
                 this.#rows.set(key, row);
             }
             row.update(item);
+            if (next !== null && next.nextElementSibling === row.node) {
+                next.remove(); // it comes back further down
+                next = row.node;
+            }
             if (row.node === next) {
                 next = next.nextElementSibling;
             } else {
                 this.#container.insertBefore(row.node, next);
             }
         }
-        for (const [key, row] of this.#rows) {
-            if (!kept.has(key)) {
-                row.node.remove();
-                this.#rows.delete(key);
-            }
+        if (focused !== document.activeElement && this.#container.contains(focused)) {
+            focused.focus({preventScroll: true});
         }
     }
 }

@@ -1,5 +1,7 @@
 """Alarms and their remedies."""
 
+import threading
+
 from page_case import PageCase, wait_until
 
 
@@ -61,6 +63,73 @@ class Alarms(PageCase):
         self.click("#tab-alarms")
         self.click_button("Maintenance on", "#view-alarms")
         self.wait_for_post("/v1/robots/LR01/maintenance", {"on": True})
+
+    def test_buttons_stay_while_another_alarm_comes(self):
+        """That with the focus keeps it; that whose command runs cannot be pressed again."""
+        mock = self.start_mock()
+        mock.freeze()
+        with mock.lock:
+            simulation = mock.simulation
+            simulation.set_alarm("LR02", "ACS-1009", "heavy", "LR02 does not move.", "Robot stalled", "", "", minutes=1)
+            simulation.set_alarm("LR01", "ACS-1002", "heavy", "LR01 is disconnected.", "Robot disconnected", "",
+                                 "If the robot has left the floor, run `acsctl maintenance LR01 on`.", minutes=2)
+        self.open()
+        self.click("#tab-alarms")
+        row = "#view-alarms .alarm[data-id='ACS-1002']"
+        self.wait_for_text(row, "Maintenance on")
+        self.run_script("const row = document.querySelector(arguments[0]); window.kept = [...row.querySelectorAll('button')];"
+                        "row.querySelector('button.link').focus()", row)
+        is_kept = ("const found = [...document.querySelector(arguments[0]).querySelectorAll('button')];"
+                   "return found.length === window.kept.length && found.every((button, i) => button === window.kept[i])")
+        may_answer, post = threading.Event(), mock.post
+        self.addCleanup(may_answer.set)
+
+        def answer_late(*arguments):
+            may_answer.wait()
+            return post(*arguments)
+
+        def change_alarms(change, code):
+            """Waits until the list has the alarm with this code, or no longer."""
+            is_shown = bool(self.find_all(f"#view-alarms .alarm[data-id='{code}']"))
+            with mock.lock:
+                change()
+                mock.publish()
+            wait_until(lambda: bool(self.find_all(f"#view-alarms .alarm[data-id='{code}']")) != is_shown, f"{code} has changed")
+
+        change_alarms(lambda: simulation.set_alarm("CR01", "NEW", "heavy", "", "New", "", ""), "NEW")
+        change_alarms(lambda: simulation.clear_alarms("CR01", "NEW"), "NEW")
+        change_alarms(lambda: simulation.clear_alarms("LR02", "ACS-1009"), "ACS-1009")
+        self.assertTrue(self.run_script(is_kept, row), "the buttons are the same")
+        self.assertTrue(self.run_script("return document.activeElement === window.kept[0]"), "the focus stays")
+        mock.post = answer_late
+        self.click_button("Maintenance on", row)
+        change_alarms(lambda: simulation.set_alarm("CR01", "NEW", "heavy", "", "New", "", ""), "NEW")
+        named = self.find(f"{row} button[data-path$='/maintenance']")
+        self.assertFalse(named.is_enabled(), "the command runs")
+        may_answer.set()
+        wait_until(named.is_enabled, "acsd has answered")
+        self.wait_for_post("/v1/robots/LR01/maintenance", {"on": True})
+
+    def test_buttons_follow_the_remedy_and_the_step(self):
+        mock = self.start_mock()
+        mock.simulation.advance(0.2)
+        mock.freeze()
+        remedy = "Run `acsctl maintenance LR01 {}`."
+        with mock.lock:
+            plan = mock.simulation.robots["LR01"].plan
+            alarm = mock.simulation.set_alarm("LR01", "ACS-1009", "light", "", "Stalled", "", remedy.format("on"), plan)
+        self.open()
+        self.click("#tab-alarms")
+        row = "#view-alarms .alarm[data-id='ACS-1009']"
+        self.wait_for_text(row, "Maintenance on")
+        self.wait_for_text(row, f"{plan.plan_id} / 1")
+        with mock.lock:
+            alarm.update(remedy=remedy.format("off"), stepNo=2)
+            mock.simulation.has_changed_alarms = True
+            mock.publish()
+        self.wait_for_text(row, "Maintenance off")
+        self.wait_for_text(row, f"{plan.plan_id} / 2")
+        self.assertNotIn("Maintenance on", self.get_text(row))
 
     def list_commands(self, code):
         """Those that the alarm with this code names."""
