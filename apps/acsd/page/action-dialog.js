@@ -1,6 +1,6 @@
 // The question before an instant action, with its parameters.
 
-import {leaveByEnter, openDialog} from "./dialogs.js";
+import {leaveByEnter, makeReasonInput, openDialog} from "./dialogs.js";
 import {make} from "./dom.js";
 import {t} from "./text.js";
 
@@ -47,7 +47,7 @@ function readInput(input, valueType) {
 export function askAction({title, text, offer}) {
     const dialog = document.getElementById("confirm-dialog");
     const inputs = offer.parameters.map(makeInput);
-    const reason = make("input", {id: "confirm-reason", type: "text", maxlength: 200, autocomplete: "off"});
+    const reason = makeReasonInput();
     const cancel = make("button", {
         type: "button", class: "button", text: t("dialog.cancel"), onclick: () => dialog.close("cancel")});
     dialog.replaceChildren(make("form", {method: "dialog"},

@@ -1,12 +1,10 @@
 // The correction of the record of a robot's ports.
 
-import {leaveByEnter, openDialog} from "./dialogs.js";
+import {leaveByEnter, limitBytes, openDialog} from "./dialogs.js";
 import {make} from "./dom.js";
 import {t} from "./text.js";
 
 const LONGEST_ID = 128; // bytes
-
-const isTooLong = (text) => new TextEncoder().encode(text).length > LONGEST_ID;
 
 /** Asks what is on each port. Resolves to the body of the request, null if the user cancels. getRobot: the robot as it is then. */
 export function askCarriers({title, text, getRobot}) {
@@ -15,11 +13,7 @@ export function askCarriers({title, text, getRobot}) {
     const inputs = ports.map((port, i) => make("input", {
         id: `port-${i}`, type: "text", autocomplete: "off", spellcheck: "false", placeholder: t("robot.empty"),
         value: shown[i] ?? ""}));
-    for (const input of inputs) {
-        input.addEventListener("input", () => {
-            input.setCustomValidity(isTooLong(input.value.trim()) ? t("carriers.tooLong", {n: LONGEST_ID}) : "");
-        });
-    }
+    inputs.forEach((input) => limitBytes(input, LONGEST_ID, "carriers.tooLong"));
     dialog.replaceChildren(make("form", {method: "dialog"},
         make("h2", {id: "confirm-title", text: title}), make("p", {text}), make("p", {class: "muted", text: t("carriers.note")}),
         make("div", {class: "port-inputs"}, ...ports.flatMap((port, i) => [

@@ -8,6 +8,8 @@ import {make} from "./dom.js";
 import {listCommands} from "./shell.js";
 import {t} from "./text.js";
 
+const BLOCK_REASON_LIMIT = 200; // bytes
+
 const encode = encodeURIComponent;
 
 /** {label, path, body, ask}: ask is the key of the question, null for a command without one. */
@@ -42,7 +44,7 @@ export const Commands = {
     pauseTSC: () => ({label: t("command.tscPause"), path: "/v1/tsc/pause", ask: null}),
     resumeTSC: () => ({label: t("command.tscResume"), path: "/v1/tsc/resume", ask: "ask.tscResume"}),
     block: (kind, id) => ({label: t("command.block"), path: "/v1/site/block", body: {kind, id}, ask: "ask.block", hasReason: true,
-        values: {kind: t(`kindInside.${kind}`), id}}),
+        reasonLimit: BLOCK_REASON_LIMIT, values: {kind: t(`kindInside.${kind}`), id}}),
     unblock: (kind, id) => ({label: t("command.unblock"), path: "/v1/site/unblock", body: {kind, id}, ask: "ask.unblock",
         values: {kind: t(`kindInside.${kind}`), id}}),
 };
@@ -74,8 +76,8 @@ async function askBody(command) {
     if (!command.ask) {
         return {};
     }
-    const answer = await askConfirmation({
-        title: command.label, text: t(command.ask, command.values), action: command.label, hasReason: command.hasReason});
+    const answer = await askConfirmation({title: command.label, text: t(command.ask, command.values), action: command.label,
+        hasReason: command.hasReason, reasonLimit: command.reasonLimit});
     return answer === null || answer.reason !== "" ? answer : {};
 }
 

@@ -7,6 +7,7 @@ import {t} from "./text.js";
 
 const TOAST_TIME = 7_000; // milliseconds
 const FOUND_LIMIT = 12;
+const REASON_LIMIT = 500; // bytes
 // Whether this browser has logged in: scripts cannot read the cookie.
 const SESSION = "acsd.session";
 
@@ -44,11 +45,26 @@ export function leaveByEnter(inputs) {
     }
 }
 
+/** The form is refused while the input has more bytes than acsd accepts. `key`: of the message with {n}. */
+export function limitBytes(input, limit, key) {
+    input.addEventListener("input", () => {
+        const isTooLong = new TextEncoder().encode(input.value.trim()).length > limit;
+        input.setCustomValidity(isTooLong ? t(key, {n: limit}) : "");
+    });
+}
+
+export function makeReasonInput(limit = REASON_LIMIT) {
+    const input = make("input", {id: "confirm-reason", type: "text", autocomplete: "off"});
+    limitBytes(input, limit, "dialog.reasonTooLong");
+    return input;
+}
+
 /** Asks before a command with consequences. Resolves to {reason}, or null if the user cancels. */
-export function askConfirmation({title, text, action, hasReason = false}) {
+export function askConfirmation({title, text, action, hasReason = false, reasonLimit}) {
     const dialog = document.getElementById("confirm-dialog");
-    const reason = hasReason ? make("input", {id: "confirm-reason", type: "text", maxlength: 200, autocomplete: "off"}) : null;
-    const cancel = make("button", {type: "submit", value: "cancel", class: "button", text: t("dialog.cancel")});
+    const reason = hasReason ? makeReasonInput(reasonLimit) : null;
+    const cancel = make("button", {
+        type: "submit", value: "cancel", class: "button", formnovalidate: true, text: t("dialog.cancel")});
     dialog.replaceChildren(make("form", {method: "dialog"},
         make("h2", {id: "confirm-title", text: title}), make("p", {text}),
         reason && make("label", {for: "confirm-reason", text: t("dialog.reason")}), reason,

@@ -272,6 +272,7 @@ export default {
     "parameter.inexact": "This number has too many digits to be sent exactly.",
     "dialog.optional": "optional",
     "dialog.reason": "Reason (optional)",
+    "dialog.reasonTooLong": "A reason has at most {n} bytes.",
     "error.connection": "acsd does not answer: {reason}",
 
     "login.title": "Login",

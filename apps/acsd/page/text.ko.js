@@ -272,6 +272,7 @@ export default {
     "parameter.inexact": "자릿수가 너무 많아 정확히 전송할 수 없는 숫자입니다.",
     "dialog.optional": "선택",
     "dialog.reason": "사유(선택)",
+    "dialog.reasonTooLong": "사유는 최대 {n}바이트입니다.",
     "error.connection": "acsd가 응답하지 않습니다: {reason}",
 
     "login.title": "로그인",

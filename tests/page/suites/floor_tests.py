@@ -77,6 +77,19 @@ class Floor(PageCase):
         self.wait_for_post("/v1/site/unblock", {"kind": "node", "id": NODE})
         wait_until(lambda: "wet floor" not in self.get_text("#detail"), "the node is not blocked")
 
+    def test_the_reason_of_a_block_has_at_most_200_bytes(self):
+        """A syllable of Hangul has three."""
+        self.start_mock().freeze()
+        self.open(f"?lang=en#node/{NODE}")
+        self.click_button("Block")
+        self.find("#confirm-reason").send_keys("가" * 67)
+        self.click("#confirm-action")
+        self.assertTrue(self.find("#confirm-dialog").is_displayed(), "a reason that is too long is refused")
+        self.assertEqual(self.list_posts(), [])
+        self.find("#confirm-reason").send_keys(Keys.BACKSPACE, "12")
+        self.click("#confirm-action")
+        self.wait_for_post("/v1/site/block", {"kind": "node", "id": NODE, "reason": "가" * 66 + "12"})
+
     def test_the_detail_of_a_station_is_current(self):
         mock = self.start_mock()
         mock.freeze()

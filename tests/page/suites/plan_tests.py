@@ -55,6 +55,21 @@ class Plans(PlanCase):
         self.wait_for_post(f"{self.path}/cancel", {"reason": "wrong lot"})
         wait_until(lambda: not self.find_all(f"#plans-active li[data-id='{self.plan.plan_id}']"), "the plan is not active")
 
+    def test_a_reason_has_at_most_500_bytes(self):
+        """A syllable of Hangul has three."""
+        self.open_plan()
+        self.click_button("Cancel plan")
+        self.find("#confirm-reason").send_keys("가" * 167)
+        self.click("#confirm-action")
+        self.assertTrue(self.find("#confirm-dialog").is_displayed(), "a reason that is too long is refused")
+        self.click_button("Back", "#confirm-dialog")
+        wait_until(lambda: not self.find("#confirm-dialog").is_displayed(), "the question is closed")
+        self.assertEqual(self.list_posts(), [])
+        self.click_button("Cancel plan")
+        self.find("#confirm-reason").send_keys("가" * 166 + "12")
+        self.click("#confirm-action")
+        self.wait_for_post(f"{self.path}/cancel", {"reason": "가" * 166 + "12"})
+
     def test_abort_without_reason(self):
         self.open_plan()
         self.click_button("Abort plan")

@@ -123,6 +123,19 @@ class Actions(PageCase):
         wait_until(lambda: [body for _, body, _ in self.list_posts()][1:] == [{"actionType": "stateRequest", "parameters": {}}],
                    "the second action is sent, the one that was cancelled is not")
 
+    def test_the_reason_of_an_action_has_at_most_500_bytes(self):
+        self.start_mock()
+        self.open_actions()
+        self.click_button("stateRequest", "#detail .actions")
+        self.find("#confirm-reason").send_keys("가" * 167)
+        self.click("#confirm-action")
+        self.assertTrue(self.find("#confirm-dialog").is_displayed(), "a reason that is too long is refused")
+        self.assertEqual(self.list_posts(), [])
+        self.find("#confirm-reason").send_keys(Keys.BACKSPACE)
+        self.click("#confirm-action")
+        self.wait_for_post("/v1/robots/LR01/actions", {
+            "actionType": "stateRequest", "parameters": {}, "reason": "가" * 166})
+
     def test_values_of_parameters_are_sent_as_they_are(self):
         self.start_mock()
         self.open_actions()
