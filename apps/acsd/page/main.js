@@ -73,11 +73,21 @@ class Page {
 
     #collect(changes) {
         this.pending.merge(changes);
+        this.#showTitle();
         if (changes.isAll) {
             this.#openHeavyAlarms();
             this.#flush();
         } else {
             this.#schedule();
+        }
+    }
+
+    /** At once: the title can be seen while the page cannot. */
+    #showTitle() {
+        const heavy = this.model.status?.alarms.heavy ?? 0;
+        const title = heavy > 0 ? `(${heavy}) acsd` : "acsd";
+        if (document.title !== title) {
+            document.title = title;
         }
     }
 

@@ -73,7 +73,6 @@ export class Strip {
         const {heavy, light} = status.alarms;
         this.alarms.set(String(heavy + light), heavy > 0 ? "bad" : light > 0 ? "warn" : "");
         setText(this.alarms.extra, heavy > 0 ? t("strip.heavy", {n: heavy}) : "");
-        document.title = heavy > 0 ? `(${heavy}) acsd` : "acsd";
     }
 
     #showLinks(status) {

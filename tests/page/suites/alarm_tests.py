@@ -23,6 +23,21 @@ class Alarms(PageCase):
         self.wait_for_post("/v1/alarms/clear", {"robotId": "LR01", "errorCode": "ACS-1002"})
         self.wait_for_text("#view-alarms", "No alarms.")
 
+    def test_a_background_tab_shows_heavy_alarms_in_its_title(self):
+        mock = self.start_mock()
+        mock.freeze()
+        self.open()
+        self.run_script("Object.defineProperty(document, 'hidden', {value: true, configurable: true});"
+                        "document.dispatchEvent(new Event('visibilitychange'))")
+        with mock.lock:
+            mock.simulation.set_alarm("LR01", "ACS-1002", "heavy", "LR01 is disconnected.", "Robot disconnected", "", "")
+            mock.publish()
+        wait_until(lambda: self.driver.title == "(1) acsd", "the title has the number of heavy alarms")
+        with mock.lock:
+            mock.simulation.clear_alarms("LR01", "ACS-1002")
+            mock.publish()
+        wait_until(lambda: self.driver.title == "acsd", "the alarm has ended")
+
     def test_heavy_alarms_come_first_and_look_heavy(self):
         mock = self.start_mock()
         with mock.lock:
