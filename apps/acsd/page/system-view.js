@@ -70,7 +70,8 @@ export class SystemView {
                 link.reason ? make("p", {class: "reason", text: link.reason}) : null,
                 link.up ? null : makeExplanation("", describeLinkRemedy(link))));
         }
-        add("system.toMcs", makeState(status.isConnected, t(status.isConnected ? "system.connected" : "system.disconnected")));
+        add("system.toMcs", status.isConnected === null ? make("span", {class: "muted", text: t("system.notReported")})
+            : makeState(status.isConnected, t(status.isConnected ? "system.connected" : "system.disconnected")));
         add("system.outbox", t("system.reports", {n: status.outbox.reports}), " ",
             status.outbox.oldest ? makeSince(status.outbox.oldest) : null);
         const refused = status.refusedReports;

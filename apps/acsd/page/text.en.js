@@ -171,6 +171,7 @@ export default {
     "system.toMcs": "Reported to the MCS",
     "system.connected": "connected",
     "system.disconnected": "not connected",
+    "system.notReported": "not reported yet",
     "system.outbox": "Outbox",
     "system.reports": "{n} reports without an Ack",
     "system.refused": "Refused reports",

@@ -171,6 +171,7 @@ export default {
     "system.toMcs": "MCS 보고 상태",
     "system.connected": "연결",
     "system.disconnected": "연결 안 됨",
+    "system.notReported": "아직 보고하지 않음",
     "system.outbox": "미확인 보고(Outbox)",
     "system.reports": "Ack 미수신 보고 {n}건",
     "system.refused": "거부된 보고",

@@ -136,6 +136,20 @@ class Header(PageCase):
         self.click("#tab-system")
         self.wait_for_text("#view-system", "mqtt://broker-1.example:1883")
 
+    def test_what_is_not_reported_yet_is_no_fault(self):
+        describe = self.mock.describe_status
+        self.mock.describe_status = lambda: {**describe(), "isConnected": None}
+        for language, text in (("ko", "아직 보고하지 않음"), ("en", "not reported yet")):
+            self.open(f"?lang={language}")
+            self.click("#tab-system")
+            self.wait_for_text("#view-system", text)
+            self.assertEqual(self.find_all("#view-system .state.bad"), [])
+        self.mock.describe_status = describe
+        self.wait_for_text("#view-system .state.good", "connected")
+        with self.mock.lock:
+            self.mock.links[1].update(up=False, reason="connection refused")
+        self.wait_for_text("#view-system .state.bad", "not connected")
+
     def test_placeholders_are_not_cut(self):
         for language in ("en", "ko"):
             self.open(f"?lang={language}")
