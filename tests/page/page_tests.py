@@ -8,5 +8,5 @@ from suites.general_tests import AnyAcsd, Header
 from suites.keyboard_tests import Keyboard, Lists
 from suites.performance_tests import Performance
 from suites.plan_tests import Causes, Plans
-from suites.robot_tests import Actions, Carriers
+from suites.robot_tests import Actions, Carriers, Detail
 from suites.safety_tests import Safety

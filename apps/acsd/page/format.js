@@ -47,7 +47,8 @@ export function formatTime(text) {
 }
 
 export function formatNumber(value, digits = 2) {
-    return value.toLocaleString(getLanguage(), {minimumFractionDigits: digits, maximumFractionDigits: digits});
+    const rounded = Number(value.toFixed(digits)) + 0; // not -0, which would have a sign
+    return rounded.toLocaleString(getLanguage(), {minimumFractionDigits: digits, maximumFractionDigits: digits});
 }
 
 function showSince(node) {

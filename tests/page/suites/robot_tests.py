@@ -87,6 +87,21 @@ class Carriers(PageCase):
         self.wait_for_post("/v1/robots/LR01/carriers", {"carrierIds": ["C_1"]})
 
 
+class Detail(PageCase):
+    """Where a robot is."""
+
+    def test_a_place_just_below_zero_has_no_sign(self):
+        mock = self.start_mock()
+        mock.freeze()
+        for x, y, theta, text in ((-0.004, -0.001, -0.004, "x 0.00 m, y 0.00 m, 0°"),
+                                  (-0.006, -1.25, -0.02, "x -0.01 m, y -1.25 m, -1°")):
+            with mock.lock:
+                robot = mock.simulation.robots["LR01"]
+                robot.x, robot.y, robot.theta = x, y, theta
+            self.open("?lang=en#robot/LR01")
+            self.wait_for_text("#detail .facts", text)
+
+
 class Actions(PageCase):
     """Commands to a robot: maintenance and instant actions."""
 
