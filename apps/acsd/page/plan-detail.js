@@ -71,15 +71,17 @@ export class PlanDetail {
     }
 
     #show() {
-        const focused = document.activeElement?.dataset.path;
+        const focused = document.activeElement;
         const {plan} = this;
         const alarms = this.#showCauses();
         this.steps.update(plan);
         this.#showFacts(plan);
         this.#showButtons(plan);
         this.stepList.replaceChildren(...plan.steps.map((step) => this.#makeStep(plan, step, alarms)));
-        if (focused !== undefined) {
-            [...this.node.querySelectorAll("[data-path]")].find((button) => button.dataset.path === focused)?.focus();
+        if (focused !== document.activeElement && focused?.dataset.path !== undefined) {
+            // The buttons for the outcomes of a job have the same path.
+            const isSame = (button) => button.dataset.path === focused.dataset.path && button.textContent === focused.textContent;
+            [...this.node.querySelectorAll("[data-path]")].find(isSame)?.focus();
         }
     }
 

@@ -101,6 +101,31 @@ class Plans(PlanCase):
         self.click("#confirm-action")
         self.wait_for_post(f"{self.path}/jobs/{job_id}/resolve", {"outcome": "done"})
 
+    def test_a_change_of_the_plan_keeps_the_focus(self):
+        """On the button for one outcome of a job, and on a button elsewhere that sends the same command as one of the detail."""
+        simulation = self.mock.simulation
+        with self.mock.lock:
+            self.plan.get_step()["status"] = "InProgress"
+            self.plan.waits = simulation.make_wait("The TSC is paused.")
+            self.mock.tsc = "Paused"
+            simulation.set_alarm("LR01", "ACS-1008", "heavy", "unknown", "Job outcome unknown", "", "", self.plan)
+            simulation.changed_plans.add(self.plan.plan_id)
+            self.mock.publish()
+        self.open_plan()
+        self.wait_for_text("#detail .jobs", "Job failed")
+        self.wait_for_text("#detail .alarms button", "Resume TSC")
+        for number, (inside, text) in enumerate((("#detail .jobs", "Job failed"), ("#strip", "Resume TSC"))):
+            self.run_script("[...document.querySelectorAll(`${arguments[0]} button`)]"
+                            ".find((button) => button.textContent === arguments[1]).focus()", inside, text)
+            with self.mock.lock:
+                self.plan.lot_id = f"CHANGED_{number}"
+                simulation.changed_plans.add(self.plan.plan_id)
+                self.mock.publish()
+            self.wait_for_text("#detail .facts", self.plan.lot_id)
+            self.assertEqual(self.run_script(
+                "const {activeElement} = document;"
+                "return [activeElement.textContent, activeElement.closest(arguments[0]) !== null]", inside), [text, True])
+
     def test_waits_and_finished(self):
         self.wait_for_text("#plans-queue", "No suitable robot is free.")
         with self.mock.lock:
