@@ -53,6 +53,7 @@ export class Model {
         this.entries = this.entries.filter((entry) => entry.id <= snapshot.eventId);
         this.firstEventID = snapshot.eventId;
         this.plans = new Map(snapshot.plans.map((plan) => [plan.planId, plan]));
+        this.plans.forEach((_, planId) => this.ended.delete(planId));
         this.robots = new Map(snapshot.robots.map((robot) => [robot.robotId, robot]));
         this.alarms = snapshot.alarms;
         const changes = new Changes();
@@ -76,6 +77,7 @@ export class Model {
         }
         for (const plan of data.plans ?? []) {
             this.plans.set(plan.planId, plan);
+            this.ended.delete(plan.planId); // acsd deletes a finished plan whose id a new one has
             changes.plans.add(plan.planId);
         }
         for (const plan of data.ended ?? []) {

@@ -187,11 +187,18 @@ export class PlanView {
         setHidden(this.empty, active.length + queue.length > 0);
     }
 
-    /** Those that acsd has listed, and those that have ended since. */
+    /** Those that acsd has listed, and those that have ended since. Of two plans that had the same id, the one that ended last. */
     #listFinished() {
-        const known = new Set(this.finished.map((plan) => plan.planId));
-        return [...[...this.context.model.ended.values()].filter((plan) => !known.has(plan.planId)), ...this.finished]
-            .filter((plan) => this.#matches(plan)).sort((a, b) => b.endedAt.localeCompare(a.endedAt)).slice(0, FINISHED_LIMIT);
+        const {plans, ended} = this.context.model;
+        const found = new Map(this.finished.map((plan) => [plan.planId, plan]));
+        for (const plan of ended.values()) {
+            const listed = found.get(plan.planId);
+            if (listed === undefined || listed.endedAt < plan.endedAt) {
+                found.set(plan.planId, plan);
+            }
+        }
+        return [...found.values()].filter((plan) => !plans.has(plan.planId) && this.#matches(plan))
+            .sort((a, b) => b.endedAt.localeCompare(a.endedAt)).slice(0, FINISHED_LIMIT);
     }
 
     #show(section, plans) {

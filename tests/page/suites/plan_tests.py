@@ -223,6 +223,47 @@ class Plans(PlanCase):
         self.assertEqual(self.get_text("#finished-button"), "Show finished")
         self.assertFalse(self.find("#plans-finished").is_displayed())
 
+    def begin_again(self):
+        """A new plan has the id of the finished one (plan.reuse_finished_id), which acsd then deletes."""
+        simulation = self.mock.simulation
+        simulation.finished = [plan for plan in simulation.finished if plan.plan_id != self.plan.plan_id]
+        plan = simulation.add_plan("LR")
+        simulation.changed_plans.remove(plan.plan_id)
+        del simulation.plans[plan.plan_id]
+        plan.plan_id = self.plan.plan_id
+        simulation.plans[plan.plan_id] = plan
+        simulation.changed_plans.add(plan.plan_id)
+        return plan
+
+    def test_the_id_of_a_finished_plan_is_used_again(self):
+        """A plan is either finished or not, and is listed as it ended last."""
+        simulation, plan_id = self.mock.simulation, self.plan.plan_id
+        count_rows = lambda name: len(self.find_all(f"#plans-{name} li[data-id='{plan_id}']"))
+        is_known = "return [acsdPage.model.plans.has(arguments[0]), acsdPage.model.ended.has(arguments[0])]"
+        self.click("#finished-button")
+        self.wait_for_text("#finished-button", "Hide finished")
+        plan = self.plan
+        for message in ("ended first", "ended second", "ended third"):
+            with self.mock.lock:
+                simulation.end_plan(plan, "Failed", message)
+                self.mock.publish()
+            self.wait_for_text("#plans-finished", message)
+            self.assertEqual(count_rows("finished"), 1)
+            self.assertEqual(self.run_script(is_known, plan_id), [False, True])
+            self.mock.send_reset()
+            wait_until(lambda text=message: self.run_script("return acsdPage.views.plans.finished[0]?.message") == text,
+                       "acsd has listed it")
+            with self.mock.lock:
+                plan = self.begin_again()
+                if message == "ended first":
+                    self.mock.publish()
+                else:  # the page gets it with a snapshot
+                    simulation.changed_plans.clear()
+                    self.mock.send_reset()
+            wait_until(lambda: count_rows("queue") == 1, "the new plan waits")
+            self.assertEqual(count_rows("finished"), 0)
+            self.assertEqual(self.run_script(is_known, plan_id), [True, False])
+
     def test_the_numbers_of_steps_may_have_gaps(self):
         described = self.run_script(
             "const steps = [10, 20, 30].map((stepNo) => ({stepNo, action: 'Load', position: 'A01', status: 'Pending'}));"
