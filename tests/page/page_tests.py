@@ -10,3 +10,4 @@ from suites.performance_tests import Performance
 from suites.plan_tests import Causes, Plans
 from suites.robot_tests import Actions, Carriers, Detail
 from suites.safety_tests import Safety
+from suites.stability_tests import Stability

@@ -23,8 +23,9 @@ export const Commands = {
     resumePlan: (plan) => makePlanControl("resume", plan, null),
     cancelPlan: (plan) => makePlanControl("cancel", plan, "ask.cancel", true),
     abortPlan: (plan) => makePlanControl("abort", plan, "ask.abort", true),
-    setPriority: (plan) => ({label: t("command.priority"), path: `/v1/plans/${encode(plan.planId)}/priority`, number: "priority",
-        value: plan.priority ?? 0, values: {id: plan.planId}}),
+    /** getPlan: the plan as it is then. */
+    setPriority: (plan, getPlan) => ({label: t("command.priority"), path: `/v1/plans/${encode(plan.planId)}/priority`,
+        number: "priority", getValue: () => getPlan().priority ?? 0, values: {id: plan.planId}}),
     resolveJob: (plan, jobId, outcome) => ({label: t(`command.resolve.${outcome}`),
         path: `/v1/plans/${encode(plan.planId)}/jobs/${encode(jobId)}/resolve`, body: {outcome}, ask: `ask.resolve.${outcome}`,
         values: {id: jobId}}),
@@ -64,7 +65,7 @@ export function listNamedCommands(text, model) {
 /** What the questions of the command add to its body; null if the user cancels. */
 async function askBody(command) {
     if (command.number !== undefined) {
-        const value = await askNumber({title: command.label, label: t("ask.priority", command.values), value: command.value});
+        const value = await askNumber({title: command.label, label: t("ask.priority", command.values), value: command.getValue()});
         return value === null ? null : {[command.number]: value};
     }
     if (command.getRobot !== undefined) {
@@ -102,6 +103,7 @@ export async function runCommand(command) {
 export function makeCommandButton(command, kind = "") {
     const button = make("button", {type: "button", class: `button ${kind}`.trim(), text: command.label});
     button.dataset.path = command.path;
+    button.dataset.key = JSON.stringify(command);
     button.addEventListener("click", async (event) => {
         event.stopPropagation();
         button.disabled = true;

@@ -80,6 +80,78 @@ export function setAttribute(node, name, value) {
     }
 }
 
+/** A link to what `select` shows. */
+export function makeLink(select, kind, id, text = id) {
+    return make("button", {type: "button", class: "link", "data-key": `${kind}/${id}`, text, onclick: () => select({kind, id})});
+}
+
+/** A row of a list of facts, for showChildren. */
+export function makeFact(key, label, ...children) {
+    return [make("dt", {"data-key": key, text: label}), make("dd", {"data-key": key}, ...children)];
+}
+
+/** Nodes stay in place where possible: one that moves loses the focus and a click that has begun. */
+function placeChildren(container, nodes) {
+    const focused = document.activeElement;
+    const kept = new Set(nodes);
+    [...container.childNodes].filter((node) => !kept.has(node)).forEach((node) => node.remove());
+    let next = container.firstChild;
+    for (const node of nodes) {
+        if (next !== null && next.nextSibling === node) {
+            next.remove(); // it comes back further down
+            next = node;
+        }
+        if (node === next) {
+            next = next.nextSibling;
+        } else {
+            container.insertBefore(node, next);
+        }
+    }
+    if (focused !== document.activeElement && container.contains(focused)) {
+        focused.focus({preventScroll: true});
+    }
+}
+
+/** [[name, node]], each name once. */
+function nameNodes(nodes) {
+    const counts = new Map();
+    return [...nodes].map((node) => {
+        const name = `${node.nodeName} ${node.dataset?.key ?? ""}`;
+        const count = counts.get(name) ?? 0;
+        counts.set(name, count + 1);
+        return [`${name} ${count}`, node];
+    });
+}
+
+/** The former node with what the new one shows, or the new one. */
+function updateNode(former, node) {
+    if (former === undefined) {
+        return node;
+    }
+    if (node.nodeName === "BUTTON") {
+        setText(former, node.textContent);
+        return former;
+    }
+    if (former.isEqualNode(node)) {
+        return former;
+    }
+    if (!former.querySelector?.("button")) {
+        return node;
+    }
+    [...former.attributes].filter(({name}) => !node.hasAttribute(name)).forEach(({name}) => former.removeAttribute(name));
+    [...node.attributes].forEach(({name, value}) => setAttribute(former, name, value));
+    showChildren(former, ...node.childNodes);
+    return former;
+}
+
+/** Shows these new nodes, but keeps the buttons that were there before, and what is around them: one may have the focus, a click
+ *  that has begun, or a command that runs. Every button needs a data-key, which stands for what it does; elements of a list need
+ *  one if their order changes. */
+export function showChildren(container, ...nodes) {
+    const former = new Map(nameNodes(container.childNodes));
+    placeChildren(container, nameNodes(nodes).map(([name, node]) => updateNode(former.get(name), node)));
+}
+
 /** A list whose elements stay while their key does: create(item) makes one with a method update(item). */
 export class KeyedList {
     #container;
@@ -98,37 +170,15 @@ export class KeyedList {
         this.#container.replaceChildren();
     }
 
-    /** Rows stay in place where possible: one that moves loses the focus and a click that has begun. */
     show(items) {
-        const focused = document.activeElement;
-        const kept = new Set(items.map((item) => this.#getKey(item)));
-        for (const [key, row] of this.#rows) {
-            if (!kept.has(key)) {
-                row.node.remove();
-                this.#rows.delete(key);
-            }
-        }
-        let next = this.#container.firstElementChild;
+        const kept = new Map();
         for (const item of items) {
             const key = this.#getKey(item);
-            let row = this.#rows.get(key);
-            if (row === undefined) {
-                row = this.#create(item);
-                this.#rows.set(key, row);
-            }
+            const row = this.#rows.get(key) ?? kept.get(key) ?? this.#create(item);
             row.update(item);
-            if (next !== null && next.nextElementSibling === row.node) {
-                next.remove(); // it comes back further down
-                next = row.node;
-            }
-            if (row.node === next) {
-                next = next.nextElementSibling;
-            } else {
-                this.#container.insertBefore(row.node, next);
-            }
+            kept.set(key, row);
         }
-        if (focused !== document.activeElement && this.#container.contains(focused)) {
-            focused.focus({preventScroll: true});
-        }
+        this.#rows = kept;
+        placeChildren(this.#container, [...kept.values()].map((row) => row.node));
     }
 }

@@ -4,7 +4,7 @@ import {getJson} from "./api.js";
 import {AlarmRow, getAlarmKey} from "./alarm-view.js";
 import {CauseRow, explainPlan, UNRESOLVED} from "./causes.js";
 import {Commands, makeCommandButton} from "./commands.js";
-import {KeyedList, make, setHidden} from "./dom.js";
+import {KeyedList, make, makeFact, makeLink, setHidden, showChildren} from "./dom.js";
 import {formatTime, setSince} from "./format.js";
 import {StepBar} from "./plan-view.js";
 import {nameState, t} from "./text.js";
@@ -71,38 +71,34 @@ export class PlanDetail {
     }
 
     #show() {
-        const focused = document.activeElement;
         const {plan} = this;
         const alarms = this.#showCauses();
         this.steps.update(plan);
         this.#showFacts(plan);
         this.#showButtons(plan);
-        this.stepList.replaceChildren(...plan.steps.map((step) => this.#makeStep(plan, step, alarms)));
-        if (focused !== document.activeElement && focused?.dataset.path !== undefined) {
-            // The buttons for the outcomes of a job have the same path.
-            const isSame = (button) => button.dataset.path === focused.dataset.path && button.textContent === focused.textContent;
-            [...this.node.querySelectorAll("[data-path]")].find(isSame)?.focus();
-        }
+        showChildren(this.stepList, ...plan.steps.map((step) => this.#makeStep(plan, step, alarms)));
+    }
+
+    #makeLink(kind, id) {
+        return makeLink(this.context.select, kind, id);
     }
 
     #showFacts(plan) {
         const rows = [];
-        const add = (key, ...children) => rows.push(make("dt", {text: t(key)}), make("dd", {}, ...children));
-        const makeLink = (kind, id) => make("button", {type: "button", class: "link", text: id,
-            onclick: () => this.context.select({kind, id})});
+        const add = (key, ...children) => rows.push(...makeFact(key, t(key), ...children));
         add("plan.status", nameState("planStatus", plan.status),
             plan.message ? make("p", {class: plan.endedAt === null ? "muted" : "reason", text: plan.message}) : null);
         if (plan.waits !== null) {
             const since = make("span", {class: "wait-since"});
             setSince(since, plan.waits.since);
             add("plan.waits", make("div", {class: "wait"}, since, make("span", {text: plan.waits.message})),
-                make("ul", {class: "reasons"}, ...plan.waits.robots.map(({robotId, reason}) => make("li", {},
-                    makeLink("robot", robotId), ` ${reason}`))));
+                make("ul", {class: "reasons"}, ...plan.waits.robots.map(({robotId, reason}) => make("li", {"data-key": robotId},
+                    this.#makeLink("robot", robotId), ` ${reason}`))));
             if (plan.waits.queuePosition !== null) {
                 add("plan.place", t("plan.queuePosition", {n: plan.waits.queuePosition}));
             }
         }
-        add("plan.robot", plan.robotId ? makeLink("robot", plan.robotId) : "–");
+        add("plan.robot", plan.robotId ? this.#makeLink("robot", plan.robotId) : "–");
         add("plan.priority", String(plan.priority ?? "–"));
         add("plan.lot", plan.lotId || "–");
         const carriers = new Set(plan.steps.flatMap((step) => step.carrierIds ?? []));
@@ -112,17 +108,17 @@ export class PlanDetail {
         if (plan.endedAt !== null) {
             add("plan.ended", formatTime(plan.endedAt));
         }
-        this.facts.replaceChildren(...rows);
+        showChildren(this.facts, ...rows);
     }
 
     #showButtons(plan) {
         if (plan.endedAt !== null) {
-            this.buttons.replaceChildren();
+            showChildren(this.buttons);
             return;
         }
-        this.buttons.replaceChildren(
+        showChildren(this.buttons,
             makeCommandButton(plan.status === "Paused" ? Commands.resumePlan(plan) : Commands.pausePlan(plan)),
-            ...plan.robotId === null ? [makeCommandButton(Commands.setPriority(plan))] : [],
+            ...plan.robotId === null ? [makeCommandButton(Commands.setPriority(plan, () => this.plan))] : [],
             makeCommandButton(Commands.cancelPlan(plan), "danger"), makeCommandButton(Commands.abortPlan(plan), "danger"));
     }
 
@@ -132,13 +128,12 @@ export class PlanDetail {
         const isUnresolved = (job) => job.status === "Unresolved" || alarms.some((alarm) => isOfJob(alarm, job));
         const jobs = step.jobs ?? [];
         const canSkip = plan.endedAt === null && plan.robotId !== null && (step.status === "Pending" || jobs.some(isUnresolved));
-        return make("li", {class: `step-item step-${step.status.replace(/\W/g, "")}`},
+        return make("li", {class: `step-item step-${step.status.replace(/\W/g, "")}`, "data-key": String(step.stepNo)},
             make("div", {class: "row-head"}, make("span", {class: "step-no", text: String(step.stepNo)}),
                 make("span", {class: "row-id", text: step.action}),
-                make("button", {type: "button", class: "link", text: step.position,
-                    onclick: () => this.context.select({kind: "station", id: step.position})}),
+                this.#makeLink("station", step.position),
                 make("span", {class: "row-state", text: nameState("stepStatus", step.status)})),
-            make("ul", {class: "jobs"}, ...jobs.map((job) => make("li", {},
+            make("ul", {class: "jobs"}, ...jobs.map((job) => make("li", {"data-key": job.jobId},
                 make("span", {text: [job.from, job.to].map((place) => place || "–").join(" → ")}), " ",
                 make("span", {class: "muted", text: nameState("jobStatus", isUnresolved(job) ? "Unresolved" : job.status)}),
                 make("p", {class: "muted job-id", text: job.jobId}),
