@@ -4,7 +4,7 @@ import {post} from "./api.js";
 import {describeLinkRemedy} from "./causes.js";
 import {Commands, makeCommandButton} from "./commands.js";
 import {forgetLogin, hasLoggedIn} from "./dialogs.js";
-import {make} from "./dom.js";
+import {make, makeFact, makeLink, setHidden, showChildren} from "./dom.js";
 import {formatTime, setSince} from "./format.js";
 import {makeGlyph} from "./glyphs.js";
 import {nameState, t} from "./text.js";
@@ -29,12 +29,13 @@ export class SystemView {
     constructor(context) {
         this.context = context;
         this.root = document.getElementById("view-system");
-        this.shown = "";
         this.build();
     }
 
     build() {
-        this.shown = "";
+        this.facts = make("dl", {class: "facts"});
+        this.session = make("div", {class: "row-buttons session"});
+        this.root.replaceChildren(this.facts, this.session);
         this.update();
     }
 
@@ -48,14 +49,11 @@ export class SystemView {
 
     update() {
         const {status, blocks} = this.context.model;
-        // Few members and rarely changed: drawn as a whole. uptimeSeconds is in the snapshot only.
-        const shown = JSON.stringify([{...status, uptimeSeconds: 0}, [...blocks.keys()]]);
-        if (status === null || shown === this.shown) {
+        if (status === null) {
             return;
         }
-        this.shown = shown;
         const rows = [];
-        const add = (key, ...children) => rows.push(make("dt", {text: t(key)}), make("dd", {}, ...children));
+        const add = (key, ...children) => rows.push(...makeFact(key, t(key), ...children));
         add("system.ready", makeState(status.ready, t(status.ready ? "system.isReady" : "system.notReady")),
             status.notReadyReasons.length > 0
                 ? make("ul", {class: "reasons"}, ...status.notReadyReasons.map((reason) => make("li", {text: reason}))) : null);
@@ -64,7 +62,7 @@ export class SystemView {
             make("div", {class: "row-buttons"},
                 makeCommandButton(status.tsc === "Auto" ? Commands.pauseTSC() : Commands.resumeTSC())));
         for (const link of status.links) {
-            rows.push(make("dt", {text: nameState("link", link.name)}), make("dd", {},
+            rows.push(...makeFact(`link ${link.name}`, nameState("link", link.name),
                 makeState(link.up, t(link.up ? "link.up" : "link.down")), " ", makeSince(link.since),
                 link.broker ? make("span", {class: "muted", text: ` ${link.broker}`}) : null,
                 link.reason ? make("p", {class: "reason", text: link.reason}) : null,
@@ -79,16 +77,16 @@ export class SystemView {
             refused.last ? make("p", {class: "reason", text: [refused.last.command, refused.last.planId, refused.last.message]
                 .filter(Boolean).join(" · ")}) : null,
             refused.last ? makeExplanation(t("cause.refused"), t("remedy.refused")) : null);
-        const blockRows = [...blocks.values()].map((block) => make("li", {},
-            make("button", {type: "button", class: "link", text: `${t(`kind.${block.kind}`)} ${block.id}`,
-                onclick: () => this.context.select({kind: block.kind, id: block.id})}),
-            block.reason ? ` ${block.reason}` : ""));
+        const blockRows = [...blocks].map(([key, {kind, id, reason}]) => make("li", {"data-key": key},
+            makeLink(this.context.select, kind, id, `${t(`kind.${kind}`)} ${id}`), reason ? ` ${reason}` : ""));
         add("system.blocked", blocks.size === 0 ? "–" : make("ul", {class: "reasons"}, ...blockRows));
         add("system.version", status.version);
         add("system.started", formatTime(status.startedAt), " ", makeSince(status.startedAt, "system.uptime"));
-        const session = hasLoggedIn() ? make("div", {class: "row-buttons session"},
-            make("button", {type: "button", class: "button", text: t("login.logout"), onclick: () => this.#logout()})) : "";
-        this.root.replaceChildren(make("dl", {class: "facts"}, ...rows), session);
+        showChildren(this.facts, ...rows);
+        const logout = make("button", {
+            type: "button", class: "button", "data-key": "logout", text: t("login.logout"), onclick: () => this.#logout()});
+        showChildren(this.session, ...hasLoggedIn() ? [logout] : []);
+        setHidden(this.session, !hasLoggedIn());
     }
 
     async #logout() {

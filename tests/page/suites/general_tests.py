@@ -130,6 +130,7 @@ class Header(PageCase):
         self.click("#tab-system")
         self.wait_for_text("#view-system", "Version")
         self.assertNotIn("Log out", self.get_text("#view-system"))
+        self.assertEqual([node for node in self.find_all("#view-system .session") if node.is_displayed()], [], "nor its frame")
 
     def test_the_system_view_names_the_connected_broker(self):
         self.open()

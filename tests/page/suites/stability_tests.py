@@ -136,3 +136,36 @@ class Stability(PageCase):
         self.check_kept()
         self.click_button("Priority")
         self.assertEqual(self.find("#confirm-number").get_attribute("value"), "77")
+
+    def change_outbox(self, reports):
+        self.change(lambda: self.mock.outbox.update(reports=reports))
+        self.wait_for_text("#view-system", f"{reports} reports")
+
+    def test_system_view(self):
+        self.open()
+        self.run_script("localStorage.setItem('acsd.session', 'open')")
+        self.open()
+        self.click("#tab-system")
+        for kind, id in (("node", "N020"), ("edge", "N005-N006")):
+            self.change(lambda place=(kind, id): self.block(*place))
+            self.wait_for_text("#view-system", id)
+        for focused in ("Edge N005-N006", "Log out", "Pause TSC"):
+            shown = self.keep("#view-system", focused)
+            self.assertEqual(shown, ["Pause TSC", "Node N020", "Edge N005-N006", "Log out"])
+            self.change_outbox(1 + len(focused))
+            self.check_kept()
+        self.change(lambda: self.simulation.floor.blocks.pop(("node", "N020")) and self.block("station", "A01.CP01"))
+        self.wait_for_text("#view-system", "A01.CP01")
+        self.check_kept("Node N020")
+
+        self.keep("#view-system", "Edge N005-N006")
+        self.begin_click()
+        self.change_outbox(3)
+        self.end_click()
+        self.wait_for_text("#detail-title", "N005-N006")
+        self.run_script("acsdPage.select(null)")
+
+        self.keep("#view-system", "Pause TSC")
+        may_answer = self.hold_answers()
+        self.click_button("Pause TSC", "#view-system")
+        self.check_it_runs(lambda: self.change_outbox(4), may_answer)
