@@ -2,7 +2,7 @@
 
 import {getJson} from "./api.js";
 import {Commands, makeCommandButton} from "./commands.js";
-import {make, setHidden, setText} from "./dom.js";
+import {make, setHidden, setText, showChildren} from "./dom.js";
 import {formatClock} from "./format.js";
 import {nameState, t} from "./text.js";
 
@@ -69,20 +69,11 @@ export class ActionList {
         try {
             const {actions, offered} = await getJson(`/v1/robots/${encodeURIComponent(this.robotId)}/actions`);
             setText(this.note, offered.length === 0 ? t("action.noneOffered") : "");
-            this.#showOffers(offered);
+            setHidden(this.offers, offered.length === 0);
+            showChildren(this.offers, ...offered.map((offer) => makeCommandButton(Commands.sendAction(this.robotId, offer))));
             this.list.replaceChildren(...actions.reverse().map(makeRow));
         } catch (error) {
             setText(this.note, error.message);
-        }
-    }
-
-    /** The buttons stay while the robot offers the same actions: one of them may have the focus. */
-    #showOffers(offered) {
-        const text = JSON.stringify(offered);
-        if (text !== this.offersText) {
-            this.offersText = text;
-            setHidden(this.offers, offered.length === 0);
-            this.offers.replaceChildren(...offered.map((offer) => makeCommandButton(Commands.sendAction(this.robotId, offer))));
         }
     }
 }

@@ -2,7 +2,7 @@
 
 import {CauseRow, listLinkCauses} from "./causes.js";
 import {Commands, listNamedCommands, makeCommandButton} from "./commands.js";
-import {KeyedList, make, setClass, setHidden, setMarkedText, setText} from "./dom.js";
+import {KeyedList, make, makeLink, setClass, setHidden, setMarkedText, setText, showChildren} from "./dom.js";
 import {setSince} from "./format.js";
 import {setGlyph} from "./glyphs.js";
 import {explainAlarm, nameState, t} from "./text.js";
@@ -53,30 +53,16 @@ export class AlarmRow {
         setMarkedText(this.cause, text.cause);
         setMarkedText(this.remedy, text.remedy);
         setHidden(this.explanation, text.cause === "" && text.remedy === "");
-        this.#showCommands(listNamedCommands(text.remedy, this.model));
+        const commands = listNamedCommands(text.remedy, this.model);
+        showChildren(this.named, ...commands.map((command) => makeCommandButton(command)));
+        setHidden(this.named, commands.length === 0);
         this.#showLinks(alarm);
     }
 
-    /** The buttons stay while the remedy names the same commands: one may have the focus, or its command may run. */
-    #showCommands(commands) {
-        const shown = JSON.stringify(commands);
-        if (this.shownCommands !== shown) {
-            this.shownCommands = shown;
-            this.named.replaceChildren(...commands.map((command) => makeCommandButton(command)));
-            setHidden(this.named, commands.length === 0);
-        }
-    }
-
     #showLinks({robotId, planId, stepNo}) {
-        const shown = JSON.stringify([robotId, planId, stepNo]);
-        if (this.shownLinks === shown) {
-            return;
-        }
-        this.shownLinks = shown;
-        const makeLink = (kind, id, label) => make("button", {
-            type: "button", class: "link", text: label, onclick: () => this.select({kind, id})});
-        this.links.replaceChildren(robotId === "ACS" ? make("span", {text: t("alarm.acsd")}) : makeLink("robot", robotId, robotId),
-            ...planId ? [makeLink("plan", planId, [planId, stepNo].filter(Boolean).join(" / "))] : []);
+        showChildren(this.links,
+            robotId === "ACS" ? make("span", {text: t("alarm.acsd")}) : makeLink(this.select, "robot", robotId),
+            ...planId ? [makeLink(this.select, "plan", planId, [planId, stepNo].filter(Boolean).join(" / "))] : []);
     }
 }
 

@@ -1,7 +1,7 @@
 // The detail of a node, an edge or a station: who is there, and whether it is blocked.
 
 import {Commands, makeCommandButton} from "./commands.js";
-import {make} from "./dom.js";
+import {make, makeFact, makeLink, showChildren} from "./dom.js";
 import {formatNumber, setSince} from "./format.js";
 import {t} from "./text.js";
 
@@ -13,16 +13,11 @@ export class PlaceDetail {
         this.facts = make("dl", {class: "facts"});
         this.buttons = make("div", {class: "row-buttons no-wall"});
         this.node = make("div", {class: "detail-body"}, this.facts, this.buttons);
-        this.shown = "";
         this.update();
     }
 
-    #makeLink(kind, id) {
-        return make("button", {type: "button", class: "link", text: id, onclick: () => this.context.select({kind, id})});
-    }
-
     #listLinks(kind, ids) {
-        return ids.length === 0 ? ["–"] : ids.flatMap((id, i) => [i > 0 ? ", " : "", this.#makeLink(kind, id)]);
+        return ids.length === 0 ? ["–"] : ids.flatMap((id, i) => [i > 0 ? ", " : "", makeLink(this.context.select, kind, id)]);
     }
 
     update() {
@@ -31,9 +26,8 @@ export class PlaceDetail {
         const item = index && {node: index.nodes, edge: index.edges, station: index.stations}[this.kind]?.get(this.id);
         const block = model.findBlock(this.kind, this.id);
         if (!item) {
-            this.shown = "";
             this.facts.replaceChildren(make("dd", {text: t("detail.gone")}));
-            this.buttons.replaceChildren();
+            showChildren(this.buttons);
             return;
         }
         const nodes = {node: [this.id], edge: [item.startNodeId, item.endNodeId], station: item.nodeIds}[this.kind];
@@ -45,14 +39,8 @@ export class PlaceDetail {
         const coming = robots.filter((robot) => robot.route.some((step) => nodes.includes(step.nodeId)));
         const isAhead = (step) => step.position === this.id && ["Pending", "Dispatched", "InProgress"].includes(step.status);
         const plans = this.kind === "station" ? [...model.plans.values()].filter((plan) => plan.steps.some(isAhead)) : [];
-        const shown = JSON.stringify([block, here.map((robot) => [robot.robotId, robot.carrierIds]),
-            reserving.map((robot) => robot.robotId), coming.map((robot) => robot.robotId), plans.map((plan) => plan.planId)]);
-        if (shown === this.shown) {
-            return;
-        }
-        this.shown = shown;
         const rows = [];
-        const add = (key, ...children) => rows.push(make("dt", {text: t(key)}), make("dd", {}, ...children));
+        const add = (key, ...children) => rows.push(...makeFact(key, t(key), ...children));
         if (block !== null) {
             const since = make("span", {class: "wait-since"});
             setSince(since, block.since);
@@ -78,8 +66,8 @@ export class PlaceDetail {
             add("robot.place", `x ${formatNumber(item.x)} m, y ${formatNumber(item.y)} m`,
                 item.mapId ? make("span", {class: "muted", text: ` ${item.mapId}`}) : null);
         }
-        this.facts.replaceChildren(...rows);
-        this.buttons.replaceChildren(makeCommandButton(block === null ? Commands.block(this.kind, this.id)
+        showChildren(this.facts, ...rows);
+        showChildren(this.buttons, makeCommandButton(block === null ? Commands.block(this.kind, this.id)
             : Commands.unblock(this.kind, this.id)));
     }
 }

@@ -4,7 +4,7 @@ import {ActionList} from "./action-list.js";
 import {AlarmRow, getAlarmKey} from "./alarm-view.js";
 import {CauseRow, explainRobot} from "./causes.js";
 import {Commands, makeCommandButton} from "./commands.js";
-import {KeyedList, make, setHidden} from "./dom.js";
+import {KeyedList, make, makeFact, makeLink, setHidden, showChildren} from "./dom.js";
 import {formatNumber, setSince} from "./format.js";
 import {getRobotGlyph, getRobotGroup, makeGlyph} from "./glyphs.js";
 import {Battery, describePlace} from "./robot-view.js";
@@ -41,41 +41,28 @@ export class RobotDetail {
         this.alarms.show(alarms);
         setHidden(this.actions.node, robot === undefined);
         if (robot === undefined) {
-            this.isInMaintenance = undefined;
             this.facts.replaceChildren(make("dd", {text: t("detail.gone")}));
-            this.buttons.replaceChildren();
+            showChildren(this.buttons);
             return;
         }
         this.actions.update(changes?.isAll ?? false, model.entries);
         if (changes === null || changes.isAll || changes.robots.has(this.id)) {
             this.#showFacts(robot);
-            if (this.isInMaintenance !== robot.maintenance) {
-                this.isInMaintenance = robot.maintenance;
-                const commands = [Commands.setMaintenance(robot)];
-                if (robot.ports.length > 0) {
-                    commands.push(Commands.setCarriers(robot, model));
-                }
-                this.buttons.replaceChildren(...commands.map((command) => makeCommandButton(command)));
-            }
+            showChildren(this.buttons, makeCommandButton(Commands.setMaintenance(robot)),
+                ...robot.ports.length > 0 ? [makeCommandButton(Commands.setCarriers(robot, model))] : []);
         }
     }
 
-    /** The open route keeps the focus of the link to the plan: only what changes is replaced. */
     #showFacts(robot) {
         const rows = [];
-        const add = (key, ...children) => {
-            const node = make("dd", {}, ...children);
-            rows.push(make("dt", {text: t(key)}), node);
-        };
-        const makeLink = (kind, id, text = id) => make("button", {
-            type: "button", class: "link", text, onclick: () => this.context.select({kind, id})});
+        const add = (key, ...children) => rows.push(...makeFact(key, t(key), ...children));
         add("robot.status", make("span", {class: `badge group-${getRobotGroup(robot)}`}, makeGlyph(getRobotGlyph(robot))), " ",
             nameState("robotStatus", robot.status), robot.maintenance ? ` · ${t("robot.maintenance")}` : "",
             robot.reason ? make("p", {class: "reason", text: robot.reason}) : null);
-        add("robot.plan", robot.planId ? makeLink("plan", robot.planId) : "–",
+        add("robot.plan", robot.planId ? makeLink(this.context.select, "plan", robot.planId) : "–",
             robot.planId ? ` ${t("plan.step", {n: robot.stepNo ?? "–"})}` : "",
             robot.jobId ? make("span", {class: "muted", text: ` ${robot.jobId}`}) : null);
-        add("robot.place", robot.node ? makeLink("node", robot.node, describePlace(robot)) : describePlace(robot),
+        add("robot.place", robot.node ? this.#makePlaceLink(robot) : describePlace(robot),
             robot.position ? make("span", {class: "muted", text: ` ${robot.position}`}) : null,
             robot.pose ? make("p", {class: "muted", text: `x ${formatNumber(robot.pose.x)} m, y ${formatNumber(robot.pose.y)} m, `
                 + `${formatNumber(robot.pose.theta * DEGREES, 0)}°`}) : null);
@@ -103,23 +90,13 @@ export class RobotDetail {
         if (robot.warnings.length > 0) {
             add("robot.warnings", make("ul", {class: "reasons"}, ...robot.warnings.map((warning) => make("li", {text: warning}))));
         }
-        this.#replace(rows);
+        showChildren(this.facts, ...rows);
     }
 
-    /** Keeps the elements that stay the same, so that focus and selected text survive. */
-    #replace(rows) {
-        const old = [...this.facts.children];
-        rows.forEach((row, i) => {
-            if (old[i] === undefined) {
-                this.facts.append(row);
-            } else if (!old[i].isEqualNode(row)) {
-                const isFocused = old[i].contains(document.activeElement);
-                old[i].replaceWith(row);
-                if (isFocused) {
-                    row.querySelector("button")?.focus();
-                }
-            }
-        });
-        old.slice(rows.length).forEach((row) => row.remove());
+    /** One link while the robot drives, to where it is then. */
+    #makePlaceLink(robot) {
+        const getNode = () => this.context.model.robots.get(this.id)?.node ?? robot.node;
+        return make("button", {type: "button", class: "link", "data-key": "place", text: describePlace(robot),
+            onclick: () => this.context.select({kind: "node", id: getNode()})});
     }
 }

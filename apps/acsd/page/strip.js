@@ -1,7 +1,7 @@
 // The strip at the top: the state of everything in one line.
 
 import {Commands, makeCommandButton} from "./commands.js";
-import {make, setAttribute, setClass, setHidden, setText} from "./dom.js";
+import {make, setAttribute, setClass, setHidden, setText, showChildren} from "./dom.js";
 import {setSince} from "./format.js";
 import {getRobotGlyph, getRobotGroup, makeGlyph} from "./glyphs.js";
 import {nameState, t} from "./text.js";
@@ -40,7 +40,7 @@ export class Strip {
         this.robots = new Cell("robots", t("strip.robots"), open("robots"));
         this.alarms = new Cell("alarms", t("strip.alarms"), open("alarms"));
         this.tscButton = make("span", {class: "no-wall tsc-button"});
-        this.shownTsc = this.shownLinks = this.shownRobots = null; // the new cells are empty
+        this.shownLinks = this.shownRobots = null; // the new cells are empty
         this.root.replaceChildren(this.ready.node, this.alarms.node, this.tsc.node, this.tscButton, this.linkCell.node,
             this.outbox.node, this.plans.node, this.robots.node);
         this.update();
@@ -59,11 +59,8 @@ export class Strip {
         this.ready.set(t(status.ready ? "system.isReady" : "system.notReady"), status.ready ? "good" : "bad");
         setAttribute(this.ready.node, "title", status.notReadyReasons.join("\n"));
         this.tsc.set(nameState("tsc", status.tsc), status.tsc === "Auto" ? "" : "warn");
-        if (this.shownTsc !== status.tsc) {
-            this.shownTsc = status.tsc;
-            const command = status.tsc === "Auto" ? Commands.pauseTSC() : Commands.resumeTSC();
-            this.tscButton.replaceChildren(makeCommandButton(command, "small"));
-        }
+        const command = status.tsc === "Auto" ? Commands.pauseTSC() : Commands.resumeTSC();
+        showChildren(this.tscButton, makeCommandButton(command, "small"));
         this.#showLinks(status);
         this.outbox.set(String(status.outbox.reports), "");
         setSince(this.outbox.extra, status.outbox.oldest);

@@ -169,3 +169,70 @@ class Stability(PageCase):
         may_answer = self.hold_answers()
         self.click_button("Pause TSC", "#view-system")
         self.check_it_runs(lambda: self.change_outbox(4), may_answer)
+
+    def change_carriers(self, carrier_id, inside="#detail .facts"):
+        def change():
+            self.robot.carrier_ids = [carrier_id]
+            self.simulation.changed_robots.add("LR01")
+
+        self.change(change)
+        self.wait_for_text(inside, carrier_id)
+
+    def stop_robot(self):
+        """At a station. Returns it."""
+        station, node = next(iter(self.simulation.floor.stations.items()))
+        self.robot.is_fixed, self.robot.progress, self.robot.route, self.robot.node = True, 0.0, [], node
+        self.simulation.changed_robots.add("LR01")
+        return station
+
+    def test_station(self):
+        station = self.stop_robot()
+        self.open()
+        self.select("station", station)
+        self.change_carriers("C_1")
+        self.keep("#detail .detail-body", "LR01")
+        self.change_carriers("C_2")
+        self.check_kept()
+
+        self.keep("#detail", "Block")
+        self.begin_click()
+        self.change_carriers("C_3")
+        self.end_click()
+        self.wait_for_text("#confirm-dialog", "Block station")
+
+        may_answer = self.hold_answers()
+        self.click("#confirm-action")
+        self.check_it_runs(lambda: self.change_carriers("C_4"), may_answer)
+
+    def test_robot(self):
+        """The link to its place is that to the present one."""
+        self.stop_robot()
+        self.open()
+        self.select("robot", "LR01")
+        self.wait_for_text("#detail .facts", self.plan.plan_id)
+        places = [node for node in self.simulation.floor.places if node != self.robot.node]
+        for focused, change in ((self.robot.node, lambda: setattr(self.robot, "node", places[0])),
+                                (self.plan.plan_id, lambda: setattr(self.plan, "step_no", 2)),
+                                ("Correct carriers", lambda: setattr(self.robot, "is_in_maintenance", True))):
+            self.keep("#detail .detail-body", focused)
+            self.change(lambda change=change: change() or self.simulation.changed_robots.add("LR01"))
+            self.change_carriers(f"C_{focused}")
+            self.check_kept(*["Maintenance on"] if focused == "Correct carriers" else [])
+        self.keep("#detail .facts", places[0])
+        self.begin_click()
+        self.change(lambda: setattr(self.robot, "node", places[1]) or self.simulation.changed_robots.add("LR01"))
+        self.wait_for_text("#detail .facts", places[1])
+        self.end_click()
+        self.wait_for_text("#detail-title", places[1])
+
+    def test_strip(self):
+        self.mock.tsc = "Pausing"
+        self.open()
+        self.keep("#strip", "Resume TSC")
+        self.change(lambda: setattr(self.mock, "tsc", "Paused"))
+        self.wait_for_text("#strip-tsc", "Paused")
+        self.check_kept()
+        self.click_button("Resume TSC", "#strip")
+        may_answer = self.hold_answers()
+        self.click("#confirm-action")
+        self.check_it_runs(lambda: None, may_answer)
