@@ -106,9 +106,14 @@ export function makeCommandButton(command, kind = "") {
     button.dataset.key = JSON.stringify(command);
     button.addEventListener("click", async (event) => {
         event.stopPropagation();
-        button.disabled = true;
+        const hadFocus = document.activeElement === button;
+        button.disabled = true; // this takes the focus away
         await runCommand(command);
         button.disabled = false;
+        // The focus may still be in the dialog that was closed.
+        if (hadFocus && document.activeElement.matches("body, dialog:not([open]) *")) {
+            button.focus({preventScroll: true});
+        }
     });
     return button;
 }

@@ -4,6 +4,7 @@ import threading
 
 from mock_floor import format_time, get_now
 from page_case import PageCase, wait_until
+from selenium.webdriver.common.keys import Keys
 
 
 class Stability(PageCase):
@@ -236,3 +237,19 @@ class Stability(PageCase):
         may_answer = self.hold_answers()
         self.click("#confirm-action")
         self.check_it_runs(lambda: None, may_answer)
+
+    def test_the_focus_is_back_after_a_command(self):
+        """Of a button that is pressed with the keyboard; also if the user goes back, or acsd refuses the command."""
+        self.expected_log = ("/pause",)
+        self.mock.role = "viewer"
+        self.open()
+        self.select("plan", self.plan.plan_id)
+        self.wait_for_text("#detail button", "Cancel plan")
+        for text in ("Cancel plan", "Pause"):
+            self.keep("#detail", text)
+            self.press(Keys.ENTER)
+            if text == "Pause":
+                self.wait_for_text("#toasts", "may only read")
+            else:
+                self.click_button("Back", "#confirm-dialog")
+            wait_until(lambda: self.run_script("return document.activeElement === window.focused"), "the focus is back")
