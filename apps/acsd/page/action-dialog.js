@@ -1,6 +1,6 @@
 // The question before an instant action, with its parameters.
 
-import {leaveByEnter, makeReasonInput, openDialog} from "./dialogs.js";
+import {askToSend, leaveByEnter, makeReasonInput} from "./dialogs.js";
 import {make} from "./dom.js";
 import {t} from "./text.js";
 
@@ -43,35 +43,23 @@ function readInput(input, valueType) {
     return isExact(value) ? {value: value ?? input.value} : {fault: t("parameter.inexact")};
 }
 
-/** Asks for the parameters. Resolves to the body of the request, or null if the user cancels. */
-export function askAction({title, text, offer}) {
-    const dialog = document.getElementById("confirm-dialog");
+/** Asks for the parameters, and sends the body of the request. */
+export function askAction({title, text, offer, send}) {
     const inputs = offer.parameters.map(makeInput);
     const reason = makeReasonInput();
-    const cancel = make("button", {
-        type: "button", class: "button", text: t("dialog.cancel"), onclick: () => dialog.close("cancel")});
-    dialog.replaceChildren(make("form", {method: "dialog"},
-        make("h2", {id: "confirm-title", text: title}), make("p", {text}),
-        offer.description ? make("p", {class: "muted", text: offer.description}) : null,
+    const parts = [make("p", {text}), offer.description ? make("p", {class: "muted", text: offer.description}) : null,
         ...offer.parameters.flatMap(({key, valueType, required}, i) => {
             const type = required ? valueType : `${valueType}, ${t("dialog.optional")}`;
             inputs[i].addEventListener("input", () => inputs[i].setCustomValidity(readInput(inputs[i], valueType).fault ?? ""));
             return [make("label", {for: inputs[i].id, text: `${key} (${type})`}), inputs[i]];
         }),
-        make("label", {for: "confirm-reason", text: t("dialog.reason")}), reason,
-        make("div", {class: "dialog-buttons"}, cancel,
-            make("button", {
-                type: "submit", value: "confirm", class: "button danger", id: "confirm-action", text: t("dialog.send")}))));
-    dialog.returnValue = "";
-    openDialog("confirm-dialog");
-    (inputs[0] ?? cancel).focus();
+        make("label", {for: reason.id, text: t("dialog.reason")}), reason];
+    const read = () => {
+        const values = offer.parameters.map(({key, valueType}, i) => [key, readInput(inputs[i], valueType).value]);
+        return {actionType: offer.actionType, parameters: Object.fromEntries(values.filter(([, value]) => value !== undefined)),
+            reason: reason.value.trim() || undefined};
+    };
+    const done = askToSend({title, parts, inputs, action: t("dialog.send"), read, send});
     leaveByEnter([...inputs, reason]);
-    return new Promise((resolve) => {
-        dialog.addEventListener("close", () => {
-            const values = offer.parameters.map(({key, valueType}, i) => [key, readInput(inputs[i], valueType).value]);
-            resolve(dialog.returnValue !== "confirm" ? null : {
-                actionType: offer.actionType, parameters: Object.fromEntries(values.filter(([, value]) => value !== undefined)),
-                reason: reason.value.trim() || undefined});
-        }, {once: true});
-    });
+    return done;
 }

@@ -3,7 +3,7 @@
 import {askAction} from "./action-dialog.js";
 import {post} from "./api.js";
 import {askCarriers} from "./carriers-dialog.js";
-import {askConfirmation, askNumber, showToast} from "./dialogs.js";
+import {askConfirmation, askNumber, showError, showToast} from "./dialogs.js";
 import {make} from "./dom.js";
 import {listCommands} from "./shell.js";
 import {t} from "./text.js";
@@ -62,40 +62,26 @@ export function listNamedCommands(text, model) {
     });
 }
 
-/** What the questions of the command add to its body; null if the user cancels. */
-async function askBody(command) {
-    if (command.number !== undefined) {
-        const value = await askNumber({title: command.label, label: t("ask.priority", command.values), value: command.getValue()});
-        return value === null ? null : {[command.number]: value};
-    }
-    if (command.getRobot !== undefined) {
-        return askCarriers({title: command.label, text: t("ask.carriers", command.values), getRobot: command.getRobot});
-    }
-    if (command.offer !== undefined) {
-        return askAction({title: command.label, text: t("ask.action", command.values), offer: command.offer});
-    }
-    if (!command.ask) {
-        return {};
-    }
-    const answer = await askConfirmation({title: command.label, text: t(command.ask, command.values), action: command.label,
-        hasReason: command.hasReason, reasonLimit: command.reasonLimit});
-    return answer === null || answer.reason !== "" ? answer : {};
-}
-
 /** Asks if need be, sends, and shows the answer. */
 export async function runCommand(command) {
-    const answers = await askBody(command);
-    if (answers === null) {
-        return;
-    }
-    const body = Object.keys(answers).length === 0 ? command.body : {...command.body, ...answers};
-    try {
+    const send = async (answers = {}) => {
+        const body = Object.keys(answers).length === 0 ? command.body : {...command.body, ...answers};
         const response = await post(command.path, body);
         showToast((await response.json()).message);
-    } catch (error) {
-        if (error.status !== 401) {
-            showToast(error.status === 0 ? t("error.connection", {reason: error.message}) : error.message, "error");
-        }
+    };
+    const {label: title, values} = command;
+    if (command.number !== undefined) {
+        await askNumber({title, label: t("ask.priority", values), value: command.getValue(),
+            send: (value) => send({[command.number]: value})});
+    } else if (command.getRobot !== undefined) {
+        await askCarriers({title, text: t("ask.carriers", values), getRobot: command.getRobot, send});
+    } else if (command.offer !== undefined) {
+        await askAction({title, text: t("ask.action", values), offer: command.offer, send});
+    } else if (command.ask) {
+        await askConfirmation({title, text: t(command.ask, values), action: title, hasReason: command.hasReason,
+            reasonLimit: command.reasonLimit, send});
+    } else {
+        await send().catch(showError);
     }
 }
 

@@ -1,7 +1,7 @@
 // The dialogs: confirmation, login, search, help; and the short messages at the edge.
 
 import {post} from "./api.js";
-import {make, setText} from "./dom.js";
+import {make, setHidden, setText} from "./dom.js";
 import {makeGlyph} from "./glyphs.js";
 import {t} from "./text.js";
 
@@ -59,47 +59,84 @@ export function makeReasonInput(limit = REASON_LIMIT) {
     return input;
 }
 
-/** Asks before a command with consequences. Resolves to {reason}, or null if the user cancels. */
-export function askConfirmation({title, text, action, hasReason = false, reasonLimit}) {
+/** Why a request has failed; "" without a login, which has a dialog of its own. */
+function describeError(error) {
+    return error.status === 401 ? "" : error.status === 0 ? t("error.connection", {reason: error.message}) : error.message;
+}
+
+export function showError(error) {
+    const text = describeError(error);
+    if (text !== "") {
+        showToast(text, "error");
+    }
+}
+
+/** Asks before a command. `send` gets what `read` returns. What was entered stays, with the reason, until `send` succeeds or the
+ *  user goes back. Resolves when the dialog is closed and nothing is being sent. */
+export function askToSend({title, parts, inputs = [], action, kind = "danger", read, send}) {
     const dialog = document.getElementById("confirm-dialog");
-    const reason = hasReason ? makeReasonInput(reasonLimit) : null;
-    const cancel = make("button", {
-        type: "submit", value: "cancel", class: "button", formnovalidate: true, text: t("dialog.cancel")});
-    dialog.replaceChildren(make("form", {method: "dialog"},
-        make("h2", {id: "confirm-title", text: title}), make("p", {text}),
-        reason && make("label", {for: "confirm-reason", text: t("dialog.reason")}), reason,
-        make("div", {class: "dialog-buttons"}, cancel,
-            make("button", {type: "submit", value: "confirm", class: "button danger", id: "confirm-action", text: action}))));
-    dialog.returnValue = "";
+    const cancel = make("button", {type: "button", class: "button", text: t("dialog.cancel"), onclick: () => dialog.close()});
+    const confirm = make("button", {type: "submit", class: `button ${kind}`, id: "confirm-action", text: action});
+    const message = make("p", {class: "form-error", role: "alert", hidden: true});
+    const form = make("form", {}, make("h2", {id: "confirm-title", text: title}), ...parts, message,
+        make("div", {class: "dialog-buttons"}, cancel, confirm));
+    const isShown = () => dialog.open && form.isConnected; // the dialog may have another question by now
+    const setMessage = (text) => {
+        setText(message, text);
+        setHidden(message, text === "");
+    };
+    const submit = async () => {
+        confirm.disabled = true;
+        setMessage("");
+        try {
+            await send(read());
+            if (isShown()) {
+                dialog.close();
+            }
+        } catch (error) {
+            confirm.disabled = false;
+            if (isShown()) {
+                setMessage(describeError(error));
+                (inputs[0] ?? cancel).focus();
+            } else {
+                showError(error);
+            }
+        }
+    };
+    dialog.replaceChildren(form);
     openDialog("confirm-dialog");
     // Enter must not confirm by accident.
-    (reason ?? cancel).focus();
-    leaveByEnter(reason === null ? [] : [reason]);
+    (inputs[0] ?? cancel).focus();
     return new Promise((resolve) => {
-        dialog.addEventListener("close", () => {
-            resolve(dialog.returnValue === "confirm" ? {reason: reason?.value.trim() ?? ""} : null);
+        let sent = null;
+        form.addEventListener("submit", (event) => {
+            event.preventDefault();
+            sent = submit();
+        });
+        dialog.addEventListener("close", async () => {
+            await sent;
+            resolve();
         }, {once: true});
     });
 }
 
-/** Asks for one number; null if the user cancels. */
-export function askNumber({title, label, value}) {
-    const dialog = document.getElementById("confirm-dialog");
+/** Asks before a command with consequences; sends {reason}, or {} without one. */
+export function askConfirmation({title, text, action, hasReason = false, reasonLimit, send}) {
+    const inputs = hasReason ? [makeReasonInput(reasonLimit)] : [];
+    const labels = inputs.map((input) => make("label", {for: input.id, text: t("dialog.reason")}));
+    const read = () => Object.fromEntries(inputs.map(({value}) => ["reason", value.trim()]).filter(([, reason]) => reason !== ""));
+    const done = askToSend({title, parts: [make("p", {text}), ...labels, ...inputs], inputs, action, read, send});
+    leaveByEnter(inputs);
+    return done;
+}
+
+/** Asks for one number, and sends it. */
+export function askNumber({title, label, value, send}) {
     const input = make("input", {id: "confirm-number", type: "number", step: 1, required: true, value});
-    dialog.replaceChildren(make("form", {method: "dialog"}, make("h2", {id: "confirm-title", text: title}),
-        make("label", {for: "confirm-number", text: label}), input,
-        make("div", {class: "dialog-buttons"},
-            make("button", {type: "button", class: "button", text: t("dialog.cancel"), onclick: () => dialog.close("cancel")}),
-            make("button", {
-                type: "submit", value: "confirm", class: "button primary", id: "confirm-action", text: t("dialog.set")}))));
-    dialog.returnValue = "";
-    openDialog("confirm-dialog");
+    const done = askToSend({title, parts: [make("label", {for: input.id, text: label}), input], inputs: [input],
+        action: t("dialog.set"), kind: "primary", read: () => Number(input.value), send});
     input.select();
-    return new Promise((resolve) => {
-        dialog.addEventListener("close", () => {
-            resolve(dialog.returnValue === "confirm" && input.checkValidity() ? Number(input.value) : null);
-        }, {once: true});
-    });
+    return done;
 }
 
 /** Asks for a token until acsd accepts one. */

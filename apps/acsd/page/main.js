@@ -3,7 +3,7 @@
 import {setLoginHandler} from "./api.js";
 import {AlarmView} from "./alarm-view.js";
 import {Detail} from "./detail.js";
-import {showFind, showHelp, showLogin, showToast} from "./dialogs.js";
+import {showError, showFind, showHelp, showLogin} from "./dialogs.js";
 import {make, setAttribute, setClass, setHidden, setText} from "./dom.js";
 import {EventView} from "./event-view.js";
 import {Feed} from "./feed.js";
@@ -32,7 +32,7 @@ class Page {
         this.context = {
             model: this.model, theme: this.theme, select: (selection) => this.select(selection),
             openTab: (name) => this.openTab(name),
-            showError: (error) => { if (error.status !== 401) { showToast(error.message, "error"); } },
+            showError,
         };
         this.floor = this.context.floor = new Floor(this.context);
         this.strip = new Strip(this.context);

@@ -1,5 +1,8 @@
 """What an operator does with a robot."""
 
+import threading
+
+from mock_acsd import Refusal
 from page_case import PageCase, wait_until
 from selenium.webdriver.common.keys import Keys
 
@@ -150,6 +153,85 @@ class Actions(PageCase):
         self.click("#confirm-action")
         self.wait_for_post("/v1/robots/LR01/actions", {
             "actionType": "stateRequest", "parameters": {}, "reason": "가" * 166})
+
+    def test_a_refused_command_keeps_what_was_entered(self):
+        """The dialog shows the reason, stays until acsd accepts the command, and needs no other one after a new login."""
+        self.expected_log = ("/v1/robots/LR01", "/v1/site/block", "/v1/events")
+        mock = self.start_mock()
+        post, refusal = mock.post, None
+
+        def refuse(*arguments):
+            if refusal is not None:
+                raise refusal
+            return post(*arguments)
+
+        mock.post = refuse
+        self.open_actions()
+        self.click_button("initPosition", "#detail .actions")
+        self.find("#parameter-0").send_keys("1.5")
+        self.find("#parameter-2").send_keys("N1")
+        self.find("#confirm-reason").send_keys("moved by hand")
+        for refusal in (Refusal(400, "x must be negative."), Refusal(409, "LR01 is not connected.")):
+            self.click("#confirm-action")
+            self.wait_for_text("#confirm-dialog [role=alert]", str(refusal))
+        refusal = Refusal(401, "A token is required.")
+        self.click("#confirm-action")
+        wait_until(lambda: self.find("#login-dialog").is_displayed(), "the login")
+        refusal, mock.token = None, "s3cret"
+        self.press("s3cret", Keys.ENTER)
+        wait_until(lambda: not self.find("#login-dialog").is_displayed(), "the user has logged in")
+        self.assertEqual(self.get_text("#confirm-dialog [role=alert]"), "")
+        self.assertEqual(self.list_posts(), [])
+        self.click("#confirm-action")
+        self.wait_for_post("/v1/robots/LR01/actions", {
+            "actionType": "initPosition", "parameters": {"x": 1.5, "lastNodeId": "N1"}, "reason": "moved by hand"})
+        wait_until(lambda: not self.find("#confirm-dialog").is_displayed(), "acsd has accepted it")
+
+        refusal = Refusal(400, "Unknown carrier.")
+        self.click_button("Correct carriers")
+        self.find("#port-0").send_keys("C_7")
+        self.click("#confirm-action")
+        self.wait_for_text("#confirm-dialog [role=alert]", "Unknown carrier.")
+        self.assertTrue(self.find("#port-0").get_attribute("value").endswith("C_7"))
+        self.press(Keys.ESCAPE)
+        wait_until(lambda: not self.find("#confirm-dialog").is_displayed(), "the user goes back")
+        self.run_script("acsdPage.select({kind: 'node', id: 'N020'})")
+        self.click_button("Block")
+        self.find("#confirm-reason").send_keys("wet floor")
+        refusal = Refusal(400, "The reason is too short.")
+        self.click("#confirm-action")
+        self.wait_for_text("#confirm-dialog [role=alert]", "The reason is too short.")
+        self.assertEqual(self.find("#confirm-reason").get_attribute("value"), "wet floor")
+        self.assertEqual(len(self.list_posts()), 1)
+
+    def test_a_command_whose_dialog_was_left_runs_on(self):
+        """Its button cannot be pressed again until acsd has answered, and a dialog that was opened meanwhile stays."""
+        self.expected_log = ("/maintenance",)
+        mock = self.start_mock()
+        mock.freeze()
+        may_answer = threading.Event()
+        self.addCleanup(may_answer.set)
+        with mock.lock:
+            mock.simulation.robots["LR01"].is_in_maintenance = True
+
+        def refuse(*_):
+            may_answer.wait()
+            raise Refusal(409, "LR01 is not connected.")
+
+        mock.post = refuse
+        self.open("?lang=en#robot/LR01")
+        self.click_button("Maintenance off")
+        self.click("#confirm-action")
+        self.press(Keys.ESCAPE)
+        wait_until(lambda: not self.find("#confirm-dialog").is_displayed(), "the user goes back")
+        button = next(button for button in self.find_all("#detail button") if button.text == "Maintenance off")
+        self.click_button("Correct carriers")
+        self.assertFalse(button.is_enabled(), "the command runs")
+        may_answer.set()
+        self.wait_for_text("#toasts", "LR01 is not connected.")
+        wait_until(button.is_enabled, "acsd has answered")
+        self.assertTrue(self.find("#port-0").is_displayed())
+        self.assertEqual(self.get_text("#confirm-dialog [role=alert]"), "")
 
     def test_values_of_parameters_are_sent_as_they_are(self):
         self.start_mock()
