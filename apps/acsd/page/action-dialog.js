@@ -1,10 +1,11 @@
 // The question before an instant action, with its parameters.
 
-import {askToSend, leaveByEnter, makeReasonInput} from "./dialogs.js";
+import {askToSend, countBytes, leaveByEnter, makeReasonInput} from "./dialogs.js";
 import {make} from "./dom.js";
 import {t} from "./text.js";
 
 const NUMBERS = ["NUMBER", "FLOAT", "INTEGER"];
+const PARAMETER_LIMIT = 8_000; // bytes of all keys and values, as JSON
 
 function makeInput({valueType, required}, i) {
     const attributes = {id: `parameter-${i}`, required, autocomplete: "off"};
@@ -47,18 +48,25 @@ function readInput(input, valueType) {
 export function askAction({title, text, offer, send}) {
     const inputs = offer.parameters.map(makeInput);
     const reason = makeReasonInput();
+    const readValues = () => offer.parameters.map(({key, valueType}, i) => [key, readInput(inputs[i], valueType).value])
+        .filter(([, value]) => value !== undefined);
+    const check = (edited) => {
+        const bytes = readValues().reduce((sum, [key, value]) => sum + countBytes(key) + countBytes(JSON.stringify(value)), 0);
+        const excess = bytes > PARAMETER_LIMIT ? t("parameter.tooLong", {n: PARAMETER_LIMIT}) : "";
+        inputs.forEach((input, i) => {
+            const {fault} = readInput(input, offer.parameters[i].valueType);
+            input.setCustomValidity(fault ?? (input === edited ? excess : ""));
+        });
+    };
     const parts = [make("p", {text}), offer.description ? make("p", {class: "muted", text: offer.description}) : null,
         ...offer.parameters.flatMap(({key, valueType, required}, i) => {
             const type = required ? valueType : `${valueType}, ${t("dialog.optional")}`;
-            inputs[i].addEventListener("input", () => inputs[i].setCustomValidity(readInput(inputs[i], valueType).fault ?? ""));
+            inputs[i].addEventListener("input", () => check(inputs[i]));
             return [make("label", {for: inputs[i].id, text: `${key} (${type})`}), inputs[i]];
         }),
         make("label", {for: reason.id, text: t("dialog.reason")}), reason];
-    const read = () => {
-        const values = offer.parameters.map(({key, valueType}, i) => [key, readInput(inputs[i], valueType).value]);
-        return {actionType: offer.actionType, parameters: Object.fromEntries(values.filter(([, value]) => value !== undefined)),
-            reason: reason.value.trim() || undefined};
-    };
+    const read = () => ({
+        actionType: offer.actionType, parameters: Object.fromEntries(readValues()), reason: reason.value.trim() || undefined});
     const done = askToSend({title, parts, inputs, action: t("dialog.send"), read, send});
     leaveByEnter([...inputs, reason]);
     return done;

@@ -45,10 +45,15 @@ export function leaveByEnter(inputs) {
     }
 }
 
+/** As acsd counts them. */
+export function countBytes(text) {
+    return new TextEncoder().encode(text).length;
+}
+
 /** The form is refused while the input has more bytes than acsd accepts. `key`: of the message with {n}. */
 export function limitBytes(input, limit, key) {
     input.addEventListener("input", () => {
-        const isTooLong = new TextEncoder().encode(input.value.trim()).length > limit;
+        const isTooLong = countBytes(input.value.trim()) > limit;
         input.setCustomValidity(isTooLong ? t(key, {n: limit}) : "");
     });
 }

@@ -271,6 +271,7 @@ export default {
     "carriers.tooLong": "An id has at most {n} bytes.",
     "parameter.json": "Enter JSON of the type {type}.",
     "parameter.inexact": "This number has too many digits to be sent exactly.",
+    "parameter.tooLong": "The names and values of the parameters together have at most {n} bytes.",
     "dialog.optional": "optional",
     "dialog.reason": "Reason (optional)",
     "dialog.reasonTooLong": "A reason has at most {n} bytes.",

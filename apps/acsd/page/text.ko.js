@@ -271,6 +271,7 @@ export default {
     "carriers.tooLong": "ID는 최대 {n}바이트입니다.",
     "parameter.json": "{type} 형식의 JSON을 입력하십시오.",
     "parameter.inexact": "자릿수가 너무 많아 정확히 전송할 수 없는 숫자입니다.",
+    "parameter.tooLong": "파라미터의 이름과 값은 모두 합쳐 최대 {n}바이트입니다.",
     "dialog.optional": "선택",
     "dialog.reason": "사유(선택)",
     "dialog.reasonTooLong": "사유는 최대 {n}바이트입니다.",

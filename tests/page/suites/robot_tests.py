@@ -233,6 +233,24 @@ class Actions(PageCase):
         self.assertTrue(self.find("#port-0").is_displayed())
         self.assertEqual(self.get_text("#confirm-dialog [role=alert]"), "")
 
+    def test_parameters_have_at_most_8000_bytes(self):
+        """Keys and values together, as acsd counts them."""
+        self.start_mock()
+        self.open_actions()
+        self.click_button("initPosition", "#detail .actions")
+        set_value = ("const input = document.getElementById(arguments[0]); input.value = arguments[1];"
+                     "input.dispatchEvent(new Event('input', {bubbles: true}))")
+        rest = 8_000 - len('x1.5' 'count7' 'lastNodeId""')
+        for name, value in (("0", "1.5"), ("1", "77"), ("2", "가" * (rest // 3) + "x" * (rest % 3))):
+            self.run_script(set_value, f"parameter-{name}", value)
+        self.click("#confirm-action")
+        self.assertTrue(self.find("#confirm-dialog").is_displayed(), "parameters that are too long are refused")
+        self.assertIn("8000", self.run_script("return document.getElementById('parameter-2').validationMessage"))
+        self.assertEqual(self.list_posts(), [])
+        self.run_script(set_value, "parameter-1", "7")
+        self.click("#confirm-action")
+        wait_until(lambda: len(self.list_posts()) == 1, "it is sent")
+
     def test_values_of_parameters_are_sent_as_they_are(self):
         self.start_mock()
         self.open_actions()
