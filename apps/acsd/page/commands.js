@@ -3,7 +3,7 @@
 import {askAction} from "./action-dialog.js";
 import {post} from "./api.js";
 import {askCarriers} from "./carriers-dialog.js";
-import {askConfirmation, askNumber, showError, showToast} from "./dialogs.js";
+import {askConfirmation, askNumber, ignoreHeldEnter, showError, showToast} from "./dialogs.js";
 import {make} from "./dom.js";
 import {listCommands} from "./shell.js";
 import {t} from "./text.js";
@@ -90,6 +90,7 @@ export function makeCommandButton(command, kind = "") {
     const button = make("button", {type: "button", class: `button ${kind}`.trim(), text: command.label});
     button.dataset.path = command.path;
     button.dataset.key = JSON.stringify(command);
+    ignoreHeldEnter(button);
     button.addEventListener("click", async (event) => {
         event.stopPropagation();
         const hadFocus = document.activeElement === button;

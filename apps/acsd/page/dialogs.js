@@ -27,14 +27,19 @@ export function openDialog(id) {
     return dialog;
 }
 
-/** Enter goes from the inputs to the button that confirms, and does not press it, not even if the key is held down. */
-export function leaveByEnter(inputs) {
-    const confirm = document.getElementById("confirm-action");
-    confirm.addEventListener("keydown", (event) => {
-        if (event.repeat) {
+/** The button is pressed only once by Enter that is held down. */
+export function ignoreHeldEnter(button) {
+    button.addEventListener("keydown", (event) => {
+        if (event.repeat && event.key === "Enter") {
             event.preventDefault();
         }
     });
+}
+
+/** Enter goes from the inputs to the button that confirms, and does not press it, not even if the key is held down. */
+export function leaveByEnter(inputs) {
+    const confirm = document.getElementById("confirm-action");
+    ignoreHeldEnter(confirm);
     for (const input of inputs) {
         input.addEventListener("keydown", (event) => {
             if (event.key === "Enter" && !event.isComposing) {

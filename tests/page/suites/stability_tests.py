@@ -253,3 +253,7 @@ class Stability(PageCase):
             else:
                 self.click_button("Back", "#confirm-dialog")
             wait_until(lambda: self.run_script("return document.activeElement === window.focused"), "the focus is back")
+            # Enter that is held down does not press the button again.
+            self.driver.execute_cdp_cmd("Input.dispatchKeyEvent", {
+                "type": "keyDown", "key": "Enter", "code": "Enter", "windowsVirtualKeyCode": 13, "text": "\r", "autoRepeat": True})
+            self.assertFalse(self.run_script("return window.focused.disabled"), text)
