@@ -9,6 +9,7 @@
 // second, a job takes another. Reports survive in the file; plans do not: a real ACS stores them as well, see libplan's
 // IPlanStore.
 
+#include "ExampleClock.hpp"
 #include "ExampleLines.hpp"
 #include "ExampleRandom.hpp"
 #include "OutboxFile.hpp"
@@ -48,16 +49,6 @@ constexpr std::chrono::seconds ACTIVITY_TIME{1};
 constexpr const char* ROBOT = "LR01";
 constexpr const char* ERROR_CODE = "E-DOOR";
 
-/// No library reads a clock: the program brings its own.
-class SystemClock final : public Core::IClock
-{
-public:
-    [[nodiscard]] Core::Now GetNow() const override
-    {
-        return {std::chrono::steady_clock::now(), std::chrono::system_clock::now()};
-    }
-};
-
 /// The plan that the robot works on, and how far it is.
 struct ActivePlan
 {
@@ -65,7 +56,7 @@ struct ActivePlan
     std::size_t step = 0;
     std::optional<std::size_t> job; ///< None: the robot drives to the step's position.
     bool bPaused = false;
-    bool bAborting = false; ///< The job that runs is its last.
+    std::size_t aborts = 0; ///< Waiting for the end of the job, which is the last. Each gets its result.
 };
 
 class SmallACS final : public ProtocolBeast::ISessionHandler
@@ -266,6 +257,10 @@ private:
                 CancelResultReport{planID, EReportResult::Failed, "the robot has arrived, or there is no such plan"});
             return;
         }
+        if (bBeforeArrival && _active->bPaused)
+        {
+            Report(PlanReport{planID, EPlanStatus::InProgress, ""}); // Paused is not followed by Cancelled.
+        }
         Report(PlanReport{planID, EPlanStatus::Cancelled, ""});
         Report(CancelResultReport{planID, EReportResult::Success, ""});
         Leave(planID);
@@ -276,11 +271,11 @@ private:
     {
         if (IsActive(planID) && _active->job.has_value() && !_active->bPaused)
         {
-            _active->bAborting = true;
+            ++_active->aborts;
         }
         else if (IsActive(planID) || TryForgetWaiting(planID))
         {
-            FinishAbort(planID);
+            FinishAbort(planID, 1);
         }
         else
         {
@@ -288,16 +283,19 @@ private:
         }
     }
 
-    void FinishAbort(const std::string& planID)
+    void FinishAbort(const std::string& planID, std::size_t aborts)
     {
         Report(PlanReport{planID, EPlanStatus::Aborted, ""});
-        Report(AbortResultReport{planID, EReportResult::Success, ""});
+        for (; aborts > 0; --aborts)
+        {
+            Report(AbortResultReport{planID, EReportResult::Success, ""});
+        }
         Leave(planID);
     }
 
     void Pause(const std::string& planID)
     {
-        if (!IsActive(planID) || _active->bPaused || _active->bAborting)
+        if (!IsActive(planID) || _active->bPaused || _active->aborts > 0)
         {
             Report(PauseResultReport{planID, EReportResult::Failed, "the plan does not run"});
             return;
@@ -344,7 +342,7 @@ private:
         }
         if (_tsc == ETscState::Auto && !_waiting.empty())
         {
-            _active = ActivePlan{std::move(_waiting.front()), 0, {}, false, false};
+            _active = ActivePlan{std::move(_waiting.front()), 0, {}, false, 0};
             _waiting.pop_front();
             Report(PlanReport{_active->plan.planID, EPlanStatus::InProgress, ""});
             Drive();
@@ -385,9 +383,9 @@ private:
         {
             ReportJob(job, EJobStatus::Completed);
         }
-        if (_active->bAborting)
+        if (_active->aborts > 0)
         {
-            FinishAbort(_active->plan.planID);
+            FinishAbort(_active->plan.planID, _active->aborts);
         }
         else if (job + 1 < GetStep().jobs.size())
         {
@@ -454,7 +452,7 @@ int main(int argc, char** argv) // NOLINT(bugprone-exception-escape): nothing th
         return 2;
     }
     boost::asio::io_context io;
-    const SystemClock clock;
+    const ExampleClock clock;
     ExampleRandom random;
     const Core::Logger logger;
     OutboxFile outboxFile;

@@ -56,7 +56,7 @@ BATCHES = [
     Batch(["lr-plan", "plan-history", "null-result-request"], mcs=("--profile", "nexus")),
 ]
 # These the ACS of the examples plays too, and its operator types what it is asked for.
-SMALL_ACS = ["pause-resume", "pause-refused", "abort-paused", "tsc-paused"]
+SMALL_ACS = ["pause-resume", "pause-refused", "abort-paused", "cancel-paused", "tsc-paused"]
 TYPED = {"pause the TSC": b"pause\n", "resume the TSC": b"auto\n"}
 # These need an action from outside: a test each.
 ATTENDED = ["comm-loss", "error-set-cleared", "tsc-paused"]
@@ -232,6 +232,19 @@ class Scenarios(ScenarioCase):
                               on_output=self.answer({"kill the ACS and start it again": restart}))
         mcs.wait_ready()
         start_small_acs()
+        self.assertEqual(mcs.wait(FINISH_SECONDS), 0, mcs.log.read_text())
+
+    def test_the_small_acs_reports_a_result_for_each_abort(self):
+        result = {"expectNext": "AbortResultReport", "payload": {"planId": "{A}", "result": "Success"}, "besides": "*Update"}
+        scenario = self.write_scenario(
+            {"send": "ExecutionPlan", "file": str(PLANS[0]), "as": "A"},
+            {"expect": "JobReport", "payload": {"planId": "{A}", "jobId": "{A.1.1}", "status": "InProgress"}},
+            {"abort": "A"}, {"abort": "A"},
+            {"expect": "JobReport", "payload": {"planId": "{A}", "jobId": "{A.1.1}", "status": "Completed"}},
+            {"expectNext": "PlanReport", "payload": {"planId": "{A}", "status": "Aborted"}, "besides": "*Update"},
+            result, result,
+            {"expectNothing": "*Report", "payload": {"planId": "{A}"}, "for": "1s"})
+        mcs = self.start_play_with_small_acs(self.line, [scenario], {})
         self.assertEqual(mcs.wait(FINISH_SECONDS), 0, mcs.log.read_text())
 
     def write_scenario(self, *steps):
