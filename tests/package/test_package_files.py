@@ -141,6 +141,79 @@ class Configuration(PackageCase):
         return json.loads(self.acsctl(etc, "status", "--json"))["tsc"]
 
 
+class ConfigurationCheck(PackageCase):
+    """debian/check-config, which the package calls before it restarts acsd: with the credentials of the process that runs."""
+
+    def setUp(self):
+        super().setUp()
+        self.etc = self.make_etc()
+        self.configure("/var/lib/acsd/store", f"{self.folder}/store")
+        self.credentials = self.folder / "credentials"
+        self.credentials.mkdir(mode=0o700)
+        self.bin = self.folder / "bin"
+        self.bin.mkdir()
+        self.write_program("runuser", '[ "$1 $2 $3" = "-u acsd --" ] && shift 3 && exec "$@"')
+
+    def write_program(self, name, text):
+        path = self.bin / name
+        path.write_text(f"#!/bin/sh\n{text}\n", encoding="ascii")
+        path.chmod(0o755)
+
+    def configure(self, old, new):
+        path = self.etc / "acsd.toml"
+        path.write_text(path.read_text(encoding="utf-8").replace(old, new), encoding="utf-8")
+
+    def use_credential(self):
+        self.configure("\n[mqtt]\n", '\n[mqtt]\nusername = "acsd"\npassword_file = "${CREDENTIALS_DIRECTORY}/mqtt"\n')
+
+    def check(self, environment=None, acsd=None):
+        """While a process with this environment is the one of the unit."""
+        with subprocess.Popen(["sh", "-c", "echo; read line"], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                              env={"PATH": os.environ["PATH"], **(environment or {})}) as process:
+            process.stdout.readline()
+            self.write_program("systemctl", f'[ "$*" = "show --value -p MainPID acsd" ] && echo {process.pid}')
+            return run(DEBIAN / "check-config", self.etc / "acsd.toml",
+                       env={"PATH": f"{self.bin}:{os.environ['PATH']}", "ACSD": str(acsd or PROGRAMS / "acsd")})
+
+    def test_the_credentials_are_those_of_the_running_process(self):
+        self.use_credential()
+        environment = {"CREDENTIALS_DIRECTORY": str(self.credentials)}
+        done = self.check(environment)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn(f"{self.credentials}/mqtt", done.stdout)
+        (self.credentials / "mqtt").write_text("secret\n", encoding="ascii")
+        (self.credentials / "mqtt").chmod(0o600)
+        done = self.check(environment)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertNotIn("CREDENTIALS_DIRECTORY", done.stdout)
+
+    def test_unknown_credentials_are_reported_in_one_line_and_refuse_nothing(self):
+        self.use_credential()
+        for environment in ({}, {"CREDENTIALS_DIRECTORY": str(self.folder / "missing")}):
+            done = self.check(environment)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            self.assertEqual(len(done.stdout.splitlines()), 1, done.stdout)
+            self.assertIn("${CREDENTIALS_DIRECTORY}", done.stdout)
+
+    def test_another_error_is_refused(self):
+        done = self.check()
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.use_credential()
+        self.configure("\n[mqtt]\n", "\n[mqtt]\nunknown_key = 7\n")
+        done = self.check()
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("unknown_key", done.stdout)
+
+    def test_an_acsd_that_prints_nothing_is_refused(self):
+        self.write_program("acsd", "exit 1")
+        done = self.check(acsd=self.bin / "acsd")
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+
+    def test_the_package_calls_it(self):
+        self.assertIn("/usr/lib/acsd/check-config /etc/acsd/acsd.toml", (DEBIAN / "acsd.postinst").read_text(encoding="utf-8"))
+        self.assertIn("debian/check-config usr/lib/acsd\n", (DEBIAN / "acsd.install").read_text(encoding="utf-8"))
+
+
 class Tokens(PackageCase):
     def test_the_token_is_random_and_has_its_modes(self):
         tokens = []
@@ -354,7 +427,7 @@ class Scripts(PackageCase):
             self.assertEqual(run(REPOSITORY / "scripts" / "package", *words).returncode, 2, words)
 
     def test_shell_scripts_are_valid(self):
-        for path in (DEBIAN / "make-tokens", *DEBIAN.glob("*.p*inst"), *DEBIAN.glob("*.p*rm")):
+        for path in (DEBIAN / "check-config", DEBIAN / "make-tokens", *DEBIAN.glob("*.p*inst"), *DEBIAN.glob("*.p*rm")):
             self.assertEqual(run("sh", "-n", path).stdout, "", path)
 
 

@@ -18,6 +18,7 @@ from repack import read_field, repack
 BASE_PACKAGES = ("systemd", "systemd-sysv", "dbus", "mosquitto", "procps")
 OLDER = "0.0.1"
 TOKEN = "/etc/acsd/operator.token"
+DROP_IN = "/etc/systemd/system/acsd.service.d"
 # What a system writes by itself, and what keeps the history of packages.
 CHANGING = ("/dev", "/proc", "/run", "/sys", "/tmp", "/trial", "/var/cache", "/var/log", "/var/lib/apt", "/var/lib/dpkg", "/var/lib/mosquitto",
             "/var/lib/systemd", "/var/tmp", "/var/backups", "/root", "/etc/ld.so.cache", "/etc/machine-id", "/etc/resolv.conf",
@@ -133,7 +134,17 @@ class Trial(unittest.TestCase):
         self.acsctl("tsc", "resume")
         self.check_plans("plan1", 240)
 
+    def use_credential(self):
+        """The password of the broker comes from systemd; its file is readable by root only."""
+        machine.execute("sh", "-c", f"umask 077; echo secret >/etc/acsd/mqtt; mkdir -m 0755 {DROP_IN}; umask 022; printf "
+                        f"'[Service]\\nLoadCredential=mqtt:/etc/acsd/mqtt\\n' >{DROP_IN}/credential.conf")
+        machine.execute("sed", "-i", r'/^\[mqtt\]$/a username = "acsd"\npassword_file = "${CREDENTIALS_DIRECTORY}/mqtt"', "/etc/acsd/acsd.toml")
+        machine.execute("systemctl", "daemon-reload")
+        machine.execute("systemctl", "restart", "acsd")
+        self.wait_for_auto()
+
     def test_4_an_upgrade_continues_a_plan(self):
+        self.use_credential()
         self.send_plans("plan2")
         self.wait_for(lambda: self.get_states() == ["InProgress"], "the plan is in progress")
         former = self.get_main_pid()
@@ -147,6 +158,7 @@ class Trial(unittest.TestCase):
         output = machine.execute("dpkg", "--configure", "-a")
         self.assertNotIn("warning", output.lower())
         self.assertNotEqual(self.get_main_pid(), former)
+        self.assertNotIn("CREDENTIALS_DIRECTORY", output)
         self.assertEqual(machine.execute("systemctl", "is-active", "acsd").strip(), "active")
         self.assertIn("1 open plan resumed", self.get_log())
         self.wait_for_auto()
@@ -177,6 +189,7 @@ class Trial(unittest.TestCase):
 
     def test_7_a_removal_keeps_configuration_and_store(self):
         machine.execute("systemctl", "stop", "vehicles", "arm")
+        machine.execute("rm", "-r", DROP_IN)
         machine.execute("apt-get", "-q", "-y", "remove", "acsd")
         machine.execute("test", "-f", "/var/lib/acsd/store/acsd.db")
         machine.execute("test", "-f", "/etc/acsd/tokens")
