@@ -166,6 +166,7 @@ INTERRUPTED = 130  # exit code after Ctrl-C
 
 GUID = b"258EAFA5-E914-47DA-95CA-C5AB0DC85B11"
 CONTINUATION, TEXT, BINARY, CLOSE_FRAME, PING, PONG = 0, 1, 2, 8, 9, 10
+TOO_SLOW = "the client reads too slowly"
 NORMAL, PROTOCOL_ERROR, ABNORMAL, TOO_BIG = 1000, 1002, 1006, 1009
 
 
@@ -178,9 +179,9 @@ class Violation(Exception):
 class Peer:
     """One client. It does not block: receive() returns the messages that are complete, flush() sends what the socket takes."""
 
-    def __init__(self, sock, number):
+    def __init__(self, sock):
         self.socket = sock
-        self.number = number
+        self.number = None  # of the connection, from the upgrade on
         self.upgraded = False
         self.unsent = bytearray()
         self.closing = False  # our Close was sent, or the last answer of a refused upgrade
@@ -257,7 +258,8 @@ class Peer:
         if opcode == CLOSE_FRAME:
             self.close(int.from_bytes(payload[:2], "big") if len(payload) >= 2 else NORMAL, "")
         elif opcode == PING:
-            self.send(PONG, payload)
+            if not self.send(PONG, payload):
+                raise OSError(TOO_SLOW)
         elif opcode in (TEXT, BINARY, CONTINUATION):
             if (opcode == CONTINUATION) != self._fragmented:
                 raise Violation(PROTOCOL_ERROR, "a fragment out of order")
@@ -314,7 +316,8 @@ class Mcs:
         self._listener = socket.create_server((host, port))
         self._listener.setblocking(False)
         self._selector.register(self._listener, selectors.EVENT_READ)
-        self._peers = {}  # by connection number
+        self._peers = set()
+        self._connections = {}  # peer by number; the session demands increasing numbers
         self._last_number = 0
         self._timers = {}  # deadline by timer
         self._sent = False
@@ -347,8 +350,8 @@ class Mcs:
             sock.close()
             return
         sock.setblocking(False)
-        self._last_number += 1
-        peer = self._peers[self._last_number] = Peer(sock, self._last_number)
+        peer = Peer(sock)
+        self._peers.add(peer)
         self._selector.register(sock, selectors.EVENT_READ, peer)
 
     def _serve(self, peer, events):
@@ -356,9 +359,11 @@ class Mcs:
             if events & selectors.EVENT_WRITE:
                 peer.flush()
             if events & selectors.EVENT_READ:
-                known = peer.upgraded
                 messages = peer.receive()
-                if peer.upgraded and not known:
+                if peer.upgraded and peer.number is None:
+                    self._last_number += 1
+                    peer.number = self._last_number
+                    self._connections[peer.number] = peer
                     self._session.report("connected", peer.number)
                 for message in messages:
                     self._session.report("received", peer.number, message, len(message))
@@ -371,23 +376,24 @@ class Mcs:
             self._end(peer, str(error))
 
     def _end(self, peer, reason):
-        if self._peers.pop(peer.number, None) is None:
+        if peer not in self._peers:
             return
+        self._peers.remove(peer)
         self._selector.unregister(peer.socket)
         peer.socket.close()
-        if peer.upgraded:
+        if self._connections.pop(peer.number, None) is not None:
             text = reason.encode()
             self._session.report("closed", peer.number, text, len(text))
 
     def _watch(self):
-        for peer in self._peers.values():
+        for peer in self._peers:
             write = selectors.EVENT_WRITE if peer.unsent else 0
             self._selector.modify(peer.socket, selectors.EVENT_READ | write, peer)
 
     # Time.
 
     def _get_wait(self):
-        deadlines = [*self._timers.values(), *(peer.deadline for peer in self._peers.values())]
+        deadlines = [*self._timers.values(), *(peer.deadline for peer in self._peers)]
         return max(0.0, min(deadlines) - time.monotonic()) if deadlines else None
 
     def _handle_deadlines(self):
@@ -395,17 +401,17 @@ class Mcs:
         for timer in [timer for timer, deadline in self._timers.items() if deadline <= now]:
             del self._timers[timer]
             self._session.report("timer_elapsed", timer)
-        for peer in [peer for peer in self._peers.values() if peer.deadline <= now]:
+        for peer in [peer for peer in self._peers if peer.deadline <= now]:
             self._end(peer, "not closed in time" if peer.closing else "no message for a long time")
 
     # What the session wants.
 
     def _carry_out(self):
         for action in self._session.take_actions():
-            peer = self._peers.get(action.connection)
+            peer = self._connections.get(action.connection)
             if action.type == SEND_TEXT and peer is not None:
                 if not peer.send(TEXT, action.text.read().encode()):
-                    self._end(peer, "the client reads too slowly")
+                    self._end(peer, TOO_SLOW)
             elif action.type == CLOSE and peer is not None:
                 if action.close_code == ABNORMAL:
                     self._end(peer, action.message.read())
@@ -456,7 +462,7 @@ class Mcs:
     def _finish(self, exit_code):
         """The Acks that wait are sent before the Close."""
         self._exit_code = exit_code
-        for peer in self._peers.values():
+        for peer in self._peers:
             peer.close(NORMAL, "the plan has ended")
 
 

@@ -115,13 +115,35 @@ class PythonMcs(ScenarioCase):
         registration = b'{"command":"Registration","transactionId":"t","payload":{}}'
         client = self.connect(address, UPGRADE + make_frame(FIRST_FRAGMENT, registration[:9]) + make_frame(PING, b"ping")
                               + make_frame(LAST_FRAGMENT, registration[9:]))
+        data = self.read_until(client, b'"RegistrationAck"', b"\r\n\r\n")
+        self.assertIn(b"\x8a\x04ping", data)
+        self.assertIn(b'"result":"Success"', data)
+
+    def read_until(self, client, *parts):
         data = b""
-        while b'"RegistrationAck"' not in data or b"\r\n\r\n" not in data:
+        while not all(part in data for part in parts):
             part = client.recv(4096)
             self.assertTrue(part, data)
             data += part
-        self.assertIn(b"\x8a\x04ping", data)
-        self.assertIn(b'"result":"Success"', data)
+        return data
+
+    def test_clients_are_numbered_in_the_order_of_their_upgrades(self):
+        address = self.start_mcs()
+        early = self.connect(address, b"")
+        late = self.connect(address, UPGRADE + make_frame(PING, b"late"))
+        self.read_until(late, b"\x8a\x04late")
+        early.sendall(UPGRADE + make_frame(PING, b"early"))
+        self.read_until(early, b"\x8a\x05early")
+        self.assertTrue(self.mcs.is_running())
+
+    def test_a_client_that_reads_no_pongs_is_closed(self):
+        client = self.connect(self.start_mcs(), UPGRADE)
+        client.settimeout(FINISH_SECONDS)
+        pings = make_frame(PING, bytes(125)) * 1000
+        with self.assertRaises(ConnectionError):
+            for _ in range(1000):  # 131 MB, of which the buffers of both sockets take some
+                client.sendall(pings)
+        self.assertTrue(self.mcs.is_running())
 
     def test_an_invalid_plan_is_refused_at_the_start(self):
         plan = self.line.folder / "plan.json"
