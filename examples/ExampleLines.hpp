@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <fcntl.h>
 #include <functional>
 #include <iostream>
 #include <string>
@@ -31,7 +32,7 @@ public:
         boost::asio::io_context& io,
         std::function<void(const std::string&)> onLine,
         std::function<void()> onEnd)
-        : _input(io, ::dup(STDIN_FILENO)),
+        : _input(io, CopyInput()),
           _onLine(std::move(onLine)),
           _onEnd(std::move(onEnd))
     {
@@ -39,6 +40,19 @@ public:
     }
 
 private:
+    /// A terminal is opened again: Asio makes the copy non-blocking, and that would remain after the program and hold for the
+    /// others on the terminal.
+    [[nodiscard]] static int CopyInput()
+    {
+        int copy = -1;
+        if (::isatty(STDIN_FILENO) == 1)
+        {
+            // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): the system's interface
+            copy = ::open("/proc/self/fd/0", O_RDONLY | O_CLOEXEC | O_NOCTTY);
+        }
+        return copy >= 0 ? copy : ::dup(STDIN_FILENO); // A terminal of another user cannot be opened.
+    }
+
     void ReadAsync()
     {
         _input.async_read_some(

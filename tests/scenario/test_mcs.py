@@ -314,21 +314,27 @@ class Scenarios(ScenarioCase):
                               "--tls-key", key)
         self.assertEqual(list(mcs.wait_ready()), ["wss"])
 
-    def test_the_console_leaves_the_terminal_as_it_is_for_other_programs(self):
+    def assert_terminal_unchanged(self, *command, answer):
+        """The program answers `help` on a terminal with a text that has this part, and `quit` ends it."""
         terminal, of_program = os.openpty()
         self.addCleanup(os.close, terminal)
         self.addCleanup(os.close, of_program)
-        process = subprocess.Popen([self.bin_dir / "mcs-sim", "--listen", "127.0.0.1:0", "--console"], stdin=of_program,
-                                   stdout=of_program, stderr=of_program)
+        process = subprocess.Popen([self.bin_dir / command[0], *command[1:]], stdin=of_program, stdout=of_program, stderr=of_program)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
         os.write(terminal, b"help\n")
         shown = b""
-        while b"abort" not in shown:  # which is in the help, not in what was typed
+        while answer not in shown:  # which is not in what was typed
             shown += os.read(terminal, 65536)
         self.assertEqual(fcntl.fcntl(of_program, fcntl.F_GETFL) & os.O_NONBLOCK, 0)
         os.write(terminal, b"quit\n")
-        process.wait(FINISH_SECONDS)
+        self.assertEqual(process.wait(FINISH_SECONDS), 0)
+
+    def test_the_console_leaves_the_terminal_as_it_is_for_other_programs(self):
+        self.assert_terminal_unchanged("mcs-sim", "--listen", "127.0.0.1:0", "--console", answer=b"abort")
+
+    def test_the_small_acs_leaves_the_terminal_as_it_is_for_other_programs(self):
+        self.assert_terminal_unchanged("e09_small_acs", "ws://127.0.0.1:1/acs/", answer=b"does nothing now")
 
     def test_a_trace_that_cannot_be_written_fails_the_run(self):
         _, code = self.play("--scenario", SCENARIOS / "sync-config.json", "--trace", "/dev/full")
