@@ -6,9 +6,10 @@
 //
 // The wanted position jumps to the target. JointStepLimiter makes small steps of it, each a streamed CONTROL. The first and
 // the last CONTROL are tracked, and the last one counts only when a sample of the MONITOR shows that the arm is at the
-// target. STOP control discards the points that the controller has not driven yet. Whatever happens, the program ends with
-// a stationary arm. The controller must be in playback and wait: see docs/reference/openstream-sim.md. The lesson is longer
-// than 150 lines because an arm that moves needs each of these ends.
+// target. STOP control discards the points that the controller has not driven yet. It is sent too when the program is
+// interrupted and when it has taken too long; the program ends when the arm is stationary, or without a controller that
+// confirms it. The controller must be in playback and wait: see docs/reference/openstream-sim.md. The lesson is longer than
+// 150 lines because an arm that moves needs each of these ends.
 
 #include "ExampleArm.hpp"
 #include "ExampleClock.hpp"
@@ -18,6 +19,7 @@
 #include <acs/openstream_asio/OpenStreamClient.hpp>
 
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/system/error_code.hpp>
 #include <fmt/core.h>
@@ -26,6 +28,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -45,6 +48,8 @@ namespace
 
 constexpr std::chrono::milliseconds PERIOD = 20ms;
 constexpr std::chrono::seconds ARRIVAL_TIMEOUT{2};
+constexpr std::chrono::seconds STOP_TIMEOUT{5};
+constexpr std::chrono::seconds LIMIT{60}; ///< Of the whole program.
 constexpr std::size_t AXES = 6;
 constexpr double LARGEST_STEP = 1.0; ///< Degrees in one period, for each axis: 50 degrees per second.
 constexpr double TOLERANCE = 0.05;   ///< Degrees, and degrees per second.
@@ -86,6 +91,8 @@ class Trajectory
     std::vector<double> _wanted; ///< Empty before the first sample.
     JointStepLimiter _limiter{std::vector<double>(AXES, LARGEST_STEP)};
     boost::asio::steady_timer _timer;
+    boost::asio::steady_timer _limit;
+    boost::asio::signal_set _signals;
     OpenStreamAsio::OpenStreamClient _client;
 
 public:
@@ -101,10 +108,24 @@ public:
         : _target(target),
           _stopAt(stopAtOrNull),
           _timer(io),
+          _limit(io, LIMIT),
+          _signals(io, SIGINT, SIGTERM),
           _client(io.get_executor(), clock, random, {}, controller, [this](const auto& event, Core::Now) {
               OnEvent(event);
           })
     {
+        _signals.async_wait([this](const boost::system::error_code& error, int /*number*/) {
+            if (!error)
+            {
+                Stop("interrupted");
+            }
+        });
+        _limit.async_wait([this](const boost::system::error_code& error) {
+            if (!error)
+            {
+                Stop(fmt::format("not done within {} s", LIMIT.count()));
+            }
+        });
         _client.SetMonitor(MonitorRequest{"/project/robot/joints/joint_states", PERIOD, {}, {}});
         _client.Start();
     }
@@ -227,6 +248,13 @@ private:
             _phase = EPhase::Stopping;
             fmt::print("{}\n", reason);
             _client.StopControl();
+            _timer.expires_after(STOP_TIMEOUT);
+            _timer.async_wait([this](const boost::system::error_code& error) {
+                if (!error)
+                {
+                    End("the controller does not confirm that the arm is stationary");
+                }
+            });
         }
     }
 
@@ -236,10 +264,18 @@ private:
         {
             fmt::print("{}\n", how);
             _timer.cancel();
+            _limit.cancel();
+            _signals.cancel();
             _client.Stop(); // Now the io_context runs out of work and main continues.
         }
     }
 };
+
+[[nodiscard]] std::optional<double> ReadDegreesOrNull(std::string_view text)
+{
+    const std::optional<double> degrees = Core::ParseNumberOrNull<double>(text); // Accepts "nan" and "inf".
+    return degrees && std::isfinite(*degrees) ? degrees : std::nullopt;
+}
 
 } // namespace
 
@@ -247,8 +283,8 @@ int main(int argc, char** argv) // NOLINT(bugprone-exception-escape): nothing th
 {
     const std::span<char*> arguments(argv, static_cast<std::size_t>(argc));
     const auto controllerOrNull = argc > 3 ? ReadControllerOrNull(arguments[1], arguments[2]) : std::nullopt;
-    const std::optional<double> target = argc > 3 ? Core::ParseNumberOrNull<double>(arguments[3]) : std::nullopt;
-    const std::optional<double> stopAt = argc > 4 ? Core::ParseNumberOrNull<double>(arguments[4]) : std::nullopt;
+    const std::optional<double> target = argc > 3 ? ReadDegreesOrNull(arguments[3]) : std::nullopt;
+    const std::optional<double> stopAt = argc > 4 ? ReadDegreesOrNull(arguments[4]) : std::nullopt;
     if (!controllerOrNull || !target || argc > 5 || (argc == 5 && !stopAt))
     {
         fmt::print("Usage: e15_trajectory HOST PORT DEGREES [STOP_AT]\n");
@@ -258,6 +294,6 @@ int main(int argc, char** argv) // NOLINT(bugprone-exception-escape): nothing th
     ExampleClock clock;
     ExampleRandom random;
     Trajectory trajectory(io, clock, random, *controllerOrNull, *target, stopAt);
-    io.run_for(60s);
+    io.run();
     return trajectory.bDone ? 0 : 1;
 }

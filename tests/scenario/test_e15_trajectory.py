@@ -3,12 +3,15 @@
 
 import json
 import re
+import signal
+import socket
 import unittest
 import urllib.request
 
 from scenario_case import FINISH_SECONDS, STATUS_SECONDS, ScenarioCase, main
 
 TARGET = 30
+FAR = 150  # Three seconds away.
 LIMIT = 50  # Degrees per second: 1 degree in each period of 20 ms.
 FREE_POINTS = 2048  # Of an empty buffer.
 
@@ -56,6 +59,38 @@ class Trajectory(ScenarioCase):
         self.assertLess(where[1], target - 1)
         self.assertAlmostEqual(self.get("/joints/joint_states")["position"][0], where[1], delta=0.1)
         self.assert_stationary_and_empty()
+
+    def test_an_interruption_stops_the_arm(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(number.name):
+                self.start_controller("--playing")
+                lesson = self.line.start("e15_trajectory", *self.arm["stream"].split(":"), FAR)
+                while lesson.is_running() and abs(self.get("/joints/joint_states")["velocity"][0]) < LIMIT / 2:
+                    pass
+                lesson.send_signal(number)
+                self.assertEqual(lesson.wait(FINISH_SECONDS), 1)
+                interrupted, stopped = lesson.log.read_text().splitlines()[-2:]
+                self.assertEqual(interrupted, "interrupted")
+                where = float(re.fullmatch(r"stopped at ([\d.]+) degrees", stopped)[1])
+                self.assertLess(where, FAR - 1)
+                self.assertAlmostEqual(self.get("/joints/joint_states")["position"][0], where, delta=0.1)
+                self.assert_stationary_and_empty()
+
+    def test_an_interruption_without_a_controller_ends_the_lesson(self):
+        with socket.create_server(("127.0.0.1", 0)) as server:
+            lesson = self.line.start("e15_trajectory", "127.0.0.1", server.getsockname()[1], TARGET)
+            connection = server.accept()[0]
+            with connection:
+                connection.recv(1)
+                lesson.send_signal(signal.SIGINT)
+                self.assertEqual(lesson.wait(FINISH_SECONDS), 1)
+        self.assertEqual(lesson.log.read_text().splitlines()[0], "interrupted")
+
+    def test_only_finite_numbers_are_accepted(self):
+        for words in (("nan",), ("inf",), ("-inf",), (TARGET, "nan"), (TARGET, "inf")):
+            lesson = self.line.start("e15_trajectory", "127.0.0.1", 1, *words)
+            self.assertEqual(lesson.wait(FINISH_SECONDS), 2, words)
+            self.assertIn("Usage: ", lesson.log.read_text())
 
     def test_refused_points_end_the_lesson(self):
         self.start_controller("--ready")  # No program is in playback.
