@@ -9,6 +9,7 @@
 #include "ExampleRandom.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/vda5050/PredefinedActions.hpp>
+#include <acs/vda5050/Topic.hpp>
 #include <acs/vda5050_mosquitto/VehicleClient.hpp>
 
 #include <boost/asio/io_context.hpp>
@@ -221,7 +222,8 @@ int main(int argc, char** argv) // NOLINT(bugprone-exception-escape): nothing th
     const std::span<char*> arguments(argv, static_cast<std::size_t>(argc));
     std::optional<MosquittoOptions> brokerOrNull =
         argc == 4 ? ReadBrokerOrNull(arguments[1], arguments[2]) : std::nullopt;
-    if (!brokerOrNull.has_value())
+    const VehicleOptions options = MakeVehicleOptions(argc == 4 ? arguments[3] : "");
+    if (!brokerOrNull.has_value() || !IsValidAddress(options.address)) // "a/b" would be two levels of a topic.
     {
         fmt::print("Usage: e11_vehicle HOST PORT SERIALNUMBER\n");
         return 2;
@@ -230,7 +232,7 @@ int main(int argc, char** argv) // NOLINT(bugprone-exception-escape): nothing th
     brokerOrNull->clientID = fmt::format("example-vehicle-{}", arguments[3]);
     boost::asio::io_context io;
     ExampleRandom random;
-    ExampleVehicle vehicle(io, random, *brokerOrNull, MakeVehicleOptions(arguments[3]));
+    ExampleVehicle vehicle(io, random, *brokerOrNull, options);
     boost::asio::signal_set signals(io, SIGINT, SIGTERM);
     signals.async_wait([&vehicle](const boost::system::error_code& error, int /*number*/) {
         if (!error)

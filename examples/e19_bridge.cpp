@@ -18,6 +18,7 @@
 #include <acs/core/Overloaded.hpp>
 #include <acs/vda5050/OrderValidator.hpp>
 #include <acs/vda5050/PredefinedActions.hpp>
+#include <acs/vda5050/Topic.hpp>
 #include <acs/vda5050_mosquitto/VehicleClient.hpp>
 
 #include <boost/asio/io_context.hpp>
@@ -288,7 +289,9 @@ int main(int argc, char** argv) // NOLINT(bugprone-exception-escape): nothing th
         argc == 6 ? ReadBrokerOrNull(arguments[4], arguments[5]) : std::nullopt;
     boost::system::error_code error;
     const auto address = boost::asio::ip::make_address(argc == 6 ? arguments[4] : "", error);
-    if (!brokerOrNull || !makerOrNull || error)
+    const VehicleOptions options = MakeVehicleOptions(argc == 6 ? arguments[3] : "");
+    const bool bAddressed = IsValidAddress(options.address); // The serial number "a/b" would be two levels of a topic.
+    if (!brokerOrNull || !makerOrNull || error || !bAddressed)
     {
         fmt::print("Usage: e19_bridge HOST PORT SERIALNUMBER VEHICLE_ADDRESS VEHICLE_PORT\n");
         return 2;
@@ -297,7 +300,7 @@ int main(int argc, char** argv) // NOLINT(bugprone-exception-escape): nothing th
     brokerOrNull->clientID = fmt::format("bridge-{}", arguments[3]);
     boost::asio::io_context io;
     ExampleRandom random;
-    Bridge bridge(io, random, *brokerOrNull, MakeVehicleOptions(arguments[3]), {address, makerOrNull->port});
+    Bridge bridge(io, random, *brokerOrNull, options, {address, makerOrNull->port});
     boost::asio::signal_set signals(io, SIGINT, SIGTERM);
     signals.async_wait([&bridge, &io](const boost::system::error_code& cancelled, int /*number*/) {
         if (!cancelled)

@@ -197,6 +197,12 @@ class Bridge(ScenarioCase):
         self.assertEqual([error["errorType"] for error in state["errors"]], ["noRouteError"])
         self.assertEqual(self.vehicle.commands, [])
 
+    def test_a_serial_number_that_has_no_place_in_a_topic_is_refused(self):
+        for serial in ("", "a/b", "+", "#", "$V1", "V\n1"):
+            done = subprocess.run([self.bin_dir / "e19_bridge", "127.0.0.1", str(self.port), serial, "127.0.0.1", str(self.vehicle.port)],
+                                  stdout=subprocess.PIPE, text=True, timeout=FINISH_SECONDS, check=False)
+            self.assertEqual((done.returncode, done.stdout.split(" ")[0]), (2, "Usage:"), serial)
+
     def test_the_end_is_announced(self):
         self.assertEqual(self.bridge.stop(), 0)
         self.line.forget(self.bridge)

@@ -79,4 +79,15 @@ TEST_CASE("The vehicle example: an order with an action, a cancelled one, a reje
         PATIENCE));
 }
 
+TEST_CASE("The vehicle example refuses a serial number that has no place in a topic")
+{
+    for (const char* const serialNumber : {"", "a/b", "+", "#", "$V1", "V\n1"})
+    {
+        CAPTURE(serialNumber);
+        ChildProcess program({ACS_EXAMPLE, "127.0.0.1", "1", serialNumber});
+        CHECK(program.TryWaitForText("Usage: e11_vehicle HOST PORT SERIALNUMBER", PATIENCE));
+        CHECK(program.WaitForExitOrNull(PATIENCE) == 2);
+    }
+}
+
 } // namespace ACS::Testing
