@@ -8,6 +8,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from production_line import Line, LineError  # noqa: E402
@@ -35,7 +36,18 @@ def parse_arguments():
         parser.error("--plans must be 1 or more")
     if not 0.01 <= arguments.time_scale <= 1000:
         parser.error("--time-scale must be from 0.01 to 1000")
+    if arguments.logs:
+        try:
+            make_writable_folder(arguments.logs)
+        except OSError as error:
+            parser.error(f"--logs: {arguments.logs}: {error.strerror}")
     return arguments
+
+
+def make_writable_folder(folder):
+    os.makedirs(folder, exist_ok=True)
+    with tempfile.TemporaryFile(dir=folder):
+        pass
 
 
 def terminal_environment():
@@ -132,9 +144,11 @@ def watch(line, mcs, output):
 
 
 def save_logs(line, folder):
-    os.makedirs(folder, exist_ok=True)
-    for program in line.programs:
-        shutil.copy(program.log, folder)
+    try:
+        for program in line.programs:
+            shutil.copy(program.log, folder)
+    except OSError as error:
+        raise LineError(f"the logs cannot be copied to {folder}: {error.strerror}") from error
 
 
 def report(error):
@@ -197,7 +211,11 @@ def main():
         finally:
             interruption.disarm()
             if arguments.logs:
-                save_logs(line, arguments.logs)
+                try:
+                    save_logs(line, arguments.logs)
+                except LineError as error:
+                    report(error)
+                    code = 1
     return 0 if code == 0 else 1
 
 

@@ -82,6 +82,37 @@ class Demo(unittest.TestCase):
                 self.assertIn("demo: the output cannot be written", demo.stderr)
                 self.assert_nothing_left()
 
+    def test_a_log_folder_that_cannot_be_used_is_refused_before_anything_is_started(self):
+        with tempfile.TemporaryDirectory() as place:
+            file = pathlib.Path(place, "file")
+            file.touch()
+            for folder in (file, file / "logs", "/proc/logs"):
+                with self.subTest(folder):
+                    demo = self.start("--logs", str(folder))
+                    output, _ = demo.communicate(timeout=FINISH_SECONDS)
+                    self.assertEqual(demo.returncode, 2, output)
+                    self.assertIn(f"demo: error: --logs: {folder}: ", output.splitlines()[-1])
+                    self.assertNotIn("Traceback", output)
+                    self.assert_nothing_left()
+
+    def test_logs_that_cannot_be_copied_are_reported_in_one_line(self):
+        with tempfile.TemporaryDirectory() as folder:
+            os.mkdir(pathlib.Path(folder, "mcs-sim.log"))
+            demo = self.start("--time-scale", "20", "--logs", folder)
+            output, _ = demo.communicate(timeout=FINISH_SECONDS)
+        self.assertEqual(demo.returncode, 1, output)
+        self.assertEqual(output.splitlines()[-2], "2 plans completed, 0 failed")
+        self.assertIn(f"demo: the logs cannot be copied to {folder}: ", output.splitlines()[-1])
+        self.assert_nothing_left()
+
+    def test_the_logs_are_copied(self):
+        with tempfile.TemporaryDirectory() as place:
+            folder = pathlib.Path(place, "new", "logs")
+            demo = self.start("--time-scale", "20", "--logs", str(folder))
+            output, _ = demo.communicate(timeout=FINISH_SECONDS)
+            self.assertEqual(demo.returncode, 0, output)
+            self.assertLessEqual({"acsd.log", "mcs-sim.log"}, {path.name for path in folder.iterdir()})
+
     def test_closed_streams_are_not_a_failure(self):
         demo = self.run_in_shell("<&- >&-")
         self.assertEqual((demo.returncode, demo.stderr), (0, ""))
