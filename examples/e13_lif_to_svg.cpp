@@ -13,14 +13,18 @@
 #include <acs/plan/SiteMap.hpp>
 
 #include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstddef>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <tuple>
 #include <vector>
 
@@ -167,8 +171,22 @@ int main(int argc, char** argv) // NOLINT(bugprone-exception-escape): nothing th
         fmt::print("{}: {}\n", arguments[1], file ? Core::Describe(site.error()) : "cannot be read");
         return 1;
     }
+    std::set<std::string> maps;
+    std::ranges::for_each(site->GetNodes(), [&maps](const SiteNode& node) { maps.insert(node.mapID); });
+    const std::string mapID = argc == 4 ? arguments[3] : site->GetNodes().front().mapID;
+    if (!maps.contains(mapID))
+    {
+        fmt::print("{}: no map {}; its maps: {}\n", arguments[1], mapID, fmt::join(maps, ", "));
+        return 1;
+    }
+    const std::string svg = Picture(*site, mapID).MakeSVG();
     std::ofstream picture(arguments[2]);
-    picture << Picture(*site, argc == 4 ? arguments[3] : site->GetNodes().front().mapID).MakeSVG() << std::flush;
+    picture << svg << std::flush;
+    if (!picture)
+    {
+        fmt::print("{}: {}\n", arguments[2], std::generic_category().message(errno));
+        return 1;
+    }
     fmt::print("{}: {} nodes, {} edges\n", arguments[2], site->GetNodes().size(), site->GetEdges().size());
-    return picture ? 0 : 1;
+    return 0;
 }

@@ -101,6 +101,20 @@ class LifToSvg(ScenarioCase):
         nodes, edges, docks = self.draw(make_layout(), "two")
         self.assertEqual((list(nodes), edges, docks), (["C"], {}, []))
 
+    def test_an_unknown_map_is_refused_with_the_known_ones_and_nothing_is_drawn(self):
+        lif = self.line.folder / "site.lif.json"
+        lif.write_text(json.dumps(make_layout()))
+        lesson = self.run_lesson(lif, "three")
+        self.assertEqual(lesson.returncode, 1, lesson.stdout)
+        self.assertEqual(lesson.stdout, f"{lif}: no map three; its maps: one, two\n")
+        self.assertFalse(self.svg.exists())
+
+    def test_a_picture_that_cannot_be_written_is_an_error_with_its_reason(self):
+        for target, reason in ((self.line.folder, "Is a directory"), ("/dev/full", "No space left on device")):
+            lesson = subprocess.run([self.bin_dir / "e13_lif_to_svg", SITE / "site.lif.json", target], stdout=subprocess.PIPE, text=True,
+                                    timeout=FINISH_SECONDS, check=False)
+            self.assertEqual((lesson.returncode, lesson.stdout), (1, f"{target}: {reason}\n"))
+
     def test_an_invalid_file_is_refused_with_its_place_and_nothing_is_drawn(self):
         layout = make_layout()
         layout["layouts"][0]["edges"][1]["endNodeId"] = "D"
