@@ -148,6 +148,13 @@ class Operator(ScenarioCase):
                        check=True, capture_output=True)
         return certificate, key
 
+    def test_a_token_whose_line_is_not_written_is_not_shown(self):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([self.bin_dir / "acsd", "token", "operator", "kim"], stdout=full, stderr=subprocess.PIPE, text=True,
+                                  timeout=FINISH_SECONDS, check=False)
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr, "acsd token: the line cannot be written to standard output: No space left on device. No token is made\n")
+
     def test_other_machines_need_tls_and_a_token_or_a_certificate(self):
         def check(*overrides):
             sets = [part for override in overrides for part in ("--set", override)]

@@ -8,9 +8,11 @@
 #include <openssl/rand.h>
 
 #include <array>
+#include <cerrno>
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <system_error>
 
 namespace ACS::Acsd
 {
@@ -56,7 +58,16 @@ int RunTokenCommand(int argc, const char* const* argv)
         return 1;
     }
     const std::string token = MakeTokenText(random);
-    fmt::print("{}\n", MakeTokenLine({*ReadRoleOrNull(role), name, HashToken(token)}));
+    const std::string line = MakeTokenLine({*ReadRoleOrNull(role), name, HashToken(token)}) + '\n';
+    // The token is shown only if its line is in the file: without it the token is not valid.
+    if (std::fputs(line.c_str(), stdout) == EOF || std::fflush(stdout) == EOF)
+    {
+        const std::string reason = std::generic_category().message(errno);
+        Apps::PrintError(
+            COMMAND,
+            fmt::format("the line cannot be written to standard output: {}. No token is made", reason));
+        return 1;
+    }
     fmt::print(stderr, "token of {}, shown only now: {}\n", name, token);
     return 0;
 }
