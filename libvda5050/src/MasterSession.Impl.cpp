@@ -95,6 +95,10 @@ void MasterSession::Impl::OnConnection(std::string_view payload, Core::Now now, 
             if (!_vehicle.IsOnline())
             {
                 OnVehicleOnline(now, out);
+                if (!_outbox.ShouldAwaitState())
+                {
+                    PublishOrder(now, out);
+                }
             }
             break;
         case EConnectionState::Offline:
@@ -127,10 +131,6 @@ void MasterSession::Impl::OnVehicleOnline(Core::Now now, MasterActions& out)
     }
     PublishInstantActions(std::move(requests), now, out);
     _outbox.OnVehicleOnline();
-    if (!_outbox.ShouldAwaitState())
-    {
-        PublishOrder(now, out);
-    }
     ResendInstantActions(now, out);
 }
 
@@ -147,7 +147,8 @@ void MasterSession::Impl::OnState(std::string_view payload, Core::Now now, Maste
     {
         return;
     }
-    if (_vehicle.GetLink() == EVehicleLink::Unknown || _vehicle.GetLink() == EVehicleLink::Broken)
+    const bool bCameOnline = _vehicle.GetLink() == EVehicleLink::Unknown || _vehicle.GetLink() == EVehicleLink::Broken;
+    if (bCameOnline)
     {
         // It lives, whatever became of its connection message; and the will of a connection that it had before, under
         // another client id, may come after the ONLINE of the present one.
@@ -156,7 +157,7 @@ void MasterSession::Impl::OnState(std::string_view payload, Core::Now now, Maste
     const bool bWasLed = _vehicle.IsUnderMasterControl();
     const std::optional<StateMessage> previous =
         _vehicle.ReplaceStateOrNull(std::move(*state), _rules.GetAllowedSilence(), now, out);
-    SettleInFlight(now, out);
+    const bool bSendAgain = SettleInFlight(out) == OrderOutbox::EAnswer::SendAgain;
     const StateMessage& present = *_vehicle.GetStateOrNull();
     const ActionIndex shown(present.actionStates);
     _vehicle.ReportDifferences(previous, shown, out);
@@ -164,14 +165,15 @@ void MasterSession::Impl::OnState(std::string_view payload, Core::Now now, Maste
     _actions.Update(shown, out);
     UpdateOrder(out);
     UpdateCancel(out);
-    if (GetOrderPhase() == EOrderPhase::Active && _outbox.TryStartQueued(present))
-    {
-        PublishOrder(now, out);
-    }
+    const bool bStarted = GetOrderPhase() == EOrderPhase::Active && _outbox.TryStartQueued(present);
     CancelReappeared(now, out);
-    if (!bWasLed && _vehicle.IsUnderMasterControl())
+    const bool bBecameLed = !bWasLed && _vehicle.IsUnderMasterControl();
+    if (bSendAgain || bCameOnline || bStarted || bBecameLed)
     {
-        PublishOrder(now, out);
+        PublishOrder(now, out); // once: each resend weakens what a later error proves
+    }
+    if (bBecameLed)
+    {
         ResendInstantActions(now, out);
     }
 }

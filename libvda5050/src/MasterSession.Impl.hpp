@@ -72,7 +72,8 @@ private:
     void OnVisualization(std::string_view payload, MasterActions& out);
     void OnVehicleOnline(Core::Now now, MasterActions& out);
 
-    void SettleInFlight(Core::Now now, MasterActions& out);
+    /// Returns what the state means for the message in flight, and reports it.
+    OrderOutbox::EAnswer SettleInFlight(MasterActions& out);
     void RejectInFlight(const std::string& errorType, const std::string& reason, MasterActions& out);
     void UpdateOrder(MasterActions& out);
     void UpdateCancel(MasterActions& out);

@@ -19,7 +19,7 @@ void MasterSession::Impl::AddToRoute(const OrderMessage& order, bool bUpdate)
     _actions.TrackOrder(order, _route.ListActionIDs(), bUpdate);
 }
 
-void MasterSession::Impl::SettleInFlight(Core::Now now, MasterActions& out)
+OrderOutbox::EAnswer MasterSession::Impl::SettleInFlight(MasterActions& out)
 {
     const OrderOutbox::Answer answer = _outbox.OnState(*_vehicle.GetStateOrNull());
     switch (answer.kind)
@@ -41,12 +41,11 @@ void MasterSession::Impl::SettleInFlight(Core::Now now, MasterActions& out)
             EndOrder(out);
             break;
         case OrderOutbox::EAnswer::SendAgain:
-            PublishOrder(now, out);
-            break;
         case OrderOutbox::EAnswer::None:
         default:
             break;
     }
+    return answer.kind;
 }
 
 void MasterSession::Impl::RejectInFlight(const std::string& errorType, const std::string& reason, MasterActions& out)

@@ -133,6 +133,39 @@ TEST_CASE("8.6 In a mode without master control only requests are sent; waiting 
     CHECK(GetSentActionID(bench) == "i1");
 }
 
+TEST_CASE("8.6 An order that waited for an outage and for the mode is sent once")
+{
+    MasterSessionFixture bench;
+    bench.state.orderID = "order-0";
+    bench.BeReady();
+    REQUIRE(bench.session.SendOrder(MakeOrder(3, 3), bench.GetNow(), bench.Clear()).has_value());
+    bench.state.operatingMode = EOperatingMode::Manual;
+    bench.SendState();
+    bench.Connect(EConnectionState::ConnectionBroken);
+    bench.Connect(EConnectionState::Online);
+    bench.Clear();
+    bench.state.operatingMode = EOperatingMode::Automatic;
+    bench.SendState();
+    CHECK(bench.GetSent(ETopic::Order).size() == 1);
+}
+
+TEST_CASE("8.6 An update that waited for the echo of the one before it and for the mode is sent once")
+{
+    MasterSessionFixture bench;
+    OrderBuilder builder = Run(bench);
+    const OrderMessage first = *builder.MakeUpdate(3);
+    REQUIRE(bench.session.SendOrderUpdate(first, bench.GetNow(), bench.Clear()).has_value());
+    REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(4), bench.GetNow(), bench.Clear()).has_value());
+    bench.state.operatingMode = EOperatingMode::Service;
+    bench.SendState();
+    bench.Clear();
+    bench.state.operatingMode = EOperatingMode::Automatic;
+    bench.Hold(first, 2);
+    bench.SendState();
+    REQUIRE(bench.GetSent(ETopic::Order).size() == 1);
+    CHECK(bench.GetSentOrder().orderUpdateID == 2);
+}
+
 TEST_CASE("3.7 Generated ids have the form that the factsheet requires, and other ids are rejected")
 {
     MasterSessionFixture bench;

@@ -112,41 +112,6 @@ TEST_CASE("13 An order is resent until the state shows its ids, and then no more
     CHECK(bench.GetSent(ETopic::Order).empty());
 }
 
-TEST_CASE("13 After an outage an order that was not shown is resent only if the vehicle cannot have executed it")
-{
-    MasterSessionFixture bench;
-    const std::string before = GENERATE("", "order-0");
-    bench.state.orderID = before;
-    bench.BeReady();
-    REQUIRE(bench.session.SendOrder(MakeOrder(3, 3), bench.GetNow(), bench.Clear()).has_value());
-    bench.Connect(EConnectionState::ConnectionBroken);
-    bench.Clear();
-    bench.Connect(EConnectionState::Online);
-    CHECK(bench.GetSent(ETopic::Order).empty()); // what it shows now decides
-    SECTION("it shows the order before this one: this one did not reach it")
-    {
-        bench.SendState();
-        const bool bKnown = !before.empty();
-        CHECK(bench.GetSent(ETopic::Order).size() == (bKnown ? 1 : 0));
-        CHECK(Pick<OrderLost>(bench.GetOutput()).size() == (bKnown ? 0 : 1));
-    }
-    SECTION("it shows no order: it may have executed this one before it was restarted")
-    {
-        bench.state.orderID.clear();
-        bench.SendState();
-        CHECK(bench.GetSent(ETopic::Order).empty());
-        CHECK(Pick<OrderLost>(bench.GetOutput()).size() == 1);
-        CHECK(bench.session.GetOrderPhase() == EOrderPhase::None);
-    }
-    SECTION("it shows the order")
-    {
-        bench.Hold(MakeOrder(3, 3), 2);
-        bench.SendState();
-        CHECK(bench.GetSent(ETopic::Order).empty());
-        CHECK(Pick<OrderAccepted>(bench.GetOutput()).size() == 1);
-    }
-}
-
 TEST_CASE("13 A vehicle that shows no order any more before it has shown the one sent may have executed it")
 {
     MasterSessionFixture bench;
