@@ -95,10 +95,6 @@ void MasterSession::Impl::OnConnection(std::string_view payload, Core::Now now, 
             if (!_vehicle.IsOnline())
             {
                 OnVehicleOnline(now, out);
-                if (!_outbox.ShouldAwaitState())
-                {
-                    PublishOrder(now, out);
-                }
             }
             break;
         case EConnectionState::Offline:
@@ -147,17 +143,17 @@ void MasterSession::Impl::OnState(std::string_view payload, Core::Now now, Maste
     {
         return;
     }
-    const bool bCameOnline = _vehicle.GetLink() == EVehicleLink::Unknown || _vehicle.GetLink() == EVehicleLink::Broken;
-    if (bCameOnline)
+    if (_vehicle.GetLink() == EVehicleLink::Unknown || _vehicle.GetLink() == EVehicleLink::Broken)
     {
         // It lives, whatever became of its connection message; and the will of a connection that it had before, under
         // another client id, may come after the ONLINE of the present one.
         OnVehicleOnline(now, out);
     }
+    const bool bFirst = !_vehicle.HasStateSinceOnline();
     const bool bWasLed = _vehicle.IsUnderMasterControl();
     const std::optional<StateMessage> previous =
         _vehicle.ReplaceStateOrNull(std::move(*state), _rules.GetAllowedSilence(), now, out);
-    const bool bSendAgain = SettleInFlight(out) == OrderOutbox::EAnswer::SendAgain;
+    SettleInFlight(out);
     const StateMessage& present = *_vehicle.GetStateOrNull();
     const ActionIndex shown(present.actionStates);
     _vehicle.ReportDifferences(previous, shown, out);
@@ -168,7 +164,7 @@ void MasterSession::Impl::OnState(std::string_view payload, Core::Now now, Maste
     const bool bStarted = GetOrderPhase() == EOrderPhase::Active && _outbox.TryStartQueued(present);
     CancelReappeared(now, out);
     const bool bBecameLed = !bWasLed && _vehicle.IsUnderMasterControl();
-    if (bSendAgain || bCameOnline || bStarted || bBecameLed)
+    if (bFirst || bStarted || bBecameLed)
     {
         PublishOrder(now, out); // once: each resend weakens what a later error proves
     }

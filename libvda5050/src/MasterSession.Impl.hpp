@@ -72,10 +72,11 @@ private:
     void OnVisualization(std::string_view payload, MasterActions& out);
     void OnVehicleOnline(Core::Now now, MasterActions& out);
 
-    /// Returns what the state means for the message in flight, and reports it.
-    OrderOutbox::EAnswer SettleInFlight(MasterActions& out);
+    void SettleInFlight(MasterActions& out);
     void RejectInFlight(const std::string& errorType, const std::string& reason, MasterActions& out);
     void UpdateOrder(MasterActions& out);
+    /// Reports the order as lost. An update of it may reach the vehicle late.
+    void LoseAccepted(std::string reason, MasterActions& out);
     void UpdateCancel(MasterActions& out);
     void CancelReappeared(Core::Now now, MasterActions& out);
     void EndCancel(EActionStatus status, MasterActions& out);

@@ -19,7 +19,7 @@ void MasterSession::Impl::AddToRoute(const OrderMessage& order, bool bUpdate)
     _actions.TrackOrder(order, _route.ListActionIDs(), bUpdate);
 }
 
-OrderOutbox::EAnswer MasterSession::Impl::SettleInFlight(MasterActions& out)
+void MasterSession::Impl::SettleInFlight(MasterActions& out)
 {
     const OrderOutbox::Answer answer = _outbox.OnState(*_vehicle.GetStateOrNull());
     switch (answer.kind)
@@ -40,12 +40,10 @@ OrderOutbox::EAnswer MasterSession::Impl::SettleInFlight(MasterActions& out)
                 "the vehicle was restarted, or not connected, after the order was sent, and may have executed it"});
             EndOrder(out);
             break;
-        case OrderOutbox::EAnswer::SendAgain:
         case OrderOutbox::EAnswer::None:
         default:
             break;
     }
-    return answer.kind;
 }
 
 void MasterSession::Impl::RejectInFlight(const std::string& errorType, const std::string& reason, MasterActions& out)
@@ -78,10 +76,7 @@ void MasterSession::Impl::UpdateOrder(MasterActions& out)
     const StateMessage& state = *_vehicle.GetStateOrNull();
     if (state.orderID != _orderID)
     {
-        out.emplace_back(OrderLost{
-            _orderID,
-            state.orderID.empty() ? "the vehicle holds no order" : "the vehicle holds " + state.orderID});
-        EndOrder(out);
+        LoseAccepted(state.orderID.empty() ? "the vehicle holds no order" : "the vehicle holds " + state.orderID, out);
         return;
     }
     _route.ReportReached(state, out);
@@ -97,13 +92,18 @@ void MasterSession::Impl::UpdateOrder(MasterActions& out)
     else if (!_vehicle.IsBusy() && !_route.IsReached())
     {
         // A base that is done leaves its horizon in nodeStates; nothing left means that it was dropped.
-        if (const OrderMessage* const showable = _outbox.GetShowableOrNull())
-        {
-            _withdrawnOrders.Add(_orderID, showable, false);
-        }
-        out.emplace_back(OrderLost{_orderID, "the vehicle cleared the order"});
-        EndOrder(out);
+        LoseAccepted("the vehicle cleared the order", out);
     }
+}
+
+void MasterSession::Impl::LoseAccepted(std::string reason, MasterActions& out)
+{
+    if (const OrderMessage* const showable = _outbox.GetShowableOrNull())
+    {
+        _withdrawnOrders.Add(_orderID, showable, false);
+    }
+    out.emplace_back(OrderLost{_orderID, std::move(reason)});
+    EndOrder(out);
 }
 
 void MasterSession::Impl::EndOrder(MasterActions& out)

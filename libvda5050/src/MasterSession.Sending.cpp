@@ -88,9 +88,10 @@ bool HasHorizon(const OrderMessage& order)
 
 void MasterSession::Impl::PublishOrder(Core::Now now, MasterActions& out)
 {
-    if (_outbox.GetInFlightOrNull() == nullptr || !_vehicle.CanReceive())
+    if (_outbox.GetInFlightOrNull() == nullptr || !_vehicle.CanReceive() || !_vehicle.HasStateSinceOnline())
     {
-        return; // sent when it comes online, and back to a mode that takes orders
+        // Sent with the first state, as a restarted vehicle would take an update for a new order, and in a mode that takes orders.
+        return;
     }
     if (_outbox.IsSpent())
     {
@@ -306,10 +307,10 @@ Core::Result<void> MasterSession::Impl::ResumeOrder(OrderRecord record, Core::No
     if (open != messages.end())
     {
         _outbox.Start(std::move(*open), OrderOutbox::EEcho::Possible, state);
-        PublishOrder(now, out);
     }
     _actions.Update(ActionIndex(state.actionStates), out);
     UpdateOrder(out);
+    PublishOrder(now, out);
     return {};
 }
 

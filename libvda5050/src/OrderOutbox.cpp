@@ -143,8 +143,8 @@ OrderOutbox::Answer OrderOutbox::OnState(const StateMessage& state)
     {
         return {EAnswer::Unresolved};
     }
-    const bool bWasAway = std::exchange(_inFlight->bAwaySinceSend, false);
-    return {bWasAway && !IsAccepted() ? EAnswer::SendAgain : EAnswer::None};
+    _inFlight->bAwaySinceSend = false;
+    return {};
 }
 
 OrderOutbox::Answer OrderOutbox::RenumberUnsent(const StateMessage& state)
@@ -291,11 +291,6 @@ bool OrderOutbox::IsContinued() const
 bool OrderOutbox::IsSpent() const noexcept
 {
     return _inFlight.has_value() && _options.resendCount != 0 && _inFlight->sendCount > _options.resendCount;
-}
-
-bool OrderOutbox::ShouldAwaitState() const noexcept
-{
-    return _inFlight.has_value() && _inFlight->bAwaySinceSend && !IsAccepted();
 }
 
 const OrderMessage* OrderOutbox::GetInFlightOrNull() const noexcept

@@ -35,7 +35,6 @@ public:
         Shown,
         Rejected,
         Unresolved, ///< The vehicle may have executed the order without showing it, and forgotten it by a restart.
-        SendAgain,  ///< The vehicle was away, and the order is not lost.
     };
 
     struct Answer
@@ -100,8 +99,6 @@ public:
     [[nodiscard]] bool IsContinued() const;
     /// The message in flight was resent as often as the options allow.
     [[nodiscard]] bool IsSpent() const noexcept;
-    /// The vehicle was away: its next state decides whether the message in flight is sent again.
-    [[nodiscard]] bool ShouldAwaitState() const noexcept;
     [[nodiscard]] const OrderMessage* GetInFlightOrNull() const noexcept;
     /// The message in flight if the vehicle can show it.
     [[nodiscard]] const OrderMessage* GetShowableOrNull() const noexcept;

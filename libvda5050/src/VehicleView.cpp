@@ -30,6 +30,7 @@ void VehicleView::OnLinkUp() noexcept
 void VehicleView::OnLinkDown(MasterActions& out)
 {
     _bLinkUp = false;
+    _bStateSinceOnline = false;
     _freshness = EFreshness::NoState;
     _link = EVehicleLink::Unknown;
     CancelMasterTimers(out);
@@ -43,6 +44,7 @@ void VehicleView::OnRestartedNumbers() noexcept
 void VehicleView::OnOnline(Core::Duration allowedSilence, Core::Now now, MasterActions& out)
 {
     _link = EVehicleLink::Online;
+    _bStateSinceOnline = false;
     _freshness = EFreshness::NoState;
     _lastStateTime = now.steady;
     out.emplace_back(VehicleOnline{});
@@ -56,6 +58,7 @@ void VehicleView::OnGone(EVehicleLink link, MasterActions& out)
         return; // a repeated retained message, or a will after it was read once
     }
     _link = link;
+    _bStateSinceOnline = false;
     _freshness = EFreshness::NoState;
     CancelMasterTimers(out);
     if (link == EVehicleLink::Broken)
@@ -76,6 +79,7 @@ std::optional<StateMessage> VehicleView::ReplaceStateOrNull(
 {
     _lastStateTime = now.steady;
     _bNumbersKnown = true;
+    _bStateSinceOnline = true;
     if (std::exchange(_freshness, EFreshness::Fresh) == EFreshness::Silent)
     {
         out.emplace_back(StartMasterTimer{EMasterTimer::Silence, allowedSilence});
@@ -158,6 +162,11 @@ bool VehicleView::IsOnline() const noexcept
 bool VehicleView::IsReady() const noexcept
 {
     return IsOnline() && _freshness == EFreshness::Fresh;
+}
+
+bool VehicleView::HasStateSinceOnline() const noexcept
+{
+    return _bStateSinceOnline;
 }
 
 bool VehicleView::IsUnderMasterControl() const

@@ -25,6 +25,7 @@ class VehicleView
     EVehicleLink _link = EVehicleLink::Unknown;
     EFreshness _freshness = EFreshness::NoState;
     bool _bNumbersKnown = false; ///< A state was received since ONLINE, which restarts the headerIds.
+    bool _bStateSinceOnline = false;
     Core::SteadyTime _lastStateTime;
     std::optional<StateMessage> _state;
 
@@ -54,6 +55,8 @@ public:
     [[nodiscard]] EVehicleLink GetLink() const noexcept;
     [[nodiscard]] bool IsOnline() const noexcept;
     [[nodiscard]] bool IsReady() const noexcept;
+    /// A state was received since the vehicle is online. The next one may be overdue.
+    [[nodiscard]] bool HasStateSinceOnline() const noexcept;
     /// Whether the last known mode allows orders and instant actions.
     [[nodiscard]] bool IsUnderMasterControl() const;
     /// Online, and in a mode that takes orders.

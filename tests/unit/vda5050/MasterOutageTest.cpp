@@ -1,5 +1,8 @@
 #include "MasterSessionFixture.hpp"
 
+#include <algorithm>
+#include <chrono>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -22,6 +25,18 @@ OrderMessage SendUpdate(MasterSessionFixture& bench)
     REQUIRE(bench.session.SendOrderUpdate(update, bench.GetNow(), bench.Clear()).has_value());
     REQUIRE(bench.GetSentOrder().orderUpdateID == 1);
     return update;
+}
+
+std::vector<std::string> ListSentInstantActions(const MasterSessionFixture& bench)
+{
+    std::vector<std::string> types;
+    for (const MqttMessage& sent : bench.GetSent(ETopic::InstantActions))
+    {
+        const auto message = Vda5050Codec().Decode<InstantActionsMessage>(sent.payload);
+        REQUIRE(message.has_value());
+        std::ranges::transform(message->actions, std::back_inserter(types), &Action::actionType);
+    }
+    return types;
 }
 
 } // namespace
@@ -79,6 +94,71 @@ TEST_CASE("13 After an outage an update that the first state shows is not sent a
     bench.SendState();
     CHECK(bench.GetSent(ETopic::Order).empty());
     CHECK(Pick<OrderAccepted>(bench.GetOutput()) == std::vector{OrderAccepted{"order-1", 1}});
+}
+
+TEST_CASE("13 After an outage an update is sent again only if the vehicle shows that it still has the order")
+{
+    MasterSessionFixture bench;
+    const OrderMessage update = SendUpdate(bench);
+    bench.Connect(EConnectionState::ConnectionBroken);
+    bench.Clear();
+    bench.Connect(EConnectionState::Online);
+    if (GENERATE(true, false))
+    {
+        bench.Wait(std::chrono::seconds(40), EMasterTimer::Silence);
+    }
+    CHECK(bench.GetSent(ETopic::Order).empty()); // to a vehicle that was restarted it would be a new order
+    bench.Clear();
+    SECTION("it has it")
+    {
+        bench.SendState();
+        REQUIRE(bench.GetSent(ETopic::Order).size() == 1);
+        CHECK(bench.GetSentOrder().orderUpdateID == 1);
+    }
+    SECTION("it was restarted, and the update that was sent before reaches it late")
+    {
+        bench.state = StateMessage();
+        bench.SendState();
+        CHECK(bench.GetSent(ETopic::Order).empty());
+        CHECK(Pick<OrderLost>(bench.GetOutput()).size() == 1);
+        bench.Clear();
+        bench.Hold(update, 2);
+        bench.SendState();
+        CHECK(Pick<OrderReappeared>(bench.GetOutput()) == std::vector{OrderReappeared{"order-1"}});
+        CHECK(ListSentInstantActions(bench) == std::vector<std::string>{"cancelOrder"});
+    }
+}
+
+TEST_CASE("13 An update that is given while the vehicle is away is not sent before its first state")
+{
+    MasterSessionFixture bench;
+    bench.BeReady();
+    OrderBuilder builder = MakeBuilder(4);
+    const OrderMessage order = *builder.MakeOrder(2);
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    bench.Hold(order, 3);
+    bench.SendState();
+    bench.Connect(EConnectionState::ConnectionBroken);
+    const bool bBeforeOnline = GENERATE(true, false);
+    const OrderMessage update = *builder.MakeUpdate(3);
+    if (bBeforeOnline)
+    {
+        REQUIRE(bench.session.SendOrderUpdate(update, bench.GetNow(), bench.Clear()).has_value());
+    }
+    bench.Clear();
+    bench.Connect(EConnectionState::Online);
+    CHECK(bench.GetSent(ETopic::Order).empty());
+    if (!bBeforeOnline)
+    {
+        REQUIRE(bench.session.SendOrderUpdate(update, bench.GetNow(), bench.Clear()).has_value());
+        CHECK(bench.GetSent(ETopic::Order).empty());
+    }
+    bench.Clear();
+    const bool bRestarted = GENERATE(true, false);
+    bench.state = bRestarted ? StateMessage() : bench.state;
+    bench.SendState();
+    CHECK(bench.GetSent(ETopic::Order).size() == (bRestarted ? 0 : 1));
+    CHECK(Pick<OrderLost>(bench.GetOutput()).size() == (bRestarted ? 1 : 0));
 }
 
 } // namespace ACS::VDA5050::Test

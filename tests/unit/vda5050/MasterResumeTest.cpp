@@ -113,6 +113,23 @@ TEST_CASE("13 A resumed order that was accepted and that the vehicle has lost is
     CHECK(bench.session.GetOrderPhase() == EOrderPhase::None);
 }
 
+TEST_CASE(
+    "13 The update of a resumed order that the vehicle has cleared is not sent, and is cancelled if it comes late")
+{
+    const Record record;
+    MasterSessionFixture bench;
+    bench.Hold(record.order, 4);
+    bench.state.nodeStates.clear();
+    bench.BeReady();
+    REQUIRE(Resume(bench, {{record.order, record.update}, 0}));
+    CHECK(Pick<OrderLost>(bench.GetOutput()).size() == 1);
+    CHECK(bench.GetSent(ETopic::Order).empty());
+    bench.Clear();
+    bench.Hold(record.update, 3);
+    bench.SendState();
+    CHECK(Pick<OrderReappeared>(bench.GetOutput()) == std::vector{OrderReappeared{"order-1"}});
+}
+
 TEST_CASE("13 The updates of a resumed order are numbered on from the one that the vehicle shows")
 {
     const Record record;
