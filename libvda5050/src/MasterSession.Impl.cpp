@@ -153,9 +153,9 @@ void MasterSession::Impl::OnState(std::string_view payload, Core::Now now, Maste
     const bool bWasLed = _vehicle.IsUnderMasterControl();
     const std::optional<StateMessage> previous =
         _vehicle.ReplaceStateOrNull(std::move(*state), _rules.GetAllowedSilence(), now, out);
-    SettleInFlight(out);
     const StateMessage& present = *_vehicle.GetStateOrNull();
     const ActionIndex shown(present.actionStates);
+    SettleInFlight(shown, out);
     _vehicle.ReportDifferences(previous, shown, out);
     RemoveTracked(_pendingActions.OnState(present, shown, _cancelActionID, out));
     _actions.Update(shown, out);

@@ -72,7 +72,7 @@ private:
     void OnVisualization(std::string_view payload, MasterActions& out);
     void OnVehicleOnline(Core::Now now, MasterActions& out);
 
-    void SettleInFlight(MasterActions& out);
+    void SettleInFlight(const ActionIndex& shown, MasterActions& out);
     void RejectInFlight(const std::string& errorType, const std::string& reason, MasterActions& out);
     void UpdateOrder(MasterActions& out);
     /// Reports the order as lost. An update of it may reach the vehicle late.

@@ -19,9 +19,9 @@ void MasterSession::Impl::AddToRoute(const OrderMessage& order, bool bUpdate)
     _actions.TrackOrder(order, _route.ListActionIDs(), bUpdate);
 }
 
-void MasterSession::Impl::SettleInFlight(MasterActions& out)
+void MasterSession::Impl::SettleInFlight(const ActionIndex& shown, MasterActions& out)
 {
-    const OrderOutbox::Answer answer = _outbox.OnState(*_vehicle.GetStateOrNull());
+    const OrderOutbox::Answer answer = _outbox.OnState(*_vehicle.GetStateOrNull(), shown);
     switch (answer.kind)
     {
         case OrderOutbox::EAnswer::Shown:

@@ -119,7 +119,7 @@ void OrderOutbox::OnVehicleOnline()
     }
 }
 
-OrderOutbox::Answer OrderOutbox::OnState(const StateMessage& state)
+OrderOutbox::Answer OrderOutbox::OnState(const StateMessage& state, const ActionIndex& shown)
 {
     if (!_inFlight.has_value())
     {
@@ -133,8 +133,10 @@ OrderOutbox::Answer OrderOutbox::OnState(const StateMessage& state)
     {
         return {EAnswer::Shown};
     }
-    const auto rejection =
-        std::ranges::find_if(state.errors, [this](const VehicleError& error) { return IsRejection(error); });
+    const auto isRejection = [this, &shown](const VehicleError& error) {
+        return IsRejection(error, shown);
+    };
+    const auto rejection = std::ranges::find_if(state.errors, isRejection);
     if (rejection != state.errors.end())
     {
         return {EAnswer::Rejected, rejection->errorType, rejection->errorDescription};
@@ -176,7 +178,7 @@ bool OrderOutbox::IsUnresolved(const StateMessage& state) const
     return bForgot || (_inFlight->bAwaySinceSend && bUnknown);
 }
 
-bool OrderOutbox::IsRejection(const VehicleError& error) const
+bool OrderOutbox::IsRejection(const VehicleError& error, const ActionIndex& shown) const
 {
     const std::string* topicOrNull = FindReferenceOrNull(error, ReferenceKeys::TOPIC);
     if (topicOrNull != nullptr && *topicOrNull != GetTopicName(ETopic::Order))
@@ -188,13 +190,15 @@ bool OrderOutbox::IsRejection(const VehicleError& error) const
     // An error of before the sending may stay until an order is taken; after a resend it is an answer to that.
     const bool bBefore = std::ranges::binary_search(_inFlight->errorsBefore, error);
     const bool bOld = _inFlight->sendCount < 2 && bBefore;
-    const bool bAnswer =
-        topicOrNull != nullptr || std::ranges::find(ORDER_ERROR_TYPES, error.errorType) != ORDER_ERROR_TYPES.end();
+    const bool bOrderType = std::ranges::find(ORDER_ERROR_TYPES, error.errorType) != ORDER_ERROR_TYPES.end();
+    const bool bAnswer = topicOrNull != nullptr || bOrderType;
+    const std::string* headerOrNull = FindReferenceOrNull(error, ReferenceKeys::HEADER_ID);
+    const bool bSentHeader = headerOrNull != nullptr && IsSentHeader(*headerOrNull);
     if (orderOrNull == nullptr)
     {
         // A header that is named must be one of ours: other clients may write to the topic, and the error is about their message.
-        const std::string* headerOrNull = FindReferenceOrNull(error, ReferenceKeys::HEADER_ID);
-        return !bBefore && bAnswer && (headerOrNull == nullptr || IsSentHeader(*headerOrNull));
+        // The topic alone proves nothing: a failed action or a left corridor of the order that runs may name it too.
+        return !bBefore && (headerOrNull != nullptr ? bAnswer && bSentHeader : bOrderType);
     }
     if (*orderOrNull != _inFlight->message.orderID || bOld)
     {
@@ -205,7 +209,9 @@ bool OrderOutbox::IsRejection(const VehicleError& error) const
         return *updateOrNull == std::to_string(_inFlight->message.orderUpdateID);
     }
     // While the order runs, the error may be about something else than the update, such as an action that failed.
-    return bAnswer || !IsAccepted();
+    const std::string* actionOrNull = FindReferenceOrNull(error, ReferenceKeys::ACTION_ID);
+    const bool bShownAction = actionOrNull != nullptr && shown.FindOrNull(*actionOrNull) != nullptr;
+    return !IsAccepted() || (bAnswer && (bSentHeader || !bShownAction));
 }
 
 bool OrderOutbox::IsSentHeader(std::string_view headerID) const

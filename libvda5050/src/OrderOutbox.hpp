@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ActionIndex.hpp"
 #include "MasterTopics.hpp"
 #include "OrderNumbers.hpp"
 #include <acs/vda5050/MasterAction.hpp>
@@ -79,7 +80,8 @@ public:
     /// Delayed by the minimum interval of orders.
     void Publish(MasterTopics& topics, Core::Duration minimumInterval, Core::Now now, MasterActions& out);
     void OnVehicleOnline();
-    [[nodiscard]] Answer OnState(const StateMessage& state);
+    /// shown has the actions of the state.
+    [[nodiscard]] Answer OnState(const StateMessage& state, const ActionIndex& shown);
     /// Returns the message in flight, which the state shows.
     [[nodiscard]] OrderMessage Accept(const StateMessage& state, MasterActions& out);
     /// The vehicle shows a message of the order that was not sent by this session.
@@ -109,7 +111,7 @@ private:
     /// Keeps the numbers of what was not sent above the one that the vehicle shows.
     [[nodiscard]] Answer RenumberUnsent(const StateMessage& state);
     [[nodiscard]] bool IsUnresolved(const StateMessage& state) const;
-    [[nodiscard]] bool IsRejection(const VehicleError& error) const;
+    [[nodiscard]] bool IsRejection(const VehicleError& error, const ActionIndex& shown) const;
     [[nodiscard]] bool IsSentHeader(std::string_view headerID) const;
 };
 

@@ -63,11 +63,21 @@ TEST_CASE("4.2 Which errors about the running order reject an update")
         Row{"badHorizon", {{"orderId", "order-1"}, {"orderUpdateId", "1"}}, true},
         Row{"badHorizon", {{"topic", "order"}, {"orderId", "order-1"}}, true},
         Row{"badHorizon", {{"topic", "order"}, {"headerId", "1"}}, true},
-        Row{"badHorizon", {{"topic", "instantAction"}, {"orderId", "order-1"}}, false});
-    CAPTURE(row.type);
+        Row{"badHorizon", {{"topic", "instantAction"}, {"orderId", "order-1"}}, false},
+        Row{"actionError", {{"topic", "order"}, {"actionId", "a1"}, {"nodeId", "N1"}}, false},
+        Row{"outsideOfCorridor", {{"topic", "order"}, {"edgeId", "E1"}}, false},
+        Row{"badHorizon", {{"topic", "order"}}, false},
+        Row{"orderUpdateError", {{"topic", "order"}}, true},
+        Row{"orderUpdateError", {}, true},
+        Row{"actionError", {{"topic", "order"}, {"orderId", "order-1"}, {"actionId", "a1"}}, false},
+        Row{"badAction", {{"topic", "order"}, {"orderId", "order-1"}, {"actionId", "a2"}}, true},
+        Row{"badAction", {{"orderId", "order-1"}, {"orderUpdateId", "1"}, {"actionId", "a1"}}, true},
+        Row{"badAction", {{"topic", "order"}, {"headerId", "1"}, {"orderId", "order-1"}, {"actionId", "a1"}}, true});
+    CAPTURE(row.type, row.references.size());
     MasterSessionFixture bench;
     OrderBuilder builder = Run(bench);
     REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(3), bench.GetNow(), bench.Clear()).has_value());
+    bench.state.actionStates = {ActionState{"a1", "pick", {}, EActionStatus::Failed, {}}};
     bench.Refuse(row.type, row.references);
     CHECK(Pick<OrderRejected>(bench.GetOutput()).size() == (row.bRejection ? 1 : 0));
     CHECK(bench.session.GetOrderPhase() == EOrderPhase::Active);
