@@ -129,6 +129,12 @@ Core::Result<void> MasterSession::Impl::Cancel(Core::Now now, MasterActions& out
     {
         return {};
     }
+    if (!_outbox.IsAccepted() && _outbox.GetShowableOrNull() == nullptr)
+    {
+        out.emplace_back(OrderCancelled{_orderID}); // a cancelOrder would end the order of another master
+        EndOrder(out);
+        return {};
+    }
     Action action;
     action.actionType = ActionTypes::CANCEL_ORDER;
     Core::Result<std::string> actionID = SendInstantAction(std::move(action), now, out);

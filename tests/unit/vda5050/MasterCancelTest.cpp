@@ -55,6 +55,32 @@ TEST_CASE("5.4 The order keeps running when the vehicle fails the cancel while a
     CHECK(Pick<OrderFinished>(bench.GetOutput()).size() == 1);
 }
 
+TEST_CASE(
+    "5.4 A cancel of an order that was not sent ends it without cancelOrder, which would end another master's order")
+{
+    MasterOptions options = MakeMasterOptions();
+    options.factsheet.emplace().protocolLimits.timing.minOrderInterval = 10;
+    MasterSessionFixture bench(options);
+    bench.BeReady();
+    const OrderMessage first = MakeOrder(3, 3);
+    REQUIRE(bench.session.SendOrder(first, bench.GetNow(), bench.Clear()).has_value());
+    bench.Hold(first, 0);
+    bench.SendState();
+    OrderMessage second = MakeOrder(3, 3);
+    second.orderID = "order-2";
+    REQUIRE(bench.session.SendOrder(second, bench.GetNow(), bench.Clear()).has_value());
+    REQUIRE(Pick<OrderDelayed>(bench.GetOutput()).size() == 1);
+    OrderMessage foreign = MakeOrder(3, 3);
+    foreign.orderID = "foreign";
+    bench.Hold(foreign, 2);
+    bench.SendState();
+    REQUIRE(bench.session.Cancel(bench.GetNow(), bench.Clear()).has_value());
+    CHECK(Pick<OrderCancelled>(bench.GetOutput()) == std::vector{OrderCancelled{"order-2"}});
+    bench.Wait(std::chrono::seconds(10), EMasterTimer::ResendOrder);
+    CHECK(Pick<PublishMessage>(bench.GetOutput()).empty());
+    CHECK(bench.session.GetOrderPhase() == EOrderPhase::None);
+}
+
 TEST_CASE("5.4 An order that reaches the vehicle after its cancel is cancelled again automatically")
 {
     MasterSessionFixture bench;

@@ -145,7 +145,8 @@ public:
     /// is shown already, was refused, is a request (sent once), or the cancelOrder of Cancel.
     [[nodiscard]] bool TryWithdrawInstantAction(std::string_view actionID);
     /// Cancels the order, whether or not the vehicle has shown it. Ends with OrderCancelled, OrderFinished (the order ended
-    /// first), OrderLost or CancelFailed. Errors: NoOrder, VehicleNotReady.
+    /// first), OrderLost or CancelFailed. An order that was not sent yet is cancelled at once, without cancelOrder. Errors: NoOrder,
+    /// VehicleNotReady.
     [[nodiscard]] Core::Result<void> Cancel(Core::Now now, MasterActions& out);
 
     /// Nodes and edges that must be kept free for the vehicle: its last node and the base of its last state, regardless of
