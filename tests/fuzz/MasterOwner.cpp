@@ -291,7 +291,8 @@ void MasterOwner::SendUpdate(Choices& choices)
     if (!sent)
     {
         Require(_out.empty(), "an update that is refused has no effect");
-        Require(open == 2 || order.bCancelling || !bFits, "an update of an order that runs is sent");
+        const bool bNumbersLeft = sent.error().path != "orderUpdateId";
+        Require(open == 2 || order.bCancelling || !bFits || !bNumbersLeft, "an update of an order that runs is sent");
         return;
     }
     Require(open < 2 && !order.bCancelling, "at most one update waits");
@@ -680,6 +681,12 @@ void MasterOwner::FinishOrder(const std::string& orderID)
 void MasterOwner::EndOrder(const std::string& orderID)
 {
     Require(_order.has_value() && _order->orderID == orderID, "an order has one outcome");
+    const auto cancel = _instants.find(_order->cancelActionID);
+    if (cancel != _instants.end() && cancel->second == EInstant::Pending)
+    {
+        cancel->second = EInstant::Rejected; // the order was lost before: sent again, the cancel would end the next one
+        _open.erase(cancel->first);
+    }
     _order.reset();
 }
 
@@ -771,6 +778,10 @@ void MasterOwner::CheckInstant(const Action& action)
     if (bNew)
     {
         Require(action.actionType == ActionTypes::CANCEL_ORDER, "the session itself sends only cancelOrder");
+        if (_order.has_value())
+        {
+            _order->cancelActionID = action.actionID;
+        }
         _open[action.actionID] = OpenAction{};
     }
 }

@@ -60,6 +60,7 @@ class MasterOwner
         std::vector<VDA5050::OrderEdge> edges;
         std::vector<Given> messages;
         bool bCancelling = false;
+        std::string cancelActionID = {}; ///< Of the last cancelOrder that was sent for it.
         bool bReappeared = false;
         std::optional<std::uint32_t> acceptedUpdateID;
         std::optional<std::uint32_t> reachedSequenceID;
