@@ -177,16 +177,16 @@ void MasterSession::Impl::EndCancel(EActionStatus status, MasterActions& out)
     {
         out.emplace_back(CancelFailed{_orderID, "the vehicle still holds the order"});
         _cancelActionID.clear();
-        _outbox.DropWithdrawn();
+        _outbox.Restore(*_vehicle.GetStateOrNull(), out);
         return;
     }
     else
     {
         out.emplace_back(OrderCancelled{_orderID});
     }
-    if (!bHeld)
+    if (const OrderMessage* const showable = _outbox.GetShowableOrNull(); showable != nullptr || !bHeld)
     {
-        _withdrawnOrders.Add(_orderID, _outbox.GetSentOrNull(), false);
+        _withdrawnOrders.Add(_orderID, showable, false);
     }
     EndOrder(out);
 }

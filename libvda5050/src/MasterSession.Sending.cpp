@@ -88,7 +88,8 @@ bool HasHorizon(const OrderMessage& order)
 
 void MasterSession::Impl::PublishOrder(Core::Now now, MasterActions& out)
 {
-    if (_outbox.GetInFlightOrNull() == nullptr || !_vehicle.CanReceive() || !_vehicle.HasStateSinceOnline())
+    if (_outbox.GetInFlightOrNull() == nullptr || !_cancelActionID.empty() || !_vehicle.CanReceive()
+        || !_vehicle.HasStateSinceOnline())
     {
         // Sent with the first state, as a restarted vehicle would take an update for a new order, and in a mode that takes orders.
         return;

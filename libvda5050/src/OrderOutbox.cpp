@@ -43,7 +43,7 @@ void OrderOutbox::EndOrder(MasterActions& out)
     _numbers = OrderNumbers();
     _inFlight.reset();
     _queued.reset();
-    _withdrawn.reset();
+    _bWithdrawn = false;
 }
 
 bool OrderOutbox::TryNumber(OrderMessage& update, bool bContinues, std::uint32_t shownID)
@@ -132,6 +132,10 @@ OrderOutbox::Answer OrderOutbox::OnState(const StateMessage& state, const Action
     if (state.orderID == _inFlight->message.orderID && state.orderUpdateID >= _inFlight->message.orderUpdateID)
     {
         return {EAnswer::Shown};
+    }
+    if (_bWithdrawn)
+    {
+        return {};
     }
     const auto isRejection = [this, &shown](const VehicleError& error) {
         return IsRejection(error, shown);
@@ -259,24 +263,22 @@ void OrderOutbox::Reject(const std::string& errorType, const std::string& reason
 
 void OrderOutbox::Withdraw(MasterActions& out)
 {
-    _withdrawn.reset();
-    if (_inFlight.has_value() && _inFlight->sendCount > 0)
-    {
-        _withdrawn = std::move(_inFlight->message);
-    }
-    _inFlight.reset();
-    _queued.reset();
+    _bWithdrawn = true;
     out.emplace_back(CancelMasterTimer{EMasterTimer::ResendOrder});
 }
 
-void OrderOutbox::DropWithdrawn()
+void OrderOutbox::Restore(const StateMessage& state, MasterActions& out)
 {
-    _withdrawn.reset();
+    _bWithdrawn = false;
+    if (TryStartQueued(state) || _inFlight.has_value())
+    {
+        out.emplace_back(StartMasterTimer{EMasterTimer::ResendOrder, _options.resendInterval});
+    }
 }
 
 bool OrderOutbox::IsEmpty() const noexcept
 {
-    return !_inFlight.has_value() && !_queued.has_value();
+    return _bWithdrawn || (!_inFlight.has_value() && !_queued.has_value());
 }
 
 bool OrderOutbox::HasQueued() const noexcept
@@ -311,11 +313,7 @@ const OrderMessage* OrderOutbox::GetShowableOrNull() const noexcept
 
 const OrderMessage* OrderOutbox::GetSentOrNull() const noexcept
 {
-    if (_inFlight.has_value())
-    {
-        return _inFlight->sendCount == 0 ? nullptr : &_inFlight->message;
-    }
-    return _withdrawn.has_value() ? &*_withdrawn : nullptr;
+    return _inFlight.has_value() && _inFlight->sendCount > 0 ? &_inFlight->message : nullptr;
 }
 
 } // namespace ACS::VDA5050

@@ -61,7 +61,8 @@ private:
     OrderNumbers _numbers;
     std::optional<InFlight> _inFlight;
     std::optional<OrderMessage> _queued;
-    std::optional<OrderMessage> _withdrawn;         ///< In flight when the cancel was sent; the vehicle may receive it.
+    bool _bWithdrawn =
+        false; ///< The order is being cancelled: nothing is sent, and only what the vehicle shows is an answer.
     std::optional<Core::SteadyTime> _lastOrderTime; ///< Of the last published message of any order.
 
 public:
@@ -90,9 +91,10 @@ public:
     void Reject(const std::string& errorType, const std::string& reason, MasterActions& out);
     /// The order is being cancelled: whether or not the vehicle has seen what is in flight, it must not come again.
     void Withdraw(MasterActions& out);
-    /// The cancel failed.
-    void DropWithdrawn();
+    /// The cancel failed, and the order continues: what the vehicle has not shown is sent again.
+    void Restore(const StateMessage& state, MasterActions& out);
 
+    /// Nothing waits for an answer, or what does is withdrawn.
     [[nodiscard]] bool IsEmpty() const noexcept;
     [[nodiscard]] bool HasQueued() const noexcept;
     /// Whether the vehicle has shown a message of the order.
@@ -102,9 +104,9 @@ public:
     /// The message in flight was resent as often as the options allow.
     [[nodiscard]] bool IsSpent() const noexcept;
     [[nodiscard]] const OrderMessage* GetInFlightOrNull() const noexcept;
-    /// The message in flight if the vehicle can show it.
+    /// The message in flight if the vehicle can show it, also while it is withdrawn.
     [[nodiscard]] const OrderMessage* GetShowableOrNull() const noexcept;
-    /// What was sent, in flight or withdrawn, and may reach the vehicle.
+    /// The message in flight if it was sent and may reach the vehicle, also while it is withdrawn.
     [[nodiscard]] const OrderMessage* GetSentOrNull() const noexcept;
 
 private:

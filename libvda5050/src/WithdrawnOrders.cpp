@@ -11,7 +11,7 @@ namespace ACS::VDA5050
 
 void WithdrawnOrders::Add(std::string orderID, const OrderMessage* messageOrNull, bool bRejected)
 {
-    WithdrawnOrder order{std::move(orderID), {}, bRejected};
+    WithdrawnOrder order{std::move(orderID), 0, {}, bRejected};
     const auto add = [&order](const auto& elements) {
         for (const auto& element : elements)
         {
@@ -20,6 +20,7 @@ void WithdrawnOrders::Add(std::string orderID, const OrderMessage* messageOrNull
     };
     if (messageOrNull != nullptr)
     {
+        order.orderUpdateID = messageOrNull->orderUpdateID;
         add(messageOrNull->nodes);
         add(messageOrNull->edges);
     }
@@ -40,7 +41,7 @@ void WithdrawnOrders::Remove(std::string_view orderID)
 std::optional<WithdrawnOrders::EReappearance> WithdrawnOrders::TakeReappearedOrNull(const StateMessage& state)
 {
     const auto found = std::ranges::find(_orders, state.orderID, &WithdrawnOrder::orderID);
-    if (found == _orders.end())
+    if (found == _orders.end() || state.orderUpdateID < found->orderUpdateID)
     {
         return std::nullopt;
     }

@@ -27,6 +27,7 @@ private:
     struct WithdrawnOrder
     {
         std::string orderID;
+        std::uint32_t orderUpdateID = 0;    ///< Of the message; of one before it the vehicle has shown the end.
         std::vector<std::string> actionIDs; ///< Sorted.
         bool bRejected = false;             ///< Rejected or never shown; otherwise cancelled.
     };
@@ -34,7 +35,7 @@ private:
     std::vector<WithdrawnOrder> _orders;
 
 public:
-    /// The message is null if none was sent.
+    /// The message is the one that may come late; null if none was sent.
     void Add(std::string orderID, const OrderMessage* messageOrNull, bool bRejected);
     void Remove(std::string_view orderID);
     /// Removes the order of the state. Nullopt: it is not one of these, or was cancelled as soon as it came.

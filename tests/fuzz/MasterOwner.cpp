@@ -210,6 +210,13 @@ std::size_t MasterOwner::CountOpen(const Order& order)
     return static_cast<std::size_t>(std::ranges::count(order.messages, EAnswer::Open, &Given::answer));
 }
 
+std::vector<MasterOwner::Given>::iterator MasterOwner::FindUnanswered()
+{
+    return std::ranges::find_if(_order->messages, [](const Given& given) {
+        return given.answer == EAnswer::Open || given.answer == EAnswer::Withdrawn;
+    });
+}
+
 /// The index of the last released node of the route.
 std::size_t MasterOwner::FindDecisionPoint(const Order& order)
 {
@@ -346,7 +353,7 @@ void MasterOwner::Cancel()
     _order->bCancelling = true;
     for (Given& given : _order->messages)
     {
-        given.answer = given.answer == EAnswer::Open ? EAnswer::Dropped : given.answer;
+        given.answer = given.answer == EAnswer::Open ? EAnswer::Withdrawn : given.answer;
     }
     Execute();
 }
@@ -497,7 +504,7 @@ void MasterOwner::Do(const MasterAction& action)
                 _order->bCancelling = false;
                 for (Given& given : _order->messages)
                 {
-                    given.answer = given.answer == EAnswer::Dropped ? EAnswer::Gone : given.answer;
+                    given.answer = given.answer == EAnswer::Withdrawn ? EAnswer::Open : given.answer;
                 }
             },
             [this](const OrderLost& event) {
@@ -582,7 +589,7 @@ void MasterOwner::On(const OrderAccepted& event)
         _order->acceptedUpdateID = event.orderUpdateID;
         return;
     }
-    const auto given = std::ranges::find(_order->messages, EAnswer::Open, &Given::answer);
+    const auto given = FindUnanswered();
     Require(
         given != _order->messages.end() && given->sent != ESent::No,
         "a message is accepted once, after it was sent");
@@ -599,7 +606,7 @@ void MasterOwner::On(const OrderAccepted& event)
 void MasterOwner::On(const OrderRejected& event)
 {
     Require(_order.has_value() && _order->orderID == event.orderID, "an order that was sent is rejected");
-    const auto given = std::ranges::find(_order->messages, EAnswer::Open, &Given::answer);
+    const auto given = FindUnanswered();
     Require(given != _order->messages.end(), "a message has one answer");
     Require(
         given->sent != ESent::Yes || given->message.orderUpdateID == event.orderUpdateID,
@@ -675,6 +682,10 @@ void MasterOwner::FinishOrder(const std::string& orderID)
     Require(_order->bReappeared || CountOpen(*_order) == 0, "an order does not finish while a message has no answer");
     Require(_order->bReappeared || IsLastNodeReached(), "an order finishes at the last node of its route");
     ++_finishedOrders;
+    if (FindUnanswered() != _order->messages.end())
+    {
+        _withdrawn.insert(orderID);
+    }
     EndOrder(orderID);
 }
 
@@ -847,8 +858,7 @@ void MasterOwner::CheckReserved() const
     for (std::size_t index = 0; _order.has_value() && index < _order->messages.size(); ++index)
     {
         const Given& given = _order->messages[index];
-        const bool bUnderWay =
-            given.answer == EAnswer::Open || (given.answer == EAnswer::Dropped && _order->bCancelling);
+        const bool bUnderWay = given.answer == EAnswer::Open || given.answer == EAnswer::Withdrawn;
         if (given.sent != ESent::Yes || !bUnderWay)
         {
             continue;

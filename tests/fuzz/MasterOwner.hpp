@@ -32,8 +32,7 @@ class MasterOwner
         Open,
         Accepted,
         Rejected,
-        Dropped, ///< By a cancel that runs.
-        Gone,    ///< Dropped by a cancel that failed: the vehicle has answered what was sent after it.
+        Withdrawn, ///< By a cancel that runs: not sent, but the vehicle may show it.
     };
 
     enum class ESent : std::uint8_t
@@ -60,8 +59,8 @@ class MasterOwner
         std::vector<VDA5050::OrderEdge> edges;
         std::vector<Given> messages;
         bool bCancelling = false;
-        std::string cancelActionID = {}; ///< Of the last cancelOrder that was sent for it.
         bool bReappeared = false;
+        std::string cancelActionID = {}; ///< Of the last cancelOrder that was sent for it.
         std::optional<std::uint32_t> acceptedUpdateID;
         std::optional<std::uint32_t> reachedSequenceID;
     };
@@ -167,6 +166,8 @@ private:
         std::size_t released,
         std::size_t end);
     [[nodiscard]] static std::size_t CountOpen(const Order& order);
+    /// The first message that the vehicle may answer.
+    [[nodiscard]] std::vector<Given>::iterator FindUnanswered();
     [[nodiscard]] static std::size_t FindDecisionPoint(const Order& order);
     void Work();
 };

@@ -221,13 +221,13 @@ void Vda5050RobotAdapter::SendPendingUpdate(Core::Now now, AdapterActions& out)
         AbandonDrive(Core::Describe(update.error()), now, out);
         return;
     }
-    const Core::Result<void> sent = _session.SendOrderUpdate(*update, now, _sessionActions);
+    const Core::Result<void> sent = _session.SendOrderUpdate(std::move(*update), now, _sessionActions);
     if (!sent)
     {
         AbandonDrive(Core::Describe(sent.error()), now, out);
         return;
     }
-    _drive->OnUpdateSent(std::move(*update));
+    _drive->OnUpdateSent();
 }
 
 void Vda5050RobotAdapter::AbandonDrive(const std::string& reason, Core::Now now, AdapterActions& out)
@@ -336,7 +336,7 @@ void Vda5050RobotAdapter::HandleAction(const VDA5050::MasterAction& action, Core
             },
             [&](const VDA5050::OrderFinished& finished) { OnFinished(finished.orderID, now, out); },
             [&](const VDA5050::OrderCancelled& cancelled) { OnCancelled(cancelled.orderID, out); },
-            [&](const VDA5050::CancelFailed&) { OnCancelFailed(now, out); },
+            [&](const VDA5050::CancelFailed&) { OnCancelFailed(out); },
             [](const auto&) {
             }},
         action);
@@ -415,27 +415,13 @@ void Vda5050RobotAdapter::OnCancelled(const std::string& orderID, AdapterActions
     out.emplace_back(RaiseEvent{Planning::DriveCancelled{orderID, drive.GetLastPassedNodeID()}});
 }
 
-/// The vehicle continues. The update that was withdrawn for the cancellation is sent again.
-void Vda5050RobotAdapter::OnCancelFailed(Core::Now now, AdapterActions& out)
+/// The vehicle continues. The session sends the update again that was withdrawn for the cancellation.
+void Vda5050RobotAdapter::OnCancelFailed(AdapterActions& out)
 {
-    if (!_drive.has_value())
-    {
-        return;
-    }
-    if (const std::optional<std::string> reason = _drive->GetAbandonReasonOrNull(); reason.has_value())
+    const std::optional<std::string> reason = _drive.has_value() ? _drive->GetAbandonReasonOrNull() : std::nullopt;
+    if (reason.has_value())
     {
         RejectOrder(std::string(_drive->GetOrderID()), *reason, out);
-        return;
-    }
-    const VDA5050::OrderMessage* const updateOrNull = _drive->GetPendingUpdateOrNull();
-    if (updateOrNull == nullptr)
-    {
-        return;
-    }
-    const Core::Result<void> sent = _session.SendOrderUpdate(*updateOrNull, now, _sessionActions);
-    if (!sent)
-    {
-        RejectOrder(std::string(_drive->GetOrderID()), Core::Describe(sent.error()), out);
     }
 }
 

@@ -161,7 +161,7 @@ private:
     void OnFinished(const std::string& orderID, Core::Now now, Planning::AdapterActions& out);
     void OnDriveFinished(const std::string& orderID, Core::Now now, Planning::AdapterActions& out);
     void OnCancelled(const std::string& orderID, Planning::AdapterActions& out);
-    void OnCancelFailed(Core::Now now, Planning::AdapterActions& out);
+    void OnCancelFailed(Planning::AdapterActions& out);
     void SetOnline(bool bOnline, Core::Now now, Planning::AdapterActions& out);
     /// The factsheet was received, or is no longer awaited.
     void OnFactsheet(Core::Now now, Planning::AdapterActions& out);

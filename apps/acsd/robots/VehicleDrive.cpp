@@ -168,8 +168,7 @@ void VehicleDrive::Extend(std::size_t releasedCount)
 
 bool VehicleDrive::IsUpdateDue() const
 {
-    return std::holds_alternative<Confirmed>(_message) && !_abandonReason.has_value()
-        && _wantedReleased > _route.GetReleasedNodes();
+    return _bConfirmed && !_abandonReason.has_value() && _wantedReleased > _route.GetReleasedNodes();
 }
 
 Core::Result<VDA5050::OrderMessage> VehicleDrive::MakeUpdate(const OrderCheck& check)
@@ -206,14 +205,14 @@ bool VehicleDrive::HasNodesAhead() const
     return _passedCount < _route.GetReleasedNodes();
 }
 
-void VehicleDrive::OnUpdateSent(VDA5050::OrderMessage update)
+void VehicleDrive::OnUpdateSent()
 {
-    _message = UpdatePending{std::move(update)};
+    _bConfirmed = false;
 }
 
 void VehicleDrive::OnConfirmed()
 {
-    _message = Confirmed{};
+    _bConfirmed = true;
     _bShortUpdate = false;
 }
 
@@ -224,7 +223,7 @@ bool VehicleDrive::TryShortenUpdate()
         return false;
     }
     _route.WithdrawUpdate();
-    _message = Confirmed{};
+    _bConfirmed = true;
     return true;
 }
 
@@ -292,12 +291,6 @@ const std::string& VehicleDrive::GetLastPassedNodeID() const noexcept
 bool VehicleDrive::HasHorizon() const noexcept
 {
     return !_route.IsWholeRouteReleased();
-}
-
-const VDA5050::OrderMessage* VehicleDrive::GetPendingUpdateOrNull() const noexcept
-{
-    const UpdatePending* const pendingOrNull = std::get_if<UpdatePending>(&_message);
-    return pendingOrNull == nullptr ? nullptr : &pendingOrNull->update;
 }
 
 } // namespace ACS::Acsd

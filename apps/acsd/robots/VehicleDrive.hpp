@@ -10,7 +10,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 namespace ACS::Acsd
@@ -26,8 +25,8 @@ struct DriveContents
     bool bCorridors = true;
 };
 
-/// One drive as an order of a VDA5050 vehicle: its route, the nodes that the engine has released, and the message that the
-/// vehicle has not confirmed yet.
+/// One drive as an order of a VDA5050 vehicle: its route, the nodes that the engine has released, and whether the
+/// vehicle has confirmed the latest message.
 class VehicleDrive final
 {
 public:
@@ -35,21 +34,6 @@ public:
     using OrderCheck = std::function<Core::Result<void>(const VDA5050::OrderMessage&)>;
 
 private:
-    /// The order itself is not confirmed.
-    struct OrderPending
-    {
-    };
-
-    struct UpdatePending
-    {
-        VDA5050::OrderMessage update;
-    };
-
-    /// The vehicle has confirmed the latest message.
-    struct Confirmed
-    {
-    };
-
     /// A REQUIRED action of the map that the vehicle has not finished.
     struct OpenAction
     {
@@ -61,7 +45,7 @@ private:
 
     VDA5050::OrderBuilder _route;
     std::size_t _wantedReleased; ///< Number of nodes that the engine has released.
-    std::variant<OrderPending, UpdatePending, Confirmed> _message;
+    bool _bConfirmed = false;    ///< The vehicle has confirmed or rejected the latest message.
     std::size_t _passedCount = 0;
     std::string _lastPassedNodeID;
     bool _bShortUpdate = false; ///< The vehicle has rejected an update, and has confirmed none since.
@@ -88,7 +72,7 @@ public:
     /// The vehicle still has nodes to pass. What does not fit beside them may fit later.
     [[nodiscard]] bool HasNodesAhead() const;
     /// The update was sent.
-    void OnUpdateSent(VDA5050::OrderMessage update);
+    void OnUpdateSent();
     /// The vehicle has confirmed the latest message.
     void OnConfirmed();
     /// The vehicle has rejected the update: the next one is as short as possible. False: this was the short one.
@@ -110,8 +94,6 @@ public:
     [[nodiscard]] const std::string& GetLastPassedNodeID() const noexcept;
     /// Nodes of the route are not released yet.
     [[nodiscard]] bool HasHorizon() const noexcept;
-    /// The update that the vehicle has not confirmed; null where there is none.
-    [[nodiscard]] const VDA5050::OrderMessage* GetPendingUpdateOrNull() const noexcept;
 
 private:
     [[nodiscard]] Core::Result<VDA5050::OrderMessage> MakeFitting(std::size_t leastReleased, const OrderCheck& check);

@@ -10,6 +10,21 @@
 namespace ACS::VDA5050::Test
 {
 
+namespace
+{
+
+/// The order is accepted up to its second node, and an update to the third one is sent and not shown.
+void BeginWithUpdate(MasterSessionFixture& bench, OrderBuilder& builder)
+{
+    REQUIRE(bench.session.SendOrder(*builder.MakeOrder(2), bench.GetNow(), bench.Clear()).has_value());
+    const OrderMessage order = bench.GetSentOrder();
+    bench.Hold(order, order.nodes.size() - 1);
+    bench.SendState();
+    REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(3), bench.GetNow(), bench.Clear()).has_value());
+}
+
+} // namespace
+
 TEST_CASE("5.4 A cancel of an order that has just ended finishes it")
 {
     MasterSessionFixture bench;
@@ -53,6 +68,101 @@ TEST_CASE("5.4 The order keeps running when the vehicle fails the cancel while a
     bench.state.actionStates[0].actionStatus = EActionStatus::Finished;
     bench.SendState();
     CHECK(Pick<OrderFinished>(bench.GetOutput()).size() == 1);
+}
+
+TEST_CASE("5.4 An update that the vehicle shows when it fails the cancel is accepted, and the order continues after it")
+{
+    MasterSessionFixture bench;
+    bench.session.SetHorizonOmitted(GENERATE(true, false));
+    bench.BeReady();
+    OrderBuilder builder = MakeBuilder(4);
+    BeginWithUpdate(bench, builder);
+    const OrderMessage update = bench.GetSentOrder();
+    const std::string cancelID = CancelOrder(bench);
+    bench.Hold(update, update.nodes.size() - 1);
+    bench.state.actionStates = {ActionState{cancelID, "cancelOrder", {}, EActionStatus::Failed, {}}};
+    bench.SendState();
+    CHECK(Pick<OrderAccepted>(bench.GetOutput()) == std::vector{OrderAccepted{"order-1", 1}});
+    CHECK(Pick<CancelFailed>(bench.GetOutput()).size() == 1);
+    CHECK(bench.session.GetOrderPhase() == EOrderPhase::Active);
+    REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(4), bench.GetNow(), bench.Clear()).has_value());
+    CHECK(bench.GetSentOrder().orderUpdateID == 2);
+    bench.Hold(bench.GetSentOrder(), 0);
+    bench.SendState();
+    CHECK(ListReached(bench.GetOutput()) == std::vector<std::string>{"N2", "N3"});
+    CHECK(Pick<OrderFinished>(bench.GetOutput()).size() == 1);
+}
+
+TEST_CASE("5.4 When the cancel fails, the updates that the vehicle has not shown are sent again with their numbers")
+{
+    MasterSessionFixture bench;
+    bench.BeReady();
+    OrderBuilder builder = MakeBuilder(4);
+    BeginWithUpdate(bench, builder);
+    const OrderMessage update = bench.GetSentOrder();
+    REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(4), bench.GetNow(), bench.Clear()).has_value());
+    const std::string cancelID = CancelOrder(bench);
+    bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendOrder);
+    CHECK(bench.GetSent(ETopic::Order).empty());
+    bench.Clear();
+    bench.state.actionStates = {ActionState{cancelID, "cancelOrder", {}, EActionStatus::Failed, {}}};
+    bench.SendState();
+    CHECK(Pick<CancelFailed>(bench.GetOutput()).size() == 1);
+    CHECK(
+        Pick<StartMasterTimer>(bench.GetOutput())
+        == std::vector{StartMasterTimer{EMasterTimer::ResendOrder, std::chrono::seconds(2)}});
+    if (GENERATE(true, false)) // otherwise it arrives late
+    {
+        bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendOrder);
+        REQUIRE(bench.GetSent(ETopic::Order).size() == 1);
+        CHECK(bench.GetSentOrder().orderUpdateID == 1);
+        CHECK(bench.session.GetStatistics().ordersResent == 1);
+    }
+    bench.Clear();
+    bench.Hold(update, 1);
+    bench.SendState();
+    CHECK(Pick<OrderAccepted>(bench.GetOutput()) == std::vector{OrderAccepted{"order-1", 1}});
+    REQUIRE(bench.GetSent(ETopic::Order).size() == 1);
+    CHECK(bench.GetSentOrder().orderUpdateID == 2);
+}
+
+TEST_CASE(
+    "5.4 An order that the vehicle has completed when it fails the cancel is finished, even if never shown before")
+{
+    MasterSessionFixture bench;
+    bench.BeReady();
+    const OrderMessage order = MakeOrder(3, 3);
+    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    const std::string cancelID = CancelOrder(bench);
+    bench.Hold(order, 0);
+    bench.state.actionStates = {ActionState{cancelID, "cancelOrder", {}, EActionStatus::Failed, {}}};
+    bench.SendState();
+    CHECK(Pick<OrderAccepted>(bench.GetOutput()) == std::vector{OrderAccepted{"order-1", 0}});
+    CHECK(ListReached(bench.GetOutput()).size() == 3);
+    CHECK(Pick<OrderFinished>(bench.GetOutput()).size() == 1);
+    CHECK(Pick<OrderCancelled>(bench.GetOutput()).empty());
+}
+
+TEST_CASE("5.4 An update that reaches the vehicle after the cancel of its order is cancelled")
+{
+    MasterSessionFixture bench;
+    bench.BeReady();
+    OrderBuilder builder = MakeBuilder(4);
+    BeginWithUpdate(bench, builder);
+    const OrderMessage update = bench.GetSentOrder();
+    const std::string cancelID = CancelOrder(bench);
+    bench.state.actionStates = {ActionState{cancelID, "cancelOrder", {}, EActionStatus::Finished, {}}};
+    bench.SendState(); // the nodes are still shown
+    CHECK(Pick<OrderCancelled>(bench.GetOutput()).size() == 1);
+    CHECK(Pick<OrderReappeared>(bench.GetOutput()).empty());
+    bench.state.nodeStates.clear();
+    bench.SendState();
+    CHECK(Pick<OrderReappeared>(bench.GetOutput()).empty());
+    bench.Clear();
+    bench.Hold(update, 1);
+    bench.SendState();
+    CHECK(Pick<OrderReappeared>(bench.GetOutput()) == std::vector{OrderReappeared{"order-1"}});
+    CHECK(bench.GetSent(ETopic::InstantActions).size() == 1);
 }
 
 TEST_CASE(

@@ -184,7 +184,8 @@ struct OrderReappeared
     bool operator==(const OrderReappeared&) const = default;
 };
 
-/// The cancelOrder action was refused, or it failed and the vehicle still has the order.
+/// The cancelOrder action was refused, or it failed and the vehicle still has the order. The order continues as if it had not been
+/// cancelled: updates that the vehicle has not shown are sent with the numbers that they have.
 struct CancelFailed
 {
     std::string orderID;

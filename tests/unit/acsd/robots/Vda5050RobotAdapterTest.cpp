@@ -396,8 +396,11 @@ TEST_CASE("If cancelling fails, the update that was withdrawn for it is sent aga
     vehicle.state.actionStates = {
         {cancel->actions[0].actionID, "cancelOrder", "", VDA5050::EActionStatus::Failed, "not now"}};
     vehicle.ShowState();
+    const auto timer = static_cast<Planning::AdapterTimerID>(VDA5050::EMasterTimer::ResendOrder);
+    vehicle.adapter.OnTimer(timer, vehicle.clock.GetNow(), vehicle.actions);
     const auto updates = vehicle.TakeOrders();
     REQUIRE(updates.size() == 1);
+    CHECK(updates[0].orderUpdateID == 1); // the same one: the vehicle may have received it before
     CHECK(updates[0].nodes.front().nodeID == "B");
     CHECK(updates[0].nodes.back().bReleased);
     CHECK(vehicle.TakeEvents<Planning::DriveRejected>().empty());
