@@ -3,6 +3,8 @@
 #include <acs/vda5050/OrderValidator.hpp>
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <utility>
 
 namespace ACS::VDA5050
@@ -82,6 +84,21 @@ Core::Result<void> CheckRecord(const std::vector<OrderMessage>& messages)
 bool HasHorizon(const OrderMessage& order)
 {
     return std::ranges::any_of(order.nodes, [](const OrderNode& node) { return !node.bReleased; });
+}
+
+/// The horizon may have been sent shortened, or not at all: what the vehicle does not show of it is no part of the route.
+void EraseUnsentHorizon(OrderMessage& order, const StateMessage& state)
+{
+    const auto isUnsent = [&state](const OrderNode& node) {
+        return !node.bReleased
+            && std::ranges::find(state.nodeStates, node.sequenceID, &NodeState::sequenceID) == state.nodeStates.end();
+    };
+    const auto first = std::ranges::find_if(order.nodes, isUnsent);
+    if (first != order.nodes.end())
+    {
+        order.edges.resize(static_cast<std::size_t>(first - order.nodes.begin()) - 1);
+        order.nodes.erase(first, order.nodes.end());
+    }
 }
 
 } // namespace
@@ -290,6 +307,10 @@ Core::Result<void> MasterSession::Impl::ResumeOrder(OrderRecord record, Core::No
         {
             continuedUpdateIDs.push_back(message->orderUpdateID);
         }
+    }
+    if (open != messages.begin() && std::prev(open)->orderUpdateID == state.orderUpdateID)
+    {
+        EraseUnsentHorizon(*std::prev(open), state);
     }
     BeginOrder(orderID, OrderNumbers(messages.back().orderUpdateID, std::move(continuedUpdateIDs)));
     for (auto message = messages.begin(); message != open; ++message)

@@ -27,6 +27,21 @@ bool IsRequest(std::string_view actionType)
     return actionType == ActionTypes::STATE_REQUEST || actionType == ActionTypes::FACTSHEET_REQUEST;
 }
 
+/// What a vehicle does not show of the horizon has not been sent to it.
+void EraseUnsentHorizon(OrderMessage& message, const StateMessage& state)
+{
+    for (std::size_t index = 1; index < message.nodes.size(); ++index)
+    {
+        const OrderNode& node = message.nodes[index];
+        const bool bShown = std::ranges::count(state.nodeStates, node.sequenceID, &NodeState::sequenceID) != 0;
+        if (!node.bReleased && !bShown)
+        {
+            message.nodes.resize(index);
+            message.edges.resize(index - 1);
+        }
+    }
+}
+
 } // namespace
 
 MasterOwner::MasterOwner(MasterOptions options)
@@ -427,6 +442,10 @@ void MasterOwner::Resume()
         given.sent = ESent::Yes;
         if (bShown)
         {
+            if (given.message.orderUpdateID == state->orderUpdateID)
+            {
+                EraseUnsentHorizon(given.message, *state);
+            }
             Track(given.message, std::exchange(bFirst, false));
         }
         else

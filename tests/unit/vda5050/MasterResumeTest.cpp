@@ -130,6 +130,27 @@ TEST_CASE(
     CHECK(Pick<OrderReappeared>(bench.GetOutput()) == std::vector{OrderReappeared{"order-1"}});
 }
 
+TEST_CASE("13 A resumed order whose horizon was not sent waits at the end of its base for an update")
+{
+    const Record record;
+    MasterSessionFixture bench;
+    bench.Hold(record.order, 3);
+    bench.state.nodeStates.resize(GENERATE(as<std::size_t>(), 0, 1)); // without it, or shortened by the factsheet
+    Show(bench, "a1", EActionStatus::Finished);
+    bench.BeReady();
+    REQUIRE(Resume(bench, {{record.order}, 0}));
+    CHECK(Pick<OrderLost>(bench.GetOutput()).empty());
+    CHECK(Pick<OrderFinished>(bench.GetOutput()).empty());
+    CHECK(ListReached(bench.GetOutput()) == std::vector<std::string>{"N0", "N1"});
+    CHECK(bench.session.GetOrderPhase() == EOrderPhase::Active);
+
+    REQUIRE(bench.session.SendOrderUpdate(record.update, bench.GetNow(), bench.Clear()));
+    CHECK(bench.GetSentOrder().orderUpdateID == 1);
+    bench.Hold(record.update, 0);
+    bench.SendState();
+    CHECK(Pick<OrderFinished>(bench.GetOutput()).size() == 1);
+}
+
 TEST_CASE("13 The updates of a resumed order are numbered on from the one that the vehicle shows")
 {
     const Record record;
