@@ -257,6 +257,16 @@ Core::Result<void> MasterSession::Impl::SendOrderUpdate(OrderMessage update, Cor
     return {};
 }
 
+bool MasterSession::Impl::IsRecordLost(const OrderRecord& record) const
+{
+    if (record.acceptedUpdateID.has_value())
+    {
+        return true;
+    }
+    const std::optional<std::string>& orderIDBefore = record.orderIDBefore;
+    return orderIDBefore.has_value() && OrderOutbox::CanBeExecuted(*orderIDBefore, *_vehicle.GetStateOrNull());
+}
+
 Core::Result<void> MasterSession::Impl::ResumeOrder(OrderRecord record, Core::Now now, MasterActions& out)
 {
     if (!_orderID.empty())
@@ -271,8 +281,9 @@ Core::Result<void> MasterSession::Impl::ResumeOrder(OrderRecord record, Core::No
     }
     const std::string orderID = messages.front().orderID;
     const bool bShown = _vehicle.IsReady() && _vehicle.IsShowingOrder(orderID);
+    const bool bLost = _vehicle.IsReady() && !bShown && IsRecordLost(record);
     // Whose order was lost needs not be able to take another.
-    if (bShown || record.acceptedUpdateID.has_value() ? !_vehicle.IsReady() : !CanTakeOrder())
+    if (bShown || bLost ? !_vehicle.IsReady() : !CanTakeOrder())
     {
         return Core::Fail(
             EVda5050Error::VehicleNotReady,
@@ -280,9 +291,17 @@ Core::Result<void> MasterSession::Impl::ResumeOrder(OrderRecord record, Core::No
             "a vehicle that is online, has sent a state and, for what it has not shown, drives by itself",
             _options.address.serialNumber);
     }
-    if (!bShown && record.acceptedUpdateID.has_value())
+    if (bLost)
     {
-        out.emplace_back(OrderLost{orderID, "the vehicle does not hold it any more"});
+        const bool bAccepted = record.acceptedUpdateID.has_value();
+        if (!bAccepted)
+        {
+            _withdrawnOrders.Add(orderID, &messages.front(), true);
+        }
+        out.emplace_back(OrderLost{
+            orderID,
+            bAccepted ? "the vehicle does not hold it any more"
+                      : "the vehicle may have been restarted since the order was given, and may have executed it"});
         return {};
     }
     const StateMessage& state = *_vehicle.GetStateOrNull();

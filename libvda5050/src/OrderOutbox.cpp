@@ -178,8 +178,7 @@ bool OrderOutbox::IsUnresolved(const StateMessage& state) const
     }
     const std::string& orderIDBefore = _inFlight->orderIDBefore;
     const bool bForgot = state.orderID.empty() && !orderIDBefore.empty();
-    const bool bUnknown = orderIDBefore.empty() || state.orderID != orderIDBefore;
-    return bForgot || (_inFlight->bAwaySinceSend && bUnknown);
+    return bForgot || (_inFlight->bAwaySinceSend && CanBeExecuted(orderIDBefore, state));
 }
 
 bool OrderOutbox::IsRejection(const VehicleError& error, const ActionIndex& shown) const
@@ -284,6 +283,11 @@ bool OrderOutbox::IsEmpty() const noexcept
 bool OrderOutbox::HasQueued() const noexcept
 {
     return _queued.has_value();
+}
+
+bool OrderOutbox::CanBeExecuted(const std::string& orderIDBefore, const StateMessage& state)
+{
+    return orderIDBefore.empty() || state.orderID != orderIDBefore;
 }
 
 bool OrderOutbox::IsAccepted() const noexcept

@@ -97,6 +97,9 @@ public:
     /// Nothing waits for an answer, or what does is withdrawn.
     [[nodiscard]] bool IsEmpty() const noexcept;
     [[nodiscard]] bool HasQueued() const noexcept;
+    /// Whether a vehicle that was away since an order was sent may have executed it without showing it, and forgotten it by a
+    /// restart: certainly not if it still shows the order of before.
+    [[nodiscard]] static bool CanBeExecuted(const std::string& orderIDBefore, const StateMessage& state);
     /// Whether the vehicle has shown a message of the order.
     [[nodiscard]] bool IsAccepted() const noexcept;
     /// Whether more nodes follow after the accepted message.

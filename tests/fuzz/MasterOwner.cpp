@@ -284,6 +284,7 @@ void MasterOwner::SendOrder(Choices& choices)
     }
     Require(bPossible && bValid && !_order.has_value(), "an order is sent only to a vehicle that can take it");
     _stored.reset();
+    order.orderIDBefore = state->orderID;
     order.messages.push_back(Given{message, message, end > released, ESent::No, EAnswer::Open});
     _order = std::move(order);
     Execute();
@@ -420,6 +421,10 @@ void MasterOwner::Resume()
             given.given.orderUpdateID = record.messages.back().orderUpdateID + 1;
         }
         record.messages.push_back(given.given);
+    }
+    if (_orderCount % 2 == 0)
+    {
+        record.orderIDBefore = _stored->orderIDBefore;
     }
     const Core::Result<void> resumed = _session.ResumeOrder(record, _now, _out);
     if (!resumed)

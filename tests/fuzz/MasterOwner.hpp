@@ -61,6 +61,7 @@ class MasterOwner
         bool bCancelling = false;
         bool bReappeared = false;
         std::string cancelActionID = {}; ///< Of the last cancelOrder that was sent for it.
+        std::string orderIDBefore = {};  ///< Of the vehicle, before the order was sent.
         std::optional<std::uint32_t> acceptedUpdateID;
         std::optional<std::uint32_t> reachedSequenceID;
     };

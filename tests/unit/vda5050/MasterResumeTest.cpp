@@ -151,6 +151,37 @@ TEST_CASE("13 A resumed order whose horizon was not sent waits at the end of its
     CHECK(Pick<OrderFinished>(bench.GetOutput()).size() == 1);
 }
 
+TEST_CASE("13 A resumed order that the vehicle may have executed before it was restarted is reported as lost")
+{
+    struct Row
+    {
+        std::optional<std::string> before;
+        std::string shown;
+        bool bLost;
+    };
+    const Row row = GENERATE(
+        Row{"", "", true},
+        Row{"order-0", "", true},
+        Row{"order-0", "order-2", true},
+        Row{"order-0", "order-0", false},
+        Row{std::nullopt, "", false},
+        Row{std::nullopt, "order-2", false});
+    CAPTURE(row.before.value_or("unknown"), row.shown);
+    const Record record;
+    MasterSessionFixture bench;
+    bench.state.orderID = row.shown;
+    bench.BeReady();
+    REQUIRE(Resume(bench, {{record.order}, {}, row.before}));
+    CHECK(Pick<OrderLost>(bench.GetOutput()).size() == (row.bLost ? 1 : 0));
+    CHECK(bench.GetSent(ETopic::Order).size() == (row.bLost ? 0 : 1));
+    CHECK(bench.session.GetOrderPhase() == (row.bLost ? EOrderPhase::None : EOrderPhase::Sent));
+    bench.Clear();
+    bench.Hold(record.order, 3);
+    bench.SendState();
+    CHECK(Pick<OrderReappeared>(bench.GetOutput()).size() == (row.bLost ? 1 : 0));
+    CHECK(Pick<OrderAccepted>(bench.GetOutput()).size() == (row.bLost ? 0 : 1));
+}
+
 TEST_CASE("13 The updates of a resumed order are numbered on from the one that the vehicle shows")
 {
     const Record record;

@@ -54,6 +54,9 @@ struct OrderRecord
 {
     std::vector<OrderMessage> messages; ///< All messages of the order, oldest first, each with its orderUpdateID.
     std::optional<std::uint32_t> acceptedUpdateID; ///< The last one of OrderAccepted; nullopt: none was accepted.
+    /// The orderID of MasterSession::GetStateOrNull before the call of SendOrder. With it an order is not executed twice if the
+    /// vehicle was restarted too; nullopt: it is sent again whatever the vehicle shows.
+    std::optional<std::string> orderIDBefore{};
 
     bool operator==(const OrderRecord&) const = default;
 };
@@ -130,7 +133,8 @@ public:
     [[nodiscard]] Core::Result<void> SendOrderUpdate(OrderMessage update, Core::Now now, MasterActions& out);
     /// Resumes an order after a restart of the master. Messages that the vehicle's state shows count as accepted and are
     /// not sent; the later ones, two at most, are sent. An order that was accepted and is no longer shown is reported as
-    /// lost and not sent again. NodeReached starts at the first node again.
+    /// lost and not sent again. Likewise an order that was not accepted, if the record has orderIDBefore and the vehicle shows
+    /// another one or none: it may have executed the order. NodeReached starts at the first node again.
     /// Errors: OrderActive, VehicleNotReady, InvalidOrder, NotSupported.
     [[nodiscard]] Core::Result<void> ResumeOrder(OrderRecord record, Core::Now now, MasterActions& out);
     /// Sends an instant action until the vehicle shows its id. An action that is shown already is not sent; its status is
