@@ -156,6 +156,17 @@ public:
         return bWritten;
     }
 
+    /// The vehicle has rejected this update: it is not resumed, and the next one begins where it did.
+    [[nodiscard]] bool TryReject(const std::string& vehicle, std::uint32_t orderUpdateID)
+    {
+        const bool bWritten = TryWrite("rejected", vehicle, std::to_string(orderUpdateID));
+        if (bWritten)
+        {
+            RemoveUpdate(*GetFirstOrNull(vehicle), orderUpdateID);
+        }
+        return bWritten;
+    }
+
     [[nodiscard]] bool TryAskCancel(const std::string& vehicle)
     {
         const bool bWritten = TryWrite("cancel", vehicle, {});
@@ -216,6 +227,16 @@ private:
         return message.has_value();
     }
 
+    static void RemoveUpdate(FleetOrder& order, std::uint32_t orderUpdateID)
+    {
+        std::vector<ACS::VDA5050::OrderMessage>& messages = order.record.messages;
+        if (messages.size() > 1 && messages.back().orderUpdateID == orderUpdateID)
+        {
+            messages.pop_back();
+            order.route.WithdrawUpdate();
+        }
+    }
+
     void Replay(const FleetLine& line)
     {
         FleetOrder* const firstOrNull = GetFirstOrNull(line.vehicle);
@@ -239,6 +260,10 @@ private:
         else if (line.verb == "accepted")
         {
             firstOrNull->record.acceptedUpdateID = static_cast<std::uint32_t>(count);
+        }
+        else if (line.verb == "rejected")
+        {
+            RemoveUpdate(*firstOrNull, static_cast<std::uint32_t>(count));
         }
         else if (line.verb == "cancel")
         {

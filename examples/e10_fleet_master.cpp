@@ -391,7 +391,7 @@ private:
         {
             EndOrder(number, rejected.orderID, "rejected");
         }
-        else if (_orders.GetFirstOrNull(name) != nullptr)
+        else if (_orders.GetFirstOrNull(name) != nullptr && _orders.TryReject(name, rejected.orderUpdateID))
         {
             std::ignore = _orders.TryAskCancel(name); // Its route cannot be driven to the end.
         }

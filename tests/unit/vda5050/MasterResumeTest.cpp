@@ -182,6 +182,19 @@ TEST_CASE("13 A resumed order that the vehicle may have executed before it was r
     CHECK(Pick<OrderAccepted>(bench.GetOutput()).size() == (row.bLost ? 0 : 1));
 }
 
+TEST_CASE("13 An order is resumed from a record without the update that was rejected")
+{
+    const Record record;
+    OrderMessage update = record.update;
+    update.orderUpdateID = 2; // 1 was rejected
+    MasterSessionFixture bench;
+    bench.Hold(update, 2);
+    bench.BeReady();
+    REQUIRE(Resume(bench, {{record.order, update}, 2}));
+    CHECK(Pick<OrderAccepted>(bench.GetOutput()) == std::vector{OrderAccepted{"order-1", 2}});
+    CHECK(bench.GetSent(ETopic::Order).empty());
+}
+
 TEST_CASE("13 The updates of a resumed order are numbered on from the one that the vehicle shows")
 {
     const Record record;

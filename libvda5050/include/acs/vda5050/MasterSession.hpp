@@ -52,7 +52,9 @@ struct ReservedElement
 /// SendOrderUpdate, and the number from OrderAccepted.
 struct OrderRecord
 {
-    std::vector<OrderMessage> messages; ///< All messages of the order, oldest first, each with its orderUpdateID.
+    /// All messages of the order, oldest first, each with its orderUpdateID. Not those that were reported by OrderRejected: the next
+    /// update begins where the message before them ends.
+    std::vector<OrderMessage> messages;
     std::optional<std::uint32_t> acceptedUpdateID; ///< The last one of OrderAccepted; nullopt: none was accepted.
     /// The orderID of MasterSession::GetStateOrNull before the call of SendOrder. With it an order is not executed twice if the
     /// vehicle was restarted too; nullopt: it is sent again whatever the vehicle shows.
