@@ -6,10 +6,9 @@
 namespace ACS::Acsd
 {
 
-bool ForeignOrder::IsExecuted(const VDA5050::MasterSession& session, const ActionTest& isOwn)
+bool ForeignOrder::IsExecuted(const VDA5050::StateMessage& state, const ActionTest& isOwn)
 {
-    const VDA5050::StateMessage& state = *session.GetStateOrNull();
-    if (session.GetOrderPhase() != VDA5050::EOrderPhase::None || state.orderID.empty())
+    if (state.orderID.empty())
     {
         return false;
     }

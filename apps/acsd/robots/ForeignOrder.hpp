@@ -21,12 +21,12 @@ private:
     std::string _cancelledID; ///< The latest order for which cancelOrder was sent.
 
 public:
-    /// According to the vehicle's last state, of which there is one. isOwn: whether an action is an instant action of acsd, which is of no
-    /// order.
-    [[nodiscard]] static bool IsExecuted(const VDA5050::MasterSession& session, const ActionTest& isOwn);
+    /// According to the vehicle's state, while it has no drive and no job of its adapter. isOwn: whether an action is an instant action of
+    /// acsd, which is of no order.
+    [[nodiscard]] static bool IsExecuted(const VDA5050::StateMessage& state, const ActionTest& isOwn);
 
     void OnConnected();
-    /// While IsExecuted.
+    /// While IsExecuted and the session has no order.
     void Cancel(VDA5050::MasterSession& session, Core::Now now, VDA5050::MasterActions& out);
 };
 

@@ -31,7 +31,8 @@ void Vda5050RobotAdapter::OnState(Core::Now now, AdapterActions& out)
     out.emplace_back(RaiseEvent{_report.GetState()});
     VerifyLoads(out);
     EvaluateInterruption(false, out);
-    if (bOccupied)
+    CancelAbandoned(now);
+    if (bOccupied && _session.GetOrderPhase() == VDA5050::EOrderPhase::None)
     {
         _foreignOrder.Cancel(_session, now, _sessionActions);
     }

@@ -232,19 +232,28 @@ void Vda5050RobotAdapter::SendPendingUpdate(Core::Now now, AdapterActions& out)
 
 void Vda5050RobotAdapter::AbandonDrive(const std::string& reason, Core::Now now, AdapterActions& out)
 {
-    const std::string orderID = _drive->GetOrderID();
-    const bool bCancelling = _session.GetOrderID() == orderID && _session.Cancel(now, _sessionActions).has_value();
-    if (bCancelling)
+    if (!IsDrive(_session.GetOrderID()))
     {
-        _drive->Abandon(reason);
+        RejectOrder(std::string(_drive->GetOrderID()), reason, out);
         return;
     }
-    RejectOrder(orderID, reason, out);
+    _drive->Abandon(reason);
+    CancelAbandoned(now);
+}
+
+void Vda5050RobotAdapter::CancelAbandoned(Core::Now now)
+{
+    if (_drive.has_value() && _drive->GetAbandonReasonOrNull().has_value() && IsDrive(_session.GetOrderID()))
+    {
+        static_cast<void>(_session.Cancel(now, _sessionActions));
+    }
 }
 
 bool Vda5050RobotAdapter::IsOccupied() const
 {
-    return ForeignOrder::IsExecuted(_session, [this](std::string_view actionID) {
+    const std::string& orderID = _session.GetOrderID();
+    const bool bOwn = IsDrive(orderID) || IsJob(orderID);
+    return !bOwn && ForeignOrder::IsExecuted(*_session.GetStateOrNull(), [this](std::string_view actionID) {
         return _operatorActions.IsRequested(actionID) || _commandedActions.IsCommanded(actionID);
     });
 }
@@ -336,7 +345,6 @@ void Vda5050RobotAdapter::HandleAction(const VDA5050::MasterAction& action, Core
             },
             [&](const VDA5050::OrderFinished& finished) { OnFinished(finished.orderID, now, out); },
             [&](const VDA5050::OrderCancelled& cancelled) { OnCancelled(cancelled.orderID, out); },
-            [&](const VDA5050::CancelFailed&) { OnCancelFailed(out); },
             [](const auto&) {
             }},
         action);
@@ -413,16 +421,6 @@ void Vda5050RobotAdapter::OnCancelled(const std::string& orderID, AdapterActions
         return;
     }
     out.emplace_back(RaiseEvent{Planning::DriveCancelled{orderID, drive.GetLastPassedNodeID()}});
-}
-
-/// The vehicle continues. The session sends the update again that was withdrawn for the cancellation.
-void Vda5050RobotAdapter::OnCancelFailed(AdapterActions& out)
-{
-    const std::optional<std::string> reason = _drive.has_value() ? _drive->GetAbandonReasonOrNull() : std::nullopt;
-    if (reason.has_value())
-    {
-        RejectOrder(std::string(_drive->GetOrderID()), *reason, out);
-    }
 }
 
 void Vda5050RobotAdapter::OnFinished(const std::string& orderID, Core::Now now, AdapterActions& out)

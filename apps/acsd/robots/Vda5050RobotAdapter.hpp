@@ -128,7 +128,7 @@ private:
     void RequestMap(Core::Now now);
     void SendPendingOrder(Core::Now now, Planning::AdapterActions& out);
     void SendPendingUpdate(Core::Now now, Planning::AdapterActions& out);
-    /// The vehicle executes a foreign order.
+    /// The vehicle executes an order that is neither the drive nor the job of this adapter.
     [[nodiscard]] bool IsOccupied() const;
     [[nodiscard]] bool IsDrive(std::string_view orderID) const;
     [[nodiscard]] bool IsJob(std::string_view orderID) const;
@@ -143,6 +143,8 @@ private:
 
     /// The vehicle has accepted the drive, which cannot be continued. It is reported as rejected when the vehicle has stopped.
     void AbandonDrive(const std::string& reason, Core::Now now, Planning::AdapterActions& out);
+    /// With each state, because the vehicle may have been disconnected or have refused it.
+    void CancelAbandoned(Core::Now now);
 
     [[nodiscard]] bool IsJobRunning(const VDA5050::StateMessage& state) const;
 
@@ -161,7 +163,6 @@ private:
     void OnFinished(const std::string& orderID, Core::Now now, Planning::AdapterActions& out);
     void OnDriveFinished(const std::string& orderID, Core::Now now, Planning::AdapterActions& out);
     void OnCancelled(const std::string& orderID, Planning::AdapterActions& out);
-    void OnCancelFailed(Planning::AdapterActions& out);
     void SetOnline(bool bOnline, Core::Now now, Planning::AdapterActions& out);
     /// The factsheet was received, or is no longer awaited.
     void OnFactsheet(Core::Now now, Planning::AdapterActions& out);

@@ -385,6 +385,60 @@ TEST_CASE(
     CHECK(vehicle.TakeEvents<Planning::DriveCancelled>().empty());
 }
 
+TEST_CASE("A drive that is abandoned and cannot be cancelled yet is cancelled again, and rejected at its end")
+{
+    VehicleFixture vehicle;
+    SendUnseenUpdate(vehicle);
+    RejectUpdate(vehicle, "1");
+    REQUIRE(vehicle.TakeOrders().size() == 1);
+    RejectUpdate(vehicle, "2");
+    std::vector<std::string> cancelIDs;
+    for (int count = 0; count < 3; ++count)
+    {
+        const auto sent = vehicle.codec.Decode<VDA5050::InstantActionsMessage>(vehicle.outputs.messages.back().payload);
+        REQUIRE(sent);
+        REQUIRE(sent->actions.at(0).actionType == "cancelOrder");
+        CHECK(std::ranges::count(cancelIDs, sent->actions[0].actionID) == 0);
+        cancelIDs.push_back(sent->actions[0].actionID);
+        vehicle.state.actionStates = {{cancelIDs.back(), "cancelOrder", "", VDA5050::EActionStatus::Failed, "busy"}};
+        vehicle.ShowState();
+        vehicle.ShowState();
+        CHECK(vehicle.TakeEvents<Planning::DriveRejected>().empty());
+        CHECK_FALSE(vehicle.TakeEvents<Planning::StateChanged>().back().bOccupied);
+    }
+    vehicle.ShowAt("B", 2);
+    vehicle.state.nodeStates.erase(vehicle.state.nodeStates.begin());
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::NodePassed>().back() == Planning::NodePassed{"D", "B"});
+    vehicle.state.orderID.clear();
+    vehicle.state.nodeStates.clear();
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::DriveRejected>().size() == 1);
+}
+
+TEST_CASE("A robot is occupied while it executes an order that was cancelled before the vehicle showed it")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    vehicle.Command(MakeDrive());
+    const auto orders = vehicle.TakeOrders();
+    vehicle.Command(Planning::CancelDrive{"D"});
+    const auto cancel = vehicle.codec.Decode<VDA5050::InstantActionsMessage>(vehicle.outputs.messages.back().payload);
+    REQUIRE(cancel);
+    vehicle.state.actionStates = {
+        {cancel->actions.at(0).actionID, "cancelOrder", "", VDA5050::EActionStatus::Failed, ""}};
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::DriveCancelled>().size() == 1);
+    vehicle.state.actionStates.clear();
+    vehicle.ShowOrder(orders.at(0), {"B", "C"});
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::StateChanged>().back().bOccupied);
+    vehicle.state.nodeStates.clear();
+    vehicle.state.edgeStates.clear();
+    vehicle.ShowState();
+    CHECK_FALSE(vehicle.TakeEvents<Planning::StateChanged>().back().bOccupied);
+}
+
 TEST_CASE("If cancelling fails, the update that was withdrawn for it is sent again, and the drive continues")
 {
     VehicleFixture vehicle;
