@@ -61,8 +61,7 @@ private:
     OrderNumbers _numbers;
     std::optional<InFlight> _inFlight;
     std::optional<OrderMessage> _queued;
-    bool _bWithdrawn =
-        false; ///< The order is being cancelled: nothing is sent, and only what the vehicle shows is an answer.
+    bool _bWithdrawn = false; ///< The order is being cancelled: nothing is sent, and only what is shown is an answer.
     std::optional<Core::SteadyTime> _lastOrderTime; ///< Of the last published message of any order.
 
 public:
