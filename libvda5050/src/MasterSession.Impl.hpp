@@ -93,6 +93,7 @@ private:
     void AddToRoute(const OrderMessage& order, bool bUpdate);
     /// Whether the order, which the vehicle does not show, was accepted or may have been.
     [[nodiscard]] bool IsRecordLost(const OrderRecord& record) const;
+    void ReportRecordLost(const OrderRecord& record, MasterActions& out);
     /// The start of an update: the last released node of the last message.
     [[nodiscard]] std::pair<std::string, std::uint32_t> GetDecisionPoint() const;
     /// Sends the message in flight, for the first time or once more, if the vehicle can receive it now.

@@ -267,6 +267,20 @@ bool MasterSession::Impl::IsRecordLost(const OrderRecord& record) const
     return orderIDBefore.has_value() && OrderOutbox::CanBeExecuted(*orderIDBefore, *_vehicle.GetStateOrNull());
 }
 
+void MasterSession::Impl::ReportRecordLost(const OrderRecord& record, MasterActions& out)
+{
+    const OrderMessage& first = record.messages.front();
+    const bool bAccepted = record.acceptedUpdateID.has_value();
+    if (!bAccepted)
+    {
+        _withdrawnOrders.Add(first.orderID, &first, true);
+    }
+    out.emplace_back(OrderLost{
+        first.orderID,
+        bAccepted ? "the vehicle does not hold it any more"
+                  : "the vehicle may have been restarted since the order was given, and may have executed it"});
+}
+
 Core::Result<void> MasterSession::Impl::ResumeOrder(OrderRecord record, Core::Now now, MasterActions& out)
 {
     if (!_orderID.empty())
@@ -282,8 +296,7 @@ Core::Result<void> MasterSession::Impl::ResumeOrder(OrderRecord record, Core::No
     const std::string orderID = messages.front().orderID;
     const bool bShown = _vehicle.IsReady() && _vehicle.IsShowingOrder(orderID);
     const bool bLost = _vehicle.IsReady() && !bShown && IsRecordLost(record);
-    // Whose order was lost needs not be able to take another.
-    if (bShown || bLost ? !_vehicle.IsReady() : !CanTakeOrder())
+    if (!bShown && !bLost && !CanTakeOrder())
     {
         return Core::Fail(
             EVda5050Error::VehicleNotReady,
@@ -293,15 +306,7 @@ Core::Result<void> MasterSession::Impl::ResumeOrder(OrderRecord record, Core::No
     }
     if (bLost)
     {
-        const bool bAccepted = record.acceptedUpdateID.has_value();
-        if (!bAccepted)
-        {
-            _withdrawnOrders.Add(orderID, &messages.front(), true);
-        }
-        out.emplace_back(OrderLost{
-            orderID,
-            bAccepted ? "the vehicle does not hold it any more"
-                      : "the vehicle may have been restarted since the order was given, and may have executed it"});
+        ReportRecordLost(record, out);
         return {};
     }
     const StateMessage& state = *_vehicle.GetStateOrNull();

@@ -21,7 +21,7 @@ OrderMessage SendUpdate(MasterSessionFixture& bench)
     REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
     bench.Hold(order, 3);
     bench.SendState();
-    const OrderMessage update = *builder.MakeUpdate(3);
+    OrderMessage update = *builder.MakeUpdate(3);
     REQUIRE(bench.session.SendOrderUpdate(update, bench.GetNow(), bench.Clear()).has_value());
     REQUIRE(bench.GetSentOrder().orderUpdateID == 1);
     return update;
