@@ -63,7 +63,7 @@ export async function getLines(path) {
 }
 
 /** randomUUID exists on https and localhost only. */
-function makeKey() {
+export function makeKey() {
     if (crypto.randomUUID !== undefined) {
         return crypto.randomUUID();
     }
@@ -71,8 +71,8 @@ function makeKey() {
 }
 
 /** Sends a command. After a lost answer it is sent once more: its key makes a second effect impossible. */
-export async function post(path, body) {
-    const options = {method: "POST", headers: {"Idempotency-Key": makeKey()}};
+export async function post(path, body, key = makeKey()) {
+    const options = {method: "POST", headers: {"Idempotency-Key": key}};
     if (body !== undefined) {
         options.headers["Content-Type"] = "application/json";
         options.body = JSON.stringify(body);

@@ -1,7 +1,7 @@
 // What the operator may do: each command is one POST. Those with consequences ask first.
 
 import {askAction} from "./action-dialog.js";
-import {post} from "./api.js";
+import {makeKey, post} from "./api.js";
 import {askCarriers} from "./carriers-dialog.js";
 import {askConfirmation, askNumber, ignoreHeldEnter, showError, showToast} from "./dialogs.js";
 import {make} from "./dom.js";
@@ -64,10 +64,18 @@ export function listNamedCommands(text, model) {
 
 /** Asks if need be, sends, and shows the answer. */
 export async function runCommand(command) {
+    let lost = null; // {text, key} of the request whose answer was lost: the user may send it again
     const send = async (answers = {}) => {
         const body = Object.keys(answers).length === 0 ? command.body : {...command.body, ...answers};
-        const response = await post(command.path, body);
-        showToast((await response.json()).message);
+        const text = JSON.stringify(body);
+        const key = lost !== null && lost.text === text ? lost.key : makeKey();
+        try {
+            const response = await post(command.path, body, key);
+            showToast((await response.json()).message);
+        } catch (error) {
+            lost = error.status === 0 ? {text, key} : null;
+            throw error;
+        }
     };
     const {label: title, values} = command;
     if (command.number !== undefined) {

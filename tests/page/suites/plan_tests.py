@@ -77,6 +77,23 @@ class Plans(PlanCase):
         self.wait_for_post(f"{self.path}/abort")
         self.wait_for_text("#detail .facts", "Aborted")
 
+    def test_a_command_without_an_answer_is_sent_again_as_the_same(self):
+        """It may have been executed."""
+        self.open_plan()
+        self.run_script(
+            "const send = window.fetch; window.fetch = async (path, options) => {"
+            "const answer = await send(path, options);"
+            "if (options?.method === 'POST' && window.isCut) { throw new TypeError('cut'); } return answer; };"
+            "window.isCut = true")
+        self.click_button("Cancel plan")
+        self.click("#confirm-action")
+        self.wait_for_text("#confirm-dialog [role=alert]", "acsd does not answer")
+        self.run_script("window.isCut = false")
+        self.click("#confirm-action")
+        wait_until(lambda: not self.find("#confirm-dialog").is_displayed(), "acsd has accepted it")
+        keys = [key for _, _, key in self.list_posts()]
+        self.assertEqual(keys, 3 * keys[:1])
+
     def test_priority_of_a_waiting_plan(self):
         plan = next(plan for plan in self.mock.simulation.plans.values() if plan.robot_id is None)
         self.run_script("acsdPage.select({kind: 'plan', id: arguments[0]})", plan.plan_id)
