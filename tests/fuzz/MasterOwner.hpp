@@ -73,6 +73,14 @@ class MasterOwner
         Rejected,
     };
 
+    /// The call whose actions are executed.
+    enum class ECall : std::uint8_t
+    {
+        Other,
+        State, ///< It has reported a state.
+        Resume,
+    };
+
     /// An action without an outcome.
     struct OpenAction
     {
@@ -107,8 +115,7 @@ class MasterOwner
     bool _bLinkUp = false;
     bool _bLed = true; ///< According to the last state.
     bool _bSilent = false;
-    bool _bStateSeen = false; ///< In the present batch.
-    bool _bResuming = false;  ///< The present batch is of ResumeOrder.
+    ECall _call = ECall::Other;
 
 public:
     explicit MasterOwner(VDA5050::MasterOptions options);
@@ -136,7 +143,8 @@ public:
     void End();
 
 private:
-    void Execute();
+    [[nodiscard]] static bool IsRequest(std::string_view actionType);
+    void Execute(ECall call = ECall::Other);
     void Do(const VDA5050::MasterAction& action);
     void On(const VDA5050::OrderAccepted& event);
     void On(const VDA5050::OrderRejected& event);
