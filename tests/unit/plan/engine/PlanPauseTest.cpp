@@ -8,6 +8,7 @@ using ACS::Testing::Contains;
 using ACS::Testing::FindLine;
 using ACS::Testing::FinishPlan;
 using ACS::Testing::GetReportsAfter;
+using ACS::Testing::IsJobCancelledFirst;
 using ACS::Testing::Lines;
 using ACS::Testing::MakeControlPlan;
 using ACS::Testing::MakeLogisticsPlan;
@@ -292,8 +293,7 @@ TEST_CASE(
     }
     const std::size_t line = world.trace.size();
     world.Connect();
-    const std::size_t cancelled = FindLine(world, "command LR01 CancelJob", line);
-    CHECK(cancelled < FindLine(world, "command LR01 Resume", line));
+    CHECK(IsJobCancelledFirst(world, line));
     const std::size_t again = world.trace.size();
     world.Raise("LR01", LinkChanged{false});
     world.Connect();

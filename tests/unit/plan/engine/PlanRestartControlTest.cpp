@@ -8,6 +8,7 @@ using ACS::Testing::BeginPlan;
 using ACS::Testing::Contains;
 using ACS::Testing::FindLine;
 using ACS::Testing::FinishPlan;
+using ACS::Testing::IsJobCancelledFirst;
 using ACS::Testing::Lines;
 using ACS::Testing::MakeLogisticsPlan;
 using ACS::Testing::MakeTestOptions;
@@ -158,8 +159,7 @@ TEST_CASE("D-16 An unresolved job that was abandoned is cancelled before its rob
             CHECK(world.replies.at(7).bAccepted);
             break;
     }
-    const std::size_t cancelled = FindLine(world, "command LR01 CancelJob", line);
-    CHECK(cancelled < FindLine(world, "command LR01 Resume", line));
+    CHECK(IsJobCancelledFirst(world, line));
     world.Raise("LR01", LinkChanged{false});
     line = world.trace.size();
     const bool bRestarted = GENERATE(false, true);
@@ -171,8 +171,7 @@ TEST_CASE("D-16 An unresolved job that was abandoned is cancelled before its rob
     {
         world.Connect();
     }
-    const std::size_t again = FindLine(world, "command LR01 CancelJob", line);
-    CHECK(again < FindLine(world, "command LR01 Resume", line));
+    CHECK(IsJobCancelledFirst(world, line));
     const std::size_t later = world.trace.size();
     world.Raise("LR01", LinkChanged{false});
     world.Connect();
