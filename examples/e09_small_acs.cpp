@@ -253,8 +253,7 @@ private:
         const bool bBeforeArrival = IsActive(planID) && _active->step == 0 && !_active->job.has_value();
         if (!bBeforeArrival && !TryForgetWaiting(planID))
         {
-            Report(
-                CancelResultReport{planID, EReportResult::Failed, "the robot has arrived, or there is no such plan"});
+            Report(CancelResultReport{planID, EReportResult::Failed, "it has arrived, or there is no such plan"});
             return;
         }
         if (bBeforeArrival && _active->bPaused)
