@@ -15,7 +15,6 @@ namespace
 {
 
 using Planning::AdapterActions;
-using Planning::RaiseEvent;
 
 } // namespace
 

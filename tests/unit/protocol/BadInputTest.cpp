@@ -16,7 +16,6 @@
 
 using namespace ACS; // NOLINT(google-build-using-namespace)
 using Protocol::EAckResult;
-using Protocol::EAcsCommand;
 using Protocol::EProtocolNote;
 using Testing::MakeRequestText;
 

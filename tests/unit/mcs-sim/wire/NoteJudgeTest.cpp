@@ -6,7 +6,6 @@
 
 using namespace ACS::McsSim; // NOLINT(google-build-using-namespace)
 using ACS::Protocol::EProtocolNote;
-using ACS::Protocol::ProtocolNoted;
 
 TEST_CASE(
     "R1, R2, 6.1 A broken rule is a violation each time; a deviation that the document tolerates is reported once")

@@ -15,7 +15,6 @@ using ACS::Testing::MakeTestOptions;
 using ACS::Testing::MakeTestSite;
 using ACS::Testing::PlanWorld;
 using ACS::Testing::RestartEngine;
-using ACS::Testing::TryRunUntil;
 
 namespace
 {

@@ -8,7 +8,6 @@ using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test o
 using ACS::Testing::BeginPlan;
 using ACS::Testing::FinishPlan;
 using ACS::Testing::Lines;
-using ACS::Testing::MakeControlPlan;
 using ACS::Testing::MakeLogisticsPlan;
 using ACS::Testing::MakeTestOptions;
 using ACS::Testing::MakeTestSite;
