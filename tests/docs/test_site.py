@@ -59,26 +59,51 @@ SHOWN = {
 }
 
 
+def make_tree(root, files):
+    for path in COPIED:
+        os.makedirs(os.path.dirname(os.path.join(root, path)), exist_ok=True)
+        shutil.copy(os.path.join(ROOT, path), os.path.join(root, path))
+    shutil.copytree(os.path.join(ROOT, "docs/site"), os.path.join(root, "docs/site"))
+    for path, text in files.items():
+        os.makedirs(os.path.dirname(os.path.join(root, path)), exist_ok=True)
+        with open(os.path.join(root, path), "w", encoding="utf-8") as file:
+            file.write(text)
+
+
+def build(root):
+    """The exit code of scripts/site --check, its errors, and the text of SHOWN."""
+    command = [os.path.join(root, "scripts/site"), "--check"]
+    ran = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False, text=True)
+    pages = {}
+    for name in SHOWN:
+        place = os.path.join(root, "build/site/html", name)
+        if os.path.exists(place):
+            with open(place, encoding="utf-8") as file:
+                pages[name] = file.read()
+    return ran.returncode, ran.stderr, pages
+
+
 def run(files):
-    """The exit code of scripts/site --check on a tree with these files, its errors, and the text of SHOWN."""
     with tempfile.TemporaryDirectory() as root:
-        for path in COPIED:
-            os.makedirs(os.path.dirname(os.path.join(root, path)), exist_ok=True)
-            shutil.copy(os.path.join(ROOT, path), os.path.join(root, path))
-        shutil.copytree(os.path.join(ROOT, "docs/site"), os.path.join(root, "docs/site"))
-        for path, text in files.items():
-            os.makedirs(os.path.dirname(os.path.join(root, path)), exist_ok=True)
-            with open(os.path.join(root, path), "w", encoding="utf-8") as file:
+        make_tree(root, files)
+        return build(root)
+
+
+def check_killed():
+    """A build that is killed does not prevent the next one, and leaves the site that was there."""
+    with tempfile.TemporaryDirectory() as root:
+        make_tree(root, RIGHT)
+        settings = os.path.join(root, "docs/site/conf.py")
+        with open(settings, encoding="utf-8") as file:
+            right = file.read()
+        killed = right + "\nimport signal\nos.kill(os.getpid(), signal.SIGKILL)\n"
+        found = []
+        for text in (killed, right, killed):
+            with open(settings, "w", encoding="utf-8") as file:
                 file.write(text)
-        command = [os.path.join(root, "scripts/site"), "--check"]
-        ran = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False, text=True)
-        pages = {}
-        for name in SHOWN:
-            place = os.path.join(root, "build/site/html", name)
-            if os.path.exists(place):
-                with open(place, encoding="utf-8") as file:
-                    pages[name] = file.read()
-        return ran.returncode, ran.stderr, pages
+            code, _, pages = build(root)
+            found.append((code, len(pages)))
+        return found
 
 
 def main():
@@ -103,6 +128,8 @@ def main():
         page = path.replace(".md", ".html")
         if not any(line.startswith(f"{page}:") and f"'{target}'" in line and reason in line for line in errors.splitlines()):
             faults.append(f"{page} is not reported with '{target}' and '{reason}' but:\n{errors}")
+    if (found := check_killed()) != [(1, 0), (0, len(SHOWN)), (1, len(SHOWN))]:
+        faults.append(f"exit codes and pages of a killed build, the next one and another killed one: {found}")
     for fault in faults:
         print(fault)
     return 1 if faults else 0
