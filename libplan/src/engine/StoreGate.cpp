@@ -161,9 +161,9 @@ bool StoreGate::IsStoring() const noexcept
 void StoreGate::OnStoreLost(std::string_view reason, Core::Now now, EngineActions& out)
 {
     assert(!_gate.IsClosed());
-    if (_backlog.IsFailing())
+    if (_backlog.TryFailAttempt() || _backlog.IsFailing())
     {
-        return; // already failing, and retried
+        return; // the alarm is active, and the retry timer runs
     }
     _transaction.SetNow(now);
     _backlog.OnFailed();

@@ -12,6 +12,16 @@ void StoreBacklog::OnFailed() noexcept
     _state = EState::Waiting;
 }
 
+bool StoreBacklog::TryFailAttempt() noexcept
+{
+    if (_state != EState::Attempted)
+    {
+        return false;
+    }
+    _state = EState::Waiting;
+    return true;
+}
+
 void StoreBacklog::OnRetryDue() noexcept
 {
     _state = _state == EState::Waiting ? EState::Due : _state;

@@ -29,6 +29,8 @@ class StoreBacklog
 
 public:
     void OnFailed() noexcept;
+    /// True: the attempt was successful, and the store failed after it. The retry timer of the attempt still runs.
+    [[nodiscard]] bool TryFailAttempt() noexcept;
     void OnRetryDue() noexcept;
     /// The store was failing before the restart: the next changes are an attempt.
     void RestoreFailing() noexcept;

@@ -197,3 +197,22 @@ TEST_CASE("StoreGate: a lost store is reported once")
     CHECK(again.actions.empty());
     CHECK(parts.engine.alarms.GetAlarms().size() == 1);
 }
+
+TEST_CASE("StoreGate: a store that is lost after a retry is not taken for one that works")
+{
+    GateParts parts;
+    parts.FailStore();
+    parts.engine.backlog.OnRetryDue();
+    parts.BeginCall();
+    static_cast<void>(parts.CommitCall());
+    CHECK(parts.EndStore(true).GetDelayOrNull(EEngineTimer::StoreRetry).has_value());
+    CallOutcome lost;
+    parts.store.OnStoreLost("gone", parts.engine.transaction.GetNow(), lost.actions);
+    CHECK(lost.actions.empty());
+    parts.BeginCall();
+    CHECK(parts.engine.backlog.IsFailing());
+    CHECK(parts.engine.alarms.GetAlarms().size() == 1);
+    parts.engine.backlog.OnRetryDue();
+    parts.engine.transaction.AddReport(PlanReport{});
+    CHECK_FALSE(parts.CommitCall().ListActions<StorePlans>().empty());
+}
