@@ -190,7 +190,8 @@ void AcsSession::Impl::Forget(SessionActions& out)
     _inFlight.clear();
     _bWasRegistered = false;
     _phase = Detail::EConnectPhase::Replay;
-    _bRoomWanted = false;
+    _requests = Detail::EWaitingRequests::None;
+    _lastStatus = {};
     _unansweredInRow = 0;
 }
 

@@ -52,6 +52,14 @@ enum class EConnectPhase : std::uint8_t
     Positions,
 };
 
+/// The requests that TrySendDurable refused because the window was full.
+enum class EWaitingRequests : std::uint8_t
+{
+    None,
+    Waiting, ///< Statuses come first.
+    Next,    ///< Statuses were first: the next room is for a request.
+};
+
 /// Key of the latest status of its kind and robot. The map's order is that of section 6.
 using StatusKey = std::pair<EAcsCommand, std::string>;
 
@@ -96,13 +104,14 @@ class AcsSession::Impl
     EState _state = EState::Stopped;
     bool _bWasRegistered = false; ///< On this connection.
     Detail::EConnectPhase _phase = Detail::EConnectPhase::Replay;
-    bool _bRoomWanted = false;
+    Detail::EWaitingRequests _requests = Detail::EWaitingRequests::None;
     std::string _registrationID;
     std::string _farewellID;
     std::vector<InFlight> _inFlight;
     Detail::RecentTransactions _recent;
     std::size_t _unansweredInRow = 0;
     std::map<StatusKey, Status> _statuses;
+    StatusKey _lastStatus{}; ///< The last one that was sent; the next is behind it, so that each has its turn.
     Core::SteadyTime _nextPosition{};
     std::string _scratch;
 
@@ -135,11 +144,13 @@ private:
     void End(SessionActions& out);
     void Send(const AcsRequest& request, bool bDurable, StatusKey statusKey, Core::Now now, SessionActions& out);
     std::string SendPayload(AcsPayload payload, StatusKey statusKey, Core::Now now, SessionActions& out);
-    /// Uses room in the window: for statuses first, then WindowOpened.
+    /// Uses room in the window for statuses and, by WindowOpened, for durable requests. If both wait, they take turns.
     void UseRoom(Core::Now now, SessionActions& out);
-    void SendStatuses(Core::Now now, SessionActions& out);
-    /// Once, after the last state of the snapshot.
-    void BeginPositions(Core::Now now, SessionActions& out);
+    void OfferRoom(SessionActions& out);
+    /// @param kept Room that is left.
+    void SendStatuses(std::size_t kept, Core::Now now, SessionActions& out);
+    /// Positions begin after the last state of the snapshot.
+    [[nodiscard]] bool TryEndSnapshot(Core::Now now, SessionActions& out);
     /// Messages in flight of this kind and robot are not resent.
     void Supersede(const AcsPayload& status);
     /// All deadlines have the same timeout, so that a running timer never fires too late; if it fires too early, it is

@@ -13,6 +13,7 @@ namespace
 {
 
 using Detail::EConnectPhase;
+using Detail::EWaitingRequests;
 using Detail::StatusKey;
 
 StatusKey MakeStatusKey(const AcsPayload& payload)
@@ -42,7 +43,7 @@ bool AcsSession::Impl::TrySendDurable(const AcsRequest& request, Core::Now now, 
     }
     if (GetRoom() == 0)
     {
-        _bRoomWanted = true;
+        _requests = std::max(_requests, EWaitingRequests::Waiting);
         return false;
     }
     _recent.Forget(GetCommand(request), request.transactionID);
@@ -121,25 +122,48 @@ std::string AcsSession::Impl::SendPayload(AcsPayload payload, StatusKey statusKe
 
 void AcsSession::Impl::UseRoom(Core::Now now, SessionActions& out)
 {
+    const std::size_t room = GetRoom();
+    const std::size_t kept = _requests == EWaitingRequests::Next ? 1 : 0;
     if (_phase != EConnectPhase::Replay)
     {
-        SendStatuses(now, out);
+        SendStatuses(kept, now, out);
+        if (TryEndSnapshot(now, out))
+        {
+            SendStatuses(kept, now, out);
+        }
     }
-    if (_bRoomWanted && GetRoom() > 0)
+    if (_requests != EWaitingRequests::None && room > 0)
     {
-        _bRoomWanted = false;
-        out.emplace_back(Deliver{WindowOpened{}});
+        OfferRoom(out);
     }
     ArmAckTimer(now, out);
-    BeginPositions(now, out);
 }
 
-void AcsSession::Impl::BeginPositions(Core::Now now, SessionActions& out)
+void AcsSession::Impl::OfferRoom(SessionActions& out)
 {
-    const bool bDue = _state == EState::Registered && _phase == EConnectPhase::Snapshot;
-    if (!bDue || std::ranges::any_of(_statuses, [](const auto& entry) { return entry.second.bPending; }))
+    if (GetRoom() == 0)
     {
+        _requests = EWaitingRequests::Next;
         return;
+    }
+    _requests = EWaitingRequests::None;
+    out.emplace_back(Deliver{WindowOpened{}});
+    if (_inFlight.empty() && !_output.IsRunning(ESessionTimer::Ack))
+    {
+        // Statuses may wait for room that no request uses, and no Ack is due.
+        _output.Start(ESessionTimer::Ack, _options.ackTimeout, out);
+    }
+}
+
+bool AcsSession::Impl::TryEndSnapshot(Core::Now now, SessionActions& out)
+{
+    const auto isPending = [](const auto& entry) {
+        return entry.second.bPending;
+    };
+    const bool bDue = _state == EState::Registered && _phase == EConnectPhase::Snapshot;
+    if (!bDue || std::any_of(_statuses.upper_bound(_lastStatus), _statuses.end(), isPending))
+    {
+        return false;
     }
     _phase = EConnectPhase::Positions;
     if (_options.positionInterval.count() > 0)
@@ -147,6 +171,7 @@ void AcsSession::Impl::BeginPositions(Core::Now now, SessionActions& out)
         _nextPosition = now.steady;
         SchedulePosition(now, out);
     }
+    return true;
 }
 
 void AcsSession::Impl::Supersede(const AcsPayload& status)
@@ -158,20 +183,28 @@ void AcsSession::Impl::Supersede(const AcsPayload& status)
     }
 }
 
-void AcsSession::Impl::SendStatuses(Core::Now now, SessionActions& out)
+void AcsSession::Impl::SendStatuses(std::size_t kept, Core::Now now, SessionActions& out)
 {
-    for (auto& [key, status] : _statuses)
+    auto next = _statuses.upper_bound(_lastStatus);
+    for (std::size_t left = _statuses.size(); left > 0 && GetRoom() > kept; --left)
     {
+        if (next == _statuses.end())
+        {
+            if (_phase == EConnectPhase::Snapshot)
+            {
+                return; // what has changed since it was sent follows after the snapshot
+            }
+            next = _statuses.begin();
+        }
+        auto& [key, status] = *next;
+        ++next;
         if (!status.bPending)
         {
             continue;
         }
-        if (GetRoom() == 0)
-        {
-            return;
-        }
         Supersede(status.payload);
         status.bPending = false;
+        _lastStatus = key;
         static_cast<void>(SendPayload(status.payload, key, now, out));
     }
 }

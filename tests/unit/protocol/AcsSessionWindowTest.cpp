@@ -1,0 +1,116 @@
+#include "AcsSessionFixture.hpp"
+#include "Catch.hpp"
+#include "Fixture.hpp"
+
+#include <chrono>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+using namespace ACS; // NOLINT(google-build-using-namespace)
+using namespace std::chrono_literals;
+using Protocol::AcsRequest;
+using Protocol::ESessionTimer;
+using Fixture = Testing::AcsSessionFixture;
+using Testing::MakeAckText;
+using Testing::MakeOptions;
+
+namespace
+{
+
+void SendStatuses(Fixture& bench, const std::vector<std::string>& robotIDs)
+{
+    for (const std::string& robotID : robotIDs)
+    {
+        const Protocol::AcsPayload status = Testing::MakeStatus(robotID, Protocol::ERobotStatus::Moving);
+        bench.session.SendStatus(status, bench.clock.GetNow(), bench.recorder.out);
+    }
+}
+
+/// The robot of a status, "request" for another request.
+std::string Describe(const AcsRequest& request)
+{
+    const auto* statusOrNull = std::get_if<Protocol::RobotStatusUpdate>(&request.payload);
+    return statusOrNull == nullptr ? "request" : statusOrNull->robotID;
+}
+
+/// Acknowledges the request. Returns the one that is sent then.
+AcsRequest TakeTurn(Fixture& bench, const AcsRequest& request)
+{
+    bench.Text(MakeAckText(std::string(GetText(GetCommand(request))), request.transactionID));
+    const std::vector<AcsRequest> sent = bench.recorder.GetRequests();
+    REQUIRE(sent.size() == 1);
+    return sent[0];
+}
+
+Protocol::SessionOptions MakeNarrowOptions()
+{
+    Protocol::SessionOptions options = MakeOptions();
+    options.window = 1;
+    return options;
+}
+
+} // namespace
+
+TEST_CASE("9 Statuses that fill the window leave room for durable requests, and each robot has its turn")
+{
+    Fixture bench(MakeNarrowOptions());
+    bench.StartAndReplay();
+    REQUIRE(bench.TrySend("first"));
+    CHECK_FALSE(bench.TrySend("next"));
+    std::map<std::string, int> sent;
+    for (int round = 1; round <= 12; ++round)
+    {
+        const AcsRequest inFlight = bench.recorder.GetRequests().at(0);
+        ++sent[Describe(inFlight)];
+        SendStatuses(bench, {"LR01", "LR02"});
+        bench.Text(MakeAckText(std::string(GetText(GetCommand(inFlight))), inFlight.transactionID));
+        if (!bench.recorder.GetEvents<Protocol::WindowOpened>().empty())
+        {
+            CHECK(bench.TrySend(std::to_string(round)));
+            CHECK_FALSE(bench.TrySend("next"));
+        }
+        REQUIRE(bench.recorder.GetRequests().size() == 1);
+    }
+    CHECK(sent["request"] >= 3);
+    CHECK(sent["LR01"] >= 3);
+    CHECK(sent["LR02"] >= 3);
+}
+
+TEST_CASE("9 Room that no durable request uses is given to the statuses")
+{
+    Fixture bench(MakeNarrowOptions());
+    bench.StartAndReplay();
+    REQUIRE(bench.TrySend("a"));
+    CHECK_FALSE(bench.TrySend("b"));
+    SendStatuses(bench, {"LR01", "LR02"});
+    bench.Text(MakeAckText("PlanReport", "a"));
+    const std::vector<AcsRequest> first = bench.recorder.GetRequests();
+    REQUIRE(first.size() == 1);
+    bench.Text(MakeAckText("RobotStatusUpdate", first[0].transactionID));
+    CHECK(bench.recorder.GetEvents<Protocol::WindowOpened>().size() == 1);
+    CHECK(bench.recorder.GetRequests().empty());
+    bench.Timer(ESessionTimer::Ack, 5s);
+    const std::vector<AcsRequest> second = bench.recorder.GetRequests();
+    REQUIRE(second.size() == 1);
+    CHECK(Describe(second[0]) == "LR02");
+}
+
+TEST_CASE("6 A status that changes while the states are sent after a connect does not delay the positions")
+{
+    Protocol::SessionOptions options;
+    options.window = 1;
+    Fixture bench(options);
+    bench.StartAndRegister();
+    SendStatuses(bench, {"LR01", "LR02"});
+    bench.recorder.Clear();
+    bench.session.ReplayDone(bench.clock.GetNow(), bench.recorder.out);
+    const std::vector<AcsRequest> first = bench.recorder.GetRequests();
+    REQUIRE(first.size() == 1);
+    SendStatuses(bench, {"LR01"});
+    const AcsRequest second = TakeTurn(bench, first[0]);
+    CHECK(Describe(second) == "LR02");
+    CHECK(bench.recorder.GetEvents<Protocol::PositionDue>().size() == 1);
+    CHECK(Describe(TakeTurn(bench, second)) == "LR01");
+}
