@@ -15,7 +15,8 @@ AcsSession::Impl::Impl(const SessionOptions& options, Core::IRandom& random)
       _codec(options.codec),
       _backoff(options.reconnect),
       _siteOffset(options.codec.siteOffset),
-      _answers(options.answerMemory, options.answerCount, options.answerBytes)
+      _answers(options.answerMemory, options.answerCount, options.answerBytes),
+      _recent(MOST_ABANDONED)
 {
     _options.window = std::max<std::size_t>(_options.window, 1);
     _inFlight.reserve(_options.window + 1);

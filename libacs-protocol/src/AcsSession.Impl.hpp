@@ -93,6 +93,8 @@ class AcsSession::Impl
     using Status = Detail::Status;
     using InFlight = Detail::InFlight;
 
+    static constexpr std::size_t MOST_ABANDONED = 1'024; ///< Requests whose late Ack is still known.
+
     SessionOptions _options;
     Core::IRandom& _random;
     AcsCodec _codec;
@@ -111,7 +113,7 @@ class AcsSession::Impl
     Detail::RecentTransactions _recent;
     std::size_t _unansweredInRow = 0;
     std::map<StatusKey, Status> _statuses;
-    StatusKey _lastStatus{}; ///< The last one that was sent; the next is behind it, so that each has its turn.
+    StatusKey _lastStatus{}; ///< The last one that was sent; the next one follows it, so that each has its turn.
     Core::SteadyTime _nextPosition{};
     std::string _scratch;
 

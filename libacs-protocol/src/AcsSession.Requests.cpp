@@ -1,4 +1,5 @@
 #include "AcsSession.Impl.hpp"
+#include "PendingRequests.hpp"
 
 #include <functional>
 #include <string>
@@ -83,18 +84,7 @@ DecodeFailure AcsSession::Impl::DescribeReuse(const AcsRequest& request)
     failure.commandName = GetText(command);
     failure.command = command;
     failure.transactionID = request.transactionID;
-    failure.planID = std::visit(
-        [](const auto& payload) -> std::string {
-            if constexpr (requires { std::string(payload.planID); })
-            {
-                return payload.planID;
-            }
-            else
-            {
-                return {};
-            }
-        },
-        request.payload);
+    failure.planID = Detail::GetPlanID(request.payload);
     return failure;
 }
 

@@ -15,6 +15,7 @@ McsSession::Impl::Impl(const McsSessionOptions& options, Core::IRandom& random)
       _random(random),
       _codec(options.codec),
       _siteOffset(options.codec.siteOffset),
+      _recent(options.maximumPending),
       _seen(options.duplicateMemory, options.answerBytes)
 {
 }

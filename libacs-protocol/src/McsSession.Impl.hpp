@@ -24,6 +24,7 @@ struct PendingRequest
 {
     EAcsCommand command = EAcsCommand::ExecutionPlan;
     std::string transactionID;
+    std::string planID; ///< Empty where it names none.
     Core::SteadyTime deadline{};
     std::size_t attempts = 1;
     std::string text; ///< Empty if it is not sent again.

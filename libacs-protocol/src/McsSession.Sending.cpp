@@ -3,6 +3,7 @@
 #include <acs/core/Uuid.hpp>
 
 #include <utility>
+#include <variant>
 
 namespace ACS::Protocol
 {
@@ -30,6 +31,7 @@ bool McsSession::Impl::TrySend(const AcsRequest& request, Core::Now now, Session
     _pending.push_back(
         {command,
          request.transactionID,
+         Detail::GetPlanID(request.payload),
          now.steady + _options.ackTimeout,
          1,
          _options.ackRetries == 0 ? std::string() : _scratch});
@@ -66,7 +68,10 @@ void McsSession::Impl::HandleAck(AcsAck& ack, SessionActions& out)
         }
         if (late != Detail::ELateAck::Repeated)
         {
-            match = Detail::FindPendingByCommand(_pending, ack.command);
+            const auto* planOrNull = std::get_if<PlanAck>(&ack.payload);
+            match = Detail::FindPendingByCommand(_pending, ack.command, [planOrNull](const PendingRequest& request) {
+                return planOrNull == nullptr || planOrNull->planID.empty() || planOrNull->planID == request.planID;
+            });
         }
     }
     if (!match.bFound)

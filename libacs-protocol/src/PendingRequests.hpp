@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/core/Now.hpp>
+#include <acs/protocol/AcsMessage.hpp>
 #include <acs/protocol/EAcsCommand.hpp>
 
 #include <algorithm>
@@ -8,10 +9,28 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace ACS::Protocol::Detail
 {
+
+/// Empty where the payload names no plan.
+[[nodiscard]] inline std::string GetPlanID(const AcsPayload& payload)
+{
+    return std::visit(
+        [](const auto& typed) -> std::string {
+            if constexpr (requires { std::string(typed.planID); })
+            {
+                return typed.planID;
+            }
+            else
+            {
+                return {};
+            }
+        },
+        payload);
+}
 
 /// The entry that an Ack belongs to.
 struct PendingMatch
@@ -35,13 +54,23 @@ template <typename TEntry>
     return {static_cast<std::size_t>(found - entries.begin()), found != entries.end(), false};
 }
 
+/// @param isPossible Whether the Ack may belong to the entry.
+template <typename TEntry, typename TPredicate>
+[[nodiscard]] PendingMatch FindPendingByCommand(
+    const std::vector<TEntry>& entries,
+    EAcsCommand command,
+    TPredicate isPossible)
+{
+    const auto found = std::find_if(entries.begin(), entries.end(), [command, &isPossible](const TEntry& entry) {
+        return entry.command == command && isPossible(entry);
+    });
+    return {static_cast<std::size_t>(found - entries.begin()), found != entries.end(), true};
+}
+
 template <typename TEntry>
 [[nodiscard]] PendingMatch FindPendingByCommand(const std::vector<TEntry>& entries, EAcsCommand command)
 {
-    const auto found = std::find_if(entries.begin(), entries.end(), [command](const TEntry& entry) {
-        return entry.command == command;
-    });
-    return {static_cast<std::size_t>(found - entries.begin()), found != entries.end(), true};
+    return FindPendingByCommand(entries, command, [](const TEntry& /*entry*/) { return true; });
 }
 
 /// Time until the earliest deadline, rounded up, at least zero. Requires at least one entry.

@@ -6,32 +6,55 @@
 namespace ACS::Protocol::Detail
 {
 
+RecentTransactions::RecentTransactions(std::size_t mostAwaited)
+    : _mostAwaited(std::max<std::size_t>(mostAwaited, 1))
+{
+}
+
 void RecentTransactions::Remember(EAcsCommand command, std::string transactionID, bool bAwaited)
 {
-    if (_entries.size() >= CAPACITY)
+    Entry entry{command, std::move(transactionID)};
+    if (bAwaited)
     {
-        _entries.pop_front();
+        Add(_awaited, _mostAwaited, std::move(entry));
+        return;
     }
-    _entries.push_back({command, std::move(transactionID), bAwaited});
+    Add(_answered, MOST_ANSWERED, std::move(entry));
 }
 
 void RecentTransactions::Forget(EAcsCommand command, std::string_view transactionID)
 {
-    std::erase_if(_entries, [command, transactionID](const Entry& entry) {
-        return entry.command == command && entry.transactionID == transactionID;
-    });
+    Erase(_awaited, command, transactionID);
+    Erase(_answered, command, transactionID);
 }
 
 ELateAck RecentTransactions::TakeAck(EAcsCommand command, std::string_view transactionID)
 {
-    const auto found = std::find_if(_entries.begin(), _entries.end(), [command, transactionID](const Entry& entry) {
+    if (Erase(_awaited, command, transactionID) > 0)
+    {
+        Add(_answered, MOST_ANSWERED, {command, std::string(transactionID)});
+        return ELateAck::Late;
+    }
+    const bool bAnswered = std::ranges::any_of(_answered, [command, transactionID](const Entry& entry) {
         return entry.command == command && entry.transactionID == transactionID;
     });
-    if (found == _entries.end())
+    return bAnswered ? ELateAck::Repeated : ELateAck::Unknown;
+}
+
+void RecentTransactions::Add(std::deque<Entry>& entries, std::size_t most, Entry entry)
+{
+    if (entries.size() >= most)
     {
-        return ELateAck::Unknown;
+        entries.pop_front();
     }
-    return std::exchange(found->bAwaited, false) ? ELateAck::Late : ELateAck::Repeated;
+    entries.push_back(std::move(entry));
+}
+
+std::size_t RecentTransactions::Erase(std::deque<Entry>& entries, EAcsCommand command, std::string_view transactionID)
+{
+    return std::erase_if(entries, [command, transactionID](const Entry& entry) {
+        return entry.command == command && entry.transactionID == transactionID;
+    });
 }
 
 } // namespace ACS::Protocol::Detail

@@ -26,14 +26,18 @@ class RecentTransactions
     {
         EAcsCommand command = EAcsCommand::Registration;
         std::string transactionID;
-        bool bAwaited = false;
     };
 
-    static constexpr std::size_t CAPACITY = 128;
+    static constexpr std::size_t MOST_ANSWERED = 128;
 
-    std::deque<Entry> _entries;
+    std::size_t _mostAwaited;
+    std::deque<Entry> _awaited;
+    std::deque<Entry> _answered;
 
 public:
+    /// @param mostAwaited Maximum number of abandoned requests whose late Ack is still known; at least 1.
+    explicit RecentTransactions(std::size_t mostAwaited);
+
     /// @param bAwaited The request was abandoned, and a late Ack is of interest.
     void Remember(EAcsCommand command, std::string transactionID, bool bAwaited);
 
@@ -41,6 +45,11 @@ public:
     void Forget(EAcsCommand command, std::string_view transactionID);
 
     [[nodiscard]] ELateAck TakeAck(EAcsCommand command, std::string_view transactionID);
+
+private:
+    static void Add(std::deque<Entry>& entries, std::size_t most, Entry entry);
+    /// Returns the number of erased entries.
+    static std::size_t Erase(std::deque<Entry>& entries, EAcsCommand command, std::string_view transactionID);
 };
 
 } // namespace ACS::Protocol::Detail

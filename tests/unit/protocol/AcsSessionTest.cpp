@@ -277,6 +277,28 @@ TEST_CASE("D-4 The second Ack of a message that was sent twice does not acknowle
     CHECK(bench.recorder.GetEvents<Protocol::Acked>().at(0).transactionID == "b");
 }
 
+TEST_CASE("D-4 The late Ack of an abandoned request is known after many other Acks")
+{
+    Fixture bench;
+    bench.StartAndReplay();
+    REQUIRE(bench.TrySend("a"));
+    for (int attempt = 0; attempt < 4; ++attempt)
+    {
+        bench.Timer(ESessionTimer::Ack, 5s);
+    }
+    REQUIRE(bench.recorder.GetEvents<Protocol::RequestUnanswered>().size() == 1);
+    for (int count = 0; count < 200; ++count)
+    {
+        REQUIRE(bench.TrySend(std::to_string(count)));
+        bench.Text(MakeAckText("PlanReport", std::to_string(count)));
+    }
+    REQUIRE(bench.TrySend("b"));
+    bench.Text(MakeAckText("PlanReport", "a"));
+    CHECK(bench.recorder.GetEvents<Protocol::Acked>().at(0).transactionID == "a");
+    bench.Text(MakeAckText("PlanReport", "b"));
+    CHECK(bench.recorder.GetEvents<Protocol::Acked>().at(0).transactionID == "b");
+}
+
 TEST_CASE("D-4 With mcs.ack_match id an Ack with a foreign transactionId is ignored, also for the registration")
 {
     Protocol::SessionOptions options;

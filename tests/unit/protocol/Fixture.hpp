@@ -34,10 +34,12 @@ inline std::string MakeRequestText(
 inline std::string MakeAckText(
     const std::string& command,
     const std::string& transactionID,
-    const std::string& result = "Success")
+    const std::string& result = "Success",
+    const std::string& payload = "{}")
 {
     return R"({"command":")" + command + R"(Ack","transactionId":")" + transactionID
-        + R"(","timestamp":"2025-07-02T21:00:00.123+09:00","result":")" + result + R"(","message":"","payload":{}})";
+        + R"(","timestamp":"2025-07-02T21:00:00.123+09:00","result":")" + result + R"(","message":"","payload":)"
+        + payload + "}";
 }
 
 } // namespace ACS::Testing

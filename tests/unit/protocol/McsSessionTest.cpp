@@ -124,6 +124,53 @@ TEST_CASE("D-4 An Ack after its request has expired does not acknowledge the nex
     CHECK(bench.recorder.GetNotes() == std::vector<EProtocolNote>{EProtocolNote::AckUnexpected});
 }
 
+TEST_CASE("D-4 An Ack that names another plan acknowledges no request of its command")
+{
+    McsSessionFixture bench;
+    bench.Register(1);
+    for (const char* planID : {"B", "C"})
+    {
+        const Protocol::AcsRequest request =
+            bench.session.MakeRequest(Protocol::CancelPlan{planID, ""}, bench.clock.GetNow());
+        REQUIRE(bench.session.TrySend(request, bench.clock.GetNow(), bench.recorder.out));
+    }
+    const std::vector<Protocol::AcsRequest> requests = bench.recorder.GetRequests();
+    bench.Text(1, MakeAckText("CancelPlan", "of another run", "Success", R"({"planId":"A"})"));
+    CHECK(bench.recorder.GetEvents<Protocol::AckReceived>().empty());
+    CHECK(bench.recorder.GetNotes() == std::vector<EProtocolNote>{EProtocolNote::AckUnexpected});
+    bench.Text(1, MakeAckText("CancelPlan", "foreign", "Success", R"({"planId":"C"})"));
+    REQUIRE(bench.recorder.GetEvents<Protocol::AckReceived>().size() == 1);
+    CHECK(bench.recorder.GetEvents<Protocol::AckReceived>()[0].ack.transactionID == requests.at(1).transactionID);
+    CHECK(bench.recorder.GetNotes() == std::vector<EProtocolNote>{EProtocolNote::AckMismatched});
+}
+
+TEST_CASE("D-4 A late Ack is known for as many requests as may be pending")
+{
+    McsSessionFixture bench;
+    bench.Register(1);
+    bench.recorder.Clear();
+    const auto send = [&bench] {
+        const Protocol::AcsRequest request =
+            bench.session.MakeRequest(Protocol::CancelPlan{"P", ""}, bench.clock.GetNow());
+        REQUIRE(bench.session.TrySend(request, bench.clock.GetNow(), bench.recorder.out));
+        return request.transactionID;
+    };
+    const std::string first = send();
+    for (int count = 1; count < 200; ++count)
+    {
+        static_cast<void>(send());
+    }
+    bench.session.OnClosed(1, "gone", bench.clock.GetNow(), bench.recorder.out);
+    bench.Register(2);
+    static_cast<void>(send());
+    bench.Text(2, MakeAckText("CancelPlan", first));
+    REQUIRE(bench.recorder.GetEvents<Protocol::AckReceived>().size() == 1);
+    CHECK(bench.recorder.GetEvents<Protocol::AckReceived>()[0].bLate);
+    CHECK(bench.recorder.GetEvents<Protocol::AckReceived>()[0].ack.transactionID == first);
+    bench.Text(2, MakeAckText("CancelPlan", first));
+    CHECK(bench.recorder.GetNotes() == std::vector<EProtocolNote>{EProtocolNote::AckUnexpected});
+}
+
 TEST_CASE("R1, R2 The MCS acknowledges each report once, a repeated one again, positions never")
 {
     McsSessionFixture bench;
