@@ -43,7 +43,7 @@ void AnswerCache::Insert(
 {
     if (_order.size() >= _capacity)
     {
-        Erase(_order.begin());
+        EraseLeastNeeded();
     }
     std::string key = MakeTransactionKey(command, transactionID);
     if (_entries.try_emplace(key, Entry{command, {}, now.steady, bLegacyName, digest}).second)
@@ -63,11 +63,7 @@ void AnswerCache::KeepText(EAcsCommand command, std::string_view transactionID, 
     found->second.text = text;
     while (_bytes > _maximumBytes)
     {
-        const auto question = std::find_if(_order.begin(), _order.end(), [this](const std::string& key) {
-            const Entry& entry = _entries.at(key);
-            return IsQuestion(entry.command) && !entry.text.empty();
-        });
-        Erase(question == _order.end() ? _order.begin() : question);
+        EraseLeastNeeded();
     }
 }
 
@@ -77,6 +73,15 @@ void AnswerCache::Forget(Core::Now now)
     {
         Erase(_order.begin());
     }
+}
+
+void AnswerCache::EraseLeastNeeded()
+{
+    const auto question = std::find_if(_order.begin(), _order.end(), [this](const std::string& key) {
+        const Entry& entry = _entries.at(key);
+        return IsQuestion(entry.command) && !entry.text.empty();
+    });
+    Erase(question == _order.end() ? _order.begin() : question);
 }
 
 void AnswerCache::Erase(const std::deque<std::string>::const_iterator& place)

@@ -54,6 +54,7 @@ public:
 
 private:
     void Forget(Core::Now now);
+    void EraseLeastNeeded();
     void Erase(const std::deque<std::string>::const_iterator& place);
 };
 

@@ -440,6 +440,40 @@ TEST_CASE("D-23 The kept Acks are limited in bytes: those of queries are dropped
     CHECK(bench.recorder.GetEvents<Protocol::RequestReceived>().size() == 1);
 }
 
+TEST_CASE("D-23 The kept Acks are limited in number: those of queries are dropped before those of executed requests")
+{
+    Protocol::SessionOptions options;
+    options.answerCount = 4;
+    AcsSessionFixture bench(options);
+    bench.StartAndReplay();
+    const auto ask = [&bench](EAcsCommand command, const std::string& text, const std::string& id) {
+        bench.Text(text);
+        const std::size_t delivered = bench.recorder.GetEvents<Protocol::RequestReceived>().size();
+        if (delivered > 0)
+        {
+            bench.session.Answer(
+                command,
+                id,
+                EAckResult::Success,
+                "",
+                Protocol::EmptyAck{},
+                bench.clock.GetNow(),
+                bench.recorder.out);
+        }
+        return delivered;
+    };
+    const std::string cancel = MakeRequestText("CancelPlan", R"({"planId":"P"})", "c");
+    CHECK(ask(EAcsCommand::CancelPlan, cancel, "c") == 1);
+    for (int i = 0; i < 6; ++i)
+    {
+        const std::string id = "q" + std::to_string(i);
+        CHECK(ask(EAcsCommand::RequestAcsErrorList, MakeRequestText("RequestAcsErrorList", "{}", id), id) == 1);
+    }
+    CHECK(ask(EAcsCommand::CancelPlan, cancel, "c") == 0);
+    CHECK(ask(EAcsCommand::RequestAcsErrorList, MakeRequestText("RequestAcsErrorList", "{}", "q5"), "q5") == 0);
+    CHECK(ask(EAcsCommand::RequestAcsErrorList, MakeRequestText("RequestAcsErrorList", "{}", "q0"), "q0") == 1);
+}
+
 TEST_CASE("13.9 An Ack with a wrong transactionId counts for the oldest request of its command, on either side")
 {
     AcsSessionFixture bench;
