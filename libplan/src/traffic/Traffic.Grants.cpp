@@ -217,6 +217,7 @@ bool Traffic::IsSafe(std::size_t robot, std::span<const std::size_t> ahead)
     take();
     bool bSafe = IsAsGood(ESafeStateScope::AllMove, robot, refusal);
     giveBack();
+    _bBlocksRefuse = false;
     if (bSafe && bAsIs)
     {
         take();

@@ -87,7 +87,6 @@ void TrafficCoordinator::ExtendBase(Robot& robot)
         drive.grantedCount += granted;
         robot.changes.MarkStatus(granted > 0 || robot.search.blockers != formerBlockers);
         robot.search.refusedAt = _traffic.GetFreedCount();
-        NoteBlock(robot, _traffic.IsRefusedForBlocks() ? CUT_OFF : "");
     }
     if (drive.grantedCount > drive.releasedCount)
     {
@@ -218,7 +217,6 @@ bool TrafficCoordinator::TryBeginDrive(Robot& robot, const PlannedRoute& planned
     const std::size_t wanted = std::min(_options.baseLength, plannedRoute.nodes.size() - 1);
     const std::size_t granted =
         Extend(robot, std::span(plannedRoute.nodes).subspan(1, wanted), plannedRoute.nodes.back());
-    robot.search.block = _traffic.IsRefusedForBlocks() ? CUT_OFF : "";
     if (granted == 0)
     {
         return false;
@@ -442,6 +440,7 @@ std::size_t TrafficCoordinator::Extend(Robot& robot, std::span<const std::size_t
     const std::size_t open = _traffic.CountBeforeWayOut(robot.index, ahead, target);
     const std::size_t granted = open == 0 ? 0 : _traffic.Extend(robot.index, ahead.first(open));
     robot.search.blockers = open == 0 ? _traffic.GetHolders(target, robot.index) : _traffic.GetBlockers();
+    NoteBlock(robot, open > 0 && _traffic.IsRefusedForBlocks() ? CUT_OFF : "");
     return granted;
 }
 

@@ -171,6 +171,27 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("TrafficCoordinator: a robot that waits for others does not wait for the blocks of another robot")
+{
+    EngineParts parts;
+    parts.BeginDriveToLoad();
+    REQUIRE(parts.coordinator.TryAdvance(parts.lr, 1));
+    parts.PutOn(parts.cr, "D-A01.CP01"); // the target of the drive, which closes its way out
+    Traffic& traffic = parts.places.GetTraffic();
+    std::vector<bool> blocked(parts.engine.site.GetNodes().size(), false);
+    const std::vector<bool> edges(parts.engine.site.GetEdges().size(), false);
+    const std::size_t next = parts.FindNode("L03");
+    blocked[next] = true;
+    traffic.SetBlocked(blocked, edges);
+    CHECK(traffic.Extend(parts.cr.index, std::vector{next}) == 0);
+    CHECK(traffic.IsRefusedForBlocks());
+    blocked[next] = false;
+    traffic.SetBlocked(blocked, edges);
+    parts.coordinator.ExtendBase(parts.lr);
+    CHECK(parts.lr.search.blockers == std::vector{parts.cr.index});
+    CHECK(parts.lr.search.block.empty());
+}
+
 TEST_CASE("TrafficCoordinator: a drive that the robot has not taken yet has no route that it could have left")
 {
     EngineParts parts;
