@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -15,10 +16,18 @@ namespace
 
 class ErrorFinder
 {
+    /// A home or charging station.
+    struct ParkingStation
+    {
+        std::string robotID;
+        std::string stationID;
+        std::string path; ///< Of its option.
+    };
+
     const SiteMap& _site;
     std::vector<Core::Error> _mistakes;
     std::set<std::string> _robotIDs;
-    std::map<std::string, std::string> _homes; ///< Home and charging nodes, with their robot.
+    std::map<std::string, ParkingStation> _parking; ///< By node.
     std::set<std::string> _starts;
 
 public:
@@ -90,6 +99,31 @@ public:
         }
     }
 
+    /// Robots of two parking stations within the clearance of each other could never both be there.
+    void CheckParkingDistances(double clearance)
+    {
+        for (auto left = _parking.begin(); left != _parking.end(); ++left)
+        {
+            for (auto right = std::next(left); right != _parking.end(); ++right)
+            {
+                const SiteNode& leftNode = *_site.FindNodeOrNull(left->first);
+                const SiteNode& rightNode = *_site.FindNodeOrNull(right->first);
+                const double distance = GetDistance(leftNode, rightNode);
+                if (left->second.robotID != right->second.robotID && leftNode.mapID == rightNode.mapID
+                    && distance <= clearance)
+                {
+                    Add(right->second.path,
+                        fmt::format(
+                            "a station farther than traffic.clearance ({:.2f} m) from {}, the home or charging station of {}",
+                            clearance,
+                            left->second.stationID,
+                            left->second.robotID),
+                        fmt::format("{}, {:.2f} m from it", right->second.stationID, distance));
+                }
+            }
+        }
+    }
+
     [[nodiscard]] std::vector<Core::Error> TakeErrorTexts()
     {
         return std::move(_mistakes);
@@ -127,7 +161,9 @@ private:
             Add(std::move(path), "a station whose node its vehicle type may use", stationID);
         }
         else if (
-            _homes.try_emplace(stationOrNull->nodeIDs.front(), robot.robotID.GetText()).first->second
+            _parking
+                .try_emplace(stationOrNull->nodeIDs.front(), ParkingStation{robot.robotID.GetText(), stationID, path})
+                .first->second.robotID
             != robot.robotID.GetText())
         {
             Add(std::move(path), "a station that is not the home or charging station of another robot", stationID);
@@ -183,6 +219,7 @@ std::vector<Core::Error> FindErrors(const EngineOptions& options, const SiteMap&
     {
         finder.Check(robot);
     }
+    finder.CheckParkingDistances(options.clearance);
     finder.CheckPlaces(options.places);
     for (const auto& [stationID, reached] : options.reach)
     {

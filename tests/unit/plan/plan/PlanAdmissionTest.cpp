@@ -264,3 +264,18 @@ TEST_CASE("Options that do not fit the site are all reported together")
     CHECK(errors[5].path == "stations.\"A77.CP03\".reach");
     CHECK(errors[5].found == "A77.CP03");
 }
+
+TEST_CASE("Homes within the clearance of each other are refused, for only one robot could be there")
+{
+    EngineOptions options = ACS::Testing::MakeTestOptions(true);
+    const SiteMap site = ACS::Testing::MakeTestSite();
+    options.clearance = 0.9;
+    CHECK(FindErrors(options, site).empty());
+    options.clearance = 1;
+    const std::vector<ACS::Core::Error> errors = FindErrors(options, site);
+    REQUIRE(errors.size() == 2);
+    CHECK(errors[0].path == "robots.CR01.home");
+    CHECK(errors[0].expected.find("from CHG01, the home or charging station of LR01") != std::string::npos);
+    CHECK(errors[0].found == "CHG02, 1.00 m from it");
+    CHECK(errors[1].path == "robots.CR02.home");
+}
