@@ -156,7 +156,9 @@ class _Handler(http.server.BaseHTTPRequestHandler):
         if self.server.mock.events_end:
             self.wfile.write(b"0\r\n\r\n")
         else:
-            self.server.mock.stopped.wait()
+            self.server.mock.stream_loss.wait()
+            if self.server.mock.stream_reset:
+                self.lose_connection()
         self.close_connection = True
 
 
@@ -172,7 +174,6 @@ class OperatorMock:
 
     def __init__(self, ssl_context=None):
         self.lock = threading.Lock()
-        self.stopped = threading.Event()
         self.requests = []
         self.losses = 0  # requests whose connection is lost
         self.token = None
@@ -185,6 +186,8 @@ class OperatorMock:
         self.newest_event = len(ENTRIES)
         self.oldest_event = 1
         self.events_end = True
+        self.stream_loss = threading.Event()  # a stream that does not end is lost
+        self.stream_reset = False  # by a reset; otherwise by an end within its chunks
         self.actions = []
         self.outcomes = [("Running", ""), ("Finished", "done")]  # of an action, one for each read
         self.plans, self.robots, self.alarms, self.status, self.site = PLANS, ROBOTS, ALARMS, STATUS, SITE
@@ -199,7 +202,7 @@ class OperatorMock:
         return self
 
     def __exit__(self, *_):
-        self.stopped.set()
+        self.stream_loss.set()
         self._server.shutdown()
         self._server.server_close()
 

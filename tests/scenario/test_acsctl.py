@@ -424,6 +424,22 @@ class Following(AcsctlCase):
         process.send_signal(signal.SIGTERM)
         self.assertEqual(process.wait(SECONDS), 0)
 
+    def test_follow_connects_again_after_the_loss_of_its_first_stream(self):
+        self.mock.events_end = False
+        for reset in (True, False):
+            with self.subTest(reset=reset):
+                self.mock.requests.clear()
+                self.mock.stream_loss.clear()
+                self.mock.stream_reset = reset
+                process = self.start("events", "--follow", "--after", "1")
+                self.assertIn("ACS-1002", process.stdout.readline())
+                self.mock.stream_loss.set()
+                self.assertIn("connecting again", process.stderr.readline())
+                self.wait_for_requests(2)
+                self.assertEqual([request["query"]["after"] for request in self.mock.requests[:2]], ["1", "2"])
+                process.send_signal(signal.SIGTERM)
+                self.assertEqual(process.wait(SECONDS), 0)
+
     def test_all_events_that_acsd_still_has_are_shown(self):
         self.mock.newest_event = 5000
         for oldest in (4998, 4996, 4979, 905):

@@ -130,7 +130,6 @@ Outcome<void> EventsCommand::ReadAll()
 Outcome<void> EventsCommand::Follow()
 {
     EventLoop& loop = _session.GetLoop();
-    bool bConnected = false;
     if (!_after.has_value())
     {
         // Without it, what happens before the first event would be lost at a new connection.
@@ -148,16 +147,16 @@ Outcome<void> EventsCommand::Follow()
         {
             break;
         }
+        _bConnected = _bConnected || done.has_value();
         if (!done.has_value())
         {
             const bool bPassing = done.error().exitCode == EXIT_NO_CONNECTION || _end == EEnd::Refused;
-            if (!bConnected || !bPassing)
+            if (!_bConnected || !bPassing)
             {
                 return done;
             }
             Apps::PrintError(PROGRAM_NAME, MakeDisplayable(done.error().text) + "; connecting again");
         }
-        bConnected = true;
         loop.Pause(RECONNECT);
     }
     return {};
@@ -182,6 +181,7 @@ Outcome<void> EventsCommand::ReadOnce()
     const tl::expected<ApiAnswer, ApiFailure> answer = _session.GetAPI().Stream(request, tryHandle);
     if (!answer.has_value())
     {
+        _bConnected = _bConnected || answer.error().bStreaming;
         return tl::make_unexpected(MakeError(answer.error(), false));
     }
     if (_end == EEnd::Malformed)

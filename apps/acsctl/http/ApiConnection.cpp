@@ -229,7 +229,9 @@ tl::expected<ApiAnswer, ApiFailure> ApiConnection::ReadStream(const std::functio
     }
     if (error.failed())
     {
-        return tl::make_unexpected(MakeFailure(error));
+        ApiFailure failure = MakeFailure(error);
+        failure.bStreaming = parser.is_header_done() && parser.get().result_int() == HTTP_OK;
+        return tl::make_unexpected(std::move(failure));
     }
     return MakeAnswer(parser.get(), std::move(other));
 }

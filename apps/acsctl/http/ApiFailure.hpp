@@ -19,8 +19,9 @@ enum class EApiFailure : std::uint8_t
 struct ApiFailure
 {
     EApiFailure kind = EApiFailure::CannotConnect;
-    std::string text;   ///< A sentence without its full stop.
-    bool bSent = false; ///< acsd may have received the request.
+    std::string text;        ///< A sentence without its full stop.
+    bool bSent = false;      ///< acsd may have received the request.
+    bool bStreaming = false; ///< The header of a stream with status 200 had arrived.
 };
 
 } // namespace ACS::Acsctl

@@ -24,7 +24,7 @@ public:
     [[nodiscard]] virtual tl::expected<ApiAnswer, ApiFailure> Send(const ApiRequest& request) = 0;
 
     /// Sends a GET and passes the body as it arrives, while the function returns true. An answer with another status than 200
-    /// is returned as a whole. The stream is lost when nothing arrives for 45 s.
+    /// is returned as a whole. The stream is lost when nothing arrives for 45 s; the failure states whether it had begun.
     [[nodiscard]] virtual tl::expected<ApiAnswer, ApiFailure> Stream(
         const ApiRequest& request,
         const std::function<bool(std::string_view)>& tryHandle) = 0;
