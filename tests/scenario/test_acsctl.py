@@ -470,6 +470,51 @@ class Following(AcsctlCase):
         self.check(3, "links", "--watch")
 
 
+class SilentNameServer(AcsctlCase):
+    def setUp(self):
+        super().setUp()
+        library = self.bin_dir / "libscenario_held_resolver.so"
+        if not library.exists():
+            self.skipTest("not built with sanitizers")
+        self.gate = self.folder / "resolver"
+        os.mkfifo(self.gate)
+        self.environment |= {"LD_PRELOAD": str(library), "ACS_HELD_RESOLVER": str(self.gate),
+                             "ACSCTL_URL": self.mock.url.replace("127.0.0.1", "acsd.test")}
+
+    def start(self, *arguments):
+        process = subprocess.Popen([self.bin_dir / "acsctl", "--timeout", "1h", *arguments], stdout=subprocess.PIPE,
+                                   stderr=subprocess.STDOUT, env=self.environment)
+        self.addCleanup(process.stdout.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        return process
+
+    def wait_for_lookup(self, process):
+        """A second thread asks for the name."""
+        deadline = time.monotonic() + SECONDS
+        while len(os.listdir(f"/proc/{process.pid}/task")) < 2:
+            self.assertLess(time.monotonic(), deadline, "it asks for no name")
+            time.sleep(0.02)
+
+    def test_the_time_limit_applies_to_the_name(self):
+        for command in (("plans",), ("events",), ("links", "--watch")):
+            self.assertIn("no connection within 1s", self.check(3, *command, "--timeout", "1s"), command)
+
+    def test_an_interrupt_ends_the_command(self):
+        for command in (("events", "--follow"), ("events", "--follow", "--after", "1"), ("links", "--watch")):
+            for number in (signal.SIGINT, signal.SIGTERM):
+                process = self.start(*command)
+                self.wait_for_lookup(process)
+                process.send_signal(number)
+                self.assertEqual((process.wait(SECONDS), process.stdout.read()), (0, b""), command)
+
+    def test_a_late_answer_is_used(self):
+        process = self.start("links")
+        os.close(os.open(self.gate, os.O_WRONLY))  # waits until the name is asked for
+        self.assertEqual(process.wait(SECONDS), 0)
+        self.assertIn(b"mqtt", process.stdout.read())
+
+
 class Configuring(AcsctlCase):
     def test_contexts_are_stored_with_mode_0600(self):
         del self.environment["ACSCTL_URL"]

@@ -15,7 +15,8 @@ ApiClient::ApiClient(
     : _loop(loop),
       _connection(std::move(connection)),
       _tlsOrNull(std::move(tlsOrNull)),
-      _timeout(timeout)
+      _timeout(timeout),
+      _resolver(loop, _connection.url.peer)
 {
 }
 
@@ -23,7 +24,7 @@ tl::expected<ApiAnswer, ApiFailure> ApiClient::Send(const ApiRequest& request)
 {
     const auto trySend = [this, &request]() -> tl::expected<ApiAnswer, ApiFailure> {
         ApiConnection connection(_loop, _connection, _tlsOrNull, _timeout);
-        tl::expected<void, ApiFailure> done = connection.Open();
+        tl::expected<void, ApiFailure> done = connection.Open(_resolver);
         if (done.has_value())
         {
             done = connection.Write(request);
@@ -49,7 +50,7 @@ tl::expected<ApiAnswer, ApiFailure> ApiClient::Stream(
     const std::function<bool(std::string_view)>& tryHandle)
 {
     ApiConnection connection(_loop, _connection, _tlsOrNull, _timeout);
-    tl::expected<void, ApiFailure> done = connection.Open();
+    tl::expected<void, ApiFailure> done = connection.Open(_resolver);
     if (done.has_value())
     {
         done = connection.Write(request);

@@ -2,6 +2,7 @@
 
 #include "config/Connection.hpp"
 #include "http/EventLoop.hpp"
+#include "http/HostResolver.hpp"
 #include "http/IApi.hpp"
 
 #include <boost/asio/ssl/context.hpp>
@@ -20,6 +21,7 @@ class ApiClient final : public IApi
     const Connection _connection;
     const std::shared_ptr<boost::asio::ssl::context> _tlsOrNull;
     const std::chrono::milliseconds _timeout;
+    HostResolver _resolver;
 
 public:
     /// The context is that of MakeClientTLS. The loop must outlive the client.

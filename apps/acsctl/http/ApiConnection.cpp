@@ -10,7 +10,6 @@
 #include <boost/asio/error.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ssl/error.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core/error.hpp>
 #include <boost/beast/http/buffer_body.hpp>
 #include <boost/beast/http/error.hpp>
@@ -80,39 +79,16 @@ ApiConnection::ApiConnection(
 {
 }
 
-tl::expected<void, ApiFailure> ApiConnection::Open()
+tl::expected<void, ApiFailure> ApiConnection::Open(HostResolver& resolver)
 {
     const Apps::Endpoint& peer = _target.url.peer;
-    Tcp::resolver resolver(_loop.GetContext());
-    Tcp::resolver::results_type found;
-    ErrorCode error;
-    bool bDone = false;
-    bool bLate = false;
-    boost::asio::steady_timer timer(_loop.GetContext(), _timeout);
-    timer.async_wait([&resolver, &bLate](const ErrorCode& code) {
-        if (!code.failed())
-        {
-            bLate = true;
-            resolver.cancel();
-        }
-    });
-    resolver.async_resolve(
-        peer.host,
-        std::to_string(peer.port),
-        [&](const ErrorCode& code, const Tcp::resolver::results_type& results) {
-            error = code;
-            found = results;
-            bDone = true;
-        });
-    _loop.Run(bDone, [&resolver] { resolver.cancel(); });
-    timer.cancel();
-    _loop.GetContext().poll(); // the timer's handler
-    if (error.failed())
+    const tl::expected<HostResolver::Addresses, ErrorCode> found = resolver.Resolve(_timeout);
+    if (!found.has_value())
     {
-        return tl::make_unexpected(MakeOpenFailure(bLate ? boost::beast::error::timeout : error));
+        return tl::make_unexpected(MakeOpenFailure(found.error()));
     }
-    error = Await([this, &found](const auto& handler) {
-        _stream.GetTCP().async_connect(found, [handler](const ErrorCode& code, const Tcp::endpoint& /*peer*/) {
+    ErrorCode error = Await([this, &found](const auto& handler) {
+        _stream.GetTCP().async_connect(*found, [handler](const ErrorCode& code, const Tcp::endpoint& /*peer*/) {
             handler(code);
         });
     });

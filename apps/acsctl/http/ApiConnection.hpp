@@ -5,6 +5,7 @@
 #include "http/ApiFailure.hpp"
 #include "http/ApiRequest.hpp"
 #include "http/EventLoop.hpp"
+#include "http/HostResolver.hpp"
 
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/message.hpp>
@@ -38,8 +39,8 @@ public:
         std::shared_ptr<boost::asio::ssl::context> tlsOrNull,
         std::chrono::milliseconds timeout);
 
-    /// Resolves the name, connects, and with TLS makes the handshake.
-    [[nodiscard]] tl::expected<void, ApiFailure> Open();
+    /// Resolves the name of the target, connects, and with TLS makes the handshake.
+    [[nodiscard]] tl::expected<void, ApiFailure> Open(HostResolver& resolver);
     [[nodiscard]] tl::expected<void, ApiFailure> Write(const ApiRequest& request);
     [[nodiscard]] tl::expected<ApiAnswer, ApiFailure> Read();
     [[nodiscard]] tl::expected<ApiAnswer, ApiFailure> ReadStream(
