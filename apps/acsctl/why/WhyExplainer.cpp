@@ -71,6 +71,7 @@ Explanation WhyExplainer::ExplainAll() const
     }
     for (const RobotInfo& robot : _snapshot.robots)
     {
+        AddCausesOfRobot(robot, chain);
         if (Finding finding = MakeRobotFinding(robot, chain); finding.bAttention)
         {
             explanation.findings.push_back(std::move(finding));
@@ -110,7 +111,19 @@ Explanation WhyExplainer::ExplainPlan(const PlanInfo& plan) const
 Explanation WhyExplainer::ExplainRobot(const RobotInfo& robot) const
 {
     Chain chain;
-    return {{MakeRobotFinding(robot, chain)}};
+    AddCausesOfRobot(robot, chain);
+    AddLinks(0, chain.causes);
+    AddStoreAlarm(chain);
+    if (!robot.planID.has_value()) // a TSC that is not Auto stops no plan that has begun
+    {
+        AddTSC(0, chain);
+    }
+    Finding finding = MakeRobotFinding(robot, chain);
+    if (robot.planID.has_value())
+    {
+        AddRefusedReport(*robot.planID, finding.causes);
+    }
+    return {{std::move(finding)}};
 }
 
 const PlanInfo* WhyExplainer::FindPlanOrNull(std::string_view planID) const
@@ -180,9 +193,8 @@ Finding WhyExplainer::MakePlanFinding(const PlanInfo& plan, Chain& chain) const
     return finding;
 }
 
-Finding WhyExplainer::MakeRobotFinding(const RobotInfo& robot, Chain& chain) const
+void WhyExplainer::AddCausesOfRobot(const RobotInfo& robot, Chain& chain) const
 {
-    Finding finding{ESubject::Robot, robot.robotID, {}, false, {}};
     const auto explained = chain.robots.find(robot.robotID);
     if (explained == chain.robots.end())
     {
@@ -206,6 +218,11 @@ Finding WhyExplainer::MakeRobotFinding(const RobotInfo& robot, Chain& chain) con
         chain.causes.push_back({0, fmt::format("Its plan {} waits.", planOrNull->planID), {}, {}});
         AddPlanRecursive(*planOrNull, 1, chain);
     }
+}
+
+Finding WhyExplainer::MakeRobotFinding(const RobotInfo& robot, Chain& chain)
+{
+    Finding finding{ESubject::Robot, robot.robotID, {}, false, {}};
     const bool bUnusable = IsUnusableStatus(robot.status) || robot.reason.has_value();
     finding.bAttention = bUnusable || !chain.causes.empty();
     std::string state = fmt::format("it is {}", robot.status);

@@ -62,7 +62,10 @@ private:
     /// The causes of the finding, which is complete.
     [[nodiscard]] static std::vector<Cause> TakeCauses(Chain& chain);
     [[nodiscard]] Finding MakePlanFinding(const PlanInfo& plan, Chain& chain) const;
-    [[nodiscard]] Finding MakeRobotFinding(const RobotInfo& robot, Chain& chain) const;
+    /// Its own causes and those of its plan. Leaves them in the chain.
+    void AddCausesOfRobot(const RobotInfo& robot, Chain& chain) const;
+    /// Takes the causes of the chain; with one the robot needs attention.
+    [[nodiscard]] static Finding MakeRobotFinding(const RobotInfo& robot, Chain& chain);
     /// Leaves them in the chain.
     void AddCausesOfACSD(Chain& chain) const;
     void AddLinks(std::size_t depth, std::vector<Cause>& causes) const;

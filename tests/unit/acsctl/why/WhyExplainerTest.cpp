@@ -286,6 +286,37 @@ TEST_CASE("A robot that cannot be used needs attention")
     CHECK(line.Make().ExplainAll().NeedsAttention());
 }
 
+TEST_CASE("A robot is explained with the links that are down, a store that fails and the TSC")
+{
+    WhyFixture line;
+    const auto explain = [&line] {
+        return line.Make().ExplainRobot(line.snapshot.robots[0]);
+    };
+    line.snapshot.status.links = {{"mcs", true, std::nullopt, std::nullopt}, {"mqtt", false, "refused", std::nullopt}};
+    CHECK_THAT(PrintText(explain()), Catch::Contains("The link mqtt is down: refused."));
+    CHECK(explain().NeedsAttention());
+    line.snapshot.status.links.clear();
+
+    line.snapshot.alarms.push_back(MakeAlarm("ACS", "ACS-1005", "Store failing"));
+    CHECK_THAT(PrintText(explain()), Catch::Contains("Heavy alarm ACS-1005 Store failing of acsd."));
+    CHECK(explain().NeedsAttention());
+    line.snapshot.alarms.clear();
+
+    line.snapshot.status.tsc = "Paused";
+    CHECK_THAT(PrintText(explain()), Catch::Contains("acsctl tsc resume"));
+    CHECK(explain().NeedsAttention());
+    line.AddPlan("P1", "InProgress").robotID = "LR01"; // its work continues
+    line.snapshot.robots[0].planID = "P1";
+    CHECK_FALSE(explain().NeedsAttention());
+    line.snapshot.status.refusedReports = {1, Acsctl::RefusedReport{"JobReport", "P1", "unknown job"}};
+    CHECK_THAT(PrintText(explain()), Catch::Contains("The MCS has refused reports"));
+    CHECK_FALSE(explain().NeedsAttention());
+    line.snapshot.plans.clear();
+    line.AddWaitingPlan("P1", "The TSC is Paused.").robotID = "LR01";
+    const std::string text = PrintText(explain());
+    CHECK(text.find("acsctl tsc resume") == text.rfind("acsctl tsc resume"));
+}
+
 TEST_CASE("The number of causes is bounded by the plans and robots, however they wait for each other")
 {
     constexpr std::size_t COUNT = 300;
