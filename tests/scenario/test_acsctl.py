@@ -20,7 +20,7 @@ import termios
 import time
 import unittest
 
-from operator_mock import NOW, PLANS, ROBOTS, WAITS, OperatorMock, make_plan
+from operator_mock import ALARMS, NOW, PLANS, ROBOTS, WAITS, OperatorMock, make_plan
 
 SECONDS = 30
 
@@ -85,6 +85,14 @@ class Reading(AcsctlCase):
             self.assertIn(text, status)
         self.assertIn("[N2] N3", self.check(0, "robot", "LR01"))
         self.assertIn("ACS-1002", self.check(0, "alarms"))
+
+    def test_an_alarm_has_its_step_and_job(self):
+        self.mock.alarms = [{**ALARMS[0], "planId": "PLAN_1", "stepNo": 3, "jobId": "JOB_" + "7" * 30}, ALARMS[0]]
+        titles, *rows = [line.split() for line in self.check(0, "alarms").splitlines()]
+        self.assertEqual(titles[4:7], ["PLAN", "STEP", "JOB"])
+        self.assertEqual([row[5:8] for row in rows], [["PLAN_1", "3", "JOB_" + "7" * 30], ["-", "-", "-"]])
+        self.environment["COLUMNS"] = "100"
+        self.assertRegex(self.check(0, "alarms"), "JOB_7+… .* no state for 10 s\n")
 
     def test_a_file_or_a_pipe_has_everything(self):
         job = {"jobId": "J" * 200, "from": "A" * 60, "to": "B" * 60, "status": "Completed"}

@@ -22,6 +22,7 @@ constexpr int NEVER = 0;
 constexpr int LATE = 1;
 constexpr int EARLY = 2;
 constexpr int FIRST = 3;
+constexpr int BEFORE_FIRST = 4;
 
 /// "1 node", "2 nodes"
 std::string MakeCount(std::uint64_t count, std::string_view noun)
@@ -152,6 +153,8 @@ std::string PrintAlarms(const std::vector<AlarmInfo>& alarms, const ViewContext&
          {"LEVEL", NEVER},
          {"AGE", NEVER, 4, true},
          {"PLAN", EARLY, 8},
+         {"STEP", BEFORE_FIRST, 4, true},
+         {"JOB", BEFORE_FIRST, 8},
          {"TITLE", EARLY, TITLE},
          {"MESSAGE", FIRST}});
     for (const AlarmInfo& alarm : alarms)
@@ -162,6 +165,8 @@ std::string PrintAlarms(const std::vector<AlarmInfo>& alarms, const ViewContext&
              {alarm.level, GetStyle(alarm.level)},
              {MakeAge(alarm.since, context.now)},
              {alarm.planID.value_or("-")},
+             {alarm.stepNo.has_value() ? std::to_string(*alarm.stepNo) : "-"},
+             {alarm.jobID.value_or("-")},
              {alarm.title},
              {alarm.message}});
     }
