@@ -75,6 +75,12 @@ class Rules(unittest.TestCase):
         for alert, rule in self.rules.items():
             self.assertLessEqual(find_metrics(rule["expr"], documented), documented.keys(), alert)
 
+    def test_the_guide_names_each_alert_that_selects_the_job(self):
+        text = (REPOSITORY / "docs/guide/monitor.md").read_text()
+        sentence = re.search(r"The job must be named `acsd`:[^.]*\.", text).group()
+        selecting = [alert for alert, rule in self.rules.items() if 'job="acsd"' in rule["expr"]]
+        self.assertEqual(re.findall(r"`(Acsd\w+)`", sentence), selecting)
+
 
 class Dashboard(unittest.TestCase):
     def test_the_file_is_what_its_generator_writes(self):
