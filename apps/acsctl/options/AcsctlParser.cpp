@@ -20,6 +20,13 @@ namespace ACS::Acsctl
 namespace
 {
 
+/// The values that an option accepts.
+struct NumberRange
+{
+    std::uint64_t minimum = 0;
+    std::uint64_t maximum = std::numeric_limits<std::uint64_t>::max();
+};
+
 constexpr std::uint64_t MAX_LIMIT = 1'000;
 constexpr std::uint64_t MAX_FILE_LIMIT = 1'000'000;
 constexpr double SHORTEST_WATCH = 0.1;
@@ -87,11 +94,33 @@ void AddWord(
     AddPositional(app, name, target, help).check(MakeWordCheck(words));
 }
 
+/// CLI11 itself accepts "-1" for a number without a sign.
+void AddNumber(
+    CLI::App& app,
+    const std::string& name,
+    std::optional<std::uint64_t>& target,
+    const NumberRange& range,
+    const std::string& help)
+{
+    const auto read = [&target, range](const std::string& text) {
+        const std::optional<std::uint64_t> number = Core::ParseNumberOrNull<std::uint64_t>(text);
+        if (!number.has_value() || *number < range.minimum || *number > range.maximum)
+        {
+            return fmt::format(
+                "expected a number from {} to {}, found {}",
+                range.minimum,
+                range.maximum,
+                Core::QuoteForError(text));
+        }
+        target = number;
+        return std::string();
+    };
+    Apps::AddTextOption(app, name, read, help).type_name("N");
+}
+
 void AddLimit(CLI::App& app, CommandArguments& arguments)
 {
-    app.add_option("--limit", arguments.limit, "Maximum number, 1 to 1000 (default 100)")
-        ->check(CLI::Range(std::uint64_t{1}, MAX_LIMIT))
-        ->type_name("N");
+    AddNumber(app, "--limit", arguments.limit, {1, MAX_LIMIT}, "Maximum number, 1 to 1000 (default 100)");
 }
 
 /// Adds a command below the app.
@@ -190,18 +219,17 @@ void AddHistoryCommands(CLI::App& app, AcsctlOptions& options)
         })
         ->type_name("TYPES");
     AddLimit(events, arguments);
-    events.add_option("--after", arguments.after, "Only events after this event id")->type_name("N");
+    AddNumber(events, "--after", arguments.after, {}, "Only events after this event id");
     CLI::App& trace = AddCommand(app, options, "trace", ECommand::Trace, "Show messages of all links on one time line");
     AddText(trace, "--plan", arguments.plan, "Only messages about this plan").type_name("PLAN");
     AddText(trace, "--robot", arguments.robot, "Only messages of this robot").type_name("ROBOT");
     AddText(trace, "--transaction", arguments.transaction, "Only messages of this transaction").type_name("ID");
-    trace
-        .add_option(
-            "--limit",
-            arguments.limit,
-            fmt::format("Maximum number, 1 to {}, with --file to {} (default 100)", MAX_LIMIT, MAX_FILE_LIMIT))
-        ->check(CLI::Range(std::uint64_t{1}, MAX_FILE_LIMIT))
-        ->type_name("N");
+    AddNumber(
+        trace,
+        "--limit",
+        arguments.limit,
+        {1, MAX_FILE_LIMIT},
+        fmt::format("Maximum number, 1 to {}, with --file to {} (default 100)", MAX_LIMIT, MAX_FILE_LIMIT));
     Apps::AddRepeatedOption(
         trace,
         "--file",

@@ -35,6 +35,9 @@ TEST_CASE("Options are read before and after the command")
     CHECK(options.bJSON);
     CHECK(options.arguments.state == "finished");
     CHECK(options.arguments.limit == 5);
+    CHECK(Parse({"events", "--after", "0"}).arguments.after == 0);
+    CHECK(Parse({"events", "--after", "18446744073709551615"}).arguments.after == 18'446'744'073'709'551'615U);
+    CHECK(Parse({"trace", "--limit", "010"}).arguments.limit == 10);
     CHECK(options.connection.url == "http://x");
     CHECK(options.timeout.count() == 3'000);
     CHECK(Parse({"tsc", "resume", "-y"}).command == ECommand::TscResume);
@@ -101,6 +104,10 @@ TEST_CASE("An invalid command line is refused")
         Words{"plans", "--state", "odd"},
         Words{"plans", "--limit", "0"},
         Words{"plans", "--limit", "1001"},
+        Words{"plans", "--limit", "-18446744073709551615"}, // 1 in 64 bits without a sign
+        Words{"events", "--after", "-1"},
+        Words{"events", "--after", "x"},
+        Words{"events", "--after", "18446744073709551616"},
         Words{"trace", "--limit", "1001"},
         Words{"trace", "--file", ""},
         Words{"trace", "--file", "a", "--limit", "1000001"},
