@@ -205,6 +205,13 @@ class Failing(AcsctlCase):
         self.environment["ACSCTL_URL"] = "http://acsd.example"
         self.assertIn("without encryption", self.check(2, "plans"))
 
+    def test_an_output_that_is_not_written_is_an_error(self):
+        for command in (("--help",), ("plans", "--help"), ("--version",), ("plans",), ("completion", "bash")):
+            with open("/dev/full", "w", encoding="utf-8") as full:
+                done = subprocess.run([self.bin_dir / "acsctl", *command], stdout=full, stderr=subprocess.PIPE, text=True,
+                                      env=self.environment, timeout=SECONDS, check=False)
+            self.assertEqual((done.returncode, done.stderr), (7, "acsctl: the output could not be written\n"), command)
+
     def test_garbage_is_an_error_and_not_a_crash(self):
         for raw in ((200, b"", "application/json"), (200, b"{", "application/json"), (200, b"\x00\xff", "application/json"),
                     (200, b"[" * 100_000, "application/json"), (200, b"[]", "application/json"),

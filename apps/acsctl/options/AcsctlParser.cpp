@@ -2,6 +2,7 @@
 
 #include "common/config/CommandLine.hpp"
 #include "common/Version.hpp"
+#include "ExitCodes.hpp"
 #include <acs/core/ParseNumber.hpp>
 #include <acs/core/Result.hpp>
 
@@ -449,7 +450,7 @@ std::optional<int> ParseOptionsOrNull(const std::vector<std::string>& arguments,
     {
         pointers.push_back(argument.c_str());
     }
-    return Apps::ParseCommandLineOrNull(app, static_cast<int>(pointers.size()), pointers.data());
+    return Apps::ParseCommandLineOrNull(app, static_cast<int>(pointers.size()), pointers.data(), EXIT_LOCAL_FAILURE);
 }
 
 } // namespace ACS::Acsctl

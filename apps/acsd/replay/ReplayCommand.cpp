@@ -193,7 +193,7 @@ int RunReplayCommand(int argc, const char* const* argv, const RobotDrivers& driv
         "A run can be replayed while the file with its beginning exists: trace.max_files limits how long it does.\n"
         "Exit codes: 0 without a difference; 1 with one; 2 if the trace cannot be replayed, or not to its end, and for an error "
         "in the command line.");
-    const std::optional<int> exitCodeOrNull = Apps::ParseCommandLineOrNull(app, argc, argv);
+    const std::optional<int> exitCodeOrNull = Apps::ParseCommandLineOrNull(app, argc, argv, UNREADABLE);
     if (exitCodeOrNull.has_value())
     {
         return *exitCodeOrNull;

@@ -160,9 +160,24 @@ std::string Explain(const CLI::App& app, const CLI::ParseError& error)
     return bMissing && !unknown.empty() ? CLI::ExtrasError(unknown).what() : error.what();
 }
 
+int PrintOutput(const CLI::App& app, const std::string& text, int outputFailure)
+{
+    if (std::cout << text << std::flush)
+    {
+        return EXIT_SUCCESS;
+    }
+    PrintError(app.get_name(), "the output could not be written");
+    return outputFailure;
+}
+
 } // namespace
 
 std::optional<int> ParseCommandLineOrNull(CLI::App& app, int argc, const char* const* argv)
+{
+    return ParseCommandLineOrNull(app, argc, argv, EXIT_FAILURE);
+}
+
+std::optional<int> ParseCommandLineOrNull(CLI::App& app, int argc, const char* const* argv, int outputFailure)
 {
     try
     {
@@ -171,13 +186,11 @@ std::optional<int> ParseCommandLineOrNull(CLI::App& app, int argc, const char* c
     }
     catch (const CLI::CallForHelp&)
     {
-        std::cout << app.help();
-        return EXIT_SUCCESS;
+        return PrintOutput(app, app.help(), outputFailure);
     }
     catch (const CLI::CallForVersion&)
     {
-        std::cout << fmt::format("{} {}\n", app.get_name(), VERSION);
-        return EXIT_SUCCESS;
+        return PrintOutput(app, fmt::format("{} {}\n", app.get_name(), VERSION), outputFailure);
     }
     catch (const CLI::ParseError& error)
     {

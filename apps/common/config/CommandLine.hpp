@@ -82,8 +82,15 @@ CLI::Option& AddFileOption(CLI::App& app, const std::string& name, std::string& 
 CLI::Option& AddRepeatedOption(CLI::App& app, const std::string& name, TextReader reader, const std::string& help);
 
 /// Reads the command line. Returns nullopt if the program is to continue, else its exit code: 0 after --help and --version
-/// (on standard output), 2 after an error (one line on standard error).
+/// (on standard output), 1 if standard output cannot be written, 2 after an error (one line on standard error).
 [[nodiscard]] std::optional<int> ParseCommandLineOrNull(CLI::App& app, int argc, const char* const* argv);
+
+/// The same; the last parameter is the exit code if standard output cannot be written.
+[[nodiscard]] std::optional<int> ParseCommandLineOrNull(
+    CLI::App& app,
+    int argc,
+    const char* const* argv,
+    int outputFailure);
 
 /// One line on standard error, "NAME: text"; line ends within the text become spaces, other control characters are escaped.
 void PrintError(std::string_view program, std::string_view text);

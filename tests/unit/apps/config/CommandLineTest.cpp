@@ -85,6 +85,25 @@ Outcome Parse(const std::vector<const char*>& arguments)
 
 } // namespace
 
+TEST_CASE("A help or a version that cannot be written is an error")
+{
+    const auto* const word = GENERATE("--help", "--version");
+    class FullDevice final : public std::streambuf
+    {
+    };
+    FullDevice device;
+    std::streambuf* const original = std::cout.rdbuf(&device);
+    CLI::App app{"A program for tests", "some-sim"};
+    Apps::CommonOptions common;
+    Apps::AddCommonOptions(app, common);
+    const std::vector<const char*> argv{"some-sim", word};
+    const StreamCapture errors(std::cerr);
+    const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, static_cast<int>(argv.size()), argv.data());
+    std::cout.rdbuf(original); // clears its state too
+    CHECK(exitCode == 1);
+    CHECK(errors.GetText() == "some-sim: the output could not be written\n");
+}
+
 TEST_CASE("Valid options are read and the program continues")
 {
     const Outcome outcome = Parse(
