@@ -265,6 +265,10 @@ void McsSimulator::OnWire(
     {
         _judge.GetNotes().Excuse(); // Cut by us.
     }
+    if (direction == ProtocolBeast::EWireDirection::Out)
+    {
+        _judge.OnTextSent(text);
+    }
     _scenarios.OnWire(direction, connection, text);
 }
 

@@ -38,6 +38,17 @@ FloorChecker* RunJudge::GetFloorOrNull() noexcept
     return _floor.has_value() ? &*_floor : nullptr;
 }
 
+void RunJudge::OnTextSent(std::string_view text)
+{
+    const Protocol::DecodeOutcome outcome = _codec.Decode(text);
+    const auto* const requestOrNull =
+        outcome.message.has_value() ? std::get_if<Protocol::AcsRequest>(&*outcome.message) : nullptr;
+    if (requestOrNull != nullptr)
+    {
+        _tracker.OnRequestSent(*requestOrNull);
+    }
+}
+
 void RunJudge::OnRequest(const Protocol::RequestReceived& received)
 {
     if (received.bDuplicate)
@@ -114,6 +125,7 @@ void RunJudge::EndPlans()
 
 void RunJudge::Finish()
 {
+    _tracker.Finish(_lines);
     if (_floor.has_value())
     {
         _floor->Finish(_lines);

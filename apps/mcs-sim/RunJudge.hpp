@@ -6,9 +6,11 @@
 #include "plans/PlanTracker.hpp"
 #include "SimulatorOptions.hpp"
 #include "wire/NoteJudge.hpp"
+#include <acs/protocol/AcsCodec.hpp>
 #include <acs/protocol/SessionEvent.hpp>
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace ACS::McsSim
@@ -22,6 +24,7 @@ class RunJudge final
     std::optional<FloorChecker> _floor; ///< If there is a world.
     RobotBoard _board;
     NoteJudge _notes;
+    Protocol::AcsCodec _codec;
 
 public:
     /// The world, if there is one, and the lines, which the judge appends to, outlive the judge.
@@ -35,6 +38,8 @@ public:
     [[nodiscard]] NoteJudge& GetNotes() noexcept;
     [[nodiscard]] FloorChecker* GetFloorOrNull() noexcept;
 
+    /// Any text that is sent to the ACS.
+    void OnTextSent(std::string_view text);
     void OnRequest(const Protocol::RequestReceived& received);
     void OnAck(const Protocol::AckReceived& received);
     void OnUnanswered(const Protocol::RequestUnanswered& unanswered);

@@ -16,14 +16,6 @@ namespace ACS::McsSim
 namespace
 {
 
-/// What became of a request to cancel, abort, pause or resume.
-template <typename TReport>
-void AddResult(std::string_view name, const TReport& report, PlanTracker::Lines& out)
-{
-    out.push_back(
-        fmt::format("{} {} {}{}", CleanText(report.planID), name, GetText(report.result), MakeTail(report.message)));
-}
-
 /// " (robotID): text", or what there is of it.
 std::string MakeRobotTail(std::string_view robotID, std::string_view text)
 {
@@ -42,10 +34,10 @@ void PlanTracker::OnRequest(const Protocol::AcsPayload& payload, Lines& out)
             [&out](const Protocol::ErrorReport& report) { Handle(report, out); },
             [this, &out](const Protocol::AcsCommStateUpdate& update) { Handle(update, out); },
             [&out](const Protocol::TscStateUpdate& update) { Handle(update, out); },
-            [&out](const Protocol::CancelResultReport& report) { AddResult("CancelResultReport", report, out); },
-            [&out](const Protocol::AbortResultReport& report) { AddResult("AbortResultReport", report, out); },
-            [&out](const Protocol::PauseResultReport& report) { AddResult("PauseResultReport", report, out); },
-            [&out](const Protocol::ResumeResultReport& report) { AddResult("ResumeResultReport", report, out); },
+            [this, &out](const Protocol::CancelResultReport& report) { Handle(report, out); },
+            [this, &out](const Protocol::AbortResultReport& report) { Handle(report, out); },
+            [this, &out](const Protocol::PauseResultReport& report) { Handle(report, out); },
+            [this, &out](const Protocol::ResumeResultReport& report) { Handle(report, out); },
             // Other messages do not concern a plan, or answer a request that is never sent here.
             [](const auto& /*other*/) {
             }},
@@ -70,6 +62,7 @@ void PlanTracker::Handle(const Protocol::PlanReport& report, Lines& out)
         const bool bBad = IsFinal(report.status) && report.status != Protocol::EPlanStatus::Completed;
         planOrNull->reason = bBad && !report.message.empty() ? report.message : planOrNull->reason;
     });
+    CheckConfirmed(*planOrNull, out);
     out.push_back(fmt::format(
         "{} PlanReport {}{}",
         CleanText(report.planID),
@@ -161,6 +154,55 @@ void PlanTracker::Handle(const Protocol::JobReport& report, Lines& out)
         MakeRobotTail(report.robotID, report.message)));
 }
 
+template <Protocol::EAcsCommand COMMAND>
+void PlanTracker::Handle(const Protocol::ResultReport<COMMAND>& report, Lines& out)
+{
+    const std::optional<std::string> mistake =
+        FindResultViolationOrNull(COMMAND, report.planID, report.result == Protocol::EReportResult::Success);
+    if (mistake.has_value())
+    {
+        AddViolation(fmt::format("{} {} {}", CleanText(report.planID), GetText(COMMAND), *mistake), out);
+    }
+    out.push_back(fmt::format(
+        "{} {} {}{}",
+        CleanText(report.planID),
+        GetText(COMMAND),
+        GetText(report.result),
+        MakeTail(report.message)));
+}
+
+std::optional<std::string> PlanTracker::FindResultViolationOrNull(
+    Protocol::EAcsCommand result,
+    const std::string& planID,
+    bool bSuccess)
+{
+    const ControlRequests::EResultOrigin origin = _controls.Close(result, planID, bSuccess);
+    const TrackedPlan* const foundOrNull = FindPlanOrNull(planID);
+    const std::string_view request = GetText(GetControlRule(result).request);
+    if (origin == ControlRequests::EResultOrigin::None)
+    {
+        return foundOrNull == nullptr ? "for an unknown plan" : fmt::format("without an open {}", request);
+    }
+    if (!bSuccess)
+    {
+        return std::nullopt;
+    }
+    if (origin == ControlRequests::EResultOrigin::Refused)
+    {
+        return fmt::format("Success after {}Ack Fail", request);
+    }
+    if (foundOrNull == nullptr || foundOrNull->sends == 0 || foundOrNull->delivery == EDelivery::Refused)
+    {
+        return "Success for a plan that the ACS does not have";
+    }
+    std::optional<std::string> mistake = FindSuccessViolationOrNull(*foundOrNull, result);
+    if (!mistake.has_value() && !IsConfirmed(*foundOrNull, result))
+    {
+        _plans[static_cast<std::size_t>(foundOrNull - _plans.data())].unconfirmed = result;
+    }
+    return mistake;
+}
+
 void PlanTracker::Handle(const Protocol::ErrorReport& report, Lines& out)
 {
     out.push_back(fmt::format(
@@ -221,6 +263,30 @@ TrackedStep* PlanTracker::FindStepOrNull(TrackedPlan& plan, std::string_view wha
         return nullptr;
     }
     return &*step;
+}
+
+void PlanTracker::CheckConfirmed(TrackedPlan& plan, Lines& out)
+{
+    if (!plan.unconfirmed.has_value())
+    {
+        return;
+    }
+    const bool bConfirmed = IsConfirmed(plan, *plan.unconfirmed);
+    const bool bRefuted = !bConfirmed && GetOutcome(plan) != EOutcome::Open;
+    if (bRefuted)
+    {
+        AddViolation(
+            fmt::format(
+                "{} PlanReport {} after {} Success",
+                CleanText(plan.planned.plan.planID),
+                GetText(plan.status),
+                GetText(*plan.unconfirmed)),
+            out);
+    }
+    if (bConfirmed || bRefuted)
+    {
+        plan.unconfirmed.reset();
+    }
 }
 
 void PlanTracker::CheckRobot(TrackedPlan& plan, const std::string& robotID, Lines& out)

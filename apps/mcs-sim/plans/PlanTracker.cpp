@@ -142,8 +142,14 @@ void PlanTracker::OnSent(std::size_t index, Core::Now now, Lines& out)
         plan.sends == 1 ? "sent" : "sent again"));
 }
 
+void PlanTracker::OnRequestSent(const Protocol::AcsRequest& request)
+{
+    _controls.OnSent(request);
+}
+
 void PlanTracker::OnAck(const Protocol::AcsAck& ack, Lines& out)
 {
+    _controls.OnAck(ack);
     if (ack.command != EAcsCommand::ExecutionPlan)
     {
         const auto* const planAckOrNull = std::get_if<Protocol::PlanAck>(&ack.payload);
@@ -271,6 +277,24 @@ bool PlanTracker::IsFinished() const noexcept
 bool PlanTracker::IsSuccess() const noexcept
 {
     return CountOutcome(EOutcome::Completed) == _plans.size() && _violationCount == 0;
+}
+
+void PlanTracker::Finish(Lines& out)
+{
+    for (TrackedPlan& plan : _plans)
+    {
+        if (plan.unconfirmed.has_value())
+        {
+            AddViolation(
+                fmt::format(
+                    "{} {} Success without PlanReport {}",
+                    CleanText(plan.planned.plan.planID),
+                    GetText(*plan.unconfirmed),
+                    GetText(GetControlRule(*plan.unconfirmed).status)),
+                out);
+            plan.unconfirmed.reset();
+        }
+    }
 }
 
 void PlanTracker::AddViolation(std::string text, Lines& out)

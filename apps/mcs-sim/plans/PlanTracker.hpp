@@ -1,5 +1,6 @@
 #pragma once
 
+#include "plans/ControlRequests.hpp"
 #include "plans/TrackedPlan.hpp"
 #include <acs/protocol/AcsMessage.hpp>
 
@@ -42,6 +43,7 @@ private:
     std::vector<TrackedPlan> _plans;
     std::unordered_map<std::string, std::vector<std::size_t>> _byPlanID;
     std::unordered_map<std::string, std::size_t> _byTransaction;
+    ControlRequests _controls;
     std::vector<std::string> _violations;
     std::size_t _violationCount = 0;
     std::array<std::size_t, OUTCOME_COUNT> _outcomes{};
@@ -71,10 +73,16 @@ public:
     void ReplacePlan(std::size_t index, const Protocol::ExecutionPlan& plan);
     void OnSent(std::size_t index, Core::Now now, Lines& out);
 
+    /// Any request that was sent to the ACS, those past the tracker included.
+    void OnRequestSent(const Protocol::AcsRequest& request);
+
     void OnAck(const Protocol::AcsAck& ack, Lines& out);
 
     /// Any request of the ACS that was not seen before.
     void OnRequest(const Protocol::AcsPayload& payload, Lines& out);
+
+    /// At the end of the run: what a report stated and none confirmed is a violation.
+    void Finish(Lines& out);
 
     /// Something else is wrong with what came from the ACS.
     void AddViolation(std::string text, Lines& out);
@@ -103,10 +111,19 @@ private:
         std::string_view what,
         std::int32_t stepNo,
         Lines& out);
+    /// Whether the last PlanReport confirms or refutes the success that a result report stated.
+    void CheckConfirmed(TrackedPlan& plan, Lines& out);
     void CheckRobot(TrackedPlan& plan, const std::string& robotID, Lines& out);
     void Handle(const Protocol::PlanReport& report, Lines& out);
     void Handle(const Protocol::StepReport& report, Lines& out);
     void Handle(const Protocol::JobReport& report, Lines& out);
+    template <Protocol::EAcsCommand COMMAND>
+    void Handle(const Protocol::ResultReport<COMMAND>& report, Lines& out);
+    /// What is wrong with the result of a request to cancel, abort, pause or resume.
+    [[nodiscard]] std::optional<std::string> FindResultViolationOrNull(
+        Protocol::EAcsCommand result,
+        const std::string& planID,
+        bool bSuccess);
     static void Handle(const Protocol::ErrorReport& report, Lines& out);
     void Handle(const Protocol::AcsCommStateUpdate& update, Lines& out);
     static void Handle(const Protocol::TscStateUpdate& update, Lines& out);

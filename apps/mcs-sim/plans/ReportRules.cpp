@@ -1,5 +1,7 @@
 #include "plans/ReportRules.hpp"
 
+#include "plans/ControlRequests.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +11,7 @@
 namespace ACS::McsSim
 {
 
+using Protocol::EAcsCommand;
 using Protocol::EJobStatus;
 using Protocol::EPlanStatus;
 using Protocol::EStepStatus;
@@ -116,6 +119,23 @@ std::optional<std::string> FindPlanViolationOrNull(const TrackedPlan& plan, EPla
         return "Failed before the step of its failed job";
     }
     return std::nullopt;
+}
+
+bool IsConfirmed(const TrackedPlan& plan, EAcsCommand result)
+{
+    return result == EAcsCommand::ResumeResultReport ? plan.status != EPlanStatus::Paused
+                                                     : plan.status == GetControlRule(result).status;
+}
+
+std::optional<std::string> FindSuccessViolationOrNull(const TrackedPlan& plan, EAcsCommand result)
+{
+    // Only section 6.7 shows the PlanReport before the result report.
+    const bool bMayFollow = result != EAcsCommand::PauseResultReport && GetOutcome(plan) == EOutcome::Open;
+    if (bMayFollow || IsConfirmed(plan, result))
+    {
+        return std::nullopt;
+    }
+    return fmt::format("Success while the plan is {}", GetText(plan.status));
 }
 
 std::optional<std::string> FindStepViolationOrNull(const TrackedPlan& plan, const TrackedStep& step, EStepStatus status)

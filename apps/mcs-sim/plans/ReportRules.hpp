@@ -11,6 +11,12 @@ namespace ACS::McsSim
 /// What is wrong with a report that would change the plan, step or job to this status; nullopt where nothing is.
 /// Checks the transitions of section 7 of MCS-ACS and the causal order of section 6: job, then its step, then the plan.
 [[nodiscard]] std::optional<std::string> FindPlanViolationOrNull(const TrackedPlan& plan, Protocol::EPlanStatus status);
+/// What is wrong with the Success of a control, if its PlanReport cannot follow any more.
+[[nodiscard]] std::optional<std::string> FindSuccessViolationOrNull(
+    const TrackedPlan& plan,
+    Protocol::EAcsCommand result);
+/// Whether the PlanReports so far confirm the Success of a control.
+[[nodiscard]] bool IsConfirmed(const TrackedPlan& plan, Protocol::EAcsCommand result);
 [[nodiscard]] std::optional<std::string> FindStepViolationOrNull(
     const TrackedPlan& plan,
     const TrackedStep& step,

@@ -2,10 +2,12 @@
 
 #include "plans/PlannedPlan.hpp"
 #include <acs/core/Now.hpp>
+#include <acs/protocol/EAcsCommand.hpp>
 #include <acs/protocol/messages/Reports.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -62,6 +64,8 @@ struct TrackedPlan
     Core::SteadyTime lastSent{};
     Protocol::EPlanStatus status = Protocol::EPlanStatus::Pending;
     bool bReported = false;
+    /// The result report that stated the success of a cancel, an abort or a resume which no PlanReport has confirmed yet.
+    std::optional<Protocol::EAcsCommand> unconfirmed;
     std::string robotID;            ///< Empty until a report names one.
     std::string reason;             ///< Of the refusal or the failure, as the ACS gave it.
     std::vector<TrackedStep> steps; ///< By ascending stepNo.
