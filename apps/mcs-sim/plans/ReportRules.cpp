@@ -146,9 +146,12 @@ std::optional<std::string> FindStepViolationOrNull(const TrackedPlan& plan, cons
         return mistakeOrNull;
     }
     const bool bBegins = status == EStepStatus::Dispatched || status == EStepStatus::InProgress;
-    if (status != EStepStatus::Pending && plan.status == EPlanStatus::Pending)
+    const bool bBeforeStart = status != EStepStatus::Pending && plan.status == EPlanStatus::Pending;
+    // What was begun before the pause may still be reported: an arrival, or the outcome that an operator has decided.
+    const bool bDuringPause = status == EStepStatus::Dispatched && plan.status == EPlanStatus::Paused;
+    if (bBeforeStart || bDuringPause)
     {
-        return fmt::format("{} while the plan is Pending", GetText(status));
+        return fmt::format("{} while the plan is {}", GetText(status), GetText(plan.status));
     }
     if (bBegins && IsAnyEarlierStepOpen(plan, step))
     {
@@ -188,9 +191,10 @@ std::optional<std::string> FindJobViolationOrNull(
     {
         return std::nullopt;
     }
-    if (plan.status == EPlanStatus::Pending)
+    const bool bDuringPause = status == EJobStatus::Instructed && plan.status == EPlanStatus::Paused;
+    if (plan.status == EPlanStatus::Pending || bDuringPause)
     {
-        return fmt::format("{} while the plan is Pending", GetText(status));
+        return fmt::format("{} while the plan is {}", GetText(status), GetText(plan.status));
     }
     if (step.status != EStepStatus::InProgress)
     {

@@ -387,6 +387,48 @@ TEST_CASE("A report out of causal order is a violation, and followed nevertheles
     CHECK_FALSE(fixture.tracker.IsSuccess());
 }
 
+TEST_CASE("6.7 While its plan is Paused no step is Dispatched and no job is Instructed")
+{
+    PlanTrackerFixture fixture;
+    fixture.Begin();
+    fixture.Report({MakePlanReport("P1", EPlanStatus::InProgress)});
+    SECTION("a step")
+    {
+        fixture.Report({MakePlanReport("P1", EPlanStatus::Paused), MakeStepReport("P1", 1, EStepStatus::Dispatched)});
+        CHECK(fixture.GetViolation() == "P1 StepReport step 1 Dispatched while the plan is Paused");
+    }
+    SECTION("a job")
+    {
+        fixture.Report(
+            {MakeStepReport("P1", 1, EStepStatus::Dispatched),
+             MakeStepReport("P1", 1, EStepStatus::InProgress),
+             MakePlanReport("P1", EPlanStatus::Paused),
+             MakeJobReport("P1", 1, "J1", EJobStatus::Instructed)});
+        CHECK(fixture.GetViolation() == "P1 JobReport step 1 job 1 Instructed while the plan is Paused");
+    }
+}
+
+TEST_CASE("6.7 What was begun before the pause may be reported while the plan is Paused")
+{
+    PlanTrackerFixture fixture;
+    fixture.Begin();
+    fixture.Report(
+        {MakePlanReport("P1", EPlanStatus::InProgress),
+         MakeStepReport("P1", 1, EStepStatus::Dispatched),
+         MakePlanReport("P1", EPlanStatus::Paused),
+         MakeStepReport("P1", 1, EStepStatus::InProgress), // a cancel that came too late: the robot has arrived
+         MakePlanReport("P1", EPlanStatus::InProgress),
+         MakeJobReport("P1", 1, "J1", EJobStatus::Instructed),
+         MakePlanReport("P1", EPlanStatus::Paused),
+         MakeJobReport("P1", 1, "J1", EJobStatus::InProgress), // an operator answers done for a job of unknown outcome
+         MakeJobReport("P1", 1, "J1", EJobStatus::Completed),
+         MakeStepReport("P1", 1, EStepStatus::Completed),
+         MakeStepReport("P1", 2, EStepStatus::Skipped),
+         MakePlanReport("P1", EPlanStatus::InProgress),
+         MakePlanReport("P1", EPlanStatus::Completed)});
+    CHECK(fixture.tracker.IsSuccess());
+}
+
 TEST_CASE("A step is not Completed before all its jobs")
 {
     PlanTrackerFixture fixture;
