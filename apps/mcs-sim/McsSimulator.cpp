@@ -269,6 +269,10 @@ void McsSimulator::OnWire(
     {
         _judge.OnTextSent(text);
     }
+    else
+    {
+        _judge.OnTextReceived(text);
+    }
     _scenarios.OnWire(direction, connection, text);
 }
 
@@ -416,6 +420,7 @@ void McsSimulator::PrintSummary()
         _tracker,
         _server == nullptr ? none : _server->GetStatistics(),
         _judge.GetNotes().GetCounts(),
+        _judge.GetTimestampCounts(),
         std::chrono::duration_cast<std::chrono::milliseconds>(duration)));
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 #include <variant>
 
@@ -38,6 +40,11 @@ FloorChecker* RunJudge::GetFloorOrNull() noexcept
     return _floor.has_value() ? &*_floor : nullptr;
 }
 
+const TimestampCounts& RunJudge::GetTimestampCounts() const noexcept
+{
+    return _timestamps.GetCounts();
+}
+
 void RunJudge::OnTextSent(std::string_view text)
 {
     const Protocol::DecodeOutcome outcome = _codec.Decode(text);
@@ -47,6 +54,11 @@ void RunJudge::OnTextSent(std::string_view text)
     {
         _tracker.OnRequestSent(*requestOrNull);
     }
+}
+
+void RunJudge::OnTextReceived(std::string_view text)
+{
+    std::ranges::move(_timestamps.OnText(text), std::back_inserter(_lines));
 }
 
 void RunJudge::OnRequest(const Protocol::RequestReceived& received)

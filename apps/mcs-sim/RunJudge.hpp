@@ -6,6 +6,7 @@
 #include "plans/PlanTracker.hpp"
 #include "SimulatorOptions.hpp"
 #include "wire/NoteJudge.hpp"
+#include "wire/TimestampJudge.hpp"
 #include <acs/protocol/AcsCodec.hpp>
 #include <acs/protocol/SessionEvent.hpp>
 
@@ -24,6 +25,7 @@ class RunJudge final
     std::optional<FloorChecker> _floor; ///< If there is a world.
     RobotBoard _board;
     NoteJudge _notes;
+    TimestampJudge _timestamps;
     Protocol::AcsCodec _codec;
 
 public:
@@ -37,9 +39,12 @@ public:
     [[nodiscard]] RobotBoard& GetBoard() noexcept;
     [[nodiscard]] NoteJudge& GetNotes() noexcept;
     [[nodiscard]] FloorChecker* GetFloorOrNull() noexcept;
+    [[nodiscard]] const TimestampCounts& GetTimestampCounts() const noexcept;
 
     /// Any text that is sent to the ACS.
     void OnTextSent(std::string_view text);
+    /// Any text that comes from an ACS.
+    void OnTextReceived(std::string_view text);
     void OnRequest(const Protocol::RequestReceived& received);
     void OnAck(const Protocol::AckReceived& received);
     void OnUnanswered(const Protocol::RequestUnanswered& unanswered);

@@ -122,7 +122,12 @@ void AddMessages(const PlanTracker& tracker, const Protocol::SessionStatistics& 
     }
 }
 
-void AddNotes(const NoteCounts& notes, StyledLines& out)
+StyledLine MakeNote(std::uint64_t count, std::string_view meaning, EStyle style)
+{
+    return {{fmt::format(" {} {}", FitRight(fmt::format("{}", count), 6), meaning), style}};
+}
+
+void AddNotes(const NoteCounts& notes, const TimestampCounts& timestamps, StyledLines& out)
 {
     StyledLines rows;
     for (std::size_t i = 0; i < Protocol::NOTE_COUNT; ++i)
@@ -130,9 +135,15 @@ void AddNotes(const NoteCounts& notes, StyledLines& out)
         const auto note = static_cast<Protocol::EProtocolNote>(i);
         if (notes[i] > 0)
         {
-            rows.push_back(
-                {{fmt::format(" {} {}", FitRight(fmt::format("{}", notes[i]), 6), GetMeaning(note)),
-                  GetBlame(note) == EBlame::Deviation ? EStyle::Plain : EStyle::Bad}});
+            const EStyle style = GetBlame(note) == EBlame::Deviation ? EStyle::Plain : EStyle::Bad;
+            rows.push_back(MakeNote(notes[i], GetMeaning(note), style));
+        }
+    }
+    for (std::size_t i = 0; i < TIMESTAMP_DEVIATION_COUNT; ++i)
+    {
+        if (timestamps[i] > 0)
+        {
+            rows.push_back(MakeNote(timestamps[i], GetMeaning(static_cast<ETimestampDeviation>(i)), EStyle::Plain));
         }
     }
     if (!rows.empty())
@@ -176,6 +187,7 @@ StyledLines MakeSummary(
     const PlanTracker& tracker,
     const Protocol::SessionStatistics& statistics,
     const NoteCounts& notes,
+    const TimestampCounts& timestamps,
     std::chrono::milliseconds duration)
 {
     const bool bAllCompleted = tracker.CountOutcome(EOutcome::Completed) == tracker.GetPlans().size();
@@ -192,7 +204,7 @@ StyledLines MakeSummary(
         MakeRow("duration", fmt::format("{:.1f} s", static_cast<double>(duration.count()) / 1000.0), EStyle::Plain));
     lines.emplace_back();
     AddMessages(tracker, statistics, lines);
-    AddNotes(notes, lines);
+    AddNotes(notes, timestamps, lines);
     lines.push_back(MakeRule());
     AddFailures(tracker, lines);
     return lines;

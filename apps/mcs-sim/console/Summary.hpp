@@ -4,6 +4,7 @@
 #include "floor/FloorChecker.hpp"
 #include "plans/PlanTracker.hpp"
 #include "wire/NoteJudge.hpp"
+#include "wire/TimestampJudge.hpp"
 #include <acs/protocol/SessionStatistics.hpp>
 
 #include <chrono>
@@ -18,6 +19,7 @@ namespace ACS::McsSim
     const PlanTracker& tracker,
     const Protocol::SessionStatistics& statistics,
     const NoteCounts& notes,
+    const TimestampCounts& timestamps,
     std::chrono::milliseconds duration);
 
 /// A line per plan with its current state; a line that states so if there are none.

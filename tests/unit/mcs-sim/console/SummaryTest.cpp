@@ -69,8 +69,12 @@ TEST_CASE("The closing table counts plans by outcome and messages by command, a 
     notes[static_cast<std::size_t>(EProtocolNote::NullOptional)] = 12;
     notes[static_cast<std::size_t>(EProtocolNote::Undecodable)] = 3;
 
+    ACS::McsSim::TimestampCounts timestamps{};
+    timestamps[static_cast<std::size_t>(ACS::McsSim::ETimestampDeviation::Utc)] = 5;
+
     std::string text;
-    for (const StyledLine& line : MakeSummary(tracker, statistics, notes, std::chrono::milliseconds(34'260)))
+    for (const StyledLine& line :
+         MakeSummary(tracker, statistics, notes, timestamps, std::chrono::milliseconds(34'260)))
     {
         text += MakeText(line, 100, false) + "\n";
     }
@@ -94,6 +98,7 @@ TEST_CASE("The closing table counts plans by outcome and messages by command, a 
  noticed in what the ACS sent
      12 null where a member is left out
       3 unreadable message
+      5 timestamp with Z instead of the offset of local time
  ────────────────────────────────────────────────────────────────────────────
  P2 refused: Queue Full
  violation: P1 PlanReport Completed before all its steps
