@@ -33,6 +33,8 @@ struct ArmCounted
     ArmSample sample;
     bool bFirst = false;    ///< The first of the connection, or since the counters were missing.
     bool bVerifies = false; ///< It is newer than the CONTROL that is being verified.
+    std::optional<GeneralState>
+        stateOrNull; ///< Of a sample that verifies: the latest that was shown after the CONTROL.
 };
 
 /// Fact: the controller's general state, while it is watched for the effect of a CONTROL.

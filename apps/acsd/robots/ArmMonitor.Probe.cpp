@@ -13,6 +13,7 @@ namespace ACS::Acsd
 using ArmViews::Counters;
 using ArmViews::Effect;
 using ArmViews::Probe;
+using ArmViews::Verification;
 
 namespace
 {
@@ -23,20 +24,21 @@ using Planning::AdapterActions;
 constexpr std::chrono::milliseconds PROBE_INTERVAL = 1s;
 /// A probe costs two samples, so a slow MONITOR is probed less often.
 constexpr int PROBE_PERIODS = 20;
-/// Maximum time for the general state to show the effect of a CONTROL. After it the CONTROL counts as executed.
+/// Maximum time for the general state to show the effect of a CONTROL. After it a CONTROL counts as executed if no state
+/// was shown.
 constexpr std::chrono::milliseconds EFFECT_LIMIT = 2s;
-/// After this number of effects in a row that were not shown, the controller is assumed not to show them at all.
+/// After this number of CONTROLs in a row without any state, the controller is assumed not to show its state at all.
 constexpr std::size_t MOST_UNSHOWN = 3;
 
 } // namespace
 
-/// Nothing was shown, but nothing was refused either.
+/// The effect was not shown, but nothing was refused either.
 void ArmMonitor::OnEffectTimer()
 {
-    if (std::holds_alternative<Effect>(_view))
+    if (const Effect* const effectOrNull = std::get_if<Effect>(&_view))
     {
-        ++_unshownEffects;
-        VerifyCounters();
+        _unshownEffects = effectOrNull->stateOrNull.has_value() ? 0 : _unshownEffects + 1;
+        WatchCounters(Verification{false, effectOrNull->stateOrNull});
     }
 }
 
@@ -54,9 +56,8 @@ void ArmMonitor::VerifyEffect(AdapterActions& out)
 
 void ArmMonitor::EndEffect(AdapterActions& out)
 {
-    _unshownEffects = 0;
     out.emplace_back(Planning::CancelAdapterTimer{ArmTimers::EFFECT});
-    VerifyCounters();
+    OnEffectTimer();
 }
 
 ArmFact ArmMonitor::OnProbeTimer(std::optional<EArmProbe> wantedOrNull, AdapterActions& out)

@@ -155,10 +155,11 @@ ArmFact ArmMonitor::HandleSample(const Core::JsonText& json, AdapterActions& out
     {
         return relaysOrNull->bAccepted ? HandleRelays(json) : ArmFact();
     }
-    if (std::holds_alternative<Effect>(_view))
+    if (Effect* const effectOrNull = std::get_if<Effect>(&_view))
     {
         if (const std::optional<GeneralState> stateOrNull = ReadGeneralStateOrNull(json); stateOrNull.has_value())
         {
+            effectOrNull->stateOrNull = stateOrNull;
             return ArmEffectShown{*stateOrNull};
         }
     }
@@ -270,11 +271,12 @@ ArmFact ArmMonitor::HandleCounters(const Core::JsonText& json, AdapterActions& o
     }
     const Verification* const verificationOrNull = std::get_if<Verification>(&_view);
     const bool bVerifies = verificationOrNull != nullptr && verificationOrNull->bAccepted;
+    const std::optional<GeneralState> stateOrNull = bVerifies ? verificationOrNull->stateOrNull : std::nullopt;
     if (bVerifies || std::holds_alternative<Counters>(_view))
     {
         _view = Counters{true};
     }
-    return ArmCounted{*sampleOrNull, bFirst, bVerifies};
+    return ArmCounted{*sampleOrNull, bFirst, bVerifies, stateOrNull};
 }
 
 void ArmMonitor::OnAccepted(std::uint64_t requestNumber)
@@ -375,8 +377,10 @@ bool ArmMonitor::TryRetry(AdapterActions& out)
     }
     else
     {
-        const bool bVerifies = std::holds_alternative<Verification>(_view);
-        WatchCounters(bVerifies ? ArmView(Verification{}) : ArmView(Counters{}));
+        const Verification* const verificationOrNull = std::get_if<Verification>(&_view);
+        WatchCounters(
+            verificationOrNull == nullptr ? ArmView(Counters{})
+                                          : ArmView(Verification{false, verificationOrNull->stateOrNull}));
         if (!bRefused)
         {
             _trouble = MakeHeavy(

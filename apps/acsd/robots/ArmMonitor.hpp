@@ -45,7 +45,7 @@ class ArmMonitor
     bool _bRelaysLate = false;                    ///< Late samples of relays may still arrive in place of the counters.
     bool _bMotorHidden = false;                   ///< The controller does not show the motor to a probe.
     bool _bGeneralHidden = false;                 ///< Likewise its general state.
-    std::size_t _unshownEffects = 0;              ///< Number in a row, of CONTROLs that were not refused.
+    std::size_t _unshownEffects = 0;              ///< Number in a row, of CONTROLs after which no state was shown.
     bool _bMonitorRefused = false;                ///< The latest MONITOR of the motor or the counters was refused.
     std::string _motorRefusal;                    ///< Of the latest CONTROL that switches the motor on; empty: none.
     std::optional<Planning::RobotError> _trouble; ///< Why the arm cannot work although its session is ready.

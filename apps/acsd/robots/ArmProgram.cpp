@@ -231,8 +231,9 @@ void ArmProgram::OnCountedBeforeStart(AdapterActions& out)
     ReportNotStarted(out);
 }
 
-void ArmProgram::OnVerified(bool bUnchanged, AdapterActions& out)
+void ArmProgram::OnVerified(bool bUnchanged, const std::optional<GeneralState>& stateOrNull, AdapterActions& out)
 {
+    const bool bEffectMissing = stateOrNull.has_value() && !IsEffectShown(*stateOrNull);
     const bool bBeforeStart = Is<VerifyingSelection>() || Is<VerifyingCounters>();
     if (bBeforeStart && !bUnchanged)
     {
@@ -253,9 +254,20 @@ void ArmProgram::OnVerified(bool bUnchanged, AdapterActions& out)
     {
         _state = Prepared{true};
     }
+    else if (Is<Stopping>() && bEffectMissing)
+    {
+        const bool bStopWanted = _bPauseWanted || _work.bCancelled;
+        _state = bStopWanted ? ArmProgramState(Unverified{}) : ArmProgramState(Running{});
+    }
     else if (Is<Stopping>())
     {
         _state = Stopped{};
+    }
+    else if (Is<Resuming>() && bEffectMissing)
+    {
+        _work.bResumeRepeated = true; // it may be executed later
+        _state = ResumeRefused{"the arm's controller shows no running program after the start", false, false};
+        ProbeRefusedProgram();
     }
     else if (Is<Resuming>())
     {

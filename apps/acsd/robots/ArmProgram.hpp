@@ -97,8 +97,9 @@ public:
     void OnCounted(bool bWatched, Planning::AdapterActions& out);
     /// The first counters of a connection.
     void OnCountersBack(Planning::AdapterActions& out);
-    /// The first counters after the CONTROL. bUnchanged: they are equal to those before the job.
-    void OnVerified(bool bUnchanged, Planning::AdapterActions& out);
+    /// The first counters after the CONTROL. bUnchanged: they are equal to those before the job. The state is the latest that
+    /// was shown after the CONTROL, if any was.
+    void OnVerified(bool bUnchanged, const std::optional<GeneralState>& stateOrNull, Planning::AdapterActions& out);
     [[nodiscard]] bool IsEffectShown(const GeneralState& state) const;
     void OnInputsRead(const std::vector<ArmRelayWords>& ranges, Planning::AdapterActions& out);
     void OnInputsRefused(const std::string& reason, Planning::AdapterActions& out);

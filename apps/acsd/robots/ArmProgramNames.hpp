@@ -7,6 +7,7 @@
 namespace ACS::Acsd
 {
 
+using ArmStates::ArmProgramState;
 using ArmStates::Awaited;
 using ArmStates::EArmStart;
 using ArmStates::NoJob;

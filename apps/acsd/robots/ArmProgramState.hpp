@@ -97,12 +97,13 @@ struct Resuming
 {
 };
 
-/// Whether it runs or is stopped is unknown, for example because the connection broke while it was being stopped.
+/// It is stopped again before anything else: the connection broke while it was being stopped or resumed, or the stop had
+/// no effect.
 struct Unverified
 {
 };
 
-/// The controller refused to resume it. Whether it runs is probed.
+/// The controller refused to resume it, or shows that it does not run after that. Whether it runs is probed.
 struct ResumeRefused
 {
     std::string refusal;

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "robots/ArmAnswers.hpp"
 #include "robots/ArmFact.hpp"
 #include "robots/ArmRelay.hpp"
 
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -17,13 +19,15 @@ struct Counters
 /// The general state is observed for the effect of a CONTROL.
 struct Effect
 {
+    std::optional<GeneralState> stateOrNull; ///< The latest.
 };
 
 /// A CONTROL without an answer may be accepted, lost or delayed. So the MONITOR of the counters is sent again: its first
 /// sample is newer than the CONTROL.
 struct Verification
 {
-    bool bAccepted = false; ///< Accepted by the controller: the next sample is newer than the CONTROL.
+    bool bAccepted = false;                  ///< Accepted by the controller: the next sample is newer than the CONTROL.
+    std::optional<GeneralState> stateOrNull; ///< The latest that was shown after the CONTROL.
 };
 
 struct Probe

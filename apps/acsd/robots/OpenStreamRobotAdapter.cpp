@@ -294,7 +294,7 @@ void OpenStreamRobotAdapter::OnCounted(const ArmCounted& counted, AdapterActions
     }
     if (counted.bVerifies)
     {
-        _program.OnVerified(_evidence.IsUnchanged(), out);
+        _program.OnVerified(_evidence.IsUnchanged(), counted.stateOrNull, out);
     }
     if (counted.bFirst)
     {

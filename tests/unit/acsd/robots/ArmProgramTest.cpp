@@ -60,7 +60,7 @@ struct ProgramFixture
     {
         program.Start({"J", 11, {}});
         Settle(EControlOutcome::Accepted);
-        program.OnVerified(true, actions);
+        program.OnVerified(true, std::nullopt, actions);
         Advance();
         Settle(EControlOutcome::Accepted);
         Prove(true, ArmProof::EOutcome::Open);
@@ -94,7 +94,7 @@ TEST_CASE("Each step of a program waits for the one before to be verified")
     CHECK_FALSE(arm.program.IsEffectShown({false, 12, 0}));
     CHECK_FALSE(arm.program.IsEffectShown({false, 11, 5}));
     CHECK(arm.program.IsEffectShown({false, 11, 1}));
-    arm.program.OnVerified(true, arm.actions);
+    arm.program.OnVerified(true, std::nullopt, arm.actions);
     CHECK(arm.TakeControls() == std::vector<std::string>{"set_relay_value"});
     arm.Advance();
     arm.Settle(EControlOutcome::Accepted);
@@ -108,7 +108,7 @@ TEST_CASE("Each step of a program waits for the one before to be verified")
     CHECK(arm.program.TakeRequests() == std::vector<EArmRequest>{EArmRequest::VerifyCounters});
     arm.Advance();
     CHECK(arm.TakeControls().empty());
-    arm.program.OnVerified(true, arm.actions);
+    arm.program.OnVerified(true, std::nullopt, arm.actions);
     arm.program.Advance(false, false, arm.actions);
     CHECK(arm.TakeControls().empty());
     arm.Advance();
@@ -122,12 +122,12 @@ TEST_CASE("A program is not started where the counters have changed since its in
     ProgramFixture arm;
     arm.program.Start({"J", 11, {{*ParseArmRelay("ml105"), 7}}});
     arm.Settle(EControlOutcome::Accepted);
-    arm.program.OnVerified(true, arm.actions);
+    arm.program.OnVerified(true, std::nullopt, arm.actions);
     arm.Settle(EControlOutcome::Accepted);
     arm.program.OnInputsRead({{{"/project/plc/m/val_s32", 420, 1}, {7}}}, arm.actions);
     CHECK(arm.program.IsPreparing());
     static_cast<void>(arm.TakeControls());
-    arm.program.OnVerified(false, arm.actions);
+    arm.program.OnVerified(false, std::nullopt, arm.actions);
     arm.Advance();
     CHECK(arm.TakeControls().empty());
     CHECK(arm.HasReported<Planning::JobUnknown>());
@@ -173,7 +173,7 @@ TEST_CASE("A pause stops the program, verifies that it is stopped, and resumes i
     arm.Settle(EControlOutcome::Accepted);
     CHECK_FALSE(arm.program.IsEffectShown({true, 11, 3}));
     CHECK(arm.program.IsEffectShown({false, 11, 3}));
-    arm.program.OnVerified(false, arm.actions);
+    arm.program.OnVerified(false, std::nullopt, arm.actions);
     CHECK(arm.program.IsArmStopped());
     arm.program.SetPauseWanted(false);
     CHECK(arm.program.IsResumeDue());
@@ -181,7 +181,7 @@ TEST_CASE("A pause stops the program, verifies that it is stopped, and resumes i
     CHECK(arm.TakeControls() == std::vector<std::string>{"start"});
     arm.Settle(EControlOutcome::Accepted);
     CHECK_FALSE(arm.program.IsEffectShown({false, 11, 3}));
-    arm.program.OnVerified(false, arm.actions);
+    arm.program.OnVerified(false, std::nullopt, arm.actions);
     CHECK(arm.program.IsRunning());
 }
 
@@ -219,7 +219,7 @@ TEST_CASE("A start whose fate is unknown is awaited, and echoed without counters
     ProgramFixture arm;
     arm.program.Start({"J", 11, {}});
     arm.Settle(EControlOutcome::Accepted);
-    arm.program.OnVerified(true, arm.actions);
+    arm.program.OnVerified(true, std::nullopt, arm.actions);
     arm.Advance();
     arm.Settle(EControlOutcome::Unknown);
     arm.program.OnLost(arm.actions);

@@ -52,6 +52,47 @@ TEST_CASE("6.8 A program counts as stopped when the controller shows that it is 
     CHECK(arm.IsReportedPaused());
 }
 
+TEST_CASE("6.8 A program that is shown running after its stop is not paused: it is stopped again, and not reset")
+{
+    ArmFixture arm;
+    arm.StartRunning();
+    arm.ShowBase(true);
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    REQUIRE(arm.TakeRequests() == std::vector<std::string>{STOP});
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.DeliverData(RUNNING_STATE);
+    arm.Fire(ArmFixture::EFFECT_TIMER);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_PLAYBACK, MONITOR_COUNTERS});
+    arm.AcknowledgeMonitor();
+    const bool bResumed = GENERATE(false, true);
+    if (bResumed)
+    {
+        arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    }
+    arm.DeliverData("[6,5,0]");
+    CHECK_FALSE(arm.IsReportedPaused());
+    arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests() == (bResumed ? std::vector<std::string>{} : std::vector<std::string>{STOP}));
+}
+
+TEST_CASE("6.8 A program that is shown stopped after its resume is not resumed: that is reported, and repeated")
+{
+    ArmFixture arm;
+    SettleGoingOn(arm, OpenStream::EControlOutcome::Accepted);
+    arm.DeliverData(STOPPED_STATE);
+    arm.Fire(ArmFixture::EFFECT_TIMER);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_PLAYBACK, MONITOR_COUNTERS});
+    arm.AcknowledgeMonitor();
+    arm.actions.clear();
+    arm.DeliverData("[6,5,0]");
+    ShowProgramProbe(arm, STOPPED_STATE);
+    CHECK(arm.IsReportedPaused());
+    CHECK(arm.TakeErrors() == "ARM-programHalted");
+    arm.Fire(ArmFixture::RETRY_TIMER);
+    ShowProgramProbe(arm, STOPPED_STATE);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+}
+
 TEST_CASE("6.7 Pause stops the arm's program where it is; the robot is paused when base and arm are stopped")
 {
     ArmFixture arm;
