@@ -71,6 +71,7 @@ void RunJudge::OnRequest(const Protocol::RequestReceived& received)
     if (const auto* const statusOrNull = std::get_if<Protocol::RobotStatusUpdate>(&payload))
     {
         _board.OnStatus(*statusOrNull, _lines);
+        _tracker.OnRequest(payload, _lines);
     }
     else if (const auto* const positionOrNull = std::get_if<Protocol::RobotPositionUpdate>(&payload))
     {

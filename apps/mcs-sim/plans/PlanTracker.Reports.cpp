@@ -31,7 +31,8 @@ void PlanTracker::OnRequest(const Protocol::AcsPayload& payload, Lines& out)
             [this, &out](const Protocol::PlanReport& report) { Handle(report, out); },
             [this, &out](const Protocol::StepReport& report) { Handle(report, out); },
             [this, &out](const Protocol::JobReport& report) { Handle(report, out); },
-            [&out](const Protocol::ErrorReport& report) { Handle(report, out); },
+            [this, &out](const Protocol::ErrorReport& report) { Handle(report, out); },
+            [this, &out](const Protocol::RobotStatusUpdate& update) { CheckNamed("RobotStatusUpdate", update, out); },
             [this, &out](const Protocol::AcsCommStateUpdate& update) { Handle(update, out); },
             [&out](const Protocol::TscStateUpdate& update) { Handle(update, out); },
             [this, &out](const Protocol::CancelResultReport& report) { Handle(report, out); },
@@ -120,13 +121,7 @@ void PlanTracker::Handle(const Protocol::JobReport& report, Lines& out)
     });
     if (job == stepOrNull->jobs.end())
     {
-        AddViolation(
-            fmt::format(
-                "{} JobReport step {} for an unknown job {}",
-                CleanText(report.planID),
-                report.stepNo,
-                CleanText(report.jobID)),
-            out);
+        AddUnknownJob(*planOrNull, "JobReport", report.stepNo, report.jobID, out);
         return;
     }
     CheckRobot(*planOrNull, report.robotID, out);
@@ -203,8 +198,55 @@ std::optional<std::string> PlanTracker::FindResultViolationOrNull(
     return mistake;
 }
 
+template <typename TMessage>
+void PlanTracker::CheckNamed(std::string_view what, const TMessage& message, Lines& out)
+{
+    if (message.planID.value_or("").empty())
+    {
+        return;
+    }
+    const TrackedPlan* const foundOrNull = FindPlanOrNull(*message.planID);
+    if (foundOrNull == nullptr || foundOrNull->sends == 0)
+    {
+        AddViolation(fmt::format("{} {} for an unknown plan", CleanText(*message.planID), what), out);
+        return;
+    }
+    TrackedPlan& plan = _plans[static_cast<std::size_t>(foundOrNull - _plans.data())];
+    const TrackedStep* const stepOrNull =
+        message.stepNo.has_value() ? FindStepOrNull(plan, what, *message.stepNo, out) : nullptr;
+    if (stepOrNull == nullptr || message.jobID.value_or("").empty())
+    {
+        return;
+    }
+    if (std::ranges::find(stepOrNull->jobs, *message.jobID, &TrackedJob::jobID) == stepOrNull->jobs.end())
+    {
+        AddUnknownJob(plan, what, stepOrNull->stepNo, *message.jobID, out);
+    }
+}
+
+void PlanTracker::AddUnknownJob(
+    const TrackedPlan& plan,
+    std::string_view what,
+    std::int32_t stepNo,
+    const std::string& jobID,
+    Lines& out)
+{
+    AddViolation(
+        fmt::format(
+            "{} {} step {} for an unknown job {}",
+            CleanText(plan.planned.plan.planID),
+            what,
+            stepNo,
+            CleanText(jobID)),
+        out);
+}
+
 void PlanTracker::Handle(const Protocol::ErrorReport& report, Lines& out)
 {
+    if (report.bSet)
+    {
+        CheckNamed("ErrorReport", report, out);
+    }
     out.push_back(fmt::format(
         "{} ErrorReport {} {} {}{}",
         CleanText(report.robotID.empty() ? "ACS" : report.robotID),

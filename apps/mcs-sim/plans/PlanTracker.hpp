@@ -113,6 +113,12 @@ private:
         Lines& out);
     /// Whether the last PlanReport confirms or refutes the success that a result report stated.
     void CheckConfirmed(TrackedPlan& plan, Lines& out);
+    void AddUnknownJob(
+        const TrackedPlan& plan,
+        std::string_view what,
+        std::int32_t stepNo,
+        const std::string& jobID,
+        Lines& out);
     void CheckRobot(TrackedPlan& plan, const std::string& robotID, Lines& out);
     void Handle(const Protocol::PlanReport& report, Lines& out);
     void Handle(const Protocol::StepReport& report, Lines& out);
@@ -124,7 +130,10 @@ private:
         Protocol::EAcsCommand result,
         const std::string& planID,
         bool bSuccess);
-    static void Handle(const Protocol::ErrorReport& report, Lines& out);
+    void Handle(const Protocol::ErrorReport& report, Lines& out);
+    /// The plan, step and job that a message of a robot names have to exist.
+    template <typename TMessage>
+    void CheckNamed(std::string_view what, const TMessage& message, Lines& out);
     void Handle(const Protocol::AcsCommStateUpdate& update, Lines& out);
     static void Handle(const Protocol::TscStateUpdate& update, Lines& out);
 };

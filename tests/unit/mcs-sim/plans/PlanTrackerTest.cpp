@@ -429,6 +429,52 @@ TEST_CASE("6.7 What was begun before the pause may be reported while the plan is
     CHECK(fixture.tracker.IsSuccess());
 }
 
+TEST_CASE("6.15, 6.16 A robot status or an error of an unknown plan, step or job is a violation")
+{
+    PlanTrackerFixture fixture;
+    fixture.Begin();
+    ACS::Protocol::RobotStatusUpdate status;
+    status.robotID = "LR01";
+    ACS::Protocol::ErrorReport error;
+    error.robotID = "LR01";
+    error.errorCode = "E1";
+    SECTION("none, or of the plan")
+    {
+        fixture.Report({status, error});
+        status.planID = error.planID = "P1";
+        status.stepNo = error.stepNo = 2;
+        status.jobID = error.jobID = "J3";
+        fixture.Report({status, error});
+        CHECK(fixture.tracker.CountViolations() == 0);
+    }
+    SECTION("an unknown plan")
+    {
+        status.planID = error.planID = "P9";
+        fixture.Report({status});
+        CHECK(fixture.GetViolation() == "P9 RobotStatusUpdate for an unknown plan");
+        fixture.Report({error});
+        CHECK(fixture.tracker.GetViolations().back() == "P9 ErrorReport for an unknown plan");
+        error.bSet = false; // of a plan of an earlier MCS: a clear has the identity of its set
+        fixture.Report({error});
+        CHECK(fixture.tracker.CountViolations() == 2);
+    }
+    SECTION("an unknown step")
+    {
+        status.planID = "P1";
+        status.stepNo = 3;
+        fixture.Report({status});
+        CHECK(fixture.GetViolation() == "P1 RobotStatusUpdate for an unknown step 3");
+    }
+    SECTION("a job of another step")
+    {
+        status.planID = "P1";
+        status.stepNo = 1;
+        status.jobID = "J2";
+        fixture.Report({status});
+        CHECK(fixture.GetViolation() == "P1 RobotStatusUpdate step 1 for an unknown job J2");
+    }
+}
+
 TEST_CASE("A step is not Completed before all its jobs")
 {
     PlanTrackerFixture fixture;
