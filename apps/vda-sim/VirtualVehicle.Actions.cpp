@@ -70,8 +70,11 @@ std::string VirtualVehicle::InitialisePosition(const VDA5050::Action& action, Co
     const std::optional<double> x = getNumber("x");
     const std::optional<double> y = getNumber("y");
     const std::optional<double> theta = getNumber("theta");
-    const VDA5050::ActionParameter* const map = VDA5050::FindParameterOrNull(action, "mapId");
-    const std::optional<std::string> mapID = map != nullptr ? map->value.GetStringOrNull() : std::nullopt;
+    const auto getText = [&action](std::string_view key) {
+        const VDA5050::ActionParameter* const parameter = VDA5050::FindParameterOrNull(action, key);
+        return parameter != nullptr ? parameter->value.GetStringOrNull() : std::nullopt;
+    };
+    const std::optional<std::string> mapID = getText("mapId");
     if (!x.has_value() || !y.has_value() || !theta.has_value() || !mapID.has_value())
     {
         return "x, y and theta have to be numbers, mapId a string";
@@ -79,6 +82,12 @@ std::string VirtualVehicle::InitialisePosition(const VDA5050::Action& action, Co
     if (!IsInReach(*_site, *x, *y))
     {
         return "the position is too far from the site";
+    }
+    // The node may be far from the position: between two nodes it is the one that the vehicle has passed.
+    const std::string lastNodeID = getText("lastNodeId").value_or("");
+    if (!lastNodeID.empty() && _site->FindNodeOrNull(lastNodeID) == nullptr)
+    {
+        return "the site has no node " + Core::ShortenText(lastNodeID);
     }
     if (!_drive.TryPlace({*x, *y, NormaliseAngle(*theta)}, *mapID))
     {

@@ -183,4 +183,28 @@ TEST_CASE("6.8 initPosition beyond all reach of the site fails, and the vehicle 
     CHECK(driver.GetPose() == VdaSim::Pose{});
 }
 
+TEST_CASE("6.8 initPosition with a lastNodeId that the site does not have fails; an empty one does not")
+{
+    VehicleDriver driver("N0");
+    const auto place = [&driver](const std::string& actionID, std::string_view nodeID) {
+        driver.SendInstantly(
+            VDA5050::ActionTypes::INIT_POSITION,
+            actionID,
+            {{"x", Core::JsonText::FromNumber(4.5)},
+             {"y", Core::JsonText::FromNumber(0.0)},
+             {"theta", Core::JsonText::FromNumber(0.0)},
+             {"mapId", Core::JsonText::FromString("floor")},
+             {"lastNodeId", Core::JsonText::FromString(nodeID)}});
+        driver.Pass(std::chrono::seconds(2));
+        return driver.GetStatus(actionID);
+    };
+    CHECK(place("unknown", "NO-SUCH-NODE") == VDA5050::EActionStatus::Failed);
+    CHECK(driver.GetPose() == VdaSim::Pose{});
+    CHECK(driver.GetState().lastNodeID == "N0");
+    CHECK(place("between", "N1") == VDA5050::EActionStatus::Finished);
+    CHECK(driver.GetPose().x == 4.5);
+    CHECK(place("none", "") == VDA5050::EActionStatus::Finished);
+    CHECK(driver.GetState().lastNodeID.empty());
+}
+
 } // namespace ACS::Testing

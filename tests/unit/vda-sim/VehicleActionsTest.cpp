@@ -59,6 +59,10 @@ std::vector<ActionParameter> MakeParameters(const AgvAction& row)
         {
             parameters.push_back(MakeText("mapId", bNewMap ? "cellar" : "floor"));
         }
+        else if (parameter.key == "lastNodeId")
+        {
+            parameters.push_back(MakeText("lastNodeId", "DOCK"));
+        }
         else
         {
             parameters.push_back(MakeText(parameter.key, "1"));
