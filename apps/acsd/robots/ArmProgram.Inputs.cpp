@@ -29,7 +29,7 @@ void ArmProgram::ReadInputs(AdapterActions& out)
 
 void ArmProgram::OnInputsRead(const std::vector<ArmRelayWords>& ranges, AdapterActions& out)
 {
-    if (!Is<ReadingInputs>() || !_work.inputs.TryVerify(ranges))
+    if (!Is<ReadingInputs>(_state) || !_work.inputs.TryVerify(ranges))
     {
         return;
     }
@@ -40,7 +40,7 @@ void ArmProgram::OnInputsRead(const std::vector<ArmRelayWords>& ranges, AdapterA
 
 void ArmProgram::OnInputsRefused(const std::string& reason, AdapterActions& out)
 {
-    if (Is<ReadingInputs>())
+    if (Is<ReadingInputs>(_state))
     {
         Fail(fmt::format("the inputs of the arm's program cannot be read back, it was not started: {}", reason), out);
     }
@@ -48,7 +48,7 @@ void ArmProgram::OnInputsRefused(const std::string& reason, AdapterActions& out)
 
 void ArmProgram::OnInputTimer(AdapterActions& out)
 {
-    if (!Is<ReadingInputs>())
+    if (!Is<ReadingInputs>(_state))
     {
         return;
     }

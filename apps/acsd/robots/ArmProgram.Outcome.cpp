@@ -220,7 +220,7 @@ void ArmProgram::Refuse(std::string reason)
 void ArmProgram::OnFault(const ArmRefusal& refusal, AdapterActions& out)
 {
     Awaited* const awaitedOrNull = std::get_if<Awaited>(&_state);
-    if (Is<VerifyingSelection>() || IsPreparing())
+    if (Is<VerifyingSelection>(_state) || IsPreparing())
     {
         if (!TryRewind(refusal))
         {
@@ -233,11 +233,11 @@ void ArmProgram::OnFault(const ArmRefusal& refusal, AdapterActions& out)
         awaitedOrNull->refusal = refusal.reason;
         out.emplace_back(Planning::StartAdapterTimer{ArmTimers::START, REFUSED_START_LIMIT});
     }
-    else if (Is<Stopping>())
+    else if (Is<Stopping>(_state))
     {
         OnControlRefused(EArmControl::StopProgram, refusal, out);
     }
-    else if (Is<Resuming>())
+    else if (Is<Resuming>(_state))
     {
         OnControlRefused(EArmControl::ResumeProgram, refusal, out);
     }
@@ -249,7 +249,7 @@ void ArmProgram::OnMotorProbed(AdapterActions& out)
     {
         Fail(std::string(refusedOrNull->reason), out);
     }
-    else if (Is<ResumeRefused>())
+    else if (Is<ResumeRefused>(_state))
     {
         ProbeRefusedProgram();
     }
@@ -258,7 +258,7 @@ void ArmProgram::OnMotorProbed(AdapterActions& out)
 /// A job whose program could not be started is commanded again when the motor is on.
 void ArmProgram::OnMotorOff(AdapterActions& out)
 {
-    if (Is<Refused>())
+    if (Is<Refused>(_state))
     {
         ReportNotStarted(out);
     }
@@ -274,6 +274,11 @@ void ArmProgram::ProbeRefusedProgram()
 
 void ArmProgram::OnPlaybackHidden(AdapterActions& out)
 {
+    if (Stopped* const stoppedOrNull = std::get_if<Stopped>(&_state))
+    {
+        stoppedOrNull->halt = EArmHalt::Verified; // by the counters alone
+        return;
+    }
     const ResumeRefused* const refusedOrNull = std::get_if<ResumeRefused>(&_state);
     if (refusedOrNull == nullptr)
     {
@@ -306,11 +311,23 @@ void ArmProgram::OnPlaybackProbed(std::optional<bool> bPlayingOrNull, bool bWatc
         }
         return;
     }
-    Running* const runningOrNull = std::get_if<Running>(&_state);
     if (!bPlayingOrNull.has_value())
     {
         return;
     }
+    if (Stopped* const stoppedOrNull = std::get_if<Stopped>(&_state))
+    {
+        if (*bPlayingOrNull)
+        {
+            _state = Running{};
+        }
+        else
+        {
+            stoppedOrNull->halt = EArmHalt::Shown;
+        }
+        return;
+    }
+    Running* const runningOrNull = std::get_if<Running>(&_state);
     if (*bPlayingOrNull || !bWatched || runningOrNull == nullptr)
     {
         ForgetHalt();
@@ -332,6 +349,12 @@ void ArmProgram::OnCounted(bool bWatched, AdapterActions& out)
             "there, or abandon it there: the job then fails.",
             _work.jobID));
     }
+    if (Stopped* const stoppedOrNull = std::get_if<Stopped>(&_state);
+        stoppedOrNull != nullptr && stoppedOrNull->halt == EArmHalt::Shown)
+    {
+        stoppedOrNull->halt = EArmHalt::Verified;
+        return;
+    }
     ResumeRefused* const refusedOrNull = std::get_if<ResumeRefused>(&_state);
     if (refusedOrNull == nullptr || !std::exchange(refusedOrNull->bSeenStopped, false))
     {
@@ -339,7 +362,7 @@ void ArmProgram::OnCounted(bool bWatched, AdapterActions& out)
     }
     if (refusedOrNull->bRetries || _bPauseWanted || _work.bCancelled)
     {
-        _state = Stopped{};
+        _state = Stopped{EArmHalt::Verified};
         return;
     }
     refusedOrNull->bRetries = true;

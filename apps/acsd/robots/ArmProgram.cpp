@@ -29,7 +29,10 @@ ArmProgram::ArmProgram(ArmOptions options, ArmControls& controls)
 
 void ArmProgram::SetWork(ArmJob job)
 {
-    _work = {std::move(job.jobID), job.program, ArmInputTransfer(std::move(job.inputs), _options.inputRetries)};
+    _work = {};
+    _work.jobID = std::move(job.jobID);
+    _work.program = job.program;
+    _work.inputs = ArmInputTransfer(std::move(job.inputs), _options.inputRetries);
 }
 
 void ArmProgram::Start(ArmJob job)
@@ -80,42 +83,8 @@ void ArmProgram::Cancel(const std::string& jobID, AdapterActions& out)
         Fail("cancelled before it was started", out);
         return;
     }
-    const bool bRuns = Is<Starting>() || Is<Awaited>() || Is<Running>();
+    const bool bRuns = Is<Starting>(_state) || Is<Awaited>(_state) || Is<Running>(_state);
     _work.bCancelled = _work.bCancelled || _bPauseWanted || !bRuns;
-}
-
-bool ArmProgram::IsPauseWanted() const noexcept
-{
-    return _bPauseWanted;
-}
-
-void ArmProgram::SetPauseWanted(bool bWanted)
-{
-    _bPauseWanted = bWanted;
-    _bPauseKnown = true;
-    if (Running* const runningOrNull = std::get_if<Running>(&_state))
-    {
-        runningOrNull->bStopRefused = false;
-    }
-    VerifyRecovered();
-}
-
-void ArmProgram::OnPauseSeen()
-{
-    _bPauseKnown = true;
-    VerifyRecovered();
-}
-
-/// A program that was found after a restart may be stopped by an earlier pause. It is stopped and resumed, after which it is
-/// known to run.
-void ArmProgram::VerifyRecovered()
-{
-    const Running* const runningOrNull = std::get_if<Running>(&_state);
-    if (runningOrNull != nullptr && runningOrNull->start == EArmStart::Counted && _bPauseKnown)
-    {
-        _work.bResumeRepeated = true;
-        _state = Unverified{};
-    }
 }
 
 void ArmProgram::Recover(ArmJob job, bool bBegun, bool bCancelled, AdapterActions& out)
@@ -160,21 +129,15 @@ void ArmProgram::Advance(bool bFree, bool bProbing, AdapterActions& out)
             _controls.Stop();
         }
     }
-    else if (Is<Unverified>())
+    else if (Is<Unverified>(_state))
     {
         // Not resumed: a program that has ended would run a second time.
         _state = Stopping{};
         _controls.Stop();
     }
-    else if (Is<Stopped>() && _work.bCancelled)
+    else if (Is<Stopped>(_state))
     {
-        _state = Resetting{};
-        _controls.Reset();
-    }
-    else if (Is<Stopped>() && !_bPauseWanted)
-    {
-        _state = Resuming{};
-        _controls.Resume();
+        AdvanceStopped(bProbing);
     }
     else if (const ResumeRefused* const refusedOrNull = std::get_if<ResumeRefused>(&_state))
     {
@@ -234,13 +197,13 @@ void ArmProgram::OnCountedBeforeStart(AdapterActions& out)
 void ArmProgram::OnVerified(bool bUnchanged, const std::optional<GeneralState>& stateOrNull, AdapterActions& out)
 {
     const bool bEffectMissing = stateOrNull.has_value() && !IsEffectShown(*stateOrNull);
-    const bool bBeforeStart = Is<VerifyingSelection>() || Is<VerifyingCounters>();
+    const bool bBeforeStart = Is<VerifyingSelection>(_state) || Is<VerifyingCounters>(_state);
     if (bBeforeStart && !bUnchanged)
     {
         // The selection has abandoned a program, or another one has run: the counters do not distinguish them.
         ReportNotStarted(out);
     }
-    else if (Is<VerifyingSelection>())
+    else if (Is<VerifyingSelection>(_state))
     {
         if (_work.inputs.GetInputs().empty())
         {
@@ -250,26 +213,26 @@ void ArmProgram::OnVerified(bool bUnchanged, const std::optional<GeneralState>& 
         _work.inputs.Begin();
         WriteInput();
     }
-    else if (Is<VerifyingCounters>())
+    else if (Is<VerifyingCounters>(_state))
     {
         _state = Prepared{true};
     }
-    else if (Is<Stopping>() && bEffectMissing)
+    else if (Is<Stopping>(_state) && bEffectMissing)
     {
         const bool bStopWanted = _bPauseWanted || _work.bCancelled;
         _state = bStopWanted ? ArmProgramState(Unverified{}) : ArmProgramState(Running{});
     }
-    else if (Is<Stopping>())
+    else if (Is<Stopping>(_state))
     {
-        _state = Stopped{};
+        _state = Stopped{EArmHalt::Verified};
     }
-    else if (Is<Resuming>() && bEffectMissing)
+    else if (Is<Resuming>(_state) && bEffectMissing)
     {
         _work.bResumeRepeated = true; // it may be executed later
         _state = ResumeRefused{"the arm's controller shows no running program after the start", false, false};
         ProbeRefusedProgram();
     }
-    else if (Is<Resuming>())
+    else if (Is<Resuming>(_state))
     {
         _state = Running{};
     }
@@ -277,15 +240,15 @@ void ArmProgram::OnVerified(bool bUnchanged, const std::optional<GeneralState>& 
 
 bool ArmProgram::IsEffectShown(const GeneralState& state) const
 {
-    if (Is<VerifyingSelection>())
+    if (Is<VerifyingSelection>(_state))
     {
         return state.program == std::int64_t{_work.program} && state.step.value_or(0) <= FIRST_STEP;
     }
-    if (Is<Stopping>())
+    if (Is<Stopping>(_state))
     {
         return !state.bPlaying;
     }
-    if (Is<Resuming>())
+    if (Is<Resuming>(_state))
     {
         return state.bPlaying;
     }
@@ -326,7 +289,11 @@ void ArmProgram::OnCountersBack(AdapterActions& out)
         refusedOrNull->bRetries = true;
         ProbeRefusedProgram();
     }
-    if (Is<Awaited>())
+    if (Is<Stopped>(_state))
+    {
+        _requests.push_back(EArmRequest::ProbePlayback); // it may have been resumed at the controller meanwhile
+    }
+    if (Is<Awaited>(_state))
     {
         out.emplace_back(Planning::StartAdapterTimer{ArmTimers::START, START_LIMIT});
     }
@@ -341,12 +308,12 @@ void ArmProgram::OnLost(AdapterActions& out)
     {
         runningOrNull->stoppedProbes = 0;
     }
-    _work.bResumeRepeated = _work.bResumeRepeated || Is<Resuming>();
-    if (Is<Stopping>() || Is<Resuming>())
+    _work.bResumeRepeated = _work.bResumeRepeated || Is<Resuming>(_state);
+    if (Is<Stopping>(_state) || Is<Resuming>(_state))
     {
         _state = Unverified{};
     }
-    else if (Is<Resetting>())
+    else if (Is<Resetting>(_state) || Is<Stopped>(_state))
     {
         _state = Stopped{};
     }
@@ -399,7 +366,7 @@ const std::vector<ArmInput>& ArmProgram::GetInputs() const noexcept
 
 bool ArmProgram::HasJob() const noexcept
 {
-    return !Is<NoJob>();
+    return !Is<NoJob>(_state);
 }
 
 bool ArmProgram::IsPreparing() const
@@ -409,33 +376,34 @@ bool ArmProgram::IsPreparing() const
 
 bool ArmProgram::IsCounted() const
 {
-    return HasJob() && !ArmStates::IsBeforeStart(_state) && !Is<Selecting>() && !Is<Rewinding>();
+    return HasJob() && !ArmStates::IsBeforeStart(_state) && !Is<Selecting>(_state) && !Is<Rewinding>(_state);
 }
 
 bool ArmProgram::IsReadingInputs() const
 {
-    return Is<ReadingInputs>();
+    return Is<ReadingInputs>(_state);
 }
 
 bool ArmProgram::IsRunning() const
 {
-    return Is<Running>();
+    return Is<Running>(_state);
 }
 
 bool ArmProgram::IsMotorDecisive() const
 {
-    return !HasJob() || Is<Refused>() || Is<ResumeRefused>();
+    return !HasJob() || Is<Refused>(_state) || Is<ResumeRefused>(_state);
 }
 
 bool ArmProgram::IsResumeDue() const
 {
-    const bool bStopped = Is<Stopped>() || Is<Resetting>() || Is<Resuming>() || Is<ResumeRefused>();
+    const bool bStopped =
+        Is<Stopped>(_state) || Is<Resetting>(_state) || Is<Resuming>(_state) || Is<ResumeRefused>(_state);
     return bStopped && !_bPauseWanted;
 }
 
 bool ArmProgram::IsArmStopped() const
 {
-    return !IsCounted() || Is<Stopped>() || Is<Resetting>();
+    return !IsCounted() || Is<Stopped>(_state) || Is<Resetting>(_state);
 }
 
 const std::optional<Planning::RobotError>& ArmProgram::GetTroubleOrNull() const noexcept

@@ -136,12 +136,6 @@ public:
     [[nodiscard]] const std::optional<Planning::RobotError>& GetTroubleOrNull() const noexcept;
 
 private:
-    template <typename TState>
-    [[nodiscard]] bool Is() const noexcept
-    {
-        return std::holds_alternative<TState>(_state);
-    }
-
     void SetWork(ArmJob job);
     void Select();
     void SelectUnlessCancelled(Planning::AdapterActions& out);
@@ -152,6 +146,7 @@ private:
     void LeaveStarting();
     void ProbeRefusedProgram();
     void VerifyRecovered();
+    void AdvanceStopped(bool bProbing);
     void OnAccepted(EArmControl kind, Planning::AdapterActions& out);
     void OnUnanswered(EArmControl kind, OpenStream::EControlOutcome outcome, Planning::AdapterActions& out);
     void OnControlRefused(EArmControl kind, const ArmRefusal& refusal, Planning::AdapterActions& out);

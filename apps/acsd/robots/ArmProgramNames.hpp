@@ -9,7 +9,9 @@ namespace ACS::Acsd
 
 using ArmStates::ArmProgramState;
 using ArmStates::Awaited;
+using ArmStates::EArmHalt;
 using ArmStates::EArmStart;
+using ArmStates::Is;
 using ArmStates::NoJob;
 using ArmStates::Prepared;
 using ArmStates::ReadingInputs;

@@ -8,19 +8,19 @@ bool IsAwaiting(const ArmProgramState& state, EArmControl kind)
     switch (kind)
     {
         case EArmControl::SelectProgram:
-            return std::holds_alternative<Selecting>(state);
+            return Is<Selecting>(state);
         case EArmControl::RewindProgram:
-            return std::holds_alternative<Rewinding>(state);
+            return Is<Rewinding>(state);
         case EArmControl::WriteInput:
-            return std::holds_alternative<WritingInputs>(state);
+            return Is<WritingInputs>(state);
         case EArmControl::StartProgram:
-            return std::holds_alternative<Starting>(state);
+            return Is<Starting>(state);
         case EArmControl::StopProgram:
-            return std::holds_alternative<Stopping>(state);
+            return Is<Stopping>(state);
         case EArmControl::ResumeProgram:
-            return std::holds_alternative<Resuming>(state);
+            return Is<Resuming>(state);
         case EArmControl::ResetProgram:
-            return std::holds_alternative<Resetting>(state);
+            return Is<Resetting>(state);
         case EArmControl::SwitchMotorOn:
         default:
             return false;
@@ -29,14 +29,12 @@ bool IsAwaiting(const ArmProgramState& state, EArmControl kind)
 
 bool IsPreparing(const ArmProgramState& state)
 {
-    return std::holds_alternative<WritingInputs>(state) || std::holds_alternative<ReadingInputs>(state)
-        || std::holds_alternative<VerifyingCounters>(state) || std::holds_alternative<Prepared>(state);
+    return Is<WritingInputs>(state) || Is<ReadingInputs>(state) || Is<VerifyingCounters>(state) || Is<Prepared>(state);
 }
 
 bool IsBeforeStart(const ArmProgramState& state)
 {
-    return std::holds_alternative<VerifyingSelection>(state) || std::holds_alternative<Refused>(state)
-        || IsPreparing(state);
+    return Is<VerifyingSelection>(state) || Is<Refused>(state) || IsPreparing(state);
 }
 
 } // namespace ACS::Acsd::ArmStates

@@ -88,8 +88,17 @@ struct Stopping
 {
 };
 
+/// What is known of a program since its stop was verified.
+enum class EArmHalt : std::uint8_t
+{
+    Unchecked, ///< It may have been resumed at the controller.
+    Shown,     ///< A probe found it stopped. Counters must follow: the program may have ended.
+    Verified,
+};
+
 struct Stopped
 {
+    EArmHalt halt = EArmHalt::Unchecked;
 };
 
 /// The CONTROL that resumes it was sent. Its effect is not verified.
@@ -136,6 +145,12 @@ using ArmProgramState = std::variant<
     Unverified,
     ResumeRefused,
     Resetting>;
+
+template <typename TState>
+[[nodiscard]] bool Is(const ArmProgramState& state) noexcept
+{
+    return std::holds_alternative<TState>(state);
+}
 
 /// The state is the one in which this CONTROL is under way. Otherwise its job has ended meanwhile.
 [[nodiscard]] bool IsAwaiting(const ArmProgramState& state, EArmControl kind);

@@ -205,6 +205,23 @@ struct ArmFixture
         return TakeRequests();
     }
 
+    /// The state that the probe finds which was requested, and the counters after it.
+    void ShowProbe(std::string_view state, std::string_view counters)
+    {
+        CHECK(TakeRequests() == std::vector<std::string>{MONITOR_PLAYBACK});
+        AcknowledgeMonitor();
+        DeliverData(state);
+        ShowVerification(counters);
+    }
+
+    /// Likewise, of the probe that is due after some time.
+    void ShowTimedProbe(std::string_view state, std::string_view counters)
+    {
+        static_cast<void>(TakeRequests());
+        Fire(PROBE_TIMER);
+        ShowProbe(state, counters);
+    }
+
     void Fire(Planning::AdapterTimerID timer)
     {
         adapter.OnTimer(timer, clock.GetNow(), actions);

@@ -175,8 +175,17 @@ TEST_CASE("A pause stops the program, verifies that it is stopped, and resumes i
     CHECK(arm.program.IsEffectShown({false, 11, 3}));
     arm.program.OnVerified(false, std::nullopt, arm.actions);
     CHECK(arm.program.IsArmStopped());
+    static_cast<void>(arm.program.TakeRequests());
+    arm.Advance();
+    CHECK(arm.TakeControls().empty());
     arm.program.SetPauseWanted(false);
     CHECK(arm.program.IsResumeDue());
+    arm.Advance();
+    CHECK(arm.program.TakeRequests() == std::vector<EArmRequest>{EArmRequest::ProbePlayback});
+    arm.program.OnPlaybackProbed(false, false);
+    arm.Advance();
+    CHECK(arm.TakeControls().empty());
+    arm.program.OnCounted(false, arm.actions);
     arm.Advance();
     CHECK(arm.TakeControls() == std::vector<std::string>{"start"});
     arm.Settle(EControlOutcome::Accepted);

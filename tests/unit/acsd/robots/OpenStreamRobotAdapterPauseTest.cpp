@@ -17,6 +17,7 @@ void SettleGoingOn(ArmFixture& arm, OpenStream::EControlOutcome outcome = OpenSt
     arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
     arm.Accept("[6,5,0]");
     arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    arm.ShowProbe(STOPPED_STATE, "[6,5,0]");
     REQUIRE(arm.TakeRequests() == std::vector<std::string>{START});
     arm.Settle(outcome, 403);
 }
@@ -105,6 +106,7 @@ TEST_CASE("6.7 Pause stops the arm's program where it is; the robot is paused wh
     CHECK(arm.IsReportedPaused());
 
     arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    arm.ShowProbe(STOPPED_STATE, "[6,5,0]");
     CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     arm.ShowBase(false);
     CHECK(arm.IsReportedPaused());
@@ -349,6 +351,7 @@ TEST_CASE("6.8 A stopped program whose resume is refused is reported, and resume
         arm.Fire(ArmFixture::RETRY_TIMER);
         CHECK(arm.TakeRequests().empty());
         arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+        arm.ShowProbe(STOPPED_STATE, "[6,5,0]");
         CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     }
     SECTION("The connection is lost meanwhile")
@@ -417,6 +420,7 @@ TEST_CASE("D-16 A job that is cancelled while it is paused resets its program an
     arm.Accept("[6,5,0]");
     arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
     arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    arm.ShowProbe(STOPPED_STATE, "[6,5,0]");
     CHECK(arm.TakeRequests() == std::vector<std::string>{RESET});
     CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
     arm.Settle(OpenStream::EControlOutcome::Accepted);
@@ -431,6 +435,7 @@ TEST_CASE("D-16 An older controller does not know r_code: its task is reset, and
     arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
     arm.Accept("[6,5,0]");
     arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+    arm.ShowProbe(STOPPED_STATE, "[6,5,0]");
     REQUIRE(arm.TakeRequests() == std::vector<std::string>{RESET});
     arm.Settle(OpenStream::EControlOutcome::Refused, GENERATE(403, 404));
     CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
@@ -441,6 +446,7 @@ TEST_CASE("D-16 An older controller does not know r_code: its task is reset, and
         CHECK(arm.TakeRequests().empty());
         CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
         arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+        arm.ShowProbe(STOPPED_STATE, "[6,5,0]");
         CHECK(arm.TakeRequests() == std::vector<std::string>{START});
     }
     SECTION("The task is reset")
@@ -460,6 +466,7 @@ TEST_CASE("D-16 An older controller does not know r_code: its task is reset, and
         arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
         arm.Accept("[7,5,0]");
         arm.adapter.Handle(Planning::CancelJob{"K"}, arm.clock.GetNow(), arm.actions);
+        arm.ShowProbe(STOPPED_STATE, "[7,5,0]");
         CHECK(arm.TakeRequests() == std::vector<std::string>{bReconnect ? RESET : RESET_TASK});
     }
 }
