@@ -48,6 +48,8 @@ struct ArmProbed
 {
     EArmProbe probe = EArmProbe::Motor;
     std::optional<bool> bOnOrNull; ///< The motor is on, or a program runs.
+    std::optional<std::int64_t>
+        programOrNull; ///< Of a probe of playback: the program that is selected, where it is shown.
 };
 
 /// Fact: all ranges of relays were read once.

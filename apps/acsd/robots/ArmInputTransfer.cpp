@@ -63,7 +63,6 @@ bool ArmInputTransfer::TryVerify(const std::vector<ArmRelayWords>& ranges)
             return false;
         }
     }
-    _retries = 0; // they may be read again later, after a pause
     return true;
 }
 

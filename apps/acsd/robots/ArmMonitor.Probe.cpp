@@ -101,7 +101,7 @@ ArmFact ArmMonitor::AbandonProbe(bool bHidden)
     bool& bKnownHidden = kind == EArmProbe::Motor ? _bMotorHidden : _bGeneralHidden;
     bKnownHidden = bKnownHidden || bHidden;
     _view = Counters{};
-    return ArmProbed{kind, std::nullopt};
+    return ArmProbed{kind, std::nullopt, std::nullopt};
 }
 
 std::string_view ArmMonitor::GetProbeURL(EArmProbe probe)

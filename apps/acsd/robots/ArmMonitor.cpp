@@ -176,6 +176,7 @@ ArmFact ArmMonitor::HandleProbe(const Core::JsonText& json)
     }
     const EArmProbe kind = probeOrNull->kind;
     std::optional<bool> bOn;
+    std::optional<std::int64_t> programOrNull;
     if (kind == EArmProbe::Motor)
     {
         bOn = ReadMotorOnOrNull(json);
@@ -183,13 +184,14 @@ ArmFact ArmMonitor::HandleProbe(const Core::JsonText& json)
     else if (const std::optional<GeneralState> stateOrNull = ReadGeneralStateOrNull(json); stateOrNull.has_value())
     {
         bOn = stateOrNull->bPlaying;
+        programOrNull = stateOrNull->program;
     }
     if (!bOn.has_value())
     {
         return {};
     }
     _view = Counters{};
-    return ArmProbed{kind, bOn};
+    return ArmProbed{kind, bOn, programOrNull};
 }
 
 ArmFact ArmMonitor::HandleRelays(const Core::JsonText& json)

@@ -64,7 +64,7 @@ void ArmProgram::OnAccepted(EArmControl kind, AdapterActions& out)
             _requests.push_back(EArmRequest::VerifyEffect);
             break;
         case EArmControl::RewindProgram:
-            SelectUnlessCancelled(out);
+            Select(out);
             break;
         case EArmControl::WriteInput:
             if (_work.inputs.TryNext())
@@ -87,18 +87,6 @@ void ArmProgram::OnAccepted(EArmControl kind, AdapterActions& out)
         default:
             _requests.push_back(EArmRequest::VerifyEffect);
             break;
-    }
-}
-
-void ArmProgram::SelectUnlessCancelled(AdapterActions& out)
-{
-    if (_work.bCancelled)
-    {
-        Fail("cancelled before it was started", out);
-    }
-    else
-    {
-        Select();
     }
 }
 
@@ -160,8 +148,7 @@ void ArmProgram::OnControlRefused(EArmControl kind, const ArmRefusal& refusal, A
             Refuse(refusal.reason);
             break;
         case EArmControl::RewindProgram:
-            SelectUnlessCancelled(
-                out); // a controller may not know the rewind; the selection shows whether it is needed
+            Select(out); // a controller may not know the rewind; the selection shows whether it is needed
             break;
         case EArmControl::WriteInput:
             Refuse(fmt::format(
@@ -292,8 +279,10 @@ void ArmProgram::OnPlaybackHidden(AdapterActions& out)
     Fail(fmt::format("it was paused and cannot be resumed: {}", refusedOrNull->refusal), out);
 }
 
-void ArmProgram::OnPlaybackProbed(std::optional<bool> bPlayingOrNull, bool bWatched)
+void ArmProgram::OnPlaybackProbed(const ArmProbed& probed, bool bWatched)
 {
+    const std::optional<bool> bPlayingOrNull = probed.bOnOrNull;
+    _work.probedProgramOrNull = probed.programOrNull;
     if (ResumeRefused* const refusedOrNull = std::get_if<ResumeRefused>(&_state))
     {
         if (!bPlayingOrNull.has_value())
@@ -376,6 +365,11 @@ void ArmProgram::OnCounted(bool bWatched, AdapterActions& out)
 
 void ArmProgram::Retry()
 {
+    if (Stopped* const stoppedOrNull = std::get_if<Stopped>(&_state);
+        stoppedOrNull != nullptr && stoppedOrNull->halt == EArmHalt::Replaced)
+    {
+        stoppedOrNull->halt = EArmHalt::Unchecked;
+    }
     if (const ResumeRefused* const refusedOrNull = std::get_if<ResumeRefused>(&_state);
         refusedOrNull != nullptr && refusedOrNull->bRetries)
     {

@@ -1,11 +1,16 @@
 #include "robots/ArmProgram.hpp"
 
 #include "robots/ArmProgramNames.hpp"
+#include "robots/ArmTimers.hpp"
+
+#include <fmt/format.h>
 
 // What a program that is stopped for a pause needs before it is resumed or reset.
 
 namespace ACS::Acsd
 {
+
+using Planning::AdapterActions;
 
 bool ArmProgram::IsPauseWanted() const noexcept
 {
@@ -43,15 +48,17 @@ void ArmProgram::VerifyRecovered()
 
 /// It may have been resumed at the controller since its stop was verified. So it is probed again before it is reset or
 /// resumed.
-void ArmProgram::AdvanceStopped(bool bProbing)
+void ArmProgram::AdvanceStopped(bool bProbing, AdapterActions& out)
 {
     EArmHalt& halt = std::get<Stopped>(_state).halt;
     const bool bPaused = _bPauseWanted && !_work.bCancelled;
+    const bool bReplaced = _work.stoppedProgramOrNull.has_value() && _work.probedProgramOrNull.has_value()
+        && _work.stoppedProgramOrNull != _work.probedProgramOrNull;
     if (bPaused)
     {
-        halt = halt == EArmHalt::Verified ? EArmHalt::Unchecked : halt;
+        halt = halt == EArmHalt::Shown ? halt : EArmHalt::Unchecked;
     }
-    else if (halt == EArmHalt::Unchecked && !bProbing)
+    else if ((halt == EArmHalt::Unchecked || (halt == EArmHalt::Replaced && _work.bCancelled)) && !bProbing)
     {
         _requests.push_back(EArmRequest::ProbePlayback);
     }
@@ -59,6 +66,17 @@ void ArmProgram::AdvanceStopped(bool bProbing)
     {
         _state = Resetting{};
         _controls.Reset();
+    }
+    else if (halt == EArmHalt::Verified && bReplaced)
+    {
+        halt = EArmHalt::Replaced;
+        RaiseHalt(fmt::format(
+            "The arm's program of job {} was paused and cannot be resumed: it was stopped in program {}, and program {} is "
+            "selected. Retrying in 5 s. Select it again, or abandon it there: the job then fails.",
+            _work.jobID,
+            *_work.stoppedProgramOrNull,
+            *_work.probedProgramOrNull));
+        out.emplace_back(Planning::StartAdapterTimer{ArmTimers::RETRY, ArmTimers::RETRY_DELAY});
     }
     else if (halt == EArmHalt::Verified)
     {

@@ -35,21 +35,32 @@ void ArmProgram::SetWork(ArmJob job)
     _work.inputs = ArmInputTransfer(std::move(job.inputs), _options.inputRetries);
 }
 
-void ArmProgram::Start(ArmJob job)
+void ArmProgram::Start(ArmJob job, AdapterActions& out)
 {
     SetWork(std::move(job));
+    BeginSelection(out);
+}
+
+void ArmProgram::BeginSelection(AdapterActions& out)
+{
+    _work.bRewound = false;
     if (_controls.IsRewindDue())
     {
         Rewind();
     }
     else
     {
-        Select();
+        Select(out);
     }
 }
 
-void ArmProgram::Select()
+void ArmProgram::Select(AdapterActions& out)
 {
+    if (_work.bCancelled)
+    {
+        Fail("cancelled before it was started", out);
+        return;
+    }
     _state = Selecting{};
     _controls.Select(_work.program);
 }
@@ -109,16 +120,16 @@ void ArmProgram::Advance(bool bFree, bool bProbing, AdapterActions& out)
     {
         if (_bPauseWanted)
         {
-            preparedOrNull->bVerified = _work.inputs.GetInputs().empty(); // they may be overwritten meanwhile
+            preparedOrNull->bPaused = true;
         }
-        else if (preparedOrNull->bVerified)
+        else if (preparedOrNull->bPaused)
         {
-            _state = Starting{};
-            _controls.Start();
+            BeginSelection(out);
         }
         else
         {
-            ReadInputs(out);
+            _state = Starting{};
+            _controls.Start();
         }
     }
     else if (const Running* const runningOrNull = std::get_if<Running>(&_state))
@@ -137,7 +148,7 @@ void ArmProgram::Advance(bool bFree, bool bProbing, AdapterActions& out)
     }
     else if (Is<Stopped>(_state))
     {
-        AdvanceStopped(bProbing);
+        AdvanceStopped(bProbing, out);
     }
     else if (const ResumeRefused* const refusedOrNull = std::get_if<ResumeRefused>(&_state))
     {
@@ -196,6 +207,7 @@ void ArmProgram::OnCountedBeforeStart(AdapterActions& out)
 
 void ArmProgram::OnVerified(bool bUnchanged, const std::optional<GeneralState>& stateOrNull, AdapterActions& out)
 {
+    const std::optional<std::int64_t> shownOrNull = stateOrNull.value_or(GeneralState{}).program;
     const bool bEffectMissing = stateOrNull.has_value() && !IsEffectShown(*stateOrNull);
     const bool bBeforeStart = Is<VerifyingSelection>(_state) || Is<VerifyingCounters>(_state);
     if (bBeforeStart && !bUnchanged)
@@ -203,11 +215,20 @@ void ArmProgram::OnVerified(bool bUnchanged, const std::optional<GeneralState>& 
         // The selection has abandoned a program, or another one has run: the counters do not distinguish them.
         ReportNotStarted(out);
     }
+    else if (Is<VerifyingSelection>(_state) && shownOrNull.has_value() && shownOrNull != std::int64_t{_work.program})
+    {
+        Fail(
+            fmt::format(
+                "the arm's controller shows program {} as selected in place of program {}, which was not started",
+                *shownOrNull,
+                _work.program),
+            out);
+    }
     else if (Is<VerifyingSelection>(_state))
     {
         if (_work.inputs.GetInputs().empty())
         {
-            _state = Prepared{true};
+            _state = Prepared{};
             return;
         }
         _work.inputs.Begin();
@@ -215,7 +236,7 @@ void ArmProgram::OnVerified(bool bUnchanged, const std::optional<GeneralState>& 
     }
     else if (Is<VerifyingCounters>(_state))
     {
-        _state = Prepared{true};
+        _state = Prepared{};
     }
     else if (Is<Stopping>(_state) && bEffectMissing)
     {
@@ -224,6 +245,8 @@ void ArmProgram::OnVerified(bool bUnchanged, const std::optional<GeneralState>& 
     }
     else if (Is<Stopping>(_state))
     {
+        _work.stoppedProgramOrNull = shownOrNull;
+        _work.probedProgramOrNull = shownOrNull;
         _state = Stopped{EArmHalt::Verified};
     }
     else if (Is<Resuming>(_state) && bEffectMissing)

@@ -55,6 +55,9 @@ class ArmProgram
         bool bRewound = false;        ///< The program counter was set for its selection.
         bool bResumeRepeated = false; ///< Its program may run already, in which case a refused resume is no failure.
         bool bCancelled = false;      ///< Its program is reset as soon as it is known to be stopped.
+        /// As it was shown when the program was stopped: this program, or a subprogram of it.
+        std::optional<std::int64_t> stoppedProgramOrNull;
+        std::optional<std::int64_t> probedProgramOrNull; ///< As the latest check showed it.
     };
 
     ArmOptions _options;
@@ -70,7 +73,7 @@ public:
     /// The controls must outlive it.
     ArmProgram(ArmOptions options, ArmControls& controls);
 
-    void Start(ArmJob job);
+    void Start(ArmJob job, Planning::AdapterActions& out);
     /// Continues a job of before a restart. bBegun: the counters show that its program has begun. bCancelled: it was cancelled during
     /// a pause, so that its program is reset.
     void Recover(ArmJob job, bool bBegun, bool bCancelled, Planning::AdapterActions& out);
@@ -108,10 +111,9 @@ public:
     /// The motor is on, or the controller does not show it.
     void OnMotorProbed(Planning::AdapterActions& out);
     void OnMotorOff(Planning::AdapterActions& out);
-    /// Without a value when the controller did not answer.
-    void OnPlaybackProbed(std::optional<bool> bPlayingOrNull, bool bWatched);
+    void OnPlaybackProbed(const ArmProbed& probed, bool bWatched);
     void OnPlaybackHidden(Planning::AdapterActions& out);
-    /// Time to resume a program whose resume was refused.
+    /// Time to resume a program whose resume was refused, or in place of which another one was selected.
     void Retry();
     void ForgetHalt();
 
@@ -137,8 +139,8 @@ public:
 
 private:
     void SetWork(ArmJob job);
-    void Select();
-    void SelectUnlessCancelled(Planning::AdapterActions& out);
+    void BeginSelection(Planning::AdapterActions& out);
+    void Select(Planning::AdapterActions& out);
     void Rewind();
     [[nodiscard]] bool TryRewind(const ArmRefusal& refusal);
     void WriteInput();
@@ -146,7 +148,7 @@ private:
     void LeaveStarting();
     void ProbeRefusedProgram();
     void VerifyRecovered();
-    void AdvanceStopped(bool bProbing);
+    void AdvanceStopped(bool bProbing, Planning::AdapterActions& out);
     void OnAccepted(EArmControl kind, Planning::AdapterActions& out);
     void OnUnanswered(EArmControl kind, OpenStream::EControlOutcome outcome, Planning::AdapterActions& out);
     void OnControlRefused(EArmControl kind, const ArmRefusal& refusal, Planning::AdapterActions& out);

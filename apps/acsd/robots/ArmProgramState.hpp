@@ -46,7 +46,7 @@ struct VerifyingCounters
 /// It can be started as soon as no pause is wanted.
 struct Prepared
 {
-    bool bVerified = false; ///< Inputs and counters were verified last; otherwise the inputs are read again.
+    bool bPaused = false; ///< Another program may have been selected meanwhile: it is selected again.
 };
 
 /// The controller refused a CONTROL before the program was started. The motor is probed.
@@ -94,6 +94,7 @@ enum class EArmHalt : std::uint8_t
     Unchecked, ///< It may have been resumed at the controller.
     Shown,     ///< A probe found it stopped. Counters must follow: the program may have ended.
     Verified,
+    Replaced, ///< It is stopped, and another program is selected. It is probed again later.
 };
 
 struct Stopped

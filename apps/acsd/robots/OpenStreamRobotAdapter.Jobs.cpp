@@ -57,7 +57,7 @@ void OpenStreamRobotAdapter::StartJob(const Planning::StartJob& job, Core::Now n
         return;
     }
     _evidence.Begin(GetEchoedNumber(job, *made));
-    _program.Start(std::move(*made));
+    _program.Start(std::move(*made), out);
 }
 
 bool OpenStreamRobotAdapter::TryEndRepetition(const Planning::RobotEvent& event, Core::Now now, AdapterActions& out)

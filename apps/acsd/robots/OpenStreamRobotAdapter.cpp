@@ -321,7 +321,7 @@ void OpenStreamRobotAdapter::OnProbed(const ArmProbed& probed, AdapterActions& o
     else
     {
         _monitor.WatchCounters();
-        _program.OnPlaybackProbed(probed.bOnOrNull, IsProgramWatched());
+        _program.OnPlaybackProbed(probed, IsProgramWatched());
     }
     Update(out);
 }

@@ -58,7 +58,7 @@ struct ProgramFixture
     /// Selected, started and begun.
     void Run()
     {
-        program.Start({"J", 11, {}});
+        program.Start({"J", 11, {}}, actions);
         Settle(EControlOutcome::Accepted);
         program.OnVerified(true, std::nullopt, actions);
         Advance();
@@ -84,7 +84,7 @@ struct ProgramFixture
 TEST_CASE("Each step of a program waits for the one before to be verified")
 {
     ProgramFixture arm;
-    arm.program.Start({"J", 11, {{*ParseArmRelay("ml105"), 7}}});
+    arm.program.Start({"J", 11, {{*ParseArmRelay("ml105"), 7}}}, arm.actions);
     arm.Advance();
     CHECK(arm.TakeControls() == std::vector<std::string>{"cur_prog_cnt"});
     arm.Settle(EControlOutcome::Accepted);
@@ -120,7 +120,7 @@ TEST_CASE("Each step of a program waits for the one before to be verified")
 TEST_CASE("A program is not started where the counters have changed since its inputs were read")
 {
     ProgramFixture arm;
-    arm.program.Start({"J", 11, {{*ParseArmRelay("ml105"), 7}}});
+    arm.program.Start({"J", 11, {{*ParseArmRelay("ml105"), 7}}}, arm.actions);
     arm.Settle(EControlOutcome::Accepted);
     arm.program.OnVerified(true, std::nullopt, arm.actions);
     arm.Settle(EControlOutcome::Accepted);
@@ -182,7 +182,7 @@ TEST_CASE("A pause stops the program, verifies that it is stopped, and resumes i
     CHECK(arm.program.IsResumeDue());
     arm.Advance();
     CHECK(arm.program.TakeRequests() == std::vector<EArmRequest>{EArmRequest::ProbePlayback});
-    arm.program.OnPlaybackProbed(false, false);
+    arm.program.OnPlaybackProbed({EArmProbe::Playback, false, 11}, false);
     arm.Advance();
     CHECK(arm.TakeControls().empty());
     arm.program.OnCounted(false, arm.actions);
@@ -202,7 +202,7 @@ TEST_CASE("A CONTROL that settles after the end of its job changes nothing")
     arm.Advance();
     arm.Prove(true, ArmProof::EOutcome::Finished);
     arm.program.SetPauseWanted(false);
-    arm.program.Start({"K", 12, {}});
+    arm.program.Start({"K", 12, {}}, arm.actions);
     arm.Settle(EControlOutcome::Refused); // the stop
     CHECK(arm.program.TakeRequests().empty());
     CHECK_FALSE(arm.HasReported<Planning::JobFailed>());
@@ -214,7 +214,7 @@ TEST_CASE("A CONTROL that settles after the end of its job changes nothing")
 TEST_CASE("A job that is cancelled while its program is being selected fails when it is selected, and is not started")
 {
     ProgramFixture arm;
-    arm.program.Start({"J", 11, {}});
+    arm.program.Start({"J", 11, {}}, arm.actions);
     arm.program.Cancel("J", arm.actions);
     CHECK(arm.actions.empty());
     arm.Settle(EControlOutcome::Accepted);
@@ -226,7 +226,7 @@ TEST_CASE("A job that is cancelled while its program is being selected fails whe
 TEST_CASE("A start whose fate is unknown is awaited, and echoed without counters it is not begun again")
 {
     ProgramFixture arm;
-    arm.program.Start({"J", 11, {}});
+    arm.program.Start({"J", 11, {}}, arm.actions);
     arm.Settle(EControlOutcome::Accepted);
     arm.program.OnVerified(true, std::nullopt, arm.actions);
     arm.Advance();

@@ -69,4 +69,82 @@ TEST_CASE("6.8 After a reconnect a paused program is checked, and stopped again 
     CHECK(arm.TakeRequests().empty());
 }
 
+TEST_CASE("6.7 A program that was selected before a pause is selected again after it")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    arm.Command("J");
+    arm.Accept();
+    CHECK(arm.TakeRequests().empty());
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
+    arm.Accept();
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+}
+
+TEST_CASE("A program is not started while the controller shows another one as selected")
+{
+    ArmFixture arm;
+    arm.BringUp();
+    arm.Command("J");
+    static_cast<void>(arm.TakeRequests());
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.ShowEffect(R"({"is_playback":0,"cur_prog_no":12,"cur_step_no":0})");
+    static_cast<void>(arm.TakeRequests());
+    arm.Fire(ArmFixture::EFFECT_TIMER);
+    arm.ShowVerification();
+    CHECK(arm.TakeRequests().empty());
+    const auto failed = arm.TakeEvents<Planning::JobFailed>();
+    REQUIRE(failed.size() == 1);
+    CHECK(failed.front().reason.find("12") != std::string::npos);
+}
+
+TEST_CASE("6.8 A paused program is not started in place of another one that was selected meanwhile")
+{
+    constexpr std::string_view OTHER_STATE = R"({"is_playback":0,"cur_prog_no":12,"cur_step_no":0})";
+    ArmFixture arm;
+    PauseRunning(arm);
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    arm.actions.clear();
+    arm.ShowProbe(OTHER_STATE, "[6,5,0]");
+    CHECK(arm.TakeRequests().empty());
+    CHECK(arm.TakeErrors() == "ARM-programHalted");
+    SECTION("It is selected again: it is started")
+    {
+        arm.Fire(ArmFixture::RETRY_TIMER);
+        arm.ShowProbe(STOPPED_STATE, "[6,5,0]");
+        CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+    }
+    SECTION("It is not")
+    {
+        arm.Fire(ArmFixture::RETRY_TIMER);
+        arm.ShowProbe(OTHER_STATE, "[6,5,0]");
+        CHECK(arm.TakeRequests().empty());
+    }
+    SECTION("Its job is cancelled")
+    {
+        arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+        arm.ShowProbe(OTHER_STATE, "[6,5,0]");
+        CHECK(arm.TakeRequests() == std::vector<std::string>{RESET});
+    }
+}
+
+TEST_CASE("6.8 A program that was stopped in a subprogram is started there")
+{
+    constexpr std::string_view SUBPROGRAM_STATE = R"({"is_playback":0,"cur_prog_no":1101,"cur_step_no":2})";
+    ArmFixture arm;
+    arm.StartRunning();
+    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
+    static_cast<void>(arm.TakeRequests());
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.ShowEffect(SUBPROGRAM_STATE);
+    arm.AcknowledgeMonitor();
+    arm.DeliverData("[6,5,0]");
+    static_cast<void>(arm.TakeRequests());
+    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    arm.ShowProbe(SUBPROGRAM_STATE, "[6,5,0]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+}
+
 } // namespace ACS::Acsd::Test

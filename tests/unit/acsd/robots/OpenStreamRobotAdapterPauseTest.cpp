@@ -131,6 +131,8 @@ TEST_CASE("6.7 Pause without a job is the base's alone; a program that was just 
     arm.Accept();
     CHECK(arm.TakeRequests().empty());
     arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
+    arm.Accept();
     CHECK(arm.TakeRequests() == std::vector<std::string>{START});
 }
 
