@@ -349,7 +349,7 @@ void ArmProgram::OnCounted(bool bWatched, AdapterActions& out)
     {
         return;
     }
-    if (refusedOrNull->bRetries || _bPauseWanted || _work.bCancelled)
+    if (refusedOrNull->bRetries || IsPauseWanted() || _work.bCancelled)
     {
         _state = Stopped{EArmHalt::Verified};
         return;

@@ -14,12 +14,12 @@ using Planning::AdapterActions;
 
 bool ArmProgram::IsPauseWanted() const noexcept
 {
-    return _bPauseWanted;
+    return _bPauseOrNull.value_or(false);
 }
 
 void ArmProgram::SetPauseWanted(bool bWanted)
 {
-    _bPauseWanted = bWanted;
+    _bPauseOrNull = bWanted;
     _bPauseKnown = true;
     if (Running* const runningOrNull = std::get_if<Running>(&_state))
     {
@@ -28,9 +28,10 @@ void ArmProgram::SetPauseWanted(bool bWanted)
     VerifyRecovered();
 }
 
-void ArmProgram::OnPauseSeen()
+void ArmProgram::OnPauseShown(bool bPaused)
 {
-    _bPauseKnown = true;
+    _bPauseShown = bPaused;
+    _bPauseKnown = _bPauseKnown || bPaused;
     VerifyRecovered();
 }
 
@@ -51,7 +52,8 @@ void ArmProgram::VerifyRecovered()
 void ArmProgram::AdvanceStopped(bool bProbing, AdapterActions& out)
 {
     EArmHalt& halt = std::get<Stopped>(_state).halt;
-    const bool bPaused = _bPauseWanted && !_work.bCancelled;
+    // A pause of before a restart, or of the vehicle's operator, continues until it is ended there or by a command.
+    const bool bPaused = _bPauseOrNull.value_or(_bPauseShown) && !_work.bCancelled;
     const bool bReplaced = _work.stoppedProgramOrNull.has_value() && _work.probedProgramOrNull.has_value()
         && _work.stoppedProgramOrNull != _work.probedProgramOrNull;
     if (bPaused)

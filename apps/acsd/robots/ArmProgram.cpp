@@ -95,7 +95,7 @@ void ArmProgram::Cancel(const std::string& jobID, AdapterActions& out)
         return;
     }
     const bool bRuns = Is<Starting>(_state) || Is<Awaited>(_state) || Is<Running>(_state);
-    _work.bCancelled = _work.bCancelled || _bPauseWanted || !bRuns;
+    _work.bCancelled = _work.bCancelled || IsPauseWanted() || !bRuns;
 }
 
 void ArmProgram::Recover(ArmJob job, bool bBegun, bool bCancelled, AdapterActions& out)
@@ -118,7 +118,7 @@ void ArmProgram::Advance(bool bFree, bool bProbing, AdapterActions& out)
     }
     if (Prepared* const preparedOrNull = std::get_if<Prepared>(&_state))
     {
-        if (_bPauseWanted)
+        if (IsPauseWanted())
         {
             preparedOrNull->bPaused = true;
         }
@@ -134,7 +134,7 @@ void ArmProgram::Advance(bool bFree, bool bProbing, AdapterActions& out)
     }
     else if (const Running* const runningOrNull = std::get_if<Running>(&_state))
     {
-        if (_bPauseWanted && !runningOrNull->bStopRefused)
+        if (IsPauseWanted() && !runningOrNull->bStopRefused)
         {
             _state = Stopping{};
             _controls.Stop();
@@ -153,7 +153,7 @@ void ArmProgram::Advance(bool bFree, bool bProbing, AdapterActions& out)
     else if (const ResumeRefused* const refusedOrNull = std::get_if<ResumeRefused>(&_state))
     {
         const bool bDue =
-            refusedOrNull->bRetries && !refusedOrNull->bSeenStopped && (_bPauseWanted || _work.bCancelled);
+            refusedOrNull->bRetries && !refusedOrNull->bSeenStopped && (IsPauseWanted() || _work.bCancelled);
         if (bDue && !bProbing)
         {
             ProbeRefusedProgram();
@@ -240,7 +240,7 @@ void ArmProgram::OnVerified(bool bUnchanged, const std::optional<GeneralState>& 
     }
     else if (Is<Stopping>(_state) && bEffectMissing)
     {
-        const bool bStopWanted = _bPauseWanted || _work.bCancelled;
+        const bool bStopWanted = IsPauseWanted() || _work.bCancelled;
         _state = bStopWanted ? ArmProgramState(Unverified{}) : ArmProgramState(Running{});
     }
     else if (Is<Stopping>(_state))
@@ -421,7 +421,7 @@ bool ArmProgram::IsResumeDue() const
 {
     const bool bStopped =
         Is<Stopped>(_state) || Is<Resetting>(_state) || Is<Resuming>(_state) || Is<ResumeRefused>(_state);
-    return bStopped && !_bPauseWanted;
+    return bStopped && !IsPauseWanted();
 }
 
 bool ArmProgram::IsArmStopped() const

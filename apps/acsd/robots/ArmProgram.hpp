@@ -64,9 +64,10 @@ class ArmProgram
     ArmProgramControls _controls;
     std::vector<EArmRequest> _requests;
     ArmStates::ArmProgramState _state;
-    Work _work; ///< Empty without a job.
-    bool _bPauseWanted = false;
-    bool _bPauseKnown = false; ///< The robot has been paused or resumed since this start of acsd.
+    Work _work;                        ///< Empty without a job.
+    std::optional<bool> _bPauseOrNull; ///< As it was commanded since this start of acsd; absent: it was not.
+    bool _bPauseShown = false;         ///< The vehicle was last reported paused.
+    bool _bPauseKnown = false;         ///< A pause was commanded, ended or reported since this start of acsd.
     std::optional<Planning::RobotError> _trouble;
 
 public:
@@ -81,8 +82,8 @@ public:
     /// stopped for a pause is reset.
     void Cancel(const std::string& jobID, Planning::AdapterActions& out);
     void SetPauseWanted(bool bWanted);
-    /// The vehicle was reported paused.
-    void OnPauseSeen();
+    /// Whether the vehicle was reported paused.
+    void OnPauseShown(bool bPaused);
 
     /// A CONTROL has settled that was not the motor's.
     void OnSettled(const ArmSettlement& settlement, Planning::AdapterActions& out);

@@ -40,10 +40,7 @@ void OpenStreamRobotAdapter::DrainBase(Core::Now now, AdapterActions& out)
         if (stateOrNull != nullptr)
         {
             _baseState = *stateOrNull;
-            if (stateOrNull->bPaused)
-            {
-                _program.OnPauseSeen();
-            }
+            _program.OnPauseShown(stateOrNull->bPaused);
             _bBaseStateKnown = true;
             _bPaused = IsPaused();
             out.emplace_back(RaiseEvent{MakeState()});

@@ -140,4 +140,27 @@ TEST_CASE(
     CHECK(arm.TakeRequests().empty());
 }
 
+TEST_CASE("After a restart a program is not started while its vehicle is paused and no resume was commanded")
+{
+    ArmRecoveryFixture arm("[6,5,0]");
+    arm.adapter.OnLinkUp(arm.clock.GetNow(), arm.actions);
+    arm.ShowBase(true);
+    arm.DeliverData("[6,5,0]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
+    arm.Accept("[6,5,0]");
+    CHECK(arm.TakeRequests().empty());
+    const bool bCommanded = GENERATE(false, true);
+    if (bCommanded)
+    {
+        arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
+    }
+    else
+    {
+        arm.ShowBase(false);
+        arm.DeliverData("[6,5,0]");
+    }
+    arm.ShowProbe(STOPPED_STATE, "[6,5,0]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+}
+
 } // namespace ACS::Acsd::Test
