@@ -157,7 +157,7 @@ void ArmProgram::OnControlRefused(EArmControl kind, const ArmRefusal& refusal, A
                 refusal.reason));
             break;
         case EArmControl::StopProgram:
-            _state = Running{EArmStart::Sent, true, 0};
+            _state = Running{EArmStart::Sent, true};
             break;
         case EArmControl::ResumeProgram:
             // The job does not fail when the motor is off or the program runs already.
@@ -316,27 +316,27 @@ void ArmProgram::OnPlaybackProbed(const ArmProbed& probed, bool bWatched)
         }
         return;
     }
-    Running* const runningOrNull = std::get_if<Running>(&_state);
-    if (*bPlayingOrNull || !bWatched || runningOrNull == nullptr)
+    if (*bPlayingOrNull || !bWatched || !IsStarted())
     {
         ForgetHalt();
     }
     else
     {
-        ++runningOrNull->stoppedProbes;
+        ++_work.stoppedProbes;
     }
 }
 
 /// A program that has ended is stopped, too. Only counters that are newer than the probe show that it has not ended.
 void ArmProgram::OnCounted(bool bWatched, AdapterActions& out)
 {
-    const Running* const runningOrNull = std::get_if<Running>(&_state);
-    if (runningOrNull != nullptr && bWatched && runningOrNull->stoppedProbes >= PROBES_OF_HALT)
+    if (bWatched && _work.stoppedProbes >= PROBES_OF_HALT)
     {
         RaiseHalt(fmt::format(
-            "The arm's program of job {} is stopped before its end. Find the cause at the controller. Resume the program "
-            "there, or abandon it there: the job then fails.",
-            _work.jobID));
+            "The arm's program of job {} {}. Find the cause at the controller. {} the program there, or abandon it there: the "
+            "job then fails.",
+            _work.jobID,
+            Is<Awaited>(_state) ? "was started, and does not run" : "is stopped before its end",
+            Is<Awaited>(_state) ? "Start" : "Resume"));
     }
     if (Stopped* const stoppedOrNull = std::get_if<Stopped>(&_state);
         stoppedOrNull != nullptr && stoppedOrNull->halt == EArmHalt::Shown)
@@ -384,10 +384,7 @@ void ArmProgram::RaiseHalt(std::string message)
 
 void ArmProgram::ForgetHalt()
 {
-    if (Running* const runningOrNull = std::get_if<Running>(&_state))
-    {
-        runningOrNull->stoppedProbes = 0;
-    }
+    _work.stoppedProbes = 0;
     _trouble.reset();
 }
 

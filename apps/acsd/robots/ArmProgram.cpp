@@ -172,6 +172,7 @@ void ArmProgram::OnProof(const ArmProof& proof, const std::string& echo, Adapter
     else if (proof.bBegun && awaitedOrNull != nullptr)
     {
         out.emplace_back(RaiseEvent{Planning::JobStarted{_work.jobID}});
+        ForgetHalt();
         _state = Running{awaitedOrNull->start};
         VerifyRecovered();
     }
@@ -247,6 +248,7 @@ void ArmProgram::OnVerified(bool bUnchanged, const std::optional<GeneralState>& 
     {
         _work.stoppedProgramOrNull = shownOrNull;
         _work.probedProgramOrNull = shownOrNull;
+        _work.stoppedProbes = 0;
         _state = Stopped{EArmHalt::Verified};
     }
     else if (Is<Resuming>(_state) && bEffectMissing)
@@ -316,8 +318,9 @@ void ArmProgram::OnCountersBack(AdapterActions& out)
     {
         _requests.push_back(EArmRequest::ProbePlayback); // it may have been resumed at the controller meanwhile
     }
-    if (Is<Awaited>(_state))
+    if (Awaited* const awaitedOrNull = std::get_if<Awaited>(&_state))
     {
+        awaitedOrNull->bReconnected = true;
         out.emplace_back(Planning::StartAdapterTimer{ArmTimers::START, START_LIMIT});
     }
 }
@@ -327,10 +330,7 @@ void ArmProgram::OnLost(AdapterActions& out)
     _trouble.reset();
     _controls.OnLost();
     out.emplace_back(Planning::CancelAdapterTimer{ArmTimers::START});
-    if (Running* const runningOrNull = std::get_if<Running>(&_state))
-    {
-        runningOrNull->stoppedProbes = 0;
-    }
+    _work.stoppedProbes = 0;
     _work.bResumeRepeated = _work.bResumeRepeated || Is<Resuming>(_state);
     if (Is<Stopping>(_state) || Is<Resuming>(_state))
     {
@@ -407,9 +407,12 @@ bool ArmProgram::IsReadingInputs() const
     return Is<ReadingInputs>(_state);
 }
 
-bool ArmProgram::IsRunning() const
+bool ArmProgram::IsStarted() const
 {
-    return Is<Running>(_state);
+    const Awaited* const awaitedOrNull = std::get_if<Awaited>(&_state);
+    const bool bAwaited = awaitedOrNull != nullptr && awaitedOrNull->start == EArmStart::Sent
+        && awaitedOrNull->refusal.empty() && !awaitedOrNull->bReconnected;
+    return Is<Running>(_state) || bAwaited;
 }
 
 bool ArmProgram::IsMotorDecisive() const

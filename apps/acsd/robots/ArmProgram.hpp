@@ -13,6 +13,7 @@
 #include <acs/plan/RobotEvent.hpp>
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -52,9 +53,10 @@ class ArmProgram
         std::string jobID;
         std::uint32_t program = 0;
         ArmInputTransfer inputs;
-        bool bRewound = false;        ///< The program counter was set for its selection.
-        bool bResumeRepeated = false; ///< Its program may run already, in which case a refused resume is no failure.
-        bool bCancelled = false;      ///< Its program is reset as soon as it is known to be stopped.
+        bool bRewound = false;         ///< The program counter was set for its selection.
+        bool bResumeRepeated = false;  ///< Its program may run already, in which case a refused resume is no failure.
+        std::size_t stoppedProbes = 0; ///< Probes in a row that found the started program stopped.
+        bool bCancelled = false;       ///< Its program is reset as soon as it is known to be stopped.
         /// As it was shown when the program was stopped: this program, or a subprogram of it.
         std::optional<std::int64_t> stoppedProgramOrNull;
         std::optional<std::int64_t> probedProgramOrNull; ///< As the latest check showed it.
@@ -130,7 +132,8 @@ public:
     /// It is selected and not started: a program that changes the counters now is another one.
     [[nodiscard]] bool IsPreparing() const;
     [[nodiscard]] bool IsReadingInputs() const;
-    [[nodiscard]] bool IsRunning() const;
+    /// It was started, and nothing limits the time until its end or, before that, until it begins.
+    [[nodiscard]] bool IsStarted() const;
     /// The result of a probe of the motor decides about the job.
     [[nodiscard]] bool IsMotorDecisive() const;
     /// It must be resumed, and is not verified to run.

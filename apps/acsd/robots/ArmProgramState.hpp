@@ -2,7 +2,6 @@
 
 #include "robots/ArmControls.hpp"
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -73,14 +72,14 @@ enum class EArmStart : std::uint8_t
 struct Awaited
 {
     EArmStart start = EArmStart::Sent;
-    std::string refusal; ///< One that arrived late; empty: none.
+    std::string refusal;       ///< One that arrived late; empty: none.
+    bool bReconnected = false; ///< Since it was started.
 };
 
 struct Running
 {
     EArmStart start = EArmStart::Sent;
-    bool bStopRefused = false;     ///< Not sent again before the next pause.
-    std::size_t stoppedProbes = 0; ///< Probes in a row that found the program stopped.
+    bool bStopRefused = false; ///< Not sent again before the next pause.
 };
 
 /// The CONTROL that stops it was sent. Its effect is not verified.

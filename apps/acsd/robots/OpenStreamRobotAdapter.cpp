@@ -419,7 +419,7 @@ bool OpenStreamRobotAdapter::IsFree() const
 
 bool OpenStreamRobotAdapter::IsProgramWatched() const
 {
-    return IsFree() && _program.IsRunning();
+    return IsFree() && _program.IsStarted();
 }
 
 } // namespace ACS::Acsd

@@ -191,7 +191,7 @@ TEST_CASE("A pause stops the program, verifies that it is stopped, and resumes i
     arm.Settle(EControlOutcome::Accepted);
     CHECK_FALSE(arm.program.IsEffectShown({false, 11, 3}));
     arm.program.OnVerified(false, std::nullopt, arm.actions);
-    CHECK(arm.program.IsRunning());
+    CHECK(arm.program.IsStarted());
 }
 
 TEST_CASE("A CONTROL that settles after the end of its job changes nothing")

@@ -147,4 +147,31 @@ TEST_CASE("6.8 A program that was stopped in a subprogram is started there")
     CHECK(arm.TakeRequests() == std::vector<std::string>{START});
 }
 
+TEST_CASE("A program that does not begin after its start is reported when probes find no program running")
+{
+    ArmFixture arm;
+    arm.BringUpWithBase();
+    arm.Command("J");
+    arm.Accept();
+    arm.Accept("[5,5,0]");
+    arm.actions.clear();
+    arm.ShowTimedProbe(STOPPED_STATE, "[5,5,0]");
+    CHECK(arm.TakeErrors() == "?");
+    arm.ShowTimedProbe(STOPPED_STATE, "[5,5,0]");
+    CHECK(arm.TakeErrors() == "ARM-programHalted");
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    SECTION("It is started at the controller")
+    {
+        arm.ShowTimedProbe(RUNNING_STATE, "[5,5,0]");
+        CHECK(arm.TakeErrors().empty());
+        arm.DeliverData("[6,5,0]");
+        CHECK(arm.TakeEvents<Planning::JobStarted>().size() == 1);
+    }
+    SECTION("It begins")
+    {
+        arm.DeliverData("[6,5,0]");
+        CHECK(arm.TakeErrors().empty());
+    }
+}
+
 } // namespace ACS::Acsd::Test
