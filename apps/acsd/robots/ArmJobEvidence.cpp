@@ -88,7 +88,7 @@ tl::expected<bool, std::string> ArmJobEvidence::Recover(std::string_view token, 
     {
         return tl::unexpected<std::string>("the arm's counters of before the job are not known");
     }
-    if (now == ArmCounters{})
+    if (IsZero())
     {
         return tl::unexpected<std::string>("all of the arm's counters are 0, as after a restart of its controller");
     }
@@ -134,6 +134,11 @@ ArmProof ArmJobEvidence::Evaluate()
 bool ArmJobEvidence::IsUnchanged() const
 {
     return !_latest.has_value() || _latest->counters == _base;
+}
+
+bool ArmJobEvidence::IsZero() const
+{
+    return _latest.has_value() && _latest->counters == ArmCounters{};
 }
 
 bool ArmJobEvidence::IsEchoExpected() const

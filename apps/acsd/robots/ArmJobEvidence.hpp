@@ -85,6 +85,9 @@ public:
     /// No program has raised a counter since the job was commanded.
     [[nodiscard]] bool IsUnchanged() const;
 
+    /// All counters are 0, as after a restart of the controller.
+    [[nodiscard]] bool IsZero() const;
+
     /// The job's program has surely begun, even where it has raised no counter yet.
     [[nodiscard]] bool IsEchoed() const;
 

@@ -281,7 +281,7 @@ bool ArmProgram::IsEffectShown(const GeneralState& state) const
 }
 
 /// Without this limit a start that was lost on the way would leave the job running indefinitely.
-void ArmProgram::OnStartTimer(bool bEchoed, AdapterActions& out)
+void ArmProgram::OnStartTimer(bool bEchoed, bool bZero, AdapterActions& out)
 {
     const Awaited* const awaitedOrNull = std::get_if<Awaited>(&_state);
     if (awaitedOrNull == nullptr)
@@ -291,6 +291,10 @@ void ArmProgram::OnStartTimer(bool bEchoed, AdapterActions& out)
     if (bEchoed)
     {
         ReportUnresolved("the arm's program has echoed the job's number but has not raised its started counter", out);
+    }
+    else if (bZero && awaitedOrNull->bReconnected)
+    {
+        ReportUnresolved("all of the arm's counters are 0, as after a restart of its controller", out);
     }
     else if (!awaitedOrNull->refusal.empty())
     {

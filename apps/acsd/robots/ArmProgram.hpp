@@ -110,7 +110,8 @@ public:
     void OnInputsRead(const std::vector<ArmRelayWords>& ranges, Planning::AdapterActions& out);
     void OnInputsRefused(const std::string& reason, Planning::AdapterActions& out);
     void OnInputTimer(Planning::AdapterActions& out);
-    void OnStartTimer(bool bEchoed, Planning::AdapterActions& out);
+    /// bZero: all counters are 0.
+    void OnStartTimer(bool bEchoed, bool bZero, Planning::AdapterActions& out);
     /// The motor is on, or the controller does not show it.
     void OnMotorProbed(Planning::AdapterActions& out);
     void OnMotorOff(Planning::AdapterActions& out);

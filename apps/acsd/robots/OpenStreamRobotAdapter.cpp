@@ -90,7 +90,7 @@ void OpenStreamRobotAdapter::OnTimer(Planning::AdapterTimerID timer, Core::Now n
         case ArmTimers::START:
             if (_monitor.IsReady())
             {
-                _program.OnStartTimer(_evidence.IsEchoed(), out);
+                _program.OnStartTimer(_evidence.IsEchoed(), _evidence.IsZero(), out);
             }
             break;
         case ArmTimers::INPUT:

@@ -235,7 +235,7 @@ TEST_CASE("A start whose fate is unknown is awaited, and echoed without counters
     CHECK(arm.program.HasJob());
     arm.program.OnCountersBack(arm.actions);
     const bool bEchoed = GENERATE(false, true);
-    arm.program.OnStartTimer(bEchoed, arm.actions);
+    arm.program.OnStartTimer(bEchoed, false, arm.actions);
     CHECK(arm.HasReported<Planning::JobUnresolved>() == bEchoed);
     CHECK(arm.HasReported<Planning::JobFailed>() != bEchoed);
 }

@@ -163,4 +163,19 @@ TEST_CASE("After a restart a program is not started while its vehicle is paused 
     CHECK(arm.TakeRequests() == std::vector<std::string>{START});
 }
 
+TEST_CASE("Counters that are all 0 after a reconnect do not prove that a program did not begin")
+{
+    ArmFixture arm;
+    arm.BringUp("[0,0,0]");
+    arm.Command("J");
+    arm.Accept("[0,0,0]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+    arm.Settle(OpenStream::EControlOutcome::Unknown);
+    arm.Deliver(OpenStream::ClientLost{});
+    arm.BringUp("[0,0,0]");
+    arm.Fire(ArmFixture::START_TIMER);
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    CHECK(arm.TakeEvents<Planning::JobUnresolved>().size() == 1);
+}
+
 } // namespace ACS::Acsd::Test
