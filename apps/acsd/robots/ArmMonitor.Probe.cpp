@@ -71,6 +71,12 @@ ArmFact ArmMonitor::OnProbeTimer(std::optional<EArmProbe> wantedOrNull, AdapterA
     {
         return AbandonProbe(probeOrNull->bAccepted);
     }
+    if (HasLostCounters())
+    {
+        _link = ELink::Counting;
+        static_cast<void>(TryRetry(out));
+        return {};
+    }
     const Counters* const countersOrNull = std::get_if<Counters>(&_view);
     const bool bFree = countersOrNull != nullptr && countersOrNull->bFresh && _controls.IsIdle();
     if (bFree && wantedOrNull.has_value() && !IsHidden(*wantedOrNull))
@@ -80,10 +86,23 @@ ArmFact ArmMonitor::OnProbeTimer(std::optional<EArmProbe> wantedOrNull, AdapterA
     return {};
 }
 
+/// Call once for each probe timer. A MONITOR may stop to show the counters, for example when the relays were removed.
+bool ArmMonitor::HasLostCounters()
+{
+    const bool bShown = std::holds_alternative<Counters>(_view) || std::holds_alternative<Verification>(_view);
+    const bool bSilent = bShown && !std::exchange(_bCounted, false);
+    _silence = bSilent ? _silence + GetProbeDelay() : std::chrono::milliseconds(0);
+    return _silence >= ArmTimers::RETRY_DELAY;
+}
+
+std::chrono::milliseconds ArmMonitor::GetProbeDelay() const
+{
+    return std::max(PROBE_INTERVAL, PROBE_PERIODS * _options.period);
+}
+
 void ArmMonitor::StartProbeTimer(AdapterActions& out) const
 {
-    const std::chrono::milliseconds delay = std::max(PROBE_INTERVAL, PROBE_PERIODS * _options.period);
-    out.emplace_back(Planning::StartAdapterTimer{ArmTimers::PROBE, delay});
+    out.emplace_back(Planning::StartAdapterTimer{ArmTimers::PROBE, GetProbeDelay()});
 }
 
 /// The probe may be answered during the whole interval.

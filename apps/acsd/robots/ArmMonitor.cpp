@@ -124,6 +124,7 @@ void ArmMonitor::OnLost(AdapterActions& out)
     _bMotorHidden = false;
     _bGeneralHidden = false;
     _unshownEffects = 0;
+    _silence = {};
 }
 
 ArmFact ArmMonitor::OnSample(const Core::JsonText& json, AdapterActions& out)
@@ -264,6 +265,7 @@ ArmFact ArmMonitor::HandleCounters(const Core::JsonText& json, AdapterActions& o
     {
         return {};
     }
+    _bCounted = true;
     const bool bFirst = std::exchange(_link, ELink::Ready) != ELink::Ready;
     if (bFirst)
     {

@@ -46,6 +46,8 @@ class ArmMonitor
     bool _bMotorHidden = false;                   ///< The controller does not show the motor to a probe.
     bool _bGeneralHidden = false;                 ///< Likewise its general state.
     std::size_t _unshownEffects = 0;              ///< Number in a row, of CONTROLs after which no state was shown.
+    bool _bCounted = false;                       ///< Counters have arrived since the latest probe timer.
+    std::chrono::milliseconds _silence{0};        ///< Time without counters while they are shown.
     bool _bMonitorRefused = false;                ///< The latest MONITOR of the motor or the counters was refused.
     std::string _motorRefusal;                    ///< Of the latest CONTROL that switches the motor on; empty: none.
     std::optional<Planning::RobotError> _trouble; ///< Why the arm cannot work although its session is ready.
@@ -101,7 +103,9 @@ private:
     void WatchCounters(ArmViews::ArmView view);
     [[nodiscard]] std::size_t GetWordCount() const;
     [[nodiscard]] std::optional<ArmSample> ReadSampleOrNull(const Core::JsonText& json) const;
+    [[nodiscard]] std::chrono::milliseconds GetProbeDelay() const;
     void StartProbeTimer(Planning::AdapterActions& out) const;
+    [[nodiscard]] bool HasLostCounters();
     [[nodiscard]] ArmFact HandleSample(const Core::JsonText& json, Planning::AdapterActions& out);
     [[nodiscard]] ArmFact HandleProbe(const Core::JsonText& json);
     [[nodiscard]] ArmFact HandleRelays(const Core::JsonText& json);

@@ -321,4 +321,25 @@ TEST_CASE("The robot's state is reported when it comes online, because its base 
     CHECK(arm.TakeErrors().empty());
 }
 
+TEST_CASE("Counters that disappear from the samples are reported, and read again when they are back")
+{
+    ArmFixture arm;
+    arm.StartRunning();
+    arm.actions.clear();
+    for (int probe = 0; probe < 5; ++probe)
+    {
+        arm.DeliverData(probe == 0 ? "[6,5,0]" : "[5]");
+        static_cast<void>(arm.TakeProbe());
+        arm.DeliverData(RUNNING_STATE);
+    }
+    CHECK(arm.TakeErrors() == "?");
+    static_cast<void>(arm.TakeRequests());
+    arm.Fire(ArmFixture::PROBE_TIMER);
+    CHECK(arm.TakeErrors() == "ARM-countersMissing");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_COUNTERS});
+    arm.DeliverData("[6,6,0]");
+    CHECK(arm.TakeErrors().empty());
+    CHECK(arm.TakeEvents<Planning::JobFinished>().empty()); // taken above
+}
+
 } // namespace ACS::Acsd::Test
