@@ -79,7 +79,8 @@ void ArmProgram::OnAccepted(EArmControl kind, AdapterActions& out)
             _requests.push_back(EArmRequest::VerifyCounters);
             break;
         case EArmControl::ResetProgram:
-            Fail("cancelled while it was paused", out);
+            _state = Resetting{true};
+            _requests.push_back(EArmRequest::VerifyEffect);
             break;
         case EArmControl::StopProgram:
         case EArmControl::ResumeProgram:
@@ -165,6 +166,7 @@ void ArmProgram::OnControlRefused(EArmControl kind, const ArmRefusal& refusal, A
             _requests.push_back(EArmRequest::ProbeMotor);
             break;
         case EArmControl::ResetProgram:
+            _state = Resetting{};
             if (!_controls.TryOtherReset())
             {
                 _work.bCancelled = false;
@@ -227,6 +229,10 @@ void ArmProgram::OnFault(const ArmRefusal& refusal, AdapterActions& out)
     else if (Is<Resuming>(_state))
     {
         OnControlRefused(EArmControl::ResumeProgram, refusal, out);
+    }
+    else if (Is<Resetting>(_state))
+    {
+        OnControlRefused(EArmControl::ResetProgram, refusal, out);
     }
 }
 

@@ -87,4 +87,16 @@ void ArmProgram::AdvanceStopped(bool bProbing, AdapterActions& out)
     }
 }
 
+/// A program that was resumed at the controller just before its reset may not have been reset.
+void ArmProgram::FinishReset(const std::optional<GeneralState>& stateOrNull, AdapterActions& out)
+{
+    if (stateOrNull.value_or(GeneralState{}).bPlaying)
+    {
+        _state = Running{};
+        return;
+    }
+    _controls.OnResetVerified();
+    Fail("cancelled while it was paused", out);
+}
+
 } // namespace ACS::Acsd

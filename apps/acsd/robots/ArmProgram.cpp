@@ -200,12 +200,6 @@ void ArmProgram::OnRestarted(AdapterActions& out)
         out);
 }
 
-/// Another program has run since the selection. Its counters could not be distinguished from those of this job's program.
-void ArmProgram::OnCountedBeforeStart(AdapterActions& out)
-{
-    ReportNotStarted(out);
-}
-
 void ArmProgram::OnVerified(bool bUnchanged, const std::optional<GeneralState>& stateOrNull, AdapterActions& out)
 {
     const std::optional<std::int64_t> shownOrNull = stateOrNull.value_or(GeneralState{}).program;
@@ -251,6 +245,11 @@ void ArmProgram::OnVerified(bool bUnchanged, const std::optional<GeneralState>& 
         _work.stoppedProbes = 0;
         _state = Stopped{EArmHalt::Verified};
     }
+    else if (const Resetting* const resettingOrNull = std::get_if<Resetting>(&_state);
+             resettingOrNull != nullptr && resettingOrNull->bAccepted)
+    {
+        FinishReset(stateOrNull, out);
+    }
     else if (Is<Resuming>(_state) && bEffectMissing)
     {
         _work.bResumeRepeated = true; // it may be executed later
@@ -277,7 +276,8 @@ bool ArmProgram::IsEffectShown(const GeneralState& state) const
     {
         return state.bPlaying;
     }
-    return true; // the job has ended meanwhile
+    // A stopped program shows nothing of a reset: the time limit is for a late refusal. Otherwise the job has ended meanwhile.
+    return !Is<Resetting>(_state);
 }
 
 /// Without this limit a start that was lost on the way would leave the job running indefinitely.
@@ -374,7 +374,6 @@ void ArmProgram::ReportUnresolved(std::string reason, AdapterActions& out)
     out.emplace_back(RaiseEvent{Planning::JobUnresolved{std::move(jobID), std::move(reason)}});
 }
 
-/// The program was certainly not started: the job can be commanded again.
 void ArmProgram::ReportNotStarted(AdapterActions& out)
 {
     std::string jobID = End(out);

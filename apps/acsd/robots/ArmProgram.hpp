@@ -97,8 +97,9 @@ public:
     void OnProof(const ArmProof& proof, const std::string& echo, Planning::AdapterActions& out);
     /// The counters have fallen.
     void OnRestarted(Planning::AdapterActions& out);
-    /// The counters have changed before the program was started.
-    void OnCountedBeforeStart(Planning::AdapterActions& out);
+    /// The program was certainly not started: the job can be commanded again. For example because the counters have changed
+    /// before its start: those of another program could not be distinguished from those of this job's program.
+    void ReportNotStarted(Planning::AdapterActions& out);
     /// Counters have come that are newer than the last probe.
     void OnCounted(bool bWatched, Planning::AdapterActions& out);
     /// The first counters of a connection.
@@ -153,6 +154,7 @@ private:
     void LeaveStarting();
     void ProbeRefusedProgram();
     void VerifyRecovered();
+    void FinishReset(const std::optional<GeneralState>& stateOrNull, Planning::AdapterActions& out);
     void AdvanceStopped(bool bProbing, Planning::AdapterActions& out);
     void OnAccepted(EArmControl kind, Planning::AdapterActions& out);
     void OnUnanswered(EArmControl kind, OpenStream::EControlOutcome outcome, Planning::AdapterActions& out);
@@ -163,7 +165,6 @@ private:
     [[nodiscard]] std::string End(Planning::AdapterActions& out);
     void Fail(std::string reason, Planning::AdapterActions& out);
     void ReportUnresolved(std::string reason, Planning::AdapterActions& out);
-    void ReportNotStarted(Planning::AdapterActions& out);
     void RaiseHalt(std::string message);
 };
 

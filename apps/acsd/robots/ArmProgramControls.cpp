@@ -87,6 +87,11 @@ bool ArmProgramControls::TryOtherReset()
     return true;
 }
 
+void ArmProgramControls::OnResetVerified() noexcept
+{
+    _acceptedResetOrNull = _sentReset;
+}
+
 void ArmProgramControls::OnSettled(EArmControl kind, OpenStream::EControlOutcome outcome)
 {
     const bool bAccepted = outcome == OpenStream::EControlOutcome::Accepted;
@@ -101,11 +106,6 @@ void ArmProgramControls::OnSettled(EArmControl kind, OpenStream::EControlOutcome
             _bRewindDue = _bRewindDue && !bAccepted;
             break;
         case EArmControl::ResetProgram:
-            if (bAccepted)
-            {
-                _acceptedResetOrNull = _sentReset;
-            }
-            break;
         case EArmControl::SwitchMotorOn:
         case EArmControl::SelectProgram:
         case EArmControl::WriteInput:

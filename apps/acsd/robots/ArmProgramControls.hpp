@@ -39,6 +39,9 @@ public:
     /// both were refused.
     [[nodiscard]] bool TryOtherReset();
 
+    /// The reset that was sent last was not refused.
+    void OnResetVerified() noexcept;
+
     /// One of these has settled.
     void OnSettled(EArmControl kind, OpenStream::EControlOutcome outcome);
     void OnLost() noexcept;

@@ -120,9 +120,10 @@ struct ResumeRefused
     bool bSeenStopped = false; ///< Counters must follow: the program may have ended.
 };
 
-/// The CONTROL that abandons it is under way.
+/// The CONTROL that abandons it was sent. It may be refused late.
 struct Resetting
 {
+    bool bAccepted = false; ///< Not refused at once.
 };
 
 /// Where the program of a job is between its selection and its end.

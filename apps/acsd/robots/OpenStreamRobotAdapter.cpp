@@ -286,7 +286,7 @@ void OpenStreamRobotAdapter::OnCounted(const ArmCounted& counted, AdapterActions
     }
     else if (_program.IsPreparing() && !_evidence.IsUnchanged())
     {
-        _program.OnCountedBeforeStart(out);
+        _program.ReportNotStarted(out);
     }
     if (!counted.bFirst)
     {

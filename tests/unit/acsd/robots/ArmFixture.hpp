@@ -222,6 +222,17 @@ struct ArmFixture
         ShowProbe(state, counters);
     }
 
+    /// A reset is accepted, and not refused late.
+    void AcceptReset(std::string_view counters)
+    {
+        Settle(OpenStream::EControlOutcome::Accepted);
+        CHECK(TakeRequests() == std::vector<std::string>{MONITOR_PLAYBACK});
+        ShowEffect(STOPPED_STATE);
+        CHECK(TakeEvents<Planning::JobFailed>().empty());
+        Fire(EFFECT_TIMER);
+        ShowVerification(counters);
+    }
+
     void Fire(Planning::AdapterTimerID timer)
     {
         adapter.OnTimer(timer, clock.GetNow(), actions);

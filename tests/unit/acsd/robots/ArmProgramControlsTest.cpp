@@ -61,7 +61,7 @@ TEST_CASE("A controller that refuses r_code is sent the reset of its task, and f
     CHECK(arm.TakeControl() == TASK_RESET);
     SECTION("Accepted")
     {
-        arm.program.OnSettled(EArmControl::ResetProgram, EControlOutcome::Accepted);
+        arm.program.OnResetVerified();
         arm.program.Reset();
         CHECK(arm.TakeControl() == TASK_RESET);
         CHECK_FALSE(arm.program.TryOtherReset());
@@ -80,7 +80,7 @@ TEST_CASE("A controller that accepts r_code is sent no other reset")
 {
     ControlsFixture arm;
     arm.program.Reset();
-    arm.program.OnSettled(EArmControl::ResetProgram, EControlOutcome::Accepted);
+    arm.program.OnResetVerified();
     CHECK(arm.TakeControl() == RCODE);
     CHECK_FALSE(arm.program.TryOtherReset());
     CHECK(arm.outputs.armRequests.empty());

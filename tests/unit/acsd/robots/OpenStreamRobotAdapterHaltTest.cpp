@@ -174,4 +174,43 @@ TEST_CASE("A program that does not begin after its start is reported when probes
     }
 }
 
+TEST_CASE("D-16 A reset that is refused late does not fail the job: the other reset is sent")
+{
+    ArmFixture arm;
+    PauseRunning(arm);
+    arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+    arm.ShowProbe(STOPPED_STATE, "[6,5,0]");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{RESET});
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    CHECK(arm.TakeRequests() == std::vector<std::string>{MONITOR_PLAYBACK});
+    arm.ShowEffect(STOPPED_STATE);
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    arm.Deliver(OpenStream::ClientControlFault{404, std::nullopt, "late"});
+    CHECK(arm.TakeRequests() == std::vector<std::string>{RESET_TASK});
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.ShowEffect(STOPPED_STATE);
+    arm.Fire(ArmFixture::EFFECT_TIMER);
+    static_cast<void>(arm.TakeRequests());
+    arm.AcknowledgeMonitor();
+    arm.DeliverData("[6,5,0]");
+    CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
+}
+
+TEST_CASE("D-16 A program that is shown running after its reset has not ended")
+{
+    ArmFixture arm;
+    PauseRunning(arm);
+    arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+    arm.ShowProbe(STOPPED_STATE, "[6,5,0]");
+    static_cast<void>(arm.TakeRequests());
+    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.ShowEffect(RUNNING_STATE);
+    arm.Fire(ArmFixture::EFFECT_TIMER);
+    static_cast<void>(arm.TakeRequests());
+    arm.AcknowledgeMonitor();
+    arm.DeliverData("[6,5,0]");
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
+}
+
 } // namespace ACS::Acsd::Test

@@ -332,7 +332,7 @@ TEST_CASE("6.8 A stopped program whose resume is refused is reported, and resume
         arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
         ShowProgramProbe(arm, STOPPED_STATE);
         CHECK(arm.TakeRequests() == std::vector<std::string>{RESET});
-        arm.Settle(OpenStream::EControlOutcome::Accepted);
+        arm.AcceptReset("[6,5,0]");
         CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
         CHECK(arm.TakeErrors().empty());
     }
@@ -425,7 +425,7 @@ TEST_CASE("D-16 A job that is cancelled while it is paused resets its program an
     arm.ShowProbe(STOPPED_STATE, "[6,5,0]");
     CHECK(arm.TakeRequests() == std::vector<std::string>{RESET});
     CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.AcceptReset("[6,5,0]");
     CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
     CHECK(arm.TakeRequests().empty());
 }
@@ -453,7 +453,7 @@ TEST_CASE("D-16 An older controller does not know r_code: its task is reset, and
     }
     SECTION("The task is reset")
     {
-        arm.Settle(OpenStream::EControlOutcome::Accepted);
+        arm.AcceptReset("[6,5,0]");
         CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
         const bool bReconnect = GENERATE(false, true);
         if (bReconnect)

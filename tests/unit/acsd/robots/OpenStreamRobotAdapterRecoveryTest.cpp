@@ -106,7 +106,7 @@ TEST_CASE(
     CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
     arm.Accept("[6,5,0]");
     CHECK(arm.TakeRequests() == std::vector<std::string>{RESET});
-    arm.Settle(OpenStream::EControlOutcome::Accepted);
+    arm.AcceptReset("[6,5,0]");
     CHECK(arm.TakeEvents<Planning::JobFailed>().size() == 1);
 }
 
