@@ -50,7 +50,7 @@ void ArmMonitor::VerifyEffect(AdapterActions& out)
         return;
     }
     _view = Effect{};
-    Monitor(GENERAL_URL, _options.period, std::nullopt);
+    Monitor(GENERAL_URL, std::min(_options.period, LONGEST_READ_PERIOD), std::nullopt);
     out.emplace_back(Planning::StartAdapterTimer{ArmTimers::EFFECT, EFFECT_LIMIT});
 }
 
@@ -110,7 +110,7 @@ void ArmMonitor::BeginProbe(EArmProbe probe, AdapterActions& out)
 {
     StartProbeTimer(out);
     _view = Probe{probe, false};
-    Monitor(GetProbeURL(probe), _options.period, std::nullopt);
+    Monitor(GetProbeURL(probe), std::min(_options.period, LONGEST_READ_PERIOD), std::nullopt);
 }
 
 /// A probe that was accepted and not answered, or refused, is not supported by this controller.

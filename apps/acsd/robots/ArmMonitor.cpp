@@ -25,8 +25,6 @@ using Planning::AdapterActions;
 using Planning::RobotError;
 
 constexpr std::chrono::milliseconds MOTOR_PERIOD = 200ms;
-/// While a job waits for what is read.
-constexpr std::chrono::milliseconds LONGEST_READ_PERIOD = 100ms;
 
 constexpr std::string_view MOTOR_ON_URL = "/project/robot/motor_on";
 
@@ -71,6 +69,15 @@ void ArmMonitor::MonitorMotor()
     Monitor(MOTOR_STATE_URL, MOTOR_PERIOD, std::nullopt);
 }
 
+/// Counters arrive after up to one period.
+void ArmMonitor::StartRetryTimer(AdapterActions& out) const
+{
+    const std::chrono::milliseconds delay = _link == ELink::MotorOff
+        ? ArmTimers::RETRY_DELAY
+        : ArmTimers::AddPeriods(ArmTimers::RETRY_DELAY, _options.period);
+    out.emplace_back(Planning::StartAdapterTimer{ArmTimers::RETRY, delay});
+}
+
 void ArmMonitor::SwitchMotorOn()
 {
     _controls.Send(EArmControl::SwitchMotorOn, MOTOR_ON_URL, "{}");
@@ -107,7 +114,7 @@ void ArmMonitor::WatchMotor(AdapterActions& out)
     _view = Counters{};
     MonitorMotor();
     SwitchMotorOn();
-    out.emplace_back(Planning::StartAdapterTimer{ArmTimers::RETRY, ArmTimers::RETRY_DELAY});
+    StartRetryTimer(out);
 }
 
 void ArmMonitor::OnLost(AdapterActions& out)
@@ -136,7 +143,7 @@ ArmFact ArmMonitor::OnSample(const Core::JsonText& json, AdapterActions& out)
             {
                 _link = ELink::Counting;
                 WatchCounters();
-                out.emplace_back(Planning::StartAdapterTimer{ArmTimers::RETRY, ArmTimers::RETRY_DELAY});
+                StartRetryTimer(out);
             }
             return {};
         case ELink::Counting:
@@ -338,7 +345,7 @@ ArmFact ArmMonitor::OnRefused(const OpenStream::ClientMonitorRefused& refused, A
     }
     _bMonitorRefused = true;
     _trouble = MakeHeavy(ERROR_MONITOR, fmt::format("Counters or motor unknown: {}. Retrying in 5 s.", reason));
-    out.emplace_back(Planning::StartAdapterTimer{ArmTimers::RETRY, ArmTimers::RETRY_DELAY});
+    StartRetryTimer(out);
     return {};
 }
 
@@ -395,7 +402,7 @@ bool ArmMonitor::TryRetry(AdapterActions& out)
                     _options.monitorURL));
         }
     }
-    out.emplace_back(Planning::StartAdapterTimer{ArmTimers::RETRY, ArmTimers::RETRY_DELAY});
+    StartRetryTimer(out);
     return true;
 }
 

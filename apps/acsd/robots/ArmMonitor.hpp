@@ -35,6 +35,8 @@ class ArmMonitor
 
     static constexpr std::string_view MOTOR_STATE_URL = "/project/robot/motor_on_state";
     static constexpr std::string_view GENERAL_URL = "/project/rgen";
+    /// While a job waits for what is read in place of the counters.
+    static constexpr std::chrono::milliseconds LONGEST_READ_PERIOD{100};
 
     ArmOptions _options;
     RobotOutputs& _outputs;
@@ -98,6 +100,7 @@ public:
 private:
     void Monitor(std::string_view url, std::chrono::milliseconds period, std::optional<Core::JsonText> argsOrNull);
     void MonitorMotor();
+    void StartRetryTimer(Planning::AdapterActions& out) const;
     void MonitorRange();
     void SwitchMotorOn();
     void WatchCounters(ArmViews::ArmView view);

@@ -194,7 +194,8 @@ void ArmProgram::OnStartRefused(const ArmRefusal& refusal, AdapterActions& out)
     if (Awaited* const awaitedOrNull = std::get_if<Awaited>(&_state))
     {
         awaitedOrNull->refusal = refusal.reason;
-        out.emplace_back(Planning::StartAdapterTimer{ArmTimers::START, REFUSED_START_LIMIT});
+        out.emplace_back(
+            Planning::StartAdapterTimer{ArmTimers::START, ArmTimers::AddPeriods(REFUSED_START_LIMIT, _options.period)});
     }
     _requests.push_back(EArmRequest::VerifyCounters);
 }
@@ -220,7 +221,8 @@ void ArmProgram::OnFault(const ArmRefusal& refusal, AdapterActions& out)
     {
         // It may be a late refusal of the selection: the program may still begin.
         awaitedOrNull->refusal = refusal.reason;
-        out.emplace_back(Planning::StartAdapterTimer{ArmTimers::START, REFUSED_START_LIMIT});
+        out.emplace_back(
+            Planning::StartAdapterTimer{ArmTimers::START, ArmTimers::AddPeriods(REFUSED_START_LIMIT, _options.period)});
     }
     else if (Is<Stopping>(_state))
     {

@@ -106,7 +106,8 @@ void ArmProgram::Recover(ArmJob job, bool bBegun, bool bCancelled, AdapterAction
     if (!bBegun)
     {
         // The start may still be on its way. A program that has not raised its first counter by then was not started.
-        out.emplace_back(Planning::StartAdapterTimer{ArmTimers::START, START_LIMIT});
+        out.emplace_back(
+            Planning::StartAdapterTimer{ArmTimers::START, ArmTimers::AddPeriods(START_LIMIT, _options.period)});
     }
 }
 
@@ -325,7 +326,8 @@ void ArmProgram::OnCountersBack(AdapterActions& out)
     if (Awaited* const awaitedOrNull = std::get_if<Awaited>(&_state))
     {
         awaitedOrNull->bReconnected = true;
-        out.emplace_back(Planning::StartAdapterTimer{ArmTimers::START, START_LIMIT});
+        out.emplace_back(
+            Planning::StartAdapterTimer{ArmTimers::START, ArmTimers::AddPeriods(START_LIMIT, _options.period)});
     }
 }
 

@@ -7,6 +7,14 @@
 namespace ACS::Acsd::ArmTimers
 {
 
+/// A time limit for something that the counters show, which are up to one period old.
+[[nodiscard]] constexpr std::chrono::milliseconds AddPeriods(
+    std::chrono::milliseconds limit,
+    std::chrono::milliseconds period) noexcept
+{
+    return limit + 2 * period;
+}
+
 // The timers of an arm. Timers of the session of the robot's base have smaller numbers.
 
 /// Retries to switch on the motor, a MONITOR, or to resume a program.

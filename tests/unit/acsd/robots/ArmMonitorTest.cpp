@@ -2,6 +2,7 @@
 
 #include "Catch.hpp"
 
+#include <chrono>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -19,9 +20,21 @@ struct MonitorFixture
 {
     RobotOutputs outputs;
     ArmControls controls{outputs};
-    ArmMonitor monitor{ArmOptions{}, outputs, controls};
+    ArmMonitor monitor;
     Planning::AdapterActions actions;
     std::uint64_t monitorCount = 0; ///< Of those that were taken.
+
+    explicit MonitorFixture(ArmOptions options = {})
+        : monitor(std::move(options), outputs, controls)
+    {
+    }
+
+    /// The period of the only MONITOR since the last call of TakeMonitors.
+    [[nodiscard]] std::chrono::milliseconds GetPeriod() const
+    {
+        REQUIRE(outputs.armRequests.size() == 1);
+        return std::get<OpenStream::MonitorRequest>(outputs.armRequests.front()).period;
+    }
 
     /// "url args" of the MONITORs since the last call.
     std::vector<std::string> TakeMonitors()
@@ -177,6 +190,26 @@ TEST_CASE("A probe begins only between fresh counters, and one that is not answe
         static_cast<void>(arm.monitor.OnProbeTimer(EArmProbe::Motor, arm.actions));
         CHECK_FALSE(arm.monitor.IsHidden(EArmProbe::Motor));
     }
+}
+
+TEST_CASE("With a slow MONITOR of the counters, effects and probes are shown soon, and counters are awaited for longer")
+{
+    ArmOptions slow;
+    slow.period = std::chrono::seconds(30);
+    MonitorFixture arm(slow);
+    arm.monitor.WatchMotor(arm.actions);
+    static_cast<void>(arm.controls.SettleOrNull({}));
+    arm.actions.clear();
+    static_cast<void>(arm.Show(R"({"val":0})"));
+    REQUIRE(arm.actions.size() == 1);
+    CHECK(std::get<Planning::StartAdapterTimer>(arm.actions.front()).delay > std::chrono::seconds(60));
+    static_cast<void>(arm.Show("[5,5,0,11,17]"));
+    static_cast<void>(arm.TakeMonitors());
+    arm.monitor.VerifyEffect(arm.actions);
+    CHECK(arm.GetPeriod() == std::chrono::milliseconds(100));
+    static_cast<void>(arm.TakeMonitors());
+    arm.monitor.BeginProbe(EArmProbe::Playback, arm.actions);
+    CHECK(arm.GetPeriod() == std::chrono::milliseconds(100));
 }
 
 TEST_CASE("Relays are read range after range, and again if they are still to be read")

@@ -3,6 +3,7 @@
 #include "Catch.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 #include <string>
 #include <utility>
@@ -22,8 +23,13 @@ struct ProgramFixture
 {
     RobotOutputs outputs;
     ArmControls controls{outputs};
-    ArmProgram program{ArmOptions{}, controls};
+    ArmProgram program;
     Planning::AdapterActions actions;
+
+    explicit ProgramFixture(const ArmOptions& options = {})
+        : program(options, controls)
+    {
+    }
 
     /// The CONTROLs since the last call, by the last part of their URL.
     std::vector<std::string> TakeControls()
@@ -221,6 +227,16 @@ TEST_CASE("A job that is cancelled while its program is being selected fails whe
     CHECK(arm.HasReported<Planning::JobFailed>());
     arm.Advance();
     CHECK(arm.TakeControls() == std::vector<std::string>{"cur_prog_cnt"});
+}
+
+TEST_CASE("A program has longer to begin where its counters are shown seldom")
+{
+    ArmOptions slow;
+    slow.period = std::chrono::seconds(30);
+    ProgramFixture arm(slow);
+    arm.program.Recover({"J", 11, {}}, false, false, arm.actions);
+    REQUIRE(arm.actions.size() == 1);
+    CHECK(std::get<Planning::StartAdapterTimer>(arm.actions.front()).delay > std::chrono::seconds(60));
 }
 
 TEST_CASE("A start whose fate is unknown is awaited, and echoed without counters it is not begun again")
