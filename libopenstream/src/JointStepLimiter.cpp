@@ -25,13 +25,13 @@ std::span<const double> JointStepLimiter::Limit(std::span<const double> wanted)
     for (std::size_t joint = 0; joint < wanted.size(); ++joint)
     {
         double& value = _last[joint];
-        if (!std::isfinite(wanted[joint]))
+        const bool bBounded = joint < known && joint < _largestSteps.size();
+        if (!std::isfinite(wanted[joint]) || (bBounded && !std::isfinite(value)))
         {
             _bLimited = true;
             continue;
         }
-        const bool bBounded = joint < known && joint < _largestSteps.size();
-        const double step = bBounded ? std::max(_largestSteps[joint], 0.0) : 0.0;
+        const double step = bBounded && _largestSteps[joint] > 0.0 ? _largestSteps[joint] : 0.0;
         const double next = bBounded ? std::clamp(wanted[joint], value - step, value + step) : wanted[joint];
         _bLimited = _bLimited || next != wanted[joint];
         value = next;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -143,6 +144,19 @@ TEST_CASE("11 A joint moves no further from one point to the next than its limit
     CHECK(Limit(limiter, {-100.0, 20.0, 0.0}) == std::vector<double>{12.0, 20.0, 0.0});
     limiter.Begin(std::array{-99.5, 20.0, 0.0});
     CHECK(Limit(limiter, {-100.0, 20.0, 0.0}) == std::vector<double>{-100.0, 20.0, 0.0});
+}
+
+TEST_CASE("11 A position or limit that is not a number switches no limit off")
+{
+    constexpr double NO_NUMBER = std::numeric_limits<double>::quiet_NaN();
+    JointStepLimiter limiter({1.0, NO_NUMBER});
+    limiter.Begin(std::array{NO_NUMBER, 20.0});
+    const std::vector<double> point = Limit(limiter, {50.0, 25.0});
+    CHECK(std::isnan(point[0]));
+    CHECK(point[1] == 20.0);
+    CHECK(limiter.WasLimited());
+    limiter.Begin(std::array{10.0, 20.0});
+    CHECK(Limit(limiter, {50.0, 20.0}) == std::vector<double>{11.0, 20.0});
 }
 
 TEST_CASE("11 A value that is not a number moves no joint, and a first point without a position is accepted")

@@ -20,12 +20,12 @@ class ACS_API JointStepLimiter
     bool _bLimited = false;
 
 public:
-    /// The largest step of each joint, in the unit of the points; 0 locks the joint, infinity does not limit it. Further
-    /// joints are not limited.
+    /// The largest step of each joint, in the unit of the points; 0 and NaN lock the joint, infinity does not limit it.
+    /// Further joints are not limited.
     explicit JointStepLimiter(std::vector<double> largestSteps);
 
     /// Sets the current position. Call before the first point and after each stop or reconnect, when the position differs
-    /// from the last point.
+    /// from the last point. A limited joint whose position is not finite stays so until the next call.
     void Begin(std::span<const double> position);
 
     /// The point to send, with the same number of joints; valid until the next call. A joint that is not finite keeps its
