@@ -172,7 +172,7 @@ std::optional<std::string> PlanTracker::FindResultViolationOrNull(
     bool bSuccess)
 {
     const ControlRequests::EResultOrigin origin = _controls.Close(result, planID, bSuccess);
-    const TrackedPlan* const foundOrNull = FindPlanOrNull(planID);
+    TrackedPlan* const foundOrNull = FindTrackedOrNull(planID);
     const std::string_view request = GetText(GetControlRule(result).request);
     if (origin == ControlRequests::EResultOrigin::None)
     {
@@ -193,7 +193,7 @@ std::optional<std::string> PlanTracker::FindResultViolationOrNull(
     std::optional<std::string> mistake = FindSuccessViolationOrNull(*foundOrNull, result);
     if (!mistake.has_value() && !IsConfirmed(*foundOrNull, result))
     {
-        _plans[static_cast<std::size_t>(foundOrNull - _plans.data())].unconfirmed = result;
+        foundOrNull->unconfirmed = result;
     }
     return mistake;
 }
@@ -205,22 +205,21 @@ void PlanTracker::CheckNamed(std::string_view what, const TMessage& message, Lin
     {
         return;
     }
-    const TrackedPlan* const foundOrNull = FindPlanOrNull(*message.planID);
-    if (foundOrNull == nullptr || foundOrNull->sends == 0)
+    TrackedPlan* const planOrNull = FindTrackedOrNull(*message.planID);
+    if (planOrNull == nullptr || planOrNull->sends == 0)
     {
         AddViolation(fmt::format("{} {} for an unknown plan", CleanText(*message.planID), what), out);
         return;
     }
-    TrackedPlan& plan = _plans[static_cast<std::size_t>(foundOrNull - _plans.data())];
     const TrackedStep* const stepOrNull =
-        message.stepNo.has_value() ? FindStepOrNull(plan, what, *message.stepNo, out) : nullptr;
+        message.stepNo.has_value() ? FindStepOrNull(*planOrNull, what, *message.stepNo, out) : nullptr;
     if (stepOrNull == nullptr || message.jobID.value_or("").empty())
     {
         return;
     }
     if (std::ranges::find(stepOrNull->jobs, *message.jobID, &TrackedJob::jobID) == stepOrNull->jobs.end())
     {
-        AddUnknownJob(plan, what, stepOrNull->stepNo, *message.jobID, out);
+        AddUnknownJob(*planOrNull, what, stepOrNull->stepNo, *message.jobID, out);
     }
 }
 
@@ -272,13 +271,13 @@ void PlanTracker::Handle(const Protocol::TscStateUpdate& update, Lines& out)
 
 TrackedPlan* PlanTracker::FindReportedOrNull(std::string_view what, const std::string& planID, Lines& out)
 {
-    const TrackedPlan* const foundOrNull = FindPlanOrNull(planID);
-    if (foundOrNull == nullptr)
+    TrackedPlan* const planOrNull = FindTrackedOrNull(planID);
+    if (planOrNull == nullptr)
     {
         AddViolation(fmt::format("{} {} for an unknown plan", CleanText(planID), what), out);
         return nullptr;
     }
-    TrackedPlan& plan = _plans[static_cast<std::size_t>(foundOrNull - _plans.data())];
+    const TrackedPlan& plan = *planOrNull;
     if (plan.sends == 0)
     {
         AddViolation(fmt::format("{} {} before it was sent", CleanText(planID), what), out);
@@ -289,7 +288,7 @@ TrackedPlan* PlanTracker::FindReportedOrNull(std::string_view what, const std::s
         AddViolation(fmt::format("{} {} after it was {}", CleanText(planID), what, GetText(GetOutcome(plan))), out);
         return nullptr;
     }
-    return &plan;
+    return planOrNull;
 }
 
 TrackedStep* PlanTracker::FindStepOrNull(TrackedPlan& plan, std::string_view what, std::int32_t stepNo, Lines& out)

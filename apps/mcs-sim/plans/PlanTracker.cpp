@@ -200,15 +200,27 @@ const std::vector<TrackedPlan>& PlanTracker::GetPlans() const noexcept
 
 const TrackedPlan* PlanTracker::FindPlanOrNull(const std::string& planID) const
 {
+    const std::optional<std::size_t> index = FindIndexOrNull(planID);
+    return index.has_value() ? &_plans[*index] : nullptr;
+}
+
+TrackedPlan* PlanTracker::FindTrackedOrNull(const std::string& planID)
+{
+    const std::optional<std::size_t> index = FindIndexOrNull(planID);
+    return index.has_value() ? &_plans[*index] : nullptr;
+}
+
+std::optional<std::size_t> PlanTracker::FindIndexOrNull(const std::string& planID) const
+{
     const auto found = _byPlanID.find(planID);
     if (found == _byPlanID.end())
     {
-        return nullptr;
+        return std::nullopt;
     }
     const auto index = std::find_if(found->second.begin(), found->second.end(), [this](std::size_t candidate) {
         return _plans[candidate].delivery != EDelivery::Refused;
     });
-    return &_plans[index == found->second.end() ? found->second.front() : *index];
+    return index == found->second.end() ? found->second.front() : *index;
 }
 
 std::size_t PlanTracker::CountOutcome(EOutcome outcome) const noexcept

@@ -104,6 +104,8 @@ public:
     [[nodiscard]] bool IsSuccess() const noexcept;
 
 private:
+    [[nodiscard]] std::optional<std::size_t> FindIndexOrNull(const std::string& planID) const;
+    [[nodiscard]] TrackedPlan* FindTrackedOrNull(const std::string& planID);
     void ChangePlan(TrackedPlan& plan, const std::function<void()>& change);
     [[nodiscard]] TrackedPlan* FindReportedOrNull(std::string_view what, const std::string& planID, Lines& out);
     [[nodiscard]] TrackedStep* FindStepOrNull(
