@@ -33,8 +33,8 @@ struct ArmCounted
     ArmSample sample;
     bool bFirst = false;    ///< The first of the connection, or since the counters were missing.
     bool bVerifies = false; ///< It is newer than the CONTROL that is being verified.
-    std::optional<GeneralState>
-        stateOrNull; ///< Of a sample that verifies: the latest that was shown after the CONTROL.
+    /// Of a sample that verifies: the latest that was shown after the CONTROL.
+    std::optional<GeneralState> stateOrNull;
 };
 
 /// Fact: the controller's general state, while it is watched for the effect of a CONTROL.
@@ -48,8 +48,8 @@ struct ArmProbed
 {
     EArmProbe probe = EArmProbe::Motor;
     std::optional<bool> bOnOrNull; ///< The motor is on, or a program runs.
-    std::optional<std::int64_t>
-        programOrNull; ///< Of a probe of playback: the program that is selected, where it is shown.
+    /// Of a probe of playback: the program that is selected, where it is shown.
+    std::optional<std::int64_t> programOrNull;
 };
 
 /// Fact: all ranges of relays were read once.

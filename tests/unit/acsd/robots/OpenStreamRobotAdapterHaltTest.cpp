@@ -69,20 +69,6 @@ TEST_CASE("6.8 After a reconnect a paused program is checked, and stopped again 
     CHECK(arm.TakeRequests().empty());
 }
 
-TEST_CASE("6.7 A program that was selected before a pause is selected again after it")
-{
-    ArmFixture arm;
-    arm.BringUp();
-    arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
-    arm.Command("J");
-    arm.Accept();
-    CHECK(arm.TakeRequests().empty());
-    arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
-    CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
-    arm.Accept();
-    CHECK(arm.TakeRequests() == std::vector<std::string>{START});
-}
-
 TEST_CASE("A program is not started while the controller shows another one as selected")
 {
     ArmFixture arm;

@@ -117,7 +117,7 @@ TEST_CASE("6.7 Pause stops the arm's program where it is; the robot is paused wh
     CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
 }
 
-TEST_CASE("6.7 Pause without a job is the base's alone; a program that was just selected is started by Resume")
+TEST_CASE("6.7 Pause without a job is the base's alone; a program that was just selected is selected again by Resume")
 {
     ArmFixture arm;
     arm.adapter.OnLinkUp(arm.clock.GetNow(), arm.actions);
