@@ -53,6 +53,43 @@ Protocol::SessionOptions MakeNarrowOptions()
 
 } // namespace
 
+TEST_CASE("9 At most sixteen messages wait for their Ack, and free room is reported once")
+{
+    Fixture bench;
+    bench.StartAndReplay();
+    for (int index = 0; index < 16; ++index)
+    {
+        REQUIRE(bench.session.GetRoom() == static_cast<std::size_t>(16 - index));
+        REQUIRE(bench.TrySend(std::to_string(index)));
+    }
+    CHECK(bench.TrySend("3")); // in flight already: taken, not sent twice
+    CHECK(bench.recorder.GetRequests().size() == 16);
+    CHECK_FALSE(bench.TrySend("x"));
+    bench.Text(MakeAckText("PlanReport", "7"));
+    CHECK(bench.recorder.GetEvents<Protocol::WindowOpened>().size() == 1);
+    bench.Text(MakeAckText("PlanReport", "8"));
+    CHECK(bench.recorder.GetEvents<Protocol::WindowOpened>().empty());
+    CHECK(bench.TrySend("x"));
+}
+
+TEST_CASE("9 Statuses are coalesced to the latest per robot when there is no room")
+{
+    Protocol::SessionOptions options = MakeOptions();
+    options.window = 1;
+    Fixture bench(options);
+    bench.StartAndReplay();
+    REQUIRE(bench.TrySend("a"));
+    bench.recorder.Clear();
+    const Core::Now now = bench.clock.GetNow();
+    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Moving), now, bench.recorder.out);
+    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Arrival), now, bench.recorder.out);
+    CHECK(bench.recorder.out.empty());
+    bench.Text(MakeAckText("PlanReport", "a"));
+    const std::vector<AcsRequest> requests = bench.recorder.GetRequests();
+    REQUIRE(requests.size() == 1);
+    CHECK(std::get<Protocol::RobotStatusUpdate>(requests[0].payload).robotStatus == Protocol::ERobotStatus::Arrival);
+}
+
 TEST_CASE("9 Statuses that fill the window leave room for durable requests, and each robot has its turn")
 {
     Fixture bench(MakeNarrowOptions());
