@@ -110,23 +110,24 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, AcsSimO
         [&options](const std::string& text) { return ReadFault(text, options.faults); },
         "Error of the ACS, once, COUNT times or always; may be repeated. Names: " + ListFaults())
         .type_name("NAME[=COUNT]");
-    app.add_option(
-           "--plans",
-           options.plans,
-           "End when this number of plans have ended and all faults have occurred (default 0: no limit)")
-        ->check(CLI::Range(std::size_t{0}, MAX_PLANS));
+    Apps::AddCountOption(
+        app,
+        "--plans",
+        options.plans,
+        {0, MAX_PLANS},
+        "End when this number of plans have ended and all faults have occurred (default 0: no limit)");
     Apps::AddDurationOption(
         app,
         "--for",
         options.duration,
         "End after this time, for example 30s (default: at SIGINT or SIGTERM)");
     Apps::AddDurationOption(app, "--ack-timeout", options.ackTimeout, "Maximum time of the MCS to an Ack (default 5s)");
-    app.add_option(
-           "--queue",
-           options.queue,
-           "Maximum number of plans that wait; others are refused with Queue Full; 0 refuses all")
-        ->check(CLI::Range(std::size_t{0}, MAX_PLANS))
-        ->capture_default_str();
+    Apps::AddCountOption(
+        app,
+        "--queue",
+        options.queue,
+        {0, MAX_PLANS},
+        "Maximum number of plans that wait; others are refused with Queue Full; 0 refuses all (default 100)");
     Apps::AddTimeScaleOption(app, options.timeScale);
     Apps::AddCommonOptions(app, options.common);
     const std::optional<int> exitCode = Apps::ParseCommandLineOrNull(app, argc, argv);

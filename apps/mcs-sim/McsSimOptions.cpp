@@ -154,9 +154,12 @@ std::optional<int> ParseOptionsOrNull(int argc, const char* const* argv, McsSimO
         "(docs/reference/mcs-sim.md has the format)")
         .type_name("FILE.json")
         ->allow_extra_args();
-    app.add_option("--repeat", options.repeat, "Number of times that each file is sent, in rotation, with fresh ids")
-        ->check(CLI::Range(std::size_t{1}, MAX_REPEAT))
-        ->capture_default_str();
+    Apps::AddCountOption(
+        app,
+        "--repeat",
+        options.repeat,
+        {1, MAX_REPEAT},
+        "Number of times that each file is sent, in rotation, with fresh ids (default 1)");
     app.add_flag("--fresh-ids", options.bFreshIDs, "Replace the ids of plans, transactions, jobs and carriers");
     Apps::AddTextOption(
         app,

@@ -284,12 +284,12 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
         "pick and drop; PARAMETER=NAME[:TYPE], the vehicle's name of a parameter of pick and drop (empty: not "
         "supported). May be repeated")
         .type_name("NAME[,KEY=VALUE]...");
-    app.add_option(
-           "--count",
-           row.count,
-           "Number of additional vehicles, named by --prefix and a number: LR01, LR02, ... (default: none)")
-        ->check(CLI::Range(std::size_t{1}, MAX_VEHICLES))
-        ->type_name("N");
+    Apps::AddCountOption(
+        app,
+        "--count",
+        row.count,
+        {1, MAX_VEHICLES},
+        "Number of additional vehicles, named by --prefix and a number: LR01, LR02, ... (default: none)");
     Apps::AddTextOption(
         app,
         "--prefix",

@@ -21,13 +21,6 @@ namespace ACS::Acsctl
 namespace
 {
 
-/// The values that an option accepts.
-struct NumberRange
-{
-    std::uint64_t minimum = 0;
-    std::uint64_t maximum = std::numeric_limits<std::uint64_t>::max();
-};
-
 constexpr std::uint64_t MAX_LIMIT = 1'000;
 constexpr std::uint64_t MAX_FILE_LIMIT = 1'000'000;
 constexpr double SHORTEST_WATCH = 0.1;
@@ -95,28 +88,31 @@ void AddWord(
     AddPositional(app, name, target, help).check(MakeWordCheck(words));
 }
 
-/// CLI11 itself accepts "-1" for a number without a sign.
 void AddNumber(
     CLI::App& app,
     const std::string& name,
     std::optional<std::uint64_t>& target,
-    const NumberRange& range,
+    const Apps::NumberRange<std::uint64_t>& range,
     const std::string& help)
 {
     const auto read = [&target, range](const std::string& text) {
-        const std::optional<std::uint64_t> number = Core::ParseNumberOrNull<std::uint64_t>(text);
-        if (!number.has_value() || *number < range.minimum || *number > range.maximum)
-        {
-            return fmt::format(
-                "expected a number from {} to {}, found {}",
-                range.minimum,
-                range.maximum,
-                Core::QuoteForError(text));
-        }
-        target = number;
-        return std::string();
+        return Apps::AssignNumber(text, range, target);
     };
     Apps::AddTextOption(app, name, read, help).type_name("N");
+}
+
+/// A required number without a name.
+void AddPositionalNumber(
+    CLI::App& app,
+    const std::string& name,
+    std::int64_t& target,
+    const Apps::NumberRange<std::int64_t>& range,
+    const std::string& help)
+{
+    const auto read = [&target, range](const std::string& text) {
+        return Apps::AssignNumber(text, range, target);
+    };
+    Apps::AddTextOption(app, name, read, help).required()->type_name("");
 }
 
 void AddLimit(CLI::App& app, CommandArguments& arguments)
@@ -280,7 +276,8 @@ void AddPlanCommands(CLI::App& app, AcsctlOptions& options)
     }
     CLI::App& priority = AddCommand(app, options, "priority", ECommand::Priority, "Change the priority of a plan");
     AddPositional(priority, "PLAN", arguments.id, "The plan");
-    priority.add_option("N", arguments.number, "The new priority")->required()->type_name("");
+    constexpr std::int64_t LOWEST = std::numeric_limits<std::int64_t>::min();
+    AddPositionalNumber(priority, "N", arguments.number, {LOWEST}, "The new priority");
     CLI::App& resolve =
         AddCommand(app, options, "resolve", ECommand::Resolve, "Resolve a job whose outcome is unknown");
     AddPositional(resolve, "PLAN", arguments.id, "The plan");
@@ -293,10 +290,7 @@ void AddPlanCommands(CLI::App& app, AcsctlOptions& options)
         "done: the plan continues; failed: the plan fails; again: nothing was moved, the job starts again");
     CLI::App& skip = AddCommand(app, options, "skip", ECommand::Skip, "Skip a step of a plan");
     AddPositional(skip, "PLAN", arguments.id, "The plan");
-    skip.add_option("STEP", arguments.number, "The number of the step")
-        ->required()
-        ->type_name("")
-        ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()));
+    AddPositionalNumber(skip, "STEP", arguments.number, {}, "The number of the step");
 }
 
 void AddSiteCommands(CLI::App& app, AcsctlOptions& options)

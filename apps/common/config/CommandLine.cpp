@@ -110,6 +110,21 @@ CLI::Option& AddTimeScaleOption(CLI::App& app, double& target)
     return *option->capture_default_str();
 }
 
+CLI::Option& AddCountOption(
+    CLI::App& app,
+    const std::string& name,
+    std::size_t& target,
+    const NumberRange<std::size_t>& range,
+    const std::string& help)
+{
+    CLI::Option& option = AddTextOption(
+        app,
+        name,
+        [&target, range](const std::string& text) { return AssignNumber(text, range, target); },
+        help);
+    return *option.type_name("N");
+}
+
 CLI::Option& AddTextOption(CLI::App& app, const std::string& name, TextReader reader, const std::string& help)
 {
     CLI::Option& option = AddRepeatedOption(app, name, std::move(reader), help);

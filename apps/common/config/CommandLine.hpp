@@ -2,11 +2,18 @@
 
 #include "common/config/Endpoint.hpp"
 #include "common/config/Url.hpp"
+#include <acs/core/JsonText.hpp>
 #include <acs/core/Logger.hpp>
+#include <acs/core/ParseNumber.hpp>
 #include <acs/core/Result.hpp>
 
+#include <fmt/format.h>
+
 #include <chrono>
+#include <concepts>
+#include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -70,6 +77,40 @@ template <typename TValue>
     target = std::move(*parsed);
     return {};
 }
+
+/// The values that a number of the command line may have, both included.
+template <std::integral TNumber>
+struct NumberRange
+{
+    TNumber minimum = 0;
+    TNumber maximum = std::numeric_limits<TNumber>::max();
+};
+
+/// What a TextReader returns for a whole number in decimal notation. CLI11 itself reads 010 as 8, and a large negative number
+/// as a small positive one if the target has no sign.
+template <std::integral TNumber, typename TTarget>
+[[nodiscard]] std::string AssignNumber(const std::string& text, const NumberRange<TNumber>& range, TTarget& target)
+{
+    const std::optional<TNumber> number = Core::ParseNumberOrNull<TNumber>(text);
+    if (!number.has_value() || *number < range.minimum || *number > range.maximum)
+    {
+        return fmt::format(
+            "expected a number from {} to {}, found {}",
+            range.minimum,
+            range.maximum,
+            Core::QuoteForError(text));
+    }
+    target = *number;
+    return {};
+}
+
+/// An option whose value is a number of things. The value of the target is not shown as the default.
+CLI::Option& AddCountOption(
+    CLI::App& app,
+    const std::string& name,
+    std::size_t& target,
+    const NumberRange<std::size_t>& range,
+    const std::string& help);
 
 /// An option that may be given once. The function reads its value.
 CLI::Option& AddTextOption(CLI::App& app, const std::string& name, TextReader reader, const std::string& help);

@@ -93,6 +93,8 @@ TEST_CASE("An invalid value ends acs-sim with exit code 2 and a line that names 
         std::vector<const char*>{"--header", "Authorization"},
         std::vector<const char*>{"--url", "http://127.0.0.1"},
         std::vector<const char*>{"--plans", "-1"},
+        std::vector<const char*>{"--plans", "-18446744073709551615"},
+        std::vector<const char*>{"--queue", "0x10"},
         std::vector<const char*>{"--tls-ca", "ca.pem"});
     const ParsedLine parsed = ParseLine(arguments);
     CHECK(parsed.exitCode == 2);

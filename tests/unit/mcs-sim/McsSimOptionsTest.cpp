@@ -100,6 +100,7 @@ TEST_CASE("An invalid command line is reported in one line, with exit code 2")
         Arguments{"--plan", "a.json", "--profile", "both"},
         Arguments{"--console", "--scenario", "b.json"},
         Arguments{"--plan", "a.json", "--repeat", "0"},
+        Arguments{"--plan", "a.json", "--repeat", "-18446744073709551615"},
         Arguments{"--plan", "a.json", "--live", "perhaps"},
         Arguments{"--plan", "a.json", "--no-restock"},
         Arguments{"--plan", "a.json", "--restock"},

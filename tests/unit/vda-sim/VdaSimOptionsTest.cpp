@@ -323,6 +323,7 @@ TEST_CASE("A contradictory command line ends the program with 2")
     for (const std::vector<const char*>& arguments : std::vector<std::vector<const char*>>{
              {},
              {"--count", "0"},
+             {"--count", "-18446744073709551615"},
              {"--count", "2", "--prefix", "a/b"},
              {"--count", "2", "--type", "XR"},
              {"--count", "2", "--vehicle", "LR01"},

@@ -38,6 +38,9 @@ TEST_CASE("Options are read before and after the command")
     CHECK(Parse({"events", "--after", "0"}).arguments.after == 0);
     CHECK(Parse({"events", "--after", "18446744073709551615"}).arguments.after == 18'446'744'073'709'551'615U);
     CHECK(Parse({"trace", "--limit", "010"}).arguments.limit == 10);
+    CHECK(Parse({"skip", "P", "010"}).arguments.number == 10);
+    CHECK(Parse({"priority", "P", "010"}).arguments.number == 10);
+    CHECK(Parse({"priority", "P", "-3"}).arguments.number == -3);
     CHECK(options.connection.url == "http://x");
     CHECK(options.timeout.count() == 3'000);
     CHECK(Parse({"tsc", "resume", "-y"}).command == ECommand::TscResume);
