@@ -139,6 +139,17 @@ int Serve(const ProgramOptions& options, const RobotDrivers& drivers, AcsdConfig
     return exitCode;
 }
 
+/// Else reports that standard output could not be written.
+bool TryFlushOutput()
+{
+    const bool bWritten = std::fflush(stdout) == 0;
+    if (!bWritten)
+    {
+        Apps::PrintError(NAME, "the output could not be written");
+    }
+    return bWritten;
+}
+
 int Run(int argc, const char* const* argv, const RobotDrivers& drivers)
 {
     ::umask(S_IRWXG | S_IRWXO); // the store and the trace are for the user of acsd only
@@ -213,7 +224,7 @@ int Run(int argc, const char* const* argv, const RobotDrivers& drivers)
             fmt::print(stderr, "note: {}\n", note);
         }
         fmt::print("{}: no errors\n", options.configFile);
-        return 0;
+        return TryFlushOutput() ? 0 : 1;
     }
     return Serve(options, drivers, std::move(config));
 }

@@ -90,6 +90,14 @@ class BadInput(ScenarioCase):
         sets = [part for override in overrides for part in ("--set", override)]
         return self.run_program("acsd", "--config", SITE / "acsd.toml", "--check-config", *sets)
 
+    def test_a_check_of_the_configuration_fails_if_its_result_is_not_written(self):
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            done = subprocess.run([self.line.bin_dir / "acsd", "--config", SITE / "acsd.toml", "--check-config",
+                                   "--set", f"store.directory={self.line.folder / 'store'}"],
+                                  stdout=full, stderr=subprocess.PIPE, text=True, timeout=FINISH_SECONDS, check=False)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("acsd: the output could not be written\n", done.stderr)
+
     def test_a_folder_a_device_a_pipe_and_an_endless_file_are_rejected(self):
         broker = ["--broker", "mqtt://127.0.0.1:1", "--vehicle", "LR01"]
         pipe, endless = self.line.folder / "pipe", self.line.folder / "endless"

@@ -294,6 +294,10 @@ AcsdConfig Read(
     ReadSite(root, fileName, config);
     ReadStoreConfig(root, fileName, bStoreInspected, config.store, config.warnings);
     ReadHttpConfig(root, fileName, config.store.directory, config.http, config.warnings);
+    if (bStoreInspected)
+    {
+        InspectAuditDirectory(root, config.http.control, config.store.directory);
+    }
     ReadEngineConfig(root, config.engine);
     ReadStations(root, config);
     ReadRobots(root, drivers, config);

@@ -8,11 +8,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string_view>
+#include <system_error>
+#include <unistd.h>
 #include <utility>
 
 namespace ACS::Acsd
@@ -217,6 +221,33 @@ void ReadHttpConfig(
         control.AddError(
             "listen",
             fmt::format("{} is also the address of http.listen; give another port", Apps::MakeText(listen)));
+    }
+}
+
+void InspectAuditDirectory(const ConfigSection& root, const OperatorConfig& config, const std::string& storeDirectory)
+{
+    const std::filesystem::path directory(config.auditDirectory);
+    std::error_code unknown;
+    const bool bExists = std::filesystem::exists(directory, unknown);
+    const std::filesystem::path parent = directory.has_parent_path() ? directory.parent_path() : ".";
+    const std::filesystem::path store = (std::filesystem::path(storeDirectory) / "").parent_path();
+    if (config.auditDirectory.empty() || (!bExists && parent == store))
+    {
+        return;
+    }
+    const std::filesystem::path written = bExists ? directory : parent;
+    if (::access((written / ".").c_str(), W_OK | X_OK) != 0)
+    {
+        const std::error_code error(errno, std::generic_category());
+        root.GetSection("operator")
+            .GetSection("audit")
+            .AddError(
+                "directory",
+                fmt::format(
+                    "{}: expected a directory that can be written, in one that exists, found {}: {}",
+                    config.auditDirectory,
+                    written.string(),
+                    error.message()));
     }
 }
 

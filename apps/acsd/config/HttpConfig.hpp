@@ -49,4 +49,11 @@ void ReadHttpConfig(
     HttpConfig& config,
     std::vector<std::string>& warnings);
 
+/// Adds an error if the audit log could not be written to its directory. Changes nothing. The directory of the store need not
+/// exist yet: a start creates it first.
+void InspectAuditDirectory(
+    const Apps::ConfigSection& root,
+    const OperatorConfig& config,
+    const std::string& storeDirectory);
+
 } // namespace ACS::Acsd

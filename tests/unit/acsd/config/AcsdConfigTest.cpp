@@ -249,6 +249,33 @@ TEST_CASE("--check-config checks the store, changes nothing, and reports its err
     }
 }
 
+TEST_CASE("--check-config checks the directory of the audit log, and changes nothing")
+{
+    const Testing::TemporaryFolder folder;
+    const auto check = [&folder](const std::filesystem::path& directory) {
+        return Acsd::CheckAcsdConfig(
+                   std::string(ACS_SITE) + "/acsd.toml",
+                   {"store.directory=" + (folder.GetPath() / "store/").string(),
+                    "operator.audit.directory=" + directory.string()})
+            .errors;
+    };
+    CHECK(check(folder.GetPath() / "audit").empty());
+    CHECK(check(folder.GetPath() / "store" / "audit").empty()); // the start creates the directory of the store
+    CHECK(std::filesystem::is_empty(folder.GetPath()));
+    const std::filesystem::path file = folder.GetPath() / "file";
+    std::ofstream(file) << "no directory";
+    for (const auto& [directory, found] :
+         {std::pair(file, "Not a directory"),
+          std::pair(file / "audit", "Not a directory"),
+          std::pair(folder.GetPath() / "absent" / "audit", "No such file or directory")})
+    {
+        const std::vector<std::string> errors = check(directory);
+        REQUIRE(errors.size() == 1);
+        CHECK(errors[0].starts_with("--set: operator.audit.directory: " + directory.string() + ": expected "));
+        CHECK(errors[0].find(found) != std::string::npos);
+    }
+}
+
 TEST_CASE("4.1 An action that no robot can do as configured is an error that names the missing keys")
 {
     const auto noProgram =
