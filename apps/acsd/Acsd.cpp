@@ -244,6 +244,20 @@ private:
         _timers.CancelAll();
     }
 
+    /// Its sender was answered 202, so that an operator must see it; sent again with the same key, it is judged anew.
+    void OnOperatorRefused(const RefusedOffer& refused) override
+    {
+        const std::string text =
+            fmt::format("{} was accepted but is not executed: {}", refused.command, refused.reason);
+        _dependencies.logger.MakeFor("operator").Warning(text);
+        if (refused.receipt.has_value())
+        {
+            _http.GetGate().Forget(*refused.receipt);
+        }
+        const ChangeEntry entry{"note", {}, {}, 0, {}, text, {}};
+        _http.GetEvents().Publish("entry", EncodeEntry(entry, _dependencies.clock.GetNow().wall));
+    }
+
     void CloseLinks() override
     {
         _openLinks = _mqtt.has_value() ? 2 : 1;

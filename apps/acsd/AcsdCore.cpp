@@ -228,7 +228,13 @@ Planning::EInputAdmission AcsdCore::Offer(
     {
         return Planning::EInputAdmission::Closed; // what waits for the store when the host closes would be lost
     }
-    return _host.Offer(std::move(command), std::move(receiptOrNull));
+    const Planning::ReplyToken token = _offers.Add(command, receiptOrNull);
+    const Planning::EInputAdmission admission = _host.Offer(std::move(command), std::move(receiptOrNull));
+    if (admission != Planning::EInputAdmission::Accepted)
+    {
+        _offers.Remove(token);
+    }
+    return admission;
 }
 
 const Planning::PlanEngine& AcsdCore::GetEngine() const noexcept
@@ -292,7 +298,7 @@ void AcsdCore::Execute(const Planning::EngineAction& action)
     std::visit(
         Core::Overloaded{
             [](const Planning::StorePlans&) { assert(false && "executed by the host"); },
-            [this](const Planning::ReplyCommand& reply) { _gateway.Reply(reply); },
+            [this](const Planning::ReplyCommand& reply) { OnReply(reply); },
             [this](const Planning::SendReport& report) { _gateway.Report(report); },
             [this](const Planning::CommandRobot& command) { _dependencies.output.CommandRobot(command); },
             [this](const Planning::RobotStatusChanged& changed) { OnStatusChanged(changed.status); },
@@ -304,6 +310,15 @@ void AcsdCore::Execute(const Planning::EngineAction& action)
                 _dependencies.output.CancelTimer(cancel.timer);
             }},
         action);
+}
+
+void AcsdCore::OnReply(const Planning::ReplyCommand& reply)
+{
+    _gateway.Reply(reply);
+    if (const std::optional<RefusedOffer> refused = _offers.EndOrNull(reply))
+    {
+        _dependencies.output.OnOperatorRefused(*refused);
+    }
 }
 
 void AcsdCore::OnStatusChanged(const Planning::RobotStatus& status)

@@ -6,6 +6,7 @@
 #include "mcs/IMcsOutput.hpp"
 #include "mcs/McsGateway.hpp"
 #include "mcs/RefusedReports.hpp"
+#include "operator/OfferedCommands.hpp"
 #include "replay/ICoreRecorder.hpp"
 #include "store/StoreWatch.hpp"
 #include <acs/core/IRandom.hpp>
@@ -74,6 +75,7 @@ private:
     Planning::PlanEngine _engine;
     Planning::PlanEngineHost _host;
     McsGateway _gateway;
+    OfferedCommands _offers;
     StoreWatch _storeWatch;
     std::set<std::string> _reachable; ///< Robots that are not Disconnected.
     EPhase _phase = EPhase::Running;
@@ -118,7 +120,8 @@ public:
     void OnStoreLog(const Planning::StoreLog& log);
     void OnLinksClosed();
 
-    /// A command of the operator or of a test. Unless Accepted, nothing is done. Closed from Stop on.
+    /// A command of the operator or of a test. Unless Accepted, nothing is done. Closed from Stop on. An accepted command that
+    /// the engine refuses is passed to IAcsdOutput::OnOperatorRefused, from within or later.
     [[nodiscard]] Planning::EInputAdmission Offer(
         Planning::PlanCommand command,
         std::optional<Planning::CommandReceipt> receiptOrNull = std::nullopt);
@@ -140,6 +143,7 @@ private:
     void DoClose();
     void Store(const Planning::StoreBatch& batch);
     void Execute(const Planning::EngineAction& action);
+    void OnReply(const Planning::ReplyCommand& reply);
     void OnStatusChanged(const Planning::RobotStatus& status);
     void OnOwnTimer(EAcsdTimer timer);
     [[nodiscard]] bool TryEndForTakenStore(const Core::Result<void>& result);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "AcsdTimer.hpp"
+#include "operator/RefusedOffer.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/plan/EngineAction.hpp>
 
@@ -29,6 +30,9 @@ public:
     virtual void StartTimer(const AcsdTimer& timer, Core::Duration delay) = 0;
     virtual void CancelTimer(const AcsdTimer& timer) = 0;
     virtual void CancelTimers() = 0;
+
+    /// A command of the operator that was accepted is not executed after all.
+    virtual void OnOperatorRefused(const RefusedOffer& refused) = 0;
 
     /// Closes the links to the MCS, the broker and the arms, then calls AcsdCore::OnLinksClosed.
     virtual void CloseLinks() = 0;

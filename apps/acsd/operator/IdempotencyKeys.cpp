@@ -107,12 +107,12 @@ IdempotencyKeys::Answer IdempotencyKeys::Respond(
     }
     _current = {owner, *key, used.digest};
     Apps::HttpResponse response = respond();
-    UsedKey current = *std::exchange(_current, std::nullopt);
-    if (response.status >= FIRST_NOT_KEPT)
+    std::optional<UsedKey> current = std::exchange(_current, std::nullopt);
+    if (response.status >= FIRST_NOT_KEPT || !current.has_value())
     {
         return {std::move(response)};
     }
-    Add({std::move(current), response, now});
+    Add({std::move(*current), response, now});
     return {std::move(response), {*key, used.digest, false}};
 }
 
@@ -125,6 +125,18 @@ std::optional<Planning::CommandReceipt> IdempotencyKeys::MakeReceiptOrNull(
         return std::nullopt;
     }
     return Planning::CommandReceipt{_current->owner, _current->key, EncodeAnswer(_current->digest, answer), now};
+}
+
+void IdempotencyKeys::Forget(const Planning::CommandReceipt& receipt)
+{
+    const auto isMeant = [&receipt](const UsedKey& used) {
+        return used.owner == receipt.owner && used.key == receipt.key;
+    };
+    std::erase_if(_answers, [&isMeant](const Kept& kept) { return isMeant(kept.used); });
+    if (_current.has_value() && isMeant(*_current))
+    {
+        _current.reset();
+    }
 }
 
 void IdempotencyKeys::Restore(const std::vector<Planning::CommandReceipt>& receipts, Core::Now now)

@@ -58,6 +58,9 @@ public:
         const Apps::HttpResponse& answer,
         Core::WallTime now) const;
 
+    /// Drops the answer of the receipt, also during `respond`: the same request with the same key is executed again.
+    void Forget(const Planning::CommandReceipt& receipt);
+
     /// Keeps the answers of the receipts, the oldest first, that are recent enough.
     void Restore(const std::vector<Planning::CommandReceipt>& receipts, Core::Now now);
 

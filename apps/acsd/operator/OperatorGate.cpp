@@ -60,6 +60,11 @@ void OperatorGate::Restore(const std::vector<Planning::CommandReceipt>& receipts
     _keys.Restore(receipts, _clock.GetNow());
 }
 
+void OperatorGate::Forget(const Planning::CommandReceipt& receipt)
+{
+    _keys.Forget(receipt);
+}
+
 std::optional<Planning::CommandReceipt> OperatorGate::MakeReceiptOrNull(const Apps::HttpResponse& answer) const
 {
     return _keys.MakeReceiptOrNull(answer, _clock.GetNow().wall);

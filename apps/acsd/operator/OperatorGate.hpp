@@ -52,6 +52,9 @@ public:
     /// Of the command that is being answered; nullopt if it has no Idempotency-Key.
     [[nodiscard]] std::optional<Planning::CommandReceipt> MakeReceiptOrNull(const Apps::HttpResponse& answer) const;
 
+    /// The command of this receipt was not executed: its answer is not repeated.
+    void Forget(const Planning::CommandReceipt& receipt);
+
     /// Called after the end of a session.
     void SetLogoutHandler(std::function<void()> onLogout);
 

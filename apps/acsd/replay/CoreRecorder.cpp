@@ -230,6 +230,11 @@ void CoreRecorder::ObserveCommit(Core::Duration duration)
     _real->output.ObserveCommit(duration);
 }
 
+void CoreRecorder::OnOperatorRefused(const RefusedOffer& refused)
+{
+    _real->output.OnOperatorRefused(refused);
+}
+
 void CoreRecorder::ObserveAckWait(Core::Duration wait)
 {
     _real->output.ObserveAckWait(wait);

@@ -72,6 +72,7 @@ private:
     void StartTimer(const AcsdTimer& timer, Core::Duration delay) override;
     void CancelTimer(const AcsdTimer& timer) override;
     void CancelTimers() override;
+    void OnOperatorRefused(const RefusedOffer& refused) override;
     void CloseLinks() override;
     void OnStopped() override;
     void OnStoreTaken(const std::string& reason) override;

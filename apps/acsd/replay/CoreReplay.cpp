@@ -385,6 +385,10 @@ void CoreReplay::ObserveCommit(Core::Duration /*duration*/)
 {
 }
 
+void CoreReplay::OnOperatorRefused(const RefusedOffer& /*refused*/)
+{
+}
+
 void CoreReplay::ObserveAckWait(Core::Duration /*wait*/)
 {
 }

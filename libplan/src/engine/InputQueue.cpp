@@ -135,13 +135,13 @@ bool InputQueue::TryPushControl(PlanCommand& command, std::optional<CommandRecei
     }
     ++_controlCount;
     const bool bPlanWaits =
-        std::ranges::any_of(_plans, [&planID = std::get<ControlPlan>(command).planID](const QueuedCommand& waiting) {
+        std::ranges::any_of(_plans, [&planID = std::get<ControlPlan>(command).planID](const OfferedCommand& waiting) {
             const auto* const planOrNull = std::get_if<SubmitPlan>(&waiting.command);
             const auto* const controlOrNull = std::get_if<ControlPlan>(&waiting.command);
             return (planOrNull != nullptr && planOrNull->plan.planID == planID)
                 || (controlOrNull != nullptr && controlOrNull->planID == planID);
         });
-    QueuedCommand queued{std::move(command), std::move(receiptOrNull)};
+    OfferedCommand queued{std::move(command), std::move(receiptOrNull)};
     if (bPlanWaits)
     {
         _plans.push_back(std::move(queued));
@@ -243,21 +243,14 @@ InputQueue::Next InputQueue::Pop()
     assert(!IsEmpty());
     if (!_acknowledged.empty())
     {
-        return Commands{{MessageAcknowledged{_acknowledged.extract(_acknowledged.begin()).value()}}, {}};
+        return Commands{{MessageAcknowledged{_acknowledged.extract(_acknowledged.begin()).value()}}};
     }
     switch (ChooseClass())
     {
         case EClass::Plans:
             return PopPlans();
         case EClass::Operator:
-        {
-            Commands commands;
-            for (QueuedCommand& queued : std::exchange(_operator, {}))
-            {
-                AppendCommand(std::move(queued), commands);
-            }
-            return commands;
-        }
+            return std::exchange(_operator, {});
         case EClass::Urgent:
         default:
             return PopUrgent();
@@ -288,11 +281,9 @@ InputQueue::Next InputQueue::PopUrgent()
     _urgent.pop_front();
     return std::visit(
         Core::Overloaded{
-            [this](QueuedCommand& queued) -> Next {
+            [this](OfferedCommand& queued) -> Next {
                 --_controlCount;
-                Commands commands;
-                AppendCommand(std::move(queued), commands);
-                return commands;
+                return Commands{std::move(queued)};
             },
             [this](RobotInput& robot) -> Next {
                 _robots.find(robot.robotID)->second.pop_front();
@@ -311,14 +302,14 @@ InputQueue::Next InputQueue::PopUrgent()
 /// The plans up to the next control, or that control.
 InputQueue::Commands InputQueue::PopPlans()
 {
-    const auto isPlan = [](const QueuedCommand& queued) {
+    const auto isPlan = [](const OfferedCommand& queued) {
         return std::holds_alternative<SubmitPlan>(queued.command);
     };
     Commands commands;
     if (!isPlan(_plans.front()))
     {
         --_controlCount;
-        AppendCommand(std::move(_plans.front()), commands);
+        commands.push_back(std::move(_plans.front()));
         _plans.pop_front();
         return commands;
     }
@@ -326,19 +317,10 @@ InputQueue::Commands InputQueue::PopPlans()
     {
         --_planCount;
         _planBytes -= CountBytes(std::get<SubmitPlan>(_plans.front().command).plan);
-        AppendCommand(std::move(_plans.front()), commands);
+        commands.push_back(std::move(_plans.front()));
         _plans.pop_front();
     }
     return commands;
-}
-
-void InputQueue::AppendCommand(QueuedCommand queued, Commands& commands)
-{
-    commands.commands.push_back(std::move(queued.command));
-    if (queued.receipt.has_value())
-    {
-        commands.receipts.push_back(std::move(*queued.receipt));
-    }
 }
 
 void InputQueue::Remove(const EngineTimer& timer)
@@ -356,12 +338,12 @@ void InputQueue::Remove(const EngineTimer& timer)
 std::vector<PlanCommand> InputQueue::Clear()
 {
     std::vector<PlanCommand> commands;
-    const auto append = [&commands](QueuedCommand& queued) {
+    const auto append = [&commands](OfferedCommand& queued) {
         commands.push_back(std::move(queued.command));
     };
     for (auto& input : _urgent)
     {
-        if (auto* const controlOrNull = std::get_if<QueuedCommand>(&input); controlOrNull != nullptr)
+        if (auto* const controlOrNull = std::get_if<OfferedCommand>(&input); controlOrNull != nullptr)
         {
             append(*controlOrNull);
         }

@@ -2,6 +2,7 @@
 
 #include <acs/plan/CommandReceipt.hpp>
 #include <acs/plan/EngineInput.hpp>
+#include <acs/plan/OfferedCommand.hpp>
 
 #include <array>
 #include <cstddef>
@@ -25,11 +26,7 @@ class InputQueue
 {
 public:
     /// Commands of one call of the engine. Several are all plans, or all of the operator.
-    struct Commands
-    {
-        std::vector<PlanCommand> commands;
-        std::vector<CommandReceipt> receipts; ///< Of those that have one.
-    };
+    using Commands = std::vector<OfferedCommand>;
 
     /// Inputs of one call of the engine.
     using Next = std::variant<RobotInput, EngineTimer, StoreLog, Commands>;
@@ -43,13 +40,7 @@ private:
     };
     static constexpr std::size_t CLASSES = 3;
 
-    struct QueuedCommand
-    {
-        PlanCommand command;
-        std::optional<CommandReceipt> receipt;
-    };
-
-    using Inputs = std::list<std::variant<QueuedCommand, RobotInput, EngineTimer, StoreLog>>;
+    using Inputs = std::list<std::variant<OfferedCommand, RobotInput, EngineTimer, StoreLog>>;
     using RobotInputs = std::deque<Inputs::iterator>; ///< Of one robot, oldest first.
 
     InputLimits _limits;
@@ -58,8 +49,8 @@ private:
     std::map<std::string, RobotInputs> _robots; ///< The events in _urgent.
     std::set<EngineTimer> _timers;              ///< Those in _urgent.
     std::optional<StoreLog> _storeLog;          ///< The latest; an empty one in _urgent has its place.
-    std::deque<QueuedCommand> _plans;           ///< With the controls that stay after a plan.
-    std::vector<QueuedCommand> _operator;
+    std::deque<OfferedCommand> _plans;           ///< With the controls that stay after a plan.
+    std::vector<OfferedCommand> _operator;
     std::size_t _planCount = 0;
     std::size_t _planBytes = 0;
     std::size_t _controlCount = 0;                 ///< In both classes.
@@ -92,7 +83,6 @@ private:
     [[nodiscard]] EClass ChooseClass();
     [[nodiscard]] Next PopUrgent();
     [[nodiscard]] Commands PopPlans();
-    static void AppendCommand(QueuedCommand queued, Commands& commands);
 };
 
 } // namespace ACS::Planning

@@ -13,13 +13,13 @@ namespace
 {
 
 /// If a batch cannot be stored, plans and controls are refused; commands of the operator stay in effect.
-[[maybe_unused]] bool CanShareTransaction(std::span<const PlanCommand> commands)
+[[maybe_unused]] bool CanShareTransaction(std::span<const OfferedCommand> commands)
 {
-    const auto isPlan = [](const PlanCommand& command) {
-        return std::holds_alternative<SubmitPlan>(command);
+    const auto isPlan = [](const OfferedCommand& offered) {
+        return std::holds_alternative<SubmitPlan>(offered.command);
     };
-    const auto isOfMCS = [&isPlan](const PlanCommand& command) {
-        return isPlan(command) || std::holds_alternative<ControlPlan>(command);
+    const auto isOfMCS = [&isPlan](const OfferedCommand& offered) {
+        return isPlan(offered) || std::holds_alternative<ControlPlan>(offered.command);
     };
     return std::ranges::all_of(commands, isPlan) || std::ranges::none_of(commands, isOfMCS);
 }
@@ -48,24 +48,26 @@ void PlanEngine::Restore(StoredState state, Core::Now now, EngineActions& out)
 
 void PlanEngine::Handle(const PlanCommand& command, Core::Now now, EngineActions& out)
 {
-    Handle({&command, 1}, {}, now, out);
+    const OfferedCommand offered{command};
+    Handle({&offered, 1}, now, out);
 }
 
-void PlanEngine::Handle(
-    std::span<const PlanCommand> commands,
-    std::span<const CommandReceipt> receipts,
-    Core::Now now,
-    EngineActions& out)
+void PlanEngine::Handle(std::span<const OfferedCommand> commands, Core::Now now, EngineActions& out)
 {
-    const auto isAcknowledgement = [](const PlanCommand& command) {
-        return std::holds_alternative<MessageAcknowledged>(command);
+    const auto isAcknowledgement = [](const OfferedCommand& offered) {
+        return std::holds_alternative<MessageAcknowledged>(offered.command);
     };
     assert(commands.size() == 1 || CanShareTransaction(commands));
     _impl->Begin(now);
-    std::ranges::for_each(commands, [this](const PlanCommand& command) { _impl->HandleCommand(command); });
-    std::ranges::for_each(receipts, [this](const CommandReceipt& receipt) {
-        _impl->_engine.transaction.Store(ReceiptAdded{receipt});
-    });
+    EngineTransaction& transaction = _impl->_engine.transaction;
+    for (const OfferedCommand& offered : commands)
+    {
+        _impl->HandleCommand(offered.command);
+        if (offered.receipt.has_value() && transaction.HasAcceptedCommand())
+        {
+            transaction.Store(ReceiptAdded{*offered.receipt});
+        }
+    }
     if (!std::ranges::all_of(commands, isAcknowledgement))
     {
         _impl->_places.NoteAllMovable();

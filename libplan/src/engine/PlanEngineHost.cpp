@@ -174,7 +174,7 @@ void PlanEngineHost::CallEngine()
     EngineActions actions;
     std::visit(
         Core::Overloaded{
-            [&](const InputQueue::Commands& input) { _engine.Handle(input.commands, input.receipts, now, actions); },
+            [&](const InputQueue::Commands& input) { _engine.Handle(input, now, actions); },
             [&](const RobotInput& robot) { _engine.Handle(robot.robotID, robot.event, now, actions); },
             [&](const EngineTimer& timer) { _engine.OnTimer(timer, now, actions); },
             [&](const StoreLog& log) {

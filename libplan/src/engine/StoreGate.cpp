@@ -206,6 +206,10 @@ std::size_t StoreGate::RecoverBatch(const StoreBatch& batch)
         {
             continue; // restored below
         }
+        if (_call.controlID.has_value() && std::holds_alternative<ReceiptAdded>(change))
+        {
+            continue; // the control is refused
+        }
         const auto* addedOrNull = std::get_if<PlanAdded>(&change);
         if (addedOrNull == nullptr)
         {

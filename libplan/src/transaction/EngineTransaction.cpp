@@ -267,6 +267,12 @@ void EngineTransaction::OnAlarmQuiet()
 void EngineTransaction::Reply(ReplyToken token, bool bAccepted, std::string message)
 {
     _actions.emplace_back(ReplyCommand{token, bAccepted, std::move(message)});
+    _bCommandAccepted = bAccepted;
+}
+
+bool EngineTransaction::HasAcceptedCommand() const noexcept
+{
+    return _bCommandAccepted;
 }
 
 } // namespace ACS::Planning

@@ -37,6 +37,7 @@ class EngineTransaction
     std::vector<StoreChange> _changes;
     EngineActions _actions;
     bool _bDispatchNeeded = false;
+    bool _bCommandAccepted = false; ///< As the latest reply states.
     std::optional<Core::SteadyTime> _alarmQuietAt; ///< The timer AlarmQuiet runs.
 
 public:
@@ -54,6 +55,8 @@ public:
     /// Adds the report to the outbox. Returns its transactionID, valid until the next report.
     std::string_view AddReport(Report report);
     void Reply(ReplyToken token, bool bAccepted, std::string message);
+    /// What the latest reply states.
+    [[nodiscard]] bool HasAcceptedCommand() const noexcept;
     void Command(Robot& robot, RobotCommand command);
     void StartTimer(EEngineTimer kind, const std::string& robotID, Core::Duration delay);
     void CancelTimer(EEngineTimer kind, const std::string& robotID);

@@ -257,6 +257,10 @@ void AcsdProcess::ObserveCommit(Core::Duration /*duration*/)
 {
 }
 
+void AcsdProcess::OnOperatorRefused(const Acsd::RefusedOffer& /*refused*/)
+{
+}
+
 void AcsdProcess::ObserveAckWait(Core::Duration /*wait*/)
 {
 }

@@ -134,6 +134,7 @@ private:
     void StartTimer(const Acsd::AcsdTimer& timer, Core::Duration delay) override;
     void CancelTimer(const Acsd::AcsdTimer& timer) override;
     void CancelTimers() override;
+    void OnOperatorRefused(const Acsd::RefusedOffer& refused) override;
     void CloseLinks() override;
     void OnStopped() override;
     void OnStoreTaken(const std::string& reason) override;

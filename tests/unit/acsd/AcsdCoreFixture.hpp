@@ -44,6 +44,7 @@ protected:
     std::vector<std::string> _statuses; ///< Robots whose state was sent, in order.
     std::vector<Protocol::AcsAck> _answers;
     std::vector<Core::Duration> _ackWaits;
+    std::vector<RefusedOffer> _refused;
     std::size_t _commits = 0;
     std::size_t _checks = 0;
     std::size_t _closes = 0;
@@ -68,6 +69,13 @@ protected:
             _batch.reset();
             _core->OnStored({});
         }
+    }
+
+    /// The transaction that is under way fails.
+    void FailDisk()
+    {
+        _batch.reset();
+        _core->OnStored(Core::Fail(make_error_code(Planning::EPlanningError::StoreFailed), "store", "room", "disk full"));
     }
 
     /// Lets the time pass, with every timer at its time.
@@ -160,6 +168,11 @@ private:
     void CancelTimers() override
     {
         _timers.clear();
+    }
+
+    void OnOperatorRefused(const RefusedOffer& refused) override
+    {
+        _refused.push_back(refused);
     }
 
     void CloseLinks() override

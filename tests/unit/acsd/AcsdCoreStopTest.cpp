@@ -39,6 +39,32 @@ TEST_CASE_METHOD(AcsdCoreFixture, "A stop refuses plans and waits for the Acks o
     CHECK(_stops == 1);
 }
 
+TEST_CASE_METHOD(AcsdCoreFixture, "A command of the operator that is refused after it has waited for the disk is reported")
+{
+    Begin();
+    BringRobotUp();
+    Register();
+    Submit("P1");
+    _bDiskHangs = true;
+    Submit("P2");
+    const Planning::CommandReceipt receipt{"lee", "k", "accepted", _clock.GetNow().wall};
+    const Planning::ControlPlan abort{
+        Planning::EPlanControl::Abort,
+        "P1",
+        {},
+        0,
+        {},
+        Planning::EControlOrigin::Operator};
+    CHECK(_core->Offer(abort, receipt) == Planning::EInputAdmission::Accepted);
+    CHECK(_core->Offer(Planning::SetMaintenance{"LR01", true, 0}) == Planning::EInputAdmission::Accepted);
+    CHECK(_refused.empty());
+    FailDisk();
+    REQUIRE(_refused.size() == 1);
+    CHECK(_refused.front().command == "Abort of plan P1");
+    CHECK(_refused.front().receipt == receipt);
+    CHECK_FALSE(_refused.front().reason.empty());
+}
+
 TEST_CASE_METHOD(
     AcsdCoreFixture,
     "A stop does not wait for Acks without an MCS, and no longer than the drain timeout with one")

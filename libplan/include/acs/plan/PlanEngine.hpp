@@ -9,6 +9,7 @@
 #include <acs/plan/EngineOptions.hpp>
 #include <acs/plan/IPlanObserver.hpp>
 #include <acs/plan/IPlanStore.hpp>
+#include <acs/plan/OfferedCommand.hpp>
 #include <acs/plan/PlanCommand.hpp>
 #include <acs/plan/PlanRecord.hpp>
 #include <acs/plan/RobotEvent.hpp>
@@ -75,12 +76,8 @@ public:
 
     /// Handles several commands in this order with a single StorePlans, because a store on disk needs about the same time for
     /// many changes as for one. Either all are SubmitPlan, or none is SubmitPlan or ControlPlan. The same StorePlans has the
-    /// receipts, also if the commands change nothing.
-    void Handle(
-        std::span<const PlanCommand> commands,
-        std::span<const CommandReceipt> receipts,
-        Core::Now now,
-        EngineActions& out);
+    /// receipts of the commands that are not refused, also if they change nothing.
+    void Handle(std::span<const OfferedCommand> commands, Core::Now now, EngineActions& out);
 
     /// Handles an event of a robot. Ignored if the robot is not configured, or if the event belongs to another drive or job
     /// than the robot's current one.

@@ -62,8 +62,9 @@ public:
     /// inputs are dropped after Close.
     void Push(EngineInput input);
 
-    /// As Push, for a command of the operator, whose sender waits for no reply. Unless Accepted, the command is not handled.
-    /// The receipt is stored in the transaction of the command; if that fails, with the retry.
+    /// As Push, for a command of the operator. Unless Accepted, the command is not handled. The receipt is stored in the
+    /// transaction of the command; if that fails, with the retry. It is not stored if the reply refuses the command, whose
+    /// state may have changed while it waited for the store.
     [[nodiscard]] EInputAdmission Offer(
         PlanCommand command,
         std::optional<CommandReceipt> receiptOrNull = std::nullopt);

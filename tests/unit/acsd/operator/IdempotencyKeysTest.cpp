@@ -132,6 +132,17 @@ TEST_CASE("Answers are kept 10 minutes, at most 1,000 of them, and none of 500 a
     CHECK_FALSE(IsReplayed(fixture.Post("k")));
 }
 
+TEST_CASE("The key of a command that was not executed is forgotten, and the command is executed when it is repeated")
+{
+    KeyFixture fixture;
+    static_cast<void>(fixture.Post("a"));
+    static_cast<void>(fixture.Post("b"));
+    fixture.keys.Forget(fixture.receipts.front());
+    CHECK(IsReplayed(fixture.Post("b")));
+    CHECK_FALSE(IsReplayed(fixture.Post("a")));
+    CHECK(fixture.calls == 3);
+}
+
 TEST_CASE("The keys of receipts are valid after a restart, for the rest of their 10 minutes")
 {
     KeyFixture before;

@@ -125,7 +125,9 @@ TEST_CASE_METHOD(InputQueueTest, "Other robots, timers and acknowledgements are 
     }
     CHECK(_queue.GetCount() == 9);
     const InputQueue::Next next = _queue.Pop();
-    CHECK(std::get<InputQueue::Commands>(next).commands == std::vector<PlanCommand>{MessageAcknowledged{7}});
+    const auto& commands = std::get<InputQueue::Commands>(next);
+    REQUIRE(commands.size() == 1);
+    CHECK(commands.front().command == PlanCommand(MessageAcknowledged{7}));
 }
 
 TEST_CASE_METHOD(InputQueueTest, "A timer that was cancelled after it expired is removed, and can expire again")

@@ -358,6 +358,25 @@ TEST_CASE_METHOD(
     CHECK(_batches.back().changes == std::vector<StoreChange>{ReceiptAdded{makeReceipt("none")}});
 }
 
+TEST_CASE_METHOD(HostTest, "A command of the operator that is refused after it has waited for the store has no receipt")
+{
+    Submit("P1", 1);
+    REQUIRE(TryStoreAll());
+    _batches.clear();
+    Submit("P2", 2); // is written
+    const ControlPlan control{EPlanControl::Abort, "P1", {}, 9, {}, EControlOrigin::Operator};
+    REQUIRE(_host.Offer(control, CommandReceipt{"lee", "abort", "accepted", {}}) == EInputAdmission::Accepted);
+    _host.OnStored(Core::Fail(make_error_code(EPlanningError::StoreFailed), "store", "room", "disk full"));
+    CHECK(ListReplies().back() == std::pair<ReplyToken, bool>{9, false});
+    REQUIRE(TryStoreAll());
+    for (const StoreBatch& batch : _batches)
+    {
+        CHECK(std::ranges::none_of(batch.changes, [](const StoreChange& change) {
+            return std::holds_alternative<ReceiptAdded>(change);
+        }));
+    }
+}
+
 TEST_CASE_METHOD(
     HostTest,
     "4.1, R1 A closed loop still sends what waits for the batch that is being written, and refuses new requests")

@@ -91,11 +91,11 @@ TEST_CASE("D-23 A repeated plan that runs is accepted although another plan of t
     world.Connect();
     world.Submit(MakeLogisticsPlan("P1"), 1, "T1");
     REQUIRE(TryRunUntil(world, "P1", "Step 1 InProgress"));
-    const std::vector<PlanCommand> both{
-        SubmitPlan{MakeLogisticsPlan("P1"), 2, "T1"},
-        SubmitPlan{MakeLogisticsPlan("P2"), 3, "T2"}};
+    const std::vector<OfferedCommand> both{
+        {SubmitPlan{MakeLogisticsPlan("P1"), 2, "T1"}},
+        {SubmitPlan{MakeLogisticsPlan("P2"), 3, "T2"}}};
     EngineActions actions;
-    world.engine->Handle(both, {}, world.GetNow(), actions);
+    world.engine->Handle(both, world.GetNow(), actions);
     REQUIRE(actions.size() == 1);
     REQUIRE(std::holds_alternative<StorePlans>(actions.front()));
     EngineActions instead;

@@ -167,6 +167,23 @@ TEST_CASE("StoreGate: a control that cannot be stored is refused, and its pause 
     CHECK(parts.engine.call.unstoredControlIDs.size() == 1);
 }
 
+TEST_CASE("StoreGate: the receipt of an operator's pause that cannot be stored is withdrawn with it")
+{
+    GateParts parts;
+    parts.BeginLoad();
+    parts.BeginCall();
+    parts.controls.Control(ControlPlan{EPlanControl::Pause, "P1", {}, 7, {}, EControlOrigin::Operator});
+    parts.engine.transaction.Store(ReceiptAdded{{"lee", "pause", "accepted", {}}});
+    static_cast<void>(parts.CommitCall());
+    const CallOutcome failed = parts.EndStore(false);
+    REQUIRE(failed.ListActions<ReplyCommand>().size() == 1);
+    CHECK_FALSE(failed.ListActions<ReplyCommand>().front().bAccepted);
+    CHECK_FALSE(parts.lr.control.pause.IsPaused());
+    CHECK(std::ranges::none_of(parts.engine.backlog.CollectChanges(), [](const StoreChange& change) {
+        return std::holds_alternative<ReceiptAdded>(change);
+    }));
+}
+
 TEST_CASE("StoreGate: acknowledgements are stored together")
 {
     GateParts parts;
