@@ -49,7 +49,7 @@ private:
     std::map<std::string, RobotInputs> _robots; ///< The events in _urgent.
     std::set<EngineTimer> _timers;              ///< Those in _urgent.
     std::optional<StoreLog> _storeLog;          ///< The latest; an empty one in _urgent has its place.
-    std::deque<OfferedCommand> _plans;           ///< With the controls that stay after a plan.
+    std::deque<OfferedCommand> _plans;          ///< With the controls that stay after a plan.
     std::vector<OfferedCommand> _operator;
     std::size_t _planCount = 0;
     std::size_t _planBytes = 0;

@@ -128,7 +128,10 @@ std::vector<std::reference_wrapper<const PlanRecord>> PlanEngine::GetActivePlanR
     ordered.reserve(_impl->_engine.plans.GetActive().size());
     for (const auto& [planID, plan] : _impl->_engine.plans.GetActive())
     {
-        ordered.push_back(plan.get());
+        if (!IsStoring() || _impl->_engine.plans.IsOfEarlierCall(*plan))
+        {
+            ordered.push_back(plan.get());
+        }
     }
     std::ranges::sort(ordered, [&rank](const ActivePlan* leftOrNull, const ActivePlan* rightOrNull) {
         return std::pair(rank(leftOrNull), leftOrNull->key) < std::pair(rank(rightOrNull), rightOrNull->key);

@@ -209,10 +209,13 @@ const PlanBook::Queue& PlanBook::GetQueue() const noexcept
 ActivePlan* PlanBook::FindNextStoredOrNull(const ActivePlan* afterOrNull) const
 {
     auto next = afterOrNull == nullptr ? _queue.begin() : _queue.upper_bound(afterOrNull->key);
-    next = std::find_if(next, _queue.end(), [this](const auto& entry) {
-        return entry.second->record.sequence <= _lastStoredSequence;
-    });
+    next = std::find_if(next, _queue.end(), [this](const auto& entry) { return IsOfEarlierCall(*entry.second); });
     return next == _queue.end() ? nullptr : next->second;
+}
+
+bool PlanBook::IsOfEarlierCall(const ActivePlan& plan) const noexcept
+{
+    return plan.record.sequence <= _lastStoredSequence;
 }
 
 ActivePlan* PlanBook::FindActiveOrNull(std::string_view planID) const

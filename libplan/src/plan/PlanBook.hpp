@@ -88,6 +88,8 @@ public:
     [[nodiscard]] const Queue& GetQueue() const noexcept;
     /// The first queued plan after this one, or of all, that was accepted before this call: only those are stored.
     [[nodiscard]] ActivePlan* FindNextStoredOrNull(const ActivePlan* afterOrNull) const;
+    /// Whether the plan was accepted before this call.
+    [[nodiscard]] bool IsOfEarlierCall(const ActivePlan& plan) const noexcept;
     [[nodiscard]] ActivePlan* FindActiveOrNull(std::string_view planID) const;
     [[nodiscard]] PlanRecord* FindFinishedOrNull(std::string_view planID);
     [[nodiscard]] const PlanRecord* FindFinishedOrNull(std::string_view planID) const;

@@ -37,7 +37,7 @@ class EngineTransaction
     std::vector<StoreChange> _changes;
     EngineActions _actions;
     bool _bDispatchNeeded = false;
-    bool _bCommandAccepted = false; ///< As the latest reply states.
+    bool _bCommandAccepted = false;                ///< As the latest reply states.
     std::optional<Core::SteadyTime> _alarmQuietAt; ///< The timer AlarmQuiet runs.
 
 public:

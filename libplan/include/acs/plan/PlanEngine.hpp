@@ -121,7 +121,8 @@ public:
     /// One for every robot.
     [[nodiscard]] std::vector<RobotRoute> GetRobotRoutes() const;
 
-    /// In progress, then paused, then pending, each in the order of the queue.
+    /// In progress, then paused, then pending, each in the order of the queue. Without the plans whose acceptance is being
+    /// stored: they are refused if that fails.
     [[nodiscard]] std::vector<PlanSummary> GetActivePlans() const;
 
     /// nullopt if the plan is unknown or was deleted.

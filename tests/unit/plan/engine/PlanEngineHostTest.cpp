@@ -377,6 +377,21 @@ TEST_CASE_METHOD(HostTest, "A command of the operator that is refused after it h
     }
 }
 
+TEST_CASE_METHOD(HostTest, "A plan is listed when it is stored, so that one that cannot be stored is never shown")
+{
+    Submit("P1", 1);
+    CHECK(_engine.GetActivePlans().empty());
+    _host.OnStored(Core::Fail(make_error_code(EPlanningError::StoreFailed), "store", "room", "disk full"));
+    CHECK(_engine.GetActivePlans().empty());
+    REQUIRE(TryStoreAll());
+    Submit("P2", 2);
+    _host.OnStored({});
+    CHECK(_engine.GetActivePlans().size() == 1);
+    REQUIRE(TryStoreAll());
+    Submit("P3", 3);
+    CHECK(_engine.GetActivePlans().size() == 1);
+}
+
 TEST_CASE_METHOD(
     HostTest,
     "4.1, R1 A closed loop still sends what waits for the batch that is being written, and refuses new requests")

@@ -227,7 +227,8 @@ TEST_CASE("13.5 A stored plan that is sent again is accepted although another pl
     world.Connect();
     world.Submit(MakeLogisticsPlan("P1"), 1, "T1");
     world.store.bFails = true;
-    world.SubmitTogether({{SubmitPlan{MakeLogisticsPlan("P1"), 2, "T1"}}, {SubmitPlan{MakeLogisticsPlan("P2"), 3, "T2"}}});
+    world.SubmitTogether(
+        {{SubmitPlan{MakeLogisticsPlan("P1"), 2, "T1"}}, {SubmitPlan{MakeLogisticsPlan("P2"), 3, "T2"}}});
     CHECK(world.replies.at(2).bAccepted);
     CHECK_FALSE(world.replies.at(3).bAccepted);
 }
