@@ -219,6 +219,10 @@ class Restored(Store):
         self.assertIn("1 open plan resumed", self.run_store("check", self.directory))
         self.assertIn("a lock of another program", self.run_store("restore", self.directory, backup, code=1))
         self.assertIn("nothing to accept", self.run_store("accept", self.directory))
+        empty = self.line.folder / "empty"
+        empty.mkdir(mode=0o700)
+        for wrong in (empty, self.line.folder / "absent"):
+            self.assertIn("a database to accept", self.run_store("accept", wrong, code=1))
         self.vehicles.send_signal(signal.SIGCONT)
         self.wait_for_status(address, lambda status: not status["plans"], FINISH_SECONDS)
         self.end_acsd(acsd)

@@ -59,7 +59,8 @@ Outcome Check(const std::string& place)
 
 Outcome Accept(const std::string& directory)
 {
-    if (Outcome summary = Check(directory); summary.has_value())
+    const Core::Result<Planning::StoreOrigin> origin = Planning::SqlitePlanStore::Inspect(directory);
+    if (origin.has_value() && !origin->bNew)
     {
         return "nothing to accept: this is the store that was used last";
     }
