@@ -455,6 +455,16 @@ class Following(AcsctlCase):
                 process.send_signal(signal.SIGTERM)
                 self.assertEqual(process.wait(SECONDS), 0)
 
+    def test_follow_connects_again_if_its_first_stream_is_refused_for_a_time(self):
+        self.mock.stream_refusal = (503, b'{"error":"Too many event streams are open."}', "application/json")
+        process = self.start("events", "--follow")
+        self.assertEqual(process.stderr.readline(), "acsctl: Too many event streams are open.; connecting again\n")
+        self.mock.stream_refusal = None
+        self.wait_for_requests(3)
+        self.assertEqual([request["path"] for request in self.mock.requests[:3]], ["/v1/snapshot"] + 2 * ["/v1/events"])
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(SECONDS), 0)
+
     def test_all_events_that_acsd_still_has_are_shown(self):
         self.mock.newest_event = 5000
         for oldest in (4998, 4996, 4979, 905):

@@ -85,6 +85,7 @@ Outcome<void> EventsCommand::RunHistory()
     {
         return tl::make_unexpected(newest.error());
     }
+    _bConnected = true;
     _until = *newest;
     _newest = *newest;
     if (_after.has_value())
@@ -138,6 +139,7 @@ Outcome<void> EventsCommand::Follow()
         {
             return loop.IsInterrupted() ? Outcome<void>() : tl::make_unexpected(newest.error());
         }
+        _bConnected = true;
         _after = *newest;
     }
     while (!loop.IsInterrupted() && !_terminal.IsFailed())

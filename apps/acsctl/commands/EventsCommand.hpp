@@ -38,7 +38,7 @@ class EventsCommand final
     std::deque<std::string> _history;    ///< The newest lines of the history, shown when it is read.
     std::optional<std::uint64_t> _until; ///< The last event of the history while it is read.
     std::uint64_t _newest = 0;           ///< The newest event that acsd has, when the history was read.
-    bool _bConnected = false;            ///< acsd has begun a stream: from then on a lost one is opened again.
+    bool _bConnected = false;            ///< acsd has answered: from then on a lost stream is opened again.
     EEnd _end = EEnd::Ended;
     std::string _fault;
 
