@@ -161,6 +161,11 @@ const Apps::NewestLines& AuditLog::GetNewest() const noexcept
     return _newest;
 }
 
+void AuditLog::LogState()
+{
+    _writer.LogState();
+}
+
 std::uint64_t AuditLog::GetLost() const
 {
     return _writer.GetLost();

@@ -57,6 +57,9 @@ public:
 
     [[nodiscard]] const Apps::NewestLines& GetNewest() const noexcept;
 
+    /// Logs that the files cannot be written, or are written again, if that is new. Write does so too.
+    void LogState();
+
     /// Lines that are missing in the files.
     [[nodiscard]] std::uint64_t GetLost() const;
 };

@@ -98,6 +98,7 @@ void HttpInterfaces::KeepAliveAsync()
         const std::shared_ptr<EventFeed> events = weak.lock();
         if (!error.failed() && events != nullptr && _bOpen)
         {
+            _audit->LogState();
             events->KeepAlive();
             KeepAliveAsync();
         }

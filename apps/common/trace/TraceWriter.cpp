@@ -188,8 +188,6 @@ std::error_code TraceWriter::Open()
 
 void TraceWriter::Write(std::string line, Core::Now now)
 {
-    std::optional<std::string> failure;
-    bool bRecovered = false;
     bool bWake = false;
     {
         const std::lock_guard lock(_impl->mutex);
@@ -197,12 +195,22 @@ void TraceWriter::Write(std::string line, Core::Now now)
         const bool bQueued = _impl->queue.TryPush(std::move(line), now);
         bWake = bWasEmpty && bQueued;
         _impl->lost += bQueued ? 0 : 1;
-        failure = std::exchange(_impl->failureOrNull, std::nullopt);
-        bRecovered = std::exchange(_impl->bRecovered, false);
     }
     if (bWake)
     {
         _impl->wake.notify_one();
+    }
+    LogState();
+}
+
+void TraceWriter::LogState()
+{
+    std::optional<std::string> failure;
+    bool bRecovered = false;
+    {
+        const std::lock_guard lock(_impl->mutex);
+        failure = std::exchange(_impl->failureOrNull, std::nullopt);
+        bRecovered = std::exchange(_impl->bRecovered, false);
     }
     if (failure.has_value())
     {
@@ -236,6 +244,7 @@ void TraceWriter::Close()
     if (_impl->thread.joinable())
     {
         _impl->thread.join();
+        LogState();
     }
 }
 

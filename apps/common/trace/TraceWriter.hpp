@@ -52,13 +52,16 @@ public:
     /// Opens the first file and starts the thread. Call it once, before any other function.
     [[nodiscard]] std::error_code Open();
 
-    /// Queues a line without its line end; now is the time of the message.
+    /// Queues a line without its line end; now is the time of the message. Calls LogState.
     void Write(std::string line, Core::Now now);
+
+    /// Logs that the trace cannot be written, or is written again, if that is new. Call it now and then if lines are rare.
+    void LogState();
 
     /// Takes effect with the next file.
     void SetLimits(const TraceLimits& limits);
 
-    /// Waits until all lines are written. Write must not be called after it.
+    /// Waits until all lines are written. Write must not be called after it. Calls LogState.
     void Close();
 
     /// Number of lines that are missing in the trace.

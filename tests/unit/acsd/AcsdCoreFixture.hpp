@@ -75,7 +75,8 @@ protected:
     void FailDisk()
     {
         _batch.reset();
-        _core->OnStored(Core::Fail(make_error_code(Planning::EPlanningError::StoreFailed), "store", "room", "disk full"));
+        _core->OnStored(
+            Core::Fail(make_error_code(Planning::EPlanningError::StoreFailed), "store", "room", "disk full"));
     }
 
     /// Lets the time pass, with every timer at its time.

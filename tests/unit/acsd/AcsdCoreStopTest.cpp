@@ -39,7 +39,9 @@ TEST_CASE_METHOD(AcsdCoreFixture, "A stop refuses plans and waits for the Acks o
     CHECK(_stops == 1);
 }
 
-TEST_CASE_METHOD(AcsdCoreFixture, "A command of the operator that is refused after it has waited for the disk is reported")
+TEST_CASE_METHOD(
+    AcsdCoreFixture,
+    "A command of the operator that is refused after it has waited for the disk is reported")
 {
     Begin();
     BringRobotUp();
@@ -48,13 +50,8 @@ TEST_CASE_METHOD(AcsdCoreFixture, "A command of the operator that is refused aft
     _bDiskHangs = true;
     Submit("P2");
     const Planning::CommandReceipt receipt{"lee", "k", "accepted", _clock.GetNow().wall};
-    const Planning::ControlPlan abort{
-        Planning::EPlanControl::Abort,
-        "P1",
-        {},
-        0,
-        {},
-        Planning::EControlOrigin::Operator};
+    const Planning::ControlPlan
+        abort{Planning::EPlanControl::Abort, "P1", {}, 0, {}, Planning::EControlOrigin::Operator};
     CHECK(_core->Offer(abort, receipt) == Planning::EInputAdmission::Accepted);
     CHECK(_core->Offer(Planning::SetMaintenance{"LR01", true, 0}) == Planning::EInputAdmission::Accepted);
     CHECK(_refused.empty());

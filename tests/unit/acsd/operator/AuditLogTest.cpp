@@ -1,6 +1,7 @@
 #include "operator/AuditLog.hpp"
 
 #include "Catch.hpp"
+#include "FullDisk.hpp"
 #include "ManualClock.hpp"
 #include "operator/LinesRoute.hpp"
 #include "RecordingLogSink.hpp"
@@ -168,6 +169,18 @@ TEST_CASE("A line that a crash has cut is neither shown nor continued")
     CHECK(fixture.audit->GetNewest().GetText(10).starts_with("{\"whole\":1}\n{\"time\":"));
     fixture.Open();
     CHECK(std::filesystem::exists(fixture.directory + "/audit-000008.ndjson"));
+}
+
+TEST_CASE("An audit log that cannot be written is logged although no further command follows")
+{
+    AuditFixture fixture;
+    fixture.Open();
+    {
+        const Testing::FullDisk full(0);
+        fixture.Write("/v1/tsc/pause");
+        fixture.audit.reset();
+    }
+    CHECK(fixture.log.Contains(Core::ELogLevel::Error, "the audit log cannot be written"));
 }
 
 TEST_CASE("A directory that cannot be written is an error with key and path")
