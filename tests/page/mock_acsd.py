@@ -14,7 +14,7 @@ import threading
 import urllib.parse
 from collections import deque
 
-from mock_floor import Floor, Simulation, format_time, get_now
+from mock_floor import OFFERED_ACTIONS, Floor, Simulation, format_time, get_now
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 PAGE = ROOT / "apps" / "acsd" / "page"
@@ -58,6 +58,7 @@ class MockAcsd:
         self.is_traced = is_traced
         self.is_silent = False  # neither events nor keep-alives, and no answer to a request for them
         self.is_down = False  # closes every connection
+        self.answer_post = None  # of mock_answers; sends it in place of each answer to a command
         self.standby = None  # why it does not lead; all but the page is then answered with it
         self.tsc = "Auto"
         self.links = [{"name": name, "up": True, "reason": None, "since": format_time(get_now()), "broker": broker}
@@ -350,16 +351,6 @@ class MockAcsd:
         return f"{parts[0].capitalize()} of plan {plan.plan_id} accepted."
 
 
-OFFERED_ACTIONS = [
-    {"actionType": "initPosition", "description": "Sets the position of the vehicle.", "parameters": [
-        {"key": "x", "valueType": "NUMBER", "required": True}, {"key": "count", "valueType": "INTEGER", "required": False},
-        {"key": "lastNodeId", "valueType": "STRING", "required": True}, {"key": "exact", "valueType": "BOOL", "required": False}]},
-    {"actionType": "stateRequest", "description": "", "parameters": []},
-    {"actionType": "tune", "description": "", "parameters": [
-        {"key": "__proto__", "valueType": "NUMBER", "required": True}, {"key": "a \"b\"", "valueType": "OBJECT", "required": False}]},
-]
-
-
 class Server(socketserver.ThreadingMixIn, http.server.HTTPServer):
     daemon_threads = True
     request_queue_size = 64
@@ -420,6 +411,9 @@ class Handler(http.server.BaseHTTPRequestHandler):
             answer = mock.post(urllib.parse.unquote(self.path), body, self.headers.get("Idempotency-Key"))
         except Refusal as refusal:
             self.send_json(refusal.status, {"error": str(refusal)})
+            return
+        if mock.answer_post is not None:
+            mock.answer_post(self)
             return
         self.send_json(202, answer)
 

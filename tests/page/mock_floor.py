@@ -19,6 +19,15 @@ WAIT_SECONDS = 6.0  # for a node; then the robot passes anyway, because the mock
 QUEUE_LENGTH = 6
 KEPT_FINISHED = 200
 ACTIONS = {"LR": (("CassetteLoad", "CP"), ("CassetteUnload", "CP")), "CR": (("TrayLoad", "CP"), ("MemoryPickAndPlace", "SET"))}
+OFFERED_ACTIONS = [
+    {"actionType": "initPosition", "description": "Sets the position of the vehicle.", "parameters": [
+        {"key": "x", "valueType": "NUMBER", "required": True}, {"key": "count", "valueType": "INTEGER", "required": False},
+        {"key": "lastNodeId", "valueType": "STRING", "required": True}, {"key": "exact", "valueType": "BOOL", "required": False}]},
+    {"actionType": "stateRequest", "description": "", "parameters": []},
+    {"actionType": "tune", "description": "", "parameters": [
+        {"key": "__proto__", "valueType": "NUMBER", "required": True},
+        {"key": "a \"b\"", "valueType": "OBJECT", "required": False}]},
+]
 
 
 def format_time(time):

@@ -1,6 +1,7 @@
 """The tests that test_page.py runs."""
 
 from suites.alarm_tests import Alarms
+from suites.command_tests import Commands
 from suites.connection_tests import Connection
 from suites.event_tests import Events
 from suites.floor_tests import Floor

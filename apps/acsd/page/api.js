@@ -2,11 +2,25 @@
 
 const TIME_LIMIT = 20_000; // milliseconds
 
-/** An answer that is not 2xx, or no answer (status 0). The message is the sentence of acsd. */
+/** An answer that is not 2xx, or no answer (status 0). isFromAcsd: the message is the sentence of acsd, so that no proxy has
+ *  answered in its place. */
 export class ApiError extends Error {
-    constructor(status, message) {
+    constructor(status, message, isFromAcsd = false) {
         super(message);
         this.status = status;
+        this.isFromAcsd = isFromAcsd;
+    }
+
+    /** Whether acsd keeps this answer for the key of the request: no request with the key has been executed. */
+    get isFinal() {
+        return this.isFromAcsd && this.status < 500 && this.status !== 401 && this.status !== 403;
+    }
+}
+
+/** A command without an answer of acsd, which may have executed it. Again with the same key it has no second effect. */
+export class LostAnswer extends ApiError {
+    constructor(reason) {
+        super(0, reason);
     }
 }
 
@@ -17,12 +31,19 @@ export function setLoginHandler(handler) {
     onLoginNeeded = handler;
 }
 
+function describeStatus(response) {
+    return `${response.status} ${response.statusText}`.trim();
+}
+
 async function readError(response) {
+    let sentence;
     try {
-        return (await response.json()).error;
+        sentence = (await response.json()).error;
     } catch {
-        return `${response.status} ${response.statusText}`;
+        // Cut, or not from acsd.
     }
+    const isFromAcsd = typeof sentence === "string";
+    return new ApiError(response.status, isFromAcsd ? sentence : describeStatus(response), isFromAcsd);
 }
 
 export async function request(path, options = {}) {
@@ -40,7 +61,7 @@ export async function request(path, options = {}) {
         if (response.status === 401 && path !== "/v1/login") {
             onLoginNeeded();
         }
-        throw new ApiError(response.status, await readError(response));
+        throw await readError(response);
     }
     return response;
 }
@@ -70,7 +91,26 @@ export function makeKey() {
     return Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) => byte.toString(16).padStart(2, "0")).join("");
 }
 
-/** Sends a command. After a lost answer it is sent once more: its key makes a second effect impossible. */
+/** The answer of acsd: {message}, or {} of one without a body. */
+async function postOnce(path, options) {
+    const response = await request(path, options);
+    if (response.status === 204) {
+        return {};
+    }
+    let answer = null;
+    try {
+        answer = await response.json();
+    } catch {
+        // Cut, or not from acsd.
+    }
+    if (typeof answer?.message !== "string") {
+        throw new ApiError(0, describeStatus(response));
+    }
+    return answer;
+}
+
+/** Sends a command, and returns the answer of acsd. After a lost answer it is sent once more: its key makes a second effect
+ *  impossible. */
 export async function post(path, body, key = makeKey()) {
     const options = {method: "POST", headers: {"Idempotency-Key": key}};
     if (body !== undefined) {
@@ -78,11 +118,15 @@ export async function post(path, body, key = makeKey()) {
         options.body = JSON.stringify(body);
     }
     try {
-        return await request(path, options);
+        return await postOnce(path, options);
     } catch (error) {
-        if (error.status !== 0) {
+        if (error.isFromAcsd) {
             throw error;
         }
-        return request(path, options);
+    }
+    try {
+        return await postOnce(path, options);
+    } catch (error) {
+        throw error.isFinal ? error : new LostAnswer(error.message);
     }
 }

@@ -1,7 +1,7 @@
 // What the operator may do: each command is one POST. Those with consequences ask first.
 
 import {askAction} from "./action-dialog.js";
-import {makeKey, post} from "./api.js";
+import {LostAnswer, makeKey, post} from "./api.js";
 import {askCarriers} from "./carriers-dialog.js";
 import {askConfirmation, askNumber, ignoreHeldEnter, showError, showToast} from "./dialogs.js";
 import {make} from "./dom.js";
@@ -70,10 +70,13 @@ export async function runCommand(command) {
         const text = JSON.stringify(body);
         const key = lost !== null && lost.text === text ? lost.key : makeKey();
         try {
-            const response = await post(command.path, body, key);
-            showToast((await response.json()).message);
+            showToast((await post(command.path, body, key)).message);
         } catch (error) {
-            lost = error.status === 0 ? {text, key} : null;
+            if (error instanceof LostAnswer) {
+                lost = {text, key};
+            } else if (error.isFinal) {
+                lost = null;
+            }
             throw error;
         }
     };

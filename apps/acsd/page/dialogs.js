@@ -1,6 +1,6 @@
 // The dialogs: confirmation, login, search, help; and the short messages at the edge.
 
-import {post} from "./api.js";
+import {LostAnswer, post} from "./api.js";
 import {make, setHidden, setText} from "./dom.js";
 import {makeGlyph} from "./glyphs.js";
 import {t} from "./text.js";
@@ -71,6 +71,9 @@ export function makeReasonInput(limit = REASON_LIMIT) {
 
 /** Why a request has failed; "" without a login, which has a dialog of its own. */
 function describeError(error) {
+    if (error instanceof LostAnswer) {
+        return `${t("error.lost", {reason: error.message})} ${t("error.repeat")}`;
+    }
     return error.status === 401 ? "" : error.status === 0 ? t("error.connection", {reason: error.message}) : error.message;
 }
 

@@ -276,6 +276,8 @@ export default {
     "dialog.reason": "Reason (optional)",
     "dialog.reasonTooLong": "A reason has at most {n} bytes.",
     "error.connection": "acsd does not answer: {reason}",
+    "error.lost": "No complete answer from acsd ({reason}). The outcome of the command is unknown.",
+    "error.repeat": "Sending the command again within 10 minutes has no second effect.",
 
     "login.title": "Login",
     "login.text": "This acsd requires a token. acsd token ROLE NAME makes one.",

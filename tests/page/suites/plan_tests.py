@@ -87,7 +87,7 @@ class Plans(PlanCase):
             "window.isCut = true")
         self.click_button("Cancel plan")
         self.click("#confirm-action")
-        self.wait_for_text("#confirm-dialog [role=alert]", "acsd does not answer")
+        self.wait_for_text("#confirm-dialog [role=alert]", "No complete answer from acsd (cut).")
         self.run_script("window.isCut = false")
         self.click("#confirm-action")
         wait_until(lambda: not self.find("#confirm-dialog").is_displayed(), "acsd has accepted it")
