@@ -6,38 +6,20 @@ import argparse
 import contextlib
 import http.server
 import json
-import pathlib
 import queue
-import re
 import socketserver
 import threading
 import urllib.parse
 from collections import deque
 
+from mock_files import CONTENT_TYPES, POLICY, find_page_file
 from mock_floor import OFFERED_ACTIONS, Floor, Simulation, format_time, get_now
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-PAGE = ROOT / "apps" / "acsd" / "page"
-LEAFLET = [pathlib.Path(folder) for folder in ("/usr/share/javascript/leaflet", "/usr/share/nodejs/leaflet/dist")]
-CONTENT_TYPES = {".html": "text/html; charset=utf-8", ".css": "text/css; charset=utf-8", ".js": "text/javascript; charset=utf-8",
-                 ".json": "application/json", ".svg": "image/svg+xml", ".txt": "text/plain; charset=utf-8"}
-POLICY = "default-src 'self'; object-src 'none'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
 TICK_SECONDS = 0.2
 KEEP_ALIVE_SECONDS = 15.0
 KEPT_EVENTS = 4096
 BROKER = "mqtt://broker-1.example:1883"
 COOKIE = "acsd_session"
-
-
-def find_page_file(name):
-    """The file of /page/NAME, as CMake embeds them; None if there is none."""
-    if name in ("leaflet.js", "leaflet.css"):
-        source = "leaflet.esm.min.js" if name == "leaflet.js" else name
-        return next((folder / source for folder in LEAFLET if (folder / source).is_file()), None)
-    if name == "leaflet-copyright.txt":
-        return pathlib.Path("/usr/share/doc/libjs-leaflet/copyright")
-    path = PAGE / name
-    return path if re.fullmatch(r"[\w.-]+", name) and path.is_file() else None
 
 
 class Refusal(Exception):
@@ -260,18 +242,19 @@ class MockAcsd:
     # POST
 
     def post(self, path, body, key):
+        """(answer, whether it is that to an earlier request with the key)"""
         with self.lock:
             if self.role != "operator":
                 raise Refusal(403, "The role viewer may only read.")
             self.posts.append((path, body, key))
             if key in self._answers:
-                return self._answers[key]
+                return self._answers[key], True
             answer = self.execute(path.split("/")[2:], body or {})
             answer = {"message": answer} if isinstance(answer, str) else answer
             if key is not None:
                 self._answers[key] = answer
             self.publish()
-            return answer
+            return answer, False
 
     def execute(self, parts, body):
         simulation = self.simulation
@@ -408,14 +391,14 @@ class Handler(http.server.BaseHTTPRequestHandler):
                 self.send_bytes(204, None, b"", {"Set-Cookie": f"{COOKIE}=; Max-Age=0; Path=/"})
                 return
             self.check_access()
-            answer = mock.post(urllib.parse.unquote(self.path), body, self.headers.get("Idempotency-Key"))
+            answer, is_replay = mock.post(urllib.parse.unquote(self.path), body, self.headers.get("Idempotency-Key"))
         except Refusal as refusal:
             self.send_json(refusal.status, {"error": str(refusal)})
             return
         if mock.answer_post is not None:
             mock.answer_post(self)
             return
-        self.send_json(202, answer)
+        self.send_json(202, answer, {"Idempotent-Replay": "true"} if is_replay else {})
 
     def check_access(self):
         token = self.server.mock.token
@@ -431,8 +414,8 @@ class Handler(http.server.BaseHTTPRequestHandler):
         self.send_bytes(200, CONTENT_TYPES[file.suffix if file.suffix else ".txt"], file.read_bytes(),
                         {"Content-Security-Policy": POLICY, "Cache-Control": "no-cache", "X-Content-Type-Options": "nosniff"})
 
-    def send_json(self, status, value):
-        self.send_bytes(status, "application/json", json.dumps(value).encode())
+    def send_json(self, status, value, headers=None):
+        self.send_bytes(status, "application/json", json.dumps(value).encode(), headers)
 
     def send_bytes(self, status, content_type, body, headers=None):
         self.send_response(status)

@@ -91,7 +91,7 @@ export function makeKey() {
     return Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) => byte.toString(16).padStart(2, "0")).join("");
 }
 
-/** The answer of acsd: {message}, or {} of one without a body. */
+/** The answer of acsd: {message, isReplay}, or {} of one without a body. isReplay: it is that to an earlier request. */
 async function postOnce(path, options) {
     const response = await request(path, options);
     if (response.status === 204) {
@@ -106,7 +106,7 @@ async function postOnce(path, options) {
     if (typeof answer?.message !== "string") {
         throw new ApiError(0, describeStatus(response));
     }
-    return answer;
+    return {...answer, isReplay: response.headers.has("Idempotent-Replay")};
 }
 
 /** Sends a command, and returns the answer of acsd. After a lost answer it is sent once more: its key makes a second effect

@@ -1,10 +1,11 @@
 // What the operator may do: each command is one POST. Those with consequences ask first.
 
 import {askAction} from "./action-dialog.js";
-import {LostAnswer, makeKey, post} from "./api.js";
+import {LostAnswer, post} from "./api.js";
 import {askCarriers} from "./carriers-dialog.js";
 import {askConfirmation, askNumber, ignoreHeldEnter, showError, showToast} from "./dialogs.js";
 import {make} from "./dom.js";
+import {dropKey, dropObsoleteKeys, keepKey, takeKey} from "./lost-commands.js";
 import {listCommands} from "./shell.js";
 import {t} from "./text.js";
 
@@ -62,24 +63,27 @@ export function listNamedCommands(text, model) {
     });
 }
 
-/** Asks if need be, sends, and shows the answer. */
-export async function runCommand(command) {
-    let lost = null; // {text, key} of the request whose answer was lost: the user may send it again
-    const send = async (answers = {}) => {
-        const body = Object.keys(answers).length === 0 ? command.body : {...command.body, ...answers};
-        const text = JSON.stringify(body);
-        const key = lost !== null && lost.text === text ? lost.key : makeKey();
-        try {
-            showToast((await post(command.path, body, key)).message);
-        } catch (error) {
-            if (error instanceof LostAnswer) {
-                lost = {text, key};
-            } else if (error.isFinal) {
-                lost = null;
-            }
-            throw error;
+async function sendCommand({path}, body) {
+    const text = JSON.stringify(body);
+    const used = takeKey(path, text);
+    try {
+        const {message, isReplay} = await post(path, body, used.key);
+        dropObsoleteKeys(path, text);
+        showToast(used.isRepeated && isReplay ? t("command.replayed", {message}) : message);
+    } catch (error) {
+        if (error instanceof LostAnswer) {
+            keepKey(path, text, used);
+        } else if (error.isFinal) {
+            dropKey(path, text);
         }
-    };
+        throw error;
+    }
+}
+
+/** Asks if need be, sends, and shows the answer. */
+async function askAndSend(command) {
+    const send = (answers = {}) => sendCommand(command,
+        Object.keys(answers).length === 0 ? command.body : {...command.body, ...answers});
     const {label: title, values} = command;
     if (command.number !== undefined) {
         await askNumber({title, label: t("ask.priority", values), value: command.getValue(),
@@ -96,18 +100,43 @@ export async function runCommand(command) {
     }
 }
 
-/** A button that cannot be pressed twice while its command runs. */
+const running = new Set(); // the names of the commands that are asked for or sent
+
+/** The same in each language. */
+function getName({path, body, offer}) {
+    return JSON.stringify([path, body, offer?.actionType]);
+}
+
+/** Not twice at a time, whichever of its buttons is pressed. */
+async function runCommand(command) {
+    const name = getName(command);
+    if (running.has(name)) {
+        return;
+    }
+    const setDisabled = (isDisabled) => [...document.querySelectorAll("button[data-command]")]
+        .filter((button) => button.dataset.command === name).forEach((button) => { button.disabled = isDisabled; });
+    running.add(name);
+    setDisabled(true); // this takes the focus away
+    try {
+        await askAndSend(command);
+    } finally {
+        running.delete(name);
+        setDisabled(false);
+    }
+}
+
+/** A button that cannot be pressed while its command runs. */
 export function makeCommandButton(command, kind = "") {
     const button = make("button", {type: "button", class: `button ${kind}`.trim(), text: command.label});
     button.dataset.path = command.path;
     button.dataset.key = JSON.stringify(command);
+    button.dataset.command = getName(command);
+    button.disabled = running.has(button.dataset.command);
     ignoreHeldEnter(button);
     button.addEventListener("click", async (event) => {
         event.stopPropagation();
         const hadFocus = document.activeElement === button;
-        button.disabled = true; // this takes the focus away
         await runCommand(command);
-        button.disabled = false;
         // The focus may still be in the dialog that was closed.
         if (hadFocus && document.activeElement.matches("body, dialog:not([open]) *")) {
             button.focus({preventScroll: true});

@@ -248,6 +248,7 @@ export default {
     "command.tscResume": "Resume TSC",
     "command.block": "Block",
     "command.unblock": "Unblock",
+    "command.replayed": "acsd has executed this command before, and not again: {message}",
     "ask.cancel": "Cancel plan {id}? It ends before its first job; its robot stops at the next node.",
     "ask.abort": "Abort plan {id}? Its carriers stay where they are, and an operator may have to move them.",
     "ask.priority": "Priority of plan {id}",

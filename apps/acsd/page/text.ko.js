@@ -248,6 +248,7 @@ export default {
     "command.tscResume": "TSC 재개",
     "command.block": "사용 금지",
     "command.unblock": "사용 금지 해제",
+    "command.replayed": "이미 실행된 명령이므로 다시 실행하지 않았습니다: {message}",
     "ask.cancel": "Plan {id} 취소를 진행하시겠습니까? 첫 Job 시작 전에 종료되며, 로봇은 다음 노드에서 정지합니다.",
     "ask.abort": "Plan {id} 중단(Abort)을 진행하시겠습니까? 캐리어는 현재 위치에 남으며, 작업자가 직접 옮겨야 할 수 있습니다.",
     "ask.priority": "Plan {id}의 우선순위",
