@@ -7,6 +7,7 @@ import {setServerTime} from "./format.js";
 const SILENCE = 30_000; // milliseconds without a byte until the data counts as old; acsd sends a keep-alive every 15 s
 const SHORT = 5_000; // milliseconds; a stream that ended later is continued at once: acsd ends each after an hour
 const RETRIES = [500, 1_000, 2_000, 4_000, 8_000];
+const SITE_RETRY = 2_000;
 
 /** Splits the text of an event stream; returns what is complete. */
 export class EventParser {
@@ -49,6 +50,9 @@ export class Feed {
     #run = 0;
     #abort = null;
     #siteRevision = null;
+    #siteLoad = null; // until acsd has answered
+    #isSiteStale = false;
+    #siteTimer = null;
 
     constructor(model, onState) {
         this.#model = model;
@@ -71,6 +75,7 @@ export class Feed {
     stop() {
         this.#run += 1;
         this.#abort?.abort();
+        clearTimeout(this.#siteTimer); // the next snapshot has the site with it
     }
 
     #set(name, reason = "") {
@@ -166,8 +171,31 @@ export class Feed {
         this.#noteByte();
     }
 
-    async #loadSite() {
-        this.#model.setSite(await getJson("/v1/site"));
+    /** One request at a time, so that the last answer is the newest. */
+    #loadSite() {
+        this.#isSiteStale = true;
+        this.#siteLoad ??= this.#loadStaleSite().finally(() => { this.#siteLoad = null; });
+        return this.#siteLoad;
+    }
+
+    async #loadStaleSite() {
+        while (this.#isSiteStale) {
+            this.#isSiteStale = false;
+            this.#model.setSite(await getJson("/v1/site"));
+        }
+    }
+
+    /** Again after a failure; without a login, all is loaded after it. */
+    async #refreshSite() {
+        const run = this.#run;
+        try {
+            await this.#loadSite();
+        } catch (error) {
+            if (run === this.#run && error.status !== 401) {
+                clearTimeout(this.#siteTimer);
+                this.#siteTimer = setTimeout(() => this.#refreshSite(), SITE_RETRY);
+            }
+        }
     }
 
     #handle(event) {
@@ -183,7 +211,7 @@ export class Feed {
             this.#model.apply(data);
             if (data.status !== undefined && data.status.siteRevision !== this.#siteRevision) {
                 this.#siteRevision = data.status.siteRevision;
-                this.#loadSite().catch(() => { this.#siteRevision = null; });
+                this.#refreshSite();
             }
         } else if (event.type === "entry") {
             this.#model.addEntry({...data, id: Number(event.id)});

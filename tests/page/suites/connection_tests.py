@@ -1,5 +1,7 @@
 """The connection to acsd: lost, restored, refused."""
 
+from mock_acsd import Refusal
+from mock_floor import format_time, get_now
 from page_case import PageCase, wait_until
 from selenium.webdriver.common.keys import Keys
 
@@ -117,3 +119,57 @@ class Connection(PageCase):
         self.wait_for_state("live")
         self.assertFalse(self.find("#banner").is_displayed())
         self.assertFalse(self.find("#login-dialog").is_displayed())
+
+    def block(self, node_id):
+        """The answer about the site has it from now on."""
+        with self.mock.lock:
+            self.mock.simulation.floor.blocks[("node", node_id)] = {
+                "kind": "node", "id": node_id, "reason": "", "since": format_time(get_now())}
+            self.mock.site_revision += 1
+            self.mock.publish()
+            return self.mock.site_revision
+
+    def is_blocked(self, node_id):
+        return self.run_script("return acsdPage.model.findBlock('node', arguments[0]) !== null", node_id)
+
+    def test_an_older_answer_about_the_site(self):
+        """It does not replace a newer one."""
+        self.start_mock()
+        self.mock.freeze()
+        self.open()
+        first, second = list(self.mock.simulation.floor.places)[:2]
+        self.run_script(
+            "const send = window.fetch; window.held = null; window.fetch = async (path, ...rest) => {"
+            "  const answer = await send(path, ...rest);"
+            "  if (path !== '/v1/site' || window.held !== null) { return answer; }"
+            "  const text = await answer.text();"
+            "  return new Promise((go) => { window.held = () => go(new Response(text, answer)); });"
+            "};")
+        self.block(first)
+        wait_until(lambda: self.run_script("return window.held !== null"), "the first answer is held")
+        revision = self.block(second)
+        wait_until(lambda: self.run_script("return acsdPage.model.status.siteRevision") == revision, "the second change is known")
+        self.run_script("return new Promise((go) => setTimeout(go, 500))")
+        self.run_script("window.held(); return new Promise((go) => setTimeout(go, 100))")
+        wait_until(lambda: self.is_blocked(first) and self.is_blocked(second), "both are blocked")
+
+    def test_the_site_is_loaded_again_after_a_failure(self):
+        self.expected_log = ("/v1/site",)
+        self.start_mock()
+        self.mock.freeze()
+        self.open()
+        node_id = next(iter(self.mock.simulation.floor.places))
+        get, refused = self.mock.get, []
+
+        def refuse(path, query):
+            if path == "/v1/site":
+                refused.append(path)
+                raise Refusal(503, "acsd is busy.")
+            return get(path, query)
+
+        self.mock.get = refuse
+        self.block(node_id)
+        wait_until(lambda: refused, "the request fails")
+        self.mock.get = get
+        wait_until(lambda: self.is_blocked(node_id), "it is blocked")
+        self.assertEqual(self.run_script("return acsdPage.feedState.name"), "live")
