@@ -8,6 +8,7 @@ from suites.floor_tests import Floor
 from suites.general_tests import AnyAcsd, Header
 from suites.keyboard_tests import Keyboard, Lists
 from suites.performance_tests import Performance
+from suites.plan_detail_tests import PlanDetail
 from suites.plan_tests import Causes, Plans
 from suites.robot_tests import Actions, Carriers, Detail
 from suites.safety_tests import Safety

@@ -4,28 +4,33 @@ import {getJson} from "./api.js";
 import {AlarmRow, getAlarmKey} from "./alarm-view.js";
 import {CauseRow, explainPlan, UNRESOLVED} from "./causes.js";
 import {Commands, makeCommandButton} from "./commands.js";
-import {KeyedList, make, makeFact, makeLink, setHidden, showChildren} from "./dom.js";
+import {KeyedList, make, makeFact, makeLink, setHidden, setText, showChildren} from "./dom.js";
 import {formatTime, setSince} from "./format.js";
 import {StepBar} from "./plan-view.js";
 import {nameState, t} from "./text.js";
 import {TraceList} from "./trace-list.js";
 
+const RETRY = 3_000; // milliseconds
+
 export class PlanDetail {
     constructor(context, {id}) {
         this.context = context;
         this.id = id;
+        this.error = make("p", {class: "form-error", role: "alert", hidden: true});
         this.steps = new StepBar();
         this.facts = make("dl", {class: "facts"});
         this.buttons = make("div", {class: "row-buttons no-wall"});
+        this.stepTitle = make("h3", {text: t("plan.steps")});
         this.stepList = make("ol", {class: "step-list"});
         this.causeList = make("ul", {class: "alarms"});
         this.causes = new KeyedList(this.causeList, (cause) => cause.key, (cause) => new CauseRow(cause, context.select));
         this.alarmList = make("ul", {class: "alarms"});
         this.alarms = new KeyedList(this.alarmList, getAlarmKey, (alarm) => new AlarmRow(alarm, context));
-        this.node = make("div", {class: "detail-body"}, this.steps.node, this.causeList, this.alarmList, this.facts, this.buttons,
-            make("h3", {text: t("plan.steps")}), this.stepList, new TraceList(`plan=${encodeURIComponent(id)}`).node);
+        this.node = make("div", {class: "detail-body"}, this.error, this.steps.node, this.causeList, this.alarmList, this.facts,
+            this.buttons, this.stepTitle, this.stepList, new TraceList(`plan=${encodeURIComponent(id)}`).node);
         this.plan = null;
         this.isLoading = false;
+        this.timer = null; // for another attempt
         this.load();
     }
 
@@ -38,16 +43,52 @@ export class PlanDetail {
         this.isLoading = true;
         do {
             this.isStale = false;
+            clearTimeout(this.timer);
             try {
                 this.plan = await getJson(`/v1/plans/${encodeURIComponent(this.id)}`);
+                this.#setError("");
                 this.#show();
             } catch (error) {
-                if (this.plan === null) {
-                    this.facts.replaceChildren(make("dd", {text: error.message}));
-                }
+                this.#showFailure(error);
             }
         } while (this.isStale);
         this.isLoading = false;
+    }
+
+    #setError(text) {
+        setText(this.error, text);
+        setHidden(this.error, text === "");
+    }
+
+    /** What is shown stays, unless the plan is gone. Without a login, all is loaded after it. */
+    #showFailure(error) {
+        if (error.status === 404 && error.isFromAcsd) {
+            this.#showGone();
+            return;
+        }
+        this.#setError(t("plan.notLoaded", {reason: error.message}));
+        if (error.status !== 401) {
+            this.timer = setTimeout(() => {
+                if (this.node.isConnected) {
+                    this.load();
+                }
+            }, RETRY);
+        }
+    }
+
+    #showGone() {
+        this.plan = null;
+        this.#setError("");
+        this.steps.update({steps: []});
+        for (const list of [this.causes, this.alarms]) {
+            list.clear();
+        }
+        for (const node of [this.causeList, this.alarmList, this.stepTitle]) {
+            setHidden(node, true);
+        }
+        this.facts.replaceChildren(make("dd", {text: t("detail.gone")}));
+        showChildren(this.buttons);
+        showChildren(this.stepList);
     }
 
     update(changes) {
@@ -74,6 +115,7 @@ export class PlanDetail {
         const {plan} = this;
         const alarms = this.#showCauses();
         this.steps.update(plan);
+        setHidden(this.stepTitle, false);
         this.#showFacts(plan);
         this.#showButtons(plan);
         showChildren(this.stepList, ...plan.steps.map((step) => this.#makeStep(plan, step, alarms)));

@@ -90,6 +90,7 @@ export default {
     "plan.ended": "Ended",
     "plan.steps": "Steps",
     "plan.step": "step {n}",
+    "plan.notLoaded": "The plan cannot be loaded ({reason}). Its detail may be old. It is loaded again every 3 s.",
 
     "planStatus.Pending": "Pending",
     "planStatus.InProgress": "In progress",

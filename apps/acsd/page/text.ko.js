@@ -90,6 +90,7 @@ export default {
     "plan.ended": "종료",
     "plan.steps": "Step",
     "plan.step": "Step {n}",
+    "plan.notLoaded": "Plan을 불러올 수 없습니다({reason}). 표시된 내용이 최신이 아닐 수 있습니다. 3초마다 다시 불러옵니다.",
 
     "planStatus.Pending": "대기",
     "planStatus.InProgress": "진행 중",
