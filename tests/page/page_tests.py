@@ -5,7 +5,7 @@ from suites.command_tests import Commands
 from suites.connection_tests import Connection
 from suites.event_tests import Events
 from suites.floor_tests import Floor
-from suites.general_tests import AnyAcsd, Header
+from suites.general_tests import AnyAcsd, Header, Language
 from suites.keyboard_tests import Keyboard, Lists
 from suites.performance_tests import Performance
 from suites.plan_detail_tests import PlanDetail

@@ -20,9 +20,12 @@ export class Detail {
         setHidden(this.root, selection === null);
         document.body.classList.toggle("has-detail", selection !== null);
         this.build();
+        this.root.scrollTop = 0;
     }
 
+    /** Of the same selection: in another language. */
     build() {
+        const former = this.content;
         this.content = null;
         if (this.selection === null) {
             this.root.replaceChildren();
@@ -32,11 +35,12 @@ export class Detail {
         const close = make("button", {type: "button", class: "icon-button", id: "detail-close", "aria-label": t("detail.close"),
             title: `${t("detail.close")} (Esc)`, onclick: () => this.context.select(null)}, makeGlyph("close"));
         const Content = {robot: RobotDetail, plan: PlanDetail}[kind] ?? PlaceDetail;
-        this.content = new Content(this.context, this.selection);
+        const {scrollTop} = this.root;
+        this.content = new Content(this.context, this.selection, former);
         this.root.replaceChildren(make("header", {class: "detail-head"},
             make("span", {class: "muted", text: t(`kind.${kind}`)}), make("h2", {id: "detail-title", text: id}), close),
         this.content.node);
-        this.root.scrollTop = 0;
+        this.root.scrollTop = scrollTop;
     }
 
     update(changes) {

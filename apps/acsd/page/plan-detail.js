@@ -13,7 +13,8 @@ import {TraceList} from "./trace-list.js";
 const RETRY = 3_000; // milliseconds
 
 export class PlanDetail {
-    constructor(context, {id}) {
+    /** former: the detail that this one replaces. If it is that of the same plan, its plan is shown until acsd has answered. */
+    constructor(context, {id}, former) {
         this.context = context;
         this.id = id;
         this.error = make("p", {class: "form-error", role: "alert", hidden: true});
@@ -28,9 +29,12 @@ export class PlanDetail {
         this.alarms = new KeyedList(this.alarmList, getAlarmKey, (alarm) => new AlarmRow(alarm, context));
         this.node = make("div", {class: "detail-body"}, this.error, this.steps.node, this.causeList, this.alarmList, this.facts,
             this.buttons, this.stepTitle, this.stepList, new TraceList(`plan=${encodeURIComponent(id)}`).node);
-        this.plan = null;
+        this.plan = former instanceof PlanDetail && former.id === id ? former.plan : null;
         this.isLoading = false;
         this.timer = null; // for another attempt
+        if (this.plan !== null) {
+            this.#show();
+        }
         this.load();
     }
 

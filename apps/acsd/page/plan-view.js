@@ -112,7 +112,7 @@ export class PlanView {
         };
         this.filter = make("input", {
             type: "search", class: "filter", placeholder: t("plan.filterShort"), "aria-label": t("plan.filter"),
-            title: t("plan.filter"),
+            title: t("plan.filter"), value: this.filter?.value,
             oninput: () => this.update()});
         this.active = makeSection("plan.active", "active");
         this.queue = makeSection("plan.queue", "queue");

@@ -78,7 +78,7 @@ export class RobotView {
     build() {
         this.filter = make("input", {
             type: "search", class: "filter", placeholder: t("robot.filterShort"), "aria-label": t("robot.filter"),
-            title: t("robot.filter"),
+            title: t("robot.filter"), value: this.filter?.value,
             oninput: () => this.update()});
         const list = make("ul", {class: "rows", "aria-label": t("tab.robots")});
         this.list = new KeyedList(list, (robot) => robot.robotId, (robot) => new RobotRow(robot, this.context.select));

@@ -177,3 +177,55 @@ class Header(PageCase):
         self.wait_for_text("#view-system", "(8 min ago)")
         self.click("#language-button")
         self.wait_for_text("#view-system", "(8분 전)")
+
+
+class Language(PageCase):
+    """What the user has set stays when the language is switched."""
+
+    def setUp(self):
+        super().setUp()
+        self.start_mock(robots=30)
+        self.mock.simulation.advance(0.2)
+        self.mock.freeze()
+
+    def test_filters(self):
+        self.open()
+        for tab, wanted in (("plans", "-003"), ("robots", "lr02")):
+            self.click(f"#tab-{tab}")
+            rows = f"#view-{tab} .rows li"
+            self.find(f"#view-{tab} .filter").send_keys(wanted)
+            wait_until(lambda: len(self.find_all(rows)) == 1, "one is listed")
+        for language in ("ko", "en"):
+            self.click("#language-button")
+            wait_until(lambda: self.find("html").get_attribute("lang") == language, language)
+            for tab, wanted in (("plans", "-003"), ("robots", "lr02")):
+                self.click(f"#tab-{tab}")
+                self.assertEqual(self.find(f"#view-{tab} .filter").get_attribute("value"), wanted)
+                self.assertEqual(len(self.find_all(f"#view-{tab} .rows li")), 1)
+
+    def check_scrolled(self, selector, tab_text):
+        get_top = f"return document.querySelector('{selector}').scrollTop"
+        self.run_script(f"document.querySelector('{selector}').scrollTop = 150")
+        self.assertEqual(self.run_script(get_top), 150)
+        self.click("#language-button")
+        self.wait_for_text("#tabs", tab_text)
+        self.assertEqual(self.run_script(get_top), 150)
+
+    def test_scrolled_lists(self):
+        self.open()
+        for tab in ("plans", "robots"):
+            self.click(f"#tab-{tab}")
+            wait_until(lambda: len(self.find_all(f"#view-{tab} .rows li")) > 20, "many are listed")
+            self.check_scrolled("#panel", "로봇")
+            self.check_scrolled("#panel", "Robots")
+
+    def test_a_scrolled_detail(self):
+        self.browser.resize(1366, 400)
+        plan = self.mock.simulation.robots["LR01"].plan
+        self.open(f"?lang=en#plan/{plan.plan_id}")
+        self.wait_for_text("#detail .row-buttons", "Pause")
+        self.check_scrolled("#detail", "로봇")
+        self.wait_for_text("#detail .row-buttons", "일시정지")
+        self.assertEqual(self.run_script("return document.querySelector('#detail').scrollTop"), 150)
+        self.run_script("acsdPage.select({kind: 'robot', id: 'LR01'})")
+        self.assertEqual(self.run_script("return document.querySelector('#detail').scrollTop"), 0, "another detail is at its top")
