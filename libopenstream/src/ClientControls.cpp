@@ -37,6 +37,7 @@ const ControlRequest* ClientControls::BeginNextOrNull()
     }
     _current = std::move(*next);
     _stage = EStage::Leaving;
+    _bAbandoned = false;
     return &_current.call.request;
 }
 
@@ -53,7 +54,7 @@ bool ClientControls::TryBeginWindow(Core::Now now)
 
 bool ClientControls::TryAccept(ClientActions& out)
 {
-    if (!_current.call.isConfirmed || _stage == EStage::Confirmed)
+    if (_bAbandoned || !_current.call.isConfirmed || _stage == EStage::Confirmed)
     {
         SettleCurrent(EControlOutcome::Accepted, {}, out);
         return true;
@@ -71,6 +72,11 @@ void ClientControls::Refuse(
     ClientActions& out)
 {
     FinishCurrent(out);
+    if (_bAbandoned)
+    {
+        Detail::Report(ClientControlFault{status, std::move(bodyOrNull), std::move(detail)}, out);
+        return;
+    }
     Detail::Report(
         ClientControlSettled{
             _current.token,
@@ -81,9 +87,17 @@ void ClientControls::Refuse(
         out);
 }
 
+void ClientControls::AbandonCurrent(std::string_view detail, ClientActions& out)
+{
+    if (IsInFlight() && !std::exchange(_bAbandoned, true))
+    {
+        ReportSettled(_current.token, EControlOutcome::Unknown, detail, out);
+    }
+}
+
 void ClientControls::OnSample(const DataLine& sample, ClientActions& out)
 {
-    if (_stage == EStage::Window && _current.call.isConfirmed && _current.call.isConfirmed(sample))
+    if (_stage == EStage::Window && !_bAbandoned && _current.call.isConfirmed && _current.call.isConfirmed(sample))
     {
         _stage = EStage::Confirmed;
     }
@@ -120,9 +134,13 @@ void ClientControls::SettleLate(Core::Now now, ClientActions& out)
 
 void ClientControls::SettleCurrent(EControlOutcome outcome, std::string_view detail, ClientActions& out)
 {
-    if (IsInFlight())
+    if (!IsInFlight())
     {
-        FinishCurrent(out);
+        return;
+    }
+    FinishCurrent(out);
+    if (!_bAbandoned)
+    {
         ReportSettled(_current.token, outcome, detail, out);
     }
 }

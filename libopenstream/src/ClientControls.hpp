@@ -47,6 +47,7 @@ class ClientControls
     Core::BoundedQueue<Waiting> _waiting;
     Waiting _current; ///< The one in flight.
     EStage _stage = EStage::Nothing;
+    bool _bAbandoned = false; ///< Its outcome was reported before its window has passed.
     Core::SteadyTime _leftAt;
     std::vector<Confirmation> _confirmations;
 
@@ -63,10 +64,15 @@ public:
     [[nodiscard]] bool TryBeginWindow(Core::Now now);
 
     /// The window has passed without a refusal: that is success, unless a sample has to confirm it and none has yet. False:
-    /// it waits for its confirmation.
+    /// it waits for its confirmation. One that was abandoned is only no longer in flight.
     [[nodiscard]] bool TryAccept(ClientActions& out);
 
+    /// Settles the one in flight. If it was abandoned: → ClientControlFault.
     void Refuse(int status, std::optional<Core::JsonText> bodyOrNull, std::string detail, ClientActions& out);
+
+    /// Settles the one in flight, if there is one, as Unknown. It stays in flight to the end of its window, because a late
+    /// refusal would otherwise be matched to the next command.
+    void AbandonCurrent(std::string_view detail, ClientActions& out);
 
     void OnSample(const DataLine& sample, ClientActions& out);
 

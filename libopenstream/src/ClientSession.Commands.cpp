@@ -70,7 +70,7 @@ void ClientSession::Impl::StopControl(Core::Now now, ClientActions& out)
     {
         return;
     }
-    _controls.SettleCurrent(EControlOutcome::Unknown, "STOP control followed it", out);
+    _controls.AbandonCurrent("STOP control followed it", out);
     _controls.SettleConfirmations("STOP control followed it", out);
     _controls.SettleWaiting("STOP control went before it", out);
     _output.SendStopControl(GetControlDeadline({}, now), out);

@@ -16,6 +16,8 @@ namespace ACS::Testing
 
 inline constexpr std::string_view HANDSHAKE_ACK = "{\"type\":\"handshake_ack\",\"ok\":true,\"version\":\"1.0.0\"}\n";
 inline constexpr std::string_view MONITOR_ACK = "{\"type\":\"monitor_ack\"}\n";
+inline constexpr std::string_view CONTROL_REFUSAL = "{\"type\":\"control_err\",\"status\":403}\n";
+inline constexpr std::string_view REQUEST_REFUSAL = "{\"error\":\"url_too_long\",\"message\":\"m\"}\n";
 
 /// A OpenStream::ClientSession in virtual time. A send leaves at once unless bSocketTakes is false.
 class ClientFixture
@@ -107,6 +109,18 @@ public:
         const std::uint64_t token = session.SendControlCall(std::move(call), GetNow(), actions);
         Execute();
         return token;
+    }
+
+    void StopControl()
+    {
+        session.StopControl(GetNow(), actions);
+        Execute();
+    }
+
+    void StopMonitor()
+    {
+        session.SetMonitor(std::nullopt, GetNow(), actions);
+        Execute();
     }
 
     void Pass(std::chrono::milliseconds span)

@@ -75,7 +75,8 @@ public:
     std::uint64_t SendControlCall(ControlCall call, Core::Now now, ClientActions& out);
 
     /// STOP control, the hard stop. Sent at once: a CONTROL in flight or waiting for a confirmation is settled as Unknown, a
-    /// queued one as NotSent. No effect without a session. → Send, timers, ClientControlSettled, later ClientStopped.
+    /// queued one as NotSent. A later tracked CONTROL or MONITOR still waits for the end of that CONTROL's window, because
+    /// its refusal may come. No effect without a session. → Send, timers, ClientControlSettled, later ClientStopped.
     void StopControl(Core::Now now, ClientActions& out);
 
     /// → Send, timers.

@@ -170,7 +170,8 @@ struct ClientControlSettled
     std::string detail;                                 ///< For the operator; empty if accepted.
 };
 
-/// Event: a refusal while no tracked CONTROL was in flight: of a streamed one, or after the window.
+/// Event: a refusal while no tracked CONTROL was in flight: of a streamed one, of one that
+/// STOP control has settled, or after the window.
 struct ClientControlFault
 {
     int status = 0;                     ///< HTTP status of the refusal; 0: an error line.

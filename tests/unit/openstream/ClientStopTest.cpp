@@ -1,0 +1,91 @@
+#include "Catch.hpp"
+#include "ClientFixture.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace ACS::OpenStream; // NOLINT(google-build-using-namespace)
+using namespace ACS::Testing;    // NOLINT(google-build-using-namespace)
+using namespace std::chrono_literals;
+
+TEST_CASE("3 A late refusal of a CONTROL that STOP control abandoned is not matched to the next command")
+{
+    ClientFixture client;
+    MakeReady(client);
+    const std::uint64_t abandoned = client.Control("/a");
+    client.StopControl();
+    const auto settled = client.Take<ClientControlSettled>();
+    REQUIRE(settled.size() == 1);
+    CHECK(settled.at(0).token == abandoned);
+    CHECK(settled.at(0).outcome == EControlOutcome::Unknown);
+    SECTION("which is a CONTROL")
+    {
+        const std::uint64_t next = client.Control("/b");
+        CHECK(client.CountLines("\"/b\"") == 0);
+        client.Receive(CONTROL_REFUSAL);
+        CHECK(client.Take<ClientControlFault>().size() == 1);
+        CHECK(client.Take<ClientControlSettled>().empty());
+        CHECK(client.CountLines("\"/b\"") == 1);
+        client.Pass(500ms);
+        const auto accepted = client.Take<ClientControlSettled>();
+        REQUIRE(accepted.size() == 1);
+        CHECK(accepted.at(0).token == next);
+        CHECK(accepted.at(0).outcome == EControlOutcome::Accepted);
+    }
+    SECTION("which is a MONITOR")
+    {
+        client.SetMonitor(10ms);
+        CHECK(client.CountLines("MONITOR") == 0);
+        client.Receive(REQUEST_REFUSAL);
+        CHECK(client.Take<ClientControlFault>().size() == 1);
+        CHECK(client.Take<ClientMonitorRefused>().empty());
+        CHECK(client.CountLines("MONITOR") == 1);
+    }
+    SECTION("which is sent at the end of the window if no refusal comes")
+    {
+        client.Pass(200ms);
+        client.Control("/b");
+        client.StopControl(); // no second report of /a, and no longer window
+        CHECK(client.Take<ClientControlSettled>().size() == 1);
+        client.Control("/c");
+        client.Pass(299ms);
+        CHECK(client.CountLines("CONTROL") == 1);
+        client.Pass(1ms);
+        CHECK(client.CountLines("\"/c\"") == 1);
+        CHECK(client.Take<ClientControlSettled>().empty());
+    }
+    SECTION("and a lost connection does not report it again")
+    {
+        client.session.OnPeerClosed(client.GetNow(), client.actions);
+        client.Execute();
+        CHECK(client.Take<ClientControlSettled>().empty());
+    }
+}
+
+TEST_CASE("3 The window of an abandoned CONTROL begins when it has been written, and samples do not confirm it")
+{
+    ClientFixture client;
+    client.SetMonitor(10ms);
+    MakeReady(client);
+    client.Receive(MONITOR_ACK);
+    client.bSocketTakes = false;
+    ControlCall call;
+    call.request = ControlRequest{EApiMethod::Post, "/a", {}, {}};
+    call.isConfirmed = [](const DataLine& /*sample*/) {
+        return true;
+    };
+    client.Call(std::move(call));
+    client.StopControl();
+    CHECK(client.Take<ClientControlSettled>().size() == 1);
+    client.Pass(1s);
+    client.bSocketTakes = true;
+    client.CompleteSend();
+    client.Control("/b");
+    client.Receive(MakeData(10));
+    client.Pass(499ms);
+    CHECK(client.CountLines("\"/b\"") == 0);
+    client.Pass(1ms);
+    CHECK(client.CountLines("\"/b\"") == 1);
+    CHECK(client.Take<ClientControlSettled>().empty());
+}
