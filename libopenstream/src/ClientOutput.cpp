@@ -3,8 +3,10 @@
 #include <acs/openstream/OpenStreamCodec.hpp>
 
 #include <algorithm>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 namespace ACS::OpenStream
 {
@@ -17,14 +19,18 @@ ClientOutput::ClientOutput(std::size_t maximumBytes)
 void ClientOutput::Reset()
 {
     _outbox.Reset();
+    _commandStart = 0;
     _commandMark = 0;
     _stopMark = 0;
+    _stopDue = Core::SteadyTime::max();
     _waitingDue = Core::SteadyTime::max();
     _sendingDue = Core::SteadyTime::max();
 }
 
 void ClientOutput::SendCommand(const OpenStreamRequest& request, ClientActions& out)
 {
+    _commandStart = _outbox.GetMark();
+    _bControl = std::holds_alternative<ControlRequest>(request);
     OpenStreamCodec::EncodeRequest(request, _outbox.GetLines());
     _commandMark = _outbox.GetMark();
     Flush(out);
@@ -37,13 +43,30 @@ void ClientOutput::SendUntil(const OpenStreamRequest& request, Core::SteadyTime 
     Flush(out);
 }
 
-void ClientOutput::SendStopControl(Core::SteadyTime deadline, ClientActions& out)
+bool ClientOutput::TrySendStopControl(Core::SteadyTime deadline, ClientActions& out)
 {
-    if (_outbox.WasTaken(_stopMark) || _outbox.GetMark() != _stopMark)
+    const bool bRepeated = !_outbox.WasTaken(_stopMark);
+    const bool bCommandWaits = !WasCommandTaken();
+    std::string& lines = _outbox.GetLines();
+    const std::uint64_t taken = _outbox.GetMark() - lines.size();
+    std::string command; // A MONITOR or STOP monitor that waits.
+    if (bCommandWaits && !_bControl)
     {
-        SendUntil(StopRequest{EStopTarget::Control}, deadline, out);
-        _stopMark = _outbox.GetMark();
+        command = lines.substr(_commandStart - taken, _commandMark - _commandStart);
     }
+    lines.clear();
+    OpenStreamCodec::EncodeRequest(StopRequest{EStopTarget::Control}, lines);
+    _stopMark = _outbox.GetMark();
+    lines += command;
+    if (bCommandWaits)
+    {
+        _commandStart = _stopMark;
+        _commandMark = command.empty() ? taken : _outbox.GetMark(); // A dropped CONTROL does not wait any more.
+    }
+    _stopDue = bRepeated ? _stopDue : deadline;
+    _waitingDue = _stopDue;
+    Flush(out);
+    return !bRepeated;
 }
 
 bool ClientOutput::TryCompleteSend()

@@ -16,8 +16,11 @@ namespace ACS::OpenStream
 class ClientOutput
 {
     LineOutbox _outbox;
-    std::uint64_t _commandMark = 0;                         ///< Position after the last command.
+    std::uint64_t _commandStart = 0;                        ///< Position before the last command.
+    std::uint64_t _commandMark = 0;                         ///< Position after it.
+    bool _bControl = false;                                 ///< The last command is a CONTROL.
     std::uint64_t _stopMark = 0;                            ///< Position after the last STOP control.
+    Core::SteadyTime _stopDue = Core::SteadyTime::max();    ///< Its deadline.
     Core::SteadyTime _waitingDue = Core::SteadyTime::max(); ///< Deadline of the requests in the outbox.
     Core::SteadyTime _sendingDue = Core::SteadyTime::max(); ///< Likewise of those in flight.
 
@@ -34,9 +37,9 @@ public:
     /// A request that must have left until the deadline.
     void SendUntil(const OpenStreamRequest& request, Core::SteadyTime deadline, ClientActions& out);
 
-    /// Sends STOP control, unless the last request is one that waits: repeated for a socket that does not take it, it would
-    /// fill the outbox.
-    void SendStopControl(Core::SteadyTime deadline, ClientActions& out);
+    /// Drops all CONTROLs that wait, and sends STOP control before everything else that waits. False: one waits already, and
+    /// is not repeated: a socket that does not take it would fill the outbox.
+    [[nodiscard]] bool TrySendStopControl(Core::SteadyTime deadline, ClientActions& out);
 
     /// False if no write was in flight.
     [[nodiscard]] bool TryCompleteSend();

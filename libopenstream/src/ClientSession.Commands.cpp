@@ -70,10 +70,18 @@ void ClientSession::Impl::StopControl(Core::Now now, ClientActions& out)
     {
         return;
     }
-    _controls.AbandonCurrent("STOP control followed it", out);
+    constexpr std::string_view BEFORE = "STOP control went before it";
+    if (_output.WasCommandTaken())
+    {
+        _controls.AbandonCurrent("STOP control followed it", out);
+    }
+    else
+    {
+        _controls.SettleCurrent(EControlOutcome::NotSent, BEFORE, out);
+    }
     _controls.SettleConfirmations("STOP control followed it", out);
-    _controls.SettleWaiting("STOP control went before it", out);
-    _output.SendStopControl(GetControlDeadline({}, now), out);
+    _controls.SettleWaiting(BEFORE, out);
+    static_cast<void>(_output.TrySendStopControl(GetControlDeadline({}, now), out));
     ArmControlTimer(out);
     SendNext(now, out);
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <variant>
 
 using namespace ACS::OpenStream; // NOLINT(google-build-using-namespace)
@@ -47,17 +48,34 @@ TEST_CASE("A command is taken when it is given to the socket, and sent when that
     CHECK(output.WasCommandSent());
 }
 
-TEST_CASE("A STOP control that waits is not repeated, unless a request follows it")
+TEST_CASE("A STOP control drops the requests that wait, is not repeated, and precedes a command that is no CONTROL")
 {
+    const SteadyTime now = ACS::Testing::ManualClock().GetNow().steady;
     ClientOutput output(1000);
     ClientActions actions;
     output.SendCommand(HandshakeRequest{}, actions);
-    output.SendStopControl(SteadyTime::max(), actions);
-    output.SendStopControl(SteadyTime::max(), actions);
+    output.SendUntil(ControlRequest{}, now + 1s, actions);
+    CHECK(output.TrySendStopControl(now + 5s, actions));
+    CHECK(output.GetDeadline() == now + 5s);
+    CHECK_FALSE(output.TrySendStopControl(now + 6s, actions));
+    CHECK(output.GetDeadline() == now + 5s);
+    std::ptrdiff_t lineCount = 1;
+    SECTION("a CONTROL is dropped")
+    {
+        output.SendCommand(ControlRequest{}, actions);
+    }
+    SECTION("a MONITOR is kept")
+    {
+        output.SendCommand(MonitorRequest{"/m", 10ms, {}, {}}, actions);
+        lineCount = 2;
+    }
     output.SendUntil(ControlRequest{}, SteadyTime::max(), actions);
-    output.SendStopControl(SteadyTime::max(), actions);
+    CHECK_FALSE(output.TrySendStopControl(SteadyTime::max(), actions));
+    CHECK(output.WasCommandTaken() == (lineCount == 1));
     REQUIRE(output.TryCompleteSend());
     output.Flush(actions);
     const auto& send = std::get<ClientSend>(actions.back());
-    CHECK(std::ranges::count(send.text, '\n') == 3);
+    CHECK(send.text.starts_with(R"({"cmd":"STOP")"));
+    CHECK(std::ranges::count(send.text, '\n') == lineCount);
+    CHECK(output.WasCommandTaken());
 }

@@ -89,3 +89,84 @@ TEST_CASE("3 The window of an abandoned CONTROL begins when it has been written,
     CHECK(client.CountLines("\"/b\"") == 1);
     CHECK(client.Take<ClientControlSettled>().empty());
 }
+
+TEST_CASE("3 STOP control drops the CONTROLs that wait for the socket, and precedes everything that waits")
+{
+    const std::string stop = R"({"cmd":"STOP","payload":{"target":"control"}})";
+    ClientFixture client;
+    MakeReady(client);
+    client.bSocketTakes = false;
+    client.Control("/p1", EControlTracking::Streamed); // given to the socket
+    client.Control("/p2", EControlTracking::Streamed);
+    SECTION("streamed ones")
+    {
+        client.Control("/p3", EControlTracking::Streamed);
+        client.StopControl();
+        client.lines.clear();
+        client.CompleteSend();
+        CHECK(client.lines == std::vector<std::string>{stop});
+        CHECK(client.Take<ClientControlFault>().empty());
+    }
+    SECTION("a tracked one, which was not sent")
+    {
+        const std::uint64_t dropped = client.Control("/a");
+        client.Control("/p3", EControlTracking::Streamed);
+        client.StopControl();
+        const auto settled = client.Take<ClientControlSettled>();
+        REQUIRE(settled.size() == 1);
+        CHECK(settled.at(0).token == dropped);
+        CHECK(settled.at(0).outcome == EControlOutcome::NotSent);
+        client.lines.clear();
+        client.CompleteSend();
+        CHECK(client.lines == std::vector<std::string>{stop});
+        client.CompleteSend();
+        client.Control("/b"); // waits for no window
+        CHECK(client.CountLines("\"/b\"") == 1);
+        client.Receive(CONTROL_REFUSAL);
+        REQUIRE(client.Take<ClientControlSettled>().size() == 1);
+    }
+    SECTION("but no MONITOR")
+    {
+        client.SetMonitor(10ms);
+        client.Control("/p3", EControlTracking::Streamed);
+        client.StopControl();
+        client.Control("/p4", EControlTracking::Streamed);
+        client.StopControl();
+        client.Receive(MONITOR_ACK); // of nothing: the MONITOR was not given to the socket
+        CHECK(client.Take<ClientMonitorStarted>().empty());
+        client.lines.clear();
+        client.CompleteSend();
+        REQUIRE(client.lines.size() == 2);
+        CHECK(client.lines.at(0) == stop);
+        CHECK(client.lines.at(1).find("MONITOR") != std::string::npos);
+        client.Receive(MONITOR_ACK);
+        CHECK(client.Take<ClientMonitorStarted>().size() == 1);
+    }
+}
+
+TEST_CASE("3 The time limit of a STOP control that waits is its own, and is not extended by another one")
+{
+    ClientFixture client;
+    MakeReady(client);
+    client.bSocketTakes = false;
+    client.SetMonitor(10ms); // given to the socket
+    ControlCall call;
+    call.request = ControlRequest{EApiMethod::Post, "/a", {}, {}};
+    call.tracking = EControlTracking::Streamed;
+    call.timeout = 200ms;
+    client.Call(std::move(call));
+    client.StopControl();
+    client.Pass(1'900ms);
+    CHECK(client.Take<ClientLost>().empty());
+    client.Receive(MONITOR_ACK);
+    client.Receive(MakeData(10));
+    client.StopControl();
+    client.Pass(1'500ms);
+    client.Receive(MakeData(20));
+    client.Pass(1'599ms);
+    CHECK(client.Take<ClientLost>().empty());
+    client.Pass(1ms);
+    const auto lost = client.Take<ClientLost>();
+    REQUIRE(lost.size() == 1);
+    CHECK(lost.at(0).reason == EClientLossReason::SendTimeout);
+}
