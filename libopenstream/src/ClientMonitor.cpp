@@ -58,7 +58,11 @@ std::optional<OpenStreamRequest> ClientMonitor::BeginNextOrNull()
     _asked = EAsked::Start;
     _sentNumber = _wantedNumber;
     _sentURL = _wanted->url;
-    _meter.Begin(_wanted->period);
+    _sentPeriod = _wanted->period;
+    if (IsSilent())
+    {
+        _meter.Begin(_sentPeriod);
+    }
     return *_wanted;
 }
 
@@ -68,7 +72,7 @@ void ClientMonitor::OnStarted(Core::Now now, ClientActions& out)
     _stream = EStream::Started;
     _startedNumber = _sentNumber;
     _bStale = false;
-    _meter.Begin(_wanted.has_value() ? _wanted->period : MINIMUM_PERIOD);
+    _meter.Begin(_sentPeriod);
     _lastDataAt = now.steady;
     Report(ClientMonitorStarted{_sentNumber}, out);
     ArmAgeTimer(out);

@@ -41,12 +41,13 @@ class ClientMonitor
     std::uint64_t _wantedNumber = 0; ///< Of the last Set call.
     bool _bDue = false;              ///< What is wanted was not sent yet.
     EAsked _asked = EAsked::Nothing;
-    std::uint64_t _sentNumber = 0; ///< Of the last MONITOR sent.
-    std::string _sentURL;          ///< Likewise.
+    std::uint64_t _sentNumber = 0;                         ///< Of the last MONITOR sent.
+    std::string _sentURL;                                  ///< Likewise.
+    std::chrono::milliseconds _sentPeriod{MINIMUM_PERIOD}; ///< Likewise.
     EStream _stream = EStream::Nothing;
     std::uint64_t _startedNumber = 0; ///< Of the last MONITOR that the server accepted.
 
-    StreamMeter _meter;
+    StreamMeter _meter; ///< Of the MONITOR that the server streams: a replacement counts from its acknowledgement.
     Core::SteadyTime _lastDataAt;
     bool _bStale = false;
     LazyTimer _ageTimer;

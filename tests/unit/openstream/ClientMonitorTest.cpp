@@ -1,6 +1,7 @@
 #include "ClientMonitor.hpp"
 
 #include "Catch.hpp"
+#include "ClientFixture.hpp"
 #include "ManualClock.hpp"
 
 #include <chrono>
@@ -122,4 +123,42 @@ TEST_CASE("Samples that are overdue are reported as stale once, and then as lost
     fixture.clock.Advance(fixture.options.lostAfter - fixture.options.staleAfter);
     CHECK_FALSE(fixture.monitor.TryAwaitData(fixture.clock.GetNow(), fixture.actions));
     CHECK(fixture.actions.size() == 2);
+}
+
+TEST_CASE("11 Missing samples are counted by the period of the MONITOR that the server streams")
+{
+    ACS::Testing::ClientFixture client;
+    MakeReady(client);
+    client.SetMonitor(1'000ms);
+    SECTION("while its replacement is not acknowledged, and after it was")
+    {
+        client.Receive(ACS::Testing::MONITOR_ACK);
+        client.SetMonitor(2ms);
+        client.Receive(ACS::Testing::MakeData(1'000) + ACS::Testing::MakeData(2'000));
+        CHECK(client.session.GetStats().missingLines == 0);
+        client.Receive(ACS::Testing::MONITOR_ACK);
+        client.Receive(ACS::Testing::MakeData(2'002) + ACS::Testing::MakeData(2'004));
+    }
+    SECTION("after its replacement was refused")
+    {
+        client.Receive(ACS::Testing::MONITOR_ACK);
+        client.Receive(ACS::Testing::MakeData(1'000));
+        client.SetMonitor(2ms);
+        client.Receive(ACS::Testing::MakeData(2'000) + ACS::Testing::MakeData(3'000));
+        client.Receive(ACS::Testing::REQUEST_REFUSAL);
+        client.Receive(ACS::Testing::MakeData(4'000) + ACS::Testing::MakeData(5'000));
+        CHECK(client.session.GetQuality().samples == 5);
+    }
+    SECTION("where another one was set before its acknowledgement")
+    {
+        client.SetMonitor(2ms);
+        client.Receive(ACS::Testing::MONITOR_ACK);
+        client.Receive(ACS::Testing::MakeData(1'000) + ACS::Testing::MakeData(2'000));
+        CHECK(client.session.GetStats().missingLines == 0);
+        client.Receive(ACS::Testing::MONITOR_ACK);
+        client.Receive(ACS::Testing::MakeData(2'002) + ACS::Testing::MakeData(2'008));
+        CHECK(client.session.GetStats().missingLines == 2);
+        return;
+    }
+    CHECK(client.session.GetStats().missingLines == 0);
 }
