@@ -68,7 +68,12 @@ std::optional<OpenStreamRequest> ClientMonitor::BeginNextOrNull()
 
 void ClientMonitor::OnStarted(Core::Now now, ClientActions& out)
 {
-    FinishAsked(out);
+    if (IsStarting())
+    {
+        FinishAsked(out);
+    }
+    _asked = EAsked::Nothing; // A refused one has no timer; a CONTROL may have.
+    _bDue = _bDue || !_wanted.has_value();
     _stream = EStream::Started;
     _startedNumber = _sentNumber;
     _bStale = false;
@@ -88,6 +93,7 @@ void ClientMonitor::OnRefused(ErrorLine error, ClientActions& out)
         _bDue = true;
         return;
     }
+    _asked = EAsked::Refused;
     _stream = _stream == EStream::Freed ? EStream::Nothing : _stream;
     Report(ClientMonitorRefused{std::move(error), _sentURL}, out);
 }
@@ -144,12 +150,17 @@ bool ClientMonitor::IsWanted() const noexcept
 
 bool ClientMonitor::IsInFlight() const noexcept
 {
-    return _asked != EAsked::Nothing;
+    return IsStarting() || IsStopping();
 }
 
 bool ClientMonitor::IsStarting() const noexcept
 {
     return _asked == EAsked::Start;
+}
+
+bool ClientMonitor::IsRefused() const noexcept
+{
+    return _asked == EAsked::Refused;
 }
 
 bool ClientMonitor::IsStopping() const noexcept

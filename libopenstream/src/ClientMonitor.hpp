@@ -34,6 +34,7 @@ class ClientMonitor
         Nothing,
         Start,
         Stop,
+        Refused, ///< None; the last one was a MONITOR that was refused.
     };
 
     const ClientSessionOptions& _options;
@@ -65,7 +66,7 @@ public:
     /// The command to send next, which is then in flight; nullopt if none is due.
     [[nodiscard]] std::optional<OpenStreamRequest> BeginNextOrNull();
 
-    /// The server accepted the MONITOR in flight.
+    /// The server accepted the MONITOR in flight, or the one that was refused: the refusal was of a streamed CONTROL.
     void OnStarted(Core::Now now, ClientActions& out);
 
     /// The server refused the MONITOR in flight.
@@ -84,6 +85,8 @@ public:
     /// Whether a MONITOR or a STOP monitor is in flight.
     [[nodiscard]] bool IsInFlight() const noexcept;
     [[nodiscard]] bool IsStarting() const noexcept;
+    /// Whether no command was sent after a MONITOR that was refused.
+    [[nodiscard]] bool IsRefused() const noexcept;
     [[nodiscard]] bool IsStopping() const noexcept;
     [[nodiscard]] const ClientData* GetLatestOrNull() const noexcept;
     [[nodiscard]] StreamQuality GetQuality() const;

@@ -143,7 +143,8 @@ void ClientSession::Impl::Handle(HandshakeAck& ack, Core::Now now, ClientActions
 
 void ClientSession::Impl::Handle(MonitorAck& /*ack*/, Core::Now now, ClientActions& out)
 {
-    if (_state == EClientState::Ready && _monitor.IsStarting() && _output.WasCommandTaken())
+    const bool bExpected = _monitor.IsRefused() || (_monitor.IsStarting() && _output.WasCommandTaken());
+    if (_state == EClientState::Ready && bExpected)
     {
         _monitor.OnStarted(now, out);
         SendNext(now, out);

@@ -162,3 +162,54 @@ TEST_CASE("11 Missing samples are counted by the period of the MONITOR that the 
     }
     CHECK(client.session.GetStats().missingLines == 0);
 }
+
+TEST_CASE("3 A MONITOR that is acknowledged after a refusal is watched, and can be stopped")
+{
+    ACS::Testing::ClientFixture client;
+    MakeReady(client);
+    client.Control("/x", EControlTracking::Streamed);
+    client.SetMonitor(10ms);
+    client.Receive(ACS::Testing::REQUEST_REFUSAL); // of the streamed CONTROL
+    CHECK(client.Take<ClientMonitorRefused>().size() == 1);
+    SECTION("it is watched")
+    {
+        client.Receive(ACS::Testing::MONITOR_ACK);
+        const auto started = client.Take<ClientMonitorStarted>();
+        REQUIRE(started.size() == 1);
+        CHECK(started.at(0).requestNumber == 1);
+        client.Pass(3'600ms);
+        const auto lost = client.Take<ClientLost>();
+        REQUIRE(lost.size() == 1);
+        CHECK(lost.at(0).reason == EClientLossReason::DataSilent);
+    }
+    SECTION("it can be stopped")
+    {
+        client.Receive(ACS::Testing::MONITOR_ACK);
+        client.Receive(ACS::Testing::MakeData(10));
+        client.StopMonitor();
+        CHECK(client.CountLines("STOP") == 1);
+    }
+    SECTION("it is stopped where it is not wanted any more")
+    {
+        client.StopMonitor();
+        CHECK(client.CountLines("STOP") == 0);
+        client.Receive(ACS::Testing::MONITOR_ACK);
+        CHECK(client.CountLines("STOP") == 1);
+    }
+    SECTION("the window of a CONTROL that was sent meanwhile continues")
+    {
+        client.Control("/y");
+        client.Receive(ACS::Testing::MONITOR_ACK);
+        client.Pass(500ms);
+        CHECK(client.Take<ClientControlSettled>().size() == 1);
+    }
+    SECTION("the acknowledgement is that of the next MONITOR, if one was sent")
+    {
+        client.SetMonitor(20ms);
+        client.Receive(ACS::Testing::MONITOR_ACK);
+        client.Receive(ACS::Testing::MONITOR_ACK);
+        const auto started = client.Take<ClientMonitorStarted>();
+        REQUIRE(started.size() == 1);
+        CHECK(started.at(0).requestNumber == 2);
+    }
+}

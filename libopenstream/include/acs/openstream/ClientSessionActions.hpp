@@ -140,7 +140,8 @@ struct ClientMonitorStarted
     std::uint64_t requestNumber = 0; ///< Number of its SetMonitor call; later calls may have followed.
 };
 
-/// Event: the server refused the MONITOR. It is sent again after SetMonitor or a reconnect.
+/// Event: the server refused the MONITOR. It is sent again after SetMonitor or a reconnect. ClientMonitorStarted may follow if
+/// the refusal was of a streamed CONTROL.
 struct ClientMonitorRefused
 {
     ErrorLine error; ///< As received.
