@@ -71,7 +71,8 @@ void ClientSession::Impl::StopControl(Core::Now now, ClientActions& out)
         return;
     }
     constexpr std::string_view BEFORE = "STOP control went before it";
-    if (_output.WasCommandTaken())
+    const bool bTaken = _output.WasCommandTaken();
+    if (bTaken)
     {
         _controls.AbandonCurrent("STOP control followed it", out);
     }
@@ -81,7 +82,11 @@ void ClientSession::Impl::StopControl(Core::Now now, ClientActions& out)
     }
     _controls.SettleConfirmations("STOP control followed it", out);
     _controls.SettleWaiting(BEFORE, out);
-    static_cast<void>(_output.TrySendStopControl(GetControlDeadline({}, now), out));
+    if (_output.TrySendStopControl(GetControlDeadline({}, now), out))
+    {
+        ++_stops;
+        _stopsBeforeMonitor += bTaken ? 0U : 1U; // It has overtaken the STOP monitor, if that is what waits.
+    }
     ArmControlTimer(out);
     SendNext(now, out);
 }
@@ -95,6 +100,7 @@ void ClientSession::Impl::SendNext(Core::Now now, ClientActions& out)
     }
     if (const std::optional<OpenStreamRequest> request = _monitor.BeginNextOrNull())
     {
+        _stopsBeforeMonitor = _stops;
         SendAwaited(*request, now, out);
     }
     else if (const ControlRequest* control = _controls.BeginNextOrNull())

@@ -46,6 +46,8 @@ void ClientSession::Impl::Connect(Core::Now now, ClientActions& out)
 {
     _framer.Reset();
     _output.Reset();
+    _stops = 0;
+    _stopsBeforeMonitor = 0;
     _state = EClientState::Connecting;
     out.emplace_back(ClientStartTimer{EClientTimer::Connect, now.steady + _options.connectTimeout});
     out.emplace_back(ClientConnect{});
@@ -176,6 +178,11 @@ void ClientSession::Impl::Handle(StopAck& ack, Core::Now now, ClientActions& out
     if (ack.target == EStopTarget::Monitor && _monitor.IsStopping() && _output.WasCommandTaken())
     {
         _monitor.OnStopped(out);
+        _stops -= std::exchange(_stopsBeforeMonitor, 0); // Whatever became of their answers.
+    }
+    else if (ack.target == EStopTarget::Control)
+    {
+        CountStopAnswer();
     }
     Report(ClientStopped{ack.target}, out);
     SendNext(now, out);
@@ -261,19 +268,32 @@ void ClientSession::Impl::HandleErrorWhenReady(ErrorLine& error, Core::Now now, 
 
 void ClientSession::Impl::HandleStopError(ErrorLine& error, ClientActions& out)
 {
-    const bool bOfMonitor = _monitor.IsStopping() && _output.WasCommandTaken();
+    const bool bNothing = error.code == EOpenStreamErrorCode::NothingToStop;
+    const bool bOfMonitor =
+        _monitor.IsStopping() && _output.WasCommandTaken() && !(bNothing && _stopsBeforeMonitor > 0);
     if (bOfMonitor)
     {
         _monitor.OnStopped(out);
     }
-    if (error.code == EOpenStreamErrorCode::NothingToStop)
+    if (bNothing)
     {
+        if (!bOfMonitor)
+        {
+            CountStopAnswer();
+        }
         Report(ClientStopped{bOfMonitor ? EStopTarget::Monitor : EStopTarget::Control}, out);
     }
     else
     {
         Report(ClientErrorReported{std::move(error)}, out);
     }
+}
+
+/// A STOP control was answered; the server answers in order.
+void ClientSession::Impl::CountStopAnswer() noexcept
+{
+    _stops -= _stops > 0 ? 1U : 0U;
+    _stopsBeforeMonitor -= _stopsBeforeMonitor > 0 ? 1U : 0U;
 }
 
 void ClientSession::Impl::OnSendCompleted(Core::Now now, ClientActions& out)

@@ -32,6 +32,8 @@ class ClientSession::Impl
     ClientMonitor _monitor;
     ClientControls _controls;
     LazyTimer _controlTimer;
+    std::uint64_t _stops = 0;              ///< STOP controls without an answer.
+    std::uint64_t _stopsBeforeMonitor = 0; ///< Those of them that were sent before the STOP monitor in flight.
     std::uint64_t _lastToken = 0;
 
 public:
@@ -70,6 +72,7 @@ private:
     void Handle(ErrorLine& error, Core::Now now, ClientActions& out);
     void HandleErrorWhenReady(ErrorLine& error, Core::Now now, ClientActions& out);
     void HandleStopError(ErrorLine& error, ClientActions& out);
+    void CountStopAnswer() noexcept;
     void RefuseControl(int status, std::optional<Core::JsonText> bodyOrNull, std::string detail, ClientActions& out);
     void SendNext(Core::Now now, ClientActions& out);
     void SendAwaited(const OpenStreamRequest& request, Core::Now now, ClientActions& out);

@@ -170,3 +170,82 @@ TEST_CASE("3 The time limit of a STOP control that waits is its own, and is not 
     REQUIRE(lost.size() == 1);
     CHECK(lost.at(0).reason == EClientLossReason::SendTimeout);
 }
+
+TEST_CASE("7.19 nothing_to_stop answers the STOP that was sent first")
+{
+    constexpr std::string_view NOTHING_TO_STOP = "{\"error\":\"nothing_to_stop\",\"message\":\"\"}\n";
+    constexpr std::string_view MONITOR_STOPPED = "{\"type\":\"stop_ack\",\"target\":\"monitor\"}\n";
+    ClientFixture client;
+    client.SetMonitor(10ms);
+    MakeReady(client);
+    client.Receive(MONITOR_ACK);
+    std::vector<EStopTarget> expected{EStopTarget::Control, EStopTarget::Monitor};
+    SECTION("STOP control")
+    {
+        client.StopControl();
+        client.StopMonitor();
+        client.Control("/a");
+        client.Receive(NOTHING_TO_STOP);
+        CHECK(client.CountLines("CONTROL") == 0);
+        client.Receive(MONITOR_STOPPED);
+        CHECK(client.CountLines("CONTROL") == 1);
+    }
+    SECTION("STOP monitor")
+    {
+        expected = {EStopTarget::Monitor, EStopTarget::Control};
+        client.StopMonitor();
+        client.StopControl();
+        client.Receive(NOTHING_TO_STOP);
+        client.Control("/a");
+        CHECK(client.CountLines("CONTROL") == 1);
+        client.Receive("{\"type\":\"stop_ack\",\"target\":\"control\"}\n");
+    }
+    SECTION("an acknowledged STOP control has been answered")
+    {
+        client.StopControl();
+        client.Receive("{\"type\":\"stop_ack\",\"target\":\"control\"}\n");
+        client.StopMonitor();
+        client.Receive(NOTHING_TO_STOP);
+    }
+    SECTION("a STOP control that precedes a STOP monitor which waits for the socket")
+    {
+        client.bSocketTakes = false;
+        client.Control("/p", EControlTracking::Streamed);
+        client.StopMonitor();
+        client.StopControl();
+        client.StopControl();
+        client.bSocketTakes = true;
+        client.CompleteSend();
+        client.Receive(NOTHING_TO_STOP);
+        client.Receive(NOTHING_TO_STOP);
+    }
+    SECTION("a STOP control that was never answered")
+    {
+        client.StopControl();
+        client.StopMonitor();
+        client.Receive(MONITOR_STOPPED);
+        client.SetMonitor(10ms);
+        client.Receive(MONITOR_ACK);
+        client.StopMonitor();
+        client.Receive(NOTHING_TO_STOP);
+        expected = {EStopTarget::Monitor, EStopTarget::Monitor};
+    }
+    SECTION("a STOP control of an earlier connection has no answer")
+    {
+        client.StopControl();
+        client.session.OnPeerClosed(client.GetNow(), client.actions);
+        client.Execute();
+        client.Pass(client.Take<ClientLost>().at(0).retryIn);
+        client.ConnectAndShake();
+        client.Receive(MONITOR_ACK);
+        client.StopMonitor();
+        client.Receive(NOTHING_TO_STOP);
+        expected = {EStopTarget::Monitor};
+    }
+    std::vector<EStopTarget> stopped;
+    for (const ClientStopped& event : client.Take<ClientStopped>())
+    {
+        stopped.push_back(event.target);
+    }
+    CHECK(stopped == expected);
+}
