@@ -21,7 +21,7 @@ std::span<const double> JointStepLimiter::Limit(std::span<const double> wanted)
 {
     _bLimited = false;
     const std::size_t known = _last.size();
-    _last.resize(wanted.size(), 0.0);
+    _last.resize(std::max(known, wanted.size()), 0.0);
     for (std::size_t joint = 0; joint < wanted.size(); ++joint)
     {
         double& value = _last[joint];
@@ -36,7 +36,7 @@ std::span<const double> JointStepLimiter::Limit(std::span<const double> wanted)
         _bLimited = _bLimited || next != wanted[joint];
         value = next;
     }
-    return _last;
+    return std::span<const double>(_last).first(wanted.size());
 }
 
 bool JointStepLimiter::WasLimited() const noexcept

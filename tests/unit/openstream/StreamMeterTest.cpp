@@ -169,3 +169,13 @@ TEST_CASE("11 A value that is not a number moves no joint, and a first point wit
     CHECK(Limit(limiter, {std::numeric_limits<double>::infinity(), 5.0}) == std::vector<double>{50.0, 1.5});
     CHECK(Limit(limiter, {50.0}).size() == 1);
 }
+
+TEST_CASE("11 A joint that a shorter point leaves out keeps its position and its limit")
+{
+    JointStepLimiter limiter({1.0, 1.0});
+    limiter.Begin(std::array{0.0, 0.0});
+    CHECK(Limit(limiter, {0.0}) == std::vector<double>{0.0});
+    CHECK_FALSE(limiter.WasLimited());
+    CHECK(Limit(limiter, {0.0, 90.0}) == std::vector<double>{0.0, 1.0});
+    CHECK(limiter.WasLimited());
+}

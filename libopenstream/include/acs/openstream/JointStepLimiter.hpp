@@ -29,7 +29,8 @@ public:
     void Begin(std::span<const double> position);
 
     /// The point to send, with the same number of joints; valid until the next call. A joint that is not finite keeps its
-    /// last value, or 0. Without Begin the first point is not limited.
+    /// last value, or 0; a joint that a shorter point leaves out keeps its last value for later points. Without Begin the
+    /// first point is not limited.
     [[nodiscard]] std::span<const double> Limit(std::span<const double> wanted);
 
     /// Whether the last point was limited.
