@@ -9,9 +9,11 @@ namespace ACS::OpenStream
 namespace
 {
 
+/// The memory of a call. The parameters need more of it than their text: they may have one byte of it each.
 std::size_t CountBytes(const ApiRequest& call)
 {
-    std::size_t bytes = call.path.size() + (call.body.has_value() ? call.body->GetText().size() : 0U);
+    std::size_t bytes = sizeof(ApiRequest) + call.query.size() * sizeof(QueryParameter);
+    bytes += call.path.size() + (call.body.has_value() ? call.body->GetText().size() : 0U);
     for (const QueryParameter& parameter : call.query)
     {
         bytes += parameter.name.size() + parameter.value.size();

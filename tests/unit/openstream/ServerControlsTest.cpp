@@ -2,6 +2,7 @@
 
 #include "Catch.hpp"
 
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -15,7 +16,7 @@ ServerSessionOptions MakeOptions()
 {
     ServerSessionOptions options;
     options.maximumControls = 3;
-    options.maximumControlBytes = 14; // two calls of "/arm" with the body {} have 12
+    options.maximumControlBytes = 2 * (sizeof(ApiRequest) + 6) + 2; // two calls of "/arm" with the body {}, and 2 bytes
     return options;
 }
 
@@ -87,4 +88,23 @@ TEST_CASE("STOP control removes what waits, keeps the CONTROL in flight, and wor
     REQUIRE(controls.TryAdd(ARM));
     controls.OnHandshake();
     CHECK_FALSE(controls.TryStop(actions));
+}
+
+TEST_CASE("The memory of the parameters counts, not only their text")
+{
+    ServerSessionOptions options;
+    options.maximumControlBytes = 64U * 1024U;
+    ServerControls controls(options);
+    std::string args = "{\"a0\":0";
+    for (int index = 1; index < 2'000; ++index)
+    {
+        args += ",\"a" + std::to_string(index) + "\":0";
+    }
+    ControlRequest request = ARM;
+    request.args = ACS::Core::JsonText::FromTrusted(args + "}");
+    REQUIRE(controls.TryAdd(request));
+    CHECK(controls.IsBlocking());
+    CHECK(controls.ShouldResumeAfterAnswer());
+    REQUIRE(controls.TryAdd(ARM));
+    CHECK_FALSE(controls.IsBlocking());
 }

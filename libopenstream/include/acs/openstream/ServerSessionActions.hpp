@@ -27,7 +27,7 @@ struct ServerSessionOptions
     std::size_t longestLine = LONGEST_LINE;            ///< Bytes of a received line; a longer one ends the session.
     std::size_t maximumOutput = 1024U * 1024U;         ///< Unsent bytes (without data) above which the session closes.
     std::size_t maximumControls = 256;                 ///< Queued CONTROLs; if full, the session stops reading.
-    std::size_t maximumControlBytes = 4U * 1024U * 1024U; ///< Size of all queued CONTROLs; likewise.
+    std::size_t maximumControlBytes = 4U * 1024U * 1024U; ///< Memory of all queued CONTROLs; likewise.
     std::size_t commandsPerTurn = 64;                     ///< Lines processed before a due timer is served.
 };
 
