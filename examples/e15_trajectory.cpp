@@ -77,8 +77,7 @@ class Trajectory
     {
         Starting,  ///< Waits for the first sample, then for the outcome of joint_traject_init.
         Streaming, ///< Sends a point in each period.
-        Arriving,  ///< All points are sent.
-        Leaving,   ///< joint_traject_off was sent.
+        Arriving,  ///< The last point was sent; waits for its outcome.
         Stopping,  ///< STOP control was sent.
         Stopped,   ///< It was acknowledged: the next sample without speed shows where the arm is.
         Ended,
@@ -174,16 +173,6 @@ private:
             bDone = true;
             Stop(fmt::format("STOP at {:.2f} degrees", position.front()));
         }
-        else if (_phase == EPhase::Arriving && IsAt(sample, _target))
-        {
-            _phase = EPhase::Leaving;
-            ControlCall call;
-            call.request = MakeControl("joint_traject_off", "{}");
-            call.isConfirmed = [target = _target](const DataLine& later) {
-                return IsAt(later, target) && IsStationary(later);
-            };
-            _client.SendControlCall(std::move(call));
-        }
         else if (_phase == EPhase::Stopped && IsStationary(sample))
         {
             End(fmt::format("stopped at {:.2f} degrees", position.front()));
@@ -198,12 +187,12 @@ private:
             _timer.expires_after(0ms);
             SendPointsAsync();
         }
-        else if (_phase == EPhase::Leaving && settled.outcome == EControlOutcome::Accepted)
+        else if (_phase == EPhase::Arriving && settled.outcome == EControlOutcome::Accepted)
         {
             bDone = true;
             End(fmt::format("arrived at {:.2f} degrees", _target));
         }
-        else if (_phase == EPhase::Starting || _phase == EPhase::Leaving)
+        else if (_phase == EPhase::Starting || _phase == EPhase::Arriving)
         {
             Stop("not accepted: " + settled.detail);
         }
@@ -223,20 +212,22 @@ private:
                 R"({{"interval":{},"look_ahead_time":0.1,"point":[{}]}})",
                 std::chrono::duration<double>(PERIOD).count(),
                 fmt::join(point, ","));
-            _client.SendControl(MakeControl("joint_traject_insert_point", body), EControlTracking::Streamed);
+            ControlCall call;
+            call.request = MakeControl("joint_traject_insert_point", body);
             if (_limiter.WasLimited())
             {
+                call.tracking = EControlTracking::Streamed;
                 SendPointsAsync();
-                return;
             }
-            _phase = EPhase::Arriving;
-            _timer.expires_after(ARRIVAL_TIMEOUT);
-            _timer.async_wait([this](const boost::system::error_code& late) {
-                if (!late && _phase == EPhase::Arriving)
-                {
-                    Stop("the arm does not arrive");
-                }
-            });
+            else
+            {
+                _phase = EPhase::Arriving;
+                call.confirmWithin = ARRIVAL_TIMEOUT;
+                call.isConfirmed = [target = _target](const DataLine& sample) {
+                    return IsAt(sample, target) && IsStationary(sample);
+                };
+            }
+            _client.SendControlCall(std::move(call));
         });
     }
 

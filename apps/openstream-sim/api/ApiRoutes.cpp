@@ -18,13 +18,12 @@ namespace
 
 using enum OpenStream::EApiMethod;
 
-/// Which versions of the controller serve an endpoint.
-enum class EServed : std::uint8_t
-{
-    Always,
-    BeforeRCode, ///< Later versions answer 403.
-    SinceRCode,  ///< Earlier versions answer 404.
-};
+constexpr ControllerVersion ALWAYS{0, 0, 0};
+constexpr ControllerVersion NEVER{100, 0, 0};
+constexpr ControllerVersion FIRST_WITH_EMERGENCY_STOP{60, 30, 0};
+constexpr ControllerVersion FIRST_WITH_TRAJECTORIES{60, 32, 0};
+constexpr ControllerVersion FIRST_WITH_STREAMED_POINTS{60, 34, 0};
+constexpr ControllerVersion FIRST_WITH_JOINT_STATES{60, 34, 0};
 
 template <auto HANDLE>
 struct BodyHandler;
@@ -48,7 +47,8 @@ struct ApiRoute
     OpenStream::EApiMethod method;
     std::string_view pattern;
     ApiHandler handler;
-    EServed served = EServed::Always;
+    ControllerVersion since = ALWAYS;         ///< Earlier versions answer 404.
+    ControllerVersion withdrawnSince = NEVER; ///< It and later versions answer 403.
 };
 
 constexpr std::array ROUTES{
@@ -57,37 +57,53 @@ constexpr std::array ROUTES{
     ApiRoute{Get, "/versions/sysver", RobotAPI::GetSystemVersions},
 
     ApiRoute{Get, "/project/robot", RobotAPI::GetRobot},
-    ApiRoute{Get, "/project/robot/joints/joint_states", RobotAPI::GetJointStates},
-    ApiRoute{Get, "/project/robot/joint_states", RobotAPI::GetJointStates},
+    ApiRoute{Get, "/project/robot/joints/joint_states", RobotAPI::GetJointStates, FIRST_WITH_JOINT_STATES},
+    ApiRoute{Get, "/project/robot/joint_states", RobotAPI::GetJointStates, FIRST_WITH_JOINT_STATES},
     ApiRoute{Get, "/project/robot/po_cur", RobotAPI::GetPose},
     ApiRoute{Get, "/project/rgen", RobotAPI::GetGeneral},
     ApiRoute{Get, "/project/robot/motor_on_state", RobotAPI::GetMotorState},
     ApiRoute{Post, "/project/robot/motor_on", RobotAPI::SwitchMotorOn},
-    ApiRoute{Post, "/project/robot/motor_off", RobotAPI::SwitchMotorOff, EServed::BeforeRCode},
-    ApiRoute{Get, "/project/robot/emergency_stop", RobotAPI::GetEmergencyStop},
-    ApiRoute{Post, "/project/robot/emergency_stop", WITH_BODY<RobotAPI::PressEmergencyStop>},
+    ApiRoute{Post, "/project/robot/motor_off", RobotAPI::SwitchMotorOff, ALWAYS, FIRST_WITH_R_CODE},
+    ApiRoute{Get, "/project/robot/emergency_stop", RobotAPI::GetEmergencyStop, FIRST_WITH_EMERGENCY_STOP},
+    ApiRoute{Post, "/project/robot/emergency_stop", WITH_BODY<RobotAPI::PressEmergencyStop>, FIRST_WITH_EMERGENCY_STOP},
     ApiRoute{Get, "/project/robot/cur_tool_data", RobotAPI::GetCurrentTool},
     ApiRoute{Get, "/project/robot/tools", RobotAPI::GetTools},
     ApiRoute{Get, "/project/robot/tools/t_{}", RobotAPI::GetTool},
     ApiRoute{Post, "/project/robot/tool_no", WITH_BODY<RobotAPI::SelectTool>},
     ApiRoute{Post, "/project/robot/crd_sys", WITH_BODY<RobotAPI::SelectCoordinates>},
 
-    ApiRoute{Post, "/project/robot/trajectory/joint_traject_init", WITH_BODY<TrajectoryAPI::Init>},
-    ApiRoute{Post, "/project/robot/trajectory/joint_traject_insert_point", WITH_BODY<TrajectoryAPI::InsertPoint>},
-    ApiRoute{Post, "/project/robot/trajectory/joint_traject_insert_points", TrajectoryAPI::InsertPoints},
-    ApiRoute{Get, "/project/robot/trajectory/joint_traject_buf_avail", TrajectoryAPI::GetFree},
-    ApiRoute{Get, "/project/robot/trajectory/joint_traject_agility_info", TrajectoryAPI::GetAgility},
-    ApiRoute{Get, "/project/robot/trajectory/joint_traject_mode", TrajectoryAPI::GetMode},
-    ApiRoute{Get, "/project/robot/trajectory/joint_traject_ready", TrajectoryAPI::GetReady},
-    ApiRoute{Post, "/project/robot/trajectory/joint_traject_off", TrajectoryAPI::Finish},
-    ApiRoute{Get, "/project/robot/trajectory/joint_traject_log", TrajectoryAPI::GetLog},
-    ApiRoute{Post, "/project/robot/trajectory/joint_traject_log", WITH_BODY<TrajectoryAPI::SetLog>},
+    ApiRoute{
+        Post,
+        "/project/robot/trajectory/joint_traject_init",
+        WITH_BODY<TrajectoryAPI::Init>,
+        FIRST_WITH_TRAJECTORIES},
+    ApiRoute{
+        Post,
+        "/project/robot/trajectory/joint_traject_insert_point",
+        WITH_BODY<TrajectoryAPI::InsertPoint>,
+        FIRST_WITH_STREAMED_POINTS},
+    ApiRoute{
+        Post,
+        "/project/robot/trajectory/joint_traject_insert_points",
+        TrajectoryAPI::InsertPoints,
+        FIRST_WITH_TRAJECTORIES},
+    ApiRoute{Get, "/project/robot/trajectory/joint_traject_buf_avail", TrajectoryAPI::GetFree, FIRST_WITH_TRAJECTORIES},
+    ApiRoute{
+        Get,
+        "/project/robot/trajectory/joint_traject_agility_info",
+        TrajectoryAPI::GetAgility,
+        FIRST_WITH_AGILITY},
+    ApiRoute{Get, "/project/robot/trajectory/joint_traject_mode", TrajectoryAPI::GetMode, FIRST_WITH_TRAJECTORY_MODE},
+    ApiRoute{Get, "/project/robot/trajectory/joint_traject_ready", TrajectoryAPI::GetReady, FIRST_WITH_TRAJECTORY_MODE},
+    ApiRoute{Post, "/project/robot/trajectory/joint_traject_off", TrajectoryAPI::Finish, FIRST_WITH_TRAJECTORY_MODE},
+    ApiRoute{Get, "/project/robot/trajectory/joint_traject_log", TrajectoryAPI::GetLog, FIRST_WITH_AGILITY},
+    ApiRoute{Post, "/project/robot/trajectory/joint_traject_log", WITH_BODY<TrajectoryAPI::SetLog>, FIRST_WITH_AGILITY},
 
     ApiRoute{Post, "/project/robot/start", ControlAPI::StartProgram},
     ApiRoute{Post, "/project/robot/stop", ControlAPI::StopProgram},
-    ApiRoute{Post, "/project/context/tasks/reset", ControlAPI::ResetTasks, EServed::BeforeRCode},
-    ApiRoute{Post, "/project/context/tasks[{}]/reset", ControlAPI::ResetTask, EServed::BeforeRCode},
-    ApiRoute{Post, "/project/service/r_code/execute", WITH_BODY<ControlAPI::ExecuteServiceCode>, EServed::SinceRCode},
+    ApiRoute{Post, "/project/context/tasks/reset", ControlAPI::ResetTasks, ALWAYS, FIRST_WITH_R_CODE},
+    ApiRoute{Post, "/project/context/tasks[{}]/reset", ControlAPI::ResetTask, ALWAYS, FIRST_WITH_R_CODE},
+    ApiRoute{Post, "/project/service/r_code/execute", WITH_BODY<ControlAPI::ExecuteServiceCode>, FIRST_WITH_R_CODE},
     ApiRoute{Post, "/project/context/tasks[0]/cur_prog_cnt", WITH_BODY<ControlAPI::SetProgramCounter>},
     ApiRoute{Post, "/project/context/tasks[{}]/set_cur_pc_idx", ControlAPI::SetPcIndex},
     ApiRoute{Post, "/project/context/tasks[0]/release_wait", ControlAPI::ReleaseWait},
@@ -127,20 +143,18 @@ bool MatchesPattern(std::string_view path, std::string_view pattern, std::string
 
 OpenStream::ApiResponse Route(ControllerMachine& machine, const OpenStream::ApiRequest& request, std::string room)
 {
-    const bool bRCode = machine.GetVersion() >= FIRST_WITH_R_CODE;
+    const ControllerVersion& version = machine.GetVersion();
     bool bOtherMethod = false;
     for (const ApiRoute& route : ROUTES)
     {
         ApiCall call{request, {}, room};
-        const bool bNotYet = route.served == EServed::SinceRCode && !bRCode;
-        if (bNotYet || !MatchesPattern(request.path, route.pattern, call.argument))
+        if (version < route.since || !MatchesPattern(request.path, route.pattern, call.argument))
         {
             continue;
         }
         if (route.method == request.method)
         {
-            const bool bWithdrawn = route.served == EServed::BeforeRCode && bRCode;
-            return bWithdrawn ? Answer(EApiError::Withdrawn) : route.handler(machine, call);
+            return version >= route.withdrawnSince ? Answer(EApiError::Withdrawn) : route.handler(machine, call);
         }
         bOtherMethod = true;
     }

@@ -13,7 +13,8 @@ namespace ACS::OpenStreamSim
 /// the path.
 [[nodiscard]] bool MatchesPattern(std::string_view path, std::string_view pattern, std::string_view& argumentOut);
 
-/// Finds the handler in the table of all endpoints and calls it; 404 if there is none. The path is in its plain form:
+/// Finds the handler in the table of all endpoints and calls it; 404 if there is none in the version of the
+/// controller. The path is in its plain form:
 /// brackets not encoded, /project/robot not shortened. The room is ApiCall's.
 [[nodiscard]] OpenStream::ApiResponse Route(
     ControllerMachine& machine,

@@ -70,8 +70,12 @@ EApiError ControllerMachine::InitTrajectory(const TrajectoryAgility& agility)
     {
         return EApiError::NotRemote;
     }
+    if (_version >= FIRST_WITH_TRAJECTORY_MODE && IsTrajectoryActive())
+    {
+        return EApiError::None;
+    }
     StopTrajectory();
-    _arm.GetTrajectory().SetAgility(agility);
+    _arm.GetTrajectory().SetAgility(_version >= FIRST_WITH_AGILITY ? agility : TrajectoryAgility{});
     _alarm = EAlarm::None;
     return EApiError::None;
 }

@@ -113,7 +113,8 @@ public:
     /// Ends the console's program and removes its statements. A selected program is not affected.
     void ExitConsole();
 
-    /// joint_traject_init: stops the arm, empties the buffer and clears the alarm.
+    /// joint_traject_init: stops the arm, empties the buffer and clears the alarm. From 70.06 on it has no effect while a
+    /// trajectory is active; before 70.04 it ignores the agility.
     [[nodiscard]] EApiError InitTrajectory(const TrajectoryAgility& agility);
     /// joint_traject_insert_point; BadInput if its time is not after that of the previous point.
     [[nodiscard]] EApiError InsertPoint(const StreamedPoint& point);

@@ -33,6 +33,11 @@ std::string ExecuteMove(ControllerFixture& fixture, const std::string& statement
     return fixture.PostForCode(MOVE_PATH, R"({"stmt":")" + statement + R"("})");
 }
 
+bool IsTrajectoryReady(ControllerFixture& fixture)
+{
+    return fixture.controller.GetMachine(fixture.clock.GetNow()).IsTrajectoryReady();
+}
+
 bool IsPlaying(ControllerFixture& fixture)
 {
     return fixture.Contains("/project/rgen", R"("is_playback":1)");
@@ -190,11 +195,11 @@ TEST_CASE("A execute_cmd: moves and waits run one after the other, exactly in ti
     REQUIRE(IsAt(fixture, "5"));
     fixture.clock.Advance(9'500ms);
     REQUIRE(IsAt(fixture, "10"));
-    REQUIRE(fixture.Contains("/project/robot/trajectory/joint_traject_ready", R"("ready":true)"));
+    REQUIRE(IsTrajectoryReady(fixture));
     REQUIRE(fixture.Post("/project/plc/set_relay_value", R"({"name":"ml10","value":7})") == 200);
     fixture.clock.Advance(1'500ms); // in one step
     REQUIRE(IsAt(fixture, "-5"));
-    REQUIRE(fixture.Contains("/project/robot/trajectory/joint_traject_ready", R"("ready":false)"));
+    REQUIRE_FALSE(IsTrajectoryReady(fixture));
     fixture.clock.Advance(499ms);
     REQUIRE(IsPlaying(fixture));
     fixture.clock.Advance(1ms);
@@ -239,7 +244,7 @@ TEST_CASE("A execute_cmd: a selected program replaces the console's, which repla
     REQUIRE(Command(fixture, "rl.stop") == 200);
     REQUIRE(Command(fixture, "rl.start") == 200);
     REQUIRE(fixture.GetCounters() == "[1,0,1,11]");
-    REQUIRE(fixture.Contains("/project/robot/trajectory/joint_traject_ready", R"("ready":true)"));
+    REQUIRE(IsTrajectoryReady(fixture));
     REQUIRE(fixture.Reset() == 200);
     REQUIRE_FALSE(IsPlaying(fixture));
     REQUIRE(fixture.Start() == 200); // the selected one again

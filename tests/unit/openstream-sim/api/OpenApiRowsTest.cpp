@@ -95,9 +95,6 @@ const std::vector<Call> CALLS{
      EMPTY},
     {Get, "/project/robot/trajectory/joint_traject_buf_avail", "", R"("val":2048)"},
     {Get, "/project/robot/trajectory/joint_traject_agility_info", "", R"("agility_mode":false,"agility_freq":20)"},
-    {Get, "/project/robot/trajectory/joint_traject_mode", "", R"("mode":false)"},
-    {Get, "/project/robot/trajectory/joint_traject_ready", "", R"("ready":true)"},
-    {Post, "/project/robot/trajectory/joint_traject_off", "{}", EMPTY},
     {Get, "/project/robot/trajectory/joint_traject_log", "", R"("val":0)"},
     {Post, "/project/robot/trajectory/joint_traject_log", R"({"enable":true})", EMPTY},
     {Post, "/project/service/r_code/execute", R"({"code":1})", R"("code":1)"},
@@ -125,6 +122,14 @@ const std::vector<Call> IDLE_CALLS{
      EMPTY},
     {Post, "/console/execute_cmd", R"({"cmd_line":"rl.i wait di1"})", EMPTY},
     {Post, "/console/execute_cmd", R"({"cmd_line":"rl.x"})", R"({"_type":"JObject","ecode":1})"},
+};
+
+/// Of a controller of 70.06.
+// NOLINTNEXTLINE(cert-err58-cpp)
+const std::vector<Call> NEW_CALLS{
+    {Get, "/project/robot/trajectory/joint_traject_mode", "", R"("mode":false)"},
+    {Get, "/project/robot/trajectory/joint_traject_ready", "", R"("ready":true)"},
+    {Post, "/project/robot/trajectory/joint_traject_off", "{}", EMPTY},
 };
 
 /// Of a controller before 60.30.
@@ -208,6 +213,13 @@ ControllerOptions MakePlayingOptions()
     return options;
 }
 
+ControllerOptions MakeNewOptions()
+{
+    ControllerOptions options = MakePlayingOptions();
+    options.version = ACS::OpenStreamSim::FIRST_WITH_TRAJECTORY_MODE;
+    return options;
+}
+
 void CheckCalls(const std::vector<Call>& calls, const ControllerOptions& options)
 {
     for (const Call& call : calls)
@@ -231,6 +243,7 @@ TEST_CASE("A Each row of section A is served with the query, the body and the al
     ControllerOptions old = MakePlayingOptions();
     old.version = {60, 29, 0};
     CheckCalls(OLD_CALLS, old);
+    CheckCalls(NEW_CALLS, MakeNewOptions());
 }
 
 TEST_CASE("A Each refusal that a row of section A names has its status and its code, and a sentence")
@@ -261,8 +274,9 @@ TEST_CASE("A Bodies of any kind are answered by every endpoint, and a refusal ha
 {
     std::vector<Call> calls = CALLS;
     calls.insert(calls.end(), IDLE_CALLS.begin(), IDLE_CALLS.end());
+    calls.insert(calls.end(), NEW_CALLS.begin(), NEW_CALLS.end());
     calls.push_back({Post, START, "{}", ""});
-    ControllerFixture fixture(MakePlayingOptions());
+    ControllerFixture fixture(MakeNewOptions());
     for (const Call& call : calls)
     {
         for (const char* body : BAD_BODIES)

@@ -32,10 +32,18 @@ constexpr const char* EMPTY_ANSWER = R"({"_type":"JObject"})";
 constexpr const char* GOOD_POINT =
     R"({"interval":0.002,"time_from_start":-1,"look_ahead_time":0,"point":[0.1,90,0,0,0,0]})";
 
-/// The motor is on and a program waits in playback.
-ControllerOptions MakeTrajectoryOptions()
+/// Of the first version that serves every endpoint.
+ControllerOptions MakeIdleOptions()
 {
     ControllerOptions options;
+    options.version = ACS::OpenStreamSim::FIRST_WITH_TRAJECTORY_MODE;
+    return options;
+}
+
+/// Likewise, and the motor is on and a program waits in playback.
+ControllerOptions MakeTrajectoryOptions()
+{
+    ControllerOptions options = MakeIdleOptions();
     options.bWaiting = true;
     return options;
 }
@@ -103,7 +111,7 @@ TEST_CASE("C.1 A trajectory requires, checked in this order: remote mode, motor 
     {
         INFO(url);
         const std::string body = url == INSERT_POINT ? GOOD_POINT : MakePair();
-        ControllerFixture fixture;
+        ControllerFixture fixture(MakeIdleOptions());
         fixture.controller.TurnModeSwitch(false, fixture.clock.GetNow());
         REQUIRE(fixture.PostForCode(url, body) == "403 -38500");
         fixture.controller.TurnModeSwitch(true, fixture.clock.GetNow());
@@ -200,7 +208,7 @@ TEST_CASE("A joint_traject_insert_point: an invalid body is refused with 400, wh
         R"({"interval":0.002,"time_from_start":-1,"look_ahead_time":0,"point":[0,90,0,0,0,1e308]})"};
     for (const bool bPlaying : {false, true})
     {
-        ControllerFixture fixture(bPlaying ? MakeTrajectoryOptions() : ControllerOptions{});
+        ControllerFixture fixture(bPlaying ? MakeTrajectoryOptions() : MakeIdleOptions());
         for (const char* body : BODIES)
         {
             INFO(body);
@@ -401,7 +409,9 @@ TEST_CASE("C.4 STOP control clears the buffer and stops the arm; the program con
 TEST_CASE(
     "A joint_traject_init: empties the buffer in the middle of a motion, which stops; needs remote mode, not the motor")
 {
-    ControllerFixture fixture(MakeTrajectoryOptions());
+    ControllerOptions options = MakeTrajectoryOptions();
+    options.version = ControllerOptions{}.version;
+    ControllerFixture fixture(options);
     REQUIRE(fixture.Post(INSERT_POINTS, MakePair()) == 200);
     fixture.clock.Advance(500ms);
     REQUIRE(fixture.Post(INIT) == 200);
@@ -413,7 +423,66 @@ TEST_CASE(
     REQUIRE(fixture.Post(INIT) == 200);
     fixture.controller.TurnModeSwitch(false, fixture.clock.GetNow());
     REQUIRE(fixture.PostForCode(INIT) == "403 -38500");
-    REQUIRE(fixture.PostForCode(OFF) == "403 -38500");
+}
+
+TEST_CASE("A joint_traject_init: from 70.06 on it has no effect while joint_traject_mode is true")
+{
+    ControllerFixture fixture(MakeTrajectoryOptions());
+    REQUIRE(fixture.Post(INSERT_POINTS, MakePair()) == 200);
+    fixture.clock.Advance(500ms);
+    REQUIRE(fixture.Post(INIT, R"({"agility_mode":true})") == 200);
+    REQUIRE(IsMode(fixture));
+    REQUIRE(GetFree(fixture) == "2047");
+    REQUIRE(fixture.Contains(AGILITY, R"("agility_mode":false)"));
+    fixture.clock.Advance(2s);
+    REQUIRE(GetFirstAngle(fixture) == Approx(28.648).margin(0.001)); // 0.5 rad
+    REQUIRE_FALSE(IsMode(fixture));
+    REQUIRE(fixture.Post(INIT, R"({"agility_mode":true})") == 200);
+    REQUIRE(fixture.Contains(AGILITY, R"("agility_mode":true)"));
+}
+
+TEST_CASE("A joint_traject_init: before 70.04 it has no agility")
+{
+    ControllerOptions options = MakeTrajectoryOptions();
+    options.version = {70, 3, 0};
+    ControllerFixture fixture(options);
+    REQUIRE(fixture.Post(INIT, R"({"agility_mode":true,"agility_freq":500})") == 200);
+    REQUIRE_FALSE(fixture.controller.GetMachine(fixture.clock.GetNow()).GetTrajectory().GetAgility().bOn);
+}
+
+TEST_CASE("A Each endpoint is served from its first version on; an earlier controller answers with 404")
+{
+    struct Row
+    {
+        EApiMethod method;
+        const char* path;
+        ACS::OpenStreamSim::ControllerVersion first;
+    };
+    constexpr const char* EMERGENCY_STOP = "/project/robot/emergency_stop";
+    const std::vector<Row> rows{
+        {EApiMethod::Get, EMERGENCY_STOP, {60, 30, 0}},
+        {EApiMethod::Post, EMERGENCY_STOP, {60, 30, 0}},
+        {EApiMethod::Post, INIT, {60, 32, 0}},
+        {EApiMethod::Post, INSERT_POINTS, {60, 32, 0}},
+        {EApiMethod::Get, FREE, {60, 32, 0}},
+        {EApiMethod::Post, INSERT_POINT, {60, 34, 0}},
+        {EApiMethod::Get, JOINT_STATES, {60, 34, 0}},
+        {EApiMethod::Get, "/project/robot/joint_states", {60, 34, 0}},
+        {EApiMethod::Get, AGILITY, {70, 4, 0}},
+        {EApiMethod::Get, LOG, {70, 4, 0}},
+        {EApiMethod::Post, LOG, {70, 4, 0}},
+        {EApiMethod::Get, MODE, {70, 6, 0}},
+        {EApiMethod::Get, READY, {70, 6, 0}},
+        {EApiMethod::Post, OFF, {70, 6, 0}}};
+    for (const Row& row : rows)
+    {
+        INFO(row.path);
+        ControllerOptions options;
+        options.version = row.first;
+        CHECK(ControllerFixture(options).Call(row.method, row.path).status != 404);
+        options.version = {row.first.major, row.first.minor - 1, 99};
+        CHECK(ControllerFixture(options).Call(row.method, row.path).status == 404);
+    }
 }
 
 TEST_CASE("A joint_traject_init, joint_traject_agility_info: what is set is what is read, an empty body resets it")
@@ -459,6 +528,8 @@ TEST_CASE(
         REQUIRE_FALSE(IsMode(fixture));
         REQUIRE(IsReady(fixture));
         REQUIRE(fixture.Post(OFF) == 200); // nothing to end
+        fixture.controller.TurnModeSwitch(false, fixture.clock.GetNow());
+        REQUIRE(fixture.PostForCode(OFF) == "403 -38500");
     }
 }
 

@@ -75,6 +75,7 @@ TEST_CASE("C.2 Nor does it while the arm follows a trajectory, whose buffer grow
         INFO(url);
         OpenStreamSim::ControllerOptions options;
         options.bWaiting = true;
+        options.version = OpenStreamSim::FIRST_WITH_TRAJECTORY_MODE;
         Testing::ControllerFixture fixture(options);
         for (int number = 1; number <= CALLS; ++number)
         {

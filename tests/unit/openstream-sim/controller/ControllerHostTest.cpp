@@ -26,6 +26,7 @@ ControllerOptions MakePlayingOptions()
 {
     ControllerOptions options;
     options.bWaiting = true;
+    options.version = FIRST_WITH_TRAJECTORY_MODE;
     return options;
 }
 
