@@ -158,6 +158,12 @@ TEST_CASE("4 Each code while nothing is in flight")
         MakeReady(client);
         client.Receive(MakeError(row.code));
         CHECK(GetLetter(client) == row.onNothing);
+        for (const ClientControlFault& fault : client.Take<ClientControlFault>())
+        {
+            CHECK(fault.status == GetErrorStatus(GetErrorCode(row.code)));
+            CHECK(fault.status >= 400);
+            CHECK_FALSE(fault.body.has_value());
+        }
         CHECK((client.session.GetState() == EClientState::Ready) == (row.onNothing != 'L'));
     }
 }

@@ -128,6 +128,13 @@ TEST_CASE("3 Streamed CONTROLs do not wait; their rejections are reported as fau
     REQUIRE(client.CountLines("CONTROL") == 2);
     client.Receive("{\"type\":\"control_err\",\"status\":403}\n");
     REQUIRE(client.Take<ClientControlFault>().at(0).status == 403);
+    client.session.OnPeerClosed(client.GetNow(), client.actions);
+    client.Execute();
+    static_cast<void>(client.Control("/c", EControlTracking::Streamed));
+    const auto unsent = client.Take<ClientControlFault>();
+    REQUIRE(unsent.size() == 1);
+    REQUIRE(unsent.at(0).status == 0);
+    REQUIRE(unsent.at(0).detail == "not sent: there is no session with the controller");
     REQUIRE(client.Take<ClientControlSettled>().empty());
 }
 

@@ -171,12 +171,13 @@ struct ClientControlSettled
     std::string detail;                                 ///< For the operator; empty if accepted.
 };
 
-/// Event: a refusal while no tracked CONTROL was in flight: of a streamed one, of one that
-/// STOP control has settled, or after the window.
+/// Event: a refusal while no tracked CONTROL was in flight: of a streamed one, of one that STOP control has settled, or after
+/// the window. Also a streamed CONTROL that was not sent.
 struct ClientControlFault
 {
-    int status = 0;                     ///< HTTP status of the refusal; 0: an error line.
-    std::optional<Core::JsonText> body; ///< Of the refusal.
+    int status =
+        0; ///< HTTP status of the refusal, of an error line that of its code; 0: a streamed CONTROL was not sent.
+    std::optional<Core::JsonText> body; ///< Of the refusal; none of an error line.
     std::string detail;                 ///< For the operator.
 };
 
