@@ -38,6 +38,33 @@ void AppendEncoded(std::string_view text, std::string& out)
     }
 }
 
+/// The value of a hexadecimal digit; HEX.size() for another character.
+std::size_t ReadHexDigit(char letter)
+{
+    const bool bSmall = letter >= 'a' && letter <= 'f';
+    const std::size_t found = HEX.find(bSmall ? static_cast<char>(letter - 'a' + 'A') : letter);
+    return std::min(found, HEX.size());
+}
+
+/// As an HTTP server reads a query: '+' is a blank. An invalid escape stays as it is.
+std::string DecodeQuery(std::string_view text)
+{
+    constexpr std::size_t ESCAPE = 3; // Characters of "%20".
+    std::string decoded;
+    decoded.reserve(text.size());
+    while (!text.empty())
+    {
+        const bool bEscape = text.front() == '%' && text.size() >= ESCAPE;
+        const std::size_t high = bEscape ? ReadHexDigit(text[1]) : HEX.size();
+        const std::size_t low = bEscape ? ReadHexDigit(text[2]) : HEX.size();
+        const bool bValid = high < HEX.size() && low < HEX.size();
+        const char plain = text.front() == '+' ? ' ' : text.front();
+        decoded += bValid ? static_cast<char>(high * HEX.size() + low) : plain;
+        text.remove_prefix(bValid ? ESCAPE : 1);
+    }
+    return decoded;
+}
+
 std::string_view GetName(const Json::Value::Member& member)
 {
     return {member.name.GetString(), member.name.GetStringLength()};
@@ -88,7 +115,7 @@ void SplitURL(std::string_view url, ApiRequest& request)
         }
         const std::size_t equals = part.find('=');
         const std::string_view value = equals == std::string_view::npos ? std::string_view() : part.substr(equals + 1);
-        request.query.push_back(QueryParameter{std::string(part.substr(0, equals)), std::string(value)});
+        request.query.push_back(QueryParameter{DecodeQuery(part.substr(0, equals)), DecodeQuery(value)});
     }
 }
 

@@ -51,6 +51,30 @@ TEST_CASE("7.29 BuildUrl encodes what a query cannot carry")
     REQUIRE(BuildURL(request) == "/project/robot/po_cur?crd=-1&text=a%20b%26c%3D%C3%A9");
 }
 
+TEST_CASE("7.29 Names and values of a query are percent-decoded, except invalid escapes; the path is opaque")
+{
+    ApiRequest request;
+    SplitURL("/a%20b?na%6de=x%20y%2B%26%3d&plus=1+2%2B3&bad=%&short=%2&wrong=%G0%0g&nul=%00", request);
+    CHECK(request.path == "/a%20b");
+    REQUIRE(request.query.size() == 6);
+    CHECK(request.query.at(0) == QueryParameter{"name", "x y+&="});
+    CHECK(*request.GetParameterOrNull("plus") == "1 2+3"); // as an HTTP server reads it
+    CHECK(*request.GetParameterOrNull("bad") == "%");
+    CHECK(*request.GetParameterOrNull("short") == "%2");
+    CHECK(*request.GetParameterOrNull("wrong") == "%G0%0g");
+    CHECK(*request.GetParameterOrNull("nul") == std::string(1, '\0'));
+}
+
+TEST_CASE("7.29 SplitUrl reads what BuildUrl has written")
+{
+    ApiRequest request;
+    request.path = "/project/robot/po_cur";
+    request.query = {{"a b", "100%"}, {"%20", "%41"}, {"c&d=e", "\xC3\xA9+/?"}, {"", ""}, {"empty", ""}};
+    ApiRequest read;
+    SplitURL(BuildURL(request), read);
+    CHECK(read == request);
+}
+
 TEST_CASE("7.29 Blanks, control characters and relative urls are rejected; the rest is opaque")
 {
     for (const char* good : {"/", "/a/../b", "/a#b?c=%zz", "/tasks[0]"})

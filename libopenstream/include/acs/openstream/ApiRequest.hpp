@@ -13,7 +13,7 @@
 namespace ACS::OpenStream
 {
 
-/// One parameter of a query, as received, without decoding.
+/// One parameter of a query, without percent-encoding.
 struct QueryParameter
 {
     std::string name;  ///< May occur more than once.
@@ -58,7 +58,8 @@ struct ACS_API ApiResponse
     bool operator==(const ApiResponse&) const = default;
 };
 
-/// Parses "/path?name=value&name2=value2" into path and query of the request.
+/// Parses "/path?name=value&name2=value2" into path and query of the request. Names and values are decoded like those of
+/// HTTP: percent-encoding, and '+' as a blank. An invalid escape stays as it is. The path is not decoded.
 ACS_API void SplitURL(std::string_view url, ApiRequest& request);
 
 /// Adds the arguments (a JSON object, as in MONITOR and CONTROL) to the query. An argument replaces a parameter of the same

@@ -3,6 +3,8 @@
 #include "Catch.hpp"
 #include "controller/ControllerFixture.hpp"
 
+#include <string>
+
 using ACS::Apps::HttpRequest;
 using ACS::Apps::HttpResponse;
 using ACS::Testing::ControllerFixture;
@@ -33,6 +35,30 @@ TEST_CASE("HTTP and Open Stream see the same controller")
     REQUIRE(refusal.status == 403);
     REQUIRE(refusal.body.find(R"("err_code":-1442080)") != std::string::npos);
     REQUIRE(Send(fixture, {"PUT", "/project/control/op_cnd", {}, R"({"plc_mode":1})"}).status == 200);
+}
+
+TEST_CASE("7.29 An encoded query is the same request over HTTP and Open Stream")
+{
+    constexpr const char* JOINTS = "/project/robot/joint_states";
+    ControllerFixture fixture;
+    for (const char* query :
+         {"?%6Ano_start=%31&jno_n=1",
+          "?jno_start=1%20&jno_n=1",
+          "?jno_start=1+&jno_n=1",
+          "?jno_start=%2B1",
+          "?jno_n=%2"})
+    {
+        INFO(query);
+        const std::string url = std::string(JOINTS) + query;
+        const ACS::Core::Result<HttpRequest> target = ACS::Apps::ParseHttpTarget(url);
+        if (target.has_value()) // An invalid escape is no HTTP.
+        {
+            HttpRequest request = *target;
+            request.method = "GET";
+            CHECK(Send(fixture, request).body == fixture.Get(url));
+        }
+        CHECK((fixture.Call(ACS::OpenStream::EApiMethod::Get, url).status == 200) == (query[1] == '%'));
+    }
 }
 
 TEST_CASE("A body that is not a JSON object or array is refused, a method that the Open API lacks is not found")
