@@ -300,7 +300,8 @@ struct ACS::Json::JsonFields<ACS::OpenStreamSim::StreamedPoint>
     using Message = OpenStreamSim::StreamedPoint;
     static constexpr auto FIELDS = std::make_tuple(
         Required("interval", &Message::interval).Between(0.0001, 60.0),
-        Defaulted("time_from_start", &Message::timeFromStart).Between(-1.0, OpenStreamSim::LONGEST_TRAJECTORY),
+        Defaulted("time_from_start", &Message::timeFromStart)
+            .Between(-OpenStreamSim::LONGEST_TRAJECTORY, OpenStreamSim::LONGEST_TRAJECTORY),
         Required("look_ahead_time", &Message::lookAheadTime).Between(0.0, 60.0),
         Required("point", &Message::point).WithLength(OpenStreamSim::AXES, OpenStreamSim::AXES));
 };

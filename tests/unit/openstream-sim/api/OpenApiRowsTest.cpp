@@ -159,7 +159,7 @@ constexpr const char* MOVE = "/project/context/tasks[0]/execute_move";
 constexpr const char* GOOD_MOVE = R"({"stmt":"move P,spd=1sec,accu=0,tool=0 [10 90 0 0 0 0]"})";
 constexpr const char* CONSOLE = "/console/execute_cmd";
 
-/// A call for each refusal that a row documents and that is not in OpenApiTest's or TrajectoryApiTest's, on a fresh
+/// A call for each refusal that a row documents and that is not in OpenApiTest's or TrajectoryAPITest's, on a fresh
 /// controller; motor_on takes its second.
 // NOLINTNEXTLINE(cert-err58-cpp)
 const std::vector<Refusal> REFUSALS{

@@ -191,7 +191,7 @@ TEST_CASE("A joint_traject_insert_point: an invalid body is refused with 400, wh
         R"({"time_from_start":-1,"look_ahead_time":0,"point":[0,90,0,0,0,0]})",
         R"({"interval":null,"time_from_start":-1,"look_ahead_time":0,"point":[0,90,0,0,0,0]})",
         R"({"interval":0.002,"time_from_start":"NaN","look_ahead_time":0,"point":[0,90,0,0,0,0]})",
-        R"({"interval":0.002,"time_from_start":-2,"look_ahead_time":0,"point":[0,90,0,0,0,0]})",
+        R"({"interval":0.002,"time_from_start":-1e300,"look_ahead_time":0,"point":[0,90,0,0,0,0]})",
         R"({"interval":0.002,"time_from_start":1e300,"look_ahead_time":0,"point":[0,90,0,0,0,0]})",
         R"({"interval":0.002,"time_from_start":-1,"look_ahead_time":-1,"point":[0,90,0,0,0,0]})",
         R"({"interval":0.002,"time_from_start":-1,"look_ahead_time":1e9,"point":[0,90,0,0,0,0]})",
@@ -230,7 +230,7 @@ TEST_CASE("7.43 time_from_start may be absent, negative, or rise; it does not go
     ControllerFixture fixture(MakeTrajectoryOptions());
     constexpr const char* ABSENT = R"({"interval":0.01,"look_ahead_time":5,"point":[0.1,90,0,0,0,0]})";
     REQUIRE(fixture.Post(INSERT_POINT, ABSENT) == 200);
-    REQUIRE(fixture.Post(INSERT_POINT, MakePoint(0.2)) == 200);
+    REQUIRE(fixture.Post(INSERT_POINT, MakePoint(0.2, -7.5)) == 200); // any negative number, not only -1
     REQUIRE(fixture.Post(INSERT_POINT, MakePoint(0.3, 0.014)) == 200);
     REQUIRE(fixture.PostForCode(INSERT_POINT, MakePoint(0.4, 0.014)) == "400 -1"); // 10 + 2 + 2 ms
     REQUIRE(fixture.PostForCode(INSERT_POINT, MakePoint(0.4, 0.0)) == "400 -1");
