@@ -332,7 +332,7 @@ Core::Result<void> MasterSession::Impl::ResumeOrder(OrderRecord record, Core::No
             continuedUpdateIDs.push_back(message->orderUpdateID);
         }
     }
-    if (open != messages.begin() && std::prev(open)->orderUpdateID == state.orderUpdateID)
+    if (open != messages.begin())
     {
         EraseUnsentHorizon(*std::prev(open), state);
     }
@@ -343,7 +343,7 @@ Core::Result<void> MasterSession::Impl::ResumeOrder(OrderRecord record, Core::No
     }
     if (open != messages.begin())
     {
-        _outbox.SetAccepted(state.orderUpdateID);
+        _outbox.SetAccepted(std::prev(open)->orderUpdateID);
         out.emplace_back(OrderAccepted{orderID, state.orderUpdateID});
     }
     if (messages.end() - open == MOST_OPEN)

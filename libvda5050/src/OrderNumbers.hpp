@@ -24,6 +24,7 @@ public:
     void SetContinued(std::uint32_t updateID);
     /// False: no number is left for the message.
     [[nodiscard]] bool TryRenumber(std::uint32_t& updateID, std::uint32_t shownID);
+    /// updateID is that of the order's own message: the vehicle may show a later one, of which no content is known.
     void Accept(std::uint32_t updateID);
 
     [[nodiscard]] bool IsAccepted() const noexcept;

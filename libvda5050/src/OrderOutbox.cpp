@@ -228,12 +228,12 @@ OrderMessage OrderOutbox::Accept(const StateMessage& state, MasterActions& out)
     OrderMessage message = std::move(_inFlight->message);
     _inFlight.reset();
     // A master that resumes an order may know less of it than the vehicle has.
-    const std::uint32_t acceptedID = std::max(message.orderUpdateID, state.orderUpdateID);
-    const bool bRenumbered = !_queued.has_value() || _queued->orderUpdateID > acceptedID
-        || _numbers.TryRenumber(_queued->orderUpdateID, acceptedID);
-    _numbers.Accept(acceptedID);
+    const std::uint32_t shownID = std::max(message.orderUpdateID, state.orderUpdateID);
+    const bool bRenumbered = !_queued.has_value() || _queued->orderUpdateID > shownID
+        || _numbers.TryRenumber(_queued->orderUpdateID, shownID);
+    _numbers.Accept(message.orderUpdateID);
     out.emplace_back(CancelMasterTimer{EMasterTimer::ResendOrder});
-    out.emplace_back(OrderAccepted{message.orderID, acceptedID});
+    out.emplace_back(OrderAccepted{message.orderID, shownID});
     if (!bRenumbered)
     {
         out.emplace_back(OrderRejected{message.orderID, _queued->orderUpdateID, {}, NO_UPDATE_ID});

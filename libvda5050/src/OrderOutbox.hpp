@@ -84,7 +84,8 @@ public:
     [[nodiscard]] Answer OnState(const StateMessage& state, const ActionIndex& shown);
     /// Returns the message in flight, which the state shows.
     [[nodiscard]] OrderMessage Accept(const StateMessage& state, MasterActions& out);
-    /// The vehicle shows a message of the order that was not sent by this session.
+    /// The vehicle shows a message of the order that was not sent by this session. updateID is that of the message, also if the
+    /// vehicle shows a later one.
     void SetAccepted(std::uint32_t updateID);
     /// Drops the message in flight, and what waits for it: an update on top of a refused one has no place to begin.
     void Reject(const std::string& errorType, const std::string& reason, MasterActions& out);

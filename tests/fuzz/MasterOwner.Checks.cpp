@@ -72,9 +72,11 @@ void MasterOwner::CheckOrderMessage(const OrderMessage& message)
             base += static_cast<std::size_t>(std::ranges::count(other.message.nodes, true, &OrderNode::bReleased)) - 1;
         }
     }
+    // What it has shown before may have been a transient error.
+    const StateMessage* const state = _session.GetStateOrNull();
     Require(
-        !_order->acceptedUpdateID.has_value() || message.orderUpdateID > *_order->acceptedUpdateID,
-        "an update is later than what the vehicle has shown");
+        state == nullptr || state->orderID != message.orderID || message.orderUpdateID > state->orderUpdateID,
+        "an update is later than what the vehicle shows");
     Require(message.nodes.front().sequenceID == 2 * base, "an update begins where the base ends");
     Require(message.nodes.size() <= given->message.nodes.size(), "only the horizon is shortened");
     for (std::size_t index = 0; index < given->message.nodes.size(); ++index)

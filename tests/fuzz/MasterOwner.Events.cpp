@@ -167,9 +167,6 @@ void MasterOwner::On(const OrderAccepted& event)
         given != _order->messages.end() && given->sent != ESent::No,
         "a message is accepted once, after it was sent");
     Require(given->message.orderUpdateID <= event.orderUpdateID, "the vehicle has shown what is accepted");
-    Require(
-        !_order->acceptedUpdateID.has_value() || event.orderUpdateID > *_order->acceptedUpdateID,
-        "each acceptance is of a later message");
     given->answer = EAnswer::Accepted;
     Track(given->message, bFirst);
     ResolveShown();
@@ -242,9 +239,9 @@ bool MasterOwner::IsLastNodeReached() const
     const auto last = std::ranges::find_if(_order->messages.rbegin(), _order->messages.rend(), [](const Given& given) {
         return given.answer == EAnswer::Accepted;
     });
-    if (last == _order->messages.rend() || last->message.orderUpdateID != _order->acceptedUpdateID)
+    if (last == _order->messages.rend())
     {
-        return true; // the vehicle claims an update that was not sent
+        return true;
     }
     return !last->bContinues && _order->reachedSequenceID == last->message.nodes.back().sequenceID;
 }

@@ -3,6 +3,7 @@
 #include "FuzzCheck.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 // The orders that the owner gives.
@@ -228,15 +229,19 @@ void MasterOwner::Resume()
     order.reachedSequenceID.reset();
     bool bFirst = true;
     bool bFirstOpen = true;
+    const auto isShown = [state, &order](const Given& given) {
+        return state->orderID == order.orderID && state->orderUpdateID >= given.given.orderUpdateID;
+    };
+    const std::ptrdiff_t shown = std::ranges::count_if(order.messages, isShown);
     for (Given& given : order.messages)
     {
-        const bool bShown = state->orderID == order.orderID && state->orderUpdateID >= given.given.orderUpdateID;
+        const bool bShown = isShown(given);
         given.message = given.given;
         given.answer = bShown ? EAnswer::Accepted : EAnswer::Open;
         given.sent = ESent::Yes;
         if (bShown)
         {
-            if (given.message.orderUpdateID == state->orderUpdateID)
+            if (&given == &order.messages.at(static_cast<std::size_t>(shown) - 1))
             {
                 EraseUnsentHorizon(given.message, *state);
             }

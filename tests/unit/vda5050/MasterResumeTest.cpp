@@ -135,6 +135,7 @@ TEST_CASE("13 A resumed order whose horizon was not sent waits at the end of its
     const Record record;
     MasterSessionFixture bench;
     bench.Hold(record.order, 3);
+    bench.state.orderUpdateID = GENERATE(0U, 7U); // that of the record, or of an update that another client has sent
     bench.state.nodeStates.resize(GENERATE(as<std::size_t>(), 0, 1)); // without it, or shortened by the factsheet
     Show(bench, "a1", EActionStatus::Finished);
     bench.BeReady();
@@ -144,9 +145,10 @@ TEST_CASE("13 A resumed order whose horizon was not sent waits at the end of its
     CHECK(ListReached(bench.GetOutput()) == std::vector<std::string>{"N0", "N1"});
     CHECK(bench.session.GetOrderPhase() == EOrderPhase::Active);
 
+    const std::uint32_t shownID = bench.state.orderUpdateID;
     REQUIRE(bench.session.SendOrderUpdate(record.update, bench.GetNow(), bench.Clear()));
-    CHECK(bench.GetSentOrder().orderUpdateID == 1);
-    bench.Hold(record.update, 0);
+    CHECK(bench.GetSentOrder().orderUpdateID == shownID + 1);
+    bench.Hold(bench.GetSentOrder(), 0);
     bench.SendState();
     CHECK(Pick<OrderFinished>(bench.GetOutput()).size() == 1);
 }

@@ -181,10 +181,11 @@ TEST_CASE("13 After the last orderUpdateId no update is sent")
     OrderBuilder builder = MakeBuilder(5);
     const OrderMessage order = *builder.MakeOrder(2);
     REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
+    const OrderMessage update = *builder.MakeUpdate(3);
     const bool bWaiting = GENERATE(true, false);
     if (bWaiting)
     {
-        REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(3), bench.GetNow(), bench.Clear()).has_value());
+        REQUIRE(bench.session.SendOrderUpdate(update, bench.GetNow(), bench.Clear()).has_value());
     }
     bench.Clear();
     bench.Hold(order, 1);
@@ -193,10 +194,14 @@ TEST_CASE("13 After the last orderUpdateId no update is sent")
     CHECK(Pick<OrderAccepted>(bench.GetOutput()).size() == 1);
     CHECK(Pick<OrderRejected>(bench.GetOutput()).size() == (bWaiting ? 1 : 0));
     CHECK(bench.GetSent(ETopic::Order).empty());
-    const auto sent = bench.session.SendOrderUpdate(*builder.MakeUpdate(3), bench.GetNow(), bench.Clear());
+    const auto sent = bench.session.SendOrderUpdate(update, bench.GetNow(), bench.Clear());
     REQUIRE_FALSE(sent.has_value());
-    CHECK(sent.error().code == EVda5050Error::InvalidOrder);
+    CHECK(sent.error().path == "orderUpdateId");
     CHECK(bench.session.GetOrderPhase() == EOrderPhase::Active);
+    bench.state.orderUpdateID = 0; // it was a transient error of the vehicle
+    bench.SendState();
+    REQUIRE(bench.session.SendOrderUpdate(update, bench.GetNow(), bench.Clear()).has_value());
+    CHECK(bench.GetSentOrder().orderUpdateID == (bWaiting ? 2 : 1));
 }
 
 TEST_CASE("13 An update that was not sent yet is not accepted, and is sent with a number above the one shown")
