@@ -269,14 +269,18 @@ bool MasterSession::Impl::IsRecordLost(const OrderRecord& record) const
 
 void MasterSession::Impl::ReportRecordLost(const OrderRecord& record, MasterActions& out)
 {
-    const OrderMessage& first = record.messages.front();
+    const std::vector<OrderMessage>& messages = record.messages;
     const bool bAccepted = record.acceptedUpdateID.has_value();
-    if (!bAccepted)
+    // Only the first message that was not accepted can have been sent.
+    const auto sent = std::ranges::find_if(messages, [&record](const OrderMessage& message) {
+        return !record.acceptedUpdateID.has_value() || message.orderUpdateID > *record.acceptedUpdateID;
+    });
+    if (sent != messages.end())
     {
-        _withdrawnOrders.Add(first.orderID, &first, true);
+        _withdrawnOrders.Add(sent->orderID, &*sent, !bAccepted);
     }
     out.emplace_back(OrderLost{
-        first.orderID,
+        messages.front().orderID,
         bAccepted ? "the vehicle does not hold it any more"
                   : "the vehicle may have been restarted since the order was given, and may have executed it"});
 }

@@ -130,6 +130,26 @@ TEST_CASE(
     CHECK(Pick<OrderReappeared>(bench.GetOutput()) == std::vector{OrderReappeared{"order-1"}});
 }
 
+TEST_CASE("13 The update of a resumed order that the vehicle no longer shows is cancelled if it comes late")
+{
+    Record record;
+    OrderMessage third = record.update;
+    third.nodes.erase(third.nodes.begin(), third.nodes.begin() + 3);
+    third.edges.clear();
+    third.orderUpdateID = 2;
+    MasterSessionFixture bench;
+    bench.state = StateMessage();
+    bench.state.orderID = GENERATE("", "order-2");
+    bench.BeReady();
+    REQUIRE(Resume(bench, {{record.order, record.update, third}, 0}));
+    CHECK(Pick<OrderLost>(bench.GetOutput()).size() == 1);
+    bench.Clear();
+    bench.Hold(record.update, 3);
+    bench.SendState();
+    CHECK(Pick<OrderReappeared>(bench.GetOutput()) == std::vector{OrderReappeared{"order-1"}});
+    CHECK(bench.GetSent(ETopic::InstantActions).size() == 1); // cancelOrder
+}
+
 TEST_CASE("13 A resumed order whose horizon was not sent waits at the end of its base for an update")
 {
     const Record record;
