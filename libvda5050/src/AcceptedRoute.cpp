@@ -56,6 +56,12 @@ bool AcceptedRoute::IsReached() const noexcept
     return _reachedNodes == _nodes.size();
 }
 
+bool AcceptedRoute::IsEnd(std::string_view nodeID, std::uint32_t sequenceID) const
+{
+    return !_nodes.empty() && _nodes.back().bReleased && _nodes.back().nodeID == nodeID
+        && _nodes.back().sequenceID == sequenceID;
+}
+
 std::pair<std::string, std::uint32_t> AcceptedRoute::GetDecisionPoint() const
 {
     std::pair<std::string, std::uint32_t> point;

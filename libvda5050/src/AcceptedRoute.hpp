@@ -37,6 +37,8 @@ public:
     void ReportReached(const StateMessage& state, MasterActions& out);
 
     [[nodiscard]] bool IsReached() const noexcept;
+    /// Whether the node is the last one of the route, and released.
+    [[nodiscard]] bool IsEnd(std::string_view nodeID, std::uint32_t sequenceID) const;
     /// The last released node, where an update begins.
     [[nodiscard]] std::pair<std::string, std::uint32_t> GetDecisionPoint() const;
     /// Valid until the route changes.

@@ -75,6 +75,8 @@ private:
     void SettleInFlight(const ActionIndex& shown, MasterActions& out);
     void RejectInFlight(const std::string& errorType, const std::string& reason, MasterActions& out);
     void UpdateOrder(MasterActions& out);
+    /// The vehicle, which has shown the order, shows none.
+    void UpdateCleared(MasterActions& out);
     /// Reports the order as lost. An update of it may reach the vehicle late.
     void LoseAccepted(std::string reason, MasterActions& out);
     void UpdateCancel(MasterActions& out);
@@ -82,6 +84,10 @@ private:
     void EndCancel(EActionStatus status, MasterActions& out);
     void EndOrder(MasterActions& out);
     [[nodiscard]] bool IsOrderDone() const;
+    /// Whether the vehicle shows that the accepted order has ended, by its last node, but no longer the orderId.
+    [[nodiscard]] bool IsClearedAtEnd() const;
+    /// Whether the vehicle shows the end of the cancelOrder.
+    [[nodiscard]] bool IsCancelAnswered() const;
     /// The number that the vehicle shows for the order; 0 without one.
     [[nodiscard]] std::uint32_t GetShownUpdateID() const;
 

@@ -67,6 +67,47 @@ bool MasterSession::Impl::IsOrderDone() const
         && !_actions.HasShownOrderAction();
 }
 
+bool MasterSession::Impl::IsClearedAtEnd() const
+{
+    const StateMessage& state = *_vehicle.GetStateOrNull();
+    const bool bCleared = state.orderID.empty() && !_vehicle.IsBusy();
+    if (!bCleared || _outbox.IsContinued() || !_outbox.IsEmpty()
+        || !_route.IsEnd(state.lastNodeID, state.lastNodeSequenceID))
+    {
+        return false;
+    }
+    // A vehicle that was restarted may show the first node too.
+    return state.lastNodeSequenceID > 0 || _actions.HasShownAllEnds();
+}
+
+bool MasterSession::Impl::IsCancelAnswered() const
+{
+    const ActionState* const shown = _cancelActionID.empty() ? nullptr : _vehicle.FindActionOrNull(_cancelActionID);
+    return shown != nullptr && IsTerminal(shown->actionStatus);
+}
+
+void MasterSession::Impl::UpdateCleared(MasterActions& out)
+{
+    const bool bAtEnd = IsClearedAtEnd();
+    if (bAtEnd)
+    {
+        _route.ReportReached(*_vehicle.GetStateOrNull(), out);
+    }
+    if (IsCancelAnswered())
+    {
+        return; // which decides
+    }
+    if (bAtEnd)
+    {
+        out.emplace_back(OrderFinished{_orderID});
+        EndOrder(out);
+    }
+    else
+    {
+        LoseAccepted("the vehicle holds no order", out);
+    }
+}
+
 void MasterSession::Impl::UpdateOrder(MasterActions& out)
 {
     if (!_outbox.IsAccepted())
@@ -74,9 +115,14 @@ void MasterSession::Impl::UpdateOrder(MasterActions& out)
         return;
     }
     const StateMessage& state = *_vehicle.GetStateOrNull();
+    if (state.orderID.empty())
+    {
+        UpdateCleared(out);
+        return;
+    }
     if (state.orderID != _orderID)
     {
-        LoseAccepted(state.orderID.empty() ? "the vehicle holds no order" : "the vehicle holds " + state.orderID, out);
+        LoseAccepted("the vehicle holds " + state.orderID, out);
         return;
     }
     _route.ReportReached(state, out);
@@ -169,7 +215,7 @@ void MasterSession::Impl::EndCancel(EActionStatus status, MasterActions& out)
 {
     const bool bHeld = _outbox.IsAccepted() && _vehicle.IsShowingOrder(_orderID);
     const bool bOpen = bHeld && (!_vehicle.GetStateOrNull()->nodeStates.empty() || _actions.HasShownOrderAction());
-    if (status == EActionStatus::Failed && bHeld && IsOrderDone())
+    if (status == EActionStatus::Failed && (bHeld ? IsOrderDone() : _outbox.IsAccepted() && IsClearedAtEnd()))
     {
         out.emplace_back(OrderFinished{_orderID});
     }

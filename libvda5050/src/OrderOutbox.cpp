@@ -63,7 +63,16 @@ bool OrderOutbox::TryNumber(OrderMessage& update, bool bContinues, std::uint32_t
 
 void OrderOutbox::Start(OrderMessage message, EEcho echo, const StateMessage& state)
 {
-    _inFlight = InFlight{std::move(message), echo, 0, 0, false, state.errors, state.orderID};
+    _inFlight = InFlight{
+        std::move(message),
+        echo,
+        0,
+        0,
+        false,
+        state.errors,
+        state.orderID,
+        state.lastNodeID,
+        state.lastNodeSequenceID};
     std::ranges::sort(_inFlight->errorsBefore);
 }
 
@@ -177,8 +186,21 @@ bool OrderOutbox::IsUnresolved(const StateMessage& state) const
         return false;
     }
     const std::string& orderIDBefore = _inFlight->orderIDBefore;
-    const bool bForgot = state.orderID.empty() && !orderIDBefore.empty();
+    const bool bForgot = state.orderID.empty() && !orderIDBefore.empty() && CanHaveDriven(state);
     return bForgot || (_inFlight->bAwaySinceSend && CanBeExecuted(orderIDBefore, state));
+}
+
+bool OrderOutbox::CanHaveDriven(const StateMessage& state) const
+{
+    if (state.lastNodeID != _inFlight->lastNodeIDBefore
+        || state.lastNodeSequenceID != _inFlight->lastNodeSequenceIDBefore)
+    {
+        return true;
+    }
+    // After an order that ends where it begins, a vehicle that was restarted shows the same node.
+    const std::vector<OrderNode>& nodes = _inFlight->message.nodes;
+    const auto last = std::ranges::find(nodes.rbegin(), nodes.rend(), true, &OrderNode::bReleased);
+    return state.lastNodeSequenceID == 0 && last != nodes.rend() && last->nodeID == state.lastNodeID;
 }
 
 bool OrderOutbox::IsRejection(const VehicleError& error, const ActionIndex& shown) const

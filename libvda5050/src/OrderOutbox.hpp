@@ -55,6 +55,8 @@ private:
         bool bAwaySinceSend = false;     ///< The vehicle was not connected for a time since the message was sent.
         std::vector<VehicleError> errorsBefore; ///< Of the vehicle before the message was sent; sorted.
         std::string orderIDBefore;              ///< Of the vehicle before the message was sent.
+        std::string lastNodeIDBefore;
+        std::uint32_t lastNodeSequenceIDBefore = 0;
     };
 
     const MasterOptions& _options;
@@ -116,6 +118,9 @@ private:
     /// Keeps the numbers of what was not sent above the one that the vehicle shows.
     [[nodiscard]] Answer RenumberUnsent(const StateMessage& state);
     [[nodiscard]] bool IsUnresolved(const StateMessage& state) const;
+    /// Whether the last node of the vehicle, which shows no order, permits that it has executed the message in flight. Some clear
+    /// the orderId of an order that has ended, a state later.
+    [[nodiscard]] bool CanHaveDriven(const StateMessage& state) const;
     [[nodiscard]] bool IsRejection(const VehicleError& error, const ActionIndex& shown) const;
     [[nodiscard]] bool IsSentHeader(std::string_view headerID) const;
 };

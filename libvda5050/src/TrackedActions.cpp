@@ -48,7 +48,7 @@ void TrackedActions::TrackInstant(const Action& action, bool bShown)
 
 void TrackedActions::Update(const ActionIndex& shown, MasterActions& out)
 {
-    const auto isEnded = [&shown, &out](TrackedAction& tracked) {
+    const auto isEnded = [this, &shown, &out](TrackedAction& tracked) {
         const ActionState* const state = shown.FindOrNull(tracked.actionID);
         if (state != nullptr)
         {
@@ -57,6 +57,7 @@ void TrackedActions::Update(const ActionIndex& shown, MasterActions& out)
         }
         if (tracked.bShown)
         {
+            _bOrderActionLost = _bOrderActionLost || !tracked.bInstant;
             out.emplace_back(ActionLost{tracked.actionID, tracked.actionType, "the vehicle no longer reports it"});
         }
         return tracked.bShown;
@@ -74,6 +75,7 @@ void TrackedActions::EndOrder(MasterActions& out)
         return !tracked.bInstant;
     };
     std::erase_if(_actions, isOfOrder);
+    _bOrderActionLost = false;
 }
 
 void TrackedActions::Remove(std::string_view actionID)
@@ -91,6 +93,11 @@ bool TrackedActions::HasShownOrderAction() const
     return std::ranges::any_of(_actions, [](const TrackedAction& tracked) {
         return !tracked.bInstant && tracked.bShown;
     });
+}
+
+bool TrackedActions::HasShownAllEnds() const
+{
+    return !_bOrderActionLost && std::ranges::all_of(_actions, &TrackedAction::bInstant);
 }
 
 } // namespace ACS::VDA5050

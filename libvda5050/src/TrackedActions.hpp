@@ -25,6 +25,7 @@ class TrackedActions
     };
 
     std::vector<TrackedAction> _actions;
+    bool _bOrderActionLost = false; ///< Of the present order.
 
 public:
     /// Tracks the actions of a message that the vehicle has accepted, and no longer those that its route has dropped.
@@ -38,6 +39,8 @@ public:
     [[nodiscard]] bool IsTracked(std::string_view actionID) const;
     /// Whether the vehicle shows an action of the order that has not ended.
     [[nodiscard]] bool HasShownOrderAction() const;
+    /// Whether the vehicle has shown the end of every action of the order.
+    [[nodiscard]] bool HasShownAllEnds() const;
 };
 
 } // namespace ACS::VDA5050

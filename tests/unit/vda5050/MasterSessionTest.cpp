@@ -119,6 +119,7 @@ TEST_CASE("13 A vehicle that shows no order any more before it has shown the one
     bench.BeReady();
     REQUIRE(bench.session.SendOrder(MakeOrder(3, 3), bench.GetNow(), bench.Clear()).has_value());
     bench.state.orderID.clear();
+    bench.state.lastNodeID = GENERATE("", "N2");
     bench.SendState();
     CHECK(Pick<OrderLost>(bench.GetOutput()).size() == 1);
 }

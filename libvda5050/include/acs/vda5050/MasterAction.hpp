@@ -158,7 +158,8 @@ struct InstantActionRejected
     bool operator==(const InstantActionRejected&) const = default;
 };
 
-/// All nodes are reached, all actions have ended, and there is no horizon.
+/// All nodes are reached, all actions have ended, and there is no horizon. Also if the vehicle shows the last node and has cleared the
+/// orderID already.
 struct OrderFinished
 {
     std::string orderID;
