@@ -46,7 +46,7 @@ void MasterSession::Impl::OnMessage(
             OnVisualization(payload, out);
             break;
         case ETopic::Connection:
-            OnConnection(payload, now, out);
+            OnConnection(payload, bRetained, now, out);
             break;
         case ETopic::Factsheet:
             if (std::optional<FactsheetMessage> factsheet =
@@ -80,7 +80,7 @@ void MasterSession::Impl::OnTimer(EMasterTimer timer, Core::Now now, MasterActio
     }
 }
 
-void MasterSession::Impl::OnConnection(std::string_view payload, Core::Now now, MasterActions& out)
+void MasterSession::Impl::OnConnection(std::string_view payload, bool bRetained, Core::Now now, MasterActions& out)
 {
     const std::optional<ConnectionMessage> message =
         _topics.ReadOrNull<ConnectionMessage>(ETopic::Connection, payload, out);
@@ -88,11 +88,13 @@ void MasterSession::Impl::OnConnection(std::string_view payload, Core::Now now, 
     {
         return;
     }
+    const bool bRestarted = !bRetained && _vehicle.WasRestarted(message->header);
+    _vehicle.SetConnectionHeader(message->header);
     switch (message->connectionState)
     {
         case EConnectionState::Online:
             _vehicle.OnRestartedNumbers();
-            if (!_vehicle.IsOnline())
+            if (!_vehicle.IsOnline() || bRestarted)
             {
                 OnVehicleOnline(now, out);
             }

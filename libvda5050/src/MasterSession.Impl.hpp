@@ -67,7 +67,7 @@ public:
     [[nodiscard]] const MasterOptions& GetOptions() const noexcept;
 
 private:
-    void OnConnection(std::string_view payload, Core::Now now, MasterActions& out);
+    void OnConnection(std::string_view payload, bool bRetained, Core::Now now, MasterActions& out);
     void OnState(std::string_view payload, Core::Now now, MasterActions& out);
     void OnVisualization(std::string_view payload, MasterActions& out);
     void OnVehicleOnline(Core::Now now, MasterActions& out);

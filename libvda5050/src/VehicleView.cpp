@@ -41,6 +41,11 @@ void VehicleView::OnRestartedNumbers() noexcept
     _bNumbersKnown = false;
 }
 
+void VehicleView::SetConnectionHeader(Header header)
+{
+    _connectionHeader = std::move(header);
+}
+
 void VehicleView::OnOnline(Core::Duration allowedSilence, Core::Now now, MasterActions& out)
 {
     _link = EVehicleLink::Online;
@@ -157,6 +162,15 @@ EVehicleLink VehicleView::GetLink() const noexcept
 bool VehicleView::IsOnline() const noexcept
 {
     return _link == EVehicleLink::Online;
+}
+
+bool VehicleView::WasRestarted(const Header& connection) const
+{
+    if (!_connectionHeader.has_value() || connection.headerID > _connectionHeader->headerID)
+    {
+        return false;
+    }
+    return connection.headerID < _connectionHeader->headerID || connection.timestamp != _connectionHeader->timestamp;
 }
 
 bool VehicleView::IsReady() const noexcept

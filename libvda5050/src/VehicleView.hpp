@@ -28,12 +28,14 @@ class VehicleView
     bool _bStateSinceOnline = false;
     Core::SteadyTime _lastStateTime;
     std::optional<StateMessage> _state;
+    std::optional<Header> _connectionHeader; ///< Of the last connection message.
 
 public:
     void OnLinkUp() noexcept;
     void OnLinkDown(MasterActions& out);
     /// The vehicle reported ONLINE, perhaps once more.
     void OnRestartedNumbers() noexcept;
+    void SetConnectionHeader(Header header);
     void OnOnline(Core::Duration allowedSilence, Core::Now now, MasterActions& out);
     /// Offline or Broken.
     void OnGone(EVehicleLink link, MasterActions& out);
@@ -54,6 +56,9 @@ public:
     [[nodiscard]] bool IsLinkUp() const noexcept;
     [[nodiscard]] EVehicleLink GetLink() const noexcept;
     [[nodiscard]] bool IsOnline() const noexcept;
+    /// Whether a live connection message with this header is the first one after a restart of the vehicle. A duplicate has the
+    /// header of the message before it, one that is sent periodically a higher headerId.
+    [[nodiscard]] bool WasRestarted(const Header& connection) const;
     [[nodiscard]] bool IsReady() const noexcept;
     /// A state was received since the vehicle is online. The next one may be overdue.
     [[nodiscard]] bool HasStateSinceOnline() const noexcept;

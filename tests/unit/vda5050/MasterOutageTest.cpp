@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <iterator>
 #include <string>
 #include <vector>
@@ -15,7 +16,11 @@ namespace
 /// An accepted order over four nodes, two of them released, and its update, which is sent and not shown.
 OrderMessage SendUpdate(MasterSessionFixture& bench)
 {
-    bench.BeReady();
+    if (bench.session.GetLink() != EVehicleLink::Online)
+    {
+        bench.Connect(EConnectionState::Online);
+    }
+    bench.SendState();
     OrderBuilder builder = MakeBuilder(4);
     const OrderMessage order = *builder.MakeOrder(2);
     REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
@@ -25,6 +30,20 @@ OrderMessage SendUpdate(MasterSessionFixture& bench)
     REQUIRE(bench.session.SendOrderUpdate(update, bench.GetNow(), bench.Clear()).has_value());
     REQUIRE(bench.GetSentOrder().orderUpdateID == 1);
     return update;
+}
+
+/// ONLINE of the vehicle, which was not reported as gone.
+void Announce(MasterSessionFixture& bench, std::uint32_t headerID, Core::WallTime timestamp, bool bRetained)
+{
+    ConnectionMessage message;
+    message.header = Header{headerID, timestamp, "2.0.0", "ACS", "LR01"};
+    message.connectionState = EConnectionState::Online;
+    const std::string payload = Vda5050Codec().Encode(message, EVda5050Version::Version200);
+    bench.Clear();
+    bench.session.OnMessage(
+        MqttMessage{BuildTopic(MakeAddress(), ETopic::Connection), payload, 1, bRetained},
+        bench.GetNow(),
+        bench.Clear());
 }
 
 std::vector<std::string> ListSentInstantActions(const MasterSessionFixture& bench)
@@ -159,6 +178,53 @@ TEST_CASE("13 An update that is given while the vehicle is away is not sent befo
     bench.SendState();
     CHECK(bench.GetSent(ETopic::Order).size() == (bRestarted ? 0 : 1));
     CHECK(Pick<OrderLost>(bench.GetOutput()).size() == (bRestarted ? 1 : 0));
+}
+
+TEST_CASE("13 An ONLINE with a restarted headerId, without a will before it, is that of a vehicle that was restarted")
+{
+    struct Row
+    {
+        std::uint32_t headerID; ///< After 4.
+        std::chrono::seconds age;
+        bool bRetained;
+        bool bRestarted;
+    };
+    const Row row = GENERATE(
+        Row{0, std::chrono::seconds(0), false, true},
+        Row{4, std::chrono::seconds(0), false, true},
+        Row{4, std::chrono::seconds(5), false, false}, // a duplicate of QoS 1
+        Row{5, std::chrono::seconds(0), false, false}, // sent periodically
+        Row{0, std::chrono::seconds(0), true, false});
+    CAPTURE(row.headerID, row.age.count(), row.bRetained);
+    MasterSessionFixture bench;
+    Announce(bench, 4, bench.GetNow().wall - std::chrono::seconds(5), false);
+    const OrderMessage update = SendUpdate(bench);
+    Announce(bench, 4, bench.GetNow().wall - std::chrono::seconds(5), false);
+    CHECK(ListSentInstantActions(bench).empty());
+    Announce(bench, row.headerID, bench.GetNow().wall - row.age, row.bRetained);
+    CHECK(ListSentInstantActions(bench).size() == (row.bRestarted ? 2 : 0)); // the state and the factsheet
+    CHECK(Pick<VehicleOnline>(bench.GetOutput()).size() == (row.bRestarted ? 1 : 0));
+    CHECK(bench.session.IsReady() != row.bRestarted);
+    bench.Clear();
+    bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendOrder);
+    CHECK(bench.GetSent(ETopic::Order).size() == (row.bRestarted ? 0 : 1));
+    bench.Clear();
+    bench.state = StateMessage();
+    bench.SendState();
+    CHECK(bench.GetSent(ETopic::Order).empty());
+    CHECK(Pick<OrderLost>(bench.GetOutput()).size() == 1);
+}
+
+TEST_CASE("13 A first order is not sent again to a vehicle that reports ONLINE once more after a restart")
+{
+    MasterSessionFixture bench;
+    Announce(bench, 4, bench.GetNow().wall, false);
+    bench.SendState();
+    REQUIRE(bench.session.SendOrder(MakeOrder(3, 3), bench.GetNow(), bench.Clear()).has_value());
+    Announce(bench, 0, bench.GetNow().wall, false);
+    bench.SendState();
+    CHECK(bench.GetSent(ETopic::Order).empty());
+    CHECK(Pick<OrderLost>(bench.GetOutput()).size() == 1); // it may have executed it
 }
 
 } // namespace ACS::VDA5050::Test

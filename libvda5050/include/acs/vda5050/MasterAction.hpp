@@ -40,7 +40,7 @@ struct CancelMasterTimer
     bool operator==(const CancelMasterTimer&) const = default;
 };
 
-/// The vehicle reported ONLINE. Orders can be sent once a state was received as well: MasterSession::CanTakeOrder.
+/// The vehicle reported ONLINE, also once more after a restart that no will has preceded. Orders can be sent once a state was received as well: MasterSession::CanTakeOrder.
 struct VehicleOnline
 {
     bool operator==(const VehicleOnline&) const = default;
