@@ -1,6 +1,7 @@
 #include "OrderOutbox.hpp"
 
 #include "OrderErrors.hpp"
+#include "SortedIndex.hpp"
 #include <acs/core/ParseNumber.hpp>
 
 #include <algorithm>
@@ -136,12 +137,18 @@ OrderOutbox::Answer OrderOutbox::OnState(const StateMessage& state, const Action
     }
     if (_inFlight->echo == EEcho::Impossible)
     {
+        _inFlight->errorsBefore = state.errors;
+        std::ranges::sort(_inFlight->errorsBefore);
         return RenumberUnsent(state); // nothing that the vehicle shows is an answer
     }
     if (state.orderID == _inFlight->message.orderID && state.orderUpdateID >= _inFlight->message.orderUpdateID)
     {
         return {EAnswer::Shown};
     }
+    const SortedIndex<VehicleError> errors(state.errors);
+    std::erase_if(_inFlight->errorsBefore, [&errors](const VehicleError& error) {
+        return errors.FindOrNull(error) == nullptr; // the next one like it is new
+    });
     if (_bWithdrawn)
     {
         return {};
@@ -212,9 +219,11 @@ bool OrderOutbox::IsRejection(const VehicleError& error, const ActionIndex& show
     }
     const std::string* orderOrNull = FindReferenceOrNull(error, ReferenceKeys::ORDER_ID);
     const std::string* updateOrNull = FindReferenceOrNull(error, ReferenceKeys::ORDER_UPDATE_ID);
-    // An error of before the sending may stay until an order is taken; after a resend it is an answer to that.
+    // An error of before the sending may stay until an order is taken. One that names the message itself, as a master that was
+    // restarted has sent it before, is an answer after a resend.
     const bool bBefore = std::ranges::binary_search(_inFlight->errorsBefore, error);
-    const bool bOld = _inFlight->sendCount < 2 && bBefore;
+    const bool bNamed = updateOrNull != nullptr || !IsAccepted();
+    const bool bOld = bBefore && (_inFlight->sendCount < 2 || !bNamed);
     const bool bOrderType = std::ranges::find(ORDER_ERROR_TYPES, error.errorType) != ORDER_ERROR_TYPES.end();
     const bool bAnswer = topicOrNull != nullptr || bOrderType;
     const std::string* headerOrNull = FindReferenceOrNull(error, ReferenceKeys::HEADER_ID);

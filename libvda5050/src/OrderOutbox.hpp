@@ -53,7 +53,7 @@ private:
         std::uint32_t sendCount = 0;
         std::uint32_t firstHeaderID = 0; ///< Increases with each resend.
         bool bAwaySinceSend = false;     ///< The vehicle was not connected for a time since the message was sent.
-        std::vector<VehicleError> errorsBefore; ///< Of the vehicle before the message was sent; sorted.
+        std::vector<VehicleError> errorsBefore; ///< Of before the message was sent, and shown since then; sorted.
         std::string orderIDBefore;              ///< Of the vehicle before the message was sent.
         std::string lastNodeIDBefore;
         std::uint32_t lastNodeSequenceIDBefore = 0;

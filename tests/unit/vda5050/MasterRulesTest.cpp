@@ -2,6 +2,10 @@
 #include <acs/vda5050/EVda5050Error.hpp>
 
 #include <algorithm>
+#include <chrono>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace ACS::VDA5050::Test
 {
@@ -81,6 +85,59 @@ TEST_CASE("4.2 Which errors about the running order reject an update")
     bench.Refuse(row.type, row.references);
     CHECK(Pick<OrderRejected>(bench.GetOutput()).size() == (row.bRejection ? 1 : 0));
     CHECK(bench.session.GetOrderPhase() == EOrderPhase::Active);
+}
+
+TEST_CASE("4.2 An error of before an update does not reject it after a resend, but again once it has ended meanwhile")
+{
+    MasterSessionFixture bench;
+    OrderBuilder builder = Run(bench);
+    const std::vector<ErrorReference> references = GENERATE(
+        std::vector<ErrorReference>{{"orderId", "order-1"}},
+        std::vector<ErrorReference>{{"topic", "order"}, {"orderId", "order-1"}},
+        std::vector<ErrorReference>{});
+    bench.Refuse(ErrorTypes::ORDER_UPDATE_ERROR, references);
+    REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(3), bench.GetNow(), bench.Clear()).has_value());
+    bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendOrder);
+    REQUIRE(bench.GetSent(ETopic::Order).size() == 2);
+    bench.SendState();
+    CHECK(Pick<OrderRejected>(bench.GetOutput()).empty());
+    if (GENERATE(true, false))
+    {
+        const std::vector<VehicleError> errors = std::exchange(bench.state.errors, {});
+        bench.SendState();
+        CHECK(Pick<OrderRejected>(bench.GetOutput()).empty());
+        bench.state.errors = errors;
+        bench.SendState();
+        CHECK(Pick<OrderRejected>(bench.GetOutput()).size() == 1);
+    }
+}
+
+TEST_CASE("4.2 An error that names the message itself and stays is an answer to its resend, for example after a restart")
+{
+    MasterSessionFixture bench;
+    bench.BeReady();
+    bench.Refuse(ErrorTypes::ORDER_ERROR, {{"orderId", "order-1"}, {"orderUpdateId", "0"}});
+    REQUIRE(bench.session.ResumeOrder({{MakeOrder(2, 2)}, {}}, bench.GetNow(), bench.Clear()).has_value());
+    bench.SendState();
+    CHECK(Pick<OrderRejected>(bench.GetOutput()).empty());
+    bench.Wait(std::chrono::seconds(2), EMasterTimer::ResendOrder);
+    bench.SendState();
+    CHECK(Pick<OrderRejected>(bench.GetOutput()).size() == 1);
+}
+
+TEST_CASE("4.2 An error that came before a delayed message was sent does not reject it")
+{
+    MasterOptions options = MakeMasterOptions();
+    options.factsheet.emplace().protocolLimits.timing.minOrderInterval = 5.0;
+    MasterSessionFixture bench(options);
+    OrderBuilder builder = Run(bench);
+    REQUIRE(bench.session.SendOrderUpdate(*builder.MakeUpdate(3), bench.GetNow(), bench.Clear()).has_value());
+    REQUIRE(bench.GetSent(ETopic::Order).empty());
+    bench.Refuse(ErrorTypes::ORDER_UPDATE_ERROR, {});
+    bench.Wait(std::chrono::seconds(5), EMasterTimer::ResendOrder);
+    REQUIRE(bench.GetSent(ETopic::Order).size() == 1);
+    bench.SendState();
+    CHECK(Pick<OrderRejected>(bench.GetOutput()).empty());
 }
 
 TEST_CASE("4.3 An update replaces the horizon: its nodes are reported, the dropped ones never")
