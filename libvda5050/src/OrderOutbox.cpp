@@ -228,11 +228,14 @@ bool OrderOutbox::IsRejection(const VehicleError& error, const ActionIndex& show
     const bool bAnswer = topicOrNull != nullptr || bOrderType;
     const std::string* headerOrNull = FindReferenceOrNull(error, ReferenceKeys::HEADER_ID);
     const bool bSentHeader = headerOrNull != nullptr && IsSentHeader(*headerOrNull);
+    const std::string* actionOrNull = FindReferenceOrNull(error, ReferenceKeys::ACTION_ID);
+    const bool bShownAction = actionOrNull != nullptr && shown.FindOrNull(*actionOrNull) != nullptr;
     if (orderOrNull == nullptr)
     {
         // A header that is named must be one of ours: other clients may write to the topic, and the error is about their message.
-        // The topic alone proves nothing: a failed action or a left corridor of the order that runs may name it too.
-        return !bBefore && (headerOrNull != nullptr ? bAnswer && bSentHeader : bOrderType);
+        // While an order runs the topic alone proves nothing: a failed action or a left corridor of it may name it too.
+        const bool bOfTopic = topicOrNull != nullptr && !IsAccepted() && !bShownAction;
+        return !bBefore && (headerOrNull != nullptr ? bAnswer && bSentHeader : bOrderType || bOfTopic);
     }
     if (*orderOrNull != _inFlight->message.orderID || bOld)
     {
@@ -243,8 +246,6 @@ bool OrderOutbox::IsRejection(const VehicleError& error, const ActionIndex& show
         return *updateOrNull == std::to_string(_inFlight->message.orderUpdateID);
     }
     // While the order runs, the error may be about something else than the update, such as an action that failed.
-    const std::string* actionOrNull = FindReferenceOrNull(error, ReferenceKeys::ACTION_ID);
-    const bool bShownAction = actionOrNull != nullptr && shown.FindOrNull(*actionOrNull) != nullptr;
     return !IsAccepted() || (bAnswer && (bSentHeader || !bShownAction));
 }
 

@@ -140,6 +140,35 @@ TEST_CASE("4.2 An error that came before a delayed message was sent does not rej
     CHECK(Pick<OrderRejected>(bench.GetOutput()).empty());
 }
 
+TEST_CASE("4.2 A first order is rejected by an error of a type of the manufacturer that names the topic only")
+{
+    struct Row
+    {
+        std::vector<ErrorReference> references;
+        bool bBefore;
+        bool bRejection;
+    };
+    const Row row = GENERATE(
+        Row{{{"topic", "order"}}, false, true},
+        Row{{{"topic", "order"}, {"actionId", "a2"}}, false, true},
+        Row{{{"topic", "order"}}, true, false},
+        Row{{{"topic", "order"}, {"actionId", "a1"}}, false, false}, // of the order before, which has ended
+        Row{{{"topic", "order"}, {"headerId", "77"}}, false, false},
+        Row{{{"topic", "state"}}, false, false},
+        Row{{}, false, false});
+    CAPTURE(row.references.size(), row.bBefore);
+    MasterSessionFixture bench;
+    bench.state.actionStates = {ActionState{"a1", "pick", {}, EActionStatus::Failed, {}}};
+    bench.BeReady();
+    if (row.bBefore)
+    {
+        bench.Refuse("notAllowed", row.references);
+    }
+    REQUIRE(bench.session.SendOrder(MakeOrder(2, 2), bench.GetNow(), bench.Clear()).has_value());
+    bench.Refuse("notAllowed", row.references);
+    CHECK(Pick<OrderRejected>(bench.GetOutput()).size() == (row.bRejection ? 1 : 0));
+}
+
 TEST_CASE("4.3 An update replaces the horizon: its nodes are reported, the dropped ones never")
 {
     MasterSessionFixture bench;
