@@ -151,6 +151,11 @@ std::string OwnerReports::FindPoseFault(const Action& action, bool bPositionFixe
     return bPositionFixed ? "an order runs" : std::string();
 }
 
+std::string OwnerReports::FindEndFault(const Action& action) const
+{
+    return _maps.FindEndFault(action);
+}
+
 void OwnerReports::Apply(const Action& action)
 {
     _maps.Apply(action);

@@ -49,6 +49,8 @@ public:
     /// Why an action fails before it begins, by what was reported; empty where it may begin. An instant action is refused a new
     /// position during an order.
     [[nodiscard]] std::string FindFault(const Action& action, bool bPositionFixed) const;
+    /// Why an action that the owner reports as finished has failed; empty if it has not.
+    [[nodiscard]] std::string FindEndFault(const Action& action) const;
     void Apply(const Action& action);
 
     [[nodiscard]] EOperatingMode GetMode() const noexcept;

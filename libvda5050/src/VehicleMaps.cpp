@@ -73,6 +73,15 @@ std::string VehicleMaps::FindFault(const Action& action) const
     return bDelete && mapOrNull->mapStatus == EMapStatus::Enabled ? name + " is in use" : std::string();
 }
 
+std::string VehicleMaps::FindEndFault(const Action& action) const
+{
+    const MapKey key = GetMapKey(action);
+    const bool bOnVehicle = FindMapOrNull(_maps, key) != nullptr;
+    const bool bDelete = action.actionType == ActionTypes::DELETE_MAP && bOnVehicle;
+    const bool bEnable = action.actionType == ActionTypes::ENABLE_MAP && !bOnVehicle;
+    return bDelete || bEnable ? FindFault(action) : std::string();
+}
+
 void VehicleMaps::Apply(const Action& action)
 {
     if (!IsMapAction(action))

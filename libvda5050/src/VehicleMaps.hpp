@@ -21,6 +21,8 @@ public:
     [[nodiscard]] bool TryChange(std::optional<std::vector<MapState>> mapsOrNull);
     /// Why an action about a map cannot succeed; empty for others.
     [[nodiscard]] std::string FindFault(const Action& action) const;
+    /// Why a started action that the owner reports as finished has failed: the map was enabled or deleted meanwhile. Empty for others.
+    [[nodiscard]] std::string FindEndFault(const Action& action) const;
     /// Applies the effect of a finished action; the owner may have reported it already.
     void Apply(const Action& action);
     /// A vehicle that is localised on a map uses it, and a map in use is ENABLED. Of several versions the one is unknown.

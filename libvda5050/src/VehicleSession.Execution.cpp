@@ -215,6 +215,11 @@ bool VehicleSession::Impl::TryChangeStatus(
     std::string resultDescription,
     VehicleActions& out)
 {
+    if (std::string fault = _reports.FindEndFault(tracked.action); status == EActionStatus::Finished && !fault.empty())
+    {
+        status = EActionStatus::Failed;
+        resultDescription = CutForeignText(fault);
+    }
     if (!_actions.TrySetStatus(tracked, status, std::move(resultDescription)))
     {
         return false;

@@ -1,6 +1,12 @@
 #include "Catch.hpp"
 #include "VehicleSessionFixture.hpp"
 #include <acs/vda5050/OrderBuilder.hpp>
+#include <acs/vda5050/PredefinedActions.hpp>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace ACS::VDA5050::Test
 {
@@ -62,6 +68,67 @@ TEST_CASE("5.7 An update does not end the error of a critical action that still 
     REQUIRE(state.errors.size() == 1);
     CHECK(state.errors[0].errorLevel == EErrorLevel::Fatal);
     CHECK(Pick<DriveTo>(bench.GetOutput()).empty());
+}
+
+TEST_CASE("5.7 Of deleteMap and enableMap for the same map the one that ends last fails")
+{
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
+    options.factsheet.protocolFeatures.agvActions = GetPredefinedActions();
+    VehicleSessionFixture bench(options);
+    VehicleActions out;
+    bench.GetSession().OnMaps(
+        std::vector<MapState>{
+            MapState{"floor", "1", EMapStatus::Enabled, {}},
+            MapState{"floor", "2", EMapStatus::Disabled, {}}},
+        bench.GetNow(),
+        out);
+    const std::vector<ActionParameter> parameters{
+        {"mapId", Core::JsonText::FromString("floor")},
+        {"mapVersion", Core::JsonText::FromString("2")}};
+    bench.Instant("deleteMap", "delete", parameters);
+    bench.Instant("enableMap", "enable", parameters);
+    REQUIRE(bench.GetStartedActions().size() == 2);
+    bench.Status("delete", EActionStatus::Running);
+    bench.Status("enable", EActionStatus::Running);
+    const bool bDeletedFirst = GENERATE(true, false);
+    bench.Status(bDeletedFirst ? "delete" : "enable", EActionStatus::Finished);
+    bench.Status(bDeletedFirst ? "enable" : "delete", EActionStatus::Finished);
+    CHECK(bench.GetStatus(bDeletedFirst ? "delete" : "enable") == EActionStatus::Finished);
+    CHECK(bench.GetStatus(bDeletedFirst ? "enable" : "delete") == EActionStatus::Failed);
+    CHECK(bench.HasError(ErrorTypes::ACTION_ERROR));
+    const std::optional<std::vector<MapState>> maps = bench.GetSession().GetState().maps;
+    REQUIRE(maps.has_value());
+    REQUIRE(maps->size() == (bDeletedFirst ? 1 : 2));
+    CHECK(maps->front().mapStatus == (bDeletedFirst ? EMapStatus::Enabled : EMapStatus::Disabled));
+    CHECK(maps->back().mapStatus == EMapStatus::Enabled);
+}
+
+TEST_CASE("5.7 A map action whose effect the vehicle has reported before its end is finished")
+{
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
+    options.factsheet.protocolFeatures.agvActions = GetPredefinedActions();
+    VehicleSessionFixture bench(options);
+    const auto report = [&bench](std::vector<MapState> maps) {
+        VehicleActions out;
+        bench.GetSession().OnMaps(std::move(maps), bench.GetNow(), out);
+    };
+    const MapState first{"floor", "1", EMapStatus::Enabled, {}};
+    const MapState second{"floor", "2", EMapStatus::Disabled, {}};
+    const std::string actionType = GENERATE("deleteMap", "enableMap", "downloadMap");
+    CAPTURE(actionType);
+    report(actionType == "downloadMap" ? std::vector{first} : std::vector{first, second});
+    std::vector<ActionParameter> parameters{
+        {"mapId", Core::JsonText::FromString("floor")},
+        {"mapVersion", Core::JsonText::FromString("2")}};
+    if (actionType == "downloadMap")
+    {
+        parameters.push_back({"mapDownloadLink", Core::JsonText::FromString("https://maps")});
+    }
+    bench.Instant(actionType, "m1", parameters);
+    bench.Status("m1", EActionStatus::Running);
+    report(actionType == "deleteMap" ? std::vector{first} : std::vector{first, second});
+    bench.Status("m1", EActionStatus::Finished);
+    CHECK(bench.GetStatus("m1") == EActionStatus::Finished);
 }
 
 } // namespace ACS::VDA5050::Test
