@@ -50,9 +50,9 @@ bool HeldOrder::TryBeginCancel(std::string actionID)
     return _cancelActionIDs.size() == 1;
 }
 
-std::vector<std::string> HeldOrder::Clear(VehicleActions& out)
+std::vector<std::string> HeldOrder::Clear(bool bNodeLeft, VehicleActions& out)
 {
-    _progress = EProgress::Cleared;
+    _progress = bNodeLeft ? EProgress::Cleared : EProgress::Idle;
     _bHeldByFailure = false;
     out.emplace_back(OrderCleared{_orderID});
     return std::exchange(_cancelActionIDs, {});

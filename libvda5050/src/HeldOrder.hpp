@@ -19,7 +19,7 @@ class HeldOrder
     {
         Idle,    ///< None, or OrderCompleted was sent.
         Running, ///< Accepted, and OrderCompleted not sent.
-        Cleared, ///< Cancelled.
+        Cleared, ///< Cancelled, and perhaps not on lastNodeId.
     };
 
     std::string _orderID;
@@ -37,8 +37,8 @@ public:
     void HoldByFailure();
     /// True: the first cancel of the order.
     [[nodiscard]] bool TryBeginCancel(std::string actionID);
-    /// Returns the cancelOrder actions, which have succeeded.
-    [[nodiscard]] std::vector<std::string> Clear(VehicleActions& out);
+    /// Returns the cancelOrder actions, which have succeeded. bNodeLeft: the vehicle may have left lastNodeId.
+    [[nodiscard]] std::vector<std::string> Clear(bool bNodeLeft, VehicleActions& out);
     /// The vehicle is on a node again, according to the owner.
     void OnLastNodeSet();
     void Forget();

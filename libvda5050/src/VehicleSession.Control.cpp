@@ -82,11 +82,11 @@ void VehicleSession::Impl::FinishIfStationary(VehicleActions& out)
     }
     if (_order.IsCancelling() && _drive.CanFinishCancel() && !_actions.HasOpen())
     {
-        ClearOrder(out);
+        ClearOrder(_drive.IsBetweenNodes(), out);
     }
 }
 
-void VehicleSession::Impl::ClearOrder(VehicleActions& out)
+void VehicleSession::Impl::ClearOrder(bool bNodeLeft, VehicleActions& out)
 {
     if (_drive.IsEndReached())
     {
@@ -94,7 +94,7 @@ void VehicleSession::Impl::ClearOrder(VehicleActions& out)
     }
     _drive.Clear();
     _actions.ClearQueue();
-    _actions.SetStatus(_order.Clear(out), EActionStatus::Finished);
+    _actions.SetStatus(_order.Clear(bNodeLeft, out), EActionStatus::Finished);
     _schedule.Request();
 }
 
@@ -119,7 +119,7 @@ void VehicleSession::Impl::OnOperatingMode(EOperatingMode mode, Core::Now now, V
         const std::string reason = "the operating mode changed";
         _actions.StopOrder(reason, out);
         _actions.FailOrder(reason);
-        ClearOrder(out);
+        ClearOrder(true, out); // in MANUAL it is moved by hand
     }
     if (mode == EOperatingMode::Manual && _options.bForgetsInManual)
     {

@@ -89,7 +89,7 @@ private:
     void ContinueDriving(VehicleActions& out);
     void LeaveEdge(std::vector<EdgeActionEnd> ends, VehicleActions& out);
     void PassFrontNode();
-    void ClearOrder(VehicleActions& out);
+    void ClearOrder(bool bNodeLeft, VehicleActions& out);
     void SetLastNode(std::string nodeID);
     [[nodiscard]] bool IsExecuting() const;
 

@@ -328,4 +328,45 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("5.4.7 The heading counts for an order after a cancel between two nodes or in MANUAL, not after one on a node")
+{
+    struct Case
+    {
+        const char* name;
+        bool bLeft;
+        bool bManual;
+    };
+    const Case cancel = GENERATE(
+        Case{"on the node", false, false},
+        Case{"between two nodes", true, false},
+        Case{"on the node, in MANUAL", false, true});
+    CAPTURE(cancel.name);
+    VehicleSessionFixture bench;
+    OrderMessage order = MakeOrder(2, 2);
+    order.nodes[0].actions = {
+        MakeAction("a1", cancel.bLeft ? EBlockingType::None : EBlockingType::Hard)};
+    bench.Order(order);
+    bench.Status("a1", EActionStatus::Running);
+    bench.StandAt(0.0, 1.5);
+    if (cancel.bManual)
+    {
+        bench.Mode(EOperatingMode::Manual);
+        bench.Mode(EOperatingMode::Automatic);
+    }
+    else
+    {
+        bench.Instant("cancelOrder", "c1");
+        bench.Status("a1", EActionStatus::Failed);
+        bench.Drive(false);
+        REQUIRE(bench.GetStatus("c1") == EActionStatus::Finished);
+    }
+    OrderMessage next = MakeOrder(2, 2, "order-2");
+    next.nodes[0].nodePosition->theta = 0.0;
+    next.nodes[0].nodePosition->allowedDeviationTheta = 0.1;
+    bench.Order(next);
+    const bool bRefused = cancel.bLeft || cancel.bManual;
+    CHECK(bench.HasError(ErrorTypes::NO_ROUTE_ERROR) == bRefused);
+    CHECK(bench.GetPublishedState().orderID == (bRefused ? "order-1" : "order-2"));
+}
+
 } // namespace ACS::VDA5050::Test

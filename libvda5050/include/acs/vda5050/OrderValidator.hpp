@@ -61,8 +61,9 @@ struct OrderContext
     std::vector<std::string> zoneSetIDs; ///< Zone sets on the vehicle; empty: not checked.
     const FactsheetMessage* factsheet = nullptr; ///< Supported actions, optional members and sizes; null: all.
     EParameterCheck parameterCheck = EParameterCheck::Tolerant; ///< How unlisted parameters of actions are handled.
-    std::size_t payloadBytes = 0;              ///< Of the message, compared with the factsheet's msgLen.
-    bool bCleared = false;                     ///< The last order was cancelled; the vehicle may have left lastNodeID.
+    std::size_t payloadBytes = 0; ///< Of the message, compared with the factsheet's msgLen.
+    /// The vehicle may have left lastNodeID: the last order was cancelled between two nodes or in MANUAL.
+    bool bCleared = false;
     std::vector<std::string> actionIDs;        ///< Reported actions that an update does not remove.
     std::vector<std::string> instantActionIDs; ///< Instant actions that outlive a new order.
     OrderCheck orderCheck;                     ///< Called last; empty: none.
