@@ -61,6 +61,17 @@ bool IsListed(const AgvAction& row, std::string_view key)
     return std::ranges::find(row.actionParameters, key, &AgvActionParameter::key) != row.actionParameters.end();
 }
 
+ActionFault MakeUnknownParameter(const Action& action, const std::string& key)
+{
+    return ActionFault{"the vehicle knows no parameter " + key + " of " + action.actionType, key};
+}
+
+/// The session evaluates the parameter, whether or not the factsheet lists it.
+bool IsOfSession(const Action& action, std::string_view key)
+{
+    return action.actionType == ActionTypes::CANCEL_ORDER && key == "orderId";
+}
+
 std::optional<ActionFault> FindParameterFaultOrNull(
     const Action& action,
     const AgvAction& row,
@@ -86,7 +97,7 @@ std::optional<ActionFault> FindParameterFaultOrNull(
     {
         if (bClosed && !IsListed(row, given.key))
         {
-            return ActionFault{"the vehicle knows no parameter " + given.key + " of " + action.actionType, given.key};
+            return MakeUnknownParameter(action, given.key);
         }
     }
     return std::nullopt;
@@ -147,6 +158,24 @@ std::optional<ActionFault> FindActionFaultOrNull(
     return FindParameterFaultOrNull(action, bOfStandard ? *predefined : *row, bClosed, check);
 }
 
+std::optional<ActionFault> FindSessionActionFaultOrNull(
+    const FactsheetMessage& factsheet,
+    const Action& action,
+    EParameterCheck check)
+{
+    const std::vector<AgvAction>& listed = factsheet.protocolFeatures.agvActions;
+    const auto row = std::ranges::find(listed, action.actionType, &AgvAction::actionType);
+    for (const ActionParameter& given : action.actionParameters)
+    {
+        const bool bListed = (row != listed.end() && IsListed(*row, given.key)) || IsOfSession(action, given.key);
+        if (check == EParameterCheck::Strict && !bListed)
+        {
+            return MakeUnknownParameter(action, given.key);
+        }
+    }
+    return std::nullopt;
+}
+
 std::vector<std::string> FindUnlistedParameters(const FactsheetMessage& factsheet, const Action& action)
 {
     const std::vector<AgvAction>& listed = factsheet.protocolFeatures.agvActions;
@@ -154,7 +183,7 @@ std::vector<std::string> FindUnlistedParameters(const FactsheetMessage& factshee
     std::vector<std::string> keys;
     for (const ActionParameter& given : action.actionParameters)
     {
-        if (row != listed.end() && !IsListed(*row, given.key))
+        if (row != listed.end() && !IsListed(*row, given.key) && !IsOfSession(action, given.key))
         {
             keys.push_back(given.key);
         }

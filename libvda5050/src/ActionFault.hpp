@@ -27,6 +27,12 @@ struct ActionFault
     EActionScope scope,
     EParameterCheck check);
 
+/// Of an action that the session performs itself, also if the factsheet does not list it: only Strict refuses parameters.
+[[nodiscard]] std::optional<ActionFault> FindSessionActionFaultOrNull(
+    const FactsheetMessage& factsheet,
+    const Action& action,
+    EParameterCheck check);
+
 /// The keys of the action's parameters that the factsheet does not list; none where it does not list the action.
 [[nodiscard]] std::vector<std::string> FindUnlistedParameters(const FactsheetMessage& factsheet, const Action& action);
 

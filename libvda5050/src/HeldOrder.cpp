@@ -73,6 +73,11 @@ void HeldOrder::Forget()
     _orderUpdateID = 0;
 }
 
+const std::string& HeldOrder::GetOrderID() const noexcept
+{
+    return _orderID;
+}
+
 bool HeldOrder::IsRunning() const noexcept
 {
     return _progress == EProgress::Running;

@@ -43,6 +43,7 @@ public:
     void OnLastNodeSet();
     void Forget();
 
+    [[nodiscard]] const std::string& GetOrderID() const noexcept;
     [[nodiscard]] bool IsRunning() const noexcept;
     [[nodiscard]] bool IsCancelling() const noexcept;
     [[nodiscard]] bool IsHeldByFailure() const noexcept;

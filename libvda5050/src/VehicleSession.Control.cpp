@@ -1,6 +1,8 @@
+#include "ActionFault.hpp"
 #include "OrderErrors.hpp"
 #include "VehicleSession.Impl.hpp"
 
+#include <string>
 #include <utility>
 
 namespace ACS::VDA5050
@@ -64,6 +66,15 @@ void VehicleSession::Impl::StartCancel(const Action& action, const Header& heade
     if (!IsExecuting())
     {
         FailInstantAction(action, header, ErrorTypes::NO_ORDER_TO_CANCEL, {"there is no order to cancel", {}});
+        return;
+    }
+    // Of 3.0; a master that names the order must not end another one.
+    constexpr const char* ORDER_ID = "orderId";
+    if (FindParameterOrNull(action, ORDER_ID) != nullptr
+        && GetTextParameterOrNull(action, ORDER_ID) != _order.GetOrderID())
+    {
+        const std::string rule = "the order to cancel is not the one that runs: " + _order.GetOrderID();
+        FailInstantAction(action, header, ErrorTypes::NO_ORDER_TO_CANCEL, {rule, ORDER_ID});
         return;
     }
     _actions.AddInstant(action, EActionStatus::Running);

@@ -10,6 +10,18 @@
 namespace ACS::VDA5050
 {
 
+namespace
+{
+
+bool IsPerformedBySession(std::string_view actionType)
+{
+    return actionType == ActionTypes::STATE_REQUEST || actionType == ActionTypes::FACTSHEET_REQUEST
+        || actionType == ActionTypes::CANCEL_ORDER || actionType == ActionTypes::START_PAUSE
+        || actionType == ActionTypes::STOP_PAUSE;
+}
+
+} // namespace
+
 void VehicleSession::Impl::OnInstantActions(std::string_view payload, Core::Now now, VehicleActions& out)
 {
     const Core::Result<InstantActionsMessage> message = _topics.Decode<InstantActionsMessage>(payload);
@@ -115,6 +127,17 @@ void VehicleSession::Impl::PerformInstantAction(
     Core::Now now,
     VehicleActions& out)
 {
+    if (IsPerformedBySession(action.actionType))
+    {
+        const std::optional<ActionFault> fault =
+            FindSessionActionFaultOrNull(_options.factsheet, action, _options.parameterCheck);
+        if (fault.has_value())
+        {
+            FailInstantAction(action, header, ErrorTypes::INSTANT_ACTION_ERROR, *fault);
+            return;
+        }
+        ReportUnlistedParameters(action, ETopic::InstantActions);
+    }
     if (action.actionType == ActionTypes::STATE_REQUEST)
     {
         _actions.AddInstant(action, EActionStatus::Finished);

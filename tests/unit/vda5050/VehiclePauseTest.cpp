@@ -1,5 +1,6 @@
 #include "Catch.hpp"
 #include "VehicleSessionFixture.hpp"
+#include <acs/vda5050/PredefinedActions.hpp>
 
 namespace ACS::VDA5050::Test
 {
@@ -178,6 +179,53 @@ TEST_CASE("5.3 A cancel during a pause leaves paused true until stopPause")
     CHECK(bench.GetPublishedState().bPaused == true);
     bench.Instant("stopPause", "p2");
     CHECK(bench.GetPublishedState().bPaused == false);
+}
+
+TEST_CASE("5.6 The parameters of actions that the session performs itself are checked if unlisted ones are refused")
+{
+    const EParameterCheck check =
+        GENERATE(EParameterCheck::Tolerant, EParameterCheck::Strict, EParameterCheck::Lenient);
+    const std::string actionType =
+        GENERATE("cancelOrder", "startPause", "stopPause", "stateRequest", "factsheetRequest");
+    const bool bListed = GENERATE(false, true);
+    CAPTURE(static_cast<int>(check), actionType, bListed);
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
+    options.parameterCheck = check;
+    if (bListed)
+    {
+        options.factsheet.protocolFeatures.agvActions = GetPredefinedActions();
+    }
+    VehicleSessionFixture bench(options);
+    bench.Order(MakeOrder(2, 2));
+    bench.Instant(actionType, "i1", {{"color", Core::JsonText::FromString("red")}});
+    const bool bRefused = check == EParameterCheck::Strict;
+    CHECK((bench.GetStatus("i1") == EActionStatus::Failed) == bRefused);
+    CHECK(bench.HasError(ErrorTypes::INSTANT_ACTION_ERROR) == bRefused);
+    CHECK(bench.HasError(ErrorTypes::UNLISTED_PARAMETER) == (check == EParameterCheck::Lenient && bListed));
+    CHECK(bench.GetSession().IsOrderRunning());
+    if (bRefused)
+    {
+        REQUIRE(bench.GetPublishedState().errors.size() == 1);
+        CHECK(*FindReferenceOrNull(bench.GetPublishedState().errors[0], "parameter") == "color");
+    }
+}
+
+TEST_CASE("5.4 A cancelOrder that names another order fails with noOrderToCancel, and the order continues")
+{
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
+    options.parameterCheck = GENERATE(EParameterCheck::Tolerant, EParameterCheck::Strict, EParameterCheck::Lenient);
+    options.factsheet.protocolFeatures.agvActions = GetPredefinedActions();
+    VehicleSessionFixture bench(options);
+    bench.Order(MakeOrder(2, 2));
+    bench.Drive(true);
+    bench.Instant("cancelOrder", "c1", {{"orderId", Core::JsonText::FromString("order-2")}});
+    CHECK(bench.GetStatus("c1") == EActionStatus::Failed);
+    CHECK(bench.HasError(ErrorTypes::NO_ORDER_TO_CANCEL));
+    CHECK(bench.GetSession().IsOrderRunning());
+    bench.Instant("cancelOrder", "c2", {{"orderId", Core::JsonText::FromString("order-1")}});
+    CHECK_FALSE(bench.HasError(ErrorTypes::UNLISTED_PARAMETER));
+    bench.Drive(false);
+    CHECK(bench.GetStatus("c2") == EActionStatus::Finished);
 }
 
 } // namespace ACS::VDA5050::Test
