@@ -13,22 +13,28 @@ namespace ACS::VDA5050
 namespace
 {
 
-/// A point of a curve that should lie at a node.
+/// An end of a curve, which should lie at a node.
 struct CurveEnd
 {
-    Core::MapPoint point;
+    double parameter = 0.0;
     const OrderNode& node;
     std::string_view name;
 };
 
-void CheckEnd(const OrderEdge& edge, const CurveEnd& end, const OrderContext& context, OrderFindings& unusable)
+void CheckEnd(
+    const OrderEdge& edge,
+    const Core::NurbsCurve& curve,
+    const CurveEnd& end,
+    const OrderContext& context,
+    OrderFindings& unusable)
 {
     if (!end.node.nodePosition.has_value())
     {
         return;
     }
+    const Core::MapPoint point = curve.GetPoint(end.parameter);
     const NodePosition& position = *end.node.nodePosition;
-    if (std::hypot(end.point.x - position.x, end.point.y - position.y) <= GetAllowedDeviation(position, context))
+    if (std::hypot(point.x - position.x, point.y - position.y) <= GetAllowedDeviation(position, context))
     {
         return;
     }
@@ -58,15 +64,22 @@ std::vector<OrderViolation> FindLooseEnds(const OrderMessage& order, const Order
     for (std::size_t index = 0; index < order.edges.size(); ++index)
     {
         const OrderEdge& edge = order.edges[index];
-        if (edge.trajectory.has_value())
+        if (!edge.trajectory.has_value())
         {
-            // Unless the knots are clamped, the outer control points are not the ends of the curve.
-            const Core::NurbsCurve curve(MakeNurbs(*edge.trajectory));
-            const Core::MapPoint begin = curve.GetPoint(curve.GetBegin());
-            const Core::MapPoint end = curve.GetPoint(curve.GetEnd());
-            CheckEnd(edge, CurveEnd{begin, order.nodes[index], "begin"}, context, unusable);
-            CheckEnd(edge, CurveEnd{end, order.nodes[index + 1], "end"}, context, unusable);
+            continue;
         }
+        if (edge.trajectory->degree > MAXIMUM_CURVE_DEGREE)
+        {
+            VehicleError& error =
+                unusable.Add("the degree of a trajectory is above " + std::to_string(MAXIMUM_CURVE_DEGREE));
+            AddReference(error, ReferenceKeys::PARAMETER, "order.edges.trajectory");
+            AddReference(error, ReferenceKeys::EDGE_ID, edge.edgeID);
+            continue;
+        }
+        // Unless the knots are clamped, the outer control points are not the ends of the curve.
+        const Core::NurbsCurve curve(MakeNurbs(*edge.trajectory));
+        CheckEnd(edge, curve, CurveEnd{curve.GetBegin(), order.nodes[index], "begin"}, context, unusable);
+        CheckEnd(edge, curve, CurveEnd{curve.GetEnd(), order.nodes[index + 1], "end"}, context, unusable);
     }
     return unusable.Take();
 }

@@ -15,8 +15,8 @@ namespace ACS::VDA5050
 /// What a node's position allows in metres: the deviation that it states, or the vehicle's own.
 [[nodiscard]] double GetAllowedDeviation(const NodePosition& position, const OrderContext& context);
 
-/// Curves that do not join their nodes within what these and the vehicle allow: an order that it cannot drive as it is
-/// written. Each an orderError that refers to edge and node.
+/// Curves of a degree above MAXIMUM_CURVE_DEGREE, and those that do not join their nodes within what these and the vehicle allow: an
+/// order that it cannot drive as it is written. Each an orderError that refers to edge and node.
 [[nodiscard]] std::vector<OrderViolation> FindLooseEnds(const OrderMessage& order, const OrderContext& context);
 
 } // namespace ACS::VDA5050

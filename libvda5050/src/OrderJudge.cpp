@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <numbers>
 #include <string_view>
 #include <unordered_set>
@@ -171,7 +170,10 @@ OrderJudgement JudgeOrder(const OrderMessage& order, const OrderContext& context
         return judgement;
     }
     violations = FindUnusable(order, context);
-    std::ranges::move(FindLooseEnds(order, context), std::back_inserter(violations));
+    if (violations.empty())
+    {
+        violations = FindLooseEnds(order, context);
+    }
     if (!violations.empty())
     {
         return Reject(std::move(violations));

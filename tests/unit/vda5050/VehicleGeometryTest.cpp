@@ -1,8 +1,11 @@
 #include "Catch.hpp"
 #include "VehicleSessionFixture.hpp"
+#include <acs/vda5050/OrderValidator.hpp>
+#include <acs/vda5050/PredefinedActions.hpp>
 #include <acs/vda5050/Vda5050Codec.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -375,6 +378,50 @@ TEST_CASE("4.4 A vehicle that plans its own trajectory publishes it in edgeState
     CHECK(bench.GetSession().GetState().edgeStates[1].trajectory == planned);
     CHECK_FALSE(trySet(3, MakeLine()));
     CHECK(bench.GetSession().GetState().edgeStates[1].trajectory == planned);
+}
+
+TEST_CASE("7 A trajectory of a degree above the limit of the library is refused with orderError")
+{
+    for (const std::uint32_t degree : {MAXIMUM_CURVE_DEGREE, MAXIMUM_CURVE_DEGREE + 1})
+    {
+        CAPTURE(degree);
+        OrderMessage order = MakeOrder(2, 2);
+        Trajectory& curve = order.edges[0].trajectory.emplace();
+        curve.degree = degree;
+        for (std::uint32_t index = 0; index <= degree; ++index)
+        {
+            curve.controlPoints.push_back(ControlPoint{10.0 * index / degree, 0.0, {}});
+        }
+        curve.knotVector.assign(degree + 1, 0.0);
+        curve.knotVector.insert(curve.knotVector.end(), degree + 1, 1.0);
+        REQUIRE(ValidateOrder(order).empty());
+        VehicleSessionFixture bench;
+        bench.Order(order);
+        const bool bRefused = degree > MAXIMUM_CURVE_DEGREE;
+        const StateMessage state = bench.GetPublishedState();
+        CHECK(state.orderID == (bRefused ? "" : "order-1"));
+        REQUIRE(state.errors.size() == (bRefused ? 1 : 0));
+        if (bRefused)
+        {
+            CHECK(state.errors[0].errorType == ErrorTypes::ORDER_ERROR);
+            CHECK(*FindReferenceOrNull(state.errors[0], "parameter") == "order.edges.trajectory");
+            CHECK(*FindReferenceOrNull(state.errors[0], "edgeId") == "E0");
+        }
+    }
+}
+
+TEST_CASE("7 The ends of trajectories are not checked in an order that the vehicle cannot drive for other reasons")
+{
+    OrderMessage order = MakeCurved(2, 2);
+    order.edges[0].trajectory->controlPoints[1].y = 0.6;
+    order.nodes[1].actions.push_back(MakeAction("a1", EBlockingType::Hard, "makeCoffee"));
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
+    options.factsheet.protocolFeatures.agvActions = GetPredefinedActions();
+    VehicleSessionFixture bench(options);
+    bench.Order(order);
+    const StateMessage state = bench.GetPublishedState();
+    REQUIRE(state.errors.size() == 1);
+    CHECK(*FindReferenceOrNull(state.errors[0], "actionId") == "a1");
 }
 
 } // namespace ACS::VDA5050::Test

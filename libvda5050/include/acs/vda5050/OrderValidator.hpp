@@ -26,6 +26,10 @@ struct OrderViolation
     bool operator==(const OrderViolation&) const = default;
 };
 
+/// Maximum degree of a trajectory. A vehicle refuses a higher one with orderError: the time for a point of a curve grows with the square
+/// of the degree.
+inline constexpr std::uint32_t MAXIMUM_CURVE_DEGREE = 32;
+
 /// A violation as a vehicle reports it: a warning that refers to topic, headerId, orderId and orderUpdateId. For an
 /// OrderCheck.
 [[nodiscard]] ACS_API OrderViolation
