@@ -103,6 +103,13 @@ std::optional<ActionFault> FindParameterFaultOrNull(
     return std::nullopt;
 }
 
+/// A row without parameters has those of the standard.
+const AgvAction& GetParameterRules(const AgvAction& row)
+{
+    const AgvAction* const predefined = FindPredefinedActionOrNull(row.actionType);
+    return row.actionParameters.empty() && predefined != nullptr ? *predefined : row;
+}
+
 bool IsInScope(const AgvAction& row, EActionScope scope)
 {
     return std::ranges::find(row.actionScopes, scope) != row.actionScopes.end();
@@ -152,10 +159,10 @@ std::optional<ActionFault> FindActionFaultOrNull(
             "the vehicle does not perform " + action.actionType + " with this blocking type",
             "blockingType"};
     }
-    const bool bOfStandard = row->actionParameters.empty() && predefined != nullptr;
+    const AgvAction& rules = GetParameterRules(*row);
     const bool bClosed =
         check == EParameterCheck::Strict || (check == EParameterCheck::Tolerant && !row->actionParameters.empty());
-    return FindParameterFaultOrNull(action, bOfStandard ? *predefined : *row, bClosed, check);
+    return FindParameterFaultOrNull(action, rules, bClosed, check);
 }
 
 std::optional<ActionFault> FindSessionActionFaultOrNull(
@@ -183,7 +190,7 @@ std::vector<std::string> FindUnlistedParameters(const FactsheetMessage& factshee
     std::vector<std::string> keys;
     for (const ActionParameter& given : action.actionParameters)
     {
-        if (row != listed.end() && !IsListed(*row, given.key) && !IsOfSession(action, given.key))
+        if (row != listed.end() && !IsListed(GetParameterRules(*row), given.key) && !IsOfSession(action, given.key))
         {
             keys.push_back(given.key);
         }

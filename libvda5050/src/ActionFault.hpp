@@ -33,7 +33,8 @@ struct ActionFault
     const Action& action,
     EParameterCheck check);
 
-/// The keys of the action's parameters that the factsheet does not list; none where it does not list the action.
+/// The keys of the action's parameters that the factsheet does not list, or the standard if the factsheet lists none of
+/// the action; none where it does not list the action.
 [[nodiscard]] std::vector<std::string> FindUnlistedParameters(const FactsheetMessage& factsheet, const Action& action);
 
 /// The parameter as text or as a number, which may be written as text too; nullopt where it is absent or something else.

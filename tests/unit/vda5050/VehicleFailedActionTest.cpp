@@ -131,4 +131,26 @@ TEST_CASE("5.7 A map action whose effect the vehicle has reported before its end
     CHECK(bench.GetStatus("m1") == EActionStatus::Finished);
 }
 
+TEST_CASE("5.6 A parameter of the standard is not reported as unlisted if the factsheet lists the action without any")
+{
+    VehicleOptions options = VehicleSessionFixture::MakeOptions();
+    options.parameterCheck = EParameterCheck::Lenient;
+    AgvAction drop;
+    drop.actionType = "drop";
+    drop.actionScopes = {EActionScope::Node};
+    options.factsheet.protocolFeatures.agvActions = {drop};
+    VehicleSessionFixture bench(options);
+    OrderMessage order = MakeOrder(2, 2);
+    order.nodes[1].actions = {MakeAction("a1", EBlockingType::Hard, "drop")};
+    order.nodes[1].actions[0].actionParameters = {{"loadId", Core::JsonText::FromString("L1")}};
+    const bool bOwn = GENERATE(false, true);
+    if (bOwn)
+    {
+        order.nodes[1].actions[0].actionParameters.push_back({"color", Core::JsonText::FromString("red")});
+    }
+    bench.Order(order);
+    CHECK(bench.GetSession().GetState().orderID == "order-1");
+    CHECK(bench.HasError(ErrorTypes::UNLISTED_PARAMETER) == bOwn);
+}
+
 } // namespace ACS::VDA5050::Test
