@@ -182,6 +182,11 @@ bool OwnerReports::IsLed() const noexcept
     return IsLedByMaster(_operatingMode);
 }
 
+bool OwnerReports::IsPositionLost() const noexcept
+{
+    return _position.has_value() && !_position->bPositionInitialized;
+}
+
 std::optional<VisualizationMessage> OwnerReports::MakeVisualizationOrNull() const
 {
     if (!_position.has_value())

@@ -56,6 +56,8 @@ public:
     [[nodiscard]] EOperatingMode GetMode() const noexcept;
     /// Whether the mode lets master control move the vehicle.
     [[nodiscard]] bool IsLed() const noexcept;
+    /// The owner reports a position that is not initialised.
+    [[nodiscard]] bool IsPositionLost() const noexcept;
     /// Nullopt: the position is unknown.
     [[nodiscard]] std::optional<VisualizationMessage> MakeVisualizationOrNull() const;
     void Fill(StateMessage& state) const;

@@ -172,6 +172,7 @@ void RouteDrive::Cancel(bool bStopsBetweenNodes, VehicleActions& out)
 {
     if (bStopsBetweenNodes || !IsBetweenNodes())
     {
+        _bLastLeg = false; // of an earlier cancel
         Stop(out);
         return;
     }

@@ -77,11 +77,17 @@ void VehicleSession::Impl::StartCancel(const Action& action, const Header& heade
         FailInstantAction(action, header, ErrorTypes::NO_ORDER_TO_CANCEL, {rule, ORDER_ID});
         return;
     }
+    // Without its position the vehicle does not reach a node.
+    const bool bLost = _reports.IsPositionLost();
     _actions.AddInstant(action, EActionStatus::Running);
     if (_order.TryBeginCancel(action.actionID))
     {
         _actions.StopOrder("the order was cancelled", out);
-        _drive.Cancel(_options.bStopsBetweenNodes, out);
+        _drive.Cancel(_options.bStopsBetweenNodes || bLost, out);
+    }
+    else if (bLost)
+    {
+        _drive.Cancel(true, out);
     }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace ACS::Testing
@@ -203,6 +204,42 @@ TEST_CASE("lost: the vehicle is not localized and refuses orders until initPosit
     CHECK(driver.GetStatus("whole") == EActionStatus::Finished);
     CHECK(FindErrorOrNull(driver.GetState(), "localizationError") == nullptr);
     driver.SendRoute();
+    driver.Pass(60s);
+    CHECK(driver.GetState().lastNodeID == "N2");
+}
+
+TEST_CASE("lost while driving: a cancel ends where the vehicle stopped, and initPosition makes it ready for an order")
+{
+    VehicleDriver driver("N0");
+    driver.SendRoute();
+    driver.Pass(4s);
+    const bool bLostFirst = GENERATE(true, false);
+    std::string cancelID = "cancel";
+    if (!bLostFirst)
+    {
+        driver.SendInstantly(VDA5050::ActionTypes::CANCEL_ORDER, "cancel");
+        cancelID = "again";
+    }
+    driver.Inject("lost");
+    driver.Pass(9s);
+    CHECK((bLostFirst || driver.GetStatus("cancel") == EActionStatus::Running));
+    driver.SendInstantly(VDA5050::ActionTypes::CANCEL_ORDER, cancelID);
+    driver.Pass(5s);
+    CHECK(driver.GetStatus("cancel") == EActionStatus::Finished);
+    CHECK(driver.GetStatus(cancelID) == EActionStatus::Finished);
+    CHECK(driver.GetState().nodeStates.empty());
+    CHECK(driver.GetState().lastNodeID == "N0");
+    driver.SendInstantly(
+        "initPosition",
+        "init",
+        {{"x", Core::JsonText::FromNumber(0.0)},
+         {"y", Core::JsonText::FromNumber(0.0)},
+         {"theta", Core::JsonText::FromNumber(0.0)},
+         {"mapId", Core::JsonText::FromString("floor")},
+         {"lastNodeId", Core::JsonText::FromString("N0")}});
+    driver.Pass(2s);
+    CHECK(driver.GetStatus("init") == EActionStatus::Finished);
+    driver.SendRoute("order-2");
     driver.Pass(60s);
     CHECK(driver.GetState().lastNodeID == "N2");
 }
