@@ -108,6 +108,7 @@ void VirtualVehicle::ApplyFault(const FaultChange& change, Core::Now now, Virtua
 /// Updates all that depends on the faults: the reported state and the brake.
 void VirtualVehicle::ReportCondition(Core::Now now)
 {
+    *_lost = _faults.GetBoard().IsActive(EFaultKind::Lost);
     ReportPosition();
     const Fault* const mode = _faults.GetBoard().FindOrNull(EFaultKind::Mode);
     _session.OnOperatingMode(mode != nullptr ? mode->mode : VDA5050::EOperatingMode::Automatic, now, _sessionActions);

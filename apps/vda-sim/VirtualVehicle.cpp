@@ -9,8 +9,10 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <memory>
 #include <set>
 #include <utility>
+#include <vector>
 
 namespace ACS::VdaSim
 {
@@ -21,7 +23,25 @@ using namespace std::chrono_literals;
 
 constexpr Core::Duration STATE_WHILE_DRIVING = 1s;
 
-VDA5050::VehicleOptions MakeSessionOptions(const VirtualVehicleOptions& options, const Planning::SiteMap& site)
+/// A vehicle that reports no position shows the session nothing of its loss.
+void CheckLocalized(
+    const VDA5050::OrderMessage& order,
+    const VDA5050::OrderContext& context,
+    std::vector<VDA5050::OrderViolation>& violations)
+{
+    if (order.orderID != context.heldOrderID)
+    {
+        violations.push_back(VDA5050::MakeOrderViolation(
+            order,
+            VDA5050::ErrorTypes::NO_ROUTE_ERROR,
+            "the vehicle does not know where it is"));
+    }
+}
+
+VDA5050::VehicleOptions MakeSessionOptions(
+    const VirtualVehicleOptions& options,
+    const Planning::SiteMap& site,
+    std::shared_ptr<const bool> lost)
 {
     VDA5050::VehicleOptions session;
     session.address = options.address;
@@ -38,11 +58,15 @@ VDA5050::VehicleOptions MakeSessionOptions(const VirtualVehicleOptions& options,
     session.bForgetsInManual = profile.traits.bForgetsInManual;
     session.bStopsBetweenNodes = false; // like a line-guided vehicle: a cancelled order ends on a node
     session.initialNodeID = options.startNodeID;
-    session.orderCheck = [&site, traits = profile.traits, handling = options.handling](
+    session.orderCheck = [&site, traits = profile.traits, handling = options.handling, lost = std::move(lost)](
                              const VDA5050::OrderMessage& order,
                              const VDA5050::OrderContext& context) {
         std::vector<VDA5050::OrderViolation> violations = FindUndrivable(order, site);
         std::ranges::move(FindRejected(order, context, traits, handling), std::back_inserter(violations));
+        if (*lost)
+        {
+            CheckLocalized(order, context, violations);
+        }
         return violations;
     };
     std::set<std::string> mapIDs;
@@ -68,7 +92,7 @@ VirtualVehicle::VirtualVehicle(
       _site(&site),
       _random(&random),
       _logger(std::move(logger)),
-      _session(MakeSessionOptions(_options, site)),
+      _session(MakeSessionOptions(_options, site, _lost)),
       _drive(site, _options.limits, _options.startNodeID, _options.startPosition),
       _actionRunner(
           _options.actionSeconds,

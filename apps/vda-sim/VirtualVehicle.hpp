@@ -20,6 +20,7 @@
 #include <functional>
 #include <initializer_list>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -88,6 +89,7 @@ class VirtualVehicle
     const Planning::SiteMap* _site;
     Core::IRandom* _random;
     Core::Logger _logger;
+    std::shared_ptr<bool> _lost = std::make_shared<bool>(false); ///< Of the fault; shared with the check of orders.
     VDA5050::VehicleSession _session;
     VDA5050::VehicleActions _sessionActions;
     VehicleDrive _drive;

@@ -244,6 +244,30 @@ TEST_CASE("lost while driving: a cancel ends where the vehicle stopped, and init
     CHECK(driver.GetState().lastNodeID == "N2");
 }
 
+TEST_CASE("lost: a line-guided vehicle, whose state has no position, refuses new orders too")
+{
+    VdaSim::VirtualVehicleOptions options = VehicleDriver::MakeOptions("N0");
+    options.profile = VdaSim::EVehicleProfile::LineGuided;
+    VehicleDriver driver(std::move(options));
+    const auto makeOrder = [&driver](const std::string& orderID) {
+        VDA5050::OrderMessage order = VehicleDriver::Take(driver.MakeRoute(orderID, {"N0", "N1"}).MakeOrder(2));
+        for (VDA5050::OrderNode& node : order.nodes)
+        {
+            node.nodePosition.reset();
+        }
+        return order;
+    };
+    driver.Inject("lost");
+    driver.Send(makeOrder("order-1"));
+    CHECK(driver.GetState().orderID.empty());
+    CHECK(FindErrorOrNull(driver.GetState(), VDA5050::ErrorTypes::NO_ROUTE_ERROR) != nullptr);
+    driver.EndFaults();
+    driver.Send(makeOrder("order-2"));
+    driver.Pass(60s);
+    CHECK(driver.GetState().lastNodeID == "N1");
+    CHECK(driver.GetState().errors.empty());
+}
+
 TEST_CASE("lost while driving: the vehicle brakes, and continues when it is localized again")
 {
     VehicleDriver driver("N0");
