@@ -32,10 +32,7 @@ double ActionRunner::GetSeconds(std::string_view actionType) const
     return bHandling ? HANDLING_SECONDS : SHORT_SECONDS;
 }
 
-std::string ActionRunner::Start(
-    const VDA5050::Action& action,
-    bool bAtCharger,
-    std::optional<VDA5050::VehicleError> failureOrNull)
+std::string ActionRunner::FindRefusal(const VDA5050::Action& action, bool bAtCharger) const
 {
     if (_device.IsDrop(action.actionType) && _device.GetLoads().empty())
     {
@@ -45,8 +42,12 @@ std::string ActionRunner::Start(
     {
         return "no charger at this node";
     }
-    _running.push_back({action, GetSeconds(action.actionType), std::move(failureOrNull)});
     return {};
+}
+
+void ActionRunner::Start(const VDA5050::Action& action, std::optional<VDA5050::VehicleError> failureOrNull)
+{
+    _running.push_back({action, GetSeconds(action.actionType), std::move(failureOrNull)});
 }
 
 std::size_t ActionRunner::Trigger()

@@ -53,11 +53,10 @@ public:
     /// the vehicle's own actionTypes for pick and drop.
     ActionRunner(std::map<std::string, double, std::less<>> seconds, LoadDevice device);
 
-    /// Begins the action. Returns an empty text, or why it cannot begin. With a failure the action ends with that failure.
-    [[nodiscard]] std::string Start(
-        const VDA5050::Action& action,
-        bool bAtCharger,
-        std::optional<VDA5050::VehicleError> failureOrNull = {});
+    /// Why the action cannot begin; empty if it can.
+    [[nodiscard]] std::string FindRefusal(const VDA5050::Action& action, bool bAtCharger) const;
+    /// Begins an action that is not refused. With a failure the action ends with that failure.
+    void Start(const VDA5050::Action& action, std::optional<VDA5050::VehicleError> failureOrNull = {});
     /// Ends every waitForTrigger. Returns the number of them.
     std::size_t Trigger();
     /// False if no such action runs.

@@ -42,9 +42,13 @@ void VirtualVehicle::Start(const VDA5050::StartAction& start, Core::Now now)
     }
     if (refusal.empty())
     {
-        refusal = _actionRunner.Start(start.action, IsAtCharger(), UseActionFaultOrNull(start.action, false));
+        refusal = _actionRunner.FindRefusal(start.action, IsAtCharger());
     }
     const bool bRuns = refusal.empty();
+    if (bRuns)
+    {
+        _actionRunner.Start(start.action, UseActionFaultOrNull(start.action, false));
+    }
     SetStatus(start.action.actionID, VDA5050::EActionStatus::Running, {}, now);
     if (!bRuns)
     {

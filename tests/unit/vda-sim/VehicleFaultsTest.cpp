@@ -268,6 +268,18 @@ TEST_CASE("lost: a line-guided vehicle, whose state has no position, refuses new
     CHECK(driver.GetState().errors.empty());
 }
 
+TEST_CASE("action-fails: an action that cannot begin for another reason does not use up the fault")
+{
+    VehicleDriver driver("N0");
+    driver.Inject("action-fails error=jammed");
+    driver.SendInstantly(VDA5050::ActionTypes::START_CHARGING, "charge"); // there is no charger
+    CHECK(driver.GetStatus("charge") == EActionStatus::Failed);
+    CHECK(FindErrorOrNull(driver.GetState(), "jammed") == nullptr);
+    driver.Send(driver.MakeOrderWith(VDA5050::ActionTypes::FINE_POSITIONING, "fine"));
+    driver.Pass(60s);
+    CHECK(driver.GetStatus("fine") == EActionStatus::Failed);
+}
+
 TEST_CASE("lost while driving: the vehicle brakes, and continues when it is localized again")
 {
     VehicleDriver driver("N0");
