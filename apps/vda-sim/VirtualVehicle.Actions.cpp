@@ -111,7 +111,7 @@ void VirtualVehicle::SetStatus(
     _logger.Debug("action", {{"actionId", Core::ShortenText(actionID)}, {"status", VDA5050::GetStatusText(status)}});
     if (!_session.TrySetActionStatus(actionID, status, std::move(result), now, _sessionActions))
     {
-        _logger.Warning("the session rejected an action status", {{"actionId", Core::ShortenText(actionID)}});
+        LogWarning(now, "the session rejected an action status", {{"actionId", Core::ShortenText(actionID)}});
     }
 }
 
