@@ -1,5 +1,6 @@
 #include "MasterTopics.hpp"
 
+#include "OrderErrors.hpp"
 #include <acs/vda5050/EVda5050Error.hpp>
 
 #include <utility>
@@ -57,12 +58,12 @@ std::optional<Core::Error> MasterTopics::FindHeaderFaultOrNull(const Header& hea
         return std::nullopt;
     }
     constexpr std::size_t LONGEST_VERSION = 32;
-    _statistics.lastVersion = header.version.substr(0, LONGEST_VERSION);
+    _statistics.lastVersion = CutForeignText(header.version, LONGEST_VERSION);
     if (ReadVersionOrNull(header.version).has_value())
     {
         return std::nullopt;
     }
-    return Core::Error{make_error_code(EVda5050Error::UnsupportedVersion), "version", "2.x", header.version};
+    return Core::Error{make_error_code(EVda5050Error::UnsupportedVersion), "version", "2.x", _statistics.lastVersion};
 }
 
 void MasterTopics::Refuse(ETopic topic, Core::Error error, MasterActions& out)

@@ -1,3 +1,4 @@
+#include "OrderErrors.hpp"
 #include <acs/vda5050/EVda5050Error.hpp>
 #include <acs/vda5050/Topic.hpp>
 
@@ -91,7 +92,7 @@ std::optional<Core::Error> FindForeignNameOrNull(const Header& header, const Veh
         make_error_code(EVda5050Error::InvalidTopic),
         "serialNumber",
         address.manufacturer + "/" + address.serialNumber,
-        header.manufacturer + "/" + header.serialNumber};
+        std::string(CutForeignText(header.manufacturer + "/" + header.serialNumber))};
 }
 
 std::string BuildTopicPrefix(const VehicleAddress& address)

@@ -112,7 +112,8 @@ TEST_CASE("4.2 An error of before an update does not reject it after a resend, b
     }
 }
 
-TEST_CASE("4.2 An error that names the message itself and stays is an answer to its resend, for example after a restart")
+TEST_CASE(
+    "4.2 An error that names the message itself and stays is an answer to its resend, for example after a restart")
 {
     MasterSessionFixture bench;
     bench.BeReady();
@@ -350,6 +351,21 @@ TEST_CASE("13 Each invalid message is counted and reported, and changes nothing"
     CHECK(*bench.session.GetStateOrNull() == before);
     CHECK(bench.session.IsReady());
     CHECK(bench.session.GetOrderPhase() == EOrderPhase::Active);
+}
+
+TEST_CASE("3.1 The names and the version of a refused header are truncated in the reason")
+{
+    MasterSessionFixture bench;
+    bench.BeReady();
+    const bool bVersion = GENERATE(true, false);
+    const std::string text(3'000, 'x');
+    StateMessage state;
+    state.header = Header{99, bench.GetNow().wall, bVersion ? "3" + text : "2.0.0", "ACS", bVersion ? "LR01" : text};
+    bench.Deliver(ETopic::State, Vda5050Codec().Encode(state, EVda5050Version::Version200));
+    const auto refused = Pick<MessageRefused>(bench.GetOutput());
+    REQUIRE(refused.size() == 1);
+    CHECK(refused[0].error.found.size() <= 1024);
+    CHECK(bench.session.GetStatistics().lastRefusal.size() <= 1200);
 }
 
 } // namespace ACS::VDA5050::Test
