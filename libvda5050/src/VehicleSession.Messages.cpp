@@ -112,6 +112,7 @@ void VehicleSession::Impl::AcceptOrder(OrderMessage order, VehicleActions& out)
     _actions.MarkOvertaken();
     const OrderNode first = order.nodes.front();
     _drive.Begin(first);
+    _reports.ResetDistance();
     AddActions(first.actions, EActionScope::Node, first.nodeID, first.sequenceID);
     AppendElements(std::move(order));
     _actions.Enqueue(first.actions);

@@ -328,7 +328,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("5.4.7 The heading counts for an order after a cancel between two nodes or in MANUAL, not after one on a node")
+TEST_CASE(
+    "5.4.7 The heading counts for an order after a cancel between two nodes or in MANUAL, not after one on a node")
 {
     struct Case
     {
@@ -343,8 +344,7 @@ TEST_CASE("5.4.7 The heading counts for an order after a cancel between two node
     CAPTURE(cancel.name);
     VehicleSessionFixture bench;
     OrderMessage order = MakeOrder(2, 2);
-    order.nodes[0].actions = {
-        MakeAction("a1", cancel.bLeft ? EBlockingType::None : EBlockingType::Hard)};
+    order.nodes[0].actions = {MakeAction("a1", cancel.bLeft ? EBlockingType::None : EBlockingType::Hard)};
     bench.Order(order);
     bench.Status("a1", EActionStatus::Running);
     bench.StandAt(0.0, 1.5);
@@ -367,6 +367,22 @@ TEST_CASE("5.4.7 The heading counts for an order after a cancel between two node
     const bool bRefused = cancel.bLeft || cancel.bManual;
     CHECK(bench.HasError(ErrorTypes::NO_ROUTE_ERROR) == bRefused);
     CHECK(bench.GetPublishedState().orderID == (bRefused ? "order-1" : "order-2"));
+}
+
+TEST_CASE("4.4 The distance since the last node ends with an order that begins at another node")
+{
+    VehicleSessionFixture bench;
+    AgvPosition position;
+    position.bPositionInitialized = true;
+    position.mapID = "floor";
+    bench.GetSession().OnPosition(position, Velocity{}, 4.0);
+    REQUIRE(bench.GetSession().GetState().distanceSinceLastNode == 4.0);
+    OrderMessage order = MakeOrder(2, 2);
+    order.nodes[0].nodeID = "N9";
+    order.edges[0].startNodeID = "N9";
+    bench.Order(order);
+    CHECK(bench.GetSession().GetState().lastNodeID == "N9");
+    CHECK_FALSE(bench.GetSession().GetState().distanceSinceLastNode.has_value());
 }
 
 } // namespace ACS::VDA5050::Test
