@@ -240,9 +240,13 @@ bool VehicleSession::Impl::TryChangeStatus(
     }
     else if (status == EActionStatus::Finished)
     {
-        _reports.Apply(tracked.action);
-        const bool bSetsNode = tracked.IsInstant() && !tracked.bOvertaken;
-        if (bSetsNode && tracked.action.actionType == ActionTypes::INIT_POSITION)
+        const bool bPose = tracked.action.actionType == ActionTypes::INIT_POSITION;
+        const bool bInTime = !tracked.IsInstant() || !tracked.bOvertaken;
+        if (!bPose || bInTime)
+        {
+            _reports.Apply(tracked.action);
+        }
+        if (bPose && bInTime && tracked.IsInstant())
         {
             SetLastNode(GetTextParameterOrNull(tracked.action, "lastNodeId").value_or(std::string()));
         }

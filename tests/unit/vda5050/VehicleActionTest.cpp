@@ -516,6 +516,7 @@ TEST_CASE("5.7 initPosition that ends after an order has come leaves the last no
     CHECK(bench.GetStatus("i1") == EActionStatus::Finished);
     CHECK(after.lastNodeID == before.lastNodeID);
     CHECK(after.lastNodeSequenceID == before.lastNodeSequenceID);
+    CHECK(after.agvPosition == before.agvPosition);
     CHECK(after.nodeStates == before.nodeStates);
 }
 
