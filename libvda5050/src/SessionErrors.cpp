@@ -55,7 +55,7 @@ void SessionErrors::Add(VehicleError error, ELifetime lifetime)
         });
         _errors.erase(warning != _errors.end() ? warning : _errors.begin());
     }
-    _errors.push_back(SessionError{std::move(error), lifetime, false});
+    _errors.push_back(SessionError{std::move(error), lifetime, _nextNumber++, false, false});
 }
 
 void SessionErrors::AddPayloadError(ETopic topic, std::string description, const MessageIdentity* identityOrNull)
@@ -135,31 +135,34 @@ void SessionErrors::AddUnlistedParameters(const Action& action, ETopic topic, co
     Add(std::move(error), GetLifetime(topic));
 }
 
-void SessionErrors::End(ELifetime lifetime)
+void SessionErrors::End(ELifetime lifetime, std::uint64_t mark)
 {
-    std::erase_if(_errors, [lifetime](const SessionError& known) {
-        return known.lifetime == lifetime && known.bShown;
-    });
+    EndIf([lifetime, mark](const SessionError& known) { return known.lifetime == lifetime && known.number < mark; });
 }
 
-void SessionErrors::EndAllShown()
+void SessionErrors::EndAll()
 {
-    std::erase_if(_errors, [](const SessionError& known) { return known.bShown; });
+    EndIf([](const SessionError& /*known*/) { return true; });
 }
 
-void SessionErrors::EndShownWarnings()
+void SessionErrors::EndWarnings()
 {
-    std::erase_if(_errors, [](const SessionError& known) {
-        return known.bShown && known.error.errorLevel == EErrorLevel::Warning;
-    });
+    EndIf([](const SessionError& known) { return known.error.errorLevel == EErrorLevel::Warning; });
 }
 
-void SessionErrors::MarkShown()
+bool SessionErrors::ShouldShowEnds()
 {
+    const std::size_t ended = std::erase_if(_errors, [](const SessionError& known) { return known.bEnded; });
     for (SessionError& known : _errors)
     {
         known.bShown = true;
     }
+    return ended > 0;
+}
+
+std::uint64_t SessionErrors::GetMark() const noexcept
+{
+    return _nextNumber;
 }
 
 void SessionErrors::AppendTo(std::vector<VehicleError>& errors) const

@@ -33,10 +33,13 @@ private:
     {
         VehicleError error;
         ELifetime lifetime = ELifetime::UntilOrder;
-        bool bShown = false; ///< Was published in a state.
+        std::uint64_t number = 0; ///< In the order of arrival.
+        bool bShown = false;      ///< Was published in a state.
+        bool bEnded = false;      ///< Ends when a state has shown it.
     };
 
     std::vector<SessionError> _errors;
+    std::uint64_t _nextNumber = 0;
 
 public:
     /// Replaces an error that reports the same.
@@ -53,14 +56,28 @@ public:
     void AddOrderActionError(const ReportedAction& failed, EErrorLevel level);
     void AddUnlistedParameters(const Action& action, ETopic topic, const std::vector<std::string>& keys);
 
-    /// Ends those of the lifetime that were shown.
-    void End(ELifetime lifetime);
+    /// Ends those of the lifetime that were added before the mark. An error that no state has shown ends with the next state.
+    void End(ELifetime lifetime, std::uint64_t mark);
     /// An order was accepted.
-    void EndAllShown();
+    void EndAll();
     /// An update was accepted of an order that an error holds: FATAL errors remain.
-    void EndShownWarnings();
-    void MarkShown();
+    void EndWarnings();
+    /// A state was published. True: it has shown errors that have ended, and the next one has to show their end.
+    [[nodiscard]] bool ShouldShowEnds();
     void AppendTo(std::vector<VehicleError>& errors) const;
+    /// Errors that are added from now on come after the mark.
+    [[nodiscard]] std::uint64_t GetMark() const noexcept;
+
+private:
+    template <typename TPredicate>
+    void EndIf(TPredicate isMeant)
+    {
+        std::erase_if(_errors, [&isMeant](const SessionError& known) { return known.bShown && isMeant(known); });
+        for (SessionError& known : _errors)
+        {
+            known.bEnded = known.bEnded || isMeant(known);
+        }
+    }
 };
 
 } // namespace ACS::VDA5050

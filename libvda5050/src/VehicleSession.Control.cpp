@@ -125,7 +125,7 @@ void VehicleSession::Impl::OnOperatingMode(EOperatingMode mode, Core::Now now, V
     const bool bBetweenNodes = _drive.IsBetweenNodes();
     if (_reports.IsLed())
     {
-        _errors.End(SessionErrors::ELifetime::UntilMode);
+        _errors.End(SessionErrors::ELifetime::UntilMode, _errors.GetMark());
     }
     else
     {

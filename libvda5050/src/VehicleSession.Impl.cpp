@@ -5,6 +5,7 @@
 #include <acs/vda5050/EVda5050Error.hpp>
 
 #include <chrono>
+#include <tuple>
 #include <utility>
 
 namespace ACS::VDA5050
@@ -175,8 +176,12 @@ void VehicleSession::Impl::PublishState(Core::Now now, VehicleActions& out)
     StateMessage state = GetState();
     _topics.Publish(ETopic::State, state, now, out);
     _actions.MarkShown();
-    _errors.MarkShown();
     _schedule.OnPublished(now, out);
+    if (_errors.ShouldShowEnds())
+    {
+        _schedule.Request();
+        std::ignore = _schedule.ShouldPublish(now, out); // not at once, but it starts the timer
+    }
 }
 
 void VehicleSession::Impl::PublishFactsheet(Core::Now now, VehicleActions& out)

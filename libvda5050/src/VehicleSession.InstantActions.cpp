@@ -5,6 +5,9 @@
 #include <acs/vda5050/EVda5050Error.hpp>
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 namespace ACS::VDA5050
@@ -48,6 +51,7 @@ void VehicleSession::Impl::OnInstantActions(std::string_view payload, Core::Now 
         return;
     }
     const std::size_t allowed = limits.maxArrayLengths.instantActions.value_or(0);
+    const std::uint64_t mark = _errors.GetMark();
     bool bTaken = false;
     for (std::size_t index = 0; index < message->actions.size(); ++index)
     {
@@ -56,7 +60,7 @@ void VehicleSession::Impl::OnInstantActions(std::string_view payload, Core::Now 
     }
     if (bTaken)
     {
-        _errors.End(SessionErrors::ELifetime::UntilInstantAction);
+        _errors.End(SessionErrors::ELifetime::UntilInstantAction, mark);
     }
     FinishIfStationary(out);
     Advance(out);

@@ -106,7 +106,7 @@ OrderContext VehicleSession::Impl::MakeContext() const
 
 void VehicleSession::Impl::AcceptOrder(OrderMessage order, VehicleActions& out)
 {
-    _errors.EndAllShown();
+    _errors.EndAll();
     _order.Accept(order, out);
     _actions.BeginOrder();
     _actions.MarkOvertaken();
@@ -123,11 +123,11 @@ void VehicleSession::Impl::AcceptUpdate(OrderMessage order, VehicleActions& out)
 {
     if (_order.IsHeldByFailure())
     {
-        _errors.EndShownWarnings();
+        _errors.EndWarnings();
     }
     else
     {
-        _errors.EndAllShown();
+        _errors.EndAll();
     }
     _order.AcceptUpdate(order, out);
     _actions.MarkOvertaken();

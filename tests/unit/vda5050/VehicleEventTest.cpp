@@ -2,9 +2,14 @@
 #include "RandomVehicle.hpp"
 #include "StateSequenceChecker.hpp"
 #include "VehicleSessionFixture.hpp"
+#include <acs/vda5050/Vda5050Codec.hpp>
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace ACS::VDA5050::Test
 {
@@ -259,9 +264,23 @@ TEST_CASE("4.6 A change that ends within the minimum interval is shown all the s
     CHECK(state.orderID == "order-1");
     CHECK(GetShownStatus(state, "s1") == EActionStatus::Finished);
     CHECK(GetShownStatus(state, "i1") == EActionStatus::Failed);
-    CHECK(bench.HasError(ErrorTypes::INSTANT_ACTION_ERROR));
-    CHECK(bench.HasError(ErrorTypes::NO_ROUTE_ERROR));
-    // Once shown they end with the next order.
+    const auto takeErrors = [&out] {
+        const auto published = Pick<PublishMessage>(std::exchange(out, {}));
+        REQUIRE(published.size() == 1);
+        const auto shown = Vda5050Codec().Decode<StateMessage>(published[0].message.payload);
+        REQUIRE(shown.has_value());
+        Names types;
+        std::ranges::transform(shown->errors, std::back_inserter(types), &VehicleError::errorType);
+        return types;
+    };
+    CHECK(Pick<StartVehicleTimer>(out).back().timer == EVehicleTimer::MinimumStateInterval);
+    const Names shownErrors = takeErrors();
+    CHECK(std::ranges::count(shownErrors, ErrorTypes::INSTANT_ACTION_ERROR) == 1);
+    CHECK(std::ranges::count(shownErrors, ErrorTypes::NO_ROUTE_ERROR) == 1);
+    // They have ended with the order: the next state has none of them.
+    bench.Advance(INTERVAL);
+    bench.GetSession().OnTimer(EVehicleTimer::MinimumStateInterval, bench.GetNow(), out);
+    CHECK(takeErrors().empty());
     bench.Reach(2, true);
     bench.StandAt(10.0);
     OrderMessage next = MakeOrder(1, 1, "order-2");
