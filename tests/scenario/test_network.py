@@ -226,6 +226,17 @@ class Network(ScenarioCase):
         acsd.send_signal(signal.SIGTERM)
         self.assertEqual(acsd.wait(STOP_SECONDS), 0)
 
+    def test_a_silent_name_server_of_the_mcs_delays_neither_an_arm_nor_a_stop(self):
+        _, environment = self.hold_resolver()
+        stub = self.start_stub()
+        arm = self.start_robots()
+        acsd = self.line.start_acsd(stub.address.replace("127.0.0.1", "mcs.test"), arm, environment=environment)
+        address = acsd.wait_ready()["operator"]
+        self.wait_for_status(address, lambda status: any(robot.get("armUp") for robot in status["robots"]))
+        self.assertFalse(self.read_status(address)["links"]["mcs"])
+        acsd.send_signal(signal.SIGTERM)
+        self.assertEqual(acsd.wait(STOP_SECONDS), 0)
+
     def test_a_silent_name_server_of_one_broker_does_not_delay_the_next_broker(self):
         _, environment = self.hold_resolver()
         stub = self.start_stub()

@@ -2,30 +2,26 @@
 
 #include "common/config/Endpoint.hpp"
 #include "http/EventLoop.hpp"
+#include <acs/net/HostLookup.hpp>
 
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/system/error_code.hpp>
 #include <tl/expected.hpp>
 
 #include <chrono>
-#include <memory>
 
 namespace ACS::Acsctl
 {
 
-/// Resolves the name of one host. A thread asks the name server, which may not answer: the thread may outlive this object and the
-/// program. Its answer is used by the next call if this one has ended before.
+/// Resolves the name of one host. An answer that comes too late is used by the next call.
 class HostResolver final
 {
 public:
-    using Addresses = boost::asio::ip::tcp::resolver::results_type;
+    using Addresses = Net::HostLookup::Addresses;
 
 private:
-    class Lookup;
-
     EventLoop& _loop;
     const Apps::Endpoint _host;
-    std::shared_ptr<Lookup> _lookupOrNull; ///< Its answer is not used yet.
+    Net::HostLookup _lookup;
 
 public:
     /// The loop must outlive it.

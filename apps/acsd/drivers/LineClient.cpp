@@ -1,6 +1,7 @@
 #include <acs/acsd/LineClient.hpp>
 #include <acs/core/Backoff.hpp>
 #include <acs/core/JsonText.hpp>
+#include <acs/net/HostLookup.hpp>
 
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/connect.hpp>
@@ -51,7 +52,7 @@ class LineClient::Impl final : public std::enable_shared_from_this<LineClient::I
     LineClientOptions _options;
     Handlers _handlers;
     Core::Backoff _backoff;
-    boost::asio::ip::tcp::resolver _resolver;
+    Net::HostLookup _lookup;
     boost::asio::ip::tcp::socket _socket;
     boost::asio::steady_timer _timer; ///< Of the attempt, of the silence of the peer, or until the next attempt.
     EState _state = EState::Stopped;
@@ -73,7 +74,7 @@ public:
           _options(std::move(options)),
           _handlers(std::move(handlers)),
           _backoff(_options.backoff),
-          _resolver(executor),
+          _lookup(executor),
           _socket(executor),
           _timer(executor)
     {
@@ -171,10 +172,10 @@ private:
                 self.Lose("the peer does not answer");
             }
         });
-        _resolver.async_resolve(_options.host, std::to_string(_options.port), Guard(&Impl::OnResolved));
+        _lookup.ResolveAsync(_options.host, std::to_string(_options.port), Guard(&Impl::OnResolved));
     }
 
-    void OnResolved(const boost::system::error_code& error, const boost::asio::ip::tcp::resolver::results_type& found)
+    void OnResolved(const boost::system::error_code& error, const Net::HostLookup::Addresses& found)
     {
         if (error)
         {
@@ -338,7 +339,7 @@ private:
         _state = next;
         boost::system::error_code ignored;
         _timer.cancel(ignored);
-        _resolver.cancel();
+        _lookup.Cancel();
         static_cast<void>(_socket.close(ignored));
         _line.clear();
         _stats.linesDropped += _queue.size();

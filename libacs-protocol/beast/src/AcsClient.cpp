@@ -5,12 +5,14 @@
 #include <acs/core/Overloaded.hpp>
 #include <acs/net/ActionPump.hpp>
 #include <acs/net/EventQueue.hpp>
+#include <acs/net/HostLookup.hpp>
 #include <acs/net/TimerArray.hpp>
 #include <acs/protocol/AcsSession.hpp>
 #include <acs/protocol_beast/AcsClient.hpp>
 
 #include <boost/asio/connect.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
 
 #include <utility>
 
@@ -56,7 +58,8 @@ class AcsClient::Impl : public std::enable_shared_from_this<AcsClient::Impl>
     Protocol::AcsSession _session;
     std::shared_ptr<SessionEvents> _events;
     std::shared_ptr<SessionTimers> _timers;
-    Tcp::resolver _resolver;
+    Net::HostLookup _lookup;
+    boost::asio::steady_timer _lookupTimer;
     std::unique_ptr<ITransport> _transport;
     std::shared_ptr<ILink> _linkOrNull;
     Net::ActionPump<Protocol::SessionAction> _pump;
@@ -85,7 +88,8 @@ public:
               [this](Protocol::ESessionTimer timer) {
                   Run([timer](auto& session, Core::Now now, auto& out) { session.OnTimer(timer, now, out); });
               })),
-          _resolver(executor),
+          _lookup(executor),
+          _lookupTimer(executor),
           _transport(std::move(transport))
     {
     }
@@ -94,7 +98,7 @@ public:
     {
         _events->Detach();
         _timers->CancelAll();
-        _resolver.cancel();
+        CancelLookup();
         if (_linkOrNull != nullptr)
         {
             std::exchange(_linkOrNull, nullptr)->Kill();
@@ -144,7 +148,7 @@ private:
                 },
                 [this](const Protocol::Connect& /*connect*/) { ConnectAsync(); },
                 [this](const Protocol::Close& close) {
-                    _resolver.cancel();
+                    CancelLookup();
                     if (_linkOrNull != nullptr)
                     {
                         _linkOrNull->Close(close.code, close.reason);
@@ -170,15 +174,25 @@ private:
         _logger.Debug("connecting", {{"url", _options.url}});
         const std::shared_ptr<ILink> link = _transport->MakeClientLink(_executor, _options.link, MakeOwner());
         _linkOrNull = link;
-        _resolver.async_resolve(
+        _lookupTimer.expires_after(_options.link.handshakeTimeout);
+        _lookupTimer.async_wait([weak = weak_from_this(), link](ErrorCode error) {
+            const auto self = weak.lock();
+            if (!error && self != nullptr && self->_linkOrNull == link)
+            {
+                self->_lookup.Cancel();
+                link->Abort("cannot find " + self->_url.host + ": the name server does not answer");
+            }
+        });
+        _lookup.ResolveAsync(
             _url.host,
             _url.port,
-            [weak = weak_from_this(), link](ErrorCode error, const Tcp::resolver::results_type& results) {
+            [weak = weak_from_this(), link](ErrorCode error, const Net::HostLookup::Addresses& results) {
                 const auto self = weak.lock();
                 if (self == nullptr || self->_linkOrNull != link)
                 {
                     return;
                 }
+                self->StopLookupTimer();
                 if (error)
                 {
                     link->Abort("cannot find " + self->_url.host + ": " + error.message());
@@ -188,7 +202,19 @@ private:
             });
     }
 
-    void ConnectToAsync(const std::shared_ptr<ILink>& link, const Tcp::resolver::results_type& results)
+    void CancelLookup()
+    {
+        StopLookupTimer();
+        _lookup.Cancel();
+    }
+
+    void StopLookupTimer()
+    {
+        ErrorCode ignored;
+        static_cast<void>(_lookupTimer.cancel(ignored));
+    }
+
+    void ConnectToAsync(const std::shared_ptr<ILink>& link, const Net::HostLookup::Addresses& results)
     {
         link->GetTcpStream().expires_after(_options.link.handshakeTimeout);
         link->GetTcpStream().async_connect(

@@ -1,4 +1,5 @@
 #include "SocketOptions.hpp"
+#include <acs/net/HostLookup.hpp>
 #include <acs/net/TimerArray.hpp>
 #include <acs/openstream_asio/OpenStreamClient.hpp>
 
@@ -34,7 +35,7 @@ class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStr
     EventHandler _handler;
     OpenStream::ClientSession _session;
     ClientActions _actions;
-    Tcp::resolver _resolver;
+    Net::HostLookup _lookup;
     Tcp::socket _socket;
     std::shared_ptr<Timers> _timers;
     std::array<char, READ_BYTES> _input{};
@@ -91,7 +92,7 @@ public:
           _options(std::move(options)),
           _handler(std::move(handler)),
           _session(_options.session, random),
-          _resolver(executor),
+          _lookup(executor),
           _socket(executor),
           _timers(std::make_shared<Timers>(executor, [this](OpenStream::EClientTimer timer) { OnTimer(timer); }))
     {
@@ -138,7 +139,7 @@ public:
     void ShutDown()
     {
         _bDown = true;
-        _resolver.cancel();
+        _lookup.Cancel();
         _timers->CancelAll();
         CloseSocket();
     }
@@ -202,10 +203,10 @@ private:
     void Do(const OpenStream::ClientConnect& /*action*/)
     {
         ++_connection;
-        _resolver.async_resolve(_options.host, std::to_string(_options.port), Guard(&Impl::OnResolved));
+        _lookup.ResolveAsync(_options.host, std::to_string(_options.port), Guard(&Impl::OnResolved));
     }
 
-    void OnResolved(const boost::system::error_code& error, const Tcp::resolver::results_type& found)
+    void OnResolved(const boost::system::error_code& error, const Net::HostLookup::Addresses& found)
     {
         if (error)
         {
@@ -311,7 +312,7 @@ private:
     void Do(const OpenStream::ClientClose& /*action*/)
     {
         ++_connection;
-        _resolver.cancel();
+        _lookup.Cancel();
         CloseSocket();
     }
 
