@@ -1,5 +1,6 @@
 #include "TextStream.hpp"
 #include <acs/core/JsonText.hpp>
+#include <acs/core/ParseNumber.hpp>
 #include <acs/json/JsonDocument.hpp>
 
 #include <fmt/format.h>
@@ -10,8 +11,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,6 +54,21 @@ bool HasHalfSurrogate(std::string_view text)
 
 /// Whether a text has more values than the limit, if it is JSON: each comma outside of a string precedes one. Such a text is
 /// refused before it is copied and parsed. Other texts are counted exactly by the parse.
+/// Whether a number that no double can represent is nearer to zero than to infinity.
+bool IsSmall(std::string_view number)
+{
+    const std::size_t mantissaEnd = std::min(number.find_first_of("eE"), number.size());
+    const std::string_view mantissa = number.substr(0, mantissaEnd);
+    std::string_view exponent = number.substr(std::min(mantissaEnd + 1, number.size()));
+    exponent.remove_prefix(exponent.starts_with('+') ? 1 : 0);
+    const auto first = static_cast<std::ptrdiff_t>(std::min(mantissa.find_first_of("123456789"), mantissa.size()));
+    const auto point = static_cast<std::ptrdiff_t>(std::min(mantissa.find('.'), mantissa.size()));
+    const std::ptrdiff_t places = first < point ? point - first - 1 : point - first; // of the first digit
+    const std::optional<std::int64_t> written =
+        exponent.empty() ? std::optional(std::int64_t{0}) : Core::ParseNumberOrNull<std::int64_t>(exponent);
+    return written.has_value() ? *written < -places : exponent.starts_with('-');
+}
+
 bool HasTooManyCommas(std::string_view text, std::size_t maximumValues)
 {
     if (text.size() / 2 <= maximumValues) // a value and its comma
@@ -177,9 +195,7 @@ public:
             return _document.Double(value);
         }
         // Too small for a double is zero; too large has no value.
-        const std::size_t exponent = number.find_first_of("eE");
-        const bool bSmall = exponent == std::string_view::npos ? number.starts_with("0.") || number.starts_with("-0.")
-                                                               : number[exponent + 1] == '-';
+        const bool bSmall = IsSmall(number);
         _bNumberTooLarge = !bSmall;
         return bSmall && _document.Double(0.0);
     }

@@ -121,6 +121,8 @@ TEST_CASE("A number of any length and exponent is read exactly, as zero, or refu
         {"-2.5e-320", -2.5e-320},
         {"1e-400", 0.0},
         {"0." + zeros + zeros + "1", 0.0},
+        {"0." + zeros + zeros + "1e5", 0.0},
+        {"1e-99999999999999999999", 0.0},
         {"0.1", 0.1},
         {"9007199254740993", 9007199254740992.0},
         {"18446744073709551615", 18446744073709551615.0},
@@ -165,6 +167,7 @@ TEST_CASE("Half a surrogate pair is refused, in a value and in a name, and a com
 TEST_CASE("Text that is not JSON is refused")
 {
     using namespace std::string_view_literals;
+    const std::string large = "[1" + std::string(400, '0') + "e-5]";
     for (const std::string_view text :
          {""sv,
           " "sv,
@@ -175,6 +178,8 @@ TEST_CASE("Text that is not JSON is refused")
           "NaN"sv,
           "Infinity"sv,
           "[1e999]"sv,
+          "[1e+99999999999999999999]"sv,
+          std::string_view(large),
           "\"\xC3\x28\""sv,
           "\"\xED\xA0\x80\""sv,
           "{\"a\":1}\0{\"b\":2}"sv,
