@@ -340,7 +340,9 @@ private:
         const websocket::close_reason& given = _stream.reason();
         if (error == websocket::error::closed || given.code != websocket::close_code::none)
         {
-            std::string text = "closed by the other side with code " + std::to_string(given.code);
+            std::string text = "closed by the other side";
+            text += given.code == websocket::close_code::none ? " without a code"
+                                                              : " with code " + std::to_string(given.code);
             text += given.reason.empty() ? "" : ": " + std::string(given.reason.data(), given.reason.size());
             return text;
         }

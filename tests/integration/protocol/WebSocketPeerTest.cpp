@@ -360,6 +360,20 @@ TEST_CASE("13.10 After RST in mid frame, 403 and 1008 the client reconnects, reg
     CHECK(rig.connections[0]->requests[1] == MakeReport("a"));
 }
 
+TEST_CASE("1 The reason of a peer that closes is reported, also without a code")
+{
+    ClientWireFixture rig;
+    rig.onConnection = [](std::size_t /*index*/, RawMCS& mcs) {
+        mcs.onRequest = [&mcs](const Protocol::AcsRequest& /*request*/) {
+            mcs.Send("", EFrame::Close);
+            return false;
+        };
+    };
+    rig.ConnectTo(rig.raw.GetURL());
+    REQUIRE(rig.WasReached([&rig] { return !rig.acsEvents.GetAll<Protocol::LinkLost>().empty(); }));
+    CHECK(rig.acsEvents.GetFirstLoss() == "closed by the other side without a code");
+}
+
 TEST_CASE("1 The reason of a peer that closes and does not wait for the answer is reported")
 {
     ClientWireFixture rig;
