@@ -254,14 +254,13 @@ void AckJudge::OnAck(const MessageEnvelope& envelope, Core::SteadyTime now)
 /// violated, too.
 SentRequest* AckJudge::FindSentOrNull(const MessageEnvelope& envelope)
 {
-    const std::string command = envelope.GetRequestCommand();
     SentRequest* const sentOrNull = _sent.FindOrNull(envelope.transactionID);
     if (sentOrNull != nullptr && sentOrNull->sends > 0)
     {
         _book.Keep(ERule::AckTransaction);
         _book.Judge(
             ERule::AckCommand,
-            sentOrNull->command == command,
+            envelope.IsExactAckOf(sentOrNull->command),
             fmt::format("{} for a {}", QuoteForError(envelope.command), QuoteForError(sentOrNull->command)));
         return sentOrNull;
     }
@@ -274,7 +273,8 @@ SentRequest* AckJudge::FindSentOrNull(const MessageEnvelope& envelope)
     SentRequest* oldestOrNull = nullptr;
     for (auto& [transactionID, sent] : _sent.GetEntries())
     {
-        if (sent.bOpen && sent.command == command && (oldestOrNull == nullptr || sent.order < oldestOrNull->order))
+        const bool bOlder = oldestOrNull == nullptr || sent.order < oldestOrNull->order;
+        if (sent.bOpen && bOlder && envelope.IsAckOf(sent.command))
         {
             oldestOrNull = &sent;
         }

@@ -100,7 +100,7 @@ void McsJudge::OnReceived(std::string_view text, Core::SteadyTime now)
     {
         _requests.OnRequest(*envelope, outcome, _acks);
     }
-    else if (envelope->GetRequestCommand() == POSITION)
+    else if (envelope->IsAckOf(POSITION))
     {
         _book.Violate(ERule::PositionUnanswered, QuoteForError(envelope->transactionID));
     }

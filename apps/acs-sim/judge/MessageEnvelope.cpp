@@ -1,6 +1,7 @@
 #include "judge/MessageEnvelope.hpp"
 
 #include <acs/core/Result.hpp>
+#include <acs/json/EnumNames.hpp>
 
 namespace ACS::AcsSim
 {
@@ -25,12 +26,23 @@ std::string ReadText(const Json::Value& object, std::string_view name, MessageEn
 
 bool MessageEnvelope::IsAck() const
 {
-    return command.size() > ACK.size() && command.ends_with(ACK);
+    return command.size() > ACK.size()
+        && Json::IsEqualIgnoringCase(std::string_view(command).substr(command.size() - ACK.size()), ACK);
 }
 
 std::string MessageEnvelope::GetRequestCommand() const
 {
     return IsAck() ? command.substr(0, command.size() - ACK.size()) : command;
+}
+
+bool MessageEnvelope::IsAckOf(std::string_view requestCommand) const
+{
+    return IsAck() && Json::IsEqualIgnoringCase(GetRequestCommand(), requestCommand);
+}
+
+bool MessageEnvelope::IsExactAckOf(std::string_view requestCommand) const
+{
+    return IsAckOf(requestCommand) && command.starts_with(requestCommand) && command.ends_with(ACK);
 }
 
 std::optional<MessageEnvelope> ReadEnvelopeOrNull(Json::JsonDocument& document, std::string_view text)

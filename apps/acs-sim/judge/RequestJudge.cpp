@@ -91,7 +91,13 @@ void RequestJudge::OnRequest(
         OnRequestFailure(outcome.message.error());
         return;
     }
-    const auto& request = std::get<Protocol::AcsRequest>(*outcome.message);
+    const auto* const requestOrNull = std::get_if<Protocol::AcsRequest>(&*outcome.message);
+    if (requestOrNull == nullptr)
+    {
+        _book.Violate(ERule::KnownCommand, QuoteForError(envelope.command) + " is not a request");
+        return;
+    }
+    const Protocol::AcsRequest& request = *requestOrNull;
     const EAcsCommand command = GetCommand(request);
     _book.Judge(ERule::KnownCommand, IsSentByMCS(command), QuoteForError(envelope.command));
     if (!IsSentByMCS(command) || !IsNewRequest(request))

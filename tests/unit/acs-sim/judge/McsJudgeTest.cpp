@@ -217,6 +217,28 @@ TEST_CASE("6.1 Acks that are not as specified")
     CHECK(fixture.GetViolated() == Rules{expected});
 }
 
+TEST_CASE("6.1 The command of an Ack in another case is a violation, and the request counts as answered")
+{
+    JudgeFixture fixture;
+    fixture.Sent(JudgeFixture::MakeRequest("Registration", 1, "{}"));
+    std::string registrationAck = JudgeFixture::MakeAck("Registration", 1);
+    registrationAck.replace(registrationAck.find("Ack"), 3, "ACK");
+    fixture.Received(registrationAck);
+    CHECK(fixture.GetViolated() == Rules{ERule::AckCommand});
+    fixture.Received(JudgeFixture::MakeRequest("ExecutionPlan", 2, JudgeFixture::PLAN));
+    fixture.Sent(JudgeFixture::MakeAck("ExecutionPlan", 2));
+    fixture.Sent(JudgeFixture::MakeRequest("PlanReport", 3, JudgeFixture::REPORT));
+    std::string reportAck = JudgeFixture::MakeAck("planreport", 3);
+    reportAck.replace(reportAck.find("Ack"), 3, "ack");
+    fixture.Received(reportAck);
+    fixture.Wait(LONG);
+    CHECK(fixture.GetViolated() == Rules{ERule::AckCommand});
+    CHECK(fixture.judge.GetBook().GetRow(ERule::AckCommand).violated == 2);
+    // Ack alone is no Ack of anything.
+    fixture.Received(JudgeFixture::MakeAck("", 4));
+    CHECK(fixture.judge.GetBook().GetRow(ERule::KnownCommand).violated == 1);
+}
+
 TEST_CASE("D-2 The result of an Ack may have any case")
 {
     JudgeFixture fixture;
