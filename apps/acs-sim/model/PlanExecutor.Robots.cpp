@@ -13,6 +13,7 @@ namespace ACS::AcsSim
 
 using Protocol::EJobStatus;
 using Protocol::EPlanStatus;
+using Protocol::EReportResult;
 using Protocol::ERobotStatus;
 using Protocol::EStepStatus;
 
@@ -106,10 +107,10 @@ void PlanExecutor::OnJobDone(RobotModel& robot, std::size_t job, Core::Now now, 
     MoveCarrier(robot);
     SetJob(robot, EJobStatus::Completed, out);
     SetRobot(robot, robot.status, out);
-    if (robot.work->bAborting)
+    if (robot.work->aborts > 0)
     {
         const std::string planID = robot.work->plan.planID; // The work ends in the call.
-        FinishAbort(planID, now, out);
+        FinishAbort(planID, robot.work->aborts, now, out);
     }
     else if (job + 1 < robot.work->GetStep().jobs.size())
     {
@@ -140,6 +141,7 @@ void PlanExecutor::FailPlan(RobotModel& robot, Core::Now now, ExecutorActions& o
     SetJob(robot, EJobStatus::Failed, out);
     SetStep(robot, EStepStatus::Failed, out);
     SetPlan(planID, EPlanStatus::Failed, now, out);
+    ReportAborts(planID, robot.work->aborts, EReportResult::Failed, out);
     Leave(planID, now, out);
 }
 

@@ -323,11 +323,11 @@ void PlanExecutor::Abort(const std::string& planID, Core::Now now, ExecutorActio
     RobotModel* const robotOrNull = FindRobotOrNull(planID);
     if (robotOrNull != nullptr && robotOrNull->work->job.has_value() && !robotOrNull->work->bPaused)
     {
-        robotOrNull->work->bAborting = true;
+        ++robotOrNull->work->aborts;
     }
     else if (robotOrNull != nullptr || TryForgetWaiting(planID))
     {
-        FinishAbort(planID, now, out);
+        FinishAbort(planID, 1, now, out);
     }
     else
     {
@@ -336,17 +336,30 @@ void PlanExecutor::Abort(const std::string& planID, Core::Now now, ExecutorActio
     }
 }
 
-void PlanExecutor::FinishAbort(const std::string& planID, Core::Now now, ExecutorActions& out)
+void PlanExecutor::FinishAbort(const std::string& planID, std::size_t aborts, Core::Now now, ExecutorActions& out)
 {
     SetPlan(planID, EPlanStatus::Aborted, now, out);
-    out.emplace_back(SendReport{Protocol::AbortResultReport{planID, EReportResult::Success, ""}});
+    ReportAborts(planID, aborts, EReportResult::Success, out);
     Leave(planID, now, out);
+}
+
+void PlanExecutor::ReportAborts(
+    const std::string& planID,
+    std::size_t aborts,
+    EReportResult result,
+    ExecutorActions& out)
+{
+    const std::string message = result == EReportResult::Success ? "" : "the job has failed";
+    for (std::size_t i = 0; i < aborts; ++i)
+    {
+        out.emplace_back(SendReport{Protocol::AbortResultReport{planID, result, message}});
+    }
 }
 
 void PlanExecutor::Pause(const std::string& planID, Core::Now now, ExecutorActions& out)
 {
     RobotModel* const robotOrNull = FindRobotOrNull(planID);
-    if (robotOrNull == nullptr || robotOrNull->work->bPaused || robotOrNull->work->bAborting)
+    if (robotOrNull == nullptr || robotOrNull->work->bPaused || robotOrNull->work->aborts > 0)
     {
         out.emplace_back(
             SendReport{Protocol::PauseResultReport{planID, EReportResult::Failed, "the plan does not run"}});

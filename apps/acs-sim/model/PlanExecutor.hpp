@@ -82,7 +82,13 @@ private:
     void Abort(const std::string& planID, Core::Now now, ExecutorActions& out);
     void Pause(const std::string& planID, Core::Now now, ExecutorActions& out);
     void Resume(const std::string& planID, Core::Now now, ExecutorActions& out);
-    void FinishAbort(const std::string& planID, Core::Now now, ExecutorActions& out);
+    void FinishAbort(const std::string& planID, std::size_t aborts, Core::Now now, ExecutorActions& out);
+    /// One result for each AbortPlan.
+    static void ReportAborts(
+        const std::string& planID,
+        std::size_t aborts,
+        Protocol::EReportResult result,
+        ExecutorActions& out);
 
     void StartPlans(Core::Now now, ExecutorActions& out);
     void Drive(RobotModel& robot, Core::Now now, ExecutorActions& out);

@@ -19,7 +19,7 @@ struct RobotWork
     std::size_t step = 0;
     std::optional<std::size_t> job{}; ///< None: it drives to the position of the step.
     bool bPaused = false;
-    bool bAborting = false;     ///< The job in progress is its last.
+    std::size_t aborts = 0;     ///< AbortPlans without a result; if there is one, the job in progress is the last.
     Core::SteadyTime due{};     ///< When the drive or the job ends.
     Core::Duration remaining{}; ///< While it is paused.
 

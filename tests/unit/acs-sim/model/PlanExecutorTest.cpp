@@ -267,6 +267,37 @@ TEST_CASE("6.14 A failed job fails its step and its plan")
     CHECK(fixture.RunToEnd().back() == "Q Completed");
 }
 
+TEST_CASE("D-17 A job that fails during an abort fails the plan and the abort")
+{
+    ExecutorFixture fixture;
+    fixture.executor.FailNextJob();
+    fixture.Ask(MakeCassettePlan("P"));
+    fixture.Advance();
+    fixture.Ask(AbortPlan{"P", ""});
+    Lines expected{"J1 Failed", "step 1 Failed", "P Failed", "AbortResultReport Failed"};
+    SECTION("once")
+    {
+    }
+    SECTION("twice")
+    {
+        fixture.Ask(AbortPlan{"P", ""});
+        expected.emplace_back("AbortResultReport Failed");
+    }
+    CHECK(fixture.RunToEnd() == expected);
+}
+
+TEST_CASE("6.14 Each AbortPlan of a plan has its result")
+{
+    ExecutorFixture fixture;
+    fixture.Ask(MakeCassettePlan("P"));
+    fixture.Advance();
+    CHECK(fixture.Ask(AbortPlan{"P", ""}).empty());
+    CHECK(fixture.Ask(AbortPlan{"P", ""}).empty());
+    CHECK(
+        fixture.RunToEnd()
+        == Lines{"J1 Completed", "P Aborted", "AbortResultReport Success", "AbortResultReport Success"});
+}
+
 TEST_CASE("6.10, 6.11 Queries are answered with the present state")
 {
     ExecutorFixture fixture;
