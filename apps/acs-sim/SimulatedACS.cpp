@@ -30,6 +30,12 @@ bool HasSuccessor(const Protocol::AcsPayload& payload)
         || (jobOrNull != nullptr && jobOrNull->status == EJobStatus::Instructed);
 }
 
+/// As the session distinguishes requests.
+std::string MakeAnswerKey(Protocol::EAcsCommand command, std::string_view transactionID)
+{
+    return fmt::format("{} {}", GetText(command), transactionID);
+}
+
 } // namespace
 
 SimulatedACS::SimulatedACS(Options options, IAcsLink& link, McsJudge& judge, Core::IRandom& random, Printer print)
@@ -137,7 +143,9 @@ void SimulatedACS::OnAcked(const Protocol::Acked& acked, Core::Now now)
 
 void SimulatedACS::OnRequest(const Protocol::AcsRequest& request, Core::Now now)
 {
-    if (const SendAnswer* const answeredOrNull = _answers.FindOrNull(request.transactionID); answeredOrNull != nullptr)
+    const SendAnswer* const answeredOrNull =
+        _answers.FindOrNull(MakeAnswerKey(GetCommand(request), request.transactionID));
+    if (answeredOrNull != nullptr)
     {
         SendAnswerNow(*answeredOrNull);
         return;
@@ -201,7 +209,7 @@ void SimulatedACS::AddReport(const Protocol::AcsPayload& payload, const Core::Ti
 
 void SimulatedACS::Answer(const SendAnswer& answer, Core::Now now)
 {
-    _answers.Add(answer.transactionID, answer);
+    _answers.Add(MakeAnswerKey(answer.command, answer.transactionID), answer);
     if (TryUse(EFault::LateAck))
     {
         _lateAnswers.emplace_back(now.steady + _options.faultTime, answer);

@@ -55,7 +55,7 @@ private:
     std::map<EFault, std::size_t> _armed; ///< Faults that wait for their moment.
     std::optional<KeptReport> _kept;      ///< The report that is sent after its successor.
     std::vector<std::pair<Core::SteadyTime, SendAnswer>> _lateAnswers;
-    RecentMap<SendAnswer> _answers;                  ///< By transactionID: a request may be repeated after a cut.
+    RecentMap<SendAnswer> _answers; ///< By command and transactionID: a request may be repeated after a cut.
     std::optional<Core::SteadyTime> _heldUntil;      ///< Reports are held.
     std::optional<Core::SteadyTime> _connectedAgain; ///< When isConnected becomes true again.
     std::optional<Core::SteadyTime> _nextFault;      ///< While registered.

@@ -32,6 +32,7 @@ public:
     std::vector<AcsPayload> states;
     std::vector<std::string> texts;
     std::vector<EAckResult> answers;
+    std::vector<EAcsCommand> answered; ///< The command of each answer.
     std::size_t cuts = 0;
 
     RecordingLink(ACS::Testing::ManualClock& clock, McsJudge& judge)
@@ -63,13 +64,14 @@ public:
     }
 
     void Answer(
-        EAcsCommand /*command*/,
+        EAcsCommand command,
         std::string_view /*transactionID*/,
         EAckResult result,
         std::string_view /*message*/,
         const AckPayload& /*payload*/) override
     {
         answers.push_back(result);
+        answered.push_back(command);
     }
 
     void SendText(const std::string& text) override
@@ -177,6 +179,22 @@ TEST_CASE("A repeated request gets its answer and is not executed twice")
     fixture.SendPlan("P", "T");
     fixture.SendPlan("P", "T");
     CHECK(fixture.link.answers == std::vector<EAckResult>{EAckResult::Success, EAckResult::Success});
+}
+
+TEST_CASE("Requests of different commands with one transactionId are each answered and executed")
+{
+    AcsFixture fixture;
+    fixture.SendPlan("P", "T");
+    fixture.acs.OnEvent(RequestReceived{{"T", {}, PausePlan{"P", ""}}}, fixture.clock.GetNow());
+    fixture.acs.OnEvent(RequestReceived{{"T", {}, ResumePlan{"P", ""}}}, fixture.clock.GetNow());
+    CHECK(
+        fixture.link.answered
+        == std::vector<EAcsCommand>{EAcsCommand::ExecutionPlan, EAcsCommand::PausePlan, EAcsCommand::ResumePlan});
+    fixture.Advance(A_PLAN);
+    CHECK(fixture.acs.CountEndedPlans() == 1);
+    CHECK(std::ranges::any_of(fixture.link.reports, [](const AcsRequest& report) {
+        return std::holds_alternative<ResumeResultReport>(report.payload);
+    }));
 }
 
 TEST_CASE("late-report: reports are held and then sent in their order")
