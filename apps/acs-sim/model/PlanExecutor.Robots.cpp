@@ -27,8 +27,8 @@ void PlanExecutor::StartPlans(Core::Now now, ExecutorActions& out)
         {
             continue;
         }
-        const auto found = std::ranges::find_if(_waiting, [&robot](const Protocol::ExecutionPlan& plan) {
-            return CanExecute(robot, plan);
+        const auto found = std::ranges::find_if(_waiting, [&](const Protocol::ExecutionPlan& plan) {
+            return _entries.at(plan.planID).status != EPlanStatus::Paused && CanExecute(robot, plan);
         });
         if (found == _waiting.end())
         {
@@ -181,6 +181,11 @@ RobotModel* PlanExecutor::FindRobotOrNull(std::string_view planID)
         return robot.work.has_value() && robot.work->plan.planID == planID;
     });
     return found == _robots.end() ? nullptr : &*found;
+}
+
+bool PlanExecutor::IsWaiting(std::string_view planID) const
+{
+    return std::ranges::find(_waiting, planID, &Protocol::ExecutionPlan::planID) != _waiting.end();
 }
 
 bool PlanExecutor::TryForgetWaiting(const std::string& planID)

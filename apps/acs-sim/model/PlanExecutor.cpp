@@ -359,27 +359,44 @@ void PlanExecutor::ReportAborts(
 void PlanExecutor::Pause(const std::string& planID, Core::Now now, ExecutorActions& out)
 {
     RobotModel* const robotOrNull = FindRobotOrNull(planID);
-    if (robotOrNull == nullptr || robotOrNull->work->bPaused || robotOrNull->work->aborts > 0)
+    const bool bAborting = robotOrNull != nullptr && robotOrNull->work->aborts > 0;
+    if (bAborting || (robotOrNull == nullptr && !IsWaiting(planID)))
     {
-        out.emplace_back(
-            SendReport{Protocol::PauseResultReport{planID, EReportResult::Failed, "the plan does not run"}});
+        out.emplace_back(SendReport{Protocol::PauseResultReport{
+            planID,
+            EReportResult::Failed,
+            "the plan is aborted, or there is no such active plan"}});
         return;
     }
-    RobotWork& work = *robotOrNull->work;
-    work.remaining = std::max(work.due - now.steady, Core::Duration{});
-    work.bPaused = true;
-    SetRobot(*robotOrNull, ERobotStatus::Stopped, out);
-    SetPlan(planID, EPlanStatus::Paused, now, out);
+    if (_entries.at(planID).status != EPlanStatus::Paused) // A second pause succeeds without reports (D-21).
+    {
+        if (robotOrNull != nullptr)
+        {
+            RobotWork& work = *robotOrNull->work;
+            work.remaining = std::max(work.due - now.steady, Core::Duration{});
+            work.bPaused = true;
+            SetRobot(*robotOrNull, ERobotStatus::Stopped, out);
+        }
+        SetPlan(planID, EPlanStatus::Paused, now, out);
+    }
     out.emplace_back(SendReport{Protocol::PauseResultReport{planID, EReportResult::Success, ""}});
 }
 
 void PlanExecutor::Resume(const std::string& planID, Core::Now now, ExecutorActions& out)
 {
-    RobotModel* const robotOrNull = FindRobotOrNull(planID);
-    if (robotOrNull == nullptr || !robotOrNull->work->bPaused)
+    const auto entry = _entries.find(planID);
+    if (entry == _entries.end() || entry->second.status != EPlanStatus::Paused)
     {
         out.emplace_back(
             SendReport{Protocol::ResumeResultReport{planID, EReportResult::Failed, "the plan is not paused"}});
+        return;
+    }
+    RobotModel* const robotOrNull = FindRobotOrNull(planID);
+    if (robotOrNull == nullptr)
+    {
+        SetPlan(planID, EPlanStatus::Pending, now, out);
+        out.emplace_back(SendReport{Protocol::ResumeResultReport{planID, EReportResult::Success, ""}});
+        StartPlans(now, out);
         return;
     }
     RobotWork& work = *robotOrNull->work;

@@ -36,7 +36,7 @@ public:
 private:
     Options _options;
     std::vector<RobotModel> _robots;
-    std::deque<Protocol::ExecutionPlan> _waiting;
+    std::deque<Protocol::ExecutionPlan> _waiting;                     ///< Paused ones keep their place.
     std::map<std::string, Protocol::PlanEntry, std::less<>> _entries; ///< By planID, ended plans included.
     std::deque<std::string> _endedPlans;                              ///< Whose entries are kept, oldest first.
     std::size_t _ended = 0;
@@ -100,6 +100,7 @@ private:
     static void MoveCarrier(RobotModel& robot);
 
     [[nodiscard]] RobotModel* FindRobotOrNull(std::string_view planID);
+    [[nodiscard]] bool IsWaiting(std::string_view planID) const;
     [[nodiscard]] bool TryForgetWaiting(const std::string& planID);
     void Leave(const std::string& planID, Core::Now now, ExecutorActions& out);
     void SetPlan(const std::string& planID, Protocol::EPlanStatus status, Core::Now now, ExecutorActions& out);

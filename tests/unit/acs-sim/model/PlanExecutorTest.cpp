@@ -241,20 +241,72 @@ TEST_CASE("6.6, 6.14 An abort lets the job in progress end")
     }
 }
 
-TEST_CASE("6.7, 6.8 A plan is paused and resumed, and the time of the job is kept")
+TEST_CASE("6.7, 6.8, D-21 A plan is paused and resumed, and the time of the job is kept")
 {
     ExecutorFixture fixture;
     fixture.Ask(MakeCassettePlan("P"));
     fixture.clock.Advance(std::chrono::milliseconds(400));
     CHECK(fixture.Ask(PausePlan{"P", ""}) == Lines{"P Paused", "PauseResultReport Success"});
     CHECK(fixture.states.back() == "LR01 Stopped");
-    CHECK(fixture.Ask(PausePlan{"P", ""}) == Lines{"PauseResultReport Failed"});
+    CHECK(fixture.Ask(PausePlan{"P", ""}) == Lines{"PauseResultReport Success"});
     CHECK_FALSE(fixture.executor.GetNextDueOrNull().has_value());
     fixture.clock.Advance(std::chrono::hours(1));
     CHECK(fixture.Ask(ResumePlan{"P", ""}) == Lines{"P InProgress", "ResumeResultReport Success"});
     CHECK(*fixture.executor.GetNextDueOrNull() - fixture.clock.GetNow().steady == std::chrono::milliseconds(600));
     CHECK(fixture.Ask(ResumePlan{"P", ""}) == Lines{"ResumeResultReport Failed"});
     CHECK(fixture.RunToEnd().back() == "P Completed");
+}
+
+TEST_CASE("7 A plan that waits is paused in the queue, and is Pending when it is resumed")
+{
+    ExecutorFixture fixture;
+    fixture.Ask(MakeCassettePlan("P"));
+    fixture.Ask(MakeCassettePlan("Q"));
+    CHECK(fixture.Ask(ResumePlan{"Q", ""}) == Lines{"ResumeResultReport Failed"});
+    CHECK(fixture.Ask(PausePlan{"Q", ""}) == Lines{"Q Paused", "PauseResultReport Success"});
+    CHECK(fixture.Ask(PausePlan{"Q", ""}) == Lines{"PauseResultReport Success"});
+    SECTION("it is resumed before its robot is free")
+    {
+        CHECK(fixture.Ask(ResumePlan{"Q", ""}) == Lines{"Q Pending", "ResumeResultReport Success"});
+        CHECK(fixture.RunToEnd().back() == "Q Completed");
+    }
+    SECTION("its robot does not start it")
+    {
+        CHECK(fixture.RunToEnd().back() == "P Completed");
+        CHECK(
+            fixture.Ask(ResumePlan{"Q", ""})
+            == Lines{
+                "Q Pending",
+                "ResumeResultReport Success",
+                "Q InProgress",
+                "step 1 Dispatched",
+                "step 1 InProgress"});
+        CHECK(fixture.RunToEnd().back() == "Q Completed");
+    }
+    SECTION("another plan overtakes it")
+    {
+        fixture.Ask(MakeCassettePlan("R"));
+        CHECK(fixture.RunToEnd().back() == "R Completed");
+    }
+    SECTION("it is cancelled")
+    {
+        CHECK(fixture.Ask(CancelPlan{"Q", ""}) == Lines{"Q Cancelled", "CancelResultReport Success"});
+    }
+    SECTION("it is aborted")
+    {
+        CHECK(fixture.Ask(AbortPlan{"Q", ""}) == Lines{"Q Aborted", "AbortResultReport Success"});
+    }
+}
+
+TEST_CASE("6.7, D-20 A plan that is aborted or has ended is not paused")
+{
+    ExecutorFixture fixture;
+    fixture.Ask(MakeCassettePlan("P"));
+    fixture.Advance();
+    fixture.Ask(AbortPlan{"P", ""});
+    CHECK(fixture.Ask(PausePlan{"P", ""}) == Lines{"PauseResultReport Failed"});
+    fixture.RunToEnd();
+    CHECK(fixture.Ask(PausePlan{"P", ""}) == Lines{"PauseResultReport Failed"});
 }
 
 TEST_CASE("6.14 A failed job fails its step and its plan")
