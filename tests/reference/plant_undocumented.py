@@ -10,6 +10,7 @@ import sys
 import tempfile
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+INDEX = "build/reference/html/index.html"
 INTERNAL = ("libacs-core/json/include", "libacs-core/net/include", "libplan/json/include")
 COPIED = ("scripts/reference", "scripts/reference_filter.py", "scripts/lib.sh", "docs/reference/api/Doxyfile")
 
@@ -141,23 +142,59 @@ def list_inputs():
     return value.replace("\\", " ").split()
 
 
+def write_files(root, files):
+    for path, text in files.items():
+        os.makedirs(os.path.dirname(os.path.join(root, path)), exist_ok=True)
+        with open(os.path.join(root, path), "w", encoding="utf-8") as file:
+            file.write(text)
+
+
+def make_tree(root, files):
+    for folder in list_inputs():
+        os.makedirs(os.path.join(root, folder))
+    os.makedirs(os.path.join(root, "scripts"))
+    for path in COPIED:
+        shutil.copy(os.path.join(ROOT, path), os.path.join(root, path))
+    write_files(root, files)
+
+
+def build(root):
+    ran = subprocess.run([os.path.join(root, "scripts/reference")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False,
+                         text=True)
+    if ran.returncode == 0 and not os.path.exists(os.path.join(root, INDEX)):
+        return 1, "no page was written"
+    return ran.returncode, ran.stderr
+
+
 def run(files):
     """The exit code and the errors of scripts/reference on a tree with these files."""
     with tempfile.TemporaryDirectory() as root:
-        for folder in list_inputs():
-            os.makedirs(os.path.join(root, folder))
-        os.makedirs(os.path.join(root, "scripts"))
-        for path in COPIED:
-            shutil.copy(os.path.join(ROOT, path), os.path.join(root, path))
-        for path, text in files.items():
-            os.makedirs(os.path.dirname(os.path.join(root, path)), exist_ok=True)
-            with open(os.path.join(root, path), "w", encoding="utf-8") as file:
-                file.write(text)
-        ran = subprocess.run([os.path.join(root, "scripts/reference")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False,
-                             text=True)
-        if ran.returncode == 0 and not os.path.exists(os.path.join(root, "build/reference/html/index.html")):
-            return 1, "no page was written"
-        return ran.returncode, ran.stderr
+        make_tree(root, files)
+        return build(root)
+
+
+def check_replaced():
+    """A failed run leaves the reference that was there; the next one replaces it."""
+    with tempfile.TemporaryDirectory() as root:
+        make_tree(root, RIGHT)
+        found = []
+        path, text, _, _ = PLANTED[0]
+        for files in ({}, {path: text}, {path: "#pragma once\n"}):
+            write_files(root, files)
+            found.append((build(root)[0], os.path.exists(os.path.join(root, INDEX)),
+                          sorted(os.listdir(os.path.join(root, "build/reference")))))
+        return found
+
+
+def check_foreign():
+    """Folders named html that are not of this script: with pages of another program, and of Doxygen for another project."""
+    found = []
+    for files in ({"index.html": "ACS SDK"}, {"index.html": "Other", "doxygen.css": ""}):
+        with tempfile.TemporaryDirectory() as root:
+            make_tree(root, RIGHT)
+            write_files(os.path.join(root, os.path.dirname(INDEX)), files)
+            found.append((build(root)[0], sorted(os.listdir(os.path.join(root, os.path.dirname(INDEX)))) == sorted(files)))
+    return found
 
 
 def main():
@@ -176,6 +213,11 @@ def main():
     reported = len(re.findall(r"^[^\s:]+:\d+: error: ", errors, re.MULTILINE))
     if reported != len(PLANTED):
         faults.append(f"{reported} errors are reported instead of {len(PLANTED)}")
+    files = ["doxygen.log", "html"]
+    if (found := check_replaced()) != [(0, True, files), (1, True, files), (0, True, files)]:
+        faults.append(f"exit codes, index and files of a run, a failed one and the next: {found}")
+    if (found := check_foreign()) != [(2, True), (2, True)]:
+        faults.append(f"exit codes for folders of other programs, and whether their files are left: {found}")
     if faults:
         print("\n".join(faults) + f"\nscripts/reference has printed:\n{errors}")
     return 1 if faults else 0
