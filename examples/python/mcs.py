@@ -189,13 +189,14 @@ class Peer:
         self._received = bytearray()
         self._fragments = bytearray()
         self._fragmented = False
+        self._discarding = False  # what follows a refused upgrade or a violation
 
     def receive(self):
         """The complete messages. Raises Violation, and OSError if the connection has ended."""
         data = self.socket.recv(READ_BYTES)
         if not data:
             raise OSError("closed by the client")
-        if self.closing and not self.upgraded:
+        if self._discarding:
             return []
         self._received += data
         if not self.upgraded:
@@ -203,11 +204,21 @@ class Peer:
         elif not self.closing:
             self.deadline = time.monotonic() + MAX_SILENCE
         messages = []
-        while self.upgraded and (frame := self._take_frame()) is not None:
-            message = self._handle_frame(*frame)
-            if message is not None and not self.closing:
-                messages.append(message)
+        try:
+            while self.upgraded and (frame := self._take_frame()) is not None:
+                message = self._handle_frame(*frame)
+                if message is not None and not self.closing:
+                    messages.append(message)
+        except Violation:
+            self._discard()
+            raise
         return messages
+
+    def _discard(self):
+        """The connection is read until the client closes it, but needs no memory."""
+        self._discarding = True
+        self._received.clear()
+        self._fragments.clear()
 
     def _upgrade(self):
         end = self._received.find(b"\r\n\r\n")
@@ -222,6 +233,7 @@ class Peer:
         if (end > MAX_HEAD or not request.startswith("GET ") or headers.get("upgrade", "").lower() != "websocket"
                 or headers.get("sec-websocket-version") != "13" or not key):
             self.unsent += b"HTTP/1.1 400 Bad Request\r\nContent-Length: 0\r\nConnection: close\r\n\r\n"
+            self._discard()
             self._begin_end()
             return
         accept = base64.b64encode(hashlib.sha1(key + GUID).digest())

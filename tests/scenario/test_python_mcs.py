@@ -6,6 +6,8 @@ import argparse
 import base64
 import json
 import os
+import pathlib
+import re
 import signal
 import socket
 import subprocess
@@ -20,6 +22,7 @@ PROGRAM = REPOSITORY / "examples" / "python" / "mcs.py"
 UPGRADE = ("GET /acs/ HTTP/1.1\r\nHost: mcs\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
            f"Sec-WebSocket-Key: {base64.b64encode(bytes(16)).decode()}\r\n\r\n").encode()
 MASK = bytes(4)  # leaves the payload as it is
+FLOOD_BYTES, READ_BYTES = 64 * 1024 * 1024, 64 * 1024
 FINAL_TEXT, FIRST_FRAGMENT, LAST_FRAGMENT, PING = 0x81, 0x01, 0x80, 0x89
 
 
@@ -144,6 +147,26 @@ class PythonMcs(ScenarioCase):
             for _ in range(1000):  # 131 MB, of which the buffers of both sockets take some
                 client.sendall(pings)
         self.assertTrue(self.mcs.is_running())
+
+    def test_what_follows_a_violation_needs_no_memory(self):
+        address = self.start_mcs()
+        too_big = b"\x81\xff" + (1 << 40).to_bytes(8, "big") + MASK
+        for violation in (b"\x81\x01x",  # not masked
+                          too_big, make_frame(FIRST_FRAGMENT, b"x") + too_big):
+            before = self.read_peak_memory()
+            client = self.connect(address, UPGRADE + violation)
+            client.settimeout(FINISH_SECONDS)
+            try:
+                for _ in range(FLOOD_BYTES // READ_BYTES):
+                    client.sendall(bytes(READ_BYTES))
+            except ConnectionError:
+                pass  # closed in the meantime
+            self.assertLess(self.read_peak_memory() - before, FLOOD_BYTES // 4)
+        self.assertTrue(self.mcs.is_running())
+
+    def read_peak_memory(self):
+        status = pathlib.Path(f"/proc/{self.mcs.process.pid}/status").read_text()
+        return int(re.search(r"^VmHWM:\s+(\d+) kB$", status, re.MULTILINE).group(1)) * 1024
 
     def test_an_invalid_plan_is_refused_at_the_start(self):
         plan = self.line.folder / "plan.json"
