@@ -162,6 +162,7 @@ MAX_SILENCE = 60.0  # seconds without a byte; acsd sends a ping every 10 s
 MAX_UPGRADE = 10.0  # seconds for the HTTP request
 MAX_CLOSING = 5.0  # seconds between our Close and the end of the connection
 READ_BYTES = 65536
+MAX_PORT = 65535
 INTERRUPTED = 130  # exit code after Ctrl-C
 
 GUID = b"258EAFA5-E914-47DA-95CA-C5AB0DC85B11"
@@ -480,6 +481,8 @@ class Mcs:
 
 def read_address(text):
     host, _, port = text.rpartition(":")
+    if not (port.isascii() and port.isdigit() and len(port) <= 5 and int(port) <= MAX_PORT):
+        raise argparse.ArgumentTypeError(f"'{text}' is not HOST:PORT with a port of 0 to {MAX_PORT}")
     return host, int(port)
 
 

@@ -168,6 +168,13 @@ class PythonMcs(ScenarioCase):
         status = pathlib.Path(f"/proc/{self.mcs.process.pid}/status").read_text()
         return int(re.search(r"^VmHWM:\s+(\d+) kB$", status, re.MULTILINE).group(1)) * 1024
 
+    def test_an_invalid_address_is_a_usage_error(self):
+        for address in ("127.0.0.1:99999", "127.0.0.1:-1", "127.0.0.1:", "127.0.0.1:http"):
+            ended = subprocess.run([sys.executable, "-B", PROGRAM, "--library", SETTINGS.library, "--listen", address, PLANS[0]],
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=FINISH_SECONDS, check=False)
+            self.assertEqual(ended.returncode, 2, ended.stdout)
+            self.assertIn(f"argument --listen: '{address}' is not HOST:PORT with a port of 0 to 65535", ended.stdout)
+
     def test_an_invalid_plan_is_refused_at_the_start(self):
         plan = self.line.folder / "plan.json"
         plan.write_text(json.dumps({"planId": "P", "steps": [{"stepNo": "one"}]}))
