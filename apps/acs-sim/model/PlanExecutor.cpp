@@ -312,6 +312,10 @@ void PlanExecutor::Cancel(const std::string& planID, Core::Now now, ExecutorActi
             "the robot has arrived, or there is no such plan"}});
         return;
     }
+    if (_entries.at(planID).status == EPlanStatus::Paused) // Section 7 has no way from Paused to Cancelled.
+    {
+        SetPlan(planID, robotOrNull == nullptr ? EPlanStatus::Pending : EPlanStatus::InProgress, now, out);
+    }
     SetPlan(planID, EPlanStatus::Cancelled, now, out);
     out.emplace_back(SendReport{Protocol::CancelResultReport{planID, EReportResult::Success, ""}});
     Leave(planID, now, out);

@@ -290,11 +290,29 @@ TEST_CASE("7 A plan that waits is paused in the queue, and is Pending when it is
     }
     SECTION("it is cancelled")
     {
-        CHECK(fixture.Ask(CancelPlan{"Q", ""}) == Lines{"Q Cancelled", "CancelResultReport Success"});
+        CHECK(fixture.Ask(CancelPlan{"Q", ""}) == Lines{"Q Pending", "Q Cancelled", "CancelResultReport Success"});
     }
     SECTION("it is aborted")
     {
         CHECK(fixture.Ask(AbortPlan{"Q", ""}) == Lines{"Q Aborted", "AbortResultReport Success"});
+    }
+}
+
+TEST_CASE("6.5, 7 A paused plan that is cancelled passes through InProgress")
+{
+    ExecutorFixture fixture;
+    fixture.Ask(MakeCassettePlan("P"));
+    SECTION("before the first arrival")
+    {
+        fixture.Ask(PausePlan{"P", ""});
+        CHECK(fixture.Ask(CancelPlan{"P", ""}) == Lines{"P InProgress", "P Cancelled", "CancelResultReport Success"});
+    }
+    SECTION("after it the plan stays paused")
+    {
+        fixture.Advance();
+        fixture.Ask(PausePlan{"P", ""});
+        CHECK(fixture.Ask(CancelPlan{"P", ""}) == Lines{"CancelResultReport Failed"});
+        CHECK(fixture.Ask(ResumePlan{"P", ""}) == Lines{"P InProgress", "ResumeResultReport Success"});
     }
 }
 
