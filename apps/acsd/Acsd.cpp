@@ -244,7 +244,7 @@ private:
         _timers.CancelAll();
     }
 
-    /// Its sender was answered 202, so that an operator must see it; sent again with the same key, it is judged anew.
+    /// Its sender was answered 202, so that an operator must see it; the same request with the same key is executed again.
     void OnOperatorRefused(const RefusedOffer& refused) override
     {
         const std::string text =

@@ -11,8 +11,8 @@ namespace ACS::Planning
 /// A command, with the receipt that is stored with it unless it is refused.
 struct OfferedCommand
 {
-    PlanCommand command;
-    std::optional<CommandReceipt> receipt{};
+    PlanCommand command;                     ///< Of the MCS or of an operator.
+    std::optional<CommandReceipt> receipt{}; ///< Of an operator's command that its sender may repeat.
 };
 
 } // namespace ACS::Planning
