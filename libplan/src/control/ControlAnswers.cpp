@@ -13,6 +13,7 @@ ControlAnswers::ControlAnswers(EngineState& engine)
     : _options(engine.options),
       _plans(engine.plans),
       _fleet(engine.fleet),
+      _hold(engine.hold),
       _transaction(engine.transaction)
 {
 }
@@ -136,7 +137,7 @@ void ControlAnswers::LeavePause(ActivePlan& plan, std::string message)
 
 void ControlAnswers::ReleasePause(Robot& robot)
 {
-    if (robot.control.pause.TryResume())
+    if (robot.control.pause.TryResume() && !_hold.IsActive())
     {
         _transaction.Command(robot, Planning::Resume{});
     }

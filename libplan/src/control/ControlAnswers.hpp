@@ -17,6 +17,7 @@ class ControlAnswers
     const EngineOptions& _options;
     PlanBook& _plans;
     Fleet& _fleet;
+    const RestartHold& _hold;
     EngineTransaction& _transaction;
 
 public:
@@ -45,7 +46,7 @@ public:
     void StopConfirmingControl(Robot& robot);
     /// A paused plan becomes InProgress, or Pending without a robot.
     void LeavePause(ActivePlan& plan, std::string message);
-    /// Commands the robot to resume if the engine has paused it.
+    /// Commands the robot to resume if the engine has paused it; during the hold of the restart, TscControl does at its end.
     void ReleasePause(Robot& robot);
     /// Why a plan that is not active cannot be controlled.
     [[nodiscard]] std::string DescribeInactive(const std::string& planID) const;

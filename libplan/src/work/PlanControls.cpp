@@ -406,9 +406,12 @@ void PlanControls::UpdatePause(Robot& robot, bool bBack, bool bWasPaused)
         return;
     }
     const StateChanged& state = *robot.view.state;
-    const PauseTracker::ERepeat repeat =
-        robot.control.pause.OnState(state.bPaused, bWasPaused, state.bAutomatic, bBack);
-    if (repeat == PauseTracker::ERepeat::Resume && !_hold.IsActive())
+    // During the hold of the restart it has not been commanded to resume, whatever it shows.
+    const bool bResumesLater = _hold.IsActive() && robot.control.pause.IsResuming();
+    const PauseTracker::ERepeat repeat = bResumesLater
+        ? PauseTracker::ERepeat::None
+        : robot.control.pause.OnState(state.bPaused, bWasPaused, state.bAutomatic, bBack);
+    if (repeat == PauseTracker::ERepeat::Resume)
     {
         _transaction.Command(robot, Planning::Resume{});
     }

@@ -99,3 +99,24 @@ TEST_CASE("A restored store resumes no robot that was paused, until the TSC is r
     CHECK(Contains(ListMotions(world), "LR01 Resume"));
     CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
 }
+
+TEST_CASE("A restored store resumes no robot that does not confirm its pause, until the TSC is resumed")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
+    world.GetRobot("LR01").bIgnoresPause = true;
+    world.Control(EPlanControl::Pause, "P1");
+    world.Crash();
+    RestartHeld(world);
+    static_cast<void>(TryRunFor(world, 1min));
+    for (int i = 0; i < 3; ++i)
+    {
+        world.PublishState("LR01"); // its base shows no pause; its arm may be stopped
+    }
+    CHECK(Contains(world.GetReportsOf("P1"), "PauseResult Failed"));
+    CHECK(ListMotions(world) == Lines{});
+    world.SwitchTSC(false);
+    CHECK(Contains(ListMotions(world), "LR01 Resume"));
+    REQUIRE(world.TryRun());
+    CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
+}
