@@ -439,7 +439,9 @@ void PlanWork::EndRecovery(Robot& robot)
         return;
     }
     _transaction.ClearAlarm(MakeUnresolvedAlarm(robot));
-    if (robot.planOrNull->record.progress.state == EPlanState::Paused)
+    const PlanProgress& progress = robot.planOrNull->record.progress;
+    // A paused job that an abort lets end runs again.
+    if (progress.state == EPlanState::Paused && progress.control != EPlanControl::Abort)
     {
         const std::chrono::milliseconds timeout =
             robot.planOrNull->resolved.steps[robot.planOrNull->step].rule->timeout;

@@ -13,6 +13,7 @@ using ACS::Testing::Lines;
 using ACS::Testing::MakeLogisticsPlan;
 using ACS::Testing::MakeTestOptions;
 using ACS::Testing::MakeTestSite;
+using ACS::Testing::MakeWorld;
 using ACS::Testing::PausePlan;
 using ACS::Testing::PlanWorld;
 using ACS::Testing::RestartEngine;
@@ -176,4 +177,22 @@ TEST_CASE("D-16 An unresolved job that was abandoned is cancelled before its rob
     world.Raise("LR01", LinkChanged{false});
     world.Connect();
     CHECK(FindLine(world, "command LR01 CancelJob", later) == world.trace.size());
+}
+
+TEST_CASE("D-16 abort.paused_job finish: after a restart the job has its time limit")
+{
+    const auto change = [](EngineOptions& options) {
+        options.controls.bAbortFinishesPausedJob = true;
+        options.actions.at("CassetteLoad").timeout = 60s;
+    };
+    PlanWorld world = MakeWorld(change);
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
+    PausePlan(world);
+    world.GetRobot("LR01").bIgnoresPause = true; // the job does not continue
+    world.Control(EPlanControl::Abort, "P1");
+    world.Crash();
+    RestartEngine(world, change);
+    static_cast<void>(TryRunFor(world, 2min));
+    CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::Failed);
+    CHECK(Contains(world.GetReportsOf("P1"), "AbortResult Failed"));
 }
