@@ -67,10 +67,11 @@ void StoreGate::Commit(EngineActions& out)
     {
         std::ranges::move(_acknowledged, std::back_inserter(changes));
         _acknowledged.clear();
-        if (_backlog.TryBeginAttempt())
-        {
-            StartStoreRetry(dependent);
-        }
+    }
+    // Without a change the attempt is what the next call stores: that the alarm is cleared.
+    if (_backlog.TryBeginAttempt())
+    {
+        StartStoreRetry(dependent);
     }
     for (SendReport& report : _backlog.CollectReports())
     {

@@ -19,7 +19,7 @@ class StoreBacklog
     {
         Working,
         Waiting,   ///< Failed; the retry timer runs.
-        Due,       ///< The next changes are an attempt.
+        Due,       ///< The end of the call is an attempt.
         Attempted, ///< It works again if no failure is reported before the next call.
     };
 
@@ -32,13 +32,13 @@ public:
     /// True: the attempt was successful, and the store failed after it. The retry timer of the attempt still runs.
     [[nodiscard]] bool TryFailAttempt() noexcept;
     void OnRetryDue() noexcept;
-    /// The store was failing before the restart: the next changes are an attempt.
+    /// The store was failing before the restart: the end of the call is an attempt.
     void RestoreFailing() noexcept;
     /// At the beginning of a call. True: the attempt of the previous call was successful.
     [[nodiscard]] bool TryRecover() noexcept;
     /// An attempt writes the whole backlog, so only new plans and the retry timer trigger one.
     [[nodiscard]] bool IsWorthTrying(std::span<const StoreChange> changes) const;
-    /// A batch is sent to the store. True: the store was failing; start the retry timer.
+    /// At the end of a call, with a batch for the store or with nothing to store. True: the store was failing; start the timer.
     [[nodiscard]] bool TryBeginAttempt() noexcept;
 
     void Add(std::vector<StoreChange> changes);

@@ -400,3 +400,23 @@ TEST_CASE("With a store of an older version, without work of robots, a running j
         CHECK(CountStarts(world, "P1-a4") == (bHeld ? 0 : 1));
     }
 }
+
+TEST_CASE("After a restart with the alarm of a store that failed, a waiting plan begins when the store works")
+{
+    PlanWorld world;
+    world.Connect();
+    REQUIRE(world.TryRun()); // what the robots show is stored
+    Alarm alarm;
+    alarm.robotID = "ACS";
+    alarm.errorCode = "ACS-1005";
+    alarm.level = EAlarmLevel::Heavy;
+    PlanRecord record;
+    record.sequence = 1;
+    record.plan = MakeLogisticsPlan("P1");
+    record.progress.steps = {{EStepState::Pending, {EJobState::Pending}}, {EStepState::Pending, {EJobState::Pending}}};
+    REQUIRE(world.store.Append({{PlanAdded{record}, AlarmSet{alarm}}}).has_value());
+    RestartEngine(world);
+    REQUIRE(world.TryRun());
+    CHECK(world.engine->GetPlanOrNull("P1")->state == EPlanState::Completed);
+    CHECK(world.engine->GetActiveAlarms().empty());
+}

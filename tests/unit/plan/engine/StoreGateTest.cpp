@@ -233,3 +233,21 @@ TEST_CASE("StoreGate: a store that is lost after a retry is not taken for one th
     parts.engine.transaction.AddReport(PlanReport{});
     CHECK_FALSE(parts.CommitCall().ListActions<StorePlans>().empty());
 }
+
+TEST_CASE("StoreGate: a store that failed before the restart is tried also by a call without changes")
+{
+    GateParts parts;
+    parts.engine.alarms.Restore({MakeAlarm(OWN_ROBOT_ID, ALARM_STORE, EAlarmLevel::Heavy, "failed")});
+    parts.engine.backlog.RestoreFailing();
+    parts.BeginCall();
+    CallOutcome call = parts.CommitCall();
+    CHECK(call.ListActions<StorePlans>().empty());
+    CHECK(call.GetDelayOrNull(EEngineTimer::StoreRetry) == parts.engine.options.storeRetry);
+    parts.BeginCall();
+    CHECK_FALSE(parts.engine.backlog.IsFailing());
+    CHECK(parts.engine.transaction.IsDispatchNeeded());
+    CHECK(parts.CommitCall().ListChanges<AlarmCleared>().size() == 1);
+    static_cast<void>(parts.EndStore(false));
+    CHECK(parts.engine.backlog.IsFailing());
+    CHECK(parts.engine.alarms.GetAlarms().size() == 1);
+}
