@@ -16,6 +16,7 @@ namespace ACS::Planning
 
 Dispatcher::Dispatcher(EngineState& engine, const TrafficCoordinator& coordinator)
     : _admission(engine.admission),
+      _blocks(engine.blocks),
       _fleet(engine.fleet),
       _transaction(engine.transaction),
       _coordinator(coordinator),
@@ -88,6 +89,29 @@ Robot* Dispatcher::FindNearestOrNull(ActivePlan& plan, const std::vector<Robot*>
     choice.bAll =
         choice.bAll && std::ranges::all_of(choice.left, isSuitable) && std::ranges::all_of(choice.supposed, isSuitable);
     return choice.bAll ? &_fleet[plan.resolved.candidates.front()] : nullptr;
+}
+
+bool Dispatcher::IsPromising(const ActivePlan& plan, const std::vector<Robot*>& freeRobots) const
+{
+    std::string_view judgedID; // mostly the free robots of a plan have the same vehicle type
+    bool bBlocked = false;
+    return std::ranges::any_of(freeRobots, [&](const Robot* robot) {
+        if (const std::string_view typeID = robot->options->vehicleTypeID; typeID != judgedID)
+        {
+            judgedID = typeID;
+            bBlocked = IsBlocked(plan, typeID);
+        }
+        return !bBlocked && !HasKnownRejection(plan, *robot);
+    });
+}
+
+bool Dispatcher::IsBlocked(const ActivePlan& plan, std::string_view vehicleTypeID) const
+{
+    return !_blocks.IsEmpty()
+        && std::ranges::any_of(plan.resolved.steps, [this, vehicleTypeID](const ResolvedStep& step) {
+               const std::optional<std::size_t> dock = _admission.FindDockOrNull(step.stationID, vehicleTypeID);
+               return dock.has_value() && _blocks.FindOfTargetOrNull(step.stationID, *dock) != nullptr;
+           });
 }
 
 bool Dispatcher::IsKnownToHaveCarriers(const ActivePlan& plan, Robot& robot, Choice& choice) const

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ACS::Planning
@@ -26,6 +27,7 @@ class Dispatcher
     };
 
     const PlanAdmission& _admission;
+    const BlockBook& _blocks;
     Fleet& _fleet;
     EngineTransaction& _transaction;
     const TrafficCoordinator& _coordinator;
@@ -40,6 +42,8 @@ public:
     [[nodiscard]] Robot* FindNearestOrNull(ActivePlan& plan);
     /// As above, with the list of FreeRobots for the plan's candidates.
     [[nodiscard]] Robot* FindNearestOrNull(ActivePlan& plan, const std::vector<Robot*>& freeRobots);
+    /// False: FindNearestOrNull finds none of these robots, because of a blocked station or of known rejections.
+    [[nodiscard]] bool IsPromising(const ActivePlan& plan, const std::vector<Robot*>& freeRobots) const;
     [[nodiscard]] const PortCheck& GetPorts() const noexcept;
     /// Whether a route leads to the plan's first station, as if nothing was blocked.
     [[nodiscard]] bool HasWay(const ActivePlan& plan, const Robot& robot) const;
@@ -55,6 +59,8 @@ public:
     [[nodiscard]] std::string DescribeRejections(const ActivePlan& plan) const;
 
 private:
+    /// Whether a station of the plan is blocked, or its dock for this vehicle type.
+    [[nodiscard]] bool IsBlocked(const ActivePlan& plan, std::string_view vehicleTypeID) const;
     /// Whether the robot has rejected a job of the plan and its check has not changed since.
     [[nodiscard]] static bool HasKnownRejection(const ActivePlan& plan, const Robot& robot);
     /// False: notes the robot among the supposed ones, or that not all are suitable.

@@ -34,7 +34,7 @@ std::optional<QueuePass::Choice> QueuePass::FindNextOrNull()
             break;
         }
         // Others cost no search for a route.
-        _seen += _free.List(firstOrNull->resolved.candidates).empty() ? 0U : 1U;
+        _seen += _dispatcher.IsPromising(*firstOrNull, _free.List(firstOrNull->resolved.candidates)) ? 1U : 0U;
         Robot* const robotOrNull = FindRobotOrNull(*firstOrNull);
         if (robotOrNull == nullptr)
         {
@@ -63,7 +63,8 @@ Robot* QueuePass::FindRobotOrNull(ActivePlan& plan)
     }
     KeepRobots(plan);
     const std::vector<Robot*>& robots = _free.List(plan.resolved.candidates);
-    Robot* const robotOrNull = robots.empty() ? nullptr : _dispatcher.FindNearestOrNull(plan, robots);
+    Robot* const robotOrNull =
+        _dispatcher.IsPromising(plan, robots) ? _dispatcher.FindNearestOrNull(plan, robots) : nullptr;
     if (robotOrNull == nullptr || _stations.CanBegin(plan, *robotOrNull))
     {
         return robotOrNull;

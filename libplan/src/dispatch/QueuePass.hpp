@@ -33,7 +33,7 @@ private:
     StationForecast _stations;
     std::vector<std::pair<const ActivePlan*, const Robot*>> _passedOver; ///< With the robots that they would have got.
     const ActivePlan* _lastOrNull = nullptr;                             ///< All plans up to this one are decided.
-    std::size_t _seen = 0;                                               ///< Number of plans that were judged.
+    std::size_t _seen = 0;  ///< Number of plans for which a robot was looked for.
     std::size_t _taken = 0; ///< Number of plans passed over although there was a robot.
 
 public:

@@ -5,6 +5,8 @@
 #include "fixtures/PlanWorldSteps.hpp"
 
 #include <chrono>
+#include <memory>
+#include <optional>
 #include <string>
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
@@ -20,6 +22,15 @@ EngineOptions MakeOptions(std::chrono::milliseconds overtaking)
     options.queueOvertaking = overtaking;
     return options;
 }
+
+/// Rejects jobs at A01.CP01.
+struct OneStationCheck final : IJobCheck
+{
+    [[nodiscard]] std::optional<std::string> GetRejectionReasonOrNull(const StartJob& job) const override
+    {
+        return job.position == "A01.CP01" ? std::optional<std::string>("too heavy") : std::nullopt;
+    }
+};
 
 /// LR01 is on its parking position. The map is one-way: of the stations A01.CP01 is the nearest, A01.CP05 is far.
 struct QueuePassFixture
@@ -88,6 +99,35 @@ TEST_CASE("QueuePass: plans without a free robot do not count for the limit of a
     last.priority.reset();
     fixture.parts.Add(last);
     CHECK(fixture.Run() == Lines{"CR CR01"});
+}
+
+TEST_CASE("QueuePass: plans with a blocked station do not count for the limit of a pass")
+{
+    QueuePassFixture fixture(0ms);
+    const bool bStation = GENERATE(true, false);
+    fixture.parts.engine.blocks.Add(
+        {bStation ? EBlockKind::Station : EBlockKind::Node, bStation ? "A01.CP01" : "D-A01.CP01", "oil", {}});
+    fixture.parts.coordinator.OnBlocksChanged();
+    for (int i = 0; i < 1'000; ++i)
+    {
+        fixture.Add("from-" + std::to_string(i), "A01.CP01", "A02.CP03");
+        fixture.Add("to-" + std::to_string(i), "A01.CP02", "A01.CP01");
+    }
+    fixture.Add("open", "A01.CP05", "A02.CP04");
+    CHECK(fixture.Run() == Lines{"open LR01"});
+}
+
+TEST_CASE("QueuePass: plans that are known to be rejected by the free robots do not count for the limit of a pass")
+{
+    QueuePassFixture fixture(0ms);
+    fixture.parts.lr.view.jobCheck = std::make_shared<const OneStationCheck>();
+    for (int i = 0; i < 1'000; ++i)
+    {
+        fixture.Add("heavy-" + std::to_string(i), "A01.CP01", "A02.CP03");
+    }
+    fixture.Add("open", "A01.CP05", "A02.CP04");
+    CHECK(fixture.Run() == Lines{}); // the check is asked for each plan
+    CHECK(fixture.Run() == Lines{"open LR01"});
 }
 
 TEST_CASE("queue.overtaking: the robot gets the plan with the shortest empty drive")
