@@ -293,6 +293,7 @@ void PlanEngine::Impl::OnState(Robot& robot, const StateChanged& event)
     const bool bBack = bFirst || (!robot.view.state->bAutomatic && event.bAutomatic);
     const bool bErrorsChanged = !bFirst && robot.view.state->errors != event.errors;
     robot.view.state = MakeValidState(event, robot.view.state);
+    robot.view.bHadPose = robot.view.bHadPose || robot.view.state->bPoseKnown;
     ErrorWatch(_engine).CompareErrors(robot);
     if (bBack || bErrorsChanged)
     {

@@ -17,6 +17,7 @@ struct RobotView
 {
     bool bOnline = false;
     std::optional<StateChanged> state;         ///< Since the connection; nullopt until the first.
+    bool bHadPose = false;                     ///< A state had a pose, also one before the connection.
     std::shared_ptr<const IJobCheck> jobCheck; ///< Null: no job is rejected.
     bool bInMaintenance = false;
     std::string incompatibility; ///< Empty: the robot can carry out what it is commanded.

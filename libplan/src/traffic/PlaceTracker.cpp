@@ -48,7 +48,7 @@ void PlaceTracker::Place(Robot& robot)
     const std::vector<std::size_t> claim = ListClaimed(robot, *node);
     std::vector<std::size_t> ahead = FindNodesAhead(
         _site,
-        robot.view.state,
+        IsPoseLost(robot, robot.view.state->lastNodeID) ? std::nullopt : robot.view.state,
         *node,
         node == robot.place.node ? robot.place.aheadNodes : ListPossibleAhead(robot, *node));
     if (ahead.empty())
@@ -154,6 +154,12 @@ std::optional<std::size_t> PlaceTracker::GetHeadingOrNull(const Robot& robot, st
 {
     const bool bKnown = robot.view.state.has_value() && robot.view.state->bPoseKnown && !robot.view.state->bDriving;
     return bKnown && ahead.size() == 1 ? std::optional(ahead.front()) : std::nullopt;
+}
+
+bool PlaceTracker::IsPoseLost(const Robot& robot, std::string_view nodeID)
+{
+    const std::optional<StateChanged>& state = robot.view.state;
+    return state.has_value() && !state->bPoseKnown && (robot.view.bHadPose || state->lastNodeID != nodeID);
 }
 
 std::vector<std::size_t> PlaceTracker::ListClaimed(const Robot& robot, std::size_t node) const

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ACS::Planning
@@ -31,6 +32,9 @@ public:
     [[nodiscard]] static std::optional<std::size_t> GetHeadingOrNull(
         const Robot& robot,
         std::span<const std::size_t> ahead);
+    /// Whether the robot, whose last known node is this one, may be anywhere on the nodes ahead: its state has no pose, and either
+    /// another last node, or there was a pose before. The nodes are held as without a state, until it has a pose.
+    [[nodiscard]] static bool IsPoseLost(const Robot& robot, std::string_view nodeID);
     /// Updates whether the robot can drive; one that cannot is a fixed obstacle.
     void NoteMovable(const Robot& robot);
     /// The same of all robots.

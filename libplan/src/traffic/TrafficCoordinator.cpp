@@ -391,12 +391,14 @@ void TrafficCoordinator::EndDrive(Robot& robot)
     {
         _answers.StopConfirming(robot);
     }
+    const std::optional<StateChanged> stateOrNull =
+        PlaceTracker::IsPoseLost(robot, drive.route.nodes[drive.passed].nodeID) ? std::nullopt : robot.view.state;
     const std::size_t begin = drive.passed + 1;
     if (!drive.bConfirmed)
     {
         robot.place.aheadNodes = FindNodesAhead(
             _site,
-            robot.view.state,
+            stateOrNull,
             *robot.place.node,
             robot.place.aheadNodes); // of the previous drive: the robot never had this one
     }
@@ -404,7 +406,7 @@ void TrafficCoordinator::EndDrive(Robot& robot)
     {
         robot.place.aheadNodes = FindNodesAhead(
             _site,
-            robot.view.state,
+            stateOrNull,
             *robot.place.node,
             std::span(drive.nodes).subspan(begin, drive.grantedCount - begin));
     }

@@ -3,7 +3,9 @@
 #include <chrono>
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
+using ACS::Testing::BeginPlan;
 using ACS::Testing::MakeControlPlan;
+using ACS::Testing::MakeLogisticsPlan;
 using ACS::Testing::MakeTestOptions;
 using ACS::Testing::MakeTestSite;
 using ACS::Testing::PlanWorld;
@@ -163,4 +165,33 @@ TEST_CASE("The nodes where a robot may be are kept over several restarts")
     RestartAlone(world);
     CHECK_FALSE(IsBegun(world));
     CHECK(GetKept(world) == Nodes{"L01", "L02"});
+}
+
+TEST_CASE("A robot that was switched off in a drive and has no pose after it keeps its nodes until it has one")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
+    REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").GetOccupied() == Nodes{"L02", "L03"}; }));
+    const auto listReserved = [&world] {
+        return world.engine->GetRobotRoutes().front().reservedNodeIDs;
+    };
+    const Nodes reserved = listReserved();
+    REQUIRE(reserved.size() > 1);
+    StateChanged state;
+    state.lastNodeID = "L02";
+    state.bAutomatic = false;
+    world.Raise("LR01", LinkChanged{false});
+    world.Raise("LR01", LinkChanged{true});
+    world.Raise("LR01", state);
+    world.Raise("LR01", DriveRejected{world.driveIDs.at("LR01"), "it was switched off"});
+    CHECK(listReserved() == reserved);
+    world.Raise("LR01", state);
+    CHECK(listReserved() == reserved);
+    const SiteMap site = MakeTestSite();
+    const SiteNode& node = site.GetNodes()[*site.FindNodeIndexOrNull("L02")];
+    state.bPoseKnown = true;
+    state.x = node.x;
+    state.y = node.y;
+    world.Raise("LR01", state);
+    CHECK(listReserved() == Nodes{"L02"});
 }

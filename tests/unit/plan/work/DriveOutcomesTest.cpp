@@ -3,6 +3,10 @@
 #include "Catch.hpp"
 #include "fixtures/EngineParts.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 using namespace ACS::Testing;  // NOLINT(google-build-using-namespace): its fixtures
 
@@ -161,4 +165,48 @@ TEST_CASE(
     const CallOutcome outcome = parts.Collect();
     CHECK(outcome.ListSetAlarms() == std::vector<std::string>{"ACS-1003"});
     CHECK(outcome.ListClearedAlarms().empty());
+}
+
+TEST_CASE("DriveOutcomes: a robot that loses its drive and its position together keeps all nodes of its base")
+{
+    DriveParts parts;
+    parts.BeginDriveToLoad();
+    parts.drives.OnNodePassed(parts.lr, NodePassed{parts.GetDriveID(), "D-CHG01"});
+    const ActiveDrive& drive = *parts.lr.drive;
+    const std::vector<std::size_t> granted(
+        drive.nodes.begin(),
+        drive.nodes.begin() + static_cast<std::ptrdiff_t>(drive.grantedCount));
+    REQUIRE(granted.size() > 2);
+    const auto countHeld = [&parts, &granted] {
+        return static_cast<std::size_t>(std::ranges::count_if(granted, [&parts](std::size_t node) {
+            return parts.places.GetTraffic().GetHolderOrNull(node) == 0U;
+        }));
+    };
+    std::size_t held = granted.size();
+    StateChanged& state = *parts.lr.view.state;
+    state.bPoseKnown = false;
+    SECTION("it has forgotten its last node")
+    {
+        state.lastNodeID.clear();
+    }
+    SECTION("it knows its last node, and had a pose before")
+    {
+        parts.lr.view.bHadPose = true;
+    }
+    SECTION("it is line-guided: it never has a pose")
+    {
+        held = 1;
+    }
+    parts.drives.OnDriveRejected(parts.lr, DriveRejected{parts.GetDriveID(), "lost"});
+    CHECK(countHeld() == held);
+    parts.places.Place(parts.lr);
+    CHECK(countHeld() == held);
+    const SiteNode& node = parts.engine.site.GetNodes()[granted.front()];
+    state.lastNodeID = node.nodeID;
+    state.bPoseKnown = true;
+    state.x = node.x;
+    state.y = node.y;
+    parts.places.Place(parts.lr);
+    CHECK(countHeld() == 1);
+    CHECK(parts.lr.place.bPlaced);
 }
