@@ -20,8 +20,29 @@ bool IsOn(const StateChanged& state, const SiteNode& node, const SiteNode& next)
     return std::hypot(state.x - node.x, state.y - node.y) <= std::min(STAND_TOLERANCE, GetDistance(node, next) / 4);
 }
 
-/// Between the two nodes, and no longer on the first.
-bool IsBetween(const StateChanged& state, const SiteNode& from, const SiteNode& to)
+/// Maximum distance in metres from the line of the edge at which a robot is on the edge: it may leave it in a corridor.
+double GetEdgeTolerance(const SiteEdge& edge)
+{
+    return edge.corridor.has_value() ? STAND_TOLERANCE + std::max(edge.corridor->leftWidth, edge.corridor->rightWidth)
+                                     : STAND_TOLERANCE;
+}
+
+/// The largest one of the edges from a node to the other.
+double GetTolerance(const SiteMap& site, const SiteNode& from, const SiteNode& to)
+{
+    double tolerance = STAND_TOLERANCE;
+    for (const SiteEdge& edge : site.GetEdges())
+    {
+        if (edge.startNodeID == from.nodeID && edge.endNodeID == to.nodeID)
+        {
+            tolerance = std::max(tolerance, GetEdgeTolerance(edge));
+        }
+    }
+    return tolerance;
+}
+
+/// Between the two nodes, at most this distance beside the line, and no longer on the first.
+bool IsBetween(const StateChanged& state, const SiteNode& from, const SiteNode& to, double mostBeside)
 {
     const double length = GetDistance(from, to);
     if (length <= 0)
@@ -33,21 +54,22 @@ bool IsBetween(const StateChanged& state, const SiteNode& from, const SiteNode& 
     const double along = (x * (to.x - from.x) + y * (to.y - from.y)) / length;
     const double beside = std::abs(x * (to.y - from.y) - y * (to.x - from.x)) / length;
     const double tolerance = std::min(STAND_TOLERANCE, length / 4);
-    return along > tolerance && along <= length + tolerance && beside <= STAND_TOLERANCE;
+    return along > tolerance && along <= length + tolerance && beside <= mostBeside;
 }
 
 /// Whether the robot may be on a curve of the edge: a curve is inside the box of its control points.
 bool IsNearCurve(const StateChanged& state, const SiteEdge& edge)
 {
-    return std::ranges::any_of(edge.rules, [&state](const SiteEdgeRule& rule) {
+    const double tolerance = GetEdgeTolerance(edge);
+    return std::ranges::any_of(edge.rules, [&state, tolerance](const SiteEdgeRule& rule) {
         if (!rule.trajectory.has_value())
         {
             return false;
         }
         const auto [left, right] = std::ranges::minmax(rule.trajectory->points, {}, &Core::CurvePoint::x);
         const auto [bottom, top] = std::ranges::minmax(rule.trajectory->points, {}, &Core::CurvePoint::y);
-        return state.x >= left.x - STAND_TOLERANCE && state.x <= right.x + STAND_TOLERANCE
-            && state.y >= bottom.y - STAND_TOLERANCE && state.y <= top.y + STAND_TOLERANCE;
+        return state.x >= left.x - tolerance && state.x <= right.x + tolerance && state.y >= bottom.y - tolerance
+            && state.y <= top.y + tolerance;
     });
 }
 
@@ -95,7 +117,7 @@ std::vector<std::size_t> FindNodesAhead(
     std::size_t from = node;
     for (const std::size_t next : ahead)
     {
-        if (IsBetween(*stateOrNull, nodes[from], nodes[next]))
+        if (IsBetween(*stateOrNull, nodes[from], nodes[next], GetTolerance(site, nodes[from], nodes[next])))
         {
             return from == node ? std::vector<std::size_t>{next} : std::vector<std::size_t>{from, next};
         }
@@ -125,7 +147,8 @@ std::vector<std::size_t> FindNodesBeside(const SiteMap& site, const StateChanged
         const std::string& otherID = edge.startNodeID == own.nodeID ? edge.endNodeID : edge.startNodeID;
         const std::size_t other = *site.FindNodeIndexOrNull(otherID);
         deviation = std::min(deviation, GetDistance(own, site.GetNodes()[other]) / 2);
-        const bool bBetween = IsBetween(state, own, site.GetNodes()[other]) || IsNearCurve(state, edge);
+        const bool bBetween =
+            IsBetween(state, own, site.GetNodes()[other], GetEdgeTolerance(edge)) || IsNearCurve(state, edge);
         if (bBetween && std::ranges::count(beside, other) == 0)
         {
             beside.push_back(other);

@@ -9,8 +9,8 @@ namespace
 
 using Indices = std::vector<std::size_t>;
 
-/// Three nodes, 10 m apart on the x axis.
-SiteMap MakeLine()
+/// Three nodes, 10 m apart on the x axis. The first edge may have a corridor.
+SiteMap MakeLine(const std::optional<SiteCorridor>& corridorOrNull = std::nullopt)
 {
     std::vector<SiteNode> nodes(3);
     for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -18,7 +18,7 @@ SiteMap MakeLine()
         nodes[i].nodeID = std::string(1, static_cast<char>('A' + i));
         nodes[i].x = 10.0 * static_cast<double>(i);
     }
-    return *SiteMap::Create(nodes, {{"A>B", "A", "B", {}}, {"B>C", "B", "C", {}}}, {});
+    return *SiteMap::Create(nodes, {{"A>B", "A", "B", {}, corridorOrNull}, {"B>C", "B", "C", {}}}, {});
 }
 
 StateChanged MakeStopped(double x, double y = 0)
@@ -102,4 +102,36 @@ TEST_CASE(
     StateChanged driving = MakeStopped(5);
     driving.bDriving = true;
     CHECK(FindNodesBeside(line, driving, 0).empty());
+}
+
+TEST_CASE("A robot that is stationary beside the line, in the corridor of the edge, keeps the nodes of the edge")
+{
+    const Indices ahead{1, 2};
+    const StateChanged beside = MakeStopped(8, 1);
+    const SiteMap narrow = MakeLine();
+    CHECK(FindNodesAhead(narrow, beside, 0, ahead).empty());
+    CHECK(FindNodesBeside(narrow, beside, 0).empty());
+    const SiteMap wide = MakeLine(SiteCorridor{0.7, 1.5});
+    CHECK(FindNodesAhead(wide, beside, 0, ahead) == Indices{1});
+    CHECK(FindNodesBeside(wide, beside, 0) == Indices{1});
+    CHECK(FindNodesBeside(wide, beside, 1) == Indices{0});
+    CHECK(FindNodesAhead(wide, MakeStopped(8, 2.1), 0, ahead).empty());
+    CHECK(FindNodesAhead(wide, MakeStopped(15, 1), 0, ahead).empty());
+}
+
+TEST_CASE("A robot that is stationary beside a curve, in the corridor of the edge, keeps the nodes of the edge")
+{
+    SiteEdgeRule bent;
+    bent.vehicleTypeID = "lr";
+    bent.trajectory = ACS::Core::Nurbs{2, {0, 0, 0, 1, 1, 1}, {{0, 0, {}}, {5, 8, {}}, {10, 0, {}}}};
+    std::vector<SiteNode> nodes(2);
+    nodes[0].nodeID = "A";
+    nodes[0].rules = {{"lr", {}}};
+    nodes[1] = nodes[0];
+    nodes[1].nodeID = "B";
+    nodes[1].x = 10;
+    const SiteMap map = *SiteMap::Create(nodes, {{"A>B", "A", "B", {bent}, SiteCorridor{1.5, 1.5}}}, {});
+    CHECK(FindNodesAhead(map, MakeStopped(5, 9.5), 0, Indices{1}) == Indices{1});
+    CHECK(FindNodesBeside(map, MakeStopped(5, 9.5), 0) == Indices{1});
+    CHECK(FindNodesAhead(map, MakeStopped(5, 10.5), 0, Indices{1}).empty());
 }
