@@ -59,6 +59,12 @@ private:
         EProgress progress = EProgress::Asked;
         Answer answer;
         std::function<void(const Answer& answer)> onAnswer; ///< Empty: nothing waits for the answer.
+
+        Question(std::string questionHost, std::string questionPort)
+            : host(std::move(questionHost)),
+              port(std::move(questionPort))
+        {
+        }
     };
 
     boost::asio::any_io_executor _executor;
@@ -90,7 +96,7 @@ public:
         }
         if (!IsFor(host, port))
         {
-            _questionOrNull = std::shared_ptr<Question>(new Question{host, port, {}, {}, {}, {}});
+            _questionOrNull = std::make_shared<Question>(host, port);
             const ErrorCode error = StartThread(_questionOrNull);
             if (error.failed())
             {
@@ -108,7 +114,7 @@ public:
         }
         // The executor has work until then.
         _questionOrNull->onAnswer =
-            [executor = boost::asio::prefer(_executor, boost::asio::execution::outstanding_work.tracked),
+            [executor = boost::asio::prefer(_executor, boost::asio::execution::outstanding_work_t::tracked),
              handler = std::move(handler)](const Answer& answer) {
                 boost::asio::post(executor, [handler, answer] { handler(answer.error, answer.found); });
             };
