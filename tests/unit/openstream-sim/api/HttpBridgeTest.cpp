@@ -39,7 +39,6 @@ TEST_CASE("HTTP and Open Stream see the same controller")
 
 TEST_CASE("7.29 An encoded query is the same request over HTTP and Open Stream")
 {
-    constexpr const char* JOINTS = "/project/robot/joint_states";
     ControllerFixture fixture;
     for (const char* query :
          {"?%6Ano_start=%31&jno_n=1",
@@ -49,7 +48,7 @@ TEST_CASE("7.29 An encoded query is the same request over HTTP and Open Stream")
           "?jno_n=%2"})
     {
         INFO(query);
-        const std::string url = std::string(JOINTS) + query;
+        const std::string url = std::string("/project/robot/joint_states") + query;
         const ACS::Core::Result<HttpRequest> target = ACS::Apps::ParseHttpTarget(url);
         if (target.has_value()) // An invalid escape is no HTTP.
         {
