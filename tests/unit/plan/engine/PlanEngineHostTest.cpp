@@ -368,6 +368,9 @@ TEST_CASE_METHOD(HostTest, "A command of the operator that is refused after it h
     REQUIRE(_host.Offer(control, CommandReceipt{"lee", "abort", "accepted", {}}) == EInputAdmission::Accepted);
     _host.OnStored(Core::Fail(make_error_code(EPlanningError::StoreFailed), "store", "room", "disk full"));
     CHECK(ListReplies().back() == std::pair<ReplyToken, bool>{9, false});
+    _batches.clear();
+    _host.Push(EngineTimer{EEngineTimer::StoreRetry, {}}); // it writes all that was kept
+    REQUIRE_FALSE(_batches.empty());
     REQUIRE(TryStoreAll());
     for (const StoreBatch& batch : _batches)
     {
