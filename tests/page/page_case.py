@@ -60,6 +60,18 @@ class PageCase(unittest.TestCase):
         self.driver.get("about:blank")
         self.assertEqual(log, [])
 
+    def hold_answers(self):
+        """Returns the event that lets acsd execute commands."""
+        may_answer, post = threading.Event(), self.mock.post
+        self.addCleanup(may_answer.set)
+
+        def answer_late(*arguments):
+            may_answer.wait()
+            return post(*arguments)
+
+        self.mock.post = answer_late
+        return may_answer
+
     def start_mock(self, **options):
         self.mock = MockAcsd(**options)
         self.enterContext(self.mock)

@@ -1,7 +1,5 @@
 """Commands whose answer is lost: each has its effect once."""
 
-import threading
-
 from mock_acsd import Refusal
 from mock_answers import send_bad_gateway, send_cut, send_page, send_refusal_of_proxy
 from page_case import PageCase, wait_until
@@ -162,14 +160,7 @@ class Commands(PageCase):
 
     def test_the_button_of_a_command_that_runs(self):
         """It is disabled wherever the command is shown, also in a detail that is opened meanwhile."""
-        may_answer, post = threading.Event(), self.mock.post
-        self.addCleanup(may_answer.set)
-
-        def answer_late(*arguments):
-            may_answer.wait()
-            return post(*arguments)
-
-        self.mock.post = answer_late
+        may_answer = self.hold_answers()
         self.open()
         self.click("#tab-system")
         self.wait_for_text("#view-system", "Pause TSC")

@@ -1,7 +1,5 @@
 """Buttons and links stay while what is around them changes: with the focus, a click that has begun, and a command that runs."""
 
-import threading
-
 from mock_floor import format_time, get_now
 from page_case import PageCase, wait_until
 from selenium.webdriver.common.keys import Keys
@@ -61,18 +59,6 @@ class Stability(PageCase):
         place = self.run_script("const box = window.focused.getBoundingClientRect();"
                                 "return [box.left + box.width / 2, box.top + box.height / 2]")
         self.move_mouse("mouseReleased", place)
-
-    def hold_answers(self):
-        """Returns the event that lets acsd execute commands."""
-        may_answer, post = threading.Event(), self.mock.post
-        self.addCleanup(may_answer.set)
-
-        def answer_late(*arguments):
-            may_answer.wait()
-            return post(*arguments)
-
-        self.mock.post = answer_late
-        return may_answer
 
     def check_it_runs(self, change, may_answer):
         """The button with the focus is still disabled after the change, until acsd has answered."""

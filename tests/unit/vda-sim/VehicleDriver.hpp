@@ -126,6 +126,19 @@ public:
         Send(Take(route.MakeOrder(3)));
     }
 
+    /// initPosition with N0 as the last node.
+    void SendPositionAtN0(const std::string& actionID, double x, double theta)
+    {
+        SendInstantly(
+            VDA5050::ActionTypes::INIT_POSITION,
+            actionID,
+            {{"x", Core::JsonText::FromNumber(x)},
+             {"y", Core::JsonText::FromNumber(0.0)},
+             {"theta", Core::JsonText::FromNumber(theta)},
+             {"mapId", Core::JsonText::FromString("floor")},
+             {"lastNodeId", Core::JsonText::FromString("N0")}});
+    }
+
     /// The order of the route, its second node with this action on it.
     [[nodiscard]] VDA5050::OrderMessage MakeOrderWith(std::string_view actionType, const std::string& actionID)
     {

@@ -190,14 +190,7 @@ TEST_CASE("lost: the vehicle is not localized and refuses orders until initPosit
     CHECK(FindErrorOrNull(driver.GetState(), VDA5050::ErrorTypes::NO_ROUTE_ERROR) != nullptr);
     driver.SendInstantly("initPosition", "half", {{"x", Core::JsonText::FromNumber(0.25)}});
     CHECK(driver.GetStatus("half") == EActionStatus::Failed);
-    driver.SendInstantly(
-        "initPosition",
-        "whole",
-        {{"x", Core::JsonText::FromNumber(0.25)},
-         {"y", Core::JsonText::FromNumber(0.0)},
-         {"theta", Core::JsonText::FromNumber(1.0)},
-         {"mapId", Core::JsonText::FromString("floor")},
-         {"lastNodeId", Core::JsonText::FromString("N0")}});
+    driver.SendPositionAtN0("whole", 0.25, 1.0);
     CHECK(driver.GetState().agvPosition->bPositionInitialized);
     CHECK(driver.GetState().agvPosition->x == 0.25);
     driver.Pass(2s);
@@ -229,14 +222,7 @@ TEST_CASE("lost while driving: a cancel ends where the vehicle stopped, and init
     CHECK(driver.GetStatus(cancelID) == EActionStatus::Finished);
     CHECK(driver.GetState().nodeStates.empty());
     CHECK(driver.GetState().lastNodeID == "N0");
-    driver.SendInstantly(
-        "initPosition",
-        "init",
-        {{"x", Core::JsonText::FromNumber(0.0)},
-         {"y", Core::JsonText::FromNumber(0.0)},
-         {"theta", Core::JsonText::FromNumber(0.0)},
-         {"mapId", Core::JsonText::FromString("floor")},
-         {"lastNodeId", Core::JsonText::FromString("N0")}});
+    driver.SendPositionAtN0("init", 0.0, 0.0);
     driver.Pass(2s);
     CHECK(driver.GetStatus("init") == EActionStatus::Finished);
     driver.SendRoute("order-2");

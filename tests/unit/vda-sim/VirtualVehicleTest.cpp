@@ -138,14 +138,7 @@ TEST_CASE("6.6 The speed at a node is limited by the next edge and by the brakin
         const double speed = driver.GetSpeed();
         driver.Pass(120s);
         CHECK(driver.GetState().lastNodeID == "N2");
-        driver.SendInstantly(
-            VDA5050::ActionTypes::INIT_POSITION,
-            orderID + "-back",
-            {{"x", Core::JsonText::FromNumber(0.0)},
-             {"y", Core::JsonText::FromNumber(0.0)},
-             {"theta", Core::JsonText::FromNumber(0.0)},
-             {"mapId", Core::JsonText::FromString("floor")},
-             {"lastNodeId", Core::JsonText::FromString("N0")}});
+        driver.SendPositionAtN0(orderID + "-back", 0.0, 0.0);
         driver.Pass(2s);
         return speed;
     };

@@ -22,21 +22,6 @@ void ClearOrder(StateMessage& state)
     state.actionStates.clear();
 }
 
-/// An accepted order with one node and an action, which the vehicle shows as running.
-OrderMessage SendNodeOrder(MasterSessionFixture& bench)
-{
-    bench.BeReady();
-    OrderMessage order = MakeOrder(1, 1);
-    order.nodes[0].actions.push_back(MakeAction("a1", EBlockingType::Hard));
-    REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
-    bench.Hold(order, 0);
-    bench.state.actionStates = {ActionState{"a1", "pick", {}, EActionStatus::Running, {}}};
-    bench.SendState();
-    REQUIRE(bench.session.GetOrderPhase() == EOrderPhase::Active);
-    bench.Clear();
-    return order;
-}
-
 } // namespace
 
 TEST_CASE("6.10 An order is finished if the vehicle shows its last node and no orderId any more")
@@ -76,7 +61,7 @@ TEST_CASE("6.10 An order with more nodes to come is lost if the vehicle shows no
 TEST_CASE("6.10 An order with one node and without an orderId is finished only if the end of its actions was shown")
 {
     MasterSessionFixture bench;
-    SendNodeOrder(bench);
+    SendOrderWithAction(bench, 1, EActionStatus::Running);
     const bool bShown = GENERATE(true, false);
     ActionState ended = bench.state.actionStates[0];
     ended.actionStatus = EActionStatus::Finished;

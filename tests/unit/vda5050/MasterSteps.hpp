@@ -2,24 +2,31 @@
 
 #include "MasterSessionFixture.hpp"
 
+#include <cstddef>
 #include <string>
 
 namespace ACS::VDA5050::Test
 {
 
-/// An accepted order over three nodes with an action on the last.
-inline OrderMessage SendFirstOrder(MasterSessionFixture& bench)
+/// An accepted order over this number of nodes with an action on the last, which the vehicle shows with this status.
+inline OrderMessage SendOrderWithAction(MasterSessionFixture& bench, std::size_t nodeCount, EActionStatus status)
 {
     bench.BeReady();
-    OrderMessage order = MakeOrder(3, 3);
-    order.nodes[2].actions.push_back(MakeAction("a1", EBlockingType::Hard));
+    OrderMessage order = MakeOrder(nodeCount, nodeCount);
+    order.nodes.back().actions.push_back(MakeAction("a1", EBlockingType::Hard));
     REQUIRE(bench.session.SendOrder(order, bench.GetNow(), bench.Clear()).has_value());
-    bench.Hold(order, 2);
-    bench.state.actionStates = {ActionState{"a1", "pick", {}, EActionStatus::Waiting, {}}};
+    bench.Hold(order, nodeCount - 1);
+    bench.state.actionStates = {ActionState{"a1", "pick", {}, status, {}}};
     bench.SendState();
     REQUIRE(bench.session.GetOrderPhase() == EOrderPhase::Active);
     bench.Clear();
     return order;
+}
+
+/// An accepted order over three nodes with an action on the last.
+inline OrderMessage SendFirstOrder(MasterSessionFixture& bench)
+{
+    return SendOrderWithAction(bench, 3, EActionStatus::Waiting);
 }
 
 inline std::string CancelOrder(MasterSessionFixture& bench)

@@ -1,6 +1,7 @@
 #include "VehicleSessionFixture.hpp"
 
 #include "Catch.hpp"
+#include <acs/vda5050/PredefinedActions.hpp>
 #include <acs/vda5050/Vda5050Codec.hpp>
 
 #include <algorithm>
@@ -15,6 +16,13 @@ VehicleOptions VehicleSessionFixture::MakeOptions()
     options.address = MakeAddress();
     options.initialNodeID = "N0";
     options.minimumStateInterval = std::chrono::milliseconds(0);
+    return options;
+}
+
+VehicleOptions VehicleSessionFixture::MakeOptionsOfStandard()
+{
+    VehicleOptions options = MakeOptions();
+    options.factsheet.protocolFeatures.agvActions = GetPredefinedActions();
     return options;
 }
 

@@ -30,6 +30,8 @@ public:
     ~VehicleSessionFixture(); ///< As Clear: what was published is checked against the schemas.
 
     [[nodiscard]] static VehicleOptions MakeOptions();
+    /// With every action of the standard.
+    [[nodiscard]] static VehicleOptions MakeOptionsOfStandard();
 
     [[nodiscard]] VehicleSession& GetSession();
     [[nodiscard]] Core::Now GetNow() const;
