@@ -15,6 +15,7 @@ using Protocol::ESessionTimer;
 using Fixture = Testing::AcsSessionFixture;
 using Testing::MakeAckText;
 using Testing::MakeOptions;
+using Testing::MakeStatus;
 
 namespace
 {
@@ -23,7 +24,7 @@ void SendStatuses(Fixture& bench, const std::vector<std::string>& robotIDs)
 {
     for (const std::string& robotID : robotIDs)
     {
-        const Protocol::AcsPayload status = Testing::MakeStatus(robotID, Protocol::ERobotStatus::Moving);
+        const Protocol::AcsPayload status = MakeStatus(robotID, Protocol::ERobotStatus::Moving);
         bench.session.SendStatus(status, bench.clock.GetNow(), bench.recorder.out);
     }
 }
