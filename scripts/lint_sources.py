@@ -28,6 +28,8 @@ ELSEWHERE = ("tests/fuzz/", "tests/install/", "tests/style/bad/", "tests/unit/co
 CACHE = os.path.join(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"), "acs-lint")
 QUERIES = os.path.join("scripts", "house-rules.clang-query")
 MAX_BUNDLE = 32
+# So few are also compiled alone: in a bundle, or in a unity build, a source could use what another one declares or includes.
+MAX_COMPILED_ALONE = 64
 # Where the static analyzer looks: at what others link and, if asked, at the programs.
 ANALYZED = ("lib",)
 ANALYZED_DEEP = ("lib", "apps/", "examples/")
@@ -43,9 +45,13 @@ CODE_OPTION = re.compile(r"-fPIC|-fPIE|-fvisibility.*|-O\d")
 ENTRY_POINT = re.compile(r'^int (main)\(|^extern "C" int (LLVMFuzzerTestOneInput)\(', re.MULTILINE)
 CHECKED_MAIN = re.compile(r"^int main\((?!.*NOLINT)", re.MULTILINE)
 QUOTED_INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
-BROKEN_SOURCE = re.compile(r"^(\S+?):\d+:\d+: (?:fatal )?error: .*\[clang-diagnostic-error\b", re.MULTILINE)
+FAULTY_FILE = re.compile(r"^(.+?):\d+:\d+: (?:fatal )?error: ", re.MULTILINE)
+COMPLAINT = re.compile(r"^(.+?):\d+:\d+: (?:fatal )?(?:error|warning): .*$", re.MULTILINE)
+# What is included counts as a header in a bundle.
+FALSE_COMPLAINT = re.compile(r"\.cpp:.*\[google-global-names-in-headers\b")
 # What changes no answer.
 COMMENT = re.compile(r"^[ \t]*//(?!.*NOLINT).*\n|[ \t]*///<(?!.*NOLINT).*", re.MULTILINE)
+BREACH = re.compile(r"^(.+?):(\d+:\d+): note: \"root\" binds here\n(.*)$", re.MULTILINE)
 BROKEN_QUERY = re.compile(r"Error (?:parsing|building)|Matcher not found|Invalid token|unknown command", re.IGNORECASE)
 
 
@@ -53,8 +59,8 @@ class Fingerprints:
     def __init__(self):
         files = list_files(ROOT)
         self._resolver = IncludeResolver([path for path in files if path.endswith(CPP_SUFFIXES)])
-        rules = [path for path in files if os.path.basename(path) == ".clang-tidy"] + [QUERIES]
-        self._rules = "\0".join(read_text(ROOT, path) for path in rules)
+        self._rules = {os.path.dirname(path): read_text(ROOT, path) for path in files if os.path.basename(path) == ".clang-tidy"}
+        self._queries = read_text(ROOT, QUERIES)
         self._includes = {}
 
     def _get_includes(self, path):
@@ -63,6 +69,11 @@ class Fingerprints:
                      for _, quoted, name in list_includes(read_text(ROOT, path))]
             self._includes[path] = [target for target in found if target is not None]
         return self._includes[path]
+
+    def _get_rules(self, path):
+        """Of the folders above, too."""
+        return "\0".join([self._queries, *(rules for folder, rules in sorted(self._rules.items())
+                                           if not folder or path.startswith(folder + "/"))])
 
     def make(self, path, command):
         seen = {path}
@@ -74,7 +85,7 @@ class Fingerprints:
                     waiting.append(target)
         # Word by word: a clone in a folder with a space in its name has quotes that mean nothing.
         words = " ".join(shlex.split(command)).replace(ROOT, "")
-        digest = hashlib.sha256((self._rules + "\0" + words).encode())
+        digest = hashlib.sha256((self._get_rules(path) + "\0" + words).encode())
         for name in sorted(seen):
             digest.update((name + "\0" + COMMENT.sub("", read_text(ROOT, name))).encode())
         return digest.hexdigest()
@@ -87,13 +98,13 @@ def run(*command):
 
 
 class Source:
-    def __init__(self, path, command, stamp, is_analyzed, is_deep):
+    def __init__(self, path, command, stamp, is_analyzed, is_deep, is_compiled_alone):
         self.path = path
         self.full_path = os.path.join(ROOT, path)
         self.stamp = stamp
         self.complaint = ""
         self.is_analyzed = is_analyzed
-        self.is_deep = is_deep
+        self.is_compiled_alone = is_compiled_alone
         self.depth = () if is_deep else SHALLOW
         self.folders = []
         self.macros = {}
@@ -120,7 +131,6 @@ class Source:
                      *(folder for folder in self.get_folders() if os.path.exists(os.path.join(ROOT, folder, ".clang-tidy"))))
 
     def compiles_alone(self):
-        """In a bundle, or in a unity build, a source could use what another one declares or includes."""
         code, _ = run("clang++-14", "-fsyntax-only", "-w", *self.arguments, *get_options([self]), self.full_path)
         return code == 0
 
@@ -227,43 +237,64 @@ class Bundle:
                 file.writelines(source.get_text() for source in sources)
 
     def check(self):
-        """Whether it is clean, and the sources that do not compile behind the others, as when two have a helper of one name, or
-        without them."""
-        if self._sources[0].is_deep:
-            dependent = [source for source in self._sources if not source.compiles_alone()]
-            if dependent:
-                return False, dependent
+        """What passed, and the parts to check again: each source with a finding alone, and what does not compile behind or
+        without the others separately from them."""
+        misfits = [source for source in self._sources if source.is_compiled_alone and not source.compiles_alone()]
+        if misfits:
+            return [], self._separate(misfits)
+        _, output = run_queries(self._path, "--", *self._arguments, "-ferror-limit=0")
+        if FAULTY_FILE.search(output):
+            return [], self._separate(self._find_named(FAULTY_FILE.findall(output)))
+        if not has_run_queries(output):
+            return [], self._separate([])
+        suspects = {match[1] for match in BREACH.finditer(output)}
         code, output = run("clang-tidy-14", "--quiet", "--warnings-as-errors=*", "--checks=" + WITHOUT_ANALYZER,
                            f"--header-filter=^{re.escape(ROOT)}/(lib|apps/|examples/|tests/)", self._path, "--",
                            *self._arguments, "-ferror-limit=0")
-        broken = set(BROKEN_SOURCE.findall(output))
-        if broken:
-            return False, [source for source in self._sources if source.full_path in broken]
-        complaints = re.findall(r"^.*: (?:error|warning): .*$", output, re.MULTILINE)
-        # What is included counts as a header there.
-        true_complaints = [line for line in complaints
-                           if not re.search(r"\.cpp:.*\[google-global-names-in-headers\b", line)]
-        if true_complaints or (code != 0 and not complaints):
-            return False, []
-        if query(self._path, "--", *self._arguments):
-            return False, []
-        return not self._sources[0].is_analyzed or self._is_clean_to_analyzer(), []
+        suspects.update(find_complained(code, output))
+        if self._sources[0].is_analyzed:
+            code, output = run("clang-tidy-14", "--quiet", "--warnings-as-errors=*", "--checks=" + ONLY_ANALYZER,
+                               self._analyzed_path, "--", *self._arguments, *self._sources[0].depth)
+            suspects.update(find_complained(code, output))
+        suspected = self._find_named(suspects)
+        if len(suspected) < len(suspects):  # A header, for one.
+            return [], self._separate([])
+        return [source for source in self._sources if source not in suspected], [[source] for source in suspected]
 
-    def _is_clean_to_analyzer(self):
-        code, _ = run("clang-tidy-14", "--quiet", "--warnings-as-errors=*", "--checks=" + ONLY_ANALYZER, self._analyzed_path, "--",
-                      *self._arguments, *self._sources[0].depth)
-        return code == 0
+    def _find_named(self, paths):
+        paths = set(paths)
+        return [source for source in self._sources if source.full_path in paths]
+
+    def _separate(self, misfits):
+        """If nothing tells which are the misfits, the first half."""
+        misfits = misfits or self._sources[:len(self._sources) // 2]
+        if len(misfits) == len(self._sources):
+            misfits = misfits[1:]
+        return [misfits, [source for source in self._sources if source not in misfits]]
+
+
+def find_complained(code, output):
+    """The files of clang-tidy's findings; an empty name if it failed without any."""
+    complaints = list(COMPLAINT.finditer(output))
+    files = {match[1] for match in complaints if not FALSE_COMPLAINT.search(match[0])}
+    return files if complaints or code == 0 else {""}
+
+
+def run_queries(*arguments):
+    return run("clang-query-14", "-f", QUERIES, *arguments)
+
+
+def has_run_queries(output):
+    is_broken = BROKEN_QUERY.search(output) or ": error: " in output
+    return not is_broken and output.count(" matches.") + output.count(" match.") > 0
 
 
 def query(*arguments):
     """What breaks a house rule."""
-    complaint = ""
-    _, output = run("clang-query-14", "-f", QUERIES, *arguments)
-    places = re.findall(r"^(\S+:\d+:\d+): note: \"root\" binds here\n(.*)$", output, re.MULTILINE)
-    if BROKEN_QUERY.search(output) or ": error: " in output or output.count(" matches.") + output.count(" match.") == 0:
-        complaint += output
-    for place, line in dict.fromkeys(places):
-        complaint += f"{place}: breaks a rule of {QUERIES}: {line.strip()}\n"
+    _, output = run_queries(*arguments)
+    complaint = "" if has_run_queries(output) else output
+    for match in dict.fromkeys(BREACH.findall(output)):
+        complaint += f"{match[0]}:{match[1]}: breaks a rule of {QUERIES}: {match[2].strip()}\n"
     return complaint
 
 
@@ -275,7 +306,7 @@ def tidy(source):
 
 
 class Linter:
-    """Checks bundles of sources; if one is not clean, its halves, so that each finding is of a source that was checked
+    """Checks bundles of sources, and what is not clean in one again, so that each finding is of a source that was checked
     alone."""
 
     def __init__(self, pool, folder, progress):
@@ -304,15 +335,9 @@ class Linter:
             source.complaint += tidy(source) + query("-p", BUILD, source.full_path)
             self._progress(sources)
             return []
-        is_clean, misfits = Bundle(self._folder, next(self._numbers), sources).check()
-        if misfits:
-            others = [source for source in sources if source not in misfits] or [misfits.pop(0)]
-            return [part for part in (others, misfits) if part]
-        if not is_clean:
-            half = len(sources) // 2
-            return [sources[:half], sources[half:]]
-        self._progress(sources)
-        return []
+        passed, parts = Bundle(self._folder, next(self._numbers), sources).check()
+        self._progress(passed)
+        return parts
 
 
 def select(arguments):
@@ -334,13 +359,12 @@ def select(arguments):
         print("not compiled by a target of preset tidy, so not checked: " + ", ".join(sorted(unknown)))
     fingerprints = Fingerprints()
     analyzed = ANALYZED_DEEP if arguments.deep else ANALYZED
-    chosen = []
-    for path, command in sorted(commands.items()):
-        source = Source(path, command, os.path.join(CACHE, fingerprints.make(path, command)),
-                        path.startswith(analyzed), arguments.deep)
-        if arguments.all or arguments.deep or not os.path.exists(source.stamp):
-            chosen.append(source)
-    return chosen, len(commands), bool(unknown)
+    stamps = {path: os.path.join(CACHE, fingerprints.make(path, command)) for path, command in sorted(commands.items())}
+    chosen = [path for path, stamp in stamps.items() if arguments.all or arguments.deep or not os.path.exists(stamp)]
+    is_compiled_alone = arguments.deep or len(chosen) <= MAX_COMPILED_ALONE
+    sources = [Source(path, commands[path], stamps[path], path.startswith(analyzed), arguments.deep, is_compiled_alone)
+               for path in chosen]
+    return sources, len(commands), bool(unknown)
 
 
 def main():
