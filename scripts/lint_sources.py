@@ -266,7 +266,7 @@ class Bundle:
         return [source for source in self._sources if source.full_path in paths]
 
     def _separate(self, misfits):
-        """If nothing tells which are the misfits, the first half."""
+        """Without known misfits the first half is one part."""
         misfits = misfits or self._sources[:len(self._sources) // 2]
         if len(misfits) == len(self._sources):
             misfits = misfits[1:]
