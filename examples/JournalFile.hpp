@@ -1,12 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstddef>
 #include <fcntl.h>
 #include <filesystem>
-#include <fstream>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <sys/file.h>
@@ -36,13 +37,18 @@ public:
     [[nodiscard]] std::optional<std::vector<std::string>> OpenOrNull(const std::string& path)
     {
         std::signal(SIGXFSZ, SIG_IGN); // A limit of the file size is an error of write, like a full disk.
-        _file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, S_IRUSR | S_IWUSR);
+        _file = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, S_IRUSR | S_IWUSR);
         if (_file < 0 || ::flock(_file, LOCK_EX | LOCK_NB) != 0)
         {
             return std::nullopt;
         }
+        std::optional<std::string> textOrNull = ReadOrNull();
+        if (!textOrNull.has_value()) // Not a file without lines: it would be emptied below.
+        {
+            return std::nullopt;
+        }
         std::vector<std::string> lines;
-        std::ifstream old(path);
+        std::istringstream old(std::move(*textOrNull));
         for (std::string line; std::getline(old, line) && !old.eof();)
         {
             _wholeBytes += static_cast<off_t>(line.size() + 1);
@@ -71,6 +77,21 @@ public:
     }
 
 private:
+    [[nodiscard]] std::optional<std::string> ReadOrNull() const
+    {
+        std::string text;
+        std::array<char, 65'536> part{};
+        while (const ssize_t count = ::read(_file, part.data(), part.size()))
+        {
+            if (count < 0 && errno != EINTR)
+            {
+                return std::nullopt;
+            }
+            text.append(part.data(), count < 0 ? 0 : static_cast<std::size_t>(count));
+        }
+        return text;
+    }
+
     /// A new file survives the loss of power only if its folder is on the disk, too.
     [[nodiscard]] static bool TrySyncFolder(const std::string& path)
     {

@@ -23,6 +23,7 @@ from kill_case import make_expected
 
 SETTINGS = argparse.Namespace(kills=5, seed=1)
 MOST_REPORTS = 6  # between two kills
+UNPRIVILEGED = 65534
 HALF_A_LINE = b'{"command":"PlanReport","transactionId":"'
 
 
@@ -105,6 +106,25 @@ class McsJournal(JournalCase):
             ended = subprocess.run([self.bin_dir / "e20_mcs_journal", "0", file], stdout=subprocess.PIPE, text=True,
                                    timeout=FINISH_SECONDS, check=False)
             self.assertEqual((ended.returncode, ended.stdout), (2, f"{file}: the journal cannot be used: {reason}\n"))
+
+    def test_a_journal_that_cannot_be_read_is_left_as_it_is(self):
+        self.line.folder.chmod(0o711)
+        line = b'{"command":"PlanReportAck","transactionId":"1","result":"Success","message":""}\n'
+        self.journal_file.write_bytes(line)
+        self.journal_file.chmod(0o200)
+        options = {}
+        if os.geteuid() == 0:  # which may read each file
+            os.chown(self.journal_file, UNPRIVILEGED, UNPRIVILEGED)
+            options = {"user": UNPRIVILEGED, "group": UNPRIVILEGED, "extra_groups": []}
+        try:
+            ended = subprocess.run([self.bin_dir / "e20_mcs_journal", "0", self.journal_file], stdout=subprocess.PIPE, text=True,
+                                   timeout=FINISH_SECONDS, check=False, **options)
+        except PermissionError:
+            self.skipTest("another user cannot run the program")
+        self.journal_file.chmod(0o600)
+        self.assertEqual(self.journal_file.read_bytes(), line)
+        self.assertEqual((ended.returncode, ended.stdout),
+                         (2, f"{self.journal_file}: the journal cannot be used: Permission denied\n"))
 
     def test_an_invalid_plan_is_neither_written_nor_sent(self):
         self.start_mcs()
