@@ -76,12 +76,13 @@ public:
         return _reports.contains({GetCommand(report), report.transactionID});
     }
 
-    /// A report, a plan or the Ack of a plan. False if it cannot be written (see errno).
+    /// A report, a plan or the Ack of a plan. False if it cannot be written (see errno). An Ack ends its plan here even then:
+    /// the plan is sent again after a restart only.
     [[nodiscard]] bool TryAdd(ACS::Protocol::AcsMessage message)
     {
         ACS::Protocol::AcsCodec::Encode(message, _scratch);
         const bool bWritten = _file.TryAppend(_scratch);
-        if (bWritten)
+        if (bWritten || std::holds_alternative<ACS::Protocol::AcsAck>(message))
         {
             Remember(std::move(message));
         }

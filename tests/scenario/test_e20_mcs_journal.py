@@ -17,7 +17,7 @@ import sys
 import time
 
 from journal_line import FULL, JournalCase, get_key, is_report
-from scenario_case import FINISH_SECONDS
+from scenario_case import FINISH_SECONDS, ScenarioCase
 from scenario_case import main as run_tests
 from kill_case import make_expected
 
@@ -76,6 +76,24 @@ class McsJournal(JournalCase):
         sent = {get_key(message) for direction, message in self.read_trace() if direction == "out" and is_report(message)}
         self.assertEqual(set(map(get_key, self.journal.reports)), sent - refused)
         self.assertEqual(self.journal.get_reports("LR-0001"), make_expected(self.journal.plans["LR"][1]))
+
+    def test_a_plan_whose_ack_cannot_be_written_is_not_sent_again(self):
+        self.line.share_world()
+        self.arm = self.start_robots()
+        self.start_mcs()
+        self.write_plan("LR")
+        ScenarioCase.wait_until(self, lambda: self.journal.update() or self.journal.plans["LR"], "the plan is written")
+        self.limit_journal(0)
+        self.start_acsd()
+        unwritten = f"after a restart the plan is sent again: {FULL}"
+        self.wait_until(lambda: unwritten in self.mcs.tail(1000), "the plan has its Ack")
+        count = self.count_positions()
+        self.wait_until(lambda: self.count_positions() > count + 5, "further positions reach the MCS")
+        plans = [message for direction, message in self.read_trace() if direction == "in" and message["command"] == "ExecutionPlan"]
+        self.assertEqual(len(plans), 1)
+
+    def count_positions(self):
+        return sum(file.read_text(errors="replace").count("RobotPositionUpdate") for file in self.trace.glob("*"))
 
     def test_an_acs_without_the_token_gets_401(self):
         self.arm = self.start_robots()
