@@ -8,13 +8,15 @@
 //     e19_bridge 127.0.0.1 1883 V1 127.0.0.1 5000       (the broker, the serial number, the vehicle; Ctrl-C ends it)
 //
 // The bridge gives each command a number of its own: the ids of an order come from outside and could contain anything, also
-// a line end. After a lost connection it repeats the commands that have not ended; the vehicle executes a number once.
+// a line end. After a lost connection it repeats the commands that have not ended; the vehicle executes a number once. The
+// numbers grow across restarts of the bridge, because they begin with the milliseconds of the clock: each has 64 bits.
 // The lesson is longer than 150 lines because a bridge has two sides.
 
 #include "ExampleBroker.hpp"
 #include "ExampleClock.hpp"
 #include "ExampleRandom.hpp"
 #include "MakerLink.hpp"
+#include <acs/core/Now.hpp>
 #include <acs/core/Overloaded.hpp>
 #include <acs/vda5050/OrderValidator.hpp>
 #include <acs/vda5050/PredefinedActions.hpp>
@@ -29,6 +31,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
@@ -93,9 +96,9 @@ class Bridge final : public IVehicleHandler
     };
 
     std::map<std::uint64_t, Command> _commands; ///< Those that have not ended, by number.
-    std::uint64_t _lastNumber = 0;
-    bool _bStopWanted = false; ///< Until the vehicle shows that it does not move.
+    bool _bStopWanted = false;                  ///< Until the vehicle shows that it does not move.
     ExampleClock _clock;
+    std::uint64_t _lastNumber = CountMilliseconds(_clock.GetNow().wall); ///< Above all numbers of an earlier run.
     VehicleClient _vehicle;
     MakerLink _maker;
 
@@ -158,6 +161,12 @@ public:
     }
 
 private:
+    [[nodiscard]] static std::uint64_t CountMilliseconds(Core::WallTime time)
+    {
+        const auto since = std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch());
+        return static_cast<std::uint64_t>(since.count());
+    }
+
     void Drive(const DriveTo& drive)
     {
         const bool bUnderWay = std::ranges::any_of(_commands, [&drive](const auto& command) {

@@ -18,9 +18,10 @@ PLACES = {"N1": (0.0, 0.0), "N2": (2.0, 0.0), "N3": (2.0, 3.0)}
 
 
 class MakerVehicle:
-    """The vehicle: a TCP server. It executes its commands unless it is held, and records them."""
+    """The vehicle: a TCP server. It executes its commands unless it is held, and records them with numbers from 1."""
 
     def __init__(self):
+        self.first = None  # The number of the first command.
         self.commands = []  # as received
         self.executed = []  # each number once
         self.place = (0.0, 0.0)
@@ -57,13 +58,16 @@ class MakerVehicle:
         self.send(f"pose {self.place[0]} {self.place[1]} 0.5 77")
 
     def _execute(self, command):
-        self.commands.append(command)
-        self.received.put(command)
         verb, *words = command.split(" ")
         if verb == "stop":
+            self._record(command)
             self.send("moving 0")
-        elif not self.held.is_set() and words[0] not in self.executed:
-            self.executed.append(words[0])
+            return
+        self.first = self.first or int(words[0])
+        number = int(words[0]) - self.first + 1
+        self._record(" ".join((verb, str(number), *words[1:])))
+        if not self.held.is_set() and number not in self.executed:
+            self.executed.append(number)
             if verb == "goto":
                 self.send("moving 1")
                 self.place = (float(words[1]), float(words[2]))
@@ -71,6 +75,10 @@ class MakerVehicle:
             else:
                 self.send(f"started {words[0]}")
             self.send(f"done {words[0]}")
+
+    def _record(self, command):
+        self.commands.append(command)
+        self.received.put(command)
 
     def disconnect(self):
         self._connection.shutdown(socket.SHUT_RDWR)
@@ -89,9 +97,14 @@ class Bridge(ScenarioCase):
         self.port = self.line.start_broker()
         self.recorder = self.line.start("states", "-p", self.port, "-t", f"{TOPIC}/state", "-F", "%p",
                                         binary=shutil.which("mosquitto_sub"))
+        self.start_bridge()
+
+    def start_bridge(self):
         self.bridge = self.line.start("e19_bridge", "127.0.0.1", self.port, "V1", "127.0.0.1", self.vehicle.port)
         # A state from before the vehicle has reported has no position, and a position alone causes no state: ask for the next one.
-        self.wait_for(lambda state: not state["errors"] and state.get("agvPosition", {}).get("positionInitialized"),
+        # The states of a bridge that ran before have its order.
+        self.wait_for(lambda state: not state["errors"] and not state["orderId"]
+                      and state.get("agvPosition", {}).get("positionInitialized"),
                       is_next_asked_for=True)
 
     def read_states(self):
@@ -158,10 +171,22 @@ class Bridge(ScenarioCase):
         self.vehicle.disconnect()
         state = self.wait_for(self.is_done)
         self.assertEqual(self.vehicle.commands[:2], ["goto 1 2.000 0.000"] * 2)
-        self.assertEqual(self.vehicle.executed, ["1", "2", "3"])
+        self.assertEqual(self.vehicle.executed, [1, 2, 3])
         self.assertEqual(state["errors"], [])
         errors = [error for past in self.read_states() for error in past["errors"] if past["orderId"] == "order-1"]
         self.assertEqual({(error["errorType"], error["errorLevel"]) for error in errors}, {("vehicleUnreachable", "FATAL")})
+
+    def test_the_numbers_of_a_restarted_bridge_are_new(self):
+        self.send_order()
+        self.wait_for(self.is_done)
+        self.line.forget(self.bridge)
+        self.assertEqual(self.bridge.stop(), 0)
+        self.start_bridge()
+        places = {"N3": PLACES["N3"], "N2": PLACES["N2"], "N4": (7.0, 8.0)}
+        self.send_order(action_id="beep-2", order_id="order-2", places=places)
+        self.wait_for(lambda state: state["orderId"] == "order-2" and state["lastNodeId"] == "N4" and not state["nodeStates"])
+        self.assertEqual(self.vehicle.place, places["N4"])
+        self.assertEqual(len(self.vehicle.executed), 6)
 
     def test_a_cancelled_order_stops_the_vehicle(self):
         self.vehicle.held.set()
