@@ -148,7 +148,7 @@ private:
         }
         else if (answer == "unknown")
         {
-            _job.OnNotExecuted(commandID, "the cart was restarted", out); // before it had moved anything
+            _job.OnNotExecuted(commandID, "the cart was restarted or has a full disk", out); // it has moved nothing
         }
         else if (answer == "known") // the command has come twice
         {

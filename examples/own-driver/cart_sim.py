@@ -7,10 +7,14 @@ import sys
 
 class Cart:
     def __init__(self, journal, node, seconds, job_seconds=None):
-        self.journal, self.node, self.seconds = open(journal, "a+"), node, float(seconds)
+        self.journal, self.node, self.seconds = open(journal, "ab+", buffering=0), node, float(seconds)
         self.job_seconds = float(job_seconds or seconds)
         self.journal.seek(0)
-        jobs = [line.split()[0] for line in self.journal]  # executed, also before a restart
+        lines = self.journal.read()
+        self.size = lines.rfind(b"\n") + 1
+        self.journal.truncate(self.size)  # a torn line is no executed job
+        words = map(str.split, lines[:self.size].decode().split("\n"))
+        jobs = [word[0] for word in words if word]  # executed, also before a restart
         self.done, self.last = set(jobs), jobs[-1] if jobs else "-"
         self.next, self.job, self.writer = "-", None, None
 
@@ -63,11 +67,20 @@ class Cart:
     async def work(self, job, what):
         self.on_ask(job)
         await asyncio.sleep(self.job_seconds)
-        self.journal.write(" ".join((job, *what)) + "\n")
-        self.journal.flush()
-        os.fsync(self.journal.fileno())
-        self.job = self.done.add(job)
+        line = (" ".join((job, *what)) + "\n").encode()
+        try:
+            self.write(line)
+            self.size += len(line)
+            self.done.add(job)
+        except OSError:  # for example a full disk
+            self.journal.truncate(self.size)  # otherwise the next line would continue this one
+        self.job = None
         self.on_ask(job)
+
+    def write(self, line):
+        while line:
+            line = line[self.journal.write(line):]
+        os.fsync(self.journal.fileno())
 
     def on_ask(self, job):
         self.send("job", job, "done" if job in self.done else "running" if job == self.job else "unknown")

@@ -6,7 +6,9 @@ import argparse
 import itertools
 import json
 import pathlib
+import resource
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -68,7 +70,7 @@ class OwnDriver(ScenarioCase):
         """(commandId, what) of each executed job."""
         path = self.line.folder / "journal"
         lines = path.read_text().splitlines() if path.exists() else []
-        return [(line.split()[0], line.split()[1:]) for line in lines]
+        return [(line.split()[0], line.split()[1:]) for line in lines if line]
 
     def read_lines(self, direction):
         """The lines between this acsd and the cart."""
@@ -168,6 +170,29 @@ class OwnDriver(ScenarioCase):
         self.node = position
         self.cart = self.start_cart(self.cart_address.rsplit(":", 1)[1])
         self.wait_for_line("in", f"job {command} unknown")
+        self.judge()
+
+    def test_a_torn_line_of_the_journal_is_no_job(self):
+        (self.line.folder / "journal").write_text("\nhalf")  # the disk was full, or the power was lost
+        self.start_line()
+        self.judge()
+        commanded = [line.split()[1] for line in self.read_lines("out") if line.startswith("job ")]
+        self.assertEqual([job for job, _ in self.read_journal()], commanded)
+
+        self.kill(self.cart)
+        self.cart = self.start_cart()
+        host, port = self.cart_address.split("//")[-1].split(":")
+        with socket.create_connection((host, int(port)), timeout=FINISH_SECONDS) as connection, connection.makefile("rw") as lines:
+            for job in commanded:
+                print("job", job, *MOVES[0], file=lines, flush=True)
+                self.assertEqual(next(line for line in lines if not line.startswith("state ")), f"refused {job} known\n")
+
+    def test_a_job_that_the_disk_of_the_cart_does_not_take_is_commanded_again(self):
+        self.start_line()
+        before = resource.prlimit(self.cart.process.pid, resource.RLIMIT_FSIZE, (5, resource.RLIM_INFINITY))
+        self.wait_for(lambda: any(line.startswith("job ") and line.endswith(" unknown") for line in self.read_lines("in")),
+                      "the cart has not executed the job")
+        resource.prlimit(self.cart.process.pid, resource.RLIMIT_FSIZE, before)
         self.judge()
 
     def test_the_project_is_small(self):
