@@ -2,6 +2,9 @@
 // and decides nothing: a request is passed on with its transactionId, and the answer of the other side is passed back. So a
 // report has its Ack only when the MCS has it, and the relay needs no store: the ACS sends again what has no Ack.
 //
+// Only a plan waits for the next ACS, because the last one may have executed it already: a Fail would be wrong. Any other
+// request that no ACS can answer gets a Fail of the relay, so that no control is delivered hours later.
+//
 //     e21_relay 9002 ws://127.0.0.1:9001/acs/      (the ACS connects to port 9002, port 0: a free one)
 //
 // An ACS is registered at the relay only while the relay is registered at the MCS. The lesson is longer than 150 lines because
@@ -27,6 +30,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -57,6 +61,8 @@ public:
 /// The events of one side call the other side.
 class Relay
 {
+    static constexpr std::size_t MAXIMUM_REQUESTS = 1'000;
+
     std::vector<AcsRequest> _requests;     ///< Of the MCS, without an answer of the ACS, oldest first.
     std::vector<RequestReceived> _reports; ///< Of the ACS, without an answer of the MCS, oldest first.
     ConnectionID _connection = 0;          ///< Of the ACS that has asked for its registration last.
@@ -91,11 +97,12 @@ private:
                 [this](const LinkLost& lost) {
                     fmt::print("the ACS is lost: {}\n", lost.reason);
                     client->SendStatus(AcsCommStateUpdate{false});
+                    RefuseRequests();
                 },
                 [this](const RequestReceived& received) { OnAcsRequest(received); },
                 [this](const RequestGivenUp& given) { Forget(given.token); },
                 [this](const AckReceived& received) { OnAck(received.ack); },
-                [](const auto& /*other*/) { /* A request without an Ack stays for the next Registered. */ }},
+                [](const auto& /*other*/) { /* A request without an Ack stays until the ACS is lost. */ }},
             event);
     }
 
@@ -120,6 +127,61 @@ private:
         else
         {
             client->SendStatus(payload);
+        }
+    }
+
+    void OnMcsRequest(const AcsRequest& request)
+    {
+        if (HasRequest(request))
+        {
+            return; // The MCS has sent it again.
+        }
+        if (!server->IsRegistered() && !IsPlan(request))
+        {
+            Refuse(request, "no ACS is connected");
+        }
+        else if (_requests.size() >= MAXIMUM_REQUESTS)
+        {
+            Refuse(request, "too many requests wait for the ACS");
+        }
+        else
+        {
+            _requests.push_back(request);
+            SendRequests();
+        }
+    }
+
+    [[nodiscard]] bool HasRequest(const AcsRequest& repeated) const
+    {
+        return std::ranges::any_of(_requests, [&repeated](const AcsRequest& request) {
+            return request.transactionID == repeated.transactionID && GetCommand(request) == GetCommand(repeated);
+        });
+    }
+
+    [[nodiscard]] static bool IsPlan(const AcsRequest& request)
+    {
+        return std::holds_alternative<ExecutionPlan>(request.payload);
+    }
+
+    void Refuse(const AcsRequest& request, std::string_view reason) const
+    {
+        const AckPayload payload = std::visit(
+            [](const auto& content) -> AckPayload {
+                if constexpr (requires { PlanAck{content.planID}; })
+                {
+                    return PlanAck{content.planID};
+                }
+                return EmptyAck{};
+            },
+            request.payload);
+        client->Answer(GetCommand(request), request.transactionID, EAckResult::Fail, reason, payload);
+    }
+
+    void RefuseRequests()
+    {
+        for (const AcsRequest& request : std::exchange(_requests, {}))
+        {
+            IsPlan(request) ? _requests.push_back(request) : Refuse(request, "the ACS was lost before it answered");
         }
     }
 
@@ -181,10 +243,7 @@ private:
                 [this](const LinkLost& lost) { OnMcsLost(lost); },
                 [this](const WindowOpened& /*event*/) { SendReports(); },
                 [this](const Acked& acked) { OnAcked(acked); },
-                [this](const RequestReceived& received) {
-                    _requests.push_back(received.request);
-                    SendRequests();
-                },
+                [this](const RequestReceived& received) { OnMcsRequest(received.request); },
                 [](const auto& /*other*/) { /* A report without an Ack stays for the next Registered. */ }},
             event);
     }

@@ -3,12 +3,14 @@
 is cut while plans are executed. At the end the journal of the MCS has each report that acsd has sent, once, and they match what
 the robots have moved."""
 
+import json
 import random
 import signal
+import subprocess
 
 from journal_line import FULL, KINDS, JournalCase
 from link_proxy import LinkProxy
-from scenario_case import main
+from scenario_case import FINISH_SECONDS, STATUS_SECONDS, ScenarioCase, main
 
 STRIKES = 9
 
@@ -57,6 +59,31 @@ class Relay(JournalCase):
         self.limit_journal(0)
         self.wait_for_status(self.operator, lambda status: status["refusedReports"]["count"] > 0)
         self.assertEqual(self.read_status(self.operator)["refusedReports"]["last"]["message"], FULL)
+
+    def test_without_an_acs_a_request_is_refused(self):
+        steps = [{"send": "RequestAcsPlans"}, {"expect": "RequestAcsPlansAck", "result": "Fail", "within": "5s"},
+                 {"send": "CancelPlan", "payload": {"planId": "P"}}, {"expect": "CancelPlanAck", "result": "Fail", "within": "5s"}]
+        scenario = self.line.folder / "scenario.json"
+        scenario.write_text(json.dumps({"name": "no-acs", "about": "A relay without an ACS", "within": "30s", "steps": steps}))
+        self.mcs = self.line.start_mcs([], "--scenario", scenario)
+        self.port = int(self.mcs.wait_ready()["ws"].rsplit(":", 1)[1])
+        self.relay_port = 0
+        self.start_relay()
+        self.assertEqual(self.mcs.wait(FINISH_SECONDS), 0, self.mcs.tail(20))
+
+    def test_a_control_that_a_lost_acs_has_not_answered_is_refused(self):
+        self.mcs = self.line.start("mcs-sim", "--listen", "127.0.0.1:0", "--console", stdin=subprocess.PIPE, bufsize=0)
+        self.addCleanup(self.mcs.process.stdin.close)
+        self.port = int(self.mcs.wait_ready()["ws"].rsplit(":", 1)[1])
+        self.relay_port = 0
+        acs = self.line.start("acs-sim", "--url", f"ws://127.0.0.1:{self.start_relay()}/acs/")
+        ScenarioCase.wait_until(self, lambda: "the ACS is registered" in self.relay.tail(100), "the ACS is registered")
+        acs.send_signal(signal.SIGSTOP)
+        self.mcs.process.stdin.write(b"cancel P\n")
+        ScenarioCase.wait_until(self, lambda: "CancelPlan" in self.mcs.log.read_text(), "the control is sent")
+        self.kill(acs)
+        ScenarioCase.wait_until(self, lambda: "P CancelPlanAck Fail: " in self.mcs.log.read_text(), "the control is refused",
+                                STATUS_SECONDS)
 
 
 if __name__ == "__main__":
