@@ -182,10 +182,11 @@ void ArmProgram::OnControlRefused(EArmControl kind, const ArmRefusal& refusal, A
     }
 }
 
-/// A late refusal of the selection does not refuse the start: the counters show whether the program begins.
+/// A late refusal of the selection does not refuse the start: the counters show whether the program begins. A program that has
+/// begun was not refused.
 void ArmProgram::OnStartRefused(const ArmRefusal& refusal, AdapterActions& out)
 {
-    if (!ArmProgramControls::IsRewindWanted(refusal))
+    if (!ArmProgramControls::IsRewindWanted(refusal) && !std::get<Starting>(_state).bBegun)
     {
         Refuse(refusal.reason);
         return;

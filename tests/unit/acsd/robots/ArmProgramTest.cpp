@@ -229,6 +229,24 @@ TEST_CASE("A job that is cancelled while its program is being selected fails whe
     CHECK(arm.TakeControls() == std::vector<std::string>{"cur_prog_cnt"});
 }
 
+TEST_CASE("A start that is refused after its program has begun does not end the job")
+{
+    ProgramFixture arm;
+    arm.program.Start({"J", 11, {}}, arm.actions);
+    arm.Settle(EControlOutcome::Accepted);
+    arm.program.OnVerified(true, std::nullopt, arm.actions);
+    arm.Advance();
+    arm.Prove(true, ArmProof::EOutcome::Open);
+    static_cast<void>(arm.program.TakeRequests());
+    arm.Settle(EControlOutcome::Refused);
+    CHECK(arm.program.TakeRequests() == std::vector<EArmRequest>{EArmRequest::VerifyCounters});
+    CHECK(arm.program.IsCounted());
+    arm.program.OnMotorProbed(arm.actions);
+    CHECK_FALSE(arm.HasReported<Planning::JobFailed>());
+    arm.Prove(true, ArmProof::EOutcome::Finished);
+    CHECK(arm.HasReported<Planning::JobFinished>());
+}
+
 TEST_CASE("A program has longer to begin where its counters are shown seldom")
 {
     ArmOptions slow;
