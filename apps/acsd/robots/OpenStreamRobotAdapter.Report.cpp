@@ -110,10 +110,11 @@ void OpenStreamRobotAdapter::ReportOnline(AdapterActions& out)
     }
 }
 
-/// The robot is paused from when base and arm are stopped until both continue.
+/// The robot is paused from when base and arm are stopped until both continue. The program of a job of before a restart may run
+/// until the counters show what became of it.
 bool OpenStreamRobotAdapter::IsPaused() const
 {
-    return (_baseState.bPaused && _program.IsArmStopped()) || _program.IsResumeDue();
+    return (_baseState.bPaused && !_recovery.has_value() && _program.IsArmStopped()) || _program.IsResumeDue();
 }
 
 void OpenStreamRobotAdapter::ReportPaused(AdapterActions& out)

@@ -1,5 +1,6 @@
 #include "robots/ArmFixture.hpp"
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -161,6 +162,30 @@ TEST_CASE("After a restart a program is not started while its vehicle is paused 
     }
     arm.ShowProbe(STOPPED_STATE, "[6,5,0]");
     CHECK(arm.TakeRequests() == std::vector<std::string>{START});
+}
+
+TEST_CASE("After a restart a paused vehicle is not paused before the arm's program is known to be stopped")
+{
+    ArmFixture arm;
+    Planning::RecoverJob recover;
+    recover.job.jobID = "J";
+    recover.job.action = "TrayLoad";
+    recover.job.progressToken = "5 5 0";
+    arm.adapter.Handle(recover, arm.clock.GetNow(), arm.actions);
+    arm.adapter.OnLinkUp(arm.clock.GetNow(), arm.actions);
+    arm.ShowBase(true);
+    arm.Deliver(OpenStream::ClientReady{});
+    arm.Settle(OpenStream::EControlOutcome::Accepted); // motor_on
+    arm.DeliverData(MOTOR_ON_SAMPLE);
+    static_cast<void>(arm.TakeRequests());
+    arm.DeliverData("[6,5,0]");
+    const auto states = arm.TakeEvents<Planning::StateChanged>();
+    CHECK_FALSE(states.empty());
+    CHECK(std::ranges::none_of(states, &Planning::StateChanged::bPaused));
+    arm.actions.clear();
+    CHECK(arm.TakeRequests() == std::vector<std::string>{STOP});
+    arm.Accept("[6,5,0]");
+    CHECK(arm.IsReportedPaused());
 }
 
 TEST_CASE("Counters that are all 0 after a reconnect do not prove that a program did not begin")
