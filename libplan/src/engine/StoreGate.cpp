@@ -103,7 +103,8 @@ void StoreGate::CollectWork()
             work.job = *jobOrNull;
         }
         work.abandonedJobID = robot.job.GetAbandonedID();
-        if (robot.view.state.has_value())
+        // An arm whose motor is off shows none: what was stored is still needed after another crash.
+        if (robot.view.state.has_value() && !robot.view.state->restartEvidence.progressToken.empty())
         {
             work.progressToken = robot.view.state->restartEvidence.progressToken;
         }

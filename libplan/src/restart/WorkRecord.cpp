@@ -7,6 +7,18 @@
 namespace ACS::Planning
 {
 
+namespace
+{
+
+/// An arm shows no counters while its motor is off. Its robot gets no work until then, so the check can wait for them.
+bool IsTokenAwaited(const StateChanged& state)
+{
+    return state.restartEvidence.progressToken.empty()
+        && std::ranges::count(state.errors, EAlarmLevel::Heavy, &RobotError::level) > 0;
+}
+
+} // namespace
+
 void WorkRecord::Restore(const RobotWorkChanged& work)
 {
     _commandID = work.commandID;
@@ -84,6 +96,10 @@ bool WorkRecord::TryResolve() noexcept
 
 bool WorkRecord::TryCheckEvidence(const StateChanged& state, bool bHasPlan)
 {
+    if (_evidence.has_value() && bHasPlan && !_evidence->progressToken.empty() && IsTokenAwaited(state))
+    {
+        return false;
+    }
     const std::optional<RobotWorkChanged> evidence = std::exchange(_evidence, std::nullopt);
     if (!evidence.has_value() || !bHasPlan)
     {

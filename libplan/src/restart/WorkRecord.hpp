@@ -21,7 +21,7 @@ class WorkRecord
     bool _bCommandTaken = false;          ///< It has confirmed one of its commands.
     bool _bUnresolved = false;
     bool _bTokenDue = false;                   ///< Store the progress token although nothing else has changed.
-    std::optional<RobotWorkChanged> _evidence; ///< After a restart: what was stored, until the robot's first state.
+    std::optional<RobotWorkChanged> _evidence; ///< After a restart: what was stored, until it is checked.
     RobotWorkChanged _stored;
 
 public:
@@ -40,7 +40,8 @@ public:
     /// True: it was unresolved.
     bool TryResolve() noexcept;
     /// Work continues while the store fails. After a crash the robot may then show a command that was not stored, or none: the
-    /// next jobs of its plan may be done already. True: this was its first state after a restart.
+    /// next jobs of its plan may be done already. True: this was its first state after a restart. One with a heavy error that lacks
+    /// the progress token does not count.
     [[nodiscard]] bool TryCheckEvidence(const StateChanged& state, bool bHasPlan);
 
     /// A record with the members that this class has.

@@ -50,7 +50,8 @@ struct RestartEvidence
     /// if robots of its kind never show one.
     std::optional<std::string> commandID{};
     /// A value of the adapter's own that differs once a further job has begun, such as an arm's counters. The engine stores it
-    /// with the command and returns it in StartJob::progressToken. Empty if commandID is enough.
+    /// with the command and returns it in StartJob::progressToken. Empty if commandID is enough, or while it is unknown. The state
+    /// must have a heavy error then, so that the robot gets no work.
     std::string progressToken{};
 
     bool operator==(const RestartEvidence&) const = default;

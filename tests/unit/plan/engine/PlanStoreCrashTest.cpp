@@ -128,6 +128,42 @@ TEST_CASE("The evidence of an arm at the begin of its plan is stored with the pl
     CHECK(std::ranges::find(works, "CR01", &RobotWorkChanged::robotID)->progressToken == "5 5 0");
 }
 
+TEST_CASE("A crash while the disk fails: an arm whose motor is off is checked when it shows its evidence")
+{
+    PlanWorld world;
+    world.GetRobot("CR01").progressToken = "6 6 0";
+    BeginPlan(world, MakeControlPlan("P1"), "Step 1 InProgress");
+    world.store.bFails = true;
+    REQUIRE(world.TryRun([&world] { return world.GetRobot("CR01").doneJobs.size() == 1; }));
+    world.GetRobot("CR01").progressToken = "7 7 0";
+    world.Crash();
+    world.store.bFails = false;
+    world.Restart(ACS::Testing::MakeTestOptions(false), ACS::Testing::MakeTestSite());
+    StateChanged state;
+    state.lastNodeID = world.GetRobot("CR01").GetOccupied().front();
+    state.batteryPercent = 80;
+    state.restartEvidence.commandID = world.driveIDs.at("CR01");
+    state.errors.push_back({"ARM-motorOff", EAlarmLevel::Heavy, "The arm's motor is off."});
+    world.Raise("CR01", LinkChanged{true});
+    world.Raise("CR01", state);
+    const bool bCrashes = GENERATE(false, true); // what is stored meanwhile keeps the evidence
+    if (bCrashes)
+    {
+        world.Control(EPlanControl::Pause, "P1");
+        world.Crash();
+        RestartEngine(world);
+        REQUIRE(world.TryRun());
+        world.Control(EPlanControl::Resume, "P1");
+    }
+    else
+    {
+        world.Connect();
+    }
+    REQUIRE(world.TryRun());
+    CHECK(GetUnresolvedJob(world) == "P1-cd");
+    CHECK(CountStarts(world, "P1-cd") == 1);
+}
+
 TEST_CASE("The next job of a robot that was switched off during a restart and shows no evidence is unresolved")
 {
     PlanWorld world;

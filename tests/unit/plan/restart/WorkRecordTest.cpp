@@ -25,6 +25,14 @@ StateChanged MakeShown(std::optional<std::string> commandIDOrNull, const std::st
     return state;
 }
 
+/// With a heavy error: it gets no work.
+StateChanged MakeFaulty(std::optional<std::string> commandIDOrNull, const std::string& progressToken = {})
+{
+    StateChanged state = MakeShown(std::move(commandIDOrNull), progressToken);
+    state.errors.push_back({"ARM-motorOff", EAlarmLevel::Heavy, "The arm's motor is off."});
+    return state;
+}
+
 /// Whether a robot that shows this after a restart may have done more than was stored.
 bool IsUnresolvedAfter(const RobotWorkChanged& stored, const StateChanged& state)
 {
@@ -101,6 +109,36 @@ TEST_CASE("WorkRecord: a progress token proves more than the command, but not of
     CHECK(IsUnresolvedAfter(stored, MakeShown("C1", "8")));
     stored.job = StartJob{};
     CHECK_FALSE(IsUnresolvedAfter(stored, MakeShown("C1", "8")));
+}
+
+TEST_CASE("WorkRecord: a robot that gets no work is checked when it shows its progress token, or may get work again")
+{
+    WorkRecord record;
+    record.Restore(MakeStored("C1", "7"));
+    CHECK_FALSE(record.TryCheckEvidence(MakeFaulty("C9"), true));
+    CHECK_FALSE(record.IsUnresolved());
+    SECTION("it shows the stored token")
+    {
+        CHECK(record.TryCheckEvidence(MakeFaulty("C9", "7"), true));
+        CHECK_FALSE(record.IsUnresolved());
+    }
+    SECTION("it shows another one")
+    {
+        CHECK(record.TryCheckEvidence(MakeShown("C1", "8"), true));
+        CHECK(record.IsUnresolved());
+    }
+    SECTION("it shows none any more: only its command counts")
+    {
+        CHECK(record.TryCheckEvidence(MakeShown("C9"), true));
+        CHECK(record.IsUnresolved());
+    }
+    SECTION("its plan has ended")
+    {
+        CHECK_FALSE(record.TryCheckEvidence(MakeFaulty("C1"), false));
+        CHECK_FALSE(record.TryCheckEvidence(MakeShown("C1", "8"), true));
+        CHECK_FALSE(record.IsUnresolved());
+    }
+    CHECK_FALSE(record.TryCheckEvidence(MakeShown("C1", "9"), true));
 }
 
 TEST_CASE("WorkRecord: without a plan there is nothing to doubt, and a doubt is cleared once")
