@@ -107,11 +107,15 @@ EDriveAttempt TrafficCoordinator::TryDrive(Robot& robot)
         robot.search.blockers.clear();
         return EDriveAttempt::Waits;
     }
-    // Between two nodes it is not at its target, even if it has just left it.
-    if (robot.place.node == target && !_routes.FindLaneOrNull(robot, *target).has_value())
+    if (robot.place.IsOn(target))
     {
         robot.parking.retreatNode.reset();
         return EDriveAttempt::AtTarget;
+    }
+    // Between two nodes it is not at its target, even if it has just left it and has no way back.
+    if (robot.place.node == target && !_routes.FindLaneOrNull(robot, *target).has_value())
+    {
+        return EDriveAttempt::NoRoute;
     }
     const bool bFirst = !RoutePlanner::HasRoute(robot, *target);
     if (TryNoteBlock(robot, *target))

@@ -101,11 +101,17 @@ bool DriveOutcomes::TryMove(Robot& robot)
 
 void DriveOutcomes::OnNoRoute(Robot& robot, std::size_t target)
 {
-    const std::string text = fmt::format(
-        "{} has no route from {} to {}.",
-        robot.GetID(),
-        _site.GetNodes()[*robot.place.node].nodeID,
-        _site.GetNodes()[target].nodeID);
+    const std::vector<SiteNode>& nodes = _site.GetNodes();
+    const std::string& nodeID = nodes[*robot.place.node].nodeID;
+    const std::string& targetID = nodes[target].nodeID;
+    const std::string text = robot.place.node == target && robot.place.heading.has_value()
+        ? fmt::format(
+            "{} is between {} and {}, and has no route back to {}.",
+            robot.GetID(),
+            nodeID,
+            nodes[*robot.place.heading].nodeID,
+            targetID)
+        : fmt::format("{} has no route from {} to {}.", robot.GetID(), nodeID, targetID);
     if (robot.planOrNull != nullptr && !robot.parking.retreatNode.has_value())
     {
         _work.FailPlan(*robot.planOrNull, text);

@@ -366,6 +366,30 @@ TEST_CASE("TrafficCoordinator: a robot between two nodes stays on its lane where
     CHECK(route->nodes[1] == parts.FindNode("L06"));
 }
 
+TEST_CASE("TrafficCoordinator: a robot that has left its target and has no way back is not at its target")
+{
+    const bool bRestricted = GENERATE(false, true);
+    const SiteMap usual = MakeTestSite();
+    std::vector<SiteEdge> edges = usual.GetEdges();
+    for (SiteEdgeRule& rule : std::ranges::find(edges, "L03>D-A01.CP01", &SiteEdge::edgeID)->rules)
+    {
+        rule.loadRestriction = SiteLoadRestriction{!bRestricted, true}; // the robot is empty
+    }
+    EngineParts parts(
+        MakeTestOptions(false),
+        *SiteMap::Create(usual.GetNodes(), std::move(edges), usual.GetStations()));
+    parts.PutOn(parts.lr, "D-A01.CP01");
+    StateChanged& state = *parts.lr.view.state;
+    state.bPoseKnown = true;
+    state.x = parts.engine.site.FindNodeOrNull("D-A01.CP01")->x;
+    state.y = 0.4;
+    parts.places.Place(parts.lr);
+    REQUIRE(parts.lr.place.heading == parts.FindNode("L03"));
+    parts.assignment.Offer(parts.AddLoad(), parts.lr);
+    CHECK(parts.coordinator.TryDrive(parts.lr) == (bRestricted ? EDriveAttempt::NoRoute : EDriveAttempt::Begun));
+    CHECK(parts.lr.drive.has_value() != bRestricted);
+}
+
 TEST_CASE("TrafficCoordinator: an assigned parking position is not within the clearance of another one")
 {
     EngineOptions options = MakeTestOptions(false);
