@@ -260,8 +260,9 @@ void McsSimulator::OnWire(
     {
         _options.onWire(direction, connection, text);
     }
-    if (direction == ProtocolBeast::EWireDirection::In && _options.profile == EProfile::Nexus
-        && text.size() > NEXUS_BUFFER_BYTES)
+    const bool bLost = direction == ProtocolBeast::EWireDirection::In && _options.profile == EProfile::Nexus
+        && text.size() > NEXUS_BUFFER_BYTES;
+    if (bLost)
     {
         _judge.GetNotes().Excuse(); // Cut by us.
     }
@@ -273,7 +274,10 @@ void McsSimulator::OnWire(
     {
         _judge.OnTextReceived(text);
     }
-    _scenarios.OnWire(direction, connection, text);
+    if (!bLost)
+    {
+        _scenarios.OnWire(direction, connection, text);
+    }
 }
 
 void McsSimulator::OnRegistered()

@@ -384,6 +384,30 @@ TEST_CASE("12.3 With the profile nexus a second client is rejected, with the pro
     CHECK(peer.WasAccepted() != bNexus);
 }
 
+TEST_CASE("12.3 A message that the profile nexus loses fulfils no expectation, with the profile spec it does")
+{
+    const bool bNexus = GENERATE(false, true);
+    CAPTURE(bNexus);
+    ACS::McsSim::SimulatorOptions options;
+    options.profile = bNexus ? ACS::McsSim::EProfile::Nexus : ACS::McsSim::EProfile::Spec;
+    const auto scenario = ACS::McsSim::ParseScenario(
+        R"({"name":"test","steps":[{"send":"ExecutionPlan","file":"p","as":"A","freshIds":false},
+            {"expect":"ErrorReport","within":"1s"}]})",
+        [](const std::string& /*path*/) { return tl::expected<PlannedPlan, std::string>(MakeSamplePlan("P", "T")); });
+    REQUIRE(scenario.has_value());
+    options.scenarios = {*scenario};
+    McsSimulatorFixture fixture(0, false, options);
+    ACS::Protocol::ErrorReport report;
+    report.robotID = "LR01";
+    report.message = std::string(5'000, 'x');
+    fixture.acs->moreReports = {report};
+    fixture.simulator->Release();
+    const std::string output = fixture.Run();
+    INFO(output);
+    CHECK(fixture.exitCode == (bNexus ? 1 : 0));
+    CHECK(Contains(GetLastLine(output), bNexus ? "0 of 1 scenarios passed" : "1 of 1 scenarios passed"));
+}
+
 TEST_CASE("The console executes its commands: sends, lists plans and ends the run")
 {
     ACS::McsSim::SimulatorOptions options;
