@@ -333,6 +333,15 @@ class Scenarios(ScenarioCase):
     def test_the_console_leaves_the_terminal_as_it_is_for_other_programs(self):
         self.assert_terminal_unchanged("mcs-sim", "--listen", "127.0.0.1:0", "--console", answer=b"abort")
 
+    def test_the_console_reads_on_after_a_line_that_is_too_long(self):
+        for size in (4095, 4096, 5000, 3 * 4096, 100_000):
+            with self.subTest(size=size):
+                result = subprocess.run([self.bin_dir / "mcs-sim", "--listen", "127.0.0.1:0", "--console"],
+                                        input="x" * size + "\nlist\nquit\n", capture_output=True, text=True,
+                                        timeout=FINISH_SECONDS, check=False)
+                self.assertIn(" no plans\n", result.stdout)
+                self.assertEqual(" a line has at most 4095 bytes\n" in result.stdout, size > 4095)
+
     def test_the_small_acs_leaves_the_terminal_as_it_is_for_other_programs(self):
         self.assert_terminal_unchanged("e09_small_acs", "ws://127.0.0.1:1/acs/", answer=b"does nothing now")
 

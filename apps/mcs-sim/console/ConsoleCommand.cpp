@@ -2,6 +2,8 @@
 
 #include "console/CleanText.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -41,6 +43,10 @@ std::string_view Trim(std::string_view text)
 
 tl::expected<ConsoleCommand, std::string> ParseConsoleLine(std::string_view line)
 {
+    if (line.size() > MAX_CONSOLE_LINE)
+    {
+        return tl::make_unexpected(fmt::format("a line has at most {} bytes", MAX_CONSOLE_LINE));
+    }
     line = Trim(line);
     if (line.empty())
     {

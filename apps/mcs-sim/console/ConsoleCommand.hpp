@@ -2,12 +2,16 @@
 
 #include <tl/expected.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace ACS::McsSim
 {
+
+/// The maximum of bytes in a line of the console.
+inline constexpr std::size_t MAX_CONSOLE_LINE = 4'095;
 
 enum class EConsoleVerb : std::uint8_t
 {

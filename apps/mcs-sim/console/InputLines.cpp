@@ -1,6 +1,9 @@
 #include "console/InputLines.hpp"
 
+#include "console/ConsoleCommand.hpp"
+
 #include <boost/asio/buffer.hpp>
+#include <boost/asio/error.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/read_until.hpp>
 
@@ -15,7 +18,7 @@ namespace ACS::McsSim
 namespace
 {
 
-constexpr std::size_t MAX_LINE = 4096;
+constexpr std::size_t MAX_BUFFER = MAX_CONSOLE_LINE + 1; // for the newline
 
 /// A copy of standard input, so that closing it leaves standard input alone. A terminal is opened again: Asio makes the copy
 /// non-blocking, which it would share with standard output and with other programs on the terminal.
@@ -37,6 +40,7 @@ struct InputLines::Impl : std::enable_shared_from_this<InputLines::Impl>
 {
     boost::asio::posix::stream_descriptor input;
     std::string buffer;
+    bool bRestOfLine = false; ///< Of a line that was too long, and was passed on.
     std::function<void(const std::string& line)> onLine;
     std::function<void()> onEnd;
     std::function<void()> onMore; ///< Reads on: a handler of its own, for Asio's templates are not to call each other.
@@ -55,7 +59,7 @@ struct InputLines::Impl : std::enable_shared_from_this<InputLines::Impl>
     {
         boost::asio::async_read_until(
             input,
-            boost::asio::dynamic_buffer(buffer, MAX_LINE),
+            boost::asio::dynamic_buffer(buffer, MAX_BUFFER),
             '\n',
             [weak = weak_from_this()](const boost::system::error_code& error, std::size_t count) {
                 const std::shared_ptr<Impl> self = weak.lock();
@@ -68,15 +72,21 @@ struct InputLines::Impl : std::enable_shared_from_this<InputLines::Impl>
 
     void OnRead(const boost::system::error_code& error, std::size_t count)
     {
-        if (error)
+        // The buffer is full, and has no newline.
+        const bool bCut = error == boost::asio::error::not_found;
+        if (error && !bCut)
         {
             onLine = nullptr;
             std::exchange(onEnd, nullptr)();
             return;
         }
-        const std::string line = buffer.substr(0, count - 1);
-        buffer.erase(0, count);
-        onLine(line);
+        const std::size_t taken = bCut ? buffer.size() : count;
+        const std::string line = buffer.substr(0, bCut ? taken : taken - 1);
+        buffer.erase(0, taken);
+        if (!std::exchange(bRestOfLine, bCut))
+        {
+            onLine(line);
+        }
         if (onLine)
         {
             onMore();

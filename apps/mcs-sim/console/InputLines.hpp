@@ -9,8 +9,9 @@
 namespace ACS::McsSim
 {
 
-/// Reads standard input line by line. At its end, or where it is something that cannot be waited for (such as /dev/null),
-/// or a line is far too long, the other handler is called once, and nothing follows.
+/// Reads standard input line by line. Of a line above MAX_CONSOLE_LINE only the beginning is passed, which is above it too.
+/// At the end of the input, or where it is something that cannot be waited for (such as /dev/null), the other handler is
+/// called once, and nothing follows.
 class InputLines
 {
     struct Impl;

@@ -22,6 +22,8 @@ TEST_CASE("An invalid line of the console is reported")
     CHECK(ParseConsoleLine("dance\x1b[2J").error() == "there is no 'dance?[2J': try help");
     CHECK(ParseConsoleLine("cancel").error() == "expected 'cancel PLANID', found 'cancel'");
     CHECK(ParseConsoleLine("quit now").error() == "expected 'quit', found 'quit now'");
+    CHECK(ParseConsoleLine("list" + std::string(4'092, ' ')).error() == "a line has at most 4095 bytes");
+    CHECK(ParseConsoleLine("list" + std::string(4'091, ' ')).has_value());
 }
 
 TEST_CASE("The help of the console names every verb")
