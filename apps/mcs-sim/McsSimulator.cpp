@@ -264,7 +264,7 @@ void McsSimulator::OnWire(
         && text.size() > NEXUS_BUFFER_BYTES;
     if (bLost)
     {
-        _judge.GetNotes().Excuse(); // Cut by us.
+        _judge.OnTextLost(text); // Cut by us.
     }
     if (direction == ProtocolBeast::EWireDirection::Out)
     {
@@ -295,10 +295,10 @@ void McsSimulator::OnLinkLost(const Protocol::LinkLost& lost)
         return;
     }
     _output.SetRegistered(false);
-    _tracker.OnLinkLost();
     _scenarios.OnLinkLost();
     if (_phase < EPhase::Ending)
     {
+        _judge.OnLinkLost();
         _lines.push_back("ACS link lost: " + CleanText(lost.reason));
     }
 }

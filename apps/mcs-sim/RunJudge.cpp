@@ -3,12 +3,31 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 #include <utility>
 #include <variant>
 
 namespace ACS::McsSim
 {
+
+namespace
+{
+
+/// An ACS that answers nothing takes no more memory than this.
+constexpr std::size_t MAX_REMEMBERED = 1'024;
+
+template <typename TTransaction>
+void Remember(std::deque<TTransaction>& all, TTransaction transaction)
+{
+    if (all.size() == MAX_REMEMBERED)
+    {
+        all.pop_front();
+    }
+    all.push_back(std::move(transaction));
+}
+
+} // namespace
 
 RunJudge::RunJudge(const SimulatorOptions& options, std::vector<PlannedPlan> plans, PlanTracker::Lines& lines)
     : _lines(lines),
@@ -61,6 +80,24 @@ void RunJudge::OnTextReceived(std::string_view text)
     std::ranges::move(_timestamps.OnText(text), std::back_inserter(_lines));
 }
 
+void RunJudge::OnTextLost(std::string_view text)
+{
+    _notes.Excuse();
+    const Protocol::DecodeOutcome outcome = _codec.Decode(text);
+    const auto* const ackOrNull =
+        outcome.message.has_value() ? std::get_if<Protocol::AcsAck>(&*outcome.message) : nullptr;
+    if (ackOrNull == nullptr)
+    {
+        return;
+    }
+    _tracker.OnAckLost(ackOrNull->transactionID);
+    Transaction transaction{ackOrNull->command, ackOrNull->transactionID};
+    if (std::erase(_unanswered, transaction) == 0)
+    {
+        Remember(_lostAcks, std::move(transaction));
+    }
+}
+
 void RunJudge::OnRequest(const Protocol::RequestReceived& received)
 {
     if (received.bDuplicate)
@@ -93,6 +130,7 @@ void RunJudge::OnAck(const Protocol::AckReceived& received)
     {
         _notes.WithdrawExcuse();
     }
+    std::erase(_unanswered, Transaction{received.ack.command, received.ack.transactionID});
     _tracker.OnAck(received.ack, _lines);
 }
 
@@ -105,9 +143,15 @@ void RunJudge::OnUnanswered(const Protocol::RequestUnanswered& unanswered)
         _notes.Excuse();
     }
     // Overdue Acks of plans are the tracker's to see.
-    if (unanswered.command != Protocol::EAcsCommand::ExecutionPlan)
+    if (bPlan)
     {
-        _lines.push_back(fmt::format("{} was not answered", GetText(unanswered.command)));
+        return;
+    }
+    _lines.push_back(fmt::format("{} was not answered", GetText(unanswered.command)));
+    Transaction transaction{unanswered.command, unanswered.transactionID};
+    if (unanswered.reason == Protocol::EUnansweredReason::Timeout && std::erase(_lostAcks, transaction) == 0)
+    {
+        Remember(_unanswered, std::move(transaction));
     }
 }
 
@@ -128,6 +172,14 @@ void RunJudge::OnNoted(const Protocol::ProtocolNoted& noted)
     }
 }
 
+void RunJudge::OnLinkLost()
+{
+    _tracker.OnLinkLost();
+    // It is unknown whether the ACS has received these requests.
+    _unanswered.clear();
+    _lostAcks.clear();
+}
+
 void RunJudge::EndPlans()
 {
     if (_floor.has_value())
@@ -138,6 +190,10 @@ void RunJudge::EndPlans()
 
 void RunJudge::Finish()
 {
+    for (const auto& [command, transactionID] : std::exchange(_unanswered, {}))
+    {
+        _tracker.AddViolation(fmt::format("ACS {} was not answered", GetText(command)), _lines);
+    }
     _tracker.Finish(_lines);
     if (_floor.has_value())
     {

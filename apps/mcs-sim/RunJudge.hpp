@@ -10,8 +10,11 @@
 #include <acs/protocol/AcsCodec.hpp>
 #include <acs/protocol/SessionEvent.hpp>
 
+#include <deque>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace ACS::McsSim
@@ -20,6 +23,8 @@ namespace ACS::McsSim
 /// Judges what the ACS reports: against the protocol, against its own reports before, and against the world if there is one.
 class RunJudge final
 {
+    using Transaction = std::pair<Protocol::EAcsCommand, std::string>;
+
     PlanTracker::Lines& _lines;
     PlanTracker _tracker;
     std::optional<FloorChecker> _floor; ///< If there is a world.
@@ -27,6 +32,9 @@ class RunJudge final
     NoteJudge _notes;
     TimestampJudge _timestamps;
     Protocol::AcsCodec _codec;
+    std::deque<Transaction>
+        _unanswered;                   ///< No Ack in time, on this connection. Those of plans are the tracker's to see.
+    std::deque<Transaction> _lostAcks; ///< They came, and were not read.
 
 public:
     /// The world, if there is one, and the lines, which the judge appends to, outlive the judge.
@@ -45,10 +53,14 @@ public:
     void OnTextSent(std::string_view text);
     /// Any text that comes from an ACS.
     void OnTextReceived(std::string_view text);
+    /// One of these that is not read, through no fault of the ACS.
+    void OnTextLost(std::string_view text);
     void OnRequest(const Protocol::RequestReceived& received);
     void OnAck(const Protocol::AckReceived& received);
     void OnUnanswered(const Protocol::RequestUnanswered& unanswered);
     void OnNoted(const Protocol::ProtocolNoted& noted);
+    /// Not for the link that the end of the run closes.
+    void OnLinkLost();
 
     /// After each event.
     void EndPlans();

@@ -79,6 +79,10 @@ void PlanTracker::OnRegistered()
 void PlanTracker::OnLinkLost()
 {
     _bAcsReady = false;
+    for (TrackedPlan& plan : _plans)
+    {
+        plan.bAckLost = plan.bAckLost || plan.delivery == EDelivery::Sent;
+    }
 }
 
 std::optional<std::size_t> PlanTracker::GetNextToSendOrNull(Core::Now now, std::size_t first)
@@ -193,6 +197,14 @@ void PlanTracker::OnAck(const Protocol::AcsAck& ack, Lines& out)
         MakeTail(ack.message)));
 }
 
+void PlanTracker::OnAckLost(const std::string& transactionID)
+{
+    if (const auto found = _byTransaction.find(transactionID); found != _byTransaction.end())
+    {
+        _plans[found->second].bAckLost = true;
+    }
+}
+
 const std::vector<TrackedPlan>& PlanTracker::GetPlans() const noexcept
 {
     return _plans;
@@ -295,6 +307,10 @@ void PlanTracker::Finish(Lines& out)
 {
     for (TrackedPlan& plan : _plans)
     {
+        if (plan.bReported && plan.delivery == EDelivery::Sent && !plan.bAckLost)
+        {
+            AddViolation(CleanText(plan.planned.plan.planID) + " reported without ExecutionPlanAck", out);
+        }
         if (plan.unconfirmed.has_value())
         {
             AddViolation(

@@ -77,11 +77,13 @@ public:
     void OnRequestSent(const Protocol::AcsRequest& request);
 
     void OnAck(const Protocol::AcsAck& ack, Lines& out);
+    /// The Ack of this transaction came and was not read, through no fault of the ACS.
+    void OnAckLost(const std::string& transactionID);
 
     /// Any request of the ACS that was not seen before.
     void OnRequest(const Protocol::AcsPayload& payload, Lines& out);
 
-    /// At the end of the run: what a report stated and none confirmed is a violation.
+    /// At the end of the run: what a report stated and none confirmed, and a reported plan without an Ack, are violations.
     void Finish(Lines& out);
 
     /// Something else is wrong with what came from the ACS.

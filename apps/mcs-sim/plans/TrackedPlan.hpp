@@ -64,6 +64,7 @@ struct TrackedPlan
     Core::SteadyTime lastSent{};
     Protocol::EPlanStatus status = Protocol::EPlanStatus::Pending;
     bool bReported = false;
+    bool bAckLost = false; ///< Or perhaps lost with the link: its absence is no fault of the ACS.
     /// The result report that stated the success of a cancel, an abort or a resume which no PlanReport has confirmed yet.
     std::optional<Protocol::EAcsCommand> unconfirmed;
     std::string robotID;            ///< Empty until a report names one.

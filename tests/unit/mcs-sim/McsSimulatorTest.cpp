@@ -163,6 +163,18 @@ TEST_CASE("A plan that was not acknowledged before the link was lost is sent aga
     CHECK(Contains(output, " reconnects              1\n"));
 }
 
+TEST_CASE("6.3 A plan that is reported without an Ack makes the run fail, though the plan was completed")
+{
+    McsSimulatorFixture fixture(1);
+    fixture.acs->bAcknowledging = false;
+    fixture.simulator->Release();
+    const std::string output = fixture.Run();
+    INFO(output);
+    CHECK(fixture.exitCode == 1);
+    CHECK(GetLastLine(output) == "1 plans completed, 0 failed");
+    CHECK(Contains(output, " violation: P1 reported without ExecutionPlanAck\n"));
+}
+
 TEST_CASE("A report after the final one makes the run fail, though the plan was completed")
 {
     McsSimulatorFixture fixture(1);

@@ -27,6 +27,7 @@ class TinyACS final : private ProtocolBeast::ISessionHandler
 {
 public:
     std::optional<std::string> refusal; ///< Refuses every plan for this reason.
+    bool bAcknowledging = true;         ///< False: reports plans without an Ack.
     std::optional<std::size_t>
         cutAfter; ///< Disconnects after this number of plans without answering the last, and returns.
     std::vector<Protocol::AcsPayload> moreReports; ///< After the reports of a plan.
@@ -110,12 +111,15 @@ private:
             });
             return;
         }
-        _client->Answer(
-            Protocol::EAcsCommand::ExecutionPlan,
-            request.transactionID,
-            refusal.has_value() ? Protocol::EAckResult::Fail : Protocol::EAckResult::Success,
-            refusal.value_or(""),
-            Protocol::PlanAck{plan.planID});
+        if (bAcknowledging)
+        {
+            _client->Answer(
+                Protocol::EAcsCommand::ExecutionPlan,
+                request.transactionID,
+                refusal.has_value() ? Protocol::EAckResult::Fail : Protocol::EAckResult::Success,
+                refusal.value_or(""),
+                Protocol::PlanAck{plan.planID});
+        }
         if (!refusal.has_value())
         {
             ReportAll(plan);

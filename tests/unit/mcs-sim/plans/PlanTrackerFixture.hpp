@@ -65,7 +65,6 @@ public:
         }
     }
 
-    /// Registered, sent, accepted, and the reports of the first step up to its job's end.
     /// The plan is sent and accepted.
     void Begin()
     {
@@ -74,12 +73,24 @@ public:
         Ack(0);
     }
 
+    /// Registered, sent, accepted, and the reports of the first step up to its job's end.
     void RunFirstJob()
     {
         Begin();
+        Report({MakePlanReport("P1", Protocol::EPlanStatus::InProgress)});
+        ReportFirstJob();
+    }
+
+    void RunFirstStep()
+    {
+        ReportFirstJob();
+        Report({MakeStepReport("P1", 1, Protocol::EStepStatus::Completed)});
+    }
+
+    void ReportFirstJob()
+    {
         Report(
-            {MakePlanReport("P1", Protocol::EPlanStatus::InProgress),
-             MakeStepReport("P1", 1, Protocol::EStepStatus::Dispatched),
+            {MakeStepReport("P1", 1, Protocol::EStepStatus::Dispatched),
              MakeStepReport("P1", 1, Protocol::EStepStatus::InProgress),
              MakeJobReport("P1", 1, "J1", Protocol::EJobStatus::Instructed),
              MakeJobReport("P1", 1, "J1", Protocol::EJobStatus::InProgress),

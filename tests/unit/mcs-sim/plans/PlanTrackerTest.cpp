@@ -158,6 +158,51 @@ TEST_CASE("A plan that is being reported is not refused by the answer to its rep
     CHECK(fixture.tracker.CountOutcome(EOutcome::Open) == 1);
 }
 
+TEST_CASE("6.3 A plan that is reported has an Ack before the end of the run, unless a lost link took it")
+{
+    PlanTrackerFixture fixture;
+    fixture.tracker.OnRegistered();
+    fixture.Send();
+    std::size_t violations = 1;
+    SECTION("without an Ack")
+    {
+    }
+    SECTION("with an Ack")
+    {
+        fixture.Ack(0);
+        violations = 0;
+    }
+    SECTION("with a lost link, and no Ack of the repetition yet")
+    {
+        fixture.tracker.OnLinkLost();
+        fixture.tracker.OnRegistered();
+        CHECK(fixture.Send() == "P1");
+        violations = 0;
+    }
+    SECTION("with an Ack that was lost by the simulator")
+    {
+        fixture.tracker.OnAckLost("T1");
+        violations = 0;
+    }
+    fixture.Report({MakePlanReport("P1", EPlanStatus::InProgress)});
+    fixture.RunFirstStep();
+    fixture.RunSecondStep();
+    fixture.Report({MakePlanReport("P1", EPlanStatus::Completed)});
+    CHECK(fixture.tracker.CountViolations() == 0);
+    fixture.tracker.Finish(fixture.lines);
+    CHECK(fixture.tracker.CountViolations() == violations);
+    CHECK((violations == 0 || fixture.GetViolation() == "P1 reported without ExecutionPlanAck"));
+}
+
+TEST_CASE("A plan that is neither acknowledged nor reported is no violation")
+{
+    PlanTrackerFixture fixture;
+    fixture.tracker.OnRegistered();
+    fixture.Send();
+    fixture.tracker.Finish(fixture.lines);
+    CHECK(fixture.tracker.CountViolations() == 0);
+}
+
 TEST_CASE("12.6 Without resending a plan goes once, however long its Ack takes, and on a new connection too")
 {
     ACS::Testing::ManualClock clock;
