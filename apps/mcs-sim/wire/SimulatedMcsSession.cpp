@@ -83,6 +83,13 @@ void SimulatedMcsSession::OnClosed(
 
 void SimulatedMcsSession::OnTimer(Protocol::ESessionTimer timer, Core::Now now, SessionActions& out)
 {
+    const std::optional<std::chrono::milliseconds> held = GetHeldTimeOrNull(now);
+    if (timer == Protocol::ESessionTimer::Registration && held.has_value())
+    {
+        // The session would close the connection: it has not seen the Registration.
+        out.emplace_back(Protocol::StartTimer{timer, *held});
+        return;
+    }
     _session.OnTimer(timer, now, out);
 }
 
@@ -333,6 +340,20 @@ void SimulatedMcsSession::Delay(DelayedText delayed, Core::Now now)
 {
     _delayed.push_back(std::move(delayed));
     RequestDelay(now);
+}
+
+std::optional<std::chrono::milliseconds> SimulatedMcsSession::GetHeldTimeOrNull(Core::Now now) const
+{
+    std::optional<std::chrono::milliseconds> time;
+    for (const DelayedText& delayed : _delayed)
+    {
+        if (_session.GetRegisteredOrNull() != delayed.connection)
+        {
+            const auto rest = std::chrono::ceil<std::chrono::milliseconds>(delayed.deadline - now.steady);
+            time = std::max(time.value_or(std::chrono::milliseconds(0)), rest);
+        }
+    }
+    return time;
 }
 
 void SimulatedMcsSession::RequestDelay(Core::Now now) const

@@ -125,6 +125,8 @@ private:
     [[nodiscard]] bool ShouldKeep(Protocol::SessionAction& action, bool bConnectionRefused, Core::Now now);
     void Delay(DelayedText delayed, Core::Now now);
     void RequestDelay(Core::Now now) const;
+    /// How long a Registration, or its refusal, is still held at most; nullopt if none is.
+    [[nodiscard]] std::optional<std::chrono::milliseconds> GetHeldTimeOrNull(Core::Now now) const;
 };
 
 } // namespace ACS::McsSim

@@ -172,6 +172,28 @@ TEST_CASE("6.2 An ACS is registered when the Ack of its Registration leaves")
     CHECK(std::holds_alternative<Protocol::Deliver>(mcs.probe.out[2]));
 }
 
+TEST_CASE("6.2 A connection whose Registration is held is not closed as one without, in contrast to another connection")
+{
+    SimulatedMcsFixture mcs;
+    mcs.session.HoldAcks({EAcsCommand::Registration, 12s, 30s}, mcs.clock.GetNow());
+    mcs.Register(1);
+    mcs.session.OnConnected(2, mcs.clock.GetNow(), mcs.probe.out);
+    mcs.clock.Advance(10s);
+    mcs.probe.Clear();
+    mcs.session.OnTimer(Protocol::ESessionTimer::Registration, mcs.clock.GetNow(), mcs.probe.out);
+    CHECK(mcs.probe.GetAll<Protocol::Close>().empty());
+    const auto timers = mcs.probe.GetAll<Protocol::StartTimer>();
+    REQUIRE(timers.size() == 1);
+    CHECK(timers[0] == Protocol::StartTimer{Protocol::ESessionTimer::Registration, 2s});
+    mcs.clock.Advance(2s);
+    mcs.SendDelayed();
+    CHECK(mcs.session.GetRegisteredOrNull() == Protocol::ConnectionID(1));
+    mcs.session.OnTimer(Protocol::ESessionTimer::Registration, mcs.clock.GetNow(), mcs.probe.out);
+    const auto closes = mcs.probe.GetAll<Protocol::Close>();
+    REQUIRE(closes.size() == 1);
+    CHECK(closes[0].connection == Protocol::ConnectionID(2));
+}
+
 TEST_CASE("Any text can be sent to the registered ACS")
 {
     SimulatedMcsFixture mcs;
