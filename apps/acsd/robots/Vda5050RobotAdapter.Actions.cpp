@@ -13,48 +13,31 @@ namespace
 using Planning::AdapterActions;
 using Planning::RaiseEvent;
 
-/// The length of a commandID, which vehicles accept as an orderId. Its end differs by action (VehicleDrive), its begin by number.
-std::string MakeRepetitionID(const std::string& commandID, std::size_t number)
-{
-    const std::string prefix = fmt::format("{}-", number);
-    constexpr std::size_t SHORTEST = 32;
-    return prefix + commandID.substr(commandID.size() < SHORTEST ? 0 : prefix.size());
-}
-
 } // namespace
 
-DriveContents Vda5050RobotAdapter::MakeContents(const Planning::Route& route) const
+void Vda5050RobotAdapter::ExtendDrive(const Planning::ExtendDrive& extension, Core::Now now, AdapterActions& out)
 {
-    DriveContents contents;
-    contents.bCorridors = _session.GetOptions().version != VDA5050::EVda5050Version::Version200;
-    if (_openNode.has_value() && !route.nodes.empty() && route.nodes.front().nodeID == _openNode->nodeID)
+    if (_nextDrive.has_value() && _nextDrive->driveID == extension.driveID)
     {
-        contents.startActions = _openNode->actions;
+        _nextDrive->releasedCount = extension.releasedCount;
     }
-    return contents;
+    else if (IsDrive(extension.driveID))
+    {
+        _drive->Extend(extension.releasedCount);
+        SendPendingUpdate(now, out);
+    }
 }
 
 VehicleDrive Vda5050RobotAdapter::TakeDrive()
 {
     VehicleDrive drive = *std::exchange(_drive, std::nullopt);
-    if (!drive.GetLastPassedNodeID().empty()) // otherwise the vehicle has not accepted it
-    {
-        _openNode = drive.GetOpenNodeOrNull();
-    }
+    _repetition.OnDriveEnded(drive);
     return drive;
 }
 
 std::optional<Planning::Drive> Vda5050RobotAdapter::MakeRepetitionOrNull(const Planning::StartJob& job)
 {
-    if (!_openNode.has_value() || FindNodeID(job) != _openNode->nodeID)
-    {
-        return std::nullopt;
-    }
-    Planning::Drive repetition;
-    repetition.driveID = MakeRepetitionID(job.commandID, ++_repetitionCount);
-    repetition.route.nodes.push_back(*_openNode);
-    repetition.releasedCount = 1;
-    return repetition;
+    return _repetition.MakeDriveOrNull(job.commandID, FindNodeID(job));
 }
 
 bool Vda5050RobotAdapter::IsRepeating() const

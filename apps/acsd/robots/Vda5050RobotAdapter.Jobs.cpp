@@ -47,6 +47,11 @@ void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now,
         ResumeJob(job, now, out);
         return;
     }
+    if (IsDrive(_session.GetOrderID()))
+    {
+        _job.Defer(job); // until a cancelled repetition has ended, which shows whether another one is needed
+        return;
+    }
     if (const std::optional<Planning::Drive> repetition = MakeRepetitionOrNull(job); repetition.has_value())
     {
         _job.Defer(job);

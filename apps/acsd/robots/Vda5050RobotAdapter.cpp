@@ -46,13 +46,7 @@ void Vda5050RobotAdapter::Handle(const Planning::RobotCommand& command, Core::No
     std::visit(
         Core::Overloaded{
             [&](const Planning::Drive& drive) { StartDrive(drive, now, out); },
-            [&](const Planning::ExtendDrive& extension) {
-                if (IsDrive(extension.driveID))
-                {
-                    _drive->Extend(extension.releasedCount);
-                    SendPendingUpdate(now, out);
-                }
-            },
+            [&](const Planning::ExtendDrive& extension) { ExtendDrive(extension, now, out); },
             [&](const Planning::CancelDrive& cancel) { CancelOrder(cancel.driveID, now, out); },
             [&](const Planning::StartJob& job) { StartJob(job, now, out); },
             [&](const Planning::RecoverJob& recover) {
@@ -150,7 +144,14 @@ bool Vda5050RobotAdapter::IsFactsheetAwaited() const noexcept
 
 void Vda5050RobotAdapter::StartDrive(const Planning::Drive& drive, Core::Now now, AdapterActions& out)
 {
-    Core::Result<VehicleDrive> made = VehicleDrive::Create(drive, MakeContents(drive.route));
+    if (IsDrive(_session.GetOrderID()))
+    {
+        _nextDrive = drive; // only the end of the repetition shows which actions of the node are left
+        return;
+    }
+    const bool bCorridors = _session.GetOptions().version != VDA5050::EVda5050Version::Version200;
+    Core::Result<VehicleDrive> made =
+        VehicleDrive::Create(drive, {_repetition.ListStartActions(drive.route), bCorridors});
     if (!made)
     {
         ReportDriveRejected(drive.driveID, Core::Describe(made.error()), out);
@@ -170,10 +171,15 @@ void Vda5050RobotAdapter::StartDrive(const Planning::Drive& drive, Core::Now now
 
 void Vda5050RobotAdapter::CancelOrder(std::string_view id, Core::Now now, AdapterActions& out)
 {
-    if (_pendingOrder.has_value() && _pendingOrder->orderID == id)
+    const std::string reason = "cancelled before it was sent to the vehicle";
+    if (_nextDrive.has_value() && _nextDrive->driveID == id)
     {
-        const std::string orderID = std::exchange(_pendingOrder, std::nullopt)->orderID;
-        RejectOrder(orderID, "cancelled before it was sent to the vehicle", out);
+        ReportDriveRejected(std::exchange(_nextDrive, std::nullopt)->driveID, reason, out);
+        return;
+    }
+    if (IsPending(id))
+    {
+        RejectOrder(std::string(id), reason, out);
         return;
     }
     if (_session.GetOrderID() == id)
@@ -206,7 +212,7 @@ void Vda5050RobotAdapter::SendPendingUpdate(Core::Now now, AdapterActions& out)
 {
     // Nothing is added to an order that is being cancelled: cancelling may fail, and the order then continues.
     const bool bCancelling = _session.GetOrderPhase() == VDA5050::EOrderPhase::Cancelling;
-    if (!_drive.has_value() || bCancelling || !_drive->IsUpdateDue())
+    if (!_drive.has_value() || IsPending(_drive->GetOrderID()) || bCancelling || !_drive->IsUpdateDue())
     {
         return;
     }
@@ -269,8 +275,17 @@ bool Vda5050RobotAdapter::IsJob(std::string_view orderID) const
     return jobOrNull != nullptr && jobOrNull->commandID == orderID;
 }
 
+bool Vda5050RobotAdapter::IsPending(std::string_view orderID) const
+{
+    return _pendingOrder.has_value() && _pendingOrder->orderID == orderID;
+}
+
 void Vda5050RobotAdapter::RejectOrder(const std::string& orderID, const std::string& reason, AdapterActions& out)
 {
+    if (IsPending(orderID))
+    {
+        _pendingOrder.reset();
+    }
     if (IsDrive(orderID))
     {
         static_cast<void>(TakeDrive());
@@ -291,6 +306,10 @@ void Vda5050RobotAdapter::Drain(Core::Now now, AdapterActions& out)
         for (const VDA5050::MasterAction& action : actions)
         {
             HandleAction(action, now, out);
+        }
+        if (!_drive.has_value() && _nextDrive.has_value())
+        {
+            StartDrive(*std::exchange(_nextDrive, std::nullopt), now, out);
         }
         SendPendingUpdate(now, out);
         SendPendingOrder(now, out);
@@ -326,8 +345,8 @@ void Vda5050RobotAdapter::HandleAction(const VDA5050::MasterAction& action, Core
             [&](const VDA5050::VehicleOffline&) { SetOnline(false, now, out); },
             [&](const VDA5050::VehicleBroken&) { SetOnline(false, now, out); },
             [&](const VDA5050::VehicleSilent&) { SetOnline(false, now, out); },
-            [&](const VDA5050::OrderAccepted&) {
-                if (_drive.has_value())
+            [&](const VDA5050::OrderAccepted& accepted) {
+                if (IsDrive(accepted.orderID))
                 {
                     _drive->OnConfirmed();
                 }
@@ -344,7 +363,7 @@ void Vda5050RobotAdapter::HandleAction(const VDA5050::MasterAction& action, Core
                 OnActionChanged(changed, out);
             },
             [&](const VDA5050::OrderFinished& finished) { OnFinished(finished.orderID, now, out); },
-            [&](const VDA5050::OrderCancelled& cancelled) { OnCancelled(cancelled.orderID, out); },
+            [&](const VDA5050::OrderCancelled& cancelled) { OnCancelled(cancelled.orderID, now, out); },
             [](const auto&) {
             }},
         action);
@@ -352,7 +371,7 @@ void Vda5050RobotAdapter::HandleAction(const VDA5050::MasterAction& action, Core
 
 void Vda5050RobotAdapter::OnNodeReached(const VDA5050::NodeReached& reached, AdapterActions& out)
 {
-    if (_drive.has_value())
+    if (_drive.has_value() && !IsPending(_drive->GetOrderID()))
     {
         _drive->OnNodePassed(reached.nodeID);
         out.emplace_back(RaiseEvent{Planning::NodePassed{_drive->GetOrderID(), reached.nodeID}});
@@ -407,7 +426,7 @@ void Vda5050RobotAdapter::OnLost(const VDA5050::OrderLost& lost, AdapterActions&
     }
 }
 
-void Vda5050RobotAdapter::OnCancelled(const std::string& orderID, AdapterActions& out)
+void Vda5050RobotAdapter::OnCancelled(const std::string& orderID, Core::Now now, AdapterActions& out)
 {
     if (!IsDrive(orderID))
     {
@@ -418,6 +437,11 @@ void Vda5050RobotAdapter::OnCancelled(const std::string& orderID, AdapterActions
     if (const std::optional<std::string>& reason = drive.GetAbandonReasonOrNull(); reason.has_value())
     {
         ReportDriveRejected(orderID, *reason, out);
+        return;
+    }
+    if (const std::optional<Planning::StartJob> jobOrNull = _job.TakeDeferredOrNull(); jobOrNull.has_value())
+    {
+        StartJob(*jobOrNull, now, out); // commanded after the cancellation of a repetition
         return;
     }
     out.emplace_back(RaiseEvent{Planning::DriveCancelled{orderID, drive.GetLastPassedNodeID()}});

@@ -11,6 +11,7 @@
 #include "robots/VehicleJob.hpp"
 #include "robots/VehicleJobCheck.hpp"
 #include "robots/VehicleMaps.hpp"
+#include "robots/VehicleRepetition.hpp"
 #include "robots/VehicleReport.hpp"
 #include <acs/core/Now.hpp>
 #include <acs/vda5050/MasterSession.hpp>
@@ -19,7 +20,6 @@
 #include <tl/expected.hpp>
 
 #include <chrono>
-#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,10 +61,9 @@ private:
     std::optional<VehicleDrive> _drive;
     VehicleJob _job;
     std::optional<VDA5050::OrderMessage> _pendingOrder; ///< Sent when the vehicle has finished the order before.
-    std::string _incompatibility;                       ///< As reported.
-    /// The node of the last drive whose REQUIRED actions have not finished, with these.
-    std::optional<Planning::RouteNode> _openNode;
-    std::size_t _repetitionCount = 0; ///< Of orders that repeat actions of a node before a job.
+    std::optional<Planning::Drive> _nextDrive; ///< Waits for the end of a cancelled repetition, which is the drive.
+    std::string _incompatibility;              ///< As reported.
+    VehicleRepetition _repetition;
     ForeignOrder _foreignOrder;
     OperatorActions _operatorActions;
     CommandedActions _commandedActions;
@@ -105,6 +104,7 @@ public:
 
 private:
     void StartDrive(const Planning::Drive& drive, Core::Now now, Planning::AdapterActions& out);
+    void ExtendDrive(const Planning::ExtendDrive& extension, Core::Now now, Planning::AdapterActions& out);
     void StartJob(const Planning::StartJob& job, Core::Now now, Planning::AdapterActions& out);
     void CancelJob(const std::string& jobID, Core::Now now, Planning::AdapterActions& out);
     /// The node that the vehicle reports, or that of the job if it reports none; empty: unknown.
@@ -132,9 +132,10 @@ private:
     [[nodiscard]] bool IsOccupied() const;
     [[nodiscard]] bool IsDrive(std::string_view orderID) const;
     [[nodiscard]] bool IsJob(std::string_view orderID) const;
+    /// The order waits to be sent.
+    [[nodiscard]] bool IsPending(std::string_view orderID) const;
     void RejectOrder(const std::string& orderID, const std::string& reason, Planning::AdapterActions& out);
 
-    [[nodiscard]] DriveContents MakeContents(const Planning::Route& route) const;
     /// The drive has ended. The next drive or job repeats the actions of the vehicle's node that have not finished.
     [[nodiscard]] VehicleDrive TakeDrive();
     /// The deferred job follows when the unfinished actions of the vehicle's node have been repeated; otherwise it is rejected.
@@ -162,7 +163,7 @@ private:
     void OnLost(const VDA5050::OrderLost& lost, Planning::AdapterActions& out);
     void OnFinished(const std::string& orderID, Core::Now now, Planning::AdapterActions& out);
     void OnDriveFinished(const std::string& orderID, Core::Now now, Planning::AdapterActions& out);
-    void OnCancelled(const std::string& orderID, Planning::AdapterActions& out);
+    void OnCancelled(const std::string& orderID, Core::Now now, Planning::AdapterActions& out);
     void SetOnline(bool bOnline, Core::Now now, Planning::AdapterActions& out);
     /// The factsheet was received, or is no longer awaited.
     void OnFactsheet(Core::Now now, Planning::AdapterActions& out);

@@ -1,6 +1,4 @@
-#include "robots/VehicleFixture.hpp"
-#include <acs/plan/LifReader.hpp>
-#include <acs/plan/Router.hpp>
+#include "robots/LiftingVehicle.hpp"
 
 #include <string>
 #include <utility>
@@ -11,43 +9,6 @@ namespace ACS::Acsd::Test
 
 namespace
 {
-
-/// N1 - E1 - N2 - E2 - N3, 3 m each, with these members in the rule of N2 and in that of E1.
-std::string MakeMap(const std::string& nodeMembers, const std::string& edgeMembers)
-{
-    std::string nodes;
-    for (const std::string number : {"1", "2", "3"})
-    {
-        nodes += (nodes.empty() ? "" : ", ") + (R"({"nodeId": "N)" + number)
-            + R"(", "mapId": "floor", "nodePosition": {"x": )" + std::to_string(3 * (std::stoi(number) - 1))
-            + R"(, "y": 0}, "vehicleTypeNodeProperties": [{"vehicleTypeId": "lr")"
-            + (number == "2" && !nodeMembers.empty() ? ", " + nodeMembers : "") + "}]}";
-    }
-    std::string edges;
-    for (const auto& [number, next] : {std::pair("1", "2"), std::pair("2", "3")})
-    {
-        const bool bFirst = edges.empty();
-        edges += (bFirst ? "" : ", ") + (R"({"edgeId": "E)" + std::string(number)) + R"(", "startNodeId": "N)" + number
-            + R"(", "endNodeId": "N)" + next + R"(", "vehicleTypeEdgeProperties": [{"vehicleTypeId": "lr")"
-            + (bFirst && !edgeMembers.empty() ? ", " + edgeMembers : "") + "}]}";
-    }
-    return R"({"metaInformation": {"projectIdentification": "p", "creator": "c", "exportTimestamp": "2025-01-01T00:00:00Z",
-        "lifVersion": "1.0.0"}, "layouts": [{"layoutId": "one", "layoutVersion": "1", "nodes": [)"
-        + nodes + R"(], "edges": [)" + edges + R"(], "stations": []}]})";
-}
-
-/// A drive from N1 to N3 on that map.
-Planning::Drive MakeMapDrive(
-    const std::string& nodeMembers,
-    const std::string& edgeMembers,
-    std::string driveID = "3f2a7c10-5b6d-4e8f-9a0b-1c2d3e4f5061")
-{
-    const Core::Result<Planning::SiteMap> site = Planning::DecodeLIF(MakeMap(nodeMembers, edgeMembers));
-    REQUIRE(site);
-    const std::optional<Planning::Route> route = Planning::Router(*site).FindRouteOrNull("lr", "N1", "N3");
-    REQUIRE(route.has_value());
-    return {std::move(driveID), *route, 2};
-}
 
 /// The text of the only order that was published since.
 std::string TakePayload(VehicleFixture& vehicle)
@@ -90,68 +51,6 @@ const std::string LIFT = R"("actions": [
     {"actionType": "look", "requirementType": "CONDITIONAL", "blockingType": "NONE"},
     {"actionType": "wave", "blockingType": "NONE"},
     {"actionType": "lock", "requirementType": "REQUIRED", "blockingType": "SOFT"}])";
-
-/// The vehicle on its way from N1 to N3, or to N2 only, with the action "lift" on N2 and on E1.
-struct LiftingVehicle : VehicleFixture
-{
-    const std::string lift =
-        R"("actions": [{"actionType": "lift", "requirementType": "REQUIRED", "blockingType": "HARD"}])";
-    VDA5050::OrderMessage order;
-
-    explicit LiftingVehicle(std::size_t nodeCount = 3)
-    {
-        state.lastNodeID = "N1";
-        ComeOnline();
-        Planning::Drive drive = MakeMapDrive(lift, lift, "D1");
-        drive.route.nodes.resize(nodeCount);
-        drive.route.edges.resize(nodeCount - 1);
-        drive.releasedCount = nodeCount;
-        Command(drive);
-        order = TakeOrders().at(0);
-        ShowOrder(order, nodeCount == 2 ? std::vector<std::string>{"N2"} : std::vector<std::string>{"N2", "N3"});
-        state.actionStates = {
-            MakeState("D1-1-0", VDA5050::EActionStatus::Waiting),
-            MakeState("D1-2-0", VDA5050::EActionStatus::Waiting)};
-        ShowState();
-        actions.clear();
-    }
-
-    static VDA5050::ActionState MakeState(std::string actionID, VDA5050::EActionStatus status)
-    {
-        VDA5050::ActionState action;
-        action.actionID = std::move(actionID);
-        action.actionType = "lift";
-        action.actionStatus = status;
-        return action;
-    }
-
-    /// On N2, with the edge's action finished and this status of the node's action.
-    void ShowAtNode(VDA5050::EActionStatus status)
-    {
-        ShowOrder(order, {"N3"});
-        ShowAt("N2", 2);
-        state.actionStates = {MakeState("D1-1-0", VDA5050::EActionStatus::Finished), MakeState("D1-2-0", status)};
-        ShowState();
-    }
-
-    /// It was restarted on N2.
-    void LoseOrder()
-    {
-        state.orderID.clear();
-        state.nodeStates.clear();
-        state.actionStates.clear();
-        ShowState();
-        REQUIRE(TakeEvents<Planning::DriveRejected>().size() == 1);
-    }
-
-    /// On N3, where the drive ends.
-    void ShowAtEnd()
-    {
-        ShowOrder(order, {});
-        ShowAt("N3", 4);
-        ShowState();
-    }
-};
 
 } // namespace
 
@@ -285,30 +184,14 @@ TEST_CASE(
     vehicle.ShowState();
     CHECK(vehicle.adapter.GetSession().GetOrderPhase() == VDA5050::EOrderPhase::Cancelling);
     CHECK(vehicle.TakeEvents<Planning::DriveRejected>().empty());
-    VDA5050::InstantActionsMessage cancel;
-    for (const VDA5050::MqttMessage& message : vehicle.outputs.messages)
-    {
-        if (message.topic.ends_with("/instantActions"))
-        {
-            cancel = *vehicle.codec.Decode<VDA5050::InstantActionsMessage>(message.payload);
-        }
-    }
-    REQUIRE(cancel.actions.size() == 1);
     vehicle.ShowOrder(vehicle.order, {});
-    vehicle.state.actionStates.push_back(
-        LiftingVehicle::MakeState(cancel.actions[0].actionID, VDA5050::EActionStatus::Finished));
-    vehicle.state.actionStates.back().actionType = cancel.actions[0].actionType;
-    vehicle.ShowState();
+    vehicle.ShowCancelled();
     const std::vector<Planning::DriveRejected> rejected = vehicle.TakeEvents<Planning::DriveRejected>();
     REQUIRE(rejected.size() == 1);
     CHECK(rejected[0].reason == "the action lift of the node N2 failed: jammed");
 
     vehicle.outputs.messages.clear();
-    Planning::Drive next = MakeMapDrive(vehicle.lift, vehicle.lift, "D2");
-    next.route.nodes.erase(next.route.nodes.begin());
-    next.route.edges.erase(next.route.edges.begin());
-    next.releasedCount = 1;
-    vehicle.Command(next);
+    vehicle.Command(vehicle.MakeNextDrive());
     const VDA5050::OrderMessage order = vehicle.TakeOrders().at(0);
     REQUIRE(order.nodes[0].actions.size() == 1);
     CHECK(order.nodes[0].actions[0].actionID == "D2-0-0");
@@ -374,36 +257,12 @@ TEST_CASE("A job at a node whose REQUIRED action has not finished is sent when t
     CHECK(vehicle.TakeEvents<Planning::Arrived>().empty());
 }
 
-TEST_CASE("A job that is cancelled while actions are repeated is not sent")
-{
-    LiftingVehicle vehicle;
-    vehicle.ShowAtNode(VDA5050::EActionStatus::Running);
-    vehicle.LoseOrder();
-    vehicle.Command(MakeJob("CassetteLoad"));
-    const VDA5050::OrderMessage repetition = vehicle.TakeOrders().at(0);
-    vehicle.ShowOrder(repetition, {});
-    vehicle.ShowAt("N2", 0);
-    vehicle.state.actionStates = {
-        LiftingVehicle::MakeState(repetition.nodes[0].actions[0].actionID, VDA5050::EActionStatus::Running)};
-    vehicle.ShowState();
-    vehicle.Command(Planning::CancelJob{"J"});
-    CHECK(vehicle.TakeEvents<Planning::JobFailed>().size() == 1);
-    CHECK(vehicle.adapter.GetSession().GetOrderPhase() == VDA5050::EOrderPhase::Cancelling);
-    vehicle.state.actionStates[0].actionStatus = VDA5050::EActionStatus::Finished;
-    vehicle.ShowState();
-    CHECK(vehicle.TakeOrders().empty());
-}
-
 TEST_CASE("A drive does not repeat the actions of the node where it starts after they have finished")
 {
     LiftingVehicle vehicle;
     vehicle.ShowAtNode(VDA5050::EActionStatus::Finished);
     vehicle.LoseOrder();
-    Planning::Drive next = MakeMapDrive(vehicle.lift, vehicle.lift, "D2");
-    next.route.nodes.erase(next.route.nodes.begin());
-    next.route.edges.erase(next.route.edges.begin());
-    next.releasedCount = 1;
-    vehicle.Command(next);
+    vehicle.Command(vehicle.MakeNextDrive());
     CHECK(vehicle.TakeOrders().at(0).nodes[0].actions.empty());
 }
 
@@ -423,11 +282,7 @@ TEST_CASE(
     CHECK(rejected[0].reason.find("lost the order") != std::string::npos);
     vehicle.state.operatingMode = VDA5050::EOperatingMode::Automatic;
     vehicle.ShowState();
-    Planning::Drive next = MakeMapDrive(vehicle.lift, vehicle.lift, "D2");
-    next.route.nodes.erase(next.route.nodes.begin());
-    next.route.edges.erase(next.route.edges.begin());
-    next.releasedCount = 1;
-    vehicle.Command(next);
+    vehicle.Command(vehicle.MakeNextDrive());
     CHECK(vehicle.TakeOrders().at(0).nodes[0].actions.size() == 1);
 }
 

@@ -85,6 +85,21 @@ struct UnfinishedNode : ArmFixture
         return orders;
     }
 
+    /// The id of the cancelOrder that was sent.
+    std::string TakeCancelID()
+    {
+        for (const VDA5050::MqttMessage& message : std::exchange(outputs.messages, {}))
+        {
+            if (message.topic.ends_with("/instantActions"))
+            {
+                const auto sent = VDA5050::Vda5050Codec().Decode<VDA5050::InstantActionsMessage>(message.payload);
+                REQUIRE(sent);
+                return sent->actions.at(0).actionID;
+            }
+        }
+        return {};
+    }
+
     /// The order that repeats the action, which then runs.
     VDA5050::OrderMessage CommandJob()
     {
@@ -154,6 +169,30 @@ TEST_CASE("A job of the arm that is cancelled while the base repeats actions is 
     CHECK(robot.adapter.GetSession().GetOrderPhase() == VDA5050::EOrderPhase::Cancelling);
     robot.ShowRepetition(order, VDA5050::EActionStatus::Finished);
     CHECK(robot.TakeRequests().empty());
+}
+
+TEST_CASE(
+    "The next job of the arm waits for the end of a cancelled repetition, whose finished actions are not repeated")
+{
+    UnfinishedNode robot;
+    const VDA5050::OrderMessage order = robot.CommandJob();
+    robot.adapter.Handle(Planning::CancelJob{"J"}, robot.clock.GetNow(), robot.actions);
+    robot.job.jobID = "K";
+    robot.job.commandID = "U2";
+    robot.adapter.Handle(robot.job, robot.clock.GetNow(), robot.actions);
+    const std::string cancelID = robot.TakeCancelID();
+    robot.ShowRepetition(order, VDA5050::EActionStatus::Finished);
+    CHECK(robot.TakeOrders().empty());
+    robot.state.actionStates.push_back({cancelID, "cancelOrder", "", VDA5050::EActionStatus::Finished, ""});
+    robot.ShowState();
+    const std::vector<VDA5050::OrderMessage> orders = robot.TakeOrders();
+    REQUIRE(orders.size() == 1);
+    CHECK(orders[0].nodes[0].actions.empty());
+    CHECK(robot.TakeRequests().empty());
+    robot.state.orderID = orders[0].orderID;
+    robot.state.actionStates.clear();
+    robot.ShowState();
+    CHECK(robot.TakeRequests() == std::vector<std::string>{SELECT});
 }
 
 TEST_CASE("An arm that is lost while the base repeats actions returns its job when they have finished")

@@ -270,4 +270,24 @@ TEST_CASE("A factsheet that is the same again changes nothing")
     CHECK(vehicle.TakeEvents<Planning::JobCheckChanged>().size() == count);
 }
 
+TEST_CASE("A drive that waits for the end of a job's order does not pass the node of this order")
+{
+    VehicleFixture vehicle;
+    vehicle.ComeOnline();
+    vehicle.Command(MakeJob("CassetteLoad"));
+    const VDA5050::OrderMessage job = vehicle.TakeOrders().at(0);
+    vehicle.ShowOrder(job, {"A"}); // not yet reached by its own account
+    vehicle.ShowAt("A", 4);
+    vehicle.state.actionStates = {{"U1", "pick", "", VDA5050::EActionStatus::Finished, ""}};
+    vehicle.ShowState();
+    REQUIRE(vehicle.TakeEvents<Planning::JobFinished>().size() == 1);
+    vehicle.Command(MakeDrive());
+    CHECK(vehicle.TakeOrders().empty());
+    vehicle.ShowOrder(job, {});
+    vehicle.ShowAt("A", 0);
+    vehicle.ShowState();
+    CHECK(vehicle.TakeEvents<Planning::NodePassed>().empty());
+    CHECK(vehicle.TakeOrders().size() == 1);
+}
+
 } // namespace ACS::Acsd::Test
