@@ -138,7 +138,8 @@ void Vda5050RobotAdapter::RecoverJob(Core::Now now, AdapterActions& out)
     {
         reportUnresolved("the vehicle shows no order, it may have been restarted");
     }
-    else if (std::ranges::count(recovery.earlierIDs, state.orderID) > 0)
+    else if (
+        std::ranges::count(recovery.earlierIDs, state.orderID) > 0 || _repetition.TryRecognize(recovery, state.orderID))
     {
         // A vehicle accepts orders one after the other: this one did not reach it.
         out.emplace_back(RaiseEvent{Planning::JobUnknown{job.jobID}});

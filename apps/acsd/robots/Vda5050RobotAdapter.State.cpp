@@ -20,6 +20,10 @@ void Vda5050RobotAdapter::OnState(Core::Now now, AdapterActions& out)
     _maps.OnReported(state.maps);
     _operatorActions.OnState(state);
     RecoverJob(now, out); // first: a job of before a restart does not make the vehicle occupied
+    if (const std::string* const commandOrNull = _repetition.FindCommandOrNull(state.orderID); commandOrNull != nullptr)
+    {
+        _report.SetShownCommand(*commandOrNull); // the engine does not know the orderId
+    }
     const bool bOccupied = IsOccupied();
     if (!bOccupied && _session.CanTakeOrder())
     {

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
+#include <system_error>
+
 namespace ACS::Acsd
 {
 
@@ -14,6 +18,19 @@ std::string MakeRepetitionID(const std::string& commandID, std::size_t number)
     const std::string prefix = fmt::format("{}-", number);
     constexpr std::size_t SHORTEST = 32;
     return prefix + commandID.substr(commandID.size() < SHORTEST ? 0 : prefix.size());
+}
+
+/// The number in the orderId if the order repeats actions before the job of the commandID.
+std::optional<std::size_t> FindRepetitionNumberOrNull(const std::string& commandID, const std::string& orderID)
+{
+    std::size_t number = 0;
+    const std::errc error = std::from_chars(orderID.data(), orderID.data() + orderID.size(), number).ec;
+    // A commandID may begin with a number too: then the same id is the job's own order.
+    if (error != std::errc() || orderID == commandID || orderID != MakeRepetitionID(commandID, number))
+    {
+        return std::nullopt;
+    }
+    return number;
 }
 
 } // namespace
@@ -45,6 +62,28 @@ std::optional<Planning::Drive> VehicleRepetition::MakeDriveOrNull(
     repetition.route.nodes.push_back(*_openNode);
     repetition.releasedCount = 1;
     return repetition;
+}
+
+bool VehicleRepetition::TryRecognize(const Planning::RecoverJob& recovery, const std::string& orderID)
+{
+    std::vector<std::string> commandIDs = recovery.earlierIDs;
+    commandIDs.push_back(recovery.job.commandID);
+    _shown.reset();
+    for (const std::string& commandID : commandIDs)
+    {
+        const std::optional<std::size_t> numberOrNull = FindRepetitionNumberOrNull(commandID, orderID);
+        if (numberOrNull.has_value())
+        {
+            _count = std::max(_count, *numberOrNull); // the next order needs another orderId
+            _shown = Shown{orderID, commandID};
+        }
+    }
+    return _shown.has_value();
+}
+
+const std::string* VehicleRepetition::FindCommandOrNull(std::string_view orderID) const noexcept
+{
+    return _shown.has_value() && _shown->orderID == orderID ? &_shown->commandID : nullptr;
 }
 
 } // namespace ACS::Acsd

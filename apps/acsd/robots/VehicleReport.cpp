@@ -129,6 +129,11 @@ void VehicleReport::UpdateErrors(const VDA5050::StateMessage& state)
     }
 }
 
+void VehicleReport::SetShownCommand(std::string commandID)
+{
+    _state.restartEvidence.commandID = std::move(commandID);
+}
+
 void VehicleReport::AddErrors(const std::vector<Planning::RobotError>& errors)
 {
     _state.errors.insert(_state.errors.end(), errors.begin(), errors.end());

@@ -4,6 +4,7 @@
 #include <acs/plan/RobotEvent.hpp>
 #include <acs/vda5050/StateMessage.hpp>
 
+#include <string>
 #include <vector>
 
 namespace ACS::Acsd
@@ -23,6 +24,8 @@ public:
     void OnPosition(const VDA5050::AgvPosition& position);
     /// After Update, in addition to the errors of the state.
     void AddErrors(const std::vector<Planning::RobotError>& errors);
+    /// After Update: what the robot shows of its commands, instead of the state's orderId.
+    void SetShownCommand(std::string commandID);
     /// After Update. An occupied vehicle keeps the released nodes ahead of it.
     void SetOccupied(bool bOccupied, const VDA5050::StateMessage& state);
 

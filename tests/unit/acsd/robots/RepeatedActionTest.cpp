@@ -101,4 +101,19 @@ TEST_CASE("A drive that waits for the end of a cancelled repetition has no part 
     }
 }
 
+TEST_CASE("A repetition after a restart has another orderId than the one that the vehicle shows of the same job")
+{
+    LiftingVehicle vehicle;
+    vehicle.ShowAtNode(VDA5050::EActionStatus::Running);
+    vehicle.LoseOrder();
+    Planning::StartJob job = MakeJob("CassetteLoad");
+    job.commandID = "3f2a7c10-5b6d-4e8f-9a0b-1c2d3e4f5061";
+    vehicle.state.orderID = "1-2a7c10-5b6d-4e8f-9a0b-1c2d3e4f5061";
+    vehicle.ShowState();
+    vehicle.Command(Planning::RecoverJob{job, {}});
+    REQUIRE(vehicle.TakeEvents<Planning::JobUnknown>().size() == 1);
+    vehicle.Command(job);
+    CHECK(vehicle.TakeOrders().at(0).orderID == "2-2a7c10-5b6d-4e8f-9a0b-1c2d3e4f5061");
+}
+
 } // namespace ACS::Acsd::Test

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace ACS::Acsd::Test
@@ -91,6 +92,41 @@ TEST_CASE(
         vehicle.ShowAction(VDA5050::EActionStatus::Finished);
         CHECK(vehicle.TakeEvents<Planning::JobFinished>().size() == 1);
     }
+}
+
+TEST_CASE("After a restart an order that repeats actions before the job shows that the vehicle never had the job")
+{
+    for (const auto& [orderID, commandID] : {std::pair("1-U1", "U1"), std::pair("12-D", "D")})
+    {
+        INFO(orderID);
+        RecoveryFixture vehicle(orderID, std::nullopt);
+        CHECK(vehicle.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"J"}});
+        CHECK(vehicle.TakeEvents<Planning::JobUnresolved>().empty());
+        CHECK(vehicle.TakeEvents<Planning::StateChanged>().back().restartEvidence.commandID == commandID);
+        vehicle.state.orderID = "another";
+        vehicle.ShowState();
+        CHECK(vehicle.TakeEvents<Planning::StateChanged>().back().restartEvidence.commandID == "another");
+    }
+    for (const char* orderID : {"1-U2", "x-U1", "-U1", "01-U1", "1-"})
+    {
+        INFO(orderID);
+        RecoveryFixture vehicle(orderID, std::nullopt);
+        CHECK(vehicle.TakeEvents<Planning::JobUnresolved>().size() == 1);
+        CHECK(vehicle.TakeEvents<Planning::JobUnknown>().empty());
+        CHECK(vehicle.TakeEvents<Planning::StateChanged>().back().restartEvidence.commandID == orderID);
+    }
+}
+
+TEST_CASE("After a restart the job's own order without its action is no repetition, whatever its commandID begins with")
+{
+    VehicleFixture vehicle;
+    Planning::StartJob job = MakeJob("CassetteLoad");
+    job.commandID = "12345678-5b6d-4e8f-9a0b-1c2d3e4f5061";
+    vehicle.state.orderID = job.commandID;
+    vehicle.Command(Planning::RecoverJob{job, {}});
+    vehicle.ComeOnline();
+    CHECK(vehicle.TakeEvents<Planning::JobUnresolved>().size() == 1);
+    CHECK(vehicle.TakeEvents<Planning::JobUnknown>().empty());
 }
 
 TEST_CASE("After a restart no order, an unknown order or one without its action prove nothing of a job")
