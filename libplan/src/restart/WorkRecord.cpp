@@ -167,4 +167,9 @@ bool WorkRecord::IsUnresolved() const noexcept
     return _bUnresolved;
 }
 
+bool WorkRecord::IsChecked() const noexcept
+{
+    return !_evidence.has_value();
+}
+
 } // namespace ACS::Planning

@@ -55,6 +55,8 @@ public:
     [[nodiscard]] const std::vector<std::string>& GetEarlierIDs() const noexcept;
     /// The robot may have done more jobs of its plan than were stored: an operator must resolve each.
     [[nodiscard]] bool IsUnresolved() const noexcept;
+    /// Whether it may have done more is known: there was no restart, or it has shown its state since.
+    [[nodiscard]] bool IsChecked() const noexcept;
 };
 
 } // namespace ACS::Planning

@@ -64,8 +64,8 @@ void PlanAssignment::WithdrawOffers(EOffers offers)
 bool PlanAssignment::CanHandOver(const ActivePlan& plan) const
 {
     return plan.robot.has_value() && plan.resolved.candidates.size() > 1 && !plan.bJobBegun
-        && !_fleet[*plan.robot].work.IsUnresolved() && plan.record.progress.state == EPlanState::InProgress
-        && !plan.record.progress.control.has_value();
+        && _fleet[*plan.robot].work.IsChecked() && !_fleet[*plan.robot].work.IsUnresolved()
+        && plan.record.progress.state == EPlanState::InProgress && !plan.record.progress.control.has_value();
 }
 
 void PlanAssignment::HandOver(ActivePlan& plan, Robot& successor)

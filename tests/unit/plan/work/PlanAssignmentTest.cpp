@@ -59,6 +59,16 @@ TEST_CASE("PlanAssignment: a plan is handed over before its first job only, and 
         parts.lr.work.MarkUnresolved();
         CHECK_FALSE(parts.assignment.CanHandOver(plan));
     }
+    SECTION("after a restart the robot has not shown what it did")
+    {
+        const RobotWorkChanged stored = parts.lr.work.Make("LR01");
+        parts.lr.work.Restore(stored);
+        CHECK_FALSE(parts.assignment.CanHandOver(plan));
+        StateChanged state;
+        state.restartEvidence.commandID = stored.commandID;
+        CHECK(parts.lr.work.TryCheckEvidence(state, true));
+        CHECK(parts.assignment.CanHandOver(plan));
+    }
     SECTION("a job was commanded")
     {
         plan.bJobBegun = true;
