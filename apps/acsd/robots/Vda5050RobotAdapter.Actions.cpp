@@ -61,7 +61,7 @@ void Vda5050RobotAdapter::ReportDriveRejected(
 void Vda5050RobotAdapter::OnDriveFinished(const std::string& orderID, Core::Now now, AdapterActions& out)
 {
     const VehicleDrive drive = TakeDrive();
-    if (const std::optional<std::string>& reason = drive.GetAbandonReasonOrNull(); reason.has_value())
+    if (const std::optional<std::string>& reason = drive.GetFailureOrNull(); reason.has_value())
     {
         ReportDriveRejected(orderID, *reason, out);
     }
@@ -100,7 +100,7 @@ void Vda5050RobotAdapter::OnDriveAction(const VDA5050::ActionChanged& action, Co
             action.resultDescription.empty() ? "no reason given" : action.resultDescription);
         if (_session.GetOrderID() != _drive->GetOrderID())
         {
-            _drive->Abandon(reason); // the same state ends the order, which is reported after its last nodes
+            _drive->OnActionFailed(reason); // the same state ends the order, which is reported after its last nodes
             return;
         }
         AbandonDrive(reason, now, out);

@@ -268,6 +268,11 @@ std::optional<Planning::RouteNode> VehicleDrive::GetOpenNodeOrNull() const
     return node;
 }
 
+void VehicleDrive::OnActionFailed(std::string reason)
+{
+    _failure = std::move(reason);
+}
+
 void VehicleDrive::Abandon(std::string reason)
 {
     _abandonReason = std::move(reason);
@@ -276,6 +281,11 @@ void VehicleDrive::Abandon(std::string reason)
 const std::optional<std::string>& VehicleDrive::GetAbandonReasonOrNull() const noexcept
 {
     return _abandonReason;
+}
+
+const std::optional<std::string>& VehicleDrive::GetFailureOrNull() const noexcept
+{
+    return _abandonReason.has_value() ? _abandonReason : _failure;
 }
 
 const std::string& VehicleDrive::GetOrderID() const noexcept

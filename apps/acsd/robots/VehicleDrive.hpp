@@ -50,6 +50,7 @@ private:
     std::string _lastPassedNodeID;
     bool _bShortUpdate = false; ///< The vehicle has rejected an update, and has confirmed none since.
     std::optional<std::string> _abandonReason;
+    std::optional<std::string> _failure;
     std::vector<OpenAction> _openActions;
 
     VehicleDrive(VDA5050::OrderBuilder route, std::size_t wantedReleased);
@@ -79,6 +80,8 @@ public:
     [[nodiscard]] bool TryShortenUpdate();
     void OnNodePassed(std::string nodeID);
     void OnActionFinished(std::string_view actionID);
+    /// In the state with which the order ended. If it was cancelled, that is why the action failed.
+    void OnActionFailed(std::string reason);
     /// What the unfinished action is, for people; null if the drive has no such action.
     [[nodiscard]] const std::string* FindOpenActionOrNull(std::string_view actionID) const;
     /// Likewise of the first unfinished action.
@@ -89,6 +92,8 @@ public:
     /// The drive is being cancelled for this reason. It is reported as rejected when the vehicle has stopped.
     void Abandon(std::string reason);
     [[nodiscard]] const std::optional<std::string>& GetAbandonReasonOrNull() const noexcept;
+    /// Why the drive was not executed although the vehicle has reached its end: it is abandoned, or an action failed.
+    [[nodiscard]] const std::optional<std::string>& GetFailureOrNull() const noexcept;
 
     [[nodiscard]] const std::string& GetOrderID() const noexcept;
     [[nodiscard]] const std::string& GetLastPassedNodeID() const noexcept;

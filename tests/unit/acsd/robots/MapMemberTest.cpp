@@ -297,4 +297,20 @@ TEST_CASE("A vehicle that never reports a REQUIRED action has not arrived")
     CHECK(rejected[0].reason.find("lift of the node N2") != std::string::npos);
 }
 
+TEST_CASE("A drive whose action fails because it is cancelled is reported as cancelled, even in the same state")
+{
+    const bool bSameState = GENERATE(true, false);
+    LiftingVehicle vehicle;
+    vehicle.ShowAtNode(VDA5050::EActionStatus::Running);
+    vehicle.Command(Planning::CancelDrive{"D1"});
+    vehicle.state.actionStates[1].actionStatus = VDA5050::EActionStatus::Failed;
+    if (!bSameState)
+    {
+        vehicle.ShowState();
+    }
+    vehicle.ShowCancelled();
+    CHECK(vehicle.TakeEvents<Planning::DriveRejected>().empty());
+    CHECK(vehicle.TakeEvents<Planning::DriveCancelled>().size() == 1);
+}
+
 } // namespace ACS::Acsd::Test
