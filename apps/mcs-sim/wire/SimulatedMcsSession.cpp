@@ -350,7 +350,8 @@ std::optional<std::chrono::milliseconds> SimulatedMcsSession::GetHeldTimeOrNull(
         if (_session.GetRegisteredOrNull() != delayed.connection)
         {
             const auto rest = std::chrono::ceil<std::chrono::milliseconds>(delayed.deadline - now.steady);
-            time = std::max(time.value_or(std::chrono::milliseconds(0)), rest);
+            // One that is due is sent within a millisecond. A timer of 0 would expire again and again until then.
+            time = std::max(time.value_or(std::chrono::milliseconds(1)), rest);
         }
     }
     return time;

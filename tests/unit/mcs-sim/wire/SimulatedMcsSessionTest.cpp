@@ -186,6 +186,10 @@ TEST_CASE("6.2 A connection whose Registration is held is not closed as one with
     REQUIRE(timers.size() == 1);
     CHECK(timers[0] == Protocol::StartTimer{Protocol::ESessionTimer::Registration, 2s});
     mcs.clock.Advance(2s);
+    mcs.probe.Clear();
+    mcs.session.OnTimer(Protocol::ESessionTimer::Registration, mcs.clock.GetNow(), mcs.probe.out);
+    REQUIRE(mcs.probe.GetAll<Protocol::StartTimer>().size() == 1);
+    CHECK(mcs.probe.GetAll<Protocol::StartTimer>()[0].delay == 1ms); // due, and not sent yet
     mcs.SendDelayed();
     CHECK(mcs.session.GetRegisteredOrNull() == Protocol::ConnectionID(1));
     mcs.session.OnTimer(Protocol::ESessionTimer::Registration, mcs.clock.GetNow(), mcs.probe.out);
