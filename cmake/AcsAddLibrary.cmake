@@ -23,7 +23,6 @@ function(acs_add_library)
   set_target_properties(${arg_NAME} PROPERTIES EXPORT_NAME ${arg_EXPORT} CXX_EXTENSIONS OFF
     POSITION_INDEPENDENT_CODE ON VERIFY_INTERFACE_HEADER_SETS ON)
   acs_hide_symbols(${arg_NAME})
-  acs_optimise_sanitized(${arg_NAME})
   if(ACS_INSTALL)
     install(TARGETS ${arg_NAME} EXPORT acs${arg_EXPORT}Targets
       ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
@@ -50,7 +49,6 @@ function(acs_add_internal_library)
   target_compile_features(${arg_NAME} PUBLIC cxx_std_20)
   set_target_properties(${arg_NAME} PROPERTIES EXPORT_NAME ${arg_EXPORT} POSITION_INDEPENDENT_CODE ON)
   acs_hide_symbols(${arg_NAME})
-  acs_optimise_sanitized(${arg_NAME})
   if(ACS_INSTALL AND NOT ACS_BUILD_SHARED)
     install(TARGETS ${arg_NAME} EXPORT acs${arg_EXPORT}Targets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
     install(EXPORT acs${arg_EXPORT}Targets NAMESPACE ACS:: DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/acs")
