@@ -64,32 +64,29 @@ class LintSources(unittest.TestCase):
         self.assertIn("readability-identifier-naming", output)
         self.assertEqual(self.lint()[:2], (1, ["Second.cpp"]))
 
-    def test_a_finding_of_the_house_rules(self):
+    def check_second(self, text, finding):
         self.write("First.cpp", CLEAN.format("First"))
-        self.write("Second.cpp", "bool Knows()\n{\n    return true;\n}\n")
+        self.write("Second.cpp", text)
         _, failed, output = self.lint()
         self.assertEqual(failed, ["Second.cpp"])
-        self.assertIn("breaks a rule of scripts/house-rules.clang-query: bool Knows()", output)
+        self.assertIn(finding, output)
+
+    def test_a_finding_of_the_house_rules(self):
+        self.check_second("bool Knows()\n{\n    return true;\n}\n",
+                          "breaks a rule of scripts/house-rules.clang-query: bool Knows()")
 
     def test_a_finding_of_the_analyzer(self):
-        self.write("First.cpp", CLEAN.format("First"))
-        self.write("Second.cpp", "int GetQuotient(int size)\n{\n    const int none = 0;\n    return size / none;\n}\n")
-        _, failed, output = self.lint()
-        self.assertEqual(failed, ["Second.cpp"])
-        self.assertIn("clang-analyzer-core.DivideZero", output)
+        self.check_second("int GetQuotient(int size)\n{\n    const int none = 0;\n    return size / none;\n}\n",
+                          "clang-analyzer-core.DivideZero")
+
+    def test_a_source_that_needs_another_one(self):
+        self.check_second(DEPENDENT, "use of undeclared identifier 'GetOne'")
 
     def test_a_finding_in_a_header(self):
         self.write("Odd.hpp", "#pragma once\n\ninline " + ODD_NAME)
         for name in ("First", "Second"):
             self.write(name + ".cpp", '#include "Odd.hpp"\n\n' + CLEAN.format(name).replace("GetOne", "GetOneFor" + name))
         self.assertEqual(self.lint()[:2], (2, ["First.cpp", "Second.cpp"]))
-
-    def test_a_source_that_needs_another_one(self):
-        self.write("First.cpp", CLEAN.format("First"))
-        self.write("Second.cpp", DEPENDENT)
-        _, failed, output = self.lint()
-        self.assertEqual(failed, ["Second.cpp"])
-        self.assertIn("use of undeclared identifier 'GetOne'", output)
 
     def test_calls_across_sources_are_no_recursion(self):
         self.write("Calls.hpp", "#pragma once\n\nint CallFirst(int count);\nint CallSecond(int count);\n")

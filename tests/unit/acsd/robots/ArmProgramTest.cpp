@@ -61,13 +61,19 @@ struct ProgramFixture
         program.OnProof({bBegun, outcome}, "echo", actions);
     }
 
-    /// Selected, started and begun.
-    void Run()
+    /// Selected; the start is sent.
+    void SendStart()
     {
         program.Start({"J", 11, {}}, actions);
         Settle(EControlOutcome::Accepted);
         program.OnVerified(true, std::nullopt, actions);
         Advance();
+    }
+
+    /// Selected, started and begun.
+    void Run()
+    {
+        SendStart();
         Settle(EControlOutcome::Accepted);
         Prove(true, ArmProof::EOutcome::Open);
         static_cast<void>(TakeControls());
@@ -232,10 +238,7 @@ TEST_CASE("A job that is cancelled while its program is being selected fails whe
 TEST_CASE("A start that is refused after its program has begun does not end the job")
 {
     ProgramFixture arm;
-    arm.program.Start({"J", 11, {}}, arm.actions);
-    arm.Settle(EControlOutcome::Accepted);
-    arm.program.OnVerified(true, std::nullopt, arm.actions);
-    arm.Advance();
+    arm.SendStart();
     arm.Prove(true, ArmProof::EOutcome::Open);
     static_cast<void>(arm.program.TakeRequests());
     arm.Settle(EControlOutcome::Refused);
@@ -260,10 +263,7 @@ TEST_CASE("A program has longer to begin where its counters are shown seldom")
 TEST_CASE("A start whose fate is unknown is awaited, and echoed without counters it is not begun again")
 {
     ProgramFixture arm;
-    arm.program.Start({"J", 11, {}}, arm.actions);
-    arm.Settle(EControlOutcome::Accepted);
-    arm.program.OnVerified(true, std::nullopt, arm.actions);
-    arm.Advance();
+    arm.SendStart();
     arm.Settle(EControlOutcome::Unknown);
     arm.program.OnLost(arm.actions);
     CHECK(arm.program.HasJob());

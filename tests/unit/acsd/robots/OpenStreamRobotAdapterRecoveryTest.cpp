@@ -11,16 +11,22 @@ namespace ACS::Acsd::Test
 namespace
 {
 
-/// acsd was restarted and the adapter asked for the job J, which was commanded when the counters were [5 5 0].
+/// acsd was restarted and the adapter asked for the job J, which was commanded when the counters were these.
+void RecoverJob(ArmFixture& arm, const std::string& progressToken = "5 5 0")
+{
+    Planning::RecoverJob recover;
+    recover.job.jobID = "J";
+    recover.job.action = "TrayLoad";
+    recover.job.progressToken = progressToken;
+    arm.adapter.Handle(recover, arm.clock.GetNow(), arm.actions);
+}
+
+/// The same, with a connected arm that shows these counters.
 struct ArmRecoveryFixture : ArmFixture
 {
     explicit ArmRecoveryFixture(std::string_view counters, const std::string& progressToken = "5 5 0")
     {
-        Planning::RecoverJob recover;
-        recover.job.jobID = "J";
-        recover.job.action = "TrayLoad";
-        recover.job.progressToken = progressToken;
-        adapter.Handle(recover, clock.GetNow(), actions);
+        RecoverJob(*this, progressToken);
         CHECK(actions.empty());
         Deliver(OpenStream::ClientReady{});
         Settle(OpenStream::EControlOutcome::Accepted); // motor_on
@@ -91,11 +97,7 @@ TEST_CASE(
     "After a restart a job that is cancelled during a pause resets its program, also before its counters are known")
 {
     ArmFixture arm;
-    Planning::RecoverJob recover;
-    recover.job.jobID = "J";
-    recover.job.action = "TrayLoad";
-    recover.job.progressToken = "5 5 0";
-    arm.adapter.Handle(recover, arm.clock.GetNow(), arm.actions);
+    RecoverJob(arm);
     arm.adapter.Handle(Planning::Pause{}, arm.clock.GetNow(), arm.actions);
     arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
     arm.adapter.Handle(Planning::Resume{}, arm.clock.GetNow(), arm.actions);
@@ -167,11 +169,7 @@ TEST_CASE("After a restart a program is not started while its vehicle is paused 
 TEST_CASE("After a restart a paused vehicle is not paused before the arm's program is known to be stopped")
 {
     ArmFixture arm;
-    Planning::RecoverJob recover;
-    recover.job.jobID = "J";
-    recover.job.action = "TrayLoad";
-    recover.job.progressToken = "5 5 0";
-    arm.adapter.Handle(recover, arm.clock.GetNow(), arm.actions);
+    RecoverJob(arm);
     arm.adapter.OnLinkUp(arm.clock.GetNow(), arm.actions);
     arm.ShowBase(true);
     arm.Deliver(OpenStream::ClientReady{});
