@@ -43,7 +43,7 @@ public:
             return std::nullopt;
         }
         std::optional<std::string> textOrNull = ReadOrNull();
-        if (!textOrNull.has_value()) // Not a file without lines: it would be emptied below.
+        if (!textOrNull.has_value()) // Not a file without lines: the first line would empty it.
         {
             return std::nullopt;
         }
@@ -54,15 +54,15 @@ public:
             _wholeBytes += static_cast<off_t>(line.size() + 1);
             lines.push_back(std::move(line));
         }
-        const bool bUsable = ::ftruncate(_file, _wholeBytes) == 0 && TrySyncFolder(path);
-        return bUsable ? std::optional(std::move(lines)) : std::nullopt;
+        return TrySyncFolder(path) ? std::optional(std::move(lines)) : std::nullopt;
     }
 
     /// False if the line cannot be written (see errno); nothing of it remains in the file.
     [[nodiscard]] bool TryAppend(std::string line)
     {
         line += '\n';
-        if (TryWrite(line) && ::fdatasync(_file) == 0)
+        // A torn line remains until the first line is written: the caller may find that the file is not its journal.
+        if (::ftruncate(_file, _wholeBytes) == 0 && TryWrite(line) && ::fdatasync(_file) == 0)
         {
             _wholeBytes += static_cast<off_t>(line.size());
             return true;

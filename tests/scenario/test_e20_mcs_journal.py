@@ -118,12 +118,13 @@ class McsJournal(JournalCase):
     def test_a_second_program_and_a_foreign_file_are_refused(self):
         self.start_mcs()
         foreign = self.line.folder / "foreign"
-        foreign.write_text("no message\n")
+        foreign.write_text("no message\nand no newline")
         for file, reason in ((self.journal_file, "Resource temporarily unavailable"), (foreign, "Bad message"),
                              (self.line.folder, "Is a directory")):
             ended = subprocess.run([self.bin_dir / "e20_mcs_journal", "0", file], stdout=subprocess.PIPE, text=True,
                                    timeout=FINISH_SECONDS, check=False)
             self.assertEqual((ended.returncode, ended.stdout), (2, f"{file}: the journal cannot be used: {reason}\n"))
+        self.assertEqual(foreign.read_text(), "no message\nand no newline")
 
     def test_a_journal_that_cannot_be_read_is_left_as_it_is(self):
         self.line.folder.chmod(0o711)
