@@ -68,12 +68,14 @@ void WhyExplainer::AddTSC(std::size_t depth, Chain& chain) const
         chain.causes.push_back({depth, fmt::format("The TSC is {}: see above.", status.tsc), {}, {}});
         return;
     }
-    const std::string reason = status.tscReason.has_value() ? ": " + *status.tscReason : std::string();
+    const std::string reason = status.tscReason.value_or(std::string());
+    const bool bEndsByItself = reason.starts_with("Not all robots have reported");
     chain.causes.push_back(
         {depth,
-         MakeSentence(fmt::format("The TSC is {}{}", status.tsc, reason)),
+         MakeSentence(fmt::format("The TSC is {}{}{}", status.tsc, reason.empty() ? "" : ": ", reason)),
          {},
-         {"When the work may continue: acsctl tsc resume"}});
+         {bEndsByItself ? "Wait, at most restart.wait (30 s by default); then see the alarms of the missing robots."
+                        : "When the work may continue: acsctl tsc resume"}});
 }
 
 // NOLINTNEXTLINE(misc-no-recursion): at most DEEPEST

@@ -29,8 +29,10 @@ export function listLinkCauses(model, mayMatter = () => true) {
 }
 
 function makeTscCause(status) {
-    return {key: `tsc ${status.tsc}`, title: t("cause.tsc", {state: nameState("tsc", status.tsc)}), reason: status.tscReason,
-        remedy: t("remedy.tsc"), command: Commands.resumeTSC()};
+    const cause = {key: `tsc ${status.tsc}`, title: t("cause.tsc", {state: nameState("tsc", status.tsc)}), reason: status.tscReason};
+    // That it ends by itself.
+    return status.tscReason?.startsWith("Not all robots have reported") ? {...cause, remedy: t("remedy.restart")}
+        : {...cause, remedy: t("remedy.tsc"), command: Commands.resumeTSC()};
 }
 
 function makeMaintenanceCause(robot) {

@@ -193,6 +193,7 @@ export default {
     "remedy.registration": "Check the MCS: it must accept the registration of this ACS, and of no other one.",
     "remedy.unblock": "Unblock {kind} {id} when it is free.",
     "remedy.tsc": "Resume the TSC when the work may continue.",
+    "remedy.restart": "Wait, at most restart.wait (30 s by default); then see the alarms of the missing robots.",
     "remedy.maintenance": "End the maintenance when the robot may move.",
     "remedy.paused": "Resume the plan when it may continue.",
     "cause.link": "The link {name} is down.",

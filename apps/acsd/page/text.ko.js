@@ -193,6 +193,7 @@ export default {
     "remedy.registration": "MCS를 점검하십시오. MCS가 이 ACS의 등록만 수락해야 합니다.",
     "remedy.unblock": "{kind} {id}에 장애물이 없으면 사용 금지를 해제하십시오.",
     "remedy.tsc": "작업을 계속해도 되면 TSC를 재개하십시오.",
+    "remedy.restart": "최대 restart.wait(기본값 30초) 동안 기다리십시오. 그 뒤 보고하지 않은 로봇의 알람을 확인하십시오.",
     "remedy.maintenance": "로봇이 움직여도 되면 정비를 해제하십시오.",
     "remedy.paused": "계속해도 되면 Plan을 재개하십시오.",
     "cause.link": "{name} 통신이 끊겼습니다.",

@@ -173,7 +173,7 @@ StatusView StateViewMaker::MakeStatus(const ProgramState& program, Core::WallTim
              TextOrNull(link.broker)});
     }
     status.tsc = GetText(_engine.GetTscState());
-    status.tscReason = TextOrNull(_engine.GetHoldReason());
+    status.tscReason = TextOrNull(std::string(_engine.GetTscReason()));
     const Planning::OutboxSummary outbox = _engine.GetOutboxSummary();
     status.outbox = {outbox.count, outbox.oldest};
     status.refusedReports.count = program.refusedReports.count;

@@ -107,12 +107,22 @@ void TscControl::RestoreTSC(ETscState stored)
 
 ETscState TscControl::GetTscState() const noexcept
 {
-    return _startup.IsHoldingWork() && _tscState == ETscState::Auto ? ETscState::Paused : _tscState;
+    return IsHeldByStartup() ? ETscState::Paused : _tscState;
+}
+
+std::string_view TscControl::GetReason() const noexcept
+{
+    return IsHeldByStartup() ? std::string_view(StartupBarrier::REASON) : _hold.GetReason();
 }
 
 ETscState TscControl::GetState() const noexcept
 {
     return _tscState;
+}
+
+bool TscControl::IsHeldByStartup() const noexcept
+{
+    return _startup.IsHoldingWork() && _tscState == ETscState::Auto;
 }
 
 } // namespace ACS::Planning

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ACS::Planning
@@ -38,6 +39,8 @@ public:
     void RestoreTSC(ETscState stored);
     /// The published state: Paused while the startup barrier holds work back (section 5.2).
     [[nodiscard]] ETscState GetTscState() const noexcept;
+    /// Why the published state is Paused although no operator has paused the TSC since the start; otherwise empty.
+    [[nodiscard]] std::string_view GetReason() const noexcept;
     /// The state apart from the startup barrier.
     [[nodiscard]] ETscState GetState() const noexcept;
 
@@ -45,6 +48,7 @@ private:
     void ChangeTSC(ETscState state);
     /// Ends the hold of the restart: robots that were to resume are commanded to.
     void ReleaseHold();
+    [[nodiscard]] bool IsHeldByStartup() const noexcept;
 };
 
 } // namespace ACS::Planning

@@ -183,7 +183,7 @@ std::string WaitReasons::DescribeWaiting(
     }
     if (_startup.IsHoldingWork())
     {
-        return "Not all robots have reported their positions since the restart.";
+        return StartupBarrier::REASON;
     }
     if (const Block* blockOrNull = FindBlockOrNull(plan); blockOrNull != nullptr)
     {

@@ -246,6 +246,11 @@ const std::string& PlanEngine::GetHoldReason() const noexcept
     return _impl->_engine.hold.GetReason();
 }
 
+std::string_view PlanEngine::GetTscReason() const noexcept
+{
+    return _impl->_tsc.GetReason();
+}
+
 ETscState PlanEngine::GetTscState() const noexcept
 {
     return _impl->_tsc.GetTscState();

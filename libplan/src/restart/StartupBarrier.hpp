@@ -8,6 +8,11 @@ namespace ACS::Planning
 /// After a start: whether the engine waits for the robots' positions, and whether work is held back until then.
 class StartupBarrier
 {
+public:
+    /// Why no work is started while it is held back.
+    static constexpr const char* REASON = "Not all robots have reported their positions since the restart.";
+
+private:
     enum class EState : std::uint8_t
     {
         Passed,

@@ -178,6 +178,10 @@ public:
 
     /// Why the TSC has been Paused since the start (StoredState::holdReason), until the operator resumes it; otherwise empty.
     [[nodiscard]] const std::string& GetHoldReason() const noexcept;
+
+    /// Why GetTscState is Paused although no operator has paused the TSC since the start: GetHoldReason, or that not all robots
+    /// have reported, which ends by itself at the latest after EngineOptions::restartWait; otherwise empty.
+    [[nodiscard]] std::string_view GetTscReason() const noexcept;
 };
 
 } // namespace ACS::Planning

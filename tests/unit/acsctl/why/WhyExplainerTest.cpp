@@ -202,6 +202,20 @@ TEST_CASE("What stops acsd itself comes first")
     CHECK_THAT(text, Catch::Contains("acsctl tsc resume"));
 }
 
+TEST_CASE("A TSC that is Paused until the robots have reported is not to be resumed")
+{
+    WhyFixture line;
+    line.snapshot.status.tsc = "Paused";
+    line.snapshot.status.tscReason = "Not all robots have reported their positions since the restart.";
+    line.AddWaitingPlan("P1", *line.snapshot.status.tscReason);
+    const std::string text = PrintText(line.Make().ExplainAll());
+    CHECK_THAT(
+        text,
+        Catch::Contains("The TSC is Paused: Not all robots have reported their positions since the restart."));
+    CHECK_THAT(text, Catch::Contains("Wait, at most restart.wait"));
+    CHECK_THAT(text, !Catch::Contains("tsc resume"));
+}
+
 TEST_CASE("A plan is explained with the links that are down; a refused registration has its own remedy")
 {
     WhyFixture line;

@@ -64,6 +64,7 @@ TEST_CASE(
         CHECK(ListMotions(world) == Lines{});
         CHECK(world.engine->GetTscState() == ETscState::Paused);
         CHECK(world.engine->GetHoldReason() == REASON);
+        CHECK(world.engine->GetTscReason() == REASON);
         for (const WaitReason& wait : world.engine->GetWaitReasons())
         {
             CHECK(wait.message == "The TSC is Paused: " + REASON);

@@ -367,8 +367,10 @@ TEST_CASE("5.2 After a restart with work the TSC is Paused until the robots have
     BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
     world.Restart(MakeTestOptions(false), MakeTestSite());
     CHECK(world.engine->GetTscState() == ETscState::Paused);
+    CHECK(world.engine->GetTscReason() == "Not all robots have reported their positions since the restart.");
     world.Connect();
     CHECK(world.engine->GetTscState() == ETscState::Auto);
+    CHECK(world.engine->GetTscReason().empty());
     CHECK(Contains(world.trace, "tsc Auto"));
     world.Restart(MakeTestOptions(false), MakeTestSite());
     world.SwitchTSC(true);
