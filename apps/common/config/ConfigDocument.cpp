@@ -146,28 +146,27 @@ void ConfigDocument::Override(const std::string& text)
         }
         leaf->as_string()->get() = value;
     }
-    Merge(std::move(typed.has_value() ? *typed : *table));
+    const toml::table path = *table;
+    Replace(path, std::move(typed.has_value() ? *typed : *table));
 }
 
-void ConfigDocument::Merge(toml::table source)
+void ConfigDocument::Replace(const toml::table& path, toml::table source)
 {
-    std::vector<std::pair<toml::table*, toml::table*>> work{{&_root, &source}};
-    while (!work.empty())
+    toml::table* target = &_root;
+    const toml::table* below = &path;
+    toml::table* from = &source;
+    for (;;)
     {
-        const auto [target, from] = work.back();
-        work.pop_back();
-        for (auto&& [key, value] : *from)
+        auto&& [key, value] = *from->begin();
+        below = below->begin()->second.as_table();
+        auto* const present = target->get_as<toml::table>(key.str());
+        if (below == nullptr || present == nullptr)
         {
-            auto* const present = target->get_as<toml::table>(key.str());
-            if (present != nullptr && value.is_table())
-            {
-                work.emplace_back(present, value.as_table());
-            }
-            else
-            {
-                target->insert_or_assign(key, std::move(value));
-            }
+            target->insert_or_assign(key, std::move(value)); // a copy would not know its place in the text
+            return;
         }
+        target = present;
+        from = value.as_table();
     }
 }
 

@@ -77,7 +77,9 @@ private:
         const std::string& text) const;
     [[nodiscard]] bool IsInRefused(const std::string& path) const;
     void FindUnknown(std::vector<ConfigError>& out) const;
-    void Merge(toml::table source);
+    /// Sets the value of source at the key, to which path and source have one table for each part. A table replaces that of the
+    /// file.
+    void Replace(const toml::table& path, toml::table source);
 };
 
 } // namespace ACS::Apps
