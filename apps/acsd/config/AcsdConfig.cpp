@@ -16,6 +16,7 @@
 #include "robots/RobotAdapterFactory.hpp"
 #include "robots/VehicleCompatibility.hpp"
 #include "robots/VehicleMap.hpp"
+#include "robots/VehicleParameters.hpp"
 #include <acs/plan/LifReader.hpp>
 #include <acs/plan/Router.hpp>
 #include <acs/plan/UnusedLifMember.hpp>
@@ -28,6 +29,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -190,7 +192,23 @@ void SetMaps(AcsdConfig& config)
     }
 }
 
-/// What a received factsheet would be reported for, by the log or by an alarm.
+/// Why jobs of some actions would wait for another robot.
+std::set<std::string> FindMethodFaults(const JobMethods& methods, const VDA5050::FactsheetMessage& factsheet)
+{
+    std::set<std::string> faults;
+    for (const JobMethod* const method : methods.ListMethods())
+    {
+        std::optional<std::string> fault =
+            method->vehicleAction.empty() ? std::nullopt : FindMethodFaultOrNull(*method, factsheet);
+        if (fault.has_value())
+        {
+            faults.insert(*std::move(fault));
+        }
+    }
+    return faults;
+}
+
+/// What a received factsheet would be reported for, by the log, by an alarm or as the reason of a plan that waits.
 void WarnOfFactsheets(AcsdConfig& config)
 {
     for (const std::shared_ptr<VehicleConfig>& vehicle : config.vehicles)
@@ -198,9 +216,18 @@ void WarnOfFactsheets(AcsdConfig& config)
         std::ranges::move(CheckFactsheetFile(*vehicle), std::back_inserter(config.warnings));
         const VDA5050::MasterSession session(MakeMasterOptions(*vehicle));
         const std::string incompatibility = FindIncompatibility(session, *vehicle->drives, vehicle->methods, {});
+        std::set<std::string> faults;
         if (!incompatibility.empty())
         {
-            config.warnings.push_back(fmt::format("robots.{}: {}", vehicle->robotID, incompatibility));
+            faults.insert(incompatibility);
+        }
+        else if (vehicle->factsheet.has_value())
+        {
+            faults = FindMethodFaults(vehicle->methods, *vehicle->factsheet);
+        }
+        for (const std::string& fault : faults)
+        {
+            config.warnings.push_back(fmt::format("robots.{}: {}", vehicle->robotID, fault));
         }
     }
 }

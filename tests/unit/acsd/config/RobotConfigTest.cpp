@@ -203,6 +203,15 @@ TEST_CASE("A factsheet_file that contradicts itself or is of another make or ver
     CHECK(std::ranges::includes(Sort(config.warnings), Sort(expected)));
 }
 
+TEST_CASE("A factsheet_file that makes an action of its vehicle impossible is a warning, also if others are possible")
+{
+    const Testing::TemporaryFolder folder;
+    const std::string file = folder.GetPath() / "lr.json";
+    WriteFactsheet(file, {}, SPEEDS, "0", R"({"agvActions":[{"actionType":"pick","actionScopes":["NODE"]}]})");
+    const std::vector<std::string> warnings = ReadSite({"robots.LR01.factsheet_file=" + file}).warnings;
+    CHECK(warnings == std::vector<std::string>{"robots.LR01: the vehicle's factsheet does not list drop"});
+}
+
 TEST_CASE("Warnings of a factsheet_file are limited in number and in length")
 {
     const Testing::TemporaryFolder folder;
