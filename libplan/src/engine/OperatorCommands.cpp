@@ -230,7 +230,7 @@ std::optional<std::string> OperatorCommands::GetRejectionReasonOrNull(const SetC
     if (command.carrierIDs.size() != robot.ports.GetCarriers().size())
     {
         return fmt::format(
-            "{} has {} carrier ports, but {} carriers were given. Give one entry per port, empty for no carrier.",
+            "{} has {} carrier ports, but the command gives carriers for {}. Give one entry per port; null (acsctl: -) is no carrier.",
             command.robotID,
             robot.ports.GetCarriers().size(),
             command.carrierIDs.size());

@@ -146,7 +146,9 @@ TEST_CASE("5.9, R12 Ports that an operator corrects are published at once and st
     CHECK(world.engine->GetRobotStatuses()[1].carrierIDs == carriers);
     world.Restart(MakeTestOptions(true), MakeTestSite());
     CHECK(world.engine->GetRobotStatuses()[1].carrierIDs == carriers);
-    CHECK(Ask(world, SetCarriers{"CR01", {"TRAY_01"}, 0}).starts_with("no: CR01 has 3 carrier ports"));
+    CHECK(
+        Ask(world, SetCarriers{"CR01", {"TRAY_01"}, 0})
+        == "no: CR01 has 3 carrier ports, but the command gives carriers for 1. Give one entry per port; null (acsctl: -) is no carrier.");
     CHECK(Ask(world, SetCarriers{"CR01", {"A", "A", {}}, 0}) == "no: Carrier A is given for two ports.");
     CHECK(Ask(world, SetCarriers{"CR01", {"", {}, {}}, 0}) == "no: Invalid carrierId: expected 1 to 128 bytes.");
     CHECK(
