@@ -10,6 +10,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <string>
 #include <utility>
 
 namespace ACS::McsSim
@@ -21,6 +22,15 @@ namespace
 using Json::Value;
 
 constexpr std::chrono::seconds DEFAULT_WITHIN{30};
+
+std::string DescribeInvalidSteps(const Value* stepsOrNull)
+{
+    if (stepsOrNull == nullptr)
+    {
+        return "nothing";
+    }
+    return stepsOrNull->IsArray() ? "an empty array" : Json::ShortenForError(*stepsOrNull);
+}
 
 } // namespace
 
@@ -44,10 +54,7 @@ Core::Result<Scenario> ParseScenario(std::string_view text, const PlanReader& re
     const Value* const stepsOrNull = reader.TakeOrNull("steps");
     if (stepsOrNull == nullptr || !stepsOrNull->IsArray() || stepsOrNull->Empty())
     {
-        reader.Refuse(
-            "steps",
-            "an array of one step or more",
-            stepsOrNull == nullptr ? "nothing" : Json::ShortenForError(*stepsOrNull));
+        reader.Refuse("steps", "an array of one step or more", DescribeInvalidSteps(stepsOrNull));
     }
     Core::Result<void> finished = reader.Finish();
     if (!finished.has_value())

@@ -208,7 +208,7 @@ TEST_CASE("The head of a scenario is checked as its steps are")
         Describe(ParseScenario(R"({"steps":[{"wait":"1s"}]})", ReadSample).error())
         == "name: expected a text, found nothing");
     const std::pair<std::string, std::string> row = GENERATE(
-        std::pair<std::string, std::string>{R"({"name":"x","steps":[]})", "an array"},
+        std::pair<std::string, std::string>{R"({"name":"x","steps":[]})", "an empty array"},
         std::pair<std::string, std::string>{R"({"name":"x","steps":{}})", "an object"},
         std::pair<std::string, std::string>{R"({"name":"x","steps":3})", "3"},
         std::pair<std::string, std::string>{R"({"name":"x"})", "nothing"});
