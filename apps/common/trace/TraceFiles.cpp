@@ -236,8 +236,12 @@ std::error_code TraceFiles::OpenFirst(const TraceLimits& limits)
     {
         return OpenNext(limits);
     }
-    return EndsWithLine(files.back().second) ? OpenFile(files.back().second, O_NOFOLLOW | O_NONBLOCK)
-                                             : OpenNext(limits);
+    return Continue(files.back().second, limits);
+}
+
+std::error_code TraceFiles::Continue(const std::string& path, const TraceLimits& limits)
+{
+    return EndsWithLine(path) ? OpenFile(path, O_NOFOLLOW | O_NONBLOCK) : OpenNext(limits);
 }
 
 std::error_code TraceFiles::OpenNext(const TraceLimits& limits)
@@ -273,6 +277,7 @@ std::error_code TraceFiles::OpenFile(const std::string& path, int flags)
     }
     // Released when the file is closed, also by a crash. Without locks on its file system the trace is written all the same.
     static_cast<void>(::flock(_file, LOCK_EX | LOCK_NB));
+    _current = path;
     _written = static_cast<std::uint64_t>(std::max<off_t>(::lseek(_file, 0, SEEK_END), 0));
     return {};
 }
@@ -290,20 +295,25 @@ void TraceFiles::Close() noexcept
 
 std::error_code TraceFiles::Append(std::string_view line, const TraceLimits& limits)
 {
+    if (_file < 0) // after an error
+    {
+        const std::error_code error = Continue(_current, limits);
+        if (error)
+        {
+            _lostLines = 1;
+            return error;
+        }
+    }
     const std::uint64_t size = _written + _buffer.size();
     if (size > 0 && size + line.size() + 1 > limits.maxFileBytes)
     {
-        const std::error_code error = Flush();
+        std::error_code error = Flush();
         if (error)
         {
             ++_lostLines;
             return error;
         }
-        Close();
-    }
-    if (_file < 0)
-    {
-        const std::error_code error = OpenNext(limits);
+        error = OpenNext(limits);
         if (error)
         {
             _lostLines = 1;

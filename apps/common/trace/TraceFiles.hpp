@@ -40,6 +40,7 @@ class TraceFiles final
 {
     std::string _path;
     TraceFileStyle _style;
+    std::string _current; ///< Path of the file that is written, also after an error.
     std::string _buffer;
     std::uint64_t _written = 0; ///< Bytes of the file, all of whole lines.
     std::size_t _bufferedLines = 0;
@@ -57,7 +58,7 @@ public:
     [[nodiscard]] std::error_code Open(const TraceLimits& limits);
 
     /// Adds a line, given without its line end. It is written by the next Flush at the latest. After an error this line and all
-    /// unwritten ones are lost (GetLostLines), and the next call opens a file again.
+    /// unwritten ones are lost (GetLostLines), and the next call opens the same file again.
     [[nodiscard]] std::error_code Append(std::string_view line, const TraceLimits& limits);
     [[nodiscard]] std::error_code Flush();
 
@@ -66,6 +67,7 @@ public:
 
 private:
     [[nodiscard]] std::error_code OpenFirst(const TraceLimits& limits);
+    [[nodiscard]] std::error_code Continue(const std::string& path, const TraceLimits& limits);
     [[nodiscard]] std::error_code OpenNext(const TraceLimits& limits);
     [[nodiscard]] std::error_code OpenFile(const std::string& path, int flags);
     [[nodiscard]] std::error_code WriteBuffer();

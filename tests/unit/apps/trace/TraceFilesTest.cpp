@@ -89,6 +89,42 @@ TEST_CASE("A full disk loses complete lines, which are counted, and leaves no pa
     CHECK(ReadLines(place.GetPath()) == std::vector<std::string>{"first", "fourth"});
 }
 
+TEST_CASE("A full disk deletes no file and makes no empty one, however long it lasts")
+{
+    const Testing::TemporaryFolder place;
+    const TraceLimits limits{25, 3};
+    const bool bContinued = GENERATE(false, true);
+    TraceFiles files(place.GetPath().string(), {"acsd-", 0600, bContinued});
+    REQUIRE_FALSE(files.Open(limits));
+    for (const char* line : {"one-one-one", "two-two-two", "three-three", "four-four-f", "five-five-f"})
+    {
+        REQUIRE_FALSE(files.Append(line, limits));
+    }
+    REQUIRE_FALSE(files.Flush());
+    const std::vector<std::string> names = ListNames(place.GetPath());
+    REQUIRE(names == std::vector<std::string>{"acsd-000001.ndjson", "acsd-000002.ndjson", "acsd-000003.ndjson"});
+    {
+        const FullDisk full(14);
+        for (int i = 0; i < 20; ++i)
+        {
+            REQUIRE_FALSE(files.Append("lost", limits));
+            CHECK(files.Flush());
+            CHECK(files.GetLostLines() == 1);
+        }
+    }
+    CHECK(ListNames(place.GetPath()) == names);
+
+    // The file that is continued is not longer than the limit.
+    REQUIRE_FALSE(files.Append("six-six-six-six", limits));
+    REQUIRE_FALSE(files.Flush());
+    CHECK(
+        ListNames(place.GetPath())
+        == std::vector<std::string>{"acsd-000002.ndjson", "acsd-000003.ndjson", "acsd-000004.ndjson"});
+    CHECK(
+        ReadLines(place.GetPath())
+        == std::vector<std::string>{"three-three", "four-four-f", "five-five-f", "six-six-six-six"});
+}
+
 TEST_CASE("A trace of one file replaces the file at the start and continues it after a failure")
 {
     const Testing::TemporaryFolder place;
