@@ -126,6 +126,10 @@ int Serve(const ProgramOptions& options, const RobotDrivers& drivers, AcsdConfig
         Apps::PrintError(NAME, Core::Describe(started.error()));
         return 1;
     }
+    if (trace != nullptr)
+    {
+        trace->Keep();
+    }
     std::optional<Apps::SignalWaiter> signals;
     signals.emplace(context.get_executor(), [&](int) {
         std::ignore = service.TryNotify("STOPPING=1");

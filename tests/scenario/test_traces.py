@@ -3,6 +3,7 @@
 and can be read after a kill."""
 
 import collections
+import functools
 import json
 import os
 import signal
@@ -259,6 +260,24 @@ class Traces(ScenarioCase):
                 self.assertIn("--trace", line)
                 self.assertIn(expected, line)
                 self.assertIn("created if necessary", line)
+
+    def test_starts_that_fail_keep_the_files_of_earlier_runs(self):
+        def list_numbers():
+            return [int(file.stem[-6:]) for file in sorted(self.traces.iterdir())]
+
+        self.line.start_broker()
+        self.traces.mkdir()
+        for number in (1, 2, 3):
+            (self.traces / f"acsd-{number:06}.ndjson").write_text("{}\n")
+        start = functools.partial(self.line.start_acsd, "127.0.0.1:1", {"stream": "127.0.0.1:1"}, "trace.max_files=3",
+                                  arguments=("--trace", self.traces))
+        with socket.create_server(("127.0.0.1", 0)) as taken:
+            for _ in range(4):
+                acsd = start(f"operator.listen=127.0.0.1:{taken.getsockname()[1]}")
+                self.assertEqual(acsd.wait(STATUS_SECONDS), 1)
+                self.assertEqual(list_numbers(), [1, 2, 3])
+        start().wait_ready()
+        self.assertEqual(list_numbers(), [2, 3, 4])
 
     def test_a_folder_of_another_process_is_refused(self):
         arm = self.line.start_arm(TIME_SCALE, "--trace", self.traces)

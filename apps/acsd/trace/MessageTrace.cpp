@@ -25,6 +25,13 @@ constexpr std::size_t NEWEST_BYTES = 4U * 1024U * 1024U;
 constexpr std::string_view MCS_LINK = "mcs";
 constexpr std::size_t TIME_END = std::string_view(R"({"time":"2026-01-01T00:00:00.000Z")").size();
 
+Apps::TraceFileStyle MakeStyle()
+{
+    Apps::TraceFileStyle style;
+    style.bDeletedLater = true;
+    return style;
+}
+
 } // namespace
 
 std::string MakeTraceLine(const TraceEntry& entry, Core::Now now)
@@ -52,7 +59,7 @@ MessageTrace::MessageTrace(
       _folder(folder),
       _newest(NEWEST_LINES, NEWEST_BYTES),
       _writer(
-          {folder, limits, std::bind_front(&Apps::MakeLossLine, std::string_view()), maxQueuedBytes},
+          {folder, limits, std::bind_front(&Apps::MakeLossLine, std::string_view()), maxQueuedBytes, MakeStyle()},
           clock,
           std::move(logger))
 {
@@ -76,6 +83,11 @@ Core::Result<std::unique_ptr<MessageTrace>> MessageTrace::Create(
             folder + ": " + Apps::DescribeTraceError(error));
     }
     return trace;
+}
+
+void MessageTrace::Keep()
+{
+    _writer.Keep();
 }
 
 void MessageTrace::Write(const TraceEntry& entry)

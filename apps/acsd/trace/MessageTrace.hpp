@@ -74,6 +74,10 @@ public:
         Core::Logger logger,
         std::size_t maxQueuedBytes = Apps::TraceWriter::DEFAULT_QUEUE_BYTES);
 
+    /// Call it when acsd has started: deletes the oldest files. Without this call the trace ends without a file of its own, so that
+    /// starts that fail do not displace the files of earlier runs.
+    void Keep();
+
     /// Adds a message. Of one to or from the MCS the plan, the robot and the transaction are those that its text names; of a robot
     /// the plan is its current one.
     void Write(const TraceEntry& entry);

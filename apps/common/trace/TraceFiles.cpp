@@ -229,7 +229,9 @@ std::error_code TraceFiles::OpenFirst(const TraceLimits& limits)
         {
             return busy;
         }
-        const std::error_code error = OpenNext(limits);
+        const std::error_code error =
+            OpenNext(_style.bDeletedLater ? TraceLimits{limits.maxFileBytes, 2 * limits.maxFiles} : limits);
+        _bFirst = !error && _style.bDeletedLater;
         return error == std::errc::file_exists ? busy : error; // another process has just started
     }
     if (files.empty())
@@ -256,13 +258,8 @@ std::error_code TraceFiles::OpenNext(const TraceLimits& limits)
     {
         return std::make_error_code(std::errc::value_too_large);
     }
-    const NumberedFiles files = ListFiles(_path, _style.prefix);
-    // Deletes the oldest files before the new one needs their space.
-    for (std::size_t i = 0; i + limits.maxFiles <= files.size(); ++i)
-    {
-        std::error_code ignored;
-        std::filesystem::remove(files[i].second, ignored);
-    }
+    _bFirst = false;
+    DeleteOldestFiles(_path, _style.prefix, limits.maxFiles - 1); // before the new one needs their space
     return OpenFile(std::filesystem::path(_path) / fmt::format("{}{:06}{}", _style.prefix, number, SUFFIX), O_EXCL);
 }
 
@@ -343,6 +340,15 @@ std::error_code TraceFiles::Flush()
     return {};
 }
 
+void TraceFiles::Discard() noexcept
+{
+    if (std::exchange(_bFirst, false))
+    {
+        ::unlink(_current.c_str());
+        Close();
+    }
+}
+
 std::size_t TraceFiles::GetLostLines() const noexcept
 {
     return _lostLines;
@@ -365,6 +371,16 @@ std::error_code TraceFiles::WriteBuffer()
         done += static_cast<std::size_t>(count);
     }
     return {};
+}
+
+void DeleteOldestFiles(const std::string& folder, std::string_view prefix, std::size_t kept)
+{
+    const NumberedFiles files = ListFiles(folder, prefix);
+    for (std::size_t i = 0; i + kept < files.size(); ++i)
+    {
+        std::error_code ignored;
+        std::filesystem::remove(files[i].second, ignored);
+    }
 }
 
 std::string DescribeTraceError(const std::error_code& error)

@@ -31,6 +31,9 @@ struct TraceFileStyle
     std::string prefix = "acsd-";
     std::uint32_t mode = 0600; ///< Messages may be confidential.
     bool bContinued = false;   ///< The newest file is continued at a start; otherwise a start begins a new one.
+    /// A start that fails leaves the files as they were: Open deletes none, unless starts that crashed have left twice as many as
+    /// allowed.
+    bool bDeletedLater = false;
 };
 
 /// The files of a trace: either numbered files in a folder ("acsd-000001.ndjson" and up), of which the oldest are deleted, or
@@ -46,6 +49,7 @@ class TraceFiles final
     std::size_t _bufferedLines = 0;
     std::size_t _lostLines = 0;
     int _file = -1;
+    bool _bFirst = false; ///< The file is the one that Open has created.
 
 public:
     explicit TraceFiles(std::string path, TraceFileStyle style = {});
@@ -62,6 +66,9 @@ public:
     [[nodiscard]] std::error_code Append(std::string_view line, const TraceLimits& limits);
     [[nodiscard]] std::error_code Flush();
 
+    /// Deletes the file that Open has created, unless another one has followed. Only with bDeletedLater.
+    void Discard() noexcept;
+
     /// Number of lines lost by the last error.
     [[nodiscard]] std::size_t GetLostLines() const noexcept;
 
@@ -73,6 +80,10 @@ private:
     [[nodiscard]] std::error_code WriteBuffer();
     void Close() noexcept;
 };
+
+/// Deletes the oldest files of the folder with this prefix, until this number is left. Only regular files are counted. From any
+/// thread.
+void DeleteOldestFiles(const std::string& folder, std::string_view prefix, std::size_t kept);
 
 /// Why a trace cannot be opened: the text of the error, or what std::errc::device_or_resource_busy and value_too_large mean.
 [[nodiscard]] std::string DescribeTraceError(const std::error_code& error);

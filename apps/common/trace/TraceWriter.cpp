@@ -35,6 +35,7 @@ struct TraceWriter::Impl
     std::optional<std::string> failureOrNull; ///< Error to be logged by the caller's thread.
     bool bRecovered = false;                  ///< Recovery to be logged by the caller's thread.
     bool bClosing = false;
+    bool bKept = false;
 
     // Used by the writer's thread only.
     TraceFiles files;
@@ -186,6 +187,17 @@ std::error_code TraceWriter::Open()
     return error;
 }
 
+void TraceWriter::Keep()
+{
+    std::size_t most = 0;
+    {
+        const std::lock_guard lock(_impl->mutex);
+        _impl->bKept = true;
+        most = _impl->options.limits.maxFiles;
+    }
+    DeleteOldestFiles(_impl->options.path, _impl->options.files.prefix, most);
+}
+
 void TraceWriter::Write(std::string line, Core::Now now)
 {
     bool bWake = false;
@@ -244,6 +256,10 @@ void TraceWriter::Close()
     if (_impl->thread.joinable())
     {
         _impl->thread.join();
+        if (!_impl->bKept)
+        {
+            _impl->files.Discard();
+        }
         LogState();
     }
 }

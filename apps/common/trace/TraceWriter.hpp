@@ -52,6 +52,10 @@ public:
     /// Opens the first file and starts the thread. Call it once, before any other function.
     [[nodiscard]] std::error_code Open();
 
+    /// With TraceFileStyle::bDeletedLater: the program has started, and the oldest files are deleted. Without this call, Close
+    /// deletes the file that Open has created.
+    void Keep();
+
     /// Queues a line without its line end; now is the time of the message. Calls LogState.
     void Write(std::string line, Core::Now now);
 

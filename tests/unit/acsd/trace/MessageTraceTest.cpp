@@ -35,6 +35,7 @@ struct TraceFixture
         auto trace =
             MessageTrace::Create(folder.GetPath().string(), {}, clock, Core::Logger(sink, "trace"), queueBytes);
         REQUIRE(trace.has_value());
+        (*trace)->Keep();
         return std::move(*trace);
     }
 };
@@ -59,6 +60,20 @@ TEST_CASE_METHOD(TraceFixture, "A trace has a line per message with both times, 
     const auto micros = std::chrono::duration_cast<std::chrono::microseconds>(now.steady.time_since_epoch()).count();
     CHECK(lines[1].find("\"mono_us\":" + std::to_string(micros) + ",") != std::string::npos);
     CHECK(lines[1].find(R"("robot":"LR01","topic":"uagv/v2/ACS/LR01/state")") != std::string::npos);
+}
+
+TEST_CASE_METHOD(TraceFixture, "A start that fails leaves no file, one that succeeds deletes the oldest ones")
+{
+    const auto create = [this] {
+        auto trace = MessageTrace::Create(folder.GetPath().string(), {100, 1}, clock, Core::Logger(sink, "trace"));
+        REQUIRE(trace.has_value());
+        return std::move(*trace);
+    };
+    create()->Keep();
+    create()->Write({"mcs", EWireDirection::In, {}, {}, "lost"});
+    CHECK(Testing::ListNames(folder.GetPath()) == std::vector<std::string>{"acsd-000001.ndjson"});
+    create()->Keep();
+    CHECK(Testing::ListNames(folder.GetPath()) == std::vector<std::string>{"acsd-000002.ndjson"});
 }
 
 TEST_CASE("Text that is not valid UTF-8 is kept byte for byte, escaped and marked")

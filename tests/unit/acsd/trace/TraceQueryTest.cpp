@@ -34,6 +34,7 @@ struct QueryFixture
     {
         auto created = MessageTrace::Create(folder.GetPath().string(), {}, clock, Core::Logger());
         REQUIRE(created.has_value());
+        (*created)->Keep();
         return std::move(*created);
     }
 

@@ -125,6 +125,57 @@ TEST_CASE("A full disk deletes no file and makes no empty one, however long it l
         == std::vector<std::string>{"three-three", "four-four-f", "five-five-f", "six-six-six-six"});
 }
 
+TEST_CASE("Starts that fail delete no file and leave none, and those that crash have a limit, too")
+{
+    const Testing::TemporaryFolder place;
+    const std::string folder = place.GetPath().string();
+    const TraceLimits limits{20, 3};
+    enum class EEnd
+    {
+        Ends,
+        Fails,
+        Crashes
+    };
+    const auto run = [&](EEnd end, int lines = 1) {
+        TraceFiles files(folder, {"acsd-", 0600, false, true});
+        REQUIRE_FALSE(files.Open(limits));
+        for (int i = 0; i < lines; ++i)
+        {
+            REQUIRE_FALSE(files.Append("fifteen letters", limits));
+        }
+        REQUIRE_FALSE(files.Flush());
+        if (end == EEnd::Ends)
+        {
+            Apps::DeleteOldestFiles(folder, "acsd-", limits.maxFiles);
+        }
+        else if (end == EEnd::Fails)
+        {
+            files.Discard();
+        }
+    };
+    for (int i = 0; i < 4; ++i)
+    {
+        run(EEnd::Ends);
+    }
+    const std::vector<std::string> names{"acsd-000002.ndjson", "acsd-000003.ndjson", "acsd-000004.ndjson"};
+    CHECK(ListNames(place.GetPath()) == names);
+    for (int i = 0; i < 10; ++i)
+    {
+        run(EEnd::Fails);
+    }
+    CHECK(ListNames(place.GetPath()) == names);
+    for (int i = 0; i < 10; ++i)
+    {
+        run(EEnd::Crashes);
+    }
+    CHECK(ListNames(place.GetPath()).size() == 2 * limits.maxFiles);
+    run(EEnd::Ends);
+    CHECK(ListNames(place.GetPath()).size() == limits.maxFiles);
+    // A start that has written more than one file keeps them.
+    run(EEnd::Fails, 2);
+    CHECK(ListNames(place.GetPath()).back() == "acsd-000017.ndjson");
+}
+
 TEST_CASE("A trace of one file replaces the file at the start and continues it after a failure")
 {
     const Testing::TemporaryFolder place;
