@@ -89,7 +89,13 @@ int Serve(const ProgramOptions& options, const RobotDrivers& drivers, AcsdConfig
     {
         logger.Warning(warning);
     }
-    std::unique_ptr<MessageTrace> trace;
+    std::unique_ptr<MessageTrace> trace; // outlives the handlers in the context
+    boost::asio::io_context context(1);
+    AcsdService* startedOrNull = nullptr;
+    // From the beginning: a SIGHUP during the start is answered after it.
+    const Apps::HangUpWaiter hangUps(context.get_executor(), [&] {
+        ReadAgain(options, drivers, logger, sink, *startedOrNull);
+    });
     if (!options.traceFolder.empty())
     {
         auto created =
@@ -101,7 +107,6 @@ int Serve(const ProgramOptions& options, const RobotDrivers& drivers, AcsdConfig
         }
         trace = std::move(*created);
     }
-    boost::asio::io_context context(1);
     int exitCode = 0;
     const Apps::ServiceNotifier service(Apps::GetNotifyAddress());
     Acsd::Dependencies dependencies{
@@ -126,6 +131,7 @@ int Serve(const ProgramOptions& options, const RobotDrivers& drivers, AcsdConfig
         Apps::PrintError(NAME, Core::Describe(started.error()));
         return 1;
     }
+    startedOrNull = &acsd;
     if (trace != nullptr)
     {
         trace->Keep();
@@ -135,7 +141,6 @@ int Serve(const ProgramOptions& options, const RobotDrivers& drivers, AcsdConfig
         std::ignore = service.TryNotify("STOPPING=1");
         acsd.StopAsync();
     });
-    const Apps::HangUpWaiter hangUps(context.get_executor(), [&] { ReadAgain(options, drivers, logger, sink, acsd); });
     sink.Flush();
     Apps::PrintReadyLine(acsd.GetAddresses());
     std::ignore = service.TryNotify("READY=1");

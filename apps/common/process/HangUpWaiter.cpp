@@ -46,6 +46,7 @@ HangUpWaiter::~HangUpWaiter()
     boost::system::error_code ignored;
     _impl->signals.clear(ignored);
     _impl->signals.cancel(ignored);
+    std::signal(SIGHUP, SIG_IGN); // the default action, which clear has restored, would end the process
 }
 
 } // namespace ACS::Apps

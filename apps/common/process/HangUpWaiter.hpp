@@ -25,7 +25,7 @@ public:
     HangUpWaiter(const HangUpWaiter&) = delete;
     HangUpWaiter& operator=(const HangUpWaiter&) = delete;
 
-    /// The handler is not called any more; the previous action of SIGHUP is restored.
+    /// The handler is not called any more, and SIGHUP is ignored: the process may still have lines to write.
     ~HangUpWaiter();
 };
 

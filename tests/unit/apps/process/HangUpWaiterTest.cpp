@@ -10,7 +10,7 @@
 namespace Apps = ACS::Apps;
 using namespace std::chrono_literals;
 
-TEST_CASE("Each SIGHUP calls the handler on the executor and does not end the process")
+TEST_CASE("Each SIGHUP calls the handler on the executor and does not end the process, also after it")
 {
     boost::asio::io_context context;
     int count = 0;
@@ -26,5 +26,6 @@ TEST_CASE("Each SIGHUP calls the handler on the executor and does not end the pr
         }
     }
     context.run(); // nothing waits any more
+    std::raise(SIGHUP);
     CHECK(count == 3);
 }
