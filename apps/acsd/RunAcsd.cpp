@@ -57,6 +57,14 @@ struct ProgramOptions
     bool bCheckOnly = false;
 };
 
+void LogWarnings(const AcsdConfig& config, const Core::Logger& logger)
+{
+    for (const std::string& warning : config.warnings)
+    {
+        logger.Warning(warning);
+    }
+}
+
 /// For SIGHUP. A file with errors changes nothing.
 void ReadAgain(
     const ProgramOptions& options,
@@ -76,6 +84,7 @@ void ReadAgain(
         return;
     }
     sink.SetLevel(fresh.operations.logLevel);
+    LogWarnings(fresh, logger);
     acsd.Reload(fresh);
 }
 
@@ -85,10 +94,7 @@ int Serve(const ProgramOptions& options, const RobotDrivers& drivers, AcsdConfig
     Apps::SystemRandom random;
     Apps::SpdlogSink sink(config.operations.logLevel, Apps::ELogWriting::Queued);
     const Core::Logger logger(sink, NAME);
-    for (const std::string& warning : config.warnings)
-    {
-        logger.Warning(warning);
-    }
+    LogWarnings(config, logger);
     std::unique_ptr<MessageTrace> trace; // outlives the handlers in the context
     boost::asio::io_context context(1);
     AcsdService* startedOrNull = nullptr;

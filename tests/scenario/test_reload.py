@@ -67,6 +67,18 @@ class Reload(ScenarioCase):
         self.wait_for_log(acsd, "it is a pipe; only regular files are read")
         self.assertEqual(self.submit(stub, "P2")["result"], "Success")
 
+    def test_sighup_reports_warnings(self):
+        tokens = self.line.folder / "tokens"
+        tokens.touch(mode=0o600)
+        tokens.write_text(f"viewer anna {'0' * 64}\n")
+        self.line.start_broker()
+        acsd = self.line.start_acsd("127.0.0.1:1", {"stream": "127.0.0.1:1"}, f"operator.tokens_file={tokens}")
+        acsd.wait_ready()
+        tokens.write_text("")
+        acsd.send_signal(signal.SIGHUP)
+        self.wait_for_log(acsd, "has no token, so every token is refused")
+        self.assertTrue(acsd.is_running())
+
     def test_sighup_during_the_start_is_answered_after_it(self):
         library = self.line.bin_dir / "libscenario_held_disk.so"
         if not library.exists():
