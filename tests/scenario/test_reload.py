@@ -67,16 +67,19 @@ class Reload(ScenarioCase):
         self.wait_for_log(acsd, "it is a pipe; only regular files are read")
         self.assertEqual(self.submit(stub, "P2")["result"], "Success")
 
-    def test_sighup_reports_warnings(self):
-        tokens = self.line.folder / "tokens"
+    def test_sighup_reports_warnings_and_files_that_need_a_restart(self):
+        tokens, site = self.line.folder / "tokens", self.line.folder / "site.lif.json"
         tokens.touch(mode=0o600)
         tokens.write_text(f"viewer anna {'0' * 64}\n")
+        site.write_text((SITE / "site.lif.json").read_text())
         self.line.start_broker()
-        acsd = self.line.start_acsd("127.0.0.1:1", {"stream": "127.0.0.1:1"}, f"operator.tokens_file={tokens}")
+        acsd = self.line.start_acsd("127.0.0.1:1", {"stream": "127.0.0.1:1"}, f"operator.tokens_file={tokens}", f"site.map={site}")
         acsd.wait_ready()
         tokens.write_text("")
+        site.write_text(site.read_text() + "\n")
         acsd.send_signal(signal.SIGHUP)
         self.wait_for_log(acsd, "has no token, so every token is refused")
+        self.wait_for_log(acsd, "needs a restart of acsd key=site.map")
         self.assertTrue(acsd.is_running())
 
     def test_sighup_during_the_start_is_answered_after_it(self):

@@ -8,6 +8,7 @@
 #include "config/FactsheetFile.hpp"
 #include "config/JobConfig.hpp"
 #include "config/MapRestriction.hpp"
+#include "config/NamedFiles.hpp"
 #include "config/PlaceConfig.hpp"
 #include "config/ReachCheck.hpp"
 #include "config/RemovedKeys.hpp"
@@ -362,6 +363,7 @@ AcsdConfig Read(
     config.errors = reader.GetErrors();
     std::ranges::move(otherErrors, std::back_inserter(config.errors));
     config.values = reader.GetValues();
+    config.files = ReadNamedFiles(fileName, config.values);
     return config;
 }
 

@@ -66,6 +66,7 @@ struct AcsdConfig
     std::optional<Planning::SiteMap> site; ///< Always set if there are no errors.
     /// Each key that is given ("mcs.url") with its value as TOML, for comparison after a reload.
     std::map<std::string, std::string> values;
+    std::map<std::string, std::string> files; ///< Of ReadNamedFiles. Some are secrets.
     std::vector<std::string> warnings; ///< Valid settings that are not advisable; what the map demands without effect.
     std::vector<std::string> notes;    ///< Members of the map that acsd ignores and that demand nothing.
     std::vector<std::string> errors;   ///< Errors, each with file, line and key; empty: the configuration is valid.

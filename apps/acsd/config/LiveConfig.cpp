@@ -26,6 +26,23 @@ constexpr std::array<std::string_view, 12> LIVE_KEYS{
     "trace.max_file_bytes",
     "trace.max_files"};
 
+/// Adds the keys of files with the same name and another text.
+void AddChangedFiles(
+    const std::map<std::string, std::string>& before,
+    const std::map<std::string, std::string>& after,
+    std::vector<std::string>& keys)
+{
+    for (const auto& [key, text] : after)
+    {
+        const auto old = before.find(key);
+        if (old != before.end() && old->second != text && std::ranges::find(keys, key) == keys.end())
+        {
+            keys.push_back(key);
+        }
+    }
+    std::ranges::sort(keys);
+}
+
 } // namespace
 
 bool IsLiveKey(std::string_view key)
@@ -62,7 +79,8 @@ ConfigChange CompareConfigs(
 
 void LogChange(const AcsdConfig& present, const AcsdConfig& fresh, const Core::Logger& logger)
 {
-    const ConfigChange change = CompareConfigs(present.values, fresh.values);
+    ConfigChange change = CompareConfigs(present.values, fresh.values);
+    AddChangedFiles(present.files, fresh.files, change.pending);
     for (const std::string& key : change.applied)
     {
         const auto value = fresh.values.find(key);

@@ -5,6 +5,7 @@
 #include "TemporaryFolder.hpp"
 
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -70,6 +71,39 @@ TEST_CASE("A reload changes the live keys and nothing else")
     const ConfigChange next = CompareConfigs(present.values, fresh.values);
     CHECK(next.applied.empty());
     CHECK(next.pending == std::vector<std::string>{"mcs.ack_timeout", "queue.max_plans"});
+}
+
+TEST_CASE("A reload reports a file that has changed under the same name")
+{
+    const Testing::TemporaryFolder folder;
+    const std::filesystem::path headers = folder.GetPath() / "headers";
+    const std::filesystem::path names = folder.GetPath() / "errors.toml";
+    std::ofstream(headers) << "X-Line: 1\n";
+    std::filesystem::permissions(headers, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+    std::ofstream(names) << "[\"ACS-1002\"]\ncode = \"E-2\"\n";
+    const std::vector<std::string> overrides{
+        "mcs.headers_file=" + headers.string(),
+        "errors.map=" + names.string(),
+        "log.level=debug"};
+    AcsdConfig present = ReadLive(overrides);
+    Testing::RecordingLogSink sink;
+    LogChange(present, ReadLive(overrides), Core::Logger(sink, "config"));
+    CHECK(sink.Contains(Core::ELogLevel::Info, "without changes"));
+    sink.Clear();
+
+    std::ofstream(headers) << "X-Line: 2\n";
+    std::ofstream(names) << "[\"ACS-1002\"]\ncode = \"E-3\"\n";
+    for (int reload = 0; reload < 2; ++reload)
+    {
+        const AcsdConfig fresh = ReadLive(overrides);
+        LogChange(present, fresh, Core::Logger(sink, "config"));
+        ApplyLiveKeys(fresh, present);
+        CHECK(sink.CountLevel(Core::ELogLevel::Warning) == 2);
+        CHECK(sink.ContainsField("key", "errors.map"));
+        CHECK(sink.ContainsField("key", "mcs.headers_file"));
+        CHECK_FALSE(sink.Contains(Core::ELogLevel::Info, "without changes"));
+        sink.Clear();
+    }
 }
 
 TEST_CASE("Of the keys of the message style, only the live ones are applied")
