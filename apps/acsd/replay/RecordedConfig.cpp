@@ -1,7 +1,5 @@
 #include "replay/RecordedConfig.hpp"
 
-#include "common/config/ConfigReader.hpp"
-#include "common/config/TextFile.hpp"
 #include "common/Version.hpp"
 #include "config/LiveConfig.hpp"
 #include "operator/OperatorToken.hpp"
@@ -144,23 +142,15 @@ std::map<std::string, std::string> MakeRecordedValues(const AcsdConfig& config)
     return values;
 }
 
-/// The value of a string that is given as TOML.
-std::string ReadString(const std::string& value)
-{
-    const Apps::ConfigReader reader = Apps::ConfigReader::ReadText("value = " + value, {}, {});
-    return reader.GetRoot().GetString("value", "");
-}
-
-/// Those that the configuration names; without text if it cannot be read.
-std::vector<RecordedFile> ReadFiles(const AcsdConfig& config)
+/// As acsd runs with them: those on the disk may have changed since.
+std::vector<RecordedFile> MakeRecordedFiles(const AcsdConfig& config)
 {
     std::vector<RecordedFile> files;
-    for (const auto& [key, value] : config.values)
+    for (const auto& [key, text] : config.files)
     {
         if (IsFile(key))
         {
-            const std::string path = ResolvePath(config.fileName, ReadString(value));
-            files.push_back({MakeFileName(key), Apps::ReadTextFile(path).value_or(std::string())});
+            files.push_back({MakeFileName(key), text});
         }
     }
     return files;
@@ -188,7 +178,7 @@ std::string MakeConfigFingerprint(const AcsdConfig& config)
         return IsLiveKey(entry.first) || entry.first.starts_with("log.") || entry.first.starts_with("trace.");
     });
     std::string text = MakeTOML(values);
-    for (const RecordedFile& file : ReadFiles(config))
+    for (const RecordedFile& file : MakeRecordedFiles(config))
     {
         text += fmt::format("{} {}\n{}\n", file.name, file.text.size(), file.text);
     }
@@ -204,7 +194,7 @@ CoreRecord MakeBeginRecord(const AcsdConfig& config, Core::Now now)
 {
     std::map<std::string, std::string> values = MakeRecordedValues(config);
     values.insert_or_assign(std::string(TIMEZONE_KEY), MakeOffsetText(config.localOffset.GetAt(now.wall)));
-    const RecordedRun run{std::string(Apps::VERSION), MakeTOML(values), ReadFiles(config)};
+    const RecordedRun run{std::string(Apps::VERSION), MakeTOML(values), MakeRecordedFiles(config)};
     CoreRecord record;
     record.now = now;
     record.kind = BEGIN_KIND;

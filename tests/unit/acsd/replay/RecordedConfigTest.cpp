@@ -5,6 +5,8 @@
 #include "ManualClock.hpp"
 #include "TemporaryFolder.hpp"
 
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 namespace ACS::Acsd::Test
@@ -31,6 +33,21 @@ TEST_CASE("A recorded configuration is read in another folder, with its map and 
     CHECK(read.mcs.style == config.mcs.style);
     CHECK(read.robots.size() == config.robots.size());
     CHECK(read.site->GetNodes().size() == config.site->GetNodes().size());
+}
+
+TEST_CASE("A recording has the files as acsd has read them, also if they have changed since")
+{
+    const Testing::TemporaryFolder folder;
+    const std::filesystem::path names = folder.GetPath() / "errors.toml";
+    std::ofstream(names) << "[\"ACS-1002\"]\ncode = \"E-2\"\n";
+    const AcsdConfig config = ReadAcsdConfig(SITE_CONFIG, {"errors.map=" + names.string()});
+    REQUIRE(config.errors.empty());
+    const std::string fingerprint = MakeConfigFingerprint(config);
+    std::ofstream(names) << "[\"ACS-1002\"]\ncode = \"E-3\"\n";
+    CHECK(MakeConfigFingerprint(config) == fingerprint);
+    const std::string text = MakeBeginRecord(config, Testing::ManualClock().GetNow()).text;
+    CHECK(text.find("E-2") != std::string::npos);
+    CHECK(text.find("E-3") == std::string::npos);
 }
 
 TEST_CASE("A recorded configuration has no addresses, names and secrets of the links")
