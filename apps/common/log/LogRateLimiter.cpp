@@ -53,9 +53,7 @@ LogRateLimiter::Kind& LogRateLimiter::FindKind(Core::SteadyTime now, std::string
     }
     if (_kinds.size() >= MAX_KINDS)
     {
-        std::erase_if(_kinds, [now](const auto& entry) {
-            return entry.second.suppressed == 0 && now - entry.second.lastSeen >= INTERVAL;
-        });
+        std::erase_if(_kinds, [now](const auto& entry) { return now - entry.second.lastSeen >= INTERVAL; });
     }
     return _kinds[_kinds.size() < MAX_KINDS ? std::string(kind) : std::string()];
 }

@@ -21,7 +21,8 @@ class LogRateLimiter final
 public:
     static constexpr std::size_t BURST = 5;
     static constexpr std::chrono::seconds INTERVAL{60};
-    /// Limits the memory that a peer can use: further kinds are counted as one.
+    /// Limits the memory that a peer can use: further kinds are counted as one until kinds without lines for an interval give way,
+    /// whose numbers of suppressed lines are then not written.
     static constexpr std::size_t MAX_KINDS = 500;
 
 private:

@@ -89,3 +89,22 @@ TEST_CASE("One kind does not suppress another, and a flood of kinds fills neithe
     flood.Write("another");
     CHECK(flood.CountLines() == 1);
 }
+
+TEST_CASE("Kinds that were suppressed once give way to others when they are silent")
+{
+    Flood flood;
+    for (std::size_t kind = 0; kind < LogRateLimiter::MAX_KINDS; ++kind)
+    {
+        for (std::size_t line = 0; line <= LogRateLimiter::BURST; ++line)
+        {
+            flood.Write("kind " + std::to_string(kind));
+        }
+    }
+    flood.clock.Advance(LogRateLimiter::INTERVAL);
+    flood.sink.Clear();
+    for (std::size_t kind = 0; kind < 2 * LogRateLimiter::BURST; ++kind)
+    {
+        flood.Write("other kind " + std::to_string(kind));
+    }
+    CHECK(flood.CountLines() == 2 * LogRateLimiter::BURST);
+}
