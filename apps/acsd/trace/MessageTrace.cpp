@@ -3,6 +3,7 @@
 #include "common/trace/TraceFiles.hpp"
 #include "common/trace/TraceLine.hpp"
 #include <acs/core/ECoreError.hpp>
+#include <acs/core/ParseNumber.hpp>
 
 #include <algorithm>
 #include <deque>
@@ -24,6 +25,34 @@ constexpr std::size_t NEWEST_BYTES = 4U * 1024U * 1024U;
 
 constexpr std::string_view MCS_LINK = "mcs";
 constexpr std::size_t TIME_END = std::string_view(R"({"time":"2026-01-01T00:00:00.000Z")").size();
+
+/// The monotonic time of a line, which follows the time; 0 if there is none.
+std::uint64_t ReadMonotonic(std::string_view line)
+{
+    constexpr std::string_view NAME = R"(,"mono_us":)";
+    line.remove_prefix(std::min(TIME_END, line.size()));
+    if (!line.starts_with(NAME))
+    {
+        return 0;
+    }
+    line.remove_prefix(NAME.size());
+    return Core::ParseNumberOrNull<std::uint64_t>(line.substr(0, line.find(','))).value_or(0);
+}
+
+/// The beginning of the newest lines, which are in memory.
+struct MemoryStart
+{
+    std::string time; ///< Empty: there are none.
+    std::uint64_t monotonic = 0;
+};
+
+/// Whether a line of the files is before the lines in memory: of this boot by its monotonic time, because the clock may have been
+/// set; of an earlier boot by its time. `matching` are of those in memory.
+bool IsBefore(std::string_view line, const MemoryStart& start, const std::vector<std::string>& matching)
+{
+    return start.time.empty() || ReadMonotonic(line) < start.monotonic
+        || (line.substr(0, TIME_END) < start.time && std::ranges::find(matching, line) == matching.end());
+}
 
 Apps::TraceFileStyle MakeStyle()
 {
@@ -150,13 +179,17 @@ MessageTrace::LineSearch MessageTrace::MakeSearch(Apps::TraceQuery query, std::s
     std::ranges::copy_if(newest, std::back_inserter(matching), [&query](const std::string& line) {
         return query.IsMatch(line);
     });
-    // The time is at the beginning of a line. The last lines may not be in the files yet.
-    std::string until = newest.empty() ? std::string() : newest.front().substr(0, TIME_END);
+    // The times are at the beginning of a line. The last lines may not be in the files yet.
+    MemoryStart start;
+    if (!newest.empty())
+    {
+        start = {newest.front().substr(0, TIME_END), ReadMonotonic(newest.front())};
+    }
     return [folder = _folder,
             query = std::move(query),
             maximum,
             matching = std::move(matching),
-            until = std::move(until)] {
+            start = std::move(start)] {
         Apps::NewestLines found(maximum, NEWEST_BYTES);
         if (matching.size() < maximum)
         {
@@ -164,8 +197,8 @@ MessageTrace::LineSearch MessageTrace::MakeSearch(Apps::TraceQuery query, std::s
                      folder,
                      Apps::TraceFileStyle().prefix,
                      maximum - matching.size(),
-                     [&until, &query](std::string_view candidate) {
-                         return (until.empty() || candidate.substr(0, TIME_END) < until) && query.IsMatch(candidate);
+                     [&start, &query, &matching](std::string_view candidate) {
+                         return query.IsMatch(candidate) && IsBefore(candidate, start, matching);
                      }))
             {
                 found.Add(std::move(line));

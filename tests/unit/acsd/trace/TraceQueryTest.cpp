@@ -120,6 +120,31 @@ TEST_CASE_METHOD(QueryFixture, "Lines of an earlier run are found in the files, 
     CHECK(found.find("input") == std::string::npos);
 }
 
+TEST_CASE_METHOD(QueryFixture, "When the wall clock is set back, all lines are found, and each once")
+{
+    trace->SetPlan("LR01", "P1");
+    trace->Write({"arm", EWireDirection::In, "LR01", {}, "first"});
+    trace.reset();
+    clock.Advance(std::chrono::seconds(1));
+    clock.JumpWall(-std::chrono::hours(1));
+    trace = Begin();
+    trace->SetPlan("LR01", "P1");
+    trace->Write({"arm", EWireDirection::In, "LR01", {}, "second"});
+    clock.Advance(std::chrono::seconds(1));
+    clock.JumpWall(-std::chrono::hours(1));
+    trace->Write({"arm", EWireDirection::In, "LR01", {}, "third"});
+    const MessageTrace::LineSearch search = trace->MakeSearch({"P1", {}, {}}, 9);
+    trace.reset(); // which writes the lines
+    const std::string found = search().GetText(9);
+    const std::size_t first = found.find("first");
+    const std::size_t second = found.find("second");
+    const std::size_t third = found.find("third");
+    REQUIRE(third != std::string::npos);
+    CHECK(first < second);
+    CHECK(second < third);
+    CHECK(found.find("third", third + 1) == std::string::npos);
+}
+
 TEST_CASE_METHOD(QueryFixture, "GET /v1/trace has the lines that match its parameters, and refuses unknown ones")
 {
     trace->Write({"mqtt", EWireDirection::In, "LR01", "t", "one"});
