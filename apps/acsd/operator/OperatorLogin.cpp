@@ -1,6 +1,7 @@
 #include "operator/OperatorLogin.hpp"
 
 #include "operator/OperatorAnswer.hpp"
+#include <acs/core/ParseNumber.hpp>
 #include <acs/json/JsonDocument.hpp>
 
 #include <fmt/format.h>
@@ -20,7 +21,16 @@ namespace
 
 constexpr unsigned LOGIN_DONE = 204;
 constexpr unsigned LOGIN_IMPOSSIBLE = 503;
-constexpr std::string_view COOKIE = "acs_session";
+
+/// With the port that the browser uses: it sends a cookie to all ports of a host, and each may be that of another acsd.
+std::string MakeCookieName(const Apps::HttpRequest& request)
+{
+    const std::string host = request.GetHeaderOrNull("Host").value_or("");
+    const std::optional<std::uint16_t> port =
+        Core::ParseNumberOrNull<std::uint16_t>(std::string_view(host).substr(host.rfind(':') + 1));
+    return port.has_value() && host.find(':') != std::string::npos ? fmt::format("acs_session_{}", *port)
+                                                                   : "acs_session";
+}
 
 Apps::HttpResponse MakeCookieResponse(
     const Apps::HttpRequest& request,
@@ -32,7 +42,7 @@ Apps::HttpResponse MakeCookieResponse(
         {"Set-Cookie",
          fmt::format(
              "{}={}; Path=/; Max-Age={}; HttpOnly; SameSite=Strict{}",
-             COOKIE,
+             MakeCookieName(request),
              value,
              age.count(),
              request.sender.bTLS ? "; Secure" : "")},
@@ -46,7 +56,7 @@ std::optional<OperatorToken::Hash> OperatorLogin::FindTokenOrNull(
     const Apps::HttpRequest& request,
     Core::SteadyTime now) const
 {
-    const std::optional<std::string> secret = FindCookieOrNull(request, COOKIE);
+    const std::optional<std::string> secret = FindCookieOrNull(request, MakeCookieName(request));
     return secret.has_value() ? _sessions.FindTokenOrNull(HashToken(*secret), now) : std::nullopt;
 }
 
@@ -60,7 +70,7 @@ Apps::HttpResponse OperatorLogin::Open(
     {
         return MakeOperatorError(LOGIN_IMPOSSIBLE, "The system has no random numbers.");
     }
-    if (const std::optional<std::string> former = FindCookieOrNull(request, COOKIE))
+    if (const std::optional<std::string> former = FindCookieOrNull(request, MakeCookieName(request)))
     {
         _sessions.Remove(HashToken(*former));
     }
@@ -71,7 +81,7 @@ Apps::HttpResponse OperatorLogin::Open(
 
 Apps::HttpResponse OperatorLogin::Close(const Apps::HttpRequest& request)
 {
-    if (const std::optional<std::string> secret = FindCookieOrNull(request, COOKIE))
+    if (const std::optional<std::string> secret = FindCookieOrNull(request, MakeCookieName(request)))
     {
         _sessions.Remove(HashToken(*secret));
     }

@@ -57,6 +57,32 @@ TEST_CASE("A login has a cookie that scripts and other pages cannot use, and tha
     CHECK(login.FindTokenOrNull(MakeRequestWithCookies(FindCookiePair(second)), now) == std::nullopt);
 }
 
+TEST_CASE("The logins at two ports of a host do not end each other")
+{
+    const Core::SteadyTime now = Testing::ManualClock().GetNow().steady;
+    const auto openAt = [now](OperatorLogin& login, const std::string& host) {
+        Apps::HttpRequest request;
+        request.headers = {{"Host", host}};
+        return FindCookiePair(login.Open(request, HashToken("token"), now));
+    };
+    OperatorLogin one;
+    OperatorLogin other;
+    const std::string cookies = openAt(one, "line:8081") + "; " + openAt(other, "line:8082");
+    CHECK(cookies.starts_with("acs_session_8081="));
+    for (const char* host : {"line:8081", "line:8082"})
+    {
+        Apps::HttpRequest request = MakeRequestWithCookies(cookies);
+        request.headers.emplace_back("Host", host);
+        CHECK(one.FindTokenOrNull(request, now).has_value() == (std::string_view(host) == "line:8081"));
+        CHECK(other.FindTokenOrNull(request, now).has_value() == (std::string_view(host) == "line:8082"));
+    }
+    CHECK(openAt(one, "[::1]:8083").starts_with("acs_session_8083="));
+    for (const char* host : {"line", "[::1]", "line:", "line:x", "8081"})
+    {
+        CHECK(openAt(one, host).starts_with("acs_session="));
+    }
+}
+
 TEST_CASE("The body of a login is an object with the token and nothing else")
 {
     CHECK(Acsd::ReadLoginTokenOrNull(R"({"token": "abc"})") == "abc");
