@@ -2,6 +2,7 @@
 
 #include "CutText.hpp"
 #include "ILink.hpp"
+#include "LinkStream.hpp"
 #include "SocketQueue.hpp"
 #include <acs/core/Result.hpp>
 #include <acs/protocol_beast/ClientOptions.hpp>
@@ -36,7 +37,7 @@ class BeastLink final : public ILink, public std::enable_shared_from_this<BeastL
     using ErrorCode = boost::beast::error_code;
     using Tcp = boost::asio::ip::tcp;
 
-    boost::beast::websocket::stream<Stream> _stream;
+    boost::beast::websocket::stream<LinkStream<Stream>> _stream;
     LinkOptions _options;
     LinkOwner _owner;
     boost::beast::flat_buffer _buffer;
@@ -265,11 +266,34 @@ private:
             return;
         }
         _bOpen = true;
+        _stream.next_layer().onTeardown = [weak = this->weak_from_this()] {
+            if (const auto self = weak.lock())
+            {
+                self->LimitTeardown();
+            }
+        };
         ReadAsync();
         if (_owner.onOpen)
         {
             _owner.onOpen();
         }
+    }
+
+    /// The other side has closed, or Beast has for its error: a socket that the other side keeps open is closed in time.
+    void LimitTeardown()
+    {
+        if (_bCloseWanted || _bFinished)
+        {
+            return;
+        }
+        _closeTimer.expires_after(_options.closeTimeout);
+        _closeTimer.async_wait([weak = this->weak_from_this()](ErrorCode error) {
+            const auto self = weak.lock();
+            if (!error && self != nullptr)
+            {
+                self->GetTcpStream().close(); // OnRead follows
+            }
+        });
     }
 
     void ReadAsync()

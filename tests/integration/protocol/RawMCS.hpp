@@ -44,6 +44,7 @@ public:
     std::vector<RawFrame> closes;
     /// Returns whether to acknowledge the request; may also act on the connection.
     std::function<bool(const Protocol::AcsRequest& request)> onRequest;
+    bool bKeepsOpen = false; ///< The TCP connection, after a close frame.
 
     explicit RawMCS(RawPeer& peer)
         : _peer(peer)
@@ -97,7 +98,10 @@ private:
             if (frame->kind == EFrame::Close)
             {
                 closes.push_back(*frame);
-                _peer.Close(); // as a server does it, first
+                if (!bKeepsOpen)
+                {
+                    _peer.Close(); // as a server does it, first
+                }
             }
             else if (frame->kind == EFrame::Text)
             {

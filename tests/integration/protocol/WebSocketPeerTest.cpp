@@ -389,6 +389,48 @@ TEST_CASE("1 The reason of a peer that closes and does not wait for the answer i
     CHECK(rig.acsEvents.GetFirstLoss() == "closed by the other side with code 1008: token withdrawn");
 }
 
+TEST_CASE("1 A link ends for its reason although the other side keeps the TCP connection after the last close frame")
+{
+    struct Case
+    {
+        std::string bytes;
+        std::string reason;
+    };
+    const bool bMasked = GENERATE(true, false); // as a client, as a server
+    const Case last = GENERATE_COPY(
+        Case{
+            MakeFrame({EFrame::Close, "\x03\xE9going", true}, bMasked),
+            "closed by the other side with code 1001: going"},
+        Case{
+            MakeFrameHead({EFrame::Text, {}, true}, HUGE_FRAME, bMasked),
+            "a message is longer than 4194304 bytes, the most that is taken"});
+    ProtocolBeast::LinkOptions options;
+    options.handshakeTimeout = options.pingInterval = 1h;
+    options.closeTimeout = 20ms;
+    if (bMasked)
+    {
+        ServerWireFixture rig;
+        rig.serverOptions.link = options;
+        rig.RegisterRaw();
+        rig.peer->Write(last.bytes);
+        REQUIRE(rig.WasReached([&rig] { return !rig.GetFirstMcsLoss().empty(); }));
+        CHECK(rig.GetFirstMcsLoss() == last.reason);
+        rig.Connect(); // the place is free
+        CHECK(rig.WasRegistered());
+        return;
+    }
+    ClientWireFixture rig;
+    rig.clientOptions.link = options;
+    rig.onConnection = [](std::size_t /*index*/, RawMCS& mcs) {
+        mcs.bKeepsOpen = true;
+    };
+    rig.RegisterWithRaw();
+    rig.connections.at(0)->GetPeer().Write(last.bytes);
+    REQUIRE(rig.WasLost());
+    CHECK(rig.acsEvents.GetFirstLoss() == last.reason);
+    CHECK(rig.WasRegistered(2));
+}
+
 TEST_CASE("1 A client that ends with RST in mid frame is dropped, and the next one is served")
 {
     ServerWireFixture rig;
