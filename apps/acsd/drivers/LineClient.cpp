@@ -1,6 +1,7 @@
 #include <acs/acsd/LineClient.hpp>
 #include <acs/core/Backoff.hpp>
 #include <acs/core/JsonText.hpp>
+#include <acs/net/AddressRotation.hpp>
 #include <acs/net/HostLookup.hpp>
 
 #include <boost/asio/buffer.hpp>
@@ -53,6 +54,7 @@ class LineClient::Impl final : public std::enable_shared_from_this<LineClient::I
     Handlers _handlers;
     Core::Backoff _backoff;
     Net::HostLookup _lookup;
+    Net::AddressRotation _addresses;
     boost::asio::ip::tcp::socket _socket;
     boost::asio::steady_timer _timer; ///< Of the attempt, of the silence of the peer, or until the next attempt.
     EState _state = EState::Stopped;
@@ -182,7 +184,11 @@ private:
             Lose(error.message());
             return;
         }
-        boost::asio::async_connect(_socket, found, Guard(&Impl::OnConnectDone));
+        boost::asio::async_connect(
+            _socket,
+            _addresses.Rotate(found),
+            _addresses.MakeCondition(),
+            Guard(&Impl::OnConnectDone));
     }
 
     void OnConnectDone(const boost::system::error_code& error, const boost::asio::ip::tcp::endpoint& /*endpoint*/)
@@ -192,6 +198,7 @@ private:
             Lose(error.message());
             return;
         }
+        _addresses.Reset();
         boost::system::error_code ignored;
         static_cast<void>(_socket.set_option(boost::asio::ip::tcp::no_delay(true), ignored));
         _state = EState::Connected;

@@ -4,6 +4,7 @@
 #include <acs/core/ECoreError.hpp>
 #include <acs/core/Overloaded.hpp>
 #include <acs/net/ActionPump.hpp>
+#include <acs/net/AddressRotation.hpp>
 #include <acs/net/EventQueue.hpp>
 #include <acs/net/HostLookup.hpp>
 #include <acs/net/TimerArray.hpp>
@@ -59,6 +60,7 @@ class AcsClient::Impl : public std::enable_shared_from_this<AcsClient::Impl>
     std::shared_ptr<SessionEvents> _events;
     std::shared_ptr<SessionTimers> _timers;
     Net::HostLookup _lookup;
+    Net::AddressRotation _addresses;
     boost::asio::steady_timer _lookupTimer;
     std::unique_ptr<ITransport> _transport;
     std::shared_ptr<ILink> _linkOrNull;
@@ -218,7 +220,8 @@ private:
     {
         link->GetTcpStream().expires_after(_options.link.handshakeTimeout);
         link->GetTcpStream().async_connect(
-            results,
+            _addresses.Rotate(results),
+            _addresses.MakeCondition(),
             [weak = weak_from_this(), link](ErrorCode error, const Tcp::endpoint& /*endpoint*/) {
                 const auto self = weak.lock();
                 if (self == nullptr || self->_linkOrNull != link)
@@ -231,6 +234,7 @@ private:
                         "cannot connect to " + self->_url.host + ":" + self->_url.port + ": " + error.message());
                     return;
                 }
+                self->_addresses.Reset();
                 const std::string& host = self->_options.host.empty() ? self->_url.hostHeader : self->_options.host;
                 link->HandshakeAsync({host, self->_url.target, self->_options.headers});
             });

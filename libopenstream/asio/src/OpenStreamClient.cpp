@@ -1,4 +1,5 @@
 #include "SocketOptions.hpp"
+#include <acs/net/AddressRotation.hpp>
 #include <acs/net/HostLookup.hpp>
 #include <acs/net/TimerArray.hpp>
 #include <acs/openstream_asio/OpenStreamClient.hpp>
@@ -36,6 +37,7 @@ class OpenStreamClient::Impl final : public std::enable_shared_from_this<OpenStr
     OpenStream::ClientSession _session;
     ClientActions _actions;
     Net::HostLookup _lookup;
+    Net::AddressRotation _addresses;
     Tcp::socket _socket;
     std::shared_ptr<Timers> _timers;
     std::array<char, READ_BYTES> _input{};
@@ -213,7 +215,11 @@ private:
             ReportConnectFailure(error);
             return;
         }
-        boost::asio::async_connect(_socket, found, Guard(&Impl::OnConnectDone));
+        boost::asio::async_connect(
+            _socket,
+            _addresses.Rotate(found),
+            _addresses.MakeCondition(),
+            Guard(&Impl::OnConnectDone));
     }
 
     void ReportConnectFailure(const boost::system::error_code& error)
@@ -230,6 +236,7 @@ private:
             ReportConnectFailure(error);
             return;
         }
+        _addresses.Reset();
         SetSocketOptions(_socket);
         DropUnsentAtClose(_socket); // an old CONTROL must not move anything
         ReadMoreAsync();

@@ -1,6 +1,7 @@
 #include "Catch.hpp"
 #include "LinePeer.hpp"
 #include "SeededRandom.hpp"
+#include "TwoAddresses.hpp"
 #include <acs/acsd/LineClient.hpp>
 
 #include <boost/asio/io_context.hpp>
@@ -81,6 +82,17 @@ struct LineClientFixture
 using Lines = std::vector<std::string>;
 
 } // namespace
+
+TEST_CASE("A peer at the second address of its host is reached although the first one does not answer")
+{
+    LineClientFixture fixture;
+    const Testing::TwoAddresses addresses(fixture.context, fixture.options.port);
+    fixture.options.host = Testing::TwoAddresses::HOST;
+    fixture.options.connectTimeout = 50ms;
+    fixture.Start();
+    fixture.Connect();
+    CHECK_FALSE(fixture.losses.empty());
+}
 
 TEST_CASE("Lines arrive whole, wherever their bytes are split")
 {

@@ -1,4 +1,5 @@
 #include "RawPeer.hpp"
+#include "TwoAddresses.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -87,6 +88,19 @@ TEST_CASE("3 Handshake, a MONITOR at 20 ms delivers, a valid CONTROL is accepted
     REQUIRE(stats.dataLines >= fixture.Count<ClientData>());
     REQUIRE(stats.controlErrors == 1);
     REQUIRE(stats.errorLines == 0);
+}
+
+TEST_CASE("8 A server at the second address of its host is reached although the first one does not answer")
+{
+    TcpFixture fixture;
+    const auto server = fixture.StartServer();
+    const TwoAddresses addresses(fixture.context, server->GetPort());
+    OpenStreamClientOptions options;
+    options.host = TwoAddresses::HOST;
+    options.session.connectTimeout = 50ms;
+    const auto client = fixture.MakeClient(server->GetPort(), options);
+    client->Start();
+    CHECK(fixture.TryRunUntil([&]() { return fixture.Count<ClientReady>() == 1; }));
 }
 
 TEST_CASE("8 The client reconnects to a restarted server and renews its MONITOR")

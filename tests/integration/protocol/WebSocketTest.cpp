@@ -1,6 +1,7 @@
 #include "CertificateMaker.hpp"
 #include "RawPeer.hpp"
 #include "TemporaryFolder.hpp"
+#include "TwoAddresses.hpp"
 #include "WebSocketFixture.hpp"
 
 #include <algorithm>
@@ -149,6 +150,17 @@ TEST_CASE("1 The client reconnects to a server that restarts on its port")
     CHECK(rig.acsEvents.GetAll<Protocol::LinkLost>().at(2).reason.find("cannot connect to 127.0.0.1") == 0);
     rig.Listen();
     REQUIRE(rig.WasReached([&rig] { return rig.acsEvents.GetAll<Protocol::Registered>().size() == 2; }));
+}
+
+TEST_CASE("A server at the second address of its host is reached although the first one does not answer")
+{
+    Fixture rig;
+    rig.Listen();
+    const Testing::TwoAddresses addresses(rig.io, rig.serverOptions.port);
+    rig.clientOptions.link.handshakeTimeout = 50ms;
+    rig.ConnectTo(rig.GetURL("/acs/", Testing::TwoAddresses::HOST));
+    CHECK(rig.WasRegistered());
+    CHECK(rig.WasLost());
 }
 
 TEST_CASE("12.3 After a close with 1008 the client tries again")
