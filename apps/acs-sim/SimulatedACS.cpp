@@ -1,5 +1,6 @@
 #include "SimulatedACS.hpp"
 
+#include "common/log/LogText.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/core/Timestamp.hpp>
@@ -90,7 +91,7 @@ void SimulatedACS::OnEvent(const Protocol::SessionEvent& event, Core::Now now)
                 static_cast<void>(_outbox.OnEvent(lost));
                 _judge.OnClosed(false);
                 _nextFault.reset();
-                _print(fmt::format("connection lost: {}", QuoteForError(lost.reason)));
+                _print(fmt::format("connection lost: {}", Apps::MakePrintable(lost.reason)));
             },
             [&](const Protocol::Stopped& stopped) {
                 static_cast<void>(_outbox.OnEvent(stopped));

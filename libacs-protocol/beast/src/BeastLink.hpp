@@ -379,6 +379,10 @@ private:
             return "a message is longer than " + std::to_string(_options.maximumRead)
                 + " bytes, the most that is taken";
         }
+        if (error == websocket::error::bad_frame_payload)
+        {
+            return "the other side sent a text that is not UTF-8";
+        }
         return "the connection broke: " + Describe(error);
     }
 

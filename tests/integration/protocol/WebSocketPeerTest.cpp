@@ -403,7 +403,10 @@ TEST_CASE("1 A link ends for its reason although the other side keeps the TCP co
             "closed by the other side with code 1001: going"},
         Case{
             MakeFrameHead({EFrame::Text, {}, true}, HUGE_FRAME, bMasked),
-            "a message is longer than 4194304 bytes, the most that is taken"});
+            "a message is longer than 4194304 bytes, the most that is taken"},
+        Case{
+            MakeFrame({EFrame::Text, "{\"planId\":\"\xB0\xE8\"}", true}, bMasked),
+            "the other side sent a text that is not UTF-8"});
     ProtocolBeast::LinkOptions options;
     options.handshakeTimeout = options.pingInterval = 1h;
     options.closeTimeout = 20ms;

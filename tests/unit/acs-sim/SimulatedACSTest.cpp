@@ -98,10 +98,13 @@ public:
     ACS::Testing::SeededRandom random;
     McsJudge judge;
     RecordingLink link{clock, judge};
+    std::vector<std::string> lines;
     SimulatedACS acs;
 
     explicit AcsFixture(std::vector<FaultOrder> faults = {})
-        : acs(MakeOptions(std::move(faults)), link, judge, random, [](const std::string& /*line*/) {})
+        : acs(MakeOptions(std::move(faults)), link, judge, random, [this](const std::string& line) {
+              lines.push_back(line);
+          })
     {
         acs.Start();
         acs.OnEvent(Registered{}, clock.GetNow());
@@ -332,6 +335,15 @@ TEST_CASE("malformed, unknown-command, bad-payload, unknown-ack, unknown-report,
     fixture.SendPlan("P", "T");
     fixture.Advance(A_PLAN);
     CHECK(std::get<PlanReport>(fixture.link.reports.back().payload).status == EPlanStatus::Failed);
+}
+
+TEST_CASE("The reason of a lost connection is printed whole, without control characters")
+{
+    AcsFixture fixture;
+    const std::string reason = "the server refused the connection: " + std::string(100, 'x') + " 등록";
+    fixture.acs.OnEvent(LinkLost{reason + "\n", true}, fixture.clock.GetNow());
+    REQUIRE_FALSE(fixture.lines.empty());
+    CHECK(fixture.lines.back().find("connection lost: " + reason + "\\x0a") != std::string::npos);
 }
 
 TEST_CASE("After a lost connection no fault occurs until the next Registration")
