@@ -166,6 +166,7 @@ bool AcsSession::Impl::IsRegistered() const noexcept
 void AcsSession::Impl::SetSiteOffset(std::chrono::minutes offset) noexcept
 {
     _siteOffset = offset;
+    _codec.SetSiteOffset(offset);
 }
 
 const SessionStatistics& AcsSession::Impl::GetStatistics() const noexcept

@@ -111,6 +111,7 @@ const std::optional<ConnectionID>& McsSession::Impl::GetRegisteredOrNull() const
 void McsSession::Impl::SetSiteOffset(std::chrono::minutes offset) noexcept
 {
     _siteOffset = offset;
+    _codec.SetSiteOffset(offset);
 }
 
 const SessionStatistics& McsSession::Impl::GetStatistics() const noexcept

@@ -62,6 +62,7 @@ std::uint64_t SessionHandle::GetWaitingCount() const noexcept
 void SessionHandle::SetSiteOffset(std::chrono::minutes offset) noexcept
 {
     _siteOffset = offset;
+    _codec.SetSiteOffset(offset);
 }
 
 void SessionHandle::KeepActions()

@@ -191,7 +191,7 @@ Json::DecodeOptions MakeDecodeOptions(const CodecOptions& options)
 class AcsCodec::Impl
 {
 public:
-    const CodecOptions options;
+    CodecOptions options;
     Json::JsonDocument document;
 
     explicit Impl(const CodecOptions& codecOptions)
@@ -306,6 +306,11 @@ AcsCodec::AcsCodec(const CodecOptions& options)
 }
 
 AcsCodec::~AcsCodec() = default;
+
+void AcsCodec::SetSiteOffset(std::chrono::minutes offset) noexcept
+{
+    _impl->options.siteOffset = offset;
+}
 
 DecodeOutcome AcsCodec::Decode(std::string_view text)
 {

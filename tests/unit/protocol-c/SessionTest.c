@@ -10,6 +10,9 @@ static const char PLAN[] =
 static const char REPORT[] =
     "{\"command\":\"PlanReport\",\"transactionId\":\"report-1\",\"payload\":{\"planId\":\"P-1\","
     "\"status\":\"InProgress\"}}";
+static const char LOCAL_REPORT[] =
+    "{\"command\":\"PlanReport\",\"transactionId\":\"report-2\",\"timestamp\":\"2020-01-01T12:00:00\","
+    "\"payload\":{\"planId\":\"P-1\",\"status\":\"Completed\"}}";
 
 #define CONNECTION 1u
 #define EVENTS 14
@@ -240,6 +243,11 @@ static void test_plan_and_report(void)
     settle(&l);
     CHECK(l.acs_events[ACS_EVENT_ACKED] == 1 && strcmp(l.transaction_id, "report-1") == 0);
     CHECK(l.mcs_events[ACS_EVENT_REQUEST_RECEIVED] == 1);
+
+    /* A time without an offset has the present one of the site. */
+    CHECK(acs_acs_set_site_offset(l.acs, 540) == ACS_OK);
+    CHECK(acs_acs_send(l.acs, LOCAL_REPORT, sizeof LOCAL_REPORT - 1, l.now, l.now, &made) == ACS_OK);
+    CHECK(has(made.text, "\"timestamp\":\"2020-01-01T12:00:00.000+09:00\""));
     end_line(&l);
 }
 

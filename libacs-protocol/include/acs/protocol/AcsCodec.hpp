@@ -5,6 +5,7 @@
 #include <acs/protocol/CodecOptions.hpp>
 #include <acs/protocol/DecodeOutcome.hpp>
 
+#include <chrono>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -25,6 +26,9 @@ public:
     AcsCodec(const AcsCodec&) = delete;
     AcsCodec& operator=(const AcsCodec&) = delete;
     ~AcsCodec();
+
+    /// CodecOptions::siteOffset of the next texts.
+    void SetSiteOffset(std::chrono::minutes offset) noexcept;
 
     /// Any bytes result in a message or a failure. Only the Ack suffix of the command distinguishes a response from a
     /// request (an MCS exists whose requests carry `"result":null`). Times are truncated to milliseconds.

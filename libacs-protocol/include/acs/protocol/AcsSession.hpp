@@ -93,7 +93,7 @@ public:
     /// Number of requests that TrySendDurable would accept now.
     [[nodiscard]] std::size_t GetRoom() const noexcept;
 
-    /// UTC offset of the timestamps that are sent from now on (daylight saving).
+    /// UTC offset of the timestamps that are sent from now on, and of those without one that are received (daylight saving).
     void SetSiteOffset(std::chrono::minutes offset) noexcept;
 
     /// Counters since the session was created, over all connections.

@@ -48,7 +48,7 @@ public:
     /// Whether an ACS is registered.
     [[nodiscard]] bool IsRegistered() const noexcept;
 
-    /// UTC offset of the timestamps that are sent from now on.
+    /// UTC offset of the timestamps that are sent from now on, and of those without one that are received.
     void SetSiteOffset(std::chrono::minutes offset) noexcept;
 };
 

@@ -65,7 +65,7 @@ public:
         Protocol::EAckResult result,
         std::string_view message,
         const Protocol::AckPayload& payload);
-    /// AcsSession::SetSiteOffset: UTC offset of the timestamps that are sent from now on.
+    /// AcsSession::SetSiteOffset: UTC offset of the timestamps that are sent from now on, and of those without one that are received.
     void SetSiteOffset(std::chrono::minutes offset);
 
     /// Sends a text past the session, for example an invalid message in a test of an MCS; no effect without a connection. The

@@ -332,7 +332,7 @@ ACS_C_EXPORT int32_t acs_mcs_next_action(acs_mcs* mcs, acs_action* action);
 /* Writes the current state; the caller has set state->struct_size. */
 ACS_C_EXPORT int32_t acs_mcs_get_state(acs_mcs* mcs, acs_mcs_state* state);
 
-/* UTC offset of the timestamps that are sent from now on; -1439 to 1439. */
+/* UTC offset of the timestamps that are sent from now on, and of those without one that are received; -1439 to 1439. */
 ACS_C_EXPORT int32_t acs_mcs_set_site_offset(acs_mcs* mcs, int32_t minutes);
 
 /* ---- ACS side ----------------------------------------------------------------------------------------------------------- */
@@ -435,7 +435,7 @@ ACS_C_EXPORT int32_t acs_acs_next_action(acs_acs* acs, acs_action* action);
 /* Writes the current state; the caller has set state->struct_size. */
 ACS_C_EXPORT int32_t acs_acs_get_state(acs_acs* acs, acs_acs_state* state);
 
-/* UTC offset of the timestamps that are sent from now on; -1439 to 1439. */
+/* UTC offset of the timestamps that are sent from now on, and of those without one that are received; -1439 to 1439. */
 ACS_C_EXPORT int32_t acs_acs_set_site_offset(acs_acs* acs, int32_t minutes);
 
 #ifdef __cplusplus
