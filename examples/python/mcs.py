@@ -493,6 +493,8 @@ def main():
                         help="address of the server; port 0: a free one (default 127.0.0.1:9001)")
     parser.add_argument("--library", default="libacs_protocol_c.so.1", help="path of the C interface (default: as the loader finds it)")
     arguments = parser.parse_args()
+    for output in (sys.stdout, sys.stderr):  # a report may have characters that the locale does not have
+        output.reconfigure(errors="backslashreplace")
     try:
         return Mcs(Library(arguments.library), arguments.plan, *arguments.listen).run()
     except (AcsError, OSError) as error:

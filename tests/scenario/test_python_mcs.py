@@ -32,9 +32,9 @@ def make_frame(first, payload):
 
 
 class PythonMcs(ScenarioCase):
-    def start_mcs(self, plan=PLANS[0]):
+    def start_mcs(self, plan=PLANS[0], **options):
         self.mcs = self.line.start("mcs", "-B", PROGRAM, "--library", SETTINGS.library, "--listen", "127.0.0.1:0", plan,
-                                   binary=sys.executable)
+                                   binary=sys.executable, **options)
         return self.mcs.wait_ready()["ws"]
 
     def wait_for_line(self, begin):
@@ -79,6 +79,13 @@ class PythonMcs(ScenarioCase):
         self.assertIn("status=InProgress", reports[0])
         self.assertIn("status=Completed", reports[-1])
         self.assertEqual(sum(line.startswith("JobReport ") and "status=Completed" in line for line in lines), 2)
+
+    def test_a_report_with_characters_that_the_locale_lacks_is_printed(self):
+        plan = self.line.folder / "plan.json"
+        plan.write_text(json.dumps(json.loads(PLANS[0].read_text()) | {"planId": "계획"}))
+        address = self.start_mcs(plan, environment=os.environ | {"PYTHONIOENCODING": "ascii"})
+        self.line.start_acsd(address, self.start_robots()).wait_ready()
+        self.wait_for_line(r"PlanReport planId=\uacc4\ud68d")
 
     def test_an_interrupt_ends_it_without_a_traceback(self):
         self.start_mcs()
