@@ -243,7 +243,7 @@ private:
         const std::size_t end = body.find_last_not_of(" \t\r\n");
         if (end != std::string_view::npos)
         {
-            text += ": " + Core::QuoteForError(body.substr(0, end + 1));
+            text += ": " + QuoteReason(body.substr(0, end + 1));
         }
         return text;
     }

@@ -1,8 +1,12 @@
 #include "CutText.hpp"
 
+#include <acs/core/ControlCharacter.hpp>
 #include <acs/core/JsonText.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstddef>
 
 namespace ACS::ProtocolBeast
 {
@@ -42,6 +46,15 @@ std::string_view CutAtCharacter(std::string_view text, std::size_t maximum)
         --size;
     }
     return text.substr(0, size);
+}
+
+std::string QuoteReason(std::string_view text)
+{
+    constexpr std::size_t MOST = 200;
+    std::string reason = MakeUTF8(text);
+    std::ranges::replace_if(reason, Core::IsControlCharacter, ' ');
+    const std::string_view shown = CutAtCharacter(reason, MOST);
+    return fmt::format("\"{}\"{}", shown, shown.size() < reason.size() ? "..." : "");
 }
 
 } // namespace ACS::ProtocolBeast

@@ -13,4 +13,7 @@ namespace ACS::ProtocolBeast
 /// The text, truncated to this number of bytes at a character boundary (UTF-8).
 [[nodiscard]] std::string_view CutAtCharacter(std::string_view text, std::size_t maximum);
 
+/// What a peer has written for people, in quotation marks: UTF-8 without control characters, "..." for what exceeds the limit.
+[[nodiscard]] std::string QuoteReason(std::string_view text);
+
 } // namespace ACS::ProtocolBeast
