@@ -8,6 +8,7 @@
 #include "common/process/SystemRandom.hpp"
 #include <acs/core/Logger.hpp>
 #include <acs/core/Result.hpp>
+#include <acs/core/ShownURL.hpp>
 
 #include <boost/asio/io_context.hpp>
 
@@ -88,7 +89,7 @@ int Run(const AcsSimOptions& options)
         Apps::PrintError(PROGRAM_NAME, Describe(started.error()));
         return Apps::EXIT_BAD_COMMAND_LINE;
     }
-    std::cout << "connecting to " << Apps::MakeText(options.url) << std::endl;
+    std::cout << "connecting to " << Core::MakeShownURL(Apps::MakeText(options.url)) << std::endl;
     context.run();
     return exitCode;
 }

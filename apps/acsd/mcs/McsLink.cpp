@@ -2,6 +2,7 @@
 
 #include "mcs/McsGateway.hpp"
 #include <acs/core/Overloaded.hpp>
+#include <acs/core/ShownURL.hpp>
 
 #include <fmt/format.h>
 
@@ -63,7 +64,7 @@ Core::Result<void> McsLink::Open(
         return tl::unexpected<Core::Error>(client.error());
     }
     _client = std::move(*client);
-    _url = Apps::MakeText(config.mcs.url);
+    _url = Core::MakeShownURL(Apps::MakeText(config.mcs.url));
     return {};
 }
 

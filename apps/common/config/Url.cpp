@@ -1,5 +1,7 @@
 #include "common/config/Url.hpp"
 
+#include <acs/core/ShownURL.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -61,7 +63,11 @@ bool IsPath(std::string_view text)
 Core::Result<Url> ParseURL(std::string_view text, const std::vector<EUrlScheme>& allowed)
 {
     const auto fail = [text, &allowed] {
-        return Core::Fail(Core::ECoreError::OutOfRange, {}, MakeAllowedText(allowed), fmt::format("'{}'", text));
+        return Core::Fail(
+            Core::ECoreError::OutOfRange,
+            {},
+            MakeAllowedText(allowed),
+            fmt::format("'{}'", Core::MakeShownURL(text)));
     };
     const std::size_t colon = text.find("://");
     if (colon == std::string_view::npos)

@@ -3,6 +3,7 @@
 #include "WebSocketURL.hpp"
 #include <acs/core/ECoreError.hpp>
 #include <acs/core/Overloaded.hpp>
+#include <acs/core/ShownURL.hpp>
 #include <acs/net/ActionPump.hpp>
 #include <acs/net/AddressRotation.hpp>
 #include <acs/net/EventQueue.hpp>
@@ -42,7 +43,7 @@ Core::Result<std::unique_ptr<ITransport>> MakeTransport(const ClientOptions& opt
             Core::ECoreError::OutOfRange,
             "url",
             "wss://…, because options for TLS are given",
-            Core::QuoteForError(options.url));
+            Core::QuoteForError(Core::MakeShownURL(options.url)));
     }
     return MakePlainTransport();
 }
@@ -173,7 +174,7 @@ private:
 
     void ConnectAsync()
     {
-        _logger.Debug("connecting", {{"url", _options.url}});
+        _logger.Debug("connecting", {{"url", Core::MakeShownURL(_options.url)}});
         const std::shared_ptr<ILink> link = _transport->MakeClientLink(_executor, _options.link, MakeOwner());
         _linkOrNull = link;
         _lookupTimer.expires_after(_options.link.handshakeTimeout);
@@ -247,7 +248,7 @@ private:
         owner.onOpen = [weak] {
             if (const auto self = weak.lock())
             {
-                self->_logger.Info("connected", {{"url", self->_options.url}});
+                self->_logger.Info("connected", {{"url", Core::MakeShownURL(self->_options.url)}});
                 self->Run([](auto& session, Core::Now now, auto& out) { session.OnConnected(now, out); });
             }
         };
@@ -262,7 +263,9 @@ private:
             if (const auto self = weak.lock())
             {
                 self->_linkOrNull = nullptr;
-                self->_logger.Debug("not connected", {{"url", self->_options.url}, {"reason", reason}});
+                self->_logger.Debug(
+                    "not connected",
+                    {{"url", Core::MakeShownURL(self->_options.url)}, {"reason", reason}});
                 self->Run([&reason](auto& session, Core::Now now, auto& out) { session.OnClosed(reason, now, out); });
             }
         };

@@ -2,6 +2,7 @@
 
 #include <acs/core/ECoreError.hpp>
 #include <acs/core/ParseNumber.hpp>
+#include <acs/core/ShownURL.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -23,7 +24,7 @@ tl::unexpected<Core::Error> Refuse(std::string_view text)
         Core::ECoreError::OutOfRange,
         "url",
         "ws://host[:port][/path] or wss://host[:port][/path]",
-        Core::QuoteForError(text));
+        Core::QuoteForError(Core::MakeShownURL(text)));
 }
 
 bool IsPort(std::string_view text)

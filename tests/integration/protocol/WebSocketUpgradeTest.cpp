@@ -97,6 +97,7 @@ TEST_CASE("An application sees peer, target and headers of an upgrade, and the c
     CHECK(request.peerPort != 0);
     CHECK(request.peerPort != rig.serverOptions.port);
     CHECK(request.target == "/acs/?robots=2");
+    CHECK(rig.sink.ContainsField("url", "ws://127.0.0.1:" + std::to_string(rig.serverOptions.port) + "/acs/?***"));
     CHECK(request.certificateSubject.empty());
     CHECK(*FindHeaderOrNull(request.headers, "UPGRADE") == "websocket");
     CHECK(request.connection == rig.mcsEvents.GetAll<Protocol::RequestReceived>()[0].connection);
@@ -123,6 +124,18 @@ TEST_CASE("A refused client gets status, reason and headers, and the session has
     rig.clientOptions.headers = {{"authorization", TOKEN}};
     rig.Connect();
     CHECK(rig.WasRegistered());
+}
+
+TEST_CASE("The reason of a refusal is shown in the language of the MCS, without control characters and limited")
+{
+    GuardedFixture rig;
+    rig.refusal.text = "등록되지 않은 ACS입니다.\nA\x1b[31m";
+    rig.Listen();
+    rig.Connect();
+    REQUIRE(rig.WasLost(1));
+    CHECK(
+        rig.acsEvents.GetFirstLoss()
+        == "the server refused the connection with HTTP 401: \"등록되지 않은 ACS입니다. A [31m\"");
 }
 
 TEST_CASE("An application is not asked about requests that are no upgrade at the server's path")

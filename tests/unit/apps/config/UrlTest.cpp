@@ -71,6 +71,13 @@ TEST_CASE("An invalid URL or scheme is refused with the allowed forms")
     REQUIRE(url.error().expected == "a URL mqtt://HOST[:PORT] or mqtts://HOST[:PORT]");
 }
 
+TEST_CASE("The error of a URL that is refused does not show its password")
+{
+    const auto url = Apps::ParseURL("mqtt://acs:Gehe1m@broker", {EUrlScheme::Mqtt});
+    REQUIRE_FALSE(url.has_value());
+    REQUIRE(url.error().found == "'mqtt://***@broker'");
+}
+
 TEST_CASE("The path of a URL has no blank, no fragment and no control character")
 {
     const auto* const text = GENERATE("ws://mcs/a b", "ws://mcs/a#b", "ws://mcs/a\nHost: x", "ws://mcs/\x7f");
