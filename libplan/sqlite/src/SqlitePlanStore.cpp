@@ -179,7 +179,7 @@ public:
         {
             stored = WriteChange(_tables, *change);
         }
-        stored = stored.and_then([this] { return _tables.Run("COMMIT", {}); });
+        stored = stored.and_then([this] { return Commit(); });
         if (!stored.has_value())
         {
             std::ignore = _tables.Run("ROLLBACK", {}); // fails if SQLite has rolled back by itself
@@ -211,6 +211,20 @@ public:
     }
 
 private:
+    /// A commit that has been written to the log and could not be synchronised stays there until the next one overwrites it. A
+    /// write that fails leaves no complete commit.
+    [[nodiscard]] Core::Result<void> Commit()
+    {
+        return _tables.Run("COMMIT", {}).map_error([this](Core::Error error) {
+            const int code = _database.getExtendedErrorCode();
+            if (code != SQLITE_FULL && code != SQLITE_IOERR_WRITE)
+            {
+                error.code = make_error_code(EPlanningError::StoreOutcomeUnknown);
+            }
+            return error;
+        });
+    }
+
     /// A directory that replaces the one that is open is locked too, so that no other program starts on the path.
     [[nodiscard]] Core::Result<void> KeepPath()
     {

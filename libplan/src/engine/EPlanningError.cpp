@@ -32,6 +32,8 @@ public:
                 return "the plan store was written by a newer version";
             case EPlanningError::StoreTaken:
                 return "another program uses the plan store";
+            case EPlanningError::StoreOutcomeUnknown:
+                return "the plan store failed and may have stored the changes";
             default:
                 return "unknown planning error";
         }

@@ -18,6 +18,7 @@ PlanSubmission::PlanSubmission(EngineState& engine, const TscControl& tsc, const
       _room(engine.room),
       _transaction(engine.transaction),
       _call(engine.call),
+      _backlog(engine.backlog),
       _tsc(tsc),
       _waits(waits)
 {
@@ -35,6 +36,17 @@ void PlanSubmission::Submit(const SubmitPlan& command)
     {
         _call.repeatedPlanIDs.emplace(command.replyToken, command.plan.planID);
         _transaction.Reply(command.replyToken, true, REGISTERED);
+        return;
+    }
+    if (_backlog.HasRefusals()) // not tried: the number of refusals that wait stays limited
+    {
+        const std::string refusal = "The plan cannot be stored because the store is failing. Send it again later.";
+        if (_backlog.HasUnknown(command.plan.planID))
+        {
+            _backlog.WithholdRefusal({command.replyToken, false, refusal});
+            return;
+        }
+        _transaction.Reply(command.replyToken, false, refusal);
         return;
     }
     Core::Result<ResolvedPlan> resolved = Admit(plan->record.plan);

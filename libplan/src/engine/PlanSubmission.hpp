@@ -23,6 +23,7 @@ class PlanSubmission
     OutboxRoom& _room;
     EngineTransaction& _transaction;
     CallRecord& _call;
+    StoreBacklog& _backlog;
     const TscControl& _tsc;
     const WaitReasons& _waits;
     std::vector<std::string> _unreported; ///< Accepted, PlanReport(Pending) not sent.

@@ -1,6 +1,7 @@
 #include "engine/StoreGate.hpp"
 
 #include <acs/core/Overloaded.hpp>
+#include <acs/plan/EPlanningError.hpp>
 
 #include <fmt/format.h>
 
@@ -144,15 +145,16 @@ void StoreGate::OnStored(const Core::Result<void>& result, Core::Now now, Engine
     CommitGate::Transaction transaction = _gate.Open();
     if (result.has_value())
     {
+        std::ranges::move(_backlog.CollectRefusals(), std::back_inserter(out));
         Append(out, std::move(transaction.dependent));
         return;
     }
-    const std::string reason = Core::Describe(result.error());
     _transaction.SetNow(now);
     _backlog.OnFailed();
-    const bool bPlanRefused = RecoverBatch(transaction.batch) > 0;
-    ReleaseWithoutStore(transaction.dependent, bPlanRefused, reason, out);
-    ReportStoreFailure(reason, out);
+    const bool bUnknown = result.error().code == EPlanningError::StoreOutcomeUnknown;
+    const bool bPlanRefused = RecoverBatch(transaction.batch, bUnknown) > 0;
+    ReleaseWithoutStore(transaction.dependent, bPlanRefused, result.error(), out);
+    ReportStoreFailure(Core::Describe(result.error()), out);
 }
 
 bool StoreGate::IsStoring() const noexcept
@@ -198,7 +200,7 @@ void StoreGate::StartStoreRetry(EngineActions& out)
     out.emplace_back(StartEngineTimer{{EEngineTimer::StoreRetry, {}}, _options.storeRetry});
 }
 
-std::size_t StoreGate::RecoverBatch(const StoreBatch& batch)
+std::size_t StoreGate::RecoverBatch(const StoreBatch& batch, bool bUnknown)
 {
     std::size_t refused = 0;
     for (const StoreChange& change : batch.changes)
@@ -219,6 +221,10 @@ std::size_t StoreGate::RecoverBatch(const StoreBatch& batch)
             continue;
         }
         ++refused;
+        if (bUnknown)
+        {
+            _backlog.NoteUnknown(addedOrNull->record.plan.planID);
+        }
         _plans.Withdraw(addedOrNull->record.plan.planID);
     }
     for (const std::string& planID : _call.begunPlanIDs)
@@ -240,24 +246,33 @@ std::size_t StoreGate::RecoverBatch(const StoreBatch& batch)
 void StoreGate::ReleaseWithoutStore(
     const EngineActions& withheld,
     bool bPlanRefused,
-    std::string_view reason,
+    const Core::Error& error,
     EngineActions& out)
 {
-    const std::string refusal =
-        fmt::format("The {} cannot be stored: {}", _call.controlID.has_value() ? "request" : "plan", reason);
+    const bool bUnknown = error.code == EPlanningError::StoreOutcomeUnknown;
+    const std::string refusal = fmt::format(
+        "The {} cannot be stored: {}",
+        _call.controlID.has_value() ? "request" : "plan",
+        Core::Describe(error));
     for (const EngineAction& action : withheld)
     {
         std::visit(
             Core::Overloaded{
                 [this](const StorePlans& typed) { _backlog.Add(typed.batch.changes); },
                 [this](const SendReport& typed) { _backlog.HoldBack(typed); },
-                [this, &out, &refusal, bPlanRefused](const ReplyCommand& typed) {
+                [this, &out, &refusal, bPlanRefused, bUnknown](const ReplyCommand& typed) {
                     const auto repeated = _call.repeatedPlanIDs.find(typed.replyToken);
                     const bool bKnown =
                         repeated != _call.repeatedPlanIDs.end() && _plans.FindRecordOrNull(repeated->second) != nullptr;
                     const bool bRefusedNow =
                         (bPlanRefused && typed.bAccepted && !bKnown) || _call.controlID.has_value();
-                    out.emplace_back(bRefusedNow ? ReplyCommand{typed.replyToken, false, refusal} : typed);
+                    ReplyCommand reply = bRefusedNow ? ReplyCommand{typed.replyToken, false, refusal} : typed;
+                    if (bRefusedNow && bUnknown)
+                    {
+                        _backlog.WithholdRefusal(std::move(reply));
+                        return;
+                    }
+                    out.emplace_back(std::move(reply));
                 },
                 [this, &out](const CommandRobot& typed) {
                     if (!TryWithdraw(typed))

@@ -57,12 +57,13 @@ private:
     void ReleaseActions(EngineActions& out);
     void StartStoreRetry(EngineActions& out);
     /// Keeps the changes for the next attempt, except new plans, which are withdrawn. Returns the number of withdrawn plans.
-    [[nodiscard]] std::size_t RecoverBatch(const StoreBatch& batch);
-    /// Handles withheld actions: reports wait, new plans and controls are refused, everything else is released.
+    [[nodiscard]] std::size_t RecoverBatch(const StoreBatch& batch, bool bUnknown);
+    /// Handles withheld actions: reports wait, new plans and controls are refused, everything else is released. The refusals wait
+    /// too if the batch may be stored.
     void ReleaseWithoutStore(
         const EngineActions& withheld,
         bool bPlanRefused,
-        std::string_view reason,
+        const Core::Error& error,
         EngineActions& out);
     /// Withdraws a command that must not be executed while a crash would lose its record.
     [[nodiscard]] bool TryWithdraw(const CommandRobot& command);

@@ -87,6 +87,32 @@ std::vector<SendReport> StoreBacklog::CollectReports()
     return std::exchange(_reports, {});
 }
 
+void StoreBacklog::WithholdRefusal(ReplyCommand refusal)
+{
+    _refusals.push_back(std::move(refusal));
+}
+
+void StoreBacklog::NoteUnknown(std::string planID)
+{
+    _refusedPlanIDs.insert(std::move(planID));
+}
+
+std::vector<ReplyCommand> StoreBacklog::CollectRefusals()
+{
+    _refusedPlanIDs.clear();
+    return std::exchange(_refusals, {});
+}
+
+bool StoreBacklog::HasRefusals() const noexcept
+{
+    return !_refusals.empty();
+}
+
+bool StoreBacklog::HasUnknown(std::string_view planID) const
+{
+    return _refusedPlanIDs.contains(planID);
+}
+
 bool StoreBacklog::IsFailing() const noexcept
 {
     return _state != EState::Working;

@@ -6,7 +6,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <set>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace ACS::Planning
@@ -26,6 +30,8 @@ class StoreBacklog
     EState _state = EState::Working;
     std::vector<StoreChange> _changes;
     std::vector<SendReport> _reports;
+    std::vector<ReplyCommand> _refusals;
+    std::set<std::string, std::less<>> _refusedPlanIDs;
 
 public:
     void OnFailed() noexcept;
@@ -46,6 +52,15 @@ public:
     /// Drops the report that it replaces, if that is held back too.
     void HoldBack(SendReport report);
     [[nodiscard]] std::vector<SendReport> CollectReports();
+
+    /// What it refuses may be stored (EPlanningError::StoreOutcomeUnknown), and be executed after a crash. It waits until the next
+    /// successful write, after which it is not stored.
+    void WithholdRefusal(ReplyCommand refusal);
+    /// The refusal of this plan is withheld.
+    void NoteUnknown(std::string planID);
+    [[nodiscard]] std::vector<ReplyCommand> CollectRefusals();
+    [[nodiscard]] bool HasRefusals() const noexcept;
+    [[nodiscard]] bool HasUnknown(std::string_view planID) const;
 
     [[nodiscard]] bool IsFailing() const noexcept;
     /// Reports that are held back are also in the outbox, in the same order.

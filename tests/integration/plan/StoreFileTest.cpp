@@ -5,6 +5,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdint>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include <string>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 #include <vector>
 
@@ -66,7 +68,54 @@ private:
     void (*_handler)(int) = std::signal(SIGXFSZ, SIG_IGN);
 };
 
+/// During its lifetime no file can be synchronised.
+class BrokenDisk
+{
+public:
+    BrokenDisk()
+    {
+        Get() = true;
+    }
+
+    BrokenDisk(const BrokenDisk&) = delete;
+    BrokenDisk& operator=(const BrokenDisk&) = delete;
+
+    ~BrokenDisk()
+    {
+        Get() = false;
+    }
+
+    /// Whether there is one.
+    static bool& Get()
+    {
+        static bool bBroken = false;
+        return bBroken;
+    }
+};
+
+/// The files that a crash leaves.
+std::string CopyStore(const StoreFolder& folder, const std::string& name)
+{
+    std::string copy = folder.GetStore(name);
+    MakeDirectory(copy);
+    Files::copy_file(GetDatabase(folder.GetStore()), GetDatabase(copy));
+    Files::copy_file(GetLog(folder.GetStore()), GetLog(copy));
+    return copy;
+}
+
 } // namespace
+
+// NOLINTNEXTLINE(readability-identifier-naming,readability-inconsistent-declaration-parameter-name): the system's own
+extern "C" int fdatasync(int file)
+{
+    if (BrokenDisk::Get())
+    {
+        errno = EIO;
+        return -1;
+    }
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): the system's interface
+    return static_cast<int>(::syscall(SYS_fdatasync, file));
+}
 
 TEST_CASE("Store: a database that is removed while it is open is detected, copied, and restored by the next start")
 {
@@ -415,4 +464,22 @@ TEST_CASE("Store: an open store keeps its path for itself, and fails for good wh
             == std::vector<std::string>{"acsd.db", "acsd.db-shm", "acsd.db-wal", "generation"});
         CHECK(other->Append(MakeBatch("CR01")).has_value());
     }
+}
+
+TEST_CASE("Store: a commit that cannot be synchronised may be stored, until the next one overwrites it")
+{
+    const StoreFolder folder;
+    const std::unique_ptr<SqlitePlanStore> store = OpenStore(folder.GetStore());
+    REQUIRE(store->Append(MakeBatch("LR01")).has_value());
+    {
+        const BrokenDisk disk;
+        CHECK(store->Append(MakeBatch("LR02")).error().code == EPlanningError::StoreOutcomeUnknown);
+        CHECK(store->Append(MakeBatch("LR03")).error().code == EPlanningError::StoreOutcomeUnknown);
+    }
+    const std::string before = CopyStore(folder, "before");
+    REQUIRE(store->Append(MakeBatch("LR04")).has_value());
+    const std::string after = CopyStore(folder, "after");
+    CHECK(LoadRobots(*AcceptStore(before)) == std::vector<std::string>{"LR01", "LR03"});
+    CHECK(LoadRobots(*AcceptStore(after)) == std::vector<std::string>{"LR01", "LR04"});
+    CHECK(LoadRobots(*store) == std::vector<std::string>{"LR01", "LR04"});
 }

@@ -41,6 +41,8 @@ public:
 
     /// Called when the batch is on the disk. Fails with StoreTaken for an epoch of a former leader.
     [[nodiscard]] Core::Result<void> Commit(const Planning::StoreBatch& batch, std::uint64_t epoch);
+    /// The next start finds a batch whose commit failed with StoreOutcomeUnknown.
+    void Recover(const Planning::StoreBatch& batch);
     [[nodiscard]] Planning::StoredState Load();
 
     /// The number with which the report was stored; nullopt: never stored.

@@ -14,6 +14,7 @@ enum class EMutation : std::uint8_t
     None,
     StoreConfirmsEarly,
     StoreHidesFailure,
+    StoreDeniesCommit,
     OutboxForgets,
     RestoreDropsPlan,
     ReplayForgotten,
@@ -52,13 +53,14 @@ struct MutationText
     bool bOfLease = false; ///< Found only with a shared store, which most runs do not have.
 };
 
-inline constexpr std::size_t MUTATION_COUNT = 31;
+inline constexpr std::size_t MUTATION_COUNT = 32;
 
 /// By EMutation.
 inline constexpr std::array<MutationText, MUTATION_COUNT> MUTATION_TEXTS{{
     {"none", "no defect"},
     {"store-confirms-early", "the store confirms a write before it is done"},
     {"store-hides-failure", "the store confirms a write that failed"},
+    {"store-denies-commit", "the store reports a commit that the next start may find as not stored"},
     {"outbox-forgets", "reports of plans are not stored"},
     {"restore-drops-plan", "one unfinished plan is not restored"},
     {"replay-forgotten", "after a registration no report is sent again"},

@@ -36,18 +36,23 @@ void ProcessStore::End()
     {
         _leaseOrNull->End();
     }
-    if (!_writing.has_value())
-    {
-        return;
-    }
-    if (_around.scenario.bShared)
+    if (_writing.has_value() && _around.scenario.bShared)
     {
         LeaveOnItsWay(*_writing);
     }
-    else if (_around.chance.IsHit(500))
+    else if (_writing.has_value() && _around.chance.IsHit(500))
     {
         _around.trace.Add("acsd: the batch being written is stored");
-        static_cast<void>(TryCommit(*_writing));
+        if (TryCommit(*_writing).has_value())
+        {
+            return;
+        }
+    }
+    if (_unsynced.has_value())
+    {
+        _around.trace.Add("acsd: the commit that failed is stored");
+        _around.store.Recover(*std::exchange(_unsynced, std::nullopt));
+        _around.onCommit();
     }
 }
 
@@ -114,15 +119,36 @@ void ProcessStore::Commit()
         CommitShared(100ms);
         return;
     }
-    const bool bStored = TryCommit(*std::exchange(_writing, std::nullopt)).has_value();
+    const Planning::StoreBatch batch = *std::exchange(_writing, std::nullopt);
+    const bool bStored = TryCommit(batch).has_value();
+    const bool bUnknown = !bStored && _around.chance.IsHit(300);
+    if (bStored || bUnknown)
+    {
+        _unsynced = bUnknown ? std::optional(_around.mutator.OnWrite(batch)) : std::nullopt;
+    }
     if (_around.owner.HasCrashed("after a write"))
     {
         return;
     }
     const bool bConfirmed = bStored || _around.mutator.Is(EMutation::StoreHidesFailure);
+    const bool bDenied = !bUnknown || _around.mutator.Is(EMutation::StoreDeniesCommit);
     _around.owner.OnStored(
         bConfirmed ? Core::Result<void>()
-                   : Core::Fail(Planning::EPlanningError::StoreFailed, "acsd.db", "room", "disk full"));
+                   : Core::Fail(
+                       bDenied ? Planning::EPlanningError::StoreFailed : Planning::EPlanningError::StoreOutcomeUnknown,
+                       "acsd.db",
+                       "room",
+                       "disk full"));
+    if (bUnknown && _around.scenario.Has(EFault::Crashes) && _around.chance.IsHit(500))
+    {
+        // Most commits that fail are overwritten by the next attempt.
+        _timers.Post(_around.chance.GetBetween(10ms, 3s), [this] {
+            if (_unsynced.has_value())
+            {
+                _around.owner.Crash("after a commit that failed");
+            }
+        });
+    }
 }
 
 /// A shared store is another machine: what was sent may arrive much later, or never.

@@ -64,6 +64,8 @@ private:
     Dependencies _around;
     TimerBank<ETimer> _timers;
     std::optional<Planning::StoreBatch> _writing; ///< Being written to the disk.
+    std::optional<Planning::StoreBatch>
+        _unsynced; ///< Its commit failed, and the next start finds it unless one succeeds.
     std::unique_ptr<SimulatedLease> _leaseOrNull; ///< Of a shared store.
     bool _bCutOff = false;                        ///< From the shared store.
 

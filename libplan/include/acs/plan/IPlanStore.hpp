@@ -206,8 +206,8 @@ public:
     /// Reads the whole content. Errors: EPlanningError::StoreCorrupt, StoreFailed.
     [[nodiscard]] virtual Core::Result<StoredState> Load() = 0;
 
-    /// Stores all changes as one transaction: they are durable on return; on error none of them is stored. Errors:
-    /// EPlanningError::StoreFailed; StoreTaken as of Check.
+    /// Stores all changes as one transaction, durable on return. Errors: EPlanningError::StoreFailed, StoreTaken as of Check: none
+    /// is stored; StoreOutcomeUnknown: the next Load in another process may find them, unless a later Append succeeds.
     [[nodiscard]] virtual Core::Result<void> Append(const StoreBatch& batch) = 0;
 
     /// Checks, without writing, that the stored data can still be found by the next process that opens the store, for example

@@ -64,6 +64,22 @@ TEST_CASE("PlanSubmission: a planID is accepted once, and the same request is an
     CHECK(parts.engine.call.repeatedPlanIDs.empty());
 }
 
+TEST_CASE("PlanSubmission: while a refusal waits plans are refused, and the plan that may be stored waits too")
+{
+    SubmissionParts parts;
+    parts.engine.backlog.WithholdRefusal({6, false, "disk"});
+    parts.engine.backlog.NoteUnknown("P1");
+    CallOutcome outcome = parts.SubmitPlanOf("P2");
+    REQUIRE(outcome.ListActions<ReplyCommand>().size() == 1);
+    CHECK_FALSE(outcome.ListActions<ReplyCommand>().front().bAccepted);
+    CHECK(outcome.changes.empty());
+    outcome = parts.SubmitPlanOf("P1");
+    CHECK(outcome.actions.empty());
+    CHECK(outcome.changes.empty());
+    CHECK(parts.engine.backlog.CollectRefusals().size() == 2);
+    CHECK(parts.IsAccepted("P1"));
+}
+
 TEST_CASE("PlanSubmission: the option lets the planID of a finished plan be used again")
 {
     EngineOptions options = MakeTestOptions(false);

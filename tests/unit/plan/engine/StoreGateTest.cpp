@@ -27,12 +27,32 @@ struct GateParts : EngineParts
         return outcome;
     }
 
+    CallOutcome EndStore(const ACS::Core::Result<void>& result)
+    {
+        CallOutcome outcome;
+        store.OnStored(result, engine.transaction.GetNow(), outcome.actions);
+        return outcome;
+    }
+
     CallOutcome EndStore(bool bStored)
     {
-        const ACS::Core::Result<void> failed = ACS::Core::Fail(make_error_code(EPlanningError::StoreFailed));
-        CallOutcome outcome;
-        store.OnStored(bStored ? ACS::Core::Result<void>() : failed, engine.transaction.GetNow(), outcome.actions);
-        return outcome;
+        return bStored ? EndStore(ACS::Core::Result<void>())
+                       : EndStore(ACS::Core::Fail(make_error_code(EPlanningError::StoreFailed)));
+    }
+
+    /// The batch may be stored.
+    CallOutcome LeaveStore()
+    {
+        return EndStore(ACS::Core::Fail(make_error_code(EPlanningError::StoreOutcomeUnknown)));
+    }
+
+    /// The retry timer expires.
+    CallOutcome RetryStore(bool bStored)
+    {
+        engine.backlog.OnRetryDue();
+        BeginCall();
+        static_cast<void>(CommitCall());
+        return EndStore(bStored);
     }
 
     void BeginCall()
@@ -107,6 +127,38 @@ TEST_CASE("StoreGate: a plan that cannot be stored is refused, and the reports w
     REQUIRE(parts.engine.alarms.GetAlarms().size() == 1);
     CHECK(parts.engine.alarms.GetAlarms().front().errorCode == "ACS-1005");
     CHECK(parts.engine.backlog.CountHeldBack() == 1);
+}
+
+TEST_CASE("StoreGate: a plan that may be stored is refused after the next successful write only")
+{
+    GateParts parts;
+    parts.BeginCall();
+    parts.Accept(MakeLogisticsPlan("P1"));
+    parts.engine.transaction.Reply(7, true, {});
+    static_cast<void>(parts.CommitCall());
+    CHECK(parts.LeaveStore().ListActions<ReplyCommand>().empty());
+    CHECK(parts.engine.plans.GetActive().empty());
+    CHECK(parts.engine.backlog.HasRefusals());
+    CHECK(parts.engine.backlog.HasUnknown("P1"));
+    CHECK_FALSE(parts.engine.backlog.HasUnknown("P2"));
+    CHECK(parts.RetryStore(false).ListActions<ReplyCommand>().empty());
+    const auto replies = parts.RetryStore(true).ListActions<ReplyCommand>();
+    REQUIRE(replies.size() == 1);
+    CHECK(replies.front().replyToken == 7);
+    CHECK_FALSE(replies.front().bAccepted);
+    CHECK_FALSE(parts.engine.backlog.HasRefusals());
+    CHECK_FALSE(parts.engine.backlog.HasUnknown("P1"));
+}
+
+TEST_CASE("StoreGate: a control that may be stored is refused after the next successful write only")
+{
+    GateParts parts;
+    parts.BeginLoad();
+    parts.BeginCall();
+    parts.controls.Control(ControlPlan{EPlanControl::Pause, "P1", {}, 7, "1"});
+    static_cast<void>(parts.CommitCall());
+    CHECK(parts.LeaveStore().ListActions<ReplyCommand>().empty());
+    CHECK(parts.RetryStore(true).ListActions<ReplyCommand>().size() == 1);
 }
 
 TEST_CASE("StoreGate: the retry stores waiting changes, and the next call clears the alarm")
