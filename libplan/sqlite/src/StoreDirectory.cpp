@@ -135,7 +135,13 @@ Core::Result<void> StoreDirectory::Check(const std::string& path)
     }
     if (!S_ISDIR(status.st_mode))
     {
-        return Refuse(path, "a directory; give another path", "a device, pipe or socket");
+        const bool bFile = S_ISREG(status.st_mode);
+        return Refuse(
+            path,
+            bFile
+                ? "a directory; give that of the store (the next start of acsd migrates a database of the former layout)"
+                : "a directory; give another path",
+            bFile ? "a file" : "a device, pipe or socket");
     }
     if ((status.st_mode & RIGHTS_OF_OTHERS) != 0)
     {

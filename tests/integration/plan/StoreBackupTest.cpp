@@ -1,4 +1,5 @@
 #include "StoreFolder.hpp"
+#include "TightDisk.hpp"
 #include <acs/plan/EPlanningError.hpp>
 #include <acs/plan_sqlite/StoreBackup.hpp>
 
@@ -173,4 +174,35 @@ TEST_CASE("Store: a trigger in the file reads no table of the system")
     const Core::Result<void> stored = store->Append(MakeBatch("LR02"));
     REQUIRE_FALSE(stored.has_value());
     CHECK(Contains(Core::Describe(stored.error()), "unsafe use of virtual table"));
+}
+
+TEST_CASE("Store: a backup or restore that fails names the file that it is about")
+{
+    const StoreFolder folder;
+    const std::string directory = folder.GetStore();
+    const std::string file = folder.GetStore("backup");
+    MakeStore(directory, "LR01");
+    const std::vector<std::string> files = StoreFolder::ListNamesIn(directory);
+    const auto describe = [](const Core::Result<void>& result) {
+        REQUIRE_FALSE(result.has_value());
+        return Core::Describe(result.error());
+    };
+    CHECK(describe(RestoreStore(directory, file)).starts_with(file + ": expected an existing backup"));
+    CHECK(describe(BackUpStore(folder.GetStore("none"), file)).starts_with(GetDatabase(folder.GetStore("none"))));
+    const std::string lost = folder.GetStore("none") + "/backup";
+    CHECK(describe(BackUpStore(directory, lost)).starts_with(lost + ".part: expected "));
+    REQUIRE(BackUpStore(directory, file).has_value());
+    Files::resize_file(file, Files::file_size(file) / 2);
+    CHECK(describe(RestoreStore(directory, file)).starts_with(file + ": expected an undamaged backup"));
+    CHECK(describe(BackUpStore(file, lost)).starts_with(file + ": expected a directory; give that of the store"));
+    {
+        const TightDisk disk(8'192);
+        const std::string full = folder.GetStore("full");
+        CHECK(
+            describe(BackUpStore(directory, full)).starts_with(full + ".part: expected a disk that reads and writes"));
+        CHECK(describe(RestoreStore(directory, file)).starts_with(file));
+    }
+    CHECK(folder.ListNames() == std::vector<std::string>{"backup", "store"}); // no part of a copy
+    CHECK(StoreFolder::ListNamesIn(directory) == files);
+    CHECK(LoadRobots(*OpenStore(directory)) == Robots{"LR01"});
 }

@@ -1,19 +1,18 @@
 #include "ManualClock.hpp"
 #include "StoreFolder.hpp"
+#include "TightDisk.hpp"
 #include <acs/plan/EPlanningError.hpp>
 
 #include <SQLiteCpp/SQLiteCpp.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
 #include <string>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -41,32 +40,6 @@ std::string DescribeOpening(const Core::Result<T>& result)
     REQUIRE_FALSE(result.has_value());
     return Core::Describe(result.error());
 }
-
-/// During its lifetime the system accepts no longer file.
-class TightDisk
-{
-    rlimit _before{};
-
-public:
-    explicit TightDisk(std::uintmax_t room)
-    {
-        REQUIRE(::getrlimit(RLIMIT_FSIZE, &_before) == 0);
-        const rlimit tight{room, _before.rlim_max};
-        REQUIRE(::setrlimit(RLIMIT_FSIZE, &tight) == 0);
-    }
-
-    TightDisk(const TightDisk&) = delete;
-    TightDisk& operator=(const TightDisk&) = delete;
-
-    ~TightDisk()
-    {
-        ::setrlimit(RLIMIT_FSIZE, &_before);
-        std::signal(SIGXFSZ, _handler);
-    }
-
-private:
-    void (*_handler)(int) = std::signal(SIGXFSZ, SIG_IGN);
-};
 
 /// During its lifetime no file can be synchronised.
 class BrokenDisk
