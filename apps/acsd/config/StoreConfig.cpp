@@ -43,10 +43,10 @@ void ReadDirectory(const ConfigSection& store, const std::string& fileName, bool
     }
     else if (bInspected)
     {
-        const Core::Result<Planning::StoreOrigin> origin = Planning::SqlitePlanStore::Inspect(config.directory);
-        if (!origin.has_value())
+        const Core::Result<Planning::StoredState> content = Planning::SqlitePlanStore::InspectState(config.directory);
+        if (!content.has_value())
         {
-            store.AddError("directory", Core::Describe(origin.error()));
+            store.AddError("directory", Core::Describe(content.error()));
         }
     }
     for (const char* const key : {"password_file", "lease", "instance"})
@@ -117,10 +117,10 @@ void ReadPostgres(
     WarnOfURL(*target, fileName, warnings);
     if (bInspected)
     {
-        const Core::Result<Planning::StoreOrigin> origin = Planning::PostgresPlanStore::Inspect(options);
-        if (!origin.has_value())
+        const Core::Result<Planning::StoredState> content = Planning::PostgresPlanStore::InspectState(options);
+        if (!content.has_value())
         {
-            store.AddError("url", Core::Describe(origin.error()));
+            store.AddError("url", Core::Describe(content.error()));
         }
     }
 }
