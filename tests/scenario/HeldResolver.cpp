@@ -2,11 +2,13 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <netdb.h>
+#include <poll.h>
 #include <string_view>
 #include <unistd.h>
 
 // Loaded into a program by LD_PRELOAD: a name server that does not answer while the pipe named by ACS_HELD_RESOLVER exists and
-// has no writer. Then every name that ends with ".test" is 127.0.0.1.
+// has no writer. Then every name that ends with ".test" is 127.0.0.1. With ACS_RESOLVER_DELAY each answer takes this
+// number of milliseconds, as if the first name server were dead.
 
 extern "C"
 {
@@ -24,6 +26,12 @@ extern "C"
             {
                 close(gate);
             }
+        }
+        const char* const delay =
+            std::getenv("ACS_RESOLVER_DELAY"); // NOLINT(concurrency-mt-unsafe): the environment never changes
+        if (bName && delay != nullptr)
+        {
+            ::poll(nullptr, 0, static_cast<int>(std::strtol(delay, nullptr, 10)));
         }
         using Call = int (*)(const char*, const char*, const addrinfo*, addrinfo**);
         // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): that is how the system gives a function

@@ -363,6 +363,20 @@ class Refusals(StandbyCase):
         os.close(writer)
         self.wait_until(member.is_ready, "it leads again", TAKEOVER_SECONDS)
 
+    def test_a_name_server_that_answers_between_two_attempts(self):
+        library = self.line.bin_dir / "libscenario_held_resolver.so"
+        if not library.exists():
+            self.skipTest("not built with sanitizers")
+        self.start_line()
+        delay = LEASE_SECONDS * 1000 // 2 + 20  # an attempt takes half of the lease, and the next one begins a twelfth later
+        environment = os.environ | {"LD_PRELOAD": str(library), "ACS_RESOLVER_DELAY": str(delay)}
+        url = f"postgresql://acsd@db.test:{self.make_proxy(self.server.port).port}/postgres?sslmode=disable"
+        member = Member(self, "two", (), url, environment)
+        self.members.append(member)
+        self.expect_standby(member, "standby: one leads")
+        self.members[0].kill()
+        self.wait_until(member.is_ready, "the standby takes over", TAKEOVER_SECONDS)
+
     def count_leads(self):
         return sum("this process leads" in line for line in self.members[0].program.tail(100000))  # they share a log
 

@@ -25,6 +25,12 @@ namespace
 /// Between two questions whether to stop.
 constexpr std::chrono::milliseconds ASK_INTERVAL{100};
 
+/// Of the time of an attempt, for connecting after the answer: a tenth.
+constexpr int LEAST_SHARE = 10;
+
+/// For which an answer that came too late is kept for the next attempt.
+constexpr std::chrono::seconds ANSWER_MEMORY{60};
+
 /// One question to the name servers. Its thread may outlive the caller and the program.
 class Lookup final
 {
@@ -32,6 +38,7 @@ class Lookup final
     std::mutex _mutex;
     std::condition_variable _answered;
     bool _bDone = false;
+    Core::SteadyTime _doneAt{};
     int _error = 0;
     std::vector<std::string> _addresses;
 
@@ -68,6 +75,7 @@ public:
             _error = error;
             _addresses = std::move(addresses);
             _bDone = true;
+            _doneAt = std::chrono::steady_clock::now();
         }
         _answered.notify_all();
     }
@@ -83,10 +91,10 @@ public:
         return _bDone;
     }
 
-    [[nodiscard]] bool IsDone()
+    [[nodiscard]] bool IsOutdated()
     {
         const std::lock_guard lock(_mutex);
-        return _bDone;
+        return _bDone && std::chrono::steady_clock::now() - _doneAt > ANSWER_MEMORY;
     }
 
     /// After the answer.
@@ -101,7 +109,8 @@ public:
     }
 };
 
-/// The questions that are not answered yet: a host is asked for once, however often it is needed meanwhile.
+/// The questions that are not answered yet, or whose answer was not used: a host is asked for once, however often it is needed
+/// meanwhile. Name servers may need longer than each of the attempts to connect.
 class PendingLookups final
 {
     std::mutex _mutex;
@@ -112,12 +121,22 @@ public:
     {
         const std::lock_guard lock(_mutex);
         std::shared_ptr<Lookup>& lookup = _lookups[host];
-        if (lookup == nullptr || lookup->IsDone())
+        if (lookup == nullptr || lookup->IsOutdated())
         {
             lookup = std::make_shared<Lookup>(host);
             std::thread([lookup] { lookup->Run(); }).detach();
         }
         return lookup;
+    }
+
+    /// The answer was used.
+    void End(const std::string& host, const std::shared_ptr<Lookup>& lookup)
+    {
+        const std::lock_guard lock(_mutex);
+        if (const auto found = _lookups.find(host); found != _lookups.end() && found->second == lookup)
+        {
+            _lookups.erase(found);
+        }
     }
 };
 
@@ -146,8 +165,17 @@ Core::Result<std::vector<std::string>> ResolveHost(
     {
         return std::vector<std::string>();
     }
+    const Core::Duration limit = deadline - std::chrono::steady_clock::now();
     const std::shared_ptr<Lookup> lookup = GetPendingLookups().Begin(host);
-    if (!lookup->TryWait(deadline, shouldStop))
+    const bool bDone = lookup->TryWait(deadline, shouldStop);
+    const Core::Duration left = deadline - std::chrono::steady_clock::now();
+    if (bDone
+        && left > limit
+                / 2) // otherwise connecting may fail for lack of time, and the next attempt needs the answer at once
+    {
+        GetPendingLookups().End(host, lookup);
+    }
+    if (!bDone || left < limit / LEAST_SHARE)
     {
         return RefuseStore(
             EPlanningError::StoreFailed,
