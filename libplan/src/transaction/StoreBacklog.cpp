@@ -89,6 +89,10 @@ std::vector<SendReport> StoreBacklog::CollectReports()
 
 void StoreBacklog::WithholdRefusal(ReplyCommand refusal)
 {
+    if (_refusals.size() == MOST_REFUSALS)
+    {
+        _refusals.erase(_refusals.begin());
+    }
     _refusals.push_back(std::move(refusal));
 }
 

@@ -19,6 +19,10 @@ namespace ACS::Planning
 /// Whether the store works. While it fails: the changes to be stored, and the reports that must not be sent before them.
 class StoreBacklog
 {
+public:
+    static constexpr std::size_t MOST_REFUSALS = 1'000;
+
+private:
     enum class EState : std::uint8_t
     {
         Working,
@@ -54,7 +58,7 @@ public:
     [[nodiscard]] std::vector<SendReport> CollectReports();
 
     /// What it refuses may be stored (EPlanningError::StoreOutcomeUnknown), and be executed after a crash. It waits until the next
-    /// successful write, after which it is not stored.
+    /// successful write, after which it is not stored. Beyond MOST_REFUSALS the oldest one is dropped: its request has no answer.
     void WithholdRefusal(ReplyCommand refusal);
     /// The refusal of this plan is withheld.
     void NoteUnknown(std::string planID);

@@ -98,3 +98,16 @@ TEST_CASE(
     backlog.HoldBack(MakeReport(5, 3));
     CHECK(backlog.CollectReports() == std::vector<SendReport>{MakeReport(4), MakeReport(5, 1)});
 }
+
+TEST_CASE("StoreBacklog: of refusals that are withheld only the latest are kept")
+{
+    StoreBacklog backlog;
+    for (std::uint64_t token = 1; token <= StoreBacklog::MOST_REFUSALS + 2; ++token)
+    {
+        backlog.WithholdRefusal({token, false, "no room"});
+    }
+    const std::vector<ReplyCommand> refusals = backlog.CollectRefusals();
+    REQUIRE(refusals.size() == StoreBacklog::MOST_REFUSALS);
+    CHECK(refusals.front().replyToken == 3);
+    CHECK_FALSE(backlog.HasRefusals());
+}
