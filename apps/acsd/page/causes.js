@@ -29,7 +29,8 @@ export function listLinkCauses(model, mayMatter = () => true) {
 }
 
 function makeTscCause(status) {
-    const cause = {key: `tsc ${status.tsc}`, title: t("cause.tsc", {state: nameState("tsc", status.tsc)}), reason: status.tscReason};
+    const title = t("cause.tsc", {state: nameState("tsc", status.tsc)});
+    const cause = {key: `tsc ${status.tsc}`, title, reason: status.tscReason};
     // That it ends by itself.
     return status.tscReason?.startsWith("Not all robots have reported") ? {...cause, remedy: t("remedy.restart")}
         : {...cause, remedy: t("remedy.tsc"), command: Commands.resumeTSC()};
