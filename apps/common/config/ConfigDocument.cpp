@@ -157,16 +157,18 @@ void ConfigDocument::Replace(const toml::table& path, toml::table source)
     toml::table* from = &source;
     for (;;)
     {
-        auto&& [key, value] = *from->begin();
+        const auto first = from->begin();
         below = below->begin()->second.as_table();
-        auto* const present = target->get_as<toml::table>(key.str());
+        auto* const present = target->get_as<toml::table>(first->first.str());
         if (below == nullptr || present == nullptr)
         {
-            target->insert_or_assign(key, std::move(value)); // a copy would not know its place in the text
+            target->insert_or_assign(
+                first->first,
+                std::move(first->second)); // a copy would not know its place in the text
             return;
         }
         target = present;
-        from = value.as_table();
+        from = first->second.as_table();
     }
 }
 
