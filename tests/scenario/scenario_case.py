@@ -42,6 +42,12 @@ class ScenarioCase(unittest.TestCase):
         result = self._outcome.result
         return any(self in (test, getattr(test, "test_case", None)) for test, _ in [*result.failures, *result.errors])
 
+    def wait_for_log(self, program, part):
+        deadline = time.monotonic() + STATUS_SECONDS
+        while part not in program.log.read_text(errors="replace"):
+            self.assertLess(time.monotonic(), deadline, f"{part!r} was not logged")
+            time.sleep(0.02)
+
     def start_robots(self, make_vehicle_port=lambda broker_port: broker_port, **arm_options):
         self.line.start_broker()
         vehicles = self.line.start_vehicles(TIME_SCALE, port=make_vehicle_port(self.line.broker_port))

@@ -36,12 +36,6 @@ class Operations(ScenarioCase):
         self.addCleanup(stub.close)
         return stub
 
-    def wait_for_log(self, program, part):
-        deadline = time.monotonic() + LOG_SECONDS
-        while part not in program.log.read_text(errors="replace"):
-            self.assertLess(time.monotonic(), deadline, f"{part!r} was not logged")
-            time.sleep(0.02)
-
     def submit(self, stub, plan_id):
         return stub.ask("ExecutionPlan", make_carrying_plan(plan_id))
 

@@ -3,13 +3,10 @@
 
 import os
 import signal
-import time
 
 from mcs_stub import McsStub
 from plan_samples import make_carrying_plan
 from scenario_case import SITE, ScenarioCase, main
-
-LOG_SECONDS = 20
 
 
 class Reload(ScenarioCase):
@@ -21,12 +18,6 @@ class Reload(ScenarioCase):
         path = self.line.folder / "acsd.toml"
         path.write_text(text)
         return path
-
-    def wait_for_log(self, program, part):
-        deadline = time.monotonic() + LOG_SECONDS
-        while part not in program.log.read_text(errors="replace"):
-            self.assertLess(time.monotonic(), deadline, f"{part!r} was not logged")
-            time.sleep(0.02)
 
     def submit(self, stub, plan_id):
         return stub.ask("ExecutionPlan", make_carrying_plan(plan_id))

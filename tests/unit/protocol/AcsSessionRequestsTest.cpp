@@ -44,6 +44,18 @@ TEST_CASE("R1, R2 Every request is answered with its own transactionId")
     CHECK(acks[0].payload == Protocol::AckPayload(Protocol::PlanAck{"P"}));
 }
 
+TEST_CASE("A received time without an offset has that of the site, also after it has changed")
+{
+    Fixture bench;
+    bench.StartAndReplay();
+    bench.session.SetSiteOffset(9h);
+    bench.Text(R"({"command":"CancelPlan","transactionId":"t-1","timestamp":"2025-07-02T21:00:00",)"
+               R"("payload":{"planId":"P","reason":""}})");
+    const auto received = bench.recorder.GetEvents<Protocol::RequestReceived>();
+    REQUIRE(received.size() == 1);
+    CHECK(received[0].request.timestamp == Core::Timestamp{Core::WallTime(1'751'457'600'000ms), 9h});
+}
+
 TEST_CASE("R1, R3 An undefined request is answered with Fail and a reason, and not delivered")
 {
     struct Case

@@ -352,18 +352,6 @@ TEST_CASE("R19 Both sessions send timestamps in the site's local time with offse
     CHECK(hasStamp(side.recorder, "2025-07-02T12:00:00.000+00:00"));
 }
 
-TEST_CASE("A received time without an offset has that of the site, also after it has changed")
-{
-    AcsSessionFixture bench;
-    bench.StartAndReplay();
-    bench.session.SetSiteOffset(9h);
-    bench.Text(R"({"command":"CancelPlan","transactionId":"t-1","timestamp":"2025-07-02T21:00:00",)"
-               R"("payload":{"planId":"P","reason":""}})");
-    const auto received = bench.recorder.GetEvents<Protocol::RequestReceived>();
-    REQUIRE(received.size() == 1);
-    CHECK(received[0].request.timestamp == Core::Timestamp{Core::WallTime(1'751'457'600'000ms), 9h});
-}
-
 TEST_CASE("13.1 A request with result and message null and escapes in its time is delivered and acknowledged")
 {
     AcsSessionFixture bench;

@@ -205,20 +205,6 @@ TEST_CASE("Each error is reported once, under its key, with the line of the file
     CHECK(Read({R"(site.ports=["X", "Y"])"}).errors.front().find(R"(; "Y": expected a location)") != std::string::npos);
 }
 
-TEST_CASE("--set replaces the value of its key, also a table, and keeps the keys beside it")
-{
-    const auto countInputs = [](const Acsd::AcsdConfig& config, const char* action) {
-        const auto vehicle =
-            std::ranges::find_if(config.vehicles, [](const auto& one) { return one->robotID == "CR01"; });
-        return (*vehicle)->methods.FindMethodOrNull(action)->armInputs.size();
-    };
-    const Acsd::AcsdConfig config =
-        Read({R"(actions.TrayLoad.arm_inputs={ml106="{from.area}"})", "actions.TrayUnload.arm_inputs.ml106=7"});
-    CHECK(config.errors.empty());
-    CHECK(countInputs(config, "TrayLoad") == 1);
-    CHECK(countInputs(config, "TrayUnload") == 5);
-}
-
 TEST_CASE("A name that is not on the map is reported with the line of its key")
 {
     const Acsd::AcsdConfig config = ReadWithout(

@@ -311,3 +311,16 @@ TEST_CASE("GetValues has the path and value of every given key, overrides includ
         {"row", "[ { k = true } ]"}};
     CHECK(reader.GetValues() == expected);
 }
+
+TEST_CASE("An override replaces the value of its key, also a table, and keeps the keys beside it")
+{
+    const Apps::ConfigReader reader = Read(
+        "[job]\nlimit = 1\ninputs = { x = 1, y = 2 }\nmore = { x = 1, y = 2 }\n",
+        {"job.inputs={z=3}", "job.more.x=4"});
+    const std::map<std::string, std::string> expected{
+        {"job.limit", "1"},
+        {"job.inputs.z", "3"},
+        {"job.more.x", "4"},
+        {"job.more.y", "2"}};
+    CHECK(reader.GetValues() == expected);
+}
