@@ -50,7 +50,7 @@ void PlaceTracker::Place(Robot& robot)
         _site,
         IsPoseLost(robot, robot.view.state->lastNodeID) ? std::nullopt : robot.view.state,
         *node,
-        node == robot.place.node ? robot.place.aheadNodes : ListPossibleAhead(robot, *node));
+        ListSupposedAhead(robot, *node));
     if (ahead.empty())
     {
         ahead = FindNodesBeside(_site, *robot.view.state, *node);
@@ -218,12 +218,21 @@ void PlaceTracker::ForgetPossibleNodes(Robot& robot)
     _transaction.RequestDispatch();
 }
 
-std::vector<std::size_t> PlaceTracker::ListPossibleAhead(const Robot& robot, std::size_t node)
+std::vector<std::size_t> PlaceTracker::ListSupposedAhead(const Robot& robot, std::size_t node)
 {
-    const auto here = std::ranges::find(robot.place.possibleNodes, node);
-    return here == robot.place.possibleNodes.end()
-        ? std::vector<std::size_t>()
-        : std::vector<std::size_t>(here + 1, robot.place.possibleNodes.end());
+    const RobotPlace& place = robot.place;
+    if (node == place.node)
+    {
+        return place.aheadNodes;
+    }
+    for (const std::vector<std::size_t>& supposed : {place.possibleNodes, place.aheadNodes})
+    {
+        if (const auto here = std::ranges::find(supposed, node); here != supposed.end())
+        {
+            return {here + 1, supposed.end()};
+        }
+    }
+    return {};
 }
 
 std::vector<std::string> PlaceTracker::ListNodes(const Robot& robot) const

@@ -62,8 +62,8 @@ private:
     [[nodiscard]] std::vector<std::size_t> ListClaimed(const Robot& robot, std::size_t node) const;
     /// Another robot has reported these nodes: no robot can be there that only may be.
     void ReleasePossibleNodes(std::span<const std::size_t> nodes);
-    /// The stored possible nodes after this one.
-    [[nodiscard]] static std::vector<std::size_t> ListPossibleAhead(const Robot& robot, std::size_t node);
+    /// The nodes to which a robot without a drive may have continued from this node: of its last drive, or as stored.
+    [[nodiscard]] static std::vector<std::size_t> ListSupposedAhead(const Robot& robot, std::size_t node);
 };
 
 } // namespace ACS::Planning

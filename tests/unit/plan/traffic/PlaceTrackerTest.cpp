@@ -129,6 +129,40 @@ TEST_CASE("PlaceTracker: the nodes of a foreign order are kept free and stored")
     CHECK_FALSE(parts.places.GetTraffic().GetHolderOrNull(parts.FindNode("L05")).has_value());
 }
 
+TEST_CASE(
+    "PlaceTracker: a robot that lost its drive and its pose keeps the nodes ahead of the node with which it comes back")
+{
+    EngineParts parts;
+    const Traffic& traffic = parts.places.GetTraffic();
+    parts.PutOn(parts.lr, "L03");
+    parts.lr.place.aheadNodes = {parts.FindNode("L04"), parts.FindNode("L05"), parts.FindNode("L06")};
+    parts.lr.view.bHadPose = true;
+    parts.lr.view.state->bPoseKnown = false;
+    parts.lr.view.state->lastNodeID = "L04";
+    parts.places.Place(parts.lr);
+    CHECK(parts.places.ListNodes(parts.lr) == std::vector<std::string>{"L04", "L05", "L06"});
+    CHECK(traffic.GetHolderOrNull(parts.FindNode("L06")) == 0U);
+    CHECK_FALSE(traffic.GetHolderOrNull(parts.FindNode("L03")).has_value());
+    const SiteNode& node = parts.engine.site.GetNodes()[parts.FindNode("L04")];
+    parts.lr.view.state->bPoseKnown = true;
+    parts.lr.view.state->x = node.x;
+    parts.lr.view.state->y = node.y;
+    parts.places.Place(parts.lr);
+    CHECK(parts.places.ListNodes(parts.lr) == std::vector<std::string>{"L04"});
+    CHECK_FALSE(traffic.GetHolderOrNull(parts.FindNode("L05")).has_value());
+}
+
+TEST_CASE("PlaceTracker: a robot that lost its drive and still moves keeps the nodes ahead of each node that it passes")
+{
+    EngineParts parts;
+    parts.PutOn(parts.lr, "L03");
+    parts.lr.place.aheadNodes = {parts.FindNode("L04"), parts.FindNode("L05"), parts.FindNode("L06")};
+    parts.lr.view.state->bDriving = true;
+    parts.lr.view.state->lastNodeID = "L05";
+    parts.places.Place(parts.lr);
+    CHECK(parts.places.ListNodes(parts.lr) == std::vector<std::string>{"L05", "L06"});
+}
+
 TEST_CASE("PlaceTracker: possible nodes are reserved until another robot is there or the robot is off the floor")
 {
     EngineParts parts;
