@@ -222,6 +222,7 @@ void PlanWork::BeginNext(Robot& robot)
 void PlanWork::ConfirmPause(Robot& robot)
 {
     ActivePlan& plan = *robot.planOrNull;
+    plan.jobClock.begunAt.reset(); // the time until the job's end includes the pause
     if (plan.jobClock.deadline.has_value())
     {
         const Core::Duration least = std::chrono::milliseconds(1);
@@ -375,6 +376,7 @@ void PlanWork::SuspendJob(Robot& robot, const std::string& reason)
         return;
     }
     StopJobTimer(robot);
+    robot.planOrNull->jobClock.begunAt.reset();  // it no longer shows how long a job takes
     robot.planOrNull->jobClock.timeLeft.reset(); // of a pause: the job is not continued
     if (robot.planOrNull->record.progress.control == EPlanControl::Abort)
     {

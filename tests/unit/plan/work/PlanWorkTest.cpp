@@ -110,6 +110,26 @@ TEST_CASE("PlanWork: the end of a job moves its carrier and begins the next step
     CHECK(parts.engine.transaction.IsDispatchNeeded());
 }
 
+TEST_CASE("PlanWork: a job that was interrupted does not count for the time of its station")
+{
+    EngineParts parts;
+    ActivePlan& plan = parts.BeginLoad();
+    parts.jobs.OnJobStarted(parts.lr, JobStarted{"P1-a4"});
+    const double before = parts.engine.jobTimes.GetSeconds("A01.CP01");
+    SECTION("its outcome was unknown")
+    {
+        parts.work.SuspendJob(parts.lr, "the connection was lost");
+    }
+    SECTION("its plan was paused")
+    {
+        parts.answers.Ask(plan, EPlanControl::Pause, EControlOrigin::MCS);
+        parts.work.ConfirmPause(parts.lr);
+    }
+    parts.Advance(std::chrono::hours(3));
+    parts.work.EndJob(parts.lr, {});
+    CHECK(parts.engine.jobTimes.GetSeconds("A01.CP01") == before);
+}
+
 TEST_CASE("PlanWork: a plan that is being paused begins nothing after its job")
 {
     EngineParts parts;
