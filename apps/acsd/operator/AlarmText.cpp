@@ -14,7 +14,8 @@ namespace
 {
 
 constexpr std::string_view WAITS_FOR_ANSWER = "ACS-1008";
-/// Is in the engine's message if the step can be skipped, which it cannot after the end of its plan.
+// They are in the engine's message if the job can be repeated and the step skipped, which is impossible after the end of the plan.
+constexpr std::string_view REPETITION_OFFERED = "again (the job";
 constexpr std::string_view SKIP_OFFERED = "skip the step";
 
 } // namespace
@@ -26,9 +27,10 @@ std::string MakeAlarmText(const Planning::Alarm& alarm)
         return alarm.message;
     }
     std::string text = fmt::format(
-        "{} To resolve the job: {} (or failed, or again).",
+        "{} To resolve the job: {} ({}).",
         alarm.message,
-        Apps::MakeShellCommand("resolve", {*alarm.planID, *alarm.jobID, "done"}));
+        Apps::MakeShellCommand("resolve", {*alarm.planID, *alarm.jobID, "done"}),
+        alarm.message.find(REPETITION_OFFERED) != std::string::npos ? "or failed, or again" : "or failed");
     if (alarm.stepNo.has_value() && alarm.message.find(SKIP_OFFERED) != std::string::npos)
     {
         text += fmt::format(
