@@ -16,6 +16,7 @@ namespace ACS::Planning
 
 Dispatcher::Dispatcher(EngineState& engine, const TrafficCoordinator& coordinator)
     : _admission(engine.admission),
+      _plans(engine.plans),
       _blocks(engine.blocks),
       _fleet(engine.fleet),
       _transaction(engine.transaction),
@@ -206,6 +207,27 @@ std::optional<double> Dispatcher::FindTravelSecondsOrNull(
     const std::optional<QuickestStart> way =
         router.FindQuickestStartOrNull(vehicleTypeID, robot.GetLoad(), start, *dock);
     return way.has_value() ? std::optional(way->travelSeconds) : std::nullopt;
+}
+
+void Dispatcher::ForgetKeptRobots() noexcept
+{
+    _kept.clear();
+}
+
+void Dispatcher::KeepRobot(const Robot& robot, const ActivePlan& plan)
+{
+    _kept.insert_or_assign(robot.index, plan.key);
+}
+
+const ActivePlan* Dispatcher::FindKeeperOrNull(const ActivePlan& plan, const Robot& robot) const
+{
+    const auto kept = _kept.find(robot.index);
+    if (kept == _kept.end() || kept->second.rank >= plan.key.rank)
+    {
+        return nullptr;
+    }
+    const auto keeper = _plans.GetQueue().find(kept->second);
+    return keeper == _plans.GetQueue().end() ? nullptr : keeper->second;
 }
 
 void Dispatcher::OnJobCheck(Robot& robot, const JobCheckChanged& event)

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,12 +28,14 @@ class Dispatcher
     };
 
     const PlanAdmission& _admission;
+    const PlanBook& _plans;
     const BlockBook& _blocks;
     Fleet& _fleet;
     EngineTransaction& _transaction;
     const TrafficCoordinator& _coordinator;
     const Router& _router;
     PortCheck _ports;
+    std::map<std::size_t, QueueKey> _kept; ///< By robot: the plan for which it is kept.
 
 public:
     Dispatcher(EngineState& engine, const TrafficCoordinator& coordinator);
@@ -49,6 +52,12 @@ public:
     [[nodiscard]] bool HasWay(const ActivePlan& plan, const Robot& robot) const;
     /// Driving time to the plan's first station around the blocks; null without a route, or if the vehicle type has no dock there.
     [[nodiscard]] std::optional<double> GetTravelSecondsOrNull(const ActivePlan& plan, const Robot& robot) const;
+    /// A pass over the queue begins: which robots it keeps is not known yet.
+    void ForgetKeptRobots() noexcept;
+    /// The free robot gets no plan in this pass because the plan is more urgent and waits for a station.
+    void KeepRobot(const Robot& robot, const ActivePlan& plan);
+    /// For which plan the last pass kept the robot from less urgent ones such as this plan; null: for none.
+    [[nodiscard]] const ActivePlan* FindKeeperOrNull(const ActivePlan& plan, const Robot& robot) const;
     /// Unassigned plans are checked again when the robot is chosen. An assigned plan stays with its robot, whose adapter refuses
     /// the job.
     void OnJobCheck(Robot& robot, const JobCheckChanged& event);

@@ -9,9 +9,9 @@ namespace
 {
 
 // They limit the time of a pass.
-constexpr std::size_t MOST_PLANS = 1'000;
-constexpr std::size_t MOST_TAKEN = 16;    // plans whose station is taken and for which a robot is looked for
-constexpr std::size_t MOST_COMPARED = 16; // plans that may overtake one
+constexpr std::size_t MOST_SEARCHES = 1'000; // for routes
+constexpr std::size_t MOST_TAKEN = 16;       // plans whose station is taken and for which a robot is looked for
+constexpr std::size_t MOST_COMPARED = 16;    // plans that may overtake one
 
 } // namespace
 
@@ -22,19 +22,18 @@ QueuePass::QueuePass(const EngineState& engine, const VisitForecast& visits, Dis
       _free(free),
       _stations(engine.fleet, visits)
 {
+    _dispatcher.ForgetKeptRobots();
 }
 
 std::optional<QueuePass::Choice> QueuePass::FindNextOrNull()
 {
-    while (!_free.IsEmpty() && _seen < MOST_PLANS)
+    while (!_free.IsEmpty() && _searches < MOST_SEARCHES)
     {
         ActivePlan* const firstOrNull = _plans.FindNextStoredOrNull(_lastOrNull);
         if (firstOrNull == nullptr)
         {
             break;
         }
-        // Others cost no search for a route.
-        _seen += _dispatcher.IsPromising(*firstOrNull, _free.List(firstOrNull->resolved.candidates)) ? 1U : 0U;
         Robot* const robotOrNull = FindRobotOrNull(*firstOrNull);
         if (robotOrNull == nullptr)
         {
@@ -63,8 +62,12 @@ Robot* QueuePass::FindRobotOrNull(ActivePlan& plan)
     }
     KeepRobots(plan);
     const std::vector<Robot*>& robots = _free.List(plan.resolved.candidates);
-    Robot* const robotOrNull =
-        _dispatcher.IsPromising(plan, robots) ? _dispatcher.FindNearestOrNull(plan, robots) : nullptr;
+    if (!_dispatcher.IsPromising(plan, robots))
+    {
+        return nullptr;
+    }
+    ++_searches;
+    Robot* const robotOrNull = _dispatcher.FindNearestOrNull(plan, robots);
     if (robotOrNull == nullptr || _stations.CanBegin(plan, *robotOrNull))
     {
         return robotOrNull;
@@ -82,6 +85,7 @@ void QueuePass::KeepRobots(const ActivePlan& plan)
         if (bKept)
         {
             _free.Remove(*before.second);
+            _dispatcher.KeepRobot(*before.second, *before.first);
         }
         return bKept;
     });

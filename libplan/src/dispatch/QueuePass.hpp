@@ -33,8 +33,8 @@ private:
     StationForecast _stations;
     std::vector<std::pair<const ActivePlan*, const Robot*>> _passedOver; ///< With the robots that they would have got.
     const ActivePlan* _lastOrNull = nullptr;                             ///< All plans up to this one are decided.
-    std::size_t _seen = 0;  ///< Number of plans for which a robot was looked for.
-    std::size_t _taken = 0; ///< Number of plans passed over although there was a robot.
+    std::size_t _searches = 0; ///< Number of plans for which a robot was looked for.
+    std::size_t _taken = 0;    ///< Number of plans passed over although there was a robot.
 
 public:
     /// All must outlive it.

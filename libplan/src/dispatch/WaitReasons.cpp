@@ -139,10 +139,15 @@ std::optional<std::string> WaitReasons::DescribeUnavailabilityOrNull(const Activ
     {
         return reason;
     }
-    return _coordinator.CanServe(robot, plan)
-        ? std::nullopt
-        : std::optional<std::string>(
-            "robots that cannot move block the route to the station, or from there to its parking position");
+    if (!_coordinator.CanServe(robot, plan))
+    {
+        return "robots that cannot move block the route to the station, or from there to its parking position";
+    }
+    if (const ActivePlan* keeperOrNull = _dispatcher.FindKeeperOrNull(plan, robot); keeperOrNull != nullptr)
+    {
+        return fmt::format("kept for plan {}, which is before it in the queue", keeperOrNull->record.plan.planID);
+    }
+    return std::nullopt;
 }
 
 std::string WaitReasons::DescribeHold() const

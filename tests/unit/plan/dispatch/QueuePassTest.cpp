@@ -117,6 +117,20 @@ TEST_CASE("QueuePass: plans with a blocked station do not count for the limit of
     CHECK(fixture.Run() == Lines{"open LR01"});
 }
 
+TEST_CASE("QueuePass: plans whose station another robot uses do not count for the limit of a pass")
+{
+    QueuePassFixture fixture(0ms);
+    fixture.Add("first", "A01.CP01", "A02.CP03");
+    CHECK(fixture.Run() == Lines{"first LR01"});
+    fixture.parts.PutOn(fixture.other, "D-CHG03");
+    for (int i = 0; i < 1'000; ++i)
+    {
+        fixture.Add("taken-" + std::to_string(i), "A01.CP01", "A02.CP04");
+    }
+    fixture.Add("open", "A01.CP05", "A01.CP04");
+    CHECK(fixture.Run() == Lines{"open LR02"});
+}
+
 TEST_CASE("QueuePass: plans that are known to be rejected by the free robots do not count for the limit of a pass")
 {
     QueuePassFixture fixture(0ms);

@@ -1,9 +1,11 @@
 #include "Catch.hpp"
+#include "dispatch/QueuePass.hpp"
 #include "fixtures/EngineParts.hpp"
 #include "fixtures/PlanWorld.hpp"
 
 #include <algorithm>
 #include <set>
+#include <string>
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 using namespace ACS::Testing;  // NOLINT(google-build-using-namespace): its fixtures
@@ -28,6 +30,43 @@ TEST_CASE("WaitReasons: queued plans have a position and a reason for each robot
     REQUIRE(taken.has_value());
     CHECK(taken->robots.size() == 2);
     CHECK(taken->message != reasons[0].message);
+}
+
+TEST_CASE("WaitReasons: a robot that is kept for a plan of higher priority has this reason until the plan has a robot")
+{
+    EngineParts parts(MakeTestOptions(true));
+    parts.BeginDriveToLoad();
+    parts.PutOn(parts.engine.fleet[2], "D-CHG03");
+    const auto add = [&parts](const std::string& planID, const std::string& from, const std::string& to, int priority) {
+        Plan plan = MakeLogisticsPlan(planID);
+        plan.priority = priority;
+        plan.steps[0].position = from;
+        plan.steps[0].jobs[0] = {planID + "-load", from, "AMR.CP01"};
+        plan.steps[1].position = to;
+        plan.steps[1].jobs[0] = {planID + "-unload", "AMR.CP01", to};
+        parts.Add(std::move(plan));
+    };
+    add("P2", "A01.CP01", "A02.CP04", 10);
+    add("P3", "A01.CP05", "A01.CP04", 5);
+    const auto pass = [&parts] {
+        FreeRobots free(parts.engine.fleet);
+        QueuePass queue(parts.engine, parts.coordinator.GetVisits(), parts.dispatcher, free);
+        return queue.FindNextOrNull();
+    };
+    const auto describe = [&parts](const std::string& planID) {
+        const std::optional<WaitReason> reason = parts.waits.GetWaitReasonOrNull(planID);
+        REQUIRE(reason.has_value());
+        const auto found = std::ranges::find(reason->robots, "LR02", &RobotUnavailability::robotID);
+        return found == reason->robots.end() ? std::string() : found->reason;
+    };
+    CHECK_FALSE(pass().has_value());
+    CHECK(describe("P2").empty());
+    CHECK(describe("P3") == "kept for plan P2, which is before it in the queue");
+    CHECK(parts.waits.GetWaitReasonOrNull("P3")->message == "No suitable robot is free.");
+    parts.engine.plans.FindActiveOrNull("P2")->record.plan.priority = 5; // as if P2 waited for its station only
+    parts.engine.options.queueOvertaking = std::chrono::milliseconds(0);
+    CHECK(pass().has_value());
+    CHECK(describe("P3").empty());
 }
 
 TEST_CASE("WaitReasons: a reason that affects all plans precedes one that affects one plan")
