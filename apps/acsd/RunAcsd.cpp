@@ -98,7 +98,6 @@ int Serve(const ProgramOptions& options, const RobotDrivers& drivers, AcsdConfig
     std::unique_ptr<MessageTrace> trace; // outlives the handlers in the context
     boost::asio::io_context context(1);
     AcsdService* startedOrNull = nullptr;
-    // From the beginning: a SIGHUP during the start is answered after it.
     const Apps::HangUpWaiter hangUps(context.get_executor(), [&] {
         ReadAgain(options, drivers, logger, sink, *startedOrNull);
     });
@@ -217,6 +216,10 @@ int Run(int argc, const char* const* argv, const RobotDrivers& drivers)
     if (const CLI::Option& level = *app.get_option("--log-level"); level.count() > 0)
     {
         options.overrides.push_back("log.level=" + level.as<std::string>());
+    }
+    if (!options.bCheckOnly)
+    {
+        Apps::HangUpWaiter::Postpone(); // one that comes now is answered after the start
     }
     AcsdConfig config = options.bCheckOnly ? CheckAcsdConfig(options.configFile, options.overrides, drivers)
                                            : ReadAcsdConfig(options.configFile, options.overrides, drivers);

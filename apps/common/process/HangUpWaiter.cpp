@@ -8,6 +8,19 @@
 namespace ACS::Apps
 {
 
+namespace
+{
+
+void ChangeSignalMask(int how)
+{
+    sigset_t signals{};
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGHUP);
+    pthread_sigmask(how, &signals, nullptr);
+}
+
+} // namespace
+
 struct HangUpWaiter::Impl : public std::enable_shared_from_this<HangUpWaiter::Impl>
 {
     boost::asio::signal_set signals;
@@ -34,10 +47,16 @@ struct HangUpWaiter::Impl : public std::enable_shared_from_this<HangUpWaiter::Im
     }
 };
 
+void HangUpWaiter::Postpone()
+{
+    ChangeSignalMask(SIG_BLOCK);
+}
+
 HangUpWaiter::HangUpWaiter(const boost::asio::any_io_executor& executor, Handler handler)
     : _impl(std::make_shared<Impl>(executor, std::move(handler)))
 {
     _impl->WaitAsync();
+    ChangeSignalMask(SIG_UNBLOCK);
 }
 
 HangUpWaiter::~HangUpWaiter()

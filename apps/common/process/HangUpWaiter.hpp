@@ -21,6 +21,10 @@ private:
     std::shared_ptr<Impl> _impl;
 
 public:
+    /// A SIGHUP from now on waits for a HangUpWaiter, instead of ending the process. Call it before other threads exist.
+    static void Postpone();
+
+    /// Handles a signal that Postpone has kept, too.
     HangUpWaiter(const boost::asio::any_io_executor& executor, Handler handler);
     HangUpWaiter(const HangUpWaiter&) = delete;
     HangUpWaiter& operator=(const HangUpWaiter&) = delete;

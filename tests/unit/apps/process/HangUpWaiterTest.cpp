@@ -29,3 +29,17 @@ TEST_CASE("Each SIGHUP calls the handler on the executor and does not end the pr
     std::raise(SIGHUP);
     CHECK(count == 3);
 }
+
+TEST_CASE("A SIGHUP that comes before the waiter, but is postponed, calls its handler")
+{
+    Apps::HangUpWaiter::Postpone();
+    std::raise(SIGHUP);
+    boost::asio::io_context context;
+    int count = 0;
+    const Apps::HangUpWaiter waiter(context.get_executor(), [&count] { ++count; });
+    while (count == 0)
+    {
+        REQUIRE(context.run_one_for(10s) == 1);
+    }
+    CHECK(count == 1);
+}
