@@ -79,6 +79,7 @@ bool ServerControls::ShouldResumeAfterAnswer()
 
 bool ServerControls::TryStop(ServerActions& out)
 {
+    out.emplace_back(ServerStopControl{_bReceived});
     if (!_bReceived)
     {
         return false;
@@ -89,7 +90,6 @@ bool ServerControls::TryStop(ServerActions& out)
     const ApiRequest* const first = _calls.GetFrontOrNull();
     _bytes = first != nullptr ? CountBytes(*first) : 0;
     _bRefusing = _bRefusing && !HasRoom();
-    out.emplace_back(ServerStopControl{});
     return true;
 }
 
@@ -101,6 +101,11 @@ void ServerControls::BeginRefusing() noexcept
 bool ServerControls::IsBlocking() const noexcept
 {
     return !HasRoom() && !_bRefusing;
+}
+
+bool ServerControls::HasReceived() const noexcept
+{
+    return _bReceived;
 }
 
 bool ServerControls::IsEmpty() const noexcept

@@ -19,8 +19,8 @@ class ServerControls
     Core::BoundedQueue<ApiRequest> _calls; ///< The first one is in flight.
     std::size_t _bytes = 0;                ///< Of all of them.
     std::uint64_t _token = 0;              ///< Of the call in flight; 0: none.
-    bool _bReceived = false;               ///< A CONTROL was received since HANDSHAKE or the last STOP control.
-    bool _bRefusing = false;               ///< Lines are read although there is no room.
+    bool _bReceived = false;
+    bool _bRefusing = false; ///< Lines are read although there is no room.
 
 public:
     explicit ServerControls(const ServerSessionOptions& options);
@@ -37,7 +37,8 @@ public:
     /// The call in flight was answered. Whether there was no room, and now there is.
     [[nodiscard]] bool ShouldResumeAfterAnswer();
 
-    /// STOP control: the call in flight stays, since it cannot be taken back. False: there was nothing to stop.
+    /// STOP control: the call in flight stays, since it cannot be taken back. False: this session had nothing to stop; the
+    /// motion that others have left is to be stopped nevertheless.
     [[nodiscard]] bool TryStop(ServerActions& out);
 
     /// There has been no room for too long: CONTROLs are read in order to be refused, until there is room.
@@ -45,6 +46,8 @@ public:
 
     /// Whether no command may be read: there is no room, and CONTROLs are not refused yet.
     [[nodiscard]] bool IsBlocking() const noexcept;
+    /// A CONTROL was received since HANDSHAKE or the last STOP control.
+    [[nodiscard]] bool HasReceived() const noexcept;
     [[nodiscard]] bool IsEmpty() const noexcept;
     [[nodiscard]] bool IsCall(std::uint64_t token) const noexcept;
 

@@ -382,6 +382,11 @@ EServerState ServerSession::Impl::GetState() const noexcept
     return _state;
 }
 
+bool ServerSession::Impl::HasControl() const noexcept
+{
+    return _state < EServerState::Closing && _controls.HasReceived();
+}
+
 const ServerSessionStats& ServerSession::Impl::GetStats() const noexcept
 {
     return _stats;

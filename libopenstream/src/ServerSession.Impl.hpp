@@ -57,6 +57,7 @@ public:
     void OnPeerClosed(Core::Now now, ServerActions& out);
     void OnSocketError(ServerActions& out);
     [[nodiscard]] EServerState GetState() const noexcept;
+    [[nodiscard]] bool HasControl() const noexcept;
     [[nodiscard]] const ServerSessionStats& GetStats() const noexcept;
 
 private:

@@ -62,6 +62,11 @@ EServerState ServerSession::GetState() const noexcept
     return _impl->GetState();
 }
 
+bool ServerSession::HasControl() const noexcept
+{
+    return _impl->HasControl();
+}
+
 const ServerSessionStats& ServerSession::GetStats() const noexcept
 {
     return _impl->GetStats();

@@ -113,12 +113,7 @@ private:
             _options,
             ++_accepted,
             _service,
-            [weak = weak_from_this()](ServerConnection& closed) {
-                if (const std::shared_ptr<Impl> self = weak.lock())
-                {
-                    self->Forget(closed);
-                }
-            });
+            MakeHandlers());
         _connections.push_back(connection);
         if (bRoom)
         {
@@ -128,6 +123,29 @@ private:
         {
             connection->Reject("this controller serves no more sessions at once");
         }
+    }
+
+    [[nodiscard]] ServerConnection::Handlers MakeHandlers()
+    {
+        ServerConnection::Handlers handlers;
+        handlers.onClosed = [weak = weak_from_this()](ServerConnection& closed) {
+            if (const std::shared_ptr<Impl> self = weak.lock())
+            {
+                self->Forget(closed);
+            }
+        };
+        handlers.isOtherInControl = [weak = weak_from_this()](const ServerConnection& asking) {
+            const std::shared_ptr<Impl> self = weak.lock();
+            return self != nullptr && self->IsOtherInControl(asking);
+        };
+        return handlers;
+    }
+
+    [[nodiscard]] bool IsOtherInControl(const ServerConnection& asking) const
+    {
+        return std::ranges::any_of(_connections, [&asking](const auto& connection) {
+            return connection.get() != &asking && connection->HasControl();
+        });
     }
 
     /// Those that end do not count: they are served no more.

@@ -63,7 +63,7 @@ ServerConnection::ServerConnection(
     const OpenStreamServerOptions& options,
     std::uint64_t number,
     OpenStream::IOpenApiService& service,
-    ClosedHandler onClosed)
+    Handlers handlers)
     : _socket(std::move(socket)),
       _clock(clock),
       _logger(std::move(logger)),
@@ -72,7 +72,7 @@ ServerConnection::ServerConnection(
       _onSent(options.onSent),
       _onEnded(options.onClosed),
       _service(_socket.get_executor(), service, [this](const ServiceCaller::Answer& answer) { OnAnswerDue(answer); }),
-      _onClosed(std::move(onClosed)),
+      _handlers(std::move(handlers)),
       _peer(DescribePeer(_socket)),
       _session(options.session),
       _timers(
@@ -114,6 +114,11 @@ void ServerConnection::Abort()
 OpenStream::EServerState ServerConnection::GetState() const noexcept
 {
     return _session.GetState();
+}
+
+bool ServerConnection::HasControl() const noexcept
+{
+    return _session.HasControl();
 }
 
 const OpenStream::ServerSessionStats& ServerConnection::GetStats() const noexcept
@@ -179,9 +184,12 @@ void ServerConnection::OnAnswerDue(const ServiceCaller::Answer& answer)
     Execute();
 }
 
-void ServerConnection::Do(const OpenStream::ServerStopControl& /*action*/)
+void ServerConnection::Do(const OpenStream::ServerStopControl& action)
 {
-    _service.StopControl(_clock.GetNow());
+    if (action.bControls || !_handlers.isOtherInControl(*this))
+    {
+        _service.StopControl(_clock.GetNow());
+    }
 }
 
 void ServerConnection::Do(const OpenStream::ServerStartTimer& action)
@@ -236,7 +244,7 @@ void ServerConnection::Do(const OpenStream::ServerClose& action)
 {
     _logger.Info("an Open Stream session ended", {{"peer", _peer}, {"reason", GetReasonText(action.reason)}});
     Abort();
-    _onClosed(*this);
+    _handlers.onClosed(*this);
 }
 
 void ServerConnection::ReadMoreAsync()

@@ -27,7 +27,13 @@ namespace ACS::OpenStreamAsio
 class ServerConnection final : public std::enable_shared_from_this<ServerConnection>
 {
 public:
-    using ClosedHandler = std::function<void(ServerConnection& connection)>;
+    /// What it needs from its server.
+    struct Handlers
+    {
+        std::function<void(ServerConnection& connection)> onClosed;
+        /// Whether a connection other than this one controls the robot.
+        std::function<bool(const ServerConnection& connection)> isOtherInControl;
+    };
 
 private:
     using Timers = Net::TimerArray<OpenStream::EServerTimer, OpenStream::SERVER_TIMER_COUNT>;
@@ -44,7 +50,7 @@ private:
     std::function<void(std::uint64_t connection, std::string_view bytes)> _onSent;
     std::function<void(std::uint64_t connection)> _onEnded;
     ServiceCaller _service;
-    ClosedHandler _onClosed;
+    Handlers _handlers;
     std::string _peer;
     OpenStream::ServerSession _session;
     OpenStream::ServerActions _actions;
@@ -63,7 +69,7 @@ public:
         const OpenStreamServerOptions& options,
         std::uint64_t number,
         OpenStream::IOpenApiService& service,
-        ClosedHandler onClosed);
+        Handlers handlers);
 
     void Start();
     /// Instead of Start, or later to give its place to another client.
@@ -72,6 +78,8 @@ public:
     void Abort();
 
     [[nodiscard]] OpenStream::EServerState GetState() const noexcept;
+    /// ServerSession::HasControl.
+    [[nodiscard]] bool HasControl() const noexcept;
     [[nodiscard]] const OpenStream::ServerSessionStats& GetStats() const noexcept;
 
 private:

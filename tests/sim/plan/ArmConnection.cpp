@@ -63,9 +63,12 @@ void ArmConnection::Do(const OpenStream::ServerCall& action)
     _session.OnServiceAnswer(answer.token, answer.response, _timeline.GetNow(), _actions);
 }
 
-void ArmConnection::Do(const OpenStream::ServerStopControl& /*action*/) const
+void ArmConnection::Do(const OpenStream::ServerStopControl& action) const
 {
-    _handlers.stopControl();
+    if (action.bControls || !_handlers.isOtherInControl())
+    {
+        _handlers.stopControl();
+    }
 }
 
 void ArmConnection::Do(const OpenStream::ServerStartTimer& action)
@@ -140,6 +143,11 @@ void ArmConnection::Drop()
 bool ArmConnection::IsEnded() const noexcept
 {
     return _bEnded;
+}
+
+bool ArmConnection::HasControl() const noexcept
+{
+    return !_bEnded && _session.HasControl();
 }
 
 } // namespace ACS::Simulation

@@ -23,7 +23,8 @@ public:
     {
         std::function<void(const OpenStream::ApiRequest& request, OpenStream::ApiResponse& response)> call;
         std::function<void()> stopControl;
-        std::function<void()> onEnded; ///< Called once; it may be destroyed later.
+        std::function<bool()> isOtherInControl; ///< Whether another connection controls the robot.
+        std::function<void()> onEnded;          ///< Called once; it may be destroyed later.
     };
 
 private:
@@ -65,6 +66,8 @@ public:
     /// Closes without a message; the handler is not called.
     void Drop();
     [[nodiscard]] bool IsEnded() const noexcept;
+    /// ServerSession::HasControl.
+    [[nodiscard]] bool HasControl() const noexcept;
 
 private:
     template <typename TCall>

@@ -282,6 +282,11 @@ void ArmController::OnOpened(Protocol::ConnectionID connection)
         },
         [this] { _machine->service.StopControl(_around.timeline.GetNow()); },
         [this, connection] {
+            return std::ranges::any_of(_connections, [connection](const auto& entry) {
+                return entry.first != connection && entry.second->HasControl();
+            });
+        },
+        [this, connection] {
             _behaviours.Post(0ms, [this, connection] { _connections.erase(connection); });
         }};
     const auto [made, bNew] = _connections.emplace(

@@ -207,14 +207,17 @@ TEST_CASE("7.19 STOP without anything to stop is nothing_to_stop; STOP session i
     ServerFixture server;
     server.Receive(HANDSHAKE);
     server.Receive(MakeStopLine("monitor"));
+    REQUIRE(server.stopControls == 0);
     server.Receive(MakeStopLine("control"));
     REQUIRE(server.Count("nothing_to_stop") == 2);
+    REQUIRE(server.stopControls == 1); // another client's motion may be left
     server.Receive(CONTROL);
     server.Receive(MakeStopLine("control"));
     REQUIRE(server.Count(R"({"type":"stop_ack","target":"control"})") == 1);
-    REQUIRE(server.stopControls == 1);
+    REQUIRE(server.stopControls == 2);
     server.Receive(MakeStopLine("control"));
     REQUIRE(server.Count("nothing_to_stop") == 3);
+    REQUIRE(server.stopControls == 3);
     server.Receive(MakeStopLine("session"));
     REQUIRE(server.Count(R"({"type":"stop_ack","target":"session"})") == 1);
 }

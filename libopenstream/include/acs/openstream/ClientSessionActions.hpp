@@ -181,7 +181,8 @@ struct ClientControlFault
     std::string detail;                 ///< For the operator.
 };
 
-/// Event: a STOP was acknowledged, or there was nothing to stop.
+/// Event: a STOP was acknowledged, or there was nothing to stop. In the latter case the motion that another session controls
+/// continues.
 struct ClientStopped
 {
     EStopTarget target = EStopTarget::Monitor; ///< What was stopped.

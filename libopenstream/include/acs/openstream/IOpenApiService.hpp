@@ -22,7 +22,9 @@ public:
     /// ApiResponse::TakeRoom, which needs no allocation; others assign a new ApiResponse.
     virtual void Call(const ApiRequest& request, Core::Now now, ApiResponse& response) = 0;
 
-    /// A client sent STOP control: discard buffered data such as the points of a trajectory.
+    /// A client sent STOP control: discard buffered data such as the points of a trajectory, also those of a lost connection
+    /// or of HTTP, and stop their motion. Called for a client that has sent no CONTROL as well, but not while another session
+    /// controls the robot (ServerSession::HasControl).
     virtual void StopControl(Core::Now now) = 0;
 };
 

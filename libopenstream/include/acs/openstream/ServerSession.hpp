@@ -68,6 +68,9 @@ public:
 
     /// After the last call.
     [[nodiscard]] EServerState GetState() const noexcept;
+    /// Whether this session controls the robot: it is open, and received a CONTROL since HANDSHAKE or its last STOP control.
+    /// See ServerStopControl.
+    [[nodiscard]] bool HasControl() const noexcept;
     /// Counters since the session was created.
     [[nodiscard]] const ServerSessionStats& GetStats() const noexcept;
 };

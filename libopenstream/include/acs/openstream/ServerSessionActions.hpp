@@ -71,9 +71,13 @@ struct ServerCall
     const ApiRequest* request = nullptr; ///< Never null.
 };
 
-/// The client sent STOP control: call IOpenApiService accordingly.
+/// The client sent STOP control: call IOpenApiService::StopControl, unless bControls is false and ServerSession::HasControl
+/// of another session of this controller is true.
 struct ServerStopControl
 {
+    /// Whether this session received a CONTROL since HANDSHAKE or its last STOP control. If not, the client is answered with
+    /// nothing_to_stop, but a lost connection or a client over HTTP may have left a motion that it wants to stop.
+    bool bControls = true;
 };
 
 /// Call OnTimer at the deadline (of Now::steady). Replaces a running timer of the same name.

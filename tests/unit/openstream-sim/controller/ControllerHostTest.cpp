@@ -107,6 +107,16 @@ private:
     }
 };
 
+constexpr const char* INSERT_POINT = "/project/robot/trajectory/joint_traject_insert_point";
+/// A point that is to be reached in a minute.
+constexpr const char* FAR = R"({"interval":60,"look_ahead_time":0,"point":[90,90,0,0,0,0]})";
+constexpr const char* STOP_CONTROL = "{\"cmd\":\"STOP\",\"payload\":{\"target\":\"control\"}}\n";
+
+bool IsMoving(Fixture& fixture)
+{
+    return fixture.GetOverHTTP("/project/robot/trajectory/joint_traject_mode").find("true") != std::string::npos;
+}
+
 bool IsAccepted(const ClientControlSettled& settled)
 {
     return settled.outcome == EControlOutcome::Accepted;
@@ -166,9 +176,8 @@ TEST_CASE(
         fixture.GetOverHTTP("/project/robot/trajectory/joint_traject_buf_avail"),
         R"({"_type":"JObject","val":2048})"));
 
-    // A point that is to be reached in a minute; STOP control drops it.
-    constexpr const char* FAR = R"({"interval":60,"look_ahead_time":0,"point":[90,90,0,0,0,0]})";
-    REQUIRE(IsAccepted(fixture.Control("/project/robot/trajectory/joint_traject_insert_point", FAR)));
+    // STOP control drops this one.
+    REQUIRE(IsAccepted(fixture.Control(INSERT_POINT, FAR)));
     REQUIRE(points.TryAwaitAngle(LAST + 0.01, 90.0));
     fixture.client->StopControl();
     REQUIRE(fixture.TryRunUntil(
@@ -177,6 +186,37 @@ TEST_CASE(
         fixture.GetOverHTTP("/project/robot/trajectory/joint_traject_mode"),
         R"({"_type":"JObject","mode":false})"));
     REQUIRE(points.GetAngles().back() < 90.0);
+}
+
+TEST_CASE("C.4 STOP control of a client without CONTROLs drops the points that came over HTTP")
+{
+    Fixture fixture({}, MakePlayingOptions());
+    REQUIRE(fixture.TryAwaitCount<ClientReady>(1));
+    REQUIRE(Contains(fixture.PostOverHTTP(INSERT_POINT, FAR), "HTTP/1.1 200 "));
+    REQUIRE(IsMoving(fixture));
+    fixture.client->StopControl();
+    REQUIRE(fixture.TryAwaitCount<ClientStopped>(1));
+    REQUIRE(Contains(
+        fixture.GetOverHTTP("/project/robot/trajectory/joint_traject_buf_avail"),
+        R"({"_type":"JObject","val":2048})"));
+    REQUIRE_FALSE(IsMoving(fixture));
+}
+
+TEST_CASE("C.4 STOP control of a client without CONTROLs stops nothing while another client controls the robot")
+{
+    Fixture fixture({}, MakePlayingOptions());
+    REQUIRE(fixture.TryAwaitCount<ClientReady>(1));
+    REQUIRE(IsAccepted(fixture.Control(INSERT_POINT, FAR)));
+    REQUIRE(IsMoving(fixture));
+    REQUIRE(Contains(fixture.SendLines(STOP_CONTROL), "nothing_to_stop"));
+    REQUIRE(IsMoving(fixture));
+
+    // With its session, the other client loses the control, and its motion is left.
+    fixture.client->Stop();
+    REQUIRE(fixture.TryAwaitCount<ClientEnded>(1));
+    REQUIRE(IsMoving(fixture));
+    REQUIRE(Contains(fixture.SendLines(STOP_CONTROL), "nothing_to_stop"));
+    REQUIRE_FALSE(IsMoving(fixture));
 }
 
 TEST_CASE("A Over HTTP the encoded path, the status and the content type are right")

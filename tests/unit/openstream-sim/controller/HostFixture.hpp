@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -180,8 +181,34 @@ public:
     /// The whole answer to bytes that were sent on a connection of their own.
     [[nodiscard]] std::string SendHTTP(const std::string& request)
     {
+        return Send(host->GetHttpEndpoint().port, request);
+    }
+
+    /// The lines that another Open Stream client gets, which sends these lines, then STOP session.
+    [[nodiscard]] std::string SendLines(const std::string& lines)
+    {
+        const std::string handshake = R"({"cmd":"HANDSHAKE","payload":{"major":1}})";
+        const std::string end = R"({"cmd":"STOP","payload":{"target":"session"}})";
+        return Send(host->GetStreamEndpoint().port, handshake + "\n" + lines + end + "\n");
+    }
+
+    [[nodiscard]] std::string GetOverHTTP(const std::string& target)
+    {
+        return SendHTTP("GET " + target + " HTTP/1.1\r\nHost: sim\r\nConnection: close\r\n\r\n");
+    }
+
+    [[nodiscard]] std::string PostOverHTTP(const std::string& target, const std::string& body)
+    {
+        return SendHTTP(
+            "POST " + target + " HTTP/1.1\r\nHost: sim\r\nConnection: close\r\nContent-Length: "
+            + std::to_string(body.size()) + "\r\n\r\n" + body);
+    }
+
+private:
+    [[nodiscard]] std::string Send(std::uint16_t port, const std::string& request)
+    {
         boost::asio::ip::tcp::socket socket(context);
-        socket.connect({boost::asio::ip::address_v4::loopback(), host->GetHttpEndpoint().port});
+        socket.connect({boost::asio::ip::address_v4::loopback(), port});
         boost::asio::write(socket, boost::asio::buffer(request));
         std::string answer;
         bool bEnded = false;
@@ -198,11 +225,6 @@ public:
         }
         REQUIRE(bInTime);
         return answer;
-    }
-
-    [[nodiscard]] std::string GetOverHTTP(const std::string& target)
-    {
-        return SendHTTP("GET " + target + " HTTP/1.1\r\nHost: sim\r\nConnection: close\r\n\r\n");
     }
 };
 
