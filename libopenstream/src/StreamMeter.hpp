@@ -24,6 +24,7 @@ class StreamMeter
     GapHistogram _byServer;
     GapHistogram _byArrival;
     std::optional<double> _lastTs;
+    double _due = 0.0; ///< When the last sample was due, by the grid of the server's samples.
     Core::SteadyTime _lastAt;
     std::bitset<WINDOW> _inTime;
     std::size_t _next = 0;
@@ -33,12 +34,14 @@ public:
     /// A MONITOR starts or replaces another one: resets all values.
     void Begin(std::chrono::milliseconds period);
 
-    /// Returns the number of periods that were skipped before this sample.
+    /// Returns the number of periods that were skipped before this sample. A late sample does not count as skipped periods,
+    /// nor does a controller whose clock is off by up to 5 %.
     std::uint64_t Add(double ts, Core::SteadyTime receivedAt);
 
     [[nodiscard]] StreamQuality GetQuality() const;
 
 private:
+    [[nodiscard]] std::uint64_t CountSkipped(double ts);
     void Note(bool bInTime);
 };
 

@@ -103,6 +103,93 @@ TEST_CASE("7.46 One missing frame among a hundred thousand shows in the quality"
     CHECK(feed.meter.GetQuality().missing == 1);
 }
 
+TEST_CASE("11 A sample that is only late hides no other one and is not counted as missing")
+{
+    Feed feed;
+    feed.meter.Begin(2ms);
+    feed.Add(0.0, 0ms);
+    for (const double gap : {2.0, 2.0, 3.0, 1.0, 2.0})
+    {
+        CHECK(feed.Add(gap, 2ms) == 0);
+    }
+    CHECK(feed.meter.GetQuality().missing == 0);
+    CHECK(feed.Add(2.0, 2ms) == 0);
+    CHECK(feed.Add(5.0, 5ms) == 1); // one is missing, and the next one is late
+    CHECK(feed.Add(1.0, 1ms) == 0);
+    CHECK(feed.Add(3.0, 3ms) == 0); // late, and the one after the next is missing
+    CHECK(feed.Add(3.0, 3ms) == 1);
+    CHECK(feed.meter.GetQuality().missing == 2);
+    for (int count = 0; count < 1'000; ++count)
+    {
+        const double late = count % 5 * 0.3; // up to 1.2 ms
+        const double lateBefore = (count + 4) % 5 * 0.3;
+        CHECK(feed.Add(2.0 + late - (count == 0 ? 0.0 : lateBefore), 2ms) == 0);
+    }
+    CHECK(feed.meter.GetQuality().missing == 2);
+}
+
+TEST_CASE("11 A controller whose clock or period is off by 1 % loses no sample by it, and a lost one is counted")
+{
+    const double gap = GENERATE(1.98, 2.02);
+    const bool bWhole = GENERATE(false, true); // `ts` in whole ms
+    StreamMeter meter;
+    meter.Begin(2ms);
+    constexpr int SAMPLES = 10'000;
+    constexpr int LOST = 1'000;  // every thousandth
+    constexpr int LOST_AT = 510; // where whole ms do not hide half a period
+    for (int count = 0; count < SAMPLES; ++count)
+    {
+        const double ts = gap * count;
+        meter.Add(bWhole ? std::floor(ts) : ts, ACS::Core::SteadyTime{});
+    }
+    CHECK(meter.GetQuality().missing == 0);
+    for (int count = SAMPLES; count < 2 * SAMPLES; ++count)
+    {
+        const double ts = gap * count;
+        if (count % LOST != LOST_AT)
+        {
+            meter.Add(bWhole ? std::floor(ts) : ts, ACS::Core::SteadyTime{});
+        }
+    }
+    CHECK(meter.GetQuality().missing == SAMPLES / LOST);
+}
+
+TEST_CASE("11 A controller that is much slower than the period counts as missing, at most what is short of the period")
+{
+    StreamMeter meter;
+    meter.Begin(10ms);
+    constexpr int SAMPLES = 10'000;
+    for (int count = 0; count <= SAMPLES; ++count)
+    {
+        meter.Add(11.0 * count, ACS::Core::SteadyTime{});
+    }
+    CHECK(meter.GetQuality().missing > 0);
+    CHECK(meter.GetQuality().missing <= SAMPLES / 10);
+    meter.Begin(10ms);
+    for (int count = 0; count <= SAMPLES; ++count)
+    {
+        meter.Add(20.0 * count, ACS::Core::SteadyTime{});
+    }
+    CHECK(meter.GetQuality().missing == SAMPLES);
+}
+
+TEST_CASE("11 After a step of the clock the samples are measured against the new time")
+{
+    Feed feed;
+    feed.meter.Begin(2ms);
+    feed.Add(100.0, 0ms);
+    CHECK(feed.Add(-50.0, 2ms) == 0);
+    CHECK(feed.Add(2.0, 2ms) == 0);
+    CHECK(feed.Add(4.0, 4ms) == 1);
+    CHECK(feed.Add(1e9, 2ms) == 0);
+    CHECK(feed.Add(3.0, 3ms) == 0);
+    CHECK(feed.Add(3.0, 3ms) == 1);
+    CHECK(feed.meter.Add(std::numeric_limits<double>::infinity(), {}) == 0);
+    CHECK(feed.meter.Add(std::numeric_limits<double>::infinity(), {}) == 0);
+    CHECK(feed.meter.Add(10.0, {}) == 0);
+    CHECK(feed.meter.Add(14.0, {}) == 1);
+}
+
 TEST_CASE("11 The share of samples in time is of the last hundred periods")
 {
     Feed feed;

@@ -23,7 +23,7 @@ struct GapStatistics
 struct StreamQuality
 {
     std::uint64_t samples = 0; ///< Data lines that were received.
-    std::uint64_t missing = 0; ///< Periods without a sample, according to `ts`.
+    std::uint64_t missing = 0; ///< Periods without a sample, according to `ts`. A late sample is not missing.
     GapStatistics byServer;    ///< Differences between consecutive `ts`: the sampling of the controller. Whole ms.
     GapStatistics byArrival;   ///< Differences between arrivals: includes the network and this machine.
     /// Share of the last 100 periods (fewer at first) whose sample arrived at most half a period late after the previous
