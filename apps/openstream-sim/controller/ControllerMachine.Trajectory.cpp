@@ -53,9 +53,13 @@ EApiError ControllerMachine::AcceptTrajectory()
         _settings.bTrajectoryLog = false;
         return EApiError::NotWaiting;
     }
+    if (_alarm == EAlarm::AxisTooFast)
+    {
+        return EApiError::AxisTooFast;
+    }
     if (_arm.GetTrajectory().IsBlocked())
     {
-        return _alarm == EAlarm::AxisTooFast ? EApiError::AxisTooFast : EApiError::BufferLeft;
+        return EApiError::BufferLeft;
     }
     if (!_arm.IsFollowing())
     {
@@ -191,7 +195,8 @@ bool ControllerMachine::IsTrajectoryActive() const
 
 bool ControllerMachine::IsTrajectoryReady() const
 {
-    return CheckMotion() == EApiError::None && _console.IsWaiting() && !_arm.GetTrajectory().IsBlocked();
+    return CheckMotion() == EApiError::None && _console.IsWaiting() && _alarm != EAlarm::AxisTooFast
+        && !_arm.GetTrajectory().IsBlocked();
 }
 
 } // namespace ACS::OpenStreamSim

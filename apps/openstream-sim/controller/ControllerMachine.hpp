@@ -122,7 +122,7 @@ public:
     [[nodiscard]] TrajectoryError InsertPoints(const TimedPoints& points);
     /// joint_traject_off: drops the remaining points.
     [[nodiscard]] EApiError FinishTrajectory();
-    /// STOP control: empties the buffer and stops the arm. A program continues.
+    /// STOP control: empties the buffer and stops the arm, but leaves the alarm. A program or single move continues.
     void StopTrajectory();
 
     void SwitchMotorOff();

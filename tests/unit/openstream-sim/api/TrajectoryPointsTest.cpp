@@ -216,7 +216,18 @@ TEST_CASE("C.3 Too fast an axis raises E159 and stops the arm; points are refuse
     REQUIRE(fixture.PostForCode(INSERT_POINT, MakePoint(stopped)) == "403 -159");
     REQUIRE(fixture.PostForCode(INSERT_POINTS, MakePair()) == "403 -159");
     REQUIRE(GetFree(fixture) == "2046");
+    if (GENERATE(false, true))
+    {
+        fixture.controller.StopControl(fixture.clock.GetNow()); // drops the points, and leaves the alarm
+        REQUIRE(GetFree(fixture) == "2048");
+        REQUIRE(fixture.Contains("/project/robot", R"("alarm":159)"));
+        REQUIRE_FALSE(IsReady(fixture));
+        REQUIRE(fixture.PostForCode(INSERT_POINT, MakePoint(stopped)) == "403 -159");
+        REQUIRE(fixture.PostForCode(INSERT_POINTS, MakePair()) == "403 -159");
+        REQUIRE(GetFree(fixture) == "2048");
+    }
     REQUIRE(fixture.Post(INIT) == 200);
+    REQUIRE(IsReady(fixture));
     REQUIRE(GetFree(fixture) == "2048");
     REQUIRE(fixture.Contains("/project/robot", R"("alarm":-1)"));
     REQUIRE(GetFirstAngle(fixture) == stopped);
