@@ -267,7 +267,7 @@ ApiResponse SetPcIndex(ControllerMachine& machine, const ApiCall& call)
         return Refuse(command.error());
     }
     // Only task 0 has a program.
-    return Answer(call.argument == "0" ? machine.SetCursor() : EApiError::None);
+    return Answer(call.argument == "0" ? machine.SetCursor(command->idx) : EApiError::None);
 }
 
 ApiResponse ReleaseWait(ControllerMachine& machine, const ApiCall& /*call*/)

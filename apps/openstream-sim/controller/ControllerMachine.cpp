@@ -311,13 +311,17 @@ EApiError ControllerMachine::CheckSelection(bool bExternal) const
     return IsPlaying() ? EApiError::Playing : EApiError::None;
 }
 
-EApiError ControllerMachine::SetCursor()
+EApiError ControllerMachine::SetCursor(int index)
 {
     if (IsPlaying())
     {
         return EApiError::TaskPlaying;
     }
-    _bCursorMoved = false;
+    constexpr int BEGINNING = 1;
+    if (index == BEGINNING)
+    {
+        _bCursorMoved = false;
+    }
     return EApiError::None;
 }
 

@@ -77,7 +77,7 @@ class ControllerMachine
     RelayMemory _relays;
     ControllerSettings _settings;
     bool _bProtectiveStop = false;
-    bool _bCursorMoved = false; ///< By a start or stop: no selection before SetCursor.
+    bool _bCursorMoved = false; ///< By a start or stop: no selection before SetCursor(1).
     ProgramJudge _shouldFail;
     RelayJudge _storesWrongValue;
     FloorWork _floorWork;
@@ -98,8 +98,9 @@ public:
     /// Whether a selection is allowed: external ones (ext_sel 1) in remote mode, others outside of it, and none while a
     /// program plays.
     [[nodiscard]] EApiError CheckSelection(bool bExternal) const;
-    /// set_cur_pc_idx of task 0: a selection may follow.
-    [[nodiscard]] EApiError SetCursor();
+    /// set_cur_pc_idx of task 0: a selection may follow if the index is 1, the beginning of the program. The program is not
+    /// rewound.
+    [[nodiscard]] EApiError SetCursor(int index);
     /// Ends the current wait of the console's program.
     [[nodiscard]] EApiError ReleaseWait();
 

@@ -232,7 +232,13 @@ TEST_CASE("D-2 After a start or stop a selection is refused until the cursor is 
     REQUIRE(fixture.Post(SELECT, program) == 200);
     REQUIRE(fixture.Post(STOP) == 200);
     REQUIRE(fixture.PostForCode(SELECT, program) == "403 -1245280");
-    REQUIRE(fixture.Post(SET_CURSOR, R"({"idx":0})") == 200);
+    for (const char* body : {R"({"idx":0})", R"({"idx":2})"})
+    {
+        INFO(body);
+        REQUIRE(fixture.Post(SET_CURSOR, body) == 200); // another place in the program
+        REQUIRE(fixture.PostForCode(SELECT, program) == "403 -1245280");
+    }
+    REQUIRE(fixture.Post(SET_CURSOR, R"({"idx":1})") == 200);
     REQUIRE(fixture.Post(SELECT, program) == 200);
     REQUIRE(fixture.GetCounters() == "[1,1,0,11]");
 }
