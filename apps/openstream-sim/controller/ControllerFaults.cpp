@@ -127,7 +127,7 @@ void ControllerFaults::Apply(const FaultChange& change)
             TurnModeSwitch(change.fault);
             break;
         case EFaultKind::EmergencyStop:
-            _controller.GetMachine(_now).PressEmergencyStop(_board.IsActive(EFaultKind::EmergencyStop));
+            _controller.GetMachine(_now).HoldEmergencyStop(_board.IsActive(EFaultKind::EmergencyStop));
             break;
         case EFaultKind::ProtectiveStop:
             _controller.GetMachine(_now).HoldProtectiveStop(_board.IsActive(EFaultKind::ProtectiveStop));

@@ -171,11 +171,11 @@ EApiError ControllerMachine::SwitchMotorOn()
     {
         return EApiError::NotRemote;
     }
-    if (_bEmergencyStop)
+    if (IsEmergencyStop())
     {
         return EApiError::EmergencyStop;
     }
-    if (_bProtectiveStop)
+    if (_stops.bSafeguardOpen)
     {
         return EApiError::ProtectiveStop;
     }
@@ -363,8 +363,17 @@ void ControllerMachine::ClearSelection()
 
 void ControllerMachine::PressEmergencyStop(bool bPressed)
 {
-    _bEmergencyStop = bPressed;
+    _stops.bPressed = bPressed;
     if (bPressed)
+    {
+        SwitchMotorOff();
+    }
+}
+
+void ControllerMachine::HoldEmergencyStop(bool bHeld)
+{
+    _stops.bHeldPressed = bHeld;
+    if (bHeld)
     {
         SwitchMotorOff();
     }
@@ -381,7 +390,7 @@ void ControllerMachine::TurnModeSwitch(bool bRemote)
 
 void ControllerMachine::HoldProtectiveStop(bool bHeld)
 {
-    _bProtectiveStop = bHeld;
+    _stops.bSafeguardOpen = bHeld;
     if (bHeld)
     {
         SwitchMotorOff();
@@ -435,7 +444,7 @@ bool ControllerMachine::IsRemote() const noexcept
 
 bool ControllerMachine::IsEmergencyStop() const noexcept
 {
-    return _bEmergencyStop;
+    return _stops.bPressed || _stops.bHeldPressed;
 }
 
 bool ControllerMachine::IsPlaying() const noexcept

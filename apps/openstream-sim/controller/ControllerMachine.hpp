@@ -61,6 +61,14 @@ struct ControllerSettings
 /// time. Pure: time is a parameter.
 class ControllerMachine
 {
+    /// Each of them keeps the motor off.
+    struct SafetyStops
+    {
+        bool bPressed = false;       ///< The emergency stop, by a client.
+        bool bHeldPressed = false;   ///< The emergency stop, by a fault.
+        bool bSafeguardOpen = false; ///< The protective stop.
+    };
+
     Core::Logger _logger;
     ControllerVersion _version;
     std::string _robotModel;
@@ -68,7 +76,7 @@ class ControllerMachine
     Core::SteadyTime _startedAt;
     Core::Duration _now{}; ///< Simulated, since _startedAt.
     bool _bRemote = true;
-    bool _bEmergencyStop = false;
+    SafetyStops _stops;
     MotorSwitch _motor;
     ProgramRunner _runner;
     ConsoleProgram _console;
@@ -76,7 +84,6 @@ class ControllerMachine
     EAlarm _alarm = EAlarm::None;
     RelayMemory _relays;
     ControllerSettings _settings;
-    bool _bProtectiveStop = false;
     bool _bCursorMoved = false; ///< By a start or stop: no selection before SetCursor(1).
     ProgramJudge _shouldFail;
     RelayJudge _storesWrongValue;
@@ -132,8 +139,12 @@ public:
     /// Clears the selection of a program. None may play.
     void ClearSelection();
 
-    /// Actions of the operator. Both stop the program; pressing the emergency stop also switches the motor off.
+    /// A client presses the emergency stop, which stops the program and switches the motor off, or releases it.
     void PressEmergencyStop(bool bPressed);
+    /// Likewise for a fault. The emergency stop is released when neither presses it.
+    void HoldEmergencyStop(bool bHeld);
+
+    /// Action of the operator. Leaving remote mode stops the program.
     void TurnModeSwitch(bool bRemote);
 
     /// The safeguard opens, which stops the program and switches the motor off, or closes.

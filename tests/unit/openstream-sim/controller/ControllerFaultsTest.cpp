@@ -214,6 +214,39 @@ TEST_CASE("9 The emergency stop keeps the motor off until it is released; then c
     CHECK(fixture.GetCounters() == "[1,1,0,11]");
 }
 
+TEST_CASE("9 A client that releases the emergency stop does not end the fault that presses it")
+{
+    FaultFixture fixture;
+    fixture.Begin("estop for=5s");
+    CHECK(fixture.Control("/project/robot/emergency_stop", R"({"val":0})") == 200);
+    CHECK(fixture.GetOverHTTP("/project/robot/emergency_stop") == R"({"_type":"JObject","val":1})");
+    CHECK(fixture.Control("/project/robot/motor_on") == 403);
+    CHECK_THAT(fixture.response.body->GetText(), Catch::Contains(R"("err_code":-4)"));
+    fixture.Pass(5s);
+    CHECK(fixture.GetOverHTTP("/project/robot/emergency_stop") == R"({"_type":"JObject","val":0})");
+    CHECK(fixture.Control("/project/robot/motor_on") == 200);
+}
+
+TEST_CASE("9 The end of the fault does not release the emergency stop that a client has pressed")
+{
+    const bool bBefore = GENERATE(true, false);
+    FaultFixture fixture;
+    if (bBefore)
+    {
+        CHECK(fixture.Control("/project/robot/emergency_stop") == 200);
+    }
+    fixture.Begin("estop for=5s");
+    if (!bBefore)
+    {
+        CHECK(fixture.Control("/project/robot/emergency_stop") == 200);
+    }
+    fixture.Pass(5s);
+    CHECK(fixture.GetOverHTTP("/project/robot/emergency_stop") == R"({"_type":"JObject","val":1})");
+    CHECK(fixture.Control("/project/robot/motor_on") == 403);
+    CHECK(fixture.Control("/project/robot/emergency_stop", R"({"val":0})") == 200);
+    CHECK(fixture.Control("/project/robot/motor_on") == 200);
+}
+
 TEST_CASE("9 A protective stop does likewise, without the emergency stop")
 {
     FaultFixture fixture;
