@@ -20,6 +20,7 @@ using enum OpenStream::EApiMethod;
 
 constexpr ControllerVersion ALWAYS{0, 0, 0};
 constexpr ControllerVersion NEVER{100, 0, 0};
+constexpr ControllerVersion FIRST_WITH_CONSOLE{60, 28, 0};
 constexpr ControllerVersion FIRST_WITH_EMERGENCY_STOP{60, 30, 0};
 constexpr ControllerVersion FIRST_WITH_TRAJECTORIES{60, 32, 0};
 constexpr ControllerVersion FIRST_WITH_STREAMED_POINTS{60, 34, 0};
@@ -107,8 +108,8 @@ constexpr std::array ROUTES{
     ApiRoute{Post, "/project/context/tasks[0]/cur_prog_cnt", WITH_BODY<ControlAPI::SetProgramCounter>},
     ApiRoute{Post, "/project/context/tasks[{}]/set_cur_pc_idx", ControlAPI::SetPcIndex},
     ApiRoute{Post, "/project/context/tasks[0]/release_wait", ControlAPI::ReleaseWait},
-    ApiRoute{Post, "/project/context/tasks[{}]/execute_move", ControlAPI::ExecuteMove},
-    ApiRoute{Post, "/console/execute_cmd", WITH_BODY<ControlAPI::ExecuteCommand>},
+    ApiRoute{Post, "/project/context/tasks[{}]/execute_move", ControlAPI::ExecuteMove, FIRST_WITH_CONSOLE},
+    ApiRoute{Post, "/console/execute_cmd", WITH_BODY<ControlAPI::ExecuteCommand>, FIRST_WITH_CONSOLE},
 
     ApiRoute{Get, "/project/control/op_cnd", ControlAPI::GetConditions},
     ApiRoute{Put, "/project/control/op_cnd", ControlAPI::SetConditions},

@@ -159,6 +159,8 @@ TEST_CASE("A Each endpoint is served from its first version on; an earlier contr
     };
     constexpr const char* EMERGENCY_STOP = "/project/robot/emergency_stop";
     const std::vector<Row> rows{
+        {EApiMethod::Post, "/project/context/tasks[0]/execute_move", {60, 28, 0}},
+        {EApiMethod::Post, COMMAND, {60, 28, 0}},
         {EApiMethod::Get, EMERGENCY_STOP, {60, 30, 0}},
         {EApiMethod::Post, EMERGENCY_STOP, {60, 30, 0}},
         {EApiMethod::Post, INIT, {60, 32, 0}},
