@@ -74,10 +74,11 @@ public:
     /// Like SendControl, with its own time limit and confirmation.
     std::uint64_t SendControlCall(ControlCall call, Core::Now now, ClientActions& out);
 
-    /// STOP control, the hard stop. Sent at once, before all that waits for the socket: a CONTROL that was given to the
-    /// socket or waits for a confirmation is settled as Unknown, an earlier one as NotSent. Streamed CONTROLs that wait for
-    /// the socket are dropped. A later tracked CONTROL or MONITOR still waits for the end of that CONTROL's window, because
-    /// its refusal may come. No effect without a session. → Send, timers, ClientControlSettled, later ClientStopped.
+    /// STOP control, the hard stop of a trajectory. It stops neither a single move (execute_move) nor a program: these need a
+    /// CONTROL of /project/robot/stop. It is sent at once, before all that waits for the socket: a CONTROL that was given to the
+    /// socket or waits for a confirmation is settled as Unknown, an earlier one as NotSent. Streamed CONTROLs that wait for the
+    /// socket are dropped. A later tracked CONTROL or MONITOR still waits for the end of that CONTROL's window, because its
+    /// refusal may come. No effect without a session. → Send, timers, ClientControlSettled, later ClientStopped.
     void StopControl(Core::Now now, ClientActions& out);
 
     /// → Send, timers.
