@@ -188,6 +188,25 @@ TEST_CASE("A Every endpoint answers a fresh controller's client with the documen
     }
 }
 
+TEST_CASE(
+    "D-8 po_cur without crd has the pose of the tool, the axes and their encoder values; with it only one of them")
+{
+    ControllerFixture fixture;
+    const std::string all = fixture.Get("/project/robot/po_cur");
+    for (const char* member : {R"("x":1070)", R"("rx":0)", R"("j2":90)", R"("enc_cur":[0,900000,0,0,0,0])"})
+    {
+        INFO(member);
+        CHECK(all.find(member) != std::string::npos);
+    }
+    for (const char* crd : {"0", "1", "2", "3", "4", "-1"})
+    {
+        INFO(crd);
+        const std::string one = fixture.Get(std::string("/project/robot/po_cur?crd=") + crd);
+        CHECK(one.find(R"("enc_cur")") == std::string::npos);
+        CHECK((one.find(R"("x")") == std::string::npos) != (one.find(R"("j1")") == std::string::npos));
+    }
+}
+
 TEST_CASE("A What is set is what is read")
 {
     ControllerFixture fixture;
