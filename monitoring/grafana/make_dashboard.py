@@ -118,7 +118,7 @@ ROBOTS = (
                              "legend": {"showLegend": False, "displayMode": "list", "placement": "bottom"}})),
     (12, graph("Utilisation: share of time by status", [
         (f"sum by (status) (rate(acsd_robot_status_seconds_total{{{ROBOT}}}{RATE}))"
-         f" / scalar(count(sum by (robot) (acsd_robot_status_seconds_total{{{ROBOT}}})))", "{{status}}")],
+         f" / scalar(count(sum by (job, instance, robot) (acsd_robot_status_seconds_total{{{ROBOT}}})))", "{{status}}")],
         unit="percentunit", bStacked=True, overrides=color_by_name(STATUS_COLORS), highest=1)),
     (8, graph("Battery", [(f"acsd_robot_battery{{{ROBOT}}}", "{{robot}}")], unit="percent", highest=100)),
     (8, graph("Waiting for the route: share of time", [(f"rate(acsd_robot_route_wait_seconds_total{{{ROBOT}}}{RATE})",

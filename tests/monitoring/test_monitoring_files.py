@@ -101,6 +101,19 @@ class Dashboard(unittest.TestCase):
         self.assertEqual(code, 0, output)
         self.assertIn(f"{number + 1} rules found", output)
 
+    def test_the_utilisation_of_robots_of_one_name_at_two_sites_is_at_most_1(self):
+        expression = next(expression for title, expression in list_dashboard_queries() if title.startswith("Utilisation"))
+        series = [{"series": f'acsd_robot_status_seconds_total{{job="acsd",instance="{instance}",robot="LR01",status="Moving"}}',
+                   "values": "0+10x40"} for instance in ("a:8080", "b:8080")]
+        samples = [{"labels": '{status="Moving"}', "value": 1}]
+        case = {"interval": "10s", "input_series": series, "promql_expr_test": [
+            {"expr": expression.replace("[10s]", "[1m]"), "eval_time": "5m", "exp_samples": samples}]}
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "utilisation.yml"
+            file.write_text(json.dumps({"tests": [case]}))
+            code, output = run_promtool("test", "rules", file)
+        self.assertEqual(code, 0, output)
+
     def test_the_panels_fill_the_grid_without_overlap(self):
         dashboard = read_dashboard()
         self.assertGreaterEqual(dashboard["schemaVersion"], 36)  # Grafana 9
