@@ -1,5 +1,9 @@
 #include "config/LiveConfig.hpp"
 
+#include "config/NamedFiles.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <iterator>
@@ -90,6 +94,13 @@ void LogChange(const AcsdConfig& present, const AcsdConfig& fresh, const Core::L
     for (const std::string& key : change.pending)
     {
         logger.Warning("not applied: the change needs a restart of acsd", {{"key", key}});
+    }
+    if (const std::vector<std::string> keys = FindCredentialKeys(fresh.values); !keys.empty())
+    {
+        logger.Warning(
+            "credentials have their former contents: systemd copies them when the service starts. Restart acsd after a change of "
+            "such a file",
+            {{"keys", fmt::format("{}", fmt::join(keys, ", "))}});
     }
     if (change == ConfigChange{})
     {

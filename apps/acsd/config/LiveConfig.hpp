@@ -28,7 +28,7 @@ struct ConfigChange
     const std::map<std::string, std::string>& before,
     const std::map<std::string, std::string>& after);
 
-/// Logs one line for each key that differs, or whose file does.
+/// Logs one line for each key that differs, or whose file does, and a warning if keys name credentials of systemd.
 void LogChange(const AcsdConfig& present, const AcsdConfig& fresh, const Core::Logger& logger);
 
 /// Copies the values of the live keys (see IsLiveKey).

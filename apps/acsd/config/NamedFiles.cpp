@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <string_view>
 
 namespace ACS::Acsd
@@ -46,6 +47,23 @@ std::map<std::string, std::string> ReadNamedFiles(
         }
     }
     return files;
+}
+
+std::vector<std::string> FindCredentialKeys(const std::map<std::string, std::string>& values)
+{
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): the environment is never changed
+    const char* const directoryOrNull = std::getenv("CREDENTIALS_DIRECTORY");
+    const std::string directory = directoryOrNull == nullptr ? std::string() : std::string(directoryOrNull) + '/';
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : values)
+    {
+        const std::string path = ReadString(value);
+        if (path.starts_with("${CREDENTIALS_DIRECTORY}/") || (directory.size() > 1 && path.starts_with(directory)))
+        {
+            keys.push_back(key);
+        }
+    }
+    return keys;
 }
 
 } // namespace ACS::Acsd

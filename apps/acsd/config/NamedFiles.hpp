@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace ACS::Acsd
 {
@@ -11,5 +12,9 @@ namespace ACS::Acsd
 [[nodiscard]] std::map<std::string, std::string> ReadNamedFiles(
     const std::string& configFile,
     const std::map<std::string, std::string>& values);
+
+/// The keys, sorted, of paths in the folder where systemd puts the credentials of the service. systemd writes it only when the service
+/// starts. The values are those of the keys as TOML.
+[[nodiscard]] std::vector<std::string> FindCredentialKeys(const std::map<std::string, std::string>& values);
 
 } // namespace ACS::Acsd

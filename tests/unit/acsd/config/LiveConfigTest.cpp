@@ -1,10 +1,12 @@
 #include "config/LiveConfig.hpp"
 
 #include "Catch.hpp"
+#include "config/NamedFiles.hpp"
 #include "RecordingLogSink.hpp"
 #include "TemporaryFolder.hpp"
 
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -104,6 +106,43 @@ TEST_CASE("A reload reports a file that has changed under the same name")
         CHECK_FALSE(sink.Contains(Core::ELogLevel::Info, "without changes"));
         sink.Clear();
     }
+}
+
+TEST_CASE("A reload warns of credentials of systemd, because it reads the copies of the start")
+{
+    const Testing::TemporaryFolder folder;
+    const std::filesystem::path tokens = folder.GetPath() / "tokens";
+    std::ofstream(tokens) << "viewer anna " << std::string(64, '0') << '\n';
+    std::filesystem::permissions(tokens, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+    const auto reload = [](const std::string& path) {
+        const AcsdConfig config = ReadLive({"operator.tokens_file=" + path});
+        Testing::RecordingLogSink sink;
+        LogChange(config, config, Core::Logger(sink, "config"));
+        CHECK(sink.Contains(Core::ELogLevel::Info, "without changes"));
+        CHECK(sink.ContainsField("keys", "operator.tokens_file") == (sink.CountLevel(Core::ELogLevel::Warning) == 1));
+        return sink.Contains(Core::ELogLevel::Warning, "systemd copies them when the service starts");
+    };
+    CHECK_FALSE(reload(tokens.string()));
+    ::setenv("CREDENTIALS_DIRECTORY", folder.GetPath().c_str(), 1); // NOLINT(concurrency-mt-unsafe): one thread
+    CHECK(reload("${CREDENTIALS_DIRECTORY}/tokens"));
+    CHECK(reload(tokens.string()));
+    ::setenv(
+        "CREDENTIALS_DIRECTORY",
+        (folder.GetPath() / "tok").c_str(),
+        1); // NOLINT(concurrency-mt-unsafe): one thread
+    CHECK_FALSE(reload(tokens.string()));
+    ::unsetenv("CREDENTIALS_DIRECTORY"); // NOLINT(concurrency-mt-unsafe): one thread
+}
+
+TEST_CASE("The keys of credentials are found in tables too")
+{
+    CHECK(
+        FindCredentialKeys(
+            {{"operator.tls.key", R"('${CREDENTIALS_DIRECTORY}/acsd.key')"},
+             {"mqtt.password_file", R"("${CREDENTIALS_DIRECTORY}/mqtt")"},
+             {"operator.tls.certificate", R"("acsd.pem")"},
+             {"queue.max_plans", "7"}})
+        == std::vector<std::string>{"mqtt.password_file", "operator.tls.key"});
 }
 
 TEST_CASE("Of the keys of the message style, only the live ones are applied")
