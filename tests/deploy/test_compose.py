@@ -180,6 +180,40 @@ class Files(ComposeCase):
         self.assertEqual({path: path.read_bytes() for path in secrets.rglob("*") if path.is_file()}, before)
 
 
+class Prepare(unittest.TestCase):
+    """deploy/prepare, run again."""
+
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="acs-prepare-"))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+        copy_tree(self.folder)
+        self.secrets = self.folder / "deploy" / "secrets"
+        self.assertTrue((self.secrets / "vehicles" / "LR01").exists())
+
+    def prepare(self, *arguments, check=True):
+        return run(self.folder / "deploy" / "prepare", *arguments, check=check)
+
+    def read_names(self, certificate):
+        text = run("openssl", "x509", "-in", certificate, "-noout", "-ext", "subjectAltName").stdout
+        return re.findall(r"DNS:([\w.-]+)", text)
+
+    def test_a_renewed_certificate_has_the_host_names_of_the_first_run(self):
+        for path, names in (("acsd/operator", ["acs.test", "acs1", "acs2"]), ("broker/server", ["broker", "broker.test"])):
+            certificate, key = self.secrets / f"{path}.pem", self.secrets / f"{path}.key"
+            self.assertEqual(self.read_names(certificate), names)
+            certificate.unlink()
+            key.unlink()
+            self.prepare()
+            self.assertEqual(self.read_names(certificate), names)
+        (self.secrets / "acsd/operator.pem").unlink()
+        self.prepare("--operator-host", "other.test")
+        self.assertEqual(self.read_names(self.secrets / "acsd/operator.pem")[0], "other.test")
+        (self.secrets / "acsd/operator.pem").unlink()
+        self.prepare()
+        self.assertEqual(self.read_names(self.secrets / "acsd/operator.pem")[0], "other.test")
+        self.assertEqual(self.read_names(self.secrets / "broker/server.pem"), ["broker", "broker.test"])
+
+
 class Programs(ComposeCase):
     """The services of this machine with the files of the containers."""
 
