@@ -213,6 +213,31 @@ class Prepare(unittest.TestCase):
         self.assertEqual(self.read_names(self.secrets / "acsd/operator.pem")[0], "other.test")
         self.assertEqual(self.read_names(self.secrets / "broker/server.pem"), ["broker", "broker.test"])
 
+    def test_the_ca_stays_while_its_key_is_on_another_machine(self):
+        key, ca, elsewhere = self.secrets / "ca/ca.key", self.secrets / "ca.pem", self.folder / "elsewhere.key"
+        before = ca.read_bytes()
+        shutil.move(key, elsewhere)
+        self.prepare()
+        key.parent.rmdir()
+        self.prepare()
+        self.assertFalse(key.exists())
+
+        (self.secrets / "broker/server.pem").unlink()
+        result = self.prepare(check=False)
+        self.assertEqual((result.returncode, result.stdout.count("\n")), (1, 1), result.stdout)
+        self.assertIn("put ca.key back to make a certificate", result.stdout)
+        self.assertEqual(ca.read_bytes(), before)
+        key.parent.mkdir(exist_ok=True)
+        shutil.move(elsewhere, key)
+        self.prepare()
+        run("openssl", "verify", "-CAfile", ca, self.secrets / "broker/server.pem")
+        self.assertEqual(ca.read_bytes(), before)
+
+        ca.unlink()
+        result = self.prepare(check=False)
+        self.assertEqual((result.returncode, result.stdout.count("\n")), (1, 1), result.stdout)
+        self.assertIn("ca.pem is missing", result.stdout)
+
 
 class Programs(ComposeCase):
     """The services of this machine with the files of the containers."""
