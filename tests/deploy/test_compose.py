@@ -238,6 +238,32 @@ class Prepare(unittest.TestCase):
         self.assertEqual((result.returncode, result.stdout.count("\n")), (1, 1), result.stdout)
         self.assertIn("ca.pem is missing", result.stdout)
 
+    def list_accounts(self):
+        return [line.partition(":")[0] for line in (self.secrets / "broker/passwords").read_text().splitlines()]
+
+    def test_each_vehicle_with_a_password_has_an_account_of_the_broker(self):
+        first = (self.secrets / "broker/passwords").read_text()
+        output = self.prepare("--vehicle", "AR07", "--vehicle", "AR08").stdout
+        self.assertRegex(output, "broker must be restarted.*: AR07, AR08")
+        self.assertTrue((self.secrets / "broker/passwords").read_text().startswith(first))
+        self.assertEqual(self.list_accounts(), ["acsd", "LR01", "AR07", "AR08"])
+        self.assertEqual({path.name for path in (self.secrets / "vehicles").iterdir()}, {"LR01", "AR07", "AR08"})
+        self.assertEqual((self.secrets / "broker/passwords").stat().st_mode & 0o777, 0o400)
+        self.assertNotIn("AR07", self.prepare("--vehicle", "AR07").stdout)
+
+        # A password that only the vehicle has stays valid.
+        (self.secrets / "vehicles/AR07").unlink()
+        self.assertIn("AR07", self.prepare("--vehicle", "AR07").stdout)
+        self.assertFalse((self.secrets / "vehicles/AR07").exists())
+        self.assertEqual(self.list_accounts(), ["acsd", "LR01", "AR07", "AR08"])
+
+    def test_a_run_without_vehicles_adds_none(self):
+        shutil.rmtree(self.secrets)
+        self.prepare("--vehicle", "AR07")
+        self.prepare()
+        self.assertEqual(self.list_accounts(), ["acsd", "AR07"])
+        self.assertFalse((self.secrets / "vehicles/LR01").exists())
+
 
 class Programs(ComposeCase):
     """The services of this machine with the files of the containers."""
