@@ -71,6 +71,15 @@ class Packages(unittest.TestCase):
         deb = next(PACKAGES.glob("acsd_*.deb"))
         self.assertEqual(run("dpkg-deb", "-I", deb, "conffiles").stdout.split(), ["/etc/acsd/acsd.toml", "/etc/acsd/site.lif.json"])
 
+    def test_programs_among_the_documents_are_executable(self):
+        """Those of the repository, such as deploy/prepare."""
+        docs = self.extract() / "usr/share/doc/acs"
+        programs = {path.relative_to(REPOSITORY) for folder in ("deploy", "monitoring") for path in (REPOSITORY / folder).rglob("*")
+                    if path.is_file() and path.stat().st_mode & 0o111 and "__pycache__" not in path.parts}
+        self.assertIn(pathlib.PurePath("deploy/prepare"), programs)
+        for name in programs:
+            self.assertEqual((docs / name).stat().st_mode & 0o777, 0o755, name)
+
     def test_links_of_the_documents(self):
         """Every page has its target; sources of the repository are in the site only."""
         docs = (self.extract() / "usr/share/doc/acs").resolve()
