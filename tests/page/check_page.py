@@ -87,7 +87,8 @@ class Texts(unittest.TestCase):
 
     def test_remedies_are_those_of_acsctl(self):
         source = (PAGE.parent.parent / "acsctl" / "why" / "WhyExplainer.cpp").read_text(encoding="utf-8")
-        for key in ("remedy.mqtt", "remedy.mcs", "remedy.registration", "cause.refused", "remedy.refused"):
+        for key in ("remedy.mqtt", "remedy.mcs", "remedy.registration", "cause.refused", "cause.retried", "remedy.refused",
+                    "remedy.refusedOther"):
             self.assertIn(f'"{read_texts("en")[key]}"', source, key)
 
     def test_korean_texts_fit_every_id(self):

@@ -42,7 +42,8 @@ LINKS = [{"name": "mcs", "up": True, "reason": None, "since": "2026-11-27T20:10:
 STATUS = {"version": "0.1.0", "startedAt": "2026-11-27T20:00:00.000Z", "uptimeSeconds": 11400, "ready": False,
           "notReadyReasons": ["The MQTT broker is not connected."], "isConnected": False, "links": LINKS, "tsc": "Paused",
           "tscReason": "Paused by kim.", "outbox": {"reports": 3, "oldest": "2026-11-27T23:09:50.000Z"},
-          "refusedReports": {"count": 1, "last": {"command": "PlanReport", "planId": "PLAN_1", "message": "unknown plan"}},
+          "refusedReports": {"count": 1, "last": {"command": "PlanReport", "planId": "PLAN_1", "message": "unknown plan",
+                                                  "retried": False}},
           "plans": {"active": 1, "waiting": 1}, "robots": {"total": 2, "byStatus": {"Moving": 1, "Stopped": 1}},
           "alarms": {"heavy": 1, "light": 0}, "siteRevision": 1}
 SITE = {"nodes": [{"nodeId": "N1", "x": 0, "y": 0, "mapId": "M"}, {"nodeId": "N2", "x": 1, "y": 0, "mapId": "M"}],

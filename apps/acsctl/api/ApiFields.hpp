@@ -36,7 +36,8 @@ struct JsonFields<Acsctl::RefusedReport>
     static constexpr auto FIELDS = std::make_tuple(
         Defaulted("command", &T::command),
         Nullable("planId", &T::planID),
-        Defaulted("message", &T::message));
+        Defaulted("message", &T::message),
+        Defaulted("retried", &T::bRetried));
 };
 
 template <>

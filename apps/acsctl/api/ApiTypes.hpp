@@ -33,6 +33,7 @@ struct RefusedReport
     std::string command;
     std::optional<std::string> planID;
     std::string message;
+    bool bRetried = false;
 };
 
 struct RefusedReportsInfo

@@ -289,8 +289,11 @@ void WhyExplainer::AddRefusedReport(std::string_view planID, std::vector<Cause>&
              refused.last->command,
              plan,
              refused.last->message)),
-         "The state of the MCS differs from that of acsd. Refused reports are not sent again.",
-         {"Correct the plan in the MCS; its log has the reason."}});
+         refused.last->bRetried
+             ? "The state of the MCS differs from that of acsd. Refused reports are sent again after the next registration."
+             : "The state of the MCS differs from that of acsd. Refused reports are not sent again.",
+         {refused.last->planID.has_value() ? "Correct the plan in the MCS; its log has the reason."
+                                           : "Correct the cause in the MCS; its log has the reason."}});
 }
 
 } // namespace ACS::Acsctl

@@ -394,6 +394,7 @@ void McsGateway::HandleRefusal(const Protocol::Acked& acked, const SentReport& s
     _refusedReports.command = GetText(acked.command);
     _refusedReports.planID = sent.planID;
     _refusedReports.message = acked.message;
+    _refusedReports.bRetried = _style.bRefusedReportsRetried;
     _log.Write(
         _clock.GetNow().steady,
         Core::ELogLevel::Warning,

@@ -13,9 +13,10 @@ namespace ACS::Acsd
 struct RefusedReports
 {
     std::uint64_t count = 0;
-    std::string command; ///< Of the last one, as are the next two: "JobReport"
-    std::string planID;  ///< Empty if it is not about a plan.
-    std::string message; ///< The reason that the MCS gave.
+    std::string command;   ///< Of the last one, as are the next three: "JobReport"
+    std::string planID;    ///< Empty if it is not about a plan.
+    std::string message;   ///< The reason that the MCS gave.
+    bool bRetried = false; ///< It is sent again after the next registration (`mcs.on_report_nack`).
     std::array<std::uint64_t, Protocol::COMMAND_COUNT> byCommand{};
 };
 

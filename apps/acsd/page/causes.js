@@ -53,10 +53,16 @@ function makeBlockCause({kind, id, reason, since}) {
         selection: {kind, id}};
 }
 
+/** {cause, remedy} of a refused report; both are those of acsctl why. */
+export function describeRefusal(report) {
+    return {cause: t(report.retried ? "cause.retried" : "cause.refused"),
+        remedy: t(report.planId === null ? "remedy.refusedOther" : "remedy.refused")};
+}
+
 function makeRefusedCause(status) {
     const {last} = status.refusedReports;
     return {key: "refused", title: t("cause.refusedReports"), reason: [last.command, last.message].filter(Boolean).join(": "),
-        cause: t("cause.refused"), remedy: t("remedy.refused")};
+        ...describeRefusal(last)};
 }
 
 function isStopped(plan) {

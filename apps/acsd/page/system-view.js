@@ -1,7 +1,7 @@
 // acsd itself: ready state, links, TSC, outbox, and the session of the user.
 
 import {post} from "./api.js";
-import {describeLinkRemedy} from "./causes.js";
+import {describeLinkRemedy, describeRefusal} from "./causes.js";
 import {Commands, makeCommandButton} from "./commands.js";
 import {forgetLogin, hasLoggedIn} from "./dialogs.js";
 import {make, makeFact, makeLink, setHidden, showChildren} from "./dom.js";
@@ -73,10 +73,11 @@ export class SystemView {
         add("system.outbox", t("system.reports", {n: status.outbox.reports}), " ",
             status.outbox.oldest ? makeSince(status.outbox.oldest) : null);
         const refused = status.refusedReports;
+        const refusal = refused.last ? describeRefusal(refused.last) : null;
         add("system.refused", String(refused.count),
             refused.last ? make("p", {class: "reason", text: [refused.last.command, refused.last.planId, refused.last.message]
                 .filter(Boolean).join(" · ")}) : null,
-            refused.last ? makeExplanation(t("cause.refused"), t("remedy.refused")) : null);
+            refusal ? makeExplanation(refusal.cause, refusal.remedy) : null);
         const blockRows = [...blocks].map(([key, {kind, id, reason}]) => make("li", {"data-key": key},
             makeLink(this.context.select, kind, id, `${t(`kind.${kind}`)} ${id}`), reason ? ` ${reason}` : ""));
         add("system.blocked", blocks.size === 0 ? "–" : make("ul", {class: "reasons"}, ...blockRows));

@@ -203,7 +203,9 @@ export default {
     "cause.blocked": "{kind} {id} is blocked.",
     "cause.refusedReports": "The MCS has refused reports.",
     "cause.refused": "The state of the MCS differs from that of acsd. Refused reports are not sent again.",
+    "cause.retried": "The state of the MCS differs from that of acsd. Refused reports are sent again after the next registration.",
     "remedy.refused": "Correct the plan in the MCS; its log has the reason.",
+    "remedy.refusedOther": "Correct the cause in the MCS; its log has the reason.",
 
     "place.blocked": "Blocked",
     "place.noReason": "no reason given",

@@ -203,7 +203,9 @@ export default {
     "cause.blocked": "{kind} {id}: 사용 금지",
     "cause.refusedReports": "MCS가 보고를 거부했습니다.",
     "cause.refused": "MCS의 상태가 acsd와 다릅니다. 거부된 보고는 다시 전송하지 않습니다.",
+    "cause.retried": "MCS의 상태가 acsd와 다릅니다. 거부된 보고는 다음 등록 후 다시 전송합니다.",
     "remedy.refused": "MCS에서 Plan을 수정하십시오. 사유는 MCS 로그에 있습니다.",
+    "remedy.refusedOther": "MCS에서 원인을 해결하십시오. 사유는 MCS 로그에 있습니다.",
 
     "place.blocked": "사용 금지",
     "place.noReason": "사유 없음",

@@ -180,7 +180,7 @@ StatusView StateViewMaker::MakeStatus(const ProgramState& program, Core::WallTim
     if (program.refusedReports.count > 0)
     {
         const RefusedReports& refused = program.refusedReports;
-        status.refusedReports.last = {refused.command, TextOrNull(refused.planID), refused.message};
+        status.refusedReports.last = {refused.command, TextOrNull(refused.planID), refused.message, refused.bRetried};
     }
     const std::vector<Planning::Alarm>& alarms = _engine.GetActiveAlarms();
     status.alarms.heavy =

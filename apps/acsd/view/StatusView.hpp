@@ -37,6 +37,7 @@ struct RefusedReportView
     std::string command;
     std::optional<std::string> planID;
     std::string message;
+    bool bRetried = false; ///< RefusedReports::bRetried
 
     bool operator==(const RefusedReportView&) const = default;
 };

@@ -198,7 +198,8 @@ struct JsonFields<Acsd::RefusedReportView>
     static constexpr auto FIELDS = std::make_tuple(
         Required("command", &Acsd::RefusedReportView::command),
         Nullable("planId", &Acsd::RefusedReportView::planID),
-        Required("message", &Acsd::RefusedReportView::message));
+        Required("message", &Acsd::RefusedReportView::message),
+        Required("retried", &Acsd::RefusedReportView::bRetried));
 };
 
 template <>

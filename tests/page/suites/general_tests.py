@@ -132,6 +132,20 @@ class Header(PageCase):
         self.assertNotIn("Log out", self.get_text("#view-system"))
         self.assertEqual([node for node in self.find_all("#view-system .session") if node.is_displayed()], [], "nor its frame")
 
+    def test_the_system_view_explains_refused_reports(self):
+        last = {"command": "ErrorReport", "planId": None, "message": "unknown code", "retried": False}
+        with self.mock.lock:
+            self.mock.refused.update(count=1, last=last)
+        self.open("?lang=en")
+        self.click("#tab-system")
+        for text in ("ErrorReport · unknown code", "Refused reports are not sent again.",
+                     "Correct the cause in the MCS; its log has the reason."):
+            self.wait_for_text("#view-system", text)
+        with self.mock.lock:
+            self.mock.refused.update(last={**last, "planId": "P1", "retried": True})
+        for text in ("Refused reports are sent again after the next registration.", "Correct the plan in the MCS; its log has the reason."):
+            self.wait_for_text("#view-system", text)
+
     def test_the_system_view_names_the_connected_broker(self):
         self.open()
         self.click("#tab-system")

@@ -435,8 +435,10 @@ class Causes(PlanCase):
         wait_until(lambda: self.get_text("#detail .alarms") == "", "no cause is left")
 
     def test_refused_reports_of_a_plan(self):
-        refused = {"count": 2, "last": {"command": "StepReport", "planId": self.plan.plan_id, "message": "unknown step"}}
+        last = {"command": "StepReport", "planId": self.plan.plan_id, "message": "unknown step", "retried": False}
         self.select("plan", self.plan.plan_id)
-        self.change(lambda _: self.mock.refused.update(refused))
+        self.change(lambda _: self.mock.refused.update(count=2, last=last))
         self.wait_for_texts("#detail .alarms", "The MCS has refused reports.", "StepReport: unknown step",
-                            "Correct the plan in the MCS; its log has the reason.")
+                            "Refused reports are not sent again.", "Correct the plan in the MCS; its log has the reason.")
+        self.change(lambda _: self.mock.refused.update(count=3, last={**last, "retried": True}))
+        self.wait_for_texts("#detail .alarms", "Refused reports are sent again after the next registration.")

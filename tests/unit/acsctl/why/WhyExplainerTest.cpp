@@ -259,7 +259,7 @@ TEST_CASE("An unfinished plan is explained with the alarm of a store that fails"
 TEST_CASE("A report that the MCS has refused is explained with its plan, and for acsd without need of attention")
 {
     WhyFixture line;
-    line.snapshot.status.refusedReports = {3, Acsctl::RefusedReport{"JobReport", "P1", "unknown job"}};
+    line.snapshot.status.refusedReports = {3, Acsctl::RefusedReport{"JobReport", "P1", "unknown job", false}};
     const Acsctl::PlanInfo plan = line.AddPlan("P1", "InProgress");
     const Acsctl::PlanInfo other = line.AddPlan("P2", "InProgress");
     const std::string refused =
@@ -322,7 +322,7 @@ TEST_CASE("A robot is explained with the links that are down, a store that fails
     line.AddPlan("P1", "InProgress").robotID = "LR01"; // its work continues
     line.snapshot.robots[0].planID = "P1";
     CHECK_FALSE(explain().NeedsAttention());
-    line.snapshot.status.refusedReports = {1, Acsctl::RefusedReport{"JobReport", "P1", "unknown job"}};
+    line.snapshot.status.refusedReports = {1, Acsctl::RefusedReport{"JobReport", "P1", "unknown job", false}};
     CHECK_THAT(PrintText(explain()), Catch::Contains("The MCS has refused reports"));
     CHECK_FALSE(explain().NeedsAttention());
     line.snapshot.plans.clear();
@@ -457,6 +457,28 @@ TEST_CASE("The end of a maintenance is the remedy after the alarms of the robot"
     CHECK_THAT(
         PrintText(line.Make().ExplainPlan(line.snapshot.plans[0])),
         Catch::Contains("  Robot LR01: in maintenance.\n    Remedy: When it may move: acsctl maintenance LR01 off\n"));
+}
+
+TEST_CASE("A refused report is final or sent again, and may be of no plan")
+{
+    WhyFixture line;
+    line.AddPlan("P1", "Paused");
+    Acsctl::RefusedReport& last = line.snapshot.status.refusedReports.last.emplace();
+    line.snapshot.status.refusedReports.count = 1;
+    last.command = "ErrorReport";
+    last.message = "unknown code";
+    std::string text = PrintText(line.Make().ExplainAll());
+    CHECK_THAT(text, Catch::Contains("Refused reports are not sent again.") && !Catch::Contains("Correct the plan"));
+    CHECK_THAT(text, Catch::Contains("Remedy: Correct the cause in the MCS; its log has the reason.\n"));
+
+    last.command = "JobReport";
+    last.planID = "P1";
+    last.bRetried = true;
+    text = PrintText(line.Make().ExplainAll());
+    CHECK_THAT(text, Catch::Contains("Refused reports are sent again after the next registration."));
+    CHECK_THAT(
+        text,
+        Catch::Contains("Correct the plan in the MCS; its log has the reason.") && !Catch::Contains("not sent again"));
 }
 
 TEST_CASE("The ids in the commands of remedies are quoted for a shell")

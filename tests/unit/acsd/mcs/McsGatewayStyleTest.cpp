@@ -208,6 +208,7 @@ TEST_CASE_METHOD(
     CHECK(gateway.GetRefusedReports().command == "PlanReport");
     CHECK(gateway.GetRefusedReports().planID == "P");
     CHECK(gateway.GetRefusedReports().message == "no");
+    CHECK(gateway.GetRefusedReports().bRetried == bRetried);
     CHECK(GetForgotten() == (bRetried ? std::vector<std::uint64_t>{} : std::vector<std::uint64_t>{1}));
     if (bRetried)
     {

@@ -100,6 +100,7 @@ TEST_CASE("The status has links with reason and time, counts, and isConnected as
     reader.program.refusedReports.count = 3;
     reader.program.refusedReports.command = "JobReport";
     reader.program.refusedReports.message = "unknown job";
+    reader.program.refusedReports.bRetried = true;
     reader.now += std::chrono::seconds(10);
     status = reader.Get("/v1/status");
     CHECK(HasText(status, R"("ready":true,"notReadyReasons":[],"isConnected":true)"));
@@ -109,7 +110,7 @@ TEST_CASE("The status has links with reason and time, counts, and isConnected as
             + R"(,"broker":"mqtt://broker:1883"})"));
     CHECK(HasText(
         status,
-        R"("refusedReports":{"count":3,"last":{"command":"JobReport","planId":null,"message":"unknown job"}})"));
+        R"("refusedReports":{"count":3,"last":{"command":"JobReport","planId":null,"message":"unknown job","retried":true}})"));
 }
 
 TEST_CASE("A plan is shown with its steps, its jobs, and why and since when it waits")
