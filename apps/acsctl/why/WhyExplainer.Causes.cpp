@@ -31,6 +31,21 @@ std::string MakeListKey(const std::vector<RobotReason>& robots)
     return key;
 }
 
+/// Without the sentence that takes a robot out of service.
+std::string DropMaintenance(const std::string& remedy)
+{
+    const std::size_t found = remedy.find("maintenance ROBOT on");
+    if (found == std::string::npos)
+    {
+        return remedy;
+    }
+    const std::size_t before = remedy.rfind(". ", found);
+    const std::size_t after = remedy.find(". ", found);
+    const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+    const std::string rest = remedy.substr(0, begin) + (after == std::string::npos ? "" : remedy.substr(after + 1));
+    return rest.starts_with(' ') ? rest.substr(1) : rest;
+}
+
 /// The wait reason of a paused plan with its id, if that reason states the pause; otherwise the state.
 std::string DescribePause(const PlanInfo& plan, bool bStated)
 {
@@ -379,9 +394,12 @@ Cause WhyExplainer::MakeAlarmCause(const AlarmInfo& alarm, std::size_t depth) co
             message)),
         MakeSentence(alarm.cause),
         {}};
-    if (!alarm.remedy.empty())
+    const RobotInfo* const robotOrNull = FindRobotOrNull(alarm.robotID);
+    const std::string remedy =
+        robotOrNull != nullptr && robotOrNull->bMaintenance ? DropMaintenance(alarm.remedy) : alarm.remedy;
+    if (!remedy.empty())
     {
-        cause.remedy.push_back(MakeSentence(alarm.remedy));
+        cause.remedy.push_back(MakeSentence(remedy));
     }
     return cause;
 }

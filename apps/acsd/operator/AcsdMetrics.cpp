@@ -51,6 +51,7 @@ constexpr const char* TSC_STATE = "acsd_tsc_state";
 constexpr const char* ALARMS = "acsd_alarms_active";
 constexpr const char* ALARMS_BY_CODE = "acsd_alarms_by_code";
 constexpr const char* ROBOT_BATTERY = "acsd_robot_battery";
+constexpr const char* ROBOT_MAINTENANCE = "acsd_robot_maintenance";
 constexpr const char* COMMITS = "acsd_store_commit_seconds";
 constexpr const char* STORE_FAILING = "acsd_store_failing";
 constexpr const char* STORE_LOG = "acsd_store_log_bytes";
@@ -131,6 +132,7 @@ AcsdMetrics::AcsdMetrics(Apps::MetricsEndpoint& metrics, Core::Now now)
     _metrics.AddGauge(ALARMS, "Active alarms, by level");
     _metrics.AddGauge(ALARMS_BY_CODE, "Active alarms, by robot, code and level");
     _metrics.AddGauge(ROBOT_BATTERY, "Charge in percent");
+    _metrics.AddGauge(ROBOT_MAINTENANCE, "1 while the robot is in maintenance");
     _metrics.AddHistogram(
         COMMITS,
         "Time from a batch of changes to its commit",
@@ -271,6 +273,10 @@ void AcsdMetrics::UpdatePlans(const Planning::PlanEngine& engine, bool bStoreFai
     for (const Planning::RobotPose& pose : engine.GetRobotPoses())
     {
         _metrics.SetGauge(ROBOT_BATTERY, {{"robot", pose.robotID}}, pose.batteryPercent);
+    }
+    for (const Planning::RobotStatus& robot : engine.GetRobotStatuses())
+    {
+        _metrics.SetGauge(ROBOT_MAINTENANCE, {{"robot", robot.robotID}}, robot.bInMaintenance ? 1.0 : 0.0);
     }
 }
 

@@ -459,6 +459,21 @@ TEST_CASE("The end of a maintenance is the remedy after the alarms of the robot"
         Catch::Contains("  Robot LR01: in maintenance.\n    Remedy: When it may move: acsctl maintenance LR01 off\n"));
 }
 
+TEST_CASE("A robot that is in maintenance is not to be taken out of service")
+{
+    WhyFixture line;
+    Acsctl::AlarmInfo alarm = MakeAlarm("LR01", "ACS-1002", "Robot disconnected");
+    alarm.remedy = "Check the robot. If it has left the floor, run `acsctl maintenance ROBOT on`.";
+    line.snapshot.alarms.push_back(alarm);
+    CHECK_THAT(PrintText(line.Make().ExplainRobot(line.snapshot.robots[0])), Catch::Contains("maintenance ROBOT on"));
+    line.snapshot.robots[0].bMaintenance = true;
+    const std::string text = PrintText(line.Make().ExplainRobot(line.snapshot.robots[0]));
+    CHECK_THAT(text, Catch::Contains("Remedy: Check the robot.\n") && !Catch::Contains("maintenance ROBOT on"));
+
+    line.snapshot.alarms[0].remedy = "Run `acsctl maintenance ROBOT on`.";
+    CHECK_THAT(PrintText(line.Make().ExplainRobot(line.snapshot.robots[0])), !Catch::Contains("maintenance ROBOT on"));
+}
+
 TEST_CASE("A refused report is final or sent again, and may be of no plan")
 {
     WhyFixture line;

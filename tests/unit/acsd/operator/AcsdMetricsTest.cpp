@@ -103,6 +103,22 @@ TEST_CASE("acsd is ready while every link is up and nothing else prevents it")
     CHECK_THAT(endpoint.Render(), Contains("acsd_ready 0\n") && Contains("acsd_link_up{link=\"mqtt\"} 0\n"));
 }
 
+TEST_CASE("The maintenance of each robot has a series, also of one that is not connected")
+{
+    Testing::PlanWorld world;
+    Apps::MetricsEndpoint endpoint;
+    AcsdMetrics metrics(endpoint, world.GetNow());
+    const auto render = [&] {
+        metrics.UpdatePlans(*world.engine, false, world.GetNow());
+        return endpoint.Render();
+    };
+    CHECK_THAT(render(), Contains("acsd_robot_maintenance{robot=\"LR01\"} 0\n"));
+    world.Ask(Planning::SetMaintenance{"LR01", true, 0});
+    CHECK_THAT(render(), Contains("acsd_robot_maintenance{robot=\"LR01\"} 1\n"));
+    world.Ask(Planning::SetMaintenance{"LR01", false, 0});
+    CHECK_THAT(render(), Contains("acsd_robot_maintenance{robot=\"LR01\"} 0\n"));
+}
+
 TEST_CASE("An alarm has its series while it is active")
 {
     Testing::PlanWorld world;
