@@ -17,9 +17,9 @@ SECTION = re.compile(r"^(Options|Subcommands|Positionals):$")
 # Upper case that is no model or version such as HA006B-01.
 PLACEHOLDER = re.compile(r"(?<![0-9A-Z.-])[A-Z]{2,}(?![0-9A-Z.-])")
 RANGE = re.compile(r"UINT in \[(\S+) - (\S+)\]")
-# The documents are installed elsewhere.
+# The documents are installed elsewhere, and the example site by acs-sims.
 INSTALLED = ((re.compile(r"\bdocs/(?=reference/|guide/)"), "/usr/share/doc/acs/docs/"),
-             (re.compile(r"\bexamples/site/"), "/usr/share/acs/site/"))
+             (re.compile(r"\bexamples/site/(?!\S+ of the sources)"), "/usr/share/acs/site/"))
 
 
 def run_help(program, words):

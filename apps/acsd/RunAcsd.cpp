@@ -189,7 +189,10 @@ int Run(int argc, const char* const* argv, const RobotDrivers& drivers)
         "Executes the ExecutionPlans of an MCS (MCS-ACS): drives robots over VDA5050, controls arms over Open Stream, and "
         "reports every change of state to the MCS.",
         NAME};
-    app.add_option("--config", options.configFile, "configuration (TOML); examples/site/acsd.toml explains every key")
+    app.add_option(
+           "--config",
+           options.configFile,
+           "configuration (TOML); /etc/acsd/acsd.toml of the package, or examples/site/acsd.toml of the sources, explains every key")
         ->required()
         ->type_name("FILE");
     app.add_option(

@@ -307,6 +307,25 @@ class ManPages(PackageCase):
                 missing = [option for option in options if not re.search(rf"(?<![\w-]){re.escape(option)}(?![\w-])", page)]
                 self.assertEqual(missing, [])
 
+    @staticmethod
+    def is_installed(path, package):
+        """Whether the package of the program has the file, or its installation makes it, or acs-doc has it."""
+        documents, examples = "/usr/share/doc/acs", "/usr/share/acs/"
+        if path.startswith(documents):
+            return (REPOSITORY / path.removeprefix(documents).lstrip("/")).exists()
+        if path.startswith(examples):
+            return package == "acs-sims" and (REPOSITORY / "examples" / path.removeprefix(examples)).exists()
+        return path.startswith("/etc/acsd/")
+
+    def test_each_file_that_a_page_names_is_in_its_package(self):
+        packages = {program: file.stem for file in DEBIAN.glob("*.install")
+                    for program in re.findall(r"^usr/bin/(\S+)$", file.read_text(encoding="utf-8"), re.MULTILINE)}
+        for program in self.list_programs():
+            text = self.make_page(program).read_text(encoding="utf-8").replace("\\-", "-")
+            for path in re.findall(r"(?:/usr/share|/etc)/[\w./-]*\w", text):
+                with self.subTest(program=program, path=path):
+                    self.assertTrue(self.is_installed(path, packages[program]))
+
 
 class Completions(PackageCase):
     def complete(self, *words):
