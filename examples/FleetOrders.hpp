@@ -177,6 +177,17 @@ public:
         return bWritten;
     }
 
+    /// The cancel has failed: the order stays, and a new start does not cancel it either.
+    [[nodiscard]] bool TryForgetCancel(const std::string& vehicle)
+    {
+        const bool bWritten = TryWrite("kept", vehicle, {});
+        if (bWritten)
+        {
+            GetFirstOrNull(vehicle)->bCancelAsked = false;
+        }
+        return bWritten;
+    }
+
     [[nodiscard]] bool TryEnd(const std::string& vehicle)
     {
         const bool bWritten = TryWrite("ended", vehicle, GetFirstOrNull(vehicle)->route.GetOrderID());
@@ -268,6 +279,10 @@ private:
         else if (line.verb == "cancel")
         {
             firstOrNull->bCancelAsked = true;
+        }
+        else if (line.verb == "kept")
+        {
+            firstOrNull->bCancelAsked = false;
         }
         else if (line.verb == "ended")
         {

@@ -408,9 +408,10 @@ private:
     void OnCancelFailed(std::size_t number, const CancelFailed& failed)
     {
         fmt::print("{}: {} is not cancelled: {}\n", GetName(number), failed.orderID, failed.reason);
-        if (FleetOrder* const orderOrNull = _orders.GetFirstOrNull(GetName(number)))
+        const FleetOrder* const orderOrNull = _orders.GetFirstOrNull(GetName(number));
+        if (orderOrNull != nullptr && orderOrNull->bCancelAsked)
         {
-            orderOrNull->bCancelAsked = false;
+            std::ignore = _orders.TryForgetCancel(GetName(number));
         }
     }
 
