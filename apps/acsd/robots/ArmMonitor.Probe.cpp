@@ -63,13 +63,13 @@ void ArmMonitor::EndEffect(AdapterActions& out)
 ArmFact ArmMonitor::OnProbeTimer(std::optional<EArmProbe> wantedOrNull, AdapterActions& out)
 {
     StartProbeTimer(out);
-    if (_link != ELink::Ready)
-    {
-        return {};
-    }
     if (const Probe* const probeOrNull = std::get_if<Probe>(&_view))
     {
         return AbandonProbe(probeOrNull->bAccepted);
+    }
+    if (_link != ELink::Ready)
+    {
+        return {};
     }
     if (HasLostCounters())
     {

@@ -373,6 +373,11 @@ bool ArmMonitor::TryRetry(AdapterActions& out)
     {
         return false;
     }
+    if (!std::holds_alternative<Counters>(_view) && !std::holds_alternative<Verification>(_view))
+    {
+        StartRetryTimer(out); // the counters are requested again when the effect, the probe or the relays are settled
+        return true;
+    }
     const bool bRefused = std::exchange(_bMonitorRefused, false);
     if (_link == ELink::MotorOff)
     {

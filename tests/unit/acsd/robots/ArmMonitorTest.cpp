@@ -133,6 +133,39 @@ TEST_CASE("A MONITOR of counters that is refused while a CONTROL is verified is 
     CHECK_FALSE(arm.monitor.GetTroubleOrNull().has_value());
 }
 
+TEST_CASE("Counters that are refused while an effect or a probe is observed are requested again after it")
+{
+    MonitorFixture arm;
+    arm.BringUp();
+    SECTION("An effect")
+    {
+        arm.monitor.VerifyEffect(arm.actions);
+        static_cast<void>(arm.Refuse("/project/plc/m/val_s32"));
+        static_cast<void>(arm.TakeMonitors());
+        CHECK(arm.monitor.TryRetry(arm.actions));
+        CHECK(arm.TakeMonitors().empty());
+        CHECK(std::holds_alternative<ArmEffectShown>(arm.Show(R"({"is_playback":0,"cur_prog_no":11})")));
+        arm.monitor.OnEffectTimer();
+        arm.Acknowledge();
+        const ArmFact fact = arm.Show("[5,5,0,11,17]");
+        CHECK(std::get<ArmCounted>(fact).bVerifies);
+        CHECK(std::get<ArmCounted>(fact).stateOrNull.has_value());
+    }
+    SECTION("A probe that is not answered")
+    {
+        arm.monitor.BeginProbe(EArmProbe::Motor, arm.actions);
+        static_cast<void>(arm.Refuse("/project/plc/m/val_s32"));
+        static_cast<void>(arm.TakeMonitors());
+        CHECK(arm.monitor.TryRetry(arm.actions));
+        CHECK(arm.TakeMonitors().empty());
+        const ArmFact fact = arm.monitor.OnProbeTimer(EArmProbe::Motor, arm.actions);
+        REQUIRE(std::holds_alternative<ArmProbed>(fact));
+        CHECK_FALSE(std::get<ArmProbed>(fact).bOnOrNull.has_value());
+        CHECK(arm.monitor.TryRetry(arm.actions));
+        CHECK(arm.TakeMonitors() == std::vector<std::string>{COUNTERS});
+    }
+}
+
 TEST_CASE("An effect is watched until it is shown, refused or too late")
 {
     MonitorFixture arm;
