@@ -35,10 +35,17 @@ void Vda5050RobotAdapter::OnState(Core::Now now, AdapterActions& out)
     out.emplace_back(RaiseEvent{_report.GetState()});
     VerifyLoads(out);
     EvaluateInterruption(false, out);
-    CancelAbandoned(now);
     if (bOccupied && _session.GetOrderPhase() == VDA5050::EOrderPhase::None)
     {
         _foreignOrder.Cancel(_session, now, _sessionActions);
+    }
+}
+
+void Vda5050RobotAdapter::CancelAbandoned(Core::Now now)
+{
+    if (IsDrive(_session.GetOrderID()) && _drive->IsCancelDue(now))
+    {
+        static_cast<void>(_session.Cancel(now, _sessionActions));
     }
 }
 

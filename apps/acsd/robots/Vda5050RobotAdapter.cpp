@@ -247,14 +247,6 @@ void Vda5050RobotAdapter::AbandonDrive(const std::string& reason, Core::Now now,
     CancelAbandoned(now);
 }
 
-void Vda5050RobotAdapter::CancelAbandoned(Core::Now now)
-{
-    if (_drive.has_value() && _drive->GetAbandonReasonOrNull().has_value() && IsDrive(_session.GetOrderID()))
-    {
-        static_cast<void>(_session.Cancel(now, _sessionActions));
-    }
-}
-
 bool Vda5050RobotAdapter::IsOccupied() const
 {
     const std::string& orderID = _session.GetOrderID();
@@ -307,6 +299,7 @@ void Vda5050RobotAdapter::Drain(Core::Now now, AdapterActions& out)
         {
             HandleAction(action, now, out);
         }
+        CancelAbandoned(now);
         if (!_drive.has_value() && _nextDrive.has_value())
         {
             StartDrive(*std::exchange(_nextDrive, std::nullopt), now, out);
@@ -364,6 +357,12 @@ void Vda5050RobotAdapter::HandleAction(const VDA5050::MasterAction& action, Core
             },
             [&](const VDA5050::OrderFinished& finished) { OnFinished(finished.orderID, now, out); },
             [&](const VDA5050::OrderCancelled& cancelled) { OnCancelled(cancelled.orderID, now, out); },
+            [&](const VDA5050::CancelFailed& failed) {
+                if (IsDrive(failed.orderID))
+                {
+                    _drive->OnCancelRefused(now);
+                }
+            },
             [](const auto&) {
             }},
         action);

@@ -144,7 +144,7 @@ private:
 
     /// The vehicle has accepted the drive, which cannot be continued. It is reported as rejected when the vehicle has stopped.
     void AbandonDrive(const std::string& reason, Core::Now now, Planning::AdapterActions& out);
-    /// With each state, because the vehicle may have been disconnected or have refused it.
+    /// After each event that finds it due, because the vehicle may have been disconnected or have refused it.
     void CancelAbandoned(Core::Now now);
 
     [[nodiscard]] bool IsJobRunning(const VDA5050::StateMessage& state) const;

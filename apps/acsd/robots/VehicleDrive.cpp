@@ -231,6 +231,7 @@ void VehicleDrive::OnNodePassed(std::string nodeID)
 {
     _lastPassedNodeID = std::move(nodeID);
     ++_passedCount;
+    _cancelRefusedAt.reset();
 }
 
 void VehicleDrive::OnActionFinished(std::string_view actionID)
@@ -281,6 +282,17 @@ void VehicleDrive::Abandon(std::string reason)
 const std::optional<std::string>& VehicleDrive::GetAbandonReasonOrNull() const noexcept
 {
     return _abandonReason;
+}
+
+void VehicleDrive::OnCancelRefused(Core::Now now)
+{
+    _cancelRefusedAt = now.steady;
+}
+
+bool VehicleDrive::IsCancelDue(Core::Now now) const
+{
+    return _abandonReason.has_value()
+        && (!_cancelRefusedAt.has_value() || now.steady - *_cancelRefusedAt >= CANCEL_PAUSE);
 }
 
 const std::optional<std::string>& VehicleDrive::GetFailureOrNull() const noexcept

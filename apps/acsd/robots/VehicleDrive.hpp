@@ -1,10 +1,12 @@
 #pragma once
 
+#include <acs/core/Now.hpp>
 #include <acs/core/Result.hpp>
 #include <acs/plan/RobotCommand.hpp>
 #include <acs/vda5050/OrderBuilder.hpp>
 #include <acs/vda5050/OrderMessage.hpp>
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -32,6 +34,8 @@ class VehicleDrive final
 public:
     /// An error whose path begins with "max" means that the message is too large.
     using OrderCheck = std::function<Core::Result<void>(const VDA5050::OrderMessage&)>;
+    /// Time from a refused cancelOrder to the next one at the same node. A vehicle reports each refusal by a state.
+    static constexpr std::chrono::seconds CANCEL_PAUSE{10};
 
 private:
     /// A REQUIRED action of the map that the vehicle has not finished.
@@ -50,6 +54,7 @@ private:
     std::string _lastPassedNodeID;
     bool _bShortUpdate = false; ///< The vehicle has rejected an update, and has confirmed none since.
     std::optional<std::string> _abandonReason;
+    std::optional<Core::SteadyTime> _cancelRefusedAt; ///< Since it passed its last node.
     std::optional<std::string> _failure;
     std::vector<OpenAction> _openActions;
 
@@ -92,6 +97,10 @@ public:
     /// The drive is being cancelled for this reason. It is reported as rejected when the vehicle has stopped.
     void Abandon(std::string reason);
     [[nodiscard]] const std::optional<std::string>& GetAbandonReasonOrNull() const noexcept;
+    /// The vehicle has refused to cancel it.
+    void OnCancelRefused(Core::Now now);
+    /// It is abandoned, and the vehicle has passed a node or CANCEL_PAUSE has elapsed since it refused to cancel it.
+    [[nodiscard]] bool IsCancelDue(Core::Now now) const;
     /// Why the drive was not executed although the vehicle has reached its end: it is abandoned, or an action failed.
     [[nodiscard]] const std::optional<std::string>& GetFailureOrNull() const noexcept;
 

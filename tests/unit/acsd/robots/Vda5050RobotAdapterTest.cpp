@@ -401,10 +401,15 @@ TEST_CASE("A drive that is abandoned and cannot be cancelled yet is cancelled ag
         CHECK(std::ranges::count(cancelIDs, sent->actions[0].actionID) == 0);
         cancelIDs.push_back(sent->actions[0].actionID);
         vehicle.state.actionStates = {{cancelIDs.back(), "cancelOrder", "", VDA5050::EActionStatus::Failed, "busy"}};
+        vehicle.outputs.messages.clear();
         vehicle.ShowState();
         vehicle.ShowState();
+        CHECK(vehicle.outputs.messages.empty());
         CHECK(vehicle.TakeEvents<Planning::DriveRejected>().empty());
         CHECK_FALSE(vehicle.TakeEvents<Planning::StateChanged>().back().bOccupied);
+        vehicle.clock.Advance(VehicleDrive::CANCEL_PAUSE);
+        vehicle.ShowState();
+        REQUIRE(vehicle.outputs.messages.size() == 1);
     }
     vehicle.ShowAt("B", 2);
     vehicle.state.nodeStates.erase(vehicle.state.nodeStates.begin());

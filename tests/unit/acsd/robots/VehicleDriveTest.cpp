@@ -88,6 +88,27 @@ TEST_CASE("An abandoned drive is not extended, and keeps the reason")
     CHECK(drive.GetAbandonReasonOrNull() == "no space");
 }
 
+TEST_CASE("An abandoned drive that the vehicle refuses to cancel is cancelled again after a pause or the next node")
+{
+    Testing::ManualClock clock;
+    VehicleDrive drive = MakeSentDrive();
+    CHECK_FALSE(drive.IsCancelDue(clock.GetNow()));
+    drive.Abandon("no space");
+    CHECK(drive.IsCancelDue(clock.GetNow()));
+    drive.OnCancelRefused(clock.GetNow());
+    CHECK_FALSE(drive.IsCancelDue(clock.GetNow()));
+    SECTION("A pause")
+    {
+        clock.Advance(VehicleDrive::CANCEL_PAUSE);
+        CHECK(drive.IsCancelDue(clock.GetNow()));
+    }
+    SECTION("The next node")
+    {
+        drive.OnNodePassed("B");
+        CHECK(drive.IsCancelDue(clock.GetNow()));
+    }
+}
+
 TEST_CASE("A drive knows the node that was passed last")
 {
     VehicleDrive drive = MakeSentDrive();
