@@ -83,19 +83,20 @@ bool ArmProgram::TryRewind(const ArmRefusal& refusal)
     return true;
 }
 
-void ArmProgram::Cancel(const std::string& jobID, AdapterActions& out)
+bool ArmProgram::TryCancel(const std::string& jobID, AdapterActions& out)
 {
     if (jobID != _work.jobID || !HasJob())
     {
-        return;
+        return false;
     }
     if (ArmStates::IsBeforeStart(_state))
     {
         Fail("cancelled before it was started", out);
-        return;
+        return false;
     }
     const bool bRuns = Is<Starting>(_state) || Is<Awaited>(_state) || Is<Running>(_state);
     _work.bCancelled = _work.bCancelled || IsPauseWanted() || !bRuns;
+    return true;
 }
 
 void ArmProgram::Recover(ArmJob job, bool bBegun, bool bCancelled, AdapterActions& out)

@@ -81,8 +81,8 @@ public:
     /// a pause, so that its program is reset.
     void Recover(ArmJob job, bool bBegun, bool bCancelled, Planning::AdapterActions& out);
     /// A running program is never aborted, because it may hold material: its end is reported as usual. A program that is
-    /// stopped for a pause is reset.
-    void Cancel(const std::string& jobID, Planning::AdapterActions& out);
+    /// stopped for a pause is reset. False: it does not have the job, or has ended it.
+    [[nodiscard]] bool TryCancel(const std::string& jobID, Planning::AdapterActions& out);
     void SetPauseWanted(bool bWanted);
     /// Whether the vehicle was reported paused.
     void OnPauseShown(bool bPaused);

@@ -27,6 +27,12 @@ std::int32_t GetEchoedNumber(const Planning::StartJob& job, const ArmJob& made)
 
 void OpenStreamRobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now, AdapterActions& out)
 {
+    if (_program.HasJob())
+    {
+        ReleaseJob(out);
+        out.emplace_back(RaiseEvent{Planning::JobUnknown{job.jobID}}); // commanded again when the robot is not occupied
+        return;
+    }
     _recovery.reset();
     _repetition.reset();
     tl::expected<ArmJob, std::string> made = MakeJob(job);
@@ -56,6 +62,7 @@ void OpenStreamRobotAdapter::StartJob(const Planning::StartJob& job, Core::Now n
         DrainBase(now, out);
         return;
     }
+    _bJobReleased = false;
     _evidence.Begin(GetEchoedNumber(job, *made));
     _program.Start(std::move(*made), out);
 }
@@ -88,11 +95,12 @@ void OpenStreamRobotAdapter::CancelJob(const std::string& jobID, Core::Now now, 
     if (_recovery.has_value() && _recovery->job.jobID == jobID)
     {
         _recovery->bCancelled = _recovery->bCancelled || _program.IsPauseWanted();
+        _recovery->bReleased = true;
         return;
     }
     if (!_repetition.has_value() || _repetition->job.jobID != jobID)
     {
-        _program.Cancel(jobID, out);
+        _bJobReleased = _program.TryCancel(jobID, out) || _bJobReleased;
         Update(out);
         return;
     }
@@ -142,7 +150,15 @@ void OpenStreamRobotAdapter::RecoverJob(AdapterActions& out)
         out.emplace_back(RaiseEvent{Planning::JobUnresolved{job.jobID, begun.error()}});
         return;
     }
+    _bJobReleased = recovery.bReleased;
     _program.Recover({job.jobID, 0, {}}, *begun, recovery.bCancelled, out);
+}
+
+/// It was resolved while the robot was disconnected.
+void OpenStreamRobotAdapter::ReleaseJob(AdapterActions& out)
+{
+    _bJobReleased = true;
+    ReportActivity(out);
 }
 
 } // namespace ACS::Acsd

@@ -43,6 +43,7 @@ void OpenStreamRobotAdapter::DrainBase(Core::Now now, AdapterActions& out)
             _program.OnPauseShown(stateOrNull->bPaused);
             _bBaseStateKnown = true;
             _bPaused = IsPaused();
+            _bArmOccupied = IsArmOccupied();
             out.emplace_back(RaiseEvent{MakeState()});
         }
         else if (linkOrNull != nullptr)
@@ -62,6 +63,7 @@ Planning::StateChanged OpenStreamRobotAdapter::MakeState() const
 {
     Planning::StateChanged state = _baseState;
     state.bPaused = _bPaused;
+    state.bOccupied = state.bOccupied || IsArmOccupied();
     state.restartEvidence.progressToken = _evidence.MakeProgressToken();
     if (_trouble.has_value())
     {
@@ -117,9 +119,21 @@ bool OpenStreamRobotAdapter::IsPaused() const
     return (_baseState.bPaused && !_recovery.has_value() && _program.IsArmStopped()) || _program.IsResumeDue();
 }
 
-void OpenStreamRobotAdapter::ReportPaused(AdapterActions& out)
+/// The arm runs the program of a job that was cancelled, or resolved by the operator.
+bool OpenStreamRobotAdapter::IsArmOccupied() const
 {
-    if (_bBaseStateKnown && std::exchange(_bPaused, IsPaused()) != IsPaused())
+    return _bJobReleased && _program.HasJob();
+}
+
+void OpenStreamRobotAdapter::ReportActivity(AdapterActions& out)
+{
+    if (!_bBaseStateKnown)
+    {
+        return;
+    }
+    const bool bPauseChanged = std::exchange(_bPaused, IsPaused()) != IsPaused();
+    const bool bOccupationChanged = std::exchange(_bArmOccupied, IsArmOccupied()) != IsArmOccupied();
+    if (bPauseChanged || bOccupationChanged)
     {
         ReportState(out);
     }

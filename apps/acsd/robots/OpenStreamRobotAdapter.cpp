@@ -41,6 +41,7 @@ void OpenStreamRobotAdapter::Handle(const Planning::RobotCommand& command, Core:
     const Planning::StartJob* jobOrNull = std::get_if<Planning::StartJob>(&command);
     const Planning::RecoverJob* recoverOrNull = std::get_if<Planning::RecoverJob>(&command);
     const Planning::CancelJob* cancelOrNull = std::get_if<Planning::CancelJob>(&command);
+    const Planning::Drive* driveOrNull = std::get_if<Planning::Drive>(&command);
     if (jobOrNull != nullptr)
     {
         StartJob(*jobOrNull, now, out);
@@ -57,6 +58,12 @@ void OpenStreamRobotAdapter::Handle(const Planning::RobotCommand& command, Core:
     else if (cancelOrNull != nullptr)
     {
         CancelJob(cancelOrNull->jobID, now, out);
+    }
+    else if (driveOrNull != nullptr && _program.HasJob())
+    {
+        ReleaseJob(out);
+        out.emplace_back(Planning::RaiseEvent{
+            Planning::DriveRejected{driveOrNull->driveID, "the arm still runs the program of an earlier job"}});
     }
     else
     {
@@ -183,7 +190,7 @@ void OpenStreamRobotAdapter::OnLost(AdapterActions& out)
     _program.OnLost(out);
     if (bHadJob && !_program.HasJob())
     {
-        ReportPaused(out);
+        ReportActivity(out);
     }
 }
 
@@ -213,7 +220,7 @@ void OpenStreamRobotAdapter::OnSettled(const OpenStream::ClientControlSettled& s
     _program.OnSettled(*settlementOrNull, out);
     if (settled.outcome == OpenStream::EControlOutcome::Unknown)
     {
-        ReportPaused(out); // the connection is gone: the program continues when the counters are back
+        ReportActivity(out); // the connection is gone: the program continues when the counters are back
     }
     else
     {
@@ -409,7 +416,7 @@ void OpenStreamRobotAdapter::Update(AdapterActions& out)
     _program.Advance(IsFree(), _monitor.IsProbing(), out);
     ServeProgram(out);
     ReportArm(out);
-    ReportPaused(out);
+    ReportActivity(out);
 }
 
 bool OpenStreamRobotAdapter::IsFree() const

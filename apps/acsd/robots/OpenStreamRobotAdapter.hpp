@@ -41,6 +41,7 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     {
         Planning::StartJob job;
         bool bCancelled = false; ///< During a pause. Otherwise the program continues to its end.
+        bool bReleased = false;  ///< Cancelled at all.
     };
 
     Vda5050RobotAdapter _base;
@@ -55,12 +56,14 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     std::optional<Recovery> _recovery;
 
     std::optional<Repetition> _repetition;
+    bool _bJobReleased = false; ///< The engine may no longer wait for the end of the program's job.
 
     bool _bBaseOnline = false;
     bool _bBaseStateKnown = false;
     Planning::StateChanged _baseState; ///< The latest of the base.
     bool _bOnline = false;             ///< As it was reported last.
     bool _bPaused = false;             ///< Likewise.
+    bool _bArmOccupied = false;        ///< Likewise.
     std::optional<Planning::RobotError> _trouble;
 
 public:
@@ -101,6 +104,8 @@ private:
     void CancelJob(const std::string& jobID, Core::Now now, Planning::AdapterActions& out);
     [[nodiscard]] tl::expected<ArmJob, std::string> MakeJob(const Planning::StartJob& job) const;
     void RecoverJob(Planning::AdapterActions& out);
+    /// The engine has commanded something else although the program of a job may run. Reports the robot as occupied.
+    void ReleaseJob(Planning::AdapterActions& out);
 
     void OnSettled(const OpenStream::ClientControlSettled& settled, Planning::AdapterActions& out);
     void OnFault(const OpenStream::ClientControlFault& fault, Planning::AdapterActions& out);
@@ -125,8 +130,10 @@ private:
     void ReportState(Planning::AdapterActions& out) const;
     void ReportArm(Planning::AdapterActions& out);
     void ReportOnline(Planning::AdapterActions& out);
-    void ReportPaused(Planning::AdapterActions& out);
+    /// Reports the state if the robot is paused or its arm occupied, and was not before, or vice versa.
+    void ReportActivity(Planning::AdapterActions& out);
     [[nodiscard]] bool IsPaused() const;
+    [[nodiscard]] bool IsArmOccupied() const;
 };
 
 } // namespace ACS::Acsd

@@ -227,7 +227,7 @@ TEST_CASE("A job that is cancelled while its program is being selected fails whe
 {
     ProgramFixture arm;
     arm.program.Start({"J", 11, {}}, arm.actions);
-    arm.program.Cancel("J", arm.actions);
+    CHECK(arm.program.TryCancel("J", arm.actions));
     CHECK(arm.actions.empty());
     arm.Settle(EControlOutcome::Accepted);
     CHECK(arm.HasReported<Planning::JobFailed>());

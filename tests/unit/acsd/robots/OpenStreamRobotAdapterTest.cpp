@@ -335,4 +335,64 @@ TEST_CASE("The counters are the progress token of the robot; a job with another 
     CHECK(arm.TakeRequests() == std::vector<std::string>{SELECT});
 }
 
+TEST_CASE("A robot is occupied while its arm runs the program of a cancelled job")
+{
+    const std::string end = GENERATE("[6,6,0]", "[6,5,1]", "[0,0,0]"); // done, failed, controller restarted
+    const bool bRecovered = GENERATE(false, true);
+    ArmFixture arm;
+    const auto cancel = [&arm] {
+        arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+    };
+    if (bRecovered)
+    {
+        Planning::RecoverJob recover;
+        recover.job.jobID = "J";
+        recover.job.action = "TrayLoad";
+        recover.job.progressToken = "5 5 0";
+        arm.adapter.Handle(recover, arm.clock.GetNow(), arm.actions);
+        cancel();
+        arm.ConnectWithBase();
+        arm.Settle(OpenStream::EControlOutcome::Accepted); // motor_on
+        arm.DeliverData(MOTOR_ON_SAMPLE);
+        arm.DeliverData("[6,5,0]");
+    }
+    else
+    {
+        arm.StartRunning();
+        arm.actions.clear();
+        cancel();
+    }
+    REQUIRE_FALSE(arm.TakeEvents<Planning::StateChanged>().empty());
+    CHECK(arm.TakeEvents<Planning::StateChanged>().back().bOccupied);
+    arm.ShowBase(false);
+    CHECK(arm.TakeEvents<Planning::StateChanged>().back().bOccupied);
+    CHECK(arm.TakeEvents<Planning::JobFailed>().empty());
+    arm.DeliverData(end);
+    CHECK_FALSE(arm.TakeEvents<Planning::StateChanged>().back().bOccupied);
+}
+
+TEST_CASE(
+    "A job that was resolved while the arm was away keeps the robot from driving and from other jobs until its end")
+{
+    ArmFixture arm;
+    arm.StartRunning();
+    arm.Deliver(OpenStream::ClientLost{});
+    arm.ComeBack();
+    arm.actions.clear();
+    arm.outputs.messages.clear();
+    arm.adapter.Handle(Planning::Drive{"D", {}, 2}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.outputs.messages.empty());
+    CHECK(arm.TakeEvents<Planning::DriveRejected>().size() == 1);
+    REQUIRE(arm.TakeEvents<Planning::StateChanged>().size() == 1);
+    CHECK(arm.TakeEvents<Planning::StateChanged>().back().bOccupied);
+    arm.Command("K");
+    CHECK(arm.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"K"}});
+    CHECK(arm.TakeRequests().empty());
+    arm.DeliverData("[6,6,0]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
+    CHECK_FALSE(arm.TakeEvents<Planning::StateChanged>().back().bOccupied);
+    arm.Command("K");
+    CHECK(arm.TakeRequests() == std::vector<std::string>{REWIND});
+}
+
 } // namespace ACS::Acsd::Test
