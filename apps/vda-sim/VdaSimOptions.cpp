@@ -153,7 +153,8 @@ std::string CheckActionTimes(const VdaSimOptions& options)
         if (!bKnown)
         {
             return fmt::format(
-                "--action-time {}: no vehicle has this action; change type, ports or profile of one, or remove the option",
+                "--action-time {}: no vehicle has this action; change type, ports, protocol or profile of one, or remove the "
+                "option",
                 actionType);
         }
     }

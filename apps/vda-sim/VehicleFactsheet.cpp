@@ -21,10 +21,21 @@ bool IsOfLoads(const AgvAction& action)
     return action.actionType == VDA5050::ActionTypes::PICK || action.actionType == VDA5050::ActionTypes::DROP;
 }
 
-/// The actions of the standard; pick and drop in the vehicle's form, and only if it has load positions.
-std::vector<AgvAction> MakeActions(bool bHandlesLoads, const LoadHandling& handling)
+bool IsOfMaps(const AgvAction& action)
+{
+    return action.actionType == VDA5050::ActionTypes::ENABLE_MAP
+        || action.actionType == VDA5050::ActionTypes::DOWNLOAD_MAP
+        || action.actionType == VDA5050::ActionTypes::DELETE_MAP;
+}
+
+/// The actions of this version; pick and drop in the vehicle's form, and only if it has load positions.
+std::vector<AgvAction> MakeActions(VDA5050::EVda5050Version version, bool bHandlesLoads, const LoadHandling& handling)
 {
     std::vector<AgvAction> actions = VDA5050::GetPredefinedActions();
+    if (version == VDA5050::EVda5050Version::Version200)
+    {
+        std::erase_if(actions, IsOfMaps); // new in 2.1
+    }
     if (!bHandlesLoads)
     {
         std::erase_if(actions, IsOfLoads);
@@ -129,7 +140,7 @@ VDA5050::FactsheetMessage MakeFactsheet(
     {
         factsheet.loadSpecification.loadPositions.push_back(position.name);
     }
-    factsheet.protocolFeatures.agvActions = MakeActions(!positions.empty(), handling);
+    factsheet.protocolFeatures.agvActions = MakeActions(version, !positions.empty(), handling);
     factsheet.protocolFeatures.optionalParameters = MakeOptionalParameters(version);
     return factsheet;
 }

@@ -12,6 +12,7 @@ from scenario_case import STATUS_SECONDS, TIME_SCALE, main
 from production_line import find_free_port  # which scenario_case makes known
 
 OFFERED = ["deleteMap", "downloadMap", "enableMap", "factsheetRequest", "initPosition", "logReport", "stateRequest"]
+PROTOCOL = "2.1.0"  # with the actions of maps
 
 
 class Actions(AcsctlCase):
@@ -20,14 +21,16 @@ class Actions(AcsctlCase):
         self.line.start_broker()
         self.start_vehicles()
         arm = self.line.start_arm(TIME_SCALE).wait_ready()
-        acsd = self.line.start_acsd(f"127.0.0.1:{find_free_port()}", arm)
+        protocols = [f'robots.{robot_id}.protocol="{PROTOCOL}"' for robot_id in ("LR01", "CR01")]
+        acsd = self.line.start_acsd(f"127.0.0.1:{find_free_port()}", arm, *protocols)
         self.use_acsd(acsd.wait_ready()["operator"])
         self.wait_for_robot("LR01", "Idle")
         with urllib.request.urlopen(self.environment["ACSCTL_URL"] + "/v1/snapshot", timeout=STATUS_SECONDS) as answer:
             self.first_event = json.load(answer)["eventId"]
 
     def start_vehicles(self, *options):
-        self.vehicles = self.line.start_vehicles(TIME_SCALE, ("LR01,type=LR", "CR01,type=CR"), options=options)
+        vehicles = ("LR01,type=LR", "CR01,type=CR")
+        self.vehicles = self.line.start_vehicles(TIME_SCALE, vehicles, options=("--protocol", PROTOCOL, *options))
         self.vehicles.wait_ready()
 
     def switch_vehicles_off(self):

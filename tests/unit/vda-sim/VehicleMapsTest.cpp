@@ -1,0 +1,95 @@
+#include "Catch.hpp"
+#include "vda-sim/VehicleFactsheet.hpp"
+#include "VehicleDriver.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ACS::Testing
+{
+namespace
+{
+
+using namespace std::chrono_literals;
+using VDA5050::ActionParameter;
+using VDA5050::EActionStatus;
+using VDA5050::EVda5050Version;
+namespace ActionTypes = VDA5050::ActionTypes;
+
+ActionParameter MakeMapParameter(std::string_view key, std::string_view value)
+{
+    return {std::string(key), Core::JsonText::FromString(value)};
+}
+
+/// A vehicle at its charger.
+VdaSim::VirtualVehicleOptions MakeMapOptions(EVda5050Version version)
+{
+    VdaSim::VirtualVehicleOptions options = VehicleDriver::MakeOptions("DOCK");
+    options.version = version;
+    return options;
+}
+
+} // namespace
+
+TEST_CASE("6.8.2 Maps are downloaded, enabled and deleted, and a factsheet without a needed parameter refuses them")
+{
+    VehicleDriver driver(MakeMapOptions(EVda5050Version::Version210));
+    const auto send = [&driver](std::string_view type, const std::string& actionID, const std::string& version) {
+        driver.SendInstantly(
+            type,
+            actionID,
+            {MakeMapParameter("mapId", "floor"),
+             MakeMapParameter("mapVersion", version),
+             MakeMapParameter("mapDownloadLink", "http://maps/2")});
+        driver.Pass(2s);
+    };
+    const auto getMaps = [&driver]() {
+        return driver.GetState().maps.value_or(std::vector<VDA5050::MapState>());
+    };
+    send(ActionTypes::DOWNLOAD_MAP, "download", "2");
+    REQUIRE(getMaps().size() == 2);
+    CHECK(getMaps()[1] == VDA5050::MapState{"floor", "2", VDA5050::EMapStatus::Disabled, {}});
+    driver.SendInstantly(
+        ActionTypes::ENABLE_MAP,
+        "enable",
+        {MakeMapParameter("mapId", "floor"), MakeMapParameter("mapVersion", "2")});
+    driver.Pass(2s);
+    CHECK(getMaps()[0].mapStatus == VDA5050::EMapStatus::Disabled);
+    CHECK(getMaps()[1].mapStatus == VDA5050::EMapStatus::Enabled);
+    driver.SendInstantly(
+        ActionTypes::DELETE_MAP,
+        "delete",
+        {MakeMapParameter("mapId", "floor"), MakeMapParameter("mapVersion", "1")});
+    driver.Pass(2s);
+    REQUIRE(getMaps().size() == 1);
+    CHECK(getMaps()[0].mapVersion == "2");
+    driver.SendInstantly(ActionTypes::DELETE_MAP, "without", {MakeMapParameter("mapId", "floor")});
+    driver.Pass(2s);
+    CHECK(driver.GetStatus("without") == EActionStatus::Failed);
+}
+
+TEST_CASE("6.8.2 A vehicle of 2.0.0 has no map actions: they are new in 2.1.0")
+{
+    VehicleDriver driver(MakeMapOptions(EVda5050Version::Version200));
+    const VDA5050::FactsheetMessage factsheet =
+        VdaSim::MakeFactsheet(VdaSim::EVehicleType::Logistics, {}, EVda5050Version::Version200);
+    for (const std::string_view type : {ActionTypes::ENABLE_MAP, ActionTypes::DOWNLOAD_MAP, ActionTypes::DELETE_MAP})
+    {
+        CAPTURE(type);
+        CHECK_FALSE(VDA5050::CanPerform(factsheet, type, VDA5050::EActionScope::Instant));
+        const std::string actionID = "map-" + std::string(type);
+        driver.SendInstantly(type, actionID, {MakeMapParameter("mapId", "floor"), MakeMapParameter("mapVersion", "1")});
+        driver.Pass(2s);
+        CHECK(driver.GetStatus(actionID) == EActionStatus::Failed);
+        const std::vector<VDA5050::VehicleError> errors = driver.GetState().errors;
+        CHECK(std::ranges::any_of(errors, [&actionID](const VDA5050::VehicleError& error) {
+            return error.errorType == VDA5050::ErrorTypes::INSTANT_ACTION_ERROR
+                && HasReference(error, "actionId", actionID);
+        }));
+    }
+}
+
+} // namespace ACS::Testing
