@@ -113,8 +113,12 @@ public:
         return {};
     }
 
-    void Run()
+    void Run(const std::vector<std::string>& siteWarnings)
     {
+        for (const std::string& warning : siteWarnings)
+        {
+            _logger.Warning(warning, {{"site", _options->sitePath}});
+        }
         _logger.Info("vehicles start", {{"count", std::to_string(_members.size())}, {"seed", std::to_string(_seed)}});
         Apps::SignalWaiter signals(_context.get_executor(), [this](int /*signal*/) { Stop(); });
         for (const FaultCommand& command : _options->faults)
@@ -328,7 +332,8 @@ int Refuse(const std::string& error)
 
 int RunVdaSim(const VdaSimOptions& options)
 {
-    const tl::expected<Planning::SiteMap, std::string> site = LoadSite(options.sitePath);
+    std::vector<std::string> siteWarnings;
+    const tl::expected<Planning::SiteMap, std::string> site = LoadSite(options.sitePath, siteWarnings);
     if (!site.has_value())
     {
         return Refuse(site.error());
@@ -344,7 +349,7 @@ int RunVdaSim(const VdaSimOptions& options)
     {
         return Refuse(prepared.error());
     }
-    fleet.Run();
+    fleet.Run(siteWarnings);
     return 0;
 }
 

@@ -380,7 +380,7 @@ std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaS
     return std::nullopt;
 }
 
-tl::expected<Planning::SiteMap, std::string> LoadSite(const std::string& path)
+tl::expected<Planning::SiteMap, std::string> LoadSite(const std::string& path, std::vector<std::string>& warnings)
 {
     const tl::expected<std::string, std::string> text = Apps::ReadTextFile(path);
     if (!text.has_value())
@@ -388,7 +388,7 @@ tl::expected<Planning::SiteMap, std::string> LoadSite(const std::string& path)
         return tl::make_unexpected(
             fmt::format("cannot read the site {} ({}); give the path of a LIF file", path, text.error()));
     }
-    Core::Result<Planning::SiteMap> site = Planning::DecodeLIF(*text);
+    Core::Result<Planning::SiteMap> site = Planning::DecodeLIF(*text, warnings);
     if (!site.has_value())
     {
         return tl::make_unexpected(

@@ -44,8 +44,10 @@ struct VdaSimOptions
 /// Fills the options; returns the exit code if the program is to end. Reads the fault files; LoadSite reads the site.
 [[nodiscard]] std::optional<int> ReadCommandLineOrNull(int argc, const char* const* argv, VdaSimOptions& options);
 
-/// Reads the LIF file; the error is one sentence that names it.
-[[nodiscard]] tl::expected<Planning::SiteMap, std::string> LoadSite(const std::string& path);
+/// Reads the LIF file; the error is one sentence that names it. Appends the warnings of the reader.
+[[nodiscard]] tl::expected<Planning::SiteMap, std::string> LoadSite(
+    const std::string& path,
+    std::vector<std::string>& warnings);
 
 /// Start node of the vehicle (the first one has index 0): its own node, else the dock of the charger CHG01 for the first
 /// vehicle, CHG02 for the second and so on. If there is no such charger: the node of the site at that index, modulo the

@@ -74,10 +74,8 @@ VDA5050::VehicleOptions MakeSessionOptions(
     {
         mapIDs.insert(node.mapID);
     }
-    if (!mapIDs.contains(std::string()))
-    {
-        session.mapIDs.assign(mapIDs.begin(), mapIDs.end());
-    }
+    mapIDs.erase(std::string()); // of nodes without a mapId, which no map has
+    session.mapIDs.assign(mapIDs.begin(), mapIDs.end());
     return session;
 }
 

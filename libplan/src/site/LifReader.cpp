@@ -375,8 +375,35 @@ std::vector<SiteEdge> WithoutTrajectories(std::vector<SiteEdge> edges)
     return edges;
 }
 
+/// LIF does not require a mapId, and VDA5050 requires it of every position.
+void ReportNodesWithoutMap(const LifFile& file, std::vector<std::string>& warnings)
+{
+    std::size_t count = 0;
+    std::string first;
+    for (std::size_t layout = 0; layout < file.layouts.size(); ++layout)
+    {
+        const std::vector<LifNode>& nodes = file.layouts[layout].nodes;
+        for (std::size_t node = 0; node < nodes.size(); ++node)
+        {
+            if (nodes[node].mapID.empty())
+            {
+                first = count == 0 ? fmt::format("layouts[{}].nodes[{}]", layout, node) : first;
+                ++count;
+            }
+        }
+    }
+    if (count > 0)
+    {
+        warnings.push_back(fmt::format(
+            "{} {}: a vehicle rejects an order whose nodes do not name its map",
+            count == 1 ? "1 node has no mapId," : fmt::format("{} nodes have no mapId, the first is", count),
+            first));
+    }
+}
+
 Core::Result<SiteMap> MakeSite(LifFile&& file, std::vector<std::string>& warnings)
 {
+    ReportNodesWithoutMap(file, warnings);
     std::vector<SiteNode> nodes;
     std::vector<SiteEdge> edges;
     std::vector<SiteStation> stations;

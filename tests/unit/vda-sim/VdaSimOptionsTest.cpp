@@ -142,10 +142,24 @@ TEST_CASE("A vehicle starts at its own node, else at the charger of its number, 
 
 TEST_CASE("A site file that is missing is named")
 {
-    const auto site = VdaSim::LoadSite("/nonexistent/site.lif.json");
+    std::vector<std::string> warnings;
+    const auto site = VdaSim::LoadSite("/nonexistent/site.lif.json", warnings);
     REQUIRE_FALSE(site.has_value());
     CHECK_THAT(site.error(), Catch::Contains("/nonexistent/site.lif.json"));
-    CHECK_FALSE(VdaSim::LoadSite("/").has_value());
+    CHECK_FALSE(VdaSim::LoadSite("/", warnings).has_value());
+}
+
+TEST_CASE("The warnings about a site file are kept")
+{
+    const TemporaryFolder folder;
+    const std::string file = folder.GetPath() / "site.lif.json";
+    std::ofstream(file) << R"({"metaInformation": {"projectIdentification": "p", "creator": "c", "exportTimestamp": "t",
+        "lifVersion": "1.0.0"}, "layouts": [{"layoutId": "one", "layoutVersion": "1", "edges": [], "stations": [],
+        "nodes": [{"nodeId": "N1", "nodePosition": {"x": 0, "y": 0}, "vehicleTypeNodeProperties": []}]}]})";
+    std::vector<std::string> warnings;
+    CHECK(VdaSim::LoadSite(file, warnings).has_value());
+    REQUIRE(warnings.size() == 1);
+    CHECK_THAT(warnings[0], Catch::StartsWith("1 node has no mapId, layouts[0].nodes[0]"));
 }
 
 TEST_CASE("--count names its vehicles by the prefix and a number of at least two digits")

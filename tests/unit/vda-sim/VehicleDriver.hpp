@@ -81,7 +81,7 @@ inline void AddMandatoryParameters(VDA5050::Action& action)
 /// the official schemas.
 class VehicleDriver
 {
-    Planning::SiteMap _site = MakeTestSite();
+    Planning::SiteMap _site;
     ManualClock _clock;
     RecordingLogSink _log;
     SeededRandom _random;
@@ -101,8 +101,12 @@ public:
     {
     }
 
-    explicit VehicleDriver(VdaSim::VirtualVehicleOptions options, std::uint64_t seed = 1)
-        : _random(seed),
+    explicit VehicleDriver(
+        VdaSim::VirtualVehicleOptions options,
+        std::uint64_t seed = 1,
+        Planning::SiteMap site = MakeTestSite())
+        : _site(std::move(site)),
+          _random(seed),
           _version(options.version),
           _vehicle(std::move(options), _site, _random, Core::Logger(_log, "LR01"))
     {

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace ACS::Testing
@@ -30,6 +32,31 @@ VdaSim::VirtualVehicleOptions MakeMapOptions(EVda5050Version version)
     VdaSim::VirtualVehicleOptions options = VehicleDriver::MakeOptions("DOCK");
     options.version = version;
     return options;
+}
+
+/// The site of the tests with other maps of its nodes.
+Planning::SiteMap MakeSiteOfMaps(const std::map<std::string, std::string>& mapIDs)
+{
+    const Planning::SiteMap site = MakeTestSite();
+    std::vector<Planning::SiteNode> nodes = site.GetNodes();
+    for (Planning::SiteNode& node : nodes)
+    {
+        if (const auto other = mapIDs.find(node.nodeID); other != mapIDs.end())
+        {
+            node.mapID = other->second;
+        }
+    }
+    return VehicleDriver::Take(Planning::SiteMap::Create(std::move(nodes), site.GetEdges(), site.GetStations()));
+}
+
+/// Whether the vehicle accepts an order to N2, with this map of N2.
+bool Accepts(VehicleDriver& driver, const std::string& mapID)
+{
+    auto route = driver.MakeRoute("order-to-" + mapID, {"DOCK", "N2"});
+    auto order = VehicleDriver::Take(route.MakeOrder(2));
+    order.nodes[1].nodePosition->mapID = mapID;
+    driver.Send(order);
+    return driver.GetState().orderID == order.orderID;
 }
 
 } // namespace
@@ -89,6 +116,26 @@ TEST_CASE("6.8.2 A vehicle of 2.0.0 has no map actions: they are new in 2.1.0")
             return error.errorType == VDA5050::ErrorTypes::INSTANT_ACTION_ERROR
                 && HasReference(error, "actionId", actionID);
         }));
+    }
+}
+
+TEST_CASE("6.6.4 An order with a map that is not on the site is refused, also if nodes of the site have no mapId")
+{
+    for (const EVda5050Version version : {EVda5050Version::Version200, EVda5050Version::Version210})
+    {
+        CAPTURE(static_cast<int>(version));
+        VehicleDriver driver(MakeMapOptions(version), 1, MakeSiteOfMaps({{"N0", ""}}));
+        CHECK_FALSE(Accepts(driver, "cellar"));
+        CHECK_FALSE(Accepts(driver, ""));
+        CHECK(Accepts(driver, "floor"));
+        VehicleDriver nowhere(MakeMapOptions(version), 1, MakeSiteOfMaps({{"DOCK", ""}}));
+        CHECK_FALSE(Accepts(nowhere, "cellar"));
+        CHECK_FALSE(Accepts(nowhere, "floor")); // its first node does not name the map
+        VehicleDriver none(
+            MakeMapOptions(version),
+            1,
+            MakeSiteOfMaps({{"N0", ""}, {"N1", ""}, {"N2", ""}, {"DOCK", ""}}));
+        CHECK(Accepts(none, "cellar"));
     }
 }
 

@@ -17,6 +17,7 @@ namespace ACS::Planning
 ///
 /// LIF gives no range for knots: those of a trajectory are scaled to 0 to 1. An invalid trajectory closes its edge for the
 /// vehicle type: the edge loses its rules for that type, and `warnings` receives a line with the type, the edge and the reason.
+/// If nodes have no mapId, which LIF permits, `warnings` receives one line with their number and the path of the first.
 [[nodiscard]] ACS_API Core::Result<SiteMap> DecodeLIF(std::string_view text, std::vector<std::string>& warnings);
 [[nodiscard]] ACS_API Core::Result<SiteMap> DecodeLIF(std::string_view text); ///< Without the warnings.
 

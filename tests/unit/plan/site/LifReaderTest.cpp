@@ -21,7 +21,7 @@ const std::string& GetLIF()
         "nodes": [
           {"nodeId": "N1", "mapId": "floor", "nodePosition": {"x": 0, "y": 0},
            "vehicleTypeNodeProperties": [{"vehicleTypeId": "lr", "theta": 1.5}]},
-          {"nodeId": "N2", "nodePosition": {"x": 3, "y": 4}, "vehicleTypeNodeProperties": [{"vehicleTypeId": "lr"}]}],
+          {"nodeId": "N2", "mapId": "floor", "nodePosition": {"x": 3, "y": 4}, "vehicleTypeNodeProperties": [{"vehicleTypeId": "lr"}]}],
         "edges": [
           {"edgeId": "E1", "startNodeId": "N1", "endNodeId": "N2", "vehicleTypeEdgeProperties":
            [{"vehicleTypeId": "lr", "vehicleOrientation": 270.0, "orientationType": "TANGENTIAL",
@@ -71,6 +71,22 @@ TEST_CASE("LIF: nodes, edges and stations become a map, degrees become radians")
     CHECK(site->FindStationOrNull("A01.CP02")->height == 0.85);
     CHECK(site->HasVehicleType("lr"));
     CHECK_FALSE(site->HasVehicleType("cr"));
+}
+
+TEST_CASE("LIF: nodes without a mapId are one warning, with their number and the first of them")
+{
+    const auto read = [](const std::string& text) {
+        std::vector<std::string> warnings;
+        REQUIRE(DecodeLIF(text, warnings).has_value());
+        return warnings;
+    };
+    const std::string reason = ": a vehicle rejects an order whose nodes do not name its map";
+    const std::string without = Replace(GetLIF(), R"("nodeId": "N2", "mapId": "floor")", R"("nodeId": "N2")");
+    CHECK(read(GetLIF()).empty());
+    CHECK(read(without) == std::vector<std::string>{"1 node has no mapId, layouts[0].nodes[1]" + reason});
+    CHECK(
+        read(Replace(without, R"("mapId": "floor")", R"("mapId": "")"))
+        == std::vector<std::string>{"2 nodes have no mapId, the first is layouts[0].nodes[0]" + reason});
 }
 
 TEST_CASE("LIF: an edge is for vehicles with and without a load, unless it has a restriction")
