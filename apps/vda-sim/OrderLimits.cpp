@@ -1,5 +1,7 @@
 #include "vda-sim/OrderLimits.hpp"
 
+#include <acs/vda5050/PredefinedActions.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -131,6 +133,13 @@ void CheckEdge(const OrderEdge& edge, const Planning::SiteMap& site, Findings& f
     }
 }
 
+bool Enables(const VDA5050::Action& action, const std::string& mapID)
+{
+    const VDA5050::ActionParameter* const parameter = VDA5050::FindParameterOrNull(action, "mapId");
+    return action.actionType == VDA5050::ActionTypes::ENABLE_MAP && parameter != nullptr
+        && parameter->value.GetStringOrNull() == mapID;
+}
+
 } // namespace
 
 bool IsInReach(const Planning::SiteMap& site, double x, double y)
@@ -148,6 +157,34 @@ std::vector<OrderViolation> FindUndrivable(const VDA5050::OrderMessage& order, c
     for (const OrderEdge& edge : order.edges)
     {
         CheckEdge(edge, site, findings);
+    }
+    return findings.Take();
+}
+
+std::vector<OrderViolation> FindDisabledMaps(
+    const VDA5050::OrderMessage& order,
+    const std::set<std::string>& disabledMapIDs)
+{
+    Findings findings(order);
+    for (const OrderNode& node : order.nodes)
+    {
+        if (!node.nodePosition.has_value() || !disabledMapIDs.contains(node.nodePosition->mapID))
+        {
+            continue;
+        }
+        const std::string& mapID = node.nodePosition->mapID;
+        const bool bEnabled = std::ranges::any_of(order.nodes, [&mapID](const OrderNode& other) {
+            return std::ranges::any_of(other.actions, [&mapID](const VDA5050::Action& action) {
+                return Enables(action, mapID);
+            });
+        });
+        if (!bEnabled)
+        {
+            findings.Add(
+                VDA5050::ErrorTypes::ORDER_ERROR,
+                fmt::format("the map {} is disabled", mapID),
+                {{"mapId", mapID}, {"nodeId", node.nodeID}, {"parameter", "order.nodes.nodePosition.mapId"}});
+        }
     }
     return findings.Take();
 }

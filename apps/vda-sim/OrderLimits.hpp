@@ -4,6 +4,8 @@
 #include <acs/vda5050/OrderValidator.hpp>
 
 #include <cstdint>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace ACS::VdaSim
@@ -27,5 +29,11 @@ constexpr std::uint32_t MAX_CONTROL_POINTS = 100;
 [[nodiscard]] std::vector<VDA5050::OrderViolation> FindUndrivable(
     const VDA5050::OrderMessage& order,
     const Planning::SiteMap& site);
+
+/// Nodes on maps that are on the vehicle in DISABLED versions only. Empty if there are none; a map that the order enables
+/// itself is not one of them.
+[[nodiscard]] std::vector<VDA5050::OrderViolation> FindDisabledMaps(
+    const VDA5050::OrderMessage& order,
+    const std::set<std::string>& disabledMapIDs);
 
 } // namespace ACS::VdaSim

@@ -240,6 +240,10 @@ void VirtualVehicle::Deliver(const VDA5050::MqttMessage& message, Core::Now now,
 {
     if (!TryRefuse(message, now, out))
     {
+        if (message.topic.ends_with(VDA5050::GetTopicName(VDA5050::ETopic::Order)))
+        {
+            UpdateDisabledMaps();
+        }
         _session.OnMessage(message.topic, message.payload, message.bRetained, now, _sessionActions);
         Pump(now, out);
     }

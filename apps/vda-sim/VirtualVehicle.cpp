@@ -5,6 +5,8 @@
 #include "vda-sim/VehicleFactsheet.hpp"
 #include <acs/core/Overloaded.hpp>
 #include <acs/core/ShortText.hpp>
+#include <acs/vda5050/ActionMachine.hpp>
+#include <acs/vda5050/PredefinedActions.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -38,10 +40,30 @@ void CheckLocalized(
     }
 }
 
+/// The names of the site's maps; of nodes without a mapId there is none.
+std::set<std::string> ListMaps(const Planning::SiteMap& site)
+{
+    std::set<std::string> mapIDs;
+    for (const Planning::SiteNode& node : site.GetNodes())
+    {
+        mapIDs.insert(node.mapID);
+    }
+    mapIDs.erase(std::string());
+    return mapIDs;
+}
+
+/// Whether the states of the vehicle have maps, which are new in 2.1.
+bool HasMapStates(const VirtualVehicleOptions& options)
+{
+    return options.version != VDA5050::EVda5050Version::Version200
+        && GetProfile(options.profile).traits.bReportsPosition;
+}
+
 VDA5050::VehicleOptions MakeSessionOptions(
     const VirtualVehicleOptions& options,
     const Planning::SiteMap& site,
-    std::shared_ptr<const bool> lost)
+    std::shared_ptr<const bool> lost,
+    std::shared_ptr<const std::set<std::string>> disabledMapIDs)
 {
     VDA5050::VehicleOptions session;
     session.address = options.address;
@@ -58,24 +80,27 @@ VDA5050::VehicleOptions MakeSessionOptions(
     session.bForgetsInManual = profile.traits.bForgetsInManual;
     session.bStopsBetweenNodes = false; // like a line-guided vehicle: a cancelled order ends on a node
     session.initialNodeID = options.startNodeID;
-    session.orderCheck = [&site, traits = profile.traits, handling = options.handling, lost = std::move(lost)](
-                             const VDA5050::OrderMessage& order,
-                             const VDA5050::OrderContext& context) {
-        std::vector<VDA5050::OrderViolation> violations = FindUndrivable(order, site);
-        std::ranges::move(FindRejected(order, context, traits, handling), std::back_inserter(violations));
-        if (*lost)
-        {
-            CheckLocalized(order, context, violations);
-        }
-        return violations;
-    };
-    std::set<std::string> mapIDs;
-    for (const Planning::SiteNode& node : site.GetNodes())
+    session.orderCheck =
+        [&site,
+         traits = profile.traits,
+         handling = options.handling,
+         lost = std::move(lost),
+         disabledMapIDs =
+             std::move(disabledMapIDs)](const VDA5050::OrderMessage& order, const VDA5050::OrderContext& context) {
+            std::vector<VDA5050::OrderViolation> violations = FindUndrivable(order, site);
+            std::ranges::move(FindDisabledMaps(order, *disabledMapIDs), std::back_inserter(violations));
+            std::ranges::move(FindRejected(order, context, traits, handling), std::back_inserter(violations));
+            if (*lost)
+            {
+                CheckLocalized(order, context, violations);
+            }
+            return violations;
+        };
+    if (!HasMapStates(options))
     {
-        mapIDs.insert(node.mapID);
+        const std::set<std::string> mapIDs = ListMaps(site);
+        session.mapIDs.assign(mapIDs.begin(), mapIDs.end());
     }
-    mapIDs.erase(std::string()); // of nodes without a mapId, which no map has
-    session.mapIDs.assign(mapIDs.begin(), mapIDs.end());
     return session;
 }
 
@@ -90,7 +115,7 @@ VirtualVehicle::VirtualVehicle(
       _site(&site),
       _random(&random),
       _logger(std::move(logger)),
-      _session(MakeSessionOptions(_options, site, _lost)),
+      _session(MakeSessionOptions(_options, site, _lost, _disabledMapIDs)),
       _drive(site, _options.limits, _options.startNodeID, _options.startPosition),
       _actionRunner(
           _options.actionSeconds,
@@ -118,10 +143,9 @@ void VirtualVehicle::OnLinkUp(Core::Now now, VirtualActions& out)
     UpdateDock(now);
     _actionRunner.GetDevice().UpdateLoads();
     ReportLoads(now);
-    if (!_faults.WasOnline() && !_drive.GetMapID().empty() && GetProfile(_options.profile).traits.bReportsPosition)
+    if (!_faults.WasOnline() && HasMapStates(_options))
     {
-        const VDA5050::MapState map{_drive.GetMapID(), "1", VDA5050::EMapStatus::Enabled, {}};
-        _session.OnMaps(std::vector<VDA5050::MapState>{map}, now, _sessionActions);
+        ReportMaps(now);
     }
     ReportPosition();
     ReportBattery(now);
@@ -403,6 +427,42 @@ void VirtualVehicle::ReportPosition()
     velocity.vy = motion.GetSidewaysSpeed();
     velocity.omega = motion.GetTurnSpeed();
     _session.OnPosition(position, velocity, motion.HasLeg() ? motion.GetDriven() : 0.0);
+}
+
+void VirtualVehicle::ReportMaps(Core::Now now)
+{
+    std::vector<VDA5050::MapState> maps;
+    for (const std::string& mapID : ListMaps(*_site))
+    {
+        maps.push_back({mapID, "1", VDA5050::EMapStatus::Enabled, {}});
+    }
+    if (!maps.empty())
+    {
+        _session.OnMaps(std::move(maps), now, _sessionActions);
+    }
+}
+
+void VirtualVehicle::UpdateDisabledMaps()
+{
+    _disabledMapIDs->clear();
+    if (!HasMapStates(_options))
+    {
+        return;
+    }
+    const VDA5050::StateMessage state = _session.GetState();
+    const bool bEnabling = std::ranges::any_of(state.actionStates, [](const VDA5050::ActionState& action) {
+        return action.actionType == VDA5050::ActionTypes::ENABLE_MAP && !VDA5050::IsTerminal(action.actionStatus);
+    });
+    if (bEnabling || !state.maps.has_value())
+    {
+        return; // it may enable the map that the message needs
+    }
+    std::set<std::string> enabled;
+    for (const VDA5050::MapState& map : *state.maps)
+    {
+        (map.mapStatus == VDA5050::EMapStatus::Enabled ? enabled : *_disabledMapIDs).insert(map.mapID);
+    }
+    std::erase_if(*_disabledMapIDs, [&enabled](const std::string& mapID) { return enabled.contains(mapID); });
 }
 
 void VirtualVehicle::ReportDriving(bool bDriving, Core::Now now)

@@ -22,6 +22,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -90,6 +91,8 @@ class VirtualVehicle
     Core::IRandom* _random;
     Core::Logger _logger;
     std::shared_ptr<bool> _lost = std::make_shared<bool>(false); ///< Of the fault; shared with the check of orders.
+    /// Maps that orders cannot use, as of the last message; shared with the check of orders.
+    std::shared_ptr<std::set<std::string>> _disabledMapIDs = std::make_shared<std::set<std::string>>();
     VDA5050::VehicleSession _session;
     VDA5050::VehicleActions _sessionActions;
     VehicleDrive _drive;
@@ -148,6 +151,9 @@ private:
     void ReportDriving(bool bDriving, Core::Now now);
     void ReportBattery(Core::Now now);
     void ReportLoads(Core::Now now);
+    /// Reports the maps of the site, as those that the vehicle has at first.
+    void ReportMaps(Core::Now now);
+    void UpdateDisabledMaps();
     /// Records in the world at which stations the vehicle is docked, if that has changed.
     void UpdateDock(Core::Now now);
     void KeepTicking(VirtualActions& out);

@@ -139,4 +139,61 @@ TEST_CASE("6.6.4 An order with a map that is not on the site is refused, also if
     }
 }
 
+TEST_CASE("7 A vehicle of 2.1.0 reports every map of its site, and accepts orders on these only")
+{
+    VehicleDriver driver(
+        MakeMapOptions(EVda5050Version::Version210),
+        1,
+        MakeSiteOfMaps({{"N0", "roof"}, {"N2", "roof"}}));
+    CHECK(
+        driver.GetState().maps
+        == std::vector<VDA5050::MapState>{
+            {"floor", "1", VDA5050::EMapStatus::Enabled, {}},
+            {"roof", "1", VDA5050::EMapStatus::Enabled, {}}});
+    CHECK_FALSE(Accepts(driver, "cellar"));
+    REQUIRE(Accepts(driver, "roof"));
+    driver.Pass(60s);
+    CHECK(driver.GetState().lastNodeID == "N2");
+    CHECK(driver.GetState().agvPosition->mapID == "roof");
+}
+
+TEST_CASE("7 An order on a map that is DISABLED is refused, unless it enables the map")
+{
+    VehicleDriver driver(MakeMapOptions(EVda5050Version::Version210));
+    const ActionParameter mapID = MakeMapParameter("mapId", "cellar");
+    const ActionParameter version = MakeMapParameter("mapVersion", "1");
+    driver.SendInstantly(
+        ActionTypes::DOWNLOAD_MAP,
+        "download",
+        {mapID, version, MakeMapParameter("mapDownloadLink", "http://maps/2")});
+    driver.Pass(2s);
+    REQUIRE(driver.GetStatus("download") == EActionStatus::Finished);
+    CHECK_FALSE(Accepts(driver, "cellar"));
+    REQUIRE(driver.GetState().errors.size() == 1);
+    CHECK(driver.GetState().errors[0].errorType == VDA5050::ErrorTypes::ORDER_ERROR);
+    CHECK(HasReference(driver.GetState().errors[0], "mapId", "cellar"));
+    CHECK(HasReference(driver.GetState().errors[0], "nodeId", "N2"));
+
+    // Enabled on the first node, used on the second, and extended before the action has ended.
+    auto route = driver.MakeRoute("lift", {"DOCK", "N2", "DOCK"});
+    auto order = VehicleDriver::Take(route.MakeOrder(2));
+    VDA5050::Action enable;
+    enable.actionType = ActionTypes::ENABLE_MAP;
+    enable.actionID = "enable";
+    enable.blockingType = VDA5050::EBlockingType::Hard;
+    enable.actionParameters = {mapID, version};
+    order.nodes[0].actions.push_back(enable);
+    order.nodes[1].nodePosition->mapID = "cellar";
+    driver.Send(order);
+    CHECK(driver.GetState().orderID == "lift");
+    auto update = VehicleDriver::Take(route.MakeUpdate(3));
+    update.nodes[0].nodePosition->mapID = "cellar";
+    driver.Send(update);
+    CHECK(driver.GetState().orderUpdateID == 1);
+    driver.Pass(60s);
+    CHECK(driver.GetStatus("enable") == EActionStatus::Finished);
+    CHECK(driver.GetState().errors.empty());
+    CHECK(driver.GetState().lastNodeSequenceID == 4);
+}
+
 } // namespace ACS::Testing
