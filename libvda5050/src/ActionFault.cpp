@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string_view>
+#include <utility>
 
 namespace ACS::VDA5050
 {
@@ -23,6 +25,45 @@ std::optional<double> ReadNumberOrNull(const Core::JsonText& value)
     }
     const std::optional<double> number = Core::ParseNumberOrNull<double>(*text);
     return number.has_value() && std::isfinite(*number) ? number : std::nullopt;
+}
+
+/// The text as a number that states exactly what it states; nullopt for other texts.
+std::optional<Core::JsonText> ParseNumberValueOrNull(std::string_view text, bool bWhole)
+{
+    constexpr double LARGEST_INTEGER = 9'007'199'254'740'992.0; // greater whole numbers are not exact as a double
+    if (const std::optional<std::int64_t> integer = Core::ParseNumberOrNull<std::int64_t>(text); integer.has_value())
+    {
+        return Core::JsonText::FromInteger(*integer);
+    }
+    const std::optional<double> number = Core::ParseNumberOrNull<double>(text);
+    if (!number.has_value() || !std::isfinite(*number))
+    {
+        return std::nullopt;
+    }
+    if (std::trunc(*number) == *number && std::abs(*number) <= LARGEST_INTEGER)
+    {
+        return Core::JsonText::FromInteger(static_cast<std::int64_t>(*number));
+    }
+    return bWhole ? std::nullopt : std::optional(Core::JsonText::FromNumber(*number));
+}
+
+std::optional<Core::JsonText> ParseValueOrNull(std::string_view text, EValueDataType type)
+{
+    switch (type)
+    {
+        case EValueDataType::Bool:
+            return text == "true" || text == "false" ? std::optional(Core::JsonText::FromBoolean(text == "true"))
+                                                     : std::nullopt;
+        case EValueDataType::Number:
+        case EValueDataType::Float:
+        case EValueDataType::Integer:
+            return ParseNumberValueOrNull(text, type == EValueDataType::Integer);
+        case EValueDataType::String:
+        case EValueDataType::Object:
+        case EValueDataType::Array:
+        default:
+            return std::nullopt;
+    }
 }
 
 bool IsOfType(const Core::JsonText& value, EValueDataType type, bool bTextTaken)
@@ -181,6 +222,29 @@ std::optional<ActionFault> FindSessionActionFaultOrNull(
         }
     }
     return std::nullopt;
+}
+
+void ConvertTexts(const FactsheetMessage& factsheet, Action& action)
+{
+    const std::vector<AgvAction>& listed = factsheet.protocolFeatures.agvActions;
+    const auto row = std::ranges::find(listed, action.actionType, &AgvAction::actionType);
+    if (row == listed.end())
+    {
+        return;
+    }
+    for (ActionParameter& given : action.actionParameters)
+    {
+        const auto known = std::ranges::find(row->actionParameters, given.key, &AgvActionParameter::key);
+        const std::optional<std::string> text = given.value.GetStringOrNull();
+        if (known == row->actionParameters.end() || !text.has_value())
+        {
+            continue;
+        }
+        if (std::optional<Core::JsonText> value = ParseValueOrNull(*text, known->valueDataType); value.has_value())
+        {
+            given.value = std::move(*value);
+        }
+    }
 }
 
 std::vector<std::string> FindUnlistedParameters(const FactsheetMessage& factsheet, const Action& action)

@@ -33,6 +33,10 @@ struct ActionFault
     const Action& action,
     EParameterCheck check);
 
+/// Replaces texts by the number or boolean that they state where the factsheet lists the parameter as NUMBER, FLOAT, INTEGER
+/// or BOOL. Other texts stay: FindActionFaultOrNull finds them.
+void ConvertTexts(const FactsheetMessage& factsheet, Action& action);
+
 /// The keys of the action's parameters that the factsheet does not list, or the standard if the factsheet lists none of
 /// the action; none where it does not list the action.
 [[nodiscard]] std::vector<std::string> FindUnlistedParameters(const FactsheetMessage& factsheet, const Action& action);

@@ -320,6 +320,18 @@ void AdaptMembers(TElements& elements, const TMembers& members, const FactsheetM
     }
 }
 
+template <typename TElements>
+void ConvertActions(TElements& elements, const FactsheetMessage& factsheet)
+{
+    for (auto& element : elements)
+    {
+        for (Action& action : element.actions)
+        {
+            ConvertTexts(factsheet, action);
+        }
+    }
+}
+
 template <typename TMembers>
 void AddSupported(const TMembers& members, std::vector<OptionalParameter>& out)
 {
@@ -338,6 +350,8 @@ void AdaptToFactsheet(OrderMessage& order, const FactsheetMessage& factsheet)
         AdaptMembers(order.nodes, NODE_MEMBERS, factsheet);
         AdaptMembers(order.edges, EDGE_MEMBERS, factsheet);
     }
+    ConvertActions(order.nodes, factsheet);
+    ConvertActions(order.edges, factsheet);
 }
 
 std::vector<OptionalParameter> ListOptionalParameters()

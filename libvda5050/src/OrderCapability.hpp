@@ -12,7 +12,7 @@ namespace ACS::VDA5050
 [[nodiscard]] std::vector<OrderViolation> FindUnusable(const OrderMessage& order, const OrderContext& context);
 
 /// Leaves out optional members that the vehicle does not support and can do without, and fills in those that it requires where a
-/// value restricts nothing. FindUnusable finds the others.
+/// value restricts nothing. Gives texts of action parameters the listed type (ConvertTexts). FindUnusable finds the others.
 void AdaptToFactsheet(OrderMessage& order, const FactsheetMessage& factsheet);
 
 /// The optional members that FindUnusable checks, as supported ones.

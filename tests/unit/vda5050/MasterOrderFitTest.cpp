@@ -172,6 +172,50 @@ TEST_CASE("3.7 A required member without a value is filled in where a value rest
     CHECK(sent.edges[0].bRotationAllowed == true);
 }
 
+TEST_CASE("3.7 A text is sent as the number or boolean that the factsheet lists, if it is one")
+{
+    struct Case
+    {
+        EValueDataType type;
+        std::string text;
+        std::string sent; ///< Empty: an error that names the parameter.
+    };
+    for (const Case& value : std::vector<Case>{
+             {EValueDataType::Number, "1.25", "1.25"},
+             {EValueDataType::Number, "-3", "-3"},
+             {EValueDataType::Float, "1e3", "1000"},
+             {EValueDataType::Number, "1,25", ""},
+             {EValueDataType::Number, "nan", ""},
+             {EValueDataType::Number, "", ""},
+             {EValueDataType::Integer, "9007199254740993", "9007199254740993"},
+             {EValueDataType::Integer, "4.0", "4"},
+             {EValueDataType::Integer, "4.5", ""},
+             {EValueDataType::Bool, "false", "false"},
+             {EValueDataType::Bool, "False", ""},
+             {EValueDataType::String, "1.25", R"("1.25")"},
+         })
+    {
+        CAPTURE(value.type, value.text);
+        FactsheetMessage factsheet = MakeBareFactsheet();
+        AgvAction& row = factsheet.protocolFeatures.agvActions.emplace_back();
+        row.actionType = "lift";
+        row.actionScopes = {EActionScope::Node};
+        row.actionParameters = {{"height", value.type, {}, false}};
+        FitFixture bench;
+        bench.Deliver(factsheet);
+        OrderMessage order = MakeOrder(2, 2);
+        Action action = MakeAction("lift-1", EBlockingType::Hard, "lift");
+        action.actionParameters = {{"height", Core::JsonText::FromString(value.text)}};
+        order.nodes[1].actions.push_back(action);
+        CHECK(bench.Check(order) == (value.sent.empty() ? "height" : ""));
+        if (!value.sent.empty())
+        {
+            REQUIRE(bench.Send(order));
+            CHECK(bench.GetSentOrder().nodes[1].actions[0].actionParameters[0].value.GetText() == value.sent);
+        }
+    }
+}
+
 TEST_CASE("3.7 The horizon is shortened to what the vehicle accepts, the base is not")
 {
     FitFixture bench;

@@ -118,9 +118,9 @@ public:
     /// Sends an order (with orderID and route, without header) and resends it until the vehicle shows it. The
     /// orderUpdateID is sent as given. The orderID must be new to the vehicle, which would otherwise treat the order as its
     /// current or last one; see ResumeOrder.
-    /// With a factsheet, unlisted optional members that the vehicle can do without are omitted, required ones filled in where a
-    /// value restricts nothing, and the horizon is shortened to what fits. Any other optional member, action, parameter or size
-    /// that is not supported is an error.
+    /// With a factsheet, unlisted optional members that the vehicle can do without are omitted, required ones filled in where a value
+    /// restricts nothing, texts sent as the NUMBER, FLOAT, INTEGER or BOOL that an action parameter is listed as, and the horizon
+    /// is shortened to what fits. Any other optional member, action, parameter or size that is not supported is an error.
     /// Errors: VehicleNotReady, OrderActive (also for an order of another master), InvalidOrder, NotSupported.
     [[nodiscard]] Core::Result<void> SendOrder(OrderMessage order, Core::Now now, MasterActions& out);
     /// For a vehicle that rejects orders with a horizon, which a factsheet cannot state: later orders and updates are sent without

@@ -26,9 +26,12 @@ std::string TakePayload(VehicleFixture& vehicle)
     return payload;
 }
 
-std::string SendOrder(const std::string& nodeMembers, const std::string& edgeMembers)
+std::string SendOrder(
+    const std::string& nodeMembers,
+    const std::string& edgeMembers,
+    const VDA5050::MasterOptions& options = VehicleFixture::MakeOptions())
 {
-    VehicleFixture vehicle;
+    VehicleFixture vehicle({}, options);
     vehicle.state.lastNodeID = "N1";
     vehicle.ComeOnline();
     vehicle.Command(MakeMapDrive(nodeMembers, edgeMembers));
@@ -79,6 +82,30 @@ TEST_CASE("Map on the wire: the REQUIRED actions of an edge are in the order, an
         order,
         R"({"actionType":"lock","actionId":"3f2a7c10-5b6d-4e8f-9a0b-1c2d3e4f-1-1","blockingType":"SOFT"}]},{"edgeId":"E2")");
     CHECK(order.find("beep") == std::string::npos);
+}
+
+TEST_CASE("Map on the wire: the values of parameters, which LIF has as text, have the types of the factsheet")
+{
+    using VDA5050::EValueDataType;
+    VDA5050::AgvAction lift;
+    lift.actionType = "lift";
+    lift.actionScopes = {VDA5050::EActionScope::Node, VDA5050::EActionScope::Edge};
+    lift.actionParameters = {
+        {"height", EValueDataType::Number, {}, false},
+        {"count", EValueDataType::Integer, {}, false},
+        {"slow", EValueDataType::Bool, {}, false},
+        {"name", EValueDataType::String, {}, false}};
+    VDA5050::MasterOptions options = VehicleFixture::MakeOptions();
+    options.factsheet.emplace().protocolFeatures.agvActions = {lift};
+    const std::string actions =
+        R"("actions": [{"actionType": "lift", "requirementType": "REQUIRED", "blockingType": "HARD", "actionParameters": [
+            {"key": "height", "value": "1.25"}, {"key": "count", "value": "3"}, {"key": "slow", "value": "true"},
+            {"key": "name", "value": "7"}]}])";
+    const std::string expected =
+        R"("actionParameters":[{"key":"height","value":1.25},{"key":"count","value":3},{"key":"slow","value":true},)"
+        R"({"key":"name","value":"7"}])";
+    Contains(SendOrder(actions, "", options), expected);
+    Contains(SendOrder("", actions, options), expected);
 }
 
 TEST_CASE("Map on the wire: the trajectory and the heights of an edge are in the order")
