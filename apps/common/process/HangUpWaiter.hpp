@@ -21,9 +21,6 @@ private:
     std::shared_ptr<Impl> _impl;
 
 public:
-    /// A SIGHUP from now on waits for a HangUpWaiter, instead of ending the process. Call it before other threads exist.
-    static void Postpone();
-
     /// Handles a signal that Postpone has kept, too.
     HangUpWaiter(const boost::asio::any_io_executor& executor, Handler handler);
     HangUpWaiter(const HangUpWaiter&) = delete;
@@ -31,6 +28,9 @@ public:
 
     /// The handler is not called any more, and SIGHUP is ignored: the process may still have lines to write.
     ~HangUpWaiter();
+
+    /// A SIGHUP from now on waits for a HangUpWaiter, instead of ending the process. Call it before other threads exist.
+    static void Postpone();
 };
 
 } // namespace ACS::Apps
