@@ -36,6 +36,11 @@ void ControlChannel::Start(ConnectedHandler onConnected)
     _link.Start();
 }
 
+std::size_t ControlChannel::GetBrokerIndex() const
+{
+    return _link.GetBrokerIndex();
+}
+
 void ControlChannel::StopAsync(std::function<void()> onStopped)
 {
     _link.StopAsync(std::nullopt, VDA5050::MosquittoLink::DEFAULT_STOP_TIMEOUT, std::move(onStopped));

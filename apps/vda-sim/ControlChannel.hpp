@@ -7,6 +7,7 @@
 
 #include <boost/asio/any_io_executor.hpp>
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -43,6 +44,9 @@ public:
 
     /// Begins to connect; the handler is called after each subscription.
     void Start(ConnectedHandler onConnected);
+
+    /// Index of the broker that it is connected to, in the order of the options.
+    [[nodiscard]] std::size_t GetBrokerIndex() const;
 
     void StopAsync(std::function<void()> onStopped);
 

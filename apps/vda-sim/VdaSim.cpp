@@ -131,11 +131,12 @@ public:
         }
         for (std::size_t i = 0; i < _members.size(); ++i)
         {
-            _members[i].runner->Start([this, i]() { CountConnected(i); });
+            VehicleRunner& runner = *_members[i].runner;
+            runner.Start([this, i, &runner]() { CountConnected(i, runner.GetBrokerIndex()); });
         }
         if (_control.has_value())
         {
-            _control->Start([this]() { CountConnected(_members.size()); });
+            _control->Start([this]() { CountConnected(_members.size(), _control->GetBrokerIndex()); });
         }
         if (_worldWatch.has_value())
         {
@@ -216,13 +217,14 @@ private:
         return link;
     }
 
-    void CountConnected(std::size_t index)
+    /// The ready line names the broker of the connection that was the last to be made.
+    void CountConnected(std::size_t index, std::size_t brokerIndex)
     {
         _connected.insert(index);
         if (!_bReady && _connected.size() == _members.size() + (_control.has_value() ? 1 : 0))
         {
             _bReady = true;
-            Apps::PrintReadyLine({{"broker", _options->brokers.front().peer}});
+            Apps::PrintReadyLine({{"broker", _options->brokers.at(brokerIndex).peer}});
         }
     }
 

@@ -4,6 +4,7 @@
 
 #include <boost/asio/post.hpp>
 
+#include <cstddef>
 #include <optional>
 #include <utility>
 
@@ -33,6 +34,11 @@ void VehicleRunner::Start(Handler onConnected)
 {
     _onConnected = std::move(onConnected);
     Open();
+}
+
+std::size_t VehicleRunner::GetBrokerIndex() const
+{
+    return _linkOrNull == nullptr ? 0 : _linkOrNull->GetBrokerIndex();
 }
 
 bool VehicleRunner::TryInject(const Fault& fault)

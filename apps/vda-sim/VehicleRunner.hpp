@@ -55,6 +55,8 @@ public:
 
     /// Begins to connect; the handler is called each time the vehicle goes online.
     void Start(Handler onConnected);
+    /// Index of the broker that it is connected to, in the order of the link options; 0 while a fault has cut the connection.
+    [[nodiscard]] std::size_t GetBrokerIndex() const;
 
     /// False if the vehicle has the maximum number of faults.
     [[nodiscard]] bool TryInject(const Fault& fault);

@@ -76,6 +76,17 @@ TEST_CASE_METHOD(VdaSimFixture, "vda-sim: waits for its broker, logs that, and c
     CHECK(program.WaitForExitOrNull(PATIENCE) == 0);
 }
 
+TEST_CASE_METHOD(VdaSimFixture, "vda-sim: the ready line names the broker of the cluster that is connected")
+{
+    std::vector<std::string> command =
+        MakeCommand("mqtt://127.0.0.1:" + std::to_string(FindFreePort()), ACS_SITE_FILE, "LR01");
+    command.insert(command.end(), {"--broker", _broker.GetURL()});
+    ChildProcess program(command);
+    CHECK(program.TryWaitForText("ready: broker=127.0.0.1:" + std::to_string(_broker.GetPort()) + "\n", PATIENCE));
+    program.Signal(SIGINT);
+    CHECK(program.WaitForExitOrNull(PATIENCE) == 0);
+}
+
 TEST_CASE("vda-sim: ends with 0 also while its broker is unreachable")
 {
     ChildProcess program(MakeCommand("mqtt://127.0.0.1:" + std::to_string(FindFreePort()), ACS_SITE_FILE, "LR01"));
