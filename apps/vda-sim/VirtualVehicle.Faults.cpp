@@ -236,6 +236,32 @@ std::optional<VehicleError> VirtualVehicle::UseActionFaultOrNull(const VDA5050::
     return error;
 }
 
+/// The session accepts the message all the same, and does not report it.
+void VirtualVehicle::LogTolerated(const VDA5050::MqttMessage& message, Core::Now now)
+{
+    const Core::Result<VDA5050::ParsedTopic> topic = VDA5050::ParseTopic(message.topic);
+    if (message.bRetained || !topic.has_value())
+    {
+        return;
+    }
+    VDA5050::Vda5050Codec codec;
+    const bool bOrder =
+        topic->topic == VDA5050::ETopic::Order && codec.Decode<VDA5050::OrderMessage>(message.payload).has_value();
+    const bool bInstant = topic->topic == VDA5050::ETopic::InstantActions
+        && codec.Decode<VDA5050::InstantActionsMessage>(message.payload).has_value();
+    const VDA5050::DecodeTolerance& tolerated = codec.GetTolerance();
+    if ((bOrder || bInstant) && tolerated != VDA5050::DecodeTolerance{})
+    {
+        LogWarning(
+            now,
+            "a message deviates from the standard and is accepted",
+            {{"topic", VDA5050::GetTopicName(topic->topic)},
+             {"unknownMembers", std::to_string(tolerated.unknownMembers)},
+             {"nullMembers", std::to_string(tolerated.nullOptionals)},
+             {"enumsInWrongCase", std::to_string(tolerated.lenientWords)}});
+    }
+}
+
 void VirtualVehicle::Deliver(const VDA5050::MqttMessage& message, Core::Now now, VirtualActions& out)
 {
     if (!TryRefuse(message, now, out))
@@ -244,6 +270,7 @@ void VirtualVehicle::Deliver(const VDA5050::MqttMessage& message, Core::Now now,
         {
             UpdateDisabledMaps();
         }
+        LogTolerated(message, now);
         _session.OnMessage(message.topic, message.payload, message.bRetained, now, _sessionActions);
         Pump(now, out);
     }

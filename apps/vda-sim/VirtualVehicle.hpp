@@ -185,6 +185,8 @@ private:
     void LogUnlisted(const std::string& actionID, Core::Now now);
     void LogRefusal(const VDA5050::OrderRefused& refused, Core::Now now);
     void LogIgnored(const VDA5050::MessageIgnored& ignored, Core::Now now);
+    /// Logs what of a message is not as the standard has it.
+    void LogTolerated(const VDA5050::MqttMessage& message, Core::Now now);
     void LogOverflow(std::size_t lost, Core::Now now);
     /// Rate-limited by message.
     void LogWarning(Core::Now now, std::string_view message, std::initializer_list<Core::LogField> fields);

@@ -1,7 +1,12 @@
 #include "Catch.hpp"
 #include "VehicleDriver.hpp"
+#include <acs/vda5050/Vda5050Codec.hpp>
 
+#include <algorithm>
 #include <numbers>
+#include <string>
+#include <string_view>
+#include <utility>
 
 namespace ACS::Testing
 {
@@ -254,6 +259,36 @@ TEST_CASE("6.6 An action that the factsheet does not name refuses the order")
     CHECK(driver.GetPose().x == 0.0);
     REQUIRE(driver.GetState().errors.size() == 1);
     CHECK(driver.GetState().errors[0].errorType == VDA5050::ErrorTypes::ORDER_ERROR);
+}
+
+TEST_CASE("An order that deviates from the standard is accepted, with a warning that counts the deviations")
+{
+    static constexpr std::string_view WARNING = "a message deviates from the standard and is accepted";
+    VehicleDriver driver("N0");
+    driver.SendRoute();
+    CHECK_FALSE(driver.GetLog().Contains(Core::ELogLevel::Warning, WARNING));
+    driver.Pass(60s);
+    auto route = driver.MakeRoute("order-2", {"N2", "DOCK"});
+    auto order = VehicleDriver::Take(route.MakeOrder(2));
+    order.header = {7, {}, "2.0.0", "ACS", "LR01"};
+    order.nodes[1].actions.emplace_back();
+    order.nodes[1].actions[0].actionType = "detectObject";
+    order.nodes[1].actions[0].actionID = "detect";
+    order.nodes[1].actions[0].blockingType = VDA5050::EBlockingType::Hard;
+    std::string payload = VDA5050::Vda5050Codec().Encode(order, VDA5050::EVda5050Version::Version200);
+    for (const auto& [from, to] : {std::pair("\"HARD\"", "\"hard\""), std::pair("\"maxSpeed\"", "\"maxspeed\"")})
+    {
+        const std::size_t place = payload.find(from);
+        REQUIRE(place != std::string::npos);
+        payload.replace(place, std::string_view(from).size(), to);
+    }
+    driver.SendRaw(payload);
+    CHECK(driver.GetState().orderID == "order-2");
+    CHECK(std::ranges::any_of(driver.GetLog().GetLines(), [](const RecordedLine& line) {
+        return line.level == Core::ELogLevel::Warning && line.message == WARNING && line.HasField("topic", "order")
+            && line.HasField("unknownMembers", "1") && line.HasField("nullMembers", "0")
+            && line.HasField("enumsInWrongCase", "1");
+    }));
 }
 
 TEST_CASE("6.6.3 A cancelled vehicle ends on the next node, and is ready for another order")
