@@ -133,7 +133,7 @@ void CheckEdge(const OrderEdge& edge, const Planning::SiteMap& site, Findings& f
     }
 }
 
-bool Enables(const VDA5050::Action& action, const std::string& mapID)
+bool CanEnable(const VDA5050::Action& action, const std::string& mapID)
 {
     const VDA5050::ActionParameter* const parameter = VDA5050::FindParameterOrNull(action, "mapId");
     return action.actionType == VDA5050::ActionTypes::ENABLE_MAP && parameter != nullptr
@@ -175,7 +175,7 @@ std::vector<OrderViolation> FindDisabledMaps(
         const std::string& mapID = node.nodePosition->mapID;
         const bool bEnabled = std::ranges::any_of(order.nodes, [&mapID](const OrderNode& other) {
             return std::ranges::any_of(other.actions, [&mapID](const VDA5050::Action& action) {
-                return Enables(action, mapID);
+                return CanEnable(action, mapID);
             });
         });
         if (!bEnabled)

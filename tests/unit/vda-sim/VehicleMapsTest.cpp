@@ -50,7 +50,7 @@ Planning::SiteMap MakeSiteOfMaps(const std::map<std::string, std::string>& mapID
 }
 
 /// Whether the vehicle accepts an order to N2, with this map of N2.
-bool Accepts(VehicleDriver& driver, const std::string& mapID)
+bool TryOrderTo(VehicleDriver& driver, const std::string& mapID)
 {
     auto route = driver.MakeRoute("order-to-" + mapID, {"DOCK", "N2"});
     auto order = VehicleDriver::Take(route.MakeOrder(2));
@@ -125,17 +125,17 @@ TEST_CASE("6.6.4 An order with a map that is not on the site is refused, also if
     {
         CAPTURE(static_cast<int>(version));
         VehicleDriver driver(MakeMapOptions(version), 1, MakeSiteOfMaps({{"N0", ""}}));
-        CHECK_FALSE(Accepts(driver, "cellar"));
-        CHECK_FALSE(Accepts(driver, ""));
-        CHECK(Accepts(driver, "floor"));
+        CHECK_FALSE(TryOrderTo(driver, "cellar"));
+        CHECK_FALSE(TryOrderTo(driver, ""));
+        CHECK(TryOrderTo(driver, "floor"));
         VehicleDriver nowhere(MakeMapOptions(version), 1, MakeSiteOfMaps({{"DOCK", ""}}));
-        CHECK_FALSE(Accepts(nowhere, "cellar"));
-        CHECK_FALSE(Accepts(nowhere, "floor")); // its first node does not name the map
+        CHECK_FALSE(TryOrderTo(nowhere, "cellar"));
+        CHECK_FALSE(TryOrderTo(nowhere, "floor")); // its first node does not name the map
         VehicleDriver none(
             MakeMapOptions(version),
             1,
             MakeSiteOfMaps({{"N0", ""}, {"N1", ""}, {"N2", ""}, {"DOCK", ""}}));
-        CHECK(Accepts(none, "cellar"));
+        CHECK(TryOrderTo(none, "cellar"));
     }
 }
 
@@ -150,8 +150,8 @@ TEST_CASE("7 A vehicle of 2.1.0 reports every map of its site, and accepts order
         == std::vector<VDA5050::MapState>{
             {"floor", "1", VDA5050::EMapStatus::Enabled, {}},
             {"roof", "1", VDA5050::EMapStatus::Enabled, {}}});
-    CHECK_FALSE(Accepts(driver, "cellar"));
-    REQUIRE(Accepts(driver, "roof"));
+    CHECK_FALSE(TryOrderTo(driver, "cellar"));
+    REQUIRE(TryOrderTo(driver, "roof"));
     driver.Pass(60s);
     CHECK(driver.GetState().lastNodeID == "N2");
     CHECK(driver.GetState().agvPosition->mapID == "roof");
@@ -168,7 +168,7 @@ TEST_CASE("7 An order on a map that is DISABLED is refused, unless it enables th
         {mapID, version, MakeMapParameter("mapDownloadLink", "http://maps/2")});
     driver.Pass(2s);
     REQUIRE(driver.GetStatus("download") == EActionStatus::Finished);
-    CHECK_FALSE(Accepts(driver, "cellar"));
+    CHECK_FALSE(TryOrderTo(driver, "cellar"));
     REQUIRE(driver.GetState().errors.size() == 1);
     CHECK(driver.GetState().errors[0].errorType == VDA5050::ErrorTypes::ORDER_ERROR);
     CHECK(HasReference(driver.GetState().errors[0], "mapId", "cellar"));
