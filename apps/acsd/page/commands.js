@@ -53,12 +53,17 @@ export const Commands = {
 
 /** The commands that a text of acsd names between backticks and for which the page has a button. */
 export function listNamedCommands(text, model) {
-    return listCommands(text).flatMap(([program, name, robotId, ...rest]) => {
+    return listCommands(text).flatMap(([program, name, id, ...rest]) => {
+        const [jobId, outcome] = rest;
+        if (program === "acsctl" && name === "resolve" && ["done", "failed"].includes(outcome)) {
+            const isGone = model.findPlan(id) === null; // otherwise its detail has the buttons
+            return isGone ? [Commands.resolveJob({planId: id}, jobId, outcome)] : [];
+        }
         const command = [program, name, ...rest].join(" ");
         if (command === "acsctl maintenance on" || command === "acsctl maintenance off") {
-            return [Commands.setMaintenance({robotId, maintenance: command.endsWith("off")})];
+            return [Commands.setMaintenance({robotId: id, maintenance: command.endsWith("off")})];
         }
-        const robot = command === "acsctl carriers" ? model.robots.get(robotId) : undefined;
+        const robot = command === "acsctl carriers" ? model.robots.get(id) : undefined;
         return robot?.ports.length > 0 ? [Commands.setCarriers(robot, model)] : [];
     });
 }

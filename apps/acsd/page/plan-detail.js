@@ -171,6 +171,8 @@ export class PlanDetail {
     #makeStep(plan, step, alarms) {
         // The id of a job is unique within its plan only, and some of the alarms are those of other plans.
         const isOfJob = (alarm, job) => alarm.errorCode === UNRESOLVED && alarm.planId === plan.planId && alarm.jobId === job.jobId;
+        // acsd does not repeat a job of an ended plan.
+        const outcomes = ["done", "failed", ...(plan.endedAt === null ? ["again"] : [])];
         const isUnresolved = (job) => job.status === "Unresolved" || alarms.some((alarm) => isOfJob(alarm, job));
         const jobs = step.jobs ?? [];
         const canSkip = plan.endedAt === null && plan.robotId !== null && (step.status === "Pending" || jobs.some(isUnresolved));
@@ -183,7 +185,7 @@ export class PlanDetail {
                 make("span", {text: [job.from, job.to].map((place) => place || "–").join(" → ")}), " ",
                 make("span", {class: "muted", text: nameState("jobStatus", isUnresolved(job) ? "Unresolved" : job.status)}),
                 make("p", {class: "muted job-id", text: job.jobId}),
-                isUnresolved(job) ? make("div", {class: "row-buttons no-wall"}, ...["done", "failed", "again"]
+                isUnresolved(job) ? make("div", {class: "row-buttons no-wall"}, ...outcomes
                     .map((outcome) => makeCommandButton(Commands.resolveJob(plan, job.jobId, outcome), "danger"))) : null))),
             canSkip ? make("div", {class: "row-buttons no-wall"},
                 makeCommandButton(Commands.skipStep(plan, step.stepNo), "small")) : null);

@@ -162,6 +162,23 @@ class Alarms(PageCase):
         self.wait_for_text("#view-alarms", "Job outcome unknown")
         self.assertEqual(self.list_commands("ACS-1008"), [command])
 
+    def test_an_unresolved_job_of_a_plan_that_is_gone(self):
+        """Only the alarm has the buttons: acsd keeps a limited number of ended plans."""
+        mock = self.start_mock()
+        with mock.lock:
+            plan = next(iter(mock.simulation.plans.values()))
+            remedy = ", ".join(f"`acsctl resolve GONE {plan.get_job_id()} {outcome}`" for outcome in ("done", "failed", "again"))
+            alarm = mock.simulation.set_alarm("LR01", "ACS-1008", "heavy", "unknown", "Job outcome unknown", "", remedy, plan)
+            alarm["planId"] = "GONE"
+        self.open()
+        self.click("#tab-alarms")
+        row = "#view-alarms .alarm[data-id='ACS-1008']"
+        self.wait_for_text(row, "Clear alarm")
+        buttons = self.find_all(f"{row} button.button")
+        self.assertEqual([button.text for button in buttons], ["Job was done", "Job failed", "Clear alarm"])
+        self.assertEqual({button.get_attribute("data-path") for button in buttons[:2]},
+                         {f"/v1/plans/GONE/jobs/{plan.get_job_id()}/resolve"})
+
     def test_ids_in_commands_are_quoted_for_a_shell(self):
         mock = self.start_mock()
         mock.freeze()

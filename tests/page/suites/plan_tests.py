@@ -118,6 +118,19 @@ class Plans(PlanCase):
         self.click("#confirm-action")
         self.wait_for_post(f"{self.path}/jobs/{job_id}/resolve", {"outcome": "done"})
 
+    def test_an_unresolved_job_of_an_ended_plan(self):
+        """acsd does not repeat it."""
+        simulation = self.mock.simulation
+        self.open_plan()
+        with self.mock.lock:
+            self.plan.get_step()["status"] = "InProgress"
+            simulation.end_plan(self.plan, "Aborted")
+            simulation.set_alarm("LR01", "ACS-1008", "heavy", "unknown", "Job outcome unknown", "", "", self.plan)
+            self.mock.publish()
+        self.wait_for_text("#detail .facts", "Aborted")
+        self.wait_for_text("#detail .jobs", "Job failed")
+        self.assertEqual([button.text for button in self.find_all("#detail .jobs button")], ["Job was done", "Job failed"])
+
     def test_a_change_of_the_plan_keeps_the_focus(self):
         """On the button for one outcome of a job, and on a button elsewhere that sends the same command as one of the detail."""
         simulation = self.mock.simulation
