@@ -17,10 +17,12 @@ export class ApiError extends Error {
     }
 }
 
-/** A command without an answer of acsd, which may have executed it. Again with the same key it has no second effect. */
+/** A command without an answer of acsd, which may have executed it. Again with the same key it has no second effect, unless acsd
+ *  was restarted: it does not store the keys of instant actions. */
 export class LostAnswer extends ApiError {
-    constructor(reason) {
+    constructor(reason, path) {
         super(0, reason);
+        this.isRemembered = !path.endsWith("/actions");
     }
 }
 
@@ -127,6 +129,6 @@ export async function post(path, body, key = makeKey()) {
     try {
         return await postOnce(path, options);
     } catch (error) {
-        throw error.isFinal ? error : new LostAnswer(error.message);
+        throw error.isFinal ? error : new LostAnswer(error.message, path);
     }
 }

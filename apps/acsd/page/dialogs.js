@@ -72,7 +72,7 @@ export function makeReasonInput(limit = REASON_LIMIT) {
 /** Why a request has failed; "" without a login, which has a dialog of its own. */
 function describeError(error) {
     if (error instanceof LostAnswer) {
-        return `${t("error.lost", {reason: error.message})} ${t("error.repeat")}`;
+        return `${t("error.lost", {reason: error.message})} ${t(error.isRemembered ? "error.repeat" : "error.repeatAction")}`;
     }
     return error.status === 401 ? "" : error.status === 0 ? t("error.connection", {reason: error.message}) : error.message;
 }

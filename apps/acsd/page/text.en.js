@@ -283,6 +283,7 @@ export default {
     "error.connection": "acsd does not answer: {reason}",
     "error.lost": "No complete answer from acsd ({reason}). The outcome of the command is unknown.",
     "error.repeat": "Sending the command again within 10 minutes has no second effect.",
+    "error.repeatAction": "Sending it again within 10 minutes has no second effect, unless acsd was restarted: check the robot.",
 
     "login.title": "Login",
     "login.text": "This acsd requires a token. acsd token ROLE NAME makes one.",

@@ -283,6 +283,7 @@ export default {
     "error.connection": "acsd가 응답하지 않습니다: {reason}",
     "error.lost": "acsd의 응답을 끝까지 받지 못했습니다({reason}). 명령이 실행되었는지 알 수 없습니다.",
     "error.repeat": "10분 안에 다시 전송하면 중복 실행되지 않습니다.",
+    "error.repeatAction": "10분 안에 다시 전송하면 중복 실행되지 않습니다. 그 사이 acsd가 재시작되었다면 예외이므로 로봇을 확인하십시오.",
 
     "login.title": "로그인",
     "login.text": "접속 토큰이 필요합니다. 토큰은 acsd token ROLE NAME 명령으로 발급합니다.",

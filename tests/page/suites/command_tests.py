@@ -117,6 +117,17 @@ class Commands(PageCase):
         self.wait_for_text("#toasts", "acsd has executed this command before, and not again: Cancel of plan")
         self.assertEqual(executed, [f"plans/{plan_id}/cancel"])
 
+    def test_an_instant_action(self):
+        """acsd does not store its key."""
+        self.open()
+        self.execute_unseen([])
+        self.select("robot", "LR01")
+        self.click_button("Show", "#detail .actions")
+        self.click_button("stateRequest", "#detail .actions")
+        self.click("#confirm-action")
+        self.wait_for_text("#confirm-dialog [role=alert]", UNKNOWN)
+        self.assertIn("no second effect, unless acsd was restarted", self.get_text("#confirm-dialog [role=alert]"))
+
     def test_a_command_without_a_question(self):
         executed = []
         self.open()
