@@ -242,13 +242,13 @@ std::vector<std::string> PlaceTracker::ListNodes(const Robot& robot) const
     {
         nodes = std::span(robot.drive->nodes).subspan(robot.drive->passed);
     }
-    else if (robot.place.bPlaced)
-    {
-        nodes = robot.place.heldNodes;
-    }
-    else if (robot.view.state.has_value())
+    else if (!robot.place.bPlaced && robot.view.state.has_value())
     {
         return robot.work.GetStored().nodeIDs; // position lost
+    }
+    else if (!robot.place.heldNodes.empty())
+    {
+        nodes = robot.place.heldNodes; // also if the position is lost, and then the connection
     }
     std::vector<std::string> nodeIDs;
     for (const std::size_t node : nodes)

@@ -72,6 +72,18 @@ TEST_CASE("PlaceTracker: an unknown node is an alarm of a robot that had a posit
     CHECK(parts.places.GetTraffic().GetHolderOrNull(parts.FindNode("D-A01.CP01")) == 0U);
 }
 
+TEST_CASE("PlaceTracker: a robot that lost its position keeps its node, also in the store while it is disconnected")
+{
+    EngineParts parts;
+    parts.PutOn(parts.lr, "D-A01.CP01");
+    parts.lr.view.state->lastNodeID.clear();
+    parts.places.Place(parts.lr);
+    REQUIRE_FALSE(parts.lr.place.bPlaced);
+    parts.lr.view.state.reset();
+    CHECK(parts.places.ListNodes(parts.lr) == std::vector<std::string>{"D-A01.CP01"});
+    CHECK(parts.places.GetTraffic().GetHolderOrNull(parts.FindNode("D-A01.CP01")) == 0U);
+}
+
 TEST_CASE("PlaceTracker: a very long unknown node is shortened in the alarm")
 {
     EngineParts parts;
