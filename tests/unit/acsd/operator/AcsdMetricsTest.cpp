@@ -30,6 +30,20 @@ std::string ListCauses(const Testing::PlanWorld& world, bool bStoreFailing = fal
     return text;
 }
 
+/// The metrics of the plans, robots and alarms of a floor.
+struct MetricsOfFloor
+{
+    Testing::PlanWorld world;
+    Apps::MetricsEndpoint endpoint;
+    AcsdMetrics metrics{endpoint, world.GetNow()};
+
+    [[nodiscard]] std::string Render()
+    {
+        metrics.UpdatePlans(*world.engine, false, world.GetNow());
+        return endpoint.Render();
+    }
+};
+
 } // namespace
 
 TEST_CASE("Plans that wait are counted by cause")
@@ -105,37 +119,27 @@ TEST_CASE("acsd is ready while every link is up and nothing else prevents it")
 
 TEST_CASE("The maintenance of each robot has a series, also of one that is not connected")
 {
-    Testing::PlanWorld world;
-    Apps::MetricsEndpoint endpoint;
-    AcsdMetrics metrics(endpoint, world.GetNow());
-    const auto render = [&] {
-        metrics.UpdatePlans(*world.engine, false, world.GetNow());
-        return endpoint.Render();
-    };
-    CHECK_THAT(render(), Contains("acsd_robot_maintenance{robot=\"LR01\"} 0\n"));
-    world.Ask(Planning::SetMaintenance{"LR01", true, 0});
-    CHECK_THAT(render(), Contains("acsd_robot_maintenance{robot=\"LR01\"} 1\n"));
-    world.Ask(Planning::SetMaintenance{"LR01", false, 0});
-    CHECK_THAT(render(), Contains("acsd_robot_maintenance{robot=\"LR01\"} 0\n"));
+    MetricsOfFloor floor;
+    CHECK_THAT(floor.Render(), Contains("acsd_robot_maintenance{robot=\"LR01\"} 0\n"));
+    floor.world.Ask(Planning::SetMaintenance{"LR01", true, 0});
+    CHECK_THAT(floor.Render(), Contains("acsd_robot_maintenance{robot=\"LR01\"} 1\n"));
+    floor.world.Ask(Planning::SetMaintenance{"LR01", false, 0});
+    CHECK_THAT(floor.Render(), Contains("acsd_robot_maintenance{robot=\"LR01\"} 0\n"));
 }
 
 TEST_CASE("An alarm has its series while it is active")
 {
-    Testing::PlanWorld world;
-    Apps::MetricsEndpoint endpoint;
-    AcsdMetrics metrics(endpoint, world.GetNow());
-    const auto render = [&] {
-        metrics.UpdatePlans(*world.engine, false, world.GetNow());
-        return endpoint.Render();
-    };
-    CHECK_THAT(render(), Contains("acsd_alarms_active{level=\"heavy\"} 0\n") && !Contains("acsd_alarms_by_code{"));
-    world.Connect();
-    world.Raise("LR01", Planning::LinkChanged{false});
-    REQUIRE(world.TryRun([&world] { return !world.engine->GetActiveAlarms().empty(); }));
-    CHECK_THAT(render(), Contains(R"(acsd_alarms_by_code{code="ACS-1002",level="heavy",robot="LR01"} 1)"));
-    world.Raise("LR01", Planning::LinkChanged{true});
-    REQUIRE(world.TryRun([&world] { return world.engine->GetActiveAlarms().empty(); }));
-    CHECK_THAT(render(), !Contains("acsd_alarms_by_code{"));
+    MetricsOfFloor floor;
+    CHECK_THAT(
+        floor.Render(),
+        Contains("acsd_alarms_active{level=\"heavy\"} 0\n") && !Contains("acsd_alarms_by_code{"));
+    floor.world.Connect();
+    floor.world.Raise("LR01", Planning::LinkChanged{false});
+    REQUIRE(floor.world.TryRun([&floor] { return !floor.world.engine->GetActiveAlarms().empty(); }));
+    CHECK_THAT(floor.Render(), Contains(R"(acsd_alarms_by_code{code="ACS-1002",level="heavy",robot="LR01"} 1)"));
+    floor.world.Raise("LR01", Planning::LinkChanged{true});
+    REQUIRE(floor.world.TryRun([&floor] { return floor.world.engine->GetActiveAlarms().empty(); }));
+    CHECK_THAT(floor.Render(), !Contains("acsd_alarms_by_code{"));
 }
 
 } // namespace ACS::Acsd::Test
