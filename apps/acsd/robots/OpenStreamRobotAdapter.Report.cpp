@@ -41,7 +41,6 @@ void OpenStreamRobotAdapter::DrainBase(Core::Now now, AdapterActions& out)
         {
             _baseState = *stateOrNull;
             _program.OnPauseShown(stateOrNull->bPaused);
-            _bBaseStateKnown = true;
             _bPaused = IsPaused();
             _bArmOccupied = IsArmOccupied();
             out.emplace_back(RaiseEvent{MakeState()});
@@ -49,7 +48,10 @@ void OpenStreamRobotAdapter::DrainBase(Core::Now now, AdapterActions& out)
         else if (linkOrNull != nullptr)
         {
             _bBaseOnline = linkOrNull->bOnline;
-            _bBaseStateKnown = _bBaseStateKnown && _bBaseOnline;
+            if (!_bBaseOnline)
+            {
+                _baseState.reset();
+            }
             ReportOnline(out);
         }
         else
@@ -61,7 +63,7 @@ void OpenStreamRobotAdapter::DrainBase(Core::Now now, AdapterActions& out)
 
 Planning::StateChanged OpenStreamRobotAdapter::MakeState() const
 {
-    Planning::StateChanged state = _baseState;
+    Planning::StateChanged state = *_baseState;
     state.bPaused = _bPaused;
     state.bOccupied = state.bOccupied || IsArmOccupied();
     state.restartEvidence.progressToken = _evidence.MakeProgressToken();
@@ -74,7 +76,7 @@ Planning::StateChanged OpenStreamRobotAdapter::MakeState() const
 
 void OpenStreamRobotAdapter::ReportState(AdapterActions& out) const
 {
-    if (_bBaseStateKnown)
+    if (_baseState.has_value())
     {
         out.emplace_back(RaiseEvent{MakeState()});
     }
@@ -116,7 +118,8 @@ void OpenStreamRobotAdapter::ReportOnline(AdapterActions& out)
 /// until the counters show what became of it.
 bool OpenStreamRobotAdapter::IsPaused() const
 {
-    return (_baseState.bPaused && !_recovery.has_value() && _program.IsArmStopped()) || _program.IsResumeDue();
+    const bool bBasePaused = _baseState.has_value() && _baseState->bPaused;
+    return (bBasePaused && !_recovery.has_value() && _program.IsArmStopped()) || _program.IsResumeDue();
 }
 
 /// The arm runs the program of a job that was cancelled, or resolved by the operator.
@@ -127,7 +130,7 @@ bool OpenStreamRobotAdapter::IsArmOccupied() const
 
 void OpenStreamRobotAdapter::ReportActivity(AdapterActions& out)
 {
-    if (!_bBaseStateKnown)
+    if (!_baseState.has_value())
     {
         return;
     }

@@ -59,11 +59,10 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     bool _bJobReleased = false; ///< The engine may no longer wait for the end of the program's job.
 
     bool _bBaseOnline = false;
-    bool _bBaseStateKnown = false;
-    Planning::StateChanged _baseState; ///< The latest of the base.
-    bool _bOnline = false;             ///< As it was reported last.
-    bool _bPaused = false;             ///< Likewise.
-    bool _bArmOccupied = false;        ///< Likewise.
+    std::optional<Planning::StateChanged> _baseState; ///< The latest since the base is online.
+    bool _bOnline = false;                            ///< As it was reported last.
+    bool _bPaused = false;                            ///< Likewise.
+    bool _bArmOccupied = false;                       ///< Likewise.
     std::optional<Planning::RobotError> _trouble;
 
 public:
