@@ -45,9 +45,11 @@ void ControlAnswers::Remember(PlanProgress& progress, const ControlPlan& command
     _plans.MarkProgressed(command.planID);
 }
 
-void ControlAnswers::Forget(ActivePlan& plan, const std::string& requestID)
+void ControlAnswers::Withdraw(ActivePlan& plan, const ControlPlan& command)
 {
-    std::erase(plan.record.progress.requestIDs, requestID);
+    std::erase(plan.record.progress.requestIDs, MakeRequestID(command));
+    plan.record.progress.control.reset();
+    plan.record.progress.controlCount = 0;
     _plans.MarkProgressed(plan.record.plan.planID);
 }
 

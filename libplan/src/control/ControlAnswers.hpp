@@ -29,8 +29,8 @@ public:
     [[nodiscard]] bool IsRepetition(const ControlPlan& command) const;
     /// Remembers the request to recognise a repetition.
     void Remember(PlanProgress& progress, const ControlPlan& command);
-    /// The request has no effect: repeated, it is executed.
-    void Forget(ActivePlan& plan, const std::string& requestID);
+    /// The open control and its request have no effect and no result: repeated, the request is executed.
+    void Withdraw(ActivePlan& plan, const ControlPlan& command);
     /// Opens a control, until Answer.
     void Ask(ActivePlan& plan, EPlanControl control, EControlOrigin origin);
     /// "PausePlan", or "the operator": who began the open control of the plan.

@@ -38,12 +38,12 @@ void PlanSubmission::Submit(const SubmitPlan& command)
         _transaction.Reply(command.replyToken, true, REGISTERED);
         return;
     }
-    if (_backlog.HasRefusals()) // not tried: the number of refusals that wait stays limited
+    if (_backlog.HasWithheld()) // not tried: the number of refusals that wait stays limited
     {
         const std::string refusal = "The plan cannot be stored because the store is failing. Send it again later.";
         if (_backlog.HasUnknown(command.plan.planID))
         {
-            _backlog.WithholdRefusal({command.replyToken, false, refusal});
+            _backlog.Withhold({command.replyToken, false, refusal});
             return;
         }
         _transaction.Reply(command.replyToken, false, refusal);

@@ -145,15 +145,16 @@ void StoreGate::OnStored(const Core::Result<void>& result, Core::Now now, Engine
     CommitGate::Transaction transaction = _gate.Open();
     if (result.has_value())
     {
-        std::ranges::move(_backlog.CollectRefusals(), std::back_inserter(out));
+        std::ranges::move(_backlog.CollectWithheld(), std::back_inserter(out));
         Append(out, std::move(transaction.dependent));
         return;
     }
     _transaction.SetNow(now);
     _backlog.OnFailed();
     const bool bUnknown = result.error().code == EPlanningError::StoreOutcomeUnknown;
+    const bool bControlRefused = TryWithdrawControl(transaction);
     const bool bPlanRefused = RecoverBatch(transaction.batch, bUnknown) > 0;
-    ReleaseWithoutStore(transaction.dependent, bPlanRefused, result.error(), out);
+    ReleaseWithoutStore(transaction.dependent, bControlRefused || bPlanRefused, result.error(), out);
     ReportStoreFailure(Core::Describe(result.error()), out);
 }
 
@@ -210,10 +211,6 @@ std::size_t StoreGate::RecoverBatch(const StoreBatch& batch, bool bUnknown)
         {
             continue; // restored below
         }
-        if (_call.controlID.has_value() && std::holds_alternative<ReceiptAdded>(change))
-        {
-            continue; // the control is refused
-        }
         const auto* addedOrNull = std::get_if<PlanAdded>(&change);
         if (addedOrNull == nullptr)
         {
@@ -234,25 +231,67 @@ std::size_t StoreGate::RecoverBatch(const StoreBatch& batch, bool bUnknown)
             begunOrNull->bUnstored = true;
         }
     }
-    if (_call.controlID.has_value())
+    if (_call.control.has_value())
     {
-        // A crash would lose the result it is owed, so it is refused. Its effects stay.
-        _call.unstoredControlIDs.insert(*_call.controlID);
+        _call.unstoredControlIDs.insert(ControlAnswers::MakeRequestID(*_call.control));
     }
     _transaction.Store(_plans.RestoreReplaced());
     return refused;
 }
 
+bool StoreGate::TryWithdrawControl(CommitGate::Transaction& transaction)
+{
+    if (!_call.control.has_value())
+    {
+        return false;
+    }
+    const EPlanControl control = _call.control->control;
+    const auto command = std::ranges::find_if(transaction.dependent, [control](const EngineAction& action) {
+        const auto* typedOrNull = std::get_if<CommandRobot>(&action);
+        return typedOrNull != nullptr
+            && (control == EPlanControl::Pause
+                    ? std::holds_alternative<Pause>(typedOrNull->command)
+                    : control == EPlanControl::Resume && std::holds_alternative<Resume>(typedOrNull->command));
+    });
+    if (command == transaction.dependent.end())
+    {
+        return false;
+    }
+    Robot& robot = *_fleet.FindOrNull(std::get<CommandRobot>(*command).robotID);
+    transaction.dependent.erase(command);
+    if (robot.planOrNull->record.progress.control != control)
+    {
+        return false; // confirmed: the robot was already paused
+    }
+    std::erase_if(transaction.batch.changes, [](const StoreChange& change) {
+        return std::holds_alternative<ReceiptAdded>(change);
+    });
+    _answers.Withdraw(*robot.planOrNull, *_call.control);
+    _answers.StopConfirmingControl(robot);
+    if (control == EPlanControl::Pause)
+    {
+        robot.control.pause.Reset();
+    }
+    else
+    {
+        robot.control.pause.Pause();
+    }
+    robot.changes.MarkWork();
+    _transaction.RequestDispatch();
+    return true;
+}
+
 void StoreGate::ReleaseWithoutStore(
     const EngineActions& withheld,
-    bool bPlanRefused,
+    bool bRefused,
     const Core::Error& error,
     EngineActions& out)
 {
     const bool bUnknown = error.code == EPlanningError::StoreOutcomeUnknown;
+    const bool bControlOfMCS = _call.control.has_value() && _call.control->origin == EControlOrigin::MCS;
     const std::string refusal = fmt::format(
         "The {} cannot be stored: {}",
-        _call.controlID.has_value() ? "request" : "plan",
+        _call.control.has_value() ? "request" : "plan",
         Core::Describe(error));
     for (const EngineAction& action : withheld)
     {
@@ -260,22 +299,21 @@ void StoreGate::ReleaseWithoutStore(
             Core::Overloaded{
                 [this](const StorePlans& typed) { _backlog.Add(typed.batch.changes); },
                 [this](const SendReport& typed) { _backlog.HoldBack(typed); },
-                [this, &out, &refusal, bPlanRefused, bUnknown](const ReplyCommand& typed) {
+                [this, &out, &refusal, bRefused, bControlOfMCS, bUnknown](const ReplyCommand& typed) {
                     const auto repeated = _call.repeatedPlanIDs.find(typed.replyToken);
                     const bool bKnown =
                         repeated != _call.repeatedPlanIDs.end() && _plans.FindRecordOrNull(repeated->second) != nullptr;
-                    const bool bRefusedNow =
-                        (bPlanRefused && typed.bAccepted && !bKnown) || _call.controlID.has_value();
+                    const bool bRefusedNow = bRefused && typed.bAccepted && !bKnown;
                     ReplyCommand reply = bRefusedNow ? ReplyCommand{typed.replyToken, false, refusal} : typed;
-                    if (bRefusedNow && bUnknown)
+                    if (bRefusedNow ? bUnknown : bControlOfMCS)
                     {
-                        _backlog.WithholdRefusal(std::move(reply));
+                        _backlog.Withhold(std::move(reply));
                         return;
                     }
                     out.emplace_back(std::move(reply));
                 },
                 [this, &out](const CommandRobot& typed) {
-                    if (!TryWithdraw(typed))
+                    if (!TryWithdrawJob(typed))
                     {
                         out.emplace_back(typed);
                     }
@@ -287,36 +325,16 @@ void StoreGate::ReleaseWithoutStore(
     }
 }
 
-bool StoreGate::TryWithdraw(const CommandRobot& command)
+bool StoreGate::TryWithdrawJob(const CommandRobot& command)
 {
     Robot& robot = *_fleet.FindOrNull(command.robotID);
     const auto* jobOrNull = std::get_if<StartJob>(&command.command);
-    if (jobOrNull != nullptr && robot.planOrNull != nullptr && robot.planOrNull->bUnstored)
+    if (jobOrNull == nullptr || robot.planOrNull == nullptr || !robot.planOrNull->bUnstored)
     {
-        _work.RepeatJob(robot, jobOrNull->commandID);
-        return true;
+        return false;
     }
-    if (_call.controlID.has_value() && std::holds_alternative<Planning::Pause>(command.command))
-    {
-        WithdrawPause(robot);
-        return true;
-    }
-    return false;
-}
-
-void StoreGate::WithdrawPause(Robot& robot)
-{
-    robot.control.pause.Reset();
-    robot.changes.MarkWork();
-    _transaction.RequestDispatch();
-    PlanProgress& progress = robot.planOrNull->record.progress;
-    if (progress.control == EPlanControl::Pause)
-    {
-        _answers.Forget(*robot.planOrNull, *_call.controlID);
-        progress.control.reset();
-        progress.controlCount = 0;
-        _answers.StopConfirmingControl(robot);
-    }
+    _work.RepeatJob(robot, jobOrNull->commandID);
+    return true;
 }
 
 Alarm StoreGate::MakeStoreAlarm(std::string message)

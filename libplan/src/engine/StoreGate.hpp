@@ -58,17 +58,18 @@ private:
     void StartStoreRetry(EngineActions& out);
     /// Keeps the changes for the next attempt, except new plans, which are withdrawn. Returns the number of withdrawn plans.
     [[nodiscard]] std::size_t RecoverBatch(const StoreBatch& batch, bool bUnknown);
-    /// Handles withheld actions: reports wait, new plans and controls are refused, everything else is released. The refusals wait
-    /// too if the batch may be stored.
+    /// Withdraws the control of this call if it pauses or resumes a robot: after a crash the reason of the pause would be unknown,
+    /// or the robot would drive for a plan that is paused. Its request is refused.
+    [[nodiscard]] bool TryWithdrawControl(CommitGate::Transaction& transaction);
+    /// Handles withheld actions: reports wait, new plans are refused, everything else is released. The refusals wait too if the
+    /// batch may be stored. So does the answer to any other control of the MCS, which has taken effect.
     void ReleaseWithoutStore(
         const EngineActions& withheld,
-        bool bPlanRefused,
+        bool bRefused,
         const Core::Error& error,
         EngineActions& out);
-    /// Withdraws a command that must not be executed while a crash would lose its record.
-    [[nodiscard]] bool TryWithdraw(const CommandRobot& command);
-    /// The PausePlan is refused: after a crash the reason of the robot's pause would be unknown.
-    void WithdrawPause(Robot& robot);
+    /// Withdraws a job that must not be executed while a crash would lose its record.
+    [[nodiscard]] bool TryWithdrawJob(const CommandRobot& command);
     [[nodiscard]] static Alarm MakeStoreAlarm(std::string message);
 };
 

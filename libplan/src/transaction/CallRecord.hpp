@@ -16,14 +16,14 @@ struct CallRecord
 {
     std::vector<std::string> begunPlanIDs;
     std::map<ReplyToken, std::string> repeatedPlanIDs; ///< Plans that were submitted again.
-    std::optional<std::string> controlID;              ///< The control of this call, as in PlanProgress::requestIDs.
-    std::set<std::string> unstoredControlIDs;          ///< Of all calls since the store fails.
+    std::optional<ControlPlan> control;       ///< The command of this call; of the operator, only Pause and Resume.
+    std::set<std::string> unstoredControlIDs; ///< Of all calls since the store fails, as in PlanProgress::requestIDs.
 
     void Begin()
     {
         begunPlanIDs.clear();
         repeatedPlanIDs.clear();
-        controlID.reset();
+        control.reset();
     }
 };
 

@@ -87,13 +87,13 @@ std::vector<SendReport> StoreBacklog::CollectReports()
     return std::exchange(_reports, {});
 }
 
-void StoreBacklog::WithholdRefusal(ReplyCommand refusal)
+void StoreBacklog::Withhold(ReplyCommand reply)
 {
-    if (_refusals.size() == MOST_REFUSALS)
+    if (_withheld.size() == MOST_WITHHELD)
     {
-        _refusals.erase(_refusals.begin());
+        _withheld.erase(_withheld.begin());
     }
-    _refusals.push_back(std::move(refusal));
+    _withheld.push_back(std::move(reply));
 }
 
 void StoreBacklog::NoteUnknown(std::string planID)
@@ -101,15 +101,15 @@ void StoreBacklog::NoteUnknown(std::string planID)
     _refusedPlanIDs.insert(std::move(planID));
 }
 
-std::vector<ReplyCommand> StoreBacklog::CollectRefusals()
+std::vector<ReplyCommand> StoreBacklog::CollectWithheld()
 {
     _refusedPlanIDs.clear();
-    return std::exchange(_refusals, {});
+    return std::exchange(_withheld, {});
 }
 
-bool StoreBacklog::HasRefusals() const noexcept
+bool StoreBacklog::HasWithheld() const noexcept
 {
-    return !_refusals.empty();
+    return !_withheld.empty();
 }
 
 bool StoreBacklog::HasUnknown(std::string_view planID) const

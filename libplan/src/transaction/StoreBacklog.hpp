@@ -20,7 +20,7 @@ namespace ACS::Planning
 class StoreBacklog
 {
 public:
-    static constexpr std::size_t MOST_REFUSALS = 1'000;
+    static constexpr std::size_t MOST_WITHHELD = 1'000;
 
 private:
     enum class EState : std::uint8_t
@@ -34,7 +34,7 @@ private:
     EState _state = EState::Working;
     std::vector<StoreChange> _changes;
     std::vector<SendReport> _reports;
-    std::vector<ReplyCommand> _refusals;
+    std::vector<ReplyCommand> _withheld;
     std::set<std::string, std::less<>> _refusedPlanIDs;
 
 public:
@@ -57,13 +57,14 @@ public:
     void HoldBack(SendReport report);
     [[nodiscard]] std::vector<SendReport> CollectReports();
 
-    /// What it refuses may be stored (EPlanningError::StoreOutcomeUnknown), and be executed after a crash. It waits until the next
-    /// successful write, after which it is not stored. Beyond MOST_REFUSALS the oldest one is dropped: its request has no answer.
-    void WithholdRefusal(ReplyCommand refusal);
+    /// The answer is true only after the next successful write: it refuses what may be stored (EPlanningError::StoreOutcomeUnknown)
+    /// and be executed after a crash, or accepts a control whose effects are not stored. Beyond MOST_WITHHELD the oldest one is
+    /// dropped: its request has no answer.
+    void Withhold(ReplyCommand reply);
     /// The refusal of this plan is withheld.
     void NoteUnknown(std::string planID);
-    [[nodiscard]] std::vector<ReplyCommand> CollectRefusals();
-    [[nodiscard]] bool HasRefusals() const noexcept;
+    [[nodiscard]] std::vector<ReplyCommand> CollectWithheld();
+    [[nodiscard]] bool HasWithheld() const noexcept;
     [[nodiscard]] bool HasUnknown(std::string_view planID) const;
 
     [[nodiscard]] bool IsFailing() const noexcept;

@@ -11,6 +11,7 @@ namespace ACS::Planning
 namespace
 {
 
+constexpr const char* RECEIVED = "Received.";
 constexpr const char* STORE_FAILING = "The request cannot be stored because the store is failing. Send it again.";
 
 std::string DescribeResume(const ActivePlan& plan)
@@ -54,15 +55,19 @@ void PlanControls::Control(const ControlPlan& command)
         return;
     }
     const bool bRepeated = _answers.IsRepetition(command);
-    if (_backlog.IsFailing()
-        && (!bRepeated || _call.unstoredControlIDs.contains(ControlAnswers::MakeRequestID(command))))
-    {
-        _transaction.Reply(command.replyToken, false, STORE_FAILING);
-        return;
-    }
     if (bRepeated)
     {
-        _transaction.Reply(command.replyToken, true, "Received.");
+        if (_backlog.IsFailing() && _call.unstoredControlIDs.contains(ControlAnswers::MakeRequestID(command)))
+        {
+            _backlog.Withhold({command.replyToken, true, RECEIVED});
+            return;
+        }
+        _transaction.Reply(command.replyToken, true, RECEIVED);
+        return;
+    }
+    if (_backlog.IsFailing())
+    {
+        _transaction.Reply(command.replyToken, false, STORE_FAILING);
         return;
     }
     if (!_room.HasRoomForControl())
@@ -73,14 +78,14 @@ void PlanControls::Control(const ControlPlan& command)
             "Outbox Full: the request has no room for its result. Acknowledge reports, then send it again.");
         return;
     }
-    _call.controlID = ControlAnswers::MakeRequestID(command);
+    _call.control = command;
     ActivePlan* planOrNull = _plans.FindActiveOrNull(command.planID);
     if (planOrNull == nullptr)
     {
         _answers.RefuseControl(command);
         return;
     }
-    _transaction.Reply(command.replyToken, true, "Received.");
+    _transaction.Reply(command.replyToken, true, RECEIVED);
     ActivePlan& plan = *planOrNull;
     _answers.Remember(plan.record.progress, command);
     if (plan.record.progress.control == command.control)
@@ -104,9 +109,9 @@ void PlanControls::ControlByOperator(const ControlPlan& command)
         _transaction.Reply(command.replyToken, false, std::move(*reason));
         return;
     }
-    if (command.control == EPlanControl::Pause)
+    if (command.control == EPlanControl::Pause || command.control == EPlanControl::Resume)
     {
-        _call.controlID = ControlAnswers::MakeRequestID(command);
+        _call.control = command;
     }
     ActivePlan& plan = *_plans.FindActiveOrNull(command.planID);
     if (plan.record.progress.control != command.control)

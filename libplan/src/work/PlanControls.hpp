@@ -25,7 +25,7 @@ class PlanControls
     Fleet& _fleet;
     EngineTransaction& _transaction;
     CallRecord& _call;
-    const StoreBacklog& _backlog;
+    StoreBacklog& _backlog;
     const RestartHold& _hold;
     const OutboxRoom& _room;
     const TscControl& _tsc;

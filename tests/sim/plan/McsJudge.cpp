@@ -148,6 +148,7 @@ void McsJudge::NoteControlSent(
 {
     ControlView& view = _controls[{planID, control}];
     view.sent.insert(transactionID);
+    view.refused.erase(transactionID);
     // acsd does not keep requests about unknown plans over a crash.
     const auto plan = _plans.find(planID);
     view.bUnknown = view.bUnknown || plan == _plans.end() || plan->second.knowledge != EKnowledge::Accepted;
@@ -160,6 +161,7 @@ void McsJudge::NoteControlAck(Planning::EPlanControl control, const std::string&
         ack.result == Protocol::EAckResult::Fail && ack.message.find("cannot be stored") != std::string::npos;
     if (bUnstored)
     {
+        _controls[{planID, control}].refused.insert(ack.transactionID);
         return;
     }
     ++_controls[{planID, control}].acknowledged;
@@ -427,6 +429,10 @@ void McsJudge::OnResult(Planning::EPlanControl control, const std::string& planI
     }
     ControlView& view = _controls[{planID, control}];
     view.bDone = view.bDone || result == Protocol::EReportResult::Success;
+    if (result == Protocol::EReportResult::Success && view.refused == view.sent && !view.bUnknown)
+    {
+        _trace.Violate("{} of plan {} was refused and is reported as successful", GetText(control), planID);
+    }
     if (++view.results > view.sent.size() && !view.bUnknown)
     {
         _trace.Violate(

@@ -48,7 +48,8 @@ private:
 
     struct ControlView
     {
-        std::set<std::string> sent; ///< TransactionIDs: a repetition has no result of its own.
+        std::set<std::string> sent;    ///< TransactionIDs: a repetition has no result of its own.
+        std::set<std::string> refused; ///< Of these, the ones that were last answered with Fail.
         std::size_t acknowledged = 0;
         std::size_t results = 0;
         bool bDone = false;    ///< One of them reports success.

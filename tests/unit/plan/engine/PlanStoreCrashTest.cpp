@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -255,6 +256,68 @@ TEST_CASE("A control that cannot be stored is refused: after a crash it would be
     CHECK(world.replies.at(9).bAccepted);
     REQUIRE(world.TryRun());
     CHECK(Contains(world.GetReportsOf("P1"), "AbortResult Success"));
+}
+
+TEST_CASE("A control that has taken effect is acknowledged when it is stored: Fail would not be true")
+{
+    struct Case
+    {
+        EPlanControl control;
+        const char* begun; ///< Empty: the plan waits for a robot.
+        const char* result;
+    };
+    const std::vector<Case> cases = {
+        {EPlanControl::Pause, "", "PauseResult Success"},
+        {EPlanControl::Cancel, "", "CancelResult Success"},
+        {EPlanControl::Abort, "", "AbortResult Success"},
+        {EPlanControl::Cancel, "Step 1 InProgress", "CancelResult Success"},
+        {EPlanControl::Abort, "Step 1 InProgress", "AbortResult Success"},
+        {EPlanControl::Abort, "Job 1 P1-a4 InProgress", "AbortResult Success"}};
+    for (const Case& single : cases)
+    {
+        INFO(GetText(single.control) << " after " << single.begun);
+        PlanWorld world;
+        if (*single.begun == '\0')
+        {
+            world.Submit(MakeLogisticsPlan("P1")); // no robot is connected
+        }
+        else
+        {
+            BeginPlan(world, MakeLogisticsPlan("P1"), single.begun);
+        }
+        world.store.bFails = true;
+        world.Control(single.control, "P1", 5, "T5"); // This write shows that the disk fails.
+        world.Control(single.control, "P1", 6, "T5");
+        CHECK(world.replies.count(5) == 0);
+        CHECK(world.replies.count(6) == 0);
+        CHECK_FALSE(Contains(world.GetReportsOf("P1"), single.result));
+        world.store.bFails = false;
+        static_cast<void>(TryRunFor(world, 2s));
+        REQUIRE(world.replies.count(5) == 1);
+        CHECK(world.replies.at(5).bAccepted);
+        CHECK(world.replies.at(6).bAccepted);
+        REQUIRE(TryRunUntil(world, "P1", single.result));
+        CHECK(std::ranges::count(world.GetReportsOf("P1"), single.result) == 1);
+    }
+}
+
+TEST_CASE("A robot is not resumed by a request that cannot be stored, and resumes when it is repeated")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
+    PausePlan(world);
+    const std::size_t resumed = world.GetTraceOf("command LR01 Resume").size();
+    const std::size_t reports = world.GetReportsOf("P1").size();
+    world.store.bFails = true;
+    world.Control(EPlanControl::Resume, "P1", 5, "T5"); // This write shows that the disk fails.
+    CHECK_FALSE(world.replies.at(5).bAccepted);
+    world.store.bFails = false;
+    static_cast<void>(TryRunFor(world, 60s));
+    CHECK(world.GetTraceOf("command LR01 Resume").size() == resumed);
+    CHECK(world.GetReportsOf("P1").size() == reports);
+    world.Control(EPlanControl::Resume, "P1", 6, "T5");
+    CHECK(world.replies.at(6).bAccepted);
+    FinishPlan(world);
 }
 
 TEST_CASE("13.5 A stored plan that is sent again is accepted although another plan of the batch cannot be stored")

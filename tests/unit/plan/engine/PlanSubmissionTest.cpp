@@ -67,7 +67,7 @@ TEST_CASE("PlanSubmission: a planID is accepted once, and the same request is an
 TEST_CASE("PlanSubmission: while a refusal waits plans are refused, and the plan that may be stored waits too")
 {
     SubmissionParts parts;
-    parts.engine.backlog.WithholdRefusal({6, false, "disk"});
+    parts.engine.backlog.Withhold({6, false, "disk"});
     parts.engine.backlog.NoteUnknown("P1");
     CallOutcome outcome = parts.SubmitPlanOf("P2");
     REQUIRE(outcome.ListActions<ReplyCommand>().size() == 1);
@@ -76,7 +76,7 @@ TEST_CASE("PlanSubmission: while a refusal waits plans are refused, and the plan
     outcome = parts.SubmitPlanOf("P1");
     CHECK(outcome.actions.empty());
     CHECK(outcome.changes.empty());
-    CHECK(parts.engine.backlog.CollectRefusals().size() == 2);
+    CHECK(parts.engine.backlog.CollectWithheld().size() == 2);
     CHECK(parts.IsAccepted("P1"));
 }
 

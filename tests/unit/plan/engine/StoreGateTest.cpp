@@ -138,7 +138,7 @@ TEST_CASE("StoreGate: a plan that may be stored is refused after the next succes
     static_cast<void>(parts.CommitCall());
     CHECK(parts.LeaveStore().ListActions<ReplyCommand>().empty());
     CHECK(parts.engine.plans.GetActive().empty());
-    CHECK(parts.engine.backlog.HasRefusals());
+    CHECK(parts.engine.backlog.HasWithheld());
     CHECK(parts.engine.backlog.HasUnknown("P1"));
     CHECK_FALSE(parts.engine.backlog.HasUnknown("P2"));
     CHECK(parts.RetryStore(false).ListActions<ReplyCommand>().empty());
@@ -146,7 +146,7 @@ TEST_CASE("StoreGate: a plan that may be stored is refused after the next succes
     REQUIRE(replies.size() == 1);
     CHECK(replies.front().replyToken == 7);
     CHECK_FALSE(replies.front().bAccepted);
-    CHECK_FALSE(parts.engine.backlog.HasRefusals());
+    CHECK_FALSE(parts.engine.backlog.HasWithheld());
     CHECK_FALSE(parts.engine.backlog.HasUnknown("P1"));
 }
 
@@ -203,7 +203,7 @@ TEST_CASE("StoreGate: the first job of a plan that is not stored as begun is wit
     CHECK(parts.lr.activity == EActivity::Waits);
 }
 
-TEST_CASE("StoreGate: a control that cannot be stored is refused, and its pause is withdrawn")
+TEST_CASE("StoreGate: a pause of a robot that cannot be stored is refused and withdrawn")
 {
     GateParts parts;
     ActivePlan& plan = parts.BeginLoad();
@@ -216,7 +216,24 @@ TEST_CASE("StoreGate: a control that cannot be stored is refused, and its pause 
     CHECK(failed.ListCommands<Pause>().empty());
     CHECK_FALSE(plan.record.progress.control.has_value());
     CHECK_FALSE(parts.lr.control.pause.IsPaused());
-    CHECK(parts.engine.call.unstoredControlIDs.size() == 1);
+}
+
+TEST_CASE("StoreGate: a control that has taken effect is answered after the next successful write")
+{
+    GateParts parts;
+    ActivePlan& plan = parts.BeginDriveToLoad();
+    parts.BeginCall();
+    parts.controls.Control(ControlPlan{EPlanControl::Abort, "P1", {}, 7, "1"});
+    static_cast<void>(parts.CommitCall());
+    const CallOutcome failed = parts.EndStore(false);
+    CHECK(failed.ListActions<ReplyCommand>().empty());
+    CHECK(failed.ListCommands<CancelDrive>().size() == 1);
+    CHECK(plan.record.progress.control == EPlanControl::Abort);
+    CHECK(parts.engine.call.unstoredControlIDs.contains("Abort 1"));
+    CHECK(parts.RetryStore(false).ListActions<ReplyCommand>().empty());
+    const auto replies = parts.RetryStore(true).ListActions<ReplyCommand>();
+    REQUIRE(replies.size() == 1);
+    CHECK(replies.front() == ReplyCommand{7, true, "Received."});
 }
 
 TEST_CASE("StoreGate: the receipt of an operator's pause that cannot be stored is withdrawn with it")

@@ -102,12 +102,12 @@ TEST_CASE(
 TEST_CASE("StoreBacklog: of refusals that are withheld only the latest are kept")
 {
     StoreBacklog backlog;
-    for (std::uint64_t token = 1; token <= StoreBacklog::MOST_REFUSALS + 2; ++token)
+    for (std::uint64_t token = 1; token <= StoreBacklog::MOST_WITHHELD + 2; ++token)
     {
-        backlog.WithholdRefusal({token, false, "no room"});
+        backlog.Withhold({token, false, "no room"});
     }
-    const std::vector<ReplyCommand> refusals = backlog.CollectRefusals();
-    REQUIRE(refusals.size() == StoreBacklog::MOST_REFUSALS);
+    const std::vector<ReplyCommand> refusals = backlog.CollectWithheld();
+    REQUIRE(refusals.size() == StoreBacklog::MOST_WITHHELD);
     CHECK(refusals.front().replyToken == 3);
-    CHECK_FALSE(backlog.HasRefusals());
+    CHECK_FALSE(backlog.HasWithheld());
 }
