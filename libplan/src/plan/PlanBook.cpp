@@ -261,7 +261,11 @@ std::size_t PlanBook::GetReportsAhead() const noexcept
 bool PlanBook::IsAnyRunning() const
 {
     return std::ranges::any_of(_active, [](const auto& entry) {
-        return entry.second->record.progress.state == EPlanState::InProgress || IsOffered(*entry.second);
+        const ActivePlan& plan = *entry.second;
+        const PlanProgress& progress = plan.record.progress;
+        const bool bMayMove =
+            progress.state == EPlanState::Paused && plan.robot.has_value() && progress.control.has_value();
+        return progress.state == EPlanState::InProgress || IsOffered(plan) || bMayMove;
     });
 }
 

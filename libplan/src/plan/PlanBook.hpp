@@ -97,6 +97,7 @@ public:
     [[nodiscard]] const PlanRecord* FindRecordOrNull(std::string_view planID) const;
     /// Finished plans, at most limit, those that ended last first.
     [[nodiscard]] std::vector<std::reference_wrapper<const PlanRecord>> ListFinished(std::size_t limit) const;
+    /// In progress, offered to a robot, or paused with a robot and an open control, which may let it move again.
     [[nodiscard]] bool IsAnyRunning() const;
     /// The maximum number of reports that the active plans still allow (ReportForecast).
     [[nodiscard]] std::size_t GetReportsAhead() const noexcept;

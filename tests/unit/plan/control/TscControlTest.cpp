@@ -40,6 +40,21 @@ TEST_CASE("TscControl: a pause waits for running plans and for drives")
     CHECK(parts.tsc.GetState() == ETscState::Paused);
 }
 
+TEST_CASE("TscControl: a pause waits for a paused plan that is being resumed or ended")
+{
+    const EPlanControl control = GENERATE(EPlanControl::Resume, EPlanControl::Cancel, EPlanControl::Abort);
+    INFO(GetText(control));
+    EngineParts parts;
+    ActivePlan& plan = parts.BeginDriveToLoad();
+    plan.record.progress.state = EPlanState::Paused;
+    plan.record.progress.control = control;
+    parts.tsc.SwitchTSC(ControlTSC{true, 7});
+    CHECK(parts.tsc.GetState() == ETscState::Pausing);
+    plan.record.progress.control.reset(); // the robot did not confirm it
+    parts.tsc.FinishTscPause();
+    CHECK(parts.tsc.GetState() == ETscState::Paused);
+}
+
 TEST_CASE("TscControl: Auto dispatches again")
 {
     EngineParts parts;

@@ -163,6 +163,20 @@ TEST_CASE("Operator: while the TSC is not Auto, a plan with a robot is not resum
     CHECK(ControlByOperator(world, EPlanControl::Resume) == "no: The TSC is Paused. Resume the plan when it is Auto.");
 }
 
+TEST_CASE("Operator: the TSC is not Paused before a plan that is being resumed has ended")
+{
+    PlanWorld world;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
+    PausePlan(world);
+    world.GetRobot("LR01").bIgnoresPause = true;
+    world.Control(EPlanControl::Resume, "P1");
+    world.SwitchTSC(true);
+    CHECK(world.engine->GetTscState() == ETscState::Pausing);
+    world.GetRobot("LR01").bIgnoresPause = false;
+    REQUIRE(world.TryRun());
+    CHECK(world.engine->GetTscState() == ETscState::Paused);
+}
+
 TEST_CASE("Operator: a full outbox leaves room for the end of a plan, not for a pause")
 {
     PlanWorld world = MakeWorld([](EngineOptions& options) { options.maximumReports = 40; });
