@@ -118,10 +118,15 @@ void RestartRecovery::RestorePlan(PlanRecord record)
     const std::string& robotID = plan.record.progress.robotID;
     Robot* robotOrNull = _fleet.FindOrNull(robotID);
     const bool bRobotGone = !robotID.empty() && (robotOrNull == nullptr || robotOrNull->planOrNull != nullptr);
-    if (!resolved.has_value() || bRobotGone)
+    const bool bRobotUnfit = resolved.has_value() && robotOrNull != nullptr
+        && std::ranges::count(resolved->candidates, robotOrNull->index) == 0;
+    if (!resolved.has_value() || bRobotGone || bRobotUnfit)
     {
-        const std::string reason =
-            resolved.has_value() ? robotID + " is not available" : Core::Describe(resolved.error());
+        std::string reason = robotID + (bRobotGone ? " is not available" : " can no longer execute it");
+        if (!resolved.has_value())
+        {
+            reason = Core::Describe(resolved.error());
+        }
         EndUnfit(
             plan,
             "The plan no longer fits the site or its robots, which changed while the ACS was stopped: " + reason);

@@ -95,6 +95,24 @@ TEST_CASE("RestartRecovery: a plan whose robot is no longer configured fails wit
     CHECK(parts.Collect().ListSetAlarms() == std::vector<std::string>{"ACS-1001"});
 }
 
+TEST_CASE(
+    "RestartRecovery: a plan whose robot can no longer execute it fails with an alarm, although another one could")
+{
+    RecoveryParts parts;
+    StoredState stored;
+    stored.plans = {parts.Add(MakeControlPlan("P1")).record};
+    stored.plans.front().progress.state = EPlanState::InProgress;
+    stored.plans.front().progress.robotID = "LR01";
+    RecoveryParts restarted;
+    restarted.recovery.Restore(stored);
+    CHECK(restarted.lr.planOrNull == nullptr);
+    const PlanRecord* recordOrNull = restarted.engine.plans.FindFinishedOrNull("P1");
+    REQUIRE(recordOrNull != nullptr);
+    CHECK(recordOrNull->progress.state == EPlanState::Failed);
+    CHECK(recordOrNull->progress.message.find("LR01 can no longer execute it") != std::string::npos);
+    CHECK(restarted.Collect().ListSetAlarms() == std::vector<std::string>{"ACS-1001"});
+}
+
 TEST_CASE("RestartRecovery: an open control is confirmed again")
 {
     RecoveryParts parts;
