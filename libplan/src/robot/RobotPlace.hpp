@@ -19,6 +19,8 @@ struct RobotPlace
     std::vector<std::size_t> heldNodes; ///< Without a drive: its node and those to which it may still drive.
     /// Without a drive: nodes after its own on its former route that it may have reached, or may still reach.
     std::vector<std::size_t> aheadNodes;
+    /// During a drive: a node that it reports and that is not granted to it; reserved as a possible node.
+    std::optional<std::size_t> strayNode;
     /// It is stationary between its node and this one. It cannot turn round there, so its next drive begins with this lane.
     std::optional<std::size_t> heading;
 

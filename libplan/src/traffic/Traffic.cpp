@@ -331,14 +331,19 @@ std::size_t Traffic::Extend(std::size_t robot, std::span<const std::size_t> ahea
 bool Traffic::TryOverrun(std::size_t robot, std::span<const std::size_t> ahead)
 {
     Vehicle& vehicle = _vehicles[robot];
-    const bool bTaken = std::ranges::any_of(ahead, [this](std::size_t node) { return _holders[node].has_value(); });
+    const bool bTaken = std::ranges::any_of(ahead, [this, &vehicle](std::size_t node) {
+        return _holders[node].has_value() && std::ranges::count(vehicle.extra, node) == 0;
+    });
     if (bTaken)
     {
         return false;
     }
     for (const std::size_t node : ahead)
     {
-        Hold(robot, node);
+        if (std::erase(vehicle.extra, node) == 0)
+        {
+            Hold(robot, node);
+        }
         vehicle.path.push_back(node);
     }
     Note(false);

@@ -159,7 +159,8 @@ public:
     /// GetBlockers has the reason for 0.
     [[nodiscard]] std::size_t Extend(std::size_t robot, std::span<const std::size_t> ahead);
 
-    /// The robot is on these nodes without a grant. False, without a change, if another robot holds one.
+    /// The robot is on these nodes without a grant. False, without a change, if another robot holds one. Its possible nodes
+    /// (HoldPossible) among them become nodes of its route.
     [[nodiscard]] bool TryOverrun(std::size_t robot, std::span<const std::size_t> ahead);
 
     /// Frees the first count nodes, less than it holds.

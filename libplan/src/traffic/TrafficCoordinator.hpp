@@ -104,7 +104,8 @@ public:
     /// The robot has reached this node of its route: frees the nodes before it. False: the robot entered a node that another
     /// robot has reserved.
     [[nodiscard]] bool TryAdvance(Robot& robot, std::size_t routeIndex);
-    /// Raises an alarm while a robot that has confirmed its drive reports a node off its route. It is granted no further nodes.
+    /// Reserves the node that a robot that has confirmed its drive reports, also without a grant. Raises an alarm while that node
+    /// is off its route. It is granted no further nodes then.
     void VerifyRoute(Robot& robot);
     /// The robot is stationary on the node that it passed last, or after it: frees the rest of the route.
     void EndDrive(Robot& robot);
@@ -134,6 +135,9 @@ private:
         const RobotOptions& robot,
         const std::vector<bool>& taken) const;
     [[nodiscard]] bool CanParkAt(const RobotOptions& robot, std::size_t dock) const;
+    /// The robot is on this node, which may be another one than was granted: no other robot is sent there. nullopt: on a granted
+    /// one.
+    void HoldStray(Robot& robot, std::optional<std::size_t> nodeOrNull);
     /// Begins the planned route, or a detour around stationary robots if there is one.
     [[nodiscard]] bool TryBeginPlannedRoute(Robot& robot);
 };

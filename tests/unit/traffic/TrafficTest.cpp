@@ -224,6 +224,13 @@ TEST_CASE("Traffic: a lost robot holds the nodes that it entered without a reser
     CHECK_FALSE(traffic.TryOverrun(0, Nodes{3}));
     CHECK_FALSE(traffic.TryStand(0, 3));
     CHECK(GetHeld(traffic, 0) == Nodes{5, 0, 1, 2});
+    traffic.HoldPossible(0, Nodes{3});
+    REQUIRE(traffic.TryStand(1, 4));
+    REQUIRE(traffic.GetHolderOrNull(3) == 0);
+    CHECK(traffic.TryOverrun(0, Nodes{3}));
+    CHECK(GetHeld(traffic, 0) == Nodes{5, 0, 1, 2, 3});
+    traffic.Pass(0, 4);
+    CHECK(traffic.GetHolderOrNull(3) == 0);
 }
 
 TEST_CASE("Traffic: a robot that is stationary between two nodes holds both until it has passed the first")

@@ -125,8 +125,17 @@ TEST_CASE("TrafficCoordinator: a robot may pass a free node without a grant, and
         {
             parts.PutOn(parts.cr, "D-CHG02");
             parts.Discard();
+            CHECK(parts.places.GetTraffic().GetHolderOrNull(parts.FindNode("D-A01.CP01")) == 0U);
             CHECK(parts.coordinator.TryAdvance(parts.lr, 4));
             CHECK(parts.Collect().ListClearedAlarms() == std::vector<std::string>{"ACS-1003"});
+        }
+        SECTION("and a node that it has entered after it is kept free")
+        {
+            parts.lr.drive->grantedCount = 3; // L03 is the first node beyond
+            parts.places.GetTraffic().Shorten(0, 3);
+            parts.PutOn(parts.cr, "L03");
+            CHECK_FALSE(parts.coordinator.TryAdvance(parts.lr, 4));
+            CHECK(parts.places.GetTraffic().GetHolderOrNull(parts.FindNode("D-A01.CP01")) == 0U);
         }
         SECTION("until the drive ends")
         {
