@@ -58,6 +58,7 @@ struct ActiveDrive
     bool bTaken = false;     ///< The robot has confirmed the drive.
     bool bLeftRoute = false; ///< The robot reports a node that the route does not have.
     bool bOverran = false;   ///< The robot entered a node that another one holds.
+    bool bReported = false;  ///< A state of the robot has followed the node passed last.
     ECancellation cancellation = ECancellation::None;
     std::optional<Reroute> reroute;
 

@@ -48,6 +48,7 @@ bool TrafficCoordinator::TryAdvance(Robot& robot, std::size_t routeIndex)
     }
     HoldStray(robot, std::nullopt);
     drive.passed = routeIndex;
+    drive.bReported = false;
     robot.place.node = drive.nodes[routeIndex];
     if (std::exchange(drive.bOverran, false))
     {
@@ -60,6 +61,7 @@ void TrafficCoordinator::VerifyRoute(Robot& robot)
 {
     ActiveDrive& drive = *robot.drive;
     const std::string& nodeID = robot.view.state->lastNodeID;
+    drive.bReported = true;
     const bool bOff =
         drive.bTaken && !nodeID.empty() && std::ranges::count(drive.route.nodes, nodeID, &RouteNode::nodeID) == 0;
     if (drive.bTaken && !nodeID.empty())
@@ -100,11 +102,22 @@ void TrafficCoordinator::HoldStray(Robot& robot, std::optional<std::size_t> node
     }
 }
 
+/// Where a robot was switched off and carried, or drove past its grant. A state from before the last node passed shows nothing.
+bool TrafficCoordinator::IsReportedElsewhere(const Robot& robot)
+{
+    const ActiveDrive& drive = *robot.drive;
+    const std::optional<StateChanged>& state = robot.view.state;
+    return drive.bReported && state.has_value() && !state->lastNodeID.empty()
+        && state->lastNodeID != drive.route.nodes[drive.passed].nodeID;
+}
+
 void TrafficCoordinator::EndDrive(Robot& robot)
 {
     const std::string& robotID = robot.GetID();
     const ActiveDrive& drive = *robot.drive;
-    if (drive.bLeftRoute || drive.bOverran)
+    const bool bElsewhere = IsReportedElsewhere(robot);
+    // The alarm of a robot elsewhere is cleared only if its place is free.
+    if (!bElsewhere && (drive.bLeftRoute || drive.bOverran))
     {
         _transaction.ClearAlarm(PlaceTracker::MakePlaceAlarm(robot, {}));
     }
@@ -167,6 +180,10 @@ void TrafficCoordinator::EndDrive(Robot& robot)
     robot.search.blockers.clear();
     robot.search.block.clear();
     _transaction.RequestDispatch();
+    if (bElsewhere)
+    {
+        _places.Place(robot);
+    }
 }
 
 } // namespace ACS::Planning

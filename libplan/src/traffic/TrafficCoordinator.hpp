@@ -107,7 +107,8 @@ public:
     /// Reserves the node that a robot that has confirmed its drive reports, also without a grant. Raises an alarm while that node
     /// is off its route. It is granted no further nodes then.
     void VerifyRoute(Robot& robot);
-    /// The robot is stationary on the node that it passed last, or after it: frees the rest of the route.
+    /// The robot is stationary: on the node that its last state reports, or else on the node that it passed last, or after it.
+    /// Frees the rest of the route.
     void EndDrive(Robot& robot);
 
 private:
@@ -135,6 +136,8 @@ private:
         const RobotOptions& robot,
         const std::vector<bool>& taken) const;
     [[nodiscard]] bool CanParkAt(const RobotOptions& robot, std::size_t dock) const;
+    /// Whether the robot has reported another node since it passed the last one of its drive.
+    [[nodiscard]] static bool IsReportedElsewhere(const Robot& robot);
     /// The robot is on this node, which may be another one than was granted: no other robot is sent there. nullopt: on a granted
     /// one.
     void HoldStray(Robot& robot, std::optional<std::size_t> nodeOrNull);

@@ -239,11 +239,11 @@ void DriveOutcomes::OnNodeOfOther(Robot& robot)
     // The alarm remains until the robot has a place.
     robot.drive->bOverran = false;
     robot.drive->bLeftRoute = false;
+    robot.place.bPlaced = false;
     if (ActivePlan* planOrNull = EndFailedDriveOrNull(robot, REASON); planOrNull != nullptr)
     {
         _work.FailPlan(*planOrNull, fmt::format("{} did not complete its drive: {}", robot.GetID(), REASON));
     }
-    robot.place.bPlaced = false;
 }
 
 ActivePlan* DriveOutcomes::EndFailedDriveOrNull(Robot& robot, std::string_view reason)

@@ -195,3 +195,23 @@ TEST_CASE("A robot that was switched off in a drive and has no pose after it kee
     world.Raise("LR01", state);
     CHECK(listReserved() == Nodes{"L02"});
 }
+
+TEST_CASE("A robot that was switched off in a drive and carried to another node gets no drive from where it was")
+{
+    const bool bOnRoute = GENERATE(false, true);
+    const std::string nodeID = bOnRoute ? "L01" : "D-A01.CP03";
+    PlanWorld world;
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
+    REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").GetOccupied() == Nodes{"L02", "L03"}; }));
+    const std::string driveID = world.driveIDs.at("LR01");
+    world.Raise("LR01", LinkChanged{false});
+    world.Raise("LR01", LinkChanged{true});
+    StateChanged state;
+    state.lastNodeID = nodeID;
+    state.batteryPercent = 80;
+    world.Raise("LR01", state);
+    world.Raise("LR01", DriveRejected{driveID, "it was switched off"});
+    CHECK(world.engine->GetRobotRoutes().front().reservedNodeIDs == Nodes{nodeID});
+    CHECK(world.engine->GetRobotDetails().front().nodeID == nodeID);
+    CHECK_FALSE(HasAlarm(world, "LR01", "ACS-1003"));
+}

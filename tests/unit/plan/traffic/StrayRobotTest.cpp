@@ -69,3 +69,57 @@ TEST_CASE("TrafficCoordinator: the node that a robot reports without a grant is 
         CHECK(getHolder("D-A01.CP02") == 0U);
     }
 }
+
+TEST_CASE(
+    "TrafficCoordinator: a robot whose drive ends is where its last state shows it, and else on the last node passed")
+{
+    EngineParts parts;
+    parts.BeginDriveToLoad();
+    REQUIRE(parts.coordinator.TryAdvance(parts.lr, 1));
+    parts.lr.drive->bTaken = true;
+    const std::size_t stray = parts.FindNode("D-A01.CP02");
+    const auto report = [&parts](const std::string& nodeID) {
+        parts.lr.view.state->lastNodeID = nodeID;
+        parts.coordinator.VerifyRoute(parts.lr);
+    };
+    const auto end = [&parts] {
+        parts.Discard();
+        parts.coordinator.EndDrive(parts.lr);
+        return parts.Collect();
+    };
+    SECTION("it was carried to a free node")
+    {
+        report("D-A01.CP02");
+        CHECK(end().ListClearedAlarms() == std::vector<std::string>{"ACS-1003"});
+        CHECK(parts.lr.place.bPlaced);
+        CHECK(parts.lr.place.node == stray);
+        CHECK(parts.places.GetTraffic().ListReserved(0) == std::vector<std::size_t>{stray});
+    }
+    SECTION("it was carried to the node of another robot")
+    {
+        parts.PutOn(parts.cr, "D-A01.CP02");
+        report("D-A01.CP02");
+        CHECK(end().ListClearedAlarms().empty());
+        CHECK_FALSE(parts.lr.place.bPlaced);
+    }
+    SECTION("it was carried away and has forgotten its last node")
+    {
+        report("");
+        static_cast<void>(end());
+        CHECK(parts.lr.place.node == parts.FindNode("L01"));
+    }
+    SECTION("its last state is from before the node that it passed last")
+    {
+        report("L01");
+        REQUIRE(parts.coordinator.TryAdvance(parts.lr, 2));
+        static_cast<void>(end());
+        CHECK(parts.lr.place.node == parts.FindNode("L02"));
+    }
+    SECTION("it had an alarm off its route, and has passed a node of it since")
+    {
+        report("D-A01.CP02");
+        REQUIRE(parts.coordinator.TryAdvance(parts.lr, 2));
+        CHECK(end().ListClearedAlarms() == std::vector<std::string>{"ACS-1003"});
+        CHECK(parts.lr.place.node == parts.FindNode("L02"));
+    }
+}

@@ -146,7 +146,7 @@ TEST_CASE("TrafficCoordinator: a robot may pass a free node without a grant, and
 }
 
 TEST_CASE(
-    "TrafficCoordinator: a robot that reports a node off its route has an alarm until it is back or its drive ends")
+    "TrafficCoordinator: a robot that reports a node off its route has an alarm until it is back, also after its drive")
 {
     EngineParts parts;
     parts.BeginDriveToLoad();
@@ -176,6 +176,9 @@ TEST_CASE(
     SECTION("its drive ends")
     {
         parts.coordinator.EndDrive(parts.lr);
+        CHECK(parts.Collect().ListClearedAlarms().empty()); // the node is not on the map
+        CHECK_FALSE(parts.lr.place.bPlaced);
+        parts.PutOn(parts.lr, "D-A01.CP02");
         CHECK(parts.Collect().ListClearedAlarms() == std::vector<std::string>{"ACS-1003"});
     }
 }

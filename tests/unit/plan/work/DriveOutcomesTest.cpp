@@ -165,6 +165,21 @@ TEST_CASE(
     const CallOutcome outcome = parts.Collect();
     CHECK(outcome.ListSetAlarms() == std::vector<std::string>{"ACS-1003"});
     CHECK(outcome.ListClearedAlarms().empty());
+    parts.PutOn(parts.cr, "D-CHG02");
+    CHECK(parts.places.GetTraffic().GetHolderOrNull(parts.FindNode("D-A01.CP01")) == 0U);
+}
+
+TEST_CASE("DriveOutcomes: a robot that arrives while it is to cancel its drive has a place if the node is free")
+{
+    DriveParts parts;
+    parts.BeginDriveToLoad();
+    parts.lr.drive->reroute = Reroute{};
+    parts.lr.view.state->lastNodeID = "D-A01.CP01";
+    parts.coordinator.VerifyRoute(parts.lr);
+    parts.drives.OnArrived(parts.lr, Arrived{parts.GetDriveID()});
+    CHECK(parts.lr.place.bPlaced);
+    CHECK(parts.lr.place.node == parts.FindNode("D-A01.CP01"));
+    CHECK(parts.engine.alarms.GetAlarms().empty());
 }
 
 TEST_CASE("DriveOutcomes: a robot that loses its drive and its position together keeps all nodes of its base")
