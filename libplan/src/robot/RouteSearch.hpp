@@ -28,10 +28,10 @@ struct RouteSearch
     std::size_t detourTarget = 0;
     ELoad detourLoad = ELoad::Unknown;
     std::size_t detours = 0;           ///< Driven on the way to its present step.
-    std::uint64_t refusedAt = 0;       ///< Traffic::GetFreedCount then.
+    std::uint64_t refusedAt = 0;       ///< Traffic::GetFreedCount then; 0: ask again.
     std::vector<std::size_t> blockers; ///< Robots that blocked its last attempt to drive.
-    std::string block;                 ///< What the operator has blocked on its way; empty: it waits for no block.
-    std::uint64_t blockedAt = 0;       ///< Traffic::GetFreedCount when no way around the block was found.
+    std::string block;           ///< What closes its way that no robot can clear: a block, or its load; empty: nothing.
+    std::uint64_t blockedAt = 0; ///< Traffic::GetFreedCount when no way around the block was found.
     std::optional<Yield> yield;
 };
 

@@ -2,13 +2,16 @@
 
 #include "traffic/BlockText.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
 #include <limits>
+#include <span>
 #include <utility>
 
-// Parking positions, and blocks of the operator.
+// Parking positions, blocks of the operator, and further nodes of a drive.
 
 namespace ACS::Planning
 {
@@ -251,6 +254,43 @@ void TrafficCoordinator::NoteBlock(Robot& robot, std::string block)
 {
     robot.changes.MarkStatus(robot.search.block != block);
     robot.search.block = std::move(block);
+}
+
+void TrafficCoordinator::GrantFurther(Robot& robot)
+{
+    ActiveDrive& drive = *robot.drive;
+    const std::size_t wanted = std::min(
+        drive.CountReachable(_site, robot.options->vehicleTypeID, robot.GetLoad()),
+        drive.passed + 1 + 2 * _options.baseLength);
+    if (wanted == drive.grantedCount)
+    {
+        NoteClosedEdge(robot);
+        return;
+    }
+    const std::span<const std::size_t> nodes(drive.nodes);
+    const std::vector<std::size_t> formerBlockers = robot.search.blockers;
+    const std::size_t granted =
+        Extend(robot, nodes.subspan(drive.grantedCount, wanted - drive.grantedCount), drive.nodes.back());
+    drive.grantedCount += granted;
+    robot.changes.MarkStatus(granted > 0 || robot.search.blockers != formerBlockers);
+    robot.search.refusedAt = _traffic.GetFreedCount();
+}
+
+void TrafficCoordinator::NoteClosedEdge(Robot& robot) const
+{
+    const ActiveDrive& drive = *robot.drive;
+    const ELoad load = robot.GetLoad();
+    const bool bOtherRoute = _routes.PlanRouteOrNull(robot, drive.nodes.back(), {}).has_value();
+    robot.changes.MarkStatus(!robot.search.blockers.empty());
+    robot.search.blockers.clear();
+    robot.search.refusedAt = 0;
+    NoteBlock(
+        robot,
+        bOtherRoute ? std::string()
+                    : fmt::format(
+                        "{} robot may not use edge {} of its route",
+                        load == ELoad::Loaded ? "a loaded" : "an empty",
+                        drive.route.edges[drive.grantedCount - 1].edgeID));
 }
 
 bool TrafficCoordinator::IsStoppedByBlock(const Robot& robot) const

@@ -72,16 +72,7 @@ void TrafficCoordinator::ExtendBase(Robot& robot)
     }
     else if (drive.grantedCount < drive.nodes.size() && drive.grantedCount < reached + _options.baseLength)
     {
-        const std::size_t wanted = std::min(
-            drive.CountReachable(_site, robot.options->vehicleTypeID, robot.GetLoad()),
-            reached + 2 * _options.baseLength);
-        const std::span<const std::size_t> nodes(drive.nodes);
-        const std::vector<std::size_t> formerBlockers = robot.search.blockers;
-        const std::size_t granted =
-            Extend(robot, nodes.subspan(drive.grantedCount, wanted - drive.grantedCount), drive.nodes.back());
-        drive.grantedCount += granted;
-        robot.changes.MarkStatus(granted > 0 || robot.search.blockers != formerBlockers);
-        robot.search.refusedAt = _traffic.GetFreedCount();
+        GrantFurther(robot);
     }
     if (drive.grantedCount > drive.releasedCount)
     {

@@ -127,8 +127,13 @@ private:
     void AvoidBlock(Robot& robot);
     /// Notes what is blocked on the way of a robot without a drive; false: nothing.
     [[nodiscard]] bool TryNoteBlock(Robot& robot, std::size_t target) const;
-    /// Notes why the robot is granted nothing; empty: not because of blocks.
+    /// Notes why the robot is granted nothing; empty: not because of blocks or its load.
     static void NoteBlock(Robot& robot, std::string block);
+    /// Grants further nodes of its drive, which has some that are not granted.
+    void GrantFurther(Robot& robot);
+    /// The load of the robot closes the next edge of its drive. Notes it, unless the robot can be rerouted: others clear that
+    /// route. The load may change at any time: the robot is asked again at the next dispatch.
+    void NoteClosedEdge(Robot& robot) const;
     /// Sends a robot that waits for a block on a lane to its parking position.
     [[nodiscard]] bool TryLeaveLane(Robot& robot);
     [[nodiscard]] std::optional<PlannedRoute> PlanWayOffLaneOrNull(const Robot& robot) const;

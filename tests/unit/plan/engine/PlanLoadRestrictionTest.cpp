@@ -96,3 +96,29 @@ TEST_CASE("Load restriction: a robot that is loaded on its way is rerouted befor
     CHECK(world.GetTraceOf("command LR01 CancelDrive").size() == 1);
     CHECK(getDrives().back().ends_with(" of 6")); // L05, AROUND, L06, L07, L08 and the dock
 }
+
+TEST_CASE("Load restriction: a robot that is unloaded before the edge that it may not use continues")
+{
+    SiteMap site = MakeTestSite();
+    std::vector<SiteEdge> edges = site.GetEdges();
+    for (SiteEdgeRule& rule : std::ranges::find(edges, "L05>L06", &SiteEdge::edgeID)->rules)
+    {
+        rule.loadRestriction = SiteLoadRestriction{true, false};
+    }
+    site = *SiteMap::Create(site.GetNodes(), edges, site.GetStations());
+    EngineOptions options = MakeTestOptions(false);
+    options.baseLength = 1;
+    PlanWorld world(1, options, site);
+    BeginPlan(world, MakeTransport("A01.CP06", "A02.CP03"), "Step 1 Dispatched");
+    world.GetRobot("LR01").loads = {{"LR01.CP01", true, "C9"}};
+    world.PublishState("LR01");
+    static_cast<void>(TryRunFor(world, std::chrono::minutes(5)));
+    world.PublishState("LR01");
+    const std::optional<WaitReason> reason = world.engine->GetWaitReasonOrNull("P1");
+    REQUIRE(reason.has_value());
+    CHECK(reason->message == "LR01 waits: a loaded robot may not use edge L05>L06 of its route.");
+    world.GetRobot("LR01").loads = {{"LR01.CP01", false, ""}};
+    world.PublishState("LR01");
+    CHECK(TryRunUntil(world, "P1", "Step 1 Completed"));
+    CHECK(world.GetTraceOf("command LR01 CancelDrive").empty());
+}

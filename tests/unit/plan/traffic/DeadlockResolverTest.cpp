@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,6 +52,38 @@ SiteMap MakeLane()
         sites.push_back({stations[i], {node.nodeID}});
     }
     return *SiteMap::Create(std::move(nodes), std::move(edges), std::move(sites));
+}
+
+/// The site with an edge that loaded robots may not use.
+SiteMap CloseToLoaded(const SiteMap& site, const std::string& edgeID)
+{
+    std::vector<SiteEdge> edges = site.GetEdges();
+    for (SiteEdgeRule& rule : std::ranges::find(edges, edgeID, &SiteEdge::edgeID)->rules)
+    {
+        rule.loadRestriction = SiteLoadRestriction{true, false};
+    }
+    return *SiteMap::Create(site.GetNodes(), std::move(edges), site.GetStations());
+}
+
+/// LR01 is loaded on its way to the station. It is on this node of its route, where its base ends.
+void BeginLoadedDrive(EngineParts& parts, const std::string& stationID, std::size_t routeIndex)
+{
+    Plan plan = MakeLogisticsPlan("P1");
+    plan.steps[0].position = stationID;
+    plan.steps[0].jobs[0].from = stationID;
+    plan.steps.resize(1);
+    parts.assignment.Offer(parts.Add(plan), parts.lr);
+    REQUIRE(parts.coordinator.TryDrive(parts.lr) == EDriveAttempt::Begun);
+    parts.lr.drive->bConfirmed = true;
+    CarrierIDs carriers = parts.lr.ports.GetCarriers();
+    carriers.front() = "C9";
+    parts.lr.ports.Correct(carriers);
+    for (std::size_t i = 1; i <= routeIndex; ++i)
+    {
+        REQUIRE(parts.coordinator.TryAdvance(parts.lr, i));
+        parts.coordinator.ExtendBase(parts.lr);
+    }
+    REQUIRE(parts.lr.drive->grantedCount == routeIndex + 1);
 }
 
 /// Each robot is where the other one has its step.
@@ -161,4 +194,40 @@ TEST_CASE("DeadlockResolver: an idle robot in its parking position steps aside")
         CHECK_FALSE(resolver.TryResolveDeadlock().bMoved);
         CHECK(parts.Collect().actions.empty());
     }
+}
+
+TEST_CASE("DeadlockResolver: no robot yields to one whose load closes its only route")
+{
+    EngineOptions options = MakeTestOptions(false);
+    options.baseLength = 1;
+    EngineParts parts(options, CloseToLoaded(MakeLane(), "L3>L2"));
+    DeadlockResolver resolver(parts.engine, parts.tsc, parts.places, parts.waiting, parts.coordinator);
+    parts.PutOn(parts.lr, "D-CHG01");
+    parts.PutOn(parts.cr, "L2");
+    BeginLoadedDrive(parts, "A01.CP01", 3);
+    CHECK(parts.lr.search.block == "a loaded robot may not use edge L3>L2 of its route");
+    Plan plan = MakeControlPlan("P2");
+    plan.steps.resize(1);
+    plan.steps.front().position = "A01.CP02";
+    plan.steps.front().jobs = {{"P2-1", "A01.CP02.TP01", "AMR.TP01"}};
+    parts.assignment.Offer(parts.Add(plan), parts.cr);
+    REQUIRE(parts.coordinator.TryDrive(parts.cr) == EDriveAttempt::Waits);
+    CHECK(resolver.TryResolveDeadlock().bMoved);
+    CHECK_FALSE(parts.cr.drive.has_value());
+    CHECK_FALSE(parts.cr.search.yield.has_value());
+    CHECK(parts.lr.drive->IsCancelling()); // it clears the route of the other one
+}
+
+TEST_CASE("DeadlockResolver: a robot clears the other route of one whose load closes its present route")
+{
+    EngineOptions options = MakeTestOptions(false);
+    options.baseLength = 1;
+    EngineParts parts(options, MakeRestrictedSite({true, false}));
+    DeadlockResolver resolver(parts.engine, parts.tsc, parts.places, parts.waiting, parts.coordinator);
+    parts.PutOn(parts.lr, "D-CHG01");
+    parts.PutOn(parts.cr, "AROUND");
+    BeginLoadedDrive(parts, "A01.CP06", 5);
+    CHECK(parts.lr.search.block.empty());
+    CHECK(resolver.TryResolveDeadlock().bMoved);
+    CHECK((parts.cr.drive.has_value() || parts.lr.drive->IsCancelling()));
 }
