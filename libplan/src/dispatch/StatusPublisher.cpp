@@ -138,6 +138,10 @@ std::string StatusPublisher::DescribeStatus(const Robot& robot) const
     {
         return fmt::format("{} waits: {}.", robot.GetID(), robot.search.block);
     }
+    if (std::string wait = _waits.DescribeIdle(robot); !wait.empty())
+    {
+        return wait;
+    }
     return robot.charging.IsBatteryLow() ? "Battery low." : "";
 }
 

@@ -297,6 +297,18 @@ std::optional<WaitReason> WaitReasons::DescribeBegunOrNull(const ActivePlan& pla
     return reason;
 }
 
+std::string WaitReasons::DescribeIdle(const Robot& robot) const
+{
+    if (robot.parking.bRefused && !robot.drive.has_value() && !robot.place.IsOn(robot.parking.GetHomeOrNull()))
+    {
+        const std::string& text = robot.parking.refusal;
+        return text.ends_with('.') ? text : text + '.';
+    }
+    const bool bDriving = robot.drive.has_value() && (robot.view.state->bDriving || !robot.drive->IsAtBaseEnd());
+    const bool bBlocked = !robot.search.block.empty() || !robot.search.blockers.empty();
+    return bBlocked && !bDriving && _waiting.IsWaiting(robot) ? DescribeStanding(robot) : std::string();
+}
+
 std::string WaitReasons::DescribeStanding(const Robot& robot) const
 {
     if (!robot.search.block.empty())

@@ -51,6 +51,8 @@ public:
     [[nodiscard]] std::optional<WaitReason> GetWaitReasonOrNull(std::string_view planID) const;
     /// Of a paused plan, or of an assigned plan whose robot makes no progress.
     [[nodiscard]] std::optional<WaitReason> DescribeBegunOrNull(const ActivePlan& plan) const;
+    /// Of an available robot without a plan that waits on its way to its parking position or charger; empty: it does not.
+    [[nodiscard]] std::string DescribeIdle(const Robot& robot) const;
 
 private:
     /// By station: the first plan of the queue that uses it.

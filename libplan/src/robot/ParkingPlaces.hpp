@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 
 namespace ACS::Planning
 {
@@ -16,6 +17,7 @@ struct ParkingPlaces
     std::optional<std::size_t> retreatNode; ///< Its next target, to clear the route of others.
     unsigned refusals = 0;                  ///< In a row, without a move and without becoming available again.
     bool bRefused = false;                  ///< Until the timer HomeRetry.
+    std::string refusal;                    ///< Why bRefused.
 
     /// Its target without work.
     [[nodiscard]] std::optional<std::size_t> GetHomeOrNull() const

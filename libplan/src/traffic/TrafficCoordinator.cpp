@@ -241,11 +241,13 @@ bool TrafficCoordinator::TryBeginDrive(Robot& robot, const PlannedRoute& planned
     return true;
 }
 
-void TrafficCoordinator::RefuseHome(Robot& robot)
+void TrafficCoordinator::RefuseHome(Robot& robot, std::string reason)
 {
     constexpr unsigned MOST_DOUBLINGS = 6;
     robot.parking.retreatNode.reset();
     robot.parking.bRefused = true;
+    robot.parking.refusal = std::move(reason);
+    robot.changes.MarkStatus();
     _transaction.StartTimer(
         EEngineTimer::HomeRetry,
         robot.GetID(),
@@ -346,6 +348,7 @@ void TrafficCoordinator::OnExtensionDue(Robot& robot)
 void TrafficCoordinator::OnHomeRetry(Robot& robot)
 {
     robot.parking.bRefused = false;
+    robot.changes.MarkStatus();
     _transaction.RequestDispatch();
 }
 

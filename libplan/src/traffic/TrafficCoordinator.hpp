@@ -92,7 +92,8 @@ public:
     /// Begins the drive with the nodes that are granted; false if there are none.
     [[nodiscard]] bool TryBeginDrive(Robot& robot, const PlannedRoute& plannedRoute);
     /// Delays the next attempt to send the robot home, twice as long each time: a robot between two nodes refuses each one.
-    void RefuseHome(Robot& robot);
+    /// The reason is that of its status until then.
+    void RefuseHome(Robot& robot, std::string reason);
     /// Whether robots that cannot move leave free a route to each station of the plan and from there home.
     [[nodiscard]] bool CanServe(const Robot& robot, const ActivePlan& plan) const;
     /// Cancels the drive for another route, whose first nodes are granted now.

@@ -65,9 +65,10 @@ void DriveOutcomes::SendIdleHome()
 {
     for (Robot* robot : _waiting.ListAwayFromHome())
     {
+        const std::vector<std::size_t> blockers = robot->search.blockers;
         const std::string block = robot->search.block;
         static_cast<void>(TryMove(*robot));
-        robot->changes.MarkStatus(robot->search.block != block);
+        robot->changes.MarkStatus(robot->search.blockers != blockers || robot->search.block != block);
     }
 }
 
@@ -117,8 +118,8 @@ void DriveOutcomes::OnNoRoute(Robot& robot, std::size_t target)
         _work.FailPlan(*robot.planOrNull, text);
         return;
     }
-    _coordinator.RefuseHome(robot);
     _transaction.Note(robot, text);
+    _coordinator.RefuseHome(robot, text);
 }
 
 void DriveOutcomes::OnNodePassed(Robot& robot, const NodePassed& event)
@@ -250,10 +251,11 @@ ActivePlan* DriveOutcomes::EndFailedDriveOrNull(Robot& robot, std::string_view r
 {
     const EDriveGoal goal = robot.drive->goal;
     _coordinator.EndDrive(robot);
-    _transaction.Note(robot, fmt::format("did not complete its drive: {}", reason));
+    const std::string text = fmt::format("did not complete its drive: {}", reason);
+    _transaction.Note(robot, text);
     if (goal == EDriveGoal::Home)
     {
-        _coordinator.RefuseHome(robot);
+        _coordinator.RefuseHome(robot, fmt::format("{} {}", robot.GetID(), text));
         return nullptr;
     }
     if (robot.planOrNull != nullptr && robot.IsEnding())

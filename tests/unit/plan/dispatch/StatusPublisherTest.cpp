@@ -94,6 +94,47 @@ TEST_CASE("StatusPublisher: the status names plan, step, job and carriers")
     CHECK(status.carrierIDs == std::vector<std::optional<std::string>>{"CASSETTE_01"});
 }
 
+TEST_CASE("StatusPublisher: a robot without a plan states what it waits for on its way to its parking position")
+{
+    EngineOptions options = MakeTestOptions(false);
+    options.robots.front().chargingStationID = "CHG03";
+    EngineParts parts(options);
+    const auto getMessage = [&parts] {
+        parts.status.Reset(parts.lr);
+        return parts.status.GetRobotStatuses().front().message;
+    };
+    parts.PutOn(parts.lr, "D-A01.CP01");
+    parts.PutOn(parts.cr, "D-CHG03");
+    CHECK(getMessage().empty());
+    SECTION("another robot, also with a low battery")
+    {
+        parts.lr.view.state->batteryPercent = 10;
+        parts.charging.UpdateBattery(parts.lr);
+        CHECK(getMessage() == "Battery low.");
+        REQUIRE(parts.coordinator.TryDrive(parts.lr) == EDriveAttempt::Waits);
+        CHECK(getMessage() == "LR01 waits for CR01 to clear its route.");
+    }
+    SECTION("another attempt, after one without a route")
+    {
+        parts.coordinator.RefuseHome(parts.lr, "LR01 has no route from D-A01.CP01 to D-CHG01.");
+        CHECK(getMessage() == "LR01 has no route from D-A01.CP01 to D-CHG01.");
+        parts.PutOn(parts.lr, "D-CHG01");
+        CHECK(getMessage().empty());
+    }
+    SECTION("its release at the end of its base")
+    {
+        parts.BeginDrive(parts.lr, "D-CHG01");
+        parts.lr.drive->bConfirmed = true;
+        parts.lr.search.blockers = {parts.cr.index};
+        CHECK(getMessage().empty());
+        parts.lr.drive->releasedCount = 1;
+        parts.lr.drive->grantedCount = 1;
+        CHECK(getMessage() == "LR01 waits for node L03 on its route, blocked by CR01.");
+        parts.lr.view.state->bDriving = true;
+        CHECK(getMessage().empty());
+    }
+}
+
 TEST_CASE("StatusPublisher: the option decides which position a moving robot has")
 {
     EngineOptions options = MakeTestOptions(false);

@@ -267,7 +267,7 @@ TEST_CASE(
     parts.PutOn(parts.lr, "D-A01.CP01");
     for (const int factor : {1, 2, 4, 8, 16, 32, 64, 64})
     {
-        parts.coordinator.RefuseHome(parts.lr);
+        parts.coordinator.RefuseHome(parts.lr, "LR01 has no route");
         CHECK(parts.lr.parking.bRefused);
         CHECK(parts.Collect().GetDelayOrNull(EEngineTimer::HomeRetry) == parts.engine.options.homeRetry * factor);
         parts.coordinator.OnHomeRetry(parts.lr);
