@@ -33,7 +33,8 @@ void ChargingControl::UpdateBattery(Robot& robot)
     {
         _transaction.StartTimer(EEngineTimer::ChargeRetry, robot.GetID(), dispatch.chargeRetry);
     }
-    const EBatteryChange battery = robot.charging.UpdateBattery(robot.view.state->batteryPercent, dispatch);
+    const double percent = robot.view.state->batteryPercent;
+    const EBatteryChange battery = robot.charging.UpdateBattery(percent, IsRecharged(robot), dispatch);
     if (!robot.charging.IsBatteryLow())
     {
         // It may have been charged by hand, or does not show that it charges.
@@ -42,10 +43,13 @@ void ChargingControl::UpdateBattery(Robot& robot)
     if (battery != EBatteryChange::None)
     {
         const bool bLow = battery == EBatteryChange::Low;
+        const bool bFound = bLow && percent >= dispatch.batteryFloor;
+        const std::string lowText = bFound
+            ? fmt::format("found charging: no new plan is assigned up to {:.0f} %", dispatch.batteryResume)
+            : fmt::format("battery below {:.0f} %: no new plan is assigned", dispatch.batteryFloor);
         _transaction.Note(
             robot,
-            bLow ? fmt::format("battery below {:.0f} %: no new plan is assigned", dispatch.batteryFloor)
-                 : fmt::format("battery at {:.0f} %: available for plans", dispatch.batteryResume));
+            bLow ? lowText : fmt::format("battery at {:.0f} %: available for plans", dispatch.batteryResume));
         robot.parking.homeNode = bLow ? robot.parking.chargeNode : GetHomeOrNull(robot);
         robot.search.plannedRoute.reset();
         _transaction.RequestDispatch();
@@ -110,6 +114,13 @@ bool ChargingControl::IsChargeDue(const Robot& robot) const
     return robot.parking.chargeNode.has_value() && robot.planOrNull == nullptr && !robot.drive.has_value()
         && robot.IsUsable() && !robot.IsStopping() && robot.place.IsOn(robot.parking.chargeNode)
         && robot.view.state->batteryPercent < _options.dispatch.batteryResume;
+}
+
+bool ChargingControl::IsRecharged(const Robot& robot) const
+{
+    const std::optional<std::size_t> home = GetHomeOrNull(robot);
+    return home.has_value() && home != robot.parking.chargeNode && robot.view.state->bCharging
+        && robot.place.IsOn(robot.parking.chargeNode);
 }
 
 std::optional<std::size_t> ChargingControl::GetHomeOrNull(const Robot& robot) const

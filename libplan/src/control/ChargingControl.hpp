@@ -38,6 +38,8 @@ public:
 private:
     [[nodiscard]] static Alarm MakeChargeAlarm(const Robot& robot);
     [[nodiscard]] bool IsChargeDue(const Robot& robot) const;
+    /// Whether it charges at its charging station and parks elsewhere: only a low battery brings it there.
+    [[nodiscard]] bool IsRecharged(const Robot& robot) const;
 };
 
 } // namespace ACS::Planning

@@ -5,10 +5,16 @@
 namespace ACS::Planning
 {
 
-ChargingPolicy::EBatteryChange ChargingPolicy::UpdateBattery(double percent, const DispatchOptions& limits)
+ChargingPolicy::EBatteryChange ChargingPolicy::UpdateBattery(
+    double percent,
+    bool bRecharged,
+    const DispatchOptions& limits)
 {
-    const bool bLow = percent < (_bLow ? limits.batteryResume : limits.batteryFloor);
-    if (bLow == std::exchange(_bLow, bLow))
+    const bool bWasLow = IsBatteryLow();
+    const bool bResumes = bWasLow || (bRecharged && _battery == EBattery::Unknown);
+    const bool bLow = percent < (bResumes ? limits.batteryResume : limits.batteryFloor);
+    _battery = bLow ? EBattery::Low : EBattery::Sufficient;
+    if (bLow == bWasLow)
     {
         return EBatteryChange::None;
     }
@@ -62,7 +68,7 @@ void ChargingPolicy::OnLinkLost()
 
 bool ChargingPolicy::IsBatteryLow() const noexcept
 {
-    return _bLow;
+    return _battery == EBattery::Low;
 }
 
 bool ChargingPolicy::IsCommanded() const noexcept

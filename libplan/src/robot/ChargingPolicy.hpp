@@ -14,7 +14,7 @@ public:
     enum class EBatteryChange : std::uint8_t
     {
         None,
-        Low,     ///< Below DispatchOptions::batteryFloor: no more plans.
+        Low,     ///< Below DispatchOptions::batteryFloor, or found being recharged: no more plans.
         Charged, ///< At DispatchOptions::batteryResume: plans again.
     };
 
@@ -26,6 +26,13 @@ public:
     };
 
 private:
+    enum class EBattery : std::uint8_t
+    {
+        Unknown, ///< Since the start.
+        Sufficient,
+        Low,
+    };
+
     enum class EState : std::uint8_t
     {
         Idle,
@@ -33,11 +40,13 @@ private:
         Charging,
     };
 
-    bool _bLow = false;
+    EBattery _battery = EBattery::Unknown;
     EState _state = EState::Idle;
 
 public:
-    [[nodiscard]] EBatteryChange UpdateBattery(double percent, const DispatchOptions& limits);
+    /// The robot is recharged: it charges where only a robot with a low battery does. The first report after a start shows by that
+    /// that the battery was low before.
+    [[nodiscard]] EBatteryChange UpdateBattery(double percent, bool bRecharged, const DispatchOptions& limits);
     [[nodiscard]] EChargingChange UpdateCharging(bool bCharging);
 
     /// True: command the robot to charge. False: it has the command, or charges.

@@ -8,6 +8,7 @@ using ACS::Testing::MakeTestOptions;
 using ACS::Testing::MakeTestSite;
 using ACS::Testing::MakeWorld;
 using ACS::Testing::PlanWorld;
+using ACS::Testing::RestartEngine;
 using ACS::Testing::TryRunFor;
 using ACS::Testing::TryRunUntil;
 
@@ -81,6 +82,26 @@ TEST_CASE("A robot whose parking position is its charger charges there below the
     world.Submit(MakeLogisticsPlan("P1"));
     REQUIRE(TryRunUntil(world, "P1", "Plan Completed"));
     CHECK(FindLine(world, "command LR01 StopCharging", 0) < FindLine(world, "command LR01 Drive to D-A01.CP01", 0));
+}
+
+TEST_CASE("A restart does not end the charging of a robot with a low battery")
+{
+    const bool bOwnCharger = GENERATE(true, false);
+    const std::string charger =
+        bOwnCharger ? "CHG03" : "CHG01"; // or its parking position, too: it may charge for the next plan
+    PlanWorld world = MakeChargingWorld(charger);
+    world.Connect();
+    SetBattery(world, 12);
+    REQUIRE(world.TryRun());
+    SetBattery(world, 50);
+    REQUIRE(GetStatus(world) == ERobotStatus::Charging);
+    RestartEngine(world, [&charger](EngineOptions& options) { options.robots.front().chargingStationID = charger; });
+    world.Submit(MakeLogisticsPlan("P1"));
+    REQUIRE(world.TryRun());
+    CHECK(world.GetReportsOf("P1").empty() == bOwnCharger);
+    SetBattery(world, 80);
+    REQUIRE(world.TryRun());
+    CHECK(world.GetReportsOf("P1").back() == "Plan Completed");
 }
 
 TEST_CASE("A robot that does not charge at its charger is commanded again; the alarm is cleared when it charges")
