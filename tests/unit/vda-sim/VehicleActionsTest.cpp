@@ -23,11 +23,6 @@ using VDA5050::EActionStatus;
 using VdaSim::EVehicleType;
 namespace ActionTypes = VDA5050::ActionTypes;
 
-ActionParameter MakeText(std::string_view key, std::string_view value)
-{
-    return {std::string(key), Core::JsonText::FromString(value)};
-}
-
 VDA5050::FactsheetMessage MakeFactsheet(
     EVehicleType type,
     VDA5050::EVda5050Version version = VDA5050::EVda5050Version::Version210)
@@ -444,7 +439,7 @@ TEST_CASE("6.8 logReport names its log, and the time of an action's type can be 
     VdaSim::VirtualVehicleOptions options = VehicleDriver::MakeOptions("N0");
     options.actionSeconds["logReport"] = 7.0;
     VehicleDriver driver(std::move(options));
-    driver.SendInstantly(VDA5050::ActionTypes::LOG_REPORT, "log", {{"reason", Core::JsonText::FromString("test")}});
+    driver.SendInstantly(VDA5050::ActionTypes::LOG_REPORT, "log", {MakeText("reason", "test")});
     driver.Pass(6900ms);
     CHECK(driver.GetStatus("log") == EActionStatus::Running);
     driver.Pass(200ms);

@@ -60,6 +60,12 @@ inline Planning::SiteMap MakeTestSite()
     return std::move(*site);
 }
 
+/// An action parameter whose value is a text.
+[[nodiscard]] inline VDA5050::ActionParameter MakeText(std::string_view key, std::string_view value)
+{
+    return {std::string(key), Core::JsonText::FromString(value)};
+}
+
 /// Adds the parameters that the standard makes mandatory and the action lacks.
 inline void AddMandatoryParameters(VDA5050::Action& action)
 {

@@ -21,11 +21,6 @@ using VDA5050::EActionStatus;
 using VDA5050::EVda5050Version;
 namespace ActionTypes = VDA5050::ActionTypes;
 
-ActionParameter MakeMapParameter(std::string_view key, std::string_view value)
-{
-    return {std::string(key), Core::JsonText::FromString(value)};
-}
-
 /// A vehicle at its charger.
 VdaSim::VirtualVehicleOptions MakeMapOptions(EVda5050Version version)
 {
@@ -68,9 +63,9 @@ TEST_CASE("6.8.2 Maps are downloaded, enabled and deleted, and a factsheet witho
         driver.SendInstantly(
             type,
             actionID,
-            {MakeMapParameter("mapId", "floor"),
-             MakeMapParameter("mapVersion", version),
-             MakeMapParameter("mapDownloadLink", "http://maps/2")});
+            {MakeText("mapId", "floor"),
+             MakeText("mapVersion", version),
+             MakeText("mapDownloadLink", "http://maps/2")});
         driver.Pass(2s);
     };
     const auto getMaps = [&driver]() {
@@ -79,21 +74,15 @@ TEST_CASE("6.8.2 Maps are downloaded, enabled and deleted, and a factsheet witho
     send(ActionTypes::DOWNLOAD_MAP, "download", "2");
     REQUIRE(getMaps().size() == 2);
     CHECK(getMaps()[1] == VDA5050::MapState{"floor", "2", VDA5050::EMapStatus::Disabled, {}});
-    driver.SendInstantly(
-        ActionTypes::ENABLE_MAP,
-        "enable",
-        {MakeMapParameter("mapId", "floor"), MakeMapParameter("mapVersion", "2")});
+    driver.SendInstantly(ActionTypes::ENABLE_MAP, "enable", {MakeText("mapId", "floor"), MakeText("mapVersion", "2")});
     driver.Pass(2s);
     CHECK(getMaps()[0].mapStatus == VDA5050::EMapStatus::Disabled);
     CHECK(getMaps()[1].mapStatus == VDA5050::EMapStatus::Enabled);
-    driver.SendInstantly(
-        ActionTypes::DELETE_MAP,
-        "delete",
-        {MakeMapParameter("mapId", "floor"), MakeMapParameter("mapVersion", "1")});
+    driver.SendInstantly(ActionTypes::DELETE_MAP, "delete", {MakeText("mapId", "floor"), MakeText("mapVersion", "1")});
     driver.Pass(2s);
     REQUIRE(getMaps().size() == 1);
     CHECK(getMaps()[0].mapVersion == "2");
-    driver.SendInstantly(ActionTypes::DELETE_MAP, "without", {MakeMapParameter("mapId", "floor")});
+    driver.SendInstantly(ActionTypes::DELETE_MAP, "without", {MakeText("mapId", "floor")});
     driver.Pass(2s);
     CHECK(driver.GetStatus("without") == EActionStatus::Failed);
 }
@@ -108,7 +97,7 @@ TEST_CASE("6.8.2 A vehicle of 2.0.0 has no map actions: they are new in 2.1.0")
         CAPTURE(type);
         CHECK_FALSE(VDA5050::CanPerform(factsheet, type, VDA5050::EActionScope::Instant));
         const std::string actionID = "map-" + std::string(type);
-        driver.SendInstantly(type, actionID, {MakeMapParameter("mapId", "floor"), MakeMapParameter("mapVersion", "1")});
+        driver.SendInstantly(type, actionID, {MakeText("mapId", "floor"), MakeText("mapVersion", "1")});
         driver.Pass(2s);
         CHECK(driver.GetStatus(actionID) == EActionStatus::Failed);
         const std::vector<VDA5050::VehicleError> errors = driver.GetState().errors;
@@ -160,12 +149,12 @@ TEST_CASE("7 A vehicle of 2.1.0 reports every map of its site, and accepts order
 TEST_CASE("7 An order on a map that is DISABLED is refused, unless it enables the map")
 {
     VehicleDriver driver(MakeMapOptions(EVda5050Version::Version210));
-    const ActionParameter mapID = MakeMapParameter("mapId", "cellar");
-    const ActionParameter version = MakeMapParameter("mapVersion", "1");
+    const ActionParameter mapID = MakeText("mapId", "cellar");
+    const ActionParameter version = MakeText("mapVersion", "1");
     driver.SendInstantly(
         ActionTypes::DOWNLOAD_MAP,
         "download",
-        {mapID, version, MakeMapParameter("mapDownloadLink", "http://maps/2")});
+        {mapID, version, MakeText("mapDownloadLink", "http://maps/2")});
     driver.Pass(2s);
     REQUIRE(driver.GetStatus("download") == EActionStatus::Finished);
     CHECK_FALSE(TryOrderTo(driver, "cellar"));
