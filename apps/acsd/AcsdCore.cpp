@@ -24,12 +24,19 @@ Planning::InputLimits MakeInputLimits(const Planning::EngineOptions& options)
     return limits;
 }
 
+Planning::EngineOptions MakeEngineOptions(const AcsdConfig& config)
+{
+    Planning::EngineOptions options = config.engine;
+    options.mcsCodes = MakeMcsCodes(config.mcs.style.errors);
+    return options;
+}
+
 } // namespace
 
 AcsdCore::AcsdCore(Dependencies dependencies, const AcsdConfig& config)
     : _dependencies(std::move(dependencies)),
       _operations(config.operations),
-      _engine(config.engine, *config.site, _dependencies.random),
+      _engine(MakeEngineOptions(config), *config.site, _dependencies.random),
       _host(
           _engine,
           _dependencies.clock,

@@ -34,6 +34,16 @@ ErrorNames ReadErrorNames(const std::string& fileName, std::vector<std::string>&
     return names;
 }
 
+std::map<std::string, std::string, std::less<>> MakeMcsCodes(const ErrorNames& names)
+{
+    std::map<std::string, std::string, std::less<>> codes;
+    for (const auto& [ownCode, name] : names)
+    {
+        codes.emplace(ownCode, name.code.value_or(ownCode));
+    }
+    return codes;
+}
+
 Planning::Alarm Rename(Planning::Alarm alarm, const ErrorNames& names)
 {
     const auto found = names.find(alarm.errorCode);
@@ -44,6 +54,8 @@ Planning::Alarm Rename(Planning::Alarm alarm, const ErrorNames& names)
         alarm.level = name.level.value_or(alarm.level);
         alarm.message = name.message.value_or(alarm.message);
     }
+    // Otherwise a version that did not keep it has set the alarm.
+    alarm.errorCode = alarm.mcsCode.value_or(alarm.errorCode);
     return alarm;
 }
 

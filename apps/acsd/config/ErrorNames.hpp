@@ -27,7 +27,10 @@ using ErrorNames = std::map<std::string, ErrorName, std::less<>>;
 /// Reads a file of `errors.map`: a table per code with `code`, `level`, `message`. Errors have file and line.
 [[nodiscard]] ErrorNames ReadErrorNames(const std::string& fileName, std::vector<std::string>& errors);
 
-/// The alarm as it is sent to the MCS.
+/// The codes as the plan engine needs them, by acsd's own code.
+[[nodiscard]] std::map<std::string, std::string, std::less<>> MakeMcsCodes(const ErrorNames& names);
+
+/// The alarm as it is sent to the MCS: with the code that it was set with, and the present level and message.
 [[nodiscard]] Planning::Alarm Rename(Planning::Alarm alarm, const ErrorNames& names);
 
 } // namespace ACS::Acsd

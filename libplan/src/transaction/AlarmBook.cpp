@@ -7,6 +7,18 @@
 namespace ACS::Planning
 {
 
+namespace
+{
+
+/// Whether both alarms are the same but for the code that the MCS knows.
+bool IsEqualHere(const Alarm& alarm, const Alarm& other)
+{
+    return alarm.IsSameAs(other) && alarm.level == other.level && alarm.message == other.message
+        && alarm.stepNo == other.stepNo;
+}
+
+} // namespace
+
 void AlarmBook::Restore(std::vector<Alarm> alarms)
 {
     _alarms = std::move(alarms);
@@ -33,7 +45,7 @@ std::vector<ErrorReport> AlarmBook::Raise(Alarm alarm, Core::SteadyTime now)
 std::vector<ErrorReport> AlarmBook::Update(Alarm alarm, Core::SteadyTime now)
 {
     const Alarm* const setOrNull = FindOrNull(alarm);
-    if (setOrNull == nullptr || setOrNull->level != alarm.level || *setOrNull == alarm)
+    if (setOrNull == nullptr || setOrNull->level != alarm.level || IsEqualHere(*setOrNull, alarm))
     {
         return Raise(std::move(alarm), now);
     }
@@ -90,7 +102,7 @@ std::optional<Core::SteadyTime> AlarmBook::GetNextDelayedOrNull() const
 
 bool AlarmBook::Contains(const Alarm& alarm) const
 {
-    return std::ranges::count(_alarms, alarm) > 0;
+    return std::ranges::any_of(_alarms, [&alarm](const Alarm& other) { return IsEqualHere(other, alarm); });
 }
 
 const Alarm* AlarmBook::FindOrNull(const Alarm& alarm) const
@@ -107,6 +119,11 @@ const std::vector<Alarm>& AlarmBook::GetAlarms() const noexcept
 std::vector<ErrorReport> AlarmBook::Replace(Alarm alarm)
 {
     std::vector<ErrorReport> reports = ClearIf([&alarm](const Alarm& other) { return other.IsSameAs(alarm); });
+    if (_mcsCodes.has_value())
+    {
+        const auto named = _mcsCodes->find(alarm.errorCode);
+        alarm.mcsCode = named == _mcsCodes->end() ? alarm.errorCode : named->second;
+    }
     reports.push_back({alarm, true});
     _alarms.push_back(std::move(alarm));
     return reports;

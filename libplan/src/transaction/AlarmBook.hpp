@@ -5,7 +5,10 @@
 #include <acs/plan/Report.hpp>
 
 #include <functional>
+#include <map>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace ACS::Planning
@@ -15,16 +18,25 @@ namespace ACS::Planning
 /// nothing has changed. An alarm that comes and goes stays set until it has been quiet (AlarmRateLimit).
 class AlarmBook
 {
+public:
+    using McsCodes = std::optional<std::map<std::string, std::string, std::less<>>>;
+
+private:
+    McsCodes _mcsCodes;
     std::vector<Alarm> _alarms;
     AlarmRateLimit _limit;
 
 public:
-    AlarmBook() = default;
+    /// The codes are those of EngineOptions.
+    explicit AlarmBook(McsCodes mcsCodes = std::nullopt)
+        : _mcsCodes(std::move(mcsCodes))
+    {
+    }
 
     /// Replaces all alarms without a report: these were reported before the restart.
     void Restore(std::vector<Alarm> alarms);
 
-    /// Sets the alarm. If it is set already with another level, it is cleared and set again: a report cannot change an alarm.
+    /// Sets the alarm, with its mcsCode. If it is set already with another level, it is cleared and set again: a report cannot change an alarm.
     [[nodiscard]] std::vector<ErrorReport> Raise(Alarm alarm, Core::SteadyTime now);
     /// As Raise, but also replaces an alarm with another message. The caller limits how often.
     [[nodiscard]] std::vector<ErrorReport> Update(Alarm alarm, Core::SteadyTime now);

@@ -32,7 +32,7 @@ struct EngineState
     PlanBook plans{options};
     JobTimes jobTimes;
     Fleet fleet{options};
-    AlarmBook alarms;
+    AlarmBook alarms{options.mcsCodes};
     ReportOutbox outbox;
     StoreBacklog backlog;
     StartupBarrier startup;

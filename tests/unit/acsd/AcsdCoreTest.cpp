@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 namespace ACS::Acsd::Test
 {
@@ -166,6 +168,44 @@ TEST_CASE_METHOD(AcsdCoreFixture, "acsd ends at once, without further actions, i
     CHECK(_stops == 0);
     CHECK(_answers.empty());
     CHECK(_core->IsClosed());
+}
+
+TEST_CASE_METHOD(
+    AcsdCoreFixture,
+    "5.8 An alarm is cleared with the code that it was set with, whatever errors.map was at the restart between")
+{
+    const auto getErrors = [this] {
+        std::vector<std::pair<std::string, bool>> errors;
+        for (const Protocol::AcsRequest& request : _reports)
+        {
+            const auto& report = std::get<Protocol::ErrorReport>(request.payload);
+            errors.emplace_back(report.errorCode, report.bSet);
+        }
+        return errors;
+    };
+    const ErrorNames before = GENERATE(ErrorNames{}, ErrorNames{{"ACS-1002", {"E77", {}, {}}}});
+    const ErrorNames after = GENERATE(ErrorNames{}, ErrorNames{{"ACS-1002", {"E78", {}, {}}}});
+    const std::string code = before.empty() ? "ACS-1002" : "E77";
+    _config.mcs.style.errors = before;
+    Begin();
+    Register();
+    BringRobotUp();
+    _core->OnRobotEvent("LR01", Planning::LinkChanged{false});
+    ServeDisk();
+    REQUIRE(getErrors() == std::vector<std::pair<std::string, bool>>{{code, true}});
+
+    Planning::StoredState state;
+    state.alarms = _core->GetEngine().GetActiveAlarms();
+    _config.mcs.style.errors = after;
+    _reports.clear();
+    _core.reset();
+    Begin(std::move(state));
+    Register();
+    _core->OnSessionEvent(Protocol::RequestReceived{{"Q", {}, Protocol::RequestAcsErrorList{}}, false});
+    REQUIRE(_answers.size() == 1);
+    CHECK(std::get<Protocol::ErrorListAck>(_answers.front().payload).errors.at(0).errorCode == code);
+    BringRobotUp();
+    CHECK(getErrors() == std::vector<std::pair<std::string, bool>>{{code, false}});
 }
 
 TEST_CASE_METHOD(AcsdCoreFixture, "A filter decides which actions of the engine are executed")

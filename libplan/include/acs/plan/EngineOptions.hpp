@@ -178,6 +178,9 @@ struct EngineOptions
     /// Bytes of a log of the store that cannot be merged, and of space left on its file system, beyond which ACS-1021 is raised.
     std::uint64_t maximumLogBytes = 64ULL * 1024 * 1024;
     std::size_t finishedPlansKept = 1'000; ///< Finished plans in memory and in the store; their planIDs stay known.
+    /// The codes of alarms at the MCS, by errorCode; an alarm that is not listed has its errorCode there. An alarm keeps its
+    /// Alarm::mcsCode until it is cleared, also over a restart with other codes. nullopt: alarms have no mcsCode.
+    std::optional<std::map<std::string, std::string, std::less<>>> mcsCodes;
 };
 
 /// All errors of the options, each with a path ("robots.LR01.home"); empty if the options are valid. PlanEngine requires

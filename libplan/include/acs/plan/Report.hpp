@@ -62,8 +62,10 @@ struct Alarm
     std::optional<std::string> planID;
     std::optional<std::int32_t> stepNo;
     std::optional<std::string> jobID;
+    /// The code with which it was reported to the MCS, and is cleared there; see EngineOptions::mcsCodes.
+    std::optional<std::string> mcsCode = std::nullopt;
 
-    /// Whether both have the same identity; level, message and stepNo may differ.
+    /// Whether both have the same identity; level, message, stepNo and mcsCode may differ.
     [[nodiscard]] bool IsSameAs(const Alarm& other) const noexcept
     {
         return robotID == other.robotID && errorCode == other.errorCode && planID == other.planID

@@ -144,6 +144,8 @@ TEST_CASE("11 Details that MCS-ACS leaves open are written as configured")
         CHECK(MakeErrorReport(alarm, bSet, style).errorCode == "E77");
         CHECK(MakeErrorReport(alarm, bSet, style).level == Protocol::EErrorLevel::Light);
     }
+    alarm.mcsCode = "E76"; // set before errors.map was changed
+    CHECK(MakeErrorReport(alarm, false, style).errorCode == "E76");
 }
 
 TEST_CASE("5.10 Positions are metres, degrees from 0 to below 360, and a whole battery percentage")

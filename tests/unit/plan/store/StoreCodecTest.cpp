@@ -28,7 +28,7 @@ TEST_CASE("Store texts: plans, states, carriers and alarms are decoded as they w
     const CarriersChanged carriers{"CR01", {std::nullopt, "TRAY_02", std::nullopt}};
     CHECK(DecodeCarriers(EncodeCarriers(carriers)) == carriers);
 
-    const Alarm alarm{"CR01", "ACS-1001", EAlarmLevel::Heavy, "look", "P1", 2, std::nullopt};
+    const Alarm alarm{"CR01", "ACS-1001", EAlarmLevel::Heavy, "look", "P1", 2, std::nullopt, "E77"};
     CHECK(DecodeAlarm(EncodeAlarm(alarm)) == alarm);
 }
 

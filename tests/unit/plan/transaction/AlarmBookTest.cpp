@@ -5,6 +5,9 @@
 
 #include <chrono>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 
@@ -55,6 +58,26 @@ TEST_CASE("AlarmBook: Update replaces an alarm whose text differs")
     const Alarm later = MakeStall("LR01", EAlarmLevel::Light, "node 4 not reached");
     CHECK_FALSE(book.Contains(later));
     CHECK(book.Update(later, NOW) == std::vector<ErrorReport>{{MakeStall("LR01"), false}, {later, true}});
+}
+
+TEST_CASE(
+    "AlarmBook: an alarm is cleared with the code of the MCS that it was set with, and set again with the present one")
+{
+    AlarmBook former(AlarmBook::McsCodes{{{std::string(ALARM_STALL), "E77"}}});
+    static_cast<void>(former.Raise(MakeStall("LR01"), NOW));
+    static_cast<void>(former.Raise(MakeAlarm("LR01", ALARM_CHARGE, EAlarmLevel::Light, {}), NOW));
+    REQUIRE(former.GetAlarms().size() == 2);
+    CHECK(former.GetAlarms()[0].mcsCode == "E77");
+    CHECK(former.GetAlarms()[1].mcsCode == std::string(ALARM_CHARGE));
+
+    AlarmBook book(AlarmBook::McsCodes{{{std::string(ALARM_STALL), "E78"}}});
+    book.Restore(former.GetAlarms());
+    CHECK(book.Contains(MakeStall("LR01")));
+    CHECK(book.Update(MakeStall("LR01"), NOW).empty());
+    const std::vector<ErrorReport> reports = book.Raise(MakeStall("LR01", EAlarmLevel::Heavy, "blocked"), NOW);
+    REQUIRE(reports.size() == 2);
+    CHECK(reports[0].alarm.mcsCode == "E77");
+    CHECK(reports[1].alarm.mcsCode == "E78");
 }
 
 TEST_CASE("AlarmBook: alarms of other robots, codes, plans and jobs are others")

@@ -83,7 +83,8 @@ struct JsonFields<Planning::Alarm>
         Required("message", &Planning::Alarm::message),
         Optional("planId", &Planning::Alarm::planID),
         Optional("stepNo", &Planning::Alarm::stepNo),
-        Optional("jobId", &Planning::Alarm::jobID));
+        Optional("jobId", &Planning::Alarm::jobID),
+        Optional("mcsCode", &Planning::Alarm::mcsCode));
 };
 
 template <>
