@@ -194,6 +194,10 @@ void AcsSession::Impl::Forget(SessionActions& out)
     _phase = Detail::EConnectPhase::Replay;
     _requests = Detail::EWaitingRequests::None;
     _lastStatus = {};
+    for (auto& [key, status] : _statuses)
+    {
+        status.passed.clear(); // the next connection begins with the latest status
+    }
     _unansweredInRow = 0;
 }
 

@@ -68,6 +68,8 @@ struct Status
     AcsPayload payload;
     bool bPending = false;
     bool bUnanswered = false; ///< No Ack: the MCS may not know it.
+    /// What the robot passed through on this connection and the MCS must see, oldest first: sent before the payload.
+    std::deque<AcsPayload> passed{};
 };
 
 struct InFlight
@@ -94,6 +96,7 @@ class AcsSession::Impl
     using InFlight = Detail::InFlight;
 
     static constexpr std::size_t MOST_ABANDONED = 1'024; ///< Requests whose late Ack is still known.
+    static constexpr std::size_t MOST_PASSED = 8; ///< Statuses kept per robot; beyond them the oldest is dropped.
 
     SessionOptions _options;
     Core::IRandom& _random;
@@ -139,6 +142,8 @@ private:
     [[nodiscard]] bool IsUp() const noexcept;
     /// A state is sent on change only (sections 6.20, 6.21), the status of a robot always.
     [[nodiscard]] bool IsKnownState(const AcsPayload& status) const;
+    /// Replaces the status. An Arrival or Stopped that waits for room on this connection is kept before it.
+    static void Replace(Status& status, const AcsPayload& payload, bool bConnected);
     /// Closes the connection; OnClosed continues from the given state.
     void Leave(EState state, std::uint16_t code, std::string reason, SessionActions& out);
     /// Discards everything that ends with the connection.

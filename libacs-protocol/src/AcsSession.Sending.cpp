@@ -28,6 +28,24 @@ bool IsStatus(const AcsPayload& payload)
         || std::holds_alternative<RobotStatusUpdate>(payload);
 }
 
+/// Whether the MCS must see this status although another one has followed: section 5.9 has Arrival always sent once, section 6.7
+/// demands Stopped of a pause.
+bool MustBeSeen(const AcsPayload& waiting, const AcsPayload& next)
+{
+    const RobotStatusUpdate* const robotOrNull = std::get_if<RobotStatusUpdate>(&waiting);
+    const RobotStatusUpdate* const nextOrNull = std::get_if<RobotStatusUpdate>(&next);
+    if (robotOrNull == nullptr || nextOrNull == nullptr)
+    {
+        return false;
+    }
+    const bool bKept =
+        robotOrNull->robotStatus == ERobotStatus::Arrival || robotOrNull->robotStatus == ERobotStatus::Stopped;
+    const bool bRepeated = robotOrNull->robotStatus == nextOrNull->robotStatus
+        && robotOrNull->position == nextOrNull->position && robotOrNull->planID == nextOrNull->planID
+        && robotOrNull->stepNo == nextOrNull->stepNo;
+    return bKept && !bRepeated;
+}
+
 } // namespace
 
 bool AcsSession::Impl::TrySendDurable(const AcsRequest& request, Core::Now now, SessionActions& out)
@@ -67,9 +85,24 @@ void AcsSession::Impl::SendStatus(const AcsPayload& status, Core::Now now, Sessi
     assert(IsStatus(status));
     if (IsStatus(status) && !IsKnownState(status))
     {
-        _statuses.insert_or_assign(MakeStatusKey(status), Status{status, true});
+        Replace(_statuses[MakeStatusKey(status)], status, _state == EState::Registered);
         UseRoom(now, out);
     }
+}
+
+void AcsSession::Impl::Replace(Status& status, const AcsPayload& payload, bool bConnected)
+{
+    if (bConnected && status.bPending && MustBeSeen(status.payload, payload))
+    {
+        status.passed.push_back(std::move(status.payload));
+        if (status.passed.size() > MOST_PASSED)
+        {
+            status.passed.pop_front();
+        }
+    }
+    status.payload = payload;
+    status.bPending = true;
+    status.bUnanswered = false;
 }
 
 void AcsSession::Impl::SendPosition(const RobotPositionUpdate& positions, Core::Now now, SessionActions& out)
@@ -186,8 +219,10 @@ void AcsSession::Impl::Supersede(const AcsPayload& status)
 void AcsSession::Impl::SendStatuses(std::size_t kept, Core::Now now, SessionActions& out)
 {
     auto next = _statuses.upper_bound(_lastStatus);
-    for (std::size_t left = _statuses.size(); left > 0 && GetRoom() > kept; --left)
+    std::size_t left = _statuses.size();
+    while (left > 0 && GetRoom() > kept)
     {
+        --left;
         if (next == _statuses.end())
         {
             if (_phase == EConnectPhase::Snapshot)
@@ -203,8 +238,15 @@ void AcsSession::Impl::SendStatuses(std::size_t kept, Core::Now now, SessionActi
             continue;
         }
         Supersede(status.payload);
-        status.bPending = false;
         _lastStatus = key;
+        if (!status.passed.empty())
+        {
+            static_cast<void>(SendPayload(std::move(status.passed.front()), key, now, out));
+            status.passed.pop_front();
+            left = _statuses.size(); // the next one of this robot follows in its turn
+            continue;
+        }
+        status.bPending = false;
         static_cast<void>(SendPayload(status.payload, key, now, out));
     }
 }

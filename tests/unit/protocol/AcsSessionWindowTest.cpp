@@ -3,6 +3,7 @@
 #include "Fixture.hpp"
 
 #include <chrono>
+#include <cstddef>
 #include <map>
 #include <string>
 #include <variant>
@@ -73,22 +74,83 @@ TEST_CASE("9 At most sixteen messages wait for their Ack, and free room is repor
     CHECK(bench.TrySend("x"));
 }
 
-TEST_CASE("9 Statuses are coalesced to the latest per robot when there is no room")
+TEST_CASE("9 Statuses are coalesced to the latest per robot when there is no room, except for Arrival and Stopped")
 {
-    Protocol::SessionOptions options = MakeOptions();
-    options.window = 1;
-    Fixture bench(options);
+    using enum Protocol::ERobotStatus;
+    Fixture bench(MakeNarrowOptions());
     bench.StartAndReplay();
     REQUIRE(bench.TrySend("a"));
     bench.recorder.Clear();
-    const Core::Now now = bench.clock.GetNow();
-    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Moving), now, bench.recorder.out);
-    bench.session.SendStatus(MakeStatus("LR01", Protocol::ERobotStatus::Arrival), now, bench.recorder.out);
+    for (const Protocol::ERobotStatus status : {Moving, Arrival, Arrival, Docking, Working, Stopped, Moving, Idle})
+    {
+        const Protocol::AcsPayload payload = MakeStatus("LR01", status);
+        bench.session.SendStatus(payload, bench.clock.GetNow(), bench.recorder.out);
+    }
     CHECK(bench.recorder.out.empty());
     bench.Text(MakeAckText("PlanReport", "a"));
-    const std::vector<AcsRequest> requests = bench.recorder.GetRequests();
-    REQUIRE(requests.size() == 1);
-    CHECK(std::get<Protocol::RobotStatusUpdate>(requests[0].payload).robotStatus == Protocol::ERobotStatus::Arrival);
+    std::vector<Protocol::ERobotStatus> sent;
+    while (!bench.recorder.GetRequests().empty())
+    {
+        const AcsRequest request = bench.recorder.GetRequests().at(0);
+        sent.push_back(std::get<Protocol::RobotStatusUpdate>(request.payload).robotStatus);
+        bench.Text(MakeAckText("RobotStatusUpdate", request.transactionID));
+    }
+    CHECK(sent == std::vector{Arrival, Stopped, Idle});
+}
+
+TEST_CASE("9 Room for several messages is used by all statuses of one robot that wait")
+{
+    using enum Protocol::ERobotStatus;
+    Protocol::SessionOptions options = MakeOptions();
+    options.window = 3;
+    Fixture bench(options);
+    bench.StartAndReplay();
+    REQUIRE(bench.TrySend("a"));
+    REQUIRE(bench.TrySend("b"));
+    REQUIRE(bench.TrySend("c"));
+    bench.session.SendStatus(MakeStatus("LR01", Arrival), bench.clock.GetNow(), bench.recorder.out);
+    bench.session.SendStatus(MakeStatus("LR01", Docking), bench.clock.GetNow(), bench.recorder.out);
+    bench.recorder.Clear();
+    bench.clock.Advance(1s);
+    bench.session.OnText(MakeAckText("PlanReport", "a"), bench.clock.GetNow(), bench.recorder.out);
+    bench.session.OnText(MakeAckText("PlanReport", "b"), bench.clock.GetNow(), bench.recorder.out);
+    CHECK(bench.recorder.GetRequests().size() == 2);
+}
+
+TEST_CASE("9 The Arrivals that wait for room are limited per robot, and end with the connection")
+{
+    using enum Protocol::ERobotStatus;
+    Fixture bench(MakeNarrowOptions());
+    bench.StartAndReplay();
+    REQUIRE(bench.TrySend("a"));
+    for (int i = 0; i < 100; ++i)
+    {
+        bench.session.SendStatus(MakeStatus("LR01", Arrival), bench.clock.GetNow(), bench.recorder.out);
+        bench.session.SendStatus(MakeStatus("LR01", Moving), bench.clock.GetNow(), bench.recorder.out);
+    }
+    std::size_t expected = 9; // eight Arrivals and the latest
+    if (GENERATE(false, true))
+    {
+        bench.Closed();
+        bench.session.SendStatus(MakeStatus("LR01", Arrival), bench.clock.GetNow(), bench.recorder.out);
+        bench.session.SendStatus(MakeStatus("LR01", Idle), bench.clock.GetNow(), bench.recorder.out);
+        bench.Timer(ESessionTimer::Reconnect, 10s);
+        bench.Register();
+        bench.recorder.Clear();
+        bench.session.ReplayDone(bench.clock.GetNow(), bench.recorder.out);
+        expected = 1;
+    }
+    else
+    {
+        bench.Text(MakeAckText("PlanReport", "a"));
+    }
+    std::size_t sent = 0;
+    while (!bench.recorder.GetRequests().empty())
+    {
+        ++sent;
+        bench.Text(MakeAckText("RobotStatusUpdate", bench.recorder.GetRequests().at(0).transactionID));
+    }
+    CHECK(sent == expected);
 }
 
 TEST_CASE("9 Statuses that fill the window leave room for durable requests, and each robot has its turn")

@@ -69,7 +69,7 @@ public:
 
     /// A TscStateUpdate, AcsCommStateUpdate or RobotStatusUpdate. The latest of each kind and robot is kept, sent as soon
     /// as possible and again after every ReplayDone; an unchanged TSC or comm state is not sent. SendText, StartTimer.
-    /// Other payloads are a programming error.
+    /// An Arrival or Stopped that waits for room is kept beside the latest. Other payloads are a programming error.
     void SendStatus(const AcsPayload& status, Core::Now now, SessionActions& out);
 
     /// SendText that may be dropped. No effect before the first PositionDue of the connection.
