@@ -79,12 +79,14 @@ bool IsAnyJob(const TrackedPlan& plan, TPredicate predicate)
     });
 }
 
+bool HasFailedJob(const TrackedStep& step)
+{
+    return std::ranges::count(step.jobs, EJobStatus::Failed, &TrackedJob::status) > 0;
+}
+
 bool IsFailureUntold(const TrackedStep& step)
 {
-    const bool bJobFailed = std::any_of(step.jobs.begin(), step.jobs.end(), [](const TrackedJob& job) {
-        return job.status == EJobStatus::Failed;
-    });
-    return bJobFailed && step.status != EStepStatus::Failed;
+    return HasFailedJob(step) && step.status != EStepStatus::Failed;
 }
 
 bool IsAnyEarlierStepOpen(const TrackedPlan& plan, const TrackedStep& step)
@@ -113,6 +115,10 @@ std::optional<std::string> FindPlanViolationOrNull(const TrackedPlan& plan, EPla
     if (status == EPlanStatus::Cancelled && IsAnyJob(plan, isBegun))
     {
         return "Cancelled after a job was begun";
+    if (status == EPlanStatus::Completed && std::ranges::any_of(plan.steps, HasFailedJob))
+    {
+        return "Completed with a failed job";
+    }
     }
     if (status == EPlanStatus::Failed && std::any_of(plan.steps.begin(), plan.steps.end(), IsFailureUntold))
     {
@@ -170,6 +176,10 @@ std::optional<std::string> FindStepViolationOrNull(const TrackedPlan& plan, cons
 bool IsTakenOver(const TrackedPlan& plan, const TrackedStep& step, const Protocol::StepReport& report)
 {
     const bool bOpen = step.status == EStepStatus::Dispatched || step.status == EStepStatus::InProgress;
+    if (status == EStepStatus::Skipped && HasFailedJob(step))
+    {
+        return "Skipped after its failed job";
+    }
     const bool bNoJob = std::ranges::none_of(plan.steps, [](const TrackedStep& other) {
         return std::ranges::any_of(other.jobs, &TrackedJob::bReported);
     });

@@ -265,6 +265,16 @@ TEST_CASE("6.13 A step is skipped before it is begun, or while its job is unreso
              MakeStepReport("P1", 2, EStepStatus::Skipped)});
         CHECK(fixture.GetViolation() == "P1 StepReport step 2 Skipped after Failed");
     }
+    SECTION("6.14 its job failed: the plan fails too")
+    {
+        fixture.Report(
+            {MakeJobReport("P1", 2, "J2", EJobStatus::Failed),
+             MakeStepReport("P1", 2, EStepStatus::Skipped),
+             MakePlanReport("P1", EPlanStatus::Completed)});
+        REQUIRE(fixture.tracker.CountViolations() == 2);
+        CHECK(fixture.tracker.GetViolations()[0] == "P1 StepReport step 2 Skipped after its failed job");
+        CHECK(fixture.tracker.GetViolations()[1] == "P1 PlanReport Completed with a failed job");
+    }
 }
 
 TEST_CASE("A violation makes the run fail even where every plan is completed")
