@@ -108,7 +108,7 @@ void RunJudge::OnRequest(const Protocol::RequestReceived& received)
     if (const auto* const statusOrNull = std::get_if<Protocol::RobotStatusUpdate>(&payload))
     {
         _board.OnStatus(*statusOrNull, _lines);
-        _tracker.OnRequest(payload, _lines);
+        _tracker.OnRequest(payload, received.request.timestamp.time, _lines);
     }
     else if (const auto* const positionOrNull = std::get_if<Protocol::RobotPositionUpdate>(&payload))
     {
@@ -116,7 +116,7 @@ void RunJudge::OnRequest(const Protocol::RequestReceived& received)
     }
     else
     {
-        _tracker.OnRequest(payload, _lines);
+        _tracker.OnRequest(payload, received.request.timestamp.time, _lines);
     }
     if (_floor.has_value())
     {

@@ -68,7 +68,17 @@ void ControlRequests::OnAck(const Protocol::AcsAck& ack)
     if (acknowledged != _open.end())
     {
         acknowledged->bRefused = ack.result == Protocol::EAckResult::Fail;
+        acknowledged->acceptedAt =
+            acknowledged->bRefused ? std::nullopt : std::optional<Core::WallTime>(ack.timestamp.time);
     }
+}
+
+bool ControlRequests::IsAborting(const std::string& planID, Core::WallTime time) const
+{
+    return std::ranges::any_of(_open, [&planID, time](const OpenRequest& open) {
+        return open.command == EAcsCommand::AbortPlan && open.planID == planID && open.acceptedAt.has_value()
+            && *open.acceptedAt < time;
+    });
 }
 
 ControlRequests::EResultOrigin ControlRequests::Close(EAcsCommand result, const std::string& planID, bool bSuccess)

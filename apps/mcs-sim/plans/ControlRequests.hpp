@@ -1,8 +1,10 @@
 #pragma once
 
+#include <acs/core/Now.hpp>
 #include <acs/protocol/AcsMessage.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +41,7 @@ private:
         std::string planID;
         std::string transactionID;
         bool bRefused = false;
+        std::optional<Core::WallTime> acceptedAt{}; ///< Timestamp of its Ack Success, by the clock of the ACS.
     };
 
     std::vector<OpenRequest> _open; ///< In the order of sending.
@@ -49,6 +52,9 @@ public:
 
     /// Any Ack of the ACS.
     void OnAck(const Protocol::AcsAck& ack);
+
+    /// Whether the ACS had accepted an AbortPlan of this plan before this time of its clock, and has not reported the result.
+    [[nodiscard]] bool IsAborting(const std::string& planID, Core::WallTime time) const;
 
     /// Closes the request that a result report belongs to. A Failed belongs to a refused request, if there is one.
     [[nodiscard]] EResultOrigin Close(Protocol::EAcsCommand result, const std::string& planID, bool bSuccess);

@@ -24,13 +24,13 @@ std::string MakeRobotTail(std::string_view robotID, std::string_view text)
 
 } // namespace
 
-void PlanTracker::OnRequest(const Protocol::AcsPayload& payload, Lines& out)
+void PlanTracker::OnRequest(const Protocol::AcsPayload& payload, Core::WallTime sentAt, Lines& out)
 {
     std::visit(
         Core::Overloaded{
             [this, &out](const Protocol::PlanReport& report) { Handle(report, out); },
-            [this, &out](const Protocol::StepReport& report) { Handle(report, out); },
-            [this, &out](const Protocol::JobReport& report) { Handle(report, out); },
+            [this, sentAt, &out](const Protocol::StepReport& report) { Handle(report, sentAt, out); },
+            [this, sentAt, &out](const Protocol::JobReport& report) { Handle(report, sentAt, out); },
             [this, &out](const Protocol::ErrorReport& report) { Handle(report, out); },
             [this, &out](const Protocol::RobotStatusUpdate& update) { CheckNamed("RobotStatusUpdate", update, out); },
             [this, &out](const Protocol::AcsCommStateUpdate& update) { Handle(update, out); },
@@ -71,7 +71,7 @@ void PlanTracker::Handle(const Protocol::PlanReport& report, Lines& out)
         MakeRobotTail(planOrNull->robotID, report.message)));
 }
 
-void PlanTracker::Handle(const Protocol::StepReport& report, Lines& out)
+void PlanTracker::Handle(const Protocol::StepReport& report, Core::WallTime sentAt, Lines& out)
 {
     TrackedPlan* const planOrNull = FindReportedOrNull("StepReport", report.planID, out);
     TrackedStep* const stepOrNull =
@@ -86,7 +86,11 @@ void PlanTracker::Handle(const Protocol::StepReport& report, Lines& out)
         stepOrNull->status = Protocol::EStepStatus::Pending;
     }
     CheckRobot(*planOrNull, report.robotID, out);
-    const std::optional<std::string> mistake = FindStepViolationOrNull(*planOrNull, *stepOrNull, report.status);
+    std::optional<std::string> mistake = FindStepViolationOrNull(*planOrNull, *stepOrNull, report.status);
+    if (!mistake.has_value() && report.status == Protocol::EStepStatus::Dispatched)
+    {
+        mistake = FindAbortViolationOrNull(*planOrNull, GetText(report.status), sentAt);
+    }
     if (mistake.has_value())
     {
         AddViolation(fmt::format("{} StepReport step {} {}", CleanText(report.planID), report.stepNo, *mistake), out);
@@ -107,7 +111,7 @@ void PlanTracker::Handle(const Protocol::StepReport& report, Lines& out)
         MakeRobotTail(report.robotID, report.message)));
 }
 
-void PlanTracker::Handle(const Protocol::JobReport& report, Lines& out)
+void PlanTracker::Handle(const Protocol::JobReport& report, Core::WallTime sentAt, Lines& out)
 {
     TrackedPlan* const planOrNull = FindReportedOrNull("JobReport", report.planID, out);
     TrackedStep* const stepOrNull =
@@ -126,7 +130,11 @@ void PlanTracker::Handle(const Protocol::JobReport& report, Lines& out)
     }
     CheckRobot(*planOrNull, report.robotID, out);
     const auto number = job - stepOrNull->jobs.begin() + 1;
-    const std::optional<std::string> mistake = FindJobViolationOrNull(*planOrNull, *stepOrNull, *job, report.status);
+    std::optional<std::string> mistake = FindJobViolationOrNull(*planOrNull, *stepOrNull, *job, report.status);
+    if (!mistake.has_value() && report.status == Protocol::EJobStatus::Instructed)
+    {
+        mistake = FindAbortViolationOrNull(*planOrNull, GetText(report.status), sentAt);
+    }
     if (mistake.has_value())
     {
         AddViolation(
@@ -154,6 +162,18 @@ void PlanTracker::Handle(const Protocol::ResultReport<COMMAND>& report, Lines& o
 {
     const std::optional<std::string> mistake =
         FindResultViolationOrNull(COMMAND, report.planID, report.result == Protocol::EReportResult::Success);
+std::optional<std::string> PlanTracker::FindAbortViolationOrNull(
+    const TrackedPlan& plan,
+    std::string_view begun,
+    Core::WallTime sentAt) const
+{
+    // The result report may come before PlanReport Aborted.
+    const bool bResultReported = plan.unconfirmed == Protocol::EAcsCommand::AbortResultReport;
+    return bResultReported || _controls.IsAborting(plan.planned.plan.planID, sentAt)
+        ? std::optional(fmt::format("{} after the ACS accepted AbortPlan", begun))
+        : std::nullopt;
+}
+
     if (mistake.has_value())
     {
         AddViolation(fmt::format("{} {} {}", CleanText(report.planID), GetText(COMMAND), *mistake), out);

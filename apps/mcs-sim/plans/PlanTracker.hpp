@@ -80,8 +80,8 @@ public:
     /// The Ack of this transaction came and was not read, through no fault of the ACS.
     void OnAckLost(const std::string& transactionID);
 
-    /// Any request of the ACS that was not seen before.
-    void OnRequest(const Protocol::AcsPayload& payload, Lines& out);
+    /// Any request of the ACS that was not seen before, with its timestamp.
+    void OnRequest(const Protocol::AcsPayload& payload, Core::WallTime sentAt, Lines& out);
 
     /// At the end of the run: what a report stated and none confirmed, and a reported plan without an Ack, are violations.
     void Finish(Lines& out);
@@ -125,8 +125,13 @@ private:
         Lines& out);
     void CheckRobot(TrackedPlan& plan, const std::string& robotID, Lines& out);
     void Handle(const Protocol::PlanReport& report, Lines& out);
-    void Handle(const Protocol::StepReport& report, Lines& out);
-    void Handle(const Protocol::JobReport& report, Lines& out);
+    void Handle(const Protocol::StepReport& report, Core::WallTime sentAt, Lines& out);
+    void Handle(const Protocol::JobReport& report, Core::WallTime sentAt, Lines& out);
+    /// An abort ends the running job and begins nothing (section 6.14).
+    [[nodiscard]] std::optional<std::string> FindAbortViolationOrNull(
+        const TrackedPlan& plan,
+        std::string_view begun,
+        Core::WallTime sentAt) const;
     template <Protocol::EAcsCommand COMMAND>
     void Handle(const Protocol::ResultReport<COMMAND>& report, Lines& out);
     /// What is wrong with the result of a request to cancel, abort, pause or resume.

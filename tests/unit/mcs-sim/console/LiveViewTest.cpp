@@ -77,15 +77,15 @@ struct Scene
         const std::string planID = "PLAN-20261121-0001-3fa2";
         tracker.OnAck(MakeAck(tracker.GetPlans()[0].planned, EAckResult::Success), lines);
         tracker.OnAck(MakeAck(tracker.GetPlans()[1].planned, EAckResult::Fail, "no such place as A09.CP01"), lines);
-        tracker.OnRequest(MakePlanReport(planID, EPlanStatus::InProgress), lines);
-        tracker.OnRequest(MakeStepReport(planID, 1, EStepStatus::Dispatched), lines);
-        tracker.OnRequest(MakeStepReport(planID, 1, EStepStatus::InProgress), lines);
-        tracker.OnRequest(MakeJobReport(planID, 1, "J1", EJobStatus::Instructed), lines);
-        tracker.OnRequest(MakeJobReport(planID, 1, "J1", EJobStatus::InProgress), lines);
-        tracker.OnRequest(MakeJobReport(planID, 1, "J1", EJobStatus::Completed), lines);
-        tracker.OnRequest(MakeStepReport(planID, 1, EStepStatus::Completed), lines);
-        tracker.OnRequest(MakeStepReport(planID, 2, EStepStatus::Dispatched), lines);
-        tracker.OnRequest(MakeStepReport(planID, 2, EStepStatus::InProgress), lines);
+        tracker.OnRequest(MakePlanReport(planID, EPlanStatus::InProgress), {}, lines);
+        tracker.OnRequest(MakeStepReport(planID, 1, EStepStatus::Dispatched), {}, lines);
+        tracker.OnRequest(MakeStepReport(planID, 1, EStepStatus::InProgress), {}, lines);
+        tracker.OnRequest(MakeJobReport(planID, 1, "J1", EJobStatus::Instructed), {}, lines);
+        tracker.OnRequest(MakeJobReport(planID, 1, "J1", EJobStatus::InProgress), {}, lines);
+        tracker.OnRequest(MakeJobReport(planID, 1, "J1", EJobStatus::Completed), {}, lines);
+        tracker.OnRequest(MakeStepReport(planID, 1, EStepStatus::Completed), {}, lines);
+        tracker.OnRequest(MakeStepReport(planID, 2, EStepStatus::Dispatched), {}, lines);
+        tracker.OnRequest(MakeStepReport(planID, 2, EStepStatus::InProgress), {}, lines);
         board.OnStatus(
             {"LR01",
              ERobotType::Logistics,
@@ -174,9 +174,9 @@ TEST_CASE("Of many plans the live view shows those that are being worked on, and
     PlanTracker tracker(plans);
     std::vector<std::string> lines;
     SendAll(tracker);
-    tracker.OnRequest(MakePlanReport("P29", EPlanStatus::InProgress), lines);
-    tracker.OnRequest(MakePlanReport("P30", EPlanStatus::InProgress), lines);
-    tracker.OnRequest(MakePlanReport("P1", EPlanStatus::Cancelled), lines);
+    tracker.OnRequest(MakePlanReport("P29", EPlanStatus::InProgress), {}, lines);
+    tracker.OnRequest(MakePlanReport("P30", EPlanStatus::InProgress), {}, lines);
+    tracker.OnRequest(MakePlanReport("P1", EPlanStatus::Cancelled), {}, lines);
     const std::string text = Join(LiveView(100, 50).Render(tracker, RobotBoard(), MakeHeading()), 99);
     CHECK(text.find(" P29 ") != std::string::npos);
     CHECK(text.find(" P30 ") != std::string::npos);

@@ -53,8 +53,8 @@ TEST_CASE("The closing table counts plans by outcome and messages by command, a 
         tracker.OnSent(index, clock.GetNow(), lines);
     }
     tracker.OnAck(MakeAck(tracker.GetPlans()[1].planned, EAckResult::Fail, "Queue Full"), lines);
-    tracker.OnRequest(MakePlanReport("P1", EPlanStatus::InProgress), lines);
-    tracker.OnRequest(MakePlanReport("P1", EPlanStatus::Completed), lines); // before its steps: a violation
+    tracker.OnRequest(MakePlanReport("P1", EPlanStatus::InProgress), {}, lines);
+    tracker.OnRequest(MakePlanReport("P1", EPlanStatus::Completed), {}, lines); // before its steps: a violation
 
     SessionStatistics statistics;
     statistics.registrations = 3;

@@ -80,7 +80,7 @@ public:
 
     void Report(const AcsPayload& payload)
     {
-        tracker.OnRequest(payload, lines);
+        tracker.OnRequest(payload, {}, lines);
         checker.OnRequest(payload, lines);
         checker.EndPlans(lines);
     }
@@ -405,7 +405,7 @@ TEST_CASE("A step without jobs is compared by its own report")
     PlanTracker::Lines lines;
     checker.OnSending(0, lines);
     tracker.OnSent(0, clock.GetNow(), lines);
-    tracker.OnRequest(MakePlanReport("P", EPlanStatus::InProgress), lines);
+    tracker.OnRequest(MakePlanReport("P", EPlanStatus::InProgress), {}, lines);
     REQUIRE(world.Act(RobotDocked{ROBOT, {"A01.SET01"}}).has_value());
     REQUIRE(world.Act(CoverMoved{ROBOT, "A01.SET01", true}).has_value());
     for (const std::int32_t stepNo : {1, 2})
@@ -413,7 +413,7 @@ TEST_CASE("A step without jobs is compared by its own report")
         for (const EStepStatus status : {EStepStatus::Dispatched, EStepStatus::InProgress, EStepStatus::Completed})
         {
             const StepReport report{"P", ROBOT, stepNo, status, ""};
-            tracker.OnRequest(report, lines);
+            tracker.OnRequest(report, {}, lines);
             checker.OnRequest(report, lines);
         }
     }

@@ -2,6 +2,7 @@
 #include "plans/PlanTracker.hpp"
 #include "plans/SamplePlans.hpp"
 
+#include <chrono>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,15 +14,20 @@ using ACS::Protocol::AcsPayload;
 using ACS::Protocol::CancelPlan;
 using ACS::Protocol::CancelResultReport;
 using ACS::Protocol::EAckResult;
+using ACS::Protocol::EAcsCommand;
+using ACS::Protocol::EJobStatus;
 using ACS::Protocol::EPlanStatus;
 using ACS::Protocol::EReportResult;
+using ACS::Protocol::EStepStatus;
 using ACS::Protocol::PausePlan;
 using ACS::Protocol::PauseResultReport;
 using ACS::Protocol::ResumePlan;
 using ACS::Protocol::ResumeResultReport;
 using ACS::Testing::MakeAck;
+using ACS::Testing::MakeJobReport;
 using ACS::Testing::MakePlanReport;
 using ACS::Testing::MakeSamplePlan;
+using ACS::Testing::MakeStepReport;
 
 namespace
 {
@@ -32,6 +38,7 @@ class ControlRequestsFixture
 public:
     PlanTracker tracker{{MakeSamplePlan("P1", "T1")}};
     PlanTracker::Lines lines;
+    ACS::Core::WallTime now{}; ///< By the clock of the ACS.
 
     ControlRequestsFixture()
     {
@@ -50,12 +57,29 @@ public:
         tracker.OnAck({command, transactionID, {}, EAckResult::Fail, "", ACS::Protocol::EmptyAck{}, false}, lines);
     }
 
+    void Accept(ACS::Protocol::EAcsCommand command, const std::string& transactionID)
+    {
+        tracker.OnAck(
+            {command, transactionID, {now, {}}, EAckResult::Success, "", ACS::Protocol::EmptyAck{}, false},
+            lines);
+    }
+
     void Report(const std::vector<AcsPayload>& reports)
     {
         for (const AcsPayload& report : reports)
         {
-            tracker.OnRequest(report, lines);
+            tracker.OnRequest(report, now, lines);
         }
+    }
+
+    void BeginFirstJob()
+    {
+        Report(
+            {MakePlanReport("P1", EPlanStatus::InProgress),
+             MakeStepReport("P1", 1, EStepStatus::Dispatched),
+             MakeStepReport("P1", 1, EStepStatus::InProgress),
+             MakeJobReport("P1", 1, "J1", EJobStatus::Instructed),
+             MakeJobReport("P1", 1, "J1", EJobStatus::InProgress)});
     }
 
     /// The only violation; another text if there is none or more than one.
@@ -169,6 +193,81 @@ TEST_CASE("R6 After CancelResultReport Success the plan is Cancelled, at the lat
     {
         fixture.tracker.Finish(fixture.lines);
         CHECK(fixture.GetViolation() == "P1 CancelResultReport Success without PlanReport Cancelled");
+    }
+}
+
+TEST_CASE("R7 The running job is completed after the ACS has accepted AbortPlan")
+{
+    using namespace std::chrono_literals;
+    ControlRequestsFixture fixture;
+    fixture.BeginFirstJob();
+    fixture.Ask(AbortPlan{"P1", ""}, "C1");
+    fixture.Accept(EAcsCommand::AbortPlan, "C1");
+    fixture.now += 10ms;
+    fixture.Report(
+        {MakeJobReport("P1", 1, "J1", EJobStatus::Completed),
+         MakePlanReport("P1", EPlanStatus::Aborted),
+         AbortResultReport{"P1", EReportResult::Success, ""}});
+    CHECK(fixture.tracker.CountViolations() == 0);
+}
+
+TEST_CASE("R7 After the ACS has accepted AbortPlan it begins no step and no job")
+{
+    using namespace std::chrono_literals;
+    ControlRequestsFixture fixture;
+    fixture.BeginFirstJob();
+    fixture.Ask(AbortPlan{"P1", ""}, "C1");
+    fixture.now += 10ms;
+    fixture.Report({MakeJobReport("P1", 1, "J1", EJobStatus::Completed)});
+    SECTION("another step")
+    {
+        fixture.Accept(EAcsCommand::AbortPlan, "C1");
+        fixture.now += 10ms;
+        fixture.Report(
+            {MakeStepReport("P1", 1, EStepStatus::Completed), MakeStepReport("P1", 2, EStepStatus::Dispatched)});
+        CHECK(fixture.GetViolation() == "P1 StepReport step 2 Dispatched after the ACS accepted AbortPlan");
+    }
+    SECTION("another job")
+    {
+        fixture.Report(
+            {MakeStepReport("P1", 1, EStepStatus::Completed),
+             MakeStepReport("P1", 2, EStepStatus::Dispatched),
+             MakeStepReport("P1", 2, EStepStatus::InProgress)});
+        fixture.Accept(EAcsCommand::AbortPlan, "C1");
+        SECTION("later")
+        {
+            fixture.now += 1ms;
+            fixture.Report({MakeJobReport("P1", 2, "J2", EJobStatus::Instructed)});
+            CHECK(fixture.GetViolation() == "P1 JobReport step 2 job 1 Instructed after the ACS accepted AbortPlan");
+        }
+        SECTION("after the result report, which comes before PlanReport Aborted")
+        {
+            fixture.Report(
+                {AbortResultReport{"P1", EReportResult::Success, ""},
+                 MakeJobReport("P1", 2, "J2", EJobStatus::Instructed)});
+            CHECK(fixture.GetViolation() == "P1 JobReport step 2 job 1 Instructed after the ACS accepted AbortPlan");
+        }
+        SECTION("reported late, with a timestamp before the Ack")
+        {
+            fixture.Report({MakeJobReport("P1", 2, "J2", EJobStatus::Instructed)});
+            CHECK(fixture.tracker.CountViolations() == 0);
+        }
+        SECTION("after the abort has failed")
+        {
+            fixture.now += 1ms;
+            fixture.Report(
+                {AbortResultReport{"P1", EReportResult::Failed, ""},
+                 MakeJobReport("P1", 2, "J2", EJobStatus::Instructed)});
+            CHECK(fixture.tracker.CountViolations() == 0);
+        }
+    }
+    SECTION("an abort that was refused")
+    {
+        fixture.Refuse(EAcsCommand::AbortPlan, "C1");
+        fixture.now += 1ms;
+        fixture.Report(
+            {MakeStepReport("P1", 1, EStepStatus::Completed), MakeStepReport("P1", 2, EStepStatus::Dispatched)});
+        CHECK(fixture.tracker.CountViolations() == 0);
     }
 }
 

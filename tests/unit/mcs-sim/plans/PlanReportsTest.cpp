@@ -373,7 +373,7 @@ TEST_CASE("Of two plans with one planId the reports belong to the one that was n
     tracker.OnSent(1, clock.GetNow(), lines);
     tracker.OnAck(MakeAck(tracker.GetPlans()[0].planned, EAckResult::Success), lines);
     tracker.OnAck(MakeAck(tracker.GetPlans()[1].planned, EAckResult::Fail, "Duplicated Plan"), lines);
-    tracker.OnRequest(MakePlanReport("P", EPlanStatus::Cancelled), lines);
+    tracker.OnRequest(MakePlanReport("P", EPlanStatus::Cancelled), {}, lines);
     CHECK(tracker.CountViolations() == 0);
     CHECK(tracker.CountOutcome(EOutcome::Cancelled) == 1);
     CHECK(tracker.CountOutcome(EOutcome::Refused) == 1);

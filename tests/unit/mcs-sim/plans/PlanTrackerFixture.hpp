@@ -61,7 +61,7 @@ public:
     {
         for (const Protocol::AcsPayload& report : reports)
         {
-            tracker.OnRequest(report, lines);
+            tracker.OnRequest(report, clock.GetNow().wall, lines);
         }
     }
 
