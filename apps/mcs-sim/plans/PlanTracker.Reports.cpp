@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 #include <variant>
 
 // The reports of the ACS, and what is wrong with them.
@@ -32,7 +33,7 @@ void PlanTracker::OnRequest(const Protocol::AcsPayload& payload, Core::WallTime 
             [this, sentAt, &out](const Protocol::StepReport& report) { Handle(report, sentAt, out); },
             [this, sentAt, &out](const Protocol::JobReport& report) { Handle(report, sentAt, out); },
             [this, &out](const Protocol::ErrorReport& report) { Handle(report, out); },
-            [this, &out](const Protocol::RobotStatusUpdate& update) { CheckNamed("RobotStatusUpdate", update, out); },
+            [this, &out](const Protocol::RobotStatusUpdate& update) { Handle(update, out); },
             [this, &out](const Protocol::AcsCommStateUpdate& update) { Handle(update, out); },
             [&out](const Protocol::TscStateUpdate& update) { Handle(update, out); },
             [this, &out](const Protocol::CancelResultReport& report) { Handle(report, out); },
@@ -56,6 +57,10 @@ void PlanTracker::Handle(const Protocol::PlanReport& report, Lines& out)
     if (mistake.has_value())
     {
         AddViolation(fmt::format("{} PlanReport {}", CleanText(report.planID), *mistake), out);
+    }
+    if (report.status != Protocol::EPlanStatus::Paused)
+    {
+        CheckStandstill(*planOrNull, out);
     }
     ChangePlan(*planOrNull, [planOrNull, &report] {
         planOrNull->status = report.status;
@@ -157,11 +162,6 @@ void PlanTracker::Handle(const Protocol::JobReport& report, Core::WallTime sentA
         MakeRobotTail(report.robotID, report.message)));
 }
 
-template <Protocol::EAcsCommand COMMAND>
-void PlanTracker::Handle(const Protocol::ResultReport<COMMAND>& report, Lines& out)
-{
-    const std::optional<std::string> mistake =
-        FindResultViolationOrNull(COMMAND, report.planID, report.result == Protocol::EReportResult::Success);
 std::optional<std::string> PlanTracker::FindAbortViolationOrNull(
     const TrackedPlan& plan,
     std::string_view begun,
@@ -174,6 +174,11 @@ std::optional<std::string> PlanTracker::FindAbortViolationOrNull(
         : std::nullopt;
 }
 
+template <Protocol::EAcsCommand COMMAND>
+void PlanTracker::Handle(const Protocol::ResultReport<COMMAND>& report, Lines& out)
+{
+    const std::optional<std::string> mistake =
+        FindResultViolationOrNull(COMMAND, report.planID, report.result == Protocol::EReportResult::Success);
     if (mistake.has_value())
     {
         AddViolation(fmt::format("{} {} {}", CleanText(report.planID), GetText(COMMAND), *mistake), out);
@@ -214,6 +219,11 @@ std::optional<std::string> PlanTracker::FindResultViolationOrNull(
     if (!mistake.has_value() && !IsConfirmed(*foundOrNull, result))
     {
         foundOrNull->unconfirmed = result;
+    }
+    if (!mistake.has_value() && result == Protocol::EAcsCommand::PauseResultReport && !foundOrNull->robotID.empty())
+    {
+        const auto latest = _robotStatuses.find(foundOrNull->robotID);
+        foundOrNull->bStandstillDue = latest == _robotStatuses.end() || !IsStandstill(latest->second);
     }
     return mistake;
 }
@@ -273,6 +283,17 @@ void PlanTracker::Handle(const Protocol::ErrorReport& report, Lines& out)
         CleanText(report.errorCode),
         report.bSet ? "set" : "cleared",
         MakeTail(report.message)));
+}
+
+void PlanTracker::Handle(const Protocol::RobotStatusUpdate& update, Lines& out)
+{
+    CheckNamed("RobotStatusUpdate", update, out);
+    _robotStatuses[update.robotID] = update.robotStatus;
+    for (TrackedPlan& plan : _plans)
+    {
+        plan.bStandstillDue =
+            plan.bStandstillDue && !(plan.robotID == update.robotID && IsStandstill(update.robotStatus));
+    }
 }
 
 void PlanTracker::Handle(const Protocol::AcsCommStateUpdate& update, Lines& out)
@@ -347,6 +368,19 @@ void PlanTracker::CheckConfirmed(TrackedPlan& plan, Lines& out)
     if (bConfirmed || bRefuted)
     {
         plan.unconfirmed.reset();
+    }
+}
+
+void PlanTracker::CheckStandstill(TrackedPlan& plan, Lines& out)
+{
+    if (std::exchange(plan.bStandstillDue, false))
+    {
+        AddViolation(
+            fmt::format(
+                "{} PauseResultReport Success without RobotStatusUpdate Stopped of {}",
+                CleanText(plan.planned.plan.planID),
+                CleanText(plan.robotID)),
+            out);
     }
 }
 

@@ -82,6 +82,7 @@ void PlanTracker::OnLinkLost()
     for (TrackedPlan& plan : _plans)
     {
         plan.bAckLost = plan.bAckLost || plan.delivery == EDelivery::Sent;
+        plan.bStandstillDue = false; // without a connection the next status may replace it
     }
 }
 
@@ -322,6 +323,7 @@ void PlanTracker::Finish(Lines& out)
                 out);
             plan.unconfirmed.reset();
         }
+        CheckStandstill(plan, out);
     }
 }
 

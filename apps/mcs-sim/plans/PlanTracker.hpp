@@ -44,6 +44,7 @@ private:
     std::unordered_map<std::string, std::vector<std::size_t>> _byPlanID;
     std::unordered_map<std::string, std::size_t> _byTransaction;
     ControlRequests _controls;
+    std::unordered_map<std::string, Protocol::ERobotStatus> _robotStatuses; ///< The latest, by robotID.
     std::vector<std::string> _violations;
     std::size_t _violationCount = 0;
     std::array<std::size_t, OUTCOME_COUNT> _outcomes{};
@@ -123,6 +124,8 @@ private:
         std::int32_t stepNo,
         const std::string& jobID,
         Lines& out);
+    /// A pause whose robot never reported standstill is a violation (section 6.7).
+    void CheckStandstill(TrackedPlan& plan, Lines& out);
     void CheckRobot(TrackedPlan& plan, const std::string& robotID, Lines& out);
     void Handle(const Protocol::PlanReport& report, Lines& out);
     void Handle(const Protocol::StepReport& report, Core::WallTime sentAt, Lines& out);
@@ -140,6 +143,7 @@ private:
         const std::string& planID,
         bool bSuccess);
     void Handle(const Protocol::ErrorReport& report, Lines& out);
+    void Handle(const Protocol::RobotStatusUpdate& update, Lines& out);
     /// The plan, step and job that a message of a robot names have to exist.
     template <typename TMessage>
     void CheckNamed(std::string_view what, const TMessage& message, Lines& out);

@@ -98,6 +98,12 @@ bool IsAnyEarlierStepOpen(const TrackedPlan& plan, const TrackedStep& step)
 
 } // namespace
 
+bool IsStandstill(Protocol::ERobotStatus status) noexcept
+{
+    using enum Protocol::ERobotStatus;
+    return status == Stopped || status == Error || status == Disconnected || status == Init;
+}
+
 std::optional<std::string> FindPlanViolationOrNull(const TrackedPlan& plan, EPlanStatus status)
 {
     std::optional<std::string> mistakeOrNull = FindBadTransitionOrNull(PLAN_TRANSITIONS, plan, status);
@@ -109,16 +115,16 @@ std::optional<std::string> FindPlanViolationOrNull(const TrackedPlan& plan, EPla
     {
         return "Completed before all its steps";
     }
+    if (status == EPlanStatus::Completed && std::ranges::any_of(plan.steps, HasFailedJob))
+    {
+        return "Completed with a failed job";
+    }
     const auto isBegun = [](const TrackedJob& job) {
         return job.status != EJobStatus::Pending;
     };
     if (status == EPlanStatus::Cancelled && IsAnyJob(plan, isBegun))
     {
         return "Cancelled after a job was begun";
-    if (status == EPlanStatus::Completed && std::ranges::any_of(plan.steps, HasFailedJob))
-    {
-        return "Completed with a failed job";
-    }
     }
     if (status == EPlanStatus::Failed && std::any_of(plan.steps.begin(), plan.steps.end(), IsFailureUntold))
     {
@@ -170,16 +176,16 @@ std::optional<std::string> FindStepViolationOrNull(const TrackedPlan& plan, cons
     {
         return "Completed before all its jobs";
     }
+    if (status == EStepStatus::Skipped && HasFailedJob(step))
+    {
+        return "Skipped after its failed job";
+    }
     return std::nullopt;
 }
 
 bool IsTakenOver(const TrackedPlan& plan, const TrackedStep& step, const Protocol::StepReport& report)
 {
     const bool bOpen = step.status == EStepStatus::Dispatched || step.status == EStepStatus::InProgress;
-    if (status == EStepStatus::Skipped && HasFailedJob(step))
-    {
-        return "Skipped after its failed job";
-    }
     const bool bNoJob = std::ranges::none_of(plan.steps, [](const TrackedStep& other) {
         return std::ranges::any_of(other.jobs, &TrackedJob::bReported);
     });

@@ -1,12 +1,16 @@
 #pragma once
 
 #include "plans/TrackedPlan.hpp"
+#include <acs/protocol/messages/RobotStatus.hpp>
 
 #include <optional>
 #include <string>
 
 namespace ACS::McsSim
 {
+
+/// Stopped, or a status that takes precedence over it: with a fault, not connected or not ready.
+[[nodiscard]] bool IsStandstill(Protocol::ERobotStatus status) noexcept;
 
 /// What is wrong with a report that would change the plan, step or job to this status; nullopt where nothing is.
 /// Checks the transitions of section 7 of MCS-ACS and the causal order of section 6: job, then its step, then the plan.

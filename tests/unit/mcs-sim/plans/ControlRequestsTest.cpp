@@ -289,6 +289,61 @@ TEST_CASE("R8 PauseResultReport Success follows PlanReport Paused")
     }
 }
 
+TEST_CASE(
+    "R8 After PauseResultReport Success the robot of the plan has reported Stopped before the plan is resumed or ends")
+{
+    using enum ACS::Protocol::ERobotStatus;
+    const auto makeStatus = [](const std::string& robotID, ACS::Protocol::ERobotStatus robotStatus) {
+        ACS::Protocol::RobotStatusUpdate update;
+        update.robotID = robotID;
+        update.robotStatus = robotStatus;
+        return update;
+    };
+    ControlRequestsFixture fixture;
+    fixture.Report(
+        {makeStatus("LR01", Moving), makeStatus("LR02", Stopped), MakePlanReport("P1", EPlanStatus::InProgress)});
+    const bool bAssigned = GENERATE(true, false);
+    if (bAssigned)
+    {
+        fixture.Report({MakeStepReport("P1", 1, EStepStatus::Dispatched)});
+    }
+    fixture.Ask(PausePlan{"P1", ""}, "C1");
+    const AcsPayload paused = MakePlanReport("P1", EPlanStatus::Paused);
+    const AcsPayload result = PauseResultReport{"P1", EReportResult::Success, ""};
+    const AcsPayload resumed = MakePlanReport("P1", EPlanStatus::InProgress);
+    SECTION("in the order of the section")
+    {
+        fixture.Report({makeStatus("LR01", Stopped), paused, result, makeStatus("LR01", Moving), resumed});
+        fixture.tracker.Finish(fixture.lines);
+        CHECK(fixture.tracker.CountViolations() == 0);
+    }
+    SECTION("afterwards, from a full window, or with a fault")
+    {
+        fixture.Report({paused, result, makeStatus("LR01", GENERATE(Stopped, Error)), resumed});
+        CHECK(fixture.tracker.CountViolations() == 0);
+    }
+    SECTION("the link is lost: the latest status replaces it")
+    {
+        fixture.Report({paused, result});
+        fixture.tracker.OnLinkLost();
+        fixture.Report({resumed});
+        CHECK(fixture.tracker.CountViolations() == 0);
+    }
+    const std::string violation =
+        bAssigned ? "P1 PauseResultReport Success without RobotStatusUpdate Stopped of LR01" : "0 violations";
+    SECTION("not before the plan is resumed")
+    {
+        fixture.Report({paused, result, makeStatus("LR01", Working), resumed, makeStatus("LR01", Stopped)});
+        CHECK(fixture.GetViolation() == violation);
+    }
+    SECTION("not before the end of the run")
+    {
+        fixture.Report({paused, result});
+        fixture.tracker.Finish(fixture.lines);
+        CHECK(fixture.GetViolation() == violation);
+    }
+}
+
 TEST_CASE("6.8 After ResumeResultReport Success the plan is no longer Paused")
 {
     ControlRequestsFixture fixture;
