@@ -156,11 +156,12 @@ bool SimulatedMcsSession::TrySendText(std::string_view text, SessionActions& out
 void SimulatedMcsSession::HoldAcks(const AckHold& hold, Core::Now now)
 {
     std::erase_if(_holds, [now](const ActiveHold& active) { return active.end <= now.steady; });
-    _holds.push_back({hold, now.steady + hold.duration});
+    _holds.push_back({hold, now.steady + hold.duration, ++_faults});
 }
 
 void SimulatedMcsSession::RefuseRegistrations(std::size_t count, std::string_view message)
 {
+    _refusalNumber = ++_faults;
     _refusalsLeft = count;
     _refusalMessage = message;
 }
@@ -206,12 +207,12 @@ std::string_view SimulatedMcsSession::GetReadPart(std::string_view text) const
     return chunk == 0 || text.size() <= chunk ? text : text.substr((text.size() - 1) / chunk * chunk);
 }
 
-const AckHold* SimulatedMcsSession::FindHoldOrNull(EAcsCommand command, Core::Now now) const
+const SimulatedMcsSession::ActiveHold* SimulatedMcsSession::FindHoldOrNull(EAcsCommand command, Core::Now now) const
 {
     const auto found = std::find_if(_holds.rbegin(), _holds.rend(), [command, now](const ActiveHold& active) {
         return active.hold.command.value_or(command) == command && now.steady < active.end;
     });
-    return found == _holds.rend() ? nullptr : &found->hold;
+    return found == _holds.rend() ? nullptr : &*found;
 }
 
 bool SimulatedMcsSession::ShouldIntercept(
@@ -220,8 +221,8 @@ bool SimulatedMcsSession::ShouldIntercept(
     Core::Now now,
     SessionActions& out)
 {
-    const AckHold* const holdOrNull = FindHoldOrNull(EAcsCommand::Registration, now);
-    if (holdOrNull == nullptr && _refusalsLeft == 0)
+    const ActiveHold* const activeOrNull = FindHoldOrNull(EAcsCommand::Registration, now);
+    if (activeOrNull == nullptr && _refusalsLeft == 0)
     {
         return false;
     }
@@ -232,8 +233,10 @@ bool SimulatedMcsSession::ShouldIntercept(
     {
         return false;
     }
-    const bool bWithheld = holdOrNull != nullptr && !holdOrNull->delay.has_value();
-    const bool bRefused = _refusalsLeft > 0;
+    // Of a refusal and Acks that are withheld the later one applies.
+    const bool bRefusedLater = _refusalsLeft > 0 && activeOrNull != nullptr && _refusalNumber > activeOrNull->number;
+    const bool bWithheld = activeOrNull != nullptr && !activeOrNull->hold.delay.has_value() && !bRefusedLater;
+    const bool bRefused = _refusalsLeft > 0 && !bWithheld;
     DelayedText delayed{connection, std::string(text), now.steady, true};
     if (bRefused)
     {
@@ -261,12 +264,12 @@ bool SimulatedMcsSession::ShouldIntercept(
     {
         _intercepted.CountAnswer(EAckResult::Fail);
     }
-    if (holdOrNull == nullptr)
+    if (activeOrNull == nullptr || !activeOrNull->hold.delay.has_value())
     {
         out.emplace_back(Protocol::SendText{connection, delayed.text, false});
         return true;
     }
-    delayed.deadline += *holdOrNull->delay;
+    delayed.deadline += *activeOrNull->hold.delay;
     Delay(std::move(delayed), now);
     return true;
 }
@@ -318,7 +321,8 @@ bool SimulatedMcsSession::ShouldKeep(Protocol::SessionAction& action, bool bConn
         outcome.message.has_value() ? std::get_if<Protocol::AcsAck>(&*outcome.message) : nullptr;
     // The Ack of a command that the codec does not know is a refusal as well.
     const EAckResult result = ackOrNull == nullptr ? EAckResult::Fail : ackOrNull->result;
-    const AckHold* const holdOrNull = ackOrNull == nullptr ? nullptr : FindHoldOrNull(ackOrNull->command, now);
+    const ActiveHold* const activeOrNull = ackOrNull == nullptr ? nullptr : FindHoldOrNull(ackOrNull->command, now);
+    const AckHold* const holdOrNull = activeOrNull == nullptr ? nullptr : &activeOrNull->hold;
     const bool bUnanswered = _behaviour.bErrorsUnanswered && result == EAckResult::Fail && !bConnectionRefused;
     if (bUnanswered || (holdOrNull != nullptr && !holdOrNull->delay.has_value()))
     {

@@ -35,6 +35,7 @@ private:
     {
         AckHold hold;
         Core::SteadyTime end{};
+        std::uint64_t number = 0; ///< Of the fault; the later ones have higher ones.
     };
 
     /// An Ack, or a Registration whose Ack is delayed.
@@ -52,6 +53,8 @@ private:
     DelayHandler _onDelay;
     std::vector<ActiveHold> _holds;
     std::vector<DelayedText> _delayed;
+    std::uint64_t _faults = 0; ///< Number of the latest fault.
+    std::uint64_t _refusalNumber = 0;
     std::size_t _refusalsLeft = 0;
     std::string _refusalMessage;
     std::chrono::minutes _siteOffset;
@@ -98,7 +101,8 @@ public:
     /// From now on Acks are sent late or never. If several holds match a command, the latest one applies.
     void HoldAcks(const AckHold& hold, Core::Now now);
 
-    /// The next registrations are answered with Fail and this message; their connections stay open. 0 ends that.
+    /// The next registrations are answered with Fail and this message; their connections stay open. 0 ends that. Acks that
+    /// were withheld before are sent, one that is withheld from later on does not count; delayed ones are sent late.
     void RefuseRegistrations(std::size_t count, std::string_view message);
 
     /// Ends all holds and refusals; delayed Acks are still sent at their time.
@@ -112,7 +116,7 @@ public:
 
 private:
     [[nodiscard]] std::string_view GetReadPart(std::string_view text) const;
-    [[nodiscard]] const AckHold* FindHoldOrNull(Protocol::EAcsCommand command, Core::Now now) const;
+    [[nodiscard]] const ActiveHold* FindHoldOrNull(Protocol::EAcsCommand command, Core::Now now) const;
     /// Whether the text is a Registration that a fault keeps from the session.
     [[nodiscard]] bool ShouldIntercept(
         Protocol::ConnectionID connection,

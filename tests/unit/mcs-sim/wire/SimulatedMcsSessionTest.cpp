@@ -156,6 +156,43 @@ TEST_CASE("6.2 The requested number of registrations is refused, and one whose A
     CHECK(mcs.session.GetRegisteredOrNull() == Protocol::ConnectionID(3));
 }
 
+TEST_CASE("6.2 Of withheld Acks and refused registrations the later fault applies; a refusal may be delayed")
+{
+    SimulatedMcsFixture mcs;
+    SECTION("refused, though Acks are withheld")
+    {
+        mcs.session.HoldAcks({std::nullopt, std::nullopt, 1h}, mcs.clock.GetNow());
+        mcs.session.RefuseRegistrations(1, "Maintenance.");
+        mcs.Register(1);
+        REQUIRE(mcs.probe.GetAcks().size() == 1);
+        CHECK(mcs.probe.GetAcks()[0].message == "Maintenance.");
+        mcs.Register(2);
+        CHECK(mcs.probe.GetAcks().empty());
+    }
+    SECTION("withheld, then refused")
+    {
+        mcs.session.RefuseRegistrations(1, "Maintenance.");
+        mcs.session.HoldAcks({EAcsCommand::Registration, std::nullopt, 5s}, mcs.clock.GetNow());
+        mcs.Register(1);
+        CHECK(mcs.probe.GetAcks().empty());
+        mcs.clock.Advance(5s);
+        mcs.Register(2);
+        REQUIRE(mcs.probe.GetAcks().size() == 1);
+        CHECK(mcs.probe.GetAcks()[0].result == EAckResult::Fail);
+    }
+    SECTION("refused late")
+    {
+        mcs.session.HoldAcks({EAcsCommand::Registration, 100ms, 5s}, mcs.clock.GetNow());
+        mcs.session.RefuseRegistrations(1, "Maintenance.");
+        mcs.Register(1);
+        CHECK(mcs.probe.GetAcks().empty());
+        mcs.clock.Advance(100ms);
+        mcs.SendDelayed();
+        REQUIRE(mcs.probe.GetAcks().size() == 1);
+        CHECK(mcs.probe.GetAcks()[0].result == EAckResult::Fail);
+    }
+}
+
 TEST_CASE("6.2 An ACS is registered when the Ack of its Registration leaves")
 {
     SimulatedMcsFixture mcs;
