@@ -425,6 +425,7 @@ void McsSimulator::PrintSummary()
         _server == nullptr ? none : _server->GetStatistics(),
         _judge.GetNotes().GetCounts(),
         _judge.GetTimestampCounts(),
+        _judge.GetMembers().GetCount(),
         std::chrono::duration_cast<std::chrono::milliseconds>(duration)));
 }
 

@@ -64,6 +64,11 @@ const TimestampCounts& RunJudge::GetTimestampCounts() const noexcept
     return _timestamps.GetCounts();
 }
 
+const MemberJudge& RunJudge::GetMembers() const noexcept
+{
+    return _members;
+}
+
 void RunJudge::OnTextSent(std::string_view text)
 {
     const Protocol::DecodeOutcome outcome = _codec.Decode(text);
@@ -78,6 +83,7 @@ void RunJudge::OnTextSent(std::string_view text)
 void RunJudge::OnTextReceived(std::string_view text)
 {
     std::ranges::move(_timestamps.OnText(text), std::back_inserter(_lines));
+    std::ranges::move(_members.OnText(text), std::back_inserter(_lines));
 }
 
 void RunJudge::OnTextLost(std::string_view text)

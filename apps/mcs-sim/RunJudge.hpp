@@ -5,6 +5,7 @@
 #include "plans/PlannedPlan.hpp"
 #include "plans/PlanTracker.hpp"
 #include "SimulatorOptions.hpp"
+#include "wire/MemberJudge.hpp"
 #include "wire/NoteJudge.hpp"
 #include "wire/TimestampJudge.hpp"
 #include <acs/protocol/AcsCodec.hpp>
@@ -31,6 +32,7 @@ class RunJudge final
     RobotBoard _board;
     NoteJudge _notes;
     TimestampJudge _timestamps;
+    MemberJudge _members;
     Protocol::AcsCodec _codec;
     std::deque<Transaction>
         _unanswered;                   ///< No Ack in time, on this connection. Those of plans are the tracker's to see.
@@ -48,6 +50,7 @@ public:
     [[nodiscard]] NoteJudge& GetNotes() noexcept;
     [[nodiscard]] FloorChecker* GetFloorOrNull() noexcept;
     [[nodiscard]] const TimestampCounts& GetTimestampCounts() const noexcept;
+    [[nodiscard]] const MemberJudge& GetMembers() const noexcept;
 
     /// Any text that is sent to the ACS.
     void OnTextSent(std::string_view text);

@@ -127,7 +127,11 @@ StyledLine MakeNote(std::uint64_t count, std::string_view meaning, EStyle style)
     return {{fmt::format(" {} {}", FitRight(fmt::format("{}", count), 6), meaning), style}};
 }
 
-void AddNotes(const NoteCounts& notes, const TimestampCounts& timestamps, StyledLines& out)
+void AddNotes(
+    const NoteCounts& notes,
+    const TimestampCounts& timestamps,
+    std::uint64_t missingMembers,
+    StyledLines& out)
 {
     StyledLines rows;
     for (std::size_t i = 0; i < Protocol::NOTE_COUNT; ++i)
@@ -145,6 +149,10 @@ void AddNotes(const NoteCounts& notes, const TimestampCounts& timestamps, Styled
         {
             rows.push_back(MakeNote(timestamps[i], GetMeaning(static_cast<ETimestampDeviation>(i)), EStyle::Plain));
         }
+    }
+    if (missingMembers > 0)
+    {
+        rows.push_back(MakeNote(missingMembers, "required member left out", EStyle::Plain));
     }
     if (!rows.empty())
     {
@@ -188,6 +196,7 @@ StyledLines MakeSummary(
     const Protocol::SessionStatistics& statistics,
     const NoteCounts& notes,
     const TimestampCounts& timestamps,
+    std::uint64_t missingMembers,
     std::chrono::milliseconds duration)
 {
     const bool bAllCompleted = tracker.CountOutcome(EOutcome::Completed) == tracker.GetPlans().size();
@@ -204,7 +213,7 @@ StyledLines MakeSummary(
         MakeRow("duration", fmt::format("{:.1f} s", static_cast<double>(duration.count()) / 1000.0), EStyle::Plain));
     lines.emplace_back();
     AddMessages(tracker, statistics, lines);
-    AddNotes(notes, timestamps, lines);
+    AddNotes(notes, timestamps, missingMembers, lines);
     lines.push_back(MakeRule());
     AddFailures(tracker, lines);
     return lines;

@@ -8,6 +8,7 @@
 #include <acs/protocol/SessionStatistics.hpp>
 
 #include <chrono>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ namespace ACS::McsSim
     const Protocol::SessionStatistics& statistics,
     const NoteCounts& notes,
     const TimestampCounts& timestamps,
+    std::uint64_t missingMembers,
     std::chrono::milliseconds duration);
 
 /// A line per plan with its current state; a line that states so if there are none.

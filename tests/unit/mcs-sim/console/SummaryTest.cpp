@@ -74,7 +74,7 @@ TEST_CASE("The closing table counts plans by outcome and messages by command, a 
 
     std::string text;
     for (const StyledLine& line :
-         MakeSummary(tracker, statistics, notes, timestamps, std::chrono::milliseconds(34'260)))
+         MakeSummary(tracker, statistics, notes, timestamps, 4, std::chrono::milliseconds(34'260)))
     {
         text += MakeText(line, 100, false) + "\n";
     }
@@ -99,6 +99,7 @@ TEST_CASE("The closing table counts plans by outcome and messages by command, a 
      12 null where a member is left out
       3 unreadable message
       5 timestamp with Z instead of the offset of local time
+      4 required member left out
  ────────────────────────────────────────────────────────────────────────────
  P2 refused: Queue Full
  violation: P1 PlanReport Completed before all its steps
