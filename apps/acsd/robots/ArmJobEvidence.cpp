@@ -19,6 +19,11 @@ std::int64_t CountSteps(std::int64_t before, std::int64_t after)
     return static_cast<std::uint32_t>(after) - static_cast<std::uint32_t>(before);
 }
 
+std::int64_t CountEnds(const ArmCounters& before, const ArmCounters& after)
+{
+    return CountSteps(before.finished, after.finished) + CountSteps(before.failed, after.failed);
+}
+
 /// Counters are raised, and wrap around: anything else is the work of a restart.
 bool HasFallen(std::int64_t before, std::int64_t after)
 {
@@ -93,8 +98,7 @@ tl::expected<bool, std::string> ArmJobEvidence::Recover(std::string_view token, 
         return tl::unexpected<std::string>("all of the arm's counters are 0, as after a restart of its controller");
     }
     const std::int64_t begun = CountSteps(baseOrNull->started, now.started);
-    const std::int64_t ended =
-        CountSteps(baseOrNull->finished, now.finished) + CountSteps(baseOrNull->failed, now.failed);
+    const std::int64_t ended = CountEnds(*baseOrNull, now);
     if (HasFallen(*baseOrNull, now) || begun > 1 || ended > begun)
     {
         return tl::unexpected<std::string>("the arm's counters have fallen, or more than this one program has run");
@@ -116,7 +120,7 @@ ArmProof ArmJobEvidence::Evaluate()
         _otherSamples = 0;
         return {};
     }
-    if (IsEchoExpected() && !IsEchoed())
+    if (HasOtherRun())
     {
         ++_otherSamples;
         return {false, _otherSamples < SAMPLES_OF_OTHER ? ArmProof::EOutcome::Open : ArmProof::EOutcome::OtherProgram};
@@ -151,8 +155,23 @@ bool ArmJobEvidence::IsEchoed() const
     return IsEchoExpected() && _latest->echo == std::int64_t{_jobNumber};
 }
 
+/// Without an echo the program of an earlier job may end after this one was commanded: it was not begun since.
+bool ArmJobEvidence::HasOtherRun() const
+{
+    if (IsEchoExpected())
+    {
+        return !IsEchoed();
+    }
+    const ArmCounters& now = _latest->counters;
+    return CountEnds(_base, now) > CountSteps(_base.started, now.started);
+}
+
 std::string ArmJobEvidence::DescribeEcho() const
 {
+    if (!IsEchoExpected())
+    {
+        return "the counters show more ends than begins since the job was sent";
+    }
     return fmt::format(
         "this job has number {}, the last program echoed {}",
         _jobNumber,

@@ -46,7 +46,7 @@ struct ArmProof
 };
 
 /// What the words that an arm's programs write prove of a job. Where programs echo the number of their job, only changes
-/// under the job's own number count for it; otherwise any change does.
+/// under the job's own number count for it; otherwise any change does, except the end of a program that was begun before.
 class ArmJobEvidence
 {
 public:
@@ -58,7 +58,7 @@ public:
     };
 
 private:
-    /// Samples in a row under another number: the words of one sample need not be of one moment.
+    /// Samples in a row that show another program: the words of one sample need not be of one moment.
     static constexpr std::size_t SAMPLES_OF_OTHER = 2;
 
     std::optional<ArmSample> _latest;
@@ -72,7 +72,7 @@ public:
     /// "5 5 0" for RestartEvidence::progressToken; empty before the first sample.
     [[nodiscard]] std::string MakeProgressToken() const;
 
-    /// The job is commanded now. Number 0: any change of the counters counts for it.
+    /// The job is commanded now. Number 0: its program cannot echo one.
     void Begin(std::int32_t jobNumber);
 
     /// The job was commanded before a restart, with the token of that moment. Whether its program has begun, or why the
@@ -91,11 +91,12 @@ public:
     /// The job's program has surely begun, even where it has raised no counter yet.
     [[nodiscard]] bool IsEchoed() const;
 
-    /// For people: the number of this job and the one that the last program echoed.
+    /// For people: what shows that another program has run.
     [[nodiscard]] std::string DescribeEcho() const;
 
 private:
     [[nodiscard]] bool IsEchoExpected() const;
+    [[nodiscard]] bool HasOtherRun() const;
 };
 
 } // namespace ACS::Acsd

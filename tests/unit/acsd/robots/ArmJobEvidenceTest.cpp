@@ -86,6 +86,34 @@ TEST_CASE("Without an echo, or without a number, any change counts for the job")
     CHECK(older.Evaluate() == ArmProof{true, EOutcome::Failed});
 }
 
+TEST_CASE("Without an echo, more ends than begins prove that another program has ended, from the second sample on")
+{
+    ArmJobEvidence evidence;
+    evidence.Update({{6, 5, 0}, std::nullopt}); // the program of an earlier job runs
+    evidence.Begin(4711);
+    const ArmCounters ended = GENERATE(ArmCounters{6, 6, 0}, ArmCounters{6, 5, 1}, ArmCounters{7, 6, 1});
+    evidence.Update({ended, std::nullopt});
+    CHECK(evidence.Evaluate() == ArmProof{false, EOutcome::Open});
+    SECTION("it was not this job's")
+    {
+        evidence.Update({ended, std::nullopt});
+        CHECK(evidence.Evaluate() == ArmProof{false, EOutcome::OtherProgram});
+        CHECK(evidence.DescribeEcho().find("echoed") == std::string::npos);
+    }
+    SECTION("the words of the first sample were not of one moment")
+    {
+        evidence.Update({{8, 6, 0}, std::nullopt});
+        CHECK(evidence.Evaluate() == ArmProof{true, EOutcome::Finished});
+    }
+}
+
+TEST_CASE("Under the job's own number its end counts, whatever was counted of its begin")
+{
+    ArmJobEvidence evidence = MakeBegun();
+    evidence.Update(MakeSample(5, 6, 0, 4711));
+    CHECK(evidence.Evaluate() == ArmProof{false, EOutcome::Finished});
+}
+
 TEST_CASE("After a restart one program more under the job's number is the job's; anything else proves nothing")
 {
     ArmJobEvidence evidence;
