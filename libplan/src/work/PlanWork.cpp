@@ -369,7 +369,8 @@ void PlanWork::SuspendJob(Robot& robot, const std::string& reason)
             ? "done (the plan continues with the next job), failed (the plan fails) or again (the job was not done and "
               "nothing was moved: it is repeated). Or skip the step (the plan continues with the next step, and the job has no "
               "further report), or abort the plan from the MCS"
-            : "done (the carrier was moved) or failed (it was not). The robot is available again after that");
+            : "done (the carrier was moved) or failed (it was not). The robot is available again after that, and after the end of "
+              "the program that its arm may run");
     _transaction.RaiseAlarm(std::move(alarm));
     if (!bOfPlan)
     {

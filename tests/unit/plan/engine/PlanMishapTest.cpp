@@ -268,7 +268,8 @@ TEST_CASE("A dropped job without a reported end is an alarm until the robot repo
         REQUIRE(GetAlarmOrNull(world, "LR01", "ACS-1008") == EAlarmLevel::Heavy);
         const auto asks = [](const Alarm& alarm) {
             return alarm.message.ends_with(
-                "then answer done (the carrier was moved) or failed (it was not). The robot is available again after that.");
+                "then answer done (the carrier was moved) or failed (it was not). The robot is available again after that, and "
+                "after the end of the program that its arm may run.");
         };
         CHECK(std::ranges::count_if(world.engine->GetActiveAlarms(), asks) == 1); // not again: its plan is over
         if (bOperator)
