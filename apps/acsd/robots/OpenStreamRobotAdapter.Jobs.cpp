@@ -27,13 +27,12 @@ std::int32_t GetEchoedNumber(const Planning::StartJob& job, const ArmJob& made)
 
 void OpenStreamRobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now, AdapterActions& out)
 {
-    if (_program.HasJob())
+    if (_recovery.has_value() || _program.HasJob())
     {
         ReleaseJob(out);
         out.emplace_back(RaiseEvent{Planning::JobUnknown{job.jobID}}); // commanded again when the robot is not occupied
         return;
     }
-    _recovery.reset();
     _repetition.reset();
     tl::expected<ArmJob, std::string> made = MakeJob(job);
     if (!made.has_value())
@@ -95,7 +94,7 @@ void OpenStreamRobotAdapter::CancelJob(const std::string& jobID, Core::Now now, 
     if (_recovery.has_value() && _recovery->job.jobID == jobID)
     {
         _recovery->bCancelled = _recovery->bCancelled || _program.IsPauseWanted();
-        _recovery->bReleased = true;
+        ReleaseJob(out);
         return;
     }
     if (!_repetition.has_value() || _repetition->job.jobID != jobID)
@@ -154,10 +153,16 @@ void OpenStreamRobotAdapter::RecoverJob(AdapterActions& out)
     _program.Recover({job.jobID, 0, {}}, *begun, recovery.bCancelled, out);
 }
 
-/// It was resolved while the robot was disconnected.
 void OpenStreamRobotAdapter::ReleaseJob(AdapterActions& out)
 {
-    _bJobReleased = true;
+    if (_recovery.has_value())
+    {
+        _recovery->bReleased = true;
+    }
+    else
+    {
+        _bJobReleased = true;
+    }
     ReportActivity(out);
 }
 

@@ -122,10 +122,12 @@ bool OpenStreamRobotAdapter::IsPaused() const
     return (bBasePaused && !_recovery.has_value() && _program.IsArmStopped()) || _program.IsResumeDue();
 }
 
-/// The arm runs the program of a job that was cancelled, or resolved by the operator.
+/// The arm runs the program of a job that was cancelled, or resolved by the operator; or it may, as the counters of after the
+/// restart have not arrived yet.
 bool OpenStreamRobotAdapter::IsArmOccupied() const
 {
-    return _bJobReleased && _program.HasJob();
+    const bool bUncounted = _recovery.has_value() && _recovery->bReleased;
+    return bUncounted || (_bJobReleased && _program.HasJob());
 }
 
 void OpenStreamRobotAdapter::ReportActivity(AdapterActions& out)

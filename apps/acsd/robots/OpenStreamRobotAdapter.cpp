@@ -59,7 +59,7 @@ void OpenStreamRobotAdapter::Handle(const Planning::RobotCommand& command, Core:
     {
         CancelJob(cancelOrNull->jobID, now, out);
     }
-    else if (driveOrNull != nullptr && _program.HasJob())
+    else if (driveOrNull != nullptr && (_recovery.has_value() || _program.HasJob()))
     {
         ReleaseJob(out);
         out.emplace_back(Planning::RaiseEvent{

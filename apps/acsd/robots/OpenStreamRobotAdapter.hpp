@@ -103,7 +103,7 @@ private:
     void CancelJob(const std::string& jobID, Core::Now now, Planning::AdapterActions& out);
     [[nodiscard]] tl::expected<ArmJob, std::string> MakeJob(const Planning::StartJob& job) const;
     void RecoverJob(Planning::AdapterActions& out);
-    /// The engine has commanded something else although the program of a job may run. Reports the robot as occupied.
+    /// The engine does not wait for the end of the job, whose program may run. Reports the robot as occupied.
     void ReleaseJob(Planning::AdapterActions& out);
 
     void OnSettled(const OpenStream::ClientControlSettled& settled, Planning::AdapterActions& out);

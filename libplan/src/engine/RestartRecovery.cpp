@@ -93,6 +93,10 @@ void RestartRecovery::RestoreRobot(const RobotWorkChanged& work)
         robot.job.Begin(*work.job);
     }
     robot.job.RestoreAbandoned(work.abandonedJobID);
+    if (work.resolvedJob.has_value())
+    {
+        robot.job.RestoreResolved(*work.resolvedJob);
+    }
     for (const std::string& nodeID : work.nodeIDs)
     {
         if (const std::optional<std::size_t> node = _site.FindNodeIndexOrNull(nodeID); node.has_value())
@@ -252,6 +256,10 @@ void RestartRecovery::RestoreOverdue(Robot& robot)
         RequestJobOutcome(robot);
         _transaction.Command(robot, CancelJob{robot.job.GetOrNull()->jobID});
         _transaction.StartTimer(EEngineTimer::JobEnd, robot.GetID(), _options.controls.jobEndTimeout);
+    }
+    else if (robot.job.IsResolvedRecoveryDue())
+    {
+        _work.RecoverResolvedJob(robot);
     }
 }
 

@@ -64,7 +64,7 @@ private:
     void RestoreControl(ActivePlan& plan, Robot& robot);
     /// Clears alarms of robots that are no longer configured, and of stalled drives, which start again.
     void RestoreAlarms(std::vector<Alarm> alarms);
-    /// Restores a job whose plan has ended.
+    /// Restores a job whose plan has ended, or that an operator has resolved.
     void RestoreOverdue(Robot& robot);
     /// Ends a plan that no longer fits the site or the robots, with an alarm if a robot had it.
     void EndUnfit(ActivePlan& plan, const std::string& reason);

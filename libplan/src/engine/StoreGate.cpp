@@ -104,6 +104,10 @@ void StoreGate::CollectWork()
             work.job = *jobOrNull;
         }
         work.abandonedJobID = robot.job.GetAbandonedID();
+        if (const StartJob* resolvedOrNull = robot.job.GetResolvedOrNull(); resolvedOrNull != nullptr)
+        {
+            work.resolvedJob = *resolvedOrNull;
+        }
         // An arm whose motor is off shows none: what was stored is still needed after another crash.
         if (robot.view.state.has_value() && !robot.view.state->restartEvidence.progressToken.empty())
         {

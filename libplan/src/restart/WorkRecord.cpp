@@ -108,8 +108,9 @@ bool WorkRecord::TryCheckEvidence(const StateChanged& state, bool bHasPlan)
     bool bMore = false;
     if (!state.restartEvidence.progressToken.empty() && !evidence->progressToken.empty())
     {
-        bMore = !evidence->job.has_value()
-            && state.restartEvidence.progressToken != evidence->progressToken; // the adapter reports a commanded one
+        // The adapter reports what became of a commanded job, and of a resolved one whose program may have ended.
+        bMore = !evidence->job.has_value() && !evidence->resolvedJob.has_value()
+            && state.restartEvidence.progressToken != evidence->progressToken;
     }
     else if (state.restartEvidence.commandID.has_value())
     {

@@ -10,7 +10,16 @@ void JobTracker::Begin(StartJob job)
 {
     _job = std::move(job);
     _state = EState::Commanded;
+    _end = EEnd::Awaited;
     _abandonedID.clear();
+}
+
+void JobTracker::MarkBegun(std::string_view jobID)
+{
+    if (IsOpen(jobID) && _end == EEnd::Awaited)
+    {
+        _resolved.reset();
+    }
 }
 
 void JobTracker::MarkOverdue()
@@ -41,27 +50,62 @@ void JobTracker::MarkUnresolved()
     _state = EState::Unresolved;
 }
 
+bool JobTracker::TryEndResolved(std::string_view jobID)
+{
+    if (IsOpen(jobID))
+    {
+        _end = _end == EEnd::Awaited ? EEnd::Reported : _end;
+        return false;
+    }
+    if (!_resolved.has_value() || _resolved->job.jobID != jobID)
+    {
+        return false;
+    }
+    _resolved.reset();
+    return true;
+}
+
 void JobTracker::Resolve()
 {
     _state = IsUnresolved() ? EState::Commanded : _state;
+    _end = _end == EEnd::Awaited ? EEnd::Decided : _end;
 }
 
 void JobTracker::Abandon()
 {
     assert(_job.has_value());
     _abandonedID = _job->jobID;
+    _end = _end == EEnd::Awaited ? EEnd::Decided : _end;
 }
 
 void JobTracker::Release()
 {
+    std::optional<Resolved> resolved = std::move(_resolved);
+    // The arm has never begun a job that was commanded while it ran the program of an earlier one: that one counts.
+    if (!resolved.has_value() && _end == EEnd::Decided && _job.has_value() && !_job->progressToken.empty())
+    {
+        resolved = Resolved{std::move(*_job)};
+    }
     std::string abandonedID = std::move(_abandonedID);
     *this = {};
     _abandonedID = std::move(abandonedID);
+    _resolved = std::move(resolved);
 }
 
 void JobTracker::RestoreAbandoned(std::string jobID)
 {
     _abandonedID = std::move(jobID);
+}
+
+void JobTracker::RestoreResolved(StartJob job)
+{
+    _resolved = Resolved{std::move(job), EInquiry::Due};
+}
+
+void JobTracker::BeginResolvedRecovery()
+{
+    assert(_resolved.has_value());
+    _resolved->inquiry = EInquiry::Asked;
 }
 
 std::optional<std::string> JobTracker::TakeCancelOrNull()
@@ -79,6 +123,11 @@ const StartJob* JobTracker::GetOrNull() const noexcept
     return _job.has_value() ? &*_job : nullptr;
 }
 
+const StartJob* JobTracker::GetResolvedOrNull() const noexcept
+{
+    return _resolved.has_value() ? &_resolved->job : nullptr;
+}
+
 const std::string& JobTracker::GetAbandonedID() const noexcept
 {
     return _abandonedID;
@@ -87,6 +136,18 @@ const std::string& JobTracker::GetAbandonedID() const noexcept
 bool JobTracker::IsRecovering() const noexcept
 {
     return _state == EState::Recovering;
+}
+
+bool JobTracker::IsResolvedRecovering(std::string_view jobID) const noexcept
+{
+    return _resolved.has_value() && _resolved->inquiry == EInquiry::Asked && _resolved->job.jobID == jobID
+        && !IsOpen(jobID);
+}
+
+bool JobTracker::IsResolvedRecoveryDue() const noexcept
+{
+    return _resolved.has_value() && _resolved->inquiry == EInquiry::Due
+        && (!_job.has_value() || _end == EEnd::Reported);
 }
 
 bool JobTracker::IsUnresolved() const noexcept
@@ -102,6 +163,11 @@ bool JobTracker::IsOverdue() const noexcept
 bool JobTracker::IsOverdue(std::string_view jobID) const noexcept
 {
     return _bOverdue && _job->jobID == jobID;
+}
+
+bool JobTracker::IsOpen(std::string_view jobID) const noexcept
+{
+    return _job.has_value() && _job->jobID == jobID;
 }
 
 } // namespace ACS::Planning

@@ -17,6 +17,7 @@ void JobOutcomes::OnJobStarted(Robot& robot, const JobStarted& event)
     {
         return;
     }
+    robot.job.MarkBegun(event.jobID);
     _rejections.EndRow(robot);
     robot.work.MarkCommandTaken();
     robot.changes.MarkWork();
@@ -55,6 +56,8 @@ void JobOutcomes::OnJobEndTimeout(Robot& robot)
 
 void JobOutcomes::OnJobFinished(Robot& robot, const JobFinished& event)
 {
+    robot.job.MarkBegun(event.jobID);
+    EndAtRobot(robot, event.jobID);
     if (TryEndOverdueJob(robot, event.jobID, true) || !IsPresent(robot, event.jobID))
     {
         return;
@@ -65,6 +68,7 @@ void JobOutcomes::OnJobFinished(Robot& robot, const JobFinished& event)
 
 void JobOutcomes::OnJobFailed(Robot& robot, const JobFailed& event)
 {
+    EndAtRobot(robot, event.jobID);
     if (TryEndOverdueJob(robot, event.jobID, false) || !IsPresent(robot, event.jobID))
     {
         return;
@@ -91,6 +95,7 @@ void JobOutcomes::OnJobTimeout(Robot& robot)
 
 void JobOutcomes::OnJobRejected(Robot& robot, const JobRejected& event)
 {
+    EndAtRobot(robot, event.jobID);
     if (TryEndOverdueJob(robot, event.jobID, false) || !IsPresent(robot, event.jobID))
     {
         return;
@@ -106,6 +111,7 @@ void JobOutcomes::OnJobRejected(Robot& robot, const JobRejected& event)
 
 void JobOutcomes::OnJobInterrupted(Robot& robot, const JobInterrupted& event)
 {
+    EndAtRobot(robot, event.jobID);
     if (TryEndOverdueJob(robot, event.jobID, false) || !IsPresent(robot, event.jobID))
     {
         return;
@@ -128,6 +134,7 @@ void JobOutcomes::OnJobInterrupted(Robot& robot, const JobInterrupted& event)
 
 void JobOutcomes::OnJobUnknown(Robot& robot, const JobUnknown& event)
 {
+    EndAtRobot(robot, event.jobID);
     if (TryEndOverdueJob(robot, event.jobID, false) || !IsPresent(robot, event.jobID))
     {
         return;
@@ -153,6 +160,11 @@ void JobOutcomes::OnJobUnknown(Robot& robot, const JobUnknown& event)
 
 void JobOutcomes::OnJobUnresolved(Robot& robot, const JobUnresolved& event)
 {
+    if (robot.job.IsResolvedRecovering(event.jobID) && robot.planOrNull != nullptr)
+    {
+        robot.work.MarkUnresolved(); // as below
+    }
+    EndAtRobot(robot, event.jobID);
     const bool bOverdue = robot.job.IsOverdue(event.jobID);
     const bool bOfPlan = robot.activity == EActivity::Works && GetJobID(*robot.planOrNull) == event.jobID;
     if ((bOverdue || bOfPlan) && !robot.job.IsUnresolved())
@@ -164,6 +176,18 @@ void JobOutcomes::OnJobUnresolved(Robot& robot, const JobUnresolved& event)
         }
         robot.changes.MarkWork();
         _work.SuspendJob(robot, event.reason);
+    }
+}
+
+void JobOutcomes::EndAtRobot(Robot& robot, const std::string& jobID)
+{
+    if (robot.job.TryEndResolved(jobID))
+    {
+        robot.changes.MarkWork();
+    }
+    else if (robot.job.IsResolvedRecoveryDue())
+    {
+        _work.RecoverResolvedJob(robot);
     }
 }
 

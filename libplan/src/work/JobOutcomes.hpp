@@ -40,6 +40,8 @@ public:
     void OnJobUnresolved(Robot& robot, const JobUnresolved& event);
 
 private:
+    /// The robot no longer has the job. After a restart it is then asked for a resolved job, unless this is the one.
+    void EndAtRobot(Robot& robot, const std::string& jobID);
     /// The robot has the job, it is the present one of its plan, and no operator must resolve it.
     [[nodiscard]] static bool IsPresent(const Robot& robot, const std::string& jobID);
 };

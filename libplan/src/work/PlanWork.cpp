@@ -398,6 +398,14 @@ void PlanWork::AbandonJob(Robot& robot)
     robot.job.Abandon();
 }
 
+void PlanWork::RecoverResolvedJob(Robot& robot)
+{
+    robot.job.BeginResolvedRecovery();
+    const StartJob& job = *robot.job.GetResolvedOrNull();
+    _transaction.Command(robot, RecoverJob{job, robot.work.GetEarlierIDs()});
+    _transaction.Command(robot, CancelJob{job.jobID}); // the robot is occupied until it has reported the end
+}
+
 Alarm PlanWork::MakeUnresolvedAlarm(const Robot& robot)
 {
     Alarm alarm = MakeAlarm(robot.GetID(), ALARM_UNRESOLVED, EAlarmLevel::Heavy, {});

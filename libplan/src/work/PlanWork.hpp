@@ -67,6 +67,8 @@ public:
     void AbortUnresolvedJob(Robot& robot);
     /// Before an unresolved job is released without having been done: its robot must not continue it.
     void AbandonJob(Robot& robot);
+    /// Asks the robot after a restart for the outcome of a resolved job: its arm may still run the program.
+    void RecoverResolvedJob(Robot& robot);
     /// The job is closed, and its alarm is cleared.
     void ReleaseJob(Robot& robot);
     /// Commands the job again once the robot may work; with the same commandID if the robot never had the job.

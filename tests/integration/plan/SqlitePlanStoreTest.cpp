@@ -87,7 +87,7 @@ TEST_CASE("Store: databases of the first and second schema are migrated without 
         CHECK(loaded->tscState.value_or(ETscState::Auto) == (version == 2 ? ETscState::Paused : ETscState::Auto));
         REQUIRE(store->Append(
             {{PlanAdded{MakeRecord(2, "P2")},
-              RobotWorkChanged{"LR01", "C", {}, {}, {}, false, false, {"N1"}, false, 0, {}}}}));
+              RobotWorkChanged{"LR01", "C", {}, {}, {}, false, false, {"N1"}, false, 0, {}, {}}}}));
         CHECK(store->Load()->plans.back().transactionID == "request-P2");
         CHECK(store->Load()->blocks.empty());
         CHECK(store->Load()->robotWorks.size() == 1);

@@ -51,9 +51,10 @@ inline std::vector<StoreBatch> MakeBatches()
     progressed.progress.controlCount = 2;
     progressed.progress.controlOrigin = EControlOrigin::Operator;
     progressed.progress.requestIDs = {"T1", "T2"};
-    const RobotWorkChanged work{"LR01", "C1", {"C0"}, std::nullopt, "5 5 0", true, false, {"N1", "N2"}, false, 0, "J0"};
+    const RobotWorkChanged
+        work{"LR01", "C1", {"C0"}, std::nullopt, "5 5 0", true, false, {"N1", "N2"}, false, 0, "J0", {}};
     const StartJob job{"P1", 1, "J1", "CassetteLoad", "A01.CP01", "A01.CP01", "LR01.CP01", "C1", "C2", "5 5 0"};
-    const RobotWorkChanged later{"LR01", "C2", {"C1", "C0"}, job, "", false, true, {"N2"}, true, 7, {}};
+    const RobotWorkChanged later{"LR01", "C2", {"C1", "C0"}, job, "", false, true, {"N2"}, true, 7, {}, job};
     return {
         {{PlanAdded{MakeRecord(1, "P1")}, PlanAdded{MakeRecord(2, "P2")}, PlanAdded{MakeRecord(3, "P3")}}},
         {{progressed,

@@ -87,6 +87,9 @@ struct RobotWorkChanged
     std::int32_t jobNumber = 0; ///< StartJob::jobNumber of the last job; 0: none yet.
     /// The last job if an operator has abandoned it and the robot may still have it: to be cancelled when the robot is back.
     std::string abandonedJobID;
+    /// A job that an operator has resolved, and whose program an arm may still run: the robot is asked for its outcome after a
+    /// restart.
+    std::optional<StartJob> resolvedJob;
 
     bool operator==(const RobotWorkChanged&) const = default;
 };

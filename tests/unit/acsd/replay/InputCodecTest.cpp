@@ -131,6 +131,7 @@ Planning::StoredState MakeStoredState()
     work.job.emplace();
     work.job->planID = "P1";
     work.nodeIDs = {"N1"};
+    work.resolvedJob = work.job;
     state.robotWorks.push_back(work);
     state.receipts.push_back({"token lee", "k", "{\"status\":202}", record.acceptedAt});
     return state;

@@ -186,6 +186,73 @@ TEST_CASE("After a restart a paused vehicle is not paused before the arm's progr
     CHECK(arm.IsReportedPaused());
 }
 
+TEST_CASE("After a restart a robot is occupied from its first state to the end of the program of a resolved job")
+{
+    ArmFixture arm;
+    RecoverJob(arm);
+    arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+    const auto areAllOccupied = [&arm] {
+        const auto states = arm.TakeEvents<Planning::StateChanged>();
+        return !states.empty() && std::ranges::all_of(states, &Planning::StateChanged::bOccupied);
+    };
+    const bool bBaseFirst = GENERATE(true, false);
+    if (bBaseFirst)
+    {
+        arm.adapter.OnLinkUp(arm.clock.GetNow(), arm.actions);
+        arm.ShowBase(false);
+        CHECK(areAllOccupied());
+    }
+    arm.Deliver(OpenStream::ClientReady{});
+    arm.Settle(OpenStream::EControlOutcome::Refused, 400); // motor_on: the robot is online with an error
+    arm.DeliverData(MOTOR_OFF_SAMPLE);
+    if (!bBaseFirst)
+    {
+        arm.adapter.OnLinkUp(arm.clock.GetNow(), arm.actions);
+        arm.ShowBase(false);
+    }
+    arm.outputs.messages.clear();
+    arm.adapter.Handle(Planning::Drive{"D", {}, 2}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.outputs.messages.empty());
+    CHECK(arm.TakeEvents<Planning::DriveRejected>().size() == 1);
+    arm.Command("K");
+    CHECK(arm.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"K"}});
+    arm.DeliverData(MOTOR_ON_SAMPLE);
+    arm.DeliverData("[6,5,0]");
+    CHECK(areAllOccupied());
+    arm.ShowBase(false);
+    CHECK(areAllOccupied());
+    arm.actions.clear();
+    arm.DeliverData("[6,6,0]");
+    CHECK(arm.TakeEvents<Planning::JobFinished>() == std::vector<Planning::JobFinished>{{"J"}});
+    CHECK_FALSE(arm.TakeEvents<Planning::StateChanged>().back().bOccupied);
+}
+
+TEST_CASE("After a restart a resolved job that the counters do not prove leaves its robot free")
+{
+    const std::string counters = GENERATE("[7,7,0]", "[0,0,0]", "[5,5,0]");
+    ArmFixture arm;
+    RecoverJob(arm);
+    arm.adapter.OnLinkUp(arm.clock.GetNow(), arm.actions);
+    arm.ShowBase(false);
+    arm.adapter.Handle(Planning::CancelJob{"J"}, arm.clock.GetNow(), arm.actions);
+    CHECK(arm.TakeEvents<Planning::StateChanged>().back().bOccupied);
+    arm.Deliver(OpenStream::ClientReady{});
+    arm.Settle(OpenStream::EControlOutcome::Accepted); // motor_on
+    arm.DeliverData(MOTOR_ON_SAMPLE);
+    arm.DeliverData(counters);
+    if (counters == "[5,5,0]") // it may not have begun yet
+    {
+        CHECK(arm.TakeEvents<Planning::StateChanged>().back().bOccupied);
+        arm.Fire(ArmFixture::START_TIMER);
+        CHECK(arm.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"J"}});
+    }
+    else
+    {
+        CHECK(arm.TakeEvents<Planning::JobUnresolved>().size() == 1);
+    }
+    CHECK_FALSE(arm.TakeEvents<Planning::StateChanged>().back().bOccupied);
+}
+
 TEST_CASE("Counters that are all 0 after a reconnect do not prove that a program did not begin")
 {
     ArmFixture arm;

@@ -6,10 +6,12 @@ using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test o
 using namespace std::chrono_literals;
 using ACS::Testing::BeginPlan;
 using ACS::Testing::Contains;
+using ACS::Testing::CountStarts;
 using ACS::Testing::FindLine;
 using ACS::Testing::FinishPlan;
 using ACS::Testing::IsJobCancelledFirst;
 using ACS::Testing::Lines;
+using ACS::Testing::MakeControlPlan;
 using ACS::Testing::MakeLogisticsPlan;
 using ACS::Testing::MakeTestOptions;
 using ACS::Testing::MakeTestSite;
@@ -31,6 +33,20 @@ void CrashInResume(PlanWorld& world)
     world.Control(EPlanControl::Resume, "P1");
     world.Crash();
     world.GetRobot("LR01").bIgnoresPause = false;
+}
+
+/// The first job of P1 runs on the arm of CR01.
+void BeginArmJob(PlanWorld& world)
+{
+    world.GetRobot("CR01").bLikeArm = true;
+    world.GetRobot("CR01").progressToken = "5 5 0";
+    BeginPlan(world, MakeControlPlan("P1"), "Job 1 P1-cd InProgress");
+}
+
+ERobotStatus GetStatus(const PlanWorld& world, const std::string& robotID)
+{
+    const std::vector<RobotStatus> statuses = world.engine->GetRobotStatuses();
+    return std::ranges::find(statuses, robotID, &RobotStatus::robotID)->status;
 }
 
 } // namespace
@@ -177,6 +193,67 @@ TEST_CASE("D-16 An unresolved job that was abandoned is cancelled before its rob
     world.Raise("LR01", LinkChanged{false});
     world.Connect();
     CHECK(FindLine(world, "command LR01 CancelJob", later) == world.trace.size());
+}
+
+TEST_CASE("After a restart a robot whose arm still runs the program of a resolved job is occupied until its end")
+{
+    PlanWorld world;
+    BeginArmJob(world);
+    const EJobResolution answer = GENERATE(EJobResolution::Done, EJobResolution::Failed);
+    world.Raise("CR01", LinkChanged{false});
+    world.ResolveJob("P1", "P1-cd", answer);
+    const bool bTwice = GENERATE(false, true);
+    if (bTwice)
+    {
+        RestartEngine(world);
+    }
+    const std::size_t line = world.trace.size();
+    RestartEngine(world);
+    CHECK(
+        FindLine(world, "command CR01 RecoverJob P1-cd", line) + 1 == FindLine(world, "command CR01 CancelJob", line));
+    CHECK(GetStatus(world, "CR01") == ERobotStatus::Working);
+    REQUIRE(world.TryRun());
+    CHECK(world.GetRobot("CR01").orderedAtWork == 0);
+    CHECK(std::ranges::count(world.GetRobot("CR01").doneJobs, "P1-cd") == 1);
+    CHECK(world.GetReportsOf("P1").back() == (answer == EJobResolution::Done ? "Plan Completed" : "Plan Failed"));
+    CHECK(world.engine->GetActiveAlarms().empty());
+    const std::size_t later = world.trace.size();
+    RestartEngine(world);
+    CHECK(FindLine(world, "command CR01 RecoverJob", later) == world.trace.size());
+}
+
+TEST_CASE("After a restart a resolved job that the arm cannot prove leaves no later job of its plan proven")
+{
+    PlanWorld world;
+    BeginArmJob(world);
+    world.Raise("CR01", LinkChanged{false});
+    world.ResolveJob("P1", "P1-cd", EJobResolution::Done);
+    const bool bRestarted = GENERATE(false, true);
+    if (bRestarted)
+    {
+        world.GetRobot("CR01").unresolvedReason = "more than this one program has run";
+        RestartEngine(world);
+    }
+    else
+    {
+        world.Connect();
+        world.Raise("CR01", JobUnresolved{"P1-cd", "another program of the arm has run"});
+    }
+    world.GetRobot("CR01").unresolvedReason.clear();
+    REQUIRE(world.TryRun());
+    CHECK(world.engine->GetActiveAlarms().size() == (bRestarted ? 1 : 0));
+    CHECK((CountStarts(world, "P1-b3") == 0) == bRestarted);
+}
+
+TEST_CASE("A resolved job is not asked for after a restart if its robot has reported that it no longer has the job")
+{
+    PlanWorld world;
+    BeginArmJob(world);
+    world.Raise("CR01", JobUnresolved{"P1-cd", "the counters have fallen"});
+    world.ResolveJob("P1", "P1-cd", EJobResolution::Failed);
+    const std::size_t line = world.trace.size();
+    RestartEngine(world);
+    CHECK(FindLine(world, "command CR01 RecoverJob", line) == world.trace.size());
 }
 
 TEST_CASE("D-16 abort.paused_job finish: after a restart the job has its time limit")

@@ -165,6 +165,41 @@ TEST_CASE("A crash while the disk fails: an arm whose motor is off is checked wh
     CHECK(CountStarts(world, "P1-cd") == 1);
 }
 
+TEST_CASE("A crash at any action after an arm's job was resolved: its robot gets no command before the program's end")
+{
+    const EJobResolution answer = GENERATE(EJobResolution::Done, EJobResolution::Failed);
+    bool bCrashed = true;
+    for (std::size_t action = 0; bCrashed; ++action)
+    {
+        INFO("action " << action);
+        REQUIRE(action < 400);
+        PlanWorld world(action + 1);
+        ACS::Testing::FakeRobotAdapter& arm = world.GetRobot("CR01");
+        arm.bLikeArm = true;
+        arm.progressToken = "5 5 0";
+        BeginPlan(world, MakeControlPlan("P1"), "Job 1 P1-cd InProgress");
+        world.Raise("CR01", LinkChanged{false});
+        world.CrashAtAction(action);
+        world.ResolveJob("P1", "P1-cd", answer);
+        if (world.engine != nullptr)
+        {
+            world.Connect();
+        }
+        static_cast<void>(world.TryRun([&world] { return world.engine == nullptr; }));
+        bCrashed = world.engine == nullptr;
+        if (bCrashed)
+        {
+            RestartEngine(world);
+        }
+        REQUIRE(world.TryRun());
+        CHECK(arm.orderedAtWork == 0);
+        CHECK(std::ranges::count(arm.doneJobs, "P1-cd") == 1);
+        CHECK(world.violations == Lines{});
+        CHECK(world.engine->GetActiveAlarms().empty());
+        CHECK(world.engine->GetActivePlans().empty());
+    }
+}
+
 TEST_CASE("The next job of a robot that was switched off during a restart and shows no evidence is unresolved")
 {
     PlanWorld world;

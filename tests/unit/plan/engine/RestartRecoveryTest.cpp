@@ -81,6 +81,38 @@ TEST_CASE("RestartRecovery: the job of a plan that is over is overdue")
     CHECK(outcome.GetDelayOrNull(EEngineTimer::JobEnd).has_value());
 }
 
+TEST_CASE(
+    "RestartRecovery: a resolved job is asked for at once, or after the robot has reported the end of a later one")
+{
+    RecoveryParts parts;
+    EngineParts before;
+    const ActivePlan& plan = before.BeginLoad();
+    StoredState stored = StoreWork(before, plan);
+    stored.robotWorks.front().resolvedJob = *before.lr.job.GetOrNull();
+    stored.robotWorks.front().resolvedJob->jobID = "P0-a4";
+    const bool bLater = GENERATE(false, true);
+    if (bLater)
+    {
+        parts.recovery.Restore(stored);
+        const auto commands = parts.Collect().ListCommands<RecoverJob>();
+        REQUIRE(commands.size() == 1);
+        CHECK(commands.front().job.jobID == "P1-a4");
+        parts.jobs.OnJobUnknown(parts.lr, JobUnknown{"P1-a4"});
+    }
+    else
+    {
+        stored.robotWorks.front().job.reset();
+        parts.recovery.Restore(stored);
+    }
+    const CallOutcome outcome = parts.Collect();
+    REQUIRE(outcome.ListCommands<RecoverJob>().size() == 1);
+    CHECK(outcome.ListCommands<RecoverJob>().front().job == stored.robotWorks.front().resolvedJob);
+    REQUIRE(outcome.ListCommands<CancelJob>().size() == 1);
+    CHECK(outcome.ListCommands<CancelJob>().front().jobID == "P0-a4");
+    parts.jobs.OnJobFinished(parts.lr, JobFinished{"P0-a4"});
+    CHECK(parts.lr.job.GetResolvedOrNull() == nullptr);
+}
+
 TEST_CASE("RestartRecovery: a plan whose robot is no longer configured fails with an alarm")
 {
     RecoveryParts parts;

@@ -111,6 +111,13 @@ TEST_CASE("WorkRecord: a progress token proves more than the command, but not of
     CHECK_FALSE(IsUnresolvedAfter(stored, MakeShown("C1", "8")));
 }
 
+TEST_CASE("WorkRecord: a changed progress token proves nothing while the program of a resolved job may have ended")
+{
+    RobotWorkChanged stored = MakeStored("C1", "7");
+    stored.resolvedJob = StartJob{};
+    CHECK_FALSE(IsUnresolvedAfter(stored, MakeShown("C1", "8")));
+}
+
 TEST_CASE("WorkRecord: a robot that gets no work is checked when it shows its progress token, or may get work again")
 {
     WorkRecord record;

@@ -51,6 +51,8 @@ TEST_CASE("Store texts: the work of a robot is decoded with its job, also from o
         4711,
         "N1"};
     work.jobNumber = 4711;
+    work.resolvedJob = work.job;
+    work.resolvedJob->jobID = "J0";
     CHECK(DecodeRobotWork(EncodeRobotWork(work)) == work);
 
     const Core::Result<RobotWorkChanged> old = DecodeRobotWork(
@@ -58,6 +60,7 @@ TEST_CASE("Store texts: the work of a robot is decoded with its job, also from o
         R"("position":"A01.CP01","from":"A01.CP01.TP01","to":"CR01.TP01","carrierId":"TRAY_01","commandId":"command",)"
         R"("mark":"m"}})");
     REQUIRE(old.has_value());
+    work.resolvedJob.reset();
     work.jobNumber = 0;
     work.job->jobNumber = 0;
     work.job->nodeID.clear();

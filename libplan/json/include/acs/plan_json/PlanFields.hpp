@@ -137,7 +137,8 @@ struct JsonFields<Planning::RobotWorkChanged>
         Optional("nodeIds", &Planning::RobotWorkChanged::nodeIDs),
         Optional("commandTaken", &Planning::RobotWorkChanged::bCommandTaken),
         Optional("jobNumber", &Planning::RobotWorkChanged::jobNumber),
-        Optional("abandonedJobId", &Planning::RobotWorkChanged::abandonedJobID));
+        Optional("abandonedJobId", &Planning::RobotWorkChanged::abandonedJobID),
+        Optional("resolvedJob", &Planning::RobotWorkChanged::resolvedJob));
 };
 
 template <>
