@@ -9,6 +9,7 @@
 #include "config/JobConfig.hpp"
 #include "config/MapRestriction.hpp"
 #include "config/NamedFiles.hpp"
+#include "config/ParkingCheck.hpp"
 #include "config/PlaceConfig.hpp"
 #include "config/ReachCheck.hpp"
 #include "config/RemovedKeys.hpp"
@@ -19,7 +20,6 @@
 #include "robots/VehicleMap.hpp"
 #include "robots/VehicleParameters.hpp"
 #include <acs/plan/LifReader.hpp>
-#include <acs/plan/Router.hpp>
 #include <acs/plan/UnusedLifMember.hpp>
 
 #include <fmt/format.h>
@@ -70,42 +70,6 @@ void ReportUnusedMembers(const std::string& map, AcsdConfig& config)
     if (!ignored.empty())
     {
         config.notes.push_back("site.map: members without effect on driving: " + ignored);
-    }
-}
-
-/// The traffic control guarantees progress only to robots that can park with and without a load.
-void WarnOfParking(AcsdConfig& config)
-{
-    const Planning::Router router(*config.site);
-    std::vector<std::size_t> docks;
-    for (const Planning::SiteStation& station : config.site->GetStations())
-    {
-        docks.push_back(*config.site->FindNodeIndexOrNull(station.nodeIDs.front()));
-    }
-    for (const Planning::RobotOptions& robot : config.engine.robots)
-    {
-        const std::optional<std::string>& parking =
-            robot.homeStationID.has_value() ? robot.homeStationID : robot.chargingStationID;
-        if (!parking.has_value())
-        {
-            continue; // acsd chooses one that can be reached in both cases
-        }
-        const std::size_t dock =
-            *config.site->FindNodeIndexOrNull(config.site->FindStationOrNull(*parking)->nodeIDs.front());
-        std::vector<std::size_t> others = docks;
-        std::erase(others, dock);
-        const auto isReached = [&](Planning::ELoad load) {
-            return router.FindQuickestStartOrNull(robot.vehicleTypeID, load, others, dock).has_value();
-        };
-        const bool bLoaded = isReached(Planning::ELoad::Loaded);
-        if (bLoaded != isReached(Planning::ELoad::Empty))
-        {
-            config.warnings.push_back(fmt::format(
-                "robots.{}: its parking position {} cannot be reached {} a load; it may block other robots",
-                robot.robotID.GetText(),
-                *parking,
-                bLoaded ? "without" : "with"));
-        }
     }
 }
 
@@ -352,7 +316,7 @@ AcsdConfig Read(
     }
     if (reader.GetErrors().empty() && config.site.has_value())
     {
-        WarnOfParking(config);
+        std::ranges::move(FindParkingFaults(config.engine, *config.site), std::back_inserter(config.warnings));
         std::ranges::move(
             FindUnreachableStations(config.engine, *open, *config.site),
             std::back_inserter(config.warnings));

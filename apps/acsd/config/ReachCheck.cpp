@@ -1,9 +1,10 @@
 #include "config/ReachCheck.hpp"
 
+#include "config/ReachFinder.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -14,118 +15,6 @@ namespace ACS::Acsd
 
 namespace
 {
-
-using Nodes = std::vector<std::size_t>;
-
-/// What a robot with a load, or one without, reaches; by node.
-struct LoadReach
-{
-    std::vector<bool> arrived; ///< It can drive there, or starts there.
-    std::vector<bool> left;    ///< It can drive on from there: it arrived, or its load changed there.
-};
-
-struct Reach
-{
-    LoadReach empty;
-    LoadReach loaded;
-};
-
-/// What the robots of one vehicle type can reach on one map.
-class ReachFinder final
-{
-    struct Lane
-    {
-        std::size_t to;
-        bool bEmpty;
-        bool bLoaded;
-    };
-
-    std::vector<std::vector<Lane>> _lanes; ///< By the node at which they begin.
-    std::vector<bool> _ends;               ///< By node: whether a lane ends there.
-    Reach _reach;
-
-public:
-    ReachFinder(const Planning::SiteMap& site, std::string_view vehicleTypeID, bool bRestricted)
-        : _lanes(site.GetNodes().size()),
-          _ends(site.GetNodes().size(), false),
-          _reach{{_ends, _ends}, {_ends, _ends}}
-    {
-        for (const Planning::SiteEdge& edge : site.GetEdges())
-        {
-            const Planning::SiteEdgeRule* const ruleOrNull = edge.FindRuleOrNull(vehicleTypeID);
-            const std::size_t from = *site.FindNodeIndexOrNull(edge.startNodeID);
-            const std::size_t to = *site.FindNodeIndexOrNull(edge.endNodeID);
-            if (ruleOrNull == nullptr || site.GetNodes()[from].FindRuleOrNull(vehicleTypeID) == nullptr
-                || site.GetNodes()[to].FindRuleOrNull(vehicleTypeID) == nullptr)
-            {
-                continue;
-            }
-            _lanes[from].push_back(
-                {to,
-                 !bRestricted || ruleOrNull->IsPermitted(Planning::ELoad::Empty),
-                 !bRestricted || ruleOrNull->IsPermitted(Planning::ELoad::Loaded)});
-            _ends[to] = true;
-        }
-    }
-
-    /// From the starts with any load. The load may change at each dock.
-    [[nodiscard]] const Reach& Find(const Nodes& starts, const Nodes& docks)
-    {
-        for (const std::size_t start : starts)
-        {
-            _reach.empty.arrived[start] = true;
-            _reach.loaded.arrived[start] = true;
-        }
-        Visit(_reach.empty, &Lane::bEmpty, starts);
-        Visit(_reach.loaded, &Lane::bLoaded, starts);
-        bool bMore = true;
-        while (bMore)
-        {
-            const bool bLoaded = TryVisit(_reach.loaded, &Lane::bLoaded, _reach.empty, docks);
-            bMore = TryVisit(_reach.empty, &Lane::bEmpty, _reach.loaded, docks) || bLoaded;
-        }
-        return _reach;
-    }
-
-    [[nodiscard]] bool HasLaneTo(std::size_t node) const
-    {
-        return _ends[node];
-    }
-
-private:
-    void Visit(LoadReach& reach, bool Lane::*isOpen, Nodes nodes)
-    {
-        while (!nodes.empty())
-        {
-            const std::size_t node = nodes.back();
-            nodes.pop_back();
-            if (reach.left[node])
-            {
-                continue;
-            }
-            reach.left[node] = true;
-            for (const Lane& lane : _lanes[node])
-            {
-                if (lane.*isOpen)
-                {
-                    reach.arrived[lane.to] = true;
-                    nodes.push_back(lane.to);
-                }
-            }
-        }
-    }
-
-    /// From the docks that are reached with the other load. False: there is no new one.
-    [[nodiscard]] bool TryVisit(LoadReach& reach, bool Lane::*isOpen, const LoadReach& other, const Nodes& docks)
-    {
-        Nodes added;
-        std::ranges::copy_if(docks, std::back_inserter(added), [&reach, &other](std::size_t dock) {
-            return other.arrived[dock] && !reach.left[dock];
-        });
-        Visit(reach, isOpen, added);
-        return !added.empty();
-    }
-};
 
 struct StationReach
 {
@@ -181,7 +70,7 @@ public:
         const Nodes docks = ListWithNeighbours(station, own);
         const StationReach reach = Get(_closedReach, docks);
         const bool bNever = !reach.bEmpty && !reach.bLoaded;
-        if ((reach.bEmpty && reach.bLoaded) || (bParking && !bNever)) // WarnOfParking reports loads there
+        if ((reach.bEmpty && reach.bLoaded) || (bParking && !bNever)) // FindParkingFaults reports loads there
         {
             return {};
         }

@@ -1,0 +1,228 @@
+#include "config/ParkingCheck.hpp"
+
+#include "config/ReachFinder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <utility>
+
+namespace ACS::Acsd
+{
+
+namespace
+{
+
+using Planning::ELoad;
+
+constexpr std::size_t MOST_NAMES = 10;
+
+std::string JoinNames(const std::vector<std::string>& names, std::string_view separator)
+{
+    const std::span<const std::string> shown(names.data(), std::min(names.size(), MOST_NAMES));
+    const std::string more =
+        names.size() > shown.size() ? fmt::format(" and {} more", names.size() - shown.size()) : std::string();
+    return fmt::format("{}{}", fmt::join(shown, separator), more);
+}
+
+std::string_view DescribeLoad(ELoad load)
+{
+    switch (load)
+    {
+        case ELoad::Empty:
+            return " without a load";
+        case ELoad::Loaded:
+            return " with a load";
+        case ELoad::Unknown:
+        default:
+            return "";
+    }
+}
+
+/// Robots of a type that cannot park from the same stations.
+struct ParkingGroup
+{
+    std::vector<std::string> robotIDs;
+    std::string parking; ///< Of the last one.
+};
+
+class ParkingCheck final
+{
+    /// The part of the map of one vehicle type.
+    struct Floor
+    {
+        ReachFinder finder;
+        Nodes docks;                                        ///< One for each station that the type may use.
+        std::vector<const Planning::SiteStation*> stations; ///< By dock.
+    };
+
+    /// Vehicle type, load and stations.
+    using GroupKey = std::tuple<std::string, ELoad, std::vector<std::string>>;
+
+    const Planning::EngineOptions& _options;
+    const Planning::SiteMap& _site;
+    std::map<std::string, Floor> _floors;              ///< By vehicle type.
+    std::map<std::string, std::string> _parkingRobots; ///< By station: the robot that parks or charges there.
+    std::map<GroupKey, ParkingGroup> _groups;
+    std::vector<std::string> _warnings;
+
+public:
+    ParkingCheck(const Planning::EngineOptions& options, const Planning::SiteMap& site)
+        : _options(options),
+          _site(site)
+    {
+        for (const Planning::RobotOptions& robot : options.robots)
+        {
+            if (!_floors.contains(robot.vehicleTypeID))
+            {
+                _floors.emplace(robot.vehicleTypeID, MakeFloor(robot.vehicleTypeID));
+            }
+            for (const std::optional<std::string>& stationID : {robot.homeStationID, robot.chargingStationID})
+            {
+                if (stationID.has_value())
+                {
+                    _parkingRobots.emplace(*stationID, robot.robotID.GetText());
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] std::vector<std::string> Find()
+    {
+        for (const Planning::RobotOptions& robot : _options.robots)
+        {
+            const std::optional<std::string>& parking =
+                robot.homeStationID.has_value() ? robot.homeStationID : robot.chargingStationID;
+            if (parking.has_value()) // otherwise acsd chooses one that can be reached
+            {
+                CheckRoutes(robot, *parking);
+            }
+        }
+        for (const auto& [key, group] : _groups)
+        {
+            _warnings.push_back(fmt::format(
+                "robots.{}: no route leads from {} to {}{}; {} may block other robots",
+                JoinNames(group.robotIDs, ", robots."),
+                JoinNames(std::get<2>(key), ", "),
+                group.robotIDs.size() == 1 ? "its parking position " + group.parking : "their parking positions",
+                DescribeLoad(std::get<1>(key)),
+                group.robotIDs.size() == 1 ? "it" : "they"));
+        }
+        return std::move(_warnings);
+    }
+
+private:
+    [[nodiscard]] Floor MakeFloor(const std::string& vehicleTypeID) const
+    {
+        Floor floor{ReachFinder(_site, vehicleTypeID, true), {}, {}};
+        for (const Planning::SiteStation& station : _site.GetStations())
+        {
+            for (const std::string& nodeID : station.nodeIDs)
+            {
+                const std::size_t node = *_site.FindNodeIndexOrNull(nodeID);
+                if (_site.GetNodes()[node].FindRuleOrNull(vehicleTypeID) != nullptr)
+                {
+                    floor.docks.push_back(node);
+                    floor.stations.push_back(&station);
+                    break; // the engine uses this one
+                }
+            }
+        }
+        return floor;
+    }
+
+    [[nodiscard]] std::size_t GetDock(const std::string& stationID) const
+    {
+        return *_site.FindNodeIndexOrNull(_site.FindStationOrNull(stationID)->nodeIDs.front());
+    }
+
+    void CheckRoutes(const Planning::RobotOptions& robot, const std::string& parking)
+    {
+        const Floor& floor = _floors.at(robot.vehicleTypeID);
+        const std::size_t home = GetDock(parking);
+        const std::vector<bool> empty = floor.finder.FindSources(home, ELoad::Empty);
+        const std::vector<bool> loaded = floor.finder.FindSources(home, ELoad::Loaded);
+        const auto isReached = [&floor, home](const std::vector<bool>& sources) {
+            return std::ranges::any_of(floor.docks, [&sources, home](std::size_t dock) {
+                return dock != home && sources[dock];
+            });
+        };
+        const bool bEmpty = isReached(empty);
+        const bool bLoaded = isReached(loaded);
+        const bool bOthers = std::ranges::any_of(floor.docks, [home](std::size_t dock) { return dock != home; });
+        if (bOthers && !(bEmpty && bLoaded))
+        {
+            _warnings.push_back(fmt::format(
+                "robots.{}: its parking position {} cannot be reached{}; it may block other robots",
+                robot.robotID.GetText(),
+                parking,
+                DescribeLoad(GetMissing(bEmpty, bLoaded))));
+        }
+        std::map<ELoad, std::vector<std::string>> stations;
+        for (const std::size_t index : ListEntered(robot, floor, home))
+        {
+            const bool bLeftEmpty = !bEmpty || empty[floor.docks[index]];
+            const bool bLeftLoaded = !bLoaded || loaded[floor.docks[index]];
+            if (!bLeftEmpty || !bLeftLoaded)
+            {
+                stations[GetMissing(bLeftEmpty, bLeftLoaded)].push_back(floor.stations[index]->stationID);
+            }
+        }
+        for (auto& [load, stationIDs] : stations)
+        {
+            ParkingGroup& group = _groups[{robot.vehicleTypeID, load, std::move(stationIDs)}];
+            group.robotIDs.push_back(robot.robotID.GetText());
+            group.parking = parking;
+        }
+    }
+
+    /// Stations, by index in `floor`, that the robot can enter and that are not where another one parks or charges.
+    [[nodiscard]] std::vector<std::size_t> ListEntered(
+        const Planning::RobotOptions& robot,
+        const Floor& floor,
+        std::size_t home) const
+    {
+        Nodes starts{home};
+        if (robot.startNodeID.has_value())
+        {
+            starts.push_back(*_site.FindNodeIndexOrNull(*robot.startNodeID));
+        }
+        const Reach reach = floor.finder.Find(starts, floor.docks);
+        std::vector<std::size_t> entered;
+        for (std::size_t i = 0; i < floor.docks.size(); ++i)
+        {
+            const auto parked = _parkingRobots.find(floor.stations[i]->stationID);
+            const bool bForeign = parked != _parkingRobots.end() && parked->second != robot.robotID.GetText();
+            if (!bForeign && (reach.empty.arrived[floor.docks[i]] || reach.loaded.arrived[floor.docks[i]]))
+            {
+                entered.push_back(i);
+            }
+        }
+        return entered;
+    }
+
+    /// Of which load there is no route; Unknown: of neither.
+    [[nodiscard]] static ELoad GetMissing(bool bEmpty, bool bLoaded)
+    {
+        if (bEmpty)
+        {
+            return ELoad::Loaded;
+        }
+        return bLoaded ? ELoad::Empty : ELoad::Unknown;
+    }
+};
+
+} // namespace
+
+std::vector<std::string> FindParkingFaults(const Planning::EngineOptions& options, const Planning::SiteMap& site)
+{
+    return ParkingCheck(options, site).Find();
+}
+
+} // namespace ACS::Acsd

@@ -1,0 +1,191 @@
+#include "config/ParkingCheck.hpp"
+
+#include "Catch.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ACS::Acsd::Test
+{
+
+namespace
+{
+
+/// A one-way loop L1, L2, L3, L4 of vehicles "lr", 4 m between its nodes. Spurs of 2 m, in both directions, lead to the docks A of
+/// L1, B of L2, C of L3 and D of L4, each with a station of its name. LR01 parks on D, LR02 on C.
+struct ParkingFixture
+{
+    std::vector<Planning::SiteNode> nodes;
+    std::vector<Planning::SiteEdge> edges;
+    std::vector<Planning::SiteStation> stations;
+    Planning::EngineOptions options;
+
+    ParkingFixture()
+    {
+        AddNode("L1", 0, 0);
+        AddNode("L2", 4, 0);
+        AddNode("L3", 4, 4);
+        AddNode("L4", 0, 4);
+        for (const auto& [from, to] : {std::pair("L1", "L2"), {"L2", "L3"}, {"L3", "L4"}, {"L4", "L1"}})
+        {
+            AddEdge(from, to);
+        }
+        AddSpur("A", "L1", 0, -2);
+        AddSpur("B", "L2", 4, -2);
+        AddSpur("C", "L3", 4, 6);
+        AddSpur("D", "L4", 0, 6);
+        AddRobot("LR01", "lr", "D");
+        AddRobot("LR02", "lr", "C");
+    }
+
+    void AddNode(const std::string& nodeID, double x, double y)
+    {
+        nodes.push_back({nodeID, x, y, "floor", {{"lr", std::nullopt}}});
+    }
+
+    void AddEdge(const std::string& from, const std::string& to)
+    {
+        Planning::SiteEdgeRule rule;
+        rule.vehicleTypeID = "lr";
+        edges.push_back({from + "-" + to, from, to, {rule}});
+    }
+
+    void AddStation(const std::string& name)
+    {
+        stations.push_back({"st-" + name, {name}});
+    }
+
+    void AddSpur(const std::string& name, const std::string& lane, double x, double y)
+    {
+        AddNode(name, x, y);
+        AddStation(name);
+        AddEdge(lane, name);
+        AddEdge(name, lane);
+    }
+
+    /// It starts on its parking position.
+    void AddRobot(const std::string& name, const std::string& vehicleTypeID, const std::string& parkingNode)
+    {
+        Planning::RobotOptions robot{*Core::RobotID::Parse(name), {}, {}, {}, {}, {}, {}, {}};
+        robot.vehicleTypeID = vehicleTypeID;
+        robot.startNodeID = parkingNode;
+        robot.homeStationID = "st-" + parkingNode;
+        options.robots.push_back(std::move(robot));
+    }
+
+    void Remove(const std::string& edgeID)
+    {
+        std::erase_if(edges, [&edgeID](const Planning::SiteEdge& edge) { return edge.edgeID == edgeID; });
+    }
+
+    void Restrict(const std::string& edgeID, bool bUnloaded, bool bLoaded)
+    {
+        std::ranges::find(edges, edgeID, &Planning::SiteEdge::edgeID)->rules[0].loadRestriction =
+            Planning::SiteLoadRestriction{bUnloaded, bLoaded};
+    }
+
+    [[nodiscard]] std::vector<std::string> Find() const
+    {
+        const Planning::SiteMap site = Planning::SiteMap::Create(nodes, edges, stations).value();
+        return FindParkingFaults(options, site);
+    }
+};
+
+using Lines = std::vector<std::string>;
+
+} // namespace
+
+TEST_CASE_METHOD(ParkingFixture, "Parking positions that are reached from every station have no warning")
+{
+    CHECK(Find().empty());
+}
+
+TEST_CASE_METHOD(
+    ParkingFixture,
+    "A parking position that cannot be reached is reported, also if the robot starts there")
+{
+    Remove("L4-D");
+    CHECK(Find() == Lines{"robots.LR01: its parking position st-D cannot be reached; it may block other robots"});
+    Restrict("L3-C", true, false);
+    CHECK(
+        Find()
+        == Lines{
+            "robots.LR01: its parking position st-D cannot be reached; it may block other robots",
+            "robots.LR02: its parking position st-C cannot be reached with a load; it may block other robots"});
+}
+
+TEST_CASE_METHOD(ParkingFixture, "The charger of a robot without home is its parking position")
+{
+    options.robots[0].chargingStationID = std::exchange(options.robots[0].homeStationID, std::nullopt);
+    Remove("L4-D");
+    CHECK(Find() == Lines{"robots.LR01: its parking position st-D cannot be reached; it may block other robots"});
+}
+
+TEST_CASE_METHOD(ParkingFixture, "A parking position is not reported if there is no other station")
+{
+    stations.erase(stations.begin(), stations.begin() + 3);
+    options.robots.pop_back();
+    Remove("L4-D");
+    CHECK(Find().empty());
+}
+
+TEST_CASE_METHOD(ParkingFixture, "A station from which no route leads to a parking position is reported with the load")
+{
+    Restrict("B-L2", true, false);
+    SECTION("with a load")
+    {
+        CHECK(
+            Find()
+            == Lines{"robots.LR01, robots.LR02: no route leads from st-B to their parking positions with a load; they "
+                     "may block other robots"});
+    }
+    SECTION("without a load")
+    {
+        Restrict("B-L2", false, true);
+        options.robots.pop_back();
+        CHECK(
+            Find()
+            == Lines{"robots.LR01: no route leads from st-B to its parking position st-D without a load; it may block "
+                     "other robots"});
+    }
+    SECTION("at all, though other stations reach it")
+    {
+        Remove("B-L2");
+        Remove("A-L1");
+        options.robots.pop_back();
+        CHECK(
+            Find()
+            == Lines{"robots.LR01: no route leads from st-A, st-B to its parking position st-D; it may block other "
+                     "robots"});
+    }
+}
+
+TEST_CASE_METHOD(
+    ParkingFixture,
+    "A station that a robot cannot enter, or that is the place of another one, need not be left")
+{
+    SECTION("it may not use the node")
+    {
+        Remove("B-L2");
+        nodes[5].rules[0].vehicleTypeID = "cr";
+        CHECK(Find().empty());
+    }
+    SECTION("no edge leads there")
+    {
+        Remove("B-L2");
+        Remove("L2-B");
+        CHECK(Find().empty());
+    }
+    SECTION("another robot parks there")
+    {
+        Remove("C-L3");
+        Remove("L3-C");
+        AddEdge("L3", "C");
+        CHECK(Find().empty());
+    }
+}
+
+} // namespace ACS::Acsd::Test
