@@ -1,5 +1,6 @@
 #include "config/ParkingCheck.hpp"
 
+#include "config/LaneCheck.hpp"
 #include "config/ReachFinder.hpp"
 
 #include <fmt/format.h>
@@ -114,10 +115,33 @@ public:
                 DescribeLoad(std::get<1>(key)),
                 group.robotIDs.size() == 1 ? "it" : "they"));
         }
+        CheckLanes();
         return std::move(_warnings);
     }
 
 private:
+    void CheckLanes()
+    {
+        const LaneCheck lanes(_options, _site);
+        for (const Planning::RobotOptions& robot : _options.robots)
+        {
+            const std::optional<std::string>& home = robot.homeStationID;
+            const std::optional<std::string>& charger = robot.chargingStationID;
+            AddNotEmpty(home.has_value() ? lanes.Describe(robot, *home, "parking position") : std::string());
+            AddNotEmpty(
+                charger.has_value() && charger != home ? lanes.Describe(robot, *charger, "charging station")
+                                                       : std::string());
+        }
+    }
+
+    void AddNotEmpty(std::string warning)
+    {
+        if (!warning.empty())
+        {
+            _warnings.push_back(std::move(warning));
+        }
+    }
+
     [[nodiscard]] Floor MakeFloor(const std::string& vehicleTypeID) const
     {
         Floor floor{ReachFinder(_site, vehicleTypeID, true), {}, {}};

@@ -65,6 +65,13 @@ bool ReachFinder::HasLaneTo(std::size_t node) const
     return !_backwards[node].empty();
 }
 
+bool ReachFinder::IsPassed(std::size_t node) const
+{
+    return std::ranges::any_of(_backwards[node], [this, node](const Lane& from) {
+        return std::ranges::any_of(_lanes[node], [&from](const Lane& lane) { return lane.to != from.to; });
+    });
+}
+
 void ReachFinder::Visit(const LaneTable& lanes, LoadReach& reach, bool Lane::*isOpen, Nodes nodes)
 {
     while (!nodes.empty())

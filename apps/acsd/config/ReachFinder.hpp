@@ -62,6 +62,9 @@ public:
 
     [[nodiscard]] bool HasLaneTo(std::size_t node) const;
 
+    /// Whether a robot can drive over the node: from one neighbour to another.
+    [[nodiscard]] bool IsPassed(std::size_t node) const;
+
 private:
     static void Visit(const LaneTable& lanes, LoadReach& reach, bool Lane::*isOpen, Nodes nodes);
 

@@ -188,4 +188,106 @@ TEST_CASE_METHOD(
     }
 }
 
+TEST_CASE_METHOD(ParkingFixture, "A parking position within the clearance of a lane that others must use is reported")
+{
+    options.clearance = 1.99;
+    CHECK(Find().empty());
+    options.clearance = 2;
+    const std::string end = ", within traffic.clearance (2.00 m): while LR0";
+    const Lines lines{
+        "robots.LR01: its parking position st-D is 2.00 m from the node L4" + end
+            + "1 is there, no other vehicle enters L4",
+        "robots.LR02: its parking position st-C is 2.00 m from the node L3" + end
+            + "2 is there, no other vehicle enters L3"};
+    CHECK(Find() == lines);
+    SECTION("also of a charger that is not the parking position")
+    {
+        options.robots[0].chargingStationID = "st-A";
+        CHECK(
+            Find()
+            == Lines{
+                lines[0],
+                "robots.LR01: its charging station st-A is 2.00 m from the node L1" + end
+                    + "1 is there, no other vehicle enters L1",
+                lines[1]});
+    }
+    SECTION("but not if there is a way around it")
+    {
+        AddEdge("L2", "L4"); // past L3
+        AddNode("L5", -4, 4);
+        AddEdge("L3", "L5"); // past L4
+        AddEdge("L5", "L1");
+        AddEdge("L2", "L5"); // past both
+        CHECK(Find().empty());
+    }
+    SECTION("nor if it is on another map")
+    {
+        nodes[7].mapID = "upstairs";
+        CHECK(Find() == Lines{lines[1]});
+    }
+    SECTION("nor if there is no other robot")
+    {
+        options.robots.pop_back();
+        CHECK(Find().empty());
+    }
+    SECTION("nor if the others are of a type that does not drive there")
+    {
+        for (const std::size_t node : {0U, 1U, 4U, 5U})
+        {
+            nodes[node].rules.push_back({"cr", std::nullopt});
+        }
+        options.robots[1].vehicleTypeID = "cr";
+        options.robots[1].homeStationID = "st-A";
+        options.clearance = 0;
+        CHECK(Find().size() == 1); // it cannot be reached
+        options.clearance = 2;
+        CHECK(
+            Find().back()
+            == "robots.LR02: its parking position st-A is 2.00 m from the node L1, within traffic.clearance (2.00 m): "
+               "while LR02 is there, no other vehicle enters L1");
+        CHECK(Find().size() == 2);
+    }
+}
+
+TEST_CASE_METHOD(ParkingFixture, "A parking position on a node that others must use is reported")
+{
+    AddStation("L4");
+    SECTION("on the lane")
+    {
+        options.robots[0].homeStationID = "st-L4";
+        CHECK(
+            Find()
+            == Lines{
+                "robots.LR01: its parking position st-L4 is on the node L4, which routes of others use: while LR01 "
+                "is there, no other vehicle enters L4"});
+    }
+    SECTION("on the dock of another station")
+    {
+        stations.push_back({"st-E", {"D"}});
+        CHECK(
+            Find()
+            == Lines{
+                "robots.LR01: its parking position st-D is on the node D, which routes of others use: while LR01 is "
+                "there, no other vehicle enters D"});
+    }
+}
+
+TEST_CASE_METHOD(ParkingFixture, "A spur that leads to a parking position only may be within the clearance")
+{
+    Remove("L4-D");
+    Remove("D-L4");
+    AddNode("S", 0, 5);
+    AddEdge("L4", "S");
+    AddEdge("S", "L4");
+    AddEdge("S", "D");
+    AddEdge("D", "S");
+    options.clearance = 1;
+    CHECK(Find().empty());
+    AddSpur("E", "S", -2, 5); // others pass the spur to E
+    CHECK(
+        Find()
+        == Lines{"robots.LR01: its parking position st-D is 1.00 m from the node S, within traffic.clearance (1.00 m): "
+                 "while LR01 is there, no other vehicle enters S"});
+}
+
 } // namespace ACS::Acsd::Test
