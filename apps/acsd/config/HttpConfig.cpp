@@ -167,12 +167,13 @@ void ReadAudit(
     const ConfigSection& section,
     const std::string& fileName,
     const std::string& storeDirectory,
+    bool bSharedStore,
     OperatorConfig& config)
 {
     const ConfigSection audit = section.GetSection("audit");
     const std::optional<std::string> directory = audit.GetStringOrNull("directory");
     config.auditDirectory = directory.has_value() ? ResolvePath(fileName, *directory) : storeDirectory + "/audit";
-    if (directory.has_value() ? directory->empty() : storeDirectory.empty())
+    if (directory.has_value() ? directory->empty() : bSharedStore)
     {
         audit.AddError(
             "directory",
@@ -214,7 +215,7 @@ void ReadHttpConfig(
     ReadOperatorTLS(control, fileName, config.control);
     ReadCertificates(control, config.control);
     DemandIdentity(control, config.control);
-    ReadAudit(control, fileName, storeDirectory, config.control);
+    ReadAudit(control, fileName, storeDirectory, root.GetSection("store").HasKey("url"), config.control);
     const Apps::Endpoint& listen = config.control.http.listen;
     if (listen == config.monitoring.listen && listen.port != 0)
     {
