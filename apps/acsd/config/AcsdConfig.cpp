@@ -32,6 +32,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -108,7 +109,9 @@ void ReadMap(const ConfigSection& section, const std::string& map, AcsdConfig& c
 {
     if (map.empty())
     {
-        section.AddError("map", "is empty; give the path of a LIF file");
+        section.AddError(
+            "map",
+            fmt::format("{}; give the path of a LIF file", section.HasKey("map") ? "is empty" : "missing"));
         return;
     }
     const tl::expected<std::string, std::string> text = Apps::ReadTextFile(config.siteFile);
@@ -132,7 +135,10 @@ void ReadMap(const ConfigSection& section, const std::string& map, AcsdConfig& c
     }
     else
     {
-        section.AddError("map", fmt::format("{} is no LIF layout: {}", config.siteFile, Core::Describe(site.error())));
+        const std::string_view hint = site.error().path.ends_with(".theta") ? "; theta is in radians" : "";
+        section.AddError(
+            "map",
+            fmt::format("{} is no LIF layout: {}{}", config.siteFile, Core::Describe(site.error()), hint));
     }
 }
 
@@ -200,7 +206,7 @@ void WarnOfFactsheets(AcsdConfig& config)
 void ReadSite(const ConfigSection& root, const std::string& fileName, AcsdConfig& config)
 {
     const ConfigSection section = root.GetSection("site");
-    const std::string map = section.GetString("map");
+    const std::string map = section.HasKey("map") ? section.GetString("map") : std::string();
     config.zoneSetID = section.GetString("zone_set", "");
     if (config.zoneSetID.size() > MOST_ZONE_SET_BYTES)
     {

@@ -56,12 +56,28 @@ bool HasRobotKey(const ConfigSection& section)
     return std::ranges::any_of(KEYS, [&names](const char* key) { return std::ranges::count(names, key) > 0; });
 }
 
+std::string ReadStartNode(const ConfigSection& section)
+{
+    if (!section.HasKey("start_node"))
+    {
+        section.AddError("start_node", "missing; give the nodeId of the site map where the robot is at the start");
+        return {};
+    }
+    return section.GetString("start_node");
+}
+
 void ReadRobot(const ConfigSection& section, const std::string& name, const RobotDrivers& drivers, AcsdConfig& config)
 {
     const Core::Result<Core::RobotID> robotID = Core::RobotID::Parse(name);
     if (!robotID)
     {
         section.Refuse(Core::Describe(robotID.error()));
+        return;
+    }
+    if (robotID->IsAlias())
+    {
+        section.Refuse(
+            fmt::format("{} stands for the robot that executes a plan (MCS-ACS section 10); give another name", name));
         return;
     }
     if (!HasRobotKey(section))
@@ -76,7 +92,7 @@ void ReadRobot(const ConfigSection& section, const std::string& name, const Robo
     Planning::RobotOptions options{*robotID, {}, {}, {}, {}, {}, {}, {}};
     options.type = section.GetWord("type", {"LR", "CR"}) == "CR" ? Planning::ERobotType::CR : Planning::ERobotType::LR;
     options.vehicleTypeID = section.GetString("vehicle_type");
-    options.startNodeID = section.GetString("start_node");
+    options.startNodeID = ReadStartNode(section);
     options.homeStationID = section.GetStringOrNull("home");
     options.chargingStationID = section.GetStringOrNull("charge");
     options.ports = ReadPlaces(section, "ports", name + ".");

@@ -46,4 +46,34 @@ TEST_CASE("A store that is not given is one error")
         == Lines{"store.directory: missing; give the path of a directory, or store.url for a store in PostgreSQL"});
 }
 
+TEST_CASE("A missing map or start node is an error that states what is missing")
+{
+    CHECK(FindErrorsWithout("map = ") == Lines{"site.map: missing; give the path of a LIF file"});
+    CHECK(
+        FindErrorsWithout("start_node = \"D-CHG01\"")
+        == Lines{"robots.LR01.start_node: missing; give the nodeId of the site map where the robot is at the start"});
+}
+
+TEST_CASE("A robot with the alias as its name is an error that states what the alias is")
+{
+    CHECK(
+        ReadSite({"robots.AMR={type='LR'}"}).errors
+        == Lines{
+            "--set: robots.AMR: AMR stands for the robot that executes a plan (MCS-ACS section 10); give another name"});
+}
+
+TEST_CASE("A theta that is too large is an error that names the unit")
+{
+    const Testing::TemporaryFolder folder;
+    std::string text = Apps::ReadTextFile(std::string(ACS_SITE) + "/site.lif.json").value();
+    const std::size_t at = text.find("\"theta\": ");
+    REQUIRE(at != std::string::npos);
+    text.insert(at + 9, "90, \"was\": ");
+    const std::string file = (folder.GetPath() / "site.lif.json").string();
+    std::ofstream(file) << text;
+    const Lines errors = ReadSite({"site.map=" + file}).errors;
+    REQUIRE(errors.size() == 1);
+    CHECK(errors[0].ends_with("expected a number from -3.1416 to 3.1416, found 90; theta is in radians"));
+}
+
 } // namespace ACS::Acsd::Test
