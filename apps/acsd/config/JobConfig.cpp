@@ -66,6 +66,12 @@ bool HasVehicle(const AcsdConfig& config, Planning::ERobotType type)
     return std::ranges::any_of(config.vehicles, [type](const auto& vehicle) { return vehicle->type == type; });
 }
 
+/// Reported with the robot. Whether it can do an action is known when it has its arm.
+bool IsArmMissing(const VehicleConfig& vehicle)
+{
+    return vehicle.type == Planning::ERobotType::CR && !vehicle.armOrNull.has_value();
+}
+
 /// Whether a robot of the type has a driver that is not built in.
 bool HasOtherRobot(const AcsdConfig& config, Planning::ERobotType type)
 {
@@ -166,7 +172,7 @@ void ReadMethods(const ConfigSection& root, const MethodTables& actions, AcsdCon
         MethodResolver resolver(name, rule, table, stations, config.warnings);
         for (std::size_t i = 0; i < config.vehicles.size(); ++i)
         {
-            if (rule.robotType == config.vehicles[i]->type)
+            if (rule.robotType == config.vehicles[i]->type && !IsArmMissing(*config.vehicles[i]))
             {
                 const auto own = overrides[i].find(name);
                 resolver.SetMethods(own == overrides[i].end() ? nullptr : &own->second, *config.vehicles[i]);

@@ -54,6 +54,13 @@ TEST_CASE("A missing map or start node is an error that states what is missing")
         == Lines{"robots.LR01.start_node: missing; give the nodeId of the site map where the robot is at the start"});
 }
 
+TEST_CASE("A CR without an arm is one error: whether it can do the actions is not known")
+{
+    CHECK(
+        FindErrorsWithout("arm.url = ")
+        == Lines{"robots.CR01.arm: a CR needs arm.url (tcp://) of its arm's controller"});
+}
+
 TEST_CASE("A robot with the alias as its name is an error that states what the alias is")
 {
     CHECK(
