@@ -1,6 +1,9 @@
 #include "config/RemovedKeys.hpp"
 
+#include <algorithm>
 #include <array>
+#include <string>
+#include <vector>
 
 namespace ACS::Acsd
 {
@@ -31,8 +34,13 @@ constexpr std::array<RemovedKey, 7> REMOVED_KEYS{
 
 void ReportRemovedKeys(const Apps::ConfigSection& root)
 {
+    const std::vector<std::string> tables = root.GetNames();
     for (const RemovedKey& removed : REMOVED_KEYS)
     {
+        if (std::ranges::find(tables, removed.table) == tables.end())
+        {
+            continue; // a table that is asked for is listed as allowed
+        }
         root.GetSection(removed.table).ReportRemoved(removed.key, removed.replacement);
     }
 }

@@ -61,6 +61,15 @@ TEST_CASE("A CR without an arm is one error: whether it can do the actions is no
         == Lines{"robots.CR01.arm: a CR needs arm.url (tcp://) of its arm's controller"});
 }
 
+TEST_CASE("Tables that have removed keys only are not listed as allowed")
+{
+    const Lines errors = ReadSite({"table.key=1"}).errors;
+    REQUIRE(errors.size() == 1);
+    CHECK(errors[0].starts_with("--set: table: unknown key; allowed here: abort, actions, arm, "));
+    CHECK(errors[0].find(" errors, history, ") != std::string::npos);
+    CHECK(errors[0].find(" http, log, ") != std::string::npos);
+}
+
 TEST_CASE("A robot with the alias as its name is an error that states what the alias is")
 {
     CHECK(
