@@ -124,6 +124,15 @@ void ReadStation(const ConfigSection& section, const std::string& stationID, Acs
     CheckValues(section, values);
 }
 
+/// TOML reads [stations.A01.CP01] as the table CP01 in A01.
+std::string SuggestQuotes(const std::string& stationID, const StationTable& table)
+{
+    const auto longer = table.lower_bound(stationID + ".");
+    return longer != table.end() && longer->first.starts_with(stationID + ".")
+        ? fmt::format("; a name with dots needs quotes: [stations.\"{}\"]", longer->first)
+        : std::string();
+}
+
 } // namespace
 
 void ReadStations(const ConfigSection& root, AcsdConfig& config)
@@ -145,7 +154,7 @@ void ReadStations(const ConfigSection& root, AcsdConfig& config)
         const auto values = table.find(stationID);
         if (values == table.end())
         {
-            section.Refuse("expected a station of the site map");
+            section.Refuse("expected a station of the site map" + SuggestQuotes(stationID, table));
             continue;
         }
         ReadStation(section, stationID, config, values->second);

@@ -70,6 +70,16 @@ TEST_CASE("Tables that have removed keys only are not listed as allowed")
     CHECK(errors[0].find(" http, log, ") != std::string::npos);
 }
 
+TEST_CASE("A station without quotes is an error that shows the quotes")
+{
+    const std::string end = "expected a station of the site map";
+    CHECK(
+        ReadSite({"stations.A01.CP01.type=rack"}).errors
+        == Lines{"--set: stations.A01: " + end + "; a name with dots needs quotes: [stations.\"A01.CP01\"]"});
+    CHECK(ReadSite({"stations.A0.type=rack"}).errors == Lines{"--set: stations.A0: " + end});
+    CHECK(ReadSite({"stations.Z9.type=rack"}).errors == Lines{"--set: stations.Z9: " + end});
+}
+
 TEST_CASE("A robot with the alias as its name is an error that states what the alias is")
 {
     CHECK(
