@@ -21,6 +21,7 @@ using namespace std::chrono_literals;
 using Apps::ConfigSection;
 
 constexpr std::int64_t HIGHEST_RELAY_BYTE = 65'535;
+constexpr std::size_t COUNTER_BYTES = 4;
 constexpr std::int64_t HIGHEST_WORD_INDEX = 255;
 constexpr std::int64_t MOST_INPUT_RETRIES = 100;
 constexpr std::int64_t NO_ECHO = -1;
@@ -72,12 +73,36 @@ void RefuseSharedWords(const ConfigSection& arm, const std::vector<CounterWord>&
     }
 }
 
+/// MONITOR reads all words from the first one to the last counter. Of a table without these keys as for RefuseSharedWords.
+void CheckWords(const ConfigSection& arm, std::uint32_t firstByte, const std::vector<CounterWord>& words)
+{
+    const CounterWord& last = *std::ranges::max_element(words, {}, &CounterWord::index);
+    const std::size_t end = firstByte + (last.index + 1) * COUNTER_BYTES;
+    const bool bGiven = arm.HasKey("monitor_start")
+        || std::ranges::any_of(words, [&arm](const CounterWord& word) { return arm.HasKey(word.key); });
+    if (bGiven && end > HIGHEST_RELAY_BYTE + 1)
+    {
+        arm.AddError(
+            arm.HasKey("monitor_start") || !arm.HasKey(last.key) ? "monitor_start" : last.key,
+            fmt::format(
+                "the word of {}, index {}, ends at byte {}; the last byte of the relays is {}",
+                last.key,
+                last.index,
+                end - 1,
+                HIGHEST_RELAY_BYTE));
+    }
+}
+
 } // namespace
 
 ArmOptions ReadArmOptions(const ConfigSection& arm, const ArmOptions& defaults)
 {
     ArmOptions options = defaults;
     options.monitorURL = arm.GetString("monitor_url", options.monitorURL);
+    if (arm.HasKey("monitor_url") && !options.monitorURL.starts_with('/'))
+    {
+        arm.AddError("monitor_url", R"(expected a path that begins with "/", such as "/project/plc/m/val_s32")");
+    }
     options.firstByte =
         static_cast<std::uint32_t>(arm.GetInteger("monitor_start", 0, HIGHEST_RELAY_BYTE, options.firstByte));
     options.period = arm.GetDuration("monitor_period", 2ms, 30s, options.period);
@@ -97,6 +122,7 @@ ArmOptions ReadArmOptions(const ConfigSection& arm, const ArmOptions& defaults)
         words.push_back({"counter_echo", *options.echoIndex});
     }
     RefuseSharedWords(arm, words);
+    CheckWords(arm, options.firstByte, words);
     return options;
 }
 

@@ -88,6 +88,20 @@ TEST_CASE("A robot with the alias as its name is an error that states what the a
             "--set: robots.AMR: AMR stands for the robot that executes a plan (MCS-ACS section 10); give another name"});
 }
 
+TEST_CASE("The words of an arm have a path, and all of them are relays")
+{
+    const std::string path = "monitor_url: expected a path that begins with \"/\", such as \"/project/plc/m/val_s32\"";
+    CheckErrors(
+        {{{"arm.monitor_url=val_s32"}, "arm." + path},
+         {{"robots.CR01.arm.monitor_url="}, "robots.CR01.arm." + path},
+         {{"arm.monitor_start=65517"},
+          "arm.monitor_start: the word of counter_echo, index 4, ends at byte 65536; the last byte of the relays is 65535"},
+         {{"robots.CR01.arm.monitor_start=65400", "robots.CR01.arm.counter_failed=40"},
+          "robots.CR01.arm.monitor_start: the word of counter_failed, index 40, ends at byte 65563; "}});
+    CHECK(ReadSite({"arm.monitor_start=65516"}).errors.empty());
+    CHECK(ReadSite({"arm.monitor_start=65520", "arm.counter_echo=-1", "arm.counter_finished=3"}).errors.empty());
+}
+
 TEST_CASE("A theta that is too large is an error that names the unit")
 {
     const Testing::TemporaryFolder folder;
