@@ -2,6 +2,8 @@
 
 #include "operator/HealthRoutes.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace ACS::Acsd
@@ -65,9 +67,14 @@ Core::Result<void> HttpAddresses::ListenOn(
     const std::string& name,
     const HttpListenConfig& config)
 {
-    return server.Listen(config.listen).map([&](const Apps::Endpoint& endpoint) {
-        _addresses.push_back({name, endpoint});
-    });
+    return server.Listen(config.listen)
+        .map([&](const Apps::Endpoint& endpoint) {
+            _addresses.push_back({name, endpoint});
+        })
+        .map_error([&name](Core::Error error) {
+            error.path = fmt::format("{}.listen: {}", name, error.path);
+            return error;
+        });
 }
 
 } // namespace ACS::Acsd
