@@ -16,7 +16,8 @@ namespace ACS::Protocol
 {
 
 /// The ACS side of the protocol as a pure state machine: events and the time go in, actions come out, appended to a
-/// vector that the caller clears and reuses. No I/O, no clock, no thread; not shared between threads.
+/// vector that the caller clears and reuses. No I/O, no clock, no thread; not shared between threads. Move the actions out of
+/// the vector before carrying them out: a call that one of them causes appends to it.
 ///
 /// Every connection follows section 6: Registration first; after its Ack the session delivers `Registered`; the caller
 /// sends its unacknowledged requests, oldest first, with TrySendDurable (false: wait for WindowOpened), and calls

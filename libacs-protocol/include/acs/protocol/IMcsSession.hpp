@@ -14,7 +14,8 @@ namespace ACS::Protocol
 {
 
 /// The MCS side of the protocol as a server drives it: McsSession, or a decorator around one (a simulated MCS that
-/// loses Acks, for example). Not shared between threads.
+/// loses Acks, for example). Not shared between threads. Calls append to out: move the actions out of it before carrying
+/// them out.
 class ACS_API IMcsSession
 {
 public:

@@ -27,8 +27,9 @@ enum class EClientState : std::uint8_t
 };
 
 /// The client side of an Open Stream, without I/O: events and the time go in, actions and events come out, appended to a
-/// vector that the caller reuses. The caller carries out each batch, in order, before the next event. Reconnects
-/// indefinitely, and establishes the MONITOR again after each handshake.
+/// vector that the caller reuses. The caller carries out each batch, in order, before the next event. It moves the batch out
+/// of the vector first: a call that an event of the batch causes appends to the vector. Reconnects indefinitely, and
+/// establishes the MONITOR again after each handshake.
 ///
 /// MONITOR data is not suitable for real-time decisions: the network, both systems and the controller's load occasionally
 /// delay it by tens of milliseconds.
