@@ -1,4 +1,5 @@
 #include "AcsSession.Impl.hpp"
+#include <acs/protocol/DurableRequest.hpp>
 
 #include <memory>
 #include <string>
@@ -45,7 +46,7 @@ void AcsSession::OnTimer(ESessionTimer timer, Core::Now now, SessionActions& out
 
 bool AcsSession::TrySendDurable(const AcsRequest& request, Core::Now now, SessionActions& out)
 {
-    return _impl->TrySendDurable(request, now, out);
+    return IsDurable(request.payload) && _impl->TrySendDurable(request, now, out);
 }
 
 void AcsSession::ReplayDone(Core::Now now, SessionActions& out)

@@ -1,3 +1,4 @@
+#include <acs/core/ECoreError.hpp>
 #include <acs/core/Overloaded.hpp>
 #include <acs/core/Uuid.hpp>
 #include <acs/protocol/DurableOutbox.hpp>
@@ -11,6 +12,12 @@
 namespace ACS::Protocol
 {
 
+bool IsDurable(const AcsPayload& payload) noexcept
+{
+    const EAcsCommand command = GetCommand(payload);
+    return command >= EAcsCommand::PlanReport && command <= EAcsCommand::ErrorReport;
+}
+
 DurableOutbox::DurableOutbox(IOutboxStore& store, Core::IRandom& random)
     : _store(store),
       _random(random)
@@ -21,12 +28,21 @@ void DurableOutbox::Restore(std::vector<DurableRequest> requests)
 {
     assert(_requests.empty() && "the store is read before the first report");
     std::ranges::sort(requests, {}, &DurableRequest::sequence);
+    _lastSequence = requests.empty() ? 0 : requests.back().sequence;
+    std::erase_if(requests, [](const DurableRequest& request) { return !IsDurable(request.request.payload); });
     _requests.assign(std::make_move_iterator(requests.begin()), std::make_move_iterator(requests.end()));
-    _lastSequence = _requests.empty() ? 0 : _requests.back().sequence;
 }
 
 Core::Result<void> DurableOutbox::Add(AcsPayload payload, const Core::Timestamp& timestamp)
 {
+    if (!IsDurable(payload))
+    {
+        return Core::Fail(
+            Core::ECoreError::UnknownWord,
+            "payload",
+            "a report",
+            std::string(GetText(GetCommand(payload))));
+    }
     DurableRequest request{_lastSequence + 1, {Core::MakeUUID(_random), timestamp, std::move(payload)}};
     Core::Result<void> stored = _store.Append(request);
     if (stored.has_value())
@@ -43,7 +59,10 @@ void DurableOutbox::Queue(DurableRequest request)
 {
     assert(request.sequence > _lastSequence && "requests are queued in their order");
     _lastSequence = request.sequence;
-    _requests.push_back(std::move(request));
+    if (IsDurable(request.request.payload))
+    {
+        _requests.push_back(std::move(request));
+    }
 }
 
 void DurableOutbox::Drop(std::uint64_t sequence)

@@ -20,7 +20,8 @@ bool McsSession::Impl::TrySend(const AcsRequest& request, Core::Now now, Session
     {
         return true;
     }
-    if (!_registered.has_value() || _pending.size() >= _options.maximumPending || IsWithheld(command))
+    const bool bRefused = !IsSentByMCS(command) || IsWithheld(command);
+    if (!_registered.has_value() || _pending.size() >= _options.maximumPending || bRefused)
     {
         return false;
     }

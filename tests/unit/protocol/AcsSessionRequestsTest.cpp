@@ -191,3 +191,39 @@ TEST_CASE("D-5 RequestAcsStatus is answered under its own name")
         bench.recorder.GetAll<Protocol::SendText>().at(0).text.find(R"("command":"RequestAcsStatusAck")")
         != std::string::npos);
 }
+
+TEST_CASE("Only a report is sent as a durable request")
+{
+    const Protocol::AcsPayload report = GENERATE(
+        Protocol::AcsPayload(Protocol::PlanReport{}),
+        Protocol::AcsPayload(Protocol::StepReport{}),
+        Protocol::AcsPayload(Protocol::JobReport{}),
+        Protocol::AcsPayload(Protocol::CancelResultReport{}),
+        Protocol::AcsPayload(Protocol::AbortResultReport{}),
+        Protocol::AcsPayload(Protocol::PauseResultReport{}),
+        Protocol::AcsPayload(Protocol::ResumeResultReport{}),
+        Protocol::AcsPayload(Protocol::ErrorReport{}));
+    Testing::AcsSessionFixture bench;
+    bench.StartAndReplay();
+    bench.recorder.Clear();
+    CHECK(bench.session.TrySendDurable({"report", {}, report}, bench.clock.GetNow(), bench.recorder.out));
+    CHECK(bench.recorder.GetAll<Protocol::SendText>().size() == 1);
+}
+
+TEST_CASE("A command of the MCS, a state, a position or a Registration is no durable request")
+{
+    const Protocol::AcsPayload payload = GENERATE(
+        Protocol::AcsPayload(Protocol::ExecutionPlan{}),
+        Protocol::AcsPayload(Protocol::RequestAcsErrorList{}),
+        Protocol::AcsPayload(Protocol::Registration{}),
+        Protocol::AcsPayload(Protocol::TscStateUpdate{}),
+        Protocol::AcsPayload(Protocol::AcsCommStateUpdate{}),
+        Protocol::AcsPayload(Protocol::RobotStatusUpdate{}),
+        Protocol::AcsPayload(Protocol::RobotPositionUpdate{}));
+    Testing::AcsSessionFixture bench;
+    bench.StartAndReplay();
+    bench.recorder.Clear();
+    CHECK_FALSE(bench.session.TrySendDurable({"other", {}, payload}, bench.clock.GetNow(), bench.recorder.out));
+    CHECK(bench.recorder.out.empty());
+    CHECK(bench.session.GetRoom() == Testing::MakeOptions().window);
+}

@@ -285,6 +285,25 @@ TEST_CASE("A report that the store refuses is not sent, and its sequence is not 
     CHECK(fixture.outbox.GetRequests().front().sequence == 2);
 }
 
+TEST_CASE("An outbox keeps reports only")
+{
+    OutboxFixture fixture;
+    fixture.Register();
+    CHECK_FALSE(fixture.outbox.Add(Protocol::RobotPositionUpdate{}, {}).has_value());
+    CHECK(fixture.store.requests.empty());
+    fixture.outbox.Queue({1, {"t-1", {}, Protocol::RobotStatusUpdate{}}});
+    fixture.Add("A");
+    CHECK(fixture.session.sent == std::vector<std::string>{"A"});
+
+    OutboxFixture restored;
+    restored.outbox.Restore({{3, {"t-3", {}, Protocol::ExecutionPlan{}}}, fixture.outbox.GetRequests().front()});
+    restored.On(Protocol::Registered{});
+    CHECK(restored.session.sent == std::vector<std::string>{"A"});
+    CHECK(restored.session.replays == 1);
+    restored.Add("B");
+    CHECK(restored.outbox.GetRequests().back().sequence == 4);
+}
+
 TEST_CASE("An error while removing is reported; the request is not sent again")
 {
     OutboxFixture fixture;

@@ -182,3 +182,16 @@ TEST_CASE("R16 A plan is not sent again while the ACS reports isConnected=false"
     REQUIRE(mcs.GetUnanswered().size() == 1);
     CHECK(mcs.GetUnanswered()[0].attempts == 1);
 }
+
+TEST_CASE("An MCS sends its own commands only")
+{
+    SendingMCS mcs;
+    CHECK_FALSE(mcs.TrySend(mcs.Make(Protocol::PlanReport{})));
+    CHECK_FALSE(mcs.TrySend(mcs.Make(Protocol::Registration{})));
+    CHECK_FALSE(mcs.TrySend(mcs.Make(Protocol::RobotPositionUpdate{})));
+    CHECK(mcs.recorder.out.empty());
+    CHECK(mcs.session.GetPendingCount() == 0);
+    CHECK(mcs.TrySend(mcs.Make(Protocol::ExecutionPlan{})));
+    CHECK(mcs.TrySend(mcs.Make(Protocol::RequestAcsErrorList{})));
+    CHECK(mcs.session.GetPendingCount() == 2);
+}

@@ -58,8 +58,9 @@ public:
     /// A timer that is not running is ignored.
     void OnTimer(ESessionTimer timer, Core::Now now, SessionActions& out);
 
-    /// SendText, StartTimer. Returns false and does nothing if the session is not registered or is stopping, or if the
-    /// window is full: the caller keeps the request and sends it after Registered or WindowOpened. The caller assigns
+    /// A report (IsDurable). SendText, StartTimer. Returns false and does nothing if the session is not registered or is
+    /// stopping, or if the window is full: the caller keeps the request and sends it after Registered or WindowOpened. Also
+    /// false, always, for another payload: use SendStatus, SendPosition. The caller assigns
     /// transactionID and timestamp, which are the same on every attempt. Returns true and does nothing if the request is
     /// in flight already.
     [[nodiscard]] bool TrySendDurable(const AcsRequest& request, Core::Now now, SessionActions& out);

@@ -45,15 +45,17 @@ public:
     /// The random source generates transaction ids. Store and random source must outlive the outbox.
     DurableOutbox(IOutboxStore& store, Core::IRandom& random);
 
-    /// Requests that the store returned at start, in any order. Call before all other functions.
+    /// Requests that the store returned at start, in any order. Call before all other functions. A request that is not
+    /// IsDurable is ignored.
     void Restore(std::vector<DurableRequest> requests);
 
     /// Assigns sequence and transactionID, stores the report and queues it. On an error of the store the report is not
-    /// queued: whatever it reports must not have happened, or the caller adds it again.
+    /// queued: whatever it reports must not have happened, or the caller adds it again. A payload that is not IsDurable is
+    /// an error (UnknownWord) and is not stored.
     [[nodiscard]] Core::Result<void> Add(AcsPayload payload, const Core::Timestamp& timestamp);
 
     /// Queues a request that the caller has stored itself, for example together with the state it reports. Its sequence
-    /// is higher than that of all requests before it.
+    /// is higher than that of all requests before it. A request that is not IsDurable is ignored.
     void Queue(DurableRequest request);
 
     /// Drops a request that the caller has removed from the store itself; no effect if there is none. Its Ack is ignored.

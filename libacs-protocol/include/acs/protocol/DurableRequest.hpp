@@ -1,5 +1,6 @@
 #pragma once
 
+#include <acs/core/Api.hpp>
 #include <acs/protocol/AcsMessage.hpp>
 
 #include <cstdint>
@@ -15,5 +16,10 @@ struct DurableRequest
 
     bool operator==(const DurableRequest&) const = default;
 };
+
+/// Whether the payload is a report that may be sent until its Ack: PlanReport, StepReport, JobReport, CancelResultReport,
+/// AbortResultReport, PauseResultReport, ResumeResultReport or ErrorReport. The other payloads of an ACS are states and
+/// positions, of which only the latest counts, and the Registration, which the session sends.
+[[nodiscard]] ACS_API bool IsDurable(const AcsPayload& payload) noexcept;
 
 } // namespace ACS::Protocol

@@ -61,9 +61,10 @@ public:
     /// A request with a new transactionID and the current time as its timestamp, to be sent once or more often.
     [[nodiscard]] virtual AcsRequest MakeRequest(AcsPayload payload, Core::Now now) = 0;
 
-    /// SendText, StartTimer. Ends in one AckReceived or RequestUnanswered with this transactionID. Returns false and does
-    /// nothing if no ACS is registered, if too many requests are pending, or for a plan while IsTakingPlans is false and
-    /// the option bPlansWithheld is set. Returns true and does nothing if the request is pending already.
+    /// A command that the MCS sends (IsSentByMCS): SendText, StartTimer. Ends in one AckReceived or RequestUnanswered with
+    /// this transactionID. Returns false and does nothing if no ACS is registered, if too many requests are pending, for a
+    /// plan while IsTakingPlans is false and the option bPlansWithheld is set, or always for a command of the ACS. Returns
+    /// true and does nothing if the request is pending already.
     [[nodiscard]] virtual bool TrySend(const AcsRequest& request, Core::Now now, SessionActions& out) = 0;
 
     /// Whether an ACS is registered and its last AcsCommStateUpdate on this connection, if any, reported
