@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace ACS::Core
 {
@@ -141,6 +142,7 @@ std::vector<double> NurbsCurve::FindSpans(std::size_t maxSpans) const
 std::vector<MapPoint> NurbsCurve::Sample(double spacing, std::size_t maxPoints) const
 {
     assert(maxPoints >= 2);
+    const double apart = spacing > 0.0 ? spacing : std::numeric_limits<double>::min(); // also for NaN
     const std::vector<double> spans = FindSpans(maxPoints - 1);
     std::vector<MapPoint> samples{GetPoint(spans.front())};
     const std::size_t limit = (maxPoints - 1) / std::max<std::size_t>(1, spans.size() - 1);
@@ -161,7 +163,7 @@ std::vector<MapPoint> NurbsCurve::Sample(double spacing, std::size_t maxPoints) 
             length += std::hypot(to.x - from.x, to.y - from.y);
             from = to;
         }
-        const double wanted = std::isfinite(length) ? std::ceil(length / spacing) : 1.0;
+        const double wanted = std::isfinite(length) ? std::ceil(length / apart) : 1.0;
         const auto steps = static_cast<std::size_t>(std::clamp(wanted, 1.0, static_cast<double>(limit)));
         for (std::size_t step = 1; step <= steps; ++step)
         {

@@ -68,7 +68,8 @@ public:
     [[nodiscard]] double GetEnd() const;
 
     /// Points along the curve, about `spacing` metres apart, both ends included. At most `maxPoints`, which is two or more
-    /// and bounds the work too. If the limit allows, the knots are included; a curve of degree 1 gives its corners.
+    /// and bounds the work too. If the limit allows, the knots are included; a curve of degree 1 gives its corners. A spacing
+    /// that is not above 0 counts as the smallest one: as many points as the limit allows.
     [[nodiscard]] std::vector<MapPoint> Sample(double spacing, std::size_t maxPoints) const;
 
 private:
