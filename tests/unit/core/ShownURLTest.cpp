@@ -15,6 +15,14 @@ TEST_CASE("A URL is shown without its user information and its query")
         Row{"acs:Gehe1m@mcs", "***@mcs"},
         Row{"?", "?***"},
         Row{"a@://b", "a@://b"},
+        Row{"http://h/p#S3CRET", "http://h/p#***"},
+        Row{"http://h/p#S3C?RET", "http://h/p#***"},
+        Row{"http://h/p?S3C#RET", "http://h/p?***"},
+        Row{"http://u:p#x/", "http://u:p#***"},
+        Row{"http://u:Gehe?1m@host/", "http://***"},
+        Row{"http://u:Gehe#1m@host/", "http://***"},
+        Row{"http://h/?token=S3C@RET", "http://***"},
+        Row{"u:Gehe?1m@host", "***"},
         Row{"", ""});
     CHECK(ACS::Core::MakeShownURL(url) == shown);
 }

@@ -1,26 +1,32 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 
 namespace ACS::Core
 {
 
-/// The URL for logs and errors: without what may be a secret in it, the user information and the query. Any text is accepted.
+/// The URL for logs and errors: without what may be a secret in it, the user information, the query and the fragment. If an '@'
+/// follows a '?' or '#', a password may have contained that character: then nothing after the scheme is shown. Any text is accepted.
 [[nodiscard]] inline std::string MakeShownURL(std::string_view url)
 {
-    const std::string_view separator = "://";
-    const std::size_t query = url.find('?');
-    const std::string_view place = url.substr(0, query);
-    const std::size_t scheme = place.find(separator);
-    const std::size_t begin = scheme == std::string_view::npos ? 0 : scheme + separator.size();
-    const std::size_t user = place.rfind('@'); // also behind a '/': a password may have one
+    constexpr std::string_view SEPARATOR = "://";
+    const std::size_t end = std::min(url.find_first_of("?#"), url.size());
+    const std::string_view place = url.substr(0, end);
+    const std::size_t scheme = place.find(SEPARATOR);
+    const std::size_t begin = scheme == std::string_view::npos ? 0 : scheme + SEPARATOR.size();
+    const std::size_t user = url.rfind('@'); // also behind a '/', '?' or '#': a password may have one
     std::string shown(place);
+    if (user != std::string_view::npos && user >= end)
+    {
+        return shown.replace(begin, std::string::npos, "***");
+    }
     if (user != std::string_view::npos && user >= begin)
     {
         shown.replace(begin, user - begin, "***");
     }
-    return query == std::string_view::npos ? shown : shown + "?***";
+    return end == url.size() ? shown : shown + url[end] + "***";
 }
 
 } // namespace ACS::Core
