@@ -14,8 +14,9 @@ using Milliseconds = std::chrono::milliseconds;
 
 BackoffOptions PullIntoRange(BackoffOptions options)
 {
-    options.initial = std::max(options.initial, Milliseconds(1));
-    options.maximum = std::max(options.maximum, options.initial);
+    constexpr Milliseconds LONGEST = std::chrono::hours(24);
+    options.initial = std::clamp(options.initial, Milliseconds(1), LONGEST);
+    options.maximum = std::clamp(options.maximum, options.initial, LONGEST);
     options.factor = options.factor >= 1.0 ? options.factor : 1.0; // also for NaN
     options.jitter = options.jitter >= 0.0 ? std::min(options.jitter, 1.0) : 0.0;
     return options;

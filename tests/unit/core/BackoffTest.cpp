@@ -87,6 +87,13 @@ TEST_CASE("1 Invalid options are replaced by the nearest valid ones")
     Backoff undefined(BackoffOptions{milliseconds(100), milliseconds(200), NOT_A_NUMBER, NOT_A_NUMBER});
     CHECK(TakeDelays(undefined, 2) == std::vector<milliseconds>{milliseconds(100), milliseconds(100)});
 
+    const milliseconds day = std::chrono::hours(24);
+    Backoff endless(
+        BackoffOptions{milliseconds(-5), milliseconds::max(), std::numeric_limits<double>::infinity(), 0.0});
+    CHECK(TakeDelays(endless, 3) == std::vector<milliseconds>{milliseconds(1), day, day});
+    Backoff late(BackoffOptions{milliseconds::max(), milliseconds(1), 2.0, 0.0});
+    CHECK(TakeDelays(late, 2) == std::vector<milliseconds>{day, day});
+
     Backoff huge(BackoffOptions{milliseconds(100), milliseconds(200), 1e300, 0.0});
     CHECK(TakeDelays(huge, 3) == std::vector<milliseconds>{milliseconds(100), milliseconds(200), milliseconds(200)});
 }

@@ -11,8 +11,8 @@ namespace ACS::Core
 /// Delays between attempts. Values out of range are clamped.
 struct BackoffOptions
 {
-    std::chrono::milliseconds initial{500};    ///< Before the second attempt; at least 1 ms.
-    std::chrono::milliseconds maximum{10'000}; ///< Upper limit; at least initial.
+    std::chrono::milliseconds initial{500};    ///< Before the second attempt; 1 ms to 1 day.
+    std::chrono::milliseconds maximum{10'000}; ///< Upper limit; initial to 1 day.
     double factor = 2.0;                       ///< Ratio of consecutive delays; at least 1.
     double jitter = 0.5;                       ///< Maximum random reduction of a delay, as a share of it; 0 to 1.
 };
