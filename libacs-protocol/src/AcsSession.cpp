@@ -1,11 +1,25 @@
 #include "AcsSession.Impl.hpp"
 #include <acs/protocol/DurableRequest.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <memory>
 #include <string>
 
 namespace ACS::Protocol
 {
+
+namespace
+{
+
+bool IsFinite(const RobotPosition& robot)
+{
+    return std::isfinite(robot.x) && std::isfinite(robot.y) && std::isfinite(robot.angle)
+        && std::isfinite(robot.battery);
+}
+
+} // namespace
 
 AcsSession::AcsSession(const SessionOptions& options, Core::IRandom& random)
     : _impl(std::make_unique<Impl>(options, random))
@@ -61,7 +75,17 @@ void AcsSession::SendStatus(const AcsPayload& status, Core::Now now, SessionActi
 
 void AcsSession::SendPosition(const RobotPositionUpdate& positions, Core::Now now, SessionActions& out)
 {
-    _impl->SendPosition(positions, now, out);
+    if (std::ranges::all_of(positions.robots, IsFinite))
+    {
+        _impl->SendPosition(positions, now, out);
+        return;
+    }
+    RobotPositionUpdate finite;
+    std::ranges::copy_if(positions.robots, std::back_inserter(finite.robots), IsFinite);
+    if (!finite.robots.empty())
+    {
+        _impl->SendPosition(finite, now, out);
+    }
 }
 
 void AcsSession::Answer(

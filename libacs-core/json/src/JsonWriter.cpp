@@ -121,13 +121,16 @@ void JsonWriter::WritePlainString(std::string_view value)
 
 void JsonWriter::WriteNumber(double value)
 {
-    assert(std::isfinite(value));
+    if (!std::isfinite(value))
+    {
+        WriteNull(); // A reader that needs the number rejects this; it would believe a 0.
+        return;
+    }
     Separate();
-    const double finite = std::isfinite(value) ? value : 0.0;
-    if (!TryAppendThousandths(_out, finite))
+    if (!TryAppendThousandths(_out, value))
     {
         std::array<char, LONGEST_NUMBER> digits{};
-        _out.append(digits.data(), fmt::format_to(digits.data(), FMT_COMPILE("{}"), finite));
+        _out.append(digits.data(), fmt::format_to(digits.data(), FMT_COMPILE("{}"), value));
     }
 }
 

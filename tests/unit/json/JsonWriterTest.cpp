@@ -49,6 +49,23 @@ TEST_CASE("A string of any length and content is escaped in the same way")
     }
 }
 
+TEST_CASE("A number that is not finite is written as null")
+{
+    for (const double value :
+         {std::numeric_limits<double>::quiet_NaN(),
+          std::numeric_limits<double>::infinity(),
+          -std::numeric_limits<double>::infinity()})
+    {
+        std::string text;
+        JsonWriter writer(text);
+        writer.BeginArray();
+        writer.WriteNumber(1);
+        writer.WriteNumber(value);
+        writer.EndArray();
+        CHECK(text == "[1,null]");
+    }
+}
+
 TEST_CASE("A number is written as the shortest text that reads as the same number")
 {
     const auto write = [](double value) {

@@ -3,6 +3,7 @@
 #include "Fixture.hpp"
 
 #include <chrono>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -409,6 +410,28 @@ TEST_CASE("R14 Positions are due every 200 ms without drift, are never queued an
     CHECK(bench.recorder.GetAll<Protocol::CancelTimer>().size() == 1);
     bench.recorder.Clear();
     bench.session.SendPosition({}, bench.clock.GetNow(), bench.recorder.out);
+    CHECK(bench.recorder.out.empty());
+}
+
+TEST_CASE("R14 A robot without a finite position is left out of the positions")
+{
+    const double noNumber =
+        GENERATE(std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity());
+    const Protocol::RobotPosition robot = GENERATE_COPY(
+        Protocol::RobotPosition{"LR02", noNumber, 2.0, 90.0, 75.0},
+        Protocol::RobotPosition{"LR02", 1.5, noNumber, 90.0, 75.0},
+        Protocol::RobotPosition{"LR02", 1.5, 2.0, noNumber, 75.0},
+        Protocol::RobotPosition{"LR02", 1.5, 2.0, 90.0, noNumber});
+    Fixture bench(Protocol::SessionOptions{});
+    bench.StartAndReplay();
+    bench.recorder.Clear();
+    const Protocol::RobotPosition other{"LR01", 1.5, 2.0, 90.0, 75.0};
+    bench.session.SendPosition({{robot, other}}, bench.clock.GetNow(), bench.recorder.out);
+    const auto sent = bench.recorder.GetRequests();
+    REQUIRE(sent.size() == 1);
+    CHECK(std::get<Protocol::RobotPositionUpdate>(sent[0].payload) == Protocol::RobotPositionUpdate{{other}});
+    bench.recorder.Clear();
+    bench.session.SendPosition({{robot}}, bench.clock.GetNow(), bench.recorder.out);
     CHECK(bench.recorder.out.empty());
 }
 

@@ -3,6 +3,7 @@
 #include <acs/core/ECoreError.hpp>
 #include <acs/vda5050/Vda5050Codec.hpp>
 
+#include <limits>
 #include <string>
 
 namespace ACS::VDA5050::Test
@@ -45,6 +46,21 @@ TEST_CASE("1 Numbers are written as the schemas bound them: angles within pi, ba
         codec.Encode(state, EVda5050Version::Version200),
         Catch::Contains(R"("batteryHealth":98,)") && Catch::Contains(R"("localizationScore":1})"));
     CHECK_THAT(codec.Encode(state, EVda5050Version::Version210), Catch::Contains(R"("batteryHealth":97.6,)"));
+}
+
+TEST_CASE("6.2 No number is made up for one that is not finite: null, or the member is left out")
+{
+    const Vda5050Codec codec;
+    const double noNumber = GENERATE(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity());
+    StateMessage state;
+    state.batteryState.batteryCharge = noNumber;
+    state.batteryState.batteryHealth = noNumber;
+    state.agvPosition.emplace().theta = noNumber;
+    state.agvPosition->localizationScore = noNumber;
+    const std::string text = codec.Encode(state, EVda5050Version::Version200);
+    CHECK_THAT(text, Catch::Contains(R"("batteryCharge":null,)") && Catch::Contains(R"("theta":null)"));
+    CHECK_THAT(text, !Catch::Contains("batteryHealth") && !Catch::Contains("localizationScore"));
+    CHECK_FALSE(Vda5050Codec().Decode<StateMessage>(text).has_value());
 }
 
 TEST_CASE("1 The misspellings of the published schemas are read")

@@ -34,7 +34,8 @@ public:
     /// request (an MCS exists whose requests carry `"result":null`). Times are truncated to milliseconds.
     [[nodiscard]] DecodeOutcome Decode(std::string_view text);
 
-    /// Replaces out by the compact JSON of the message, with members in the order of the specification.
+    /// Replaces out by the compact JSON of the message, with members in the order of the specification. Numbers must be
+    /// finite: another one is written as null, and the receiver refuses the message.
     static void Encode(const AcsMessage& message, std::string& out);
     /// As Encode, without a variant around the message.
     static void EncodeRequest(const AcsRequest& request, std::string& out);

@@ -74,7 +74,8 @@ public:
     /// An Arrival or Stopped that waits for room is kept beside the latest. Other payloads are a programming error.
     void SendStatus(const AcsPayload& status, Core::Now now, SessionActions& out);
 
-    /// SendText that may be dropped. No effect before the first PositionDue of the connection.
+    /// SendText that may be dropped. No effect before the first PositionDue of the connection. A robot with a number that is
+    /// not finite is left out; if no other robot is left, nothing is sent.
     void SendPosition(const RobotPositionUpdate& positions, Core::Now now, SessionActions& out);
 
     /// Answers a RequestReceived: SendText if registered. The Ack is cached, and a repeated request is answered with the

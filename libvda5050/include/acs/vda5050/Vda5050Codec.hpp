@@ -73,7 +73,8 @@ public:
     /// of the wrong type are omitted; fails only for invalid JSON.
     [[nodiscard]] Core::Result<MessageIdentity> DecodeIdentity(std::string_view payload);
 
-    /// Replaces out by the payload. A reused out needs no further allocations.
+    /// Replaces out by the payload. A reused out needs no further allocations. Numbers must be finite: another one is left
+    /// out where the member is optional; otherwise it is written as null, and the receiver refuses the message.
     template <typename TMessage>
     void Encode(const TMessage& message, EVda5050Version version, std::string& out) const;
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -135,7 +136,11 @@ struct ValueEncoder<std::vector<T>>
 template <typename T>
 [[nodiscard]] bool IsLeftOut(const T& member)
 {
-    if constexpr (requires { member.has_value(); })
+    if constexpr (std::same_as<T, std::optional<double>>)
+    {
+        return !std::isfinite(member.value_or(std::numeric_limits<double>::quiet_NaN()));
+    }
+    else if constexpr (requires { member.has_value(); })
     {
         return !member.has_value();
     }
@@ -178,9 +183,13 @@ struct KeyText
     static constexpr std::array<char, LENGTH> TEXT = MakeText();
 };
 
-/// The number as a strict reader takes it.
+/// The number as a strict reader takes it. One that is not finite stays so, and is written as null.
 [[nodiscard]] inline double Shape(double value, const WrittenForm& form, DialectFlags dialect)
 {
+    if (!std::isfinite(value))
+    {
+        return value;
+    }
     const double bounded = std::clamp(value, form.minimum, form.maximum);
     return (form.wholeIn & dialect) != 0 ? std::round(bounded) : bounded;
 }

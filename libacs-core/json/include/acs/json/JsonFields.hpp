@@ -15,7 +15,7 @@ namespace ACS::Json
 enum class EPresence : std::uint8_t
 {
     Required,  ///< Must be there and not null; always written.
-    Optional,  ///< May be absent (null is read as absent and counted); left out when nullopt or empty.
+    Optional,  ///< May be absent (null is read as absent and counted); left out when nullopt, empty or not finite.
     Nullable,  ///< Of a std::optional: null or absent is nullopt; nullopt is written as null. Of a number: null if not
                ///< finite; absent leaves the default.
     Defaulted, ///< Absent or null leaves the struct's default; always written.

@@ -44,7 +44,7 @@ public:
     void WriteString(std::string_view front, std::string_view back);
     /// A string of printable ASCII without quotes and backslashes: the words of an enumeration, a time.
     void WritePlainString(std::string_view value);
-    /// Finite: JSON has no word for anything else.
+    /// Null if the value is not finite: JSON has no other word for it.
     void WriteNumber(double value);
     void WriteInteger(std::int64_t value);
     void WriteUnsigned(std::uint64_t value);
