@@ -197,7 +197,7 @@ void AddStateCommands(CLI::App& app, AcsctlOptions& options)
     AddPositional(actions, "ROBOT", arguments.id, "The robot");
     AddCommand(app, options, "alarms", ECommand::Alarms, "List active alarms");
     AddCommand(app, options, "links", ECommand::Links, "Show the links to the MCS and to the MQTT broker");
-    AddCommand(app, options, "queue", ECommand::Queue, "Show plans that wait, in their order, and the outbox");
+    AddCommand(app, options, "queue", ECommand::Queue, "Show the waiting plans in queue order, and the outbox");
     AddCommand(app, options, "site", ECommand::Site, "Show the size of the map and what is blocked");
 }
 
@@ -276,8 +276,8 @@ void AddPlanCommands(CLI::App& app, AcsctlOptions& options)
     }
     CLI::App& priority = AddCommand(app, options, "priority", ECommand::Priority, "Change the priority of a plan");
     AddPositional(priority, "PLAN", arguments.id, "The plan");
-    constexpr std::int64_t LOWEST = std::numeric_limits<std::int64_t>::min();
-    AddPositionalNumber(priority, "N", arguments.number, {LOWEST}, "The new priority");
+    using Limits = std::numeric_limits<std::int32_t>; // of the operator API
+    AddPositionalNumber(priority, "N", arguments.number, {Limits::min(), Limits::max()}, "The new priority");
     CLI::App& resolve =
         AddCommand(app, options, "resolve", ECommand::Resolve, "Resolve a job whose outcome is unknown");
     AddPositional(resolve, "PLAN", arguments.id, "The plan");
@@ -290,7 +290,7 @@ void AddPlanCommands(CLI::App& app, AcsctlOptions& options)
         "done: the plan continues; failed: the plan fails; again: nothing was moved, the job starts again");
     CLI::App& skip = AddCommand(app, options, "skip", ECommand::Skip, "Skip a step of a plan");
     AddPositional(skip, "PLAN", arguments.id, "The plan");
-    AddPositionalNumber(skip, "STEP", arguments.number, {}, "The number of the step");
+    AddPositionalNumber(skip, "STEP", arguments.number, {0, Limits::max()}, "The number of the step");
 }
 
 void AddSiteCommands(CLI::App& app, AcsctlOptions& options)

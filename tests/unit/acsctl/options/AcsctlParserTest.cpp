@@ -41,6 +41,8 @@ TEST_CASE("Options are read before and after the command")
     CHECK(Parse({"skip", "P", "010"}).arguments.number == 10);
     CHECK(Parse({"priority", "P", "010"}).arguments.number == 10);
     CHECK(Parse({"priority", "P", "-3"}).arguments.number == -3);
+    CHECK(Parse({"priority", "P", "2147483647"}).arguments.number == 2'147'483'647);
+    CHECK(Parse({"priority", "P", "-2147483648"}).arguments.number == -2'147'483'648);
     CHECK(options.connection.url == "http://x");
     CHECK(options.timeout.count() == 3'000);
     CHECK(Parse({"tsc", "resume", "-y"}).command == ECommand::TscResume);
@@ -120,7 +122,10 @@ TEST_CASE("An invalid command line is refused")
         Words{"resolve", "P", "J", "maybe"},
         Words{"skip", "P", "-1"},
         Words{"skip", "P", "x"},
+        Words{"skip", "P", "2147483648"},
         Words{"priority", "P", "1.5"},
+        Words{"priority", "P", "2147483648"},
+        Words{"priority", "P", "-2147483649"},
         Words{"maintenance", "LR01", "maybe"},
         Words{"carriers", "LR01"},
         Words{"block", "robot", "X"},
