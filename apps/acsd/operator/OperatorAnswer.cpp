@@ -34,7 +34,7 @@ Apps::HttpResponse RefuseUnknown(std::string_view kind, std::string_view id)
 {
     return MakeOperatorError(
         OperatorCode::NOT_FOUND,
-        fmt::format("There is no {} {}; /v1/{}s lists them.", kind, Core::QuoteForError(id), kind));
+        fmt::format("There is no {} {}; /v1/{}s and acsctl {}s list them.", kind, Core::QuoteForError(id), kind, kind));
 }
 
 Apps::HttpResponse MakeAccepted(std::string_view sentence)

@@ -120,7 +120,7 @@ TEST_CASE("POST /v1/robots/ID/actions answers with the robot's refusal, or the r
     CHECK(user.Post(STATE_REQUEST) == "409 {\"error\":\"The robot is not connected.\"}\n");
     CHECK(
         user.Send("POST", "/v1/robots/LR09/actions", STATE_REQUEST)
-        == R"(404 {"error":"There is no robot \"LR09\"; /v1/robots lists them."})"
+        == R"(404 {"error":"There is no robot \"LR09\"; /v1/robots and acsctl robots list them."})"
            "\n");
     CHECK(user.Send("GET", "/v1/robots/LR09/actions").starts_with("404 "));
     user.request.reset();

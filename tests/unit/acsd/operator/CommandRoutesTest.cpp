@@ -109,7 +109,7 @@ TEST_CASE("POST /v1/robots/ID/maintenance; the robot shows it and why a plan wai
     CHECK(user.world.GetReportsOf("P1").back() == "Plan Completed");
     CHECK(
         user.Post("/v1/robots/LR09/maintenance", ON)
-        == "404 {\"error\":\"There is no robot \\\"LR09\\\"; /v1/robots lists them.\"}\n");
+        == "404 {\"error\":\"There is no robot \\\"LR09\\\"; /v1/robots and acsctl robots list them.\"}\n");
     CHECK(HasText(user.Post("/v1/robots/LR01/maintenance", R"({"on":"maybe"})"), "400 "));
 }
 

@@ -175,8 +175,9 @@ TEST_CASE("Plans are listed by state, robot and lot; finished ones with the last
         CHECK(HasText(reader.Get(std::string("/v1/plans") + query), "400 {\"error\":"));
     }
     CHECK(HasText(reader.Get("/v1/plans/P1"), R"("status":"Completed")"));
-    CHECK(
-        HasText(reader.Get("/v1/plans/P9"), "404 {\"error\":\"There is no plan \\\"P9\\\"; /v1/plans lists them.\"}"));
+    CHECK(HasText(
+        reader.Get("/v1/plans/P9"),
+        "404 {\"error\":\"There is no plan \\\"P9\\\"; /v1/plans and acsctl plans list them.\"}"));
 }
 
 TEST_CASE("A robot is shown with pose, route, reservations, ports and what its driver reports")
