@@ -124,6 +124,10 @@ std::string PrintStatus(const StatusInfo& status, const ViewContext& context)
     {
         details.Add("Connected", fmt::format("{}, as reported to the MCS", *status.bConnected ? "yes" : "no"));
     }
+    else
+    {
+        details.Add("Connected", "not reported to the MCS yet");
+    }
     for (const LinkInfo& link : status.links)
     {
         details.Add("Link " + link.name, DescribeLink(link, context.now), GetStyle(GetLinkText(link)));

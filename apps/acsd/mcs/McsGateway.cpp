@@ -201,7 +201,8 @@ void McsGateway::PublishStatus(const Planning::RobotStatus& status)
 
 void McsGateway::PublishWorking(bool bWorking)
 {
-    _bWorkingPublished = bWorking;
+    _bWorking = bWorking;
+    _bWorkingPublished = _output.IsRegistered() ? bWorking : _bWorkingPublished;
     _output.SendStatus(Protocol::AcsCommStateUpdate{bWorking});
 }
 
@@ -460,6 +461,7 @@ void McsGateway::Feed()
         void ReplayDone()
         {
             gateway._output.ReplayDone();
+            gateway._bWorkingPublished = gateway._bWorking; // The session sends the states after the replay.
         }
     };
     Session session{*this};

@@ -76,6 +76,7 @@ private:
     MessageStyle _style;
     AckObserver _ackObserver;
     RefusedReports _refusedReports;
+    std::optional<bool> _bWorking; ///< The last value of PublishWorking.
     std::optional<bool> _bWorkingPublished;
 
 public:
@@ -113,7 +114,7 @@ public:
     void PublishTscState(Planning::ETscState state);
 
     [[nodiscard]] const RefusedReports& GetRefusedReports() const noexcept;
-    /// The last value of PublishWorking.
+    /// The value of PublishWorking that the MCS was sent last; nullopt: none.
     [[nodiscard]] std::optional<bool> GetPublishedWorkingOrNull() const noexcept;
 
 private:

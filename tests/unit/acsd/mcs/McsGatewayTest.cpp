@@ -151,6 +151,25 @@ TEST_CASE_METHOD(
     CHECK(_log.GetLines().back().HasField("planId", "P100"));
 }
 
+TEST_CASE_METHOD(
+    GatewayTest,
+    "isConnected is the value that the MCS was sent last, not one that waits for a connection")
+{
+    _gateway.PublishWorking(true);
+    CHECK(_gateway.GetPublishedWorkingOrNull() == std::nullopt);
+    Register();
+    CHECK(_gateway.GetPublishedWorkingOrNull() == true);
+    _gateway.PublishWorking(false);
+    CHECK(_gateway.GetPublishedWorkingOrNull() == false);
+
+    _bRegistered = false;
+    _gateway.OnSessionEvent(Protocol::LinkLost{"gone", true});
+    _gateway.PublishWorking(true);
+    CHECK(_gateway.GetPublishedWorkingOrNull() == false);
+    Register();
+    CHECK(_gateway.GetPublishedWorkingOrNull() == true);
+}
+
 TEST_CASE_METHOD(GatewayTest, "The log line of a refusal that is not about a field has no field")
 {
     Register();
