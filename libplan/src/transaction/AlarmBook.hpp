@@ -36,7 +36,8 @@ public:
     /// Replaces all alarms without a report: these were reported before the restart.
     void Restore(std::vector<Alarm> alarms);
 
-    /// Sets the alarm, with its mcsCode. If it is set already with another level, it is cleared and set again: a report cannot change an alarm.
+    /// Sets the alarm, with its mcsCode. If it is set already with another level, it is cleared and set again: a report cannot
+    /// change an alarm.
     [[nodiscard]] std::vector<ErrorReport> Raise(Alarm alarm, Core::SteadyTime now);
     /// As Raise, but also replaces an alarm with another message. The caller limits how often.
     [[nodiscard]] std::vector<ErrorReport> Update(Alarm alarm, Core::SteadyTime now);

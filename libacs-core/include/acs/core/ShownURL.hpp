@@ -8,7 +8,8 @@ namespace ACS::Core
 {
 
 /// The URL for logs and errors: without what may be a secret in it, the user information, the query and the fragment. If an '@'
-/// follows a '?' or '#', a password may have contained that character: then nothing after the scheme is shown. Any text is accepted.
+/// follows a '?' or '#', a password may have contained that character: then nothing after the scheme is shown. Any text is
+/// accepted.
 [[nodiscard]] inline std::string MakeShownURL(std::string_view url)
 {
     constexpr std::string_view SEPARATOR = "://";
