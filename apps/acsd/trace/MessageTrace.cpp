@@ -29,13 +29,13 @@ constexpr std::size_t TIME_END = std::string_view(R"({"time":"2026-01-01T00:00:0
 /// The monotonic time of a line, which follows the time; 0 if there is none.
 std::uint64_t ReadMonotonic(std::string_view line)
 {
-    constexpr std::string_view NAME = R"(,"mono_us":)";
+    constexpr std::string_view MEMBER = R"(,"mono_us":)";
     line.remove_prefix(std::min(TIME_END, line.size()));
-    if (!line.starts_with(NAME))
+    if (!line.starts_with(MEMBER))
     {
         return 0;
     }
-    line.remove_prefix(NAME.size());
+    line.remove_prefix(MEMBER.size());
     return Core::ParseNumberOrNull<std::uint64_t>(line.substr(0, line.find(','))).value_or(0);
 }
 
