@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace ACS::Acsd
@@ -53,6 +54,27 @@ LaneCheck::LaneCheck(const Planning::EngineOptions& options, const Planning::Sit
             }
         }
     }
+    FindDocks();
+}
+
+void LaneCheck::FindDocks()
+{
+    for (const auto& entry : _finders)
+    {
+        const std::string& vehicleTypeID = entry.first;
+        std::vector<Dock>& docks = _docks[vehicleTypeID];
+        for (const Planning::SiteStation& station : _site.GetStations())
+        {
+            const auto owner = _owners.find(station.stationID);
+            const auto node = std::ranges::find_if(station.nodeIDs, [this, &vehicleTypeID](const std::string& nodeID) {
+                return _site.FindNodeOrNull(nodeID)->FindRuleOrNull(vehicleTypeID) != nullptr;
+            });
+            if (node != station.nodeIDs.end())
+            {
+                docks.push_back({*_site.FindNodeIndexOrNull(*node), owner == _owners.end() ? nullptr : owner->second});
+            }
+        }
+    }
 }
 
 std::string LaneCheck::Describe(
@@ -97,7 +119,8 @@ Nodes LaneCheck::ListClosed(std::size_t dock) const
     Nodes closed{dock};
     for (std::size_t node = 0; node < nodes.size(); ++node)
     {
-        if (node != dock && getDistance(node) <= _options.clearance && nodes[node].mapID == nodes[dock].mapID)
+        if (node != dock && std::abs(nodes[node].x - nodes[dock].x) <= _options.clearance
+            && getDistance(node) <= _options.clearance && nodes[node].mapID == nodes[dock].mapID)
         {
             closed.push_back(node);
         }
@@ -116,16 +139,11 @@ Nodes LaneCheck::ListDocks(const Planning::RobotOptions& parked, const std::stri
         return {};
     }
     Nodes docks;
-    for (const Planning::SiteStation& station : _site.GetStations())
+    for (const Dock& dock : _docks.at(vehicleTypeID))
     {
-        const auto owner = _owners.find(station.stationID);
-        const bool bUsed = owner == _owners.end() || isOther(*owner->second);
-        const auto node = std::ranges::find_if(station.nodeIDs, [this, &vehicleTypeID](const std::string& nodeID) {
-            return _site.FindNodeOrNull(nodeID)->FindRuleOrNull(vehicleTypeID) != nullptr;
-        });
-        if (bUsed && node != station.nodeIDs.end())
+        if (dock.ownerOrNull == nullptr || isOther(*dock.ownerOrNull))
         {
-            docks.push_back(*_site.FindNodeIndexOrNull(*node));
+            docks.push_back(dock.node);
         }
     }
     return docks;
@@ -135,8 +153,13 @@ bool LaneCheck::IsCut(const ReachFinder& finder, const Nodes& docks, const Nodes
 {
     std::vector<bool> isClosed(nodes, false);
     std::ranges::for_each(closed, [&isClosed](std::size_t node) { isClosed[node] = true; });
+    const bool bDock = std::ranges::any_of(docks, [&isClosed](std::size_t dock) { return isClosed[dock]; });
     for (const ELoad load : {ELoad::Empty, ELoad::Loaded})
     {
+        if (!bDock && finder.IsBypassed(isClosed, load))
+        {
+            continue;
+        }
         for (const std::size_t node : closed)
         {
             const std::vector<bool> sources = finder.FindSources(node, load);
@@ -161,7 +184,7 @@ std::optional<std::size_t> LaneCheck::FindCutOrNull(const ReachFinder& finder, c
         return finder.IsPassed(node) || std::ranges::count(docks, node) > 0;
     });
     const std::size_t nodes = _site.GetNodes().size();
-    if (!IsCut(finder, docks, used, nodes))
+    if (used.empty() || !IsCut(finder, docks, closed, nodes))
     {
         return std::nullopt;
     }

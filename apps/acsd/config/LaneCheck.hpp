@@ -18,11 +18,19 @@ namespace ACS::Acsd
 /// references to the options and the map.
 class LaneCheck final
 {
+    /// Of a station.
+    struct Dock
+    {
+        std::size_t node = 0;
+        const Planning::RobotOptions* ownerOrNull = nullptr; ///< The robot that parks or charges there.
+    };
+
     const Planning::EngineOptions& _options;
     const Planning::SiteMap& _site;
     std::map<std::string, ReachFinder> _finders; ///< By vehicle type.
     std::map<std::string, const Planning::RobotOptions*>
-        _owners; ///< By station: the robot that parks or charges there.
+        _owners;                                     ///< By station: the robot that parks or charges there.
+    std::map<std::string, std::vector<Dock>> _docks; ///< By vehicle type: of the stations that it may use.
 
 public:
     LaneCheck(const Planning::EngineOptions& options, const Planning::SiteMap& site);
@@ -35,6 +43,8 @@ public:
         std::string_view name) const;
 
 private:
+    void FindDocks();
+
     /// The nodes that a robot on the dock closes, the nearest first.
     [[nodiscard]] Nodes ListClosed(std::size_t dock) const;
 

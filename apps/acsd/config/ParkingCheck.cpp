@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <list>
 #include <map>
 #include <optional>
 #include <span>
@@ -23,6 +24,7 @@ namespace
 using Planning::ELoad;
 
 constexpr std::size_t MOST_NAMES = 10;
+constexpr std::size_t MOST_LANE_WARNINGS = 20;
 
 std::string JoinNames(const std::vector<std::string>& names, std::string_view separator)
 {
@@ -55,12 +57,22 @@ struct ParkingGroup
 
 class ParkingCheck final
 {
+    /// Nodes that are all reached from each other, with a load and without.
+    struct Area
+    {
+        std::vector<bool> sourcesEmpty;
+        std::vector<bool> sourcesLoaded;
+        std::vector<bool> nodes;
+        Reach reach;
+    };
+
     /// The part of the map of one vehicle type.
     struct Floor
     {
         ReachFinder finder;
         Nodes docks;                                        ///< One for each station that the type may use.
         std::vector<const Planning::SiteStation*> stations; ///< By dock.
+        std::list<Area> areas; ///< Of parking positions: robots of one area share the searches.
     };
 
     /// Vehicle type, load and stations.
@@ -123,8 +135,14 @@ private:
     void CheckLanes()
     {
         const LaneCheck lanes(_options, _site);
+        const std::size_t most = _warnings.size() + MOST_LANE_WARNINGS;
         for (const Planning::RobotOptions& robot : _options.robots)
         {
+            if (_warnings.size() >= most) // each costs searches of the whole map
+            {
+                _warnings.emplace_back("traffic.clearance: the parking positions of further robots were not checked");
+                return;
+            }
             const std::optional<std::string>& home = robot.homeStationID;
             const std::optional<std::string>& charger = robot.chargingStationID;
             AddNotEmpty(home.has_value() ? lanes.Describe(robot, *home, "parking position") : std::string());
@@ -144,7 +162,7 @@ private:
 
     [[nodiscard]] Floor MakeFloor(const std::string& vehicleTypeID) const
     {
-        Floor floor{ReachFinder(_site, vehicleTypeID, true), {}, {}};
+        Floor floor{ReachFinder(_site, vehicleTypeID, true), {}, {}, {}};
         for (const Planning::SiteStation& station : _site.GetStations())
         {
             for (const std::string& nodeID : station.nodeIDs)
@@ -168,10 +186,12 @@ private:
 
     void CheckRoutes(const Planning::RobotOptions& robot, const std::string& parking)
     {
-        const Floor& floor = _floors.at(robot.vehicleTypeID);
+        Floor& floor = _floors.at(robot.vehicleTypeID);
         const std::size_t home = GetDock(parking);
-        const std::vector<bool> empty = floor.finder.FindSources(home, ELoad::Empty);
-        const std::vector<bool> loaded = floor.finder.FindSources(home, ELoad::Loaded);
+        const std::size_t start = robot.startNodeID.has_value() ? *_site.FindNodeIndexOrNull(*robot.startNodeID) : home;
+        const Area& area = GetArea(floor, home, start);
+        const std::vector<bool>& empty = area.sourcesEmpty;
+        const std::vector<bool>& loaded = area.sourcesLoaded;
         const auto isReached = [&floor, home](const std::vector<bool>& sources) {
             return std::ranges::any_of(floor.docks, [&sources, home](std::size_t dock) {
                 return dock != home && sources[dock];
@@ -189,7 +209,7 @@ private:
                 DescribeLoad(GetMissing(bEmpty, bLoaded))));
         }
         std::map<ELoad, std::vector<std::string>> stations;
-        for (const std::size_t index : ListEntered(robot, floor, home))
+        for (const std::size_t index : ListEntered(robot, floor, area.reach))
         {
             const bool bLeftEmpty = !bEmpty || empty[floor.docks[index]];
             const bool bLeftLoaded = !bLoaded || loaded[floor.docks[index]];
@@ -206,18 +226,38 @@ private:
         }
     }
 
+    [[nodiscard]] static const Area& GetArea(Floor& floor, std::size_t home, std::size_t start)
+    {
+        const auto known = std::ranges::find_if(floor.areas, [home, start](const Area& area) {
+            return area.nodes[home] && area.nodes[start];
+        });
+        if (known != floor.areas.end())
+        {
+            return *known;
+        }
+        Area area{
+            floor.finder.FindSources(home, ELoad::Empty),
+            floor.finder.FindSources(home, ELoad::Loaded),
+            floor.finder.FindTargets(home, ELoad::Empty),
+            floor.finder.Find({home, start}, floor.docks)};
+        const std::vector<bool> loaded = floor.finder.FindTargets(home, ELoad::Loaded);
+        for (std::size_t node = 0; node < loaded.size(); ++node)
+        {
+            area.nodes[node] = area.nodes[node] && loaded[node] && area.sourcesEmpty[node] && area.sourcesLoaded[node];
+        }
+        if (!area.nodes[start]) // what it reaches is of this robot alone
+        {
+            area.nodes.assign(loaded.size(), false);
+        }
+        return floor.areas.emplace_back(std::move(area));
+    }
+
     /// Stations, by index in `floor`, that the robot can enter and that are not where another one parks or charges.
     [[nodiscard]] std::vector<std::size_t> ListEntered(
         const Planning::RobotOptions& robot,
         const Floor& floor,
-        std::size_t home) const
+        const Reach& reach) const
     {
-        Nodes starts{home};
-        if (robot.startNodeID.has_value())
-        {
-            starts.push_back(*_site.FindNodeIndexOrNull(*robot.startNodeID));
-        }
-        const Reach reach = floor.finder.Find(starts, floor.docks);
         std::vector<std::size_t> entered;
         for (std::size_t i = 0; i < floor.docks.size(); ++i)
         {

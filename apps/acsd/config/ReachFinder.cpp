@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 #include <utility>
 
 namespace ACS::Acsd
@@ -72,6 +73,32 @@ bool ReachFinder::IsPassed(std::size_t node) const
     });
 }
 
+bool ReachFinder::IsBypassed(const std::vector<bool>& closed, Planning::ELoad load) const
+{
+    const auto isOpen = load == Planning::ELoad::Loaded ? &Lane::bLoaded : &Lane::bEmpty;
+    const auto findNeighbours = [&closed, isOpen](const LaneTable& lanes) {
+        std::set<std::size_t> neighbours;
+        for (std::size_t node = 0; node < closed.size(); ++node)
+        {
+            for (const Lane& lane : closed[node] ? lanes[node] : std::vector<Lane>())
+            {
+                if (lane.*isOpen && !closed[lane.to])
+                {
+                    neighbours.insert(lane.to);
+                }
+            }
+        }
+        return neighbours;
+    };
+    const std::set<std::size_t> exits = findNeighbours(_lanes);
+    std::vector<bool> targets(_lanes.size(), false);
+    std::ranges::for_each(exits, [&targets](std::size_t node) { targets[node] = true; });
+    const std::set<std::size_t> entries = findNeighbours(_backwards);
+    return std::ranges::all_of(entries, [&](std::size_t entry) {
+        return IsReached(entry, targets, exits.size(), closed, isOpen);
+    });
+}
+
 void ReachFinder::Visit(const LaneTable& lanes, LoadReach& reach, bool Lane::*isOpen, Nodes nodes)
 {
     while (!nodes.empty())
@@ -102,6 +129,35 @@ bool ReachFinder::TryVisit(LoadReach& reach, bool Lane::*isOpen, const LoadReach
     });
     Visit(_lanes, reach, isOpen, added);
     return !added.empty();
+}
+
+bool ReachFinder::IsReached(
+    std::size_t start,
+    const std::vector<bool>& targets,
+    std::size_t count,
+    const std::vector<bool>& closed,
+    bool Lane::*isOpen) const
+{
+    std::vector<bool> seen = closed;
+    Nodes open{start};
+    seen[start] = true;
+    for (std::size_t next = 0; next < open.size(); ++next)
+    {
+        count -= targets[open[next]] ? 1U : 0U;
+        if (count == 0)
+        {
+            return true;
+        }
+        for (const Lane& lane : _lanes[open[next]])
+        {
+            if (lane.*isOpen && !seen[lane.to])
+            {
+                seen[lane.to] = true;
+                open.push_back(lane.to);
+            }
+        }
+    }
+    return count == 0;
 }
 
 std::vector<bool> ReachFinder::FindArrived(

@@ -65,11 +65,23 @@ public:
     /// Whether a robot can drive over the node: from one neighbour to another.
     [[nodiscard]] bool IsPassed(std::size_t node) const;
 
+    /// Whether every route with this load over the closed nodes (by node) has one around them between the same neighbours. Cheap
+    /// if the ways around are short.
+    [[nodiscard]] bool IsBypassed(const std::vector<bool>& closed, Planning::ELoad load) const;
+
 private:
     static void Visit(const LaneTable& lanes, LoadReach& reach, bool Lane::*isOpen, Nodes nodes);
 
     /// From the docks that are reached with the other load. False: there is no new one.
     [[nodiscard]] bool TryVisit(LoadReach& reach, bool Lane::*isOpen, const LoadReach& other, const Nodes& docks) const;
+
+    /// Whether all targets (by node; number of them) are reached from the start.
+    [[nodiscard]] bool IsReached(
+        std::size_t start,
+        const std::vector<bool>& targets,
+        std::size_t count,
+        const std::vector<bool>& closed,
+        bool Lane::*isOpen) const;
 
     [[nodiscard]] static std::vector<bool> FindArrived(
         const LaneTable& lanes,

@@ -290,4 +290,36 @@ TEST_CASE_METHOD(ParkingFixture, "A spur that leads to a parking position only m
                  "while LR01 is there, no other vehicle enters S"});
 }
 
+TEST_CASE_METHOD(ParkingFixture, "The number of warnings about closed lanes is limited")
+{
+    for (int i = 10; i < 50; ++i)
+    {
+        const std::string name = std::to_string(i);
+        AddNode("M" + name, 4.0 * i, 0);
+        AddEdge(i == 10 ? "L1" : "M" + std::to_string(i - 1), "M" + name);
+        AddSpur("E" + name, "M" + name, 4.0 * i, 2);
+        AddRobot("LR" + name, "lr", "E" + name);
+    }
+    AddEdge("M49", "L2");
+    options.clearance = 2;
+    const Lines lines = Find();
+    REQUIRE(lines.size() > 20);
+    CHECK(lines.size() <= 22);
+    CHECK(lines.back() == "traffic.clearance: the parking positions of further robots were not checked");
+}
+
+TEST_CASE_METHOD(ParkingFixture, "Robots that start apart from their parking position are checked for what they enter")
+{
+    AddNode("X", 40, 0);
+    AddSpur("Y", "X", 40, 4);
+    AddEdge("X", "L1"); // no way back
+    CHECK(Find().empty());
+    Remove("Y-X");
+    CHECK(Find().empty()); // no robot enters it
+    options.robots[1].startNodeID = "X";
+    CHECK(
+        Find()
+        == Lines{"robots.LR02: no route leads from st-Y to its parking position st-C; it may block other robots"});
+}
+
 } // namespace ACS::Acsd::Test
