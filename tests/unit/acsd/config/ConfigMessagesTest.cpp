@@ -90,7 +90,7 @@ TEST_CASE("A robot with the alias as its name is an error that states what the a
 
 TEST_CASE("The words of an arm have a path, and all of them are relays")
 {
-    const std::string path = "monitor_url: expected a path that begins with \"/\", such as \"/project/plc/m/val_s32\"";
+    const std::string path = R"(monitor_url: expected a path that begins with "/", such as "/project/plc/m/val_s32")";
     CheckErrors(
         {{{"arm.monitor_url=val_s32"}, "arm." + path},
          {{"robots.CR01.arm.monitor_url="}, "robots.CR01.arm." + path},
