@@ -1,5 +1,6 @@
 #pragma once
 
+#include "plans/PlanTracker.hpp"
 #include <acs/protocol/messages/RobotPosition.hpp>
 #include <acs/protocol/messages/RobotStatus.hpp>
 
@@ -24,7 +25,7 @@ class RobotBoard
 {
 public:
     /// Of more robots nothing is kept.
-    static constexpr std::size_t MAX_ROBOTS = 1000;
+    static constexpr std::size_t MAX_ROBOTS = PlanTracker::MAX_ROBOTS;
 
 private:
     std::map<std::string, RobotEntry> _robots;

@@ -68,9 +68,15 @@ void ControlRequests::OnAck(const Protocol::AcsAck& ack)
     if (acknowledged != _open.end())
     {
         acknowledged->bRefused = ack.result == Protocol::EAckResult::Fail;
-        acknowledged->acceptedAt =
-            acknowledged->bRefused ? std::nullopt : std::optional<Core::WallTime>(ack.timestamp.time);
+        const bool bTimed =
+            !acknowledged->bRefused && ack.timestamp.time != Core::WallTime(); // which stands for an unreadable one
+        acknowledged->acceptedAt = bTimed ? std::optional<Core::WallTime>(ack.timestamp.time) : std::nullopt;
     }
+}
+
+void ControlRequests::OnLinkLost()
+{
+    std::ranges::for_each(_open, [](OpenRequest& open) { open.bInterrupted = true; });
 }
 
 bool ControlRequests::IsAborting(const std::string& planID, Core::WallTime time) const
@@ -95,7 +101,8 @@ ControlRequests::EResultOrigin ControlRequests::Close(EAcsCommand result, const 
     {
         return EResultOrigin::None;
     }
-    const EResultOrigin origin = found->bRefused ? EResultOrigin::Refused : EResultOrigin::Request;
+    const EResultOrigin sent = found->bInterrupted ? EResultOrigin::Interrupted : EResultOrigin::Request;
+    const EResultOrigin origin = found->bRefused ? EResultOrigin::Refused : sent;
     _open.erase(found);
     return origin;
 }

@@ -29,8 +29,9 @@ class ControlRequests
 public:
     enum class EResultOrigin : std::uint8_t
     {
-        Request, ///< Of a request that was not refused.
-        Refused, ///< Of a request that was acknowledged with Fail.
+        Request,     ///< Of a request that was not refused.
+        Interrupted, ///< As Request, and the connection was lost after it was sent.
+        Refused,     ///< Of a request that was acknowledged with Fail.
         None,
     };
 
@@ -41,6 +42,7 @@ private:
         std::string planID;
         std::string transactionID;
         bool bRefused = false;
+        bool bInterrupted = false;                  ///< The connection was lost since.
         std::optional<Core::WallTime> acceptedAt{}; ///< Timestamp of its Ack Success, by the clock of the ACS.
     };
 
@@ -52,6 +54,7 @@ public:
 
     /// Any Ack of the ACS.
     void OnAck(const Protocol::AcsAck& ack);
+    void OnLinkLost();
 
     /// Whether the ACS had accepted an AbortPlan of this plan before this time of its clock, and has not reported the result.
     [[nodiscard]] bool IsAborting(const std::string& planID, Core::WallTime time) const;

@@ -220,10 +220,14 @@ std::optional<std::string> PlanTracker::FindResultViolationOrNull(
     {
         foundOrNull->unconfirmed = result;
     }
-    if (!mistake.has_value() && result == Protocol::EAcsCommand::PauseResultReport && !foundOrNull->robotID.empty())
+    const bool bPaused = result == Protocol::EAcsCommand::PauseResultReport && !foundOrNull->robotID.empty();
+    if (!mistake.has_value() && bPaused && origin == ControlRequests::EResultOrigin::Request)
     {
         const auto latest = _robotStatuses.find(foundOrNull->robotID);
-        foundOrNull->bStandstillDue = latest == _robotStatuses.end() || !IsStandstill(latest->second);
+        if (latest == _robotStatuses.end() ? _robotStatuses.size() < MAX_ROBOTS : !IsStandstill(latest->second))
+        {
+            _standstillsDue.insert(planID);
+        }
     }
     return mistake;
 }
@@ -288,11 +292,15 @@ void PlanTracker::Handle(const Protocol::ErrorReport& report, Lines& out)
 void PlanTracker::Handle(const Protocol::RobotStatusUpdate& update, Lines& out)
 {
     CheckNamed("RobotStatusUpdate", update, out);
-    _robotStatuses[update.robotID] = update.robotStatus;
-    for (TrackedPlan& plan : _plans)
+    if (_robotStatuses.size() < MAX_ROBOTS || _robotStatuses.contains(update.robotID))
     {
-        plan.bStandstillDue =
-            plan.bStandstillDue && !(plan.robotID == update.robotID && IsStandstill(update.robotStatus));
+        _robotStatuses[update.robotID] = update.robotStatus;
+    }
+    if (IsStandstill(update.robotStatus))
+    {
+        std::erase_if(_standstillsDue, [this, &update](const std::string& planID) {
+            return FindTrackedOrNull(planID)->robotID == update.robotID;
+        });
     }
 }
 
@@ -371,9 +379,9 @@ void PlanTracker::CheckConfirmed(TrackedPlan& plan, Lines& out)
     }
 }
 
-void PlanTracker::CheckStandstill(TrackedPlan& plan, Lines& out)
+void PlanTracker::CheckStandstill(const TrackedPlan& plan, Lines& out)
 {
-    if (std::exchange(plan.bStandstillDue, false))
+    if (_standstillsDue.erase(plan.planned.plan.planID) > 0)
     {
         AddViolation(
             fmt::format(

@@ -82,8 +82,9 @@ void PlanTracker::OnLinkLost()
     for (TrackedPlan& plan : _plans)
     {
         plan.bAckLost = plan.bAckLost || plan.delivery == EDelivery::Sent;
-        plan.bStandstillDue = false; // without a connection the next status may replace it
     }
+    _controls.OnLinkLost();
+    _standstillsDue.clear(); // without a connection the next status may replace it
 }
 
 std::optional<std::size_t> PlanTracker::GetNextToSendOrNull(Core::Now now, std::size_t first)

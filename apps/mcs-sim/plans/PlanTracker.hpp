@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -30,6 +31,11 @@ struct DoneCount
 class PlanTracker
 {
 public:
+    /// Of more robots of the ACS nothing is kept.
+    static constexpr std::size_t MAX_ROBOTS = 1000;
+
+private:
+public:
     /// A plan that is not acknowledged is sent again after this time.
     static constexpr std::chrono::milliseconds RESEND_AFTER{5'000};
     /// Maximum number of plans without an Ack.
@@ -44,7 +50,9 @@ private:
     std::unordered_map<std::string, std::vector<std::size_t>> _byPlanID;
     std::unordered_map<std::string, std::size_t> _byTransaction;
     ControlRequests _controls;
-    std::unordered_map<std::string, Protocol::ERobotStatus> _robotStatuses; ///< The latest, by robotID.
+    std::unordered_map<std::string, Protocol::ERobotStatus> _robotStatuses; ///< The latest of MAX_ROBOTS, by robotID.
+    /// Plans whose pause was reported as successful before their robot has reported Stopped.
+    std::set<std::string> _standstillsDue;
     std::vector<std::string> _violations;
     std::size_t _violationCount = 0;
     std::array<std::size_t, OUTCOME_COUNT> _outcomes{};
@@ -125,7 +133,7 @@ private:
         const std::string& jobID,
         Lines& out);
     /// A pause whose robot never reported standstill is a violation (section 6.7).
-    void CheckStandstill(TrackedPlan& plan, Lines& out);
+    void CheckStandstill(const TrackedPlan& plan, Lines& out);
     void CheckRobot(TrackedPlan& plan, const std::string& robotID, Lines& out);
     void Handle(const Protocol::PlanReport& report, Lines& out);
     void Handle(const Protocol::StepReport& report, Core::WallTime sentAt, Lines& out);

@@ -67,8 +67,6 @@ struct TrackedPlan
     bool bAckLost = false; ///< Or perhaps lost with the link: its absence is no fault of the ACS.
     /// The result report that stated the success of a cancel, an abort or a resume which no PlanReport has confirmed yet.
     std::optional<Protocol::EAcsCommand> unconfirmed;
-    /// PauseResultReport stated a success, and its robot has not reported Stopped.
-    bool bStandstillDue = false;
     std::string robotID;            ///< Empty until a report names one.
     std::string reason;             ///< Of the refusal or the failure, as the ACS gave it.
     std::vector<TrackedStep> steps; ///< By ascending stepNo.

@@ -101,8 +101,8 @@ public:
     /// From now on Acks are sent late or never. If several holds match a command, the latest one applies.
     void HoldAcks(const AckHold& hold, Core::Now now);
 
-    /// The next registrations are answered with Fail and this message; their connections stay open. 0 ends that. Acks that
-    /// were withheld before are sent, one that is withheld from later on does not count; delayed ones are sent late.
+    /// The next registrations are answered with Fail and this message; their connections stay open. 0 ends that. It overrides
+    /// an earlier hold of Acks without a delay. A later hold overrides it: a registration without an Ack does not count.
     void RefuseRegistrations(std::size_t count, std::string_view message);
 
     /// Ends all holds and refusals; delayed Acks are still sent at their time.

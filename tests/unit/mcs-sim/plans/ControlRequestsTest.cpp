@@ -329,6 +329,12 @@ TEST_CASE(
         fixture.Report({resumed});
         CHECK(fixture.tracker.CountViolations() == 0);
     }
+    SECTION("the link is lost before the result: what the robot reported meanwhile is not known")
+    {
+        fixture.tracker.OnLinkLost();
+        fixture.Report({paused, result, resumed, makeStatus("LR01", Moving)});
+        CHECK(fixture.tracker.CountViolations() == 0);
+    }
     const std::string violation =
         bAssigned ? "P1 PauseResultReport Success without RobotStatusUpdate Stopped of LR01" : "0 violations";
     SECTION("not before the plan is resumed")
