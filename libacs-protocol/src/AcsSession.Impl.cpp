@@ -235,6 +235,7 @@ void AcsSession::Impl::HandleRegistrationAck(const AcsAck& ack, SessionActions& 
     for (auto& [key, status] : _statuses)
     {
         status.bPending = true;
+        status.bEarlier = true;
     }
     out.emplace_back(Deliver{Registered{}});
 }

@@ -68,6 +68,7 @@ struct Status
     AcsPayload payload;
     bool bPending = false;
     bool bUnanswered = false; ///< No Ack: the MCS may not know it.
+    bool bEarlier = false;    ///< From before this connection.
     /// What the robot passed through on this connection and the MCS must see, oldest first: sent before the payload.
     std::deque<AcsPayload> passed{};
 };

@@ -28,7 +28,7 @@ bool IsStatus(const AcsPayload& payload)
         || std::holds_alternative<RobotStatusUpdate>(payload);
 }
 
-/// Whether the MCS must see this status although another one has followed: section 5.9 has Arrival always sent once, section 6.7
+/// Whether the MCS must see this status although another one has followed: section 6.16 has each change sent, section 6.7
 /// demands Stopped of a pause.
 bool MustBeSeen(const AcsPayload& waiting, const AcsPayload& next)
 {
@@ -92,7 +92,7 @@ void AcsSession::Impl::SendStatus(const AcsPayload& status, Core::Now now, Sessi
 
 void AcsSession::Impl::Replace(Status& status, const AcsPayload& payload, bool bConnected)
 {
-    if (bConnected && status.bPending && MustBeSeen(status.payload, payload))
+    if (bConnected && status.bPending && !status.bEarlier && MustBeSeen(status.payload, payload))
     {
         status.passed.push_back(std::move(status.payload));
         if (status.passed.size() > MOST_PASSED)
@@ -103,6 +103,7 @@ void AcsSession::Impl::Replace(Status& status, const AcsPayload& payload, bool b
     status.payload = payload;
     status.bPending = true;
     status.bUnanswered = false;
+    status.bEarlier = false;
 }
 
 void AcsSession::Impl::SendPosition(const RobotPositionUpdate& positions, Core::Now now, SessionActions& out)

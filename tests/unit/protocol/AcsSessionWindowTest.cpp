@@ -117,6 +117,23 @@ TEST_CASE("9 Room for several messages is used by all statuses of one robot that
     CHECK(bench.recorder.GetRequests().size() == 2);
 }
 
+TEST_CASE("9 An Arrival of an earlier connection is not sent again before the status that replaces it")
+{
+    using enum Protocol::ERobotStatus;
+    Fixture bench(MakeOptions());
+    bench.StartAndReplay();
+    bench.session.SendStatus(MakeStatus("LR01", Arrival), bench.clock.GetNow(), bench.recorder.out);
+    bench.Closed();
+    bench.Timer(ESessionTimer::Reconnect, 10s);
+    bench.Register();
+    bench.session.SendStatus(MakeStatus("LR01", Working), bench.clock.GetNow(), bench.recorder.out);
+    bench.recorder.Clear();
+    bench.session.ReplayDone(bench.clock.GetNow(), bench.recorder.out);
+    const auto requests = bench.recorder.GetRequests();
+    REQUIRE(requests.size() == 1);
+    CHECK(std::get<Protocol::RobotStatusUpdate>(requests.front().payload).robotStatus == Working);
+}
+
 TEST_CASE("9 The Arrivals that wait for room are limited per robot, and end with the connection")
 {
     using enum Protocol::ERobotStatus;
