@@ -281,8 +281,10 @@ void TrafficCoordinator::NoteClosedEdge(Robot& robot) const
     const ActiveDrive& drive = *robot.drive;
     const ELoad load = robot.GetLoad();
     const bool bOtherRoute = _routes.PlanRouteOrNull(robot, drive.nodes.back(), {}).has_value();
-    robot.changes.MarkStatus(!robot.search.blockers.empty());
-    robot.search.blockers.clear();
+    const std::vector<std::size_t> formerBlockers = std::exchange(
+        robot.search.blockers,
+        bOtherRoute ? _traffic.GetHolders(drive.nodes.back(), robot.index) : std::vector<std::size_t>());
+    robot.changes.MarkStatus(robot.search.blockers != formerBlockers);
     robot.search.refusedAt = 0;
     NoteBlock(
         robot,
