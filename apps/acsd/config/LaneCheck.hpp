@@ -18,7 +18,7 @@ namespace ACS::Acsd
 /// references to the options and the map.
 class LaneCheck final
 {
-    /// Of a station.
+    /// The node where robots work at a station.
     struct Dock
     {
         std::size_t node = 0;
@@ -35,7 +35,7 @@ class LaneCheck final
 public:
     LaneCheck(const Planning::EngineOptions& options, const Planning::SiteMap& site);
 
-    /// What others miss while the robot is at the station, as a line of the configuration; empty: nothing. `name` is what the
+    /// The warning about the node that the robot closes to others at this station; empty if it closes none. `name` is what the
     /// station is for the robot.
     [[nodiscard]] std::string Describe(
         const Planning::RobotOptions& robot,

@@ -120,12 +120,13 @@ public:
         for (const auto& [key, group] : _groups)
         {
             _warnings.push_back(fmt::format(
-                "robots.{}: no route leads from {} to {}{}; {} may block other robots",
+                "robots.{}: no route leads from {} to {}{}; {} may block other robots{}",
                 JoinNames(group.robotIDs, ", robots."),
                 JoinNames(std::get<2>(key), ", "),
                 group.robotIDs.size() == 1 ? "its parking position " + group.parking : "their parking positions",
                 DescribeLoad(std::get<1>(key)),
-                group.robotIDs.size() == 1 ? "it" : "they"));
+                group.robotIDs.size() == 1 ? "it" : "they",
+                std::get<1>(key) == ELoad::Unknown ? "" : " if a job fails there"));
         }
         CheckLanes();
         return std::move(_warnings);
@@ -208,11 +209,15 @@ private:
                 parking,
                 DescribeLoad(GetMissing(bEmpty, bLoaded))));
         }
+        CheckCharger(robot, parking, area.reach);
         std::map<ELoad, std::vector<std::string>> stations;
         for (const std::size_t index : ListEntered(robot, floor, area.reach))
         {
-            const bool bLeftEmpty = !bEmpty || empty[floor.docks[index]];
-            const bool bLeftLoaded = !bLoaded || loaded[floor.docks[index]];
+            const std::size_t dock = floor.docks[index];
+            // The load does not change at a charger.
+            const bool bCharger = floor.stations[index]->stationID == robot.chargingStationID;
+            const bool bLeftEmpty = !bEmpty || empty[dock] || (bCharger && !area.reach.empty.arrived[dock]);
+            const bool bLeftLoaded = !bLoaded || loaded[dock] || (bCharger && !area.reach.loaded.arrived[dock]);
             if (!bLeftEmpty || !bLeftLoaded)
             {
                 stations[GetMissing(bLeftEmpty, bLeftLoaded)].push_back(floor.stations[index]->stationID);
@@ -223,6 +228,24 @@ private:
             ParkingGroup& group = _groups[{robot.vehicleTypeID, load, std::move(stationIDs)}];
             group.robotIDs.push_back(robot.robotID.GetText());
             group.parking = parking;
+        }
+    }
+
+    /// With a low battery the charger is the parking position.
+    void CheckCharger(const Planning::RobotOptions& robot, const std::string& parking, const Reach& reach)
+    {
+        if (!robot.chargingStationID.has_value() || *robot.chargingStationID == parking)
+        {
+            return;
+        }
+        const std::size_t dock = GetDock(*robot.chargingStationID);
+        if (reach.empty.arrived[dock] != reach.loaded.arrived[dock]) // ReachCheck reports neither
+        {
+            _warnings.push_back(fmt::format(
+                "robots.{}: its charging station {} cannot be reached{}; with a low battery it may block other robots",
+                robot.robotID.GetText(),
+                *robot.chargingStationID,
+                DescribeLoad(GetMissing(reach.empty.arrived[dock], reach.loaded.arrived[dock]))));
         }
     }
 

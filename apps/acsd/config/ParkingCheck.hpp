@@ -9,10 +9,10 @@
 namespace ACS::Acsd
 {
 
-/// Of robots with a parking position in the options: one that they cannot reach with a load or without, and stations from which no
-/// route leads there. The traffic control guarantees progress only to robots that can park. A line for each; robots that differ in
-/// nothing else share it. Then a line for each parking position or charger that cuts the routes of others between stations: its
-/// node, or one within the clearance. The options have no errors.
+/// Finds the parking positions and chargers that a robot cannot reach with a load or without, and the stations from which no route
+/// leads to its parking position: the traffic control guarantees progress only to robots that can park. There is a line for each;
+/// robots that differ in nothing else share it. Then there is a line for each parking position or charger that cuts the routes of
+/// others between stations: its node, or one within the clearance. The options have no errors.
 [[nodiscard]] std::vector<std::string> FindParkingFaults(
     const Planning::EngineOptions& options,
     const Planning::SiteMap& site);

@@ -77,7 +77,7 @@ void ReadRobot(const ConfigSection& section, const std::string& name, const Robo
     if (robotID->IsAlias())
     {
         section.Refuse(
-            fmt::format("{} stands for the robot that executes a plan (MCS-ACS section 10); give another name", name));
+            fmt::format("{} stands for the robot that executes a plan (MCS-ACS section 3.1); give another name", name));
         return;
     }
     if (!HasRobotKey(section))

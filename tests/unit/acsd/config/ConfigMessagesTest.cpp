@@ -85,7 +85,7 @@ TEST_CASE("A robot with the alias as its name is an error that states what the a
     CHECK(
         ReadSite({"robots.AMR={type='LR'}"}).errors
         == Lines{
-            "--set: robots.AMR: AMR stands for the robot that executes a plan (MCS-ACS section 10); give another name"});
+            "--set: robots.AMR: AMR stands for the robot that executes a plan (MCS-ACS section 3.1); give another name"});
 }
 
 TEST_CASE("The words of an arm have a path, and all of them are relays")

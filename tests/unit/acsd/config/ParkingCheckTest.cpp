@@ -132,6 +132,20 @@ TEST_CASE_METHOD(ParkingFixture, "A parking position is not reported if there is
     CHECK(Find().empty());
 }
 
+TEST_CASE_METHOD(ParkingFixture, "A charger that is entered without a load only is reported as such")
+{
+    AddSpur("E", "L2", 6, 0);
+    options.robots.front().chargingStationID = "st-E";
+    CHECK(Find().empty());
+    Restrict("L2-E", true, false);
+    Restrict("E-L2", true, GENERATE(false, true));
+    CHECK(
+        Find()
+        == Lines{
+            "robots.LR01: its charging station st-E cannot be reached with a load; with a low battery it may block "
+            "other robots"});
+}
+
 TEST_CASE_METHOD(ParkingFixture, "A station from which no route leads to a parking position is reported with the load")
 {
     Restrict("B-L2", true, false);
@@ -140,7 +154,7 @@ TEST_CASE_METHOD(ParkingFixture, "A station from which no route leads to a parki
         CHECK(
             Find()
             == Lines{"robots.LR01, robots.LR02: no route leads from st-B to their parking positions with a load; they "
-                     "may block other robots"});
+                     "may block other robots if a job fails there"});
     }
     SECTION("without a load")
     {
@@ -149,7 +163,7 @@ TEST_CASE_METHOD(ParkingFixture, "A station from which no route leads to a parki
         CHECK(
             Find()
             == Lines{"robots.LR01: no route leads from st-B to its parking position st-D without a load; it may block "
-                     "other robots"});
+                     "other robots if a job fails there"});
     }
     SECTION("at all, though other stations reach it")
     {
