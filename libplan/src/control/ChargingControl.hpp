@@ -38,7 +38,7 @@ public:
 private:
     [[nodiscard]] static Alarm MakeChargeAlarm(const Robot& robot);
     [[nodiscard]] bool IsChargeDue(const Robot& robot) const;
-    /// Whether it charges at its charging station and parks elsewhere: only a low battery brings it there.
+    /// Whether it charges at its charging station and parks elsewhere. A low battery brings it there, or a plan that ended there.
     [[nodiscard]] bool IsRecharged(const Robot& robot) const;
 };
 

@@ -262,23 +262,30 @@ bool StoreGate::TryWithdrawControl(CommitGate::Transaction& transaction)
         return false;
     }
     Robot& robot = *_fleet.FindOrNull(std::get<CommandRobot>(*command).robotID);
-    transaction.dependent.erase(command);
-    if (robot.planOrNull->record.progress.control != control)
+    const PlanProgress& progress = robot.planOrNull->record.progress;
+    const bool bConfirmed = progress.control != control; // the robot was already paused
+    if (bConfirmed && _call.bResumeInterrupted)
     {
-        return false; // confirmed: the robot was already paused
+        return false; // and is about to resume
+    }
+    transaction.dependent.erase(command);
+    if (bConfirmed)
+    {
+        return false;
     }
     std::erase_if(transaction.batch.changes, [](const StoreChange& change) {
         return std::holds_alternative<ReceiptAdded>(change);
     });
     _answers.Withdraw(*robot.planOrNull, *_call.control);
     _answers.StopConfirmingControl(robot);
-    if (control == EPlanControl::Pause)
+    if (progress.state
+        == EPlanState::Paused) // of a withdrawn resume, or of the resume that a withdrawn pause interrupted
     {
-        robot.control.pause.Reset();
+        robot.control.pause.Pause();
     }
     else
     {
-        robot.control.pause.Pause();
+        robot.control.pause.Reset();
     }
     robot.changes.MarkWork();
     _transaction.RequestDispatch();
@@ -292,24 +299,22 @@ void StoreGate::ReleaseWithoutStore(
     EngineActions& out)
 {
     const bool bUnknown = error.code == EPlanningError::StoreOutcomeUnknown;
-    const bool bControlOfMCS = _call.control.has_value() && _call.control->origin == EControlOrigin::MCS;
-    const std::string refusal = fmt::format(
-        "The {} cannot be stored: {}",
-        _call.control.has_value() ? "request" : "plan",
-        Core::Describe(error));
+    const bool bControl = _call.control.has_value();
+    const std::string refusal =
+        fmt::format("The {} cannot be stored: {}", bControl ? "request" : "plan", Core::Describe(error));
     for (const EngineAction& action : withheld)
     {
         std::visit(
             Core::Overloaded{
                 [this](const StorePlans& typed) { _backlog.Add(typed.batch.changes); },
                 [this](const SendReport& typed) { _backlog.HoldBack(typed); },
-                [this, &out, &refusal, bRefused, bControlOfMCS, bUnknown](const ReplyCommand& typed) {
+                [this, &out, &refusal, bRefused, bControl, bUnknown](const ReplyCommand& typed) {
                     const auto repeated = _call.repeatedPlanIDs.find(typed.replyToken);
                     const bool bKnown =
                         repeated != _call.repeatedPlanIDs.end() && _plans.FindRecordOrNull(repeated->second) != nullptr;
                     const bool bRefusedNow = bRefused && typed.bAccepted && !bKnown;
                     ReplyCommand reply = bRefusedNow ? ReplyCommand{typed.replyToken, false, refusal} : typed;
-                    if (bRefusedNow ? bUnknown : bControlOfMCS)
+                    if (bRefusedNow ? bUnknown : bControl)
                     {
                         _backlog.Withhold(std::move(reply));
                         return;

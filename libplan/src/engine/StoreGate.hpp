@@ -62,7 +62,7 @@ private:
     /// or the robot would drive for a plan that is paused. Its request is refused.
     [[nodiscard]] bool TryWithdrawControl(CommitGate::Transaction& transaction);
     /// Handles withheld actions: reports wait, new plans are refused, everything else is released. The refusals wait too if the
-    /// batch may be stored. So does the answer to any other control of the MCS, which has taken effect.
+    /// batch may be stored. So does the answer to any other control, which has taken effect.
     void ReleaseWithoutStore(
         const EngineActions& withheld,
         bool bRefused,

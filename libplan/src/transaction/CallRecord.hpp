@@ -16,7 +16,8 @@ struct CallRecord
 {
     std::vector<std::string> begunPlanIDs;
     std::map<ReplyToken, std::string> repeatedPlanIDs; ///< Plans that were submitted again.
-    std::optional<ControlPlan> control;       ///< The command of this call; of the operator, only Pause and Resume.
+    std::optional<ControlPlan> control;
+    bool bResumeInterrupted = false;          ///< The control pauses a robot that was commanded to resume.
     std::set<std::string> unstoredControlIDs; ///< Of all calls since the store fails, as in PlanProgress::requestIDs.
 
     void Begin()
@@ -24,6 +25,7 @@ struct CallRecord
         begunPlanIDs.clear();
         repeatedPlanIDs.clear();
         control.reset();
+        bResumeInterrupted = false;
     }
 };
 

@@ -109,10 +109,7 @@ void PlanControls::ControlByOperator(const ControlPlan& command)
         _transaction.Reply(command.replyToken, false, std::move(*reason));
         return;
     }
-    if (command.control == EPlanControl::Pause || command.control == EPlanControl::Resume)
-    {
-        _call.control = command;
-    }
+    _call.control = command;
     ActivePlan& plan = *_plans.FindActiveOrNull(command.planID);
     if (plan.record.progress.control != command.control)
     {
@@ -374,6 +371,7 @@ void PlanControls::Pause(ActivePlan& plan, EControlOrigin origin)
         _work.ConfirmPause(robot);
         return;
     }
+    _call.bResumeInterrupted = robot.control.pause.IsResuming();
     robot.control.pause.Pause();
     _transaction.Command(robot, Planning::Pause{});
     _answers.StartConfirming(robot, _options.controls.pauseTimeout);

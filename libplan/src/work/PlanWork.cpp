@@ -426,6 +426,10 @@ void PlanWork::ReleaseJob(Robot& robot)
         robot.planOrNull->jobClock.begunAt.reset();
     }
     robot.changes.MarkWork();
+    if (robot.job.IsResolvedRecoveryDue())
+    {
+        RecoverResolvedJob(robot);
+    }
 }
 
 void PlanWork::RepeatJob(Robot& robot, std::string commandID)

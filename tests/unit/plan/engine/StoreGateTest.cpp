@@ -218,12 +218,31 @@ TEST_CASE("StoreGate: a pause of a robot that cannot be stored is refused and wi
     CHECK_FALSE(parts.lr.control.pause.IsPaused());
 }
 
+TEST_CASE("StoreGate: a pause that cannot be stored leaves a robot paused whose plan was being resumed")
+{
+    GateParts parts;
+    ActivePlan& plan = parts.BeginDriveToLoad();
+    plan.record.progress.state = EPlanState::Paused;
+    plan.record.progress.control = EPlanControl::Resume;
+    parts.lr.control.pause.Resume();
+    const bool bShowsPaused = GENERATE(false, true); // then the pause is confirmed at once
+    parts.lr.view.state->bPaused = bShowsPaused;
+    parts.BeginCall();
+    parts.controls.Control(ControlPlan{EPlanControl::Pause, "P1", {}, 7, "1"});
+    static_cast<void>(parts.CommitCall());
+    const CallOutcome failed = parts.EndStore(false);
+    CHECK(failed.ListCommands<Pause>().size() == (bShowsPaused ? 1 : 0));
+    CHECK(failed.ListActions<ReplyCommand>().size() == (bShowsPaused ? 0 : 1));
+    CHECK(parts.lr.control.pause.IsPaused());
+}
+
 TEST_CASE("StoreGate: a control that has taken effect is answered after the next successful write")
 {
     GateParts parts;
     ActivePlan& plan = parts.BeginDriveToLoad();
     parts.BeginCall();
-    parts.controls.Control(ControlPlan{EPlanControl::Abort, "P1", {}, 7, "1"});
+    const EControlOrigin origin = GENERATE(EControlOrigin::MCS, EControlOrigin::Operator);
+    parts.controls.Control(ControlPlan{EPlanControl::Abort, "P1", {}, 7, "1", origin});
     static_cast<void>(parts.CommitCall());
     const CallOutcome failed = parts.EndStore(false);
     CHECK(failed.ListActions<ReplyCommand>().empty());
@@ -233,7 +252,8 @@ TEST_CASE("StoreGate: a control that has taken effect is answered after the next
     CHECK(parts.RetryStore(false).ListActions<ReplyCommand>().empty());
     const auto replies = parts.RetryStore(true).ListActions<ReplyCommand>();
     REQUIRE(replies.size() == 1);
-    CHECK(replies.front() == ReplyCommand{7, true, "Received."});
+    CHECK(replies.front().replyToken == 7);
+    CHECK(replies.front().bAccepted);
 }
 
 TEST_CASE("StoreGate: the receipt of an operator's pause that cannot be stored is withdrawn with it")
