@@ -30,7 +30,7 @@ bool IsStatus(const AcsPayload& payload)
 
 /// Whether the MCS must see this status although another one has followed: section 6.16 has each change sent, section 6.7
 /// demands Stopped of a pause.
-bool MustBeSeen(const AcsPayload& waiting, const AcsPayload& next)
+bool ShouldBeSeen(const AcsPayload& waiting, const AcsPayload& next)
 {
     const RobotStatusUpdate* const robotOrNull = std::get_if<RobotStatusUpdate>(&waiting);
     const RobotStatusUpdate* const nextOrNull = std::get_if<RobotStatusUpdate>(&next);
@@ -92,7 +92,7 @@ void AcsSession::Impl::SendStatus(const AcsPayload& status, Core::Now now, Sessi
 
 void AcsSession::Impl::Replace(Status& status, const AcsPayload& payload, bool bConnected)
 {
-    if (bConnected && status.bPending && !status.bEarlier && MustBeSeen(status.payload, payload))
+    if (bConnected && status.bPending && !status.bEarlier && ShouldBeSeen(status.payload, payload))
     {
         status.passed.push_back(std::move(status.payload));
         if (status.passed.size() > MOST_PASSED)

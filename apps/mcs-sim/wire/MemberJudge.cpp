@@ -24,8 +24,8 @@ struct PayloadRule
 
 const std::vector<PayloadRule>& GetPayloadRules()
 {
-    static const Names entry{"robotId", "jobId", "currentAction", "startTime", "endTime"};
-    static const std::vector<PayloadRule> rules{
+    static const Names ENTRY{"robotId", "jobId", "currentAction", "startTime", "endTime"};
+    static const std::vector<PayloadRule> RULES{
         {"PlanReport", {"message"}, {}},
         {"StepReport", {"message"}, {}},
         {"JobReport", {"message"}, {}},
@@ -40,11 +40,11 @@ const std::vector<PayloadRule>& GetPayloadRules()
         {"AbortPlanAck", {"planId"}, {}},
         {"PausePlanAck", {"planId"}, {}},
         {"ResumePlanAck", {"planId"}, {}},
-        {"RequestAcsPlansAck", {"plans"}, entry},
-        {"RequestAcsPlanHistoryAck", {"plans"}, entry},
+        {"RequestAcsPlansAck", {"plans"}, ENTRY},
+        {"RequestAcsPlanHistoryAck", {"plans"}, ENTRY},
         {"RequestAcsErrorListAck", {"errors"}, {"message"}},
         {"SyncConfigAck", {}, {}}};
-    return rules;
+    return RULES;
 }
 
 bool HasMember(const Json::Value& object, std::string_view name)

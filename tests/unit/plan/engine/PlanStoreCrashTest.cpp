@@ -323,12 +323,12 @@ TEST_CASE("A control that has taken effect is acknowledged when it is stored: Fa
         world.store.bFails = true;
         world.Control(single.control, "P1", 5, "T5"); // This write shows that the disk fails.
         world.Control(single.control, "P1", 6, "T5");
-        CHECK(world.replies.count(5) == 0);
-        CHECK(world.replies.count(6) == 0);
+        CHECK_FALSE(world.replies.contains(5));
+        CHECK_FALSE(world.replies.contains(6));
         CHECK_FALSE(Contains(world.GetReportsOf("P1"), single.result));
         world.store.bFails = false;
         static_cast<void>(TryRunFor(world, 2s));
-        REQUIRE(world.replies.count(5) == 1);
+        REQUIRE(world.replies.contains(5));
         CHECK(world.replies.at(5).bAccepted);
         CHECK(world.replies.at(6).bAccepted);
         REQUIRE(TryRunUntil(world, "P1", single.result));
