@@ -102,6 +102,7 @@ private:
     void OnPlanReport(const Protocol::PlanReport& report);
     void OnStepReport(const Protocol::StepReport& report);
     void OnJobReport(const Protocol::JobReport& report);
+    [[nodiscard]] std::string DescribeOwedResults() const;
     void OnResult(Planning::EPlanControl control, const std::string& planID, Protocol::EReportResult result);
     void OnAlarm(const Protocol::ErrorReport& report);
     void HandleFirst(const Protocol::AcsPayload& payload);
