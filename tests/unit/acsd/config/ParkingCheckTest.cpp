@@ -1,6 +1,7 @@
 #include "config/ParkingCheck.hpp"
 
 #include "Catch.hpp"
+#include "config/MapFixture.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -16,13 +17,8 @@ namespace
 
 /// A one-way loop L1, L2, L3, L4 of vehicles "lr", 4 m between its nodes. Spurs of 2 m, in both directions, lead to the docks A of
 /// L1, B of L2, C of L3 and D of L4, each with a station of its name. LR01 parks on D, LR02 on C.
-struct ParkingFixture
+struct ParkingFixture : MapFixture
 {
-    std::vector<Planning::SiteNode> nodes;
-    std::vector<Planning::SiteEdge> edges;
-    std::vector<Planning::SiteStation> stations;
-    Planning::EngineOptions options;
-
     ParkingFixture()
     {
         AddNode("L1", 0, 0);
@@ -41,23 +37,6 @@ struct ParkingFixture
         AddRobot("LR02", "lr", "C");
     }
 
-    void AddNode(const std::string& nodeID, double x, double y)
-    {
-        nodes.push_back({nodeID, x, y, "floor", {{"lr", std::nullopt}}});
-    }
-
-    void AddEdge(const std::string& from, const std::string& to)
-    {
-        Planning::SiteEdgeRule rule;
-        rule.vehicleTypeID = "lr";
-        edges.push_back({from + "-" + to, from, to, {rule}});
-    }
-
-    void AddStation(const std::string& name)
-    {
-        stations.push_back({"st-" + name, {name}});
-    }
-
     void AddSpur(const std::string& name, const std::string& lane, double x, double y)
     {
         AddNode(name, x, y);
@@ -69,11 +48,7 @@ struct ParkingFixture
     /// It starts on its parking position.
     void AddRobot(const std::string& name, const std::string& vehicleTypeID, const std::string& parkingNode)
     {
-        Planning::RobotOptions robot{*Core::RobotID::Parse(name), {}, {}, {}, {}, {}, {}, {}};
-        robot.vehicleTypeID = vehicleTypeID;
-        robot.startNodeID = parkingNode;
-        robot.homeStationID = "st-" + parkingNode;
-        options.robots.push_back(std::move(robot));
+        MapFixture::AddRobot(name, vehicleTypeID, parkingNode).homeStationID = "st-" + parkingNode;
     }
 
     void Remove(const std::string& edgeID)
@@ -81,15 +56,9 @@ struct ParkingFixture
         std::erase_if(edges, [&edgeID](const Planning::SiteEdge& edge) { return edge.edgeID == edgeID; });
     }
 
-    void Restrict(const std::string& edgeID, bool bUnloaded, bool bLoaded)
-    {
-        std::ranges::find(edges, edgeID, &Planning::SiteEdge::edgeID)->rules[0].loadRestriction =
-            Planning::SiteLoadRestriction{bUnloaded, bLoaded};
-    }
-
     [[nodiscard]] std::vector<std::string> Find() const
     {
-        const Planning::SiteMap site = Planning::SiteMap::Create(nodes, edges, stations).value();
+        const Planning::SiteMap site = MakeSite();
         return FindParkingFaults(options, site);
     }
 };

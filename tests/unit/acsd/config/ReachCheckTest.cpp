@@ -1,6 +1,7 @@
 #include "config/ReachCheck.hpp"
 
 #include "Catch.hpp"
+#include "config/MapFixture.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -15,20 +16,15 @@ namespace
 {
 
 /// A map with a start S of the robot LR01 ("lr") and docks A, B and C, each of the station of its name.
-struct ReachFixture
+struct ReachFixture : MapFixture
 {
-    std::vector<Planning::SiteNode> nodes;
-    std::vector<Planning::SiteEdge> edges;
-    std::vector<Planning::SiteStation> stations;
-    Planning::EngineOptions options;
-
     ReachFixture()
     {
         AddNode("S");
         for (const char* const name : {"A", "B", "C"})
         {
             AddNode(name);
-            stations.push_back({std::string("st-") + name, {name}});
+            AddStation(name);
             AddEdge("S", name);
             AddEdge(name, "S");
         }
@@ -37,37 +33,7 @@ struct ReachFixture
 
     void AddNode(const std::string& nodeID)
     {
-        nodes.push_back({nodeID, 3.0 * static_cast<double>(nodes.size()), 0, "floor", {{"lr", std::nullopt}}});
-    }
-
-    void AddEdge(const std::string& from, const std::string& to)
-    {
-        Planning::SiteEdgeRule rule;
-        rule.vehicleTypeID = "lr";
-        edges.push_back({from + "-" + to, from, to, {rule}});
-    }
-
-    void AddRobot(const std::string& name, const std::string& vehicleTypeID, const std::string& nodeID)
-    {
-        Planning::RobotOptions robot{*Core::RobotID::Parse(name), {}, {}, {}, {}, {}, {}, {}};
-        robot.vehicleTypeID = vehicleTypeID;
-        robot.startNodeID = nodeID;
-        options.robots.push_back(std::move(robot));
-    }
-
-    Planning::SiteEdge& GetEdge(const std::string& edgeID)
-    {
-        return *std::ranges::find(edges, edgeID, &Planning::SiteEdge::edgeID);
-    }
-
-    void Restrict(const std::string& edgeID, bool bUnloaded, bool bLoaded)
-    {
-        GetEdge(edgeID).rules[0].loadRestriction = Planning::SiteLoadRestriction{bUnloaded, bLoaded};
-    }
-
-    [[nodiscard]] Planning::SiteMap MakeSite() const
-    {
-        return Planning::SiteMap::Create(nodes, edges, stations).value();
+        MapFixture::AddNode(nodeID, 3.0 * static_cast<double>(nodes.size()), 0);
     }
 
     [[nodiscard]] std::vector<std::string> Find() const
