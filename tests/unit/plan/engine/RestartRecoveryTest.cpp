@@ -65,6 +65,25 @@ TEST_CASE("RestartRecovery: a plan stays with its robot, which is asked for the 
     CHECK(commands.front().job == job);
 }
 
+TEST_CASE("RestartRecovery: a resolved job is asked for when the job after it is resolved too")
+{
+    RecoveryParts parts;
+    EngineParts before;
+    const ActivePlan& plan = before.BeginLoad();
+    StoredState stored = StoreWork(before, plan);
+    StartJob earlier = *before.lr.job.GetOrNull();
+    earlier.jobID = "P0-a1";
+    earlier.progressToken = "5 5 0";
+    stored.robotWorks.front().resolvedJob = earlier;
+    stored.plans.front().progress.steps.front().jobs.front() = EJobState::InProgress;
+    parts.recovery.Restore(stored);
+    parts.Discard(); // the job after it is asked for
+    parts.work.EndJob(parts.lr, {});
+    const auto commands = parts.Collect().ListCommands<RecoverJob>();
+    REQUIRE(commands.size() == 1);
+    CHECK(commands.front().job == earlier);
+}
+
 TEST_CASE("RestartRecovery: the job of a plan that is over is overdue")
 {
     RecoveryParts parts;

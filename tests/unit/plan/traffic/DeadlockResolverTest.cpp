@@ -231,3 +231,16 @@ TEST_CASE("DeadlockResolver: a robot clears the other route of one whose load cl
     CHECK(resolver.TryResolveDeadlock().bMoved);
     CHECK((parts.cr.drive.has_value() || parts.lr.drive->IsCancelling()));
 }
+
+TEST_CASE("DeadlockResolver: a robot whose load closes its route, but not another one, waits for who is at its goal")
+{
+    EngineOptions options = MakeTestOptions(false);
+    options.baseLength = 1;
+    EngineParts parts(options, MakeRestrictedSite({true, false}));
+    parts.PutOn(parts.lr, "D-CHG01");
+    BeginLoadedDrive(parts, "A01.CP06", 5);
+    parts.PutOn(parts.cr, "D-A01.CP06");
+    parts.coordinator.ExtendBase(parts.lr);
+    CHECK(parts.lr.search.block.empty());
+    CHECK(parts.lr.search.blockers == std::vector<std::size_t>{parts.cr.index});
+}
