@@ -16,7 +16,7 @@ namespace
 {
 
 /// Members that every order has, or every nodePosition.
-constexpr std::array<std::string_view, 21> MANDATORY{
+constexpr std::array<std::string_view, 22> MANDATORY{
     "order.orderId",
     "order.orderUpdateId",
     "order.nodes",
@@ -37,7 +37,8 @@ constexpr std::array<std::string_view, 21> MANDATORY{
     "order.headerId",
     "order.timestamp",
     "order.version",
-    "order.manufacturer"};
+    "order.manufacturer",
+    "order.serialNumber"};
 
 /// Seconds. The longest interval of states in the standard, unless a factsheet has another.
 constexpr double STATE_INTERVAL = 30.0;

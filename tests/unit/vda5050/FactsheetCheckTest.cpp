@@ -57,6 +57,27 @@ TEST_CASE("Intervals beyond reason are reported with their value and their effec
             "defaultStateInterval is 86400 s, above 300 s: a vehicle that has failed counts as connected this long"});
 }
 
+TEST_CASE("Members that every order has may be required; members that no version of the standard has may not")
+{
+    FactsheetMessage factsheet;
+    std::vector<OptionalParameter>& members = factsheet.protocolFeatures.optionalParameters.emplace();
+    for (const char* const name :
+         {"headerId",
+          "timestamp",
+          "version",
+          "manufacturer",
+          "serialNumber",
+          "orderId",
+          "orderUpdateId",
+          "nodes.nodeId"})
+    {
+        members.push_back({std::string("order.") + name, EParameterSupport::Required, {}});
+    }
+    CHECK(FindContradictions(factsheet).empty());
+    members.push_back({"order.colour", EParameterSupport::Required, {}});
+    CHECK(FindContradictions(factsheet) == std::vector<std::string>{"the member order.colour is required and unknown"});
+}
+
 TEST_CASE("A factsheet of 300'000 actions and members is checked; compared with each other they would take minutes")
 {
     constexpr std::size_t COUNT = 300'000;
