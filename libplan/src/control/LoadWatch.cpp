@@ -35,7 +35,7 @@ void LoadWatch::CompareLoads(Robot& robot)
     const PortLedger::Comparison comparison = robot.ports.Compare(*robot.view.state->loads, openUses);
     if (comparison.bRecordChanged)
     {
-        _transaction.Store(CarriersChanged{robot.GetID(), robot.ports.GetCarriers()});
+        _transaction.Store(robot.ports.MakeRecord(robot.GetID()));
         _transaction.RequestDispatch();
     }
     if (comparison.bDisputed)
@@ -99,7 +99,7 @@ void LoadWatch::MoveCarrier(Robot& robot, const StartJob& job)
     }
     UpdateLoadAlarm(robot);
     robot.changes.MarkStatus();
-    _transaction.Store(CarriersChanged{robot.GetID(), robot.ports.GetCarriers()});
+    _transaction.Store(robot.ports.MakeRecord(robot.GetID()));
 }
 
 std::vector<PortUse> LoadWatch::ListPortUses(const Robot& robot, const StartJob& job) const

@@ -186,7 +186,7 @@ void OperatorCommands::CorrectCarriers(const SetCarriers& command)
     robot.ports.Correct(command.carrierIDs);
     robot.changes.MarkStatus();
     _transaction.RequestDispatch();
-    _transaction.Store(CarriersChanged{command.robotID, command.carrierIDs});
+    _transaction.Store(robot.ports.MakeRecord(command.robotID));
     _transaction.ClearAlarm(MakeAlarm(command.robotID, ALARM_PORT, EAlarmLevel::Light, {}));
     _loads.UpdateLoadAlarm(robot);
     _transaction.Reply(command.replyToken, true, fmt::format("The ports of {} are corrected.", command.robotID));

@@ -42,14 +42,7 @@ void RestartRecovery::Restore(StoredState state)
     _hold.Restore(std::move(state.holdReason));
     _outbox.Restore(std::move(state.outbox), state.lastReportSequence);
     RestoreAlarms(std::move(state.alarms));
-    for (const CarriersChanged& stored : state.carriers)
-    {
-        if (Robot* robotOrNull = _fleet.FindOrNull(stored.robotID); robotOrNull != nullptr)
-        {
-            robotOrNull->ports.Restore(stored.carrierIDs);
-            _status.Reset(*robotOrNull);
-        }
-    }
+    std::ranges::for_each(state.carriers, [this](const CarriersChanged& stored) { RestoreCarriers(stored); });
     for (const RobotWorkChanged& work : state.robotWorks)
     {
         RestoreRobot(work);
@@ -77,6 +70,33 @@ void RestartRecovery::Restore(StoredState state)
     _tsc.RestoreTSC(state.tscState.value_or(ETscState::Auto));
     BeginStartup(!_plans.GetActive().empty() || !state.robotWorks.empty());
     _transaction.StartTimer(EEngineTimer::Dispatch, {}, {});
+}
+
+void RestartRecovery::RestoreCarriers(const CarriersChanged& stored)
+{
+    Robot* robotOrNull = _fleet.FindOrNull(stored.robotID);
+    if (robotOrNull == nullptr)
+    {
+        return;
+    }
+    Robot& robot = *robotOrNull;
+    const std::string lost = robot.ports.Restore(stored);
+    _status.Reset(robot);
+    CarriersChanged record = robot.ports.MakeRecord(stored.robotID);
+    if (record.ports != stored.ports)
+    {
+        _transaction.Store(std::move(record));
+    }
+    if (!lost.empty())
+    {
+        const std::string text = fmt::format(
+            "The ports of {} have changed in the configuration, and the record has carriers at ports that no longer exist: {}. "
+            "Ports that are new have an unknown carrier. Check the ports and correct the record.",
+            stored.robotID,
+            lost);
+        _transaction.Note(robot, text);
+        _transaction.RaiseAlarm(MakeAlarm(stored.robotID, ALARM_PORT, EAlarmLevel::Light, text));
+    }
 }
 
 void RestartRecovery::RestoreRobot(const RobotWorkChanged& work)

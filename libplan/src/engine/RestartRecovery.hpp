@@ -55,6 +55,8 @@ public:
     void RaiseMissing();
 
 private:
+    /// Carriers whose ports are no longer configured raise ACS-1004.
+    void RestoreCarriers(const CarriersChanged& stored);
     /// The row of a robot that is no longer configured is kept in case the robot returns.
     void RestoreRobot(const RobotWorkChanged& work);
     void RestorePlan(PlanRecord record);

@@ -66,12 +66,41 @@ PortLedger::PortLedger(std::span<const Core::Location> ports)
 {
 }
 
-void PortLedger::Restore(const CarrierIDs& carriers)
+std::string PortLedger::Restore(const CarriersChanged& record)
 {
-    if (carriers.size() == _ports.size())
+    if (record.ports.empty() && record.carrierIDs.size() == _ports.size())
     {
-        _carriers = carriers;
+        _carriers = record.carrierIDs;
+        return {};
     }
+    std::vector<bool> isKnown(_ports.size(), false);
+    std::string lost;
+    for (std::size_t i = 0; i < record.carrierIDs.size(); ++i)
+    {
+        const std::string_view name = i < record.ports.size() ? std::string_view(record.ports[i]) : std::string_view();
+        const std::optional<std::string>& carrier = record.carrierIDs[i];
+        if (const std::optional<std::size_t> port = FindPortOrNull(name); port.has_value())
+        {
+            isKnown[*port] = true;
+            _carriers[*port] = carrier;
+        }
+        else if (carrier.has_value())
+        {
+            lost += fmt::format(
+                "{}{}{}",
+                lost.empty() ? "" : ", ",
+                *carrier,
+                name.empty() ? "" : fmt::format(" ({})", name));
+        }
+    }
+    for (std::size_t port = 0; port < _ports.size() && !lost.empty(); ++port)
+    {
+        if (!isKnown[port])
+        {
+            _carriers[port] = UNKNOWN_CARRIER;
+        }
+    }
+    return lost;
 }
 
 void PortLedger::Correct(CarrierIDs carriers)
@@ -195,6 +224,16 @@ void PortLedger::EndReportInterval()
 const CarrierIDs& PortLedger::GetCarriers() const noexcept
 {
     return _carriers;
+}
+
+CarriersChanged PortLedger::MakeRecord(const std::string& robotID) const
+{
+    CarriersChanged record{robotID, _carriers};
+    for (const Core::Location& port : _ports)
+    {
+        record.ports.push_back(port.GetText());
+    }
+    return record;
 }
 
 bool PortLedger::IsDisputed() const noexcept

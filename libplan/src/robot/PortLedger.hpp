@@ -1,6 +1,7 @@
 #pragma once
 
 #include <acs/core/Location.hpp>
+#include <acs/plan/IPlanStore.hpp>
 #include <acs/plan/RobotEvent.hpp>
 
 #include <cstddef>
@@ -58,8 +59,10 @@ public:
     /// The ports must outlive the ledger. All are empty.
     explicit PortLedger(std::span<const Core::Location> ports);
 
-    /// After a restart. Ignored if the number of ports differs.
-    void Restore(const CarrierIDs& carriers);
+    /// After a restart, by the names of the ports; a record without names counts if it has as many ports as there are. Returns
+    /// the carriers whose ports no longer exist ("C1 (CR01.TP03), C2"). They may be at a port that the record does not have:
+    /// such ports then have an unknown carrier until an operator or the robot's sensors correct the record.
+    [[nodiscard]] std::string Restore(const CarriersChanged& record);
     /// By an operator: one entry per port.
     void Correct(CarrierIDs carriers);
     void ForgetDisputes();
@@ -75,6 +78,8 @@ public:
     void EndReportInterval();
 
     [[nodiscard]] const CarrierIDs& GetCarriers() const noexcept;
+    /// What is stored.
+    [[nodiscard]] CarriersChanged MakeRecord(const std::string& robotID) const;
     [[nodiscard]] bool IsDisputed() const noexcept;
     /// "LR01.CP01: expected C1, reported no carrier; …"
     [[nodiscard]] std::string DescribeDisputes() const;

@@ -31,7 +31,7 @@ TEST_CASE("LoadWatch: a finished job moves its carrier on the record")
     EngineParts parts;
     parts.loads.MoveCarrier(parts.lr, MakeLoadJob("C1"));
     const CallOutcome outcome = parts.Collect();
-    CHECK(outcome.ListChanges<CarriersChanged>() == std::vector{CarriersChanged{"LR01", {"C1"}}});
+    CHECK(outcome.ListChanges<CarriersChanged>() == std::vector{CarriersChanged{"LR01", {"C1"}, {"LR01.CP01"}}});
     CHECK(outcome.ListSetAlarms().empty());
     CHECK(parts.lr.changes.IsStatusMarked());
     StartJob other = MakeLoadJob("C1");
@@ -48,7 +48,7 @@ TEST_CASE("LoadWatch: a job that contradicts the record counts, with an alarm un
     parts.loads.MoveCarrier(parts.lr, MakeLoadJob("C2"));
     CallOutcome outcome = parts.Collect();
     CHECK(outcome.ListSetAlarms() == std::vector<std::string>{"ACS-1004"});
-    CHECK(outcome.ListChanges<CarriersChanged>() == std::vector{CarriersChanged{"LR01", {"C2"}}});
+    CHECK(outcome.ListChanges<CarriersChanged>() == std::vector{CarriersChanged{"LR01", {"C2"}, {"LR01.CP01"}}});
     StartJob unload;
     unload.action = "CassetteUnload";
     unload.from = "LR01.CP01";
@@ -56,7 +56,8 @@ TEST_CASE("LoadWatch: a job that contradicts the record counts, with an alarm un
     parts.loads.MoveCarrier(parts.lr, unload);
     outcome = parts.Collect();
     CHECK(outcome.ListClearedAlarms() == std::vector<std::string>{"ACS-1004"});
-    CHECK(outcome.ListChanges<CarriersChanged>() == std::vector{CarriersChanged{"LR01", {std::nullopt}}});
+    CHECK(
+        outcome.ListChanges<CarriersChanged>() == std::vector{CarriersChanged{"LR01", {std::nullopt}, {"LR01.CP01"}}});
 }
 
 TEST_CASE("LoadWatch: the record follows the reported loads, with an alarm until they agree again")
@@ -66,7 +67,7 @@ TEST_CASE("LoadWatch: the record follows the reported loads, with an alarm until
     parts.Discard();
     ReportLoad(parts, "C1");
     const CallOutcome outcome = parts.Collect();
-    CHECK(outcome.ListChanges<CarriersChanged>() == std::vector{CarriersChanged{"LR01", {"C1"}}});
+    CHECK(outcome.ListChanges<CarriersChanged>() == std::vector{CarriersChanged{"LR01", {"C1"}, {"LR01.CP01"}}});
     CHECK(outcome.ListSetAlarms() == std::vector<std::string>{"ACS-1011"});
     CHECK(outcome.GetDelayOrNull(EEngineTimer::LoadAlarm) == std::chrono::seconds(10));
     CHECK(parts.engine.transaction.IsDispatchNeeded());

@@ -101,7 +101,7 @@ TEST_CASE("OperatorCommands: corrected carriers fit the ports and are on one rob
     parts.commands.CorrectCarriers(SetCarriers{"LR01", {"C1"}, 7});
     const CallOutcome outcome = parts.Collect();
     CHECK(IsReplyAccepted(outcome));
-    CHECK(outcome.ListChanges<CarriersChanged>() == std::vector{CarriersChanged{"LR01", {"C1"}}});
+    CHECK(outcome.ListChanges<CarriersChanged>() == std::vector{CarriersChanged{"LR01", {"C1"}, {"LR01.CP01"}}});
     CHECK(outcome.ListClearedAlarms() == std::vector<std::string>{"ACS-1004"});
 }
 

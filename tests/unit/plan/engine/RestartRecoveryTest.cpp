@@ -65,6 +65,27 @@ TEST_CASE("RestartRecovery: a plan stays with its robot, which is asked for the 
     CHECK(commands.front().job == job);
 }
 
+TEST_CASE(
+    "RestartRecovery: carriers of ports that are no longer configured raise an alarm, and the record has the present ports")
+{
+    RecoveryParts parts;
+    StoredState stored;
+    stored.carriers = {{"LR01", {"C1"}, {"LR01.CP09"}}};
+    parts.recovery.Restore(stored);
+    const CallOutcome outcome = parts.Collect();
+    CHECK(parts.lr.ports.GetCarriers() == CarrierIDs{std::string(UNKNOWN_CARRIER)});
+    CHECK(outcome.ListSetAlarms() == std::vector<std::string>{"ACS-1004"});
+    const std::vector<CarriersChanged> records = outcome.ListChanges<CarriersChanged>();
+    CHECK(records == std::vector{CarriersChanged{"LR01", {std::string(UNKNOWN_CARRIER)}, {"LR01.CP01"}}});
+
+    RecoveryParts again;
+    stored.carriers = records;
+    again.recovery.Restore(stored);
+    const CallOutcome unchanged = again.Collect();
+    CHECK(unchanged.ListSetAlarms().empty());
+    CHECK(unchanged.ListChanges<CarriersChanged>().empty());
+}
+
 TEST_CASE("RestartRecovery: a resolved job is asked for when the job after it is resolved too")
 {
     RecoveryParts parts;

@@ -21,7 +21,7 @@ const std::array<Location, 2>& GetTestPorts()
 PortLedger MakeLedger(const CarrierIDs& carriers = {std::nullopt, std::nullopt})
 {
     PortLedger ledger(GetTestPorts());
-    ledger.Restore(carriers);
+    CHECK(ledger.Restore({"CR01", carriers, {"CR01.TP01", "CR01.TP02"}}).empty());
     return ledger;
 }
 
@@ -149,7 +149,37 @@ TEST_CASE("PortLedger: a memory place needs its tray on record, or a job that lo
     CHECK_FALSE(ledger.FindMissingTrayOrNull(Location::Parse("SET02.MP15").value(), {}).has_value());
 }
 
-TEST_CASE("PortLedger: a stored record of another number of ports is ignored")
+TEST_CASE(
+    "PortLedger: stored carriers return to their ports by name, whatever the order and number of the ports is now")
 {
-    CHECK(MakeLedger({"T1"}).GetCarriers() == CarrierIDs{std::nullopt, std::nullopt});
+    struct Case
+    {
+        CarriersChanged stored;
+        CarrierIDs expected;
+        std::string lost;
+    };
+    const std::string unknown(UNKNOWN_CARRIER);
+    const std::vector<Case> cases{
+        {{"CR01", {"T2", "T1"}, {"CR01.TP02", "CR01.TP01"}}, {"T1", "T2"}, ""},
+        {{"CR01", {"T1"}, {"CR01.TP01"}}, {"T1", std::nullopt}, ""}, // a port was added
+        {{"CR01", {"T0", std::nullopt, "T1"}, {"CR01.TP03", "CR01.TP02", "CR01.TP01"}},
+         {"T1", std::nullopt},
+         "T0 (CR01.TP03)"},
+        {{"CR01", {"T1", "T2"}, {"CR01.TP01", "CR01.TP04"}}, {"T1", unknown}, "T2 (CR01.TP04)"}, // perhaps another name
+        {{"CR01", {std::nullopt, "T2"}, {"CR01.TP04", "CR01.TP02"}}, {std::nullopt, "T2"}, ""},
+        {{"CR01", {"T1", std::nullopt}, {}}, {"T1", std::nullopt}, ""}, // of a version without names
+        {{"CR01", {"T1", "T2", std::nullopt}, {}}, {unknown, unknown}, "T1, T2"},
+        {{"CR01", {std::nullopt}, {}}, {std::nullopt, std::nullopt}, ""}};
+    for (const Case& restored : cases)
+    {
+        PortLedger ledger(GetTestPorts());
+        CHECK(ledger.Restore(restored.stored) == restored.lost);
+        CHECK(ledger.GetCarriers() == restored.expected);
+    }
+}
+
+TEST_CASE("PortLedger: what it stores it restores")
+{
+    const CarriersChanged record = MakeLedger({"T1", std::nullopt}).MakeRecord("CR01");
+    CHECK(record == CarriersChanged{"CR01", {"T1", std::nullopt}, {"CR01.TP01", "CR01.TP02"}});
 }

@@ -25,7 +25,10 @@ TEST_CASE("Store texts: plans, states, carriers and alarms are decoded as they w
     const Block block{EBlockKind::Station, "A01.CP01", "cleaning", Testing::ManualClock().GetNow().wall};
     CHECK(DecodeBlock(EncodeBlock(block)) == block);
 
-    const CarriersChanged carriers{"CR01", {std::nullopt, "TRAY_02", std::nullopt}};
+    const CarriersChanged carriers{
+        "CR01",
+        {std::nullopt, "TRAY_02", std::nullopt},
+        {"CR01.TP01", "CR01.TP02", "CR01.TP03"}};
     CHECK(DecodeCarriers(EncodeCarriers(carriers)) == carriers);
 
     const Alarm alarm{"CR01", "ACS-1001", EAlarmLevel::Heavy, "look", "P1", 2, std::nullopt, "E77"};
@@ -159,8 +162,15 @@ TEST_CASE("Store texts: the texts of stores that exist are written and read")
         DecodeBlock,
         R"({"kind":"station","id":"A01.CP01","reason":"cleaning","since":1751457600123456789})",
         block);
-    const CarriersChanged carriers{"CR01", {std::nullopt, "TRAY_02"}};
-    check(EncodeCarriers(carriers), DecodeCarriers, R"({"robotId":"CR01","carrierIds":[null,"TRAY_02"]})", carriers);
+    const CarriersChanged carriers{"CR01", {std::nullopt, "TRAY_02"}, {"CR01.TP01", "CR01.TP02"}};
+    check(
+        EncodeCarriers(carriers),
+        DecodeCarriers,
+        R"({"robotId":"CR01","carrierIds":[null,"TRAY_02"],"ports":["CR01.TP01","CR01.TP02"]})",
+        carriers);
+    CHECK(
+        DecodeCarriers(R"({"robotId":"CR01","carrierIds":[null,"TRAY_02"]})")
+        == CarriersChanged{"CR01", {std::nullopt, "TRAY_02"}, {}}); // of a version without names
 }
 
 TEST_CASE("Store texts: a damaged text is refused")

@@ -102,7 +102,8 @@ struct JsonFields<Planning::CarriersChanged>
 {
     static constexpr auto FIELDS = std::make_tuple(
         Required("robotId", &Planning::CarriersChanged::robotID),
-        Required("carrierIds", &Planning::CarriersChanged::carrierIDs));
+        Required("carrierIds", &Planning::CarriersChanged::carrierIDs),
+        Optional("ports", &Planning::CarriersChanged::ports));
 };
 
 template <>
