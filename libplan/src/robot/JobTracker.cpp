@@ -11,12 +11,18 @@ void JobTracker::Begin(StartJob job)
     _job = std::move(job);
     _state = EState::Commanded;
     _end = EEnd::Awaited;
+    _bBegun = false;
     _abandonedID.clear();
 }
 
 void JobTracker::MarkBegun(std::string_view jobID)
 {
-    if (IsOpen(jobID) && _end == EEnd::Awaited)
+    if (!IsOpen(jobID))
+    {
+        return;
+    }
+    _bBegun = true;
+    if (_end == EEnd::Awaited)
     {
         _resolved.reset();
     }
@@ -131,6 +137,11 @@ const StartJob* JobTracker::GetResolvedOrNull() const noexcept
 const std::string& JobTracker::GetAbandonedID() const noexcept
 {
     return _abandonedID;
+}
+
+bool JobTracker::HasBegun() const noexcept
+{
+    return _bBegun;
 }
 
 bool JobTracker::IsRecovering() const noexcept

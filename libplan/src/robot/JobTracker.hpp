@@ -43,6 +43,7 @@ class JobTracker
     std::optional<StartJob> _job;
     EState _state = EState::Commanded;
     EEnd _end = EEnd::Awaited;
+    bool _bBegun = false; ///< The robot has reported the start since the command, or since a restart.
     bool _bOverdue = false;
     std::string
         _abandonedID; ///< The last job if an operator has abandoned it and the robot may still have it; or empty.
@@ -82,6 +83,8 @@ public:
     [[nodiscard]] const StartJob* GetResolvedOrNull() const noexcept;
     /// Empty: the robot has no abandoned job, or was commanded again to cancel it.
     [[nodiscard]] const std::string& GetAbandonedID() const noexcept;
+    /// The robot has begun the job under its present command. After a restart false until it reports the start again.
+    [[nodiscard]] bool HasBegun() const noexcept;
     [[nodiscard]] bool IsRecovering() const noexcept;
     /// After a restart the robot was asked for the outcome of this resolved job.
     [[nodiscard]] bool IsResolvedRecovering(std::string_view jobID) const noexcept;

@@ -140,7 +140,8 @@ void JobOutcomes::OnJobUnknown(Robot& robot, const JobUnknown& event)
         return;
     }
     ActivePlan& plan = *robot.planOrNull;
-    if (GetJobState(plan) == EJobState::InProgress)
+    // A job that begins again is InProgress since its first command.
+    if (robot.job.HasBegun() || (robot.job.IsRecovering() && GetJobState(plan) == EJobState::InProgress))
     {
         _work.SuspendJob(robot, "the robot had started the job and no longer has it");
     }

@@ -103,6 +103,38 @@ TEST_CASE("JobOutcomes: a job that the robot never had is repeated under its com
     }
 }
 
+TEST_CASE("JobOutcomes: a job that begins again counts as begun only after its new command has begun")
+{
+    EngineParts parts;
+    parts.BeginLoad();
+    parts.jobs.OnJobStarted(parts.lr, JobStarted{"P1-a4"});
+    parts.work.RepeatJob(parts.lr, {});
+    parts.work.BeginWork(parts.lr);
+    const std::string commandID = parts.lr.job.GetOrNull()->commandID;
+    parts.Discard();
+    SECTION("the robot never had the new command")
+    {
+        parts.jobs.OnJobUnknown(parts.lr, JobUnknown{"P1-a4"});
+        CHECK(parts.Collect().ListSetAlarms().empty());
+        parts.work.BeginWork(parts.lr);
+        const auto jobs = parts.Collect().ListCommands<StartJob>();
+        REQUIRE(jobs.size() == 1);
+        CHECK(jobs.front().commandID == commandID);
+    }
+    SECTION("it has begun again")
+    {
+        parts.jobs.OnJobStarted(parts.lr, JobStarted{"P1-a4"});
+        parts.jobs.OnJobUnknown(parts.lr, JobUnknown{"P1-a4"});
+        CHECK(parts.lr.job.IsUnresolved());
+    }
+    SECTION("acsd was restarted: it is not known whether it has begun again")
+    {
+        parts.lr.job.BeginRecovery();
+        parts.jobs.OnJobUnknown(parts.lr, JobUnknown{"P1-a4"});
+        CHECK(parts.lr.job.IsUnresolved());
+    }
+}
+
 TEST_CASE("JobOutcomes: an unresolved job waits for the operator, whatever the robot reports later")
 {
     EngineParts parts;
