@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace ACS::Planning
@@ -14,6 +15,7 @@ PlanSubmission::PlanSubmission(EngineState& engine, const TscControl& tsc, const
     : _options(engine.options),
       _admission(engine.admission),
       _plans(engine.plans),
+      _fleet(engine.fleet),
       _outbox(engine.outbox),
       _room(engine.room),
       _transaction(engine.transaction),
@@ -90,6 +92,18 @@ Core::Result<ResolvedPlan> PlanSubmission::Admit(const Plan& plan)
             make_error_code(Core::ECoreError::InvalidIdentifier),
             "planId",
             "an unused planId (Duplicated Plan)",
+            plan.planID);
+    }
+    const auto worker = std::ranges::find_if(_fleet, [&plan](const Robot& robot) {
+        const StartJob* jobOrNull = robot.job.GetOrNull();
+        return jobOrNull != nullptr && jobOrNull->planID == plan.planID;
+    });
+    if (worker != _fleet.end()) // the two jobs would have the same name for operators and robots
+    {
+        return Core::Fail(
+            make_error_code(Core::ECoreError::InvalidIdentifier),
+            "planId",
+            fmt::format("an unused planId (Duplicated Plan: {} still has a job of the ended plan)", worker->GetID()),
             plan.planID);
     }
     Core::Result<ResolvedPlan> resolved = _admission.Resolve(plan);

@@ -19,6 +19,7 @@ class PlanSubmission
     const EngineOptions& _options;
     const PlanAdmission& _admission;
     PlanBook& _plans;
+    const Fleet& _fleet;
     const ReportOutbox& _outbox;
     OutboxRoom& _room;
     EngineTransaction& _transaction;

@@ -141,3 +141,22 @@ TEST_CASE("PlanSubmission: Pending is reported once, after the plan is stored an
     parts.submission.ReportAccepted();
     CHECK(parts.Collect().actions.empty());
 }
+
+TEST_CASE("PlanSubmission: a planID is not used again while a robot has a job of its former plan")
+{
+    EngineOptions options = MakeTestOptions(false);
+    options.bFinishedIDsReused = true;
+    SubmissionParts parts(options);
+    ActivePlan& plan = parts.BeginLoad();
+    parts.work.DropJob(parts.lr);
+    parts.work.FailPlan(plan, "test");
+    REQUIRE(parts.lr.job.IsOverdue());
+    parts.Discard();
+    const auto replies = parts.SubmitPlanOf("P1").ListActions<ReplyCommand>();
+    REQUIRE(replies.size() == 1);
+    CHECK_FALSE(replies.front().bAccepted);
+    CHECK(replies.front().message.find("LR01") != std::string::npos);
+    CHECK(parts.IsAccepted("P2"));
+    parts.jobs.OnJobFailed(parts.lr, JobFailed{"P1-a4", "cancelled"});
+    CHECK(parts.IsAccepted("P1"));
+}
