@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <tuple>
 #include <utility>
 
 namespace ACS::Planning
@@ -55,9 +56,13 @@ void RestartRecovery::Restore(StoredState state)
             _status.Reset(*robotOrNull);
         }
     }
-    // The history in the order in which the plans ended, then the unfinished plans in the order of their acceptance.
+    // The history in the order in which the plans ended, whatever the wall clock was set to, then the unfinished plans in the
+    // order of their acceptance. Records of former versions have no storedAt.
     std::ranges::sort(state.plans, {}, [](const PlanRecord& record) {
-        return std::pair(record.progress.endedAt.value_or(Core::WallTime::max()), record.sequence);
+        const PlanProgress& progress = record.progress;
+        return progress.endedAt.has_value()
+            ? std::tuple(false, progress.storedAt, *progress.endedAt, record.sequence)
+            : std::tuple(true, std::chrono::milliseconds(), Core::WallTime(), record.sequence);
     });
     for (PlanRecord& record : state.plans)
     {

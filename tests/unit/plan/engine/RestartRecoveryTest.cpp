@@ -12,6 +12,8 @@ namespace
 
 struct RecoveryParts : EngineParts
 {
+    using EngineParts::EngineParts;
+
     RestartRecovery recovery{engine, tsc, answers, places, status, work};
 };
 
@@ -48,6 +50,27 @@ TEST_CASE("RestartRecovery: plans are queued again, finished ones are history")
     CHECK(firstOrNull->record.plan.planID == "P2");
     CHECK(parts.engine.plans.FindNextStoredOrNull(firstOrNull) == nullptr);
     CHECK(parts.Collect().GetDelayOrNull(EEngineTimer::Dispatch).has_value());
+}
+
+TEST_CASE(
+    "RestartRecovery: the history keeps the plans that ended last, also if the wall clock was set back between them")
+{
+    EngineOptions options = MakeTestOptions(false);
+    options.finishedPlansKept = 1;
+    RecoveryParts parts(options);
+    StoredState stored;
+    EngineParts before;
+    stored.plans = {before.Add(MakeLogisticsPlan("P1")).record, before.Add(MakeLogisticsPlan("P2")).record};
+    for (PlanRecord& record : stored.plans)
+    {
+        const bool bFirst = record.plan.planID == "P2"; // accepted last, ended first
+        record.progress.state = EPlanState::Completed;
+        record.progress.storedAt = std::chrono::minutes(bFirst ? 1 : 2);
+        record.progress.endedAt = record.acceptedAt + std::chrono::hours(bFirst ? 1 : 0);
+    }
+    parts.recovery.Restore(stored);
+    CHECK(parts.engine.plans.FindFinishedOrNull("P1") != nullptr);
+    CHECK(parts.engine.plans.FindFinishedOrNull("P2") == nullptr);
 }
 
 TEST_CASE("RestartRecovery: a plan stays with its robot, which is asked for the outcome of its job")
