@@ -56,7 +56,7 @@ void OpenStreamRobotAdapter::StartJob(const Planning::StartJob& job, Core::Now n
     }
     if (const std::optional<Planning::Drive> repetition = _base.MakeRepetitionOrNull(job); repetition.has_value())
     {
-        _repetition = Repetition{repetition->driveID, job};
+        _repetition = Repetition{repetition->driveID, job, false};
         _base.Handle(*repetition, now, _baseActions);
         DrainBase(now, out);
         return;
@@ -76,8 +76,14 @@ bool OpenStreamRobotAdapter::TryEndRepetition(const Planning::RobotEvent& event,
     const Planning::DriveRejected* const rejectedOrNull = std::get_if<Planning::DriveRejected>(&event);
     if (arrivedOrNull != nullptr && arrivedOrNull->driveID == _repetition->driveID)
     {
-        const Planning::StartJob job = std::exchange(_repetition, std::nullopt)->job;
-        StartJob(job, now, out);
+        const Repetition repetition = *std::exchange(_repetition, std::nullopt);
+        if (repetition.bOutdated)
+        {
+            out.emplace_back(
+                RaiseEvent{Planning::JobUnknown{repetition.job.jobID}}); // commanded again if it was not resolved
+            return true;
+        }
+        StartJob(repetition.job, now, out);
         return true;
     }
     if (rejectedOrNull != nullptr && rejectedOrNull->driveID == _repetition->driveID)

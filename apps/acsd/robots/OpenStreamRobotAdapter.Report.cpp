@@ -107,6 +107,10 @@ void OpenStreamRobotAdapter::ReportOnline(AdapterActions& out)
     {
         return;
     }
+    if (_repetition.has_value())
+    {
+        _repetition->bOutdated = true; // also if it begins while the robot is offline
+    }
     out.emplace_back(RaiseEvent{Planning::LinkChanged{bOnline}});
     if (bOnline)
     {

@@ -34,6 +34,7 @@ class OpenStreamRobotAdapter final : public IMqttRobotAdapter
     {
         std::string driveID;
         Planning::StartJob job;
+        bool bOutdated = false; ///< The robot was offline since, and an operator may have resolved the job.
     };
 
     /// A job of before a restart; the counters have not arrived yet.

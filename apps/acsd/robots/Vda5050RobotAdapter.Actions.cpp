@@ -50,9 +50,9 @@ void Vda5050RobotAdapter::ReportDriveRejected(
     const std::string& reason,
     AdapterActions& out)
 {
-    if (const std::optional<Planning::StartJob> jobOrNull = _job.TakeDeferredOrNull(); jobOrNull.has_value())
+    if (const auto deferredOrNull = _job.TakeDeferredOrNull(); deferredOrNull.has_value())
     {
-        out.emplace_back(RaiseEvent{Planning::JobRejected{jobOrNull->jobID, reason}});
+        out.emplace_back(RaiseEvent{Planning::JobRejected{deferredOrNull->job.jobID, reason}});
         return;
     }
     out.emplace_back(RaiseEvent{Planning::DriveRejected{orderID, reason}});
@@ -69,9 +69,9 @@ void Vda5050RobotAdapter::OnDriveFinished(const std::string& orderID, Core::Now 
     {
         ReportDriveRejected(orderID, "the vehicle did not report the end of the action " + *openOrNull, out);
     }
-    else if (const std::optional<Planning::StartJob> jobOrNull = _job.TakeDeferredOrNull(); jobOrNull.has_value())
+    else if (const auto deferredOrNull = _job.TakeDeferredOrNull(); deferredOrNull.has_value())
     {
-        StartJob(*jobOrNull, now, out);
+        ContinueJob(*deferredOrNull, now, out);
     }
     else
     {

@@ -69,6 +69,17 @@ void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now,
     SendPendingOrder(now, out);
 }
 
+void Vda5050RobotAdapter::ContinueJob(const VehicleJob::Deferred& deferred, Core::Now now, AdapterActions& out)
+{
+    if (deferred.bOutdated)
+    {
+        out.emplace_back(
+            RaiseEvent{Planning::JobUnknown{deferred.job.jobID}}); // commanded again if it was not resolved
+        return;
+    }
+    StartJob(deferred.job, now, out);
+}
+
 std::string Vda5050RobotAdapter::FindNodeID(const Planning::StartJob& job) const
 {
     const VDA5050::StateMessage* const stateOrNull = _session.GetStateOrNull();
@@ -177,18 +188,6 @@ void Vda5050RobotAdapter::ResumeJob(const Planning::StartJob& job, Core::Now now
         _job.Clear();
         out.emplace_back(RaiseEvent{Planning::JobUnresolved{job.jobID, Core::Describe(resumed.error())}});
     }
-}
-
-/// Whether the job's action runs, which a vehicle may show together with paused.
-bool Vda5050RobotAdapter::IsJobRunning(const VDA5050::StateMessage& state) const
-{
-    const Planning::StartJob* const jobOrNull = _job.GetRunningOrNull();
-    return jobOrNull != nullptr
-        && std::ranges::any_of(state.actionStates, [jobOrNull](const VDA5050::ActionState& action) {
-               return action.actionID == jobOrNull->commandID
-                   && (action.actionStatus == VDA5050::EActionStatus::Initializing
-                       || action.actionStatus == VDA5050::EActionStatus::Running);
-           });
 }
 
 void Vda5050RobotAdapter::OnActionChanged(const VDA5050::ActionChanged& action, AdapterActions& out)

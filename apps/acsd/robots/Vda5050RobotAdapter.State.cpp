@@ -16,7 +16,7 @@ using Planning::RaiseEvent;
 void Vda5050RobotAdapter::OnState(Core::Now now, AdapterActions& out)
 {
     const VDA5050::StateMessage& state = *_session.GetStateOrNull();
-    _report.Update(state, IsJobRunning(state), _methods.GetPositions());
+    _report.Update(state, _job.IsShownRunning(state), _methods.GetPositions());
     _maps.OnReported(state.maps);
     _operatorActions.OnState(state);
     RecoverJob(now, out); // first: a job of before a restart does not make the vehicle occupied
@@ -63,6 +63,10 @@ void Vda5050RobotAdapter::SetOnline(bool bOnline, Core::Now now, AdapterActions&
     {
         UpdateJobCheck(out); // before the engine gives it a plan
         UpdateCompatibility(now, out);
+    }
+    else
+    {
+        _job.OnOffline();
     }
     if (_bFactsheetAwaited && bOnline)
     {

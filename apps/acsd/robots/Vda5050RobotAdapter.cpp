@@ -438,9 +438,9 @@ void Vda5050RobotAdapter::OnCancelled(const std::string& orderID, Core::Now now,
         ReportDriveRejected(orderID, *reason, out);
         return;
     }
-    if (const std::optional<Planning::StartJob> jobOrNull = _job.TakeDeferredOrNull(); jobOrNull.has_value())
+    if (const auto deferredOrNull = _job.TakeDeferredOrNull(); deferredOrNull.has_value())
     {
-        StartJob(*jobOrNull, now, out); // commanded after the cancellation of a repetition
+        ContinueJob(*deferredOrNull, now, out); // commanded after the cancellation of a repetition
         return;
     }
     out.emplace_back(RaiseEvent{Planning::DriveCancelled{orderID, drive.GetLastPassedNodeID()}});
@@ -470,9 +470,9 @@ void Vda5050RobotAdapter::OnFactsheet(Core::Now now, AdapterActions& out)
     {
         return;
     }
-    if (const std::optional<Planning::StartJob> jobOrNull = _job.TakeDeferredOrNull(); jobOrNull.has_value())
+    if (const auto deferredOrNull = _job.TakeDeferredOrNull(); deferredOrNull.has_value())
     {
-        StartJob(*jobOrNull, now, out);
+        ContinueJob(*deferredOrNull, now, out);
     }
 }
 

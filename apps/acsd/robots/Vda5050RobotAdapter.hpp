@@ -106,6 +106,8 @@ private:
     void StartDrive(const Planning::Drive& drive, Core::Now now, Planning::AdapterActions& out);
     void ExtendDrive(const Planning::ExtendDrive& extension, Core::Now now, Planning::AdapterActions& out);
     void StartJob(const Planning::StartJob& job, Core::Now now, Planning::AdapterActions& out);
+    /// Starts the job, or returns it to the engine.
+    void ContinueJob(const VehicleJob::Deferred& deferred, Core::Now now, Planning::AdapterActions& out);
     void CancelJob(const std::string& jobID, Core::Now now, Planning::AdapterActions& out);
     /// The node that the vehicle reports, or that of the job if it reports none; empty: unknown.
     [[nodiscard]] std::string FindNodeID(const Planning::StartJob& job) const;
@@ -146,8 +148,6 @@ private:
     void AbandonDrive(const std::string& reason, Core::Now now, Planning::AdapterActions& out);
     /// After each event that finds it due, because the vehicle may have been disconnected or have refused it.
     void CancelAbandoned(Core::Now now);
-
-    [[nodiscard]] bool IsJobRunning(const VDA5050::StateMessage& state) const;
 
     /// Executes the actions of the session and reports its events to the engine.
     void Drain(Core::Now now, Planning::AdapterActions& out);

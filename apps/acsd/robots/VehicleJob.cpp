@@ -1,5 +1,6 @@
 #include "robots/VehicleJob.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -9,6 +10,14 @@ namespace ACS::Acsd
 void VehicleJob::Defer(Planning::StartJob job)
 {
     _state = Deferred{std::move(job)};
+}
+
+void VehicleJob::OnOffline()
+{
+    if (Deferred* const deferredOrNull = std::get_if<Deferred>(&_state); deferredOrNull != nullptr)
+    {
+        deferredOrNull->bOutdated = true;
+    }
 }
 
 void VehicleJob::Recover(Planning::RecoverJob recovery)
@@ -48,16 +57,16 @@ void VehicleJob::Clear()
     _state = std::monostate{};
 }
 
-std::optional<Planning::StartJob> VehicleJob::TakeDeferredOrNull()
+std::optional<VehicleJob::Deferred> VehicleJob::TakeDeferredOrNull()
 {
     Deferred* const deferredOrNull = std::get_if<Deferred>(&_state);
     if (deferredOrNull == nullptr)
     {
         return std::nullopt;
     }
-    Planning::StartJob job = std::move(deferredOrNull->job);
+    Deferred deferred = std::move(*deferredOrNull);
     Clear();
-    return job;
+    return deferred;
 }
 
 std::optional<Planning::RecoverJob> VehicleJob::TakeRecoveryOrNull()
@@ -106,6 +115,17 @@ const Planning::StartJob* VehicleJob::GetRunningOrNull() const noexcept
 {
     const Running* const runningOrNull = std::get_if<Running>(&_state);
     return runningOrNull == nullptr ? nullptr : &runningOrNull->job;
+}
+
+bool VehicleJob::IsShownRunning(const VDA5050::StateMessage& state) const
+{
+    const Planning::StartJob* const jobOrNull = GetRunningOrNull();
+    return jobOrNull != nullptr
+        && std::ranges::any_of(state.actionStates, [jobOrNull](const VDA5050::ActionState& action) {
+               return action.actionID == jobOrNull->commandID
+                   && (action.actionStatus == VDA5050::EActionStatus::Initializing
+                       || action.actionStatus == VDA5050::EActionStatus::Running);
+           });
 }
 
 const LoadCheck* VehicleJob::GetLoadCheckOrNull() const noexcept

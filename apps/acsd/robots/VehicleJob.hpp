@@ -2,6 +2,7 @@
 
 #include "robots/LoadCheck.hpp"
 #include <acs/plan/RobotCommand.hpp>
+#include <acs/vda5050/StateMessage.hpp>
 
 #include <optional>
 #include <string>
@@ -14,12 +15,6 @@ namespace ACS::Acsd
 /// The job of a VDA5050 vehicle, from its command or its recovery to the end that is reported to the engine.
 class VehicleJob final
 {
-    /// The vehicle's factsheet is awaited.
-    struct Deferred
-    {
-        Planning::StartJob job;
-    };
-
     /// It was commanded before a restart, and the vehicle has not reported its state yet.
     struct Recovering
     {
@@ -40,6 +35,13 @@ class VehicleJob final
     };
 
 public:
+    /// The vehicle's factsheet is awaited, or the end of a drive that repeats actions.
+    struct Deferred
+    {
+        Planning::StartJob job;
+        bool bOutdated = false; ///< The vehicle was offline since, and an operator may have resolved the job.
+    };
+
     /// The vehicle ended the action before it was done: its mode was switched, or it was restarted. What its loads show is
     /// evaluated when it is in automatic mode again.
     struct Interrupted
@@ -54,6 +56,8 @@ private:
 
 public:
     void Defer(Planning::StartJob job);
+    /// The vehicle is offline.
+    void OnOffline();
     void Recover(Planning::RecoverJob recovery);
     void Run(Planning::StartJob job);
     void VerifyLoads(LoadCheck check);
@@ -66,7 +70,7 @@ public:
     void Clear();
 
     /// The deferred job, which is then no longer here.
-    [[nodiscard]] std::optional<Planning::StartJob> TakeDeferredOrNull();
+    [[nodiscard]] std::optional<Deferred> TakeDeferredOrNull();
     /// Likewise the job to be recovered.
     [[nodiscard]] std::optional<Planning::RecoverJob> TakeRecoveryOrNull();
     /// Likewise the running job. Only while GetRunningOrNull is not null.
@@ -78,6 +82,8 @@ public:
     [[nodiscard]] bool HasDeferred() const;
     [[nodiscard]] bool IsRecovering() const;
     [[nodiscard]] const Planning::StartJob* GetRunningOrNull() const noexcept;
+    /// Whether the state shows the action of the running job as running, which a vehicle may show together with paused.
+    [[nodiscard]] bool IsShownRunning(const VDA5050::StateMessage& state) const;
     [[nodiscard]] const LoadCheck* GetLoadCheckOrNull() const noexcept;
     [[nodiscard]] const Interrupted* GetInterruptedOrNull() const noexcept;
 };

@@ -205,4 +205,19 @@ TEST_CASE("An arm that is lost while the base repeats actions returns its job wh
     CHECK(robot.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"J"}});
 }
 
+TEST_CASE("A job of the arm is not started after an outage while the base repeated actions: it may be resolved")
+{
+    UnfinishedNode robot;
+    const VDA5050::OrderMessage order = robot.CommandJob();
+    robot.Deliver(OpenStream::ClientLost{});
+    robot.BringUp();
+    robot.ShowRepetition(order, VDA5050::EActionStatus::Finished);
+    CHECK(robot.TakeRequests().empty());
+    CHECK(robot.TakeEvents<Planning::JobUnknown>() == std::vector<Planning::JobUnknown>{{"J"}});
+
+    robot.adapter.Handle(robot.job, robot.clock.GetNow(), robot.actions); // it was not resolved
+    CHECK(robot.TakeOrders().empty());
+    CHECK(robot.TakeRequests() == std::vector<std::string>{SELECT});
+}
+
 } // namespace ACS::Acsd::Test

@@ -21,6 +21,23 @@ TEST_CASE("A job that is cancelled while actions are repeated is not sent")
     CHECK(vehicle.TakeOrders().empty());
 }
 
+TEST_CASE("A job is not sent after an outage while actions were repeated: it may be resolved")
+{
+    LiftingVehicle vehicle;
+    const VDA5050::OrderMessage repetition = vehicle.BeginRepetition();
+    vehicle.ShowRepetition(repetition, VDA5050::EActionStatus::Running);
+    vehicle.adapter.OnLinkDown(vehicle.clock.GetNow(), vehicle.actions);
+    vehicle.ComeOnline();
+    vehicle.ShowRepetition(repetition, VDA5050::EActionStatus::Finished);
+    CHECK(vehicle.TakeOrders().empty());
+    CHECK(vehicle.TakeEvents<Planning::JobUnknown>().size() == 1);
+
+    vehicle.Command(MakeJob("CassetteLoad")); // it was not resolved
+    const std::vector<VDA5050::OrderMessage> orders = vehicle.TakeOrders();
+    REQUIRE(orders.size() == 1);
+    CHECK(orders[0].orderID != repetition.orderID);
+}
+
 TEST_CASE("What follows a cancelled repetition waits for its end, and repeats only the actions that have not finished")
 {
     const bool bFinished = GENERATE(true, false);

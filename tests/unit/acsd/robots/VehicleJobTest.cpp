@@ -16,9 +16,10 @@ TEST_CASE("A deferred job is returned once, and is not running")
     CHECK(job.IsDeferred("J"));
     CHECK_FALSE(job.IsDeferred("K"));
     CHECK(job.GetRunningOrNull() == nullptr);
-    const std::optional<Planning::StartJob> deferred = job.TakeDeferredOrNull();
+    const std::optional<VehicleJob::Deferred> deferred = job.TakeDeferredOrNull();
     REQUIRE(deferred.has_value());
-    CHECK(deferred->commandID == "U1");
+    CHECK(deferred->job.commandID == "U1");
+    CHECK_FALSE(deferred->bOutdated);
     CHECK_FALSE(job.IsDeferred("J"));
     CHECK_FALSE(job.TakeDeferredOrNull().has_value());
 }
