@@ -23,7 +23,7 @@ SimulatorTrace::SimulatorTrace(
            options.limits,
            std::bind_front(&MakeLossLine, _program),
            TraceWriter::DEFAULT_QUEUE_BYTES,
-           {_program + "-"}},
+           {.prefix = _program + "-", .bDeletedLater = true}},
           clock,
           _logger)
 {
@@ -60,6 +60,10 @@ SimulatorTrace::~SimulatorTrace()
 
 void SimulatorTrace::Write(TraceLine line, Core::Now now)
 {
+    if (!std::exchange(_bKept, true))
+    {
+        _writer.Keep();
+    }
     line.program = _program;
     _writer.Write(MakeTraceLine(line, now), now);
 }

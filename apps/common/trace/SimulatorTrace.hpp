@@ -23,6 +23,7 @@ class SimulatorTrace final
     const std::string _program;
     const std::string _folder;
     TraceWriter _writer;
+    bool _bKept = false; ///< There was a line: the start did not fail.
 
     SimulatorTrace(std::string program, const TraceOptions& options, const Core::IClock& clock, Core::Logger logger);
 
@@ -33,7 +34,8 @@ public:
     /// Writes the remaining lines. Missing lines are logged.
     ~SimulatorTrace();
 
-    /// Opens a file in the folder of the options, which is created if necessary. The error is one sentence. The clock and the sink of
+    /// Opens a file in the folder of the options, which is created if necessary. The oldest files are deleted with the first line; a
+    /// trace without lines leaves no file. The error is one sentence. The clock and the sink of
     /// the logger outlive the trace.
     [[nodiscard]] static tl::expected<std::unique_ptr<SimulatorTrace>, std::string> Create(
         const std::string& program,

@@ -85,6 +85,20 @@ TEST_CASE_METHOD(SimulatorTraceFixture, "A line of a simulator has the times fir
     CHECK((permissions & std::filesystem::perms::others_read) == std::filesystem::perms::none);
 }
 
+TEST_CASE_METHOD(
+    SimulatorTraceFixture,
+    "A start of a simulator that ends without a message deletes no file and leaves none")
+{
+    const Apps::TraceLimits limits{4'096, 1};
+    Begin(limits)->Write(MakeMessage("{}"));
+    Begin(limits).reset(); // its port is taken
+    CHECK(ListNames(folder.GetPath()) == std::vector<std::string>{"vda-sim-000001.ndjson"});
+    CHECK(ReadLines(folder.GetPath()).size() == 1);
+    Begin(limits)->Write(MakeMessage("{}"));
+    CHECK(ListNames(folder.GetPath()).size() == 1);
+    CHECK(ReadLines(folder.GetPath()).size() == 1);
+}
+
 TEST_CASE_METHOD(SimulatorTraceFixture, "The trace does not exceed its limits, however many messages there are")
 {
     constexpr std::uint64_t FILE_BYTES = 4'096;
