@@ -1,6 +1,7 @@
 #include "config/ErrorNames.hpp"
 
 #include "common/config/ConfigReader.hpp"
+#include "operator/AlarmCatalog.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -16,6 +17,10 @@ ErrorNames ReadErrorNames(const std::string& fileName, std::vector<std::string>&
     for (const std::string& ownCode : root.GetNames())
     {
         const Apps::ConfigSection section = root.GetSection(ownCode);
+        if (ownCode.starts_with("ACS-") && DescribeAlarm(ownCode).errorCode != ownCode)
+        {
+            root.AddError(ownCode, "is no alarm of acsd; docs/reference/alarms.md lists the codes");
+        }
         ErrorName name;
         name.code = section.GetStringOrNull("code");
         name.message = section.GetStringOrNull("message");

@@ -233,6 +233,11 @@ TEST_CASE("errors.map gives alarms the site's names and levels; its errors have 
     CHECK(errors[0].find(path + ":2: ACS-1002.code") != std::string::npos);
     CHECK(errors[1].find(path + ":3: ACS-1002.level") != std::string::npos);
     CHECK(errors[2].find(path + ":4: ACS-1002.colour") != std::string::npos);
+
+    std::ofstream(path) << "[ACS-1002]\ncode = \"E77\"\n[ACS-102]\ncode = \"E78\"\n";
+    const std::vector<std::string> misspelt = ReadMCS({"errors.map=" + path}).errors;
+    REQUIRE(misspelt.size() == 1);
+    CHECK(misspelt[0].find(path + ":3: ACS-102: is no alarm of acsd") != std::string::npos);
 }
 
 } // namespace ACS::Acsd::Test
