@@ -29,7 +29,8 @@ constexpr std::array CATALOG = std::to_array<AlarmDescription>({
      "floor, correct the map."},
     {"ACS-1004",
      "Job contradicts the record",
-     "A job loaded an occupied port, or unloaded an empty port or another carrier.",
+     "A job loaded an occupied port, or unloaded an empty port or another carrier. Or the ports of the robot have changed in the "
+     "configuration, and carriers are on record at ports that no longer exist.",
      "Check the ports of the robot. Then correct the record with `acsctl carriers ROBOT`."},
     {"ACS-1005",
      "Store failing",
