@@ -85,20 +85,20 @@ void RestartRecovery::RestoreCarriers(const CarriersChanged& stored)
         return;
     }
     Robot& robot = *robotOrNull;
-    const std::string lost = robot.ports.Restore(stored);
+    robot.ports.Restore(stored);
     _status.Reset(robot);
     CarriersChanged record = robot.ports.MakeRecord(stored.robotID);
     if (record.ports != stored.ports)
     {
         _transaction.Store(std::move(record));
     }
-    if (!lost.empty())
+    if (const std::string stranded = robot.ports.DescribeStranded(); !stranded.empty())
     {
         const std::string text = fmt::format(
             "The ports of {} have changed in the configuration, and the record has carriers at ports that no longer exist: {}. "
             "Ports that are new have an unknown carrier. Check the ports and correct the record.",
             stored.robotID,
-            lost);
+            stranded);
         _transaction.Note(robot, text);
         _transaction.RaiseAlarm(MakeAlarm(stored.robotID, ALARM_PORT, EAlarmLevel::Light, text));
     }

@@ -66,18 +66,17 @@ PortLedger::PortLedger(std::span<const Core::Location> ports)
 {
 }
 
-std::string PortLedger::Restore(const CarriersChanged& record)
+void PortLedger::Restore(const CarriersChanged& record)
 {
     if (record.ports.empty() && record.carrierIDs.size() == _ports.size())
     {
         _carriers = record.carrierIDs;
-        return {};
+        return;
     }
     std::vector<bool> isKnown(_ports.size(), false);
-    std::string lost;
     for (std::size_t i = 0; i < record.carrierIDs.size(); ++i)
     {
-        const std::string_view name = i < record.ports.size() ? std::string_view(record.ports[i]) : std::string_view();
+        const std::string name = i < record.ports.size() ? record.ports[i] : fmt::format("port {}", i + 1);
         const std::optional<std::string>& carrier = record.carrierIDs[i];
         if (const std::optional<std::size_t> port = FindPortOrNull(name); port.has_value())
         {
@@ -86,27 +85,23 @@ std::string PortLedger::Restore(const CarriersChanged& record)
         }
         else if (carrier.has_value())
         {
-            lost += fmt::format(
-                "{}{}{}",
-                lost.empty() ? "" : ", ",
-                *carrier,
-                name.empty() ? "" : fmt::format(" ({})", name));
+            _stranded.emplace(name, *carrier);
         }
     }
-    for (std::size_t port = 0; port < _ports.size() && !lost.empty(); ++port)
+    for (std::size_t port = 0; port < _ports.size() && !_stranded.empty(); ++port)
     {
         if (!isKnown[port])
         {
             _carriers[port] = UNKNOWN_CARRIER;
         }
     }
-    return lost;
 }
 
 void PortLedger::Correct(CarrierIDs carriers)
 {
     assert(carriers.size() == _ports.size());
     _carriers = std::move(carriers);
+    _stranded.clear();
     _disputes.clear();
 }
 
@@ -226,12 +221,27 @@ const CarrierIDs& PortLedger::GetCarriers() const noexcept
     return _carriers;
 }
 
+std::string PortLedger::DescribeStranded() const
+{
+    std::string text;
+    for (const auto& [port, carrier] : _stranded)
+    {
+        text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", carrier, port);
+    }
+    return text;
+}
+
 CarriersChanged PortLedger::MakeRecord(const std::string& robotID) const
 {
     CarriersChanged record{robotID, _carriers};
     for (const Core::Location& port : _ports)
     {
         record.ports.push_back(port.GetText());
+    }
+    for (const auto& [port, carrier] : _stranded)
+    {
+        record.ports.push_back(port);
+        record.carrierIDs.emplace_back(carrier);
     }
     return record;
 }

@@ -51,6 +51,8 @@ private:
 
     std::span<const Core::Location> _ports;
     CarrierIDs _carriers;
+    /// By name: on record at ports that no longer exist, until an operator has corrected the record or the port is back.
+    std::map<std::string, std::string> _stranded;
     std::map<std::size_t, Dispute> _disputes;
     bool _bReportLimited = false;
 
@@ -59,10 +61,10 @@ public:
     /// The ports must outlive the ledger. All are empty.
     explicit PortLedger(std::span<const Core::Location> ports);
 
-    /// After a restart, by the names of the ports; a record without names counts if it has as many ports as there are. Returns
-    /// the carriers whose ports no longer exist ("C1 (CR01.TP03), C2"). They may be at a port that the record does not have:
-    /// such ports then have an unknown carrier until an operator or the robot's sensors correct the record.
-    [[nodiscard]] std::string Restore(const CarriersChanged& record);
+    /// After a restart, by the names of the ports; a record without names counts if it has as many ports as there are. Carriers
+    /// whose ports no longer exist may be at a port that the record does not have: such ports then have an unknown carrier until
+    /// an operator or the robot's sensors correct the record.
+    void Restore(const CarriersChanged& record);
     /// By an operator: one entry per port.
     void Correct(CarrierIDs carriers);
     void ForgetDisputes();
@@ -78,7 +80,9 @@ public:
     void EndReportInterval();
 
     [[nodiscard]] const CarrierIDs& GetCarriers() const noexcept;
-    /// What is stored.
+    /// The carriers on record at ports that no longer exist ("C1 (CR01.TP03), C2 (CR01.TP04)"); empty if there are none.
+    [[nodiscard]] std::string DescribeStranded() const;
+    /// What is stored: the ports, then those that no longer exist and had a carrier.
     [[nodiscard]] CarriersChanged MakeRecord(const std::string& robotID) const;
     [[nodiscard]] bool IsDisputed() const noexcept;
     /// "LR01.CP01: expected C1, reported no carrier; …"

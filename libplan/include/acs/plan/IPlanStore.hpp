@@ -64,7 +64,7 @@ struct ReportRemoved
 struct CarriersChanged
 {
     std::string robotID;
-    std::vector<std::optional<std::string>> carrierIDs; ///< One per port, in the order of RobotOptions::ports.
+    std::vector<std::optional<std::string>> carrierIDs; ///< One per port: RobotOptions::ports, then removed ones.
     /// The names of these ports, by which a restart finds them if RobotOptions::ports has changed. Empty in a record of a
     /// version without names: the order counts.
     std::vector<std::string> ports{};

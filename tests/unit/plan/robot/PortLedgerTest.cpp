@@ -21,7 +21,7 @@ const std::array<Location, 2>& GetTestPorts()
 PortLedger MakeLedger(const CarrierIDs& carriers = {std::nullopt, std::nullopt})
 {
     PortLedger ledger(GetTestPorts());
-    CHECK(ledger.Restore({"CR01", carriers, {"CR01.TP01", "CR01.TP02"}}).empty());
+    ledger.Restore({"CR01", carriers, {"CR01.TP01", "CR01.TP02"}});
     return ledger;
 }
 
@@ -156,7 +156,7 @@ TEST_CASE(
     {
         CarriersChanged stored;
         CarrierIDs expected;
-        std::string lost;
+        std::string stranded;
     };
     const std::string unknown(UNKNOWN_CARRIER);
     const std::vector<Case> cases{
@@ -168,14 +168,32 @@ TEST_CASE(
         {{"CR01", {"T1", "T2"}, {"CR01.TP01", "CR01.TP04"}}, {"T1", unknown}, "T2 (CR01.TP04)"}, // perhaps another name
         {{"CR01", {std::nullopt, "T2"}, {"CR01.TP04", "CR01.TP02"}}, {std::nullopt, "T2"}, ""},
         {{"CR01", {"T1", std::nullopt}, {}}, {"T1", std::nullopt}, ""}, // of a version without names
-        {{"CR01", {"T1", "T2", std::nullopt}, {}}, {unknown, unknown}, "T1, T2"},
+        {{"CR01", {"T1", "T2", std::nullopt}, {}}, {unknown, unknown}, "T1 (port 1), T2 (port 2)"},
         {{"CR01", {std::nullopt}, {}}, {std::nullopt, std::nullopt}, ""}};
     for (const Case& restored : cases)
     {
         PortLedger ledger(GetTestPorts());
-        CHECK(ledger.Restore(restored.stored) == restored.lost);
+        ledger.Restore(restored.stored);
+        CHECK(ledger.DescribeStranded() == restored.stranded);
         CHECK(ledger.GetCarriers() == restored.expected);
     }
+}
+
+TEST_CASE(
+    "PortLedger: a carrier of a port that no longer exists is back with the port, unless the record was corrected before")
+{
+    PortLedger ledger({&GetTestPorts()[0], 1});
+    ledger.Restore({"CR01", {"T1", "T2"}, {"CR01.TP01", "CR01.TP02"}});
+    CHECK(ledger.GetCarriers() == CarrierIDs{"T1"});
+    PortLedger before(GetTestPorts());
+    before.Restore(ledger.MakeRecord("CR01"));
+    CHECK(before.GetCarriers() == CarrierIDs{"T1", "T2"});
+    CHECK(before.DescribeStranded().empty());
+
+    ledger.Correct({"T1"});
+    PortLedger corrected(GetTestPorts());
+    corrected.Restore(ledger.MakeRecord("CR01"));
+    CHECK(corrected.GetCarriers() == CarrierIDs{"T1", std::nullopt});
 }
 
 TEST_CASE("PortLedger: what it stores it restores")
