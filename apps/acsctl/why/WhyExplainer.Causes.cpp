@@ -54,6 +54,24 @@ std::string DescribePause(const PlanInfo& plan, bool bStated)
                    : fmt::format("Plan {} is paused.", plan.planID);
 }
 
+/// What a robot does, or why it does nothing.
+std::string DescribeState(const RobotInfo& robot)
+{
+    if (robot.reason.has_value())
+    {
+        return *robot.reason;
+    }
+    return robot.status + (robot.planID.has_value() ? " with plan " + *robot.planID : std::string());
+}
+
+/// "Robot R1: battery 12 % is below 20 %.", or the reason alone if it is a sentence about the robot.
+std::string DescribeReason(const RobotReason& robot)
+{
+    return MakeSentence(
+        robot.reason.starts_with(robot.robotID + ' ') ? robot.reason
+                                                      : fmt::format("Robot {}: {}", robot.robotID, robot.reason));
+}
+
 /// " See robot R1 and plan P1 above.", or nothing.
 std::string MakeReference(const RobotInfo* robotOrNull, const PlanInfo* planOrNull)
 {
@@ -102,6 +120,7 @@ void WhyExplainer::AddPlanRecursive(const PlanInfo& plan, std::size_t depth, Cha
     AddRobotsOfPlanRecursive(plan, stated, depth, chain);
     if (plan.waits.has_value())
     {
+        AddNamedRobotsRecursive(plan, depth, chain);
         AddBlocksOfPlan(plan, depth, chain);
     }
 }
@@ -154,7 +173,7 @@ void WhyExplainer::AddRobotsOfPlanRecursive(const PlanInfo& plan, std::size_t st
     {
         for (const RobotReason& robot : robots)
         {
-            AddRobotOfPlanRecursive(plan, robot, depth, chain);
+            AddRobotOfPlanRecursive(plan.planID, robot, depth, chain);
         }
     }
     const bool bListed = std::ranges::find(robots, plan.robotID, &RobotReason::robotID) != robots.end();
@@ -184,23 +203,52 @@ void WhyExplainer::AddRobotsOfPlanRecursive(const PlanInfo& plan, std::size_t st
 }
 
 // NOLINTNEXTLINE(misc-no-recursion): at most DEEPEST
+void WhyExplainer::AddNamedRobotsRecursive(const PlanInfo& plan, std::size_t depth, Chain& chain) const
+{
+    for (const RobotInfo* const robotOrNull : ListNamedRobots(plan.waits->message))
+    {
+        const std::string& id = robotOrNull->robotID;
+        const bool bListed =
+            std::ranges::find(plan.waits->robots, id, &RobotReason::robotID) != plan.waits->robots.end();
+        if (id != plan.robotID && !bListed)
+        {
+            AddRobotOfPlanRecursive(plan.planID, {id, DescribeState(*robotOrNull)}, depth, chain);
+        }
+    }
+}
+
+void WhyExplainer::AddNamedRobots(const RobotInfo& robot, Chain& chain) const
+{
+    if (!robot.reason.has_value())
+    {
+        return;
+    }
+    for (const RobotInfo* const otherOrNull : ListNamedRobots(*robot.reason))
+    {
+        if (otherOrNull != &robot)
+        {
+            AddRobotOfPlanRecursive({}, {otherOrNull->robotID, DescribeState(*otherOrNull)}, 0, chain);
+        }
+    }
+}
+
+// NOLINTNEXTLINE(misc-no-recursion): at most DEEPEST
 void WhyExplainer::AddRobotOfPlanRecursive(
-    const PlanInfo& plan,
+    std::string_view planID,
     const RobotReason& reason,
     std::size_t depth,
     Chain& chain) const
 {
     const RobotInfo* const robotOrNull = FindRobotOrNull(reason.robotID);
     const PlanInfo* const foundOrNull = robotOrNull == nullptr ? nullptr : FindStoppedPlanOrNull(*robotOrNull);
-    const PlanInfo* const otherOrNull =
-        foundOrNull == nullptr || foundOrNull->planID == plan.planID ? nullptr : foundOrNull;
+    const PlanInfo* const otherOrNull = foundOrNull == nullptr || foundOrNull->planID == planID ? nullptr : foundOrNull;
     const auto known = chain.robots.find(reason.robotID);
     const bool bKnown = known != chain.robots.end();
     const bool bOtherKnown = otherOrNull != nullptr && chain.plans.contains(otherOrNull->planID);
     const std::size_t stated = chain.causes.size();
     chain.causes.push_back(
         {depth,
-         MakeSentence(fmt::format("Robot {}: {}", reason.robotID, reason.reason))
+         DescribeReason(reason)
              + MakeReference(bKnown && known->second ? robotOrNull : nullptr, bOtherKnown ? otherOrNull : nullptr),
          {},
          {}});
@@ -228,6 +276,23 @@ void WhyExplainer::AddOtherPlanRecursive(const PlanInfo& plan, std::size_t depth
     AddPlanRecursive(plan, depth + 1, chain);
 }
 
+std::vector<const RobotInfo*> WhyExplainer::ListNamedRobots(std::string_view text) const
+{
+    std::vector<const RobotInfo*> named;
+    constexpr std::string_view BETWEEN = " ,.:;";
+    for (std::size_t begin = 0; begin < text.size();)
+    {
+        const std::size_t end = std::min(text.find_first_of(BETWEEN, begin), text.size());
+        const RobotInfo* const robotOrNull = FindRobotOrNull(text.substr(begin, end - begin));
+        if (robotOrNull != nullptr && std::ranges::find(named, robotOrNull) == named.end())
+        {
+            named.push_back(robotOrNull);
+        }
+        begin = end + 1;
+    }
+    return named;
+}
+
 const PlanInfo* WhyExplainer::FindStoppedPlanOrNull(const RobotInfo& robot) const
 {
     const PlanInfo* const planOrNull = robot.planID.has_value() ? FindPlanOrNull(*robot.planID) : nullptr;
@@ -238,8 +303,14 @@ void WhyExplainer::AddState(const RobotInfo& robot, std::size_t depth, std::vect
 {
     if (robot.reason.has_value())
     {
+        const bool bSentence = robot.reason->starts_with(robot.robotID + ' ');
         causes.push_back(
-            {depth, MakeSentence(fmt::format("Robot {} is not available: {}", robot.robotID, *robot.reason)), {}, {}});
+            {depth,
+             MakeSentence(
+                 bSentence ? *robot.reason
+                           : fmt::format("Robot {} is not available: {}", robot.robotID, *robot.reason)),
+             {},
+             {}});
     }
     else if (IsUnusableStatus(robot.status))
     {

@@ -203,6 +203,7 @@ void WhyExplainer::AddCausesOfRobot(const RobotInfo& robot, Chain& chain) const
             AddState(robot, 0, chain.causes);
         }
         AddRobot(robot, NO_CAUSE, 0, chain);
+        AddNamedRobots(robot, chain);
     }
     else if (explained->second)
     {

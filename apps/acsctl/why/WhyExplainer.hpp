@@ -77,11 +77,16 @@ private:
     std::size_t AddWaits(const PlanInfo& plan, std::size_t depth, Chain& chain) const;
     /// The cause `stated` is its wait reason, which may be about its robot.
     void AddRobotsOfPlanRecursive(const PlanInfo& plan, std::size_t stated, std::size_t depth, Chain& chain) const;
-    /// A robot that could execute the plan.
-    void AddRobotOfPlanRecursive(const PlanInfo& plan, const RobotReason& reason, std::size_t depth, Chain& chain)
+    /// The robots that its wait reason names, such as those that block its robot.
+    void AddNamedRobotsRecursive(const PlanInfo& plan, std::size_t depth, Chain& chain) const;
+    /// The robots that the reason of a robot without a plan names.
+    void AddNamedRobots(const RobotInfo& robot, Chain& chain) const;
+    /// A robot that could execute the plan, or that it waits for. Without a planID it is a robot without a plan that waits.
+    void AddRobotOfPlanRecursive(std::string_view planID, const RobotReason& reason, std::size_t depth, Chain& chain)
         const;
     /// The plan of the robot that another plan waits for.
     void AddOtherPlanRecursive(const PlanInfo& plan, std::size_t depth, Chain& chain) const;
+    [[nodiscard]] std::vector<const RobotInfo*> ListNamedRobots(std::string_view text) const;
     /// Its plan, if that plan does not move either; nullptr otherwise.
     [[nodiscard]] const PlanInfo* FindStoppedPlanOrNull(const RobotInfo& robot) const;
     static void AddState(const RobotInfo& robot, std::size_t depth, std::vector<Cause>& causes);

@@ -269,9 +269,50 @@ TEST_CASE("A robot is explained with the links that are down, a store that fails
     CHECK(text.find("acsctl tsc resume") == text.rfind("acsctl tsc resume"));
 }
 
+TEST_CASE("The robots that a wait reason names are explained with their alarms and plans")
+{
+    WhyFixture line;
+    line.snapshot.robots[0].planID = "P1";
+    Acsctl::RobotInfo& blocker = line.AddRobot("LR02", "Disconnected");
+    blocker.planID = "P2";
+    line.snapshot.alarms.push_back(MakeAlarm("LR02", "ACS-1002", "Robot disconnected"));
+    line.AddRobot("LR03", "Moving").planID = "P3";
+    line.AddPlan("P3", "InProgress").robotID = "LR03";
+    Acsctl::PlanInfo& plan = line.AddPlan("P1", "InProgress");
+    plan.robotID = "LR01";
+    plan.waits = Acsctl::WaitsInfo{"LR01 waits for node L05 on its route, blocked by LR02 and LR03.", {}, {}, {}};
+    Acsctl::PlanInfo& other = line.AddPlan("P2", "InProgress");
+    other.robotID = "LR02";
+    other.waits = Acsctl::WaitsInfo{"LR02: no connection.", {}, {}, {}};
+    CHECK(
+        PrintText(line.Make().ExplainPlan(*line.Make().FindPlanOrNull("P1")))
+        == "Plan P1 does not move: it is InProgress on LR01.\n"
+           "  LR01 waits for node L05 on its route, blocked by LR02 and LR03.\n"
+           "  Robot LR02: Disconnected with plan P2.\n"
+           "    Heavy alarm ACS-1002 Robot disconnected of LR02.\n"
+           "    Its plan P2 does not move either.\n"
+           "      LR02: no connection.\n"
+           "      Its robot LR02: see robot LR02 above.\n"
+           "  Robot LR03: Moving with plan P3.\n");
+}
+
+TEST_CASE("A robot without a plan that waits for another one is available, and the other one is explained")
+{
+    WhyFixture line;
+    line.snapshot.robots[0].reason = "LR01 waits for LR02 to clear its route.";
+    line.AddRobot("LR02", "Idle").reason = "battery 12 % is below 20 %";
+    line.snapshot.robots[1].position = "A01.CP02";
+    CHECK(
+        PrintText(line.Make().ExplainRobot(line.snapshot.robots[0]))
+        == "Robot LR01 needs attention: it is Idle, without a plan.\n"
+           "  LR01 waits for LR02 to clear its route.\n"
+           "  Robot LR02: battery 12 % is below 20 %.\n");
+}
+
 TEST_CASE("The number of causes is bounded by the plans and robots, however they wait for each other")
 {
     constexpr std::size_t COUNT = 300;
+    const bool bNamed = GENERATE(false, true);
     WhyFixture line;
     line.snapshot.robots.clear();
     std::vector<Acsctl::RobotReason> reasons;
@@ -283,8 +324,12 @@ TEST_CASE("The number of causes is bounded by the plans and robots, however they
     }
     for (std::size_t i = 0; i < COUNT; ++i)
     {
-        line.AddWaitingPlan("P" + std::to_string(i), "No suitable robot is free.", reasons).robotID =
-            reasons[i].robotID;
+        const std::string named = "R" + std::to_string(i) + " waits for R" + std::to_string((i + 7) % COUNT) + ".";
+        line.AddWaitingPlan(
+                "P" + std::to_string(i),
+                bNamed ? named : "No suitable robot is free.",
+                bNamed ? std::vector<Acsctl::RobotReason>() : reasons)
+            .robotID = reasons[i].robotID;
     }
     const auto count = [](const Acsctl::Explanation& explanation) {
         std::size_t causes = 0;
