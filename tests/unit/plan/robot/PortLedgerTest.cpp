@@ -182,7 +182,7 @@ TEST_CASE(
 TEST_CASE(
     "PortLedger: a carrier of a port that no longer exists is back with the port, unless the record was corrected before")
 {
-    PortLedger ledger({&GetTestPorts()[0], 1});
+    PortLedger ledger({GetTestPorts().data(), 1});
     ledger.Restore({"CR01", {"T1", "T2"}, {"CR01.TP01", "CR01.TP02"}});
     CHECK(ledger.GetCarriers() == CarrierIDs{"T1"});
     PortLedger before(GetTestPorts());
