@@ -387,7 +387,7 @@ bool AcsdCore::TryEndForTakenStore(const Core::Result<void>& result)
     return true;
 }
 
-/// Section 5.3: no work can be accepted while all robots are away, or the broker that each of them needs; reported after a grace
+/// Section 6.21: no work can be accepted while all robots are away, or the broker that each of them needs; reported after a grace
 /// time.
 void AcsdCore::UpdateWorking()
 {
@@ -419,7 +419,7 @@ void AcsdCore::StartStatusTimer()
     }
 }
 
-/// Section 5.9 allows this besides the update of each change (`robot.status_interval`).
+/// Section 5.2 allows this besides the update of each change (`robot.status_interval`).
 void AcsdCore::RepeatStatuses()
 {
     for (const Planning::RobotStatus& status : _engine.GetRobotStatuses())

@@ -44,7 +44,7 @@ enum class EAcsSessionState : std::uint8_t
     Stopping,
 };
 
-/// Phase of a registered connection (section 6).
+/// Phase of a registered connection.
 enum class EConnectPhase : std::uint8_t
 {
     Replay,   ///< Until ReplayDone.
@@ -60,7 +60,7 @@ enum class EWaitingRequests : std::uint8_t
     Next,    ///< Statuses were first: the next room is for a request.
 };
 
-/// Key of the latest status of its kind and robot. The map's order is that of section 6.
+/// Key of the latest status of its kind and robot. The map's order is that of sending after Registration.
 using StatusKey = std::pair<EAcsCommand, std::string>;
 
 struct Status

@@ -312,7 +312,7 @@ void PlanExecutor::Cancel(const std::string& planID, Core::Now now, ExecutorActi
             "the robot has arrived, or there is no such plan"}});
         return;
     }
-    if (_entries.at(planID).status == EPlanStatus::Paused) // Section 7 has no way from Paused to Cancelled.
+    if (_entries.at(planID).status == EPlanStatus::Paused) // Section 6.12 has no way from Paused to Cancelled.
     {
         SetPlan(planID, robotOrNull == nullptr ? EPlanStatus::Pending : EPlanStatus::InProgress, now, out);
     }

@@ -17,7 +17,7 @@
 namespace ACS::AcsSim
 {
 
-/// Plays an ACS with simple robots: queues plans, executes them in the order of section 7 of MCS-ACS and reports every state,
+/// Plays an ACS with simple robots: queues plans, executes them in the order of sections 6.12 to 6.14 and reports every state,
 /// answers controls and queries. Pure.
 class PlanExecutor
 {

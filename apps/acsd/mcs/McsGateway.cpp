@@ -321,7 +321,7 @@ void McsGateway::AnswerHistory(const Protocol::AcsRequest& request, const Protoc
     AnswerList(request, DescribeUnknown(unknown), std::move(list), &Protocol::PlanListAck::plans);
 }
 
-/// Section 12: an MCS with a buffer of 4096 bytes silently loses a longer answer. A cut one states the number of omitted
+/// Profile nexus: an MCS with a buffer of 4096 bytes silently loses a longer answer. A cut one states the number of omitted
 /// entries.
 template <typename TList, typename TEntries>
 void McsGateway::AnswerList(

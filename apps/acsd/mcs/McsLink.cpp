@@ -88,7 +88,7 @@ void McsLink::ReloadTLS()
     }
 }
 
-/// Section 12: a message longer than the MCS's buffer is lost without an Ack. Each new length is logged once.
+/// A message longer than the MCS's buffer is lost without an Ack (profile nexus). Each new length is logged once.
 void McsLink::WatchWire(ProtocolBeast::EWireDirection direction, std::string_view text)
 {
     if (_traceOrNull != nullptr)

@@ -28,7 +28,7 @@ namespace ACS::Acsd
 
 [[nodiscard]] Protocol::TscStateUpdate MakeTscUpdate(Planning::ETscState state);
 
-/// All robots in one update, or in several if it would be longer than the style allows (section 5.10), each with at least
+/// All robots in one update, or in several if it would be longer than the style allows (section 6.19), each with at least
 /// one robot. Angles are converted from radians to degrees from 0 to below 360, the battery to a whole number.
 [[nodiscard]] std::vector<Protocol::RobotPositionUpdate> MakePositionUpdates(
     const std::vector<Planning::RobotPose>& poses,

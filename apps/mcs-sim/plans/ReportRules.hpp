@@ -13,7 +13,7 @@ namespace ACS::McsSim
 [[nodiscard]] bool IsStandstill(Protocol::ERobotStatus status) noexcept;
 
 /// What is wrong with a report that would change the plan, step or job to this status; nullopt where nothing is.
-/// Checks the transitions of section 7 of MCS-ACS and the causal order of section 6: job, then its step, then the plan.
+/// Checks the transitions of sections 6.12 to 6.14 and their causal order: job, then its step, then the plan.
 [[nodiscard]] std::optional<std::string> FindPlanViolationOrNull(const TrackedPlan& plan, Protocol::EPlanStatus status);
 /// What is wrong with the Success of a control, if its PlanReport cannot follow any more.
 [[nodiscard]] std::optional<std::string> FindSuccessViolationOrNull(

@@ -12,7 +12,7 @@ namespace ACS::McsSim
 enum class EProfile : std::uint8_t
 {
     Spec,  ///< As specified.
-    Nexus, ///< As the public MCS behaves (section 12 of the specification).
+    Nexus, ///< As the public MCS behaves.
 };
 
 /// Size of the receive buffer of the public MCS.

@@ -124,7 +124,7 @@ WireKind ReadKind(std::string_view commandName, const CodecOptions& options, Jso
     return kind;
 }
 
-/// Section 4.1: from and to have no meaning for these actions and are not checked.
+/// Section 6.4: from and to have no meaning for these actions and are not checked.
 bool HasPlaces(std::string_view action)
 {
     constexpr std::array<std::string_view, 3> PLACELESS{"CloseSetCover", "OpenSetCover", "Start"};
@@ -159,7 +159,7 @@ bool TryCheckJobs(const std::vector<PlanJob>& jobs, Json::DecodeContext& context
     return true;
 }
 
-/// Section 10: a plan's locations are valid. Whether the site has them is not checked by the codec.
+/// Section 3.1: a plan's locations are valid. Whether the site has them is not checked by the codec.
 bool TryCheckLocations(const ExecutionPlan& plan, Json::DecodeContext& context)
 {
     for (std::size_t i = 0; i < plan.steps.size(); ++i)

@@ -13,7 +13,7 @@
 namespace ACS::Planning
 {
 
-/// Owns the TSC state (section 5.2), which decides whether plans are started, and completes a pause.
+/// Owns the TSC state (section 6.20), which decides whether plans are started, and completes a pause.
 class TscControl
 {
     const EngineOptions& _options;
@@ -37,7 +37,7 @@ public:
     [[nodiscard]] bool CanDriveHome() const;
     /// Restores the stored state. A paused TSC stays paused; running plans are completed, unless the restart holds them.
     void RestoreTSC(ETscState stored);
-    /// The published state: Paused while the startup barrier holds work back (section 5.2).
+    /// The published state: Paused while the startup barrier holds work back (section 6.20).
     [[nodiscard]] ETscState GetTscState() const noexcept;
     /// Why the published state is Paused although no operator has paused the TSC since the start; otherwise empty.
     [[nodiscard]] std::string_view GetReason() const noexcept;

@@ -51,7 +51,7 @@ public:
     void UpdateStartup();
     /// The barrier ends: all positions are known, or the time limit has expired.
     void EndStartup();
-    /// Raises an alarm for each robot that has not reported since the start (section 9).
+    /// Raises an alarm for each robot that has not reported since the start.
     void RaiseMissing();
 
 private:

@@ -331,7 +331,7 @@ Core::Result<std::optional<Core::Location>> PlanAdmission::ResolvePlace(
     return std::optional(std::move(place));
 }
 
-/// Section 4.1: the robot does not move during the jobs of a step. The map does not state which stations are within reach; the
+/// Section 6.4: the robot does not move during the jobs of a step. The map does not state which stations are within reach; the
 /// configuration does.
 bool PlanAdmission::IsWithinReach(const Core::Location& place, const Core::Location& position) const
 {

@@ -46,7 +46,7 @@ struct ResolvedPlan
     std::span<const std::size_t> candidates; ///< The robots that can execute it; never empty. Kept by PlanAdmission.
 };
 
-/// Checks plans against site, robots and actions (section 4.1 of MCS-ACS).
+/// Checks plans against site, robots and actions (sections 6.3 and 6.4 of MCS-ACS).
 class PlanAdmission
 {
     const EngineOptions& _options;

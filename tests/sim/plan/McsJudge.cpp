@@ -201,7 +201,7 @@ void McsJudge::OnPlanReport(const Protocol::PlanReport& report)
     if (!bFirstPending && !Planning::CanChange(MakeState(planOrNull->status), MakeState(report.status)))
     {
         _trace.Violate(
-            "plan {} changed from {} to {}, which section 7 forbids",
+            "plan {} changed from {} to {}, which MCS-ACS forbids",
             report.planID,
             GetText(planOrNull->status),
             GetText(report.status));
@@ -261,7 +261,7 @@ void McsJudge::OnStepReport(const Protocol::StepReport& report)
     if (!Planning::CanChange(MakeState(step.status), MakeState(report.status)))
     {
         _trace.Violate(
-            "step {} of plan {} changed from {} to {}, which section 7 forbids",
+            "step {} of plan {} changed from {} to {}, which MCS-ACS forbids",
             report.stepNo,
             report.planID,
             GetText(step.status),
@@ -317,7 +317,7 @@ void McsJudge::OnJobReport(const Protocol::JobReport& report)
     if (!Planning::CanChange(MakeState(status), MakeState(report.status)))
     {
         _trace.Violate(
-            "job {} of plan {} changed from {} to {}, which section 7 forbids",
+            "job {} of plan {} changed from {} to {}, which MCS-ACS forbids",
             report.jobID,
             report.planID,
             GetText(status),

@@ -118,7 +118,7 @@ void McsSide::BeginSettling()
         SendPlan();
     }
     _behaviours.Cancel(EBehaviour::SendPlan);
-    // A report that has expired without an Ack is sent again only on the next connection (section 9).
+    // A report that has expired without an Ack is sent again only on the next connection.
     Run([this](Core::Now /*now*/, auto& out) { _session.Drop(Protocol::CLOSE_NORMAL, "once more", out); });
     Settle();
 }

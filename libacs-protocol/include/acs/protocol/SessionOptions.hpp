@@ -12,7 +12,7 @@
 namespace ACS::Protocol
 {
 
-/// Times and limits of an AcsSession. The defaults are those of section 9 of the specification.
+/// Times and limits of an AcsSession. The document leaves them open.
 struct SessionOptions
 {
     std::chrono::milliseconds ackTimeout{5'000}; ///< Maximum time to wait for an Ack, that of Registration included.

@@ -8,7 +8,7 @@
 namespace ACS::Planning
 {
 
-/// The state of a job (section 7 of MCS-ACS).
+/// The state of a job (section 6.14 of MCS-ACS).
 enum class EJobState : std::uint8_t
 {
     Pending,    ///< Not started.

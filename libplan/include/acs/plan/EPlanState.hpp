@@ -8,7 +8,7 @@
 namespace ACS::Planning
 {
 
-/// The state of a plan (section 7 of MCS-ACS).
+/// The state of a plan (section 6.12 of MCS-ACS).
 enum class EPlanState : std::uint8_t
 {
     Pending,    ///< Accepted; waits for a robot.

@@ -8,7 +8,7 @@
 namespace ACS::Planning
 {
 
-/// The state of a step (section 7 of MCS-ACS).
+/// The state of a step (section 6.13 of MCS-ACS).
 enum class EStepState : std::uint8_t
 {
     Pending,    ///< Not started.

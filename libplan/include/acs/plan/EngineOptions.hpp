@@ -41,7 +41,7 @@ enum class EActionEffect : std::uint8_t
     Move,   ///< Both, as far as `from` and `to` are carrier ports of the robot.
 };
 
-/// One action of the MCS (section 4.1 of MCS-ACS).
+/// One action of the MCS (sections 6.3 and 6.4 of MCS-ACS).
 struct ActionRule
 {
     ERobotType robotType = ERobotType::LR;
@@ -57,7 +57,7 @@ struct ActionRule
 /// The actions of a site, by the name that a step has (Step::action).
 using ActionTable = std::map<std::string, ActionRule, std::less<>>;
 
-/// The eight actions of section 4.1 of MCS-ACS.
+/// The eight actions of sections 6.3 and 6.4 of MCS-ACS.
 [[nodiscard]] ACS_API ActionTable MakeStandardActions();
 
 /// Actions that a robot cannot execute, each with the reason that is reported to the MCS (FindRejectedActions).
@@ -109,7 +109,7 @@ struct ControlOptions
     bool operator==(const ControlOptions&) const = default;
 };
 
-/// The value of RobotStatus::position while a robot drives (section 5.9).
+/// The value of RobotStatus::position while a robot drives (section 6.16).
 enum class EMovingPosition : std::uint8_t
 {
     Last,   ///< The last station at which it was docked.

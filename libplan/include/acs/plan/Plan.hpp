@@ -12,7 +12,7 @@ namespace ACS::Planning
 /// Maximum length of a planID, jobID, lotID and carrierID in bytes.
 inline constexpr std::size_t MAXIMUM_ID_LENGTH = 128;
 
-/// One operation of a robot at the position of its step (section 4.1 of MCS-ACS).
+/// One operation of a robot at the position of its step (sections 6.3 and 6.4 of MCS-ACS).
 struct Job
 {
     std::string jobID;               ///< Unique in the plan; opaque.

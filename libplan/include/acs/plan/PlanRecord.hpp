@@ -70,7 +70,7 @@ struct PlanRecord
     bool operator==(const PlanRecord&) const = default;
 };
 
-/// One entry of RequestAcsPlans and RequestAcsPlanHistory (section 4.3 of MCS-ACS).
+/// One entry of RequestAcsPlans and RequestAcsPlanHistory (sections 6.10 and 6.11 of MCS-ACS).
 struct PlanSummary
 {
     std::string planID;

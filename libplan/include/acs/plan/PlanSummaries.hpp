@@ -6,7 +6,7 @@
 namespace ACS::Planning
 {
 
-/// The fields of a plan in section 4.3. The record must have a step.
+/// The fields of a plan in section 6.10. The record must have a step.
 [[nodiscard]] ACS_API PlanSummary MakeSummary(const PlanRecord& record);
 
 } // namespace ACS::Planning

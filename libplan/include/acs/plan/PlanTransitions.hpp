@@ -20,8 +20,8 @@ struct Transition
     TState to;   ///< The state after.
 };
 
-/// The transitions that section 7 of MCS-ACS allows, the one that section 6.13 requires, and those of a plan that another robot
-/// takes over. The engine makes no other transition.
+/// The transitions that sections 6.5 to 6.8 and 6.12 of MCS-ACS allow, and those of a plan that another robot takes over. The
+/// engine makes no other transition.
 inline constexpr std::array PLAN_TRANSITIONS{
     Transition<EPlanState>{EPlanState::Pending, EPlanState::InProgress},
     Transition<EPlanState>{EPlanState::Pending, EPlanState::Paused},

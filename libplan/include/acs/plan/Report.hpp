@@ -16,7 +16,7 @@
 namespace ACS::Planning
 {
 
-/// A state of a plan (section 5.4 of MCS-ACS).
+/// A state of a plan (section 6.12 of MCS-ACS).
 struct PlanReport
 {
     std::string planID;
@@ -26,7 +26,7 @@ struct PlanReport
     bool operator==(const PlanReport&) const = default;
 };
 
-/// A state of a step (section 5.5).
+/// A state of a step (section 6.13).
 struct StepReport
 {
     std::string planID;
@@ -38,7 +38,7 @@ struct StepReport
     bool operator==(const StepReport&) const = default;
 };
 
-/// A state of a job (section 5.6).
+/// A state of a job (section 6.14).
 struct JobReport
 {
     std::string planID;
@@ -75,7 +75,7 @@ struct Alarm
     bool operator==(const Alarm&) const = default;
 };
 
-/// An alarm was set or cleared (section 5.8).
+/// An alarm was set or cleared (section 6.15).
 struct ErrorReport
 {
     Alarm alarm;
@@ -84,7 +84,7 @@ struct ErrorReport
     bool operator==(const ErrorReport&) const = default;
 };
 
-/// The outcome of CancelPlan, AbortPlan, PausePlan or ResumePlan (section 5.7).
+/// The outcome of CancelPlan, AbortPlan, PausePlan or ResumePlan (sections 6.5.A to 6.8.A).
 struct ControlResultReport
 {
     EPlanControl control = EPlanControl::Cancel;

@@ -11,7 +11,7 @@
 namespace ACS::Planning
 {
 
-/// The content of RobotStatusUpdate (section 5.9 of MCS-ACS).
+/// The content of RobotStatusUpdate (section 6.16 of MCS-ACS).
 struct RobotStatus
 {
     std::string robotID;
@@ -28,7 +28,7 @@ struct RobotStatus
     bool operator==(const RobotStatus&) const = default;
 };
 
-/// The content of RobotPositionUpdate (section 5.10). Exists only once the robot has reported its position.
+/// The content of RobotPositionUpdate (section 6.19). Exists only once the robot has reported its position.
 struct RobotPose
 {
     std::string robotID;

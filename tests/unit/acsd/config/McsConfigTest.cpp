@@ -35,7 +35,7 @@ std::string FindError(const std::string& override)
 
 } // namespace
 
-TEST_CASE("The keys about messages have the defaults of sections 9, 11 and 12")
+TEST_CASE("The keys about messages have their defaults")
 {
     const AcsdConfig config = ReadMCS({});
     REQUIRE(config.errors == std::vector<std::string>{});
