@@ -16,7 +16,8 @@ namespace
 {
 
 constexpr std::string_view CLOSED = "The ACS is shutting down.";
-constexpr std::string_view FULL = "The ACS has not stored earlier requests yet. Send the request again later.";
+constexpr std::string_view FULL =
+    "The ACS has not stored earlier requests yet. Send the request again later, with a new transactionId.";
 
 } // namespace
 

@@ -42,7 +42,8 @@ void PlanSubmission::Submit(const SubmitPlan& command)
     }
     if (_backlog.HasWithheld()) // not tried: the number of refusals that wait stays limited
     {
-        const std::string refusal = "The plan cannot be stored because the store is failing. Send it again later.";
+        const std::string refusal =
+            "The plan cannot be stored because the store is failing. Send it again later, with a new transactionId.";
         if (_backlog.HasUnknown(command.plan.planID))
         {
             _backlog.Withhold({command.replyToken, false, refusal});

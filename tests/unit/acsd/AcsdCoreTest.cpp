@@ -90,7 +90,9 @@ TEST_CASE_METHOD(
     REQUIRE(_answers.size() == 2);
     CHECK(_answers[0].transactionID == "T-P5");
     CHECK(_answers[0].result == Protocol::EAckResult::Fail);
-    CHECK(_answers[0].message == "The ACS has not stored earlier requests yet. Send the request again later.");
+    CHECK(
+        _answers[0].message
+        == "The ACS has not stored earlier requests yet. Send the request again later, with a new transactionId.");
     CHECK(_answers[1].transactionID == "T-P6");
     _bDiskHangs = false;
     ServeDisk();
