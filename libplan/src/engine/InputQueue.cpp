@@ -109,6 +109,7 @@ bool InputQueue::TryPushCommand(PlanCommand& command, std::optional<CommandRecei
                 {
                     return false;
                 }
+                _bStopWaits = _bStopWaits || IsStop(command);
                 _operator.push_back({std::move(command), std::move(receiptOrNull)});
                 return true;
             }},
@@ -250,6 +251,7 @@ InputQueue::Next InputQueue::Pop()
         case EClass::Plans:
             return PopPlans();
         case EClass::Operator:
+            _bStopWaits = false;
             return std::exchange(_operator, {});
         case EClass::Urgent:
         default:
@@ -257,8 +259,23 @@ InputQueue::Next InputQueue::Pop()
     }
 }
 
+bool InputQueue::IsStop(const PlanCommand& command)
+{
+    const auto* const tscOrNull = std::get_if<ControlTSC>(&command);
+    const auto* const maintenanceOrNull = std::get_if<SetMaintenance>(&command);
+    return std::holds_alternative<BlockPlace>(command) || (tscOrNull != nullptr && tscOrNull->bPause)
+        || (maintenanceOrNull != nullptr && maintenanceOrNull->bOn);
+}
+
 InputQueue::EClass InputQueue::ChooseClass()
 {
+    const bool bStopBefore = std::exchange(_bStopBefore, false);
+    if (_bStopWaits && !bStopBefore)
+    {
+        _bStopBefore = true;
+        _postponed.at(static_cast<std::size_t>(EClass::Operator)) = 0;
+        return EClass::Operator;
+    }
     const std::array<bool, CLASSES> bWaiting{!_urgent.empty(), !_plans.empty(), !_operator.empty()};
     const auto isDue = [](std::size_t count) {
         return count >= LONGEST_POSTPONEMENT;

@@ -20,7 +20,8 @@ namespace ACS::Planning
 {
 
 /// The inputs that wait for the engine, limited in number (InputLimits). Order: acknowledgements, which are not stored at once;
-/// events, timers and controls; plans; commands of the operator. A class that others were preferred to 16 times has its turn.
+/// events, timers and controls; plans; commands of the operator. A class that others were preferred to 16 times has its turn, and
+/// the operator's commands with one that stops work are next, if the input before was another one.
 /// Within a class the order is that of arrival. A control of a plan that still waits stays after it.
 class InputQueue
 {
@@ -51,6 +52,8 @@ private:
     std::optional<StoreLog> _storeLog;          ///< The latest; an empty one in _urgent has its place.
     std::deque<OfferedCommand> _plans;          ///< With the controls that stay after a plan.
     std::vector<OfferedCommand> _operator;
+    bool _bStopWaits = false;  ///< One of them stops work.
+    bool _bStopBefore = false; ///< Such commands were the latest input.
     std::size_t _planCount = 0;
     std::size_t _planBytes = 0;
     std::size_t _controlCount = 0;                 ///< In both classes.
@@ -80,6 +83,8 @@ private:
     [[nodiscard]] static bool TryMerge(const RobotInputs& waiting, const RobotEvent& event);
     /// Drops what a newer event makes obsolete.
     [[nodiscard]] bool TryReplace(RobotInputs& waiting, const RobotEvent& event);
+    /// Blocks a place, pauses the TSC, or takes a robot out of service.
+    [[nodiscard]] static bool IsStop(const PlanCommand& command);
     [[nodiscard]] EClass ChooseClass();
     [[nodiscard]] Next PopUrgent();
     [[nodiscard]] Commands PopPlans();

@@ -188,6 +188,31 @@ TEST_CASE_METHOD(
     }
 }
 
+TEST_CASE_METHOD(
+    InputQueueTest,
+    "Commands of the operator that stop work are next, with those before them, but not twice in a row")
+{
+    const auto pop = [this] {
+        const InputQueue::Next next = _queue.Pop();
+        const auto* const commandsOrNull = std::get_if<InputQueue::Commands>(&next);
+        return commandsOrNull == nullptr ? 0 : commandsOrNull->size();
+    };
+    const PlanCommand stop = GENERATE(
+        PlanCommand(BlockPlace{EBlockKind::Node, "N2", "spill", 2}),
+        PlanCommand(ControlTSC{true, 2}),
+        PlanCommand(SetMaintenance{"LR01", true, 2}));
+    const PlanCommand other =
+        GENERATE(PlanCommand(UnblockPlace{EBlockKind::Node, "N2", 1}), PlanCommand(ControlTSC{false, 1}));
+    REQUIRE(TryPush(other));
+    CHECK(pop() == 0);
+    REQUIRE(TryPush(stop));
+    CHECK(pop() == 2);
+    REQUIRE(TryPush(stop));
+    CHECK(pop() == 0);
+    CHECK(pop() == 1);
+    CHECK(pop() == 0);
+}
+
 TEST_CASE_METHOD(InputQueueTest, "Plans are limited in bytes too; a longer one waits alone")
 {
     Plan plan = MakeLogisticsPlan("P1");
