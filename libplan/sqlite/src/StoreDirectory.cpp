@@ -2,6 +2,7 @@
 
 #include "StoreFault.hpp"
 #include "StoreFiles.hpp"
+#include "StoreGeneration.hpp"
 
 #include <fmt/format.h>
 
@@ -48,12 +49,15 @@ Core::Result<void> CheckDatabaseFile(const std::string& database)
     {
         return Refuse(database, "a regular file; move it away", "a directory, link, device, pipe or socket");
     }
-    if (bFound && ::faccessat(AT_FDCWD, database.c_str(), R_OK | W_OK, AT_EACCESS) != 0)
+    for (const std::string& file : {database, GetGenerationPath(database)})
     {
-        return Refuse(
-            database,
-            "a file that this user may read and write; correct its owner or its mode",
-            DescribeErrno(errno));
+        if (StoreFiles::IsThere(file) && ::faccessat(AT_FDCWD, file.c_str(), R_OK | W_OK, AT_EACCESS) != 0)
+        {
+            return Refuse(
+                file,
+                "a file that this user may read and write; correct its owner or its mode",
+                DescribeErrno(errno));
+        }
     }
     if (StoreFiles::IsThere(database + ".lock"))
     {

@@ -26,11 +26,6 @@ namespace
 constexpr const char* GENERATION = "generation";
 constexpr const char* OPEN = "open";
 
-std::string GetGenerationPath(const std::string& path)
-{
-    return StoreFiles::GetParent(path) + "/generation";
-}
-
 std::string ReadSetting(SQLite::Database& database, const char* name)
 {
     SQLite::Statement query(database, "SELECT value FROM settings WHERE name = ?");
@@ -114,6 +109,11 @@ std::string_view Describe(EListing listing)
 }
 
 } // namespace
+
+std::string GetGenerationPath(const std::string& path)
+{
+    return StoreFiles::GetParent(path) + "/generation";
+}
 
 Core::Result<void> CheckGeneration(SQLite::Database& database, const std::string& path, bool bLogFound)
 {

@@ -13,6 +13,9 @@ namespace ACS::Planning
 // file beside it. With the flag `open` in the database, a start detects that the database was restored, copied or replaced, or
 // that its log is missing (decision 7).
 
+/// The file beside the database.
+[[nodiscard]] std::string GetGenerationPath(const std::string& path);
+
 /// Checks that the database is the one that was used last in its directory, and that its log is not missing.
 /// EPlanningError::StoreCorrupt.
 [[nodiscard]] Core::Result<void> CheckGeneration(SQLite::Database& database, const std::string& path, bool bLogFound);
