@@ -3,6 +3,7 @@
 #include "mcs/PlanMapper.hpp"
 #include "mcs/ReportMapper.hpp"
 #include <acs/core/Overloaded.hpp>
+#include <acs/core/ShortText.hpp>
 #include <acs/plan/PlanTransitions.hpp>
 #include <acs/protocol/AcsCodec.hpp>
 
@@ -394,7 +395,7 @@ void McsGateway::HandleRefusal(const Protocol::Acked& acked, const SentReport& s
     ++_refusedReports.byCommand.at(static_cast<std::size_t>(acked.command));
     _refusedReports.command = GetText(acked.command);
     _refusedReports.planID = sent.planID;
-    _refusedReports.message = acked.message;
+    _refusedReports.message = Core::ShortenText(acked.message);
     _refusedReports.bRetried = _style.bRefusedReportsRetried;
     _log.Write(
         _clock.GetNow().steady,
@@ -405,7 +406,7 @@ void McsGateway::HandleRefusal(const Protocol::Acked& acked, const SentReport& s
         {{"command", GetText(acked.command)},
          {"planId", sent.planID},
          {"transactionId", acked.transactionID},
-         {"reason", acked.message}});
+         {"reason", _refusedReports.message}});
 }
 
 const RefusedReports& McsGateway::GetRefusedReports() const noexcept

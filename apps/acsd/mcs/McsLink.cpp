@@ -2,6 +2,7 @@
 
 #include "mcs/McsGateway.hpp"
 #include <acs/core/Overloaded.hpp>
+#include <acs/core/ShortText.hpp>
 #include <acs/core/ShownURL.hpp>
 
 #include <fmt/format.h>
@@ -205,7 +206,10 @@ void McsLink::LogEvent(const Protocol::SessionEvent& event)
                 _loggedOutage.clear();
             },
             [&](const Protocol::RegistrationRefused& refused) {
-                Warn("registration", "the MCS refuses the registration, retrying", {{"reason", refused.message}});
+                Warn(
+                    "registration",
+                    "the MCS refuses the registration, retrying",
+                    {{"reason", Core::ShortenText(refused.message)}});
             },
             [&](const Protocol::RequestUnanswered& unanswered) {
                 ++_metrics.unanswered;
@@ -249,9 +253,11 @@ void McsLink::LogOutage(const Protocol::LinkLost& lost)
         return;
     }
     _loggedOutage = reason;
+    const std::string_view unregistered = _watch.IsRefused()
+        ? "connection to the MCS ended without a registration, retrying"
+        : "cannot reach the MCS: start it or correct mcs.url; retrying until it answers";
     _logger.Warning(
-        lost.bWasRegistered ? "connection to the MCS lost, retrying until it answers"
-                            : "cannot reach the MCS: start it or correct mcs.url; retrying until it answers",
+        lost.bWasRegistered ? "connection to the MCS lost, retrying until it answers" : unregistered,
         {{"url", _url}, {"reason", lost.reason}});
 }
 

@@ -1,6 +1,7 @@
 #include "mcs/RegistrationWatch.hpp"
 
 #include <acs/core/Overloaded.hpp>
+#include <acs/core/Result.hpp>
 
 #include <utility>
 #include <variant>
@@ -19,7 +20,9 @@ void RegistrationWatch::OnSessionEvent(const Protocol::SessionEvent& event)
         Core::Overloaded{
             [this](const Protocol::Registered&) { *this = {}; },
             [&refuse](const Protocol::RegistrationRefused& refused) {
-                refuse("registration refused" + (refused.message.empty() ? "" : ": " + refused.message));
+                refuse(
+                    "registration refused"
+                    + (refused.message.empty() ? "" : ": " + Core::QuoteForError(refused.message)));
             },
             [&refuse](const Protocol::ProtocolNoted& noted) {
                 if (noted.what == Protocol::EProtocolNote::RegistrationUnanswered)
@@ -36,6 +39,11 @@ void RegistrationWatch::OnSessionEvent(const Protocol::SessionEvent& event)
             },
             [](const auto&) { /* not about the registration */ }},
         event);
+}
+
+bool RegistrationWatch::IsRefused() const noexcept
+{
+    return _bRefused;
 }
 
 std::string RegistrationWatch::GetObstacle(bool bConnected) const

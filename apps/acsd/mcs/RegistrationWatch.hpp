@@ -19,6 +19,8 @@ public:
 
     /// The line of /readyz while acsd is not registered. A refusal stays the reason during further attempts.
     [[nodiscard]] std::string GetObstacle(bool bConnected) const;
+    /// The MCS was reached and has refused the registration, or has not answered it.
+    [[nodiscard]] bool IsRefused() const noexcept;
 };
 
 } // namespace ACS::Acsd
