@@ -75,7 +75,9 @@ void ReadDispatch(const ConfigSection& root, Planning::EngineOptions& engine)
         robot.GetInteger("max_rejections", 1, MOST_REJECTIONS, static_cast<std::int64_t>(engine.maximumRejections)));
     dispatch.bLoadsIntoTakenPorts = robot.GetWord("taken_port", {"wait", "load"}, "wait") == "load";
 
-    engine.stallTimeout = root.GetSection("drive").GetDuration("stall_timeout", 0ms, 24h, engine.stallTimeout);
+    const ConfigSection drive = root.GetSection("drive");
+    engine.stallTimeout = drive.GetDuration("stall_timeout", 0ms, 24h, engine.stallTimeout);
+    engine.waitTimeout = drive.GetDuration("wait_timeout", 0ms, 24h, engine.waitTimeout);
 
     const std::string moving =
         root.GetSection("mcs").GetWord("position_while_moving", {"last", "target", "null"}, "last");

@@ -31,7 +31,7 @@ constexpr std::array<std::string_view, 7>
     OWN_NAMES{"WorkGrace", "Drain", "Settle", "Stop", "Status", "StoreLate", "StoreCheck"};
 
 /// In the order of EEngineTimer.
-constexpr std::array<std::string_view, 14> ENGINE_NAMES{
+constexpr std::array<std::string_view, 15> ENGINE_NAMES{
     "Dispatch",
     "StoreRetry",
     "Acknowledged",
@@ -44,6 +44,7 @@ constexpr std::array<std::string_view, 14> ENGINE_NAMES{
     "JobEnd",
     "DriveStall",
     "RejectionRetry",
+    "DriveWait",
     "LoadAlarm",
     "AlarmQuiet"};
 

@@ -275,7 +275,7 @@ std::optional<WaitReason> WaitReasons::DescribeBegunOrNull(const ActivePlan& pla
         reason.message = "The store is failing: the start of the plan is not stored yet.";
         return reason;
     }
-    if (_stalls.IsStalled(robot) && robot.drive.has_value())
+    if (_stalls.IsStalled(robot))
     {
         reason.message = fmt::format("{} stalled: {}. Check the robot.", robot.GetID(), _stalls.DescribeStall(robot));
         return reason;
@@ -322,12 +322,17 @@ std::string WaitReasons::DescribeStanding(const Robot& robot) const
     }
     if (robot.drive.has_value())
     {
-        const RouteNode& next = robot.drive->route.nodes[robot.drive->releasedCount];
+        const std::size_t next = robot.drive->releasedCount;
+        if (!holders.empty())
+        {
+            const bool bTaken = _waiting.IsTaken(robot.drive->nodes[next], robot);
+            holders.insert(0, bTaken ? ", blocked by " : ": there it could close the way of ");
+        }
         return fmt::format(
             "{} waits for node {} on its route{}.",
             robot.GetID(),
-            next.nodeID,
-            holders.empty() ? "" : ", blocked by " + holders);
+            robot.drive->route.nodes[next].nodeID,
+            holders);
     }
     if (holders.empty())
     {

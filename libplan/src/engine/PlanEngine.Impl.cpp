@@ -25,12 +25,12 @@ PlanEngine::Impl::Impl(EngineOptions options, SiteMap site, Core::IRandom& rando
       _coordinator(_engine, _answers, _charging, _places, _waiting),
       _dispatcher(_engine, _coordinator),
       _waits(_engine, _tsc, _stalls, _waiting, _coordinator, _dispatcher),
-      _status(_engine, _stalls, _waiting, _waits),
+      _status(_engine, _stalls, _waiting, _waits.GetReasons()),
       _work(_engine, _answers, _loads, _status),
       _jobs(_engine, _loads, _rejections, _work),
       _controls(_engine, _tsc, _answers, _waiting, _coordinator, _status, _work),
       _drives(_engine, _tsc, _answers, _rejections, _places, _waiting, _coordinator, _work, _controls),
-      _submission(_engine, _tsc, _waits),
+      _submission(_engine, _tsc, _waits.GetReasons()),
       _operator(_engine, _loads, _stalls, _rejections, _places, _coordinator, _work, _jobs),
       _recovery(_engine, _tsc, _answers, _places, _status, _work),
       _store(_engine, _answers, _places, _work)
@@ -114,8 +114,7 @@ void PlanEngine::Impl::OnEngineTimer(EEngineTimer kind)
             _engine.transaction.OnAlarmQuiet();
             break;
         case EEngineTimer::Startup:
-            _recovery.EndStartup();
-            _recovery.RaiseMissing();
+            _recovery.OnStartupDue();
             break;
         case EEngineTimer::DriveExtension:
         case EEngineTimer::ControlConfirm:
@@ -125,6 +124,7 @@ void PlanEngine::Impl::OnEngineTimer(EEngineTimer kind)
         case EEngineTimer::ChargeRetry:
         case EEngineTimer::DriveStall:
         case EEngineTimer::RejectionRetry:
+        case EEngineTimer::DriveWait:
         case EEngineTimer::LoadAlarm:
         default:
             break;
@@ -155,6 +155,9 @@ void PlanEngine::Impl::OnRobotTimer(EEngineTimer kind, Robot& robot)
             break;
         case EEngineTimer::DriveStall:
             _stalls.OnDriveStall(robot);
+            break;
+        case EEngineTimer::DriveWait:
+            _waits.OnWaitDue(robot);
             break;
         case EEngineTimer::RejectionRetry:
             _rejections.OnRetryDue(robot);
@@ -191,6 +194,7 @@ void PlanEngine::Impl::End(EngineActions& out)
     }
     _tsc.FinishTscPause();
     _stalls.UpdateStalls();
+    _waits.UpdateWaits();
     _status.PublishStatusChanges();
     _engine.transaction.WatchOutbox();
     _engine.transaction.WatchAlarms();

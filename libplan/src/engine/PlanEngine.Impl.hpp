@@ -8,7 +8,7 @@
 #include "control/TscControl.hpp"
 #include "dispatch/Dispatcher.hpp"
 #include "dispatch/StatusPublisher.hpp"
-#include "dispatch/WaitReasons.hpp"
+#include "dispatch/WaitWatch.hpp"
 #include "engine/OperatorCommands.hpp"
 #include "engine/PlanSubmission.hpp"
 #include "engine/RestartRecovery.hpp"
@@ -43,7 +43,7 @@ class PlanEngine::Impl
     WaitingRobots _waiting;
     TrafficCoordinator _coordinator;
     Dispatcher _dispatcher;
-    WaitReasons _waits;
+    WaitWatch _waits;
     StatusPublisher _status;
     PlanWork _work;
     JobOutcomes _jobs;

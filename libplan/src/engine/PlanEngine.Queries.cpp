@@ -178,12 +178,12 @@ std::vector<RobotStatus> PlanEngine::GetRobotStatuses() const
 
 std::vector<WaitReason> PlanEngine::GetWaitReasons() const
 {
-    return _impl->_waits.GetWaitReasons();
+    return _impl->_waits.GetReasons().GetWaitReasons();
 }
 
 std::optional<WaitReason> PlanEngine::GetWaitReasonOrNull(std::string_view planID) const
 {
-    return _impl->_waits.GetWaitReasonOrNull(planID);
+    return _impl->_waits.GetReasons().GetWaitReasonOrNull(planID);
 }
 
 std::optional<std::string> PlanEngine::GetRejectionReasonOrNull(const SetCarriers& command) const

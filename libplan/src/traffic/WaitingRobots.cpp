@@ -177,26 +177,51 @@ std::vector<Robot*> WaitingRobots::ListDeadlocked()
 
 std::vector<Robot*> WaitingRobots::GetBlockersOf(const Robot& start)
 {
-    std::vector<bool> reached(_fleet.size(), false);
-    std::vector<std::size_t> open = start.search.blockers;
+    const std::vector<bool> marked = MarkBlockersOf(start);
     std::vector<Robot*> found;
+    for (Robot& robot : _fleet)
+    {
+        if (marked[robot.index])
+        {
+            found.push_back(&robot);
+        }
+    }
+    std::ranges::sort(found, IsMoreUrgent);
+    std::ranges::reverse(found);
+    return found;
+}
+
+bool WaitingRobots::HasMovingBlocker(const Robot& start) const
+{
+    const std::vector<bool> marked = MarkBlockersOf(start);
+    return std::ranges::any_of(_fleet, [this, &marked](const Robot& robot) {
+        return marked[robot.index] && IsMoving(robot);
+    });
+}
+
+bool WaitingRobots::IsTaken(std::size_t node, const Robot& robot) const
+{
+    return !GetTargetHolders(robot, node).empty();
+}
+
+std::vector<bool> WaitingRobots::MarkBlockersOf(const Robot& start) const
+{
+    std::vector<bool> marked(_fleet.size(), false);
+    std::vector<std::size_t> open = start.search.blockers;
     while (!open.empty())
     {
         const std::size_t robot = open.back();
         open.pop_back();
-        if (!reached[robot])
+        if (!marked[robot])
         {
-            reached[robot] = true;
-            found.push_back(&_fleet[robot]);
+            marked[robot] = true;
             if (IsWaiting(_fleet[robot]))
             {
                 std::ranges::copy(_fleet[robot].search.blockers, std::back_inserter(open));
             }
         }
     }
-    std::ranges::sort(found, IsMoreUrgent);
-    std::ranges::reverse(found);
-    return found;
+    return marked;
 }
 
 } // namespace ACS::Planning

@@ -49,6 +49,14 @@ public:
     [[nodiscard]] std::vector<Robot*> ListDeadlocked();
     /// All robots for which this one waits, directly or indirectly; the least urgent first.
     [[nodiscard]] std::vector<Robot*> GetBlockersOf(const Robot& start);
+    /// Whether one of all robots for which this one waits makes progress.
+    [[nodiscard]] bool HasMovingBlocker(const Robot& start) const;
+    /// Whether another robot is on the node, may enter it or drives to it.
+    [[nodiscard]] bool IsTaken(std::size_t node, const Robot& robot) const;
+
+private:
+    /// By robot: whether the start waits for it, directly or indirectly.
+    [[nodiscard]] std::vector<bool> MarkBlockersOf(const Robot& start) const;
 };
 
 } // namespace ACS::Planning

@@ -25,6 +25,7 @@ inline constexpr std::string_view ALARM_LOADS = "ACS-1011";      ///< Reported l
 inline constexpr std::string_view ALARM_REJECTIONS = "ACS-1012"; ///< The robot rejects its commands.
 inline constexpr std::string_view ALARM_INCOMPATIBLE = "ACS-1013"; ///< The robot cannot do what it will be commanded.
 inline constexpr std::string_view ALARM_ERRORS = "ACS-1014";       ///< More errors of a robot than alarms may be set.
+inline constexpr std::string_view ALARM_WAIT = "ACS-1015";         ///< A robot waits for others that make no progress.
 inline constexpr std::string_view ALARM_OUTBOX = "ACS-1020";       ///< Too many reports without an acknowledgement.
 inline constexpr std::string_view ALARM_STORE_LOG = "ACS-1021";    ///< The log of the store cannot be merged.
 /// Prefix of the engine's codes. Alarms without it are errors that robots reported.

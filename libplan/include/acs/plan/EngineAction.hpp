@@ -34,6 +34,7 @@ enum class EEngineTimer : std::uint8_t
     JobEnd,         ///< The robot has not reported the end of a cancelled job.
     DriveStall,     ///< The robot has passed no node for EngineOptions::stallTimeout.
     RejectionRetry, ///< Send a command again to the robot that rejected one.
+    DriveWait,      ///< The robot has waited for EngineOptions::waitTimeout.
     LoadAlarm,      ///< The alarm about reported loads may be set or updated again.
     AlarmQuiet,     ///< An alarm that came and went too often may be cleared.
 };

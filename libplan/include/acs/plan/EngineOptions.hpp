@@ -161,9 +161,12 @@ struct EngineOptions
     DispatchOptions dispatch;                               ///< How plans are assigned, and charging.
     EMovingPosition movingPosition = EMovingPosition::Last; ///< What a driving robot reports as its position.
     std::chrono::milliseconds extensionDelay{2'000};        ///< Delay after which an unconfirmed drive is extended.
-    /// Time without a passed node after which a connected robot with released nodes ahead, not paused by a control, raises
-    /// ACS-1009; at least three times the travel time of its next edge. 0 disables the alarm.
+    /// Time after which a connected robot that is not paused by a control raises ACS-1009: with released nodes ahead and none
+    /// passed (at least three times the travel time of its next edge), or with a job not begun. 0 disables the alarm.
     std::chrono::milliseconds stallTimeout{60'000};
+    /// Time for which a robot with a plan waits for a block, a tray, or robots none of which makes progress, after which
+    /// ACS-1015 is raised. 0 disables the alarm.
+    std::chrono::milliseconds waitTimeout{300'000};
     /// Number of drives to steps and jobs that a robot rejects in a row before it is unavailable (ACS-1012); at least 1.
     std::size_t maximumRejections = 3;
     std::chrono::milliseconds rejectionRetry{2'000}; ///< Delay before a rejected drive or job is commanded again.

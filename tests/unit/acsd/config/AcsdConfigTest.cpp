@@ -436,6 +436,7 @@ TEST_CASE("The keys of the decision register are read")
          "traffic.clearance=0.8",
          "traffic.base_length=5",
          "drive.stall_timeout=90s",
+         "drive.wait_timeout=8m",
          "history.keep=9",
          "outbox.max=500"});
     REQUIRE(config.errors == std::vector<std::string>{});
@@ -454,6 +455,7 @@ TEST_CASE("The keys of the decision register are read")
     CHECK(config.engine.clearance == 0.8);
     CHECK(config.engine.baseLength == 5);
     CHECK(config.engine.stallTimeout == std::chrono::seconds(90));
+    CHECK(config.engine.waitTimeout == std::chrono::minutes(8));
     CHECK(config.engine.maximumPlans == 7);
     CHECK(config.engine.bLowerPriorityFirst);
     CHECK(config.engine.defaultPriority == -3);

@@ -129,7 +129,7 @@ TEST_CASE("StatusPublisher: a robot without a plan states what it waits for on i
         CHECK(getMessage().empty());
         parts.lr.drive->releasedCount = 1;
         parts.lr.drive->grantedCount = 1;
-        CHECK(getMessage() == "LR01 waits for node L03 on its route, blocked by CR01.");
+        CHECK(getMessage() == "LR01 waits for node L03 on its route: there it could close the way of CR01.");
         parts.lr.view.state->bDriving = true;
         CHECK(getMessage().empty());
     }

@@ -156,8 +156,9 @@ TEST_CASE("Block: a station that is blocked during a plan stops the robot at its
     PlanWorld world;
     BeginPlan(world, MakeLogisticsPlan("P1"), "Job 1 P1-a4 InProgress");
     AskToBlock(world, EBlockKind::Station, "A02.CP03", "cleaning");
+    REQUIRE(TryRunUntil(world, "P1", "Step 2 Dispatched"));
     REQUIRE(world.TryRun());
-    CHECK(world.GetReportsOf("P1").back() == "Step 2 Dispatched");
+    CHECK(world.GetReportsOf("P1").back() == "Error ACS-1015 set");
     CHECK(GetWaitReason(world).message == "LR01 waits: station A02.CP03 is blocked: cleaning.");
     CHECK(world.engine->GetRobotStatuses().front().message == GetWaitReason(world).message);
     CHECK(GetNode(world, "LR01") == "D-A01.CP01");

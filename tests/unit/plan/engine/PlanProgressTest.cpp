@@ -21,13 +21,24 @@ namespace
 
 using namespace std::chrono_literals;
 
-const Alarm* FindStallOrNull(const PlanWorld& world, std::string_view robotID = "LR01")
+const Alarm* FindAlarmOrNull(const PlanWorld& world, std::string_view errorCode, std::string_view robotID)
 {
     const std::vector<Alarm>& alarms = world.engine->GetActiveAlarms();
-    const auto found = std::ranges::find_if(alarms, [robotID](const Alarm& alarm) {
-        return alarm.errorCode == "ACS-1009" && alarm.robotID == robotID;
+    const auto found = std::ranges::find_if(alarms, [errorCode, robotID](const Alarm& alarm) {
+        return alarm.errorCode == errorCode && alarm.robotID == robotID;
     });
     return found == alarms.end() ? nullptr : &*found;
+}
+
+const Alarm* FindStallOrNull(const PlanWorld& world, std::string_view robotID = "LR01")
+{
+    return FindAlarmOrNull(world, "ACS-1009", robotID);
+}
+
+/// Of LR02.
+const Alarm* FindWaitOrNull(const PlanWorld& world)
+{
+    return FindAlarmOrNull(world, "ACS-1015", "LR02");
 }
 
 bool TryRunUntilStall(PlanWorld& world)
@@ -48,6 +59,26 @@ void Unstick(PlanWorld& world)
     world.GetRobot("LR01").bStuck = false;
     world.Operate("LR01", Pause{});
     world.Operate("LR01", Resume{});
+}
+
+/// LR01 stays where it is on its way to a station for P1, and LR02 waits for it with P2.
+void BeginWaitFor(PlanWorld& world)
+{
+    Plan first = MakeLogisticsPlan("P1");
+    first.steps[0].position = "A01.CP05";
+    first.steps[0].jobs[0].from = "A01.CP05";
+    BeginPlan(world, first, "Step 1 InProgress");
+    REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").GetOccupied().front() == "L04"; }));
+    world.GetRobot("LR01").bStuck = true;
+    Plan second = MakeLogisticsPlan("P2");
+    second.steps[0].position = "A01.CP06";
+    second.steps[0].jobs[0].from = "A01.CP06";
+    second.steps[0].carrierIDs = {"CASSETTE_02"};
+    second.steps[1].carrierIDs = {"CASSETTE_02"};
+    second.steps[1].position = "A02.CP04"; // both plans may begin
+    second.steps[1].jobs[0].to = "A02.CP04";
+    world.Submit(second);
+    REQUIRE(world.TryRun());
 }
 
 std::string GetReason(const PlanWorld& world)
@@ -123,21 +154,7 @@ TEST_CASE("drive.stall_timeout: the limit of a long edge is three times its driv
 TEST_CASE("drive.stall_timeout: a robot that waits at the end of its base raises no alarm, the one that blocks it does")
 {
     PlanWorld world(1, MakeTestOptions(true), MakeTestSite());
-    Plan first = MakeLogisticsPlan("P1");
-    first.steps[0].position = "A01.CP05";
-    first.steps[0].jobs[0].from = "A01.CP05";
-    BeginPlan(world, first, "Step 1 InProgress");
-    REQUIRE(world.TryRun([&world] { return world.GetRobot("LR01").GetOccupied().front() == "L04"; }));
-    world.GetRobot("LR01").bStuck = true;
-    Plan second = MakeLogisticsPlan("P2");
-    second.steps[0].position = "A01.CP06";
-    second.steps[0].jobs[0].from = "A01.CP06";
-    second.steps[0].carrierIDs = {"CASSETTE_02"};
-    second.steps[1].carrierIDs = {"CASSETTE_02"};
-    second.steps[1].position = "A02.CP04"; // both plans may begin
-    second.steps[1].jobs[0].to = "A02.CP04";
-    world.Submit(second);
-    REQUIRE(world.TryRun());
+    BeginWaitFor(world);
     CHECK(world.GetReportsOf("P2").back() == "Step 1 InProgress");
     world.PublishState("LR02");
     const std::optional<WaitReason> reason = world.engine->GetWaitReasonOrNull("P2");
@@ -145,6 +162,29 @@ TEST_CASE("drive.stall_timeout: a robot that waits at the end of its base raises
     CHECK(reason->message.ends_with("blocked by LR01."));
     CHECK(FindStallOrNull(world, "LR01") != nullptr);
     CHECK(FindStallOrNull(world, "LR02") == nullptr);
+    CHECK(FindWaitOrNull(world) == nullptr);
+}
+
+TEST_CASE("drive.wait_timeout: a robot that waits for one that cannot move raises ACS-1015 until it drives")
+{
+    PlanWorld world(1, MakeTestOptions(true), MakeTestSite());
+    BeginWaitFor(world);
+    world.PublishState("LR02");
+    world.Raise("LR01", LinkChanged{false});
+    const auto begun = world.GetNow().steady;
+    REQUIRE(world.TryRun([&world] { return FindWaitOrNull(world) != nullptr; }));
+    CHECK(world.GetNow().steady - begun >= 300s);
+    CHECK(world.GetNow().steady - begun < 303s);
+    CHECK(FindWaitOrNull(world)->planID == "P2");
+    CHECK(
+        FindWaitOrNull(world)->message
+        == "No progress for 300 s: LR02 waits for node L05 on its route, blocked by LR01.");
+    world.Raise("LR01", LinkChanged{true});
+    world.PublishState("LR01");
+    Unstick(world);
+    REQUIRE(world.TryRun([&world] { return FindWaitOrNull(world) == nullptr; }));
+    REQUIRE(world.TryRun());
+    CHECK(world.GetReportsOf("P2").back() == "Plan Completed");
 }
 
 TEST_CASE("drive.stall_timeout: a paused plan raises no alarm, and the timer starts again when it is resumed")

@@ -206,8 +206,9 @@ TEST_CASE("6.13 After a skipped load of a tray the memory step waits until the t
     }
     BeginPlan(world, plan, "Step 1 InProgress");
     static_cast<void>(Skip(world, 2));
+    REQUIRE(TryRunUntil(world, "P1", "Step 3 InProgress"));
     REQUIRE(world.TryRun());
-    CHECK(world.GetReportsOf("P1").back() == "Step 3 InProgress");
+    CHECK(world.GetReportsOf("P1").back() == "Error ACS-1015 set");
     CHECK(world.engine->GetWaitReasonOrNull("P1")->message.starts_with("CR01.TP01 has no tray for CR01.TP01.MP01"));
     CHECK(Skip(world, 3).starts_with("no: Step 3 is InProgress"));
     world.Ask(SetCarriers{"CR01", {"TRAY_01", "TRAY_02", {}}, 8});
