@@ -267,8 +267,8 @@ void RestartRecovery::RestoreAlarms(std::vector<Alarm> alarms)
         const bool bRobotGone = alarm.robotID != OWN_ROBOT_ID && robotOrNull == nullptr;
         const bool bChargerGone = alarm.errorCode == ALARM_CHARGE && robotOrNull != nullptr
             && !robotOrNull->options->chargingStationID.has_value();
-        return bRobotGone || bChargerGone || alarm.errorCode == ALARM_STALL || alarm.errorCode == ALARM_REJECTIONS
-            || alarm.errorCode == ALARM_INCOMPATIBLE;
+        return bRobotGone || bChargerGone || alarm.errorCode == ALARM_STALL || alarm.errorCode == ALARM_WAIT
+            || alarm.errorCode == ALARM_REJECTIONS || alarm.errorCode == ALARM_INCOMPATIBLE;
     }));
 }
 
@@ -327,6 +327,7 @@ bool RestartRecovery::IsPositionAwaited(const Robot& robot)
 
 void RestartRecovery::BeginStartup(bool bHasWork)
 {
+    constexpr std::chrono::seconds MISSING_DELAY{30}; ///< Until a missing robot is an alarm, without a barrier.
     if (_options.restartWait.count() > 0)
     {
         _startup.Begin(bHasWork);
@@ -335,7 +336,17 @@ void RestartRecovery::BeginStartup(bool bHasWork)
     else
     {
         _places.ReservePossibleNodes();
+        _transaction.StartTimer(EEngineTimer::Startup, {}, MISSING_DELAY);
     }
+}
+
+void RestartRecovery::OnStartupDue()
+{
+    if (_startup.IsWaiting())
+    {
+        EndStartup();
+    }
+    RaiseMissing();
 }
 
 void RestartRecovery::UpdateStartup()

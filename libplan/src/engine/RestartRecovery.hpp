@@ -49,12 +49,13 @@ public:
     void Restore(StoredState state);
     /// Ends the startup barrier once all robots have reported their positions.
     void UpdateStartup();
-    /// The barrier ends: all positions are known, or the time limit has expired.
-    void EndStartup();
-    /// Raises an alarm for each robot that has not reported since the start.
-    void RaiseMissing();
+    /// The time limit has expired: ends the startup barrier and raises an alarm for each robot that has not reported.
+    void OnStartupDue();
 
 private:
+    /// The barrier ends: all positions are known, or the time limit has expired.
+    void EndStartup();
+    void RaiseMissing();
     /// Carriers whose ports are no longer configured raise ACS-1004.
     void RestoreCarriers(const CarriersChanged& stored);
     /// The row of a robot that is no longer configured is kept in case the robot returns.

@@ -6,6 +6,7 @@
 
 using namespace ACS::Planning; // NOLINT(google-build-using-namespace): a test of that namespace
 using namespace ACS::Testing;  // NOLINT(google-build-using-namespace): its fixtures
+using namespace std::chrono_literals;
 
 namespace
 {
@@ -257,10 +258,27 @@ TEST_CASE("RestartRecovery: after the wait each missing robot has an alarm, and 
     parts.recovery.Restore(stored);
     parts.cr.view.bOnline = true;
     parts.Discard();
-    parts.recovery.EndStartup();
-    parts.recovery.RaiseMissing();
+    parts.recovery.OnStartupDue();
     CHECK(parts.Collect().ListSetAlarms() == std::vector<std::string>{"ACS-1002", "ACS-1003"});
     CHECK(parts.places.GetTraffic().GetHolderOrNull(parts.FindNode("L03")) == parts.lr.index);
+}
+
+TEST_CASE("RestartRecovery: without a wait no work is held, and a missing robot is an alarm after 30 s")
+{
+    RecoveryParts parts;
+    parts.engine.options.restartWait = 0ms;
+    EngineParts before;
+    StoredState stored = StoreWork(before, before.BeginDriveToLoad());
+    stored.robotWorks.front().nodeIDs = {"L03"};
+    parts.recovery.Restore(stored);
+    CHECK_FALSE(parts.engine.startup.IsHoldingWork());
+    CHECK(parts.Collect().GetDelayOrNull(EEngineTimer::Startup) == 30s);
+    parts.PutOn(parts.lr, "L03");
+    parts.Discard();
+    parts.recovery.UpdateStartup();
+    CHECK_FALSE(parts.Collect().IsTimerCancelled(EEngineTimer::Startup));
+    parts.recovery.OnStartupDue();
+    CHECK(parts.Collect().ListSetAlarms() == std::vector<std::string>{"ACS-1002"});
 }
 
 TEST_CASE("RestartRecovery: the alarm of a robot that has never connected states where it is expected")
@@ -269,7 +287,7 @@ TEST_CASE("RestartRecovery: the alarm of a robot that has never connected states
     parts.engine.options.robots[0].connectionHint = "It is expected on uagv/v2/ACS/LR01/connection.";
     parts.recovery.Restore({});
     parts.Discard();
-    parts.recovery.RaiseMissing();
+    parts.recovery.OnStartupDue();
     static_cast<void>(parts.Collect());
     const std::vector<Alarm>& alarms = parts.engine.alarms.GetAlarms();
     REQUIRE(alarms.size() == 2);
