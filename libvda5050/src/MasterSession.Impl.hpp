@@ -56,6 +56,7 @@ public:
     [[nodiscard]] Core::Result<void> ResumeOrder(OrderRecord record, Core::Now now, MasterActions& out);
     [[nodiscard]] Core::Result<std::string> SendInstantAction(Action action, Core::Now now, MasterActions& out);
     [[nodiscard]] bool TryWithdrawInstantAction(std::string_view actionID);
+    [[nodiscard]] bool IsOrderSent() const noexcept;
     [[nodiscard]] Core::Result<void> Cancel(Core::Now now, MasterActions& out);
     [[nodiscard]] std::vector<ReservedElement> ListReserved() const;
     [[nodiscard]] EOrderPhase GetOrderPhase() const noexcept;

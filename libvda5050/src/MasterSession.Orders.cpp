@@ -165,6 +165,11 @@ void MasterSession::Impl::EndOrder(MasterActions& out)
     _route.Clear();
 }
 
+bool MasterSession::Impl::IsOrderSent() const noexcept
+{
+    return !_orderID.empty() && (_outbox.IsAccepted() || _outbox.GetSentOrNull() != nullptr);
+}
+
 Core::Result<void> MasterSession::Impl::Cancel(Core::Now now, MasterActions& out)
 {
     if (_orderID.empty())

@@ -91,6 +91,11 @@ Core::Result<std::string> MasterSession::SendInstantAction(Action action, Core::
     return _impl->SendInstantAction(std::move(action), now, out);
 }
 
+bool MasterSession::IsOrderSent() const noexcept
+{
+    return _impl->IsOrderSent();
+}
+
 bool MasterSession::TryWithdrawInstantAction(std::string_view actionID)
 {
     return _impl->TryWithdrawInstantAction(actionID);

@@ -22,9 +22,10 @@ void CommandedActions::Send(
     actionID = session.SendInstantAction(std::move(action), now, out).value_or(std::string());
 }
 
-bool CommandedActions::IsCommanded(std::string_view actionID) const noexcept
+bool CommandedActions::IsCommanded(const VDA5050::ActionState& action) const noexcept
 {
-    return !actionID.empty() && (actionID == _pauseID || actionID == _chargeID);
+    const bool bMayBeFormer = _chargeID.empty() && action.actionType == VDA5050::ActionTypes::START_CHARGING;
+    return bMayBeFormer || (!action.actionID.empty() && (action.actionID == _pauseID || action.actionID == _chargeID));
 }
 
 } // namespace ACS::Acsd

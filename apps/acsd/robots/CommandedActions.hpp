@@ -20,8 +20,8 @@ class CommandedActions final
 public:
     /// The type is one of these four.
     void Send(std::string_view actionType, VDA5050::MasterSession& session, Core::Now now, VDA5050::MasterActions& out);
-    /// Whether the action is the last one of its kind.
-    [[nodiscard]] bool IsCommanded(std::string_view actionID) const noexcept;
+    /// Whether the action is the last one of its kind, or charging that acsd may have begun before a restart.
+    [[nodiscard]] bool IsCommanded(const VDA5050::ActionState& action) const noexcept;
 };
 
 } // namespace ACS::Acsd

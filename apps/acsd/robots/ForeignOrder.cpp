@@ -16,9 +16,14 @@ bool ForeignOrder::IsExecuted(const VDA5050::StateMessage& state, const ActionTe
         const bool bRuns = action.actionStatus == VDA5050::EActionStatus::Initializing
             || action.actionStatus == VDA5050::EActionStatus::Running
             || action.actionStatus == VDA5050::EActionStatus::Paused;
-        return bRuns && !isOwn(action.actionID);
+        return bRuns && !isOwn(action);
     });
-    return bActs || !state.nodeStates.empty() || !state.edgeStates.empty();
+    return bActs || IsDriven(state);
+}
+
+bool ForeignOrder::IsDriven(const VDA5050::StateMessage& state)
+{
+    return !state.orderID.empty() && (!state.nodeStates.empty() || !state.edgeStates.empty());
 }
 
 void ForeignOrder::OnConnected()
@@ -29,8 +34,7 @@ void ForeignOrder::OnConnected()
 void ForeignOrder::Cancel(VDA5050::MasterSession& session, Core::Now now, VDA5050::MasterActions& out)
 {
     const VDA5050::StateMessage& state = *session.GetStateOrNull();
-    const bool bDrives = !state.nodeStates.empty() || !state.edgeStates.empty();
-    if (!bDrives || _cancelledID == state.orderID)
+    if (!IsDriven(state) || _cancelledID == state.orderID)
     {
         return;
     }

@@ -15,7 +15,7 @@ namespace ACS::Acsd
 class ForeignOrder final
 {
 public:
-    using ActionTest = std::function<bool(std::string_view actionID)>;
+    using ActionTest = std::function<bool(const VDA5050::ActionState& action)>;
 
 private:
     std::string _cancelledID; ///< The latest order for which cancelOrder was sent.
@@ -24,6 +24,9 @@ public:
     /// According to the vehicle's state, while it has no drive and no job of its adapter. isOwn: whether an action is an instant action of
     /// acsd, which is of no order.
     [[nodiscard]] static bool IsExecuted(const VDA5050::StateMessage& state, const ActionTest& isOwn);
+
+    /// Its nodes or edges are not all passed.
+    [[nodiscard]] static bool IsDriven(const VDA5050::StateMessage& state);
 
     void OnConnected();
     /// While IsExecuted and the session has no order.

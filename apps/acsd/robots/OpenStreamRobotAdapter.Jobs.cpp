@@ -50,7 +50,7 @@ void OpenStreamRobotAdapter::StartJob(const Planning::StartJob& job, Core::Now n
     if (!job.progressToken.empty() && job.progressToken != _evidence.MakeProgressToken())
     {
         // Another program has run since. After a restart it could not be distinguished from the program of this job.
-        out.emplace_back(RaiseEvent{MakeState()});
+        ReportState(out);
         out.emplace_back(RaiseEvent{Planning::JobUnknown{job.jobID}});
         return;
     }

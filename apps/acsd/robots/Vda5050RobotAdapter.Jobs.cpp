@@ -21,10 +21,14 @@ using Planning::RaiseEvent;
 
 void Vda5050RobotAdapter::StartJob(const Planning::StartJob& job, Core::Now now, AdapterActions& out)
 {
-    if (_bFactsheetAwaited)
+    if (!_bOnline || _bFactsheetAwaited)
     {
         DropLoadCheck(out);
         _job.Defer(job);
+        if (!_bOnline)
+        {
+            _job.OnOffline(false); // the outage was not known when the job was commanded
+        }
         return;
     }
     const std::optional<std::string> rejection = GetRejectionReasonOrNull(job.action);

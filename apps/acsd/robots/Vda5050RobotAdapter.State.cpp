@@ -33,12 +33,43 @@ void Vda5050RobotAdapter::OnState(Core::Now now, AdapterActions& out)
     _report.SetOccupied(bOccupied, state);
     SetOnline(_session.IsReady(), now, out);
     out.emplace_back(RaiseEvent{_report.GetState()});
+    if (_bOnline && !_bFactsheetAwaited && !_drive.has_value())
+    {
+        if (const auto deferredOrNull = _job.TakeDeferredOrNull(); deferredOrNull.has_value())
+        {
+            ContinueJob(*deferredOrNull, now, out); // of before an outage
+        }
+    }
     VerifyLoads(out);
     EvaluateInterruption(false, out);
     if (bOccupied && _session.GetOrderPhase() == VDA5050::EOrderPhase::None)
     {
         _foreignOrder.Cancel(_session, now, _sessionActions);
     }
+    else if (bOccupied && IsDrive(_session.GetOrderID()))
+    {
+        AbandonDrive("the vehicle executes another order", now, out);
+    }
+    else if (bOccupied && IsJob(_session.GetOrderID()) && _job.TryWithdraw())
+    {
+        CancelOrder(std::string(_session.GetOrderID()), now, out);
+    }
+}
+
+bool Vda5050RobotAdapter::IsOccupied() const
+{
+    const VDA5050::StateMessage& state = *_session.GetStateOrNull();
+    if (IsDrive(state.orderID) || IsJob(state.orderID))
+    {
+        return false;
+    }
+    if (IsDrive(_session.GetOrderID()) || IsJob(_session.GetOrderID()))
+    {
+        return ForeignOrder::IsDriven(state); // what remains of its last order may still be shown
+    }
+    return ForeignOrder::IsExecuted(state, [this](const VDA5050::ActionState& action) {
+        return _operatorActions.IsRequested(action.actionID) || _commandedActions.IsCommanded(action);
+    });
 }
 
 void Vda5050RobotAdapter::CancelAbandoned(Core::Now now)
@@ -66,7 +97,19 @@ void Vda5050RobotAdapter::SetOnline(bool bOnline, Core::Now now, AdapterActions&
     }
     else
     {
-        _job.OnOffline();
+        const Planning::StartJob* const jobOrNull = _job.GetRunningOrNull();
+        const bool bHeld = jobOrNull != nullptr && IsJob(_session.GetOrderID()) && !_session.IsOrderSent();
+        const bool bPending = jobOrNull != nullptr && IsPending(jobOrNull->commandID);
+        _job.OnOffline(bHeld || bPending);
+        if (bHeld)
+        {
+            static_cast<void>(_session.Cancel(now, _sessionActions)); // of the session only: it was not sent
+        }
+        if (bPending)
+        {
+            _pendingOrder.reset();
+        }
+        _report.OnDisconnected();
     }
     if (_bFactsheetAwaited && bOnline)
     {

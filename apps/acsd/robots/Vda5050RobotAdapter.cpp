@@ -113,6 +113,7 @@ void Vda5050RobotAdapter::OnLinkDown(Core::Now now, AdapterActions& out)
     _session.OnLinkDown(now, _sessionActions);
     Drain(now, out);
     SetOnline(false, now, out);
+    Drain(now, out);
 }
 
 void Vda5050RobotAdapter::OnMqttMessage(const VDA5050::MqttMessage& message, Core::Now now, AdapterActions& out)
@@ -245,15 +246,6 @@ void Vda5050RobotAdapter::AbandonDrive(const std::string& reason, Core::Now now,
     }
     _drive->Abandon(reason);
     CancelAbandoned(now);
-}
-
-bool Vda5050RobotAdapter::IsOccupied() const
-{
-    const std::string& orderID = _session.GetOrderID();
-    const bool bOwn = IsDrive(orderID) || IsJob(orderID);
-    return !bOwn && ForeignOrder::IsExecuted(*_session.GetStateOrNull(), [this](std::string_view actionID) {
-        return _operatorActions.IsRequested(actionID) || _commandedActions.IsCommanded(actionID);
-    });
 }
 
 bool Vda5050RobotAdapter::IsDrive(std::string_view orderID) const
@@ -427,6 +419,12 @@ void Vda5050RobotAdapter::OnLost(const VDA5050::OrderLost& lost, AdapterActions&
 
 void Vda5050RobotAdapter::OnCancelled(const std::string& orderID, Core::Now now, AdapterActions& out)
 {
+    if (IsJob(orderID) && _job.IsWithdrawn())
+    {
+        out.emplace_back(
+            RaiseEvent{Planning::JobRejected{_job.TakeRunning().jobID, "the vehicle executes another order"}});
+        return;
+    }
     if (!IsDrive(orderID))
     {
         RejectOrder(orderID, "cancelled", out);

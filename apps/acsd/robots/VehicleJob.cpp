@@ -12,8 +12,12 @@ void VehicleJob::Defer(Planning::StartJob job)
     _state = Deferred{std::move(job)};
 }
 
-void VehicleJob::OnOffline()
+void VehicleJob::OnOffline(bool bUnsent)
 {
+    if (bUnsent && GetRunningOrNull() != nullptr)
+    {
+        Defer(TakeRunning());
+    }
     if (Deferred* const deferredOrNull = std::get_if<Deferred>(&_state); deferredOrNull != nullptr)
     {
         deferredOrNull->bOutdated = true;
@@ -95,6 +99,12 @@ bool VehicleJob::TryStart()
     return runningOrNull != nullptr && !std::exchange(runningOrNull->bStarted, true);
 }
 
+bool VehicleJob::TryWithdraw()
+{
+    assert(std::holds_alternative<Running>(_state));
+    return !std::exchange(std::get<Running>(_state).bWithdrawn, true);
+}
+
 bool VehicleJob::IsDeferred(std::string_view jobID) const
 {
     const Deferred* const deferredOrNull = std::get_if<Deferred>(&_state);
@@ -115,6 +125,12 @@ const Planning::StartJob* VehicleJob::GetRunningOrNull() const noexcept
 {
     const Running* const runningOrNull = std::get_if<Running>(&_state);
     return runningOrNull == nullptr ? nullptr : &runningOrNull->job;
+}
+
+bool VehicleJob::IsWithdrawn() const noexcept
+{
+    const Running* const runningOrNull = std::get_if<Running>(&_state);
+    return runningOrNull != nullptr && runningOrNull->bWithdrawn && !runningOrNull->bStarted;
 }
 
 bool VehicleJob::IsShownRunning(const VDA5050::StateMessage& state) const

@@ -25,7 +25,8 @@ class VehicleJob final
     struct Running
     {
         Planning::StartJob job;
-        bool bStarted = false; ///< Its action has begun.
+        bool bStarted = false;   ///< Its action has begun.
+        bool bWithdrawn = false; ///< Its order is being cancelled because the vehicle executes another one.
     };
 
     /// The action is finished, and the loads do not show it yet.
@@ -35,7 +36,7 @@ class VehicleJob final
     };
 
 public:
-    /// The vehicle's factsheet is awaited, or the end of a drive that repeats actions.
+    /// The vehicle's factsheet is awaited, or the end of a drive that repeats actions, or the return of an offline vehicle.
     struct Deferred
     {
         Planning::StartJob job;
@@ -56,8 +57,8 @@ private:
 
 public:
     void Defer(Planning::StartJob job);
-    /// The vehicle is offline.
-    void OnOffline();
+    /// The vehicle is offline. bUnsent: it cannot have received the order of the running job.
+    void OnOffline(bool bUnsent);
     void Recover(Planning::RecoverJob recovery);
     void Run(Planning::StartJob job);
     void VerifyLoads(LoadCheck check);
@@ -77,11 +78,16 @@ public:
     [[nodiscard]] Planning::StartJob TakeRunning();
     /// The action of the running job was seen to run. Returns whether that is the first time.
     [[nodiscard]] bool TryStart();
+    /// The order of the running job is to be cancelled because the vehicle executes another one. Only while GetRunningOrNull is
+    /// not null. False: it was withdrawn before.
+    [[nodiscard]] bool TryWithdraw();
 
     [[nodiscard]] bool IsDeferred(std::string_view jobID) const;
     [[nodiscard]] bool HasDeferred() const;
     [[nodiscard]] bool IsRecovering() const;
     [[nodiscard]] const Planning::StartJob* GetRunningOrNull() const noexcept;
+    /// Whether the running job was withdrawn and has not begun.
+    [[nodiscard]] bool IsWithdrawn() const noexcept;
     /// Whether the state shows the action of the running job as running, which a vehicle may show together with paused.
     [[nodiscard]] bool IsShownRunning(const VDA5050::StateMessage& state) const;
     [[nodiscard]] const LoadCheck* GetLoadCheckOrNull() const noexcept;

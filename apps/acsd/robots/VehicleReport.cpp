@@ -88,6 +88,13 @@ void VehicleReport::Update(const VDA5050::StateMessage& state, bool bJobRunning,
     _state.loads = positions.MakePortLoadsOrNull(state);
 }
 
+void VehicleReport::OnDisconnected()
+{
+    _state.bPoseKnown = false;
+    _bPauseDone = false;
+    _pauseIDs.clear();
+}
+
 void VehicleReport::UpdatePose(const VDA5050::AgvPosition& position)
 {
     _state.x = position.x;
@@ -98,18 +105,26 @@ void VehicleReport::UpdatePose(const VDA5050::AgvPosition& position)
 }
 
 /// The member paused is optional. Where it is absent, the vehicle is paused from the end of startPause to the end of
-/// stopPause. An action that the vehicle cannot pause runs to its end first: until then the vehicle is not paused.
+/// stopPause, of which a state may list the newest one first. An action that the vehicle cannot pause runs to its end first: until
+/// then the vehicle is not paused.
 void VehicleReport::UpdatePause(const VDA5050::StateMessage& state, bool bJobRunning)
 {
+    std::vector<std::string> finishedIDs;
     for (const VDA5050::ActionState& action : state.actionStates)
     {
         const bool bStart = action.actionType == VDA5050::ActionTypes::START_PAUSE;
         const bool bStop = action.actionType == VDA5050::ActionTypes::STOP_PAUSE;
-        if (action.actionStatus == VDA5050::EActionStatus::Finished && (bStart || bStop))
+        if (action.actionStatus != VDA5050::EActionStatus::Finished || (!bStart && !bStop))
+        {
+            continue;
+        }
+        finishedIDs.push_back(action.actionID);
+        if (std::ranges::count(_pauseIDs, action.actionID) == 0)
         {
             _bPauseDone = bStart;
         }
     }
+    _pauseIDs = std::move(finishedIDs);
     _state.bPaused = state.bPaused.value_or(_bPauseDone) && !bJobRunning;
 }
 

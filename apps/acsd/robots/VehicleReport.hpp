@@ -14,12 +14,15 @@ namespace ACS::Acsd
 class VehicleReport final
 {
     Planning::StateChanged _state;
-    bool _bPoseInState = false; ///< The latest state had a position.
-    bool _bPauseDone = false;   ///< startPause was finished later than stopPause.
+    bool _bPoseInState = false;         ///< The latest state had a position.
+    bool _bPauseDone = false;           ///< startPause was finished later than stopPause.
+    std::vector<std::string> _pauseIDs; ///< The finished startPause and stopPause of the latest state.
 
 public:
     /// bJobRunning: the action of the present job runs. Whether the vehicle is occupied is set by SetOccupied.
     void Update(const VDA5050::StateMessage& state, bool bJobRunning, const LoadPositions& positions);
+    /// What only messages before the disconnection have shown is not known any more.
+    void OnDisconnected();
     /// A position between two states.
     void OnPosition(const VDA5050::AgvPosition& position);
     /// After Update, in addition to the errors of the state.

@@ -150,6 +150,8 @@ public:
     /// have received the action: ActionChanged then reports its status as that of any action. False, without an effect: the action
     /// is shown already, was refused, is a request (sent once), or the cancelOrder of Cancel.
     [[nodiscard]] bool TryWithdrawInstantAction(std::string_view actionID);
+    /// Whether a message of the order was sent.
+    [[nodiscard]] bool IsOrderSent() const noexcept;
     /// Cancels the order, whether or not the vehicle has shown it. Ends with OrderCancelled, OrderFinished (the order ended
     /// first), OrderLost or CancelFailed. An order that was not sent yet is cancelled at once, without cancelOrder. Errors: NoOrder,
     /// VehicleNotReady.
