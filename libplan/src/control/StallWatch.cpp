@@ -42,8 +42,13 @@ void StallWatch::UpdateStall(Robot& robot)
     {
         progress = DriveProgress{robot.drive->driveID, robot.drive->bTaken, robot.drive->passed};
     }
-    const std::optional<std::size_t> releasedCount =
-        IsProgressExpected(robot) ? std::optional(robot.drive->releasedCount) : std::nullopt;
+    else if (IsJobUnconfirmed(robot))
+    {
+        progress = DriveProgress{robot.job.GetOrNull()->commandID};
+    }
+    const std::optional<std::size_t> releasedCount = IsProgressExpected(robot)
+        ? std::optional(robot.drive.has_value() ? robot.drive->releasedCount : 0)
+        : std::nullopt;
     const StallMonitor::Update update =
         _monitors[robot.index].OnProgress(std::move(progress), releasedCount, _transaction.GetNow().steady);
     if (update.bStallEnded)
@@ -54,13 +59,10 @@ void StallWatch::UpdateStall(Robot& robot)
     }
     if (update.timer == EStallTimer::Start)
     {
-        const std::vector<RouteEdge>& edges = robot.drive->route.edges;
-        const std::size_t edge = robot.drive->passed;
-        const double seconds = edge < edges.size() ? GetDriveSeconds(edges[edge].length, edges[edge].maxSpeed) : 0.0;
         _transaction.StartTimer(
             EEngineTimer::DriveStall,
             robot.GetID(),
-            StallMonitor::GetLimit(_options.stallTimeout, seconds));
+            StallMonitor::GetLimit(_options.stallTimeout, GetEdgeSeconds(robot)));
     }
     else if (update.timer == EStallTimer::Cancel)
     {
@@ -91,17 +93,44 @@ void StallWatch::OnDriveStall(Robot& robot)
 
 bool StallWatch::IsStalled(const Robot& robot) const
 {
-    return _monitors[robot.index].IsStalled();
+    return _monitors[robot.index].IsStalled() && (robot.drive.has_value() || robot.job.GetOrNull() != nullptr);
 }
 
 bool StallWatch::IsProgressExpected(const Robot& robot) const
 {
-    return _options.stallTimeout.count() > 0 && robot.view.bOnline && robot.drive.has_value()
-        && !robot.control.pause.IsPaused() && (!robot.drive->bTaken || !robot.drive->IsAtBaseEnd());
+    if (_options.stallTimeout.count() == 0 || !robot.view.bOnline || robot.control.pause.IsPaused())
+    {
+        return false;
+    }
+    return robot.drive.has_value() ? !robot.drive->bTaken || !robot.drive->IsAtBaseEnd() : IsJobUnconfirmed(robot);
+}
+
+bool StallWatch::IsJobUnconfirmed(const Robot& robot)
+{
+    return !robot.drive.has_value() && robot.activity == EActivity::Works && robot.job.GetOrNull() != nullptr
+        && !robot.job.HasBegun() && !robot.job.IsUnresolved() && !robot.job.IsRecovering() && !robot.job.IsOverdue()
+        && robot.IsUsable();
+}
+
+double StallWatch::GetEdgeSeconds(const Robot& robot)
+{
+    if (!robot.drive.has_value() || robot.drive->passed >= robot.drive->route.edges.size())
+    {
+        return 0;
+    }
+    const RouteEdge& edge = robot.drive->route.edges[robot.drive->passed];
+    return GetDriveSeconds(edge.length, edge.maxSpeed);
 }
 
 std::string StallWatch::DescribeStall(const Robot& robot) const
 {
+    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(
+                             _monitors[robot.index].GetTimeWithoutProgress(_transaction.GetNow().steady))
+                             .count();
+    if (!robot.drive.has_value())
+    {
+        return fmt::format("job {} not confirmed for {} s", robot.job.GetOrNull()->jobID, seconds);
+    }
     const ActiveDrive& drive = *robot.drive;
     const EUnavailability unavailability = robot.GetUnavailability();
     return fmt::format(
@@ -109,9 +138,7 @@ std::string StallWatch::DescribeStall(const Robot& robot) const
         drive.bTaken ? "node" : "drive to node",
         drive.GetNextNodeID(),
         drive.bTaken ? "not reached" : "not confirmed",
-        std::chrono::duration_cast<std::chrono::seconds>(
-            _monitors[robot.index].GetTimeWithoutProgress(_transaction.GetNow().steady))
-            .count(),
+        seconds,
         unavailability == EUnavailability::None ? std::string() : fmt::format(" ({})", robot.Describe(unavailability)));
 }
 

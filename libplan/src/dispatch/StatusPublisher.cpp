@@ -117,9 +117,11 @@ std::string StatusPublisher::DescribeStatus(const Robot& robot) const
     {
         return "In maintenance.";
     }
-    if (_stalls.IsStalled(robot) && robot.drive.has_value())
+    if (_stalls.IsStalled(robot))
     {
-        return fmt::format("Robot stalled: node {} not reached.", robot.drive->GetNextNodeID());
+        return robot.drive.has_value()
+            ? fmt::format("Robot stalled: node {} not reached.", robot.drive->GetNextNodeID())
+            : fmt::format("Robot stalled: job {} not confirmed.", robot.job.GetOrNull()->jobID);
     }
     if (robot.planOrNull != nullptr && robot.parking.retreatNode.has_value() && robot.search.yield.has_value())
     {

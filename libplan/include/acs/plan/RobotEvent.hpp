@@ -132,7 +132,7 @@ struct JobStarted
     bool operator==(const JobStarted&) const = default;
 };
 
-/// The job is done. May be raised without a JobStarted before.
+/// The job is done. May be raised without a JobStarted before; a job without one for EngineOptions::stallTimeout raises ACS-1009.
 struct JobFinished
 {
     std::string jobID;

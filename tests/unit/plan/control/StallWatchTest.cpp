@@ -63,6 +63,26 @@ TEST_CASE("StallWatch: a robot that is paused or offline is not watched")
     CHECK(parts.Collect().ListSetAlarms().empty());
 }
 
+TEST_CASE("StallWatch: a job that the robot does not begin raises an alarm until it begins")
+{
+    EngineParts parts;
+    parts.BeginLoad();
+    parts.stalls.UpdateStall(parts.lr);
+    CHECK(parts.Collect().GetDelayOrNull(EEngineTimer::DriveStall) == parts.engine.options.stallTimeout);
+    parts.Advance(60s);
+    parts.stalls.OnDriveStall(parts.lr);
+    const auto alarms = parts.Collect().ListChanges<AlarmSet>();
+    REQUIRE(alarms.size() == 1);
+    CHECK(alarms.front().alarm.errorCode == "ACS-1009");
+    CHECK(alarms.front().alarm.message == "Robot stalled: job P1-a4 not confirmed for 60 s. Check the robot.");
+    const std::optional<WaitReason> reason = parts.waits.GetWaitReasonOrNull("P1");
+    REQUIRE(reason.has_value());
+    CHECK(reason->message == "LR01 stalled: job P1-a4 not confirmed for 60 s. Check the robot.");
+    parts.jobs.OnJobStarted(parts.lr, JobStarted{"P1-a4"});
+    parts.stalls.UpdateStall(parts.lr);
+    CHECK(parts.Collect().ListClearedAlarms() == std::vector<std::string>{"ACS-1009"});
+}
+
 TEST_CASE("StallWatch: a timeout of 0 disables the alarm")
 {
     EngineOptions options = MakeTestOptions(false);
