@@ -33,6 +33,10 @@ const WaitReasons& WaitWatch::GetReasons() const noexcept
 
 void WaitWatch::UpdateWaits()
 {
+    if (_fleet.GetChanged().work.empty())
+    {
+        return;
+    }
     for (const std::size_t robot : _fleet.GetChanged().work)
     {
         UpdateWait(_fleet[robot]);

@@ -46,7 +46,8 @@ public:
         const Dispatcher& dispatcher);
 
     [[nodiscard]] const WaitReasons& GetReasons() const noexcept;
-    /// Starts and ends the waits of the robots whose work has changed; called at the end of every engine call.
+    /// Starts and ends the waits of the robots whose work has changed, which may be what deferred ones waited for; called at the
+    /// end of every engine call.
     void UpdateWaits();
     void UpdateWait(const Robot& robot);
     /// The timer has expired: raises the alarm, unless another robot makes progress.

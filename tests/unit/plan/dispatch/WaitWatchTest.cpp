@@ -94,6 +94,7 @@ TEST_CASE("WaitWatch: a paused plan raises no alarm, and the time restarts when 
     {
         Expire(parts);
         CHECK(parts.Collect().ListSetAlarms().empty());
+        parts.cr.changes.MarkWork();
         parts.watch.UpdateWaits();
         CHECK_FALSE(parts.Collect().GetDelayOrNull(EEngineTimer::DriveWait).has_value());
         parts.lr.planOrNull->record.progress.state = EPlanState::InProgress;
