@@ -188,6 +188,24 @@ class EdgeBlocked(LineFault):
             self.case.post("/v1/site/unblock", {"kind": "edge", "id": edge})
 
 
+class StationBlocked(LineFault):
+    """That of the second step, while the robot executes the first one: it waits there."""
+
+    code = "ACS-1015"
+    place = {"kind": "station", "id": "A01.CP02"}
+    cause, remedy = "Station A01.CP02 is blocked", "acsctl unblock station A01.CP02"
+
+    def start(self):
+        self.case.start_line(overrides=("drive.wait_timeout=1s",))
+        self.start_plan()
+
+    def begin(self):
+        self.case.post("/v1/site/block", {**self.place, "reason": "wet floor"})
+
+    def end(self):
+        self.case.post("/v1/site/unblock", self.place)
+
+
 class VehicleLost(LineFault):
     """The network to the vehicle is interrupted."""
 

@@ -9,7 +9,7 @@ import sqlite3
 import subprocess
 
 from line_faults import (ArmMotorOff, BrokerGone, DiskFull, EdgeBlocked, FaultCase, RegistrationRefused, ReportsRefused,
-                         VehicleKilled, VehicleLost)
+                         StationBlocked, VehicleKilled, VehicleLost)
 from plan_samples import make_carrying_plan
 from scenario_case import REPOSITORY, STATUS_SECONDS, main
 
@@ -80,6 +80,9 @@ class Why(WhyCase):
 
     def test_an_edge_is_blocked(self):
         self.check(EdgeBlocked)
+
+    def test_a_robot_waits_for_a_blocked_station(self):
+        self.check(StationBlocked)
 
     def test_a_vehicle_is_lost(self):
         self.check(VehicleLost)
