@@ -2,6 +2,7 @@
 
 #include "StoreFault.hpp"
 #include "StoreFiles.hpp"
+#include "StoreLogCheck.hpp"
 #include "StoreSchema.hpp"
 #include <acs/plan/EPlanningError.hpp>
 
@@ -92,8 +93,12 @@ EListing FindListing(const std::string& file, const std::string& generation, con
     return listing;
 }
 
-std::string_view Describe(EListing listing)
+std::string_view Describe(EListing listing, bool bLogDamaged)
 {
+    if (listing == EListing::Listed && bLogDamaged)
+    {
+        return "a database that was not closed, with a damaged log";
+    }
     switch (listing)
     {
         case EListing::NoFile:
@@ -120,7 +125,9 @@ Core::Result<void> CheckGeneration(SQLite::Database& database, const std::string
     const std::string generation = ReadGeneration(database);
     const EListing listing = FindListing(GetGenerationPath(path), generation, path);
     const bool bNeverOpen = generation == NO_GENERATION;
-    const bool bComplete = bLogFound || bNeverOpen || ReadSetting(database, OPEN) != "1";
+    const bool bClosed = bNeverOpen || ReadSetting(database, OPEN) != "1";
+    const bool bLogDamaged = bLogFound && !bClosed && IsLogDamaged(StoreFiles::GetLogPath(path));
+    const bool bComplete = bClosed || (bLogFound && !bLogDamaged);
     // The first start of a new store was killed before it had a generation.
     const bool bUnused = bNeverOpen && database.execAndGet("SELECT count(*) FROM plans").getInt64() == 0;
     if (bUnused || (listing == EListing::Listed && bComplete))
@@ -136,7 +143,7 @@ Core::Result<void> CheckGeneration(SQLite::Database& database, const std::string
             "TSC is then paused",
             StoreFiles::GetLogPath(path),
             StoreFiles::GetParent(path)),
-        std::string(Describe(listing)));
+        std::string(Describe(listing, bLogDamaged)));
 }
 
 Core::Result<void> BeginGeneration(SQLite::Database& database, const std::string& path)

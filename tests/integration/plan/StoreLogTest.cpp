@@ -67,7 +67,15 @@ void RequireRefused(const std::string& directory, const std::string& found)
     CHECK((Files::exists(log) ? ReadBytes(log) : std::string()) == text);
 }
 
+void FlipBit(const std::string& file, std::size_t offset)
+{
+    std::string bytes = ReadBytes(file);
+    bytes.at(offset) = static_cast<char>(bytes.at(offset) ^ 1);
+    std::ofstream(file, std::ios::binary) << bytes;
+}
+
 constexpr const char* WITHOUT_LOG = "found a database that was not closed, without its log";
+constexpr const char* DAMAGED_LOG = "found a database that was not closed, with a damaged log";
 constexpr const char* OTHER_GENERATION = "found a database of another generation";
 
 /// More than 10 MiB.
@@ -211,6 +219,10 @@ TEST_CASE("Store: a store that was not closed is opened with its log, and refuse
         WriteMuch(*store);
     }
     REQUIRE(store->Append(MakeBatch("LR03")).has_value());
+    for (const char* const carrierID : {"C1", "C2"})
+    {
+        REQUIRE(store->Append({{CarriersChanged{"LR03", {carrierID}}}}).has_value());
+    }
     CopyAsKilled(directory, copy);
     SECTION("The log is missing")
     {
@@ -223,6 +235,23 @@ TEST_CASE("Store: a store that was not closed is opened with its log, and refuse
         Files::resize_file(GetLog(copy), 0);
         RequireRefused(copy, WITHOUT_LOG);
     }
+    SECTION("The log has only zeros, as after a power loss")
+    {
+        const std::string zeros(Files::file_size(GetLog(copy)), '\0');
+        std::ofstream(GetLog(copy), std::ios::binary) << zeros;
+        RequireRefused(copy, DAMAGED_LOG);
+    }
+    SECTION("The log is cut in its first frame")
+    {
+        Files::resize_file(GetLog(copy), 100);
+        RequireRefused(copy, DAMAGED_LOG);
+    }
+    SECTION("One bit of the first frame of the log is wrong")
+    {
+        FlipBit(GetLog(copy), 156);
+        RequireRefused(copy, DAMAGED_LOG);
+        CHECK_FALSE(AcceptStore(copy)->GetOrigin().bNew);
+    }
     SECTION("Another program has merged and deleted the log")
     {
         SQLite::Database(GetDatabase(copy), SQLite::OPEN_READWRITE).exec("VACUUM");
@@ -234,6 +263,28 @@ TEST_CASE("Store: a store that was not closed is opened with its log, and refuse
     {
         CHECK(LoadRobots(*OpenStore(copy)).back() == "LR03");
     }
+}
+
+TEST_CASE("Store: a transaction that a crash has interrupted is ignored, and those before it are kept")
+{
+    const StoreFolder folder;
+    const std::string directory = folder.GetStore();
+    const std::string copy = folder.GetStore("copy");
+    const std::unique_ptr<SqlitePlanStore> store = OpenStore(directory);
+    REQUIRE(store->Append(MakeBatch("LR02")).has_value());
+    const std::uintmax_t before = Files::file_size(GetLog(directory));
+    REQUIRE(store->Append(MakeBatch("LR03")).has_value());
+    CopyAsKilled(directory, copy);
+    SECTION("Its first page is not on the disk")
+    {
+        FlipBit(GetLog(copy), before + 100);
+    }
+    SECTION("It is cut")
+    {
+        Files::resize_file(GetLog(copy), before + 100);
+    }
+    CHECK(SqlitePlanStore::Inspect(copy).has_value());
+    CHECK(LoadRobots(*OpenStore(copy)).back() == "LR02");
 }
 
 TEST_CASE("Store: a store that was closed while another program read it is opened after that program has ended")
