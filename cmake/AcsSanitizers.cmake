@@ -20,7 +20,11 @@ if(ACS_SANITIZE)
   add_link_options($<$<BOOL:${ACS_LINKER_COMPRESSES}>:LINKER:--compress-debug-sections=zlib>)
 endif()
 if(ACS_SANITIZE MATCHES "undefined" AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
-  add_compile_options(-fsanitize-ignorelist=${CMAKE_CURRENT_LIST_DIR}/sanitizer-ignorelist.txt)
+  set(list "${CMAKE_CURRENT_LIST_DIR}/sanitizer-ignorelist.txt")
+  if(CMAKE_GENERATOR MATCHES "Ninja") # which compiles in this folder: an absolute path would keep the object cache from other clones
+    file(RELATIVE_PATH list "${CMAKE_BINARY_DIR}" "${list}")
+  endif()
+  add_compile_options("-fsanitize-ignorelist=${list}")
 endif()
 
 # The libraries that compute: without optimisation they take eight times as long. Of sources with Boost the compiler would take ten
