@@ -63,8 +63,8 @@ HttpResponse Submit(
     if (fault.has_value())
     {
         message += fmt::format(
-            " This is not stored and would be lost in a crash: {}. After a restart, check /v1/status and repeat the request if "
-            "necessary.",
+            " This is not stored and would be lost in a crash: {}. It may take effect only when the store answers. Check /v1/status, "
+            "also after a restart, and repeat the request if necessary.",
             *fault);
     }
     HttpResponse accepted = MakeAccepted(message);

@@ -403,7 +403,8 @@ TEST_CASE(
     CHECK(
         user.Post("/v1/robots/LR02/maintenance", ON)
         == "202 {\"message\":\"LR02 is taken out of service. This is not stored and would be lost in a crash: the store "
-           "cannot be written. After a restart, check /v1/status and repeat the request if necessary.\"}\n");
+           "cannot be written. It may take effect only when the store answers. Check /v1/status, also after a restart, and repeat the "
+           "request if necessary.\"}\n");
     CHECK(HasText(user.GetStatus(), R"("maintenance":true)"));
     CHECK(HasText(
         user.Post("/v1/tsc/pause"),
