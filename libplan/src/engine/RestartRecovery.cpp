@@ -4,6 +4,8 @@
 #include <acs/plan/PlanSummaries.hpp>
 #include <acs/plan/PlanTransitions.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <tuple>
