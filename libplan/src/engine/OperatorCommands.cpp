@@ -74,7 +74,7 @@ void OperatorCommands::Maintain(const SetMaintenance& command)
                 "Robot returned to service while it is disconnected. Check the robot and its network."));
         }
     }
-    if (command.bOn && !robot.place.bPlaced && !robot.place.possibleNodes.empty())
+    if (command.bOn && !robot.view.bOnline && !robot.place.bPlaced && !robot.place.possibleNodes.empty())
     {
         _places.ForgetPossibleNodes(robot);
         _transaction.Note(robot, "not on the floor: the nodes of its last position are released");

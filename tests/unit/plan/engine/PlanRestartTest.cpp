@@ -305,6 +305,28 @@ TEST_CASE("After a restart the nodes where a missing robot may be are kept free 
     }
 }
 
+TEST_CASE("After a restart the nodes where a connected robot may be are kept free in maintenance too")
+{
+    PlanWorld world(1, true);
+    BeginPlan(world, MakeLogisticsPlan("P1"), "Step 1 InProgress");
+    world.GetRobot("LR01").bStuck = true;
+    REQUIRE(TryRunFor(world, 10s));
+    world.Crash();
+    world.Restart(MakeTestOptions(true), MakeTestSite());
+    for (const char* const robotID : {"LR02", "CR01", "CR02"})
+    {
+        world.Raise(robotID, LinkChanged{true});
+        world.PublishState(robotID);
+    }
+    world.Raise("LR01", LinkChanged{true});
+    world.Raise("LR01", StateChanged{}); // on the floor, and it reports no node
+    REQUIRE(TryRunFor(world, MakeTestOptions(true).restartWait));
+    world.Submit(MakeLogisticsPlan("P2")); // from the same place
+    world.Ask(SetMaintenance{"LR01", true, 0});
+    static_cast<void>(TryRunFor(world, 120s));
+    CHECK(world.GetTraceOf("command LR02 ").empty());
+}
+
 TEST_CASE("D-23, 13.5 The same plan under the same transactionId has the same answer again, also after a restart")
 {
     PlanWorld world;
